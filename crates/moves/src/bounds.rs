@@ -1,0 +1,61 @@
+//! How much longer than the any-angle optimum a path over N(k) can be.
+
+use crate::{K, sqrt::sqrt};
+
+/// Γ_k with vertices at cell corners: cost(k) ≤ Γ_k · cost(∞) between any two vertices of any grid (Kramm 2018, Theorem 2;
+/// on an empty grid also with vertices at centers, Theorem 10). It falls as 1 + 1/(8k²), and is tight.
+///
+/// ```
+/// use mediant_moves::{bound_at_corners, K};
+/// assert!((bound_at_corners(K::new(3)?) - 1.0824).abs() < 1e-4);
+/// # Ok::<(), mediant_moves::KError>(())
+/// ```
+#[must_use]
+pub fn bound_at_corners(k: K) -> f64 {
+    // s − m = 1 / (s + m), which spares the subtraction of nearly equal numbers.
+    let m = f64::from(k.depth());
+    let s = sqrt(m * m + 1.0);
+    sqrt(2.0 * s / (s + m))
+}
+
+/// Γ_k with vertices at cell centers: 6 / (2 + √2) for k = 2 and 3√2 − 3 for every k ≥ 3 (Kramm 2018, Theorem 3, Eq. 2),
+/// tight: more moves do not help the worst case here.
+#[must_use]
+pub fn bound_at_centers(k: K) -> f64 {
+    let root = core::f64::consts::SQRT_2;
+    if k == K::FOUR_CONNECTED { 6.0 / (2.0 + root) } else { 3.0 * root - 3.0 }
+}
+
+/// The smallest k whose [`bound_at_corners`] is at most `ratio`; `None` unless `ratio` exceeds 1 by enough for k to fit
+/// in a `u32`.
+///
+/// ```
+/// use mediant_moves::smallest_k_at_corners;
+/// assert_eq!(smallest_k_at_corners(1.01).map(|k| k.get()), Some(6));
+/// assert_eq!(smallest_k_at_corners(1.0), None);
+/// ```
+#[must_use]
+pub fn smallest_k_at_corners(ratio: f64) -> Option<K> {
+    let meets = |k: u32| K::new(k).is_ok_and(|k| bound_at_corners(k) <= ratio);
+    // Γ falls strictly with k as long as its distance from 1 is far above the rounding of an f64.
+    const MAX: u32 = 1 << 20;
+    if !meets(MAX) {
+        return None;
+    }
+    let (mut low, mut high) = (2, MAX);
+    while low < high {
+        let middle = low + (high - low) / 2;
+        if meets(middle) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    K::new(low).ok()
+}
+
+/// The smallest k whose [`bound_at_centers`] is at most `ratio`; `None` below 3√2 − 3 ≈ 1.2426, which no k can promise.
+#[must_use]
+pub fn smallest_k_at_centers(ratio: f64) -> Option<K> {
+    [K::FOUR_CONNECTED, K::EIGHT_CONNECTED].into_iter().find(|&k| bound_at_centers(k) <= ratio)
+}

@@ -1,0 +1,169 @@
+//! Fixed-point costs: exact sums, the same on every platform.
+
+use core::{
+    fmt,
+    ops::{Add, AddAssign, Mul, Sub},
+};
+
+use crate::Vector;
+
+/// A path cost as an integer multiple of 2⁻³² cells.
+///
+/// The length of each move is rounded once, to the nearest multiple; paths and heuristics are integer sums of such
+/// lengths. So sums are exact and do not depend on their order: two paths that take the same moves in another order
+/// compare equal, and ties fall the same way on every platform.
+///
+/// **Error.** A move is off by at most [`MAX_MOVE_ERROR`](Self::MAX_MOVE_ERROR) = 2⁻³³ (axis moves by nothing), so a path of n moves by at most
+/// n·2⁻³³, and, as no move is shorter than 1, by at most 2⁻³³ of its length. A path that is shortest in these costs
+/// is therefore shortest in real lengths up to a factor of 1 + 2⁻³¹.
+///
+/// **Range.** Up to 2³² cells: the longest shortest path of a 65,536 × 65,536 grid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Cost(u64);
+
+impl Cost {
+    /// Binary digits after the point.
+    pub const FRACTION_BITS: u32 = 32;
+    /// The largest difference between a move's cost and its length, in cells.
+    pub const MAX_MOVE_ERROR: f64 = 1.0 / (1_u64 << (Self::FRACTION_BITS + 1)) as f64;
+    /// Cost 0.
+    pub const ZERO: Self = Self(0);
+    /// More than any path costs.
+    pub const MAX: Self = Self(u64::MAX);
+
+    /// The cost of one move: its length, rounded to the nearest multiple of 2⁻³² (computed in integers).
+    #[must_use]
+    pub const fn of_move(v: Vector) -> Self {
+        let square = (v.norm_squared() as u128) << (2 * Self::FRACTION_BITS);
+        let root = square.isqrt();
+        // (root + ½)² = root² + root + ¼: the nearest integer is root + 1 exactly when the rest exceeds root.
+        Self((root + (square - root * root > root) as u128) as u64)
+    }
+
+    /// The cost with these bits: a number of 2⁻³² cells.
+    #[must_use]
+    pub const fn from_bits(bits: u64) -> Self {
+        Self(bits)
+    }
+
+    /// The number of 2⁻³² cells.
+    #[must_use]
+    pub const fn to_bits(self) -> u64 {
+        self.0
+    }
+
+    /// In cells, rounded to `f64`.
+    #[must_use]
+    pub const fn to_f64(self) -> f64 {
+        self.0 as f64 / (1_u64 << Self::FRACTION_BITS) as f64
+    }
+}
+
+impl Add for Cost {
+    type Output = Self;
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        Self(self.0 + other.0)
+    }
+}
+
+impl AddAssign for Cost {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        self.0 += other.0;
+    }
+}
+
+impl Sub for Cost {
+    type Output = Self;
+    #[inline]
+    fn sub(self, other: Self) -> Self {
+        Self(self.0 - other.0)
+    }
+}
+
+impl Mul<u32> for Cost {
+    type Output = Self;
+    #[inline]
+    fn mul(self, times: u32) -> Self {
+        Self(self.0 * times as u64)
+    }
+}
+
+impl fmt::Display for Cost {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.to_f64().fmt(f)
+    }
+}
+
+#[cfg(feature = "alloc")]
+pub use table::CostTable;
+
+#[cfg(feature = "alloc")]
+mod table {
+    use alloc::{boxed::Box, vec::Vec};
+
+    use super::Cost;
+    use crate::{K, KError, Quadrant, Vector};
+
+    /// The costs of the moves of Q(k − 2), and with them h_k in [`Cost`]s: the heuristic of the lattice engines.
+    ///
+    /// h_k is built from the same rounded move costs as every path, and each move costs less than any detour over its
+    /// neighbors by far more than the rounding, up to [`CostTable::MAX_K`]. So it is exactly the cost of the
+    /// cheapest path on an empty grid, never more than that of a path among obstacles, and consistent: by integer
+    /// arithmetic, not up to an epsilon.
+    ///
+    /// ```
+    /// use mediant_moves::{Cost, CostTable, K, Vector};
+    /// let table = CostTable::new(K::new(4)?)?;
+    /// let h = table.distance(Vector::new(-7, 9));
+    /// assert_eq!(h, Cost::of_move(Vector::new(1, 1)) * 5 + Cost::of_move(Vector::new(1, 2)) * 2);
+    /// # Ok::<(), mediant_moves::KError>(())
+    /// ```
+    #[derive(Clone, Debug)]
+    pub struct CostTable {
+        depth: u32,
+        costs: Box<[Cost]>,
+    }
+
+    impl CostTable {
+        /// The largest k for which the rounded costs keep every move cheaper than each detour over its neighbors
+        /// (a test checks both sides); its table takes 256 KiB.
+        pub const MAX_K: u32 = 17;
+
+        /// The table for N(k).
+        ///
+        /// # Errors
+        /// [`KError::TooLarge`] above [`MAX_K`](Self::MAX_K).
+        pub fn new(k: K) -> Result<Self, KError> {
+            if k.get() > Self::MAX_K {
+                return Err(KError::TooLarge { k: k.get(), max: Self::MAX_K });
+            }
+            let costs: Vec<Cost> = Quadrant::new(k)?.iter().map(Cost::of_move).collect();
+            Ok(Self { depth: k.depth(), costs: costs.into_boxed_slice() })
+        }
+
+        /// The cost of the move at `index` of the quadrant.
+        #[must_use]
+        pub fn get(&self, index: usize) -> Option<Cost> {
+            self.costs.get(index).copied()
+        }
+
+        /// h_k(d), for d of any quadrant with coordinates below 2³¹ in magnitude.
+        ///
+        /// The rounds of [`distance`](crate::distance()), but they carry the index of the pair of moves instead of the
+        /// moves: at the end the two lengths are looked up rather than rooted.
+        #[must_use]
+        #[inline]
+        pub fn distance(&self, d: Vector) -> Cost {
+            let (mut x, mut y) = d.abs();
+            let mut index = 0;
+            for _ in 0..self.depth {
+                let beyond = x > y;
+                index = 2 * index + usize::from(beyond);
+                (x, y) = if beyond { (x - y, y) } else { (x, y - x) };
+            }
+            self.costs[index] * y + self.costs[index + 1] * x
+        }
+    }
+}

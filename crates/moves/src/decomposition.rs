@@ -1,0 +1,212 @@
+//! A vector as α·v + β·w of two adjacent moves, and the trees that decompose a move down to lower levels.
+
+use crate::{K, Parity, Vector, sqrt::sqrt};
+
+/// d = α·v + β·w: the two adjacent moves of N(k) that contain d, and how often an optimal path on an empty grid takes
+/// each (Rivera 2017, Theorems 2 and 3, Corollary 1; Kramm 2018, Theorem 1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Decomposition {
+    /// The move nearer to the axis on which the quadrant begins.
+    pub v: Vector,
+    /// How often v is taken.
+    pub alpha: u32,
+    /// The next move in angular order.
+    pub w: Vector,
+    /// How often w is taken.
+    pub beta: u32,
+    /// The parity of v's index; w has the other one.
+    parity: Parity,
+}
+
+impl Decomposition {
+    /// The canonical path: the odd-indexed move first, then the even-indexed one, each with its count, which may be 0
+    /// (Rivera 2017, 'Canonical Orderings').
+    #[must_use]
+    pub const fn canonical(self) -> [(Vector, u32); 2] {
+        match self.parity {
+            Parity::Odd => [(self.v, self.alpha), (self.w, self.beta)],
+            Parity::Even => [(self.w, self.beta), (self.v, self.alpha)],
+        }
+    }
+
+    /// α‖v‖ + β‖w‖ = h_k(d).
+    #[must_use]
+    pub fn length(self) -> f64 {
+        f64::from(self.alpha) * self.v.norm() + f64::from(self.beta) * self.w.norm()
+    }
+}
+
+/// The decomposition of d over N(k), for d of any quadrant; for the zero vector that of the first quadrant with α = β = 0.
+/// Linear in k (Hormazábal 2017, Algorithm 2).
+///
+/// Where d itself is a multiple of a move of N(k), that move is v or w and the other factor is 0.
+///
+/// `None` when a coordinate is `i32::MIN`, or when a move that d needs has a coordinate beyond `i32` (its factor is then
+/// 0 and k is far beyond what d needs).
+///
+/// ```
+/// use mediant_moves::{decompose, K, Vector};
+/// let parts = decompose(Vector::new(7, 9), K::new(5)?).unwrap();
+/// assert_eq!((parts.alpha, parts.v, parts.beta, parts.w), (2, Vector::new(2, 3), 3, Vector::new(1, 1)));
+/// # Ok::<(), mediant_moves::KError>(())
+/// ```
+#[must_use]
+pub fn decompose(d: Vector, k: K) -> Option<Decomposition> {
+    if d.x == i32::MIN || d.y == i32::MIN {
+        return None;
+    }
+    let turns = d.quadrant().unwrap_or(0);
+    let u = d.turned_by(4 - turns);
+    let (mut low, mut high) = (Vector::new(0, 1), Vector::new(1, 0));
+    let (mut x, mut y) = (u.x as u32, u.y as u32);
+    let mut parity = Parity::Even;
+    for _ in 0..k.depth() {
+        let mediant = Vector::new(low.x.checked_add(high.x)?, low.y.checked_add(high.y)?);
+        if x > y {
+            (low, x, parity) = (mediant, x - y, Parity::Odd);
+        } else {
+            (high, y, parity) = (mediant, y - x, Parity::Even);
+        }
+    }
+    Some(Decomposition { v: low.turned_by(turns), alpha: y, w: high.turned_by(turns), beta: x, parity })
+}
+
+/// The two adjacent moves of N(k) that contain d (Kramm 2018, 'Pairs'), in angular order; see [`decompose`].
+#[must_use]
+pub fn containing(d: Vector, k: K) -> Option<(Vector, Vector)> {
+    decompose(d, k).map(|parts| (parts.v, parts.w))
+}
+
+/// A first-quadrant move with a factor; in `f64` and `u64`, so that no k and no displacement overflows.
+pub(crate) struct Factor {
+    pub(crate) times: f64,
+    x: u64,
+    y: u64,
+}
+
+impl Factor {
+    pub(crate) fn norm(&self) -> f64 {
+        let (x, y) = (self.x as f64, self.y as f64);
+        sqrt(x * x + y * y)
+    }
+}
+
+pub(crate) struct Factors {
+    pub(crate) low: Factor,
+    pub(crate) high: Factor,
+}
+
+/// The factorization rounds of Hormazábal 2017, Algorithm 2, for |d| = (x, y).
+///
+/// The rounds stop as soon as a factor is 0: from then on only the move with factor 0 would change.
+#[inline]
+pub(crate) fn decompose_magnitudes(mut x: u32, mut y: u32, k: K) -> Factors {
+    let (mut low, mut high) = ((0_u64, 1_u64), (1_u64, 0_u64));
+    let mut rounds = k.depth();
+    while rounds > 0 && x != 0 && y != 0 {
+        rounds -= 1;
+        let mediant = (low.0 + high.0, low.1 + high.1);
+        if x > y {
+            x -= y;
+            low = mediant;
+        } else {
+            y -= x;
+            high = mediant;
+        }
+    }
+    Factors {
+        low: Factor { times: f64::from(y), x: low.0, y: low.1 },
+        high: Factor { times: f64::from(x), x: high.0, y: high.1 },
+    }
+}
+
+#[cfg(feature = "alloc")]
+pub use tree::{DecompositionTree, TreeNode};
+
+#[cfg(feature = "alloc")]
+mod tree {
+    use alloc::vec::Vec;
+
+    use crate::{K, Vector, level, parents};
+
+    /// One node of a [`DecompositionTree`].
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct TreeNode {
+        /// The move that labels the node.
+        pub label: Vector,
+        /// The indices of its two children in [`DecompositionTree::nodes`], `None` for a leaf.
+        pub children: Option<(u32, u32)>,
+    }
+
+    /// The decomposition tree of level k for a move (Kramm 2018, Algorithm 2): each node above level k has the two
+    /// adjacent moves for children that its label is the mediant of.
+    ///
+    /// Its leaves, from left to right, spell a path over N(k) that enters no cell which the move itself does not enter
+    /// (Lemma 11) and that is as short as any over N(k) on an empty grid (Lemma 13).
+    ///
+    /// ```
+    /// use mediant_moves::{DecompositionTree, K, Vector};
+    /// let tree = DecompositionTree::new(Vector::new(7, 5), K::new(4)?).unwrap();
+    /// let path: Vec<(i32, i32)> = tree.leaves().map(|v| (v.x, v.y)).collect();
+    /// assert_eq!(path, [(1, 1), (1, 1), (2, 1), (1, 1), (2, 1)]);
+    /// # Ok::<(), mediant_moves::KError>(())
+    /// ```
+    #[derive(Clone, Debug, PartialEq, Eq)]
+    pub struct DecompositionTree {
+        nodes: Vec<TreeNode>,
+    }
+
+    impl DecompositionTree {
+        /// The tree of level k for `v`; `None` if v is no move or its level is below k (the paper's 'failure').
+        ///
+        /// It has at most 2·(|x| + |y|) nodes.
+        #[must_use]
+        pub fn new(v: Vector, k: K) -> Option<Self> {
+            if level(v)? < k.get() {
+                return None;
+            }
+            let mut nodes = Vec::from([TreeNode { label: v, children: None }]);
+            let mut next = 0;
+            while next < nodes.len() {
+                let label = nodes[next].label;
+                if level(label)? > k.get() {
+                    let (left, right) = parents(label)?;
+                    let first = nodes.len() as u32;
+                    nodes[next].children = Some((first, first + 1));
+                    nodes.extend([left, right].map(|label| TreeNode { label, children: None }));
+                }
+                next += 1;
+            }
+            Some(Self { nodes })
+        }
+
+        /// All nodes, breadth first, the root at index 0.
+        #[must_use]
+        pub fn nodes(&self) -> &[TreeNode] {
+            &self.nodes
+        }
+
+        /// The labels of the leaves from left to right: the moves of a path from (0, 0) to the root's label.
+        pub fn leaves(&self) -> impl Iterator<Item = Vector> {
+            let mut stack = Vec::from([0_u32]);
+            core::iter::from_fn(move || {
+                loop {
+                    let node = self.nodes[stack.pop()? as usize];
+                    match node.children {
+                        None => return Some(node.label),
+                        Some((left, right)) => stack.extend([right, left]),
+                    }
+                }
+            })
+        }
+
+        /// The path that the leaves spell: all its vertices from (0, 0) on (Kramm 2018, Lemma 13).
+        pub fn path(&self) -> impl Iterator<Item = Vector> {
+            let mut at = Vector::ZERO;
+            core::iter::once(at).chain(self.leaves().map(move |step| {
+                at = at + step;
+                at
+            }))
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! The distance h_k: the length of a shortest path over N(k) on an empty grid, three ways, and h_∞.
+//!
+//! All take a displacement of any quadrant and return a length in cells. They agree up to rounding; which to take:
+//! [`distance`] for any k (linear in k, Hormazábal 2017), the closed forms where k is known when you write the program,
+//! [`crate::CostTable::distance`] inside a search.
+
+use crate::{K, Vector, decomposition::decompose_magnitudes};
+
+/// h_k(d) by the iterative algorithm, linear in k and without a table (Hormazábal 2017, Algorithm 2, whose misprints
+/// Kramm 2018, Algorithm 1, corrects). It stops early where d is a multiple of a move.
+///
+/// ```
+/// use mediant_moves::{distance, K, Vector};
+/// // (7, 9) = 5·(1, 1) + 2·(1, 2) over the 16-neighborhood (Kramm 2018)
+/// let h = distance(Vector::new(7, 9), K::new(4)?);
+/// assert_eq!(h, 5.0 * 2f64.sqrt() + 2.0 * 5f64.sqrt());
+/// # Ok::<(), mediant_moves::KError>(())
+/// ```
+#[must_use]
+pub fn distance(d: Vector, k: K) -> f64 {
+    let (x, y) = d.abs();
+    let parts = decompose_magnitudes(x, y, k);
+    parts.low.times * parts.low.norm() + parts.high.times * parts.high.norm()
+}
+
+/// h_∞(d): the Euclidean distance, which h_k approaches from above.
+#[must_use]
+pub fn distance_any_angle(d: Vector) -> f64 {
+    d.norm()
+}
+
+/// h_2(d), the Manhattan distance.
+#[must_use]
+pub fn manhattan(d: Vector) -> f64 {
+    let (x, y) = d.abs();
+    f64::from(x) + f64::from(y)
+}
+
+const SQRT_2: f64 = core::f64::consts::SQRT_2;
+const SQRT_5: f64 = 2.236_067_977_499_79;
+const SQRT_10: f64 = 3.162_277_660_168_379_5;
+const SQRT_13: f64 = 3.605_551_275_463_989;
+
+/// |x| and |y| with the smaller one first, as `f64`.
+fn sorted(d: Vector) -> (f64, f64) {
+    let (x, y) = d.abs();
+    (f64::from(x.min(y)), f64::from(x.max(y)))
+}
+
+/// h_3(d), the octile distance, in closed form (Rivera 2017, Algorithm 1, h₈).
+#[must_use]
+pub fn octile(d: Vector) -> f64 {
+    let (x, y) = sorted(d);
+    (y - x) + SQRT_2 * x
+}
+
+/// h_4(d) in closed form (Rivera 2017, Algorithm 1, h₁₆).
+#[must_use]
+pub fn distance_16(d: Vector) -> f64 {
+    let (x, y) = sorted(d);
+    if 2.0 * x < y { (y - 2.0 * x) + SQRT_5 * x } else { SQRT_5 * (y - x) + SQRT_2 * (2.0 * x - y) }
+}
+
+/// h_5(d) in closed form (Rivera 2017, Algorithm 1, h₃₂; Hormazábal 2017, Algorithm 1).
+#[must_use]
+pub fn distance_32(d: Vector) -> f64 {
+    let (x, y) = sorted(d);
+    if 3.0 * x < y {
+        (y - 3.0 * x) + SQRT_10 * x
+    } else if 2.0 * x < y {
+        SQRT_10 * (y - 2.0 * x) + SQRT_5 * (3.0 * x - y)
+    } else if 3.0 * x < 2.0 * y {
+        SQRT_5 * (2.0 * y - 3.0 * x) + SQRT_13 * (2.0 * x - y)
+    } else {
+        SQRT_13 * (y - x) + SQRT_2 * (3.0 * x - 2.0 * y)
+    }
+}
+
+/// h_k by a linear search over the moves of Q(k − 2) (Rivera 2017, 'The 2^k-Tile Heuristic', steps 1 and 2): find the
+/// two that contain d, then solve for their factors (Eq. 14). The moves of one octant and their lengths are kept, since
+/// the quadrant is symmetric; its cost grows with 2^k, and it is here as the papers' point of comparison.
+#[cfg(feature = "alloc")]
+#[derive(Clone, Debug)]
+pub struct LinearSearch {
+    octant: alloc::vec::Vec<(Vector, f64)>,
+}
+
+#[cfg(feature = "alloc")]
+impl LinearSearch {
+    /// The moves of Q(k − 2) from (0, 1) to (1, 1), or to (1, 0) at k = 2.
+    ///
+    /// # Errors
+    /// [`KError::TooLarge`](crate::KError::TooLarge) above k = 24, whose table would take more than 64 MiB.
+    pub fn new(k: K) -> Result<Self, crate::KError> {
+        const MAX: u32 = 24;
+        if k.get() > MAX {
+            return Err(crate::KError::TooLarge { k: k.get(), max: MAX });
+        }
+        let octant = crate::Quadrant::new(k)?.iter().filter(|v| v.x <= v.y || k.get() == 2);
+        Ok(Self { octant: octant.map(|v| (v, v.norm())).collect() })
+    }
+
+    /// h_k(d).
+    #[must_use]
+    pub fn distance(&self, d: Vector) -> f64 {
+        let (x, y) = d.abs();
+        let (x, y) = (i64::from(x.min(y)), i64::from(x.max(y)));
+        let det = |v: Vector| x * i64::from(v.y) - y * i64::from(v.x);
+        let mut pairs = self.octant.iter().zip(&self.octant[1..]);
+        // The first pair whose second move is at or beyond d; the last move, (1, 1) or (1, 0), always is.
+        let Some((&(u, norm_u), &(v, norm_v))) = pairs.find(|&(_, &(v, _))| det(v) <= 0) else { return 0.0 };
+        (-det(v)) as f64 * norm_u + det(u) as f64 * norm_v
+    }
+}
