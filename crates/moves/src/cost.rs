@@ -86,7 +86,7 @@ impl Mul<u32> for Cost {
     type Output = Self;
     #[inline]
     fn mul(self, times: u32) -> Self {
-        Self(self.0 * times as u64)
+        Self(self.0 * u64::from(times))
     }
 }
 
@@ -109,7 +109,7 @@ mod table {
     /// The costs of the moves of Q(k − 2), and with them h_k in [`Cost`]s: the heuristic of the lattice engines.
     ///
     /// h_k is built from the same rounded move costs as every path, and each move costs less than any detour over its
-    /// neighbors by far more than the rounding, up to [`CostTable::MAX_K`]. So it is exactly the cost of the
+    /// neighbors by more than the rounding, up to [`CostTable::MAX_K`]. So it is exactly the cost of the
     /// cheapest path on an empty grid, never more than that of a path among obstacles, and consistent: by integer
     /// arithmetic, not up to an epsilon.
     ///
@@ -128,8 +128,8 @@ mod table {
 
     impl CostTable {
         /// The largest k for which the rounded costs keep every move cheaper than each detour over its neighbors
-        /// (a test checks both sides); its table takes 256 KiB.
-        pub const MAX_K: u32 = 17;
+        /// (a test checks both sides); its table takes 512 KiB.
+        pub const MAX_K: u32 = 18;
 
         /// The table for N(k).
         ///

@@ -1,0 +1,133 @@
+//! Bit-packed matrices with a blocked frame, read a word at a time.
+
+use bitvec::{prelude::Lsb0, vec::BitVec};
+
+/// Where a cell's bit stands in a [`BitMatrix`], frame included. Not a cell id: rows are padded to whole words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BitIndex(pub u32);
+
+impl BitIndex {
+    /// The bit `offset` places further on; wraps where that would leave the matrix, which a read then reports as blocked.
+    #[must_use]
+    #[inline]
+    pub const fn offset(self, offset: i32) -> Self {
+        Self(self.0.wrapping_add_signed(offset))
+    }
+}
+
+/// Rows of bits in 64-bit words, 1 = blocked, with a frame of blocked bits on all sides: reading beyond an edge needs
+/// no test.
+///
+/// Each row is followed by at least one blocked bit, which is also the one before the next row; above the first and
+/// below the last row lies a blocked row, and one blocked word lies before and behind it all.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BitMatrix {
+    bits: BitVec<u64, Lsb0>,
+    width: u32,
+    height: u32,
+    words_per_row: u32,
+}
+
+impl BitMatrix {
+    /// A matrix whose bits are all blocked.
+    pub(crate) fn blocked(width: u32, height: u32) -> Self {
+        let words_per_row = width / 64 + 1;
+        let words = (height as usize + 2) * words_per_row as usize + 2;
+        Self { bits: BitVec::repeat(true, words * 64), width, height, words_per_row }
+    }
+
+    /// The number of columns.
+    #[must_use]
+    pub const fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// The number of rows.
+    #[must_use]
+    pub const fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// How far apart the bits of two vertical neighbors stand.
+    #[must_use]
+    pub const fn bits_per_row(&self) -> i32 {
+        self.words_per_row as i32 * 64
+    }
+
+    /// All words, frame included.
+    #[must_use]
+    #[inline]
+    pub fn words(&self) -> &[u64] {
+        self.bits.as_raw_slice()
+    }
+
+    /// The place of column x, row y, for −1 ≤ y ≤ height and −64 ≤ x ≤ [`bits_per_row`](Self::bits_per_row).
+    #[must_use]
+    #[inline]
+    pub const fn index(&self, x: i32, y: i32) -> BitIndex {
+        BitIndex((64 + (y + 1) * self.bits_per_row() + x) as u32)
+    }
+
+    /// Sets one bit of the interior.
+    pub(crate) fn set(&mut self, x: u32, y: u32, blocked: bool) {
+        let index = self.index(x as i32, y as i32);
+        self.bits.set(index.0 as usize, blocked);
+    }
+
+    /// One bit; blocked beyond the edges, however far.
+    #[must_use]
+    #[inline]
+    pub fn get(&self, x: i32, y: i32) -> bool {
+        let inside = (x as u32) < self.width && (y as u32) < self.height;
+        !inside || load(self.words(), self.index(x, y)) & 1 == 1
+    }
+
+    /// Whether any bit of row y from column `first` to column `last` is blocked, all within the frame.
+    #[must_use]
+    pub fn any(&self, y: i32, first: i32, last: i32) -> bool {
+        self.any_of(first, last, |x| load(self.words(), self.index(x, y)))
+    }
+
+    /// Whether rows y − 1 and y are blocked in one and the same column from `first` to `last`.
+    #[must_use]
+    pub fn any_edge(&self, y: i32, first: i32, last: i32) -> bool {
+        let words = self.words();
+        self.any_of(first, last, |x| load(words, self.index(x, y - 1)) & load(words, self.index(x, y)))
+    }
+
+    #[inline]
+    fn any_of(&self, first: i32, last: i32, word: impl Fn(i32) -> u64) -> bool {
+        let mut x = first;
+        while last - x >= 64 {
+            if word(x) != 0 {
+                return true;
+            }
+            x += 64;
+        }
+        let keep = !0_u64 >> (63 - (last - x).clamp(0, 63));
+        last >= x && word(x) & keep != 0
+    }
+
+    /// The matrix with rows and columns exchanged.
+    pub(crate) fn transposed(&self) -> Self {
+        let mut result = Self::blocked(self.height, self.width);
+        for y in 0..self.height {
+            for x in (0..self.width).filter(|&x| !self.get(x as i32, y as i32)) {
+                result.set(y, x, false);
+            }
+        }
+        result
+    }
+}
+
+/// The 64 bits from `at` on, lowest first; blocked where they would leave the matrix.
+#[must_use]
+#[inline]
+pub fn load(words: &[u64], at: BitIndex) -> u64 {
+    let (word, shift) = ((at.0 >> 6) as usize, at.0 & 63);
+    match words.get(word..word + 2) {
+        // The two-step shift keeps a shift of 64 out of the case shift = 0.
+        Some(&[low, high]) => low >> shift | high << 1 << (63 - shift),
+        _ => !0,
+    }
+}

@@ -1,0 +1,139 @@
+//! The map: which cells are blocked.
+
+use crate::{BitMatrix, Vertex};
+
+/// A bit-packed grid map with a transposed copy, so that runs along a row and along a column are both runs of bits.
+///
+/// Everything outside the map is blocked. Immutable once made, and shareable between threads.
+///
+/// ```
+/// use mediant_grid::Grid;
+/// let grid = Grid::from_fn(3, 2, |x, y| (x, y) == (1, 0))?;
+/// assert!(grid.is_blocked(1, 0) && grid.is_free(2, 1) && grid.is_blocked(-1, 0));
+/// # Ok::<(), mediant_grid::GridError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Grid {
+    rows: BitMatrix,
+    columns: BitMatrix,
+}
+
+/// A grid that cannot be made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GridError {
+    /// A side is 0 or longer than [`Grid::MAX_SIDE`].
+    #[error("a map of {width} × {height} cells: each side must have 1 to {max} cells", max = Grid::MAX_SIDE)]
+    Size {
+        /// The width that was asked for.
+        width: u64,
+        /// The height that was asked for.
+        height: u64,
+    },
+    /// The rows of an ASCII map differ in length.
+    #[error(
+        "row {row} of the ASCII map has {found} cells, the first row has {expected}: make all rows as long"
+    )]
+    Ragged {
+        /// The row, from 0.
+        row: usize,
+        /// Its cells.
+        found: usize,
+        /// The first row's cells.
+        expected: usize,
+    },
+}
+
+impl Grid {
+    /// The longest side, in cells. Vertex numbers of either placement and bit positions then fit in 31 bits.
+    pub const MAX_SIDE: u32 = 32_768;
+
+    /// A map of `width` × `height` cells; `blocked(x, y)` is asked once for each, row by row.
+    ///
+    /// # Errors
+    /// [`GridError::Size`] when a side is 0 or exceeds [`MAX_SIDE`](Self::MAX_SIDE); nothing is allocated then.
+    pub fn from_fn(
+        width: u32,
+        height: u32,
+        mut blocked: impl FnMut(u32, u32) -> bool,
+    ) -> Result<Self, GridError> {
+        Self::check_size(u64::from(width), u64::from(height))?;
+        let mut rows = BitMatrix::blocked(width, height);
+        for y in 0..height {
+            for x in 0..width {
+                if !blocked(x, y) {
+                    rows.set(x, y, false);
+                }
+            }
+        }
+        Ok(Self { columns: rows.transposed(), rows })
+    }
+
+    /// Whether a map may have these sides.
+    ///
+    /// # Errors
+    /// [`GridError::Size`] when a side is 0 or exceeds [`MAX_SIDE`](Self::MAX_SIDE).
+    pub const fn check_size(width: u64, height: u64) -> Result<(), GridError> {
+        let max = Self::MAX_SIDE as u64;
+        if width == 0 || height == 0 || width > max || height > max {
+            return Err(GridError::Size { width, height });
+        }
+        Ok(())
+    }
+
+    /// The number of columns.
+    #[must_use]
+    pub const fn width(&self) -> u32 {
+        self.rows.width()
+    }
+
+    /// The number of rows.
+    #[must_use]
+    pub const fn height(&self) -> u32 {
+        self.rows.height()
+    }
+
+    /// Whether cell (x, y) is blocked; cells outside the map are.
+    #[must_use]
+    #[inline]
+    pub fn is_blocked(&self, x: i32, y: i32) -> bool {
+        self.rows.get(x, y)
+    }
+
+    /// Whether cell (x, y) lies on the map and is not blocked.
+    #[must_use]
+    #[inline]
+    pub fn is_free(&self, x: i32, y: i32) -> bool {
+        !self.rows.get(x, y)
+    }
+
+    /// The number of free cells.
+    #[must_use]
+    pub fn free_cells(&self) -> u64 {
+        self.rows.words().iter().map(|word| u64::from(word.count_zeros())).sum()
+    }
+
+    /// The map by rows: the bit of cell (x, y) at column x, row y.
+    #[must_use]
+    #[inline]
+    pub const fn rows(&self) -> &BitMatrix {
+        &self.rows
+    }
+
+    /// The map by columns: the bit of cell (x, y) at column y, row x.
+    #[must_use]
+    #[inline]
+    pub const fn columns(&self) -> &BitMatrix {
+        &self.columns
+    }
+
+    /// Whether two blocked cells meet diagonally at corner vertex `at` and the two others are free: the vertices that
+    /// [`DiagonalGap::Closed`](crate::DiagonalGap::Closed) forbids to pass.
+    #[must_use]
+    #[inline]
+    pub fn is_double_corner(&self, at: Vertex) -> bool {
+        let [nw, ne, sw, se] =
+            [(-1, -1), (0, -1), (-1, 0), (0, 0)].map(|(dx, dy)| self.is_blocked(at.x + dx, at.y + dy));
+        nw == se && ne == sw && nw != ne
+    }
+}
