@@ -31,9 +31,14 @@ pub struct BitMatrix {
 impl BitMatrix {
     /// A matrix whose bits are all blocked.
     pub(crate) fn blocked(width: u32, height: u32) -> Self {
+        Self::filled(width, height, true)
+    }
+
+    /// A matrix whose bits, frame included, all have this value.
+    pub(crate) fn filled(width: u32, height: u32, value: bool) -> Self {
         let words_per_row = width / 64 + 1;
         let words = (height as usize + 2) * words_per_row as usize + 2;
-        Self { bits: BitVec::repeat(true, words * 64), width, height, words_per_row }
+        Self { bits: BitVec::repeat(value, words * 64), width, height, words_per_row }
     }
 
     /// The number of columns.
@@ -93,6 +98,17 @@ impl BitMatrix {
     pub fn any_edge(&self, y: i32, first: i32, last: i32) -> bool {
         let words = self.words();
         self.any_of(first, last, |x| load(words, self.index(x, y - 1)) & load(words, self.index(x, y)))
+    }
+
+    /// Whether two blocked bits meet diagonally, the two others being free, at one of the corner vertices `first` to `last`
+    /// above row y.
+    #[must_use]
+    pub fn any_double_corner(&self, y: i32, first: i32, last: i32) -> bool {
+        let words = self.words();
+        self.any_of(first, last, |x| {
+            let [nw, ne, sw, se] = [(-1, -1), (0, -1), (-1, 0), (0, 0)].map(|(dx, dy)| load(words, self.index(x + dx, y + dy)));
+            (nw ^ ne) & !(nw ^ se) & !(ne ^ sw)
+        })
     }
 
     #[inline]

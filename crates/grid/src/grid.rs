@@ -132,8 +132,8 @@ impl Grid {
     #[must_use]
     #[inline]
     pub fn is_double_corner(&self, at: Vertex) -> bool {
-        let [nw, ne, sw, se] =
-            [(-1, -1), (0, -1), (-1, 0), (0, 0)].map(|(dx, dy)| self.is_blocked(at.x + dx, at.y + dy));
+        let blocked = |dx: i32, dy: i32| self.is_blocked(at.x.wrapping_add(dx), at.y.wrapping_add(dy));
+        let [nw, ne, sw, se] = [blocked(-1, -1), blocked(0, -1), blocked(-1, 0), blocked(0, 0)];
         nw == se && ne == sw && nw != ne
     }
 }

@@ -1,14 +1,35 @@
-//! Bit-packed grid maps and the rules of motion on them. (Story: written with the last module.)
+//! Bit-packed grid maps, and the rules of motion on them.
+//!
+//! A [`Grid`] says which cells are blocked; a [`Lattice`] is the search graph that a placement ([`Centers`] or [`Corners`]), a
+//! rule of motion and N(k) make of it.
+//!
+//! **The key decision: no edge is stored, and no cell is asked for alone.** Which moves are legal at a vertex is found anew each
+//! time, from words of 64 cells: single steps by a table over the cells around the vertex, longer moves by masks over the rows
+//! that they sweep, arranged as the tree of mediants so that one blocked cell drops all moves beyond it. A map takes two bits a cell, its own
+//! and the transposed copy's, and a change of k costs nothing but new masks.
+//!
+//! What a segment sweeps is written down once, in [`Place::sweep`]; line of sight, the tables and the masks all come from it.
+//!
+//! What is not here: files (`mediant-formats`) and searches (`mediant-search`).
 
 mod ascii;
 mod bits;
+mod components;
 mod grid;
+mod lattice;
+mod place;
 mod rules;
+mod sight;
+mod tree;
 mod vertex;
 
 pub use ascii::{AsciiMap, draw};
 pub use bits::{BitIndex, BitMatrix, load};
+pub use components::{Components, Connectivity};
 pub use grid::{Grid, GridError};
+pub use lattice::{Lattice, MoveSet, Step};
 pub use mediant_moves::Vector;
+pub use place::{Centers, Corners, Demand, Place};
 pub use rules::{CornerRule, DiagonalGap, Placement, Rules};
+pub use sight::{line_of_sight, line_of_sight_under};
 pub use vertex::{Vertex, VertexId};

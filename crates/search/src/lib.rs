@@ -1,1 +1,31 @@
-//! (to be written)
+//! Search engines on the 2^k neighborhoods of a grid.
+//!
+//! Every engine is a [`Planner`]: it borrows an immutable [`Lattice`](mediant_grid::Lattice), owns its scratch memory, and answers
+//! [`Query`] after [`Query`] with an [`Outcome`] that it stands behind by a [`Guarantee`].
+//!
+//! **The key decision: costs are integers.** Open lists compare fixed-point sums ([`Cost`](mediant_moves::Cost)), so equal paths are
+//! equal, the heuristic is exactly consistent, and the same query gives the same path and the same counts on every
+//! platform. The cost of a [`Path`] is recomputed in floating point from its waypoints.
+//!
+//! What varies, placement, heuristic and observer, is a type parameter, and the unused costs nothing: a search without
+//! counters is compiled without them.
+//!
+//! What is not here: preprocessing (`mediant-subgoal`, `mediant-hierarchy`), threads, serialization.
+
+mod astar;
+mod heuristic;
+mod nodes;
+mod observer;
+mod open_list;
+mod path;
+mod planner;
+mod query;
+
+pub use astar::AStar;
+pub use heuristic::{Euclidean, Heuristic, LatticeDistance, Zero};
+pub use nodes::{Node, NodeStore};
+pub use observer::{Counters, NodeEvent, Observer};
+pub use open_list::{Entry, OpenList};
+pub use path::{Guarantee, Outcome, Path};
+pub use planner::Planner;
+pub use query::{End, Query, QueryError};

@@ -1,0 +1,147 @@
+//! Connected components of the free cells, so that 'is there any path?' is one comparison.
+
+use crate::{Grid, Vertex};
+
+/// Which free cells are neighbors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Connectivity {
+    /// Those that share an edge.
+    Four,
+    /// Those that share an edge or a corner.
+    Eight,
+}
+
+/// The connected components of a grid's free cells.
+///
+/// Found a run of cells at a time: the runs of each row are joined with those that they meet in the row above.
+#[derive(Clone, Debug)]
+pub struct Components {
+    width: u32,
+    /// The component of each cell, row by row; [`NONE`](Self::NONE) for blocked cells.
+    labels: Box<[u32]>,
+    count: u32,
+}
+
+/// A run of free cells of one row: columns `first` to `last`.
+#[derive(Clone, Copy)]
+struct Run {
+    first: u32,
+    last: u32,
+    label: u32,
+}
+
+impl Components {
+    const NONE: u32 = u32::MAX;
+
+    /// The components of a grid.
+    #[must_use]
+    pub fn new(grid: &Grid, connectivity: Connectivity) -> Self {
+        let reach = u32::from(connectivity == Connectivity::Eight);
+        let mut sets = Sets::default();
+        let mut rows: Vec<Vec<Run>> = Vec::with_capacity(grid.height() as usize);
+        for y in 0..grid.height() {
+            let mut runs = runs_of_row(grid, y);
+            let above = rows.last().map_or(&[][..], Vec::as_slice);
+            let mut met = 0;
+            for run in &mut runs {
+                run.label = sets.add();
+                // Runs above that end before this one begins meet none of the later ones either.
+                while above.get(met).is_some_and(|other| other.last + reach < run.first) {
+                    met += 1;
+                }
+                for other in above[met..].iter().take_while(|other| other.first <= run.last + reach) {
+                    sets.join(run.label, other.label);
+                }
+            }
+            rows.push(runs);
+        }
+        let (names, count) = sets.names();
+        let mut labels = vec![Self::NONE; grid.width() as usize * grid.height() as usize].into_boxed_slice();
+        for (runs, cells) in rows.iter().zip(labels.chunks_exact_mut(grid.width() as usize)) {
+            for run in runs {
+                cells[run.first as usize..=run.last as usize].fill(names[run.label as usize]);
+            }
+        }
+        Self { width: grid.width(), labels, count }
+    }
+
+    /// The number of components.
+    #[must_use]
+    pub const fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// The component of a cell, numbered from 0 in row-major order of their first cells; `None` for blocked cells and
+    /// outside the map.
+    #[must_use]
+    pub fn of(&self, cell: Vertex) -> Option<u32> {
+        if cell.x as u32 >= self.width || cell.y < 0 {
+            return None;
+        }
+        let label = *self.labels.get(cell.y as usize * self.width as usize + cell.x as usize)?;
+        (label != Self::NONE).then_some(label)
+    }
+}
+
+/// The runs of free cells in row y.
+fn runs_of_row(grid: &Grid, y: u32) -> Vec<Run> {
+    let rows = grid.rows();
+    let start = rows.index(0, y as i32).0 as usize / 64;
+    let words = &rows.words()[start..start + rows.bits_per_row() as usize / 64];
+    let mut runs: Vec<Run> = Vec::new();
+    for (word, base) in words.iter().zip((0..).step_by(64)) {
+        let mut free = !word;
+        while free != 0 {
+            let first = free.trailing_zeros();
+            let length = (free >> first).trailing_ones();
+            match runs.last_mut() {
+                // A run that reaches the end of a word goes on in the next one.
+                Some(run) if first == 0 && run.last + 1 == base => run.last += length,
+                _ => runs.push(Run { first: base + first, last: base + first + length - 1, label: 0 }),
+            }
+            free &= (!0_u64).checked_shl(first + length).unwrap_or(0);
+        }
+    }
+    runs
+}
+
+/// Disjoint sets of run numbers; the smallest number of a set is its root.
+#[derive(Default)]
+struct Sets {
+    parents: Vec<u32>,
+}
+
+impl Sets {
+    fn add(&mut self) -> u32 {
+        let new = self.parents.len() as u32;
+        self.parents.push(new);
+        new
+    }
+
+    fn root(&mut self, mut of: u32) -> u32 {
+        while self.parents[of as usize] != of {
+            let parent = self.parents[of as usize];
+            self.parents[of as usize] = self.parents[parent as usize];
+            of = parent;
+        }
+        of
+    }
+
+    fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.parents[a.max(b) as usize] = a.min(b);
+    }
+
+    /// The set of each number, the sets counted in order of their roots; and how many there are.
+    fn names(mut self) -> (Vec<u32>, u32) {
+        let mut names = Vec::with_capacity(self.parents.len());
+        let mut count = 0;
+        for i in 0..self.parents.len() as u32 {
+            // A root comes before all others of its set, so its name is there when they need it.
+            let root = self.root(i);
+            names.push(if root == i { count } else { names[root as usize] });
+            count += u32::from(root == i);
+        }
+        (names, count)
+    }
+}

@@ -1,0 +1,232 @@
+//! The two placements as types: what a segment sweeps under each, and which rule of motion each has.
+
+use std::fmt::Debug;
+
+use mediant_moves::{K, Vector};
+
+use crate::{BitIndex, CornerRule, DiagonalGap, Grid, Placement, Rules, Vertex, components::Connectivity, load};
+
+/// What a straight segment asks of the map, in the frame of the first octant: the segment starts at the origin and runs
+/// right and down, right at least as far as down. Cell (i, j) is the i-th column and j-th row of cells that it can meet,
+/// counted from its start; see [`Place::cell`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Demand {
+    /// All cells of row `row` from column `first` to column `last` must be free.
+    Free {
+        /// The row of cells.
+        row: i32,
+        /// The first column.
+        first: i32,
+        /// The last column, itself included.
+        last: i32,
+    },
+    /// At least one of two cells (column, row) must be free.
+    EitherFree([(i32, i32); 2]),
+}
+
+/// A placement of vertices, as a type parameter of lattices and engines: [`Centers`] or [`Corners`].
+pub trait Place: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static {
+    /// The placement as a value.
+    const PLACEMENT: Placement;
+    /// How many obstacle patterns there are around a vertex, as far as single steps are concerned.
+    const PATTERNS: usize;
+    /// The rule of motion that this placement leaves open.
+    type Rule: Copy + Debug + Default + PartialEq + Eq + Send + Sync;
+
+    /// The rule as a value of the closed enum.
+    fn rules(rule: Self::Rule) -> Rules;
+
+    /// How many vertices lie in a row and in a column of the grid.
+    fn vertices(grid: &Grid) -> (u32, u32);
+
+    /// Whether a path may stand on this vertex; false outside the map.
+    fn is_free(grid: &Grid, at: Vertex) -> bool;
+
+    /// The offset, along one axis, of the i-th cell in direction `sign` (±1).
+    fn cell(sign: i32, i: i32) -> i32;
+
+    /// Tells `demand` what the closed segment from the origin to `d` asks of the map (with 0 ≤ d.y ≤ d.x, 0 < d.x), from
+    /// its start to its end, until one answer is false. Whether all were true.
+    fn sweep(rule: Self::Rule, d: Vector, demand: impl FnMut(Demand) -> bool) -> bool;
+
+    /// The number of the obstacle pattern around a vertex, below [`PATTERNS`](Self::PATTERNS). `at` is the bit of cell
+    /// (x, y).
+    fn pattern(words: &[u64], at: BitIndex, bits_per_row: i32) -> usize;
+
+    /// Whether the cell at this offset from cell (x, y) is blocked in a pattern; only for cells that the pattern holds.
+    fn pattern_is_blocked(pattern: usize, dx: i32, dy: i32) -> bool;
+
+    /// Which cells belong together, when it comes to whether there is any path at all.
+    fn connectivity(rule: Self::Rule, k: K) -> Connectivity;
+
+    /// A cell whose component is that of this free vertex.
+    fn representative(grid: &Grid, rule: Self::Rule, at: Vertex) -> Vertex;
+
+    /// Whether paths may not pass the vertices where two blocked cells meet diagonally.
+    fn closes_gaps(rule: Self::Rule) -> bool;
+}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for super::Centers {}
+    impl Sealed for super::Corners {}
+}
+
+/// Vertices at cell centers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Centers;
+
+/// Vertices at cell corners.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Corners;
+
+impl Place for Centers {
+    const PLACEMENT: Placement = Placement::Center;
+    /// The 3 × 3 cells around the vertex, row by row.
+    const PATTERNS: usize = 1 << 9;
+    type Rule = CornerRule;
+
+    fn rules(rule: CornerRule) -> Rules {
+        Rules::Center(rule)
+    }
+
+    fn vertices(grid: &Grid) -> (u32, u32) {
+        (grid.width(), grid.height())
+    }
+
+    fn is_free(grid: &Grid, at: Vertex) -> bool {
+        grid.is_free(at.x, at.y)
+    }
+
+    fn cell(sign: i32, i: i32) -> i32 {
+        sign * i
+    }
+
+    /// Row j of cells spans the heights j ± ½, where the segment runs over the columns around d.x/d.y · (j ± ½). It
+    /// passes through a corner point where it leaves the row exactly between two columns.
+    fn sweep(rule: CornerRule, d: Vector, mut demand: impl FnMut(Demand) -> bool) -> bool {
+        let (dx, dy) = (i64::from(d.x), i64::from(d.y));
+        let mut first = 0;
+        for row in 0..=dy {
+            // In half cells, the segment leaves row `row` at (2·row + 1)·dx / dy.
+            let leaves = (2 * row + 1) * dx - dy;
+            let (last, corner) = if row == dy { (dx, false) } else { (ceil_div(leaves, 2 * dy), leaves % (2 * dy) == 0) };
+            let widened = corner && rule == CornerRule::Never;
+            let (row, next) = (row as i32, last as i32 + i32::from(corner));
+            let free = Demand::Free { row, first, last: if widened { next } else { last as i32 } };
+            let touched = Demand::EitherFree([(next, row), (last as i32, row + 1)]);
+            if !demand(free) || (corner && rule == CornerRule::One && !demand(touched)) {
+                return false;
+            }
+            first = if corner && !widened { next } else { last as i32 };
+        }
+        true
+    }
+
+    #[inline]
+    fn pattern(words: &[u64], at: BitIndex, bits_per_row: i32) -> usize {
+        let row = |offset: i32| load(words, at.offset(offset - 1)) as usize & 7;
+        row(-bits_per_row) | row(0) << 3 | row(bits_per_row) << 6
+    }
+
+    fn pattern_is_blocked(pattern: usize, dx: i32, dy: i32) -> bool {
+        pattern >> (4 + dx + 3 * dy) & 1 == 1
+    }
+
+    /// A move's touched cells form a chain in which neighbors share an edge, except where it cuts a corner between two
+    /// blocked cells.
+    fn connectivity(rule: CornerRule, k: K) -> Connectivity {
+        if rule == CornerRule::Always && k > K::FOUR_CONNECTED { Connectivity::Eight } else { Connectivity::Four }
+    }
+
+    fn representative(_: &Grid, _: CornerRule, at: Vertex) -> Vertex {
+        at
+    }
+
+    fn closes_gaps(_: CornerRule) -> bool {
+        false
+    }
+}
+
+impl Place for Corners {
+    const PLACEMENT: Placement = Placement::Corner;
+    /// The 2 × 2 cells around the vertex, row by row.
+    const PATTERNS: usize = 1 << 4;
+    type Rule = DiagonalGap;
+
+    fn rules(rule: DiagonalGap) -> Rules {
+        Rules::Corner(rule)
+    }
+
+    fn vertices(grid: &Grid) -> (u32, u32) {
+        (grid.width() + 1, grid.height() + 1)
+    }
+
+    fn is_free(grid: &Grid, at: Vertex) -> bool {
+        // Wrapping: a query's vertex may be anywhere, and what lies outside the map is blocked on both ends.
+        let offsets = [(0, 0), (-1, 0), (0, -1), (-1, -1)];
+        offsets.iter().any(|&(dx, dy)| grid.is_free(at.x.wrapping_add(dx), at.y.wrapping_add(dy)))
+    }
+
+    fn cell(sign: i32, i: i32) -> i32 {
+        if sign > 0 { i } else { -1 - i }
+    }
+
+    /// Row j of cells spans the heights j to j + 1. Along an axis, one of the two cells beside each edge must be free.
+    fn sweep(rule: DiagonalGap, d: Vector, mut demand: impl FnMut(Demand) -> bool) -> bool {
+        let (dx, dy) = (i64::from(d.x), i64::from(d.y));
+        if dy == 0 {
+            return (0..d.x).all(|i| demand(Demand::EitherFree([(i, 0), (i, -1)])));
+        }
+        let mut first = 0;
+        for row in 0..dy {
+            let end = (row + 1) * dx;
+            let (last, vertex) = (ceil_div(end, dy) - 1, end % dy == 0 && row + 1 < dy);
+            if !demand(Demand::Free { row: row as i32, first, last: last as i32 }) {
+                return false;
+            }
+            let (column, below) = (last as i32, row as i32 + 1);
+            let gap = Demand::EitherFree([(column + 1, below - 1), (column, below)]);
+            if vertex && rule == DiagonalGap::Closed && !demand(gap) {
+                return false;
+            }
+            first = (end / dy) as i32;
+        }
+        true
+    }
+
+    #[inline]
+    fn pattern(words: &[u64], at: BitIndex, bits_per_row: i32) -> usize {
+        let row = |offset: i32| load(words, at.offset(offset - 1)) as usize & 3;
+        row(-bits_per_row) | row(0) << 2
+    }
+
+    fn pattern_is_blocked(pattern: usize, dx: i32, dy: i32) -> bool {
+        pattern >> (3 + dx + 2 * dy) & 1 == 1
+    }
+
+    /// The corners of a free cell are joined along its edges; a shared corner joins two cells unless gaps are closed.
+    fn connectivity(rule: DiagonalGap, _: K) -> Connectivity {
+        match rule {
+            DiagonalGap::Open => Connectivity::Eight,
+            DiagonalGap::Closed => Connectivity::Four,
+        }
+    }
+
+    fn representative(grid: &Grid, rule: DiagonalGap, at: Vertex) -> Vertex {
+        let around = [(0, 0), (-1, 0), (0, -1), (-1, -1)].map(|d| at + Vector::from(d));
+        if rule == DiagonalGap::Closed && grid.is_double_corner(at) {
+            return at;
+        }
+        around.into_iter().find(|cell| grid.is_free(cell.x, cell.y)).unwrap_or(at)
+    }
+
+    fn closes_gaps(rule: DiagonalGap) -> bool {
+        rule == DiagonalGap::Closed
+    }
+}
+
+/// ⌈a / b⌉ for b > 0.
+const fn ceil_div(a: i64, b: i64) -> i64 {
+    -(-a).div_euclid(b)
+}

@@ -1,0 +1,163 @@
+//! The moves of one octant as a tree of mediants, with the words that each one tests.
+//!
+//! A node's move is the mediant of the two moves that bound its subtree, so a subtree holds the moves of one cone.
+//! *What all of them sweep* is tested first: when it is blocked, the whole subtree is skipped.
+//!
+//! - At corners, that is all that the node's own move sweeps: by Kramm 2018, Lemma 11, a mediant sweeps every cell that its
+//!   parents sweep, hence so does everything below it. An illegal move ends its subtree, and the work is about that
+//!   for the legal moves alone.
+//! - At centers Lemma 11 fails. Of a mediant and its two parents exactly one has two odd coordinates, and such a move passes
+//!   through a corner point at its middle, where its neighbors in angle pass by on either side: (2, 1) can be legal where (1, 1) is
+//!   not, under rule `Never`, and (1, 2) where (1, 0) is not. What does hold, by the definition of the shared cells: the cells
+//!   shared by a cone are a beginning of each of its moves, those up to the first half-lattice point inside the cone.
+//!   They prune subtrees as before; the rest of a move's cells decides on that move alone.
+
+use mediant_moves::Vector;
+
+use crate::{BitIndex, Demand, Place, load, sight::Frame};
+
+/// A cell, as an offset (along the rows of the octant's matrix, across them).
+type Cell = (i32, i32);
+
+/// 64 cells of one row of a matrix, and which of them are swept.
+#[derive(Clone, Copy, Debug)]
+struct Mask {
+    /// From the bit of the vertex's own cell to the first of the 64.
+    offset: i32,
+    swept: u64,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    /// The move's index in N(k).
+    index: u16,
+    /// The next node that is not below this one.
+    skip: u16,
+    /// The node's masks in [`Octant::masks`]: those shared by its subtree, then its own.
+    shared: (u32, u32),
+    own: u32,
+    /// Its pair in [`Octant::pairs`], if any.
+    pair: Option<u16>,
+}
+
+/// The moves strictly between two neighboring moves of N(3).
+#[derive(Clone, Debug)]
+pub(crate) struct Octant {
+    /// Whether its masks are for the transposed map.
+    pub(crate) transposed: bool,
+    nodes: Vec<Node>,
+    masks: Vec<Mask>,
+    /// Two cells of which one must be free: corner rule `One`.
+    pairs: Vec<[i32; 2]>,
+}
+
+/// What one move asks of the map.
+#[derive(Clone, Debug, Default)]
+struct Sweep {
+    /// Cells that must be free, sorted.
+    cells: Vec<Cell>,
+    either: Option<[Cell; 2]>,
+}
+
+impl Octant {
+    /// The tree over `moves`, which has 2^n − 1 moves of one octant in angular order, the first of index `first` in N(k).
+    /// `bits_per_row` is that of the map, or of the transposed map where the octant is steep.
+    pub(crate) fn new<P: Place>(rule: P::Rule, moves: &[Vector], first: u16, bits_per_row: (i32, i32)) -> Self {
+        let frame = Frame::of(moves[moves.len() / 2]).0;
+        let mut octant = Self { transposed: frame.transposed, nodes: Vec::new(), masks: Vec::new(), pairs: Vec::new() };
+        let sweeps: Vec<Sweep> = moves.iter().map(|&v| Sweep::of::<P>(rule, v, frame)).collect();
+        let bits = if frame.transposed { bits_per_row.1 } else { bits_per_row.0 };
+        octant.add(&sweeps, first, &[], bits);
+        octant
+    }
+
+    /// Adds the subtree of these moves. `tested` are the cells that the nodes above have tested.
+    fn add(&mut self, sweeps: &[Sweep], first: u16, tested: &[Cell], bits_per_row: i32) {
+        if sweeps.is_empty() {
+            return;
+        }
+        let middle = sweeps.len() / 2;
+        let mut shared = sweeps[middle].cells.clone();
+        for sweep in sweeps {
+            shared.retain(|cell| sweep.cells.binary_search(cell).is_ok());
+        }
+        let beyond = |cells: &[Cell], tested: &[Cell]| -> Vec<Cell> {
+            cells.iter().filter(|cell| !tested.contains(cell)).copied().collect()
+        };
+        let new = beyond(&shared, tested);
+        let tested = [tested, &new].concat();
+        let own = beyond(&sweeps[middle].cells, &tested);
+        let begin = self.masks.len() as u32;
+        self.add_masks(&new, bits_per_row);
+        let between = self.masks.len() as u32;
+        self.add_masks(&own, bits_per_row);
+        let pair = sweeps[middle].either.map(|cells| {
+            self.pairs.push(cells.map(|(along, across)| across * bits_per_row + along));
+            self.pairs.len() as u16 - 1
+        });
+        let node = self.nodes.len();
+        let index = first + middle as u16;
+        self.nodes.push(Node { index, skip: 0, shared: (begin, between), own: self.masks.len() as u32, pair });
+        self.add(&sweeps[..middle], first, &tested, bits_per_row);
+        self.add(&sweeps[middle + 1..], index + 1, &tested, bits_per_row);
+        self.nodes[node].skip = self.nodes.len() as u16;
+    }
+
+    /// The cells as masks, rows nearest to the vertex first: a sweep that leaves the map meets the blocked frame before
+    /// anything beyond it.
+    fn add_masks(&mut self, cells: &[Cell], bits_per_row: i32) {
+        let mut cells = cells.to_vec();
+        cells.sort_unstable_by_key(|&(along, across)| (across.abs(), across, along));
+        for row in cells.chunk_by(|a, b| a.1 == b.1) {
+            let mut row = row;
+            while let Some(&(start, across)) = row.first() {
+                let here = row.partition_point(|&(along, _)| along < start + 64);
+                let swept = row[..here].iter().fold(0, |mask, &(along, _)| mask | 1 << (along - start));
+                self.masks.push(Mask { offset: across * bits_per_row + start, swept });
+                row = &row[here..];
+            }
+        }
+    }
+
+    /// Calls `legal` with the index of each legal move of the octant. `words` is the octant's matrix, `at` the bit of the
+    /// vertex's own cell there.
+    #[inline]
+    pub(crate) fn for_each_legal(&self, words: &[u64], at: BitIndex, mut legal: impl FnMut(usize)) {
+        let free = |begin: u32, end: u32| {
+            let masks = &self.masks[begin as usize..end as usize];
+            masks.iter().all(|mask| load(words, at.offset(mask.offset)) & mask.swept == 0)
+        };
+        let mut i = 0;
+        while let Some(node) = self.nodes.get(i) {
+            if !free(node.shared.0, node.shared.1) {
+                i = usize::from(node.skip);
+                continue;
+            }
+            let pair = node.pair.map(|pair| self.pairs[usize::from(pair)]);
+            if free(node.shared.1, node.own)
+                && pair.is_none_or(|cells| cells.iter().any(|&cell| load(words, at.offset(cell)) & 1 == 0))
+            {
+                legal(usize::from(node.index));
+            }
+            i += 1;
+        }
+    }
+}
+
+impl Sweep {
+    fn of<P: Place>(rule: P::Rule, v: Vector, frame: Frame) -> Self {
+        let mut sweep = Self::default();
+        P::sweep(rule, Frame::of(v).1, |demand| {
+            match demand {
+                Demand::Free { row, first, last } => {
+                    sweep.cells.extend((first..=last).map(|column| frame.cell::<P>(column, row)));
+                }
+                // A move has no common divisor, so it meets at most one corner point: its middle.
+                Demand::EitherFree(cells) => sweep.either = Some(cells.map(|(i, j)| frame.cell::<P>(i, j))),
+            }
+            true
+        });
+        sweep.cells.sort_unstable();
+        sweep
+    }
+}

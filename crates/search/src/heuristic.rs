@@ -1,0 +1,49 @@
+//! Lower bounds on the cost to the goal.
+
+use mediant_grid::{Lattice, Place, Vector};
+use mediant_moves::Cost;
+
+/// A lower bound on what any path over N(k) costs, in the lattice's fixed-point costs, from the displacement to the goal alone.
+pub trait Heuristic: Copy {
+    /// The bound for a displacement.
+    fn estimate<P: Place>(self, lattice: &Lattice<P>, to_goal: Vector) -> Cost;
+}
+
+/// h_k, the cost on an empty grid (Rivera 2017, 'The 2^k-Tile Heuristic'): the best bound that knows no obstacle, and
+/// consistent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LatticeDistance;
+
+impl Heuristic for LatticeDistance {
+    #[inline]
+    fn estimate<P: Place>(self, lattice: &Lattice<P>, to_goal: Vector) -> Cost {
+        lattice.costs().distance(to_goal)
+    }
+}
+
+/// The straight-line distance.
+///
+/// Rounded so that it stays a lower bound: a move's cost may be 2⁻³³ below its length, so the distance is shortened by 2⁻³²
+/// of itself, and cut off. What consistency is lost by that last bit, A* makes good by reopening nodes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Euclidean;
+
+impl Heuristic for Euclidean {
+    #[inline]
+    fn estimate<P: Place>(self, _: &Lattice<P>, to_goal: Vector) -> Cost {
+        const ONE: f64 = (1_u64 << Cost::FRACTION_BITS) as f64;
+        // Exact up to the root, which IEEE 754 rounds alike everywhere; the product loses at most one part in 2⁵².
+        Cost::from_bits((to_goal.norm() * (ONE - 1.0)) as u64)
+    }
+}
+
+/// No bound: A* becomes Dijkstra's algorithm.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Zero;
+
+impl Heuristic for Zero {
+    #[inline]
+    fn estimate<P: Place>(self, _: &Lattice<P>, _: Vector) -> Cost {
+        Cost::ZERO
+    }
+}

@@ -1,0 +1,107 @@
+//! What a search remembers of each vertex, without clearing it between searches.
+
+use mediant_grid::VertexId;
+use mediant_moves::Cost;
+
+/// A search node: 16 bytes, so that four share a cache line.
+#[derive(Clone, Copy, Debug)]
+pub struct Node {
+    /// The cost of the best known path from the start.
+    pub g: Cost,
+    /// The node's slot in the open list, or [`CLOSED`](Self::CLOSED).
+    pub slot: u32,
+    /// The generation in the high bits, the index of the move that led here in the low ones.
+    mark: u32,
+}
+
+const _: () = assert!(size_of::<Node>() == 16);
+
+impl Node {
+    /// The slot of a node that is in no open list.
+    pub const CLOSED: u32 = u32::MAX;
+    /// Enough for the 4,096 moves of k = 12.
+    const MOVE_BITS: u32 = 12;
+    /// Generations end here; the store is cleared once, every million searches, and begins anew.
+    const LAST_GENERATION: u32 = u32::MAX >> Self::MOVE_BITS;
+
+    /// The index of the move by which the best known path arrives; 0 for the start.
+    #[must_use]
+    #[inline]
+    pub const fn arrived_by(&self) -> usize {
+        (self.mark & ((1 << Self::MOVE_BITS) - 1)) as usize
+    }
+}
+
+/// One [`Node`] for each vertex; those of earlier searches are told by their generation.
+#[derive(Clone, Debug)]
+pub struct NodeStore {
+    nodes: Box<[Node]>,
+    generation: u32,
+}
+
+impl NodeStore {
+    /// A store for vertex ids below `len`, in which no node is known.
+    #[must_use]
+    pub fn new(len: usize) -> Self {
+        let unknown = Node { g: Cost::ZERO, slot: Node::CLOSED, mark: 0 };
+        Self { nodes: vec![unknown; len].into_boxed_slice(), generation: 0 }
+    }
+
+    /// Forgets all nodes, in constant time but for once in a million calls.
+    pub fn start_search(&mut self) {
+        if self.generation == Node::LAST_GENERATION {
+            self.nodes.iter_mut().for_each(|node| node.mark = 0);
+            self.generation = 0;
+        }
+        self.generation += 1;
+    }
+
+    /// The node of a vertex, if this search knows it.
+    #[must_use]
+    #[inline]
+    pub fn get(&self, id: VertexId) -> Option<&Node> {
+        let node = &self.nodes[id.index()];
+        (node.mark >> Node::MOVE_BITS == self.generation).then_some(node)
+    }
+
+    /// Makes a path of cost `g` that arrives by the move `arrived_by` the best known one to a vertex.
+    #[inline]
+    pub fn set_path(&mut self, id: VertexId, g: Cost, arrived_by: usize) {
+        let node = &mut self.nodes[id.index()];
+        node.g = g;
+        node.mark = self.generation << Node::MOVE_BITS | arrived_by as u32;
+    }
+
+    /// Notes where in the open list a vertex now stands.
+    #[inline]
+    pub fn set_slot(&mut self, id: VertexId, slot: u32) {
+        self.nodes[id.index()].slot = slot;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nodes_are_forgotten_between_searches_also_when_the_generations_run_out() {
+        let mut store = NodeStore::new(3);
+        store.start_search();
+        store.set_path(VertexId(1), Cost::from_bits(7), 4_095);
+        assert_eq!(store.get(VertexId(1)).map(|node| (node.g, node.arrived_by())), Some((Cost::from_bits(7), 4_095)));
+        store.start_search();
+        assert!(store.get(VertexId(1)).is_none());
+
+        // A node of generation 1 must not come back to life when the count begins anew at 1.
+        let mut store = NodeStore::new(3);
+        store.start_search();
+        store.set_path(VertexId(0), Cost::ZERO, 0);
+        store.generation = Node::LAST_GENERATION - 1;
+        store.start_search();
+        assert_eq!(store.generation, Node::LAST_GENERATION);
+        store.set_path(VertexId(2), Cost::ZERO, 0);
+        store.start_search();
+        assert_eq!(store.generation, 1);
+        assert!((0..3).all(|id| store.get(VertexId(id)).is_none()));
+    }
+}

@@ -1,0 +1,104 @@
+//! Watching a search: counters and traces are observers, and one that does nothing costs nothing.
+
+use mediant_grid::Vertex;
+use mediant_moves::Cost;
+
+/// A search node at one moment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NodeEvent {
+    /// Where it is.
+    pub at: Vertex,
+    /// From where it was reached; `None` for the start.
+    pub parent: Option<Vertex>,
+    /// The cost of the best known path to it.
+    pub g: Cost,
+    /// That cost plus the heuristic.
+    pub f: Cost,
+}
+
+/// Sees what a search does. Every method does nothing unless it is written.
+pub trait Observer {
+    /// A node was taken from the open list, and its successors are about to be generated.
+    #[inline]
+    fn expanded(&mut self, node: NodeEvent) {
+        let _ = node;
+    }
+
+    /// A node entered the open list for the first time in this search. The start counts.
+    #[inline]
+    fn generated(&mut self, node: NodeEvent) {
+        let _ = node;
+    }
+
+    /// A cheaper path to a node was found.
+    #[inline]
+    fn updated(&mut self, node: NodeEvent) {
+        let _ = node;
+    }
+
+    /// The open list's heap swapped this many pairs while sifting an entry up or down ('Perc' of Rivera 2017).
+    #[inline]
+    fn percolated(&mut self, swaps: u32) {
+        let _ = swaps;
+    }
+}
+
+/// The observer that does nothing.
+impl Observer for () {}
+
+impl<O: Observer> Observer for &mut O {
+    #[inline]
+    fn expanded(&mut self, node: NodeEvent) {
+        (**self).expanded(node);
+    }
+
+    #[inline]
+    fn generated(&mut self, node: NodeEvent) {
+        (**self).generated(node);
+    }
+
+    #[inline]
+    fn updated(&mut self, node: NodeEvent) {
+        (**self).updated(node);
+    }
+
+    #[inline]
+    fn percolated(&mut self, swaps: u32) {
+        (**self).percolated(swaps);
+    }
+}
+
+/// Counts what the papers' tables report.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Nodes taken from the open list and expanded; the goal, at which a search stops, is not.
+    pub expanded: u64,
+    /// Nodes that entered the open list for the first time.
+    pub generated: u64,
+    /// Cheaper paths found to nodes that were known.
+    pub updated: u64,
+    /// Swaps in the open list's heap.
+    pub percolations: u64,
+}
+
+impl Observer for Counters {
+    #[inline]
+    fn expanded(&mut self, _: NodeEvent) {
+        self.expanded += 1;
+    }
+
+    #[inline]
+    fn generated(&mut self, _: NodeEvent) {
+        self.generated += 1;
+    }
+
+    #[inline]
+    fn updated(&mut self, _: NodeEvent) {
+        self.updated += 1;
+    }
+
+    #[inline]
+    fn percolated(&mut self, swaps: u32) {
+        self.percolations += u64::from(swaps);
+    }
+}

@@ -1,0 +1,147 @@
+//! The open list: a binary heap whose entries can be found again.
+
+use mediant_grid::VertexId;
+use mediant_moves::Cost;
+
+/// What the open list orders: f, then h (nearer to the goal first), then the vertex id.
+///
+/// h is compared in steps of 2⁻¹⁶ cells, so that an entry takes 16 bytes; vertices that still tie are taken by id, so the
+/// order is total, and the same on every platform.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Entry(u128);
+
+const _: () = assert!(size_of::<Entry>() == 16);
+
+impl Entry {
+    /// The entry of a vertex.
+    #[must_use]
+    #[inline]
+    pub const fn new(f: Cost, h: Cost, id: VertexId) -> Self {
+        let coarse = h.to_bits() >> 16;
+        let coarse = if coarse > u32::MAX as u64 { u32::MAX as u64 } else { coarse };
+        Self((f.to_bits() as u128) << 64 | (coarse as u128) << 32 | id.0 as u128)
+    }
+
+    /// f.
+    #[must_use]
+    #[inline]
+    pub const fn f(self) -> Cost {
+        Cost::from_bits((self.0 >> 64) as u64)
+    }
+
+    /// The vertex.
+    #[must_use]
+    #[inline]
+    pub const fn id(self) -> VertexId {
+        VertexId(self.0 as u32)
+    }
+
+    /// The same entry after its path became cheaper by `gain`.
+    #[must_use]
+    #[inline]
+    const fn cheaper_by(self, gain: Cost) -> Self {
+        Self(self.0 - ((gain.to_bits() as u128) << 64))
+    }
+}
+
+/// An indexed binary heap, least entry first.
+///
+/// Whoever owns the vertices keeps their slots: each operation takes a function that it calls as `(id, slot)` for every
+/// entry that comes to stand elsewhere, and returns how many swaps it took ('percolations' in Rivera 2017).
+#[derive(Clone, Debug, Default)]
+pub struct OpenList {
+    heap: Vec<Entry>,
+}
+
+impl OpenList {
+    /// Removes all entries and keeps the memory.
+    pub fn clear(&mut self) {
+        self.heap.clear();
+    }
+
+    /// The number of entries.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.heap.len()
+    }
+
+    /// Whether there is no entry.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.heap.is_empty()
+    }
+
+    /// The entry in a slot, if the slot is in use.
+    #[must_use]
+    pub fn get(&self, slot: u32) -> Option<Entry> {
+        self.heap.get(slot as usize).copied()
+    }
+
+    /// Adds an entry.
+    #[inline]
+    pub fn push(&mut self, entry: Entry, mut moved: impl FnMut(VertexId, u32)) -> u32 {
+        self.heap.push(entry);
+        self.sift_up(self.heap.len() - 1, entry, &mut moved)
+    }
+
+    /// Lowers f of the entry in a slot by `gain`; nothing happens for a slot that is not in use.
+    #[inline]
+    pub fn decrease(&mut self, slot: u32, gain: Cost, mut moved: impl FnMut(VertexId, u32)) -> u32 {
+        let Some(entry) = self.heap.get(slot as usize) else { return 0 };
+        let entry = entry.cheaper_by(gain);
+        self.sift_up(slot as usize, entry, &mut moved)
+    }
+
+    /// Removes the least entry.
+    #[inline]
+    pub fn pop(&mut self, mut moved: impl FnMut(VertexId, u32)) -> Option<(Entry, u32)> {
+        let last = self.heap.pop()?;
+        let Some(&first) = self.heap.first() else { return Some((last, 0)) };
+        Some((first, self.sift_down(last, &mut moved)))
+    }
+
+    /// Puts `entry` into the free slot `slot` or as far above it as it belongs.
+    #[inline]
+    fn sift_up(&mut self, mut slot: usize, entry: Entry, moved: &mut impl FnMut(VertexId, u32)) -> u32 {
+        let mut swaps = 0;
+        while slot > 0 {
+            let above = (slot - 1) / 2;
+            let other = self.heap[above];
+            if other <= entry {
+                break;
+            }
+            self.heap[slot] = other;
+            moved(other.id(), slot as u32);
+            slot = above;
+            swaps += 1;
+        }
+        self.heap[slot] = entry;
+        moved(entry.id(), slot as u32);
+        swaps
+    }
+
+    /// Puts `entry` into the free root or as far below it as it belongs.
+    #[inline]
+    fn sift_down(&mut self, entry: Entry, moved: &mut impl FnMut(VertexId, u32)) -> u32 {
+        let heap = self.heap.as_mut_slice();
+        let (mut slot, mut swaps) = (0, 0);
+        loop {
+            let left = 2 * slot + 1;
+            if left >= heap.len() {
+                break;
+            }
+            let child = if left + 1 < heap.len() && heap[left + 1] < heap[left] { left + 1 } else { left };
+            let other = heap[child];
+            if entry <= other {
+                break;
+            }
+            heap[slot] = other;
+            moved(other.id(), slot as u32);
+            slot = child;
+            swaps += 1;
+        }
+        heap[slot] = entry;
+        moved(entry.id(), slot as u32);
+        swaps
+    }
+}

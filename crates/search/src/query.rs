@@ -1,0 +1,79 @@
+//! Questions to a planner.
+
+use mediant_grid::{Lattice, Place, Vertex};
+
+/// From where to where.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Query {
+    /// Where the path begins.
+    pub start: Vertex,
+    /// Where it ends.
+    pub goal: Vertex,
+}
+
+impl Query {
+    /// The query for a path from `start` to `goal`.
+    #[must_use]
+    pub fn new(start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Self {
+        Self { start: start.into(), goal: goal.into() }
+    }
+
+    /// Whether both ends are vertices that a path may stand on.
+    ///
+    /// # Errors
+    /// A [`QueryError`] for the first end that is not.
+    pub fn check<P: Place>(self, lattice: &Lattice<P>) -> Result<(), QueryError> {
+        for (end, at) in [(End::Start, self.start), (End::Goal, self.goal)] {
+            if lattice.id(at).is_none() {
+                let (width, height) = P::vertices(lattice.grid());
+                return Err(QueryError::Outside { end, at, last: Vertex::new(width as i32 - 1, height as i32 - 1) });
+            }
+            if !lattice.is_free(at) {
+                return Err(QueryError::Blocked { end, at });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Which end of a query.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum End {
+    /// Its start.
+    Start,
+    /// Its goal.
+    Goal,
+}
+
+impl std::fmt::Display for End {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(match self {
+            Self::Start => "start",
+            Self::Goal => "goal",
+        })
+    }
+}
+
+/// A query that has no answer, not even 'no path'.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[non_exhaustive]
+pub enum QueryError {
+    /// An end lies outside the map.
+    #[error("the {end} {at} is outside the map, whose vertices run from (0, 0) to {last}")]
+    Outside {
+        /// Which end.
+        end: End,
+        /// Where it is.
+        at: Vertex,
+        /// The map's last vertex.
+        last: Vertex,
+    },
+    /// An end is on a blocked cell (at corners: between four of them).
+    #[error("the {end} {at} is blocked: choose a free vertex")]
+    Blocked {
+        /// Which end.
+        end: End,
+        /// Where it is.
+        at: Vertex,
+    },
+}
