@@ -106,7 +106,8 @@ impl BitMatrix {
     pub fn any_double_corner(&self, y: i32, first: i32, last: i32) -> bool {
         let words = self.words();
         self.any_of(first, last, |x| {
-            let [nw, ne, sw, se] = [(-1, -1), (0, -1), (-1, 0), (0, 0)].map(|(dx, dy)| load(words, self.index(x + dx, y + dy)));
+            let [nw, ne, sw, se] =
+                [(-1, -1), (0, -1), (-1, 0), (0, 0)].map(|(dx, dy)| load(words, self.index(x + dx, y + dy)));
             (nw ^ ne) & !(nw ^ se) & !(ne ^ sw)
         })
     }

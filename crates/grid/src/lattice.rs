@@ -5,7 +5,8 @@ use std::sync::Arc;
 use mediant_moves::{Cost, CostTable, K, KError, Neighborhood, Vector};
 
 use crate::{
-    BitMatrix, Components, Demand, Grid, Place, Rules, Vertex, VertexId, line_of_sight, sight::Frame, tree::Octant,
+    BitMatrix, Components, Demand, Grid, Place, Rules, Vertex, VertexId, line_of_sight, sight::Frame,
+    tree::Octant,
 };
 
 /// One move of N(k), with what a search wants of it.

@@ -4,7 +4,9 @@ use std::fmt::Debug;
 
 use mediant_moves::{K, Vector};
 
-use crate::{BitIndex, CornerRule, DiagonalGap, Grid, Placement, Rules, Vertex, components::Connectivity, load};
+use crate::{
+    BitIndex, CornerRule, DiagonalGap, Grid, Placement, Rules, Vertex, components::Connectivity, load,
+};
 
 /// What a straight segment asks of the map, in the frame of the first octant: the segment starts at the origin and runs
 /// right and down, right at least as far as down. Cell (i, j) is the i-th column and j-th row of cells that it can meet,
@@ -110,7 +112,8 @@ impl Place for Centers {
         for row in 0..=dy {
             // In half cells, the segment leaves row `row` at (2·row + 1)·dx / dy.
             let leaves = (2 * row + 1) * dx - dy;
-            let (last, corner) = if row == dy { (dx, false) } else { (ceil_div(leaves, 2 * dy), leaves % (2 * dy) == 0) };
+            let (last, corner) =
+                if row == dy { (dx, false) } else { (ceil_div(leaves, 2 * dy), leaves % (2 * dy) == 0) };
             let widened = corner && rule == CornerRule::Never;
             let (row, next) = (row as i32, last as i32 + i32::from(corner));
             let free = Demand::Free { row, first, last: if widened { next } else { last as i32 } };
@@ -136,7 +139,11 @@ impl Place for Centers {
     /// A move's touched cells form a chain in which neighbors share an edge, except where it cuts a corner between two
     /// blocked cells.
     fn connectivity(rule: CornerRule, k: K) -> Connectivity {
-        if rule == CornerRule::Always && k > K::FOUR_CONNECTED { Connectivity::Eight } else { Connectivity::Four }
+        if rule == CornerRule::Always && k > K::FOUR_CONNECTED {
+            Connectivity::Eight
+        } else {
+            Connectivity::Four
+        }
     }
 
     fn representative(_: &Grid, _: CornerRule, at: Vertex) -> Vertex {

@@ -62,9 +62,15 @@ struct Sweep {
 impl Octant {
     /// The tree over `moves`, which has 2^n − 1 moves of one octant in angular order, the first of index `first` in N(k).
     /// `bits_per_row` is that of the map, or of the transposed map where the octant is steep.
-    pub(crate) fn new<P: Place>(rule: P::Rule, moves: &[Vector], first: u16, bits_per_row: (i32, i32)) -> Self {
+    pub(crate) fn new<P: Place>(
+        rule: P::Rule,
+        moves: &[Vector],
+        first: u16,
+        bits_per_row: (i32, i32),
+    ) -> Self {
         let frame = Frame::of(moves[moves.len() / 2]).0;
-        let mut octant = Self { transposed: frame.transposed, nodes: Vec::new(), masks: Vec::new(), pairs: Vec::new() };
+        let mut octant =
+            Self { transposed: frame.transposed, nodes: Vec::new(), masks: Vec::new(), pairs: Vec::new() };
         let sweeps: Vec<Sweep> = moves.iter().map(|&v| Sweep::of::<P>(rule, v, frame)).collect();
         let bits = if frame.transposed { bits_per_row.1 } else { bits_per_row.0 };
         octant.add(&sweeps, first, &[], bits);
@@ -97,7 +103,13 @@ impl Octant {
         });
         let node = self.nodes.len();
         let index = first + middle as u16;
-        self.nodes.push(Node { index, skip: 0, shared: (begin, between), own: self.masks.len() as u32, pair });
+        self.nodes.push(Node {
+            index,
+            skip: 0,
+            shared: (begin, between),
+            own: self.masks.len() as u32,
+            pair,
+        });
         self.add(&sweeps[..middle], first, &tested, bits_per_row);
         self.add(&sweeps[middle + 1..], index + 1, &tested, bits_per_row);
         self.nodes[node].skip = self.nodes.len() as u16;

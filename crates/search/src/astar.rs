@@ -7,8 +7,8 @@ use mediant_grid::{Lattice, Place, Vertex, VertexId};
 use mediant_moves::Cost;
 
 use crate::{
-    Entry, Guarantee, Heuristic, Node, NodeEvent, NodeStore, Observer, OpenList, Outcome, Path, Planner, Query,
-    QueryError,
+    Entry, Guarantee, Heuristic, Node, NodeEvent, NodeStore, Observer, OpenList, Outcome, Path, Planner,
+    Query, QueryError,
 };
 
 /// A* on a lattice.
@@ -46,7 +46,13 @@ impl<'l, P: Place, H: Heuristic> AStar<'l, P, H> {
     }
 
     /// Expands nodes until the goal is the best of them. Whether it was found.
-    fn search(&mut self, start: VertexId, goal: Vertex, goal_id: VertexId, observer: &mut impl Observer) -> bool {
+    fn search(
+        &mut self,
+        start: VertexId,
+        goal: Vertex,
+        goal_id: VertexId,
+        observer: &mut impl Observer,
+    ) -> bool {
         let Self { lattice, heuristic, nodes, open } = self;
         let at = lattice.vertex(start);
         let h = heuristic.estimate(lattice, at.to(goal));
@@ -134,7 +140,8 @@ impl<P: Place, H: Heuristic> Planner for AStar<'_, P, H> {
             return Ok(Outcome::Unreachable);
         };
         // The components know, in constant time, what the search would find out by expanding all that it can reach.
-        if !self.lattice.connected(query.start, query.goal) || !self.search(start, query.goal, goal, observer) {
+        if !self.lattice.connected(query.start, query.goal) || !self.search(start, query.goal, goal, observer)
+        {
             return Ok(Outcome::Unreachable);
         }
         Ok(Outcome::Found(self.path(start, goal)))

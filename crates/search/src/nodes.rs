@@ -88,7 +88,10 @@ mod tests {
         let mut store = NodeStore::new(3);
         store.start_search();
         store.set_path(VertexId(1), Cost::from_bits(7), 4_095);
-        assert_eq!(store.get(VertexId(1)).map(|node| (node.g, node.arrived_by())), Some((Cost::from_bits(7), 4_095)));
+        assert_eq!(
+            store.get(VertexId(1)).map(|node| (node.g, node.arrived_by())),
+            Some((Cost::from_bits(7), 4_095))
+        );
         store.start_search();
         assert!(store.get(VertexId(1)).is_none());
 

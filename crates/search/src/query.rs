@@ -26,7 +26,11 @@ impl Query {
         for (end, at) in [(End::Start, self.start), (End::Goal, self.goal)] {
             if lattice.id(at).is_none() {
                 let (width, height) = P::vertices(lattice.grid());
-                return Err(QueryError::Outside { end, at, last: Vertex::new(width as i32 - 1, height as i32 - 1) });
+                return Err(QueryError::Outside {
+                    end,
+                    at,
+                    last: Vertex::new(width as i32 - 1, height as i32 - 1),
+                });
             }
             if !lattice.is_free(at) {
                 return Err(QueryError::Blocked { end, at });

@@ -1,0 +1,172 @@
+//! Legal moves, lines of sight and components against brute force, on seeded random maps.
+
+use std::sync::Arc;
+
+use mediant_grid::{Centers, Corners, Grid, Lattice, Place, Rules, Vector, Vertex, line_of_sight_under};
+use mediant_moves::{K, Neighborhood};
+use mediant_oracle::{Explicit, random_grid, segment_is_legal, vertex_is_free};
+
+/// How many maps: `MEDIANT_GRIDS` asks for more than the quick default.
+fn seeds() -> std::ops::Range<u64> {
+    let text = std::env::var("MEDIANT_GRIDS").unwrap_or_else(|_| "60".into());
+    0..text.parse().expect("MEDIANT_GRIDS is a number")
+}
+
+fn vertices(grid: &Grid) -> impl Iterator<Item = Vertex> + use<> {
+    let (width, height) = (grid.width() as i32, grid.height() as i32);
+    (-1..=height + 1).flat_map(move |y| (-1..=width + 1).map(move |x| Vertex::new(x, y)))
+}
+
+fn describe(grid: &Grid, rules: Rules, from: Vertex, to: Vertex, seed: u64) -> String {
+    mediant_oracle::describe(grid, rules, from, to, seed)
+}
+
+fn check_moves<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> usize {
+    let lattice = Lattice::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
+    let moves: Vec<Vector> = Neighborhood::new(k).expect("k is in range").iter().collect();
+    let mut legal = 0;
+    for at in vertices(grid) {
+        let set = lattice.legal_moves(at);
+        assert_eq!(set.iter().count(), set.len());
+        for (index, &v) in moves.iter().enumerate() {
+            let expected = segment_is_legal(grid, lattice.rules(), at, at + v);
+            let message =
+                || format!("k = {k}, move {v:?}: {}", describe(grid, lattice.rules(), at, at + v, seed));
+            assert_eq!(set.contains(index), expected, "legal_moves, {}", message());
+            assert_eq!(lattice.is_legal(at, v), expected, "is_legal, {}", message());
+            assert_eq!(lattice.step(index).vector(), v);
+            legal += usize::from(expected);
+        }
+    }
+    legal
+}
+
+#[test]
+fn legal_moves_are_those_of_brute_force() {
+    let mut legal = 0;
+    for seed in seeds() {
+        let grid = Arc::new(random_grid(seed).0);
+        // The moves of N(k) are among those of N(k + 1): few k suffice, and the large ones cost brute force dearly.
+        let ks: &[u32] = if seed % 8 == 0 { &[2, 3, 8] } else { &[2, 3, 4, 6] };
+        for k in ks.iter().map(|&k| K::new(k).expect("k is at least 2")) {
+            for rules in Rules::ALL {
+                legal += match rules {
+                    Rules::Center(corners) => check_moves::<Centers>(&grid, corners, k, seed),
+                    Rules::Corner(gap) => check_moves::<Corners>(&grid, gap, k, seed),
+                };
+            }
+        }
+    }
+    assert!(legal > 100_000, "only {legal} legal moves were seen");
+}
+
+#[test]
+fn long_moves_of_large_k_are_legal_as_brute_force_says() {
+    // Wider than a word on both sides, so that masks of two words and both frames are met.
+    for seed in 0..3 {
+        let mut rng = mediant_oracle::Rng::new(seed);
+        let grid = Arc::new(Grid::from_fn(150, 140, |_, _| rng.below(400) == 0).expect("a valid size"));
+        for k in [10, 12].map(|k| K::new(k).expect("k is at least 2")) {
+            let centers =
+                Lattice::<Centers>::new(Arc::clone(&grid), k, Default::default()).expect("k is in range");
+            let corners =
+                Lattice::<Corners>::new(Arc::clone(&grid), k, Default::default()).expect("k is in range");
+            for at in [(0, 0), (75, 70), (149, 139), (3, 120), (140, 2)].map(Vertex::from) {
+                let sets =
+                    [(centers.rules(), centers.legal_moves(at)), (corners.rules(), corners.legal_moves(at))];
+                for (rules, set) in sets {
+                    for (index, v) in Neighborhood::new(k).expect("k is in range").iter().enumerate() {
+                        let expected = line_of_sight_under(&grid, rules, at, at + v);
+                        assert_eq!(
+                            set.contains(index),
+                            expected,
+                            "seed {seed}, k {k}, {rules}, {v:?} at {at}"
+                        );
+                        if index % 7 == 0 {
+                            let brute = segment_is_legal(&grid, rules, at, at + v);
+                            assert_eq!(expected, brute, "seed {seed}, k {k}, {rules}, {v:?} at {at}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn line_of_sight_is_that_of_brute_force() {
+    let mut seen = [0, 0];
+    for seed in seeds() {
+        let grid = random_grid(seed).0;
+        let all: Vec<Vertex> = vertices(&grid).collect();
+        for rules in Rules::ALL {
+            for (i, &from) in all.iter().enumerate() {
+                // Every vertex with a seventh of the others, shifted so that all pairs come up over the seeds.
+                for &to in all.iter().skip((i + seed as usize) % 7).step_by(7) {
+                    let expected = segment_is_legal(&grid, rules, from, to);
+                    let found = line_of_sight_under(&grid, rules, from, to);
+                    assert_eq!(found, expected, "{}", describe(&grid, rules, from, to, seed));
+                    assert_eq!(found, line_of_sight_under(&grid, rules, to, from), "not symmetric");
+                    seen[usize::from(found)] += 1;
+                }
+            }
+        }
+    }
+    assert!(seen.iter().all(|&count| count > 20_000), "too few cases: {seen:?}");
+}
+
+#[test]
+fn components_tell_whether_there_is_any_path() {
+    let mut told = [0, 0];
+    for seed in seeds() {
+        let grid = Arc::new(random_grid(seed).0);
+        for rules in Rules::ALL {
+            for k in [2, 3, 5].map(|k| K::new(k).expect("k is at least 2")) {
+                let connected: Box<dyn Fn(Vertex, Vertex) -> bool> = match rules {
+                    Rules::Center(corners) => {
+                        let lattice =
+                            Lattice::<Centers>::new(Arc::clone(&grid), k, corners).expect("k is in range");
+                        Box::new(move |a, b| lattice.connected(a, b))
+                    }
+                    Rules::Corner(gap) => {
+                        let lattice =
+                            Lattice::<Corners>::new(Arc::clone(&grid), k, gap).expect("k is in range");
+                        Box::new(move |a, b| lattice.connected(a, b))
+                    }
+                };
+                let graph = Explicit::new(&grid, rules, Some(k));
+                let step = (grid.width() * grid.height() / 40 + 1) as usize;
+                for start in graph.free_vertices().step_by(step) {
+                    let costs = graph.costs_from(start);
+                    for goal in vertices(&grid) {
+                        let expected = costs.to(goal).is_some();
+                        let message = || format!("k = {k}: {}", describe(&grid, rules, start, goal, seed));
+                        assert_eq!(connected(start, goal), expected, "{}", message());
+                        told[usize::from(expected)] += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(told.iter().all(|&count| count > 20_000), "too few cases: {told:?}");
+}
+
+#[test]
+fn free_vertices_are_those_of_brute_force_however_far_outside() {
+    for seed in seeds() {
+        let grid = random_grid(seed).0;
+        let far =
+            [i32::MIN, -1, 0, 1, i32::MAX].map(|x| [i32::MIN, -1, 0, 1, i32::MAX].map(|y| Vertex::new(x, y)));
+        for at in vertices(&grid).chain(far.into_iter().flatten()) {
+            let inner = at.x.abs_diff(0) < 1000 && at.y.abs_diff(0) < 1000;
+            for rules in Rules::ALL {
+                let free = match rules {
+                    Rules::Center(_) => Centers::is_free(&grid, at),
+                    Rules::Corner(_) => Corners::is_free(&grid, at),
+                };
+                assert_eq!(free, inner && vertex_is_free(&grid, rules.placement(), at), "{at} under {rules}");
+                assert!(!line_of_sight_under(&grid, rules, at, Vertex::new(i32::MAX, i32::MIN)));
+            }
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! Paths, drawn: a dozen that a reader can check by eye, across k, placements and rules.
+//!
+//! Waypoints are 0, 1, 2, … in order; under corner placement cells stand at odd places and vertices at even ones.
+
+use std::sync::Arc;
+
+use mediant_grid::{AsciiMap, Centers, CornerRule, Corners, DiagonalGap, Lattice, Rules, draw};
+use mediant_moves::K;
+use mediant_search::{AStar, LatticeDistance, Outcome, Planner, Query};
+
+/// The picture of the best path from `s` to `g`, under its cost.
+fn picture(drawing: &str, rules: Rules, k: u32) -> String {
+    let map = AsciiMap::parse(drawing).expect("the drawing is a map");
+    let query = Query::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
+    let (grid, k) = (Arc::new(map.grid), K::new(k).expect("k is at least 2"));
+    let outcome = match rules {
+        Rules::Center(corners) => {
+            let lattice = Lattice::<Centers>::new(Arc::clone(&grid), k, corners).expect("k is in range");
+            AStar::new(&lattice, LatticeDistance).solve(query)
+        }
+        Rules::Corner(gap) => {
+            let lattice = Lattice::<Corners>::new(Arc::clone(&grid), k, gap).expect("k is in range");
+            AStar::new(&lattice, LatticeDistance).solve(query)
+        }
+    };
+    match outcome.expect("both ends are free") {
+        Outcome::Found(path) => {
+            format!(
+                "k = {k}, {rules}: {:.4}\n{}",
+                path.cost(),
+                draw(&grid, rules.placement(), path.waypoints())
+            )
+        }
+        Outcome::Unreachable => format!("k = {k}, {rules}: unreachable\n"),
+    }
+}
+
+const WALL: &str = "
+    ...........
+    s....#.....
+    .....#.....
+    .....#...g.
+    .....#.....
+    ...........
+";
+
+const SLALOM: &str = "
+    s...#.......
+    ....#...#...
+    ....#...#...
+    ........#...
+    ....#...#...
+    ....#...#..g
+";
+
+const GAP: &str = "
+    s..#...
+    ...#...
+    ...#...
+    ###....
+    .......
+    ......g
+";
+
+const NEVER: Rules = Rules::Center(CornerRule::Never);
+const OPEN: Rules = Rules::Corner(DiagonalGap::Open);
+const CLOSED: Rules = Rules::Corner(DiagonalGap::Closed);
+
+macro_rules! pictures {
+    ($($name:ident: $map:expr, $rules:expr, $k:expr;)+) => {
+        $(#[test]
+        fn $name() {
+            insta::assert_snapshot!(picture($map, $rules, $k));
+        })+
+    };
+}
+
+pictures! {
+    wall_center_k2: WALL, NEVER, 2;
+    wall_center_k3: WALL, NEVER, 3;
+    wall_center_k4: WALL, NEVER, 4;
+    wall_center_k6: WALL, NEVER, 6;
+    wall_center_k3_one: WALL, Rules::Center(CornerRule::One), 3;
+    wall_center_k3_always: WALL, Rules::Center(CornerRule::Always), 3;
+    wall_corner_k2: WALL, OPEN, 2;
+    wall_corner_k3: WALL, OPEN, 3;
+    wall_corner_k5: WALL, OPEN, 5;
+    wall_corner_k8: WALL, OPEN, 8;
+    slalom_center_k5: SLALOM, NEVER, 5;
+    slalom_corner_k4: SLALOM, OPEN, 4;
+    slalom_corner_k7: SLALOM, OPEN, 7;
+    gap_center_never: GAP, NEVER, 3;
+    gap_center_always: GAP, Rules::Center(CornerRule::Always), 3;
+    gap_corner_open: GAP, OPEN, 4;
+    gap_corner_closed: GAP, CLOSED, 4;
+}
