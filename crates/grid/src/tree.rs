@@ -173,3 +173,55 @@ impl Sweep {
         sweep
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Centers, CornerRule, Corners, DiagonalGap, Grid};
+    use mediant_moves::{K, Neighborhood};
+
+    /// How many moves of N(8) beyond N(3) are legal, how many nodes are visited to find them, and how many moves there
+    /// are, over all free vertices of a map with every n-th cell blocked at random.
+    fn work<P: Place>(rule: P::Rule, one_in: u64) -> [usize; 3] {
+        let mut state = 1_u64;
+        let grid = Grid::from_fn(100, 100, |_, _| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) % one_in == 0
+        })
+        .unwrap();
+        let moves: Vec<Vector> = Neighborhood::new(K::new(8).unwrap()).unwrap().iter().collect();
+        let bits = (grid.rows().bits_per_row(), grid.columns().bits_per_row());
+        let mut sums = [0; 3];
+        for (moves, first) in moves.chunks_exact(32).zip((0..).step_by(32)) {
+            let octant = Octant::new::<P>(rule, &moves[1..], first + 1, bits);
+            let (matrix, swap) =
+                if octant.transposed { (grid.columns(), true) } else { (grid.rows(), false) };
+            for (x, y) in
+                (0..100).flat_map(|y| (0..100).map(move |x| (x, y))).filter(|&(x, y)| grid.is_free(x, y))
+            {
+                let at = if swap { matrix.index(y, x) } else { matrix.index(x, y) };
+                octant.for_each_legal(matrix.words(), at, |_| sums[0] += 1);
+                let mut i = 0;
+                while let Some(node) = octant.nodes.get(i) {
+                    let masks = &octant.masks[node.shared.0 as usize..node.shared.1 as usize];
+                    let blocked =
+                        masks.iter().any(|m| load(matrix.words(), at.offset(m.offset)) & m.swept != 0);
+                    i = if blocked { usize::from(node.skip) } else { i + 1 };
+                    sums[1] += 1;
+                }
+                sums[2] += octant.nodes.len();
+            }
+        }
+        sums
+    }
+
+    /// The work follows the legal moves rather than 2^k. `docs/architecture.md` quotes these numbers.
+    #[test]
+    fn blocked_cones_are_skipped() {
+        let share = |[legal, visited, all]: [usize; 3]| [100 * legal / all, 100 * visited / all];
+        let corners = [2, 5, 20, 100].map(|n| share(work::<Corners>(DiagonalGap::Open, n)));
+        let centers = [2, 5, 20, 100].map(|n| share(work::<Centers>(CornerRule::Never, n)));
+        assert_eq!(corners, [[2, 7], [14, 27], [55, 68], [80, 86]]);
+        assert_eq!(centers, [[0, 9], [10, 27], [50, 66], [77, 85]]);
+    }
+}
