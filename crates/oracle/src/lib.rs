@@ -1,1 +1,51 @@
-//! (to be written)
+//! Slow, obvious references that every engine is tested against.
+//!
+//! **The key decision: nothing here is clever, and nothing is shared.** From `mediant-grid` come the map and the words
+//! for the rules, from `mediant-moves` the plain vector and the number k; legality, neighborhoods and searches are
+//! written again, from the definitions, so that an error in an engine is not repeated by its judge.
+//!
+//! * [`segment_is_legal`], [`vertex_is_free`], [`turn_is_legal`]: the rules of motion, by clipping a segment against
+//!   every cell around it, in exact fractions.
+//! * [`neighborhood`]: the moves of N(k), mediant by mediant.
+//! * [`Explicit`]: Dijkstra on the graph of all legal moves, for every k and for any-angle paths.
+//! * [`validate`]: whether a path is what a planner promised.
+//! * [`random_grid`], [`Case`] and the generators behind them: maps and queries from a seed.
+//! * [`describe`]: what a failing test should say.
+//!
+//! What is not here: speed. Use it on small maps.
+//!
+//! ```
+//! use mediant_grid::{AsciiMap, CornerRule, Rules};
+//! use mediant_moves::K;
+//! use mediant_oracle::{Explicit, validate};
+//!
+//! let map = AsciiMap::parse("
+//!     s..
+//!     .#g
+//! ")?;
+//! let (rules, k) = (Rules::Center(CornerRule::Never), K::EIGHT_CONNECTED);
+//! let (start, goal) = (map.mark('s').unwrap(), map.mark('g').unwrap());
+//! let graph = Explicit::new(&map.grid, rules, Some(k));
+//! let costs = graph.costs_from(start);
+//! assert_eq!(costs.to(goal), Some(3.0));
+//! let path = costs.path_to(goal).unwrap();
+//! assert_eq!(validate(&map.grid, rules, Some(k), start, goal, &path, 3.0), Ok(()));
+//! # Ok::<(), mediant_grid::GridError>(())
+//! ```
+
+mod case;
+mod dijkstra;
+mod generate;
+mod geometry;
+mod legality;
+mod neighborhood;
+mod random;
+mod validate;
+
+pub use case::{Case, describe};
+pub use dijkstra::{Costs, Explicit};
+pub use generate::{adversarial, caves, maze, noise, random_free_vertex, random_grid, random_vertex, rooms};
+pub use legality::{is_doubly_blocked, segment_is_legal, turn_is_legal, vertex_is_free};
+pub use neighborhood::neighborhood;
+pub use random::Rng;
+pub use validate::{Fault, validate};

@@ -1,0 +1,64 @@
+//! What a failing test should say.
+
+use std::fmt;
+
+use mediant_grid::{Grid, Rules, Vertex};
+
+use crate::{Rng, generate::draw_grid, random_free_vertex};
+
+/// A query on a map, with where it came from. Displayed, it is what [`describe`] writes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Case {
+    /// The map.
+    pub grid: Grid,
+    /// The kind and size of the map, in words.
+    pub kind: String,
+    /// The rules of motion.
+    pub rules: Rules,
+    /// The start, a free vertex.
+    pub start: Vertex,
+    /// The goal, a free vertex.
+    pub goal: Vertex,
+    /// What all this was drawn from.
+    pub seed: u64,
+}
+
+impl Case {
+    /// The map of [`random_grid`](crate::random_grid) for this seed, and two of its free vertices; `None` when it has no free vertex.
+    #[must_use]
+    pub fn random(seed: u64, rules: Rules) -> Option<Self> {
+        let mut rng = Rng::new(seed);
+        let (grid, kind) = draw_grid(&mut rng);
+        let start = random_free_vertex(&mut rng, &grid, rules.placement())?;
+        let goal = random_free_vertex(&mut rng, &grid, rules.placement())?;
+        Some(Self { grid, kind, rules, start, goal, seed })
+    }
+}
+
+impl fmt::Display for Case {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&describe(&self.grid, self.rules, self.start, self.goal, self.seed))
+    }
+}
+
+/// The rules, the query, the seed, and the map in a form that [`AsciiMap::parse`](mediant_grid::AsciiMap::parse) reads.
+///
+/// `s` and `g` mark the cells of start and goal: under corner placement the cells to the lower right of them, if those
+/// are free. The coordinates stand above the map in any case.
+#[must_use]
+pub fn describe(grid: &Grid, rules: Rules, start: Vertex, goal: Vertex, seed: u64) -> String {
+    let mut text = format!("seed {seed}; rules: {rules}; from {start} to {goal}; the map:\n");
+    for y in 0..grid.height() as i32 {
+        for x in 0..grid.width() as i32 {
+            let at = Vertex::new(x, y);
+            text.push(match () {
+                () if grid.is_blocked(x, y) => '#',
+                () if at == start => 's',
+                () if at == goal => 'g',
+                () => '.',
+            });
+        }
+        text.push('\n');
+    }
+    text
+}

@@ -1,0 +1,204 @@
+//! Dijkstra's algorithm on the explicit graph of all legal moves.
+
+use std::{cmp::Reverse, collections::BinaryHeap};
+
+use mediant_grid::{DiagonalGap, Grid, Placement, Rules, Vertex};
+use mediant_moves::{K, Vector};
+
+use crate::{
+    legality::{Footprint, free_quadrants, is_doubly_blocked, is_in_quadrant, vertex_is_free},
+    neighborhood,
+};
+
+/// The graph of all legal moves of a neighborhood on one grid: every free vertex, every move.
+///
+/// Under [`DiagonalGap::Closed`] a doubly blocked corner is two states, one for each free quadrant, so that a path may
+/// touch the corner but not cross it. Nothing is assumed about optimal paths.
+///
+/// Meant for maps up to about 40 × 40: a state keeps up to 2^k edges, and with any-angle moves every vertex in sight.
+#[derive(Clone, Debug)]
+pub struct Explicit {
+    /// The numbers of columns and rows of vertices.
+    size: (usize, usize),
+    /// For each vertex, the state in which a path starts or ends there, if it may.
+    ends: Vec<Option<u32>>,
+    is_free: Vec<bool>,
+    /// For each state its edges. State 2v + slot belongs to vertex v.
+    edges: Vec<Vec<Edge>>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    to: u32,
+    length: f64,
+}
+
+impl Explicit {
+    /// The graph for N(k), or for k = `None` that of all moves with gcd 1, whose shortest paths are the shortest any-angle
+    /// paths: a straight legal segment is a repeated move.
+    #[must_use]
+    pub fn new(grid: &Grid, rules: Rules, k: Option<K>) -> Self {
+        let placement = rules.placement();
+        let extra = u32::from(placement == Placement::Corner);
+        let (columns, rows) = (grid.width() + extra, grid.height() + extra);
+        let at = |v: usize| Vertex::new((v % columns as usize) as i32, (v / columns as usize) as i32);
+        let vertices = columns as usize * rows as usize;
+        let is_free: Vec<bool> = (0..vertices).map(|v| vertex_is_free(grid, placement, at(v))).collect();
+        let slots: Vec<Slots> = (0..vertices).map(|v| Slots::new(grid, rules, at(v))).collect();
+        let end = |v: usize| slots[v].of_end().filter(|_| is_free[v]).map(|slot| state(v, slot));
+        let mut graph = Self {
+            size: (columns as usize, rows as usize),
+            ends: (0..vertices).map(end).collect(),
+            edges: vec![Vec::new(); 2 * vertices],
+            is_free,
+        };
+        // A move longer than the map leaves it everywhere.
+        for d in neighborhood(k, columns - 1, rows - 1) {
+            let footprint = Footprint::new(placement, d);
+            for v in 0..vertices {
+                let (from, to) = (at(v), at(v) + d);
+                let Some(w) = graph.vertex(to).filter(|_| graph.is_free[v]) else { continue };
+                if !graph.is_free[w] || !footprint.is_legal(grid, rules, from) {
+                    continue;
+                }
+                if let (Some(a), Some(b)) = (slots[v].toward(from, to), slots[w].toward(to, from)) {
+                    graph.edges[state(v, a) as usize].push(Edge { to: state(w, b), length: length(d) });
+                }
+            }
+        }
+        graph
+    }
+
+    /// The optimal costs from `start` to every vertex. From a vertex that is blocked or outside the map nothing is reached.
+    #[must_use]
+    pub fn costs_from(&self, start: Vertex) -> Costs<'_> {
+        let mut costs = Costs {
+            graph: self,
+            start,
+            cost: vec![f64::INFINITY; self.edges.len()],
+            previous: vec![None; self.edges.len()],
+        };
+        let first = self.vertex(start).and_then(|v| self.ends[v]);
+        // The bits of floats that are not negative are ordered as the floats.
+        let mut open = BinaryHeap::new();
+        if let Some(first) = first {
+            costs.cost[first as usize] = 0.0;
+            open.push(Reverse((0.0_f64.to_bits(), first)));
+        }
+        while let Some(Reverse((bits, from))) = open.pop() {
+            let cost = f64::from_bits(bits);
+            if cost > costs.cost[from as usize] {
+                continue;
+            }
+            for edge in &self.edges[from as usize] {
+                let (to, next) = (edge.to as usize, cost + edge.length);
+                if next < costs.cost[to] {
+                    costs.cost[to] = next;
+                    costs.previous[to] = Some(from);
+                    open.push(Reverse((next.to_bits(), edge.to)));
+                }
+            }
+        }
+        costs
+    }
+
+    /// All free vertices, row by row.
+    pub fn free_vertices(&self) -> impl Iterator<Item = Vertex> {
+        (0..self.is_free.len()).filter(|&v| self.is_free[v]).map(|v| self.place(v))
+    }
+
+    /// The number of a vertex of the map.
+    fn vertex(&self, at: Vertex) -> Option<usize> {
+        let (x, y) = (usize::try_from(at.x).ok()?, usize::try_from(at.y).ok()?);
+        (x < self.size.0 && y < self.size.1).then_some(y * self.size.0 + x)
+    }
+
+    fn place(&self, v: usize) -> Vertex {
+        Vertex::new((v % self.size.0) as i32, (v / self.size.0) as i32)
+    }
+}
+
+/// The optimal costs from one start.
+#[derive(Clone, Debug)]
+pub struct Costs<'a> {
+    graph: &'a Explicit,
+    start: Vertex,
+    cost: Vec<f64>,
+    previous: Vec<Option<u32>>,
+}
+
+impl Costs<'_> {
+    /// The cost of an optimal path to `goal`, 0 to the start itself; `None` when there is no path, or an end is blocked
+    /// or outside the map.
+    #[must_use]
+    pub fn to(&self, goal: Vertex) -> Option<f64> {
+        let v = self.graph.vertex(goal).filter(|&v| self.graph.is_free[v])?;
+        if goal == self.start {
+            return Some(0.0);
+        }
+        self.graph.ends[v].map(|end| self.cost[end as usize]).filter(|cost| cost.is_finite())
+    }
+
+    /// An optimal path to `goal`, one waypoint a move; `None` as for [`to`](Self::to).
+    #[must_use]
+    pub fn path_to(&self, goal: Vertex) -> Option<Vec<Vertex>> {
+        self.to(goal)?;
+        let mut path = vec![goal];
+        if goal != self.start {
+            let mut state = self.graph.ends[self.graph.vertex(goal)?];
+            while let Some(previous) = state.and_then(|state| self.previous[state as usize]) {
+                path.push(self.graph.place(previous as usize / 2));
+                state = Some(previous);
+            }
+        }
+        path.reverse();
+        Some(path)
+    }
+}
+
+/// The largest map has 32,769² vertices: twice that fits in a `u32`.
+const fn state(vertex: usize, slot: usize) -> u32 {
+    (2 * vertex + slot) as u32
+}
+
+fn length(d: Vector) -> f64 {
+    f64::from(d.x).hypot(f64::from(d.y))
+}
+
+/// How a vertex is divided into states.
+enum Slots {
+    /// One state, slot 0.
+    Whole,
+    /// A doubly blocked corner under the closed rule: slots 0 and 1 are these free quadrants.
+    Quadrants([(i64, i64); 2]),
+}
+
+impl Slots {
+    fn new(grid: &Grid, rules: Rules, at: Vertex) -> Self {
+        if rules != Rules::Corner(DiagonalGap::Closed) || !is_doubly_blocked(grid, at) {
+            return Self::Whole;
+        }
+        match free_quadrants(grid, at).collect::<Vec<_>>()[..] {
+            [a, b] => Self::Quadrants([a, b]),
+            _ => Self::Whole,
+        }
+    }
+
+    /// The slot that a move from `at` to `other`, or back, belongs to.
+    fn toward(&self, at: Vertex, other: Vertex) -> Option<usize> {
+        match self {
+            Self::Whole => Some(0),
+            Self::Quadrants(quadrants) => {
+                quadrants.iter().position(|&signs| is_in_quadrant(at, other, signs))
+            }
+        }
+    }
+
+    /// The slot in which a path starts or ends: the quadrant of the vertex's own cell.
+    fn of_end(&self) -> Option<usize> {
+        match self {
+            Self::Whole => Some(0),
+            Self::Quadrants(quadrants) => quadrants.iter().position(|&signs| signs == (1, 1)),
+        }
+    }
+}

@@ -1,0 +1,239 @@
+//! Whether a path is what a planner promised.
+
+use std::{error::Error, fmt};
+
+use mediant_grid::{DiagonalGap, Grid, Rules, Vertex};
+use mediant_moves::{K, Vector};
+
+use crate::{
+    legality::{Footprint, segment_is_legal, turn_is_legal, vertex_is_free},
+    neighborhood,
+};
+
+/// The largest relative difference between a stated cost and the length of the path.
+const TOLERANCE: f64 = 1e-9;
+
+/// What is wrong with a path, and where.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Fault {
+    /// There is no waypoint at all.
+    Empty {
+        /// The start.
+        start: Vertex,
+        /// The goal.
+        goal: Vertex,
+    },
+    /// The first waypoint is not the start.
+    Start {
+        /// The start.
+        expected: Vertex,
+        /// The first waypoint.
+        found: Vertex,
+    },
+    /// The last waypoint is not the goal.
+    Goal {
+        /// The goal.
+        expected: Vertex,
+        /// The last waypoint.
+        found: Vertex,
+    },
+    /// Start and goal are the same, and yet there is more than one waypoint.
+    Detour {
+        /// Start and goal.
+        at: Vertex,
+        /// The number of waypoints.
+        waypoints: usize,
+    },
+    /// A waypoint is blocked or outside the map.
+    NotFree {
+        /// The waypoint's place in the path, from 0.
+        index: usize,
+        /// The waypoint.
+        at: Vertex,
+    },
+    /// Two consecutive waypoints are the same.
+    Still {
+        /// The place of the second in the path, from 0.
+        index: usize,
+        /// The waypoint.
+        at: Vertex,
+    },
+    /// Two waypoints are not joined by a repeated move of N(k).
+    NotAMove {
+        /// The first waypoint.
+        from: Vertex,
+        /// The second waypoint.
+        to: Vertex,
+        /// The neighborhood.
+        k: K,
+    },
+    /// A move or segment breaks the rules of motion.
+    Segment {
+        /// Where it begins.
+        from: Vertex,
+        /// Where it ends.
+        to: Vertex,
+        /// The rules.
+        rules: Rules,
+    },
+    /// The path crosses, or starts or ends in a forbidden quadrant of, a doubly blocked corner.
+    Turn {
+        /// The vertex before the corner, `None` at the start.
+        before: Option<Vertex>,
+        /// The corner.
+        at: Vertex,
+        /// The vertex after the corner, `None` at the goal.
+        after: Option<Vertex>,
+    },
+    /// The stated cost is not the length of the path.
+    Cost {
+        /// The cost that was stated.
+        stated: f64,
+        /// The length of the path.
+        measured: f64,
+        /// The start.
+        start: Vertex,
+        /// The goal.
+        goal: Vertex,
+    },
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = |at: &Option<Vertex>, end: &str| at.map_or_else(|| end.to_owned(), |at| at.to_string());
+        match self {
+            Self::Empty { start, goal } => write!(f, "the path from {start} to {goal} has no waypoint"),
+            Self::Start { expected, found } => write!(f, "the path starts at {found}, not at {expected}"),
+            Self::Goal { expected, found } => write!(f, "the path ends at {found}, not at {expected}"),
+            Self::Detour { at, waypoints } => {
+                write!(f, "start and goal are both {at}, but the path has {waypoints} waypoints, not 1")
+            }
+            Self::NotFree { index, at } => {
+                write!(f, "waypoint {index}, {at}, is blocked or outside the map")
+            }
+            Self::Still { index, at } => write!(f, "waypoint {index}, {at}, is the same as the one before"),
+            Self::NotAMove { from, to, k } => {
+                write!(f, "no move of N({k}), repeated, leads from {from} to {to}")
+            }
+            Self::Segment { from, to, rules } => {
+                write!(f, "the segment from {from} to {to} is not legal ({rules})")
+            }
+            Self::Turn { before, at, after } => write!(
+                f,
+                "the path crosses the doubly blocked corner {at} or uses a quadrant of it that it may not: {} → {at} → {}",
+                name(before, "start"),
+                name(after, "goal")
+            ),
+            Self::Cost { stated, measured, start, goal } => {
+                write!(
+                    f,
+                    "the cost from {start} to {goal} is given as {stated}, but the path measures {measured}"
+                )
+            }
+        }
+    }
+}
+
+impl Error for Fault {}
+
+/// Whether `waypoints` is a legal path from `start` to `goal` whose length is `cost`, in cells.
+///
+/// With k, two consecutive waypoints must be joined by one move of N(k), repeated, each repetition legal; without, by
+/// one legal segment. Start = goal takes the one waypoint and cost 0. Whether a shorter path exists is not asked.
+///
+/// # Errors
+/// The first [`Fault`] that is found.
+pub fn validate(
+    grid: &Grid,
+    rules: Rules,
+    k: Option<K>,
+    start: Vertex,
+    goal: Vertex,
+    waypoints: &[Vertex],
+    cost: f64,
+) -> Result<(), Fault> {
+    check_ends(start, goal, waypoints)?;
+    let blocked = |at: &Vertex| !vertex_is_free(grid, rules.placement(), *at);
+    if let Some(index) = waypoints.iter().position(blocked) {
+        return Err(Fault::NotFree { index, at: waypoints[index] });
+    }
+    let moves = k.map(|k| (k, neighborhood(Some(k), grid.width(), grid.height())));
+    let mut path = vec![start];
+    let mut measured = 0.0;
+    for (pair, index) in waypoints.windows(2).zip(1..) {
+        let (from, to) = (pair[0], pair[1]);
+        if from == to {
+            return Err(Fault::Still { index, at: to });
+        }
+        measured += length(from.to(to));
+        match &moves {
+            Some((k, moves)) => check_repeated_move(grid, rules, (*k, moves), (from, to), &mut path)?,
+            None if segment_is_legal(grid, rules, from, to) => path.push(to),
+            None => return Err(Fault::Segment { from, to, rules }),
+        }
+    }
+    if rules == Rules::Corner(DiagonalGap::Closed) {
+        check_turns(grid, &path)?;
+    }
+    let is_close = (cost - measured).abs() <= TOLERANCE * measured;
+    if is_close { Ok(()) } else { Err(Fault::Cost { stated: cost, measured, start, goal }) }
+}
+
+fn check_ends(start: Vertex, goal: Vertex, waypoints: &[Vertex]) -> Result<(), Fault> {
+    let (Some(&first), Some(&last)) = (waypoints.first(), waypoints.last()) else {
+        return Err(Fault::Empty { start, goal });
+    };
+    if first != start {
+        return Err(Fault::Start { expected: start, found: first });
+    }
+    if last != goal {
+        return Err(Fault::Goal { expected: goal, found: last });
+    }
+    if start == goal && waypoints.len() > 1 {
+        return Err(Fault::Detour { at: start, waypoints: waypoints.len() });
+    }
+    Ok(())
+}
+
+/// Appends every vertex after `from` up to `to`.
+fn check_repeated_move(
+    grid: &Grid,
+    rules: Rules,
+    (k, moves): (K, &[Vector]),
+    (from, to): (Vertex, Vertex),
+    path: &mut Vec<Vertex>,
+) -> Result<(), Fault> {
+    let total = from.to(to);
+    let mut divisors = (1..=total.x.abs().max(total.y.abs())).rev();
+    let times = divisors.find(|n| total.x % n == 0 && total.y % n == 0).unwrap_or(1);
+    let step = Vector::new(total.x / times, total.y / times);
+    if moves.binary_search(&step).is_err() {
+        return Err(Fault::NotAMove { from, to, k });
+    }
+    let footprint = Footprint::new(rules.placement(), step);
+    let mut at = from;
+    for _ in 0..times {
+        if !footprint.is_legal(grid, rules, at) {
+            return Err(Fault::Segment { from: at, to: at + step, rules });
+        }
+        at = at + step;
+        path.push(at);
+    }
+    Ok(())
+}
+
+fn check_turns(grid: &Grid, path: &[Vertex]) -> Result<(), Fault> {
+    for (i, &at) in path.iter().enumerate() {
+        let before = i.checked_sub(1).map(|i| path[i]);
+        let after = path.get(i + 1).copied();
+        if !turn_is_legal(grid, before, at, after) {
+            return Err(Fault::Turn { before, at, after });
+        }
+    }
+    Ok(())
+}
+
+fn length(d: Vector) -> f64 {
+    f64::from(d.x).hypot(f64::from(d.y))
+}
