@@ -186,7 +186,7 @@ mod tests {
         let mut state = 1_u64;
         let grid = Grid::from_fn(100, 100, |_, _| {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 33) % one_in == 0
+            (state >> 33).is_multiple_of(one_in)
         })
         .unwrap();
         let moves: Vec<Vector> = Neighborhood::new(K::new(8).unwrap()).unwrap().iter().collect();

@@ -1,0 +1,296 @@
+//! The command line.
+
+use std::{io::Write, num::NonZeroU32, num::NonZeroUsize, path::PathBuf, process::ExitCode, str::FromStr};
+
+use clap::{Args, Parser, Subcommand, ValueEnum, error::ErrorKind};
+use mediant_grid::{Centers, CornerRule, DiagonalGap, Lattice, Rules, Vertex};
+use mediant_moves::K;
+
+use crate::{
+    engines::{Engine, HeuristicName},
+    failure::{FAILURE, Failure, say_error},
+};
+
+/// Pathfinding on the 2^k neighborhoods of a grid: from the 4-connected grid (k = 2) towards any angle.
+#[derive(Debug, Parser)]
+#[command(name = "mediant", version, max_term_width = 100)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Answer queries on a map.
+    Run(RunArgs),
+    /// Show the moves of N(k), its radius and its bounds.
+    Moves(MovesArgs),
+    /// List the engines: placements, k, guarantee, paper.
+    Engines,
+    /// Solve a query on a bundled map for many k, and draw the paths.
+    Demo(DemoArgs),
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = RUN_HELP)]
+pub(crate) struct RunArgs {
+    /// A MovingAI map file, or builtin:NAME (archipelago, cave, maze, town)
+    pub(crate) map: PathBuf,
+
+    /// A MovingAI scenario file with the queries, or builtin:NAME
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["from", "to"])]
+    pub(crate) scen: Option<PathBuf>,
+    /// Take the instances whose index, counted from 0, is divisible by N
+    #[arg(long, value_name = "N", conflicts_with_all = ["from", "to"])]
+    #[arg(allow_negative_numbers = true, value_parser = parse_count::<NonZeroUsize>)]
+    pub(crate) every: Option<NonZeroUsize>,
+    /// Take at most N instances
+    #[arg(long, value_name = "N", conflicts_with_all = ["from", "to"])]
+    #[arg(allow_negative_numbers = true, value_parser = parse_count::<NonZeroUsize>)]
+    pub(crate) limit: Option<NonZeroUsize>,
+    /// The start of a single query
+    #[arg(long, value_name = "X,Y", requires = "to", allow_hyphen_values = true, value_parser = parse_vertex)]
+    pub(crate) from: Option<Vertex>,
+    /// The goal of a single query
+    #[arg(long, value_name = "X,Y", requires = "from", allow_hyphen_values = true, value_parser = parse_vertex)]
+    pub(crate) to: Option<Vertex>,
+
+    /// How to search
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) engine: Engine,
+    /// The neighborhood: 2 to 12, or any (any-angle paths)
+    #[arg(long, default_value = "3", allow_negative_numbers = true)]
+    pub(crate) k: KArg,
+    /// Where the vertices are: at cell centers or at cell corners
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) placement: PlacementArg,
+    /// At centers, whether a path may cut the corner of a blocked cell: never (the default), one (if the cell across is
+    /// free), always
+    #[arg(long, value_enum, hide_possible_values = true, value_name = "never|one|always")]
+    pub(crate) corners: Option<CornersArg>,
+    /// At corners, whether a path may pass between two blocked cells that touch diagonally: open (the default), closed
+    #[arg(long, value_enum, hide_possible_values = true, value_name = "open|closed")]
+    pub(crate) gap: Option<GapArg>,
+    /// What guides the search: the cost on an empty grid, the straight-line distance, or nothing (Dijkstra)
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) heuristic: HeuristicName,
+
+    /// Time each query N times and report the best
+    #[arg(long, value_name = "N", default_value = "1")]
+    #[arg(allow_negative_numbers = true, value_parser = parse_count::<NonZeroU32>)]
+    pub(crate) repeat: NonZeroU32,
+    /// A table for people, or one JSON object a line for programs
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+    /// Draw the map and the path of a single query
+    #[arg(long)]
+    pub(crate) draw: bool,
+}
+
+const RUN_HELP: &str = "\
+Times are of the query alone, on a warm planner: each query is first solved once without a clock, which also counts \
+expanded and generated nodes and heap percolations; the timed runs count nothing.
+
+A builtin map with no query given runs its own scenario.
+
+Exit status: 0 when every query was answered (found or unreachable), 1 when any was an error, 2 for bad arguments or an \
+unreadable file.
+
+Examples:
+  mediant run builtin:archipelago
+  mediant run arena.map --scen arena.map.scen --k 5 --placement corner --format jsonl
+  mediant run arena.map --from 1,11 --to 40,30 --draw";
+
+#[derive(Args, Debug)]
+pub(crate) struct MovesArgs {
+    /// The neighborhood: 2 to 47
+    #[arg(long, allow_negative_numbers = true, value_parser = parse_any_k)]
+    pub(crate) k: Option<K>,
+    /// Find the smallest k whose paths are at most R times as long as any-angle paths, for instance 1.01
+    #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = parse_ratio)]
+    pub(crate) ratio: Option<f64>,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct DemoArgs {
+    /// The bundled map: archipelago, cave, maze or town
+    #[arg(default_value = "archipelago")]
+    pub(crate) name: String,
+}
+
+/// A k from the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum KArg {
+    Finite(K),
+    Any,
+}
+
+impl KArg {
+    /// The largest k that lattices take.
+    pub(crate) const MAX: u32 = Lattice::<Centers>::MAX_K;
+}
+
+impl FromStr for KArg {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let form = format!("choose a number from 2 to {}, or any", Self::MAX);
+        if text == "any" {
+            return Ok(Self::Any);
+        }
+        let k = text.parse().map_err(|_| form.clone())?;
+        match K::new(k) {
+            Err(error) => Err(format!("{error}; {form}")),
+            Ok(_) if k > Self::MAX => Err(format!("k = {k} is too large; {form}")),
+            Ok(k) => Ok(Self::Finite(k)),
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PlacementArg {
+    #[default]
+    Center,
+    Corner,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CornersArg {
+    Never,
+    One,
+    Always,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum GapArg {
+    Open,
+    Closed,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    #[default]
+    Table,
+    Jsonl,
+}
+
+impl RunArgs {
+    /// Placement and rule; an error for the rule of the other placement.
+    pub(crate) fn rules(&self) -> Result<Rules, Failure> {
+        let not_applicable =
+            |option, placement, other| Err(Failure::NotApplicable { option, placement, other });
+        match self.placement {
+            PlacementArg::Center if self.gap.is_some() => not_applicable("--gap", "center", "corner"),
+            PlacementArg::Corner if self.corners.is_some() => not_applicable("--corners", "corner", "center"),
+            PlacementArg::Center => Ok(Rules::Center(match self.corners {
+                None | Some(CornersArg::Never) => CornerRule::Never,
+                Some(CornersArg::One) => CornerRule::One,
+                Some(CornersArg::Always) => CornerRule::Always,
+            })),
+            PlacementArg::Corner => Ok(Rules::Corner(match self.gap {
+                None | Some(GapArg::Open) => DiagonalGap::Open,
+                Some(GapArg::Closed) => DiagonalGap::Closed,
+            })),
+        }
+    }
+}
+
+fn parse_vertex(text: &str) -> Result<Vertex, String> {
+    let (x, y) = text.split_once(',').ok_or("expected two whole numbers, such as 3,14")?;
+    let number = |part: &str| {
+        part.trim().parse().map_err(|_| format!("`{part}` is no whole number; write X,Y such as 3,14"))
+    };
+    Ok(Vertex::new(number(x)?, number(y)?))
+}
+
+fn parse_count<N: FromStr>(text: &str) -> Result<N, String> {
+    text.parse().map_err(|_| "expected a whole number from 1 up".to_owned())
+}
+
+/// A k of which the moves can be computed, though no lattice may take it.
+fn parse_any_k(text: &str) -> Result<K, String> {
+    let max = K::MAX_MOVES;
+    let form = format!("choose a number from 2 to {max}");
+    let k = K::new(text.parse().map_err(|_| form.clone())?).map_err(|error| format!("{error}; {form}"))?;
+    match k.radius() {
+        Ok(_) => Ok(k),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+fn parse_ratio(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(ratio) if ratio >= 1.0 && ratio.is_finite() => Ok(ratio),
+        _ => {
+            Err("expected a number from 1 up, such as 1.01: no path is shorter than an any-angle path"
+                .to_owned())
+        }
+    }
+}
+
+/// Prints what clap has to say: help and version as they are, an error in one line.
+pub(crate) fn explain(error: &clap::Error) -> ExitCode {
+    match error.kind() {
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
+            // A reader that has seen enough of the help is no failure.
+            _ = error.print();
+            ExitCode::SUCCESS
+        }
+        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            _ = write!(anstream::stderr(), "{}", error.render().ansi());
+            ExitCode::from(FAILURE)
+        }
+        _ => {
+            say_error(&one_line(error));
+            ExitCode::from(FAILURE)
+        }
+    }
+}
+
+/// clap's error without its paragraphs: what is wrong, what is possible, where to read more.
+fn one_line(error: &clap::Error) -> String {
+    // The tip on `--` is for positional arguments that look like options; none here does.
+    const NOISE: [&str; 3] = ["Usage:", "For more information", "tip: to pass"];
+    let text = error.render().to_string();
+    let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    let mut parts: Vec<String> = Vec::new();
+    for line in lines.filter(|line| !NOISE.iter().any(|noise| line.starts_with(noise))) {
+        let line = line.strip_prefix("error: ").unwrap_or(line);
+        match parts.last_mut() {
+            // A list of arguments follows the line that announces it.
+            Some(last) if last.ends_with(':') => *last = format!("{last} {line}"),
+            Some(last) if line.starts_with('[') => *last = format!("{last} {line}"),
+            _ => parts.push(line.to_owned()),
+        }
+    }
+    parts.push("see --help".to_owned());
+    parts.join("; ")
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn coordinates_may_be_negative_and_spaced() {
+        assert_eq!(parse_vertex("-1, 3"), Ok(Vertex::new(-1, 3)));
+        assert!(parse_vertex("3").is_err() && parse_vertex("3,").is_err() && parse_vertex("1,2,3").is_err());
+        assert!(parse_vertex("99999999999,0").is_err());
+    }
+
+    #[test]
+    fn k_is_a_number_or_any() {
+        assert_eq!("any".parse(), Ok(KArg::Any));
+        assert_eq!("2".parse(), Ok(KArg::Finite(K::FOUR_CONNECTED)));
+        for wrong in ["1", "13", "-3", "three", ""] {
+            assert!(wrong.parse::<KArg>().is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! `mediant demo`: one query, many k, a picture.
+
+use std::io::{self, Write};
+
+use anstyle::RgbColor;
+use mediant_grid::{CornerRule, DiagonalGap, Placement, Rules, Vertex};
+use mediant_moves::{K, bound_at_centers, bound_at_corners};
+use mediant_search::{Outcome, Planner, Query};
+
+use crate::{
+    args::DemoArgs,
+    braille::Stroke,
+    engines::{Engine, HeuristicName, Preprocessing, Setup, Task, with_planner},
+    failure::Failure,
+    map::{Builtin, Map},
+    picture::{Canvas, GOAL_MARK, START_MARK},
+    screen::{BOLD, DIM, Screen},
+    session::Answer,
+    text::{Align, Table, grouped, percent_over, time, wrap},
+    theme::INKS,
+};
+
+/// The k that the table compares; the last one is drawn as the best.
+const KS: [u32; 8] = [2, 3, 4, 5, 6, 7, 9, 12];
+/// Of so many timed runs the best counts.
+const REPEAT: u32 = 20;
+
+/// A line of the table.
+struct Row {
+    rules: Rules,
+    k: K,
+    cost: f64,
+    waypoints: Vec<Vertex>,
+    expanded: u64,
+    nanos: u64,
+}
+
+/// Solves the demo's query under one setup; `None` when there is no path.
+struct Solve(Setup, Query);
+
+impl Task for Solve {
+    type Output = Option<Row>;
+
+    fn run<P: Planner>(self, mut planner: P, _: Preprocessing) -> Option<Row> {
+        let Self(Setup { rules, k, .. }, query) = self;
+        let Answer { outcome, counters, nanos } = Answer::new(&mut planner, query, REPEAT);
+        let Ok(Outcome::Found(path)) = outcome else { return None };
+        let (cost, expanded) = (path.cost(), counters.expanded);
+        Some(Row { rules, k, cost, waypoints: path.into_waypoints(), expanded, nanos })
+    }
+}
+
+/// Runs the command.
+pub(crate) fn demo(args: &DemoArgs, screen: &mut Screen) -> Result<(), Failure> {
+    let builtin = Builtin::named(args.name.strip_prefix("builtin:").unwrap_or(&args.name))?;
+    let map = builtin.map()?;
+    let query = Query::new(builtin.start, builtin.goal);
+    let corners = Rules::Corner(DiagonalGap::Open);
+    let centers = Rules::Center(CornerRule::Never);
+    let setups = KS.map(|k| (corners, k)).into_iter().chain([(centers, 3)]);
+    let mut rows = Vec::new();
+    for (rules, k) in setups {
+        let setup = Setup { engine: Engine::Astar, k: K::new(k)?, rules, heuristic: HeuristicName::Hk };
+        rows.extend(with_planner(setup, map.grid.clone(), Solve(setup, query))?);
+    }
+    title(builtin, &map, query, screen)?;
+    picture(&map, query, &rows, screen)?;
+    table(&map, &rows, screen)?;
+    Ok(explanation(builtin, screen)?)
+}
+
+fn title(builtin: &Builtin, map: &Map, query: Query, screen: &mut Screen) -> io::Result<()> {
+    let name = screen.paint(BOLD, builtin.name);
+    let (width, height) = (map.grid.width(), map.grid.height());
+    let Query { start, goal } = query;
+    writeln!(screen, "\n  {name} · {width} × {height} · {}, {start} to {goal}\n", builtin.caption)
+}
+
+/// How a row of the table is drawn on the map, if it is.
+fn stroke(row: &Row) -> Option<(Stroke, RgbColor)> {
+    const BEST: u32 = KS[KS.len() - 1];
+    match (row.rules.placement(), row.k.get()) {
+        (Placement::Corner, 2) => Some((Stroke::Dotted, INKS.four)),
+        (Placement::Corner, 3) => Some((Stroke::Dashed, INKS.eight)),
+        (Placement::Corner, BEST) => Some((Stroke::Solid, INKS.best)),
+        _ => None,
+    }
+}
+
+fn picture(map: &Map, query: Query, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
+    let mut canvas = Canvas::fit(map, Placement::Corner, screen);
+    for row in rows {
+        if let Some((stroke, ink)) = stroke(row) {
+            canvas.path(&row.waypoints, stroke, ink);
+        }
+    }
+    canvas.ends(query);
+    canvas.write(screen)?;
+    let ground = map.theme.ground();
+    let mut legend = String::new();
+    for (mark, color, name) in [(START_MARK, INKS.start, "start"), (GOAL_MARK, INKS.goal, "goal")] {
+        legend += &format!("{} {name}   ", screen.paint(screen.ink_on(color, ground), format!(" {mark} ")));
+    }
+    for row in rows {
+        if let Some((stroke, color)) = stroke(row) {
+            let line = screen.paint(screen.ink_on(color, ground), stroke.sample().repeat(2));
+            legend += &format!("{line} k = {}   ", row.k);
+        }
+    }
+    writeln!(screen, "\n  {}\n", legend.trim_end())
+}
+
+fn table(map: &Map, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
+    let best = rows.iter().filter(|row| row.rules.placement() == Placement::Corner).map(|row| row.cost);
+    let best = best.fold(f64::INFINITY, f64::min);
+    let names = ["k", "at", "moves", "cost", "over best", "bound", "turns", "expanded", "time"];
+    let mut table =
+        Table::new(names.map(|name| (name, if name == "at" { Align::Left } else { Align::Right })));
+    for row in rows {
+        let placement = row.rules.placement();
+        let bound =
+            if placement == Placement::Corner { bound_at_corners(row.k) } else { bound_at_centers(row.k) };
+        let cells = [
+            // A column wider than its numbers keeps them off the sample of the line.
+            format!("{:>3}", row.k.to_string()),
+            format!("{placement}s"),
+            grouped(row.k.moves().unwrap_or(u64::MAX)),
+            format!("{:.4}", row.cost),
+            percent_over(row.cost / best, 2),
+            percent_over(bound, 2),
+            row.waypoints.len().saturating_sub(2).to_string(),
+            grouped(row.expanded),
+            time(row.nanos as f64),
+        ];
+        match stroke(row) {
+            None => table.row(cells),
+            Some((stroke, color)) => {
+                let sample = screen.paint(screen.ink_on(color, map.theme.ground()), stroke.sample());
+                table.row_with(sample.to_string(), BOLD, cells);
+            }
+        }
+    }
+    table.write(screen)
+}
+
+fn explanation(builtin: &Builtin, screen: &mut Screen) -> io::Result<()> {
+    let words = "Each path is the shortest that its moves allow: k = 2 steps along the axes, k = 3 adds the diagonals, and \
+                 each k after it puts a new move between every two. `bound` is the most that any map can cost them \
+                 over any-angle paths.";
+    let text = wrap("  ", words.split(' ').map(str::to_owned), screen.columns().min(80) - 2);
+    writeln!(screen, "\n{text}")?;
+    let Builtin { name, start, goal, .. } = builtin;
+    let (from, to) = (format!("{},{}", start.x, start.y), format!("{},{}", goal.x, goal.y));
+    let next = [
+        format!("mediant demo {}", builtin.next()),
+        format!("mediant run builtin:{name} --from {from} --to {to} --k 4 --draw"),
+        "mediant moves --k 5".to_owned(),
+    ];
+    for (command, lead) in next.into_iter().zip(["Next:", "", ""]) {
+        writeln!(screen, "  {}", screen.paint(DIM, format!("{lead:<6} {command}")))?;
+    }
+    Ok(())
+}

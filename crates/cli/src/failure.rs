@@ -1,0 +1,94 @@
+//! How the program ends: what it says, and its exit status.
+
+use std::{
+    io::{self, Write},
+    process::ExitCode,
+};
+
+use anstyle::{AnsiColor, Style};
+use mediant_formats::{ReadError, ScenarioForOtherMap};
+use mediant_grid::Vertex;
+
+use crate::engines::Engine;
+
+/// Exit status 1: some query was an error.
+const QUERY_ERROR: u8 = 1;
+/// Exit status 2: bad arguments, or a file that cannot be read.
+pub(crate) const FAILURE: u8 = 2;
+
+/// A command that came to its end.
+#[derive(Debug)]
+pub(crate) enum Ending {
+    /// Every query was answered, be it by 'there is no path'.
+    Answered,
+    /// Some query was an error, of which this tells.
+    QueryErrors(String),
+}
+
+/// A command that cannot do what it was asked to.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Failure {
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    #[error(transparent)]
+    OtherMap(#[from] ScenarioForOtherMap),
+    #[error(
+        "the scenario is for the map `{expected}` and does not fit `{found}`, where the {end} {at} of instance {index} is \
+         blocked; give the map that it was made for, under that name"
+    )]
+    MisfitScenario { expected: String, found: String, end: mediant_search::End, at: Vertex, index: usize },
+    #[error("there is no bundled map `{name}`; there are {known}")]
+    NoSuchMap { name: String, known: String },
+    #[error("no queries: give --scen FILE, or --from X,Y and --to X,Y")]
+    NoQueries,
+    #[error("the scenario `{scenario}` has no instance: is it cut short?")]
+    NoInstances { scenario: String },
+    #[error(
+        "{option} does not apply to --placement {placement}: leave it out, or choose --placement {other}"
+    )]
+    NotApplicable { option: &'static str, placement: &'static str, other: &'static str },
+    #[error("{engine} needs a finite k: choose --k {min} … {max}")]
+    NeedsFiniteK { engine: Engine, min: u32, max: u32 },
+    #[error("--draw shows a single query: give --from and --to, or --limit 1")]
+    DrawMany,
+    #[error("--draw is for people: leave it out, or choose --format table")]
+    DrawJsonl,
+    #[error("give --k for the moves of a neighborhood, --ratio for the k that a bound asks for, or both")]
+    NoK,
+    #[error(transparent)]
+    K(#[from] mediant_moves::KError),
+    #[error("cannot write the output: {0}")]
+    Output(#[from] io::Error),
+}
+
+/// Says what is to be said on stderr. A reader of the output that has seen enough (`| head`) is no failure.
+pub(crate) fn finish(ending: Result<Ending, Failure>) -> ExitCode {
+    match ending {
+        Ok(Ending::Answered) => ExitCode::SUCCESS,
+        Ok(Ending::QueryErrors(text)) => {
+            say_error(&text);
+            ExitCode::from(QUERY_ERROR)
+        }
+        Err(Failure::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(failure) => {
+            say_error(&failure.to_string());
+            ExitCode::from(FAILURE)
+        }
+    }
+}
+
+/// Writes `error: …` on stderr.
+pub(crate) fn say_error(text: &str) {
+    say("error", AnsiColor::Red, text);
+}
+
+/// Writes `warning: …` on stderr.
+pub(crate) fn say_warning(text: &str) {
+    say("warning", AnsiColor::Yellow, text);
+}
+
+fn say(kind: &str, color: AnsiColor, text: &str) {
+    let style = Style::new().bold().fg_color(Some(color.into()));
+    // There is nobody to tell when stderr is closed.
+    _ = writeln!(anstream::stderr(), "{style}{kind}:{style:#} {text}");
+}

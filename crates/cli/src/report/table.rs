@@ -1,0 +1,202 @@
+//! `--format table`: for people.
+
+use std::io::{self, Write};
+
+use super::Report;
+use crate::{
+    record::{QueryRecord, RunRecord, Status},
+    screen::{BOLD, Screen},
+    summary::{ABSOLUTE, RELATIVE, References, Summary},
+    text::{Align, Table, count, grouped, percent_over, time, wrap},
+};
+
+/// Keeps the rows, since columns are as wide as their widest cell: all of a few queries, of many only the errors.
+pub(crate) struct TableReport<'s> {
+    screen: &'s mut Screen,
+    queries: usize,
+    from_scenario: bool,
+    /// Whether the scenario's lengths are for these rules and this k.
+    is_reference: bool,
+    rows: Vec<QueryRecord>,
+    /// Errors beyond those in the rows.
+    more_errors: u64,
+}
+
+impl<'s> TableReport<'s> {
+    /// The most rows.
+    const ROWS: usize = 20;
+
+    pub(crate) const fn new(screen: &'s mut Screen) -> Self {
+        Self {
+            screen,
+            queries: 0,
+            from_scenario: false,
+            is_reference: false,
+            rows: Vec::new(),
+            more_errors: 0,
+        }
+    }
+
+    fn rows(&mut self) -> io::Result<()> {
+        let few = self.queries <= Self::ROWS;
+        let mut heads = vec![("index", Align::Right), ("start", Align::Left), ("goal", Align::Left)];
+        heads.push(("cost", Align::Right));
+        if self.from_scenario {
+            heads.push(("reference", Align::Right));
+        }
+        heads.extend([("waypoints", Align::Right), ("expanded", Align::Right), ("time", Align::Right)]);
+        let mut table =
+            Table::new(if few { heads } else { vec![heads[0], heads[1], heads[2], ("error", Align::Left)] });
+        for row in &self.rows {
+            table.row(if few { answer_cells(row, self.from_scenario) } else { error_cells(row) });
+        }
+        table.write(self.screen)?;
+        let mut gap = "\n";
+        for row in self.rows.iter().filter(|_| few) {
+            if let Some(error) = &row.error {
+                writeln!(self.screen, "{gap}  {}: {error}", row.index)?;
+                gap = "";
+            }
+        }
+        if self.more_errors > 0 {
+            writeln!(
+                self.screen,
+                "  … and {}; --format jsonl shows all",
+                count(self.more_errors, "more error", "more errors")
+            )?;
+        }
+        Ok(())
+    }
+
+    /// The waypoints of a single query.
+    fn path(&mut self) -> io::Result<()> {
+        let Some(row) = self.rows.first().filter(|row| !row.path.is_empty()) else { return Ok(()) };
+        let last = row.path.len() - 1;
+        let words = row.path.iter().enumerate();
+        let words = words.map(|(i, [x, y])| format!("({x}, {y}){}", if i < last { " →" } else { "" }));
+        let text = wrap("  path  ", words, self.screen.columns().min(100));
+        writeln!(self.screen, "\n{text}")
+    }
+
+    fn references(&mut self, references: &References) -> io::Result<()> {
+        let &References { compared, equal, worst_deviation, worst_index, cost_ratio } = references;
+        let (equal, compared, percent) = (grouped(equal), grouped(compared), RELATIVE * 100.0);
+        // A deviation that the printed digits do not show has no sign either.
+        let worst = if worst_deviation.abs() < 0.000_05 { 0.0 } else { worst_deviation };
+        let text = format!(
+            "{equal} of {compared} equal (within {ABSOLUTE} or {percent:.3} %), furthest off {worst:+.4} at index {worst_index}"
+        );
+        self.fact("reference", &text)?;
+        if self.is_reference {
+            return Ok(());
+        }
+        let over = percent_over(cost_ratio, 3);
+        self.fact("", &format!("costs {over} in all; the references are for k = 3, center, corners never"))
+    }
+
+    fn fact(&mut self, name: &str, text: &str) -> io::Result<()> {
+        writeln!(self.screen, "  {}  {text}", self.screen.paint(BOLD, format_args!("{name:<9}")))
+    }
+}
+
+impl Report for TableReport<'_> {
+    fn begin(&mut self, run: RunRecord) -> io::Result<()> {
+        self.queries = run.queries;
+        self.from_scenario = run.scenario.is_some();
+        self.is_reference = run.k == 3 && run.placement == "center" && run.corners == "never";
+        let rule = match run.placement.as_str() {
+            "center" => format!("corners {}", run.corners),
+            _ => format!("gap {}", run.gap),
+        };
+        let (width, height) = (run.width, run.height);
+        let size = format!("{width} × {height} cells, {} free", grouped(run.free_cells));
+        writeln!(self.screen, "{} · {size}", self.screen.paint(BOLD, &run.map))?;
+        writeln!(
+            self.screen,
+            "{}, heuristic {} · k = {} · {}, {rule} · {} · prepared in {}\n",
+            self.screen.paint(BOLD, &run.engine),
+            run.heuristic,
+            run.k,
+            run.placement,
+            run.guarantee,
+            time(run.preprocess_ns as f64),
+        )
+    }
+
+    fn query(&mut self, query: QueryRecord) -> io::Result<()> {
+        let is_error = query.status == Status::Error;
+        if self.rows.len() < Self::ROWS && (is_error || self.queries <= Self::ROWS) {
+            self.rows.push(query);
+        } else if is_error {
+            self.more_errors += 1;
+        }
+        Ok(())
+    }
+
+    fn end(&mut self, summary: &Summary) -> io::Result<()> {
+        if !self.rows.is_empty() {
+            self.rows()?;
+        }
+        if !self.from_scenario {
+            return self.path();
+        }
+        if !self.rows.is_empty() {
+            writeln!(self.screen)?;
+        }
+        let Summary { queries, found, unreachable, errors, .. } = summary;
+        let errors = count(*errors, "error", "errors");
+        let counts = format!(
+            "{}: {} found, {} unreachable, {errors}",
+            grouped(*queries),
+            grouped(*found),
+            grouped(*unreachable)
+        );
+        self.fact("queries", &counts)?;
+        if found + unreachable == 0 {
+            return Ok(());
+        }
+        let [median, mean, max] =
+            [summary.median_nanos as f64, summary.mean_nanos, summary.max_nanos as f64].map(time);
+        self.fact("time", &format!("median {median}, mean {mean}, max {max}"))?;
+        let [expanded, generated] = [summary.mean_expanded, summary.mean_generated].map(mean_count);
+        self.fact("nodes", &format!("mean {expanded} expanded, {generated} generated"))?;
+        if *found > 0 {
+            self.fact("cost", &format!("mean {:.4}", summary.mean_cost))?;
+        }
+        match &summary.reference {
+            Some(references) => self.references(references),
+            None => Ok(()),
+        }
+    }
+}
+
+fn mean_count(mean: f64) -> String {
+    if mean < 1_000.0 { format!("{mean:.1}") } else { grouped(mean.round() as u64) }
+}
+
+fn vertex([x, y]: [i32; 2]) -> String {
+    format!("({x}, {y})")
+}
+
+fn error_cells(row: &QueryRecord) -> Vec<String> {
+    vec![row.index.to_string(), vertex(row.start), vertex(row.goal), row.error.clone().unwrap_or_default()]
+}
+
+fn answer_cells(row: &QueryRecord, with_reference: bool) -> Vec<String> {
+    let mut cells = vec![row.index.to_string(), vertex(row.start), vertex(row.goal)];
+    cells.push(match (row.status, row.cost) {
+        (Status::Error, _) => "error".to_owned(),
+        (_, None) => "unreachable".to_owned(),
+        (_, Some(cost)) => format!("{cost:.4}"),
+    });
+    if with_reference {
+        cells.push(row.reference.map_or_else(String::new, |reference| format!("{reference:.4}")));
+    }
+    if row.status == Status::Error {
+        return cells;
+    }
+    cells.push(if row.path.is_empty() { String::new() } else { row.path.len().to_string() });
+    cells.push(grouped(row.expanded));
+    cells.push(time(row.nanos as f64));
+    cells
+}

@@ -1,0 +1,141 @@
+//! Answering queries one after the other on one warm planner.
+
+use std::{hint::black_box, io, time::Instant};
+
+use mediant_grid::{Centers, Corners, Grid, Place, Placement, Vertex};
+use mediant_search::{Counters, Outcome, Planner, Query, QueryError};
+
+use crate::{
+    engines::{Preprocessing, Task, guarantee_name},
+    progress::Progress,
+    queries::{Item, Queries},
+    record::{QueryRecord, RunRecord, Status},
+    report::Report,
+    summary::{Summary, Tally},
+};
+
+/// The queries of a run, and who is told of the answers.
+pub(crate) struct Session<'s> {
+    pub(crate) queries: &'s Queries,
+    pub(crate) grid: &'s Grid,
+    pub(crate) placement: Placement,
+    /// All but what only the planner knows.
+    pub(crate) run: RunRecord,
+    pub(crate) report: &'s mut dyn Report,
+    pub(crate) progress: Progress,
+}
+
+/// How a session ended.
+pub(crate) struct Finished {
+    pub(crate) summary: Summary,
+    /// The first query that was an error, if any: its index and what is wrong.
+    pub(crate) first_error: Option<(usize, String)>,
+    /// The last path found, for a picture.
+    pub(crate) path: Vec<Vertex>,
+}
+
+impl Task for Session<'_> {
+    type Output = io::Result<Finished>;
+
+    fn run<P: Planner>(self, mut planner: P, preprocessing: Preprocessing) -> io::Result<Finished> {
+        let Self { queries, grid, placement, mut run, report, mut progress } = self;
+        let repeat = run.repeat;
+        run.guarantee = guarantee_name(planner.guarantee());
+        run.preprocess_ns = preprocessing.time.as_nanos() as u64;
+        run.index_bytes = preprocessing.index_bytes;
+        report.begin(run)?;
+        let mut tally = Tally::default();
+        let (mut first_error, mut path) = (None, Vec::new());
+        for item in queries.iter() {
+            let answer = Answer::new(&mut planner, item.query, repeat);
+            let record = answer.into_record(item, |error| explain(error, grid, placement));
+            tally.add(&record);
+            if let Some(error) = record.error.as_ref().filter(|_| first_error.is_none()) {
+                first_error = Some((record.index, error.clone()));
+            }
+            path.clear();
+            path.extend(record.path.iter().map(|&[x, y]| Vertex::new(x, y)));
+            report.query(record)?;
+            progress.tick();
+        }
+        progress.clear();
+        let summary = tally.finish();
+        report.end(&summary)?;
+        Ok(Finished { summary, first_error, path })
+    }
+}
+
+/// What a planner answers, and at what expense.
+pub(crate) struct Answer {
+    pub(crate) outcome: Result<Outcome, QueryError>,
+    pub(crate) counters: Counters,
+    /// The best time.
+    pub(crate) nanos: u64,
+}
+
+impl Answer {
+    /// Solves a query once, to count and to warm up, then `repeat` times against the clock, without counters.
+    pub(crate) fn new<P: Planner>(planner: &mut P, query: Query, repeat: u32) -> Self {
+        let mut counters = Counters::default();
+        let outcome = planner.solve_observed(query, &mut counters);
+        let timed = |_| {
+            let begin = Instant::now();
+            let outcome = black_box(planner.solve(black_box(query)));
+            let time = begin.elapsed();
+            // The path is dropped after the clock has stopped.
+            drop(outcome);
+            time.as_nanos() as u64
+        };
+        let nanos = if outcome.is_ok() { (0..repeat).map(timed).min().unwrap_or(0) } else { 0 };
+        Self { outcome, counters, nanos }
+    }
+
+    fn into_record(self, item: Item, explain: impl FnOnce(QueryError) -> String) -> QueryRecord {
+        let Query { start, goal } = item.query;
+        let (status, cost, path, error) = match self.outcome {
+            Ok(Outcome::Found(path)) => {
+                let waypoints = path.waypoints().iter().map(|at| [at.x, at.y]).collect();
+                (Status::Found, Some(path.cost()), waypoints, None)
+            }
+            Ok(Outcome::Unreachable) => (Status::Unreachable, None, Vec::new(), None),
+            Err(error) => (Status::Error, None, Vec::new(), Some(explain(error))),
+        };
+        QueryRecord {
+            index: item.index,
+            start: [start.x, start.y],
+            goal: [goal.x, goal.y],
+            status,
+            cost,
+            path,
+            reference: item.reference,
+            expanded: self.counters.expanded,
+            generated: self.counters.generated,
+            percolations: self.counters.percolations,
+            nanos: self.nanos,
+            error,
+        }
+    }
+}
+
+/// A query error with, for a blocked end, a free vertex nearby.
+fn explain(error: QueryError, grid: &Grid, placement: Placement) -> String {
+    match error {
+        QueryError::Blocked { at, .. } => match nearest_free(grid, placement, at) {
+            Some(free) => format!("{error}; the nearest one is {free}"),
+            None => error.to_string(),
+        },
+        _ => error.to_string(),
+    }
+}
+
+/// The free vertex nearest to `at`, the first in row-major order of those that tie; `None` if there is none nearby.
+fn nearest_free(grid: &Grid, placement: Placement, at: Vertex) -> Option<Vertex> {
+    const REACH: i32 = 64;
+    let is_free = |v| match placement {
+        Placement::Center => Centers::is_free(grid, v),
+        Placement::Corner => Corners::is_free(grid, v),
+    };
+    let around =
+        (-REACH..=REACH).flat_map(|dy| (-REACH..=REACH).map(move |dx| Vertex::new(at.x + dx, at.y + dy)));
+    around.filter(|&v| is_free(v)).min_by_key(|&v| at.to(v).norm_squared())
+}

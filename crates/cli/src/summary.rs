@@ -1,0 +1,180 @@
+//! The figures that sum up a run.
+
+use serde::Serialize;
+
+use crate::record::{QueryRecord, Status};
+
+/// What a run came to. Times and counts are over the answered queries, costs over the found ones.
+#[derive(Clone, Debug, Serialize)]
+#[serde(tag = "type", rename = "summary")]
+pub(crate) struct Summary {
+    pub(crate) queries: u64,
+    pub(crate) found: u64,
+    pub(crate) unreachable: u64,
+    pub(crate) errors: u64,
+    pub(crate) total_nanos: u64,
+    pub(crate) mean_nanos: f64,
+    pub(crate) median_nanos: u64,
+    pub(crate) max_nanos: u64,
+    pub(crate) mean_expanded: f64,
+    pub(crate) mean_generated: f64,
+    pub(crate) mean_percolations: f64,
+    pub(crate) mean_cost: f64,
+    /// `null` where no answered query has a reference.
+    pub(crate) reference: Option<References>,
+}
+
+/// How the costs compare with the lengths in the scenario. No path counts as length 0, which is what scenarios give for it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct References {
+    /// The answered queries that have a reference.
+    pub(crate) compared: u64,
+    /// Those within [`RELATIVE`] or [`ABSOLUTE`] of it.
+    pub(crate) equal: u64,
+    /// The cost less the reference, where they are furthest apart.
+    pub(crate) worst_deviation: f64,
+    /// The index of that query.
+    pub(crate) worst_index: usize,
+    /// All costs over all references.
+    pub(crate) cost_ratio: f64,
+}
+
+/// Scenario files round their lengths: old ones to two decimals, the others to five or more.
+pub(crate) const ABSOLUTE: f64 = 0.005;
+/// For lengths that were summed up in single precision.
+pub(crate) const RELATIVE: f64 = 1e-5;
+
+/// Takes the records one by one; keeps eight bytes of each.
+#[derive(Debug, Default)]
+pub(crate) struct Tally {
+    nanos: Vec<u64>,
+    found: u64,
+    unreachable: u64,
+    errors: u64,
+    expanded: u64,
+    generated: u64,
+    percolations: u64,
+    cost: f64,
+    compared: u64,
+    equal: u64,
+    worst: (f64, usize),
+    compared_cost: f64,
+    reference: f64,
+}
+
+impl Tally {
+    pub(crate) fn add(&mut self, record: &QueryRecord) {
+        match record.status {
+            Status::Found => self.found += 1,
+            Status::Unreachable => self.unreachable += 1,
+            Status::Error => {
+                self.errors += 1;
+                return;
+            }
+        }
+        self.nanos.push(record.nanos);
+        self.expanded += record.expanded;
+        self.generated += record.generated;
+        self.percolations += record.percolations;
+        let cost = record.cost.unwrap_or(0.0);
+        self.cost += cost;
+        if let Some(reference) = record.reference {
+            self.compare(record.index, cost, reference);
+        }
+    }
+
+    fn compare(&mut self, index: usize, cost: f64, reference: f64) {
+        let deviation = cost - reference;
+        if self.compared == 0 || deviation.abs() > self.worst.0.abs() {
+            self.worst = (deviation, index);
+        }
+        self.compared += 1;
+        self.equal += u64::from(deviation.abs() <= ABSOLUTE.max(RELATIVE * reference));
+        self.compared_cost += cost;
+        self.reference += reference;
+    }
+
+    pub(crate) fn finish(mut self) -> Summary {
+        self.nanos.sort_unstable();
+        let total: u64 = self.nanos.iter().sum();
+        let mean = |sum: f64, count: u64| if count == 0 { 0.0 } else { sum / count as f64 };
+        let answered = self.nanos.len() as u64;
+        let (worst_deviation, worst_index) = self.worst;
+        let references = References {
+            compared: self.compared,
+            equal: self.equal,
+            worst_deviation,
+            worst_index,
+            cost_ratio: if self.reference > 0.0 { self.compared_cost / self.reference } else { 1.0 },
+        };
+        Summary {
+            queries: answered + self.errors,
+            found: self.found,
+            unreachable: self.unreachable,
+            errors: self.errors,
+            total_nanos: total,
+            mean_nanos: mean(total as f64, answered),
+            median_nanos: median(&self.nanos),
+            max_nanos: self.nanos.last().copied().unwrap_or(0),
+            mean_expanded: mean(self.expanded as f64, answered),
+            mean_generated: mean(self.generated as f64, answered),
+            mean_percolations: mean(self.percolations as f64, answered),
+            mean_cost: mean(self.cost, self.found),
+            reference: (self.compared > 0).then_some(references),
+        }
+    }
+}
+
+/// Of sorted numbers; the mean of the two in the middle, cut off, where their count is even; 0 of none.
+fn median(sorted: &[u64]) -> u64 {
+    let upper = sorted.get(sorted.len() / 2).copied().unwrap_or(0);
+    if sorted.len() % 2 == 1 {
+        upper
+    } else {
+        sorted.get((sorted.len() / 2).wrapping_sub(1)).copied().unwrap_or(0).midpoint(upper)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(index: usize, cost: Option<f64>, reference: f64, nanos: u64) -> QueryRecord {
+        QueryRecord {
+            index,
+            start: [0, 0],
+            goal: [0, 0],
+            status: if cost.is_some() { Status::Found } else { Status::Unreachable },
+            cost,
+            path: Vec::new(),
+            reference: Some(reference),
+            expanded: 10,
+            generated: 20,
+            percolations: 30,
+            nanos,
+            error: None,
+        }
+    }
+
+    #[test]
+    fn figures_are_over_the_queries_that_they_are_about() {
+        let mut tally = Tally::default();
+        tally.add(&record(0, Some(10.0), 10.004, 4));
+        tally.add(&record(1, Some(9.0), 10.0, 1));
+        tally.add(&record(2, None, 0.0, 3));
+        tally.add(&record(3, Some(100_000.0), 100_000.9, 100));
+        tally.add(&QueryRecord { status: Status::Error, ..record(4, None, 1.0, 0) });
+        let summary = tally.finish();
+        assert_eq!((summary.queries, summary.found, summary.unreachable, summary.errors), (5, 3, 1, 1));
+        assert_eq!((summary.median_nanos, summary.max_nanos, summary.total_nanos), (3, 100, 108));
+        assert_eq!((summary.mean_nanos, summary.mean_expanded), (27.0, 10.0));
+        let reference = summary.reference.unwrap();
+        assert_eq!((reference.compared, reference.equal), (4, 3));
+        assert_eq!((reference.worst_deviation, reference.worst_index), (-1.0, 1));
+    }
+
+    #[test]
+    fn medians() {
+        assert_eq!([&[][..], &[7], &[1, 4], &[1, 2, 9]].map(median), [0, 7, 2, 2]);
+    }
+}

@@ -1,0 +1,267 @@
+//! `--format jsonl`: what scripts rely on.
+
+use std::{collections::BTreeSet, sync::Arc};
+
+use mediant_formats::{MapFile, Scenario};
+use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Grid, Lattice, Place, Rules};
+use mediant_moves::K;
+use mediant_search::{AStar, Counters, LatticeDistance, Planner, Query};
+use serde_json::Value;
+
+mod common;
+use common::{Files, Ran, bundled, mediant, run};
+
+/// Runs a command that answers all its queries, and parses each line.
+#[track_caller]
+fn records(args: &[&str]) -> Vec<Value> {
+    let Ran { status, stdout, stderr } = mediant(args);
+    assert_eq!((stderr.as_str(), status), ("", Some(0)), "{args:?}");
+    stdout.lines().map(|line| serde_json::from_str(line).expect("each line is JSON")).collect()
+}
+
+/// The run, the queries and the summary.
+#[track_caller]
+fn parts(records: &[Value]) -> (&Value, &[Value], &Value) {
+    let [run, queries @ .., summary] = records else { panic!("too few records: {records:?}") };
+    assert_eq!((&run["type"], &summary["type"]), (&Value::from("run"), &Value::from("summary")));
+    assert!(queries.iter().all(|query| query["type"] == "query"));
+    (run, queries, summary)
+}
+
+fn keys(record: &Value) -> BTreeSet<&str> {
+    record.as_object().expect("an object").keys().map(String::as_str).collect()
+}
+
+#[test]
+fn every_record_is_complete() {
+    let records =
+        records(&["run", &bundled("cave.map"), "--scen", &bundled("cave.map.scen"), "--format", "jsonl"]);
+    let (run, queries, summary) = parts(&records);
+    let contract = [
+        "type",
+        "map",
+        "engine",
+        "k",
+        "placement",
+        "corners",
+        "gap",
+        "smooth",
+        "guarantee",
+        "preprocess_ns",
+        "index_bytes",
+    ];
+    assert!(keys(run).is_superset(&contract.into()), "{run}");
+    let expected: Value = serde_json::json!({
+        "map": "cave.map", "scenario": "cave.map.scen", "engine": "astar", "k": 3, "placement": "center", "corners": "never",
+        "gap": "open", "smooth": false, "guarantee": "optimal(3)", "heuristic": "hk", "repeat": 1, "index_bytes": 0, "queries": 32,
+    });
+    for (key, value) in expected.as_object().expect("an object") {
+        assert_eq!(&run[key], value, "{key}");
+    }
+    assert!(run["preprocess_ns"].as_u64() > Some(0));
+
+    assert_eq!(queries.len(), 32);
+    let contract = [
+        "type",
+        "index",
+        "start",
+        "goal",
+        "status",
+        "cost",
+        "path",
+        "reference",
+        "expanded",
+        "generated",
+        "percolations",
+        "nanos",
+    ];
+    let scenario = Scenario::read(bundled("cave.map.scen")).expect("our own scenario");
+    for (i, (query, instance)) in queries.iter().zip(scenario.instances()).enumerate() {
+        assert_eq!(keys(query), contract.into(), "no `error` where there is none: {query}");
+        assert_eq!((query["index"].as_u64(), &query["status"]), (Some(i as u64), &Value::from("found")));
+        let (start, goal) = (
+            serde_json::json!([instance.start.x, instance.start.y]),
+            serde_json::json!([instance.goal.x, instance.goal.y]),
+        );
+        let path = query["path"].as_array().expect("waypoints");
+        assert_eq!((&query["start"], &query["goal"]), (&start, &goal));
+        assert_eq!((path.first(), path.last()), (Some(&start), Some(&goal)));
+        assert_eq!(query["reference"].as_f64(), Some(instance.optimal));
+        assert!(query["nanos"].as_u64() > Some(0) && query["expanded"].as_u64() > Some(0));
+    }
+    assert_eq!(summary["queries"].as_u64(), Some(32));
+    let total: u64 = queries.iter().filter_map(|query| query["nanos"].as_u64()).sum();
+    assert_eq!(summary["total_nanos"].as_u64(), Some(total));
+}
+
+#[test]
+fn indices_count_the_instances_of_the_scenario() {
+    let indices = |options: &str| {
+        let line = format!("run builtin:cave --format jsonl{options}");
+        let records = records(&line.split(' ').collect::<Vec<_>>());
+        let (_, queries, _) = parts(&records);
+        queries.iter().filter_map(|query| query["index"].as_u64()).collect::<Vec<_>>()
+    };
+    assert_eq!(indices(""), (0..32).collect::<Vec<_>>());
+    assert_eq!(indices(" --every 10"), [0, 10, 20, 30]);
+    assert_eq!(indices(" --every 10 --limit 2"), [0, 10]);
+    assert_eq!(indices(" --limit 99 --every 99"), [0]);
+}
+
+#[test]
+fn errors_and_missing_paths_are_records() {
+    let files = Files::new();
+    let map = files.add("walls.map", "type octile\nheight 1\nwidth 4\nmap\n.@..\n");
+    let line = |x: i32, goal: i32| format!("0\twalls.map\t4\t1\t{x}\t0\t{goal}\t0\t1\n");
+    let scenario = files
+        .add("walls.scen", format!("version 1\n{}{}{}{}", line(0, 2), line(-1, 0), line(3, 2), line(2, 1)));
+    let Ran { status, stdout, .. } = mediant(&["run", &map, "--scen", &scenario, "--format", "jsonl"]);
+    assert_eq!(status, Some(1));
+    let records: Vec<Value> =
+        stdout.lines().map(|line| serde_json::from_str(line).expect("each line is JSON")).collect();
+    let (_, queries, summary) = parts(&records);
+    let statuses: Vec<_> = queries.iter().filter_map(|query| query["status"].as_str()).collect();
+    assert_eq!(statuses, ["unreachable", "error", "found", "error"]);
+    for query in queries.iter().filter(|query| query["status"] != "found") {
+        assert_eq!((&query["cost"], &query["path"]), (&Value::Null, &serde_json::json!([])));
+    }
+    let errors: Vec<_> = queries.iter().map(|query| query["error"].as_str()).collect();
+    let outside = "the start (-1, 0) is outside the map, whose vertices run from (0, 0) to (3, 0)";
+    let blocked = "the goal (1, 0) is blocked: choose a free vertex; the nearest one is (0, 0)";
+    assert_eq!(errors, [None, Some(outside), None, Some(blocked)]);
+    assert_eq!(summary["errors"].as_u64(), Some(2));
+}
+
+#[test]
+fn our_own_scenarios_are_right() {
+    // The lengths were computed by a Dijkstra of its own, apart from this program.
+    for (name, instances) in [("archipelago", 40), ("cave", 32), ("maze", 40), ("town", 22)] {
+        let records = records(&["run", &format!("builtin:{name}"), "--format", "jsonl"]);
+        let (run, queries, summary) = parts(&records);
+        assert_eq!(run["map"], format!("{name}.map"));
+        assert_eq!(queries.len(), instances, "{name}");
+        for query in queries {
+            let (cost, reference) = (query["cost"].as_f64(), query["reference"].as_f64());
+            let (cost, reference) = (cost.expect("a path"), reference.expect("a reference"));
+            assert!((cost - reference).abs() < 1e-7, "{name}: {query}");
+        }
+        assert_eq!(summary["reference"]["equal"].as_u64(), Some(instances as u64), "{name}");
+    }
+}
+
+/// A length in billionths of a cell: reading it as JSON may change its last bit.
+fn nanocells(length: f64) -> u64 {
+    (length * 1e9).round() as u64
+}
+
+/// Costs and counts of the library's planner on a bundled map's scenario.
+fn library<P: Place>(
+    grid: &Arc<Grid>,
+    k: u32,
+    rule: P::Rule,
+    scenario: &Scenario,
+) -> Vec<(Option<u64>, u64, u64, u64)> {
+    let k = K::new(k).expect("a k");
+    let lattice = Lattice::<P>::new(grid.clone(), k, rule).expect("a lattice");
+    let mut planner = AStar::new(&lattice, LatticeDistance);
+    let mut solve = |query| {
+        let mut counters = Counters::default();
+        let outcome = planner.solve_observed(query, &mut counters).expect("free ends");
+        (
+            outcome.path().map(|path| nanocells(path.cost())),
+            counters.expanded,
+            counters.generated,
+            counters.percolations,
+        )
+    };
+    scenario.instances().iter().map(|instance| solve(Query::new(instance.start, instance.goal))).collect()
+}
+
+#[test]
+fn every_option_reaches_the_planner() {
+    let (map, scen) = (bundled("town.map"), bundled("town.map.scen"));
+    let grid = Arc::new(MapFile::read(&map).expect("our own map").to_grid());
+    let scenario = Scenario::read(&scen).expect("our own scenario");
+    let mut different = BTreeSet::new();
+    for rules in Rules::ALL {
+        for k in [2, 3, 5, 12] {
+            let (expected, options) = match rules {
+                Rules::Center(corners) => (
+                    library::<Centers>(&grid, k, corners, &scenario),
+                    match corners {
+                        CornerRule::Never => ["--corners", "never"],
+                        CornerRule::One => ["--corners", "one"],
+                        CornerRule::Always => ["--corners", "always"],
+                    },
+                ),
+                Rules::Corner(gap) => (
+                    library::<Corners>(&grid, k, gap, &scenario),
+                    match gap {
+                        DiagonalGap::Open => ["--gap", "open"],
+                        DiagonalGap::Closed => ["--gap", "closed"],
+                    },
+                ),
+            };
+            let (k, placement) = (k.to_string(), rules.placement().to_string());
+            let args =
+                ["run", &map, "--scen", &scen, "--k", &k, "--placement", &placement, "--format", "jsonl"];
+            let records = records(&[&args[..], &options[..]].concat());
+            let (run, queries, _) = parts(&records);
+            assert_eq!((&run["placement"], &run["k"].to_string()), (&Value::from(placement), &k));
+            assert_eq!(run[&options[0][2..]], options[1]);
+            let count = |query: &Value, name: &str| query[name].as_u64().expect("a count");
+            let found: Vec<_> = queries
+                .iter()
+                .map(|query| {
+                    (
+                        query["cost"].as_f64().map(nanocells),
+                        count(query, "expanded"),
+                        count(query, "generated"),
+                        count(query, "percolations"),
+                    )
+                })
+                .collect();
+            assert_eq!(found, expected, "{rules}, k = {k}");
+            different.insert(format!("{found:?}"));
+        }
+    }
+    // At k = 2 no move passes a corner point, so that the corner rules agree, and town has few doubly blocked corners.
+    assert!(different.len() >= 14, "only {} of 20 setups differ: are options lost?", different.len());
+}
+
+#[test]
+fn heuristics_change_the_counts_and_not_the_costs() {
+    let sums = |heuristic: &str| {
+        let records = records(&[
+            "run",
+            "builtin:archipelago",
+            "--k",
+            "4",
+            "--heuristic",
+            heuristic,
+            "--format",
+            "jsonl",
+        ]);
+        let (run, _, summary) = parts(&records);
+        assert_eq!(run["heuristic"], heuristic);
+        (summary["mean_cost"].as_f64().expect("a cost"), summary["mean_expanded"].as_f64().expect("a count"))
+    };
+    let [hk, euclidean, zero] = ["hk", "euclidean", "zero"].map(sums);
+    assert!((hk.0 - euclidean.0).abs() < 1e-9 && (hk.0 - zero.0).abs() < 1e-9);
+    assert!(hk.1 < euclidean.1 && euclidean.1 < zero.1, "{hk:?} {euclidean:?} {zero:?}");
+}
+
+#[test]
+fn the_same_run_gives_the_same_answers() {
+    let answers = || {
+        let Ran { stdout, .. } = run("run builtin:maze --k 7 --placement corner --format jsonl --repeat 2");
+        let mut records: Vec<Value> =
+            stdout.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+        for record in &mut records {
+            let record = record.as_object_mut().expect("an object");
+            record.retain(|key, _| !key.ends_with("nanos") && key != "preprocess_ns");
+        }
+        records
+    };
+    assert_eq!(answers(), answers());
+}

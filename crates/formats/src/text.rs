@@ -1,0 +1,77 @@
+//! Lines with their numbers, and what an error message quotes of them.
+
+/// One line, without its line end.
+#[derive(Clone, Copy)]
+pub(crate) struct Line<'a> {
+    /// From 1.
+    pub(crate) number: usize,
+    /// Where the line begins in the file.
+    pub(crate) start: usize,
+    pub(crate) text: &'a [u8],
+}
+
+/// The lines of a file that end in LF or CRLF; the last may end with the file.
+pub(crate) struct Lines<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    number: usize,
+}
+
+impl<'a> Lines<'a> {
+    pub(crate) const fn new(bytes: &'a [u8]) -> Self {
+        Self { bytes, at: 0, number: 0 }
+    }
+
+    /// The number of the line that was read last.
+    pub(crate) const fn number(&self) -> usize {
+        self.number
+    }
+}
+
+impl<'a> Iterator for Lines<'a> {
+    type Item = Line<'a>;
+
+    fn next(&mut self) -> Option<Line<'a>> {
+        let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
+        let length = rest.iter().position(|&byte| byte == b'\n');
+        let text = &rest[..length.unwrap_or(rest.len())];
+        let line =
+            Line { number: self.number + 1, start: self.at, text: text.strip_suffix(b"\r").unwrap_or(text) };
+        self.at += length.map_or(rest.len(), |length| length + 1);
+        self.number += 1;
+        Some(line)
+    }
+}
+
+/// The words of a line, separated by spaces and tabs, each with its column from 1.
+pub(crate) fn words(text: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    let mut column = 1;
+    text.split(|&byte| is_blank(byte)).filter_map(move |word| {
+        let at = column;
+        column += word.len() + 1;
+        (!word.is_empty()).then_some((at, word))
+    })
+}
+
+pub(crate) const fn is_blank(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t')
+}
+
+/// What an error message quotes: short, on one line and printable, whatever the bytes.
+pub(crate) fn quote(bytes: &[u8]) -> String {
+    const LONGEST: usize = 40;
+    match bytes {
+        [] => "nothing".to_owned(),
+        _ if bytes.len() > LONGEST => format!("`{}…`", bytes[..LONGEST].escape_ascii()),
+        _ => format!("`{}`", bytes.escape_ascii()),
+    }
+}
+
+/// The quotation of a line, or of the lack of one.
+pub(crate) fn quote_line(line: Option<Line<'_>>) -> String {
+    match line {
+        None => "the end of the file".to_owned(),
+        Some(Line { text: [], .. }) => "an empty line".to_owned(),
+        Some(line) => quote(line.text),
+    }
+}

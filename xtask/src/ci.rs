@@ -1,0 +1,81 @@
+//! `cargo xtask ci`: everything that a change must pass besides the tests.
+
+use std::process::{Command, Stdio};
+
+use crate::{Error, project, tidy};
+
+/// What cargo is to do. Warnings of rustdoc are made errors by the environment.
+const STEPS: [&[&str]; 4] = [
+    &["fmt", "--all", "--check"],
+    &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"],
+    &["doc", "--no-deps", "--workspace"],
+    &["build", "--package", "mediant-moves", "--no-default-features"],
+];
+
+/// Runs all steps in order, up to the first that fails.
+///
+/// # Errors
+/// [`Error::Step`] names the command, [`Error::Tidy`] the number of findings.
+pub fn run() -> Result<(), Error> {
+    for arguments in STEPS {
+        let mut command = project::cargo();
+        command.args(arguments).env("RUSTDOCFLAGS", "-D warnings");
+        let setting = if arguments[0] == "doc" { "RUSTDOCFLAGS='-D warnings' " } else { "" };
+        step(&mut command, &format!("{setting}cargo {}", arguments.join(" ")))?;
+    }
+    println!("$ cargo xtask tidy");
+    tidy::run()?;
+    minimum_version()
+}
+
+fn step(command: &mut Command, shown: &str) -> Result<(), Error> {
+    println!("$ {shown}");
+    match command.status() {
+        Ok(status) if status.success() => Ok(()),
+        _ => Err(Error::Step { command: shown.to_owned() }),
+    }
+}
+
+/// Compiles everything by the oldest Rust that the project promises to support, if it is installed.
+fn minimum_version() -> Result<(), Error> {
+    let packages = project::packages()?;
+    let Some(version) = packages.iter().find_map(|package| package.rust_version.as_deref()) else {
+        return Ok(());
+    };
+    let installed = Command::new("rustup").args(["toolchain", "list"]).stderr(Stdio::null()).output();
+    let installed =
+        installed.map(|output| String::from_utf8_lossy(&output.stdout).into_owned()).unwrap_or_default();
+    if !lists(&installed, version) {
+        println!(
+            "Rust {version}, the oldest that Cargo.toml promises, is not installed: not checked by its compiler, only by \
+             clippy's incompatible_msrv for the standard library (rustup toolchain install {version})"
+        );
+        return Ok(());
+    }
+    let arguments = ["run", version, "cargo", "check", "--workspace"];
+    // The toolchain of this run would otherwise be handed down.
+    let mut command = Command::new("rustup");
+    command.args(arguments).current_dir(project::root()).env_remove("RUSTUP_TOOLCHAIN").env_remove("CARGO");
+    step(&mut command, &format!("rustup {}", arguments.join(" ")))
+}
+
+/// Whether `rustup toolchain list` has this version, with any patch level.
+fn lists(installed: &str, version: &str) -> bool {
+    let begins = |name: &str| {
+        name.strip_prefix(version).is_some_and(|rest| rest.starts_with(['.', '-']) || rest.is_empty())
+    };
+    installed.lines().filter_map(|line| line.split(' ').next()).any(begins)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::lists;
+
+    #[test]
+    fn toolchains_of_a_version() {
+        let installed =
+            "stable-x86_64-unknown-linux-gnu (active, default)\n1.88.0-x86_64-unknown-linux-gnu\n";
+        assert!(lists(installed, "1.88") && lists(installed, "1.88.0"));
+        assert!(!lists(installed, "1.8") && !lists(installed, "1.89") && !lists("", "1.88"));
+    }
+}

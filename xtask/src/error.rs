@@ -1,0 +1,138 @@
+//! What can go wrong with a chore: one line each.
+
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+
+/// A chore that failed.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Costs that differ from the known ones, or fewer of them than there should be.
+    #[error("{0}")]
+    Verify(String),
+    /// A set that the manifest does not list.
+    #[error("unknown set `{name}`: the manifest lists {known}")]
+    UnknownSet {
+        /// The name that was asked for.
+        name: String,
+        /// All names.
+        known: String,
+    },
+    /// No answer from the server.
+    #[error(
+        "{url}: {source}; check the network, or name a folder or site that holds the same files by --mirror"
+    )]
+    Network {
+        /// What was asked for.
+        url: String,
+        /// Why there was no answer.
+        source: Box<ureq::Error>,
+    },
+    /// The server or the mirror folder does not hold the file.
+    #[error("{place}: not there; check --mirror, or leave the set out by --set")]
+    Absent {
+        /// The address or path.
+        place: String,
+    },
+    /// A mirror without any of the sets.
+    #[error(
+        "{mirror}: none of the sets is there; check --mirror: it holds files like dao-map.zip and dao-scen.zip"
+    )]
+    NoSet {
+        /// The address or path.
+        mirror: String,
+    },
+    /// The server refuses.
+    #[error("{url}: expected the file, found HTTP status {status}; try again later or use --mirror")]
+    Status {
+        /// What was asked for.
+        url: String,
+        /// The code of the answer.
+        status: u16,
+    },
+    /// The connection ended before the file did.
+    #[error("{url}: cut off after {found} of {expected} bytes; run again to resume")]
+    Cut {
+        /// What was asked for.
+        url: String,
+        /// The bytes that are on disk.
+        found: u64,
+        /// The length that the server announced, or `?`.
+        expected: String,
+    },
+    /// A file that is no whole zip archive.
+    #[error("{name}: not a whole zip archive: {why}")]
+    Zip {
+        /// The archive.
+        name: String,
+        /// What the reader says.
+        why: String,
+    },
+    /// An error in archives that were downloaded.
+    #[error("{0}; the download is discarded, run again to fetch it anew")]
+    Discarded(Box<Error>),
+    /// An archive that should not be unpacked.
+    #[error("{name}: {why}; do not use this archive")]
+    Archive {
+        /// The archive.
+        name: String,
+        /// What is wrong with it.
+        why: String,
+    },
+    /// Files that are not those of the manifest.
+    #[error("set {set}: {why}; the files differ from the manifest: fetch them from another place")]
+    Differs {
+        /// The set.
+        set: String,
+        /// The first difference.
+        why: String,
+    },
+    /// A map or scenario that cannot be read.
+    #[error(transparent)]
+    Format(#[from] mediant_formats::ReadError),
+    /// A scenario beside a map that it was not made for.
+    #[error("{file}: {source}")]
+    OtherMap {
+        /// The scenario.
+        file: String,
+        /// How they differ.
+        source: mediant_formats::ScenarioForOtherMap,
+    },
+    /// A manifest that cannot be read.
+    #[error("{}: {source}; write it anew by `cargo xtask download --write-manifest`", path.display())]
+    Manifest {
+        /// The manifest.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: serde_json::Error,
+    },
+    /// A file or folder that the system refuses.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// Rules that are broken; each was printed.
+    #[error("broken rules: {count}")]
+    Tidy {
+        /// Their number.
+        count: usize,
+    },
+    /// A step of `ci` that failed.
+    #[error("`{command}` failed")]
+    Step {
+        /// The command.
+        command: String,
+    },
+}
+
+impl Error {
+    /// Names the file or folder that an error of the system is about.
+    pub fn at(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        move |source| Self::Io { path: path.to_owned(), source }
+    }
+}

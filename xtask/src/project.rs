@@ -1,0 +1,125 @@
+//! Where the project lies, and which files it has.
+
+use std::{
+    env, fs, io,
+    path::{Path, PathBuf},
+    process::{Command, Stdio},
+};
+
+use serde::Deserialize;
+
+use crate::Error;
+
+/// A crate of the workspace, as `cargo metadata` tells.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Package {
+    /// Its name.
+    pub name: String,
+    /// The oldest Rust that it promises to compile with.
+    pub rust_version: Option<String>,
+    /// What it depends on, tests included.
+    pub dependencies: Vec<Dependency>,
+}
+
+/// One line of a `Cargo.toml`.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Dependency {
+    /// The other crate.
+    pub name: String,
+    /// What it is needed for.
+    pub kind: Option<Kind>,
+}
+
+/// What a dependency is needed for, if not for the crate itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// Its build script.
+    Build,
+    /// Its tests, benches and examples.
+    Dev,
+}
+
+/// The folder of the workspace: the one that cargo runs this in, since two clones can share a target folder and with it
+/// the compiled program; without cargo, the one where it was compiled.
+#[must_use]
+pub fn root() -> PathBuf {
+    let xtask =
+        env::var_os("CARGO_MANIFEST_DIR").map_or_else(|| env!("CARGO_MANIFEST_DIR").into(), PathBuf::from);
+    xtask.parent().unwrap_or(&xtask).to_owned()
+}
+
+/// The cargo that runs this, or the one on the path.
+#[must_use]
+pub fn cargo() -> Command {
+    let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.current_dir(root());
+    command
+}
+
+/// What a cargo command prints.
+///
+/// # Errors
+/// [`Error::Step`] if it fails; what it says of that went to stderr.
+pub fn run_cargo(arguments: &[&str]) -> Result<String, Error> {
+    let output = cargo().args(arguments).stderr(Stdio::inherit()).output();
+    let output = output.ok().filter(|output| output.status.success());
+    let failed = || Error::Step { command: format!("cargo {}", arguments.join(" ")) };
+    output.and_then(|output| String::from_utf8(output.stdout).ok()).ok_or_else(failed)
+}
+
+/// The crates of the workspace.
+///
+/// # Errors
+/// [`Error::Step`] if cargo fails.
+pub fn packages() -> Result<Vec<Package>, Error> {
+    #[derive(Deserialize)]
+    struct Metadata {
+        packages: Vec<Package>,
+    }
+    let arguments = ["metadata", "--no-deps", "--format-version", "1"];
+    let metadata = serde_json::from_str::<Metadata>(&run_cargo(&arguments)?);
+    metadata
+        .map(|metadata| metadata.packages)
+        .map_err(|error| Error::Step { command: format!("cargo {}: {error}", arguments.join(" ")) })
+}
+
+/// The files that git tracks or would add, as paths from `root`, sorted. Where git does not answer (an unpacked archive,
+/// or a checkout of another user), all files but those of `.gitignore`'s folders.
+///
+/// # Errors
+/// [`Error::Io`] for a folder that cannot be listed.
+pub fn files(root: &Path) -> Result<Vec<PathBuf>, Error> {
+    let mut git = Command::new("git");
+    git.args(["ls-files", "--cached", "--others", "--exclude-standard", "-z"]).current_dir(root);
+    let mut files = Vec::new();
+    match git.output() {
+        Ok(output) if output.status.success() => {
+            let names = String::from_utf8_lossy(&output.stdout).into_owned();
+            // A file that was deleted but not yet committed is still listed.
+            files.extend(
+                names.split_terminator('\0').map(PathBuf::from).filter(|file| root.join(file).is_file()),
+            );
+        }
+        _ => walk(root, Path::new(""), &mut files)?,
+    }
+    files.sort();
+    files.dedup();
+    Ok(files)
+}
+
+fn walk(root: &Path, folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Error> {
+    const IGNORED: [&str; 3] = [".git", "target", "benchdata/cache"];
+    let at = root.join(folder);
+    let entries: io::Result<Vec<_>> = fs::read_dir(&at).and_then(Iterator::collect);
+    for entry in entries.map_err(Error::at(&at))? {
+        let path = folder.join(entry.file_name());
+        let kind = entry.file_type().map_err(Error::at(&at))?;
+        if kind.is_file() {
+            files.push(path);
+        } else if kind.is_dir() && !IGNORED.iter().any(|ignored| path == Path::new(ignored)) {
+            walk(root, &path, files)?;
+        }
+    }
+    Ok(())
+}
