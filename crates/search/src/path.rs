@@ -17,7 +17,8 @@ impl Path {
     /// The path along these waypoints; its cost is the sum of the lengths of the segments between them.
     #[must_use]
     pub fn new(waypoints: Vec<Vertex>) -> Self {
-        let cost = waypoints.windows(2).map(|ends| ends[0].to(ends[1]).norm()).sum();
+        // Not `sum`, which makes −0 of no segments.
+        let cost = waypoints.windows(2).fold(0.0, |cost, ends| cost + ends[0].to(ends[1]).norm());
         Self { waypoints, cost }
     }
 

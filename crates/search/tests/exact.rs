@@ -5,7 +5,7 @@ mod common;
 use std::sync::Arc;
 
 use common::with_engines;
-use mediant_grid::{Grid, Rules, Vertex};
+use mediant_grid::{CornerRule, Grid, Rules, Vertex};
 use mediant_moves::K;
 use mediant_oracle::{Explicit, Rng, describe, random_free_vertex, random_grid, validate};
 use mediant_search::{Guarantee, Outcome, Query};
@@ -99,8 +99,56 @@ fn engines_are_exact_on_every_map_of_nine_cells() {
     assert_eq!(queries, 549_600);
 }
 
+/// Kramm 2018, Theorems 2 and 3, among obstacles: any-angle ≤ k + 1 ≤ k ≤ Γ_k · any-angle. (At centers the theorem's
+/// any-angle paths may also bend at cell corners; the reference here bends at centers only, so it is no shorter.)
+#[test]
+fn costs_fall_with_k_and_stay_within_the_bound() {
+    let mut tight = [0, 0];
+    for seed in 0..seeds().end.min(300) {
+        let grid = Arc::new(random_grid(seed).0);
+        for rules in Rules::ALL {
+            let any_angle = Explicit::new(&grid, rules, None);
+            let bound = match rules {
+                Rules::Center(_) => mediant_moves::bound_at_centers,
+                Rules::Corner(_) => mediant_moves::bound_at_corners,
+            };
+            for (start, goals) in queries(&grid, rules, seed) {
+                let costs = any_angle.costs_from(start);
+                for goal in goals {
+                    let Some(best) = costs.to(goal) else { continue };
+                    let mut last = f64::INFINITY;
+                    for k in 2..=8 {
+                        let cost = with_engines(&grid, rules, k, |mut engines| {
+                            let (outcome, _) =
+                                engines[0].solve(Query::new(start, goal)).expect("both ends are free");
+                            outcome.path().map_or(f64::INFINITY, |path| path.cost())
+                        });
+                        // Through the corner between two blocked cells no axis moves lead: there k = 2 has no bound.
+                        let bounded = k > 2 || rules != Rules::Center(CornerRule::Always);
+                        let limit = if bounded {
+                            best * bound(K::new(k).expect("k is at least 2"))
+                        } else {
+                            f64::INFINITY
+                        };
+                        let slack = 1.0 + 1e-9;
+                        assert!(
+                            best <= cost * slack && cost <= last * slack && cost <= limit * slack,
+                            "k = {k}: any-angle {best}, k - 1 {last}, k {cost}, bound {limit}; {}",
+                            describe(&grid, rules, start, goal, seed)
+                        );
+                        tight[usize::from(cost > best * slack)] += 1;
+                        last = cost;
+                    }
+                }
+            }
+        }
+    }
+    assert!(tight.iter().all(|&cases| cases > 1_000), "too few cases: {tight:?}");
+}
+
 fn check(outcome: &Outcome, expected: Option<f64>, guarantee: Guarantee, case: &dyn Fn() -> String) {
     let cost = outcome.path().map(|path| path.cost());
+    assert!(!cost.is_some_and(f64::is_sign_negative), "cost {cost:?}: {}", case());
     let as_good = |cost: f64, best: f64| match guarantee {
         Guarantee::Suboptimal => cost >= best * (1.0 - 1e-9),
         _ => (cost - best).abs() <= best * 1e-9,
