@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use anstyle::RgbColor;
 use mediant_grid::{CornerRule, DiagonalGap, Placement, Rules, Vertex};
-use mediant_moves::{K, bound_at_centers, bound_at_corners};
+use mediant_moves::{BOUND_WITHOUT_CORNER_CUTTING, K, bound_at_corners};
 use mediant_search::{Outcome, Planner, Query};
 
 use crate::{
@@ -118,8 +118,9 @@ fn table(map: &Map, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
         Table::new(names.map(|name| (name, if name == "at" { Align::Left } else { Align::Right })));
     for row in rows {
         let placement = row.rules.placement();
-        let bound =
-            if placement == Placement::Corner { bound_at_corners(row.k) } else { bound_at_centers(row.k) };
+        // The demonstration cuts no corners at centers.
+        let uncut = placement == Placement::Center;
+        let bound = if uncut { BOUND_WITHOUT_CORNER_CUTTING } else { bound_at_corners(row.k) };
         let cells = [
             // A column wider than its numbers keeps them off the sample of the line.
             format!("{:>3}", row.k.to_string()),

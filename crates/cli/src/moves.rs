@@ -3,8 +3,8 @@
 use std::io::{self, Write};
 
 use mediant_moves::{
-    KError, Neighborhood, Parity, Quadrant, Vector, bound_at_centers, bound_at_corners, level, parents,
-    smallest_k_at_centers, smallest_k_at_corners,
+    BOUND_WITHOUT_CORNER_CUTTING, KError, Neighborhood, Parity, Quadrant, Vector, bound_at_centers,
+    bound_at_corners, level, parents, smallest_k_at_centers, smallest_k_at_corners,
 };
 
 use crate::{
@@ -41,13 +41,14 @@ fn facts(neighborhood: Neighborhood, screen: &mut Screen) -> Result<(), Failure>
     let quadrant = grouped(neighborhood.quadrant().len());
     writeln!(screen, "{name} · {} moves, {quadrant} in a closed quadrant", grouped(neighborhood.len()))?;
     writeln!(screen, "  radius             {}", grouped(radius.unsigned_abs().into()))?;
-    for (place, bound) in [("at corners", bound_at_corners(k)), ("at centers", bound_at_centers(k))] {
+    let uncut = ("centers, never cut", BOUND_WITHOUT_CORNER_CUTTING);
+    for (place, bound) in [("corners", bound_at_corners(k)), ("centers, cut", bound_at_centers(k)), uncut] {
         // Where the bound is close to 1 its distance from 1 is what tells.
         let digits = if bound < 1.001 { 6 } else { 2 };
         let percent = (bound - 1.0) * 100.0;
         writeln!(
             screen,
-            "  bound {place}   Γ = {bound:.10}: never more than {percent:.digits$} % above any-angle"
+            "  {place:<18} Γ = {bound:.10}: never more than {percent:.digits$} % above any-angle"
         )?;
     }
     Ok(())

@@ -20,14 +20,24 @@ pub fn bound_at_corners(k: K) -> f64 {
 
 /// Γ_k with vertices at cell centers: 6 / (2 + √2) for k = 2 and 3√2 − 3 for every k ≥ 3 (Kramm 2018, Theorem 3, Eq. 2),
 /// tight: more moves do not help the worst case here.
+///
+/// The theorem's moves may touch corners of obstacles. Where none may (the rule `Never` of `mediant-grid`) it does not hold: (2, 1) can be
+/// legal where (1, 1) is not, and then k = 3 takes three steps, 3/√5 ≈ 1.342 times the straight line. There
+/// [`BOUND_WITHOUT_CORNER_CUTTING`] holds.
 #[must_use]
 pub fn bound_at_centers(k: K) -> f64 {
     let root = core::f64::consts::SQRT_2;
     if k == K::FOUR_CONNECTED { 6.0 / (2.0 + root) } else { 3.0 * root - 3.0 }
 }
 
-/// The smallest k whose [`bound_at_corners`] is at most `ratio`; `None` unless `ratio` exceeds 1 by enough for k to fit
-/// in a `u32`.
+/// √2: at centers, where no move may touch an obstacle, no shortest path over N(k) exceeds the any-angle optimum under the same rule
+/// by more, for every k ≥ 2. The cells that a legal segment touches are then a chain of edge neighbors that only goes
+/// on in two directions, so axis moves can follow it, and |x| + |y| ≤ √2 · ‖(x, y)‖. For k = 3 it is tight: beside a
+/// staircase of obstacles (n, n − 1) can be legal and no diagonal step.
+pub const BOUND_WITHOUT_CORNER_CUTTING: f64 = core::f64::consts::SQRT_2;
+
+/// The smallest k whose [`bound_at_corners`] is at most `ratio`; `None` unless `ratio` exceeds 1 by at least 2⁻⁴³, which takes
+/// k = 2²⁰.
 ///
 /// ```
 /// use mediant_moves::smallest_k_at_corners;
@@ -37,7 +47,7 @@ pub fn bound_at_centers(k: K) -> f64 {
 #[must_use]
 pub fn smallest_k_at_corners(ratio: f64) -> Option<K> {
     let meets = |k: u32| K::new(k).is_ok_and(|k| bound_at_corners(k) <= ratio);
-    // Γ falls strictly with k as long as its distance from 1 is far above the rounding of an f64.
+    // Up to here the rounded Γ never rises with k (a test looks at each); much beyond, its distance from 1 drowns in rounding.
     const MAX: u32 = 1 << 20;
     if !meets(MAX) {
         return None;

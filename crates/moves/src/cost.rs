@@ -151,8 +151,8 @@ mod table {
 
         /// h_k(d), for d of any quadrant with coordinates below 2³¹ in magnitude.
         ///
-        /// The rounds of [`distance`](crate::distance()), but they carry the index of the pair of moves instead of the
-        /// moves: at the end the two lengths are looked up rather than rooted.
+        /// The rounds of Hormazábal 2017, Algorithm 2, but they carry the index of the pair of moves instead of the moves:
+        /// at the end the two costs are looked up.
         #[must_use]
         #[inline]
         pub fn distance(&self, d: Vector) -> Cost {

@@ -1,6 +1,6 @@
 //! A vector as α·v + β·w of two adjacent moves, and the trees that decompose a move down to lower levels.
 
-use crate::{K, Parity, Vector, sqrt::sqrt};
+use crate::{K, Parity, Vector};
 
 /// d = α·v + β·w: the two adjacent moves of N(k) that contain d, and how often an optimal path on an empty grid takes
 /// each (Rivera 2017, Theorems 2 and 3, Corollary 1; Kramm 2018, Theorem 1).
@@ -37,7 +37,7 @@ impl Decomposition {
 }
 
 /// The decomposition of d over N(k), for d of any quadrant; for the zero vector that of the first quadrant with α = β = 0.
-/// Linear in k (Hormazábal 2017, Algorithm 2).
+/// Hormazábal 2017, Algorithm 2, in about as many steps as Euclid's algorithm takes on d, or fewer.
 ///
 /// Where d itself is a multiple of a move of N(k), that move is v or w and the other factor is 0.
 ///
@@ -57,18 +57,18 @@ pub fn decompose(d: Vector, k: K) -> Option<Decomposition> {
     }
     let turns = d.quadrant().unwrap_or(0);
     let u = d.turned_by(4 - turns);
-    let (mut low, mut high) = (Vector::new(0, 1), Vector::new(1, 0));
-    let (mut x, mut y) = (u.x as u32, u.y as u32);
-    let mut parity = Parity::Even;
-    for _ in 0..k.depth() {
-        let mediant = Vector::new(low.x.checked_add(high.x)?, low.y.checked_add(high.y)?);
-        if x > y {
-            (low, x, parity) = (mediant, x - y, Parity::Odd);
-        } else {
-            (high, y, parity) = (mediant, y - x, Parity::Even);
-        }
-    }
-    Some(Decomposition { v: low.turned_by(turns), alpha: y, w: high.turned_by(turns), beta: x, parity })
+    let parts = factorize(u.x as u32, u.y as u32, k.depth());
+    let turned = |(x, y): (u64, u64)| {
+        Some(Vector::new(i32::try_from(x).ok()?, i32::try_from(y).ok()?).turned_by(turns))
+    };
+    // At k = 2 a quarter turn swaps the parities: (0, ±1) has index 0 in every quadrant, (±1, 0) index 1.
+    let parity = match parts.last_beyond {
+        Some(true) => Parity::Odd,
+        None if turns % 2 == 1 => Parity::Odd,
+        _ => Parity::Even,
+    };
+    let (v, w) = (turned(parts.low)?, turned(parts.high)?);
+    Some(Decomposition { v, alpha: parts.times_low, w, beta: parts.times_high, parity })
 }
 
 /// The two adjacent moves of N(k) that contain d (Kramm 2018, 'Pairs'), in angular order; see [`decompose`].
@@ -77,47 +77,41 @@ pub fn containing(d: Vector, k: K) -> Option<(Vector, Vector)> {
     decompose(d, k).map(|parts| (parts.v, parts.w))
 }
 
-/// A first-quadrant move with a factor; in `f64` and `u64`, so that no k and no displacement overflows.
-pub(crate) struct Factor {
-    pub(crate) times: f64,
-    x: u64,
-    y: u64,
-}
-
-impl Factor {
-    pub(crate) fn norm(&self) -> f64 {
-        let (x, y) = (self.x as f64, self.y as f64);
-        sqrt(x * x + y * y)
-    }
-}
-
+/// |d| = times_low·low + times_high·high, two adjacent first-quadrant moves as (x, y). `u64` holds the move with factor 0
+/// however large k is.
 pub(crate) struct Factors {
-    pub(crate) low: Factor,
-    pub(crate) high: Factor,
+    pub(crate) times_low: u32,
+    pub(crate) low: (u64, u64),
+    pub(crate) times_high: u32,
+    pub(crate) high: (u64, u64),
+    /// Whether the last round moved `low`, which then is the mediant that k itself inserts; `None` without any round.
+    last_beyond: Option<bool>,
 }
 
 /// The factorization rounds of Hormazábal 2017, Algorithm 2, for |d| = (x, y).
 ///
-/// The rounds stop as soon as a factor is 0: from then on only the move with factor 0 would change.
-#[inline]
-pub(crate) fn decompose_magnitudes(mut x: u32, mut y: u32, k: K) -> Factors {
+/// Rounds that fall to the same side are taken together by one division: whatever k, about as many steps as Euclid's
+/// algorithm takes on (x, y).
+pub(crate) fn factorize(mut x: u32, mut y: u32, mut rounds: u32) -> Factors {
     let (mut low, mut high) = ((0_u64, 1_u64), (1_u64, 0_u64));
-    let mut rounds = k.depth();
-    while rounds > 0 && x != 0 && y != 0 {
-        rounds -= 1;
-        let mediant = (low.0 + high.0, low.1 + high.1);
-        if x > y {
-            x -= y;
-            low = mediant;
+    let mut last_beyond = None;
+    while rounds > 0 {
+        // A round subtracts the smaller factor from the larger one (y from x only where x > y). Once a factor is 0, all
+        // rounds left go to the other side.
+        let beyond = x > y;
+        let n = if beyond { (x - 1).checked_div(y) } else { y.checked_div(x) }.unwrap_or(rounds).min(rounds);
+        let times = u64::from(n);
+        if beyond {
+            x -= n * y;
+            low = (low.0 + times * high.0, low.1 + times * high.1);
         } else {
-            y -= x;
-            high = mediant;
+            y -= n * x;
+            high = (high.0 + times * low.0, high.1 + times * low.1);
         }
+        rounds -= n;
+        last_beyond = Some(beyond);
     }
-    Factors {
-        low: Factor { times: f64::from(y), x: low.0, y: low.1 },
-        high: Factor { times: f64::from(x), x: high.0, y: high.1 },
-    }
+    Factors { times_low: y, low, times_high: x, high, last_beyond }
 }
 
 #[cfg(feature = "alloc")]

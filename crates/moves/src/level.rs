@@ -6,7 +6,7 @@ use crate::{K, Vector};
 /// vector that is no move (gcd ≠ 1).
 ///
 /// A mediant's level is 1 + the larger of its parents' levels (the paper prints a sum there). It equals 2 plus the sum
-/// of the continued fraction terms of |x| / |y| less one, which is how it is computed: in steps of Euclid's algorithm.
+/// of the continued fraction terms of |x| / |y|, which is how it is computed: in steps of Euclid's algorithm.
 ///
 /// ```
 /// use mediant_moves::{level, Vector};

@@ -169,7 +169,9 @@ impl Iterator for QuadrantMoves {
         // Past the last move nothing is computed: there the recurrence leaves the quadrant.
         if self.index + 1 < self.len {
             let times = 2 * self.index.trailing_zeros() as i32 + 1;
-            self.next = self.current * times - result;
+            // The product can leave the i32 range near the middle of the largest quadrants; the difference never does.
+            let next = |v: i32, u: i32| v.wrapping_mul(times).wrapping_sub(u);
+            self.next = Vector::new(next(self.current.x, result.x), next(self.current.y, result.y));
         }
         Some(result)
     }
@@ -186,7 +188,7 @@ impl ExactSizeIterator for QuadrantMoves {}
 /// (−1, 0). Neighbors in this cyclic order are the adjacent moves.
 ///
 /// The quadrants are quarter turns of the first one rather than the papers' reflections: the set is the same, and the
-/// index of a move keeps its parity for k ≥ 3.
+/// index of a move keeps the parity of its index in the quadrant of the papers.
 ///
 /// ```
 /// use mediant_moves::{K, Neighborhood, Vector};

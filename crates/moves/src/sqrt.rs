@@ -14,20 +14,19 @@ pub(crate) fn sqrt(x: f64) -> f64 {
 
 /// √x in integers: the significand, shifted until its root has 63 bits, by `u128::isqrt`; a last bit that says
 /// 'inexact' then makes the conversion back to `f64` round as the exact root would.
-#[cfg(any(test, not(feature = "std")))]
-fn integer_sqrt(x: f64) -> f64 {
+pub(crate) const fn integer_sqrt(x: f64) -> f64 {
     const FRACTION_BITS: i32 = 52;
     if !x.is_normal() || x.is_sign_negative() {
         return if x == 0.0 || x == f64::INFINITY { x } else { f64::NAN };
     }
     let bits = x.to_bits();
     let exponent = (bits >> FRACTION_BITS) as i32 - 1023 - FRACTION_BITS;
-    let significand = u128::from((bits & ((1 << FRACTION_BITS) - 1)) | (1 << FRACTION_BITS));
+    let significand = ((bits & ((1 << FRACTION_BITS) - 1)) | (1 << FRACTION_BITS)) as u128;
     // x = significand · 2^exponent; an even exponent leaves a root that is an integer times a power of two.
     let shift = if exponent % 2 == 0 { 74 } else { 73 };
     let square = significand << shift;
     let root = square.isqrt();
-    let sticky = u64::from(root * root != square);
+    let sticky = (root * root != square) as u64;
     let rounded = ((root as u64) | sticky) as f64;
     let half = (exponent - shift) / 2;
     rounded * f64::from_bits(((1023 + half) as u64) << FRACTION_BITS)
