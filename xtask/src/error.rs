@@ -12,6 +12,9 @@ pub enum Error {
     /// Costs that differ from the known ones, or fewer of them than there should be.
     #[error("{0}")]
     Verify(String),
+    /// A comparison that could not be made.
+    #[error(transparent)]
+    Compare(#[from] crate::compare::CompareError),
     /// A set that the manifest does not list.
     #[error("unknown set `{name}`: the manifest lists {known}")]
     UnknownSet {

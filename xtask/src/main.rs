@@ -4,7 +4,7 @@
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use xtask::{ci, download, tidy, verify};
+use xtask::{ci, compare, download, tidy, verify};
 
 /// The chores of the Mediant workspace
 #[derive(Parser)]
@@ -20,6 +20,8 @@ enum Task {
     Download(download::Options),
     /// Compare our costs with the scenarios' optima, or with those of independent programs
     Verify(verify::Options),
+    /// Time our engines beside other programs, on the same instances
+    Compare(compare::Options),
     /// Check the rules of the project that the compiler does not know
     Tidy,
     /// Check all but the tests: format, lints, documentation, tidiness, the oldest supported Rust
@@ -30,6 +32,7 @@ fn main() -> ExitCode {
     let done = match Cli::parse().task {
         Task::Download(options) => download::run(&options),
         Task::Verify(options) => verify::run(&options),
+        Task::Compare(options) => compare::run(&options).map_err(Into::into),
         Task::Tidy => tidy::run(),
         Task::Ci => ci::run(),
     };

@@ -1,1 +1,35 @@
-//! (to be written)
+//! Our engines beside other programs: on the same instances, in the same process, and, by way of two crates that run
+//! there too, on the same scale as programs that do not.
+//!
+//! **The key decision: ratios, never times.** A machine is not the same from one day to the next. So [`measure`] takes
+//! the contenders in turn, pass by pass, and drift meets all of them alike; and the figures of `benchdata/anchors.json`,
+//! which other programs took on another machine, are scaled by what the two [`Yardstick`]s take there and here before
+//! [`Comparison`] divides by them.
+//!
+//! Nothing is timed that was not checked: a path that is not as long as the scenario says is an error, not a result.
+//!
+//! * [`Archive`]: where the maps and scenarios of the benchmark sets are; [`Problem`]: one of them, loaded.
+//! * [`Task`]: one of our engines with its k, placement and rule of motion. [`Contender`]: a task or a yardstick.
+//! * [`measure`]: the side by side. [`MapRecord`]: what it found.
+//! * [`Anchors`], [`Comparison`]: the other programs, and our ratio to each.
+//!
+//! What is not here: tables and files of results (`xtask compare`), and the criterion benches, which are in `benches/`.
+
+mod anchors;
+mod archive;
+mod comparison;
+mod contender;
+mod measure;
+mod problem;
+mod solve;
+mod task;
+mod yardstick;
+
+pub use anchors::{Anchors, AnchorsError, Comparand, MapAnchors, Preprocessing};
+pub use archive::{Archive, ArchiveError};
+pub use comparison::{Comparison, geometric_mean};
+pub use contender::Contender;
+pub use measure::{MapRecord, MeasureError, Timing, measure};
+pub use problem::{Problem, ProblemError};
+pub use task::{Engine, Task, TaskError};
+pub use yardstick::Yardstick;

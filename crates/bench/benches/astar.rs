@@ -1,0 +1,112 @@
+//! A* and what it is made of, on two generated maps: whole queries for k = 2…8 under both placements, the generation of
+//! successors, and the open list. What these times are good for is the comparison of one revision with another.
+
+use std::{hint::black_box, sync::Arc};
+
+use criterion::{BenchmarkId, Criterion, Throughput};
+use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Grid, Lattice, Place, Vertex, VertexId};
+use mediant_moves::{Cost, K};
+use mediant_oracle::{Rng, caves, noise, random_free_vertex};
+use mediant_search::{AStar, Entry, LatticeDistance, OpenList, Planner, Query};
+
+const SEED: u64 = 1;
+const SIDE: u32 = 160;
+const QUERIES: usize = 10;
+const ENTRIES: u32 = 4096;
+
+fn main() {
+    let mut c = Criterion::default().sample_size(20).configure_from_args();
+    let mut rng = Rng::new(SEED);
+    let maps = [
+        ("caves", Arc::new(caves(&mut rng, SIDE, SIDE))),
+        ("noise", Arc::new(noise(&mut rng, SIDE, SIDE, 25))),
+    ];
+    for (name, grid) in &maps {
+        for k in 2..=8 {
+            queries::<Centers>(&mut c, name, grid, CornerRule::Never, k);
+            queries::<Corners>(&mut c, name, grid, DiagonalGap::Open, k);
+        }
+        for k in [3, 5, 8] {
+            successors::<Centers>(&mut c, name, grid, CornerRule::Never, k);
+            successors::<Corners>(&mut c, name, grid, DiagonalGap::Open, k);
+        }
+    }
+    heap(&mut c);
+    c.final_summary();
+}
+
+fn lattice<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: u32) -> Lattice<P> {
+    let k = K::new(k).expect("k is at least 2");
+    Lattice::new(Arc::clone(grid), k, rule).expect("k is at most 12")
+}
+
+/// The same queries for every k, all of them solvable.
+fn random_queries<P: Place>(lattice: &Lattice<P>) -> Vec<Query> {
+    let mut rng = Rng::new(SEED);
+    let mut end =
+        || random_free_vertex(&mut rng, lattice.grid(), P::PLACEMENT).expect("the map has free cells");
+    let pairs = std::iter::repeat_with(|| (end(), end()));
+    let connected = pairs.filter(|&(start, goal)| lattice.connected(start, goal));
+    connected.take(QUERIES).map(|(start, goal)| Query::new(start, goal)).collect()
+}
+
+/// The time of all queries, on a warm planner.
+fn queries<P: Place>(c: &mut Criterion, map: &str, grid: &Arc<Grid>, rule: P::Rule, k: u32) {
+    let lattice = lattice::<P>(grid, rule, k);
+    let queries = random_queries(&lattice);
+    let mut planner = AStar::new(&lattice, LatticeDistance);
+    let mut group = c.benchmark_group(format!("astar/{}/{map}", P::PLACEMENT));
+    group.throughput(Throughput::Elements(queries.len() as u64));
+    group.bench_function(BenchmarkId::from_parameter(k), |b| {
+        b.iter(|| queries.iter().for_each(|&query| _ = black_box(planner.solve(black_box(query)))));
+    });
+    group.finish();
+}
+
+/// The time of finding all legal moves of all free vertices, row by row.
+fn successors<P: Place>(c: &mut Criterion, map: &str, grid: &Arc<Grid>, rule: P::Rule, k: u32) {
+    let lattice = lattice::<P>(grid, rule, k);
+    let (width, height) = P::vertices(grid);
+    let all = (0..height as i32).flat_map(|y| (0..width as i32).map(move |x| Vertex::new(x, y)));
+    let vertices: Vec<Vertex> = all.filter(|&at| lattice.is_free(at)).collect();
+    let mut group = c.benchmark_group(format!("successors/{}/{map}", P::PLACEMENT));
+    group.throughput(Throughput::Elements(vertices.len() as u64));
+    group.bench_function(BenchmarkId::from_parameter(k), |b| {
+        b.iter(|| {
+            let mut sum = 0;
+            for &at in black_box(&vertices) {
+                lattice.for_each_legal_move(at, |index| sum += index);
+            }
+            sum
+        });
+    });
+    group.finish();
+}
+
+/// The time of pushing random entries, lowering every second one, and popping all.
+fn heap(c: &mut Criterion) {
+    let mut rng = Rng::new(SEED);
+    let mut cost = || Cost::from_bits(1 << 40 | rng.bits() >> 24);
+    let costs: Vec<(Cost, Cost)> = (0..ENTRIES).map(|_| (cost(), cost())).collect();
+    let mut open = OpenList::default();
+    let mut slots = vec![0_u32; ENTRIES as usize];
+    let mut group = c.benchmark_group("heap");
+    group.throughput(Throughput::Elements(u64::from(ENTRIES)));
+    group.bench_function("push, decrease, pop", |b| {
+        b.iter(|| {
+            let mut swaps = 0;
+            for (id, &(f, h)) in (0..).map(VertexId).zip(black_box(&costs)) {
+                swaps += open.push(Entry::new(f, h, id), |id, slot| slots[id.index()] = slot);
+            }
+            for id in (0..slots.len()).step_by(2) {
+                swaps +=
+                    open.decrease(slots[id], Cost::from_bits(1 << 39), |id, slot| slots[id.index()] = slot);
+            }
+            while let Some((_, more)) = open.pop(|id, slot| slots[id.index()] = slot) {
+                swaps += more;
+            }
+            swaps
+        });
+    });
+    group.finish();
+}

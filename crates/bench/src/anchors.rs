@@ -1,0 +1,316 @@
+//! What other programs take: `benchdata/anchors.json`.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::Deserialize;
+
+use crate::Task;
+
+/// The figures of other programs on the instances of our comparison.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Anchors {
+    /// What this is.
+    pub about: String,
+    /// Where, when and how the times were taken.
+    pub measured: Measured,
+    /// The rule that picks a map's instances.
+    pub instances: Instances,
+    /// How the times are carried over to another machine.
+    pub scaling: String,
+    /// The programs that are measured here as well, in the order of [`Yardstick::ALL`](crate::Yardstick::ALL).
+    pub yardsticks: Vec<Comparand>,
+    /// The others.
+    pub programs: Vec<Comparand>,
+    /// The figures.
+    pub maps: Vec<MapAnchors>,
+    /// Figures on other instances, as their authors published them.
+    pub published: Vec<Published>,
+}
+
+/// Where, when and how times were taken.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Measured {
+    /// The day, year first.
+    pub date: String,
+    /// The machine.
+    pub machine: String,
+    /// What was timed.
+    pub time: String,
+}
+
+/// The rule that picks a map's instances.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Instances {
+    /// Those of a scenario whose index this divides.
+    pub every: usize,
+    /// How many that makes, over all maps.
+    pub count: usize,
+}
+
+/// Another program.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Comparand {
+    /// What the figures call it.
+    pub name: String,
+    /// The problem that it solves.
+    pub problem: ComparandProblem,
+    /// Whether it solves it optimally.
+    pub optimal: bool,
+    /// Its language, where not C++ or Rust.
+    pub language: Option<String>,
+    /// What its paths list: `cells` or `turning points`.
+    pub returns: Option<String>,
+    /// Its version.
+    pub version: Option<String>,
+    /// The function that is called.
+    pub call: Option<String>,
+    /// Anything else.
+    pub note: Option<String>,
+}
+
+/// The problem that a program solves, in the words of the `mediant` program.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ComparandProblem {
+    /// The k of the neighborhood.
+    pub k: AnyOrK,
+    /// `center` or `corner`.
+    pub placement: String,
+    /// The corner rule or gap rule, where it is known.
+    pub rule: Option<String>,
+}
+
+/// The k of a neighborhood, or any angle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(untagged)]
+pub enum AnyOrK {
+    /// N(k).
+    K(u32),
+    /// Any angle.
+    Any(Any),
+}
+
+/// The word `any`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Any {
+    /// `any`.
+    Any,
+}
+
+/// The figures on one map.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MapAnchors {
+    /// Its name, without extension.
+    pub map: String,
+    /// The benchmark set that it belongs to.
+    pub set: String,
+    /// Each program's mean time of a query in microseconds; `None` where it could not be measured.
+    pub micros: BTreeMap<String, Option<f64>>,
+    /// What preprocessing took, for the programs that do any; `None` where it could not be measured.
+    pub preprocessing: BTreeMap<String, Option<Preprocessing>>,
+}
+
+/// What preprocessing took.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Preprocessing {
+    /// Its time.
+    pub seconds: f64,
+    /// Whether it was broken off at that time.
+    #[serde(default)]
+    pub unfinished: bool,
+    /// The size of the index on disk, 10⁶ bytes; `None` for one that stays in memory.
+    pub megabytes: Option<f64>,
+}
+
+/// Figures from a publication.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Published {
+    /// The program.
+    pub name: String,
+    /// Its language.
+    pub language: String,
+    /// Whose figures these are.
+    pub source: String,
+    /// The machine.
+    pub machine: String,
+    /// The instances.
+    pub maps: String,
+    /// The figures.
+    pub rows: Vec<PublishedRow>,
+}
+
+/// One variant of a published program.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PublishedRow {
+    /// What it does.
+    pub variant: String,
+    /// Its neighborhood.
+    pub k: u32,
+    /// The mean time of a query in microseconds.
+    pub micros: f64,
+    /// By how much its paths exceed the any-angle optimum, in percent.
+    pub excess_percent: Option<f64>,
+}
+
+/// A text that is no list of anchors.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum AnchorsError {
+    /// Not JSON, or not of the form above.
+    #[error("the anchors cannot be read: {0}")]
+    Form(#[from] serde_json::Error),
+    /// A map's figures and the list of programs do not match.
+    #[error(
+        "the anchors of map `{map}`: each program of the list needs one entry, and no other may have one"
+    )]
+    Programs {
+        /// The map.
+        map: String,
+    },
+}
+
+impl Anchors {
+    /// Those of `benchdata/anchors.json`.
+    ///
+    /// # Errors
+    /// [`AnchorsError`] when that file has been damaged.
+    pub fn bundled() -> Result<Self, AnchorsError> {
+        Self::parse(include_str!("../../../benchdata/anchors.json"))
+    }
+
+    /// Those of a JSON text.
+    ///
+    /// # Errors
+    /// [`AnchorsError`] says what is wrong.
+    pub fn parse(text: &str) -> Result<Self, AnchorsError> {
+        let anchors: Self = serde_json::from_str(text)?;
+        let names: BTreeSet<&String> = anchors.comparands().map(|program| &program.name).collect();
+        match anchors.maps.iter().find(|row| !row.micros.keys().eq(names.iter().copied())) {
+            Some(row) => Err(AnchorsError::Programs { map: row.map.clone() }),
+            None => Ok(anchors),
+        }
+    }
+
+    /// The yardsticks and the other programs.
+    pub fn comparands(&self) -> impl Iterator<Item = &Comparand> {
+        self.yardsticks.iter().chain(&self.programs)
+    }
+
+    /// The figures on a map.
+    #[must_use]
+    pub fn map(&self, name: &str) -> Option<&MapAnchors> {
+        self.maps.iter().find(|row| row.map == name)
+    }
+}
+
+impl Comparand {
+    /// Whether the program solves the very problem of a task, so that the two may be compared without a remark.
+    #[must_use]
+    pub fn solves(&self, task: Task) -> bool {
+        let ComparandProblem { k, placement, rule } = &self.problem;
+        self.optimal
+            && *k == AnyOrK::K(task.k.get())
+            && *placement == task.rules.placement().to_string()
+            && *rule == Some(task.rule())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bundled() -> Anchors {
+        Anchors::bundled().unwrap()
+    }
+
+    #[test]
+    fn all_figures_are_there_but_for_those_marked_missing() {
+        let anchors = bundled();
+        assert_eq!((anchors.maps.len(), anchors.yardsticks.len(), anchors.programs.len()), (18, 2, 13));
+        assert_eq!((anchors.instances.every, anchors.instances.count), (20, 2203));
+        let maps: BTreeSet<&str> = anchors.maps.iter().map(|row| row.map.as_str()).collect();
+        assert_eq!(maps.len(), 18);
+        let missing: Vec<(&str, &str)> = anchors
+            .maps
+            .iter()
+            .flat_map(|row| row.micros.iter().map(|(program, micros)| (&*row.map, &**program, micros)))
+            .filter(|(.., micros)| micros.is_none())
+            .map(|(map, program, _)| (map, program))
+            .collect();
+        let marked = [
+            ("random512-10-0", "2019-SGCH-JPD"),
+            ("random512-10-0", "EPS_MCDT"),
+            ("random512-40-0", "EPS_MCDT"),
+        ];
+        assert_eq!(missing, marked);
+        assert!(
+            anchors.maps.iter().flat_map(|row| row.micros.values()).flatten().all(|&micros| micros > 0.0)
+        );
+        for row in &anchors.maps {
+            assert_eq!(row.preprocessing.len(), 6, "{}", row.map);
+            for (program, figures) in &row.preprocessing {
+                let Some(figures) = figures else {
+                    assert!(program == "EPS_MCDT" && row.set == "random", "{} of {program}", row.map);
+                    continue;
+                };
+                assert!(figures.seconds > 0.0);
+                assert_eq!(figures.megabytes.is_none(), program == "ENLSVG", "{} of {program}", row.map);
+            }
+        }
+    }
+
+    #[test]
+    fn figures_stand_where_they_belong() {
+        let anchors = bundled();
+        let micros = |map: &str, program: &str| anchors.map(map).unwrap().micros[program];
+        assert_eq!(micros("arena2", "pathfinding"), Some(1522.0));
+        assert_eq!(micros("Moscow_2_1024", "grid_pathfinding"), Some(10_788.0));
+        assert_eq!(micros("Cauldron", "Warthog A*"), Some(18_853.0));
+        assert_eq!(micros("random512-40-0", "2019-SGCH-JPD"), Some(40.3));
+        assert_eq!(micros("8room_000", "warthog-jps 0.5.1 jps2+"), Some(326.0));
+        assert_eq!(micros("32room_000", "EPS_MCDT"), Some(6.6));
+        assert_eq!(micros("Moscow_2_1024", "ENLSVG"), Some(520.0));
+        let built = |map: &str, program: &str| anchors.map(map).unwrap().preprocessing[program].unwrap();
+        let unfinished = Preprocessing { seconds: 292.0, unfinished: true, megabytes: Some(18.42) };
+        assert_eq!(built("random512-10-0", "2019-SGCH-JPD"), unfinished);
+        let in_memory = Preprocessing { seconds: 0.026, unfinished: false, megabytes: None };
+        assert_eq!(built("orz900d", "ENLSVG"), in_memory);
+        assert_eq!(built("TheFrozenSea", "EPS_MCDT").seconds, 365.732);
+        let central: Vec<f64> = anchors.published[0].rows.iter().map(|row| row.micros).collect();
+        assert_eq!(central, [848.0, 1637.0, 2879.0, 4967.0, 293.0, 530.0, 968.0, 1960.0, 816.0]);
+    }
+
+    #[test]
+    fn only_programs_that_solve_the_same_problem_compare() {
+        let anchors = bundled();
+        let comparable = |task: &str| {
+            let task = task.parse().unwrap();
+            anchors
+                .comparands()
+                .filter(|program| program.solves(task))
+                .map(|program| &*program.name)
+                .collect()
+        };
+        let octile: Vec<&str> = comparable("astar:3:never");
+        assert_eq!(octile.len(), 7);
+        assert!(octile.contains(&"pathfinding") && !octile.contains(&"grid_pathfinding"));
+        assert!(comparable("astar:4:never").is_empty() && comparable("astar:3:open").is_empty());
+    }
+
+    #[test]
+    fn damaged_anchors_are_refused() {
+        assert!(matches!(Anchors::parse("{"), Err(AnchorsError::Form(_))));
+        let text = include_str!("../../../benchdata/anchors.json").replacen("\"RayScan\": 47.7, ", "", 1);
+        let error = Anchors::parse(&text).unwrap_err().to_string();
+        assert!(error.contains("`arena2`"), "{error}");
+    }
+}

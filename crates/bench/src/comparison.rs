@@ -1,0 +1,88 @@
+//! Our ratio to programs that were measured elsewhere.
+
+use serde::Serialize;
+
+use crate::{Anchors, MapRecord, Timing, Yardstick};
+
+/// One contender's ratios on one map.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Comparison {
+    /// The map's name, without extension.
+    pub map: String,
+    /// Who is compared.
+    pub contender: String,
+    /// How much slower this machine was than the anchors', on this map: the geometric mean over both yardsticks of the time here
+    /// by the time there.
+    pub scale: f64,
+    /// The contender's time by the scaled time of each program, in the order of [`Anchors::programs`]; below 1, the contender
+    /// is faster. `None` where the program has no figure.
+    pub ratios: Vec<Option<f64>>,
+}
+
+impl Comparison {
+    /// Compares a timing with the anchors of its map; `None` for a map without anchors or a record without both yardsticks.
+    #[must_use]
+    pub fn new(anchors: &Anchors, record: &MapRecord, timing: &Timing) -> Option<Self> {
+        let row = anchors.map(&record.map)?;
+        let here_by_there = |yardstick: Yardstick| {
+            let here = record.timings.iter().find(|timing| timing.contender == yardstick.name())?.micros;
+            Some(here / (*row.micros.get(yardstick.name())?)?)
+        };
+        let scale = geometric_mean(&[
+            here_by_there(Yardstick::Pathfinding)?,
+            here_by_there(Yardstick::GridPathfinding)?,
+        ])?;
+        let ratio = |program: &str| Some(timing.micros / ((*row.micros.get(program)?)? * scale));
+        let ratios = anchors.programs.iter().map(|program| ratio(&program.name)).collect();
+        Some(Self { map: record.map.clone(), contender: timing.contender.clone(), scale, ratios })
+    }
+}
+
+/// The geometric mean of positive numbers; `None` of none.
+#[must_use]
+pub fn geometric_mean(values: &[f64]) -> Option<f64> {
+    let logarithms: f64 = values.iter().map(|value| value.ln()).sum();
+    (!values.is_empty()).then(|| (logarithms / values.len() as f64).exp())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn timing(contender: &str, micros: f64) -> Timing {
+        Timing { contender: contender.to_owned(), micros, passes: vec![micros], mean_cost: 1.0 }
+    }
+
+    #[test]
+    fn anchors_are_scaled_by_both_yardsticks() {
+        // arena2: twice and eight times the anchors' 1522 and 108 µs make a machine that is four times as slow.
+        let timings =
+            vec![timing("astar", 1464.0), timing("pathfinding", 3044.0), timing("grid_pathfinding", 864.0)];
+        let mut record = MapRecord { map: "arena2".to_owned(), set: "dao".to_owned(), instances: 1, timings };
+        let anchors = Anchors::bundled().unwrap();
+        let comparison = Comparison::new(&anchors, &record, &record.timings[0]).unwrap();
+        assert!((comparison.scale - 4.0).abs() < 1e-12);
+        // Warthog A* takes 732 µs there, hence 2928 here.
+        assert!((comparison.ratios[0].unwrap() - 0.5).abs() < 1e-12);
+        assert_eq!(comparison.ratios.len(), 13);
+
+        record.map = "random512-10-0".to_owned();
+        let comparison = Comparison::new(&anchors, &record, &record.timings[0]).unwrap();
+        let missing = |name: &str| {
+            let at = anchors.programs.iter().position(|program| program.name == name).unwrap();
+            comparison.ratios[at].is_none()
+        };
+        assert!(missing("EPS_MCDT") && missing("2019-SGCH-JPD") && !missing("ENLSVG"));
+
+        record.timings.pop();
+        assert_eq!(Comparison::new(&anchors, &record, &record.timings[0]), None);
+        record.map = "elsewhere".to_owned();
+        assert_eq!(Comparison::new(&anchors, &record, &record.timings[0]), None);
+    }
+
+    #[test]
+    fn geometric_means() {
+        assert_eq!(geometric_mean(&[]), None);
+        assert!((geometric_mean(&[2.0, 8.0]).unwrap() - 4.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,190 @@
+//! The side by side: check, then time, all contenders in turn.
+
+use std::{hint::black_box, time::Instant};
+
+use mediant_moves::KError;
+use mediant_search::QueryError;
+use serde::Serialize;
+
+use crate::{
+    Contender, Problem, Yardstick,
+    contender::{Prepared, Runner},
+};
+
+/// What all contenders took on one map.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MapRecord {
+    /// The map's name, without extension.
+    pub map: String,
+    /// The benchmark set that it belongs to.
+    pub set: String,
+    /// The number of queries.
+    pub instances: usize,
+    /// The times, in the order of the contenders.
+    pub timings: Vec<Timing>,
+}
+
+/// What one contender took.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Timing {
+    /// Who.
+    pub contender: String,
+    /// The mean time of a query in microseconds, paths included: the median over the passes.
+    pub micros: f64,
+    /// The mean of each pass.
+    pub passes: Vec<f64>,
+    /// The mean length of the paths, in cells.
+    pub mean_cost: f64,
+}
+
+/// A contender that could not be measured, or answered wrong.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MeasureError {
+    /// A neighborhood that no search graph can be made for.
+    #[error("{contender} on map `{map}`: {source}")]
+    Graph {
+        /// Who.
+        contender: String,
+        /// Where.
+        map: String,
+        /// Why.
+        source: KError,
+    },
+    /// A query that was refused.
+    #[error("{contender} on map `{map}`, instance {index}: {source}")]
+    Query {
+        /// Who.
+        contender: String,
+        /// Where.
+        map: String,
+        /// The instance.
+        index: usize,
+        /// Why.
+        source: QueryError,
+    },
+    /// A path of another length than it must have, or none.
+    #[error(
+        "{contender} on map `{map}`, instance {index}: expected a path of length {expected} ({by}), found {found}"
+    )]
+    Answer {
+        /// Who.
+        contender: String,
+        /// Where.
+        map: String,
+        /// The instance.
+        index: usize,
+        /// The length.
+        expected: f64,
+        /// Who says so.
+        by: &'static str,
+        /// What was found.
+        found: String,
+    },
+}
+
+/// Times the contenders on a problem: a first pass of each, untimed, warms it and checks its answers; then `passes` rounds
+/// (at least one) in which each takes one pass after the other.
+///
+/// A task at k = 3 between centers under `Never` and [`Yardstick::Pathfinding`] must return paths as long as the scenario
+/// says, and as each other's; any other must find a path, as it allows more moves or as many ways through.
+///
+/// # Errors
+/// [`MeasureError`] for the first contender that does not.
+pub fn measure(
+    problem: &Problem,
+    contenders: &[Contender],
+    passes: usize,
+) -> Result<MapRecord, MeasureError> {
+    let graph_error = |contender: Contender, source| MeasureError::Graph {
+        contender: contender.to_string(),
+        map: problem.name.clone(),
+        source,
+    };
+    let prepare =
+        |&contender: &Contender| Prepared::new(contender, problem).map_err(|e| graph_error(contender, e));
+    let prepared: Vec<Prepared> = contenders.iter().map(prepare).collect::<Result<_, _>>()?;
+    let mut runners: Vec<Runner<'_>> = prepared.iter().map(Prepared::runner).collect();
+
+    let mut optima: Vec<f64> = Vec::new();
+    let mut timings = Vec::with_capacity(contenders.len());
+    for (runner, &contender) in runners.iter_mut().zip(contenders) {
+        let costs = check(problem, contender, runner, &optima)?;
+        let mean_cost = costs.iter().sum::<f64>() / costs.len() as f64;
+        timings.push(Timing { contender: contender.to_string(), micros: 0.0, passes: Vec::new(), mean_cost });
+        if solves_scenarios(contender) {
+            optima = costs;
+        }
+    }
+    for _ in 0..passes.max(1) {
+        for (runner, timing) in runners.iter_mut().zip(&mut timings) {
+            timing.passes.push(pass(problem, runner));
+        }
+    }
+    for timing in &mut timings {
+        timing.micros = median(&timing.passes);
+    }
+    Ok(MapRecord { map: problem.name.clone(), set: problem.set.clone(), instances: problem.len(), timings })
+}
+
+fn solves_scenarios(contender: Contender) -> bool {
+    match contender {
+        Contender::Task(task) => task.solves_scenarios(),
+        Contender::Yardstick(yardstick) => yardstick == Yardstick::Pathfinding,
+    }
+}
+
+/// The lengths of all paths, checked. `optima` are those that another contender found for the scenario's problem, if any.
+fn check(
+    problem: &Problem,
+    contender: Contender,
+    runner: &mut Runner<'_>,
+    optima: &[f64],
+) -> Result<Vec<f64>, MeasureError> {
+    let mut costs = Vec::with_capacity(problem.len());
+    for (i, case) in problem.cases.iter().enumerate() {
+        let (map, index) = (problem.name.clone(), case.index);
+        let answer = runner.solve(case.query).map_err(|source| MeasureError::Query {
+            contender: contender.to_string(),
+            map: map.clone(),
+            index,
+            source,
+        })?;
+        let cost = answer.cost();
+        // Scenarios carry six significant digits; two programs differ by the rounding of their sums alone.
+        let scenario = (case.optimum, f64::max(0.005, 1e-5 * case.optimum), "the scenario");
+        let other = optima.get(i).map(|&cost| (cost, 1e-8 * (1.0 + cost), "another contender"));
+        let is_wrong = |&(expected, tolerance, _): &(f64, f64, _)| match cost {
+            Some(cost) => solves_scenarios(contender) && (cost - expected).abs() > tolerance,
+            None => true,
+        };
+        if let Some((expected, _, by)) = [Some(scenario), other].into_iter().flatten().find(is_wrong) {
+            let found = cost.map_or("none".to_owned(), |cost| cost.to_string());
+            let contender = contender.to_string();
+            return Err(MeasureError::Answer { contender, map, index, expected, by, found });
+        }
+        costs.extend(cost);
+    }
+    Ok(costs)
+}
+
+/// The mean time of a query in microseconds.
+fn pass(problem: &Problem, runner: &mut Runner<'_>) -> f64 {
+    let begin = Instant::now();
+    for case in &problem.cases {
+        // The check has seen every answer, so none is an error here.
+        let _ = black_box(runner.solve(black_box(case.query)));
+    }
+    begin.elapsed().as_secs_f64() * 1e6 / problem.len() as f64
+}
+
+/// The middle value, or the mean of the two in the middle; 0 of none.
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let (low, high) = (sorted.len().saturating_sub(1) / 2, sorted.len() / 2);
+    match (sorted.get(low), sorted.get(high)) {
+        (Some(low), Some(high)) => f64::midpoint(*low, *high),
+        _ => 0.0,
+    }
+}

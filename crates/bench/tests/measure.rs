@@ -1,0 +1,122 @@
+//! The harness on generated maps, with the oracle's costs as the scenario.
+
+use mediant_bench::{Contender, MeasureError, Problem, ProblemError, Yardstick, measure};
+use mediant_formats::{Instance, Scenario};
+use mediant_grid::{AsciiMap, CornerRule, Grid, Placement, Rules};
+use mediant_moves::K;
+use mediant_oracle::{Explicit, Rng, caves, noise, random_free_vertex};
+
+const SEED: u64 = 1;
+
+/// Up to `count` solvable queries with their optimal costs.
+fn scenario(rng: &mut Rng, grid: &Grid, count: usize) -> Scenario {
+    let graph = Explicit::new(grid, Rules::Center(CornerRule::Never), Some(K::EIGHT_CONNECTED));
+    let mut instances = Vec::new();
+    for _ in 0..count {
+        let start = random_free_vertex(rng, grid, Placement::Center).expect("a free cell");
+        let goal = random_free_vertex(rng, grid, Placement::Center).expect("a free cell");
+        let Some(optimal) = graph.costs_from(start).to(goal) else { continue };
+        let (width, height) = (grid.width(), grid.height());
+        instances.push(Instance { bucket: 0, map: "test.map".into(), width, height, start, goal, optimal });
+    }
+    Scenario::from_instances(instances).expect("lengths are finite")
+}
+
+fn contenders() -> Vec<Contender> {
+    let tasks = ["astar", "astar:2:never", "astar:4:one", "astar:3:always", "astar:3:open", "astar:5:closed"];
+    let tasks = tasks.iter().map(|task| Contender::Task(task.parse().expect("a task")));
+    tasks.chain(Yardstick::ALL.map(Contender::Yardstick)).collect()
+}
+
+#[test]
+fn all_contenders_answer_all_queries() {
+    let mut queries = 0;
+    for seed in SEED..SEED + 12 {
+        let mut rng = Rng::new(seed);
+        let grid = if seed % 2 == 0 { noise(&mut rng, 20, 14, 30) } else { caves(&mut rng, 20, 14) };
+        let scenario = scenario(&mut rng, &grid, 12);
+        if scenario.instances().is_empty() {
+            continue;
+        }
+        let problem = Problem::new("made", "test", grid, &scenario, 1).expect("a problem");
+        let record =
+            measure(&problem, &contenders(), 2).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
+        assert_eq!((record.instances, record.timings.len()), (problem.len(), 8), "seed {seed}");
+        for timing in &record.timings {
+            assert_eq!(timing.passes.len(), 2, "seed {seed}");
+            assert!(timing.passes.iter().all(|&pass| pass > 0.0) && timing.micros > 0.0, "seed {seed}");
+        }
+        let cost = |i: usize| record.timings[i].mean_cost;
+        let optimum = scenario.instances().iter().map(|instance| instance.optimal).sum::<f64>();
+        let optimum = optimum / problem.len() as f64;
+        assert!((cost(0) - optimum).abs() < 1e-6 && (cost(6) - optimum).abs() < 1e-6, "seed {seed}");
+        // k = 2 is no better, rule `One` with more moves no worse; a path that cuts corners is never below the best of them.
+        assert!(cost(1) >= cost(0) - 1e-6 && cost(2) <= cost(0) + 1e-6, "seed {seed}");
+        assert!(cost(3) <= cost(0) + 1e-6 && cost(7) >= cost(3) - 1e-6, "seed {seed}");
+        queries += problem.len();
+    }
+    assert_eq!(
+        queries, PINNED,
+        "seeds from {SEED}: a change of this number means that other queries were run"
+    );
+}
+
+/// The queries of the test above.
+const PINNED: usize = 136;
+
+#[test]
+fn wrong_lengths_are_found() {
+    let map = AsciiMap::parse("\n....\n.##.\n....\n").expect("a map");
+    let instance = |optimal: f64| Instance {
+        bucket: 0,
+        map: "test.map".into(),
+        width: 4,
+        height: 3,
+        start: (0, 1).into(),
+        goal: (3, 1).into(),
+        optimal,
+    };
+    let check = |optimal: f64, contender: Contender| {
+        let scenario = Scenario::from_instances(vec![instance(5.0), instance(optimal)]).expect("a scenario");
+        let problem = Problem::new("made", "test", map.grid.clone(), &scenario, 1).expect("a problem");
+        measure(&problem, &[contender], 1)
+    };
+    let astar = Contender::Task("astar".parse().expect("a task"));
+    for contender in [astar, Contender::Yardstick(Yardstick::Pathfinding)] {
+        assert!(check(5.0, contender).is_ok());
+        for wrong in [4.99, 5.01] {
+            match check(wrong, contender) {
+                Err(MeasureError::Answer { index: 1, expected, .. }) => assert_eq!(expected, wrong),
+                other => panic!("{contender}, {wrong}: {other:?}"),
+            }
+        }
+    }
+    // This one solves another problem, and is not held to the scenario's lengths.
+    assert!(check(4.99, Contender::Yardstick(Yardstick::GridPathfinding)).is_ok());
+}
+
+#[test]
+fn instances_are_picked_by_index_and_checked() {
+    let map = AsciiMap::parse("\n...\n.#.\n").expect("a map");
+    let instance = |start: (i32, i32)| Instance {
+        bucket: 0,
+        map: "test.map".into(),
+        width: 3,
+        height: 2,
+        start: start.into(),
+        goal: (0, 0).into(),
+        optimal: 0.0,
+    };
+    let problem = |every: usize, starts: &[(i32, i32)]| {
+        let scenario = Scenario::from_instances(starts.iter().map(|&start| instance(start)).collect());
+        Problem::new("made", "test", map.grid.clone(), &scenario.expect("a scenario"), every)
+    };
+    assert_eq!(problem(2, &[(0, 0), (1, 1), (0, 0), (9, 9), (0, 0)]).expect("a problem").len(), 3);
+    for wrong in [(1, 1), (3, 0), (0, -1)] {
+        match problem(2, &[(0, 0), (0, 0), wrong]) {
+            Err(ProblemError::Instances { wrong, .. }) => assert!(wrong.contains("instance 2"), "{wrong}"),
+            other => panic!("{wrong:?}: {other:?}"),
+        }
+    }
+    assert!(matches!(problem(1, &[]), Err(ProblemError::Instances { .. })));
+}

@@ -1,0 +1,173 @@
+//! `cargo xtask compare`: our engines, two crates that everyone can run, and, through those, the programs of
+//! `benchdata/anchors.json`.
+
+mod report;
+mod table;
+
+use std::{
+    fs,
+    io::{self, Write},
+    path::{Path, PathBuf},
+};
+
+use clap::Args;
+use indicatif::ProgressBar;
+use mediant_bench::{
+    Anchors, AnchorsError, Archive, Comparison, Contender, MapRecord, MeasureError, Problem, ProblemError,
+    Task, Yardstick, measure,
+};
+
+use crate::project;
+
+/// The options of `cargo xtask compare`.
+#[derive(Args, Clone, Debug)]
+pub struct Options {
+    /// Our engines: ENGINE[:K[:RULE]], RULE one of never, one, always (centers), open, closed (corners)
+    #[arg(long, value_name = "TASK", num_args = 1.., default_value = "astar")]
+    engines: Vec<Task>,
+    /// Only these maps
+    #[arg(long, value_name = "NAME", num_args = 1..)]
+    maps: Vec<String>,
+    /// Of each scenario, only the instances whose index N divides; the other programs' times are for 20
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..))]
+    every: u32,
+    /// The timed passes of each contender over a map, of which the median counts
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=999))]
+    passes: u32,
+    /// A folder that holds the archives (SET-map.zip, SET-scen.zip) of sets that were not downloaded
+    #[arg(long, value_name = "DIR", env = "MEDIANT_MIRROR")]
+    mirror: Option<PathBuf>,
+    /// Also write all figures to this file
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+/// A comparison that could not be made.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CompareError {
+    /// Damaged anchors.
+    #[error(transparent)]
+    Anchors(#[from] AnchorsError),
+    /// A map or scenario that cannot be measured on.
+    #[error(transparent)]
+    Problem(#[from] ProblemError),
+    /// A wrong answer.
+    #[error(transparent)]
+    Measure(#[from] MeasureError),
+    /// A map that has no anchors.
+    #[error("no figures of other programs for map `{name}`: there are some for {known}")]
+    UnknownMap {
+        /// The name that was asked for.
+        name: String,
+        /// All names.
+        known: String,
+    },
+    /// None of the maps is there.
+    #[error("none of the maps is there: {0}")]
+    NoMap(String),
+    /// The figures cannot be written.
+    #[error("{}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The tables cannot be printed.
+    #[error("the output: {0}")]
+    Print(#[from] io::Error),
+}
+
+/// All figures of a run.
+struct Results<'a> {
+    anchors: &'a Anchors,
+    tasks: &'a [Task],
+    records: Vec<MapRecord>,
+    /// For each map, those of the tasks in their order.
+    comparisons: Vec<Vec<Comparison>>,
+}
+
+/// Measures what the options name, and prints the tables.
+///
+/// # Errors
+/// Those of [`run_in`].
+pub fn run(options: &Options) -> Result<(), CompareError> {
+    run_in(&project::root(), options, &mut io::stdout().lock())
+}
+
+/// [`run`] in the project at `root`, printing to `out`. Maps that are not there are named at the end.
+///
+/// # Errors
+/// [`CompareError`]; above all, an answer that is wrong.
+pub fn run_in(root: &Path, options: &Options, out: &mut impl Write) -> Result<(), CompareError> {
+    let anchors = Anchors::bundled()?;
+    let names: Vec<&str> = anchors.maps.iter().map(|row| row.map.as_str()).collect();
+    if let Some(name) = options.maps.iter().find(|name| !names.contains(&name.as_str())) {
+        return Err(CompareError::UnknownMap { name: name.clone(), known: names.join(", ") });
+    }
+    let folders = [Some(root.join("benchdata").join("cache")), options.mirror.clone()];
+    let archive = Archive::new(folders.into_iter().flatten());
+    let Measured { records, missing } = measure_all(&anchors, &archive, options)?;
+    let advice = missing_advice(&missing);
+    if records.is_empty() {
+        return Err(CompareError::NoMap(advice));
+    }
+    let compare = |record: &MapRecord| {
+        let timings = record.timings.iter().take(options.engines.len());
+        timings.filter_map(|timing| Comparison::new(&anchors, record, timing)).collect()
+    };
+    let comparisons = records.iter().map(compare).collect();
+    let results = Results { anchors: &anchors, tasks: &options.engines, records, comparisons };
+    out.write_all(report::text(&results, options).as_bytes())?;
+    if !missing.is_empty() {
+        writeln!(out, "\nMissing: {advice}")?;
+    }
+    match &options.json {
+        None => Ok(()),
+        Some(path) => fs::write(path, report::json(root, &results, options))
+            .map_err(|source| CompareError::Write { path: path.clone(), source }),
+    }
+}
+
+/// What came of the maps.
+#[derive(Default)]
+struct Measured<'a> {
+    records: Vec<MapRecord>,
+    /// The set and the name of each map that is not there.
+    missing: Vec<(&'a str, &'a str)>,
+}
+
+fn measure_all<'a>(
+    anchors: &'a Anchors,
+    archive: &Archive,
+    options: &Options,
+) -> Result<Measured<'a>, CompareError> {
+    let tasks = options.engines.iter().copied().map(Contender::Task);
+    let contenders: Vec<Contender> = tasks.chain(Yardstick::ALL.map(Contender::Yardstick)).collect();
+    let rows = anchors.maps.iter().filter(|row| options.maps.is_empty() || options.maps.contains(&row.map));
+    let rows: Vec<_> = rows.collect();
+    let bar = ProgressBar::new(rows.len() as u64);
+    let mut measured = Measured::default();
+    for row in rows {
+        bar.set_message(row.map.clone());
+        match Problem::load(archive, &row.set, &row.map, options.every as usize)? {
+            Some(problem) => measured.records.push(measure(&problem, &contenders, options.passes as usize)?),
+            None => measured.missing.push((row.set.as_str(), row.map.as_str())),
+        }
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    Ok(measured)
+}
+
+/// Which maps are missing, and how to get them.
+fn missing_advice(missing: &[(&str, &str)]) -> String {
+    let names: Vec<&str> = missing.iter().map(|(_, map)| *map).collect();
+    let mut sets: Vec<&str> = missing.iter().map(|(set, _)| *set).collect();
+    sets.dedup();
+    format!("{}; `cargo xtask download --set {}` fetches them", names.join(", "), sets.join(" "))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,160 @@
+//! What a comparison found, as text and as JSON.
+
+use std::{
+    fs,
+    path::Path,
+    process::{Command, Stdio},
+};
+
+use mediant_bench::{Comparand, Comparison, MapRecord, Task, geometric_mean};
+use serde::Serialize;
+
+use super::{
+    Options, Results,
+    table::{Table, number},
+};
+
+/// The tables: times, then for each task its ratios to the programs that solve the same problem, and to the others.
+pub(super) fn text(results: &Results<'_>, options: &Options) -> String {
+    let mut lines = vec![format!(
+        "Mean time of a query in µs: one thread, warm, paths included; median of {} passes.",
+        options.passes
+    )];
+    lines.extend(times(results).lines());
+    lines.push(
+        "here/there: the yardsticks' times by those on the machine of the other programs, geometric mean."
+            .into(),
+    );
+    if options.every as usize != results.anchors.instances.every {
+        let every = results.anchors.instances.every;
+        lines.push(format!(
+            "The times there are for --every {every}: the ratios compare different instances."
+        ));
+    }
+    for (i, &task) in results.tasks.iter().enumerate() {
+        let (same, other): (Vec<_>, Vec<_>) =
+            results.anchors.programs.iter().enumerate().partition(|(_, program)| program.solves(task));
+        if !same.is_empty() {
+            lines.push(format!(
+                "\n{task} by the scaled time of programs that solve the same problem (< 1: we are faster)"
+            ));
+            lines.extend(ratios(results, i, &same).lines());
+        }
+        if !other.is_empty() {
+            lines.push(format!("\n{task} by the scaled time of programs that solve another problem"));
+            lines.extend(ratios(results, i, &other).lines());
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+fn times(results: &Results<'_>) -> Table {
+    let first = results.records.first().map_or(&[][..], |record| &record.timings);
+    let mut heading = vec!["map".to_owned(), "queries".to_owned()];
+    heading.extend(first.iter().map(|timing| timing.contender.clone()));
+    heading.push("here/there".to_owned());
+    let mut table = Table::new(heading);
+    for (record, comparisons) in results.records.iter().zip(&results.comparisons) {
+        let mut row = vec![record.map.clone(), record.instances.to_string()];
+        row.extend(record.timings.iter().map(|timing| number(timing.micros)));
+        row.push(comparisons.first().map_or(String::new(), |comparison| number(comparison.scale)));
+        table.row(row);
+    }
+    let mean = |value: &dyn Fn(&MapRecord) -> Option<f64>| {
+        let values: Vec<f64> = results.records.iter().filter_map(value).collect();
+        geometric_mean(&values).map_or(String::new(), number)
+    };
+    let queries: usize = results.records.iter().map(|record| record.instances).sum();
+    let mut row = vec!["geometric mean".to_owned(), queries.to_string()];
+    row.extend((0..first.len()).map(|i| mean(&|record| record.timings.get(i).map(|timing| timing.micros))));
+    let scales: Vec<f64> = results.comparisons.iter().filter_map(|all| Some(all.first()?.scale)).collect();
+    row.push(geometric_mean(&scales).map_or(String::new(), number));
+    table.row(row);
+    table
+}
+
+/// The ratios of the task at place `task` to some of the programs.
+fn ratios(results: &Results<'_>, task: usize, programs: &[(usize, &Comparand)]) -> Table {
+    let mut heading = vec!["map".to_owned()];
+    heading.extend(programs.iter().map(|(_, program)| program.name.clone()));
+    let mut table = Table::new(heading);
+    let comparisons = || results.comparisons.iter().filter_map(|all| all.get(task));
+    let ratio = |comparison: &Comparison, program: usize| comparison.ratios.get(program).copied().flatten();
+    for comparison in comparisons() {
+        let cell = |(program, _): &(usize, _)| ratio(comparison, *program).map_or("–".to_owned(), number);
+        let mut row = vec![comparison.map.clone()];
+        row.extend(programs.iter().map(cell));
+        table.row(row);
+    }
+    let mean = |(program, _): &(usize, _)| {
+        let values: Vec<f64> = comparisons().filter_map(|comparison| ratio(comparison, *program)).collect();
+        geometric_mean(&values).map_or("–".to_owned(), number)
+    };
+    let mut row = vec!["geometric mean".to_owned()];
+    row.extend(programs.iter().map(mean));
+    table.row(row);
+    table
+}
+
+/// The file that `--json` asks for.
+#[derive(Serialize)]
+struct Figures<'a> {
+    /// What git calls the sources, `-dirty` if they differ from it.
+    revision: String,
+    machine: Machine,
+    unit: &'static str,
+    every: u32,
+    passes: u32,
+    engines: Vec<String>,
+    /// The programs that `ratios` are about, in their order.
+    programs: Vec<&'a str>,
+    records: &'a [MapRecord],
+    comparisons: &'a [Vec<Comparison>],
+}
+
+#[derive(Serialize)]
+struct Machine {
+    os: &'static str,
+    arch: &'static str,
+    cpu: Option<String>,
+    threads: Option<usize>,
+}
+
+pub(super) fn json(root: &Path, results: &Results<'_>, options: &Options) -> String {
+    let figures = Figures {
+        revision: revision(root),
+        machine: machine(),
+        unit: "microseconds a query",
+        every: options.every,
+        passes: options.passes,
+        engines: results.tasks.iter().map(Task::to_string).collect(),
+        programs: results.anchors.programs.iter().map(|program| program.name.as_str()).collect(),
+        records: &results.records,
+        comparisons: &results.comparisons,
+    };
+    // Numbers, strings and lists only: this cannot fail.
+    serde_json::to_string_pretty(&figures).unwrap_or_default() + "\n"
+}
+
+fn revision(root: &Path) -> String {
+    let git = Command::new("git")
+        .args(["describe", "--always", "--dirty", "--abbrev=40", "--exclude=*"])
+        .current_dir(root)
+        .stderr(Stdio::null())
+        .output();
+    match git {
+        Ok(output) if output.status.success() => String::from_utf8_lossy(&output.stdout).trim().to_owned(),
+        _ => "unknown".to_owned(),
+    }
+}
+
+fn machine() -> Machine {
+    let about = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let cpu = about.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));
+    Machine {
+        os: std::env::consts::OS,
+        arch: std::env::consts::ARCH,
+        cpu: cpu.map(|(_, name)| name.trim().to_owned()),
+        threads: std::thread::available_parallelism().ok().map(usize::from),
+    }
+}

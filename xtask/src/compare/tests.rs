@@ -1,0 +1,105 @@
+use std::fs;
+
+use clap::Parser;
+use zip::{ZipWriter, write::SimpleFileOptions};
+
+use super::*;
+
+#[derive(Parser)]
+struct Cli {
+    #[command(flatten)]
+    options: Options,
+}
+
+fn options(arguments: &[&str]) -> Options {
+    Cli::try_parse_from(["compare"].iter().chain(arguments)).unwrap().options
+}
+
+/// A mirror whose set `dao` has a map of our own under the name arena2, with one query of this length.
+fn mirror(optimal: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let scenario = format!("version 1\n0\tarena2.map\t4\t3\t0\t1\t3\t1\t{optimal}\n");
+    let entries = [
+        ("dao-map.zip", "arena2.map", "type octile\nheight 3\nwidth 4\nmap\n....\n.@@.\n....\n".to_owned()),
+        ("dao-scen.zip", "arena2.map.scen", scenario),
+    ];
+    for (archive, name, text) in entries {
+        let mut zip = ZipWriter::new(fs::File::create(folder.path().join(archive)).unwrap());
+        zip.start_file(name, SimpleFileOptions::default()).unwrap();
+        zip.write_all(text.as_bytes()).unwrap();
+        zip.finish().unwrap();
+    }
+    folder
+}
+
+/// A run in a project without a cache.
+fn compare(mirror: &Path, arguments: &[&str]) -> Result<String, CompareError> {
+    let root = tempfile::tempdir().unwrap();
+    let mut options = options(arguments);
+    options.mirror = Some(mirror.to_owned());
+    let mut out = Vec::new();
+    run_in(root.path(), &options, &mut out)?;
+    Ok(String::from_utf8(out).unwrap())
+}
+
+#[test]
+fn tables_and_figures_of_the_maps_that_are_there() {
+    let mirror = mirror("5");
+    let file = mirror.path().join("figures.json");
+    let arguments = ["--engines", "astar", "astar:5:open", "--passes", "2", "--json", file.to_str().unwrap()];
+    let text = compare(mirror.path(), &arguments).unwrap();
+    let row = text.lines().find(|line| line.starts_with("arena2")).unwrap();
+    assert_eq!(row.split_whitespace().nth(1), Some("1"), "{row}");
+    assert_eq!(row.split_whitespace().count(), 7, "{row}");
+    assert!(
+        text.contains("astar:3:never by the scaled time of programs that solve the same problem"),
+        "{text}"
+    );
+    assert!(
+        !text.contains("astar:5:open by the scaled time of programs that solve the same problem"),
+        "{text}"
+    );
+    assert!(text.contains("Missing: brc202d, orz900d,"), "{text}");
+    assert!(text.contains("cargo xtask download --set dao bg512 sc1 random room street"), "{text}");
+
+    let figures: serde_json::Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
+    assert_eq!(figures["engines"], serde_json::json!(["astar:3:never", "astar:5:open"]));
+    let record = &figures["records"][0];
+    assert_eq!((&record["map"], &record["instances"]), (&"arena2".into(), &1.into()));
+    let contenders: Vec<_> =
+        record["timings"].as_array().unwrap().iter().map(|timing| &timing["contender"]).collect();
+    assert_eq!(contenders, ["astar:3:never", "astar:5:open", "pathfinding", "grid_pathfinding"]);
+    let ratio =
+        |task: usize, program: usize| figures["comparisons"][0][task]["ratios"][program].as_f64().unwrap();
+    let micros = |i: usize| record["timings"][i]["micros"].as_f64().unwrap();
+    // Warthog A* and pathfinding take 732 and 1522 µs there, grid_pathfinding 108.
+    let target = 732.0 * (micros(2) / 1522.0 * micros(3) / 108.0).sqrt();
+    assert!((ratio(0, 0) - micros(0) / target).abs() < 1e-9 * ratio(0, 0));
+    assert!((ratio(1, 0) / ratio(0, 0) - micros(1) / micros(0)).abs() < 1e-9 * micros(1) / micros(0));
+    assert_eq!(figures["programs"].as_array().unwrap().len(), 13);
+}
+
+#[test]
+fn wrong_answers_and_missing_maps_are_errors() {
+    let wrong = mirror("4.5");
+    let error = compare(wrong.path(), &[]).unwrap_err();
+    assert!(matches!(error, CompareError::Measure(MeasureError::Answer { expected: 4.5, .. })), "{error}");
+    let error = compare(wrong.path(), &["--maps", "Cauldron"]).unwrap_err().to_string();
+    let expected = "none of the maps is there: Cauldron; `cargo xtask download --set sc1` fetches them";
+    assert_eq!(error, expected);
+    let error = compare(wrong.path(), &["--maps", "atlantis"]).unwrap_err().to_string();
+    assert!(error.starts_with("no figures of other programs for map `atlantis`"), "{error}");
+    for refused in [["--every", "0"], ["--passes", "0"], ["--engines", "warp"], ["--engines", "astar:99"]] {
+        assert!(Cli::try_parse_from(["compare"].iter().chain(&refused)).is_err(), "{refused:?}");
+    }
+}
+
+#[test]
+fn tables_are_aligned() {
+    let mut table = table::Table::new(vec!["map".to_owned(), "µs".to_owned()]);
+    table.row(vec!["a".to_owned(), table::number(1234.4)]);
+    table.row(vec!["geo".to_owned(), table::number(0.5)]);
+    assert_eq!(table.lines(), ["map     µs", "──────────", "a     1234", "geo  0.500"]);
+    let numbers = [0.9996, 9.996, 99.96, 12.34].map(table::number);
+    assert_eq!(numbers, ["1.00", "10.0", "100", "12.3"]);
+}
