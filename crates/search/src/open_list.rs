@@ -1,5 +1,7 @@
 //! The open list: a binary heap whose entries can be found again.
 
+use std::hint::select_unpredictable;
+
 use mediant_grid::VertexId;
 use mediant_moves::Cost;
 
@@ -125,19 +127,17 @@ impl OpenList {
     fn sift_down(&mut self, entry: Entry, moved: &mut impl FnMut(VertexId, u32)) -> u32 {
         let heap = self.heap.as_mut_slice();
         let (mut slot, mut swaps) = (0, 0);
-        loop {
-            let left = 2 * slot + 1;
-            if left >= heap.len() {
-                break;
-            }
-            let child = if left + 1 < heap.len() && heap[left + 1] < heap[left] { left + 1 } else { left };
-            let other = heap[child];
+        while let Some(&left) = heap.get(2 * slot + 1) {
+            // Which child is less cannot be foreseen: it is added, not branched on.
+            let right = heap.get(2 * slot + 2).copied().unwrap_or(left);
+            let beyond = right < left;
+            let other = select_unpredictable(beyond, right, left);
             if entry <= other {
                 break;
             }
             heap[slot] = other;
             moved(other.id(), slot as u32);
-            slot = child;
+            slot = 2 * slot + 1 + usize::from(beyond);
             swaps += 1;
         }
         heap[slot] = entry;
