@@ -209,7 +209,7 @@ fn scenario_of(path: &Path, every: usize, other_map: bool) -> Result<Tally, Erro
             match found {
                 Err(_) if other_map => tally.blocked += 1,
                 Ok(Some(cost)) if other_map && cost > instance.optimal + 2.0 * TOLERANCE.0 => {
-                    tally.shorter += 1
+                    tally.shorter += 1;
                 }
                 found => tally.compare(what, found.unwrap_or(None), optimal, TOLERANCE),
             }
