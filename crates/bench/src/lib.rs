@@ -21,6 +21,8 @@ mod comparison;
 mod contender;
 mod measure;
 mod problem;
+#[cfg(doctest)]
+mod readme;
 mod solve;
 mod task;
 mod yardstick;
