@@ -15,7 +15,7 @@ use std::{
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use mediant_bench::{Engine, Task};
-use mediant_formats::{MapFile, Scenario};
+use mediant_formats::{MapFile, Scenario, scenario_tolerance};
 use mediant_grid::{CornerRule, DiagonalGap, Rules};
 use mediant_moves::K;
 use mediant_search::Query;
@@ -64,14 +64,13 @@ impl Tally {
         what: impl FnOnce() -> String,
         found: Option<f64>,
         known: Option<f64>,
-        tolerance: (f64, f64),
+        tolerance: f64,
     ) {
         self.compared += 1;
-        let (absolute, relative) = tolerance;
         let agrees = match (found, known) {
             (Some(found), Some(known)) => {
                 let difference = (found - known).abs();
-                let agrees = difference <= absolute.max(relative * known);
+                let agrees = difference <= tolerance;
                 if agrees {
                     self.worst = self.worst.max(difference / known.max(1.0));
                 }
@@ -193,7 +192,6 @@ const KNOWN: (u64, u64) = (2_446, 5_182);
 /// One map with its scenario. The scenarios carry as few as six digits, and say 0 where there is no path (173 instances of
 /// set dao).
 fn scenario_of(path: &Path, every: usize, other_map: bool) -> Result<Tally, Error> {
-    const TOLERANCE: (f64, f64) = (0.005, 1e-5);
     let grid = Arc::new(MapFile::read(path)?.to_grid());
     let scenario = Scenario::read(path.with_extension("map.scen"))?;
     let instances: Vec<_> = scenario.instances().iter().enumerate().step_by(every.max(1)).collect();
@@ -208,10 +206,14 @@ fn scenario_of(path: &Path, every: usize, other_map: bool) -> Result<Tally, Erro
             let what = || format!("{} instance {index}", path.display());
             match found {
                 Err(_) if other_map => tally.blocked += 1,
-                Ok(Some(cost)) if other_map && cost > instance.optimal + 2.0 * TOLERANCE.0 => {
+                Ok(Some(cost))
+                    if other_map && cost > instance.optimal + 2.0 * scenario_tolerance(instance.optimal) =>
+                {
                     tally.shorter += 1;
                 }
-                found => tally.compare(what, found.unwrap_or(None), optimal, TOLERANCE),
+                found => {
+                    tally.compare(what, found.unwrap_or(None), optimal, scenario_tolerance(instance.optimal))
+                }
             }
         })
         .map_err(|wrong| Error::Verify(format!("{}: {wrong}", path.display())))?;
@@ -291,7 +293,7 @@ fn reference(file: &Path, maps: &BTreeMap<String, PathBuf>) -> Result<Option<Tal
         if let Some(&(index, cost)) = known.next() {
             let what = || format!("{name} instance {index}");
             // Those programs know no blocked ends: they say that there is no path.
-            tally.compare(what, found.unwrap_or(None), (cost >= 0.0).then_some(cost), (1e-6, 1e-9));
+            tally.compare(what, found.unwrap_or(None), (cost >= 0.0).then_some(cost), 1e-6 * cost.max(1.0));
         }
     })
     .map_err(|error| wrong(error.to_string()))?;

@@ -2,6 +2,7 @@
 
 use std::{hint::black_box, time::Instant};
 
+use mediant_formats::scenario_tolerance;
 use mediant_moves::KError;
 use mediant_search::QueryError;
 use serde::Serialize;
@@ -151,8 +152,8 @@ fn check(
             source,
         })?;
         let cost = answer.cost();
-        // Scenarios carry six significant digits; two programs differ by the rounding of their sums alone.
-        let scenario = (case.optimum, f64::max(0.005, 1e-5 * case.optimum), "the scenario");
+        let scenario = (case.optimum, scenario_tolerance(case.optimum), "the scenario");
+        // Two programs differ by the rounding of their sums alone.
         let other = optima.get(i).map(|&cost| (cost, 1e-8 * (1.0 + cost), "another contender"));
         let is_wrong = |&(expected, tolerance, _): &(f64, f64, _)| match cost {
             Some(cost) => solves_scenarios(contender) && (cost - expected).abs() > tolerance,

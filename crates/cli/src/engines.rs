@@ -121,7 +121,7 @@ fn on_lattice<P: Place, T: Task>(
 ) -> Result<T::Output, KError> {
     let begin = Instant::now();
     let lattice = Lattice::<P>::new(grid, setup.k, rule)?;
-    let preprocessing = Preprocessing { time: begin.elapsed(), index_bytes: 0 };
+    let preprocessing = Preprocessing { time: begin.elapsed(), index_bytes: lattice.index_bytes() as u64 };
     Ok(match (setup.engine, setup.heuristic) {
         (Engine::Astar, HeuristicName::Hk) => task.run(AStar::new(&lattice, LatticeDistance), preprocessing),
         (Engine::Astar, HeuristicName::Euclidean) => task.run(AStar::new(&lattice, Euclidean), preprocessing),

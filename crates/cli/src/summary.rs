@@ -1,5 +1,6 @@
 //! The figures that sum up a run.
 
+use mediant_formats::scenario_tolerance;
 use serde::Serialize;
 
 use crate::record::{QueryRecord, Status};
@@ -29,7 +30,7 @@ pub(crate) struct Summary {
 pub(crate) struct References {
     /// The answered queries that have a reference.
     pub(crate) compared: u64,
-    /// Those within [`RELATIVE`] or [`ABSOLUTE`] of it.
+    /// Those as near to it as [`scenario_tolerance`] asks.
     pub(crate) equal: u64,
     /// The cost less the reference, where they are furthest apart.
     pub(crate) worst_deviation: f64,
@@ -38,11 +39,6 @@ pub(crate) struct References {
     /// All costs over all references.
     pub(crate) cost_ratio: f64,
 }
-
-/// Scenario files round their lengths: old ones to two decimals, the others to five or more.
-pub(crate) const ABSOLUTE: f64 = 0.005;
-/// For lengths that were summed up in single precision.
-pub(crate) const RELATIVE: f64 = 1e-5;
 
 /// Takes the records one by one; keeps eight bytes of each.
 #[derive(Debug, Default)]
@@ -89,7 +85,7 @@ impl Tally {
             self.worst = (deviation, index);
         }
         self.compared += 1;
-        self.equal += u64::from(deviation.abs() <= ABSOLUTE.max(RELATIVE * reference));
+        self.equal += u64::from(deviation.abs() <= scenario_tolerance(reference));
         self.compared_cost += cost;
         self.reference += reference;
     }

@@ -18,4 +18,4 @@ mod text;
 
 pub use map::{MapError, MapFile};
 pub use read::{MAX_FILE_BYTES, ReadError};
-pub use scenario::{Instance, Scenario, ScenarioError, ScenarioForOtherMap};
+pub use scenario::{Instance, Scenario, ScenarioError, ScenarioForOtherMap, scenario_tolerance};

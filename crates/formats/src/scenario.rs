@@ -37,6 +37,15 @@ impl Instance {
     }
 }
 
+/// How far the cost of a shortest path may be from a length that a scenario states: 0.005, or 10⁻⁵ of it.
+///
+/// Scenario files round. The oldest sets (bg512, wc3maps512) carry two decimals, most of the others about six significant
+/// digits of sums in single precision, the street maps eight decimals.
+#[must_use]
+pub fn scenario_tolerance(optimal: f64) -> f64 {
+    f64::max(0.005, 1e-5 * optimal)
+}
+
 /// A list of queries, in the order of the file.
 ///
 /// The first line is `version 1` or `version 1.0`. Each further line has nine fields: bucket, map, width, height, start x,

@@ -91,7 +91,10 @@ pub fn draw(grid: &Grid, placement: Placement, waypoints: &[Vertex]) -> String {
     }
     for (i, at) in waypoints.iter().enumerate() {
         let label = u32::try_from(i).ok().and_then(|i| char::from_digit(i, 36)).unwrap_or('+');
-        let cell = canvas.get_mut(at.y as usize * scale).and_then(|line| line.get_mut(at.x as usize * scale));
+        // A waypoint outside the map is left out.
+        let scaled = |n: i32| usize::try_from(n).ok()?.checked_mul(scale);
+        let cell = scaled(at.y).zip(scaled(at.x));
+        let cell = cell.and_then(|(y, x)| canvas.get_mut(y)?.get_mut(x));
         if let Some(cell) = cell {
             *cell = label;
         }

@@ -89,13 +89,13 @@ impl BitMatrix {
 
     /// Whether any bit of row y from column `first` to column `last` is blocked, all within the frame.
     #[must_use]
-    pub fn any(&self, y: i32, first: i32, last: i32) -> bool {
+    pub(crate) fn any(&self, y: i32, first: i32, last: i32) -> bool {
         self.any_of(first, last, |x| load(self.words(), self.index(x, y)))
     }
 
     /// Whether rows y − 1 and y are blocked in one and the same column from `first` to `last`.
     #[must_use]
-    pub fn any_edge(&self, y: i32, first: i32, last: i32) -> bool {
+    pub(crate) fn any_edge(&self, y: i32, first: i32, last: i32) -> bool {
         let words = self.words();
         self.any_of(first, last, |x| load(words, self.index(x, y - 1)) & load(words, self.index(x, y)))
     }
@@ -103,7 +103,7 @@ impl BitMatrix {
     /// Whether two blocked bits meet diagonally, the two others being free, at one of the corner vertices `first` to `last`
     /// above row y.
     #[must_use]
-    pub fn any_double_corner(&self, y: i32, first: i32, last: i32) -> bool {
+    pub(crate) fn any_double_corner(&self, y: i32, first: i32, last: i32) -> bool {
         let words = self.words();
         self.any_of(first, last, |x| {
             let [nw, ne, sw, se] =
@@ -146,5 +146,41 @@ pub fn load(words: &[u64], at: BitIndex) -> u64 {
         // The two-step shift keeps a shift of 64 out of the case shift = 0.
         Some(&[low, high]) => low >> shift | high << 1 << (63 - shift),
         _ => !0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Grid;
+
+    /// Every run of every length at every offset within a word, with one blocked cell just inside or just outside it.
+    #[test]
+    fn runs_are_tested_to_their_ends_and_no_further() {
+        for blocked in (0..260).step_by(13) {
+            let grid = Grid::from_fn(260, 2, |x, _| x == blocked).unwrap();
+            let free = Grid::from_fn(260, 2, |x, y| x == blocked && y == 0).unwrap();
+            let corner = Grid::from_fn(260, 2, |x, y| x + y == blocked).unwrap();
+            let at = blocked as i32;
+            for first in [at - 129, at - 128, at - 65, at - 64, at - 63, at - 1, at, at + 1] {
+                for last in
+                    [first, first + 1, at - 1, at, at + 1, at + 62, at + 63, at + 64, at + 65, at + 128]
+                {
+                    let run = first.max(1)..=last.min(258);
+                    if run.is_empty() {
+                        continue;
+                    }
+                    let (first, last) = (*run.start(), *run.end());
+                    assert_eq!(grid.rows().any(1, first, last), run.contains(&at), "{at} in {run:?}");
+                    assert_eq!(grid.rows().any_edge(1, first, last), run.contains(&at), "{at} in {run:?}");
+                    assert!(!free.rows().any_edge(1, first, last), "{at} in {run:?}");
+                    assert_eq!(
+                        corner.rows().any_double_corner(1, first, last),
+                        run.contains(&at),
+                        "{at} in {run:?}"
+                    );
+                }
+            }
+        }
     }
 }

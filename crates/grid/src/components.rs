@@ -71,6 +71,10 @@ impl Components {
         self.count
     }
 
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(&*self.labels)
+    }
+
     /// The component of a cell, numbered from 0 in row-major order of their first cells; `None` for blocked cells and
     /// outside the map.
     #[must_use]

@@ -197,6 +197,14 @@ impl<P: Place> Lattice<P> {
         component(from).is_some_and(|label| component(to) == Some(label))
     }
 
+    /// The memory that this takes beyond the map, in bytes: mostly four a cell for the components.
+    #[must_use]
+    pub fn index_bytes(&self) -> usize {
+        let octants: usize = self.octants.iter().map(Octant::bytes).sum();
+        let gaps = self.gaps.as_ref().map_or(0, |gaps| size_of_val(gaps.words()));
+        size_of_val(&*self.steps) + size_of_val(&*self.near) + octants + gaps + self.components.bytes()
+    }
+
     /// The components of the cells that [`connected`](Self::connected) looks up.
     #[must_use]
     pub const fn components(&self) -> &Components {
@@ -227,10 +235,13 @@ impl<P: Place> Lattice<P> {
         set
     }
 
-    /// Calls `legal` with the index of each legal move at a free vertex: those of N(3), then octant by octant. What it
-    /// does at any other vertex is left open, but it does not panic.
+    /// Calls `legal` with the index of each legal move at a free vertex: those of N(3), then octant by octant. Outside the
+    /// map there are none; at a blocked vertex it calls as if the vertex were free.
     #[inline]
     pub fn for_each_legal_move(&self, at: Vertex, mut legal: impl FnMut(usize)) {
+        if self.id(at).is_none() {
+            return;
+        }
         let rows = self.grid.rows();
         let (words, bit) = (rows.words(), rows.index(at.x, at.y));
         let mut near = self.near[P::pattern(words, bit, rows.bits_per_row())];
@@ -312,8 +323,8 @@ pub struct MoveSet {
 }
 
 impl MoveSet {
-    /// 4,096 moves: k = 12.
-    const WORDS: usize = 1 << (12 - 6);
+    /// Room for the moves of the largest k.
+    const WORDS: usize = (1 << Lattice::<crate::Centers>::MAX_K) / 64;
 
     /// The number of moves in the set.
     #[must_use]
@@ -335,7 +346,10 @@ impl MoveSet {
 
     /// The indices in the set, ascending.
     pub fn iter(&self) -> impl Iterator<Item = usize> {
-        (0..Self::WORDS * 64).filter(|&index| self.contains(index))
+        self.words.iter().zip((0..).step_by(64)).flat_map(|(&word, base)| {
+            let bits = std::iter::successors(Some(word), |rest| Some(rest & (rest - 1)));
+            bits.take_while(|&rest| rest != 0).map(move |rest| base + rest.trailing_zeros() as usize)
+        })
     }
 }
 

@@ -5,8 +5,8 @@
 //!
 //! **The key decision: no edge is stored, and no cell is asked for alone.** Which moves are legal at a vertex is found anew each
 //! time, from words of 64 cells: single steps by a table over the cells around the vertex, longer moves by masks over the rows
-//! that they sweep, arranged as the tree of mediants so that one blocked cell drops all moves beyond it. A map takes two bits a cell, its own
-//! and the transposed copy's, and a change of k costs nothing but new masks.
+//! that they sweep, arranged as the tree of mediants so that one blocked cell drops all moves beyond it. A map takes two bits a cell,
+//! its own and the transposed copy's; a lattice adds the components, four bytes a cell, and the masks.
 //!
 //! What a segment sweeps is written down once, in [`Place::sweep`]; line of sight, the tables and the masks all come from it.
 //!

@@ -31,6 +31,7 @@ pub trait Place: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static
     /// The placement as a value.
     const PLACEMENT: Placement;
     /// How many obstacle patterns there are around a vertex, as far as single steps are concerned.
+    #[doc(hidden)]
     const PATTERNS: usize;
     /// The rule of motion that this placement leaves open.
     type Rule: Copy + Debug + Default + PartialEq + Eq + Send + Sync;
@@ -53,18 +54,22 @@ pub trait Place: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static
 
     /// The number of the obstacle pattern around a vertex, below [`PATTERNS`](Self::PATTERNS). `at` is the bit of cell
     /// (x, y).
+    #[doc(hidden)]
     fn pattern(words: &[u64], at: BitIndex, bits_per_row: i32) -> usize;
 
     /// Whether the cell at this offset from cell (x, y) is blocked in a pattern; only for cells that the pattern holds.
+    #[doc(hidden)]
     fn pattern_is_blocked(pattern: usize, dx: i32, dy: i32) -> bool;
 
     /// Which cells belong together, when it comes to whether there is any path at all.
     fn connectivity(rule: Self::Rule, k: K) -> Connectivity;
 
     /// A cell whose component is that of this free vertex.
+    #[doc(hidden)]
     fn representative(grid: &Grid, rule: Self::Rule, at: Vertex) -> Vertex;
 
     /// Whether paths may not pass the vertices where two blocked cells meet diagonally.
+    #[doc(hidden)]
     fn closes_gaps(rule: Self::Rule) -> bool;
 }
 
@@ -170,9 +175,7 @@ impl Place for Corners {
     }
 
     fn is_free(grid: &Grid, at: Vertex) -> bool {
-        // Wrapping: a query's vertex may be anywhere, and what lies outside the map is blocked on both ends.
-        let offsets = [(0, 0), (-1, 0), (0, -1), (-1, -1)];
-        offsets.iter().any(|&(dx, dy)| grid.is_free(at.x.wrapping_add(dx), at.y.wrapping_add(dy)))
+        around(at).iter().any(|cell| grid.is_free(cell.x, cell.y))
     }
 
     fn cell(sign: i32, i: i32) -> i32 {
@@ -221,16 +224,23 @@ impl Place for Corners {
     }
 
     fn representative(grid: &Grid, rule: DiagonalGap, at: Vertex) -> Vertex {
-        let around = [(0, 0), (-1, 0), (0, -1), (-1, -1)].map(|d| at + Vector::from(d));
         if rule == DiagonalGap::Closed && grid.is_double_corner(at) {
             return at;
         }
-        around.into_iter().find(|cell| grid.is_free(cell.x, cell.y)).unwrap_or(at)
+        let cells = around(at);
+        cells.into_iter().find(|cell| grid.is_free(cell.x, cell.y)).unwrap_or(at)
     }
 
     fn closes_gaps(rule: DiagonalGap) -> bool {
         rule == DiagonalGap::Closed
     }
+}
+
+/// The four cells that meet at a corner vertex. Wrapping: a query's vertex may be anywhere, and what lies outside the map is
+/// blocked on both ends.
+fn around(at: Vertex) -> [Vertex; 4] {
+    [(0, 0), (-1, 0), (0, -1), (-1, -1)]
+        .map(|(dx, dy)| Vertex::new(at.x.wrapping_add(dx), at.y.wrapping_add(dy)))
 }
 
 /// ⌈a / b⌉ for b > 0.

@@ -6,11 +6,12 @@
 //! - At corners, that is all that the node's own move sweeps: by Kramm 2018, Lemma 11, a mediant sweeps every cell that its
 //!   parents sweep, hence so does everything below it. An illegal move ends its subtree, and the work is about that
 //!   for the legal moves alone.
-//! - At centers Lemma 11 fails. Of a mediant and its two parents exactly one has two odd coordinates, and such a move passes
-//!   through a corner point at its middle, where its neighbors in angle pass by on either side: (2, 1) can be legal where (1, 1) is
-//!   not, under rule `Never`, and (1, 2) where (1, 0) is not. What does hold, by the definition of the shared cells: the cells
-//!   shared by a cone are a beginning of each of its moves, those up to the first half-lattice point inside the cone.
-//!   They prune subtrees as before; the rest of a move's cells decides on that move alone.
+//! - At centers Lemma 11 fails. Of a mediant and its two parents exactly one has two odd coordinates, and that one passes through
+//!   a corner point at its middle. Where it is a parent, rule `Never` asks it for both cells beside that point and the mediant for one:
+//!   (2, 1) can be legal where (1, 1) is not. Where it is the mediant, rules `One` and `Always` ask it for fewer cells there than
+//!   a parent: (3, 1) can be legal where (2, 1) is not. What does hold needs no lemma: a cell that all moves of a cone sweep
+//!   must be free for each of them. Such cells prune subtrees as before; the rest of a move's cells decides on that move
+//!   alone.
 
 use mediant_moves::Vector;
 
@@ -47,6 +48,9 @@ pub(crate) struct Octant {
     pub(crate) transposed: bool,
     nodes: Vec<Node>,
     masks: Vec<Mask>,
+    /// All that any of its moves asks of the map: when that is free, all of them are legal. Open ground is common, and on it
+    /// this is a load a row instead of several a move.
+    all: Vec<Mask>,
     /// Two cells of which one must be free: corner rule `One`.
     pairs: Vec<[i32; 2]>,
 }
@@ -69,10 +73,17 @@ impl Octant {
         bits_per_row: (i32, i32),
     ) -> Self {
         let frame = Frame::of(moves[moves.len() / 2]).0;
-        let mut octant =
-            Self { transposed: frame.transposed, nodes: Vec::new(), masks: Vec::new(), pairs: Vec::new() };
+        let mut octant = Self {
+            transposed: frame.transposed,
+            nodes: Vec::new(),
+            masks: Vec::new(),
+            all: Vec::new(),
+            pairs: Vec::new(),
+        };
         let sweeps: Vec<Sweep> = moves.iter().map(|&v| Sweep::of::<P>(rule, v, frame)).collect();
         let bits = if frame.transposed { bits_per_row.1 } else { bits_per_row.0 };
+        let asked = sweeps.iter().flat_map(|sweep| sweep.cells.iter().chain(sweep.either.iter().flatten()));
+        octant.all = masks(asked.copied().collect(), bits);
         octant.add(&sweeps, first, &[], bits);
         octant
     }
@@ -94,9 +105,9 @@ impl Octant {
         let tested = [tested, &new].concat();
         let own = beyond(&sweeps[middle].cells, &tested);
         let begin = self.masks.len() as u32;
-        self.add_masks(&new, bits_per_row);
+        self.masks.extend(masks(new, bits_per_row));
         let between = self.masks.len() as u32;
-        self.add_masks(&own, bits_per_row);
+        self.masks.extend(masks(own, bits_per_row));
         let pair = sweeps[middle].either.map(|cells| {
             self.pairs.push(cells.map(|(along, across)| across * bits_per_row + along));
             self.pairs.len() as u16 - 1
@@ -115,30 +126,22 @@ impl Octant {
         self.nodes[node].skip = self.nodes.len() as u16;
     }
 
-    /// The cells as masks, rows nearest to the vertex first: a sweep that leaves the map meets the blocked frame before
-    /// anything beyond it.
-    fn add_masks(&mut self, cells: &[Cell], bits_per_row: i32) {
-        let mut cells = cells.to_vec();
-        cells.sort_unstable_by_key(|&(along, across)| (across.abs(), across, along));
-        for row in cells.chunk_by(|a, b| a.1 == b.1) {
-            let mut row = row;
-            while let Some(&(start, across)) = row.first() {
-                let here = row.partition_point(|&(along, _)| along < start + 64);
-                let swept = row[..here].iter().fold(0, |mask, &(along, _)| mask | 1 << (along - start));
-                self.masks.push(Mask { offset: across * bits_per_row + start, swept });
-                row = &row[here..];
-            }
-        }
+    pub(crate) fn bytes(&self) -> usize {
+        let masks = size_of_val(&*self.masks) + size_of_val(&*self.all);
+        size_of_val(&*self.nodes) + masks + size_of_val(&*self.pairs)
     }
 
     /// Calls `legal` with the index of each legal move of the octant. `words` is the octant's matrix, `at` the bit of the
     /// vertex's own cell there.
     #[inline]
     pub(crate) fn for_each_legal(&self, words: &[u64], at: BitIndex, mut legal: impl FnMut(usize)) {
-        let free = |begin: u32, end: u32| {
-            let masks = &self.masks[begin as usize..end as usize];
-            masks.iter().all(|mask| load(words, at.offset(mask.offset)) & mask.swept == 0)
-        };
+        let all_free =
+            |masks: &[Mask]| masks.iter().all(|mask| load(words, at.offset(mask.offset)) & mask.swept == 0);
+        if all_free(&self.all) {
+            // In the order of the tree, so that open ground changes nothing but the time.
+            return self.nodes.iter().for_each(|node| legal(usize::from(node.index)));
+        }
+        let free = |begin: u32, end: u32| all_free(&self.masks[begin as usize..end as usize]);
         let mut i = 0;
         while let Some(node) = self.nodes.get(i) {
             if !free(node.shared.0, node.shared.1) {
@@ -172,6 +175,22 @@ impl Sweep {
         sweep.cells.sort_unstable();
         sweep
     }
+}
+
+/// The cells as masks, row by row. (A sweep is contiguous, so one that leaves the map has a cell of the blocked frame: whatever
+/// its masks read beyond the frame, the move is not legal.)
+fn masks(mut cells: Vec<Cell>, bits_per_row: i32) -> Vec<Mask> {
+    cells.sort_unstable_by_key(|&(along, across)| (across.abs(), across, along));
+    let mut masks = Vec::new();
+    for mut row in cells.chunk_by(|a, b| a.1 == b.1) {
+        while let Some(&(start, across)) = row.first() {
+            let here = row.partition_point(|&(along, _)| along < start + 64);
+            let swept = row[..here].iter().fold(0, |mask, &(along, _)| mask | 1 << (along - start));
+            masks.push(Mask { offset: across * bits_per_row + start, swept });
+            row = &row[here..];
+        }
+    }
+    masks
 }
 
 #[cfg(test)]

@@ -21,7 +21,14 @@ impl Vertex {
         Self { x, y }
     }
 
-    /// The displacement from here to `other`.
+    /// The straight-line distance to `other`, in cells; for any two vertices, also such as lie on no map.
+    #[must_use]
+    pub fn distance(self, other: Self) -> f64 {
+        let [x, y] = [(self.x, other.x), (self.y, other.y)].map(|(a, b)| f64::from(a.abs_diff(b)));
+        (x * x + y * y).sqrt()
+    }
+
+    /// The displacement from here to `other`, for vertices less than 2³¹ apart, as those of a map are.
     #[must_use]
     #[inline]
     pub const fn to(self, other: Self) -> Vector {

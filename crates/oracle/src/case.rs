@@ -1,6 +1,6 @@
 //! What a failing test should say.
 
-use std::fmt;
+use std::{fmt, ops::Range};
 
 use mediant_grid::{Grid, Rules, Vertex};
 
@@ -39,6 +39,20 @@ impl fmt::Display for Case {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&describe(&self.grid, self.rules, self.start, self.goal, self.seed))
     }
+}
+
+/// The seeds of a random suite: from 0, `default` of them, or as many as the variable `MEDIANT_GRIDS` of the environment asks
+/// for.
+///
+/// # Panics
+/// When `MEDIANT_GRIDS` is no number: a suite that ran on less than it was asked for would say nothing of it.
+#[must_use]
+pub fn seeds(default: u64) -> Range<u64> {
+    let asked = std::env::var_os("MEDIANT_GRIDS").map(|text| {
+        let number = text.to_str().and_then(|text| text.parse().ok());
+        number.unwrap_or_else(|| panic!("MEDIANT_GRIDS is {text:?}, not a number"))
+    });
+    0..asked.unwrap_or(default)
 }
 
 /// The rules, the query, the seed, and the map in a form that [`AsciiMap::parse`](mediant_grid::AsciiMap::parse) reads.

@@ -153,6 +153,24 @@ pub fn random_grid(seed: u64) -> (Grid, String) {
     draw_grid(&mut Rng::new(seed))
 }
 
+/// A map wider than a machine word, 60 to 200 cells by 1 to 4, or as much higher: runs, rows and lines of sight cross word
+/// boundaries in it. Sparse, so that some of them are long.
+#[must_use]
+pub fn wide_grid(seed: u64) -> (Grid, String) {
+    let rng = &mut Rng::new(seed);
+    let (long, short) = (60 + rng.below(141), 1 + rng.below(4));
+    let (width, height) = if rng.chance(50) { (long, short) } else { (short, long) };
+    let percent = [0, 1, 3, 10, 30][rng.below(5) as usize];
+    let grid = noise(rng, width, height, percent);
+    (grid, format!("noise of {percent} %, {width} × {height} cells"))
+}
+
+/// The map of a suite's seed: [`wide_grid`] for one in 20, else [`random_grid`].
+#[must_use]
+pub fn suite_grid(seed: u64) -> (Grid, String) {
+    if seed % 20 == 7 { wide_grid(seed) } else { random_grid(seed) }
+}
+
 /// [`random_grid`] that leaves the generator for further draws.
 pub(crate) fn draw_grid(rng: &mut Rng) -> (Grid, String) {
     let mut side = || {

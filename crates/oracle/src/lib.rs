@@ -9,7 +9,8 @@
 //! * [`neighborhood`]: the moves of N(k), mediant by mediant.
 //! * [`Explicit`]: Dijkstra on the graph of all legal moves, for every k and for any-angle paths.
 //! * [`validate`]: whether a path is what a planner promised.
-//! * [`random_grid`], [`Case`] and the generators behind them: maps and queries from a seed.
+//! * [`random_grid`], [`wide_grid`], [`Case`] and the generators behind them: maps and queries from a seed, those of a suite
+//!   from its [`seeds`].
 //! * [`describe`]: what a failing test should say.
 //!
 //! What is not here: speed. Use it on small maps.
@@ -42,9 +43,12 @@ mod neighborhood;
 mod random;
 mod validate;
 
-pub use case::{Case, describe};
+pub use case::{Case, describe, seeds};
 pub use dijkstra::{Costs, Explicit};
-pub use generate::{adversarial, caves, maze, noise, random_free_vertex, random_grid, random_vertex, rooms};
+pub use generate::{
+    adversarial, caves, maze, noise, random_free_vertex, random_grid, random_vertex, rooms, suite_grid,
+    wide_grid,
+};
 pub use legality::{is_doubly_blocked, segment_is_legal, turn_is_legal, vertex_is_free};
 pub use neighborhood::neighborhood;
 pub use random::Rng;

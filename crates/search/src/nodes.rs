@@ -1,6 +1,6 @@
 //! What a search remembers of each vertex, without clearing it between searches.
 
-use mediant_grid::VertexId;
+use mediant_grid::{Centers, Lattice, VertexId};
 use mediant_moves::Cost;
 
 /// A search node: 16 bytes, so that four share a cache line.
@@ -15,6 +15,7 @@ pub struct Node {
 }
 
 const _: () = assert!(size_of::<Node>() == 16);
+const _: () = assert!(Node::MOVE_BITS >= Lattice::<Centers>::MAX_K);
 
 impl Node {
     /// The slot of a node that is in no open list.
@@ -44,7 +45,7 @@ impl NodeStore {
     #[must_use]
     pub fn new(len: usize) -> Self {
         let unknown = Node { g: Cost::ZERO, slot: Node::CLOSED, mark: 0 };
-        Self { nodes: vec![unknown; len].into_boxed_slice(), generation: 0 }
+        Self { nodes: vec![unknown; len].into_boxed_slice(), generation: 1 }
     }
 
     /// Forgets all nodes, in constant time but for once in a million calls.
@@ -67,6 +68,7 @@ impl NodeStore {
     /// Makes a path of cost `g` that arrives by the move `arrived_by` the best known one to a vertex.
     #[inline]
     pub fn set_path(&mut self, id: VertexId, g: Cost, arrived_by: usize) {
+        debug_assert!(arrived_by < 1 << Node::MOVE_BITS, "no move of any lattice has the index {arrived_by}");
         let node = &mut self.nodes[id.index()];
         node.g = g;
         node.mark = self.generation << Node::MOVE_BITS | arrived_by as u32;
@@ -95,9 +97,11 @@ mod tests {
         store.start_search();
         assert!(store.get(VertexId(1)).is_none());
 
+        // A new store knows nothing either.
+        assert!(NodeStore::new(1).get(VertexId(0)).is_none());
+
         // A node of generation 1 must not come back to life when the count begins anew at 1.
         let mut store = NodeStore::new(3);
-        store.start_search();
         store.set_path(VertexId(0), Cost::ZERO, 0);
         store.generation = Node::LAST_GENERATION - 1;
         store.start_search();

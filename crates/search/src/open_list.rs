@@ -7,7 +7,7 @@ use mediant_moves::Cost;
 
 /// What the open list orders: f, then h (nearer to the goal first), then the vertex id.
 ///
-/// h is compared in steps of 2⁻¹⁶ cells, so that an entry takes 16 bytes; vertices that still tie are taken by id, so the
+/// h is compared in steps of 2⁻¹⁶ cells, all from 2¹⁶ cells on as one, so that an entry takes 16 bytes; vertices that still tie are taken by id, so the
 /// order is total, and the same on every platform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Entry(u128);
@@ -42,7 +42,8 @@ impl Entry {
     #[must_use]
     #[inline]
     const fn cheaper_by(self, gain: Cost) -> Self {
-        Self(self.0 - ((gain.to_bits() as u128) << 64))
+        let f = self.f().to_bits().saturating_sub(gain.to_bits());
+        Self((f as u128) << 64 | self.0 as u64 as u128)
     }
 }
 
@@ -86,7 +87,7 @@ impl OpenList {
         self.sift_up(self.heap.len() - 1, entry, &mut moved)
     }
 
-    /// Lowers f of the entry in a slot by `gain`; nothing happens for a slot that is not in use.
+    /// Lowers f of the entry in a slot by `gain`, at most to 0; nothing happens for a slot that is not in use.
     #[inline]
     pub fn decrease(&mut self, slot: u32, gain: Cost, mut moved: impl FnMut(VertexId, u32)) -> u32 {
         let Some(entry) = self.heap.get(slot as usize) else { return 0 };

@@ -18,7 +18,7 @@ impl Path {
     #[must_use]
     pub fn new(waypoints: Vec<Vertex>) -> Self {
         // Not `sum`, which makes −0 of no segments.
-        let cost = waypoints.windows(2).fold(0.0, |cost, ends| cost + ends[0].to(ends[1]).norm());
+        let cost = waypoints.windows(2).fold(0.0, |cost, ends| cost + ends[0].distance(ends[1]));
         Self { waypoints, cost }
     }
 

@@ -7,13 +7,11 @@ use std::sync::Arc;
 use common::with_engines;
 use mediant_grid::{CornerRule, Grid, Rules, Vertex};
 use mediant_moves::K;
-use mediant_oracle::{Explicit, Rng, describe, random_free_vertex, random_grid, validate};
-use mediant_search::{Guarantee, Outcome, Query};
+use mediant_oracle::{Explicit, Rng, describe, random_free_vertex, suite_grid, validate};
+use mediant_search::{Counters, Guarantee, Outcome, Query};
 
-/// How many maps: `MEDIANT_GRIDS` asks for more than the quick default.
 fn seeds() -> std::ops::Range<u64> {
-    let text = std::env::var("MEDIANT_GRIDS").unwrap_or_else(|_| "150".into());
-    0..text.parse().expect("MEDIANT_GRIDS is a number")
+    mediant_oracle::seeds(150)
 }
 
 /// Six queries of a map: one long chain of goals from each of two starts.
@@ -27,7 +25,7 @@ fn queries(grid: &Grid, rules: Rules, seed: u64) -> Vec<(Vertex, Vec<Vertex>)> {
 fn engines_cost_what_dijkstra_on_the_explicit_graph_costs() {
     let (mut found, mut unreachable) = (0, 0);
     for seed in seeds() {
-        let grid = Arc::new(random_grid(seed).0);
+        let grid = Arc::new(suite_grid(seed).0);
         for rules in Rules::ALL {
             for k in 2..=8 {
                 let graph = Explicit::new(&grid, rules, K::new(k).ok());
@@ -38,12 +36,16 @@ fn engines_cost_what_dijkstra_on_the_explicit_graph_costs() {
                             let expected = costs.to(goal);
                             let case = || format!("k = {k}; {}", describe(&grid, rules, start, goal, seed));
                             for engine in &mut engines {
-                                let (outcome, _) =
+                                let (outcome, counters) =
                                     engine.solve(Query::new(start, goal)).expect("both ends are free");
                                 check(&outcome, expected, engine.guarantee, &|| {
                                     format!("{}; {}", engine.name, case())
                                 });
-                                let Outcome::Found(path) = outcome else { continue };
+                                let Outcome::Found(path) = outcome else {
+                                    // The components know without a search.
+                                    assert_eq!(counters, Counters::default(), "{}; {}", engine.name, case());
+                                    continue;
+                                };
                                 let k = K::new(k).ok();
                                 let fault =
                                     validate(&grid, rules, k, start, goal, path.waypoints(), path.cost());
@@ -118,7 +120,7 @@ fn bound(rules: Rules, k: u32) -> f64 {
 fn costs_fall_with_k_and_stay_within_the_bound() {
     let mut tight = [0, 0];
     for seed in 0..seeds().end.min(300) {
-        let grid = Arc::new(random_grid(seed).0);
+        let grid = Arc::new(suite_grid(seed).0);
         for rules in Rules::ALL {
             let any_angle = Explicit::new(&grid, rules, None);
             for (start, goals) in queries(&grid, rules, seed) {

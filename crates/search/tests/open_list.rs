@@ -19,7 +19,13 @@ fn entries_are_ordered_by_f_then_h_then_id() {
         // h is compared in steps of 2^-16 cells: below that the id decides.
         entry(2, step + 1, 1),
         entry(2, step, 2),
-        entry(2, u64::MAX, 0),
+        // From 2^16 cells on, all h are one: the largest, not what is left of them after 32 bits are cut off.
+        entry(2, (1 << 48) - 2 * step, 9),
+        entry(2, (1 << 48) - step, 0),
+        entry(2, 1 << 48, 1),
+        entry(2, (1 << 48) + 7 * step, 2),
+        entry(2, u64::MAX, 3),
+        entry(2, 1 << 48, 4),
         entry(u64::MAX, 0, 0),
     ];
     assert!(ascending.is_sorted());

@@ -6,7 +6,7 @@ use super::Report;
 use crate::{
     record::{QueryRecord, RunRecord, Status},
     screen::{BOLD, Screen},
-    summary::{ABSOLUTE, RELATIVE, References, Summary},
+    summary::{References, Summary},
     text::{Align, Table, count, grouped, percent_over, time, wrap},
 };
 
@@ -80,11 +80,11 @@ impl<'s> TableReport<'s> {
 
     fn references(&mut self, references: &References) -> io::Result<()> {
         let &References { compared, equal, worst_deviation, worst_index, cost_ratio } = references;
-        let (equal, compared, percent) = (grouped(equal), grouped(compared), RELATIVE * 100.0);
+        let (equal, compared) = (grouped(equal), grouped(compared));
         // A deviation that the printed digits do not show has no sign either.
         let worst = if worst_deviation.abs() < 0.000_05 { 0.0 } else { worst_deviation };
         let text = format!(
-            "{equal} of {compared} equal (within {ABSOLUTE} or {percent:.3} %), furthest off {worst:+.4} at index {worst_index}"
+            "{equal} of {compared} equal (within 0.005 or 0.001 %), furthest off {worst:+.4} at index {worst_index}"
         );
         self.fact("reference", &text)?;
         if self.is_reference {
