@@ -106,7 +106,16 @@ pub fn run_in(root: &Path, options: &Options, out: &mut impl Write) -> Result<()
     if let Some(name) = options.maps.iter().find(|name| !names.contains(&name.as_str())) {
         return Err(CompareError::UnknownMap { name: name.clone(), known: names.join(", ") });
     }
-    let folders = [Some(root.join("benchdata").join("cache")), options.mirror.clone()];
+    let write = |path: &PathBuf, text: String| {
+        fs::write(path, text).map_err(|source| CompareError::Write { path: path.clone(), source })
+    };
+    if let Some(path) = &options.json {
+        // A file that cannot be written is better known before minutes of measuring than after.
+        write(path, String::new())?;
+    }
+    // A mirror that is an address serves `download`; here only a folder does.
+    let mirror = options.mirror.clone().filter(|mirror| mirror.is_dir());
+    let folders = [Some(root.join("benchdata").join("cache")), mirror];
     let archive = Archive::new(folders.into_iter().flatten());
     let Measured { records, missing } = measure_all(&anchors, &archive, options)?;
     let advice = missing_advice(&missing);
@@ -125,8 +134,7 @@ pub fn run_in(root: &Path, options: &Options, out: &mut impl Write) -> Result<()
     }
     match &options.json {
         None => Ok(()),
-        Some(path) => fs::write(path, report::json(root, &results, options))
-            .map_err(|source| CompareError::Write { path: path.clone(), source }),
+        Some(path) => write(path, report::json(root, &results, options)),
     }
 }
 

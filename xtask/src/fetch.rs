@@ -33,7 +33,7 @@ impl Source {
             Some(url) if url.starts_with("http://") || url.starts_with("https://") => {
                 Self::Url(url.trim_end_matches('/').to_owned())
             }
-            Some(folder) => Self::Folder(PathBuf::from(folder)),
+            Some(folder) => Self::Folder(PathBuf::from(folder.strip_prefix("file://").unwrap_or(folder))),
         }
     }
 

@@ -8,6 +8,7 @@ use std::{
     collections::BTreeMap,
     fmt::Write as _,
     fs,
+    num::NonZeroUsize,
     path::{Path, PathBuf},
     sync::Arc,
 };
@@ -30,8 +31,8 @@ pub struct Options {
     #[arg(long, value_name = "NAME", num_args = 1..)]
     set: Vec<String>,
     /// Of each scenario, only the instances whose index N divides
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    every: usize,
+    #[arg(long, value_name = "N", default_value = "1")]
+    every: NonZeroUsize,
     /// Compare with the reference costs in this folder, not with the scenarios' optima
     #[arg(long, value_name = "DIR")]
     oracle: Option<PathBuf>,
@@ -116,7 +117,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
         Some(expected) if expected != total.compared => {
             Err(Error::Verify(format!("expected {expected} comparisons, made {}", total.compared)))
         }
-        _ if total.compared == 0 => Err(Error::Verify("nothing was compared".to_owned())),
+        _ if total.compared == 0 => Err(Error::Verify("nothing was compared: cargo xtask download fetches the sets".to_owned())),
         _ => Ok(()),
     }
 }
@@ -147,15 +148,15 @@ fn against_scenarios(cache: &Path, options: &Options) -> Result<Tally, Error> {
         let bar = progress(&set.name, maps.len());
         let tallies: Vec<Tally> = maps
             .par_iter()
-            .map(|map| scenario_of(map, options.every, set.name == OTHER_MAPS).inspect(|_| bar.inc(1)))
+            .map(|map| scenario_of(map, options.every.get(), set.name == OTHER_MAPS).inspect(|_| bar.inc(1)))
             .collect::<Result<_, _>>()?;
         bar.finish_and_clear();
         let tally = tallies.into_iter().fold(Tally::default(), Tally::add);
         let seen = tally.compared + tally.blocked + tally.shorter;
-        if options.every == 1 && set.instances.is_some_and(|instances| instances != seen) {
+        if options.every.get() == 1 && set.instances.is_some_and(|instances| instances != seen) {
             return Err(Error::Verify(format!("set {}: {seen} instances, not all that it has", set.name)));
         }
-        if options.every == 1 && set.name == OTHER_MAPS && (tally.blocked, tally.shorter) != KNOWN {
+        if options.every.get() == 1 && set.name == OTHER_MAPS && (tally.blocked, tally.shorter) != KNOWN {
             let (blocked, shorter) = (tally.blocked, tally.shorter);
             let wrong =
                 format!("{blocked} blocked and {shorter} shorter references in {OTHER_MAPS}, not {KNOWN:?}");
@@ -194,7 +195,7 @@ const KNOWN: (u64, u64) = (2_446, 5_182);
 fn scenario_of(path: &Path, every: usize, other_map: bool) -> Result<Tally, Error> {
     let grid = Arc::new(MapFile::read(path)?.to_grid());
     let scenario = Scenario::read(path.with_extension("map.scen"))?;
-    let instances: Vec<_> = scenario.instances().iter().enumerate().step_by(every.max(1)).collect();
+    let instances: Vec<_> = scenario.instances().iter().enumerate().step_by(every).collect();
     let queries = instances.iter().map(|(_, instance)| Query::new(instance.start, instance.goal));
     let mut tally = Tally::default();
     let mut known = instances.iter();
@@ -212,7 +213,7 @@ fn scenario_of(path: &Path, every: usize, other_map: bool) -> Result<Tally, Erro
                     tally.shorter += 1;
                 }
                 found => {
-                    tally.compare(what, found.unwrap_or(None), optimal, scenario_tolerance(instance.optimal))
+                    tally.compare(what, found.unwrap_or(None), optimal, scenario_tolerance(instance.optimal));
                 }
             }
         })

@@ -71,8 +71,8 @@ impl Prepared {
 
 /// Answers queries.
 pub(crate) enum Runner<'p> {
-    AStarCenters(AStar<'p, Centers, LatticeDistance>),
-    AStarCorners(AStar<'p, Corners, LatticeDistance>),
+    AStarCenters(AStar<&'p Lattice<Centers>, LatticeDistance>),
+    AStarCorners(AStar<&'p Lattice<Corners>, LatticeDistance>),
     Bools(&'p BoolMap),
     Pathing(&'p PathingGrid),
 }

@@ -1,6 +1,13 @@
 //! The command line.
 
-use std::{io::Write, num::NonZeroU32, num::NonZeroUsize, path::PathBuf, process::ExitCode, str::FromStr};
+use std::{
+    fmt::Display,
+    io::{self, Write},
+    num::{IntErrorKind, NonZeroU32, NonZeroUsize, ParseIntError},
+    path::PathBuf,
+    process::ExitCode,
+    str::FromStr,
+};
 
 use clap::{Args, Parser, Subcommand, ValueEnum, error::ErrorKind};
 use mediant_grid::{Centers, CornerRule, DiagonalGap, Lattice, Rules, Vertex};
@@ -8,7 +15,7 @@ use mediant_moves::K;
 
 use crate::{
     engines::{Engine, HeuristicName},
-    failure::{FAILURE, Failure, say_error},
+    failure::{Ending, FAILURE, Failure, finish, say_error},
 };
 
 /// Pathfinding on the 2^k neighborhoods of a grid: from the 4-connected grid (k = 2) towards any angle.
@@ -42,11 +49,11 @@ pub(crate) struct RunArgs {
     pub(crate) scen: Option<PathBuf>,
     /// Take the instances whose index, counted from 0, is divisible by N
     #[arg(long, value_name = "N", conflicts_with_all = ["from", "to"])]
-    #[arg(allow_negative_numbers = true, value_parser = parse_count::<NonZeroUsize>)]
+    #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_count(text, &NonZeroUsize::MAX))]
     pub(crate) every: Option<NonZeroUsize>,
     /// Take at most N instances
     #[arg(long, value_name = "N", conflicts_with_all = ["from", "to"])]
-    #[arg(allow_negative_numbers = true, value_parser = parse_count::<NonZeroUsize>)]
+    #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_count(text, &NonZeroUsize::MAX))]
     pub(crate) limit: Option<NonZeroUsize>,
     /// The start of a single query
     #[arg(long, value_name = "X,Y", requires = "to", allow_hyphen_values = true, value_parser = parse_vertex)]
@@ -77,7 +84,7 @@ pub(crate) struct RunArgs {
 
     /// Time each query N times and report the best
     #[arg(long, value_name = "N", default_value = "1")]
-    #[arg(allow_negative_numbers = true, value_parser = parse_count::<NonZeroU32>)]
+    #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_count(text, &NonZeroU32::MAX))]
     pub(crate) repeat: NonZeroU32,
     /// A table for people, or one JSON object a line for programs
     #[arg(long, value_enum, default_value_t)]
@@ -196,15 +203,28 @@ impl RunArgs {
 }
 
 fn parse_vertex(text: &str) -> Result<Vertex, String> {
-    let (x, y) = text.split_once(',').ok_or("expected two whole numbers, such as 3,14")?;
-    let number = |part: &str| {
-        part.trim().parse().map_err(|_| format!("`{part}` is no whole number; write X,Y such as 3,14"))
-    };
-    Ok(Vertex::new(number(x)?, number(y)?))
+    const EXPECTED: &str = "expected two whole numbers, such as 3,14";
+    let parts: Vec<&str> = text.split(',').collect();
+    match parts[..] {
+        [x, y] => Ok(Vertex::new(parse_coordinate(x)?, parse_coordinate(y)?)),
+        [_] => Err(EXPECTED.to_owned()),
+        _ => Err(format!("{EXPECTED}, found {} parts", parts.len())),
+    }
 }
 
-fn parse_count<N: FromStr>(text: &str) -> Result<N, String> {
-    text.parse().map_err(|_| "expected a whole number from 1 up".to_owned())
+fn parse_coordinate(text: &str) -> Result<i32, String> {
+    text.trim().parse().map_err(|error: ParseIntError| match error.kind() {
+        IntErrorKind::PosOverflow => format!("`{text}` is too large: coordinates go up to {}", i32::MAX),
+        IntErrorKind::NegOverflow => format!("`{text}` is too small: coordinates go down to {}", i32::MIN),
+        _ => format!("`{text}` is no whole number; write X,Y such as 3,14"),
+    })
+}
+
+fn parse_count<N: FromStr<Err = ParseIntError> + Display>(text: &str, max: &N) -> Result<N, String> {
+    text.parse().map_err(|error: ParseIntError| match error.kind() {
+        IntErrorKind::PosOverflow => format!("expected a whole number from 1 to {max}"),
+        _ => "expected a whole number from 1 up".to_owned(),
+    })
 }
 
 /// A k of which the moves can be computed, though no lattice may take it.
@@ -232,9 +252,8 @@ fn parse_ratio(text: &str) -> Result<f64, String> {
 pub(crate) fn explain(error: &clap::Error) -> ExitCode {
     match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
-            // A reader that has seen enough of the help is no failure.
-            _ = error.print();
-            ExitCode::SUCCESS
+            let printed = error.print().and_then(|()| io::stdout().flush());
+            finish(printed.map(|()| Ending::Answered).map_err(Failure::Output))
         }
         ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             _ = write!(anstream::stderr(), "{}", error.render().ansi());

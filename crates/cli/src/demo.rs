@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use anstyle::RgbColor;
 use mediant_grid::{CornerRule, DiagonalGap, Placement, Rules, Vertex};
-use mediant_moves::{BOUND_WITHOUT_CORNER_CUTTING, K, bound_at_corners};
+use mediant_moves::{K, bound_at_corners};
 use mediant_search::{Outcome, Planner, Query};
 
 use crate::{
@@ -118,9 +118,8 @@ fn table(map: &Map, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
         Table::new(names.map(|name| (name, if name == "at" { Align::Left } else { Align::Right })));
     for row in rows {
         let placement = row.rules.placement();
-        // The demonstration cuts no corners at centers.
-        let uncut = placement == Placement::Center;
-        let bound = if uncut { BOUND_WITHOUT_CORNER_CUTTING } else { bound_at_corners(row.k) };
+        // Of paths between centers no bound over those between corners, the best here, is known.
+        let bound = (placement == Placement::Corner).then(|| percent_over(bound_at_corners(row.k), 2));
         let cells = [
             // A column wider than its numbers keeps them off the sample of the line.
             format!("{:>3}", row.k.to_string()),
@@ -128,7 +127,7 @@ fn table(map: &Map, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
             grouped(row.k.moves().unwrap_or(u64::MAX)),
             format!("{:.4}", row.cost),
             percent_over(row.cost / best, 2),
-            percent_over(bound, 2),
+            bound.unwrap_or_else(|| "–".to_owned()),
             row.waypoints.len().saturating_sub(2).to_string(),
             grouped(row.expanded),
             time(row.nanos as f64),

@@ -9,7 +9,7 @@ use anstyle::{AnsiColor, Style};
 use mediant_formats::{ReadError, ScenarioForOtherMap};
 use mediant_grid::Vertex;
 
-use crate::engines::Engine;
+use crate::{engines::Engine, text::printable};
 
 /// Exit status 1: some query was an error.
 const QUERY_ERROR: u8 = 1;
@@ -90,5 +90,5 @@ pub(crate) fn say_warning(text: &str) {
 fn say(kind: &str, color: AnsiColor, text: &str) {
     let style = Style::new().bold().fg_color(Some(color.into()));
     // There is nobody to tell when stderr is closed.
-    _ = writeln!(anstream::stderr(), "{style}{kind}:{style:#} {text}");
+    _ = writeln!(anstream::stderr(), "{style}{kind}:{style:#} {}", printable(text));
 }

@@ -33,7 +33,7 @@ impl Map {
     }
 }
 
-/// The last part of a path, fit to print.
+/// The last part of a path; it may hold control characters.
 pub(crate) fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }

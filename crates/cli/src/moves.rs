@@ -3,12 +3,12 @@
 use std::io::{self, Write};
 
 use mediant_moves::{
-    BOUND_WITHOUT_CORNER_CUTTING, KError, Neighborhood, Parity, Quadrant, Vector, bound_at_centers,
+    BOUND_WITHOUT_CORNER_CUTTING, K, KError, Neighborhood, Parity, Quadrant, Vector, bound_at_centers,
     bound_at_corners, level, parents, smallest_k_at_centers, smallest_k_at_corners,
 };
 
 use crate::{
-    args::MovesArgs,
+    args::{KArg, MovesArgs},
     failure::Failure,
     screen::{BOLD, DIM, Screen},
     star,
@@ -40,15 +40,15 @@ fn facts(neighborhood: Neighborhood, screen: &mut Screen) -> Result<(), Failure>
     let name = screen.paint(BOLD, format!("N({k})"));
     let quadrant = grouped(neighborhood.quadrant().len());
     writeln!(screen, "{name} · {} moves, {quadrant} in a closed quadrant", grouped(neighborhood.len()))?;
-    writeln!(screen, "  radius             {}", grouped(radius.unsigned_abs().into()))?;
-    let uncut = ("centers, never cut", BOUND_WITHOUT_CORNER_CUTTING);
-    for (place, bound) in [("corners", bound_at_corners(k)), ("centers, cut", bound_at_centers(k)), uncut] {
+    writeln!(screen, "  radius          {}", grouped(radius.unsigned_abs().into()))?;
+    let uncut = ("centers, never", BOUND_WITHOUT_CORNER_CUTTING);
+    for (place, bound) in [("corners", bound_at_corners(k)), ("centers, one", bound_at_centers(k)), uncut] {
         // Where the bound is close to 1 its distance from 1 is what tells.
         let digits = if bound < 1.001 { 6 } else { 2 };
         let percent = (bound - 1.0) * 100.0;
         writeln!(
             screen,
-            "  {place:<18} Γ = {bound:.10}: never more than {percent:.digits$} % above any-angle"
+            "  {place:<15} Γ = {bound:.10}: never more than {percent:.digits$} % above any-angle"
         )?;
     }
     Ok(())
@@ -104,8 +104,13 @@ fn smallest(ratio: f64, after_moves: bool, screen: &mut Screen) -> io::Result<()
     if after_moves {
         writeln!(screen)?;
     }
-    let percent = percent_over(ratio, if ratio < 1.001 { 6 } else { 2 });
-    let target = format!("At most {ratio} of an any-angle path's length ({percent})");
+    let target = if ratio < 1e6 {
+        let percent = percent_over(ratio, if ratio < 1.001 { 6 } else { 2 });
+        format!("At most {ratio} of an any-angle path's length ({percent})")
+    } else {
+        // Hundreds of digits would tell nobody anything.
+        format!("At most {ratio:e} of an any-angle path's length")
+    };
     writeln!(screen, "{}", screen.paint(BOLD, target))?;
     let places = [
         (
@@ -124,6 +129,11 @@ fn smallest(ratio: f64, after_moves: bool, screen: &mut Screen) -> io::Result<()
             Some(k) => writeln!(screen, "  {place}   k = {k}")?,
             None => writeln!(screen, "  {place}   {none}")?,
         }
+    }
+    if places.iter().any(|&(_, k, _)| k.is_some_and(|k| k.get() > KArg::MAX)) {
+        let note =
+            format!("  `mediant run` takes k up to {}, `mediant moves` up to {}", KArg::MAX, K::MAX_MOVES);
+        writeln!(screen, "{}", screen.paint(DIM, note))?;
     }
     Ok(())
 }

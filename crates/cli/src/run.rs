@@ -35,7 +35,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     // Lines of JSON on the screen are progress enough, and a bar would break them.
     let lines_on_screen = args.format == Format::Jsonl && io::stdout().is_terminal();
     let mut report: Box<dyn Report> = match args.format {
-        Format::Jsonl => Box::new(Jsonl(screen)),
+        Format::Jsonl => Box::new(Jsonl::new(screen, lines_on_screen)),
         Format::Table => Box::new(TableReport::new(screen)),
     };
     let session = Session {

@@ -20,7 +20,8 @@ pub(crate) struct Summary {
     pub(crate) mean_expanded: f64,
     pub(crate) mean_generated: f64,
     pub(crate) mean_percolations: f64,
-    pub(crate) mean_cost: f64,
+    /// `null` where no path was found.
+    pub(crate) mean_cost: Option<f64>,
     /// `null` where no answered query has a reference.
     pub(crate) reference: Option<References>,
 }
@@ -115,7 +116,7 @@ impl Tally {
             mean_expanded: mean(self.expanded as f64, answered),
             mean_generated: mean(self.generated as f64, answered),
             mean_percolations: mean(self.percolations as f64, answered),
-            mean_cost: mean(self.cost, self.found),
+            mean_cost: (self.found > 0).then(|| mean(self.cost, self.found)),
             reference: (self.compared > 0).then_some(references),
         }
     }

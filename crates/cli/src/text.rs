@@ -47,6 +47,15 @@ pub(crate) fn percent_over(ratio: f64, digits: usize) -> String {
     format!("{percent:+.digits$} %")
 }
 
+/// Text with its control characters escaped, since a file's name may hold codes that a terminal obeys.
+pub(crate) fn printable(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for c in text.chars() {
+        if c.is_control() { shown.extend(c.escape_default()) } else { shown.push(c) }
+    }
+    shown
+}
+
 /// To which side a column's texts are pushed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Align {
@@ -147,6 +156,11 @@ mod tests {
             "1500 s",
         ];
         assert_eq!(shown, expected);
+    }
+
+    #[test]
+    fn only_control_characters_are_escaped() {
+        assert_eq!(printable("\u{1b}[31mé\r\n\u{9b}`\\'"), r"\u{1b}[31mé\r\n\u{9b}`\'");
     }
 
     #[test]

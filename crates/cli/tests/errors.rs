@@ -3,7 +3,7 @@
 use mediant_formats::MapFile;
 
 mod common;
-use common::{Files, Ran, mediant, run};
+use common::{Files, Ran, mediant, mediant_with, run};
 
 /// Runs a command line that fails before there is any output, and checks all that it says.
 #[track_caller]
@@ -56,15 +56,11 @@ fn arguments_that_make_no_sense() {
         "run builtin:cave --repeat x",
         "invalid value 'x' for '--repeat <N>': expected a whole number from 1 up; see --help",
     );
+    check(
+        "run builtin:cave --repeat 99999999999",
+        "invalid value '99999999999' for '--repeat <N>': expected a whole number from 1 to 4294967295; see --help",
+    );
     check("run builtin:cave --smooth", "unexpected argument '--smooth' found; see --help");
-    check(
-        "run builtin:cave --from 3 --to 4,5",
-        "invalid value '3' for '--from <X,Y>': expected two whole numbers, such as 3,14; see --help",
-    );
-    check(
-        "run builtin:cave --from 3,y --to 4,5",
-        "invalid value '3,y' for '--from <X,Y>': `y` is no whole number; write X,Y such as 3,14; see --help",
-    );
     check(
         "moves",
         "give --k for the moves of a neighborhood, --ratio for the k that a bound asks for, or both",
@@ -79,6 +75,31 @@ fn arguments_that_make_no_sense() {
          no path is shorter than an any-angle path; see --help",
     );
     check("fly", "unrecognized subcommand 'fly'; see --help");
+}
+
+#[test]
+fn vertices_that_are_none() {
+    check(
+        "run builtin:cave --from 3 --to 4,5",
+        "invalid value '3' for '--from <X,Y>': expected two whole numbers, such as 3,14; see --help",
+    );
+    check(
+        "run builtin:cave --from 3,y --to 4,5",
+        "invalid value '3,y' for '--from <X,Y>': `y` is no whole number; write X,Y such as 3,14; see --help",
+    );
+    check(
+        "run builtin:cave --from 1,2,3 --to 4,5",
+        "invalid value '1,2,3' for '--from <X,Y>': expected two whole numbers, such as 3,14, found 3 parts; see --help",
+    );
+    check(
+        "run builtin:cave --from 2147483648,0 --to 4,5",
+        "invalid value '2147483648,0' for '--from <X,Y>': `2147483648` is too large: coordinates go up to 2147483647; see --help",
+    );
+    check(
+        "run builtin:cave --from 1,2 --to 4,-99999999999",
+        "invalid value '4,-99999999999' for '--to <X,Y>': `-99999999999` is too small: coordinates go down to -2147483648; \
+         see --help",
+    );
 }
 
 #[test]
@@ -192,7 +213,10 @@ fn queries_without_an_answer_are_errors_of_their_own() {
         for format in ["table", "jsonl"] {
             let args =
                 ["run", &map, "--from", from, "--to", to, "--placement", placement, "--format", format];
-            let Ran { status, stderr, .. } = mediant(&args);
+            let Ran { status, stdout, stderr } = mediant(&args);
+            // The table has the word only; each line of JSON has all that is to be said.
+            assert_eq!(stdout.contains(message), format == "jsonl", "{stdout}");
+            assert!(stdout.contains("error"), "{stdout}");
             assert_eq!(
                 (stderr.as_str(), status),
                 (&*format!("error: {message}\n"), Some(1)),
@@ -232,6 +256,26 @@ fn queries_without_an_answer_are_errors_of_their_own() {
 }
 
 #[test]
+#[cfg(unix)]
+fn names_send_no_codes_to_the_terminal() {
+    let files = Files::new();
+    let name = "\u{1b}]0;title\u{7}\u{1b}[31mred\r.map";
+    let shown = r"\u{1b}]0;title\u{7}\u{1b}[31mred\r.map";
+    // Colors are asked for, since without them escape sequences are taken out on the way.
+    let color = [("CLICOLOR_FORCE", "1")];
+    let single = |path: &str| mediant_with(&["run", path, "--from", "0,0", "--to", "2,0"], &color);
+    let missing = single(&files.path(name));
+    assert!(missing.stderr.contains(&format!("{shown}: no such file")), "{missing:?}");
+    let found = single(&files.add(name, MAP));
+    assert_eq!(found.status, Some(0), "{found:?}");
+    assert!(found.stdout.contains(&format!("{shown}\u{1b}[0m · 3 × 2 cells")), "{found:?}");
+    for text in [missing.stderr, found.stdout] {
+        assert!(!text.contains(['\u{7}', '\r']), "{text:?}");
+        assert!(!text.contains("\u{1b}]") && !text.contains("\u{1b}[31mred"), "{text:?}");
+    }
+}
+
+#[test]
 fn no_path_is_an_answer() {
     let files = Files::new();
     let map = files.add("walls.map", "type octile\nheight 1\nwidth 3\nmap\n.@.\n");
@@ -258,10 +302,12 @@ fn a_reader_that_stops_is_no_failure() {
 #[cfg(target_os = "linux")]
 fn a_full_disk_is_one() {
     use std::{fs::File, process::Command};
-    let full = File::options().write(true).open("/dev/full").expect("the device that is always full");
-    let output = Command::new(env!("CARGO_BIN_EXE_mediant")).arg("engines").stdout(full).output();
-    let output = output.expect("the program starts");
-    let stderr = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(stderr.starts_with("error: cannot write the output: "), "{stderr}");
+    for line in ["engines", "--help", "--version", "run --help", "run builtin:cave --format jsonl"] {
+        let full = File::options().write(true).open("/dev/full").expect("the device that is always full");
+        let mut command = Command::new(env!("CARGO_BIN_EXE_mediant"));
+        let output = command.args(line.split(' ')).stdout(full).output().expect("the program starts");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{line}");
+        assert!(stderr.starts_with("error: cannot write the output: "), "{line}: {stderr}");
+    }
 }

@@ -1,6 +1,13 @@
 //! `--format jsonl`: what scripts rely on.
 
-use std::{collections::BTreeSet, sync::Arc};
+use std::{
+    collections::BTreeSet,
+    io::{BufRead, BufReader},
+    process::{Command, Stdio},
+    sync::{Arc, mpsc},
+    thread,
+    time::Duration,
+};
 
 use mediant_formats::{MapFile, Scenario};
 use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Grid, Lattice, Place, Rules};
@@ -53,12 +60,14 @@ fn every_record_is_complete() {
     assert!(keys(run).is_superset(&contract.into()), "{run}");
     let expected: Value = serde_json::json!({
         "map": "cave.map", "scenario": "cave.map.scen", "engine": "astar", "k": 3, "placement": "center", "corners": "never",
-        "gap": "open", "smooth": false, "guarantee": "optimal(3)", "heuristic": "hk", "repeat": 1, "index_bytes": 0, "queries": 32,
+        "gap": "open", "smooth": false, "guarantee": "optimal(3)", "heuristic": "hk", "repeat": 1, "queries": 32,
     });
     for (key, value) in expected.as_object().expect("an object") {
         assert_eq!(&run[key], value, "{key}");
     }
     assert!(run["preprocess_ns"].as_u64() > Some(0));
+    // The components alone take four bytes a cell.
+    assert!(run["index_bytes"].as_u64() > Some(4 * 72 * 36), "{run}");
 
     assert_eq!(queries.len(), 32);
     let contract = [
@@ -130,6 +139,40 @@ fn errors_and_missing_paths_are_records() {
     let blocked = "the goal (1, 0) is blocked: choose a free vertex; the nearest one is (0, 0)";
     assert_eq!(errors, [None, Some(outside), None, Some(blocked)]);
     assert_eq!(summary["errors"].as_u64(), Some(2));
+}
+
+#[test]
+fn a_mean_of_no_cost_is_null() {
+    let files = Files::new();
+    let map = files.add("walls.map", "type octile\nheight 1\nwidth 3\nmap\n.@.\n");
+    let records = records(&["run", &map, "--from", "0,0", "--to", "2,0", "--format", "jsonl"]);
+    let (_, _, summary) = parts(&records);
+    assert_eq!((&summary["unreachable"], &summary["mean_cost"]), (&Value::from(1), &Value::Null));
+}
+
+#[test]
+fn lines_come_while_the_run_goes_on() {
+    // The first queries take a second or so, as long as a line may wait; all of them take minutes.
+    let line = "run builtin:cave --repeat 3000000 --format jsonl";
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mediant"));
+    let mut child = command.args(line.split(' ')).stdout(Stdio::piped()).spawn().expect("the program starts");
+    let stdout = BufReader::new(child.stdout.take().expect("a pipe"));
+    let (sender, receiver) = mpsc::channel();
+    let reader = thread::spawn(move || {
+        // The receiver is gone once it has seen enough.
+        stdout.lines().map_while(Result::ok).try_for_each(|line| sender.send(line)).is_ok()
+    });
+    let lines = [(); 2].map(|()| receiver.recv_timeout(Duration::from_secs(120)));
+    let ended = child.try_wait().expect("a child to ask about");
+    child.kill().expect("a child to stop");
+    child.wait().expect("a child that was stopped");
+    drop(receiver);
+    reader.join().expect("the reader ends");
+    let types = lines.map(|line| {
+        let record: Value = serde_json::from_str(&line.expect("a line in time")).expect("each line is JSON");
+        record["type"].clone()
+    });
+    assert_eq!((types, ended), ([Value::from("run"), Value::from("query")], None));
 }
 
 #[test]

@@ -58,7 +58,13 @@ fn the_engines() {
 fn the_moves() {
     insta::assert_snapshot!("moves_of_5", shown("moves --k 5"));
     insta::assert_snapshot!("moves_of_12", shown("moves --k 12 --ratio 1.002"));
+    let steep = shown("moves --ratio 1e300");
+    assert!(steep.starts_with("At most 1e300 of an any-angle path's length\n"), "{steep}");
+    let note = "`mediant run` takes k up to 12, `mediant moves` up to 47";
+    let close = shown("moves --ratio 1.0000001");
+    assert!(close.contains("k = 1121") && close.contains(note), "{close}");
     let ratio_alone = shown("moves --ratio 1.3");
+    assert!(!ratio_alone.contains(note), "{ratio_alone}");
     assert!(
         ratio_alone.contains("at corners   k = 3") && ratio_alone.contains("at centers   k = 3"),
         "{ratio_alone}"

@@ -1,5 +1,7 @@
 //! Bit-packed matrices with a blocked frame, read a word at a time.
 
+use std::fmt;
+
 use bitvec::{prelude::Lsb0, vec::BitVec};
 
 /// Where a cell's bit stands in a [`BitMatrix`], frame included. Not a cell id: rows are padded to whole words.
@@ -20,12 +22,19 @@ impl BitIndex {
 ///
 /// Each row is followed by at least one blocked bit, which is also the one before the next row; above the first and
 /// below the last row lies a blocked row, and one blocked word lies before and behind it all.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 pub struct BitMatrix {
     bits: BitVec<u64, Lsb0>,
     width: u32,
     height: u32,
     words_per_row: u32,
+}
+
+/// The sides alone: the bits of a map would fill pages.
+impl fmt::Debug for BitMatrix {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "BitMatrix({} × {})", self.width, self.height)
+    }
 }
 
 impl BitMatrix {
@@ -151,7 +160,6 @@ pub fn load(words: &[u64], at: BitIndex) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::Grid;
 
     /// Every run of every length at every offset within a word, with one blocked cell just inside or just outside it.

@@ -3,6 +3,8 @@
 //! Rule variant: a vertex is expanded with all its legal moves, nothing is pruned. A cheaper path to a closed node reopens
 //! it, so the result is optimal with every heuristic that never overestimates, consistent or not.
 
+use std::ops::Deref;
+
 use mediant_grid::{Lattice, Place, Vertex, VertexId};
 use mediant_moves::Cost;
 
@@ -30,19 +32,22 @@ use crate::{
 /// assert_eq!(outcome.path().map(|path| path.cost()), Some(5.0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+///
+/// `L` is how the planner holds its lattice: by reference, or, where both belong in one struct, by `Arc`.
 #[derive(Clone, Debug)]
-pub struct AStar<'l, P: Place, H> {
-    lattice: &'l Lattice<P>,
+pub struct AStar<L, H> {
+    lattice: L,
     heuristic: H,
     nodes: NodeStore,
     open: OpenList,
 }
 
-impl<'l, P: Place, H: Heuristic> AStar<'l, P, H> {
+impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> AStar<L, H> {
     /// A planner with scratch memory for `lattice`: 16 bytes a vertex.
     #[must_use]
-    pub fn new(lattice: &'l Lattice<P>, heuristic: H) -> Self {
-        Self { lattice, heuristic, nodes: NodeStore::new(lattice.vertex_count()), open: OpenList::default() }
+    pub fn new(lattice: L, heuristic: H) -> Self {
+        let nodes = NodeStore::new(lattice.vertex_count());
+        Self { lattice, heuristic, nodes, open: OpenList::default() }
     }
 
     /// Expands nodes until the goal is the best of them. Whether it was found.
@@ -54,6 +59,7 @@ impl<'l, P: Place, H: Heuristic> AStar<'l, P, H> {
         observer: &mut impl Observer,
     ) -> bool {
         let Self { lattice, heuristic, nodes, open } = self;
+        let lattice: &Lattice<P> = lattice;
         let at = lattice.vertex(start);
         let h = heuristic.estimate(lattice, at.to(goal));
         nodes.start_search();
@@ -133,9 +139,9 @@ impl<'l, P: Place, H: Heuristic> AStar<'l, P, H> {
     }
 }
 
-impl<P: Place, H: Heuristic> Planner for AStar<'_, P, H> {
+impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> Planner for AStar<L, H> {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        query.check(self.lattice)?;
+        query.check(&self.lattice)?;
         let (Some(start), Some(goal)) = (self.lattice.id(query.start), self.lattice.id(query.goal)) else {
             return Ok(Outcome::Unreachable);
         };

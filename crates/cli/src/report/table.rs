@@ -7,7 +7,7 @@ use crate::{
     record::{QueryRecord, RunRecord, Status},
     screen::{BOLD, Screen},
     summary::{References, Summary},
-    text::{Align, Table, count, grouped, percent_over, time, wrap},
+    text::{Align, Table, count, grouped, percent_over, printable, time, wrap},
 };
 
 /// Keeps the rows, since columns are as wide as their widest cell: all of a few queries, of many only the errors.
@@ -52,7 +52,8 @@ impl<'s> TableReport<'s> {
         }
         table.write(self.screen)?;
         let mut gap = "\n";
-        for row in self.rows.iter().filter(|_| few) {
+        // What is wrong with the only query is said on stderr.
+        for row in self.rows.iter().filter(|_| few && self.queries > 1) {
             if let Some(error) = &row.error {
                 writeln!(self.screen, "{gap}  {}: {error}", row.index)?;
                 gap = "";
@@ -110,7 +111,7 @@ impl Report for TableReport<'_> {
         };
         let (width, height) = (run.width, run.height);
         let size = format!("{width} × {height} cells, {} free", grouped(run.free_cells));
-        writeln!(self.screen, "{} · {size}", self.screen.paint(BOLD, &run.map))?;
+        writeln!(self.screen, "{} · {size}", self.screen.paint(BOLD, printable(&run.map)))?;
         writeln!(
             self.screen,
             "{}, heuristic {} · k = {} · {}, {rule} · {} · prepared in {}\n",
@@ -160,8 +161,8 @@ impl Report for TableReport<'_> {
         self.fact("time", &format!("median {median}, mean {mean}, max {max}"))?;
         let [expanded, generated] = [summary.mean_expanded, summary.mean_generated].map(mean_count);
         self.fact("nodes", &format!("mean {expanded} expanded, {generated} generated"))?;
-        if *found > 0 {
-            self.fact("cost", &format!("mean {:.4}", summary.mean_cost))?;
+        if let Some(cost) = summary.mean_cost {
+            self.fact("cost", &format!("mean {cost:.4}"))?;
         }
         match &summary.reference {
             Some(references) => self.references(references),
