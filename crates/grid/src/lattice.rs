@@ -347,7 +347,7 @@ impl MoveSet {
     /// The indices in the set, ascending.
     pub fn iter(&self) -> impl Iterator<Item = usize> {
         self.words.iter().zip((0..).step_by(64)).flat_map(|(&word, base)| {
-            let bits = std::iter::successors(Some(word), |rest| Some(rest & (rest - 1)));
+            let bits = std::iter::successors(Some(word), |rest| Some(rest & rest.wrapping_sub(1)));
             bits.take_while(|&rest| rest != 0).map(move |rest| base + rest.trailing_zeros() as usize)
         })
     }

@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Centers, Corners, Grid, Lattice, Place, Rules, Vector, Vertex, line_of_sight_under};
+use mediant_grid::{
+    Centers, Components, Connectivity, CornerRule, Corners, Grid, Lattice, Place, Rules, Vector, Vertex,
+    line_of_sight_under,
+};
 use mediant_moves::{K, Neighborhood};
 use mediant_oracle::{Explicit, segment_is_legal, suite_grid, vertex_is_free};
 
@@ -94,7 +97,7 @@ fn check_long_moves<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) 
             let expected = line_of_sight_under(grid, rules, at, at + v);
             assert_eq!(set.contains(index), expected, "{}", case());
             // Each move in one of the seeds and at one of the vertices at least.
-            if (index as u64 + seed + at.x as u64) % 17 == 0 {
+            if (index as u64 + seed + at.x as u64).is_multiple_of(17) {
                 assert_eq!(expected, segment_is_legal(grid, rules, at, at + v), "{}", case());
             }
         }
@@ -120,6 +123,37 @@ fn long_moves_of_large_k_are_legal_as_brute_force_says() {
     // The rules of centers differ on these maps. Those of corners cannot: no move has a vertex between its ends.
     let [never, one, always, open, closed] = legal;
     assert!(never < one && one < always && open == closed && open > 10_000, "{legal:?}");
+}
+
+/// Each move of N(12) that passes through a corner point, at its middle, past one or two blocked cells there.
+#[test]
+fn the_corner_rules_hold_in_the_middle_of_long_moves() {
+    let k = K::new(12).expect("k is at least 2");
+    // The corner point is (100, 100). A falling move touches the cells to its upper right and lower left, a rising one the others.
+    for (falling, cells) in [(true, [(100, 99), (99, 100)]), (false, [(99, 99), (100, 100)])] {
+        for blocked in [&cells[..1], &cells[1..], &cells[..]] {
+            let grid = Grid::from_fn(200, 200, |x, y| blocked.contains(&(x, y))).expect("a valid size");
+            let grid = Arc::new(grid);
+            for rule in [CornerRule::Never, CornerRule::One, CornerRule::Always] {
+                let lattice = Lattice::<Centers>::new(Arc::clone(&grid), k, rule).expect("k is in range");
+                let expected = match rule {
+                    CornerRule::Never => false,
+                    CornerRule::One => blocked.len() == 1,
+                    CornerRule::Always => true,
+                };
+                let mut moves = 0;
+                for (index, v) in lattice.steps().iter().map(|step| step.vector()).enumerate() {
+                    if v.x % 2 != 0 && v.y % 2 != 0 && ((v.x > 0) == (v.y > 0)) == falling {
+                        let at = Vertex::new((199 - v.x) / 2, (199 - v.y) / 2);
+                        let found = lattice.legal_moves(at).contains(index);
+                        assert_eq!(found, expected, "{rule:?}, {v:?} past {blocked:?}");
+                        moves += 1;
+                    }
+                }
+                assert!(moves > 600, "only {moves} moves");
+            }
+        }
+    }
 }
 
 #[test]
@@ -179,6 +213,48 @@ fn components_tell_whether_there_is_any_path() {
         }
     }
     assert!(told.iter().all(|&count| count > 20_000), "too few cases: {told:?}");
+}
+
+/// The components by flooding, numbered as [`Components`] does.
+fn flood(grid: &Grid, connectivity: Connectivity) -> std::collections::HashMap<Vertex, u32> {
+    let mut labels = std::collections::HashMap::new();
+    let mut count = 0;
+    let is_free = |at: Vertex| grid.is_free(at.x, at.y);
+    for first in vertices(grid).filter(|&at| is_free(at)) {
+        if labels.contains_key(&first) {
+            continue;
+        }
+        let mut open = vec![first];
+        while let Some(at) = open.pop() {
+            if labels.insert(at, count).is_some() {
+                continue;
+            }
+            let around = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| Vector::new(dx, dy)));
+            let near = around.filter(|d| connectivity == Connectivity::Eight || d.x == 0 || d.y == 0);
+            open.extend(near.map(|d| at + d).filter(|&at| is_free(at) && !labels.contains_key(&at)));
+        }
+        count += 1;
+    }
+    labels
+}
+
+/// Runs of free cells that end at, begin at and go over the boundaries of words.
+#[test]
+fn components_of_wide_maps_are_those_of_flooding() {
+    for seed in 0..60 {
+        let mut rng = mediant_oracle::Rng::new(seed);
+        let (width, height, percent) = (62 + rng.below(140), 1 + rng.below(4), 10 + rng.below(50));
+        let grid = mediant_oracle::noise(&mut rng, width, height, percent);
+        for connectivity in [Connectivity::Four, Connectivity::Eight] {
+            let (components, labels) = (Components::new(&grid, connectivity), flood(&grid, connectivity));
+            for at in vertices(&grid) {
+                let expected = labels.get(&at).copied();
+                assert_eq!(components.of(at), expected, "seed {seed}, {connectivity:?}, cell {at}");
+            }
+            let count = labels.values().max().map_or(0, |last| last + 1);
+            assert_eq!(components.count(), count, "seed {seed}, {connectivity:?}");
+        }
+    }
 }
 
 #[test]

@@ -11,7 +11,7 @@ use mediant_oracle::{Explicit, Rng, describe, random_free_vertex, suite_grid, va
 use mediant_search::{Counters, Guarantee, Outcome, Query};
 
 fn seeds() -> std::ops::Range<u64> {
-    mediant_oracle::seeds(150)
+    mediant_oracle::seeds(120)
 }
 
 /// Six queries of a map: one long chain of goals from each of two starts.

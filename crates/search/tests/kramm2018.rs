@@ -10,85 +10,161 @@ use std::sync::Arc;
 
 use common::with_engines;
 use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Rules, Vertex};
-use mediant_moves::{K, bound_at_centers};
+use mediant_moves::{BOUND_WITHOUT_CORNER_CUTTING, K, bound_at_centers};
 use mediant_oracle::{Explicit, Rng, describe, noise};
 use mediant_search::Query;
 
-const SLACK: f64 = 1e-9;
+const SLACK: f64 = 1.0 + 1e-9;
 
-/// The gap rule of corners that says of diagonal gaps what the rule of centers says.
-fn gap(corners: CornerRule) -> DiagonalGap {
-    if corners == CornerRule::Always { DiagonalGap::Open } else { DiagonalGap::Closed }
+/// A grid, its free cells, and the any-angle optima between all of them.
+struct Instance {
+    grid: Arc<Grid>,
+    corners: CornerRule,
+    free: Vec<Vertex>,
+    best: Vec<Vec<Option<f64>>>,
 }
 
-/// The any-angle reference of a grid.
-struct Reference(Explicit);
+/// A pair of cells and the ratio of its cost over N(k) to its any-angle optimum.
+type Ratio = (f64, Vertex, Vertex);
 
-impl Reference {
-    fn new(grid: &Grid, corners: CornerRule) -> Self {
-        let halves = Grid::from_fn(2 * grid.width(), 2 * grid.height(), |x, y| {
+impl Instance {
+    /// The rule of corners for the reference is the one that says of diagonal gaps what `corners` says; under `Never` the
+    /// reference may still touch corners and slide along walls, as in the paper.
+    fn new(grid: Grid, corners: CornerRule) -> Self {
+        let quarters = Grid::from_fn(2 * grid.width(), 2 * grid.height(), |x, y| {
             grid.is_blocked(x as i32 / 2, y as i32 / 2)
         });
-        Self(Explicit::new(&halves.expect("a valid size"), Rules::Corner(gap(corners)), None))
+        let gap = if corners == CornerRule::Always { DiagonalGap::Open } else { DiagonalGap::Closed };
+        let graph = Explicit::new(&quarters.expect("a valid size"), Rules::Corner(gap), None);
+        let (width, height) = (grid.width() as i32, grid.height() as i32);
+        let cells = (0..height).flat_map(|y| (0..width).map(move |x| Vertex::new(x, y)));
+        let free: Vec<Vertex> = cells.filter(|cell| grid.is_free(cell.x, cell.y)).collect();
+        let center = |cell: &Vertex| Vertex::new(2 * cell.x + 1, 2 * cell.y + 1);
+        let best = free.iter().map(|start| {
+            let costs = graph.costs_from(center(start));
+            free.iter().map(|goal| costs.to(center(goal)).map(|cost| cost / 2.0)).collect()
+        });
+        Self { best: best.collect(), grid: Arc::new(grid), corners, free }
     }
 
-    /// The any-angle optima from one center to others.
-    fn costs(&self, start: Vertex, goals: &[Vertex]) -> Vec<Option<f64>> {
-        let center = |cell: Vertex| Vertex::new(2 * cell.x + 1, 2 * cell.y + 1);
-        let costs = self.0.costs_from(center(start));
-        goals.iter().map(|&goal| costs.to(center(goal)).map(|cost| cost / 2.0)).collect()
-    }
-}
-
-/// The largest ratio of the cost over N(k) to the any-angle optimum between any two free cells, and where.
-fn worst(grid: &Arc<Grid>, corners: CornerRule, k: u32) -> (f64, Vertex, Vertex) {
-    let rules = Rules::Center(corners);
-    let free: Vec<Vertex> = (0..grid.height() as i32)
-        .flat_map(|y| (0..grid.width() as i32).map(move |x| Vertex::new(x, y)))
-        .collect();
-    let free: Vec<Vertex> = free.into_iter().filter(|cell| grid.is_free(cell.x, cell.y)).collect();
-    let reference = Reference::new(grid, corners);
-    let mut worst = (0.0, Vertex::default(), Vertex::default());
-    with_engines(grid, rules, k, |mut engines| {
-        for &start in &free {
-            for (&goal, best) in free.iter().zip(reference.costs(start, &free)) {
-                let (outcome, _) = engines[0].solve(Query::new(start, goal)).expect("both ends are free");
-                let cost = outcome.path().map(|path| path.cost());
-                let Some(best) = best else {
-                    assert_eq!(cost, None, "{}", describe(grid, rules, start, goal, 0));
-                    continue;
-                };
-                let cost = cost.unwrap_or(f64::INFINITY);
-                assert!(cost >= best * (1.0 - SLACK), "k = {k}: {}", describe(grid, rules, start, goal, 0));
-                if cost > worst.0 * best {
-                    worst = (cost / best, start, goal);
+    /// Every pair of cells that an any-angle path joins. No path over N(k) is shorter, nor is there one where that is not.
+    fn ratios(&self, k: u32) -> Vec<Ratio> {
+        let (mut ratios, rules) = (Vec::new(), Rules::Center(self.corners));
+        with_engines(&self.grid, rules, k, |mut engines| {
+            for (&start, best) in self.free.iter().zip(&self.best) {
+                for (&goal, &best) in self.free.iter().zip(best).filter(|&(&goal, _)| goal != start) {
+                    let (outcome, _) = engines[0].solve(Query::new(start, goal)).expect("both ends are free");
+                    let cost = outcome.path().map_or(f64::INFINITY, |path| path.cost());
+                    let best = best.unwrap_or(f64::INFINITY);
+                    assert!(cost * SLACK >= best, "k = {k}: {cost} < {best}; {}", self.describe(start, goal));
+                    if best.is_finite() {
+                        ratios.push((cost / best, start, goal));
+                    }
                 }
             }
-        }
-    });
-    worst
+        });
+        ratios
+    }
+
+    fn worst(&self, k: u32) -> Ratio {
+        self.ratios(k).into_iter().max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default()
+    }
+
+    fn describe(&self, start: Vertex, goal: Vertex) -> String {
+        describe(&self.grid, Rules::Center(self.corners), start, goal, 0)
+    }
 }
 
-fn grid(drawing: &str) -> Arc<Grid> {
-    Arc::new(AsciiMap::parse(drawing).expect("the drawing is a map").grid)
+/// The ratio between `s` and `g`.
+fn drawn(drawing: &str, corners: CornerRule, k: u32) -> f64 {
+    let map = AsciiMap::parse(drawing).expect("the drawing is a map");
+    let (s, g) = (map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
+    let ratios = Instance::new(map.grid, corners).ratios(k);
+    ratios.iter().find(|&&(_, start, goal)| (start, goal) == (s, g)).expect("there is a way").0
+}
+
+fn bound(k: u32) -> f64 {
+    bound_at_centers(K::new(k).expect("k is at least 2"))
+}
+
+/// Theorem 3 on every map of 3 × 3 cells, which attain it.
+#[test]
+fn theorem_3_holds_with_rule_one_and_is_tight() {
+    let mut worst = [0.0_f64; 5];
+    for cells in 0..1_u32 << 9 {
+        let grid = Grid::from_fn(3, 3, |x, y| cells >> (3 * y + x) & 1 == 1).expect("a valid size");
+        let instance = Instance::new(grid, CornerRule::One);
+        for (k, worst) in (2..).zip(&mut worst) {
+            let (ratio, start, goal) = instance.worst(k);
+            assert!(ratio <= bound(k) * SLACK, "k = {k}: {ratio}; {}", instance.describe(start, goal));
+            *worst = worst.max(ratio);
+        }
+    }
+    let root = std::f64::consts::SQRT_2;
+    let [two, more @ ..] = worst;
+    assert!((two - 6.0 / (2.0 + root)).abs() < 1e-9, "{worst:?}");
+    assert!(more.iter().all(|ratio| (ratio - (3.0 * root - 3.0)).abs() < 1e-9), "{worst:?}");
 }
 
 #[test]
-fn explore() {
-    for k in 2..=5 {
-        let mut best = 0.0;
-        for cells in 0..1_u32 << 12 {
-            let g = Arc::new(Grid::from_fn(4, 3, |x, y| cells >> (4 * y + x) & 1 == 1).expect("ok"));
-            let w = worst(&g, CornerRule::One, k);
-            if w.0 > best + 1e-12 {
-                best = w.0;
-                println!(
-                    "{k} {w:?} {} {}",
-                    bound_at_centers(K::new(k).expect("k")),
-                    describe(&g, Rules::Center(CornerRule::One), w.1, w.2, 0)
-                );
+fn theorem_3_holds_with_rule_one_on_random_maps() {
+    let mut pairs = 0;
+    for seed in mediant_oracle::seeds(60) {
+        let mut rng = Rng::new(seed);
+        let (width, height, percent) = (2 + rng.below(7), 2 + rng.below(6), 10 + rng.below(50));
+        let instance = Instance::new(noise(&mut rng, width, height, percent), CornerRule::One);
+        for k in 2..=6 {
+            for (ratio, start, goal) in instance.ratios(k) {
+                let case = || instance.describe(start, goal);
+                assert!(ratio <= bound(k) * SLACK, "seed {seed}, k = {k}: {ratio}; {}", case());
+                pairs += 1;
             }
         }
     }
-    let _ = (Rng::new(0), noise(&mut Rng::new(0), 1, 1, 1), grid("."));
+    assert!(pairs > 20_000, "only {pairs} pairs");
+}
+
+/// The worst case (as in Figure 6): around one cell, between two that meet it in corners only.
+#[test]
+fn figure_6_is_the_worst_case_for_every_k() {
+    const FIGURE: &str = "
+        #s.
+        g#.
+        ...
+    ";
+    for k in 2..=8 {
+        let ratio = drawn(FIGURE, CornerRule::One, k);
+        assert!((ratio - bound(k)).abs() < 1e-9, "k = {k}: {ratio}");
+    }
+}
+
+/// Where moves slip through gaps, an any-angle path runs straight between the rows; moves between centers zigzag.
+#[test]
+fn theorem_3_fails_with_rule_always() {
+    const CHECKERBOARD: &str = "
+        s#.#g
+        #.#.#
+    ";
+    let root = std::f64::consts::SQRT_2;
+    for k in 3..=8 {
+        let ratio = drawn(CHECKERBOARD, CornerRule::Always, k);
+        assert!((ratio - 4.0 * root / (3.0 + root)).abs() < 1e-9, "k = {k}: {ratio}");
+        assert!(ratio > bound(k) + 0.03, "k = {k}: {ratio}");
+    }
+    // Over N(2) there is no path at all.
+    assert_eq!(drawn(CHECKERBOARD, CornerRule::Always, 2), f64::INFINITY);
+}
+
+/// Where no move may touch a corner, a straight line can be legal and no diagonal step beside it.
+#[test]
+fn theorem_3_fails_with_rule_never() {
+    const STEP: &str = "
+        s.#
+        #.g
+    ";
+    let ratio = drawn(STEP, CornerRule::Never, 3);
+    assert!((ratio - 3.0 / 5.0_f64.sqrt()).abs() < 1e-9, "{ratio}");
+    assert!(ratio > bound(3) && ratio <= BOUND_WITHOUT_CORNER_CUTTING);
+    // The move (2, 1) is the straight line.
+    assert!((drawn(STEP, CornerRule::Never, 4) - 1.0).abs() < 1e-9);
 }

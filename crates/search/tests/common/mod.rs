@@ -1,4 +1,5 @@
 //! One way to run any engine under any rules, for all suites.
+#![allow(dead_code, reason = "each suite uses a part")]
 
 use std::sync::Arc;
 

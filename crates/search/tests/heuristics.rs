@@ -1,0 +1,184 @@
+//! Heuristics: lower bounds, close ones, and what A* does with one that is not consistent.
+
+use std::{collections::HashMap, sync::Arc};
+
+use mediant_grid::{Centers, Corners, Grid, Lattice, Place, Rules, Vector, Vertex};
+use mediant_moves::{Cost, K, Neighborhood};
+use mediant_oracle::{Explicit, Rng, describe, random_free_vertex, seeds, suite_grid};
+use mediant_search::{
+    AStar, Counters, Euclidean, Heuristic, LatticeDistance, NodeEvent, Observer, Outcome, Planner, Query,
+    Zero,
+};
+
+/// h_k at every other vertex, as on a checkerboard, and half of it between: a lower bound, and inconsistent. (With nothing
+/// between, only nodes of estimate 0 would be reopened.)
+#[derive(Clone, Copy)]
+struct Checkered;
+
+impl Heuristic for Checkered {
+    fn estimate<P: Place>(self, lattice: &Lattice<P>, to_goal: Vector) -> Cost {
+        let h = LatticeDistance.estimate(lattice, to_goal);
+        if (to_goal.x + to_goal.y) % 2 == 0 { Cost::from_bits(h.to_bits() / 2) } else { h }
+    }
+}
+
+/// How often each vertex was expanded and the g of its last expansion; g, f and place of every event.
+#[derive(Default)]
+struct Log {
+    expansions: HashMap<Vertex, (u32, Cost)>,
+    events: Vec<NodeEvent>,
+}
+
+impl Observer for Log {
+    fn generated(&mut self, node: NodeEvent) {
+        self.events.push(node);
+    }
+
+    fn updated(&mut self, node: NodeEvent) {
+        self.events.push(node);
+    }
+
+    fn expanded(&mut self, node: NodeEvent) {
+        let (times, g) = self.expansions.entry(node.at).or_insert((0, Cost::MAX));
+        assert!(node.g < *g, "{} was expanded again, and not at a lower cost", node.at);
+        (*times, *g) = (*times + 1, node.g);
+        self.events.push(node);
+    }
+}
+
+/// Six pairs of free vertices.
+fn queries(grid: &Grid, rules: Rules, seed: u64) -> Vec<(Vertex, Vertex)> {
+    let mut rng = Rng::new(seed ^ 0xB0B);
+    let mut free = || random_free_vertex(&mut rng, grid, rules.placement());
+    (0..6).filter_map(|_| Some((free()?, free()?))).collect()
+}
+
+/// The number of vertices expanded more than once, after comparison with Dijkstra.
+fn reopened<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> usize {
+    let lattice = Lattice::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
+    let graph = Explicit::new(grid, lattice.rules(), Some(k));
+    let mut planner = AStar::new(&lattice, Checkered);
+    let mut reopened = 0;
+    for (start, goal) in queries(grid, lattice.rules(), seed) {
+        let mut log = Log::default();
+        let outcome = planner.solve_observed(Query::new(start, goal), &mut log);
+        let cost = outcome.expect("both ends are free").path().map(|path| path.cost());
+        let agrees = match (cost, graph.costs_from(start).to(goal)) {
+            (Some(cost), Some(best)) => (cost - best).abs() <= best * 1e-9,
+            (None, None) => true,
+            _ => false,
+        };
+        assert!(agrees, "k = {k}: {cost:?}; {}", describe(grid, lattice.rules(), start, goal, seed));
+        for node in log.events {
+            // Also when a node enters the open list again.
+            assert_eq!(
+                node.f,
+                node.g + Checkered.estimate(&lattice, node.at.to(goal)),
+                "seed {seed}: {node:?}"
+            );
+        }
+        reopened += log.expansions.values().filter(|(times, _)| *times > 1).count();
+    }
+    reopened
+}
+
+#[test]
+fn a_star_reopens_nodes_and_is_optimal_with_an_inconsistent_heuristic() {
+    for k in 2..=5 {
+        let number = K::new(k).expect("k is at least 2");
+        let mut seen = 0;
+        for seed in seeds(120) {
+            let grid = Arc::new(suite_grid(seed).0);
+            for rules in Rules::ALL {
+                seen += match rules {
+                    Rules::Center(corners) => reopened::<Centers>(&grid, corners, number, seed),
+                    Rules::Corner(gap) => reopened::<Corners>(&grid, gap, number, seed),
+                };
+            }
+        }
+        assert!(seen > 100, "k = {k}: only {seen} nodes were reopened");
+    }
+}
+
+/// Every vertex of a path, the ends of all its moves.
+fn vertices<P: Place>(lattice: &Lattice<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
+    let mut all = vec![waypoints[0]];
+    for ends in waypoints.windows(2) {
+        let by = ends[0].to(ends[1]);
+        let is_step = |v: &Vector| v.x * by.y == v.y * by.x && v.x * by.x + v.y * by.y > 0;
+        let step =
+            Neighborhood::new(lattice.k()).expect("k is in range").iter().find(is_step).expect("a move");
+        while *all.last().expect("the start") != ends[1] {
+            all.push(*all.last().expect("the start") + step);
+        }
+    }
+    all
+}
+
+/// The number of vertices on the paths found.
+fn check_bounds<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> usize {
+    let lattice = Lattice::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
+    let (mut guided, mut blind) = (AStar::new(&lattice, LatticeDistance), AStar::new(&lattice, Zero));
+    let mut seen = 0;
+    for (start, goal) in queries(grid, lattice.rules(), seed) {
+        let case = || format!("k = {k}; {}", describe(grid, lattice.rules(), start, goal, seed));
+        let (query, mut few, mut many) = (Query::new(start, goal), Counters::default(), Counters::default());
+        let outcome = guided.solve_observed(query, &mut few).expect("both ends are free");
+        blind.solve_observed(query, &mut many).expect("both ends are free");
+        // A vertex with f ≤ the optimum, not the goal itself, has g below the optimum.
+        assert!(few.expanded <= many.expanded, "{few:?}, {many:?}; {}", case());
+        let Outcome::Found(path) = outcome else { continue };
+        let mut rest = Cost::ZERO;
+        let way = vertices(&lattice, path.waypoints());
+        for (i, &at) in way.iter().enumerate().rev() {
+            rest = way.get(i + 1).map_or(rest, |&next| rest + Cost::of_move(at.to(next)));
+            let (h, straight) =
+                (LatticeDistance.estimate(&lattice, at.to(goal)), Euclidean.estimate(&lattice, at.to(goal)));
+            assert!(h <= rest, "h_k = {h:?} > {rest:?} at {at}; {}", case());
+            assert!(straight <= rest, "Euclidean {straight:?} > {rest:?} at {at}; {}", case());
+            seen += 1;
+        }
+    }
+    seen
+}
+
+#[test]
+fn no_estimate_exceeds_the_cost_along_a_path() {
+    let mut seen = 0;
+    for seed in seeds(100) {
+        let grid = Arc::new(suite_grid(seed).0);
+        for (rules, k) in Rules::ALL.into_iter().flat_map(|rules| [2, 3, 4, 6, 8].map(|k| (rules, k))) {
+            let k = K::new(k).expect("k is at least 2");
+            seen += match rules {
+                Rules::Center(corners) => check_bounds::<Centers>(&grid, corners, k, seed),
+                Rules::Corner(gap) => check_bounds::<Corners>(&grid, gap, k, seed),
+            };
+        }
+    }
+    assert!(seen > 30_000, "only {seen} vertices");
+}
+
+/// A move taken many times is where rounding adds up.
+#[test]
+fn the_straight_line_is_a_bound_and_a_close_one() {
+    let grid = Arc::new(Grid::from_fn(1, 1, |_, _| false).expect("a valid size"));
+    let k = K::new(8).expect("k is at least 2");
+    let lattice = Lattice::<Centers>::new(grid, k, Default::default()).expect("k is in range");
+    let mut rounded_down = 0;
+    for v in Neighborhood::new(k).expect("k is in range").iter() {
+        let length = Cost::of_move(v);
+        rounded_down += usize::from(length.to_f64() < v.norm());
+        for n in (1..100).chain([1_000, 1_500]) {
+            let d = Vector::new(n * v.x, n * v.y);
+            let straight = Euclidean.estimate(&lattice, d);
+            let cost = Cost::from_bits(n as u64 * length.to_bits());
+            assert!(straight <= cost, "{n} times {v:?}: {straight:?} > {cost:?}");
+            let least = d.norm() * (1.0 - 2.0_f64.powi(-30));
+            assert!(straight.to_f64() >= least, "{n} times {v:?}: {straight:?} is far below {}", d.norm());
+        }
+    }
+    assert!(rounded_down > 50, "only {rounded_down} moves cost less than their length");
+    for h in [Euclidean.estimate(&lattice, Vector::new(0, 0)), Zero.estimate(&lattice, Vector::new(9, 9))] {
+        assert_eq!(h, Cost::ZERO);
+    }
+}
