@@ -5,6 +5,10 @@ use crate::{K, sqrt::sqrt};
 /// Γ_k with vertices at cell corners: cost(k) ≤ Γ_k · cost(∞) between any two vertices of any grid (Kramm 2018, Theorem 2;
 /// on an empty grid also with vertices at centers, Theorem 10). It falls as 1 + 1/(8k²), and is tight.
 ///
+/// The theorem is about open gaps between diagonally touching obstacles. It holds for closed ones too: the path of adjacent moves that
+/// replaces a legal segment stays in the cells that the segment enters (Lemmas 11 to 13). Of the two free cells at a gap the segment
+/// enters at most one, or it would pass through the gap or a blocked cell; so the path, too, stays in one free quadrant there.
+///
 /// ```
 /// use mediant_moves::{bound_at_corners, K};
 /// assert!((bound_at_corners(K::new(3)?) - 1.0824).abs() < 1e-4);
@@ -21,9 +25,13 @@ pub fn bound_at_corners(k: K) -> f64 {
 /// Γ_k with vertices at cell centers: 6 / (2 + √2) for k = 2 and 3√2 − 3 for every k ≥ 3 (Kramm 2018, Theorem 3, Eq. 2),
 /// tight: more moves do not help the worst case here.
 ///
-/// The theorem's moves may touch corners of obstacles. Where none may (the rule `Never` of `mediant-grid`) it does not hold: (2, 1) can be
-/// legal where (1, 1) is not, and then k = 3 takes three steps, 3/√5 ≈ 1.342 times the straight line. There
-/// [`BOUND_WITHOUT_CORNER_CUTTING`] holds.
+/// The theorem compares with any-angle paths that may bend at cell corners. By measurement, with the corner rules of
+/// `mediant-grid` for the moves:
+/// - `One`, against corner paths with closed gaps: it holds, and is attained.
+/// - `Always`: it fails. An any-angle path may run straight through the gaps between diagonally touching obstacles; k = 2 then has
+///   no bound at all, and a random search saw 1.3060 at k = 3.
+/// - `Never`: it fails. (2, 1) can be legal where (1, 1) is not, and then k = 3 takes three steps, 3/√5 ≈ 1.342 times the
+///   straight line. There [`BOUND_WITHOUT_CORNER_CUTTING`] holds.
 #[must_use]
 pub fn bound_at_centers(k: K) -> f64 {
     let root = core::f64::consts::SQRT_2;
@@ -31,7 +39,7 @@ pub fn bound_at_centers(k: K) -> f64 {
 }
 
 /// √2: at centers, where no move may touch an obstacle, no shortest path over N(k) exceeds the any-angle optimum under the same rule
-/// by more, for every k ≥ 2. The cells that a legal segment touches are then a chain of edge neighbors that only goes
+/// by more, for every k ≥ 2. Those any-angle paths run between centers and touch no obstacle either. The cells that a legal segment touches are then a chain of edge neighbors that only goes
 /// on in two directions, so axis moves can follow it, and |x| + |y| ≤ √2 · ‖(x, y)‖. For k = 3 it is tight: beside a
 /// staircase of obstacles (n, n − 1) can be legal and no diagonal step.
 pub const BOUND_WITHOUT_CORNER_CUTTING: f64 = core::f64::consts::SQRT_2;

@@ -177,12 +177,11 @@ impl Iterator for QuadrantMoves {
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
-        let left = (self.len - self.index) as usize;
-        (left, Some(left))
+        // From k = 34 on the number of moves exceeds a 32-bit `usize`, so that this is no `ExactSizeIterator`.
+        let left = usize::try_from(self.len - self.index);
+        (left.unwrap_or(usize::MAX), left.ok())
     }
 }
-
-impl ExactSizeIterator for QuadrantMoves {}
 
 /// N(k): all 2^k moves (Rivera 2017, Eq. 6), in angular order around the circle from (0, 1) over (1, 0), (0, −1) and
 /// (−1, 0). Neighbors in this cyclic order are the adjacent moves.

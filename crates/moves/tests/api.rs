@@ -53,10 +53,11 @@ fn quadrant_moves_recurrence_is_the_insertion() {
         let naive = naive_quadrant(n);
         let mut moves = quadrant(n).iter();
         for (j, &expected) in naive.iter().enumerate() {
-            assert_eq!(moves.len(), naive.len() - j, "k = {n}");
+            let left = naive.len() - j;
+            assert_eq!(moves.size_hint(), (left, Some(left)), "k = {n}");
             assert_eq!(moves.next().map(pair), Some(expected), "k = {n}, index {j}");
         }
-        assert_eq!((moves.len(), moves.next(), moves.next()), (0, None, None), "k = {n}");
+        assert_eq!((moves.size_hint(), moves.next(), moves.next()), ((0, Some(0)), None, None), "k = {n}");
     }
     for (j, v) in (0..5_000).zip(quadrant(47)) {
         assert_eq!(quadrant(47).get(j), Some(v), "k = 47, index {j}");
