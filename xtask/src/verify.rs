@@ -117,7 +117,9 @@ pub fn run(options: &Options) -> Result<(), Error> {
         Some(expected) if expected != total.compared => {
             Err(Error::Verify(format!("expected {expected} comparisons, made {}", total.compared)))
         }
-        _ if total.compared == 0 => Err(Error::Verify("nothing was compared: cargo xtask download fetches the sets".to_owned())),
+        _ if total.compared == 0 => {
+            Err(Error::Verify("nothing was compared: cargo xtask download fetches the sets".to_owned()))
+        }
         _ => Ok(()),
     }
 }

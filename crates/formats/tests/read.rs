@@ -29,7 +29,10 @@ fn files_that_cannot() {
     assert_eq!(read("folder"), "folder: expected a file, found a directory; name a file in it");
     // A sparse file: long, but with no bytes on disk.
     fs::File::create(at("long")).unwrap().set_len(MAX_FILE_BYTES + 1).unwrap();
-    assert_eq!(read("long"), "long: expected at most 2147483648 bytes, found more; is this the file that you meant?");
+    assert_eq!(
+        read("long"),
+        "long: expected at most 2147483648 bytes, found more; is this the file that you meant?"
+    );
     fs::write(at("empty"), "").unwrap();
     assert_eq!(
         read("empty"),
