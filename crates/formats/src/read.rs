@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crate::{MapError, ScenarioError};
+use crate::{IndexError, MapError, ScenarioError};
 
 /// The largest file that is read, in bytes: twice what a map of the greatest size needs.
 pub const MAX_FILE_BYTES: u64 = 2 << 30;
@@ -62,6 +62,14 @@ pub enum ReadError {
         path: PathBuf,
         /// What is wrong with it.
         source: ScenarioError,
+    },
+    /// The file is no index.
+    #[error("{}: {source}", path.display())]
+    Index {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: IndexError,
     },
 }
 
