@@ -102,7 +102,7 @@ impl<P: Place> Lattice<P> {
             steps: steps.collect(),
             costs: CostTable::new(k)?,
             near: (0..P::PATTERNS).map(|pattern| near_moves::<P>(rule, k, &moves, pattern)).collect(),
-            octants: octants::<P>(rule, &moves, &grid),
+            octants: octants::<P>(rule, &moves),
             gaps: P::closes_gaps(rule).then(|| double_corners(&grid)).flatten(),
             components: Components::new(&grid, P::connectivity(rule, k)),
             grid,
@@ -253,9 +253,9 @@ impl<P: Place> Lattice<P> {
         for octant in &self.octants {
             if octant.transposed {
                 let columns = self.grid.columns();
-                octant.for_each_legal(columns.words(), columns.index(at.y, at.x), &mut legal);
+                octant.for_each_legal(columns, columns.index(at.y, at.x), &mut legal);
             } else {
-                octant.for_each_legal(words, bit, &mut legal);
+                octant.for_each_legal(rows, bit, &mut legal);
             }
         }
     }
@@ -270,13 +270,41 @@ impl<P: Place> Lattice<P> {
         goal: Vertex,
         mut step: impl FnMut(usize),
     ) {
+        if !self.has_gaps() {
+            return self.for_each_legal_move(from, step);
+        }
+        self.for_each_legal_move(from, |index| {
+            if self.may_step(from, arrived_by, index, goal) {
+                step(index);
+            }
+        });
+    }
+
+    /// Whether no path passes `at` because two blocked cells meet there diagonally, under
+    /// [`DiagonalGap::Closed`](crate::DiagonalGap::Closed).
+    #[must_use]
+    #[inline]
+    pub fn is_gap(&self, at: Vertex) -> bool {
+        self.gaps.as_ref().is_some_and(|gaps| gaps.get(at.x, at.y))
+    }
+
+    /// Whether there is any [gap](Self::is_gap).
+    #[must_use]
+    #[inline]
+    pub const fn has_gaps(&self) -> bool {
+        self.gaps.is_some()
+    }
+
+    /// Whether a path to `goal` that arrived `from` by the one move may go on by the legal move `index`: false only where that would
+    /// pass a [gap](Self::is_gap).
+    #[must_use]
+    #[inline]
+    pub fn may_step(&self, from: Vertex, arrived_by: Option<usize>, index: usize, goal: Vertex) -> bool {
         match &self.gaps {
-            None => self.for_each_legal_move(from, step),
-            Some(gaps) => self.for_each_legal_move(from, |index| {
-                if self.may_leave(gaps, from, arrived_by, index) && self.may_enter(gaps, from, index, goal) {
-                    step(index);
-                }
-            }),
+            None => true,
+            Some(gaps) => {
+                self.may_leave(gaps, from, arrived_by, index) && self.may_enter(gaps, from, index, goal)
+            }
         }
     }
 
@@ -372,11 +400,10 @@ fn near_moves<P: Place>(rule: P::Rule, k: K, moves: &[Vector], pattern: usize) -
 }
 
 /// The trees over the moves beyond N(3); none up to k = 3.
-fn octants<P: Place>(rule: P::Rule, moves: &[Vector], grid: &Grid) -> Box<[Octant]> {
-    let bits_per_row = (grid.rows().bits_per_row(), grid.columns().bits_per_row());
+fn octants<P: Place>(rule: P::Rule, moves: &[Vector]) -> Box<[Octant]> {
     let size = moves.len() / 8;
     let between = moves.chunks_exact(size.max(1)).zip((0..).step_by(size.max(1))).filter(|_| size > 1);
-    between.map(|(moves, first)| Octant::new::<P>(rule, &moves[1..], first + 1, bits_per_row)).collect()
+    between.map(|(moves, first)| Octant::new::<P>(rule, &moves[1..], first + 1)).collect()
 }
 
 /// Which corner vertices are doubly blocked; `None` when there are none.

@@ -15,6 +15,7 @@
 mod ascii;
 mod bits;
 mod components;
+mod footprint;
 mod grid;
 mod lattice;
 mod place;
@@ -26,6 +27,7 @@ mod vertex;
 pub use ascii::{AsciiMap, draw};
 pub use bits::{BitIndex, BitMatrix, load};
 pub use components::{Components, Connectivity};
+pub use footprint::{CellMask, CellOffset, Footprint};
 pub use grid::{Grid, GridError};
 pub use lattice::{Lattice, MoveSet, Step};
 pub use mediant_moves::Vector;

@@ -13,20 +13,11 @@
 //!   must be free for each of them. Such cells prune subtrees as before; the rest of a move's cells decides on that move
 //!   alone.
 
+use std::collections::BTreeSet;
+
 use mediant_moves::Vector;
 
-use crate::{BitIndex, Demand, Place, load, sight::Frame};
-
-/// A cell, as an offset (along the rows of the octant's matrix, across them).
-type Cell = (i32, i32);
-
-/// 64 cells of one row of a matrix, and which of them are swept.
-#[derive(Clone, Copy, Debug)]
-struct Mask {
-    /// From the bit of the vertex's own cell to the first of the 64.
-    offset: i32,
-    swept: u64,
-}
+use crate::{BitIndex, BitMatrix, CellMask, CellOffset, Footprint, Place, sight::Frame};
 
 #[derive(Clone, Copy, Debug)]
 struct Node {
@@ -47,31 +38,17 @@ pub(crate) struct Octant {
     /// Whether its masks are for the transposed map.
     pub(crate) transposed: bool,
     nodes: Vec<Node>,
-    masks: Vec<Mask>,
+    masks: Vec<CellMask>,
     /// All that any of its moves asks of the map: when that is free, all of them are legal. Open ground is common, and on it
     /// this is a load a row instead of several a move.
-    all: Vec<Mask>,
+    all: Vec<CellMask>,
     /// Two cells of which one must be free: corner rule `One`.
-    pairs: Vec<[i32; 2]>,
-}
-
-/// What one move asks of the map.
-#[derive(Clone, Debug, Default)]
-struct Sweep {
-    /// Cells that must be free, sorted.
-    cells: Vec<Cell>,
-    either: Option<[Cell; 2]>,
+    pairs: Vec<[CellOffset; 2]>,
 }
 
 impl Octant {
     /// The tree over `moves`, which has 2^n − 1 moves of one octant in angular order, the first of index `first` in N(k).
-    /// `bits_per_row` is that of the map, or of the transposed map where the octant is steep.
-    pub(crate) fn new<P: Place>(
-        rule: P::Rule,
-        moves: &[Vector],
-        first: u16,
-        bits_per_row: (i32, i32),
-    ) -> Self {
+    pub(crate) fn new<P: Place>(rule: P::Rule, moves: &[Vector], first: u16) -> Self {
         let frame = Frame::of(moves[moves.len() / 2]).0;
         let mut octant = Self {
             transposed: frame.transposed,
@@ -80,36 +57,38 @@ impl Octant {
             all: Vec::new(),
             pairs: Vec::new(),
         };
-        let sweeps: Vec<Sweep> = moves.iter().map(|&v| Sweep::of::<P>(rule, v, frame)).collect();
-        let bits = if frame.transposed { bits_per_row.1 } else { bits_per_row.0 };
-        let asked = sweeps.iter().flat_map(|sweep| sweep.cells.iter().chain(sweep.either.iter().flatten()));
-        octant.all = masks(asked.copied().collect(), bits);
-        octant.add(&sweeps, first, &[], bits);
+        let sweeps: Vec<Footprint> =
+            moves.iter().map(|&v| in_matrix::<P>(rule, v, frame.transposed)).collect();
+        let asked = |sweep: &Footprint| [&*sweep.free, sweep.either.as_flattened()].concat();
+        let asked: BTreeSet<CellOffset> = sweeps.iter().flat_map(asked).collect();
+        octant.all = CellMask::cover(asked);
+        octant.add(&sweeps, first, &[]);
         octant
     }
 
     /// Adds the subtree of these moves. `tested` are the cells that the nodes above have tested.
-    fn add(&mut self, sweeps: &[Sweep], first: u16, tested: &[Cell], bits_per_row: i32) {
+    fn add(&mut self, sweeps: &[Footprint], first: u16, tested: &[CellOffset]) {
         if sweeps.is_empty() {
             return;
         }
         let middle = sweeps.len() / 2;
-        let mut shared = sweeps[middle].cells.clone();
+        let mut shared = sweeps[middle].free.clone();
         for sweep in sweeps {
-            shared.retain(|cell| sweep.cells.binary_search(cell).is_ok());
+            shared.retain(|cell| sweep.free.binary_search(cell).is_ok());
         }
-        let beyond = |cells: &[Cell], tested: &[Cell]| -> Vec<Cell> {
+        let beyond = |cells: &[CellOffset], tested: &[CellOffset]| -> Vec<CellOffset> {
             cells.iter().filter(|cell| !tested.contains(cell)).copied().collect()
         };
         let new = beyond(&shared, tested);
         let tested = [tested, &new].concat();
-        let own = beyond(&sweeps[middle].cells, &tested);
+        let own = beyond(&sweeps[middle].free, &tested);
         let begin = self.masks.len() as u32;
-        self.masks.extend(masks(new, bits_per_row));
+        self.masks.extend(CellMask::cover(new));
         let between = self.masks.len() as u32;
-        self.masks.extend(masks(own, bits_per_row));
-        let pair = sweeps[middle].either.map(|cells| {
-            self.pairs.push(cells.map(|(along, across)| across * bits_per_row + along));
+        self.masks.extend(CellMask::cover(own));
+        // A move has no common divisor, so it meets at most one corner point: its middle.
+        let pair = sweeps[middle].either.first().map(|&cells| {
+            self.pairs.push(cells);
             self.pairs.len() as u16 - 1
         });
         let node = self.nodes.len();
@@ -121,8 +100,8 @@ impl Octant {
             own: self.masks.len() as u32,
             pair,
         });
-        self.add(&sweeps[..middle], first, &tested, bits_per_row);
-        self.add(&sweeps[middle + 1..], index + 1, &tested, bits_per_row);
+        self.add(&sweeps[..middle], first, &tested);
+        self.add(&sweeps[middle + 1..], index + 1, &tested);
         self.nodes[node].skip = self.nodes.len() as u16;
     }
 
@@ -131,12 +110,11 @@ impl Octant {
         size_of_val(&*self.nodes) + masks + size_of_val(&*self.pairs)
     }
 
-    /// Calls `legal` with the index of each legal move of the octant. `words` is the octant's matrix, `at` the bit of the
+    /// Calls `legal` with the index of each legal move of the octant. `matrix` is the octant's, `at` the bit of the
     /// vertex's own cell there.
     #[inline]
-    pub(crate) fn for_each_legal(&self, words: &[u64], at: BitIndex, mut legal: impl FnMut(usize)) {
-        let all_free =
-            |masks: &[Mask]| masks.iter().all(|mask| load(words, at.offset(mask.offset)) & mask.swept == 0);
+    pub(crate) fn for_each_legal(&self, matrix: &BitMatrix, at: BitIndex, mut legal: impl FnMut(usize)) {
+        let all_free = |masks: &[CellMask]| masks.iter().all(|mask| mask.is_free(matrix, at));
         if all_free(&self.all) {
             // In the order of the tree, so that open ground changes nothing but the time.
             return self.nodes.iter().for_each(|node| legal(usize::from(node.index)));
@@ -150,7 +128,11 @@ impl Octant {
             }
             let pair = node.pair.map(|pair| self.pairs[usize::from(pair)]);
             if free(node.shared.1, node.own)
-                && pair.is_none_or(|cells| cells.iter().any(|&cell| load(words, at.offset(cell)) & 1 == 0))
+                && pair.is_none_or(|cells| {
+                    cells
+                        .iter()
+                        .any(|&(along, across)| CellMask { across, along, cells: 1 }.is_free(matrix, at))
+                })
             {
                 legal(usize::from(node.index));
             }
@@ -159,38 +141,16 @@ impl Octant {
     }
 }
 
-impl Sweep {
-    fn of<P: Place>(rule: P::Rule, v: Vector, frame: Frame) -> Self {
-        let mut sweep = Self::default();
-        P::sweep(rule, Frame::of(v).1, |demand| {
-            match demand {
-                Demand::Free { row, first, last } => {
-                    sweep.cells.extend((first..=last).map(|column| frame.cell::<P>(column, row)));
-                }
-                // A move has no common divisor, so it meets at most one corner point: its middle.
-                Demand::EitherFree(cells) => sweep.either = Some(cells.map(|(i, j)| frame.cell::<P>(i, j))),
-            }
-            true
-        });
-        sweep.cells.sort_unstable();
-        sweep
+/// The footprint of a move, as (along, across) in its octant's matrix.
+fn in_matrix<P: Place>(rule: P::Rule, v: Vector, transposed: bool) -> Footprint {
+    let mut footprint = Footprint::new::<P>(rule, v);
+    if transposed {
+        let swap = |(x, y)| (y, x);
+        footprint.free.iter_mut().for_each(|cell| *cell = swap(*cell));
+        footprint.free.sort_unstable();
+        footprint.either.iter_mut().for_each(|cells| *cells = cells.map(swap));
     }
-}
-
-/// The cells as masks, row by row. (A sweep is contiguous, so one that leaves the map has a cell of the blocked frame: whatever
-/// its masks read beyond the frame, the move is not legal.)
-fn masks(mut cells: Vec<Cell>, bits_per_row: i32) -> Vec<Mask> {
-    cells.sort_unstable_by_key(|&(along, across)| (across.abs(), across, along));
-    let mut masks = Vec::new();
-    for mut row in cells.chunk_by(|a, b| a.1 == b.1) {
-        while let Some(&(start, across)) = row.first() {
-            let here = row.partition_point(|&(along, _)| along < start + 64);
-            let swept = row[..here].iter().fold(0, |mask, &(along, _)| mask | 1 << (along - start));
-            masks.push(Mask { offset: across * bits_per_row + start, swept });
-            row = &row[here..];
-        }
-    }
-    masks
+    footprint
 }
 
 #[cfg(test)]
@@ -209,22 +169,20 @@ mod tests {
         })
         .unwrap();
         let moves: Vec<Vector> = Neighborhood::new(K::new(8).unwrap()).unwrap().iter().collect();
-        let bits = (grid.rows().bits_per_row(), grid.columns().bits_per_row());
         let mut sums = [0; 3];
         for (moves, first) in moves.chunks_exact(32).zip((0..).step_by(32)) {
-            let octant = Octant::new::<P>(rule, &moves[1..], first + 1, bits);
+            let octant = Octant::new::<P>(rule, &moves[1..], first + 1);
             let (matrix, swap) =
                 if octant.transposed { (grid.columns(), true) } else { (grid.rows(), false) };
             for (x, y) in
                 (0..100).flat_map(|y| (0..100).map(move |x| (x, y))).filter(|&(x, y)| grid.is_free(x, y))
             {
                 let at = if swap { matrix.index(y, x) } else { matrix.index(x, y) };
-                octant.for_each_legal(matrix.words(), at, |_| sums[0] += 1);
+                octant.for_each_legal(matrix, at, |_| sums[0] += 1);
                 let mut i = 0;
                 while let Some(node) = octant.nodes.get(i) {
                     let masks = &octant.masks[node.shared.0 as usize..node.shared.1 as usize];
-                    let blocked =
-                        masks.iter().any(|m| load(matrix.words(), at.offset(m.offset)) & m.swept != 0);
+                    let blocked = masks.iter().any(|mask| !mask.is_free(matrix, at));
                     i = if blocked { usize::from(node.skip) } else { i + 1 };
                     sums[1] += 1;
                 }
