@@ -35,6 +35,13 @@ impl Step {
         VertexId(id.0.wrapping_add_signed(self.offset))
     }
 
+    /// The vertex that the move leads to from `id` when it is taken `times` times, where that is legal.
+    #[must_use]
+    #[inline]
+    pub const fn target_after(&self, id: VertexId, times: u32) -> VertexId {
+        VertexId(id.0.wrapping_add_signed(self.offset.wrapping_mul(times as i32)))
+    }
+
     /// The vertex that the move came from when it led to `id`.
     #[must_use]
     #[inline]

@@ -57,6 +57,10 @@ pub trait Place: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static
     #[doc(hidden)]
     fn pattern(words: &[u64], at: BitIndex, bits_per_row: i32) -> usize;
 
+    /// Whether a pattern holds the cell at this offset from cell (x, y).
+    #[doc(hidden)]
+    fn pattern_holds(dx: i32, dy: i32) -> bool;
+
     /// Whether the cell at this offset from cell (x, y) is blocked in a pattern; only for cells that the pattern holds.
     #[doc(hidden)]
     fn pattern_is_blocked(pattern: usize, dx: i32, dy: i32) -> bool;
@@ -137,6 +141,10 @@ impl Place for Centers {
         row(-bits_per_row) | row(0) << 3 | row(bits_per_row) << 6
     }
 
+    fn pattern_holds(dx: i32, dy: i32) -> bool {
+        dx.abs() <= 1 && dy.abs() <= 1
+    }
+
     fn pattern_is_blocked(pattern: usize, dx: i32, dy: i32) -> bool {
         pattern >> (4 + dx + 3 * dy) & 1 == 1
     }
@@ -209,6 +217,10 @@ impl Place for Corners {
     fn pattern(words: &[u64], at: BitIndex, bits_per_row: i32) -> usize {
         let row = |offset: i32| load(words, at.offset(offset - 1)) as usize & 3;
         row(-bits_per_row) | row(0) << 2
+    }
+
+    fn pattern_holds(dx: i32, dy: i32) -> bool {
+        (-1..=0).contains(&dx) && (-1..=0).contains(&dy)
     }
 
     fn pattern_is_blocked(pattern: usize, dx: i32, dy: i32) -> bool {

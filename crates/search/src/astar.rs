@@ -1,7 +1,7 @@
 //! A* over N(k) (Hart, Nilsson & Raphael 1968), for every k, both placements and all rules of motion.
 //!
-//! Rule variant: a vertex is expanded with all its legal moves, nothing is pruned. A cheaper path to a closed node reopens
-//! it, so the result is optimal with every heuristic that never overestimates, consistent or not.
+//! Rule variant: a vertex is expanded with all its legal moves, nothing is pruned. Without a heuristic it
+//! is Dijkstra's algorithm.
 
 use std::ops::Deref;
 
@@ -9,8 +9,8 @@ use mediant_grid::{Lattice, Place, Vertex, VertexId};
 use mediant_moves::Cost;
 
 use crate::{
-    Entry, Guarantee, Heuristic, Node, NodeEvent, NodeStore, Observer, OpenList, Outcome, Path, Planner,
-    Query, QueryError,
+    Arrival, BestFirst, Distances, Heuristic, Query, QueryError, Successor, Successors, Zero,
+    distances::end_at_gaps,
 };
 
 /// A* on a lattice.
@@ -33,127 +33,55 @@ use crate::{
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// `L` is how the planner holds its lattice: by reference, or, where both belong in one struct, by `Arc`.
-#[derive(Clone, Debug)]
-pub struct AStar<L, H> {
-    lattice: L,
-    heuristic: H,
-    nodes: NodeStore,
-    open: OpenList,
-}
+/// `L` is how the planner holds its lattice: by reference, or, where both belong in one struct, by `Arc`. Its scratch memory takes 16
+/// bytes a vertex.
+pub type AStar<L, H> = BestFirst<L, H, AllMoves>;
+
+/// Dijkstra's algorithm (1959): A* without a heuristic.
+pub type Dijkstra<L> = AStar<L, Zero>;
 
 impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> AStar<L, H> {
-    /// A planner with scratch memory for `lattice`: 16 bytes a vertex.
+    /// A planner with scratch memory for `lattice`.
     #[must_use]
     pub fn new(lattice: L, heuristic: H) -> Self {
-        let nodes = NodeStore::new(lattice.vertex_count());
-        Self { lattice, heuristic, nodes, open: OpenList::default() }
-    }
-
-    /// Expands nodes until the goal is the best of them. Whether it was found.
-    fn search(
-        &mut self,
-        start: VertexId,
-        goal: Vertex,
-        goal_id: VertexId,
-        observer: &mut impl Observer,
-    ) -> bool {
-        let Self { lattice, heuristic, nodes, open } = self;
-        let lattice: &Lattice<P> = lattice;
-        let at = lattice.vertex(start);
-        let h = heuristic.estimate(lattice, at.to(goal));
-        nodes.start_search();
-        open.clear();
-        nodes.set_path(start, Cost::ZERO, 0);
-        observer.generated(NodeEvent { at, parent: None, g: Cost::ZERO, f: h });
-        open.push(Entry::new(h, h, start), |id, slot| nodes.set_slot(id, slot));
-
-        while let Some((entry, swaps)) = open.pop(|id, slot| nodes.set_slot(id, slot)) {
-            observer.percolated(swaps);
-            let id = entry.id();
-            if id == goal_id {
-                return true;
-            }
-            nodes.set_slot(id, Node::CLOSED);
-            let Some(&node) = nodes.get(id) else { continue };
-            let at = lattice.vertex(id);
-            let arrived_by = (id != start).then(|| node.arrived_by());
-            let parent = arrived_by.map(|index| at + -lattice.step(index).vector());
-            observer.expanded(NodeEvent { at, parent, g: node.g, f: entry.f() });
-
-            lattice.for_each_successor(at, arrived_by, goal, |index| {
-                let step = lattice.step(index);
-                let (to, g) = (step.target(id), node.g + step.cost);
-                let event = |f| NodeEvent { at: at + step.vector(), parent: Some(at), g, f };
-                let estimate = || heuristic.estimate(lattice, (at + step.vector()).to(goal));
-                match nodes.get(to) {
-                    Some(known) if known.g <= g => {}
-                    Some(&known) => {
-                        let gain = known.g - g;
-                        nodes.set_path(to, g, index);
-                        let (f, swaps) = if known.slot == Node::CLOSED {
-                            let h = estimate();
-                            (g + h, open.push(Entry::new(g + h, h, to), |id, slot| nodes.set_slot(id, slot)))
-                        } else {
-                            let f = open.get(known.slot).map_or(g, |entry| entry.f() - gain);
-                            (f, open.decrease(known.slot, gain, |id, slot| nodes.set_slot(id, slot)))
-                        };
-                        observer.updated(event(f));
-                        observer.percolated(swaps);
-                    }
-                    None => {
-                        let h = estimate();
-                        nodes.set_path(to, g, index);
-                        observer.generated(event(g + h));
-                        observer.percolated(
-                            open.push(Entry::new(g + h, h, to), |id, slot| nodes.set_slot(id, slot)),
-                        );
-                    }
-                }
-            });
-        }
-        false
-    }
-
-    /// The waypoints of the path that the search found: its start, its goal, and where it changes its move.
-    fn path(&self, start: VertexId, goal: VertexId) -> Path {
-        let steps_back = || {
-            let mut id = goal;
-            std::iter::from_fn(move || {
-                let node = self.nodes.get(id).filter(|_| id != start)?;
-                let (from, index) = (id, node.arrived_by());
-                id = self.lattice.step(index).source(id);
-                Some((from, index))
-            })
-        };
-        let mut last = None;
-        let mut turns = |&(_, index): &(VertexId, usize)| last.replace(index) != Some(index);
-        let count = steps_back().filter(&mut turns).count();
-        let mut waypoints = Vec::with_capacity(count + 1);
-        last = None;
-        let turns = |&(_, index): &(VertexId, usize)| last.replace(index) != Some(index);
-        waypoints.extend(steps_back().filter(turns).map(|(id, _)| self.lattice.vertex(id)));
-        waypoints.push(self.lattice.vertex(start));
-        waypoints.reverse();
-        Path::new(waypoints)
+        Self::with(lattice, heuristic, AllMoves)
     }
 }
 
-impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> Planner for AStar<L, H> {
-    fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        query.check(&self.lattice)?;
-        let (Some(start), Some(goal)) = (self.lattice.id(query.start), self.lattice.id(query.goal)) else {
-            return Ok(Outcome::Unreachable);
-        };
-        // The components know, in constant time, what the search would find out by expanding all that it can reach.
-        if !self.lattice.connected(query.start, query.goal) || !self.search(start, query.goal, goal, observer)
-        {
-            return Ok(Outcome::Unreachable);
+impl<P: Place, L: Deref<Target = Lattice<P>>> Dijkstra<L> {
+    /// What it costs to come from `start` to every vertex.
+    ///
+    /// # Errors
+    /// [`QueryError`] when the start is blocked or outside the map.
+    pub fn distances(&mut self, start: Vertex) -> Result<Distances<Cost>, QueryError> {
+        Query::new(start, start).check(&self.lattice)?;
+        if let Some(id) = self.lattice.id(start) {
+            self.search(id, None, &mut ());
         }
-        Ok(Outcome::Found(self.path(start, goal)))
+        let ids = (0..self.lattice.vertex_count() as u32).map(VertexId);
+        let mut costs: Vec<Option<Cost>> = ids.map(|id| self.cost_to(id)).collect();
+        let arrived_by = |id| self.arrived_by(id);
+        end_at_gaps(&self.lattice, start, &mut costs, arrived_by, |cost, step| cost + step.cost);
+        Ok(Distances::new(P::vertices(self.lattice.grid()).0, costs))
     }
+}
 
-    fn guarantee(&self) -> Guarantee {
-        Guarantee::Optimal(self.lattice.k())
+/// All legal moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct AllMoves;
+
+impl<P: Place> Successors<P> for AllMoves {
+    type Link = ();
+
+    #[inline]
+    fn for_each(
+        &self,
+        lattice: &Lattice<P>,
+        node: Arrival,
+        goal: Vertex,
+        mut visit: impl FnMut(Successor),
+    ) -> u32 {
+        lattice.for_each_successor(node.at, node.by, goal, |by| visit(node.step(lattice, by)));
+        0
     }
 }

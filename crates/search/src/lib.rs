@@ -13,19 +13,33 @@
 //! What is not here: preprocessing (`mediant-subgoal`, `mediant-hierarchy`), threads, serialization.
 
 mod astar;
+mod best_first;
+mod canonical;
+mod distances;
 mod heuristic;
+mod jps;
 mod nodes;
 mod observer;
 mod open_list;
 mod path;
 mod planner;
 mod query;
+mod successors;
+mod wavefront;
 
-pub use astar::AStar;
+pub use astar::{AStar, AllMoves, Dijkstra};
+pub use best_first::BestFirst;
+pub use canonical::{Canonical, CanonicalMoves, CanonicalRule, PaperCanonical, PaperMoves, Pruning};
+pub use distances::Distances;
 pub use heuristic::{Euclidean, Heuristic, LatticeDistance, Zero};
+pub use jps::{
+    BlockJps, Blocks, Course, Jps, JpsPlus, JumpMoves, JumpTable, JumpTableError, Jumping, Locator, Walk,
+};
 pub use nodes::{Node, NodeStore};
 pub use observer::{Counters, NodeEvent, Observer};
 pub use open_list::{Entry, OpenList};
 pub use path::{Guarantee, Outcome, Path};
 pub use planner::Planner;
 pub use query::{End, Query, QueryError};
+pub use successors::{Arrival, Link, Successor, Successors};
+pub use wavefront::Wavefront;

@@ -3,21 +3,25 @@
 use mediant_grid::{Centers, Lattice, VertexId};
 use mediant_moves::Cost;
 
-/// A search node: 16 bytes, so that four share a cache line.
+use crate::Link;
+
+/// A search node: 16 bytes, so that four share a cache line, and what it keeps of its parent, `N`.
 #[derive(Clone, Copy, Debug)]
-pub struct Node {
+pub struct Node<N = ()> {
     /// The cost of the best known path from the start.
     pub g: Cost,
     /// The node's slot in the open list, or [`CLOSED`](Self::CLOSED).
     pub slot: u32,
     /// The generation in the high bits, the index of the move that led here in the low ones.
     mark: u32,
+    /// What leads to the parent.
+    pub link: N,
 }
 
 const _: () = assert!(size_of::<Node>() == 16);
-const _: () = assert!(Node::MOVE_BITS >= Lattice::<Centers>::MAX_K);
+const _: () = assert!(Node::<()>::MOVE_BITS >= Lattice::<Centers>::MAX_K);
 
-impl Node {
+impl<N> Node<N> {
     /// The slot of a node that is in no open list.
     pub const CLOSED: u32 = u32::MAX;
     /// Enough for the 4,096 moves of k = 12.
@@ -35,22 +39,22 @@ impl Node {
 
 /// One [`Node`] for each vertex; those of earlier searches are told by their generation.
 #[derive(Clone, Debug)]
-pub struct NodeStore {
-    nodes: Box<[Node]>,
+pub struct NodeStore<N = ()> {
+    nodes: Box<[Node<N>]>,
     generation: u32,
 }
 
-impl NodeStore {
+impl<N: Link> NodeStore<N> {
     /// A store for vertex ids below `len`, in which no node is known.
     #[must_use]
     pub fn new(len: usize) -> Self {
-        let unknown = Node { g: Cost::ZERO, slot: Node::CLOSED, mark: 0 };
+        let unknown = Node { g: Cost::ZERO, slot: Node::<N>::CLOSED, mark: 0, link: N::NONE };
         Self { nodes: vec![unknown; len].into_boxed_slice(), generation: 1 }
     }
 
     /// Forgets all nodes, in constant time but for once in a million calls.
     pub fn start_search(&mut self) {
-        if self.generation == Node::LAST_GENERATION {
+        if self.generation == Node::<N>::LAST_GENERATION {
             self.nodes.iter_mut().for_each(|node| node.mark = 0);
             self.generation = 0;
         }
@@ -60,18 +64,22 @@ impl NodeStore {
     /// The node of a vertex, if this search knows it.
     #[must_use]
     #[inline]
-    pub fn get(&self, id: VertexId) -> Option<&Node> {
+    pub fn get(&self, id: VertexId) -> Option<&Node<N>> {
         let node = &self.nodes[id.index()];
-        (node.mark >> Node::MOVE_BITS == self.generation).then_some(node)
+        (node.mark >> Node::<N>::MOVE_BITS == self.generation).then_some(node)
     }
 
     /// Makes a path of cost `g` that arrives by the move `arrived_by` the best known one to a vertex.
     #[inline]
-    pub fn set_path(&mut self, id: VertexId, g: Cost, arrived_by: usize) {
-        debug_assert!(arrived_by < 1 << Node::MOVE_BITS, "no move of any lattice has the index {arrived_by}");
+    pub fn set_path(&mut self, id: VertexId, g: Cost, arrived_by: usize, link: N) {
+        debug_assert!(
+            arrived_by < 1 << Node::<N>::MOVE_BITS,
+            "no move of any lattice has the index {arrived_by}"
+        );
         let node = &mut self.nodes[id.index()];
         node.g = g;
-        node.mark = self.generation << Node::MOVE_BITS | arrived_by as u32;
+        node.link = link;
+        node.mark = self.generation << Node::<N>::MOVE_BITS | arrived_by as u32;
     }
 
     /// Notes where in the open list a vertex now stands.
@@ -87,9 +95,9 @@ mod tests {
 
     #[test]
     fn nodes_are_forgotten_between_searches_also_when_the_generations_run_out() {
-        let mut store = NodeStore::new(3);
+        let mut store = NodeStore::<()>::new(3);
         store.start_search();
-        store.set_path(VertexId(1), Cost::from_bits(7), 4_095);
+        store.set_path(VertexId(1), Cost::from_bits(7), 4_095, ());
         assert_eq!(
             store.get(VertexId(1)).map(|node| (node.g, node.arrived_by())),
             Some((Cost::from_bits(7), 4_095))
@@ -98,15 +106,15 @@ mod tests {
         assert!(store.get(VertexId(1)).is_none());
 
         // A new store knows nothing either.
-        assert!(NodeStore::new(1).get(VertexId(0)).is_none());
+        assert!(NodeStore::<()>::new(1).get(VertexId(0)).is_none());
 
         // A node of generation 1 must not come back to life when the count begins anew at 1.
-        let mut store = NodeStore::new(3);
-        store.set_path(VertexId(0), Cost::ZERO, 0);
-        store.generation = Node::LAST_GENERATION - 1;
+        let mut store = NodeStore::<()>::new(3);
+        store.set_path(VertexId(0), Cost::ZERO, 0, ());
+        store.generation = Node::<()>::LAST_GENERATION - 1;
         store.start_search();
-        assert_eq!(store.generation, Node::LAST_GENERATION);
-        store.set_path(VertexId(2), Cost::ZERO, 0);
+        assert_eq!(store.generation, Node::<()>::LAST_GENERATION);
+        store.set_path(VertexId(2), Cost::ZERO, 0, ());
         store.start_search();
         assert_eq!(store.generation, 1);
         assert!((0..3).all(|id| store.get(VertexId(id)).is_none()));

@@ -41,6 +41,12 @@ pub trait Observer {
     fn percolated(&mut self, swaps: u32) {
         let _ = swaps;
     }
+
+    /// While a jump point search expanded a node, it looked at this many vertices of the runs that it scanned.
+    #[inline]
+    fn scanned(&mut self, vertices: u32) {
+        let _ = vertices;
+    }
 }
 
 /// The observer that does nothing.
@@ -66,6 +72,11 @@ impl<O: Observer> Observer for &mut O {
     fn percolated(&mut self, swaps: u32) {
         (**self).percolated(swaps);
     }
+
+    #[inline]
+    fn scanned(&mut self, vertices: u32) {
+        (**self).scanned(vertices);
+    }
 }
 
 /// Counts what the papers' tables report.
@@ -79,6 +90,8 @@ pub struct Counters {
     pub updated: u64,
     /// Swaps in the open list's heap.
     pub percolations: u64,
+    /// Vertices that jump point searches looked at while they scanned runs.
+    pub scanned: u64,
 }
 
 impl Observer for Counters {
@@ -100,5 +113,10 @@ impl Observer for Counters {
     #[inline]
     fn percolated(&mut self, swaps: u32) {
         self.percolations += u64::from(swaps);
+    }
+
+    #[inline]
+    fn scanned(&mut self, vertices: u32) {
+        self.scanned += u64::from(vertices);
     }
 }

@@ -1,6 +1,6 @@
 //! What a search returns.
 
-use mediant_grid::Vertex;
+use mediant_grid::{Lattice, Place, Vertex, VertexId};
 use mediant_moves::K;
 
 /// A path by its waypoints, with its length.
@@ -22,6 +22,35 @@ impl Path {
         Self { waypoints, cost }
     }
 
+    /// The path that a search found, told from the goal back to the start by the move with which it arrives at each vertex. A
+    /// waypoint stands where the move changes. Allocates nothing else.
+    pub(crate) fn trace_back<P: Place>(
+        lattice: &Lattice<P>,
+        start: VertexId,
+        goal: VertexId,
+        arrived_by: impl Fn(VertexId) -> usize,
+    ) -> Self {
+        let arrived_by = &arrived_by;
+        let turns_back = || {
+            let (mut id, mut last) = (goal, None);
+            std::iter::from_fn(move || {
+                while id != start {
+                    let (at, index) = (id, arrived_by(id));
+                    id = lattice.step(index).source(id);
+                    if last.replace(index) != Some(index) {
+                        return Some(at);
+                    }
+                }
+                None
+            })
+        };
+        let mut waypoints = Vec::with_capacity(turns_back().count() + 1);
+        waypoints.extend(turns_back().map(|id| lattice.vertex(id)));
+        waypoints.push(lattice.vertex(start));
+        waypoints.reverse();
+        Self::new(waypoints)
+    }
+
     /// The waypoints, start and goal included.
     #[must_use]
     pub fn waypoints(&self) -> &[Vertex] {
@@ -38,6 +67,28 @@ impl Path {
     #[must_use]
     pub const fn cost(&self) -> f64 {
         self.cost
+    }
+
+    /// The path smoothness PS of Hammoud & Lupin 2023, Eq. 1: the sum of 180° − φ over the waypoints between start and
+    /// goal, φ being the angle between the two segments that meet there. In degrees; 0 for a straight path, and the
+    /// greater the more the path turns.
+    ///
+    /// ```
+    /// use mediant_search::Path;
+    /// let path = Path::new(vec![(0, 0).into(), (3, 0).into(), (5, 2).into()]);
+    /// assert_eq!(path.smoothness(), 45.0);
+    /// ```
+    #[must_use]
+    pub fn smoothness(&self) -> f64 {
+        let mut last = None;
+        // A segment without length has no direction: it turns nothing.
+        let segments = self.waypoints.windows(2).filter(|ends| ends[0] != ends[1]);
+        segments.fold(0.0, |sum, ends| {
+            let x = f64::from(ends[1].x) - f64::from(ends[0].x);
+            let y = f64::from(ends[1].y) - f64::from(ends[0].y);
+            let turn = last.replace((x, y)).map_or(0.0, |(a, b)| (a * y - b * x).atan2(a * x + b * y));
+            sum + turn.abs().to_degrees()
+        })
     }
 }
 
@@ -71,4 +122,44 @@ pub enum Guarantee {
     OptimalAnyAngle,
     /// None.
     Suboptimal,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(waypoints: &[(i32, i32)], degrees: f64) {
+        let path = Path::new(waypoints.iter().map(|&at| at.into()).collect());
+        let back = Path::new(waypoints.iter().rev().map(|&at| at.into()).collect());
+        for found in [path.smoothness(), back.smoothness()] {
+            assert!((found - degrees).abs() <= 1e-12 * degrees, "{found}° of {waypoints:?}");
+            assert!(found.is_sign_positive());
+        }
+    }
+
+    #[test]
+    fn smoothness_adds_up_the_turns() {
+        check(&[], 0.0);
+        check(&[(4, 4)], 0.0);
+        check(&[(4, 4), (9, 5)], 0.0);
+        // A right angle, to either side and however long the segments are.
+        check(&[(0, 0), (5, 0), (5, 1)], 90.0);
+        check(&[(0, 0), (1, 0), (1, -7)], 90.0);
+        check(&[(0, 0), (2, 1), (1, 3)], 90.0);
+        check(&[(0, 0), (5, 0), (7, 2)], 45.0);
+        check(&[(0, 0), (5, 0), (4, 1)], 135.0);
+        // There and back.
+        check(&[(0, 0), (5, 2), (0, 0)], 180.0);
+        // Waypoints on a straight line, or twice on the same place, turn nothing.
+        check(&[(0, 0), (2, 1), (4, 2), (10, 5)], 0.0);
+        check(&[(0, 0), (5, 0), (5, 0), (5, 1), (5, 4)], 90.0);
+        check(&[(3, 3), (3, 3)], 0.0);
+        // Turns do not cancel: around a square.
+        check(&[(0, 0), (4, 0), (4, 4), (0, 4), (0, 0)], 270.0);
+        check(&[(0, 0), (1, 0), (1, 1), (2, 1), (2, 2)], 270.0);
+        check(&[(0, 0), (1, 0), (3, 1)], 1.0_f64.atan2(2.0).to_degrees());
+        // The ends of the coordinates.
+        check(&[(i32::MIN, 0), (i32::MAX, 0), (i32::MAX, i32::MIN)], 90.0);
+    }
 }

@@ -1,0 +1,205 @@
+//! The search loop that all lattice engines share.
+
+use std::ops::Deref;
+
+use mediant_grid::{Lattice, Place, Vector, Vertex, VertexId};
+use mediant_moves::{Cost, decompose};
+
+use crate::{
+    Arrival, Entry, Guarantee, Heuristic, Link, Node, NodeEvent, NodeStore, Observer, OpenList, Outcome,
+    Path, Planner, Query, QueryError, Successor, Successors,
+};
+
+/// Best-first search on a lattice: takes the node of least f = g + h from the open list until that is the goal.
+///
+/// What a node's successors are is `S`'s to say. A cheaper path to a closed node reopens it, so a search with all successors is
+/// optimal with every heuristic that never overestimates, consistent or not.
+///
+/// `L` is how the planner holds its lattice: by reference, or, where both belong in one struct, by `Arc`. `N` is what a node keeps of its
+/// parent.
+#[derive(Clone, Debug)]
+pub struct BestFirst<L, H, S, N = ()> {
+    pub(crate) lattice: L,
+    heuristic: H,
+    pub(crate) successors: S,
+    nodes: NodeStore<N>,
+    open: OpenList,
+}
+
+impl<P, L, H, S, N> BestFirst<L, H, S, N>
+where
+    P: Place,
+    L: Deref<Target = Lattice<P>>,
+    H: Heuristic,
+    S: Successors<P, Link = N>,
+    N: Link,
+{
+    /// A planner with scratch memory for `lattice`.
+    pub(crate) fn with(lattice: L, heuristic: H, successors: S) -> Self {
+        let nodes = NodeStore::new(lattice.vertex_count());
+        Self { lattice, heuristic, successors, nodes, open: OpenList::default() }
+    }
+
+    /// Expands nodes until the goal is the best of them, or, without a goal, until there is none left. Whether it was found.
+    pub(crate) fn search(
+        &mut self,
+        start: VertexId,
+        goal: Option<VertexId>,
+        observer: &mut impl Observer,
+    ) -> bool {
+        let Self { lattice, heuristic, successors, nodes, open } = self;
+        let lattice: &Lattice<P> = lattice;
+        // No move leads to a vertex outside the map.
+        let goal_at = goal.map_or(Vertex::new(-1, -1), |goal| lattice.vertex(goal));
+        let at = lattice.vertex(start);
+        let h = heuristic.estimate(lattice, at.to(goal_at));
+        nodes.start_search();
+        open.clear();
+        nodes.set_path(start, Cost::ZERO, 0, N::to(start));
+        observer.generated(NodeEvent { at, parent: None, g: Cost::ZERO, f: h });
+        open.push(Entry::new(h, h, start), |id, slot| nodes.set_slot(id, slot));
+
+        while let Some((entry, swaps)) = open.pop(|id, slot| nodes.set_slot(id, slot)) {
+            observer.percolated(swaps);
+            let id = entry.id();
+            if Some(id) == goal {
+                return true;
+            }
+            nodes.set_slot(id, Node::<N>::CLOSED);
+            let Some(&node) = nodes.get(id) else { continue };
+            let at = lattice.vertex(id);
+            let by = (id != start).then(|| node.arrived_by());
+            let parent = by.map(|by| node.link.parent(lattice, lattice.step(by), id, at).1);
+            observer.expanded(NodeEvent { at, parent, g: node.g, f: entry.f() });
+
+            let relax = |next: Successor| {
+                let g = node.g + next.cost;
+                let event = |f| NodeEvent { at: next.at, parent: Some(at), g, f };
+                let estimate = || heuristic.estimate(lattice, next.at.to(goal_at));
+                match nodes.get(next.id) {
+                    Some(known)
+                        if known.g < g
+                            || known.g == g && !successors.prefers(next.by, known.arrived_by())
+                            || next.id == start => {}
+                    Some(&known) => {
+                        let gain = known.g - g;
+                        nodes.set_path(next.id, g, next.by, N::to(id));
+                        let (f, swaps) = if known.slot == Node::<N>::CLOSED {
+                            let h = estimate();
+                            let entry = Entry::new(g + h, h, next.id);
+                            (g + h, open.push(entry, |id, slot| nodes.set_slot(id, slot)))
+                        } else {
+                            let f = open.get(known.slot).map_or(g, |entry| entry.f() - gain);
+                            (f, open.decrease(known.slot, gain, |id, slot| nodes.set_slot(id, slot)))
+                        };
+                        observer.updated(event(f));
+                        observer.percolated(swaps);
+                    }
+                    None => {
+                        let h = estimate();
+                        nodes.set_path(next.id, g, next.by, N::to(id));
+                        observer.generated(event(g + h));
+                        let entry = Entry::new(g + h, h, next.id);
+                        observer.percolated(open.push(entry, |id, slot| nodes.set_slot(id, slot)));
+                    }
+                }
+            };
+            let scanned = successors.for_each(lattice, Arrival { id, at, by }, goal_at, relax);
+            observer.scanned(scanned);
+        }
+        false
+    }
+}
+
+impl<L, H, S, N: Link> BestFirst<L, H, S, N> {
+    /// The path that the search found.
+    fn path<P: Place>(&self, start: VertexId, goal: VertexId) -> Path
+    where
+        L: Deref<Target = Lattice<P>>,
+    {
+        let legs_back = || LegsBack {
+            lattice: &self.lattice,
+            nodes: &self.nodes,
+            start,
+            node: (goal, self.lattice.vertex(goal)),
+            elbow: None,
+        };
+        // A waypoint stands where the direction changes.
+        let mut last = None;
+        let count = legs_back().filter(|&(_, v)| last.replace(v) != Some(v)).count();
+        let mut waypoints = Vec::with_capacity(count + 1);
+        last = None;
+        let ends = legs_back().filter(|&(_, v)| last.replace(v) != Some(v));
+        waypoints.extend(ends.map(|(end, _)| end));
+        waypoints.push(self.lattice.vertex(start));
+        waypoints.reverse();
+        Path::new(waypoints)
+    }
+
+    /// The cost of the best known path to a vertex after a search.
+    pub(crate) fn cost_to(&self, id: VertexId) -> Option<Cost> {
+        self.nodes.get(id).map(|node| node.g)
+    }
+
+    /// The move by which that path arrives.
+    pub(crate) fn arrived_by(&self, id: VertexId) -> usize {
+        self.nodes.get(id).map_or(0, Node::arrived_by)
+    }
+}
+
+/// The straight legs of a path, from the goal back to the start: where each ends, and its move.
+struct LegsBack<'s, P: Place, N> {
+    lattice: &'s Lattice<P>,
+    nodes: &'s NodeStore<N>,
+    start: VertexId,
+    node: (VertexId, Vertex),
+    elbow: Option<(Vertex, Vector)>,
+}
+
+impl<P: Place, N: Link> Iterator for LegsBack<'_, P, N> {
+    type Item = (Vertex, Vector);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if let Some(leg) = self.elbow.take() {
+            return Some(leg);
+        }
+        let (id, at) = self.node;
+        let node = self.nodes.get(id).filter(|_| id != self.start)?;
+        let step = self.lattice.step(node.arrived_by());
+        self.node = node.link.parent(self.lattice, step, id, at);
+        let (from, v) = (self.node.1, step.vector());
+        let d = from.to(at);
+        if i64::from(d.x) * i64::from(v.y) != i64::from(d.y) * i64::from(v.x) {
+            // Two legs in canonical order, the first by the odd move: an intermediate vertex that became no node.
+            let [(first, times), _] = decompose(d, self.lattice.k())?.canonical();
+            let times = times as i32;
+            self.elbow = Some((from + Vector::new(first.x * times, first.y * times), first));
+        }
+        Some((at, v))
+    }
+}
+
+impl<P, L, H, S, N> Planner for BestFirst<L, H, S, N>
+where
+    P: Place,
+    L: Deref<Target = Lattice<P>>,
+    H: Heuristic,
+    S: Successors<P, Link = N>,
+    N: Link,
+{
+    fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
+        query.check(&self.lattice)?;
+        let (Some(start), Some(goal)) = (self.lattice.id(query.start), self.lattice.id(query.goal)) else {
+            return Ok(Outcome::Unreachable);
+        };
+        // The components know, in constant time, what the search would find out by expanding all that it can reach.
+        if !self.lattice.connected(query.start, query.goal) || !self.search(start, Some(goal), observer) {
+            return Ok(Outcome::Unreachable);
+        }
+        Ok(Outcome::Found(self.path(start, goal)))
+    }
+
+    fn guarantee(&self) -> Guarantee {
+        self.successors.guarantee(&self.lattice)
+    }
+}

@@ -1,0 +1,70 @@
+//! Small sets of cells around a vertex.
+
+use mediant_grid::CellOffset;
+
+/// Cells with offsets from −32 to 31, which hold all that two moves of N(8) can reach: a bit each, a word a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Cells([u64; 64]);
+
+const HALF: i32 = 32;
+
+impl Default for Cells {
+    fn default() -> Self {
+        Self([0; 64])
+    }
+}
+
+impl Cells {
+    pub(crate) fn contains(&self, (x, y): CellOffset) -> bool {
+        self.0[(y + HALF) as usize] >> (x + HALF) & 1 == 1
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.iter().all(|&row| row == 0)
+    }
+
+    pub(crate) fn count(&self) -> u32 {
+        self.0.iter().map(|row| row.count_ones()).sum()
+    }
+
+    fn combine(&self, other: &Self, word: impl Fn(u64, u64) -> u64) -> Self {
+        Self(std::array::from_fn(|row| word(self.0[row], other.0[row])))
+    }
+
+    pub(crate) fn with(&self, other: &Self) -> Self {
+        self.combine(other, |a, b| a | b)
+    }
+
+    pub(crate) fn common(&self, other: &Self) -> Self {
+        self.combine(other, |a, b| a & b)
+    }
+
+    pub(crate) fn without(&self, other: &Self) -> Self {
+        self.combine(other, |a, b| a & !b)
+    }
+
+    pub(crate) fn iter(&self) -> impl Iterator<Item = CellOffset> {
+        let rows = self.0.iter().zip(-HALF..).filter(|&(&row, _)| row != 0);
+        rows.flat_map(|(&row, y)| {
+            let next = |&rest: &u64| Some(rest & (rest - 1)).filter(|&rest| rest != 0);
+            let bits = std::iter::successors(Some(row), next);
+            bits.map(move |rest| (rest.trailing_zeros() as i32 - HALF, y))
+        })
+    }
+}
+
+impl Extend<CellOffset> for Cells {
+    fn extend<T: IntoIterator<Item = CellOffset>>(&mut self, cells: T) {
+        for (x, y) in cells {
+            self.0[(y + HALF) as usize] |= 1 << (x + HALF);
+        }
+    }
+}
+
+impl FromIterator<CellOffset> for Cells {
+    fn from_iter<T: IntoIterator<Item = CellOffset>>(cells: T) -> Self {
+        let mut set = Self::default();
+        set.extend(cells);
+        set
+    }
+}

@@ -1,0 +1,370 @@
+//! Canonical A*(k) (Rivera, Hernández & Baier 2017, 'Canonical Orderings for 2^k'): of all paths that differ only in the order of their
+//! moves, and of all detours that a look at two moves reveals, a node passes on one.
+//!
+//! # The rule
+//!
+//! Rank the moves: even-indexed ones before odd-indexed ones, then by index. Of two different paths between the same vertices, the *earlier*
+//! one is the cheaper one; of two that cost the same, the one whose last move has the lower rank, and if that is the same, the
+//! one that is earlier without it. (Costs are integers, so 'the same' is well defined.)
+//!
+//! A node that was reached by move a, from vertex u, passes on move b **unless a legal path of displacement a + b leads
+//! from u, that is earlier than a, b**. A path that is not better to a vertex which is already known replaces the known one only if it
+//! costs the same and its last move has the lower rank; if the vertex is closed, it is then expanded again.
+//!
+//! # Why an optimal path always survives
+//!
+//! Let P be the earliest of all optimal paths from start to goal. 'Earlier' is a total order on the paths of one cost with the same
+//! ends, and it compares from the end: so *every prefix of P is the earliest optimal path to its own end*, because an earlier one, put in
+//! its place, would make P earlier.
+//!
+//! 1. No pair a, b of P is pruned: an earlier way around it, put in its place, would make a prefix of P cheaper or
+//!    earlier.
+//! 2. The last move of a prefix has the lowest rank among the last moves of *all* optimal paths to that vertex. So once the search has
+//!    reached the vertex by the prefix, nothing replaces that; and if it was reached by another optimal path before, the prefix replaces
+//!    it. No successor sets need to be united.
+//! 3. By induction over P, each of its vertices is therefore, sooner or later, in the open list with its optimal cost and the move of
+//!    P, and its expansion passes on P's next move. Until the goal is, some vertex of P is in the open list with f ≤ the optimal cost: so
+//!    the goal is not taken from it at a greater one. ∎
+//!
+//! The proof leaves open *which* ways around are looked for: any choice is exact, and more ways prune more. Here they are the
+//! single moves, the pairs, and the cheapest path on an empty grid in its plainest orders. On open ground, then, an odd move is followed by itself
+//! and its two neighbors, an even move by itself alone: the uni- and bidimensional nodes of the paper, whose canonical paths take their odd
+//! moves first. Everything else is a *turn*, and happens where an obstacle is in every way around.
+//!
+//! The paper instead keeps the jump points of the 8-neighborhood ([`PaperCanonical`]), which is complete but not optimal: with
+//! (1, 1) blocked, k = 4, from (0, 0) to (3, 1), the optimal path turns at (1, 0), which is none of them.
+//!
+//! # How it is looked up
+//!
+//! - k ≤ 3: a table over the pattern of cells around the vertex gives the successors of each incoming move (module `near`).
+//! - 4 ≤ k ≤ 8: for each incoming move, a tree over its turns, tested with words of the map (module `tree`).
+//! - k ≥ 9: near obstacles nothing is pruned; trees would take hundreds of megabytes.
+//!
+//! For k ≥ 4 a byte a vertex says how far the nearest obstacle is (module `clearance`): most vertices are far enough from any for neither
+//! legality nor turns to be asked for.
+//!
+//! # Closed gaps
+//!
+//! No path passes a gap, and one may only end there through one quadrant. Ways around ask for what keeps the vertices that they pass from
+//! being gaps; a node whose predecessor is a gap (the start), or that is near a goal which is one, passes on everything. At
+//! k = 2, where paths may pass gaps, nothing is pruned on a map with gaps.
+
+mod alternatives;
+mod cells;
+mod clearance;
+mod near;
+mod paper;
+mod tree;
+
+use std::{ops::Deref, sync::Arc};
+
+use mediant_grid::{Lattice, Place, Vertex};
+use mediant_moves::{K, Neighborhood};
+
+use crate::{Arrival, BestFirst, Heuristic, Successor, Successors};
+use alternatives::Moves;
+pub(crate) use alternatives::rank;
+use clearance::Clearance;
+use near::NearTable;
+pub use paper::{PaperCanonical, PaperMoves};
+use tree::{Spot, TurnTrees};
+
+/// The moves that follow move `a` on open ground, of `count` moves.
+fn natural(a: usize, count: usize) -> impl Iterator<Item = usize> {
+    let reach = a & 1;
+    (count - reach..=count + reach).map(move |turn| (a + turn) % count)
+}
+
+/// The pruning rule of one placement, rule of motion and k, for any map. Immutable; share it.
+#[derive(Clone, Debug)]
+pub struct CanonicalRule<P: Place> {
+    k: K,
+    rule: P::Rule,
+    /// How many vertices away, along an axis, a turn may still depend on the goal.
+    radius: i32,
+    turns: Turns,
+}
+
+#[derive(Clone, Debug)]
+enum Turns {
+    Near(NearTable),
+    Trees(TurnTrees),
+    /// The clearance from which on only natural successors remain, and all of them.
+    Everywhere(u32),
+}
+
+impl<P: Place> CanonicalRule<P> {
+    /// The largest k whose turns are tabulated.
+    pub const MAX_TREES: u32 = 8;
+
+    /// The rule for these, in time and memory that grow with 4^k: see [`bytes`](Self::bytes).
+    #[must_use]
+    pub fn new(k: K, rule: P::Rule) -> Self {
+        let radius = k.radius().unwrap_or(1 << 16).min(1 << 16);
+        let turns = match Neighborhood::new(k).ok().filter(|_| k.get() <= Self::MAX_TREES) {
+            // All that two moves can reach, from before the first to beyond the second.
+            None => Turns::Everywhere(2 * radius as u32 + 1),
+            Some(all) if k <= K::EIGHT_CONNECTED => Turns::Near(NearTable::new(&Moves::<P>::new(rule, all))),
+            Some(all) => Turns::Trees(TurnTrees::new(&Moves::<P>::new(rule, all))),
+        };
+        Self { k, rule, radius, turns }
+    }
+
+    /// Its size.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        match &self.turns {
+            Turns::Near(table) => table.bytes(),
+            Turns::Trees(trees) => trees.bytes(),
+            Turns::Everywhere(_) => 0,
+        }
+    }
+}
+
+/// The pruning rule on one map. Immutable; share it between planners.
+#[derive(Clone, Debug)]
+pub struct Pruning<P: Place> {
+    rule: Arc<CanonicalRule<P>>,
+    clearance: Option<Clearance>,
+}
+
+/// What a vertex allows to a path that arrives there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct View {
+    /// Whether there is any turn.
+    pub(crate) turns: bool,
+    /// Whether the incoming move may be repeated.
+    pub(crate) ahead: bool,
+    /// The distance in vertices for which this is known to hold, in steps of the incoming move.
+    pub(crate) steps: u32,
+}
+
+impl<P: Place> Pruning<P> {
+    /// The rule for a lattice.
+    #[must_use]
+    pub fn new(lattice: &Lattice<P>) -> Self {
+        Self::with_rule(lattice, Arc::new(CanonicalRule::new(lattice.k(), lattice.rule())))
+    }
+
+    /// The same with a rule that other maps use as well; one for another k or rule of motion is not used.
+    #[must_use]
+    pub fn with_rule(lattice: &Lattice<P>, rule: Arc<CanonicalRule<P>>) -> Self {
+        if (rule.k, rule.rule) != (lattice.k(), lattice.rule()) {
+            return Self::new(lattice);
+        }
+        let clearance = (lattice.k() > K::EIGHT_CONNECTED).then(|| Clearance::new(lattice));
+        Self { rule, clearance }
+    }
+
+    /// Its size.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.rule.bytes() + self.clearance.as_ref().map_or(0, Clearance::bytes)
+    }
+
+    /// Whether a path that arrives at `at` by move `by` is subject to no pruning there, because of closed gaps.
+    #[inline]
+    pub(crate) fn is_exempt(&self, lattice: &Lattice<P>, at: Vertex, by: usize, goal: Vertex) -> bool {
+        lattice.has_gaps() && self.is_exempt_from_gaps(lattice, at, by, goal)
+    }
+
+    #[cold]
+    fn is_exempt_from_gaps(&self, lattice: &Lattice<P>, at: Vertex, by: usize, goal: Vertex) -> bool {
+        let to_goal = at.to(goal);
+        lattice.k() == K::FOUR_CONNECTED
+            || lattice.is_gap(at + -lattice.step(by).vector())
+            || lattice.is_gap(goal) && to_goal.x.abs().max(to_goal.y.abs()) <= self.rule.radius
+    }
+
+    /// Calls `take` with the successors of a path that arrived at `at` by move `by`.
+    #[inline]
+    pub(crate) fn for_each(
+        &self,
+        lattice: &Lattice<P>,
+        node: &Arrival,
+        by: usize,
+        mut take: impl FnMut(usize),
+    ) {
+        let at = node.at;
+        match &self.rule.turns {
+            Turns::Near(table) => {
+                let mut left = table.successors(by, pattern(lattice, at));
+                while left != 0 {
+                    take(left.trailing_zeros() as usize);
+                    left &= left - 1;
+                }
+            }
+            Turns::Trees(trees) => {
+                let is_open = self.clearance_of(node) >= trees.needed[by];
+                let spot = Spot::new(lattice.grid(), at);
+                for b in natural(by, lattice.steps().len()) {
+                    if is_open || trees.is_legal(b, &spot) {
+                        take(b);
+                    }
+                }
+                if !is_open {
+                    trees.for_each_turn(by, &spot, |turn| {
+                        take(turn);
+                        true
+                    });
+                }
+            }
+            Turns::Everywhere(needed) => {
+                if self.clearance_of(node) >= *needed {
+                    natural(by, lattice.steps().len()).for_each(take);
+                } else {
+                    lattice.for_each_legal_move(at, take);
+                }
+            }
+        }
+    }
+
+    /// Whether a slanted run may come to a turn anywhere. (At k = 3 only where moves may cut corners.)
+    #[inline]
+    pub(crate) fn slanted_runs_turn(&self) -> bool {
+        match &self.rule.turns {
+            Turns::Near(table) => table.slanted_runs_turn(),
+            Turns::Trees(_) | Turns::Everywhere(_) => true,
+        }
+    }
+
+    /// Whether a path that comes by move `by` to a vertex with this pattern of cells finds a turn; for k ≤ 3.
+    pub(crate) fn turns_at(&self, pattern: usize, by: usize) -> bool {
+        match &self.rule.turns {
+            Turns::Near(table) => table.turns(by, table.successors(by, pattern)) != 0,
+            Turns::Trees(_) | Turns::Everywhere(_) => true,
+        }
+    }
+
+    #[inline]
+    fn clearance_of(&self, node: &Arrival) -> u32 {
+        self.clearance.as_ref().map_or(0, |clearance| clearance.of(node.id))
+    }
+
+    /// What a vertex allows to a path that arrives there by move `by`.
+    #[inline]
+    pub(crate) fn view(&self, lattice: &Lattice<P>, node: &Arrival, by: usize) -> View {
+        match &self.rule.turns {
+            Turns::Near(table) => {
+                let set = table.successors(by, pattern(lattice, node.at));
+                View { turns: table.turns(by, set) != 0, ahead: set >> by & 1 == 1, steps: 0 }
+            }
+            Turns::Trees(trees) => {
+                let (clearance, needed) = (self.clearance_of(node), trees.needed[by]);
+                if clearance >= needed {
+                    return View {
+                        turns: false,
+                        ahead: true,
+                        steps: open_steps(lattice, by, clearance - needed),
+                    };
+                }
+                let spot = Spot::new(lattice.grid(), node.at);
+                let turns = !trees.for_each_turn(by, &spot, |_| false);
+                View { turns, ahead: trees.is_legal(by, &spot), steps: 0 }
+            }
+            Turns::Everywhere(needed) => {
+                let clearance = self.clearance_of(node);
+                if clearance >= *needed {
+                    return View {
+                        turns: false,
+                        ahead: true,
+                        steps: open_steps(lattice, by, clearance - needed),
+                    };
+                }
+                View { turns: true, ahead: true, steps: 0 }
+            }
+        }
+    }
+
+    /// Whether a natural successor is legal.
+    #[inline]
+    pub(crate) fn is_legal(&self, lattice: &Lattice<P>, node: &Arrival, index: usize) -> bool {
+        match &self.rule.turns {
+            Turns::Near(table) => table.successors(index, pattern(lattice, node.at)) >> index & 1 == 1,
+            Turns::Trees(trees) => trees.is_legal(index, &Spot::new(lattice.grid(), node.at)),
+            Turns::Everywhere(_) => lattice.is_legal(node.at, lattice.step(index).vector()),
+        }
+    }
+}
+
+/// How many steps further a clearance that is `spare` above what is needed still suffices.
+#[inline]
+fn open_steps<P: Place>(lattice: &Lattice<P>, by: usize, spare: u32) -> u32 {
+    let v = lattice.step(by).vector();
+    spare / v.x.unsigned_abs().max(v.y.unsigned_abs())
+}
+
+/// The pattern of cells around a vertex of the map.
+#[inline]
+fn pattern<P: Place>(lattice: &Lattice<P>, at: Vertex) -> usize {
+    let rows = lattice.grid().rows();
+    P::pattern(rows.words(), rows.index(at.x, at.y), rows.bits_per_row())
+}
+
+/// Canonical A*: optimal over N(k), for every k, both placements and all rules of motion.
+///
+/// ```
+/// use std::sync::Arc;
+/// use mediant_grid::{AsciiMap, Centers, CornerRule, Lattice};
+/// use mediant_moves::K;
+/// use mediant_search::{Canonical, LatticeDistance, Planner, Query};
+///
+/// let map = AsciiMap::parse("
+///     ....
+///     .#..
+/// ")?;
+/// let lattice = Lattice::<Centers>::new(Arc::new(map.grid), K::new(4)?, CornerRule::Never)?;
+/// let outcome = Canonical::new(&lattice, LatticeDistance).solve(Query::new((0, 0), (3, 1)))?;
+/// assert_eq!(outcome.path().map(|path| path.cost()), Some(1.0 + 5.0_f64.sqrt()));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub type Canonical<L, H, P> = BestFirst<L, H, CanonicalMoves<P>>;
+
+/// Those moves that the rule leaves.
+#[derive(Clone, Debug)]
+pub struct CanonicalMoves<P: Place> {
+    pruning: Arc<Pruning<P>>,
+}
+
+impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> Canonical<L, H, P> {
+    /// A planner with scratch memory for `lattice`, and its own [`Pruning`].
+    #[must_use]
+    pub fn new(lattice: L, heuristic: H) -> Self {
+        let pruning = Arc::new(Pruning::new(&*lattice));
+        Self::with_pruning(lattice, pruning, heuristic)
+    }
+
+    /// A planner with a pruning rule that was made for this lattice, and which it shares with other planners.
+    #[must_use]
+    pub fn with_pruning(lattice: L, pruning: Arc<Pruning<P>>, heuristic: H) -> Self {
+        Self::with(lattice, heuristic, CanonicalMoves { pruning })
+    }
+}
+
+impl<P: Place> Successors<P> for CanonicalMoves<P> {
+    type Link = ();
+
+    #[inline]
+    fn for_each(
+        &self,
+        lattice: &Lattice<P>,
+        node: Arrival,
+        goal: Vertex,
+        mut visit: impl FnMut(Successor),
+    ) -> u32 {
+        match node.by.filter(|&by| !self.pruning.is_exempt(lattice, node.at, by, goal)) {
+            None => lattice.for_each_successor(node.at, node.by, goal, |by| visit(node.step(lattice, by))),
+            Some(by) => self.pruning.for_each(lattice, &node, by, |next| {
+                if lattice.may_step(node.at, node.by, next, goal) {
+                    visit(node.step(lattice, next));
+                }
+            }),
+        }
+        0
+    }
+
+    #[inline]
+    fn prefers(&self, new: usize, known: usize) -> bool {
+        rank(new) < rank(known)
+    }
+}

@@ -1,0 +1,91 @@
+//! How far it is from one vertex to all others.
+
+use mediant_grid::{DiagonalGap, Lattice, Place, Rules, Step, Vertex, VertexId};
+
+/// A distance for every vertex that can be reached from a start: a cost or a number of moves.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Distances<T> {
+    width: u32,
+    /// By vertex number.
+    values: Box<[Option<T>]>,
+}
+
+impl<T: Copy> Distances<T> {
+    /// The distances by vertex number, on a lattice with `width` vertices in a row.
+    pub(crate) fn new(width: u32, values: Vec<Option<T>>) -> Self {
+        debug_assert!(width > 0 && values.len().is_multiple_of(width as usize), "rows of {width} vertices");
+        Self { width, values: values.into_boxed_slice() }
+    }
+
+    /// The distance to a vertex, 0 to the start; `None` when no path leads there, or when it is blocked or outside the map.
+    #[must_use]
+    pub fn get(&self, at: Vertex) -> Option<T> {
+        let (x, y) = (u32::try_from(at.x).ok()?, usize::try_from(at.y).ok()?);
+        let index = y.checked_mul(self.width as usize)?.checked_add(x as usize)?;
+        (x < self.width).then(|| self.values.get(index).copied().flatten())?
+    }
+
+    /// The vertices that can be reached, row by row, with their distances.
+    pub fn iter(&self) -> impl Iterator<Item = (Vertex, T)> {
+        self.values.chunks_exact(self.width as usize).zip(0..).flat_map(|(row, y)| {
+            row.iter().zip(0..).filter_map(move |(&value, x)| Some((Vertex::new(x, y), value?)))
+        })
+    }
+
+    /// The number of vertices in a row.
+    #[must_use]
+    pub const fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// The number of rows of vertices.
+    #[must_use]
+    pub const fn height(&self) -> u32 {
+        // At most 32,769 rows: see `Grid::MAX_SIDE`.
+        (self.values.len() / self.width as usize) as u32
+    }
+}
+
+/// Under [`DiagonalGap::Closed`], makes the distances to the gaps those of paths that end there.
+///
+/// Of such a vertex a search without a goal knows at most how to pass it. A path ends there through the quadrant of the
+/// vertex's own cell; its last move comes from a vertex that the search knows. `values` are the search's distances by
+/// vertex number, `arrived_by` the move by which it reached a vertex other than the start, `extended` a distance longer by one move.
+pub(crate) fn end_at_gaps<P: Place, T: Copy + Ord>(
+    lattice: &Lattice<P>,
+    start: Vertex,
+    values: &mut [Option<T>],
+    arrived_by: impl Fn(VertexId) -> usize,
+    extended: impl Fn(T, &Step) -> T,
+) {
+    if lattice.rules() != Rules::Corner(DiagonalGap::Closed) {
+        return;
+    }
+    let grid = lattice.grid();
+    let last_move = |at: Vertex, id: VertexId| {
+        let mut best = None;
+        lattice.for_each_legal_move(at, |index| {
+            let back = lattice.step(index);
+            let (v, from) = (back.vector(), at + back.vector());
+            let in_own_quadrant = v.x >= 0 && v.y >= 0 && grid.is_free(at.x, at.y);
+            let Some(known) = values[back.target(id).index()].filter(|_| in_own_quadrant) else { return };
+            let mut may = !grid.is_double_corner(from);
+            if !may {
+                let arrived_by = (from != start).then(|| arrived_by(back.target(id)));
+                lattice.for_each_successor(from, arrived_by, at, |index| {
+                    may |= from + lattice.step(index).vector() == at;
+                });
+            }
+            let length = may.then(|| extended(known, back));
+            best = best.into_iter().chain(length).min();
+        });
+        best
+    };
+    let gaps = (0..values.len() as u32).map(VertexId).map(|id| (lattice.vertex(id), id));
+    let gaps = gaps.filter(|&(at, _)| at != start && grid.is_double_corner(at));
+    // Not one by one in place: a gap may be passed on the way to the next.
+    let ends: Vec<_> = gaps.map(|(at, id)| (id, last_move(at, id))).collect();
+    for (id, value) in ends {
+        values[id.index()] = value;
+    }
+}

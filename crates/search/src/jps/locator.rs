@@ -1,0 +1,350 @@
+//! How runs are followed: the point in which the engines of the jump point family differ.
+
+use std::fmt::Debug;
+
+use mediant_grid::{Lattice, Place, Step, Vector, Vertex};
+use mediant_moves::{Cost, K, KError};
+
+use super::{JumpTable, planes::StopPlanes};
+use crate::{Arrival, Successor, canonical::Pruning};
+
+/// What a run is followed on, and where to.
+pub struct Course<'c, P: Place> {
+    pub(crate) lattice: &'c Lattice<P>,
+    pub(crate) pruning: &'c Pruning<P>,
+    pub(crate) goal: Vertex,
+    /// The longest run.
+    pub(crate) limit: u32,
+    /// Whether a slanted run ends at the first vertex that has anything to either side.
+    pub(crate) keeps_intermediate: bool,
+}
+
+/// Finds the jump points of runs.
+///
+/// A *straight* run repeats an even move until its first vertex with a turn; a *slanted* one repeats an odd move, and from each of its
+/// vertices sends out the straight runs of the two even moves beside it. Neither leads to anything else on open ground.
+pub trait Locator<P: Place>: Debug {
+    /// After how many steps the straight run of move `index` from a vertex comes to a jump point or to the goal; `None` if to
+    /// neither. Adds to `scanned` the vertices that it looks at.
+    fn straight(
+        &self,
+        course: &Course<'_, P>,
+        from: &Arrival,
+        index: usize,
+        scanned: &mut u32,
+    ) -> Option<u32>;
+
+    /// Calls `visit` with all that the slanted run of move `index` from a vertex leads to.
+    #[inline]
+    fn slanted(
+        &self,
+        course: &Course<'_, P>,
+        from: &Arrival,
+        index: usize,
+        scanned: &mut u32,
+        visit: &mut impl FnMut(Successor),
+    ) {
+        course.walk_slanted(self, from, index, scanned, visit);
+    }
+}
+
+impl<P: Place> Course<'_, P> {
+    /// The even moves beside an odd one.
+    #[inline]
+    pub(crate) fn beside(&self, index: usize) -> [usize; 2] {
+        // The number of moves is a power of two.
+        let last = self.lattice.steps().len() - 1;
+        [index.wrapping_sub(1) & last, (index + 1) & last]
+    }
+
+    /// Whether a path that came to `from` may step on by move `index`.
+    #[inline]
+    fn may_step(&self, from: &Arrival, index: usize) -> bool {
+        self.lattice.may_step(from.at, from.by, index, self.goal)
+    }
+
+    #[inline]
+    fn is_exempt(&self, at: Vertex, by: usize) -> bool {
+        self.pruning.is_exempt(self.lattice, at, by, self.goal)
+    }
+
+    /// Whether closed gaps make runs hard to foresee: then they are walked.
+    #[inline]
+    fn must_walk(&self) -> bool {
+        self.lattice.has_gaps() && (self.lattice.k() == K::FOUR_CONNECTED || self.lattice.is_gap(self.goal))
+    }
+
+    #[inline]
+    fn leaves_gap(&self, from: &Arrival) -> bool {
+        self.lattice.has_gaps() && self.lattice.is_gap(from.at)
+    }
+
+    /// After how many steps of move `v` from a vertex the goal comes, if it lies ahead.
+    #[inline]
+    fn steps_to_goal(&self, from: Vertex, v: Vector) -> Option<u32> {
+        let d = from.to(self.goal);
+        if cross(v, d) != 0 || i64::from(v.x) * i64::from(d.x) + i64::from(v.y) * i64::from(d.y) <= 0 {
+            return None;
+        }
+        Some((d.x.unsigned_abs() + d.y.unsigned_abs()) / (v.x.unsigned_abs() + v.y.unsigned_abs()))
+    }
+
+    /// The vertex `n` steps of move `index` away.
+    #[inline]
+    pub(crate) fn after(&self, from: &Arrival, step: &Step, index: usize, n: u32) -> Arrival {
+        let v = step.vector();
+        let at = Vertex::new(from.at.x + v.x * n as i32, from.at.y + v.y * n as i32);
+        Arrival { id: step.target_after(from.id, n), at, by: Some(index) }
+    }
+
+    /// A straight run, vertex by vertex, but where the nearest obstacle is so far that several have no turn.
+    #[inline]
+    fn walk_straight(&self, from: &Arrival, index: usize, scanned: &mut u32) -> Option<u32> {
+        if !self.may_step(from, index) || !self.pruning.is_legal(self.lattice, from, index) {
+            return None;
+        }
+        let step = self.lattice.step(index);
+        let goal_steps = self.steps_to_goal(from.at, step.vector()).unwrap_or(u32::MAX).min(self.limit);
+        let mut n = 0;
+        loop {
+            n += 1;
+            *scanned += 1;
+            let here = self.after(from, step, index, n);
+            if n >= goal_steps || self.is_exempt(here.at, index) {
+                return Some(n.min(goal_steps));
+            }
+            let view = self.pruning.view(self.lattice, &here, index);
+            if view.turns {
+                return Some(n);
+            }
+            if view.steps > 0 {
+                n += view.steps;
+                if n >= goal_steps {
+                    return Some(goal_steps);
+                }
+            } else if !view.ahead || !self.may_step(&here, index) {
+                return None;
+            }
+        }
+    }
+
+    /// A slanted run, vertex by vertex.
+    #[inline]
+    fn walk_slanted<J: Locator<P> + ?Sized>(
+        &self,
+        locator: &J,
+        from: &Arrival,
+        index: usize,
+        scanned: &mut u32,
+        visit: &mut impl FnMut(Successor),
+    ) {
+        if !self.may_step(from, index) || !self.pruning.is_legal(self.lattice, from, index) {
+            return;
+        }
+        let step = self.lattice.step(index);
+        let mut here = self.after(from, step, index, 1);
+        let mut cost = step.cost;
+        for n in 1.. {
+            *scanned += 1;
+            let exempt = here.at == self.goal || n >= self.limit || self.is_exempt(here.at, index);
+            let view = self.pruning.view(self.lattice, &here, index);
+            if exempt || view.turns {
+                return visit(here.reached(cost, index));
+            }
+            if self.send_out(locator, &here, cost, scanned, visit) {
+                return visit(here.reached(cost, index));
+            }
+            if !view.ahead || !self.may_step(&here, index) {
+                return;
+            }
+            here = self.after(&here, step, index, 1);
+            cost += step.cost;
+        }
+    }
+
+    /// The two straight runs from a vertex of a slanted run. Whether the slanted run must end there for their sake.
+    #[inline]
+    fn send_out<J: Locator<P> + ?Sized>(
+        &self,
+        locator: &J,
+        from: &Arrival,
+        cost: Cost,
+        scanned: &mut u32,
+        visit: &mut impl FnMut(Successor),
+    ) -> bool {
+        let mut ends = false;
+        for index in self.beside(from.by.unwrap_or(0)) {
+            if let Some(n) = locator.straight(self, from, index, scanned) {
+                ends |= self.keeps_intermediate;
+                if !ends {
+                    let step = self.lattice.step(index);
+                    visit(self.after(from, step, index, n).reached(cost + step.cost * n, index));
+                }
+            }
+        }
+        ends
+    }
+}
+
+impl Arrival {
+    #[inline]
+    pub(crate) fn reached(&self, cost: Cost, by: usize) -> Successor {
+        Successor { id: self.id, at: self.at, cost, by }
+    }
+}
+
+#[inline]
+fn cross(v: Vector, d: Vector) -> i64 {
+    i64::from(v.x) * i64::from(d.y) - i64::from(v.y) * i64::from(d.x)
+}
+
+/// Vertex by vertex, for every k.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Walk;
+
+impl<P: Place> Locator<P> for Walk {
+    #[inline]
+    fn straight(
+        &self,
+        course: &Course<'_, P>,
+        from: &Arrival,
+        index: usize,
+        scanned: &mut u32,
+    ) -> Option<u32> {
+        course.walk_straight(from, index, scanned)
+    }
+}
+
+/// Straight runs by words of 64 vertices, for k ≤ 3.
+#[derive(Clone, Debug)]
+pub struct Blocks {
+    planes: StopPlanes,
+}
+
+impl Blocks {
+    /// The locator of a lattice.
+    ///
+    /// # Errors
+    /// [`KError::TooLarge`] above k = 3.
+    pub fn new<P: Place>(lattice: &Lattice<P>) -> Result<Self, KError> {
+        let (k, max) = (lattice.k().get(), JumpTable::MAX_K);
+        if k > max { Err(KError::TooLarge { k, max }) } else { Ok(Self { planes: StopPlanes::new(lattice) }) }
+    }
+
+    /// Its size.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.planes.bytes()
+    }
+}
+
+impl<P: Place> Locator<P> for Blocks {
+    #[inline]
+    fn straight(
+        &self,
+        course: &Course<'_, P>,
+        from: &Arrival,
+        index: usize,
+        scanned: &mut u32,
+    ) -> Option<u32> {
+        if course.must_walk() || course.leaves_gap(from) {
+            return course.walk_straight(from, index, scanned);
+        }
+        let goal_steps = course.steps_to_goal(from.at, course.lattice.step(index).vector());
+        let quarter = index >> (course.lattice.k().get() - 2);
+        let scan = self.planes.scan(from.at, quarter, goal_steps);
+        *scanned += scan.scanned;
+        (scan.found || scan.steps > course.limit).then_some(scan.steps.min(course.limit))
+    }
+}
+
+/// All runs from a table.
+impl<P: Place> Locator<P> for std::sync::Arc<JumpTable> {
+    #[inline]
+    fn straight(
+        &self,
+        course: &Course<'_, P>,
+        from: &Arrival,
+        index: usize,
+        scanned: &mut u32,
+    ) -> Option<u32> {
+        if course.must_walk() || course.leaves_gap(from) {
+            return course.walk_straight(from, index, scanned);
+        }
+        let step = course.lattice.step(index);
+        let (steps, found) = self.run(from.id, step, index);
+        match course.steps_to_goal(from.at, step.vector()) {
+            Some(goal_steps) if goal_steps <= steps => Some(goal_steps),
+            _ => found.then_some(steps),
+        }
+    }
+
+    #[inline]
+    fn slanted(
+        &self,
+        course: &Course<'_, P>,
+        from: &Arrival,
+        index: usize,
+        scanned: &mut u32,
+        visit: &mut impl FnMut(Successor),
+    ) {
+        if course.must_walk() || course.leaves_gap(from) {
+            return course.walk_slanted(self, from, index, scanned, visit);
+        }
+        let step = course.lattice.step(index);
+        let to_goal = GoalWay::new(course, from.at, index);
+        let (mut here, mut gone) = (*from, 0);
+        loop {
+            let (steps, found) = self.run(here.id, step, index);
+            if let Some(way) = to_goal.filter(|way| (gone + 1..=gone + steps).contains(&way.slanted)) {
+                let elbow = course.after(from, step, index, way.slanted);
+                let beside = course.lattice.step(way.index);
+                if way.straight == 0 || self.run(elbow.id, beside, way.index).0 >= way.straight {
+                    // Nothing can be nearer to the goal by way of this node.
+                    let goal = course.after(&elbow, beside, way.index, way.straight);
+                    let cost = step.cost * way.slanted + beside.cost * way.straight;
+                    return visit(goal.reached(cost, if way.straight == 0 { index } else { way.index }));
+                }
+            }
+            if !found {
+                return;
+            }
+            gone += steps;
+            here = course.after(&here, step, index, steps);
+            let cost = step.cost * gone;
+            let turns =
+                course.pruning.slanted_runs_turn() && course.pruning.view(course.lattice, &here, index).turns;
+            if turns || course.keeps_intermediate {
+                return visit(here.reached(cost, index));
+            }
+            course.send_out(self, &here, cost, scanned, visit);
+        }
+    }
+}
+
+/// The one way to the goal, on an empty grid, that begins with a given odd move.
+#[derive(Clone, Copy)]
+struct GoalWay {
+    slanted: u32,
+    /// The even move that follows.
+    index: usize,
+    straight: u32,
+}
+
+impl GoalWay {
+    #[inline]
+    fn new<P: Place>(course: &Course<'_, P>, from: Vertex, index: usize) -> Option<Self> {
+        let (d, u) = (from.to(course.goal), course.lattice.step(index).vector());
+        course.beside(index).into_iter().find_map(|beside| {
+            let v = course.lattice.step(beside).vector();
+            // Adjacent moves span a square of area 1, so this is Cramer's rule without its denominator.
+            let sign = cross(u, v);
+            let (slanted, straight) = (cross(d, v) * sign, cross(u, d) * sign);
+            (slanted > 0 && straight >= 0).then(|| Self {
+                slanted: slanted as u32,
+                index: beside,
+                straight: straight as u32,
+            })
+        })
+    }
+}

@@ -1,0 +1,153 @@
+//! Jump point search (Harabor & Grastien 2011, 2014; Hammoud & Lupin 2023), for every k: canonical A*(k) whose runs are scanned rather
+//! than queued.
+//!
+//! What a node leads to, and which vertices have turns, is [`canonical`](crate::canonical)'s rule, and so is the proof. Only vertices with a
+//! turn, the goal, and, unless they are pruned, vertices of a slanted run from which a straight one finds such, become nodes: on all
+//! others a path has one natural way on, or three at a slanted run's, and they are followed at once. At k = 3 under `Never` these are just the
+//! jump points of the original; nothing is special about k = 3 or about any rule of motion.
+//!
+//! How runs are followed is the [`Locator`]'s to say:
+//!
+//! | engine | straight runs | slanted runs | k |
+//! |---|---|---|---|
+//! | [`Jps`] | vertex by vertex; far from obstacles several at once | vertex by vertex | all |
+//! | [`BlockJps`] | 64 vertices a word operation (module `planes`) | vertex by vertex, two such scans each | 2, 3 |
+//! | [`JpsPlus`] | looked up ([`JumpTable`]) | looked up | 2, 3 |
+//!
+//! **Intermediate jump points** (Harabor & Grastien 2014) are pruned by default: where a straight run beside a slanted one finds something, that
+//! becomes the successor, and the vertex between becomes no node; the path is put together again from its two legs.
+//!
+//! **Bounded jumps** (Sturtevant & Rabin 2016): a run of more steps than the jump limit ends in a node that goes on.
+
+mod blocks;
+mod locator;
+mod planes;
+mod table;
+
+#[cfg(test)]
+mod tests;
+
+use std::{ops::Deref, sync::Arc};
+
+use mediant_grid::{Lattice, Place, Vertex, VertexId};
+use mediant_moves::KError;
+
+use crate::{Arrival, BestFirst, Heuristic, Pruning, Successor, Successors, canonical::rank};
+pub use locator::{Blocks, Course, Locator, Walk};
+pub use table::{JumpTable, JumpTableError};
+
+/// A planner of the jump point family: 24 bytes a vertex.
+pub type Jumping<L, H, P, J> = BestFirst<L, H, JumpMoves<P, J>, VertexId>;
+
+/// Jump point search for every k, vertex by vertex.
+pub type Jps<L, H, P> = Jumping<L, H, P, Walk>;
+
+/// Block-based jump point search (Harabor & Grastien 2014).
+pub type BlockJps<L, H, P> = Jumping<L, H, P, Blocks>;
+
+/// JPS+ (Harabor & Grastien 2014): jump point search on a table.
+pub type JpsPlus<L, H, P> = Jumping<L, H, P, Arc<JumpTable>>;
+
+/// The jump points that a node leads to.
+#[derive(Clone, Debug)]
+pub struct JumpMoves<P: Place, J> {
+    pruning: Arc<Pruning<P>>,
+    locator: J,
+    limit: u32,
+    keeps_intermediate: bool,
+}
+
+impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic, J: Locator<P>> Jumping<L, H, P, J> {
+    /// A planner with a locator that was made for this lattice, and a pruning rule that it may share with other planners.
+    #[must_use]
+    pub fn with_locator(lattice: L, pruning: Arc<Pruning<P>>, locator: J, heuristic: H) -> Self {
+        let successors = JumpMoves { pruning, locator, limit: u32::MAX, keeps_intermediate: false };
+        Self::with(lattice, heuristic, successors)
+    }
+
+    /// The same planner with runs of at most `limit` steps, at least 1; `None` for no limit. (Runs of a [`JumpTable`] are not limited.)
+    #[must_use]
+    pub fn with_jump_limit(mut self, limit: Option<u32>) -> Self {
+        self.successors.limit = limit.unwrap_or(u32::MAX).max(1);
+        self
+    }
+
+    /// The same planner, with or without nodes for intermediate jump points. By default they are pruned.
+    #[must_use]
+    pub fn with_intermediate(mut self, keep: bool) -> Self {
+        self.successors.keeps_intermediate = keep;
+        self
+    }
+}
+
+impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> Jps<L, H, P> {
+    /// A planner with scratch memory for `lattice`, and its own [`Pruning`].
+    #[must_use]
+    pub fn new(lattice: L, heuristic: H) -> Self {
+        let pruning = Arc::new(Pruning::new(&*lattice));
+        Self::with_locator(lattice, pruning, Walk, heuristic)
+    }
+}
+
+impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> BlockJps<L, H, P> {
+    /// A planner with scratch memory for `lattice`, and a byte a vertex for its own scans.
+    ///
+    /// # Errors
+    /// [`KError::TooLarge`] above k = 3.
+    pub fn new(lattice: L, heuristic: H) -> Result<Self, KError> {
+        let (blocks, pruning) = (Blocks::new(&*lattice)?, Arc::new(Pruning::new(&*lattice)));
+        Ok(Self::with_locator(lattice, pruning, blocks, heuristic))
+    }
+}
+
+impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> JpsPlus<L, H, P> {
+    /// A planner with scratch memory for `lattice`, on its table.
+    ///
+    /// # Errors
+    /// [`JumpTableError`] for a table of a lattice of another size or k.
+    pub fn new(lattice: L, table: Arc<JumpTable>, heuristic: H) -> Result<Self, JumpTableError> {
+        table.check(&*lattice)?;
+        let pruning = Arc::new(Pruning::new(&*lattice));
+        Ok(Self::with_locator(lattice, pruning, table, heuristic))
+    }
+}
+
+impl<P: Place, J: Locator<P>> Successors<P> for JumpMoves<P, J> {
+    type Link = VertexId;
+
+    #[inline]
+    fn for_each(
+        &self,
+        lattice: &Lattice<P>,
+        node: Arrival,
+        goal: Vertex,
+        mut visit: impl FnMut(Successor),
+    ) -> u32 {
+        let course = Course {
+            lattice,
+            pruning: &self.pruning,
+            goal,
+            limit: self.limit,
+            keeps_intermediate: self.keeps_intermediate,
+        };
+        let mut scanned = 0;
+        let mut follow = |index: usize| {
+            if index & 1 == 1 {
+                self.locator.slanted(&course, &node, index, &mut scanned, &mut visit);
+            } else if let Some(n) = self.locator.straight(&course, &node, index, &mut scanned) {
+                let step = lattice.step(index);
+                visit(course.after(&node, step, index, n).reached(step.cost * n, index));
+            }
+        };
+        match node.by.filter(|&by| !self.pruning.is_exempt(lattice, node.at, by, goal)) {
+            None => lattice.for_each_successor(node.at, node.by, goal, follow),
+            Some(by) => self.pruning.for_each(lattice, &node, by, &mut follow),
+        }
+        scanned
+    }
+
+    #[inline]
+    fn prefers(&self, new: usize, known: usize) -> bool {
+        rank(new) < rank(known)
+    }
+}

@@ -1,0 +1,312 @@
+//! Precomputed jump distances (JPS+: Harabor & Grastien 2014, 'Improving Jump Point Search'), for k ≤ 3.
+//!
+//! **One byte for each vertex and move**, so that a vertex's entries are one word of 8 bytes at k = 3 (4 bytes at k = 2): bit 7
+//! says whether the run of the move ends at a vertex of interest or dead, the others after how many steps. 127 stands for
+//! more than 126: go on after 126 steps, where the entry says what is left.
+//!
+//! - Even moves: of interest is a jump point, as in [`scan`](super::blocks::scan).
+//! - Odd moves: of interest is a vertex with a turn of its own, or from which one of the two adjacent even runs finds a
+//!   jump point.
+//!
+//! Rule variants: all five. Under closed gaps a run ends before a doubly blocked corner. At k = 2, where a path may turn
+//! there within the cell that it follows, an odd run ends at it instead: of interest if the one even run that may follow
+//! finds a jump point. The entries of such a corner itself say nothing of which moves a path may take there.
+
+use mediant_grid::{Lattice, Place, Step, Vector, Vertex, VertexId};
+use mediant_moves::{K, KError};
+
+use crate::Pruning;
+
+/// The jump distances of a lattice with k ≤ 3: 2^k bytes a vertex. Immutable; planners share it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct JumpTable {
+    /// That of a move at `id · 2^k + index`.
+    entries: Vec<u8>,
+    k: u32,
+    /// Vertices in a row.
+    width: u32,
+}
+
+/// Bytes that are no table of the lattice.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum JumpTableError {
+    /// No table for this k.
+    #[error("a jump table needs k = 2 or 3: {0}")]
+    Neighborhood(#[from] KError),
+    /// Too few bytes, or too many.
+    #[error(
+        "a jump table of {found} bytes, where this lattice needs {expected}: the table is for another map, placement or k, or cut off; build it anew"
+    )]
+    Length {
+        /// 2^k for each vertex.
+        expected: usize,
+        /// The bytes that there are.
+        found: usize,
+    },
+    /// As many entries, but in longer or shorter rows.
+    #[error("a jump table with {found} vertices a row, where this lattice has {expected}: build it anew")]
+    Width {
+        /// The lattice's vertices in a row.
+        expected: u32,
+        /// The table's.
+        found: u32,
+    },
+    /// A distance that is not the map's.
+    #[error(
+        "the jump table says {found:#04x} for move ({}, {}) at {at}, where this lattice has {expected:#04x}: the table is for another map or rule, or damaged; build it anew",
+        towards.x,
+        towards.y
+    )]
+    Entry {
+        /// The vertex.
+        at: Vertex,
+        /// The move.
+        towards: Vector,
+        /// What follows from the map and the entries ahead.
+        expected: u8,
+        /// What the bytes say.
+        found: u8,
+    },
+}
+
+/// The bit of an entry whose run ends at a vertex of interest.
+const FOUND: u8 = 0x80;
+/// The steps of an entry.
+const STEPS: u8 = 0x7f;
+/// How far [`STEPS`] leads: less than it says to be left, so that the run is not passed by.
+const LEAP: u8 = STEPS - 1;
+
+/// The entry of a vertex whose next vertex on the run is of no interest and has the entry `next`.
+#[inline]
+const fn extended(next: u8) -> u8 {
+    if next & STEPS >= LEAP { next | STEPS } else { next + 1 }
+}
+
+impl JumpTable {
+    /// The largest k that has a table.
+    pub const MAX_K: u32 = 3;
+
+    /// The table of a lattice; each entry follows from the one a step ahead.
+    ///
+    /// # Errors
+    /// [`KError::TooLarge`] above [`MAX_K`](Self::MAX_K).
+    pub fn new<P: Place>(lattice: &Lattice<P>) -> Result<Self, KError> {
+        checked(lattice.k())?;
+        let pruning = Pruning::new(lattice);
+        Self::with_turns(lattice, |pattern, index| pruning.turns_at(pattern, index))
+    }
+
+    /// The table that these bytes are; see [`as_bytes`](Self::as_bytes). Every entry is held against the map and the entry a
+    /// step ahead, so a table that is accepted is the one that [`new`](Self::new) makes.
+    ///
+    /// # Errors
+    /// A [`JumpTableError`] for bytes that are no table of this lattice.
+    pub fn from_bytes<P: Place>(lattice: &Lattice<P>, bytes: Vec<u8>) -> Result<Self, JumpTableError> {
+        checked(lattice.k())?;
+        let pruning = Pruning::new(lattice);
+        Self::from_bytes_with_turns(lattice, bytes, |pattern, index| pruning.turns_at(pattern, index))
+    }
+
+    /// [`new`](Self::new), where `turns` says whether a vertex with an obstacle pattern ([`Place::pattern`]) has a turn when
+    /// the move at an index leads there: other than that move itself and, after an odd one, the two adjacent even ones.
+    pub(crate) fn with_turns<P: Place>(
+        lattice: &Lattice<P>,
+        turns: impl Fn(usize, usize) -> bool,
+    ) -> Result<Self, KError> {
+        let k = checked(lattice.k())?;
+        let mut entries = vec![0; lattice.vertex_count() << k];
+        let around = Surroundings::new(lattice, turns);
+        let ids = 0..lattice.vertex_count();
+        // A move that adds to ids needs the larger ones first.
+        let moves = |parity: usize, adds: bool| {
+            let steps = (parity..1 << k).step_by(2);
+            steps.filter(|&index| (around.offsets[index] > 0) == adds).collect::<Vec<usize>>()
+        };
+        // An odd move needs the two even ones beside it, of which one may be of the other kind.
+        around.pass(&mut entries, ids.clone().rev(), &moves(0, true));
+        around.pass(&mut entries, ids.clone(), &[moves(0, false), moves(1, false)].concat());
+        around.pass(&mut entries, ids.rev(), &moves(1, true));
+        Ok(Self { entries, k, width: P::vertices(lattice.grid()).0 })
+    }
+
+    /// [`from_bytes`](Self::from_bytes) with `turns` as in [`with_turns`](Self::with_turns).
+    pub(crate) fn from_bytes_with_turns<P: Place>(
+        lattice: &Lattice<P>,
+        bytes: Vec<u8>,
+        turns: impl Fn(usize, usize) -> bool,
+    ) -> Result<Self, JumpTableError> {
+        let k = checked(lattice.k())?;
+        let expected = lattice.vertex_count() << k;
+        if bytes.len() != expected {
+            return Err(JumpTableError::Length { expected, found: bytes.len() });
+        }
+        let around = Surroundings::new(lattice, turns);
+        for id in 0..lattice.vertex_count() {
+            for index in 0..1 << k {
+                let (expected, found) = (around.entry(&bytes, id, index), bytes[id << k | index]);
+                if expected != found {
+                    let (at, towards) = (lattice.vertex(VertexId(id as u32)), lattice.step(index).vector());
+                    return Err(JumpTableError::Entry { at, towards, expected, found });
+                }
+            }
+        }
+        Ok(Self { entries: bytes, k, width: P::vertices(lattice.grid()).0 })
+    }
+
+    /// Whether a lattice has the vertices and moves that this table is about.
+    ///
+    /// # Errors
+    /// [`JumpTableError::Length`] and [`JumpTableError::Width`].
+    pub(crate) fn check<P: Place>(&self, lattice: &Lattice<P>) -> Result<(), JumpTableError> {
+        let k = checked(lattice.k())?;
+        let (expected, found) = (lattice.vertex_count() << k, self.entries.len());
+        let width = P::vertices(lattice.grid()).0;
+        if expected != found || k != self.k {
+            return Err(JumpTableError::Length { expected, found });
+        }
+        if width != self.width {
+            return Err(JumpTableError::Width { expected: width, found: self.width });
+        }
+        Ok(())
+    }
+
+    /// After how many steps the run of a move ends, and whether that is at a vertex of interest. `step` is the move at
+    /// `index` of the lattice.
+    #[inline]
+    pub(crate) fn run(&self, id: VertexId, step: &Step, index: usize) -> (u32, bool) {
+        let mut at = id.index() << self.k | index;
+        let mut entry = self.entries.get(at).copied().unwrap_or(0);
+        let mut steps = 0;
+        // What a step adds to an id is what it makes of 0.
+        let offset = step.target(VertexId(0)).0 as i32 as isize;
+        let stride = (offset * isize::from(LEAP)) << self.k;
+        while entry & STEPS == STEPS {
+            steps += u32::from(LEAP);
+            at = at.wrapping_add_signed(stride);
+            entry = self.entries.get(at).copied().unwrap_or(0);
+        }
+        (steps + u32::from(entry & STEPS), entry & FOUND != 0)
+    }
+
+    /// The entries, vertex by vertex in the order of their ids and move by move: what [`from_bytes`](Self::from_bytes)
+    /// takes.
+    #[must_use]
+    pub fn as_bytes(&self) -> &[u8] {
+        &self.entries
+    }
+
+    /// The memory that this takes, in bytes.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.entries.len()
+    }
+}
+
+const fn checked(k: K) -> Result<u32, KError> {
+    let (k, max) = (k.get(), JumpTable::MAX_K);
+    if k > max { Err(KError::TooLarge { k, max }) } else { Ok(k) }
+}
+
+/// What an entry depends on beside the entries ahead.
+struct Surroundings {
+    k: u32,
+    /// By move: what it adds to an id.
+    offsets: Vec<isize>,
+    /// By vertex: the obstacle pattern around it.
+    patterns: Vec<u16>,
+    /// By pattern.
+    local: Vec<Local>,
+}
+
+/// What the pattern around a vertex decides, one bit a move.
+#[derive(Clone, Copy, Debug, Default)]
+struct Local {
+    /// The moves that are legal there.
+    legal: u8,
+    /// The moves that find a turn when they lead there.
+    turns: u8,
+    /// At a corner that closed gaps forbid to pass: the even moves that may follow the move at each index, none where that
+    /// must not even lead there. `None` at any other vertex.
+    gap: Option<[u8; 8]>,
+}
+
+impl Surroundings {
+    fn new<P: Place>(lattice: &Lattice<P>, turns: impl Fn(usize, usize) -> bool) -> Self {
+        let (k, rows) = (lattice.k().get(), lattice.grid().rows());
+        let (words, bits_per_row) = (rows.words(), rows.bits_per_row());
+        let mut local: Vec<Option<Local>> = vec![None; P::PATTERNS];
+        let patterns = (0..lattice.vertex_count()).map(|id| {
+            let at = lattice.vertex(VertexId(id as u32));
+            let pattern = P::pattern(words, rows.index(at.x, at.y), bits_per_row);
+            // The rules of motion are asked once for each pattern that occurs.
+            local[pattern].get_or_insert_with(|| Local {
+                legal: lattice.legal_moves(at).iter().fold(0, |set, index| set | 1 << index),
+                turns: (0..1 << k)
+                    .filter(|&index| turns(pattern, index))
+                    .fold(0, |set, index| set | 1 << index),
+                gap: exits(lattice, at),
+            });
+            pattern as u16
+        });
+        let patterns = patterns.collect();
+        Self {
+            k,
+            offsets: lattice.steps().iter().map(|step| step.target(VertexId(0)).0 as i32 as isize).collect(),
+            patterns,
+            local: local.into_iter().map(Option::unwrap_or_default).collect(),
+        }
+    }
+
+    /// Finds the entries of these moves at every vertex, each vertex after those that the moves lead to.
+    fn pass(&self, entries: &mut [u8], ids: impl Iterator<Item = usize>, moves: &[usize]) {
+        for id in ids {
+            for &index in moves {
+                entries[id << self.k | index] = self.entry(entries, id, index);
+            }
+        }
+    }
+
+    /// The entry of a move, by the entries of the vertex that it leads to.
+    #[inline]
+    fn entry(&self, entries: &[u8], id: usize, index: usize) -> u8 {
+        let legal = self.local[usize::from(self.patterns[id])].legal;
+        if legal >> index & 1 == 0 {
+            return 0;
+        }
+        let to = id.wrapping_add_signed(self.offsets[index]);
+        let ahead = &entries[to << self.k..(to + 1) << self.k];
+        let there = &self.local[usize::from(self.patterns[to])];
+        let last = ahead.len() - 1;
+        if let Some(exits) = there.gap.map(|exits| exits[index]) {
+            let found = (0..=last).any(|next| exits >> next & 1 == 1 && ahead[next] & FOUND != 0);
+            return u8::from(exits != 0) | if found { FOUND } else { 0 };
+        }
+        let beside = (ahead[(index + 1) & last] | ahead[(index + last) & last]) & FOUND != 0;
+        if there.turns >> index & 1 == 1 || (index % 2 == 1 && beside) {
+            return FOUND | 1;
+        }
+        extended(ahead[index])
+    }
+}
+
+/// [`Local::gap`] of a vertex.
+///
+/// Only at k = 2 may a path turn there, within the cell that it follows (see [`Lattice::for_each_successor`]). An even move never
+/// needs to lead there: the two moves are as good in the other order, which comes first.
+fn exits<P: Place>(lattice: &Lattice<P>, at: Vertex) -> Option<[u8; 8]> {
+    let grid = lattice.grid();
+    (P::closes_gaps(lattice.rule()) && grid.is_double_corner(at)).then(|| {
+        let mut exits = [0; 8];
+        let k2 = lattice.k() == K::FOUR_CONNECTED;
+        for (index, step) in lattice.steps().iter().enumerate().filter(|(index, _)| k2 && index % 2 == 1) {
+            for next in [index - 1, (index + 1) & 3] {
+                // The quadrant between the two edges.
+                let quadrant = lattice.step(next).vector() - step.vector();
+                let cell = Vertex::new(at.x + P::cell(quadrant.x, 0), at.y + P::cell(quadrant.y, 0));
+                exits[index] |= u8::from(grid.is_free(cell.x, cell.y)) << next;
+            }
+        }
+        exits
+    })
+}

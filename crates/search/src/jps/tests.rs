@@ -1,0 +1,382 @@
+//! Scans, planes and tables against runs that are followed step by step, with turns found by their definition.
+
+use std::sync::Arc;
+
+use mediant_grid::{Centers, Corners, DiagonalGap, Grid, Lattice, Place, Rules, Vector, Vertex, VertexId};
+use mediant_moves::K;
+use mediant_oracle::{Rng, describe, is_doubly_blocked, noise, seeds, suite_grid, turn_is_legal, wide_grid};
+
+use super::{JumpTable, JumpTableError, blocks, planes::StopPlanes};
+
+const AXES: [Vector; 4] = [Vector::new(0, 1), Vector::new(1, 0), Vector::new(0, -1), Vector::new(-1, 0)];
+
+/// How a run ends: its steps, and whether it found what it looked for.
+type End = (u32, bool);
+
+/// A lattice, and runs on it step by step.
+struct Reference<P: Place> {
+    lattice: Lattice<P>,
+    /// By obstacle pattern: the moves that find a turn, one bit each.
+    turns: Vec<u8>,
+    /// By vertex: the legal moves.
+    legal: Vec<u8>,
+}
+
+/// The side of the grid that is a pattern.
+fn pattern_side<P: Place>() -> u32 {
+    P::PATTERNS.ilog2().isqrt()
+}
+
+/// The pattern of cells around a vertex, cell by cell.
+fn pattern_at<P: Place>(grid: &Grid, at: Vertex) -> usize {
+    let side = pattern_side::<P>() as i32;
+    let bits = (0..side * side).map(|i| (at.x - 1 + i % side, at.y - 1 + i / side));
+    bits.enumerate().map(|(i, (x, y))| usize::from(grid.is_blocked(x, y)) << i).sum()
+}
+
+/// Which moves have a turn where the cells around a vertex form `pattern`, by the definition: a move b ≠ a is legal, and
+/// there is no path of displacement a + b from where a started that is shorter, or as long with a last move that comes
+/// earlier. All beyond the pattern is blocked, so that only those paths count that the pattern alone makes legal. (As
+/// gaps depend on more than that, they are open here.)
+fn turns_of<P: Place>(rule: P::Rule, k: K, pattern: usize) -> u8 {
+    let side = pattern_side::<P>();
+    let grid = Grid::from_fn(side, side, |x, y| pattern >> (x + y * side) & 1 == 1).unwrap();
+    let lattice = Lattice::<P>::new(Arc::new(grid), k, rule).unwrap();
+    let at = Vertex::new(1, 1);
+    let moves: Vec<Vector> = lattice.steps().iter().map(|step| step.vector()).collect();
+    let last = moves.len() - 1;
+    let rank = |index: usize| (index % 2, index);
+    (0..moves.len()).fold(0, |turns, a| {
+        let from = at + -moves[a];
+        let natural = |b| b == a || (a % 2 == 1 && (b == (a + 1) & last || b == (a + last) & last));
+        let is_turn = |b: usize| {
+            let to = at + moves[b];
+            let length = moves[a].norm() + moves[b].norm();
+            // Where no shorter one exists, a path as long has two moves.
+            let straight = to == from || moves.contains(&from.to(to)) && lattice.sees(from, to);
+            let bent = (0..moves.len()).any(|first| {
+                let middle = from + moves[first];
+                let Some(then) = moves.iter().position(|&v| v == middle.to(to)) else { return false };
+                let other = moves[first].norm() + moves[then].norm();
+                let better = other < length - 1e-9 || (other < length + 1e-9 && rank(then) < rank(b));
+                better && lattice.sees(from, middle) && lattice.sees(middle, to)
+            });
+            lattice.sees(at, to) && !straight && !bent
+        };
+        turns | u8::from((0..moves.len()).any(|b| !natural(b) && is_turn(b))) << a
+    })
+}
+
+impl<P: Place> Reference<P> {
+    fn new(grid: &Arc<Grid>, rule: P::Rule, k: u32, turns: &[u8]) -> Self {
+        let lattice = Lattice::<P>::new(Arc::clone(grid), K::new(k).unwrap(), rule).unwrap();
+        let legal = (0..lattice.vertex_count()).map(|id| {
+            let at = lattice.vertex(VertexId(id as u32));
+            let steps = lattice.steps().iter().enumerate();
+            steps.fold(0, |set, (i, step)| set | u8::from(lattice.is_legal(at, step.vector())) << i)
+        });
+        let legal = legal.collect();
+        Self { lattice, turns: turns.to_vec(), legal }
+    }
+
+    fn vertices(&self) -> impl Iterator<Item = (VertexId, Vertex)> {
+        (0..self.lattice.vertex_count()).map(|id| {
+            let id = VertexId(id as u32);
+            (id, self.lattice.vertex(id))
+        })
+    }
+
+    fn is_gap(&self, at: Vertex) -> bool {
+        self.lattice.rules() == Rules::Corner(DiagonalGap::Closed)
+            && is_doubly_blocked(self.lattice.grid(), at)
+    }
+
+    /// Where a legal move leads.
+    fn next(&self, from: Vertex, index: usize) -> Option<Vertex> {
+        let id = self.lattice.id(from).unwrap();
+        (self.legal[id.index()] >> index & 1 == 1).then(|| from + self.lattice.step(index).vector())
+    }
+
+    fn has_turn(&self, at: Vertex, index: usize) -> bool {
+        self.turns[pattern_at::<P>(self.lattice.grid(), at)] >> index & 1 == 1
+    }
+
+    /// The run of an even move.
+    fn scan(&self, from: Vertex, index: usize, goal: Option<Vertex>) -> End {
+        let (mut at, mut steps) = (from, 0);
+        while let Some(to) = self.next(at, index).filter(|&to| !self.is_gap(to)) {
+            (at, steps) = (to, steps + 1);
+            if goal == Some(at) || self.has_turn(at, index) {
+                return (steps, true);
+            }
+        }
+        (steps, false)
+    }
+
+    /// The run of any move, as in a table.
+    fn run(&self, from: Vertex, index: usize) -> End {
+        if index.is_multiple_of(2) {
+            return self.scan(from, index, None);
+        }
+        let last = self.move_count() - 1;
+        let (mut at, mut steps) = (from, 0);
+        while let Some(to) = self.next(at, index) {
+            let beside = [(index + 1) & last, (index + last) & last];
+            let finds = |&even: &usize| self.scan(to, even, None).1;
+            if self.is_gap(to) {
+                let may_follow = |even: &usize| {
+                    let after = to + self.lattice.step(*even).vector();
+                    self.next(to, *even).is_some()
+                        && turn_is_legal(self.lattice.grid(), Some(at), to, Some(after))
+                };
+                let is_entered = self.lattice.k() == K::FOUR_CONNECTED;
+                let found = is_entered && beside.iter().filter(|even| may_follow(even)).any(finds);
+                return (steps + u32::from(is_entered), found);
+            }
+            (at, steps) = (to, steps + 1);
+            if self.has_turn(at, index) || beside.iter().any(finds) {
+                return (steps, true);
+            }
+        }
+        (steps, false)
+    }
+
+    fn move_count(&self) -> usize {
+        self.lattice.steps().len()
+    }
+}
+
+/// What is to be done on many lattices.
+trait Suite {
+    fn check<P: Place>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String);
+}
+
+/// Does it under all rules, for k = 2 and 3.
+fn on_all(grids: impl Iterator<Item = (u64, Grid)>, suite: &mut impl Suite) {
+    fn on_one<P: Place>(grids: &[(u64, Arc<Grid>)], rule: P::Rule, k: u32, suite: &mut impl Suite) {
+        let turns = |pattern| turns_of::<P>(rule, K::new(k).unwrap(), pattern);
+        let turns: Vec<u8> = (0..P::PATTERNS).map(turns).collect();
+        for (seed, grid) in grids {
+            let case = |from, to| format!("k = {k}, {}", describe(grid, P::rules(rule), from, to, *seed));
+            suite.check(&Reference::<P>::new(grid, rule, k, &turns), &case);
+        }
+    }
+    let grids: Vec<_> = grids.map(|(seed, grid)| (seed, Arc::new(grid))).collect();
+    for (rules, k) in Rules::ALL.into_iter().flat_map(|rules| [(rules, 2), (rules, 3)]) {
+        match rules {
+            Rules::Center(corners) => on_one::<Centers>(&grids, corners, k, suite),
+            Rules::Corner(gap) => on_one::<Corners>(&grids, gap, k, suite),
+        }
+    }
+}
+
+/// Small maps, and some wider or higher than a word.
+fn suite_grids() -> impl Iterator<Item = (u64, Grid)> {
+    let wide = seeds(100).step_by(10).map(|seed| (seed, wide_grid(seed).0));
+    seeds(100).map(|seed| (seed, suite_grid(seed).0)).chain(wide)
+}
+
+/// Long and narrow maps, almost empty: runs longer than an entry can say.
+fn long_grids() -> impl Iterator<Item = (u64, Grid)> {
+    (0..4).map(|seed| {
+        let rng = &mut Rng::new(seed);
+        let (long, short) = (380 + rng.below(10), 1 + 2 * rng.below(2));
+        let (width, height) = if seed % 2 == 0 { (long, short) } else { (short, long) };
+        let blocked: Vec<(u32, u32)> = (0..3).map(|_| (rng.below(width), rng.below(height))).collect();
+        (seed, Grid::from_fn(width, height, |x, y| short > 1 && blocked.contains(&(x, y))).unwrap())
+    })
+}
+
+/// Scans and planes give what steps give: from every free vertex in every direction, with the goal at any place of the run.
+struct Scans {
+    compared: usize,
+}
+
+impl Suite for Scans {
+    fn check<P: Place>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
+        let lattice = &reference.lattice;
+        let planes = StopPlanes::new(lattice);
+        let count = lattice.steps().len();
+        for (_, from) in reference.vertices().filter(|&(_, at)| lattice.is_free(at)) {
+            for (quarter, &towards) in AXES.iter().enumerate() {
+                let index = quarter * count / 4;
+                if index % 2 == 1 {
+                    continue;
+                }
+                let end = reference.scan(from, index, None);
+                let goals = [1, 2, end.0, end.0 + 1, end.0 + 2, 64, 100];
+                for goal in goals.into_iter().filter(|&steps| steps > 0).map(Some).chain([None]) {
+                    let to = goal.map(|steps| from + towards * steps as i32);
+                    let (steps, found) = reference.scan(from, index, to);
+                    let scanned = steps + u32::from(!found);
+                    let expected = blocks::Scan { steps, found, scanned };
+                    let name = || format!("{towards:?}, goal {goal:?}, {}", case(from, to.unwrap_or(from)));
+                    assert_eq!(blocks::scan(lattice, from, towards, goal), expected, "{}", name());
+                    assert_eq!(planes.scan(from, quarter, goal), expected, "planes, {}", name());
+                    self.compared += 1;
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn scans_end_where_steps_end() {
+    let mut suite = Scans { compared: 0 };
+    on_all(suite_grids().chain(long_grids()), &mut suite);
+    assert!(suite.compared > 1_000_000, "{}", suite.compared);
+}
+
+/// Tables give what steps give, and come back from their bytes.
+struct Tables {
+    compared: usize,
+    longest: u32,
+}
+
+impl Suite for Tables {
+    fn check<P: Place>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
+        let lattice = &reference.lattice;
+        let table = JumpTable::new(lattice).unwrap();
+        for (id, from) in reference.vertices() {
+            for (index, step) in lattice.steps().iter().enumerate() {
+                let expected = reference.run(from, index);
+                let found = table.run(id, step, index);
+                assert_eq!(found, expected, "{:?}, {}", step.vector(), case(from, from));
+                self.compared += 1;
+                self.longest = self.longest.max(expected.0);
+            }
+        }
+        let again = JumpTable::from_bytes(lattice, table.as_bytes().to_vec());
+        assert_eq!(again.as_ref(), Ok(&table), "{}", case(Vertex::default(), Vertex::default()));
+    }
+}
+
+#[test]
+fn tables_lead_where_steps_lead() {
+    let mut suite = Tables { compared: 0, longest: 0 };
+    on_all(suite_grids().chain(long_grids()), &mut suite);
+    assert!(suite.compared > 300_000, "{}", suite.compared);
+    assert!(suite.longest > 3 * 127, "{}", suite.longest);
+}
+
+/// Every length of a run about the multiples of what an entry can say, dead and found.
+#[test]
+fn runs_longer_than_an_entry_can_say_are_followed_to_their_end() {
+    for length in [1, 125, 126, 127, 128, 251, 252, 253, 254, 378, 379, 400_u32] {
+        // A blocked cell beside the run, before its last cell, makes that a jump point.
+        for with_turn in [false, true] {
+            let grid = Grid::from_fn(length + 1, 2, |x, y| y == 1 && (x != length || !with_turn)).unwrap();
+            for k in [2, 3] {
+                let (k, grid) = (K::new(k).unwrap(), Arc::new(transposed(&grid)));
+                let lattice = Lattice::<Centers>::new(grid, k, Default::default()).unwrap();
+                let table = JumpTable::new(&lattice).unwrap();
+                let run = table.run(VertexId(0), lattice.step(0), 0);
+                assert_eq!(run, (length, with_turn), "{length}, k = {k}");
+            }
+        }
+    }
+}
+
+fn transposed(grid: &Grid) -> Grid {
+    Grid::from_fn(grid.height(), grid.width(), |x, y| grid.is_blocked(y as i32, x as i32)).unwrap()
+}
+
+/// The words' formulas, on every pattern there is and under each rule.
+struct Patterns;
+
+impl Suite for Patterns {
+    fn check<P: Place>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
+        Scans { compared: 0 }.check(reference, case);
+        Tables { compared: 0, longest: 0 }.check(reference, case);
+    }
+}
+
+#[test]
+fn turns_are_those_of_the_definition_in_every_pattern() {
+    // Each 3 × 3 pattern, and with it each 2 × 2 one, in the middle of a free map.
+    let grids = (0..512).map(|pattern: u64| {
+        let blocked = |x: u32, y: u32| {
+            (2..5).contains(&x) && (1..4).contains(&y) && pattern >> (x - 2 + 3 * (y - 1)) & 1 == 1
+        };
+        (pattern, Grid::from_fn(7, 5, blocked).unwrap())
+    });
+    on_all(grids, &mut Patterns);
+}
+
+/// At k = 2 a run of an even move never needs to enter a gap: the one move that may follow there can as well come first,
+/// around the same cell.
+#[test]
+fn no_even_move_needs_to_enter_a_gap() {
+    for pattern in [0b0110, 0b1001] {
+        let grid = Arc::new(Grid::from_fn(2, 2, |x, y| pattern >> (x + 2 * y) & 1 == 1).unwrap());
+        let lattice =
+            Lattice::<Corners>::new(Arc::clone(&grid), K::FOUR_CONNECTED, DiagonalGap::Open).unwrap();
+        for a in [AXES[0], AXES[2]] {
+            let (at, from) = (Vertex::new(1, 1), Vertex::new(1, 1) + -a);
+            let may_follow = |b: &Vector| turn_is_legal(&grid, Some(from), at, Some(at + *b));
+            let follow: Vec<Vector> = [AXES[1], AXES[3]].into_iter().filter(may_follow).collect();
+            let &[b] = &follow[..] else { panic!("{pattern:04b}, {a:?}: {follow:?}") };
+            assert!(
+                lattice.is_legal(from, b) && lattice.is_legal(from + b, a),
+                "{pattern:04b}, {a:?}, {b:?}"
+            );
+        }
+    }
+}
+
+fn damaged_lattice() -> Lattice<Centers> {
+    let grid = noise(&mut Rng::new(5), 20, 15, 20);
+    Lattice::new(Arc::new(grid), K::EIGHT_CONNECTED, Default::default()).unwrap()
+}
+
+#[test]
+fn bytes_of_another_length_are_refused() {
+    let lattice = damaged_lattice();
+    let bytes = JumpTable::new(&lattice).unwrap().as_bytes().to_vec();
+    assert_eq!(bytes.len(), 20 * 15 * 8);
+    for length in [0, 1, bytes.len() - 1, bytes.len() + 1, 2 * bytes.len()] {
+        let mut other = bytes.clone();
+        other.resize(length, 0);
+        let error = JumpTableError::Length { expected: bytes.len(), found: length };
+        assert_eq!(JumpTable::from_bytes(&lattice, other), Err(error));
+    }
+}
+
+#[test]
+fn every_flipped_bit_is_refused() {
+    let lattice = damaged_lattice();
+    let bytes = JumpTable::new(&lattice).unwrap().as_bytes().to_vec();
+    for bit in 0..8 * bytes.len() {
+        let mut other = bytes.clone();
+        other[bit / 8] ^= 1 << (bit % 8);
+        let refused = JumpTable::from_bytes(&lattice, other);
+        assert!(matches!(refused, Err(JumpTableError::Entry { .. })), "bit {bit}: {refused:?}");
+    }
+}
+
+#[test]
+fn tables_of_other_lattices_are_refused() {
+    let lattice = damaged_lattice();
+    let table = JumpTable::new(&lattice).unwrap();
+    let other = noise(&mut Rng::new(6), 20, 15, 20);
+    let other = Lattice::<Centers>::new(Arc::new(other), lattice.k(), lattice.rule()).unwrap();
+    let refused = JumpTable::from_bytes(&other, table.as_bytes().to_vec());
+    assert!(matches!(refused, Err(JumpTableError::Entry { .. })), "{refused:?}");
+
+    let k4 = Lattice::<Centers>::new(Arc::clone(lattice.grid()), K::new(4).unwrap(), lattice.rule()).unwrap();
+    assert!(JumpTable::new(&k4).is_err());
+    let refused = JumpTable::from_bytes(&k4, table.as_bytes().to_vec());
+    assert!(matches!(refused, Err(JumpTableError::Neighborhood(_))), "{refused:?}");
+}
+
+#[test]
+fn errors_say_what_was_expected_and_found() {
+    let lattice = damaged_lattice();
+    let mut bytes = JumpTable::new(&lattice).unwrap().as_bytes().to_vec();
+    bytes[9] ^= 0x80;
+    let text = JumpTable::from_bytes(&lattice, bytes.clone()).unwrap_err().to_string();
+    assert!(text.contains("(1, 1)") && text.contains("(1, 0)") && text.contains("build it anew"), "{text}");
+    bytes.pop();
+    let text = JumpTable::from_bytes(&lattice, bytes).unwrap_err().to_string();
+    assert!(text.contains("2399 bytes") && text.contains("needs 2400"), "{text}");
+}

@@ -1,0 +1,116 @@
+//! Which successors a search gives a node: the point in which the lattice engines differ.
+
+use std::fmt::Debug;
+
+use mediant_grid::{Lattice, Place, Step, Vertex, VertexId};
+use mediant_moves::Cost;
+
+use crate::Guarantee;
+
+/// A node that is about to be expanded.
+#[derive(Clone, Copy, Debug)]
+pub struct Arrival {
+    /// The vertex.
+    pub id: VertexId,
+    /// Where it is.
+    pub at: Vertex,
+    /// The index of the move with which the best known path arrives; `None` at the start.
+    pub by: Option<usize>,
+}
+
+impl Arrival {
+    /// The successor by one move.
+    #[must_use]
+    #[inline]
+    pub fn step<P: Place>(&self, lattice: &Lattice<P>, by: usize) -> Successor {
+        let step = lattice.step(by);
+        Successor { id: step.target(self.id), at: self.at + step.vector(), cost: step.cost, by }
+    }
+}
+
+/// A vertex that a node leads to.
+#[derive(Clone, Copy, Debug)]
+pub struct Successor {
+    /// The vertex.
+    pub id: VertexId,
+    /// Where it is.
+    pub at: Vertex,
+    /// What the way from the node to it costs.
+    pub cost: Cost,
+    /// The index of the last move on that way.
+    pub by: usize,
+}
+
+/// How a search expands its nodes. `P` is the placement.
+pub trait Successors<P: Place>: Debug {
+    /// What a node keeps to know its parent.
+    type Link: Link;
+
+    /// Calls `visit` with each successor of a node. How many vertices it looked at while it scanned runs.
+    fn for_each(
+        &self,
+        lattice: &Lattice<P>,
+        node: Arrival,
+        goal: Vertex,
+        visit: impl FnMut(Successor),
+    ) -> u32;
+
+    /// Whether of two equally cheap ways to a vertex the one whose last move is `new` replaces the one with `known`. A closed node
+    /// is then expanded again.
+    #[inline]
+    fn prefers(&self, new: usize, known: usize) -> bool {
+        let _ = (new, known);
+        false
+    }
+
+    /// What is promised of the paths.
+    fn guarantee(&self, lattice: &Lattice<P>) -> Guarantee {
+        Guarantee::Optimal(lattice.k())
+    }
+}
+
+/// How a node knows its parent: engines that take one move at a time need to keep nothing.
+pub trait Link: Copy + Debug {
+    /// For nodes that were never reached.
+    const NONE: Self;
+
+    /// What to keep of a parent.
+    fn to(parent: VertexId) -> Self;
+
+    /// The parent of the node (`id`, `at`) that was reached by the move `step`.
+    fn parent<P: Place>(
+        self,
+        lattice: &Lattice<P>,
+        step: &Step,
+        id: VertexId,
+        at: Vertex,
+    ) -> (VertexId, Vertex);
+}
+
+/// The parent is one move away.
+impl Link for () {
+    const NONE: Self = ();
+
+    #[inline]
+    fn to(_: VertexId) -> Self {}
+
+    #[inline]
+    fn parent<P: Place>(self, _: &Lattice<P>, step: &Step, id: VertexId, at: Vertex) -> (VertexId, Vertex) {
+        (step.source(id), at + -step.vector())
+    }
+}
+
+/// The parent itself.
+impl Link for VertexId {
+    const NONE: Self = Self(0);
+
+    #[inline]
+    fn to(parent: VertexId) -> Self {
+        parent
+    }
+
+    #[inline]
+    fn parent<P: Place>(self, lattice: &Lattice<P>, _: &Step, _: VertexId, _: Vertex) -> (VertexId, Vertex) {
+        (self, lattice.vertex(self))
+    }
+}
