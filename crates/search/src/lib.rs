@@ -29,7 +29,7 @@ mod wavefront;
 
 pub use astar::{AStar, AllMoves, Dijkstra};
 pub use best_first::BestFirst;
-pub use canonical::{Canonical, CanonicalMoves, CanonicalRule, PaperCanonical, PaperMoves, Pruning};
+pub use canonical::{Canonical, CanonicalMoves, CanonicalRule, PaperCanonical, PaperMoves, Pruning, View};
 pub use distances::Distances;
 pub use heuristic::{Euclidean, Heuristic, LatticeDistance, Zero};
 pub use jps::{

@@ -6,8 +6,6 @@ use mediant_grid::CellOffset;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Cells([u64; 64]);
 
-const HALF: i32 = 32;
-
 impl Default for Cells {
     fn default() -> Self {
         Self([0; 64])
@@ -15,8 +13,20 @@ impl Default for Cells {
 }
 
 impl Cells {
+    /// The number of rows, and of cells in a row.
+    pub(crate) const SIDE: usize = 64;
+    /// The row, and the bit, of the vertex's own cell.
+    pub(crate) const HALF: i32 = 32;
+
+    /// The rows that hold all cells, and the first one's number.
+    pub(crate) fn rows(&self) -> (usize, &[u64]) {
+        let first = self.0.iter().position(|&row| row != 0).unwrap_or(0);
+        let end = self.0.iter().rposition(|&row| row != 0).map_or(first, |last| last + 1);
+        (first, &self.0[first..end])
+    }
+
     pub(crate) fn contains(&self, (x, y): CellOffset) -> bool {
-        self.0[(y + HALF) as usize] >> (x + HALF) & 1 == 1
+        self.0[(y + Self::HALF) as usize] >> (x + Self::HALF) & 1 == 1
     }
 
     pub(crate) fn is_empty(&self) -> bool {
@@ -44,11 +54,11 @@ impl Cells {
     }
 
     pub(crate) fn iter(&self) -> impl Iterator<Item = CellOffset> {
-        let rows = self.0.iter().zip(-HALF..).filter(|&(&row, _)| row != 0);
+        let rows = self.0.iter().zip(-Self::HALF..).filter(|&(&row, _)| row != 0);
         rows.flat_map(|(&row, y)| {
             let next = |&rest: &u64| Some(rest & (rest - 1)).filter(|&rest| rest != 0);
             let bits = std::iter::successors(Some(row), next);
-            bits.map(move |rest| (rest.trailing_zeros() as i32 - HALF, y))
+            bits.map(move |rest| (rest.trailing_zeros() as i32 - Self::HALF, y))
         })
     }
 }
@@ -56,7 +66,7 @@ impl Cells {
 impl Extend<CellOffset> for Cells {
     fn extend<T: IntoIterator<Item = CellOffset>>(&mut self, cells: T) {
         for (x, y) in cells {
-            self.0[(y + HALF) as usize] |= 1 << (x + HALF);
+            self.0[(y + Self::HALF) as usize] |= 1 << (x + Self::HALF);
         }
     }
 }

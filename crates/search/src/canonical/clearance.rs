@@ -1,42 +1,77 @@
-//! How far the nearest obstacle is.
+//! How far the nearest obstacle is, and the nearest corner of one.
+//!
+//! **Far from corners nothing turns.** Take the box of cells around vertex v that holds all that any move from or to v sweeps: radius R(k)
+//! cells. If no convex corner of an obstacle (a grid point with exactly one blocked cell of four around it, or with two that touch
+//! diagonally) lies inside the box, then every edge-connected component of free cells in it is a rectangle: a polyomino without reflex vertices
+//! and without pinches. The moves a into v and b out of v, and so their ends u and w, lie in one such rectangle. With them the whole
+//! bounding box of u and w does, and every cheapest path of displacement a + b on an empty grid stays in that. So all turns
+//! are pruned, under either placement and every rule of motion. (At corners the box is taken one wider, so that no vertex of the
+//! path is a doubly blocked corner.)
 
-use mediant_grid::{CellOffset, Grid, Lattice, Place, Placement, VertexId};
+use mediant_grid::{CellOffset, Lattice, Place, Placement, VertexId};
 
-/// For each vertex, the side of the free square around it: the largest c such that no cell with an offset of at most c − 1 (at
-/// centers), or from −c to c − 1 (at corners), along either axis is blocked. A byte a vertex; 255 stands for all above.
+/// What is known of the surroundings of each vertex, two bytes each; 255 stands for all above.
 #[derive(Clone, Debug)]
 pub(crate) struct Clearance {
-    values: Box<[u8]>,
+    values: Box<[[u8; 2]]>,
+}
+
+/// The surroundings of one vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Around {
+    /// The side of the free square: the largest c such that no cell with an offset of at most c − 1 (at centers), or
+    /// from −c to c − 1 (at corners), along either axis is blocked.
+    pub(crate) free: u32,
+    /// The Chebyshev distance to the nearest convex corner of an obstacle; at centers from the nearest corner of the vertex's cell.
+    pub(crate) corner: u32,
 }
 
 impl Clearance {
     pub(crate) fn new<P: Place>(lattice: &Lattice<P>) -> Self {
-        let cells = of_cells(lattice.grid());
-        let (width, height) = (lattice.grid().width() as usize, lattice.grid().height() as usize);
+        let grid = lattice.grid();
+        let (width, height) = (grid.width() as usize, grid.height() as usize);
+        let cells = distances(width, height, 0, |x, y| grid.is_blocked(x as i32, y as i32));
+        let blocked = |x: usize, y: usize| grid.is_blocked(x as i32, y as i32);
+        let points = distances(width + 1, height + 1, u8::MAX, |x, y| {
+            let (left, above) = (x.wrapping_sub(1), y.wrapping_sub(1));
+            is_convex_corner([blocked(left, above), blocked(x, above), blocked(left, y), blocked(x, y)])
+        });
+        let point = |x: usize, y: usize| points[y * (width + 1) + x];
         let values = match P::PLACEMENT {
-            Placement::Center => cells,
+            Placement::Center => (0..height)
+                .flat_map(|y| (0..width).map(move |x| (x, y)))
+                .map(|(x, y)| {
+                    let above = point(x, y).min(point(x + 1, y));
+                    [cells[y * width + x], above.min(point(x, y + 1)).min(point(x + 1, y + 1))]
+                })
+                .collect(),
             Placement::Corner => {
-                let of = |x: usize, y: usize| if x < width && y < height { cells[y * width + x] } else { 0 };
-                let corner = |x: usize, y: usize| {
-                    let (left, above) = (x.wrapping_sub(1), y.wrapping_sub(1));
-                    of(x, y).min(of(left, y)).min(of(x, above)).min(of(left, above))
-                };
-                (0..=height).flat_map(|y| (0..=width).map(move |x| corner(x, y))).collect()
+                let cell =
+                    |x: usize, y: usize| if x < width && y < height { cells[y * width + x] } else { 0 };
+                (0..=height)
+                    .flat_map(|y| (0..=width).map(move |x| (x, y)))
+                    .map(|(x, y)| {
+                        let (left, above) = (x.wrapping_sub(1), y.wrapping_sub(1));
+                        let free = cell(x, y).min(cell(left, y)).min(cell(x, above)).min(cell(left, above));
+                        [free, point(x, y)]
+                    })
+                    .collect()
             }
         };
-        Self { values: values.into_boxed_slice() }
+        Self { values }
     }
 
     #[inline]
-    pub(crate) fn of(&self, id: VertexId) -> u32 {
-        self.values.get(id.index()).copied().map_or(0, u32::from)
+    pub(crate) fn of(&self, id: VertexId) -> Around {
+        let [free, corner] = self.values.get(id.index()).copied().unwrap_or_default().map(u32::from);
+        Around { free, corner }
     }
 
     pub(crate) fn bytes(&self) -> usize {
-        self.values.len()
+        size_of_val(&*self.values)
     }
 
-    /// The clearance from which on this cell is known to be free.
+    /// The side of a free square that holds this cell.
     pub(crate) fn needed<P: Place>((x, y): CellOffset) -> u32 {
         let along = |offset: i32| match P::PLACEMENT {
             Placement::Corner if offset < 0 => offset.unsigned_abs(),
@@ -44,42 +79,51 @@ impl Clearance {
         };
         along(x).max(along(y))
     }
+
+    /// The distance to corners from which on there are no turns, where moves have coordinates up to `radius`.
+    pub(crate) fn needed_from_corners<P: Place>(radius: i32) -> u32 {
+        radius.unsigned_abs() + u32::from(P::PLACEMENT == Placement::Corner)
+    }
 }
 
-/// The Chebyshev distance of each cell to the nearest blocked one, in two passes.
-fn of_cells(grid: &Grid) -> Vec<u8> {
-    let (width, height) = (grid.width() as usize, grid.height() as usize);
-    let mut values = vec![0_u8; width * height];
-    for y in 0..height {
-        for x in 0..width {
-            if grid.is_blocked(x as i32, y as i32) {
-                continue;
-            }
-            let least = if x == 0 || y == 0 || x + 1 == width || y + 1 == height {
-                0
-            } else {
-                let above = &values[(y - 1) * width + x - 1..=(y - 1) * width + x + 1];
-                above.iter().fold(values[y * width + x - 1], |least, &value| least.min(value))
-            };
-            values[y * width + x] = least.saturating_add(1);
+/// Whether of the four cells around a grid point, row by row, exactly one is blocked, or two that touch diagonally.
+pub(crate) fn is_convex_corner([nw, ne, sw, se]: [bool; 4]) -> bool {
+    match [nw, ne, sw, se].into_iter().filter(|&blocked| blocked).count() {
+        1 => true,
+        2 => nw == se,
+        _ => false,
+    }
+}
+
+/// The Chebyshev distance of each place to the nearest marked one, in two passes; `outside` is that of what lies beyond the edges.
+fn distances(width: usize, height: usize, outside: u8, marked: impl Fn(usize, usize) -> bool) -> Vec<u8> {
+    // A frame spares every look at a place beyond the edges.
+    let stride = width + 2;
+    let mut values = vec![outside; stride * (height + 2)];
+    for y in 1..=height {
+        for x in 1..=width {
+            let at = y * stride + x;
+            let above = &values[at - stride - 1..=at - stride + 1];
+            let least = above.iter().fold(values[at - 1], |least, &value| least.min(value));
+            values[at] = if marked(x - 1, y - 1) { 0 } else { least.saturating_add(1) };
         }
     }
-    for y in (0..height.saturating_sub(1)).rev() {
-        for x in (1..width.saturating_sub(1)).rev() {
-            let below = &values[(y + 1) * width + x - 1..=(y + 1) * width + x + 1];
-            let least = below.iter().fold(values[y * width + x + 1], |least, &value| least.min(value));
-            let value = &mut values[y * width + x];
-            *value = (*value).min(least.saturating_add(1));
+    for y in (1..=height).rev() {
+        for x in (1..=width).rev() {
+            let at = y * stride + x;
+            let below = &values[at + stride - 1..=at + stride + 1];
+            let least = below.iter().fold(values[at + 1], |least, &value| least.min(value));
+            values[at] = values[at].min(least.saturating_add(1));
         }
     }
-    values
+    (1..=height).flat_map(|y| values[y * stride + 1..=y * stride + width].to_vec()).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
 
-    use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Vertex};
+    use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Grid, Vertex};
     use mediant_moves::K;
     use mediant_oracle::{seeds, suite_grid};
 
@@ -97,7 +141,7 @@ mod tests {
                 cells.all(|(dx, dy)| grid.is_free(x + dx, y + dy))
             };
             let expected = (1..).take_while(|&c| free(c)).last().unwrap_or(0);
-            assert_eq!(clearance.of(id), expected, "({x}, {y}), seed {seed}");
+            assert_eq!(clearance.of(id).free, expected, "({x}, {y}), seed {seed}");
         }
     }
 
@@ -110,7 +154,7 @@ mod tests {
         }
         let open = Arc::new(Grid::from_fn(600, 530, |_, _| false).unwrap());
         let lattice = Lattice::<Centers>::new(open, K::FOUR_CONNECTED, CornerRule::Never).unwrap();
-        let at = |x, y| Clearance::new(&lattice).of(lattice.id(Vertex::new(x, y)).unwrap());
+        let at = |x, y| Clearance::new(&lattice).of(lattice.id(Vertex::new(x, y)).unwrap()).free;
         assert_eq!([at(0, 0), at(9, 300), at(300, 253), at(300, 265)], [1, 10, 254, 255]);
     }
 }

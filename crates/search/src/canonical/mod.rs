@@ -38,10 +38,10 @@
 //!
 //! - k ≤ 3: a table over the pattern of cells around the vertex gives the successors of each incoming move (module `near`).
 //! - 4 ≤ k ≤ 8: for each incoming move, a tree over its turns, tested with words of the map (module `tree`).
-//! - k ≥ 9: near obstacles nothing is pruned; trees would take hundreds of megabytes.
+//! - k ≥ 9: near corners nothing is pruned; trees would take hundreds of megabytes.
 //!
-//! For k ≥ 4 a byte a vertex says how far the nearest obstacle is (module `clearance`): most vertices are far enough from any for neither
-//! legality nor turns to be asked for.
+//! For k ≥ 4 two bytes a vertex say how far the nearest obstacle is, and the nearest corner of one (module `clearance`): far from
+//! corners, also along walls, there are no turns, and on open ground legality is not asked for either.
 //!
 //! # Closed gaps
 //!
@@ -54,6 +54,7 @@ mod cells;
 mod clearance;
 mod near;
 mod paper;
+mod settled;
 mod tree;
 
 use std::{ops::Deref, sync::Arc};
@@ -62,15 +63,16 @@ use mediant_grid::{Lattice, Place, Vertex};
 use mediant_moves::{K, Neighborhood};
 
 use crate::{Arrival, BestFirst, Heuristic, Successor, Successors};
-use alternatives::Moves;
-pub(crate) use alternatives::rank;
-use clearance::Clearance;
+
+pub(crate) use alternatives::{Asked, Moves, rank};
+use clearance::{Around, Clearance};
 use near::NearTable;
 pub use paper::{PaperCanonical, PaperMoves};
-use tree::{Spot, TurnTrees};
+use settled::Settled;
+use tree::TurnTrees;
 
 /// The moves that follow move `a` on open ground, of `count` moves.
-fn natural(a: usize, count: usize) -> impl Iterator<Item = usize> {
+pub(crate) fn natural(a: usize, count: usize) -> impl Iterator<Item = usize> {
     let reach = a & 1;
     (count - reach..=count + reach).map(move |turn| (a + turn) % count)
 }
@@ -80,8 +82,10 @@ fn natural(a: usize, count: usize) -> impl Iterator<Item = usize> {
 pub struct CanonicalRule<P: Place> {
     k: K,
     rule: P::Rule,
-    /// How many vertices away, along an axis, a turn may still depend on the goal.
+    /// The largest coordinate of a move.
     radius: i32,
+    /// The distance from corners at which turns end.
+    corners: u32,
     turns: Turns,
 }
 
@@ -89,8 +93,8 @@ pub struct CanonicalRule<P: Place> {
 enum Turns {
     Near(NearTable),
     Trees(TurnTrees),
-    /// The clearance from which on only natural successors remain, and all of them.
-    Everywhere(u32),
+    /// Near corners nothing is pruned.
+    Everywhere,
 }
 
 impl<P: Place> CanonicalRule<P> {
@@ -102,12 +106,11 @@ impl<P: Place> CanonicalRule<P> {
     pub fn new(k: K, rule: P::Rule) -> Self {
         let radius = k.radius().unwrap_or(1 << 16).min(1 << 16);
         let turns = match Neighborhood::new(k).ok().filter(|_| k.get() <= Self::MAX_TREES) {
-            // All that two moves can reach, from before the first to beyond the second.
-            None => Turns::Everywhere(2 * radius as u32 + 1),
+            None => Turns::Everywhere,
             Some(all) if k <= K::EIGHT_CONNECTED => Turns::Near(NearTable::new(&Moves::<P>::new(rule, all))),
             Some(all) => Turns::Trees(TurnTrees::new(&Moves::<P>::new(rule, all))),
         };
-        Self { k, rule, radius, turns }
+        Self { k, rule, radius, corners: Clearance::needed_from_corners::<P>(radius), turns }
     }
 
     /// Its size.
@@ -116,27 +119,30 @@ impl<P: Place> CanonicalRule<P> {
         match &self.turns {
             Turns::Near(table) => table.bytes(),
             Turns::Trees(trees) => trees.bytes(),
-            Turns::Everywhere(_) => 0,
+            Turns::Everywhere => 0,
         }
     }
 }
 
 /// The pruning rule on one map. Immutable; share it between planners.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Pruning<P: Place> {
     rule: Arc<CanonicalRule<P>>,
     clearance: Option<Clearance>,
+    settled: Option<Settled>,
 }
 
 /// What a vertex allows to a path that arrives there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct View {
+pub struct View {
     /// Whether there is any turn.
     pub(crate) turns: bool,
     /// Whether the incoming move may be repeated.
     pub(crate) ahead: bool,
-    /// The distance in vertices for which this is known to hold, in steps of the incoming move.
+    /// For how many steps of the incoming move this is known to hold.
     pub(crate) steps: u32,
+    /// Whether the straight runs beside a slanted one may come to a jump point.
+    pub(crate) beside: bool,
 }
 
 impl<P: Place> Pruning<P> {
@@ -153,13 +159,16 @@ impl<P: Place> Pruning<P> {
             return Self::new(lattice);
         }
         let clearance = (lattice.k() > K::EIGHT_CONNECTED).then(|| Clearance::new(lattice));
-        Self { rule, clearance }
+        let has_trees = matches!(rule.turns, Turns::Trees(_));
+        let settled = has_trees.then(|| Settled::new(lattice.vertex_count(), lattice.k().get()));
+        Self { rule, clearance, settled }
     }
 
     /// Its size.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.rule.bytes() + self.clearance.as_ref().map_or(0, Clearance::bytes)
+        let settled = self.settled.as_ref().map_or(0, Settled::bytes);
+        self.rule.bytes() + self.clearance.as_ref().map_or(0, Clearance::bytes) + settled
     }
 
     /// Whether a path that arrives at `at` by move `by` is subject to no pruning there, because of closed gaps.
@@ -195,25 +204,33 @@ impl<P: Place> Pruning<P> {
                 }
             }
             Turns::Trees(trees) => {
-                let is_open = self.clearance_of(node) >= trees.needed[by];
-                let spot = Spot::new(lattice.grid(), at);
+                let around = self.around(node);
+                let is_open = around.free >= trees.needed[by];
                 for b in natural(by, lattice.steps().len()) {
-                    if is_open || trees.is_legal(b, &spot) {
+                    if is_open || trees.is_legal(b, lattice.grid(), at) {
                         take(b);
                     }
                 }
-                if !is_open {
-                    trees.for_each_turn(by, &spot, |turn| {
+                if around.corner < self.rule.corners && !self.has_no_turns(node, by) {
+                    let mut any = false;
+                    trees.for_each_turn(by, lattice.grid(), at, |turn| {
+                        any = true;
                         take(turn);
                         true
                     });
+                    if !any {
+                        self.note_no_turns(node, by);
+                    }
                 }
             }
-            Turns::Everywhere(needed) => {
-                if self.clearance_of(node) >= *needed {
-                    natural(by, lattice.steps().len()).for_each(take);
-                } else {
-                    lattice.for_each_legal_move(at, take);
+            Turns::Everywhere => {
+                if self.around(node).corner < self.rule.corners {
+                    return lattice.for_each_legal_move(at, take);
+                }
+                for b in natural(by, lattice.steps().len()) {
+                    if lattice.sees(at, at + lattice.step(b).vector()) {
+                        take(b);
+                    }
                 }
             }
         }
@@ -224,7 +241,16 @@ impl<P: Place> Pruning<P> {
     pub(crate) fn slanted_runs_turn(&self) -> bool {
         match &self.rule.turns {
             Turns::Near(table) => table.slanted_runs_turn(),
-            Turns::Trees(_) | Turns::Everywhere(_) => true,
+            Turns::Trees(_) | Turns::Everywhere => true,
+        }
+    }
+
+    /// Whether `turn` is ever a turn after move `by`; for k ≤ 3.
+    pub(crate) fn may_turn(&self, by: usize, turn: usize) -> bool {
+        match &self.rule.turns {
+            Turns::Near(table) => (0..P::PATTERNS)
+                .any(|pattern| table.turns(by, table.successors(by, pattern)) >> turn & 1 == 1),
+            Turns::Trees(_) | Turns::Everywhere => true,
         }
     }
 
@@ -232,48 +258,55 @@ impl<P: Place> Pruning<P> {
     pub(crate) fn turns_at(&self, pattern: usize, by: usize) -> bool {
         match &self.rule.turns {
             Turns::Near(table) => table.turns(by, table.successors(by, pattern)) != 0,
-            Turns::Trees(_) | Turns::Everywhere(_) => true,
+            Turns::Trees(_) | Turns::Everywhere => true,
         }
     }
 
     #[inline]
-    fn clearance_of(&self, node: &Arrival) -> u32 {
-        self.clearance.as_ref().map_or(0, |clearance| clearance.of(node.id))
+    fn has_no_turns(&self, node: &Arrival, by: usize) -> bool {
+        self.settled.as_ref().is_some_and(|settled| settled.has_none(node.id, by))
+    }
+
+    #[inline]
+    fn note_no_turns(&self, node: &Arrival, by: usize) {
+        if let Some(settled) = &self.settled {
+            settled.note_none(node.id, by);
+        }
+    }
+
+    #[inline]
+    fn around(&self, node: &Arrival) -> Around {
+        let nothing_known = Around { free: 0, corner: 0 };
+        self.clearance.as_ref().map_or(nothing_known, |clearance| clearance.of(node.id))
     }
 
     /// What a vertex allows to a path that arrives there by move `by`.
     #[inline]
     pub(crate) fn view(&self, lattice: &Lattice<P>, node: &Arrival, by: usize) -> View {
-        match &self.rule.turns {
-            Turns::Near(table) => {
-                let set = table.successors(by, pattern(lattice, node.at));
-                View { turns: table.turns(by, set) != 0, ahead: set >> by & 1 == 1, steps: 0 }
+        let all = View { turns: false, ahead: true, steps: 0, beside: true };
+        let Turns::Near(table) = &self.rule.turns else {
+            let (around, needed) = (self.around(node), self.rule.corners);
+            if around.corner < needed {
+                return match &self.rule.turns {
+                    Turns::Trees(trees) => {
+                        let known = self.has_no_turns(node, by);
+                        let turns = !known && !trees.for_each_turn(by, lattice.grid(), node.at, |_| false);
+                        if !turns && !known {
+                            self.note_no_turns(node, by);
+                        }
+                        View { turns, ahead: trees.is_legal(by, lattice.grid(), node.at), ..all }
+                    }
+                    _ => View { turns: true, ..all },
+                };
             }
-            Turns::Trees(trees) => {
-                let (clearance, needed) = (self.clearance_of(node), trees.needed[by]);
-                if clearance >= needed {
-                    return View {
-                        turns: false,
-                        ahead: true,
-                        steps: open_steps(lattice, by, clearance - needed),
-                    };
-                }
-                let spot = Spot::new(lattice.grid(), node.at);
-                let turns = !trees.for_each_turn(by, &spot, |_| false);
-                View { turns, ahead: trees.is_legal(by, &spot), steps: 0 }
-            }
-            Turns::Everywhere(needed) => {
-                let clearance = self.clearance_of(node);
-                if clearance >= *needed {
-                    return View {
-                        turns: false,
-                        ahead: true,
-                        steps: open_steps(lattice, by, clearance - needed),
-                    };
-                }
-                View { turns: true, ahead: true, steps: 0 }
-            }
-        }
+            // No move leads further than this.
+            let Some(spare) = around.free.checked_sub(self.rule.radius as u32 + 1) else {
+                return View { ahead: self.is_legal(lattice, node, by), ..all };
+            };
+            return View { steps: open_steps(lattice, by, spare.min(around.corner - needed)), ..all };
+        };
+        let set = table.successors(by, pattern(lattice, node.at));
+        View { turns: table.turns(by, set) != 0, ahead: set >> by & 1 == 1, ..all }
     }
 
     /// Whether a natural successor is legal.
@@ -281,8 +314,8 @@ impl<P: Place> Pruning<P> {
     pub(crate) fn is_legal(&self, lattice: &Lattice<P>, node: &Arrival, index: usize) -> bool {
         match &self.rule.turns {
             Turns::Near(table) => table.successors(index, pattern(lattice, node.at)) >> index & 1 == 1,
-            Turns::Trees(trees) => trees.is_legal(index, &Spot::new(lattice.grid(), node.at)),
-            Turns::Everywhere(_) => lattice.is_legal(node.at, lattice.step(index).vector()),
+            Turns::Trees(trees) => trees.is_legal(index, lattice.grid(), node.at),
+            Turns::Everywhere => lattice.sees(node.at, node.at + lattice.step(index).vector()),
         }
     }
 }

@@ -1,8 +1,15 @@
 //! The rule for k ≤ 3 as a table: incoming move × pattern of cells around the vertex → successors.
+//!
+//! Made by set operations: a way around, or a move, holds in a set of patterns, the common one of those of the cells that it asks for.
 
-use mediant_grid::{CellOffset, Place};
+use std::ops::{BitAnd, BitOr, Not};
+
+use mediant_grid::{CellOffset, Centers, Corners, Place};
+use mediant_moves::Vector;
 
 use super::alternatives::{Asked, Moves};
+
+const _: () = assert!(Centers::PATTERNS == 512 && Corners::PATTERNS <= 512);
 
 /// For each incoming move and each pattern, the moves that a path goes on by, a bit each.
 #[derive(Clone, Debug)]
@@ -16,39 +23,39 @@ pub(crate) struct NearTable {
 
 impl NearTable {
     pub(crate) fn new<P: Place>(moves: &Moves<P>) -> Self {
-        let count = moves.len();
-        let mut natural = [0; 8];
-        let mut successors = Vec::with_capacity(count * P::PATTERNS);
-        for a in 0..count {
-            for b in super::natural(a, count) {
-                natural[a] |= 1 << b;
-            }
-            let ways: Vec<Vec<Asked>> = (0..count).map(|b| ways_around(moves, a, b)).collect();
-            successors.extend((0..P::PATTERNS).map(|pattern| {
-                let blocked = |&(x, y): &CellOffset| {
-                    // Of cells farther away nothing is known, so nothing is pruned for their sake.
-                    !P::pattern_holds(x, y) || P::pattern_is_blocked(pattern, x, y)
-                };
-                (0..count).fold(0, |set, b| {
-                    let is_kept = natural[a] >> b & 1 == 1 || !ways[b].iter().any(|way| holds(way, blocked));
-                    let step = Asked {
-                        free: moves.footprints[b].free.clone(),
-                        either: moves.footprints[b].either.clone(),
-                        passed: Vec::new(),
-                    };
-                    set | u8::from(is_kept && holds(&step, blocked)) << b
-                })
-            }));
-        }
+        let (around, count) = (Around::new::<P>(), moves.len());
+        let legal: Vec<Patterns> =
+            (0..count).map(|b| around.holds(&moves.asked(Vector::default(), &[b]), Patterns::NONE)).collect();
         let mut table = Self {
-            successors: successors.into_boxed_slice(),
+            successors: vec![0; count * P::PATTERNS].into_boxed_slice(),
             patterns: P::PATTERNS,
-            natural,
+            natural: [0; 8],
             slanted_runs_turn: false,
         };
-        table.slanted_runs_turn = (1..count)
-            .step_by(2)
-            .any(|by| (0..P::PATTERNS).any(|pattern| table.turns(by, table.successors(by, pattern)) != 0));
+        for (a, successors) in table.successors.chunks_exact_mut(P::PATTERNS).enumerate() {
+            for b in super::natural(a, count) {
+                table.natural[a] |= 1 << b;
+            }
+            // Where no path arrives by move a, there are no turns.
+            let arrives = around.holds(&moves.asked(-moves.vectors[a], &[a]), Patterns::ALL);
+            for (b, &legal) in legal.iter().enumerate() {
+                let mut kept = legal;
+                if table.natural[a] >> b & 1 == 0 {
+                    kept = kept & arrives;
+                    moves.alternatives(a, b, |sequence| {
+                        let mut way = moves.asked(-moves.vectors[a], sequence);
+                        if count == 4 {
+                            // At k = 2 nothing is pruned on a map with gaps: this is for maps without.
+                            way.passed.clear();
+                        }
+                        // Of cells farther away nothing is known, so nothing is pruned for their sake.
+                        kept = kept & !around.holds(&way, Patterns::NONE);
+                    });
+                    table.slanted_runs_turn |= a % 2 == 1 && kept != Patterns::NONE;
+                }
+                kept.for_each(|pattern| successors[pattern] |= 1 << b);
+            }
+        }
         table
     }
 
@@ -74,15 +81,73 @@ impl NearTable {
     }
 }
 
-fn ways_around<P: Place>(moves: &Moves<P>, a: usize, b: usize) -> Vec<Asked> {
-    let mut ways = Vec::new();
-    moves.alternatives(a, b, |sequence| ways.push(moves.asked(-moves.vectors[a], sequence)));
-    ways
+/// A set of patterns, a bit each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Patterns([u64; 8]);
+
+impl Patterns {
+    const NONE: Self = Self([0; 8]);
+    const ALL: Self = Self([!0; 8]);
+
+    fn for_each(self, mut each: impl FnMut(usize)) {
+        for (mut word, base) in self.0.into_iter().zip((0..).step_by(64)) {
+            while word != 0 {
+                each(base + word.trailing_zeros() as usize);
+                word &= word - 1;
+            }
+        }
+    }
 }
 
-fn holds(asked: &Asked, blocked: impl Fn(&CellOffset) -> bool) -> bool {
-    let free = |cell: &CellOffset| !blocked(cell);
-    asked.free.iter().all(free)
-        && asked.either.iter().all(|pair| pair.iter().any(free))
-        && asked.passed.iter().all(|&at| Asked::beside(at).iter().any(|pair| pair.iter().all(free)))
+impl BitAnd for Patterns {
+    type Output = Self;
+    fn bitand(self, other: Self) -> Self {
+        Self(std::array::from_fn(|i| self.0[i] & other.0[i]))
+    }
+}
+
+impl BitOr for Patterns {
+    type Output = Self;
+    fn bitor(self, other: Self) -> Self {
+        Self(std::array::from_fn(|i| self.0[i] | other.0[i]))
+    }
+}
+
+impl Not for Patterns {
+    type Output = Self;
+    fn not(self) -> Self {
+        Self(self.0.map(|word| !word))
+    }
+}
+
+/// For each cell of the 3 × 3 around a vertex, the patterns in which it is free; `None` for those that patterns do not hold.
+struct Around([[Option<Patterns>; 3]; 3]);
+
+impl Around {
+    fn new<P: Place>() -> Self {
+        let free = |(x, y): CellOffset| {
+            P::pattern_holds(x, y).then(|| {
+                let mut patterns = Patterns::NONE;
+                for pattern in (0..P::PATTERNS).filter(|&pattern| !P::pattern_is_blocked(pattern, x, y)) {
+                    patterns.0[pattern / 64] |= 1 << (pattern % 64);
+                }
+                patterns
+            })
+        };
+        Self([-1, 0, 1].map(|y| [-1, 0, 1].map(|x| free((x, y)))))
+    }
+
+    /// The patterns in which there is what was asked for, if the cells that they do not hold are free in those of `unknown`.
+    fn holds(&self, asked: &Asked, unknown: Patterns) -> Patterns {
+        let free = |(x, y): CellOffset| {
+            let row = self.0.get((y + 1) as usize).and_then(|row| row.get((x + 1) as usize));
+            row.copied().flatten().unwrap_or(unknown)
+        };
+        let all = asked.free.iter().fold(Patterns::ALL, |all, &cell| all & free(cell));
+        let all = asked.either.iter().fold(all, |all, &[a, b]| all & (free(a) | free(b)));
+        asked.passed.iter().fold(all, |all, &at| {
+            let beside = Asked::beside(at).map(|[a, b]| free(a) & free(b));
+            all & beside.into_iter().fold(Patterns::NONE, BitOr::bitor)
+        })
+    }
 }

@@ -1,6 +1,7 @@
 //! The rule for 4 ≤ k ≤ 8: for each incoming move a tree over all turns, by angle.
 //!
-//! A node of the tree stands for the turns of one cone. It is tested with words of the map, and its cone is dropped when
+//! A node of the tree stands for the turns of one cone. It is tested on a window of the map around the vertex, a word a row, and its cone
+//! is dropped when
 //! - a cell that *all* its moves sweep is blocked: none of them is legal; or
 //! - every cell that the ways around *any* of its turns ask for is free: each of them is pruned.
 //!
@@ -8,7 +9,7 @@
 //! A leaf is one turn, with the cells of its move and up to [`WAYS`] ways around it. Cells that the two moves themselves
 //! have swept are known to be free and not asked for again.
 
-use mediant_grid::{BitIndex, BitMatrix, CellMask, CellOffset, Grid, Place, Vertex};
+use mediant_grid::{CellOffset, Grid, Place, Vertex, load};
 
 use super::{
     alternatives::{Asked, Moves},
@@ -16,16 +17,18 @@ use super::{
     clearance::Clearance,
 };
 
-/// How many ways around a turn are kept. On ArcticStation, k = 5, the nodes generated with 1, 2, 3 and 4 are in
-/// `docs/architecture.md`.
+/// How many ways around a turn are kept.
 const WAYS: usize = 3;
 
-/// Masks on the map or on its transposed copy, whichever takes fewer.
+/// Cells in consecutive rows of a [`Window`].
 #[derive(Clone, Copy, Debug, Default)]
 struct Zone {
+    /// The first row's word in [`TurnTrees::masks`].
     begin: u32,
-    end: u32,
-    transposed: bool,
+    first: u8,
+    rows: u8,
+    /// Whether it counts as blocked, whatever is there.
+    never: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -44,24 +47,27 @@ struct Node {
     turn: Option<u16>,
 }
 
-/// A vertex as a place in the map and in its transposed copy.
-#[derive(Clone, Copy)]
-pub(crate) struct Spot<'g> {
-    rows: (&'g BitMatrix, BitIndex),
-    columns: (&'g BitMatrix, BitIndex),
+/// The cells around a vertex, as in [`Cells`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Window([u64; Cells::SIDE]);
+
+impl Window {
+    /// The rows up to `reach` away; the others are left free.
+    #[inline]
+    fn new(grid: &Grid, at: Vertex, reach: i32) -> Self {
+        let mut window = Self([0; Cells::SIDE]);
+        for row in (Cells::HALF - reach).max(0)..=(Cells::HALF + reach).min(Cells::SIDE as i32 - 1) {
+            window.0[row as usize] = row_of(grid, at, row);
+        }
+        window
+    }
 }
 
-impl<'g> Spot<'g> {
-    #[inline]
-    pub(crate) fn new(grid: &'g Grid, at: Vertex) -> Self {
-        let (rows, columns) = (grid.rows(), grid.columns());
-        Self { rows: (rows, rows.index(at.x, at.y)), columns: (columns, columns.index(at.y, at.x)) }
-    }
-
-    #[inline]
-    fn is_free(&self, (x, y): CellOffset) -> bool {
-        CellMask { across: y, along: x, cells: 1 }.is_free(self.rows.0, self.rows.1)
-    }
+/// One row of a window.
+#[inline]
+fn row_of(grid: &Grid, at: Vertex, row: i32) -> u64 {
+    let rows = grid.rows();
+    load(rows.words(), rows.index(at.x - Cells::HALF, at.y + row - Cells::HALF))
 }
 
 /// What a move asks of the map.
@@ -78,10 +84,12 @@ pub(crate) struct TurnTrees {
     begins: Vec<u32>,
     nodes: Vec<Node>,
     ways: Vec<Zone>,
-    masks: Vec<CellMask>,
+    masks: Vec<u64>,
     steps: Vec<StepTest>,
-    /// The clearance from which on all natural successors of an incoming move are legal, and all turns pruned.
+    /// The side of the free square in which all natural successors of an incoming move are legal.
     pub(crate) needed: Vec<u32>,
+    /// How many rows away a tree looks.
+    reach: i32,
 }
 
 /// A turn with the ways around it, the best one first.
@@ -100,6 +108,7 @@ impl TurnTrees {
             masks: Vec::new(),
             steps: Vec::new(),
             needed: Vec::new(),
+            reach: 0,
         };
         for footprint in &moves.footprints {
             let free = trees.zone(&footprint.free.iter().copied().collect());
@@ -120,7 +129,6 @@ impl TurnTrees {
                 let turn = Turn::new(moves, a, b);
                 // A turn that nothing needs to be free for is never taken.
                 if turn.ways.first().is_none_or(|way| !way.is_empty()) {
-                    turn.ways.first().into_iter().flat_map(Cells::iter).for_each(&mut need);
                     turns.push(turn);
                 }
             }
@@ -151,7 +159,7 @@ impl TurnTrees {
         }
         let node = Node {
             shared: self.zone(&new),
-            around: if has_ways { self.zone(&around) } else { Zone { begin: 1, end: 0, transposed: false } },
+            around: Zone { never: !has_ways, ..self.zone(&around) },
             ways: (begin, self.ways.len() as u32),
             either: leaf.and_then(|turn| moves.footprints[turn.index].either.first().copied()),
             skip: 0,
@@ -168,29 +176,34 @@ impl TurnTrees {
     }
 
     fn zone(&mut self, cells: &Cells) -> Zone {
-        let rows = CellMask::cover(cells.iter());
-        let columns = CellMask::cover(cells.iter().map(|(x, y)| (y, x)));
-        let transposed = columns.len() < rows.len();
         let begin = self.masks.len() as u32;
-        self.masks.extend(if transposed { columns } else { rows });
-        Zone { begin, end: self.masks.len() as u32, transposed }
+        let (first, rows) = cells.rows();
+        self.masks.extend(rows);
+        for (_, y) in cells.iter() {
+            self.reach = self.reach.max(y.abs());
+        }
+        Zone { begin, first: first as u8, rows: rows.len() as u8, never: false }
     }
 
     #[inline]
-    fn is_free(&self, zone: Zone, spot: &Spot<'_>) -> bool {
-        let (matrix, at) = if zone.transposed { spot.columns } else { spot.rows };
-        // A zone that ends before it begins is never free.
-        self.masks
-            .get(zone.begin as usize..zone.end as usize)
-            .is_some_and(|masks| masks.iter().all(|mask| mask.is_free(matrix, at)))
+    fn masks(&self, zone: Zone) -> &[u64] {
+        let begin = zone.begin as usize;
+        self.masks.get(begin..begin + usize::from(zone.rows)).unwrap_or(&[])
+    }
+
+    #[inline]
+    fn is_free(&self, zone: Zone, window: &Window) -> bool {
+        let rows = window.0.get(usize::from(zone.first)..).unwrap_or(&[]);
+        !zone.never && self.masks(zone).iter().zip(rows).fold(0, |met, (mask, row)| met | mask & row) == 0
     }
 
     /// Whether the move is legal at a free vertex.
     #[inline]
-    pub(crate) fn is_legal(&self, index: usize, spot: &Spot<'_>) -> bool {
+    pub(crate) fn is_legal(&self, index: usize, grid: &Grid, at: Vertex) -> bool {
         let step = &self.steps[index];
-        self.is_free(step.free, spot)
-            && step.either.is_none_or(|cells| cells.iter().any(|&cell| spot.is_free(cell)))
+        let rows = i32::from(step.free.first)..;
+        self.masks(step.free).iter().zip(rows).all(|(mask, row)| mask & row_of(grid, at, row) == 0)
+            && is_either_free(step.either, grid, at)
     }
 
     /// Calls `take` with each turn that a path may take after move `by`, until that returns false. Whether all were taken.
@@ -198,21 +211,23 @@ impl TurnTrees {
     pub(crate) fn for_each_turn(
         &self,
         by: usize,
-        spot: &Spot<'_>,
+        grid: &Grid,
+        at: Vertex,
         mut take: impl FnMut(usize) -> bool,
     ) -> bool {
+        let window = &Window::new(grid, at, self.reach);
         let (mut i, end) = (self.begins[by] as usize, self.begins[by + 1] as usize);
         while i < end {
             let node = &self.nodes[i];
-            if !self.is_free(node.shared, spot) || self.is_free(node.around, spot) {
+            if !self.is_free(node.shared, window) || self.is_free(node.around, window) {
                 i = node.skip as usize;
                 continue;
             }
             i += 1;
             let Some(turn) = node.turn else { continue };
-            let legal = node.either.is_none_or(|cells| cells.iter().any(|&cell| spot.is_free(cell)));
+            let legal = is_either_free(node.either, grid, at);
             let mut ways = self.ways[node.ways.0 as usize..node.ways.1 as usize].iter();
-            if legal && !ways.any(|&way| self.is_free(way, spot)) && !take(usize::from(turn)) {
+            if legal && !ways.any(|&way| self.is_free(way, window)) && !take(usize::from(turn)) {
                 return false;
             }
         }
@@ -223,6 +238,11 @@ impl TurnTrees {
         let nodes = size_of_val(&*self.nodes) + size_of_val(&*self.ways) + size_of_val(&*self.masks);
         nodes + size_of_val(&*self.steps) + size_of_val(&*self.begins) + size_of_val(&*self.needed)
     }
+}
+
+#[inline]
+fn is_either_free(cells: Option<[CellOffset; 2]>, grid: &Grid, at: Vertex) -> bool {
+    cells.is_none_or(|cells| cells.iter().any(|&(x, y)| grid.is_free(at.x + x, at.y + y)))
 }
 
 impl Turn {

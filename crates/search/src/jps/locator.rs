@@ -5,8 +5,11 @@ use std::fmt::Debug;
 use mediant_grid::{Lattice, Place, Step, Vector, Vertex};
 use mediant_moves::{Cost, K, KError};
 
-use super::{JumpTable, planes::StopPlanes};
-use crate::{Arrival, Successor, canonical::Pruning};
+use super::{JumpTable, planes::StopPlanes, slants::SlantPlanes};
+use crate::{
+    Arrival, Successor,
+    canonical::{Pruning, View},
+};
 
 /// What a run is followed on, and where to.
 pub struct Course<'c, P: Place> {
@@ -25,14 +28,21 @@ pub struct Course<'c, P: Place> {
 /// vertices sends out the straight runs of the two even moves beside it. Neither leads to anything else on open ground.
 pub trait Locator<P: Place>: Debug {
     /// After how many steps the straight run of move `index` from a vertex comes to a jump point or to the goal; `None` if to
-    /// neither. Adds to `scanned` the vertices that it looks at.
+    /// neither. The goal is `goal_steps` ahead, if it lies ahead at all. Adds to `scanned` the vertices that it looks at.
     fn straight(
         &self,
         course: &Course<'_, P>,
         from: &Arrival,
         index: usize,
+        goal_steps: Option<u32>,
         scanned: &mut u32,
     ) -> Option<u32>;
+
+    /// What the vertex `here` allows to a slanted run of move `index`.
+    #[inline]
+    fn look(&self, course: &Course<'_, P>, here: &Arrival, index: usize) -> View {
+        course.pruning.view(course.lattice, here, index)
+    }
 
     /// Calls `visit` with all that the slanted run of move `index` from a vertex leads to.
     #[inline]
@@ -81,7 +91,7 @@ impl<P: Place> Course<'_, P> {
 
     /// After how many steps of move `v` from a vertex the goal comes, if it lies ahead.
     #[inline]
-    fn steps_to_goal(&self, from: Vertex, v: Vector) -> Option<u32> {
+    pub(crate) fn steps_to_goal(&self, from: Vertex, v: Vector) -> Option<u32> {
         let d = from.to(self.goal);
         if cross(v, d) != 0 || i64::from(v.x) * i64::from(d.x) + i64::from(v.y) * i64::from(d.y) <= 0 {
             return None;
@@ -99,12 +109,18 @@ impl<P: Place> Course<'_, P> {
 
     /// A straight run, vertex by vertex, but where the nearest obstacle is so far that several have no turn.
     #[inline]
-    fn walk_straight(&self, from: &Arrival, index: usize, scanned: &mut u32) -> Option<u32> {
+    fn walk_straight(
+        &self,
+        from: &Arrival,
+        index: usize,
+        goal_steps: Option<u32>,
+        scanned: &mut u32,
+    ) -> Option<u32> {
         if !self.may_step(from, index) || !self.pruning.is_legal(self.lattice, from, index) {
             return None;
         }
         let step = self.lattice.step(index);
-        let goal_steps = self.steps_to_goal(from.at, step.vector()).unwrap_or(u32::MAX).min(self.limit);
+        let goal_steps = goal_steps.unwrap_or(u32::MAX).min(self.limit);
         let mut n = 0;
         loop {
             n += 1;
@@ -142,16 +158,18 @@ impl<P: Place> Course<'_, P> {
             return;
         }
         let step = self.lattice.step(index);
+        let to_goal = GoalWay::new(self, from.at, index);
         let mut here = self.after(from, step, index, 1);
         let mut cost = step.cost;
         for n in 1.. {
             *scanned += 1;
-            let exempt = here.at == self.goal || n >= self.limit || self.is_exempt(here.at, index);
-            let view = self.pruning.view(self.lattice, &here, index);
-            if exempt || view.turns {
+            let way = to_goal.filter(|way| way.slanted == n);
+            let is_goal = way.is_some_and(|way| way.straight == 0);
+            let view = locator.look(self, &here, index);
+            if is_goal || n >= self.limit || view.turns || self.is_exempt(here.at, index) {
                 return visit(here.reached(cost, index));
             }
-            if self.send_out(locator, &here, cost, scanned, visit) {
+            if (view.beside || way.is_some()) && self.send_out(locator, &here, cost, way, scanned, visit) {
                 return visit(here.reached(cost, index));
             }
             if !view.ahead || !self.may_step(&here, index) {
@@ -169,12 +187,14 @@ impl<P: Place> Course<'_, P> {
         locator: &J,
         from: &Arrival,
         cost: Cost,
+        to_goal: Option<GoalWay>,
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor),
     ) -> bool {
         let mut ends = false;
         for index in self.beside(from.by.unwrap_or(0)) {
-            if let Some(n) = locator.straight(self, from, index, scanned) {
+            let goal_steps = to_goal.filter(|way| way.index == index).map(|way| way.straight);
+            if let Some(n) = locator.straight(self, from, index, goal_steps, scanned) {
                 ends |= self.keeps_intermediate;
                 if !ends {
                     let step = self.lattice.step(index);
@@ -209,9 +229,10 @@ impl<P: Place> Locator<P> for Walk {
         course: &Course<'_, P>,
         from: &Arrival,
         index: usize,
+        goal_steps: Option<u32>,
         scanned: &mut u32,
     ) -> Option<u32> {
-        course.walk_straight(from, index, scanned)
+        course.walk_straight(from, index, goal_steps, scanned)
     }
 }
 
@@ -219,6 +240,7 @@ impl<P: Place> Locator<P> for Walk {
 #[derive(Clone, Debug)]
 pub struct Blocks {
     planes: StopPlanes,
+    slants: SlantPlanes,
 }
 
 impl Blocks {
@@ -226,15 +248,18 @@ impl Blocks {
     ///
     /// # Errors
     /// [`KError::TooLarge`] above k = 3.
-    pub fn new<P: Place>(lattice: &Lattice<P>) -> Result<Self, KError> {
+    pub fn new<P: Place>(lattice: &Lattice<P>, pruning: &Pruning<P>) -> Result<Self, KError> {
         let (k, max) = (lattice.k().get(), JumpTable::MAX_K);
-        if k > max { Err(KError::TooLarge { k, max }) } else { Ok(Self { planes: StopPlanes::new(lattice) }) }
+        if k > max {
+            return Err(KError::TooLarge { k, max });
+        }
+        Ok(Self { planes: StopPlanes::new(lattice), slants: SlantPlanes::new(lattice, pruning) })
     }
 
     /// Its size.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.planes.bytes()
+        self.planes.bytes() + self.slants.bytes()
     }
 }
 
@@ -245,16 +270,26 @@ impl<P: Place> Locator<P> for Blocks {
         course: &Course<'_, P>,
         from: &Arrival,
         index: usize,
+        goal_steps: Option<u32>,
         scanned: &mut u32,
     ) -> Option<u32> {
         if course.must_walk() || course.leaves_gap(from) {
-            return course.walk_straight(from, index, scanned);
+            return course.walk_straight(from, index, goal_steps, scanned);
         }
-        let goal_steps = course.steps_to_goal(from.at, course.lattice.step(index).vector());
         let quarter = index >> (course.lattice.k().get() - 2);
         let scan = self.planes.scan(from.at, quarter, goal_steps);
         *scanned += scan.scanned;
-        (scan.found || scan.steps > course.limit).then_some(scan.steps.min(course.limit))
+        scan.found.then_some(scan.steps)
+    }
+
+    #[inline]
+    fn look(&self, course: &Course<'_, P>, here: &Arrival, index: usize) -> View {
+        if course.pruning.slanted_runs_turn() {
+            let view = course.pruning.view(course.lattice, here, index);
+            return View { beside: self.slants.at(here.at, index).1, ..view };
+        }
+        let (ahead, beside) = self.slants.at(here.at, index);
+        View { turns: false, ahead, steps: 0, beside }
     }
 }
 
@@ -266,14 +301,14 @@ impl<P: Place> Locator<P> for std::sync::Arc<JumpTable> {
         course: &Course<'_, P>,
         from: &Arrival,
         index: usize,
+        goal_steps: Option<u32>,
         scanned: &mut u32,
     ) -> Option<u32> {
         if course.must_walk() || course.leaves_gap(from) {
-            return course.walk_straight(from, index, scanned);
+            return course.walk_straight(from, index, goal_steps, scanned);
         }
-        let step = course.lattice.step(index);
-        let (steps, found) = self.run(from.id, step, index);
-        match course.steps_to_goal(from.at, step.vector()) {
+        let (steps, found) = self.run(from.id, course.lattice.step(index), index);
+        match goal_steps {
             Some(goal_steps) if goal_steps <= steps => Some(goal_steps),
             _ => found.then_some(steps),
         }
@@ -317,7 +352,7 @@ impl<P: Place> Locator<P> for std::sync::Arc<JumpTable> {
             if turns || course.keeps_intermediate {
                 return visit(here.reached(cost, index));
             }
-            course.send_out(self, &here, cost, scanned, visit);
+            course.send_out(self, &here, cost, None, scanned, visit);
         }
     }
 }

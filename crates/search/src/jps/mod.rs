@@ -19,9 +19,9 @@
 //!
 //! **Bounded jumps** (Sturtevant & Rabin 2016): a run of more steps than the jump limit ends in a node that goes on.
 
-mod blocks;
 mod locator;
 mod planes;
+mod slants;
 mod table;
 
 #[cfg(test)]
@@ -95,7 +95,8 @@ impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> BlockJps<L, H, P> {
     /// # Errors
     /// [`KError::TooLarge`] above k = 3.
     pub fn new(lattice: L, heuristic: H) -> Result<Self, KError> {
-        let (blocks, pruning) = (Blocks::new(&*lattice)?, Arc::new(Pruning::new(&*lattice)));
+        let pruning = Arc::new(Pruning::new(&*lattice));
+        let blocks = Blocks::new(&*lattice, &pruning)?;
         Ok(Self::with_locator(lattice, pruning, blocks, heuristic))
     }
 }
@@ -134,8 +135,11 @@ impl<P: Place, J: Locator<P>> Successors<P> for JumpMoves<P, J> {
         let mut follow = |index: usize| {
             if index & 1 == 1 {
                 self.locator.slanted(&course, &node, index, &mut scanned, &mut visit);
-            } else if let Some(n) = self.locator.straight(&course, &node, index, &mut scanned) {
-                let step = lattice.step(index);
+                return;
+            }
+            let step = lattice.step(index);
+            let goal_steps = course.steps_to_goal(node.at, step.vector());
+            if let Some(n) = self.locator.straight(&course, &node, index, goal_steps, &mut scanned) {
                 visit(course.after(&node, step, index, n).reached(step.cost * n, index));
             }
         };

@@ -4,13 +4,12 @@
 //! says whether the run of the move ends at a vertex of interest or dead, the others after how many steps. 127 stands for
 //! more than 126: go on after 126 steps, where the entry says what is left.
 //!
-//! - Even moves: of interest is a jump point, as in [`scan`](super::blocks::scan).
+//! - Even moves: of interest is a jump point, as on the planes of block-based jumps.
 //! - Odd moves: of interest is a vertex with a turn of its own, or from which one of the two adjacent even runs finds a
 //!   jump point.
 //!
-//! Rule variants: all five. Under closed gaps a run ends before a doubly blocked corner. At k = 2, where a path may turn
-//! there within the cell that it follows, an odd run ends at it instead: of interest if the one even run that may follow
-//! finds a jump point. The entries of such a corner itself say nothing of which moves a path may take there.
+//! Rule variants: all five. Under closed gaps a run ends before a doubly blocked corner; what paths do at one (where they begin, where
+//! they end, at k = 2 also on their way) the table does not say.
 
 use mediant_grid::{Lattice, Place, Step, Vector, Vertex, VertexId};
 use mediant_moves::{K, KError};
@@ -92,31 +91,9 @@ impl JumpTable {
     /// # Errors
     /// [`KError::TooLarge`] above [`MAX_K`](Self::MAX_K).
     pub fn new<P: Place>(lattice: &Lattice<P>) -> Result<Self, KError> {
-        checked(lattice.k())?;
-        let pruning = Pruning::new(lattice);
-        Self::with_turns(lattice, |pattern, index| pruning.turns_at(pattern, index))
-    }
-
-    /// The table that these bytes are; see [`as_bytes`](Self::as_bytes). Every entry is held against the map and the entry a
-    /// step ahead, so a table that is accepted is the one that [`new`](Self::new) makes.
-    ///
-    /// # Errors
-    /// A [`JumpTableError`] for bytes that are no table of this lattice.
-    pub fn from_bytes<P: Place>(lattice: &Lattice<P>, bytes: Vec<u8>) -> Result<Self, JumpTableError> {
-        checked(lattice.k())?;
-        let pruning = Pruning::new(lattice);
-        Self::from_bytes_with_turns(lattice, bytes, |pattern, index| pruning.turns_at(pattern, index))
-    }
-
-    /// [`new`](Self::new), where `turns` says whether a vertex with an obstacle pattern ([`Place::pattern`]) has a turn when
-    /// the move at an index leads there: other than that move itself and, after an odd one, the two adjacent even ones.
-    pub(crate) fn with_turns<P: Place>(
-        lattice: &Lattice<P>,
-        turns: impl Fn(usize, usize) -> bool,
-    ) -> Result<Self, KError> {
         let k = checked(lattice.k())?;
         let mut entries = vec![0; lattice.vertex_count() << k];
-        let around = Surroundings::new(lattice, turns);
+        let around = Surroundings::new(lattice);
         let ids = 0..lattice.vertex_count();
         // A move that adds to ids needs the larger ones first.
         let moves = |parity: usize, adds: bool| {
@@ -130,18 +107,18 @@ impl JumpTable {
         Ok(Self { entries, k, width: P::vertices(lattice.grid()).0 })
     }
 
-    /// [`from_bytes`](Self::from_bytes) with `turns` as in [`with_turns`](Self::with_turns).
-    pub(crate) fn from_bytes_with_turns<P: Place>(
-        lattice: &Lattice<P>,
-        bytes: Vec<u8>,
-        turns: impl Fn(usize, usize) -> bool,
-    ) -> Result<Self, JumpTableError> {
+    /// The table that these bytes are; see [`as_bytes`](Self::as_bytes). Every entry is held against the map and the entry a
+    /// step ahead, so a table that is accepted is the one that [`new`](Self::new) makes.
+    ///
+    /// # Errors
+    /// A [`JumpTableError`] for bytes that are no table of this lattice.
+    pub fn from_bytes<P: Place>(lattice: &Lattice<P>, bytes: Vec<u8>) -> Result<Self, JumpTableError> {
         let k = checked(lattice.k())?;
         let expected = lattice.vertex_count() << k;
         if bytes.len() != expected {
             return Err(JumpTableError::Length { expected, found: bytes.len() });
         }
-        let around = Surroundings::new(lattice, turns);
+        let around = Surroundings::new(lattice);
         for id in 0..lattice.vertex_count() {
             for index in 0..1 << k {
                 let (expected, found) = (around.entry(&bytes, id, index), bytes[id << k | index]);
@@ -226,13 +203,13 @@ struct Local {
     legal: u8,
     /// The moves that find a turn when they lead there.
     turns: u8,
-    /// At a corner that closed gaps forbid to pass: the even moves that may follow the move at each index, none where that
-    /// must not even lead there. `None` at any other vertex.
-    gap: Option<[u8; 8]>,
+    /// Whether it is a corner that closed gaps forbid to pass.
+    gap: bool,
 }
 
 impl Surroundings {
-    fn new<P: Place>(lattice: &Lattice<P>, turns: impl Fn(usize, usize) -> bool) -> Self {
+    fn new<P: Place>(lattice: &Lattice<P>) -> Self {
+        let pruning = Pruning::new(lattice);
         let (k, rows) = (lattice.k().get(), lattice.grid().rows());
         let (words, bits_per_row) = (rows.words(), rows.bits_per_row());
         let mut local: Vec<Option<Local>> = vec![None; P::PATTERNS];
@@ -243,9 +220,9 @@ impl Surroundings {
             local[pattern].get_or_insert_with(|| Local {
                 legal: lattice.legal_moves(at).iter().fold(0, |set, index| set | 1 << index),
                 turns: (0..1 << k)
-                    .filter(|&index| turns(pattern, index))
+                    .filter(|&index| pruning.turns_at(pattern, index))
                     .fold(0, |set, index| set | 1 << index),
-                gap: exits(lattice, at),
+                gap: lattice.is_gap(at),
             });
             pattern as u16
         });
@@ -275,38 +252,16 @@ impl Surroundings {
             return 0;
         }
         let to = id.wrapping_add_signed(self.offsets[index]);
-        let ahead = &entries[to << self.k..(to + 1) << self.k];
         let there = &self.local[usize::from(self.patterns[to])];
-        let last = ahead.len() - 1;
-        if let Some(exits) = there.gap.map(|exits| exits[index]) {
-            let found = (0..=last).any(|next| exits >> next & 1 == 1 && ahead[next] & FOUND != 0);
-            return u8::from(exits != 0) | if found { FOUND } else { 0 };
+        if there.gap {
+            return 0;
         }
+        let ahead = &entries[to << self.k..(to + 1) << self.k];
+        let last = ahead.len() - 1;
         let beside = (ahead[(index + 1) & last] | ahead[(index + last) & last]) & FOUND != 0;
         if there.turns >> index & 1 == 1 || (index % 2 == 1 && beside) {
             return FOUND | 1;
         }
         extended(ahead[index])
     }
-}
-
-/// [`Local::gap`] of a vertex.
-///
-/// Only at k = 2 may a path turn there, within the cell that it follows (see [`Lattice::for_each_successor`]). An even move never
-/// needs to lead there: the two moves are as good in the other order, which comes first.
-fn exits<P: Place>(lattice: &Lattice<P>, at: Vertex) -> Option<[u8; 8]> {
-    let grid = lattice.grid();
-    (P::closes_gaps(lattice.rule()) && grid.is_double_corner(at)).then(|| {
-        let mut exits = [0; 8];
-        let k2 = lattice.k() == K::FOUR_CONNECTED;
-        for (index, step) in lattice.steps().iter().enumerate().filter(|(index, _)| k2 && index % 2 == 1) {
-            for next in [index - 1, (index + 1) & 3] {
-                // The quadrant between the two edges.
-                let quadrant = lattice.step(next).vector() - step.vector();
-                let cell = Vertex::new(at.x + P::cell(quadrant.x, 0), at.y + P::cell(quadrant.y, 0));
-                exits[index] |= u8::from(grid.is_free(cell.x, cell.y)) << next;
-            }
-        }
-        exits
-    })
 }

@@ -1,12 +1,15 @@
-//! Scans, planes and tables against runs that are followed step by step, with turns found by their definition.
+//! Scans of planes and tables against runs that are followed step by step, with turns found by their definition.
 
 use std::sync::Arc;
 
 use mediant_grid::{Centers, Corners, DiagonalGap, Grid, Lattice, Place, Rules, Vector, Vertex, VertexId};
 use mediant_moves::K;
-use mediant_oracle::{Rng, describe, is_doubly_blocked, noise, seeds, suite_grid, turn_is_legal, wide_grid};
+use mediant_oracle::{Rng, describe, is_doubly_blocked, noise, seeds, suite_grid, wide_grid};
 
-use super::{JumpTable, JumpTableError, blocks, planes::StopPlanes};
+use super::{
+    JumpTable, JumpTableError,
+    planes::{Scan, StopPlanes},
+};
 
 const AXES: [Vector; 4] = [Vector::new(0, 1), Vector::new(1, 0), Vector::new(0, -1), Vector::new(-1, 0)];
 
@@ -120,19 +123,9 @@ impl<P: Place> Reference<P> {
         }
         let last = self.move_count() - 1;
         let (mut at, mut steps) = (from, 0);
-        while let Some(to) = self.next(at, index) {
+        while let Some(to) = self.next(at, index).filter(|&to| !self.is_gap(to)) {
             let beside = [(index + 1) & last, (index + last) & last];
             let finds = |&even: &usize| self.scan(to, even, None).1;
-            if self.is_gap(to) {
-                let may_follow = |even: &usize| {
-                    let after = to + self.lattice.step(*even).vector();
-                    self.next(to, *even).is_some()
-                        && turn_is_legal(self.lattice.grid(), Some(at), to, Some(after))
-                };
-                let is_entered = self.lattice.k() == K::FOUR_CONNECTED;
-                let found = is_entered && beside.iter().filter(|even| may_follow(even)).any(finds);
-                return (steps + u32::from(is_entered), found);
-            }
             (at, steps) = (to, steps + 1);
             if self.has_turn(at, index) || beside.iter().any(finds) {
                 return (steps, true);
@@ -187,7 +180,7 @@ fn long_grids() -> impl Iterator<Item = (u64, Grid)> {
     })
 }
 
-/// Scans and planes give what steps give: from every free vertex in every direction, with the goal at any place of the run.
+/// Scans give what steps give: from every free vertex in every direction, with the goal at any place of the run.
 struct Scans {
     compared: usize,
 }
@@ -209,10 +202,9 @@ impl Suite for Scans {
                     let to = goal.map(|steps| from + towards * steps as i32);
                     let (steps, found) = reference.scan(from, index, to);
                     let scanned = steps + u32::from(!found);
-                    let expected = blocks::Scan { steps, found, scanned };
+                    let expected = Scan { steps, found, scanned };
                     let name = || format!("{towards:?}, goal {goal:?}, {}", case(from, to.unwrap_or(from)));
-                    assert_eq!(blocks::scan(lattice, from, towards, goal), expected, "{}", name());
-                    assert_eq!(planes.scan(from, quarter, goal), expected, "planes, {}", name());
+                    assert_eq!(planes.scan(from, quarter, goal), expected, "{}", name());
                     self.compared += 1;
                 }
             }
@@ -301,27 +293,6 @@ fn turns_are_those_of_the_definition_in_every_pattern() {
         (pattern, Grid::from_fn(7, 5, blocked).unwrap())
     });
     on_all(grids, &mut Patterns);
-}
-
-/// At k = 2 a run of an even move never needs to enter a gap: the one move that may follow there can as well come first,
-/// around the same cell.
-#[test]
-fn no_even_move_needs_to_enter_a_gap() {
-    for pattern in [0b0110, 0b1001] {
-        let grid = Arc::new(Grid::from_fn(2, 2, |x, y| pattern >> (x + 2 * y) & 1 == 1).unwrap());
-        let lattice =
-            Lattice::<Corners>::new(Arc::clone(&grid), K::FOUR_CONNECTED, DiagonalGap::Open).unwrap();
-        for a in [AXES[0], AXES[2]] {
-            let (at, from) = (Vertex::new(1, 1), Vertex::new(1, 1) + -a);
-            let may_follow = |b: &Vector| turn_is_legal(&grid, Some(from), at, Some(at + *b));
-            let follow: Vec<Vector> = [AXES[1], AXES[3]].into_iter().filter(may_follow).collect();
-            let &[b] = &follow[..] else { panic!("{pattern:04b}, {a:?}: {follow:?}") };
-            assert!(
-                lattice.is_legal(from, b) && lattice.is_legal(from + b, a),
-                "{pattern:04b}, {a:?}, {b:?}"
-            );
-        }
-    }
 }
 
 fn damaged_lattice() -> Lattice<Centers> {

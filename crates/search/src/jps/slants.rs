@@ -1,0 +1,165 @@
+//! What the vertices of a slanted run offer, a bit each: whether the run's move is legal there, and whether either straight run beside it
+//! comes to a jump point.
+//!
+//! So a step of a slanted run loads one word, and scans only where there is something to find. (Where the goal lies beside the run is
+//! known from the geometry.) All is found by words of 64 vertices: which vertices are jump points straight from the definition, the
+//! turns' moves and the ways around them; which straight runs come to one from row to row, or within a row by carries.
+//!
+//! 1.25 bytes a vertex, on top of the 1 byte of [`StopPlanes`](super::planes::StopPlanes).
+
+use mediant_grid::{BitMatrix, CellOffset, Footprint, Lattice, Place, Vector, Vertex, load};
+use mediant_moves::Neighborhood;
+
+use crate::{
+    Pruning,
+    canonical::{Asked, Moves, natural},
+};
+
+/// What slanted runs meet on a lattice with k ≤ 3.
+#[derive(Clone, Debug)]
+pub(crate) struct SlantPlanes {
+    /// For 64 vertices of a row: where each odd move is legal; where a straight run beside each comes to a jump point.
+    words: Vec<[[u64; 4]; 2]>,
+    per_row: usize,
+}
+
+impl SlantPlanes {
+    pub(crate) fn new<P: Place>(lattice: &Lattice<P>, pruning: &Pruning<P>) -> Self {
+        let (width, height) = P::vertices(lattice.grid());
+        let per_row = width.div_ceil(64) as usize;
+        let mut words = vec![[[0; 4]; 2]; per_row * height as usize];
+        let Ok(all) = Neighborhood::new(lattice.k()) else { return Self { words, per_row } };
+        let moves = Moves::<P>::new(lattice.rule(), all);
+        let count = moves.len();
+        let rows = lattice.grid().rows();
+        let place = |word: usize| ((word % per_row) as i32 * 64, (word / per_row) as i32);
+        for (word, [legal, found]) in words.iter_mut().enumerate() {
+            let (x, y) = place(word);
+            for (legal, asked) in legal.iter_mut().zip(moves.footprints.iter().skip(1).step_by(2)) {
+                *legal = holds(rows, (x, y), &asked.free, &asked.either);
+            }
+            // With closed gaps, every vertex is worth a scan.
+            *found = if lattice.has_gaps() { [!0; 4] } else { [0; 4] };
+        }
+        if lattice.has_gaps() {
+            return Self { words, per_row };
+        }
+        for straight in (0..count).step_by(2) {
+            let run = Run::new(&moves, pruning, straight);
+            let ends = |word: usize| run.ends(rows, place(word));
+            let leads = run.leads(&ends, per_row, height as usize);
+            for (odd, index) in (1..count).step_by(2).enumerate() {
+                if natural(index, count).any(|beside| beside == straight) {
+                    words.iter_mut().zip(&leads).for_each(|(word, leads)| word[1][odd] |= leads);
+                }
+            }
+        }
+        Self { words, per_row }
+    }
+
+    /// Whether the odd move `index` is legal at a free vertex, and whether a straight run beside it comes to a jump point.
+    #[inline]
+    pub(crate) fn at(&self, at: Vertex, index: usize) -> (bool, bool) {
+        let (x, y) = (at.x as usize, at.y as usize);
+        let Some(words) = self.words.get(y * self.per_row + (x >> 6)) else { return (false, false) };
+        let bit = |words: &[u64; 4]| words[index >> 1 & 3] >> (x & 63) & 1 == 1;
+        (bit(&words[0]), bit(&words[1]))
+    }
+
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(&*self.words)
+    }
+}
+
+/// A straight run's move, and what makes a vertex one of its jump points.
+struct Run {
+    v: Vector,
+    step: Footprint,
+    /// The turns that a vertex may have, each with the ways around it that the cells around the vertex decide.
+    turns: Vec<(Footprint, Vec<Asked>)>,
+}
+
+impl Run {
+    fn new<P: Place>(moves: &Moves<P>, pruning: &Pruning<P>, index: usize) -> Self {
+        let v = moves.vectors[index];
+        let turns = (0..moves.len()).filter(|&turn| turn != index && pruning.may_turn(index, turn));
+        let turns = turns.map(|turn| {
+            let mut ways = Vec::new();
+            moves.alternatives(index, turn, |sequence| {
+                let way = moves.asked(-v, sequence);
+                let cells = way.free.iter().chain(way.either.as_flattened());
+                if cells.copied().all(|(x, y)| P::pattern_holds(x, y)) {
+                    ways.push(way);
+                }
+            });
+            (moves.footprints[turn].clone(), ways)
+        });
+        Self { v, step: moves.footprints[index].clone(), turns: turns.collect() }
+    }
+
+    /// Of 64 vertices, those that are jump points when the run enters them, and those that it can enter.
+    fn ends(&self, rows: &BitMatrix, (x, y): (i32, i32)) -> [u64; 2] {
+        let jump = self.turns.iter().fold(0, |jump, (turn, ways)| {
+            let around = |way: &Asked| holds(rows, (x, y), &way.free, &way.either);
+            let pruned = ways.iter().fold(0, |pruned, way| pruned | around(way));
+            jump | holds(rows, (x, y), &turn.free, &turn.either) & !pruned
+        });
+        [jump, holds(rows, (x - self.v.x, y - self.v.y), &self.step.free, &self.step.either)]
+    }
+
+    /// Of all vertices, those from which the run comes to a jump point.
+    fn leads(&self, ends: &impl Fn(usize) -> [u64; 2], per_row: usize, height: usize) -> Vec<u64> {
+        let mut leads = vec![0; per_row * height];
+        let ascending = self.v.x + self.v.y > 0;
+        // Each word after the one that the run enters next.
+        for i in 0..leads.len() {
+            let word = if ascending { leads.len() - 1 - i } else { i };
+            leads[word] = if self.v.x == 0 {
+                let next = word as isize + self.v.y as isize * per_row as isize;
+                let Some(&beyond) = usize::try_from(next).ok().and_then(|next| leads.get(next)) else {
+                    continue;
+                };
+                let [jump, enters] = ends(next as usize);
+                enters & (jump | beyond)
+            } else {
+                // Vertex x leads on if x + 1 is entered and is a jump point or leads on itself.
+                let next = (word % per_row) as isize + self.v.x as isize;
+                let inside = (0..per_row as isize).contains(&next);
+                let next = word.wrapping_add_signed(self.v.x as isize);
+                let ([jump, enters], beyond) = (ends(word), if inside { leads[next] } else { 0 });
+                let [next_jump, next_enters] = if inside { ends(next) } else { [0, 0] };
+                if ascending {
+                    let shifted = |word: u64, next: u64| word >> 1 | next << 63;
+                    let enters = shifted(enters, next_enters);
+                    let start = enters & (shifted(jump, next_jump) | beyond << 63);
+                    carried::<true>(start, enters)
+                } else {
+                    let shifted = |word: u64, next: u64| word << 1 | next >> 63;
+                    let enters = shifted(enters, next_enters);
+                    let start = enters & (shifted(jump, next_jump) | beyond >> 63);
+                    carried::<false>(start, enters)
+                }
+            };
+        }
+        leads
+    }
+}
+
+/// `start`, carried on over the bits `through`, from high to low bits if `DOWN`.
+fn carried<const DOWN: bool>(start: u64, through: u64) -> u64 {
+    let (mut start, mut through) = (start, through);
+    for by in [1, 2, 4, 8, 16, 32] {
+        let shifted = |word: u64| if DOWN { word >> by } else { word << by };
+        start |= through & shifted(start);
+        through &= shifted(through);
+    }
+    start
+}
+
+/// Of 64 vertices from (x, y) on, those where all this is free.
+fn holds(rows: &BitMatrix, (x, y): (i32, i32), free: &[CellOffset], either: &[[CellOffset; 2]]) -> u64 {
+    let at = rows.index(x, y);
+    let cell = |&(dx, dy): &CellOffset| !load(rows.words(), at.offset(dy * rows.bits_per_row() + dx));
+    let all = free.iter().fold(!0, |all, offset| all & cell(offset));
+    either.iter().fold(all, |all, [a, b]| all & (cell(a) | cell(b)))
+}
