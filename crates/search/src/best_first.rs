@@ -2,8 +2,8 @@
 
 use std::ops::Deref;
 
-use mediant_grid::{Lattice, Place, Vector, Vertex, VertexId};
-use mediant_moves::{Cost, decompose};
+use mediant_grid::{Lattice, Place, Vertex, VertexId};
+use mediant_moves::Cost;
 
 use crate::{
     Arrival, Entry, Guarantee, Heuristic, Link, Node, NodeEvent, NodeStore, Observer, OpenList, Outcome,
@@ -112,30 +112,6 @@ where
 }
 
 impl<L, H, S, N: Link> BestFirst<L, H, S, N> {
-    /// The path that the search found.
-    fn path<P: Place>(&self, start: VertexId, goal: VertexId) -> Path
-    where
-        L: Deref<Target = Lattice<P>>,
-    {
-        let legs_back = || LegsBack {
-            lattice: &self.lattice,
-            nodes: &self.nodes,
-            start,
-            node: (goal, self.lattice.vertex(goal)),
-            elbow: None,
-        };
-        // A waypoint stands where the direction changes.
-        let mut last = None;
-        let count = legs_back().filter(|&(_, v)| last.replace(v) != Some(v)).count();
-        let mut waypoints = Vec::with_capacity(count + 1);
-        last = None;
-        let ends = legs_back().filter(|&(_, v)| last.replace(v) != Some(v));
-        waypoints.extend(ends.map(|(end, _)| end));
-        waypoints.push(self.lattice.vertex(start));
-        waypoints.reverse();
-        Path::new(waypoints)
-    }
-
     /// The cost of the best known path to a vertex after a search.
     pub(crate) fn cost_to(&self, id: VertexId) -> Option<Cost> {
         self.nodes.get(id).map(|node| node.g)
@@ -144,38 +120,6 @@ impl<L, H, S, N: Link> BestFirst<L, H, S, N> {
     /// The move by which that path arrives.
     pub(crate) fn arrived_by(&self, id: VertexId) -> usize {
         self.nodes.get(id).map_or(0, Node::arrived_by)
-    }
-}
-
-/// The straight legs of a path, from the goal back to the start: where each ends, and its move.
-struct LegsBack<'s, P: Place, N> {
-    lattice: &'s Lattice<P>,
-    nodes: &'s NodeStore<N>,
-    start: VertexId,
-    node: (VertexId, Vertex),
-    elbow: Option<(Vertex, Vector)>,
-}
-
-impl<P: Place, N: Link> Iterator for LegsBack<'_, P, N> {
-    type Item = (Vertex, Vector);
-
-    fn next(&mut self) -> Option<Self::Item> {
-        if let Some(leg) = self.elbow.take() {
-            return Some(leg);
-        }
-        let (id, at) = self.node;
-        let node = self.nodes.get(id).filter(|_| id != self.start)?;
-        let step = self.lattice.step(node.arrived_by());
-        self.node = node.link.parent(self.lattice, step, id, at);
-        let (from, v) = (self.node.1, step.vector());
-        let d = from.to(at);
-        if i64::from(d.x) * i64::from(v.y) != i64::from(d.y) * i64::from(v.x) {
-            // Two legs in canonical order, the first by the odd move: an intermediate vertex that became no node.
-            let [(first, times), _] = decompose(d, self.lattice.k())?.canonical();
-            let times = times as i32;
-            self.elbow = Some((from + Vector::new(first.x * times, first.y * times), first));
-        }
-        Some((at, v))
     }
 }
 
@@ -196,7 +140,7 @@ where
         if !self.lattice.connected(query.start, query.goal) || !self.search(start, Some(goal), observer) {
             return Ok(Outcome::Unreachable);
         }
-        Ok(Outcome::Found(self.path(start, goal)))
+        Ok(Outcome::Found(Path::trace_back(&self.lattice, &self.nodes, start, goal)))
     }
 
     fn guarantee(&self) -> Guarantee {

@@ -1,7 +1,9 @@
 //! What a search returns.
 
-use mediant_grid::{Lattice, Place, Vertex, VertexId};
-use mediant_moves::K;
+use mediant_grid::{Lattice, Place, Vector, Vertex, VertexId};
+use mediant_moves::{K, decompose};
+
+use crate::{Link, NodeStore};
 
 /// A path by its waypoints, with its length.
 ///
@@ -22,30 +24,22 @@ impl Path {
         Self { waypoints, cost }
     }
 
-    /// The path that a search found, told from the goal back to the start by the move with which it arrives at each vertex. A
-    /// waypoint stands where the move changes. Allocates nothing else.
-    pub(crate) fn trace_back<P: Place>(
+    /// The path that a search found, told from the goal back to the start by its nodes. A waypoint stands where the direction
+    /// changes. Allocates nothing else.
+    pub(crate) fn trace_back<P: Place, N: Link>(
         lattice: &Lattice<P>,
+        nodes: &NodeStore<N>,
         start: VertexId,
         goal: VertexId,
-        arrived_by: impl Fn(VertexId) -> usize,
     ) -> Self {
-        let arrived_by = &arrived_by;
         let turns_back = || {
-            let (mut id, mut last) = (goal, None);
-            std::iter::from_fn(move || {
-                while id != start {
-                    let (at, index) = (id, arrived_by(id));
-                    id = lattice.step(index).source(id);
-                    if last.replace(index) != Some(index) {
-                        return Some(at);
-                    }
-                }
-                None
-            })
+            let node = (goal, lattice.vertex(goal));
+            let legs = LegsBack { lattice, nodes, start, node, elbow: None };
+            let mut last = None;
+            legs.filter(move |&(_, v)| last.replace(v) != Some(v))
         };
         let mut waypoints = Vec::with_capacity(turns_back().count() + 1);
-        waypoints.extend(turns_back().map(|id| lattice.vertex(id)));
+        waypoints.extend(turns_back().map(|(end, _)| end));
         waypoints.push(lattice.vertex(start));
         waypoints.reverse();
         Self::new(waypoints)
@@ -89,6 +83,38 @@ impl Path {
             let turn = last.replace((x, y)).map_or(0.0, |(a, b)| (a * y - b * x).atan2(a * x + b * y));
             sum + turn.abs().to_degrees()
         })
+    }
+}
+
+/// The straight legs of a path, from the goal back to the start: where each ends, and its move.
+struct LegsBack<'s, P: Place, N> {
+    lattice: &'s Lattice<P>,
+    nodes: &'s NodeStore<N>,
+    start: VertexId,
+    node: (VertexId, Vertex),
+    elbow: Option<(Vertex, Vector)>,
+}
+
+impl<P: Place, N: Link> Iterator for LegsBack<'_, P, N> {
+    type Item = (Vertex, Vector);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if let Some(leg) = self.elbow.take() {
+            return Some(leg);
+        }
+        let (id, at) = self.node;
+        let node = self.nodes.get(id).filter(|_| id != self.start)?;
+        let step = self.lattice.step(node.arrived_by());
+        self.node = node.link.parent(self.lattice, step, id, at);
+        let (from, v) = (self.node.1, step.vector());
+        let d = from.to(at);
+        if i64::from(d.x) * i64::from(v.y) != i64::from(d.y) * i64::from(v.x) {
+            // Two legs in canonical order, the first by the odd move: an intermediate vertex that became no node.
+            let [(first, times), _] = decompose(d, self.lattice.k())?.canonical();
+            let times = times as i32;
+            self.elbow = Some((from + Vector::new(first.x * times, first.y * times), first));
+        }
+        Some((at, v))
     }
 }
 

@@ -131,8 +131,7 @@ impl<P: Place, L: Deref<Target = Lattice<P>>> Planner for Wavefront<L> {
         if !self.lattice.connected(query.start, query.goal) || !self.search(start, Some(goal), observer) {
             return Ok(Outcome::Unreachable);
         }
-        let arrived_by = |id| self.nodes.get(id).map_or(0, |node| node.arrived_by());
-        Ok(Outcome::Found(Path::trace_back(&self.lattice, start, goal, arrived_by)))
+        Ok(Outcome::Found(Path::trace_back(&self.lattice, &self.nodes, start, goal)))
     }
 
     fn guarantee(&self) -> Guarantee {

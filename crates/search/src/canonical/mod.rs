@@ -211,15 +211,19 @@ impl<P: Place> Pruning<P> {
                         take(b);
                     }
                 }
-                if around.corner < self.rule.corners && !self.has_no_turns(node, by) {
+                if around.corner >= self.rule.corners {
+                    return;
+                }
+                let known = self.settled(node, by);
+                if known != Some(false) {
                     let mut any = false;
                     trees.for_each_turn(by, lattice.grid(), at, |turn| {
                         any = true;
                         take(turn);
                         true
                     });
-                    if !any {
-                        self.note_no_turns(node, by);
+                    if known.is_none() {
+                        self.settle(node, by, any);
                     }
                 }
             }
@@ -263,14 +267,14 @@ impl<P: Place> Pruning<P> {
     }
 
     #[inline]
-    fn has_no_turns(&self, node: &Arrival, by: usize) -> bool {
-        self.settled.as_ref().is_some_and(|settled| settled.has_none(node.id, by))
+    fn settled(&self, node: &Arrival, by: usize) -> Option<bool> {
+        self.settled.as_ref()?.get(node.id, by)
     }
 
     #[inline]
-    fn note_no_turns(&self, node: &Arrival, by: usize) {
+    fn settle(&self, node: &Arrival, by: usize, turns: bool) {
         if let Some(settled) = &self.settled {
-            settled.note_none(node.id, by);
+            settled.note(node.id, by, turns);
         }
     }
 
@@ -289,11 +293,11 @@ impl<P: Place> Pruning<P> {
             if around.corner < needed {
                 return match &self.rule.turns {
                     Turns::Trees(trees) => {
-                        let known = self.has_no_turns(node, by);
-                        let turns = !known && !trees.for_each_turn(by, lattice.grid(), node.at, |_| false);
-                        if !turns && !known {
-                            self.note_no_turns(node, by);
-                        }
+                        let turns = self.settled(node, by).unwrap_or_else(|| {
+                            let turns = !trees.for_each_turn(by, lattice.grid(), node.at, |_| false);
+                            self.settle(node, by, turns);
+                            turns
+                        });
                         View { turns, ahead: trees.is_legal(by, lattice.grid(), node.at), ..all }
                     }
                     _ => View { turns: true, ..all },

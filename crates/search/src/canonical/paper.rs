@@ -2,10 +2,12 @@
 //!
 //! Rule variant: a node reached by an odd-indexed move is bidimensional (that move and its two neighbors), one reached by an
 //! even-indexed move unidimensional (that move alone). 'A cell is a jump point if it is one on the 8-neighborhood'; what a jump point leads
-//! to the paper leaves open beyond 'forced successors are required to preserve completeness'. Here it gets all legal moves, like the
-//! start, and *every vertex that touches a convex corner of an obstacle* counts as one: more than an arrival on the 8-neighborhood would turn
-//! at. With those alone the search is not even complete (the paper's Theorem 4): on random maps of the test suite's kinds, k = 5 to 7, it
-//! missed 3 of 1,000 paths.
+//! to the paper leaves open beyond 'forced successors are required to preserve completeness'. Here it gets all legal moves, like the start.
+//!
+//! With just the vertices at which an arrival on the 8-neighborhood turns, the search is not complete, whatever Theorem 4 says: on the test
+//! suite's random maps, k = 5 to 7, it missed 3 of 1,000 paths. A vertex on a straight run may be reached more cheaply by a move that leads
+//! into the wall beside the run; it keeps that one, and the run ends. So two kinds are added: every vertex that touches a convex corner of an
+//! obstacle, and every vertex at which the incoming move cannot be repeated.
 
 use std::ops::Deref;
 
@@ -53,13 +55,13 @@ impl<P: Place> Successors<P> for PaperMoves {
         mut visit: impl FnMut(Successor),
     ) -> u32 {
         let is_jump_point = self.jump_points.get(pattern(lattice, node.at)).is_none_or(|&is| is);
-        let count = lattice.steps().len();
-        let kept = node.by.filter(|_| !is_jump_point && !lattice.has_gaps());
-        lattice.for_each_successor(node.at, node.by, goal, |index| {
-            if kept.is_none_or(|by| natural(by, count).any(|natural| natural == index)) {
-                visit(node.step(lattice, index));
-            }
-        });
+        let is_legal = |by: usize| lattice.sees(node.at, node.at + lattice.step(by).vector());
+        match node.by.filter(|&by| !is_jump_point && !lattice.has_gaps() && is_legal(by)) {
+            None => lattice.for_each_successor(node.at, node.by, goal, |by| visit(node.step(lattice, by))),
+            Some(by) => natural(by, lattice.steps().len())
+                .filter(|&next| next == by || is_legal(next))
+                .for_each(|next| visit(node.step(lattice, next))),
+        }
         0
     }
 

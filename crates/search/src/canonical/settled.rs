@@ -4,8 +4,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use mediant_grid::VertexId;
 
-/// For each vertex and incoming move, a bit: whether it is known that no turn follows. Filled as searches ask, by any number of planners at
-/// once; since each bit is a fact of the map, what they answer does not depend on it.
+/// For each vertex and incoming move, whether a turn follows, as far as that is known: two bits. Filled as searches ask, by any number of
+/// planners at once; since each bit is a fact of the map, what they answer does not depend on it.
 #[derive(Debug)]
 pub(crate) struct Settled {
     words: Box<[AtomicU64]>,
@@ -18,29 +18,32 @@ impl Settled {
 
     /// For so many vertices with 2^k moves.
     pub(crate) fn new(vertices: usize, k: u32) -> Self {
-        let words = Some(vertices.div_ceil(64)).and_then(|words| words.checked_mul(1 << k));
+        let words = vertices.div_ceil(32).checked_mul(1 << k);
         let words = words.filter(|&words| words <= Self::MAX_WORDS).unwrap_or(0);
         Self { words: (0..words).map(|_| AtomicU64::new(0)).collect(), k }
     }
 
     #[inline]
-    fn place(&self, id: VertexId, by: usize) -> (Option<&AtomicU64>, u64) {
-        let bit = id.index() << self.k | by;
-        (self.words.get(bit >> 6), 1 << (bit & 63))
+    fn place(&self, id: VertexId, by: usize) -> (Option<&AtomicU64>, u32) {
+        let pair = id.index() << self.k | by;
+        (self.words.get(pair >> 5), 2 * (pair & 31) as u32)
     }
 
-    /// Whether no turn is known to follow.
+    /// Whether a turn follows, if that is known.
     #[inline]
-    pub(crate) fn has_none(&self, id: VertexId, by: usize) -> bool {
-        let (word, bit) = self.place(id, by);
-        word.is_some_and(|word| word.load(Ordering::Relaxed) & bit != 0)
+    pub(crate) fn get(&self, id: VertexId, by: usize) -> Option<bool> {
+        let (word, shift) = self.place(id, by);
+        match word?.load(Ordering::Relaxed) >> shift & 3 {
+            0 => None,
+            bits => Some(bits == 2),
+        }
     }
 
-    /// Notes that none follows.
+    /// Notes whether a turn follows.
     #[inline]
-    pub(crate) fn note_none(&self, id: VertexId, by: usize) {
-        if let (Some(word), bit) = self.place(id, by) {
-            word.fetch_or(bit, Ordering::Relaxed);
+    pub(crate) fn note(&self, id: VertexId, by: usize, turns: bool) {
+        if let (Some(word), shift) = self.place(id, by) {
+            word.fetch_or(1 << (shift + u32::from(turns)), Ordering::Relaxed);
         }
     }
 
