@@ -14,17 +14,19 @@ use clap::Args;
 use indicatif::ProgressBar;
 use mediant_bench::{
     Anchors, AnchorsError, Archive, Comparison, Contender, MapRecord, MeasureError, Problem, ProblemError,
-    Task, Yardstick, measure,
+    Yardstick, measure,
 };
+use mediant_engines::Setup;
 
 use crate::project;
 
 /// The options of `cargo xtask compare`.
 #[derive(Args, Clone, Debug)]
 pub struct Options {
-    /// Our engines: ENGINE[:K[:RULE]], RULE one of never, one, always (centers), open, closed (corners)
-    #[arg(long, value_name = "TASK", num_args = 1.., default_value = "astar")]
-    engines: Vec<Task>,
+    /// Our engines: ENGINE[:K[:RULE]][,OPTION…], RULE one of never, one, always (centers), open, closed (corners),
+    /// OPTION one of euclidean, zero, paper, limit=N, intermediate
+    #[arg(long, value_name = "SETUP", num_args = 1.., default_value = "astar")]
+    engines: Vec<Setup>,
     /// Only these maps
     #[arg(long, value_name = "NAME", num_args = 1..)]
     maps: Vec<String>,
@@ -82,9 +84,9 @@ pub enum CompareError {
 /// All figures of a run.
 struct Results<'a> {
     anchors: &'a Anchors,
-    tasks: &'a [Task],
+    setups: &'a [Setup],
     records: Vec<MapRecord>,
-    /// For each map, those of the tasks in their order.
+    /// For each map, those of the setups in their order.
     comparisons: Vec<Vec<Comparison>>,
 }
 
@@ -127,7 +129,7 @@ pub fn run_in(root: &Path, options: &Options, out: &mut impl Write) -> Result<()
         timings.filter_map(|timing| Comparison::new(&anchors, record, timing)).collect()
     };
     let comparisons = records.iter().map(compare).collect();
-    let results = Results { anchors: &anchors, tasks: &options.engines, records, comparisons };
+    let results = Results { anchors: &anchors, setups: &options.engines, records, comparisons };
     out.write_all(report::text(&results, options).as_bytes())?;
     if !missing.is_empty() {
         writeln!(out, "\nMissing: {advice}")?;
@@ -151,8 +153,8 @@ fn measure_all<'a>(
     archive: &Archive,
     options: &Options,
 ) -> Result<Measured<'a>, CompareError> {
-    let tasks = options.engines.iter().copied().map(Contender::Task);
-    let contenders: Vec<Contender> = tasks.chain(Yardstick::ALL.map(Contender::Yardstick)).collect();
+    let ours = options.engines.iter().copied().map(Contender::Ours);
+    let contenders: Vec<Contender> = ours.chain(Yardstick::ALL.map(Contender::Yardstick)).collect();
     let rows = anchors.maps.iter().filter(|row| options.maps.is_empty() || options.maps.contains(&row.map));
     let rows: Vec<_> = rows.collect();
     let bar = ProgressBar::new(rows.len() as u64);

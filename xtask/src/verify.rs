@@ -15,11 +15,11 @@ use std::{
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use mediant_bench::{Engine, Task};
+use mediant_engines::{Engine, Setup, SharedRules, Solver};
 use mediant_formats::{MapFile, Scenario, scenario_tolerance};
 use mediant_grid::{CornerRule, DiagonalGap, Rules};
 use mediant_moves::K;
-use mediant_search::Query;
+use mediant_search::{Guarantee, Query, QueryError};
 use rayon::prelude::*;
 
 use crate::{Error, manifest::Manifest, project};
@@ -33,6 +33,9 @@ pub struct Options {
     /// Of each scenario, only the instances whose index N divides
     #[arg(long, value_name = "N", default_value = "1")]
     every: NonZeroUsize,
+    /// The engines that are to find the costs, one after the other
+    #[arg(long, value_name = "NAME", num_args = 1.., default_value = "astar")]
+    engine: Vec<Engine>,
     /// Compare with the reference costs in this folder, not with the scenarios' optima
     #[arg(long, value_name = "DIR")]
     oracle: Option<PathBuf>,
@@ -45,6 +48,9 @@ pub struct Options {
 fn number(text: &str) -> Result<u64, std::num::ParseIntError> {
     text.replace('_', "").parse()
 }
+
+/// The pruning rules that the files have in common.
+static RULES: SharedRules = SharedRules::new();
 
 /// What came of one file's comparisons.
 #[derive(Clone, Debug, Default)]
@@ -102,10 +108,14 @@ impl Tally {
 /// [`Error::Verify`] for a cost that differs or a count that is not the expected one; the errors of reading files.
 pub fn run(options: &Options) -> Result<(), Error> {
     let cache = project::root().join("benchdata/cache");
-    let total = match &options.oracle {
-        Some(folder) => against_references(&cache, folder)?,
-        None => against_scenarios(&cache, options)?,
-    };
+    let mut total = Tally::default();
+    for &engine in &options.engine {
+        println!("{engine}");
+        total = total.add(match &options.oracle {
+            Some(folder) => against_references(&cache, folder, engine)?,
+            None => against_scenarios(&cache, options, engine)?,
+        });
+    }
     if !total.mismatches.is_empty() {
         let mut text = format!("{} of {} costs differ", total.mismatches.len(), total.compared);
         for mismatch in total.mismatches.iter().take(10) {
@@ -124,11 +134,15 @@ pub fn run(options: &Options) -> Result<(), Error> {
     }
 }
 
-/// k = 3 between centers, no corner cut: the problem of the scenario files.
-const SCENARIOS: Task =
-    Task { engine: Engine::AStar, k: K::EIGHT_CONNECTED, rules: Rules::Center(CornerRule::Never) };
+/// The engine on k = 3 between centers, no corner cut: the problem of the scenario files.
+fn scenarios_for(engine: Engine) -> Result<Setup, Error> {
+    let setup = Setup::new(engine, K::EIGHT_CONNECTED, Rules::Center(CornerRule::Never));
+    let inexact = || Error::Verify(format!("{engine} is not optimal for k = 3: its costs are not known"));
+    setup.solves_scenarios().then_some(setup).ok_or_else(inexact)
+}
 
-fn against_scenarios(cache: &Path, options: &Options) -> Result<Tally, Error> {
+fn against_scenarios(cache: &Path, options: &Options, engine: Engine) -> Result<Tally, Error> {
+    let setup = scenarios_for(engine)?;
     let manifest = Manifest::read(&Manifest::path(&project::root()))?;
     let asked = |name: &String| options.set.is_empty() || options.set.contains(name);
     for name in &options.set {
@@ -150,7 +164,9 @@ fn against_scenarios(cache: &Path, options: &Options) -> Result<Tally, Error> {
         let bar = progress(&set.name, maps.len());
         let tallies: Vec<Tally> = maps
             .par_iter()
-            .map(|map| scenario_of(map, options.every.get(), set.name == OTHER_MAPS).inspect(|_| bar.inc(1)))
+            .map(|map| {
+                scenario_of(setup, map, options.every.get(), set.name == OTHER_MAPS).inspect(|_| bar.inc(1))
+            })
             .collect::<Result<_, _>>()?;
         bar.finish_and_clear();
         let tally = tallies.into_iter().fold(Tally::default(), Tally::add);
@@ -194,37 +210,38 @@ const KNOWN: (u64, u64) = (2_446, 5_182);
 
 /// One map with its scenario. The scenarios carry as few as six digits, and say 0 where there is no path (173 instances of
 /// set dao).
-fn scenario_of(path: &Path, every: usize, other_map: bool) -> Result<Tally, Error> {
+fn scenario_of(setup: Setup, path: &Path, every: usize, other_map: bool) -> Result<Tally, Error> {
     let grid = Arc::new(MapFile::read(path)?.to_grid());
     let scenario = Scenario::read(path.with_extension("map.scen"))?;
-    let instances: Vec<_> = scenario.instances().iter().enumerate().step_by(every).collect();
-    let queries = instances.iter().map(|(_, instance)| Query::new(instance.start, instance.goal));
     let mut tally = Tally::default();
-    let mut known = instances.iter();
-    SCENARIOS
-        .solve_all(&grid, queries, |found| {
-            let Some((index, instance)) = known.next() else { return };
-            let reachable = instance.optimal > 0.0 || instance.start == instance.goal;
-            let optimal = reachable.then_some(instance.optimal);
-            let what = || format!("{} instance {index}", path.display());
-            match found {
-                Err(_) if other_map => tally.blocked += 1,
-                Ok(Some(cost))
-                    if other_map && cost > instance.optimal + 2.0 * scenario_tolerance(instance.optimal) =>
-                {
-                    tally.shorter += 1;
-                }
-                found => {
-                    tally.compare(what, found.unwrap_or(None), optimal, scenario_tolerance(instance.optimal));
-                }
-            }
-        })
+    let mut solver = Solver::new(setup, &grid, RULES.prebuilt(setup))
         .map_err(|wrong| Error::Verify(format!("{}: {wrong}", path.display())))?;
+    for (index, instance) in scenario.instances().iter().enumerate().step_by(every) {
+        let reachable = instance.optimal > 0.0 || instance.start == instance.goal;
+        let optimal = reachable.then_some(instance.optimal);
+        let what = || format!("{setup}, {} instance {index}", path.display());
+        match cost(&mut solver, Query::new(instance.start, instance.goal)) {
+            Err(_) if other_map => tally.blocked += 1,
+            Ok(Some(cost))
+                if other_map && cost > instance.optimal + 2.0 * scenario_tolerance(instance.optimal) =>
+            {
+                tally.shorter += 1;
+            }
+            found => {
+                tally.compare(what, found.unwrap_or(None), optimal, scenario_tolerance(instance.optimal));
+            }
+        }
+    }
     Ok(tally)
 }
 
+/// The cost of a query's answer; `None` where there is no path.
+fn cost(solver: &mut Solver, query: Query) -> Result<Option<f64>, QueryError> {
+    solver.solve(query).map(|outcome| outcome.path().map(|path| path.cost()))
+}
+
 /// What the name of a reference file says.
-fn reference_task(name: &str) -> Option<(Task, &str)> {
+fn reference_setup(name: &str, engine: Engine) -> Option<(Setup, &str)> {
     let (placement, rest) = name.strip_suffix(".csv")?.split_once("-k")?;
     let (k, map) = rest.split_once('-')?;
     let rules = match placement {
@@ -232,10 +249,10 @@ fn reference_task(name: &str) -> Option<(Task, &str)> {
         "corner" => Rules::Corner(DiagonalGap::Open),
         _ => return None,
     };
-    Some((Task { engine: Engine::AStar, k: K::new(k.parse().ok()?).ok()?, rules }, map))
+    Some((Setup::new(engine, K::new(k.parse().ok()?).ok()?, rules), map))
 }
 
-fn against_references(cache: &Path, folder: &Path) -> Result<Tally, Error> {
+fn against_references(cache: &Path, folder: &Path, engine: Engine) -> Result<Tally, Error> {
     let mut maps = BTreeMap::new();
     for set in fs::read_dir(cache).map_err(Error::at(cache))? {
         let set = set.map_err(Error::at(cache))?.path();
@@ -247,27 +264,49 @@ fn against_references(cache: &Path, folder: &Path) -> Result<Tally, Error> {
     }
     let references = files(folder, ".csv")?;
     let bar = progress("references", references.len());
-    let tallies: Vec<Option<Tally>> = references
+    let tallies: Vec<Compared> = references
         .par_iter()
-        .map(|file| reference(file, &maps).inspect(|_| bar.inc(1)))
+        .map(|file| reference(file, engine, &maps).inspect(|_| bar.inc(1)))
         .collect::<Result<_, _>>()?;
     bar.finish_and_clear();
-    let other = tallies.iter().filter(|tally| tally.is_none()).count();
-    let total = tallies.into_iter().flatten().fold(Tally::default(), Tally::add);
+    let (mut total, mut files, mut unsupported, mut other) = (Tally::default(), 0, 0, 0);
+    for compared in tallies {
+        match compared {
+            Compared::Costs(tally) => {
+                files += 1;
+                total = total.add(tally);
+            }
+            Compared::Unsupported => unsupported += 1,
+            Compared::OtherProblem => other += 1,
+        }
+    }
     println!(
-        "{} files, {} costs compared with independent programs: {} differ, the others by at most {:.1e} of the cost; {other} files are of engines to come",
-        references.len() - other,
+        "{files} files, {} costs compared with independent programs: {} differ, the others by at most {:.1e} of the cost",
         total.compared,
         total.mismatches.len(),
         total.worst
     );
+    println!(
+        "not compared: {unsupported} files of problems that {engine} does not solve exactly, {other} of engines to come"
+    );
     Ok(total)
 }
 
-/// One file of reference costs; `None` for one that no engine of ours answers to.
-fn reference(file: &Path, maps: &BTreeMap<String, PathBuf>) -> Result<Option<Tally>, Error> {
+/// What came of a file of reference costs.
+enum Compared {
+    Costs(Tally),
+    /// The engine does not search this k, or not exactly.
+    Unsupported,
+    /// No engine of ours answers to it.
+    OtherProblem,
+}
+
+fn reference(file: &Path, engine: Engine, maps: &BTreeMap<String, PathBuf>) -> Result<Compared, Error> {
     let name = file.file_name().unwrap_or_default().to_string_lossy();
-    let Some((task, map)) = reference_task(&name) else { return Ok(None) };
+    let Some((setup, map)) = reference_setup(&name, engine) else { return Ok(Compared::OtherProblem) };
+    if setup.check().is_err() || setup.guarantee() != Guarantee::Optimal(setup.k) {
+        return Ok(Compared::Unsupported);
+    }
     let wrong = |wrong: String| Error::Verify(format!("{name}: {wrong}"));
     let Some(path) = maps.get(map) else {
         return Err(wrong(format!("map {map} is not in the cache: cargo xtask download")));
@@ -284,23 +323,18 @@ fn reference(file: &Path, maps: &BTreeMap<String, PathBuf>) -> Result<Option<Tal
         .collect::<Result<_, _>>()?;
     let grid = Arc::new(MapFile::read(path)?.to_grid());
     let scenario = Scenario::read(path.with_extension("map.scen"))?;
-    let mut queries = Vec::with_capacity(rows.len());
-    for (index, _) in &rows {
-        let instance =
-            scenario.instances().get(*index).ok_or_else(|| wrong(format!("no instance {index}")))?;
-        queries.push(Query::new(instance.start, instance.goal));
-    }
     let mut tally = Tally::default();
-    let mut known = rows.iter();
-    task.solve_all(&grid, queries, |found| {
-        if let Some(&(index, cost)) = known.next() {
-            let what = || format!("{name} instance {index}");
-            // Those programs know no blocked ends: they say that there is no path.
-            tally.compare(what, found.unwrap_or(None), (cost >= 0.0).then_some(cost), 1e-6 * cost.max(1.0));
-        }
-    })
-    .map_err(|error| wrong(error.to_string()))?;
-    Ok(Some(tally))
+    let mut solver =
+        Solver::new(setup, &grid, RULES.prebuilt(setup)).map_err(|error| wrong(error.to_string()))?;
+    for &(index, known) in &rows {
+        let instance = scenario.instances().get(index);
+        let instance = instance.ok_or_else(|| wrong(format!("no instance {index}")))?;
+        let found = cost(&mut solver, Query::new(instance.start, instance.goal)).unwrap_or(None);
+        let what = || format!("{setup}, {name} instance {index}");
+        // Those programs know no blocked ends: they say that there is no path.
+        tally.compare(what, found, (known >= 0.0).then_some(known), 1e-6 * known.max(1.0));
+    }
+    Ok(Compared::Costs(tally))
 }
 
 /// The files of a folder with this ending, sorted.

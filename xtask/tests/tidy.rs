@@ -235,8 +235,12 @@ fn dependencies() {
             &[("mediant-moves", None), ("bitvec", None), ("mediant-oracle", Some(Kind::Dev))],
         ),
         package("mediant-formats", &[("mediant-grid", None), ("mediant-search", None)]),
-        package("mediant-search", &[("mediant-grid", None), ("mediant-oracle", None)]),
+        package(
+            "mediant-search",
+            &[("mediant-grid", None), ("mediant-oracle", None), ("mediant-engines", Some(Kind::Dev))],
+        ),
         package("mediant-oracle", &[("mediant-grid", None), ("mediant-search", Some(Kind::Dev))]),
+        package("mediant-engines", &[("mediant-search", None), ("mediant-formats", None)]),
         package("mediant-report", &[("serde", None), ("mediant-search", None)]),
         package("xtask", &[("mediant-search", None)]),
         package("mediant-new", &[]),
@@ -248,6 +252,7 @@ fn dependencies() {
         "mediant-formats: depends on mediant-search",
         "mediant-search: depends on mediant-oracle",
         "mediant-oracle: depends on mediant-search",
+        "mediant-engines: depends on mediant-formats",
         "mediant-report: depends on mediant-search",
         "mediant-new: has no place among the layers",
     ];

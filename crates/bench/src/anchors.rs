@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Deserialize;
 
-use crate::Task;
+use mediant_engines::Setup;
+use mediant_search::Guarantee;
 
 /// The figures of other programs on the instances of our comparison.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -213,14 +214,15 @@ impl Anchors {
 }
 
 impl Comparand {
-    /// Whether the program solves the very problem of a task, so that the two may be compared without a remark.
+    /// Whether the program solves the very problem of a setup, so that the two may be compared without a remark.
     #[must_use]
-    pub fn solves(&self, task: Task) -> bool {
+    pub fn solves(&self, setup: Setup) -> bool {
         let ComparandProblem { k, placement, rule } = &self.problem;
         self.optimal
-            && *k == AnyOrK::K(task.k.get())
-            && *placement == task.rules.placement().to_string()
-            && *rule == Some(task.rule())
+            && setup.guarantee() == Guarantee::Optimal(setup.k)
+            && *k == AnyOrK::K(setup.k.get())
+            && *placement == setup.rules.placement().to_string()
+            && *rule == Some(setup.rule_name())
     }
 }
 
@@ -292,17 +294,18 @@ mod tests {
     #[test]
     fn only_programs_that_solve_the_same_problem_compare() {
         let anchors = bundled();
-        let comparable = |task: &str| {
-            let task = task.parse().unwrap();
+        let comparable = |setup: &str| {
+            let setup = setup.parse().unwrap();
             anchors
                 .comparands()
-                .filter(|program| program.solves(task))
+                .filter(|program| program.solves(setup))
                 .map(|program| &*program.name)
                 .collect()
         };
         let octile: Vec<&str> = comparable("astar:3:never");
         assert_eq!(octile.len(), 7);
         assert!(octile.contains(&"pathfinding") && !octile.contains(&"grid_pathfinding"));
+        assert_eq!((comparable("jps-plus"), comparable("canonical,paper").len()), (octile, 0));
         assert!(comparable("astar:4:never").is_empty() && comparable("astar:3:open").is_empty());
     }
 

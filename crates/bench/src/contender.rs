@@ -4,20 +4,22 @@ use std::fmt;
 
 use grid_pathfinding::PathingGrid;
 use grid_util::point::Point;
-use mediant_grid::{Centers, Corners, Lattice, Rules};
-use mediant_moves::KError;
-use mediant_search::{AStar, LatticeDistance, Outcome, Planner, Query, QueryError};
+use mediant_engines::{EngineError, Setup, SharedRules, Solver};
+use mediant_search::{Outcome, Query, QueryError};
 
 use crate::{
-    Engine, Problem, Task, Yardstick,
+    Problem, Yardstick,
     yardstick::{BoolMap, Length, pathing_grid, solve_on},
 };
+
+/// The pruning rules that the maps have in common.
+static RULES: SharedRules = SharedRules::new();
 
 /// Whoever takes part in a measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Contender {
     /// One of our engines.
-    Task(Task),
+    Ours(Setup),
     /// Another crate.
     Yardstick(Yardstick),
 }
@@ -25,56 +27,17 @@ pub enum Contender {
 impl fmt::Display for Contender {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Task(task) => task.fmt(f),
+            Self::Ours(setup) => setup.fmt(f),
             Self::Yardstick(yardstick) => f.pad(yardstick.name()),
         }
     }
 }
 
-/// What a contender makes of a map beforehand.
-pub(crate) enum Prepared {
-    Centers(Engine, Lattice<Centers>),
-    Corners(Engine, Lattice<Corners>),
+/// What answers queries. A yardstick keeps no scratch memory here: it takes it anew for each query, or hides it.
+pub(crate) enum Runner {
+    Ours(Solver),
     Bools(BoolMap),
     Pathing(Box<PathingGrid>),
-}
-
-impl Prepared {
-    pub(crate) fn new(contender: Contender, problem: &Problem) -> Result<Self, KError> {
-        let grid = &problem.grid;
-        Ok(match contender {
-            Contender::Task(Task { engine, k, rules: Rules::Center(rule) }) => {
-                Self::Centers(engine, Lattice::new(grid.clone(), k, rule)?)
-            }
-            Contender::Task(Task { engine, k, rules: Rules::Corner(gap) }) => {
-                Self::Corners(engine, Lattice::new(grid.clone(), k, gap)?)
-            }
-            Contender::Yardstick(Yardstick::Pathfinding) => Self::Bools(BoolMap::new(grid)),
-            Contender::Yardstick(Yardstick::GridPathfinding) => Self::Pathing(Box::new(pathing_grid(grid))),
-        })
-    }
-
-    /// What answers queries. A yardstick keeps no scratch memory here: it takes it anew for each query, or hides it.
-    pub(crate) fn runner(&self) -> Runner<'_> {
-        match self {
-            Self::Centers(Engine::AStar, lattice) => {
-                Runner::AStarCenters(AStar::new(lattice, LatticeDistance))
-            }
-            Self::Corners(Engine::AStar, lattice) => {
-                Runner::AStarCorners(AStar::new(lattice, LatticeDistance))
-            }
-            Self::Bools(map) => Runner::Bools(map),
-            Self::Pathing(pathing) => Runner::Pathing(pathing),
-        }
-    }
-}
-
-/// Answers queries.
-pub(crate) enum Runner<'p> {
-    AStarCenters(AStar<&'p Lattice<Centers>, LatticeDistance>),
-    AStarCorners(AStar<&'p Lattice<Corners>, LatticeDistance>),
-    Bools(&'p BoolMap),
-    Pathing(&'p PathingGrid),
 }
 
 /// An answer as its contender gives it.
@@ -84,11 +47,19 @@ pub(crate) enum Answer {
     Points(Option<Vec<Point>>),
 }
 
-impl Runner<'_> {
+impl Runner {
+    pub(crate) fn new(contender: Contender, problem: &Problem) -> Result<Self, EngineError> {
+        let grid = &problem.grid;
+        Ok(match contender {
+            Contender::Ours(setup) => Self::Ours(Solver::new(setup, grid, RULES.prebuilt(setup))?),
+            Contender::Yardstick(Yardstick::Pathfinding) => Self::Bools(BoolMap::new(grid)),
+            Contender::Yardstick(Yardstick::GridPathfinding) => Self::Pathing(Box::new(pathing_grid(grid))),
+        })
+    }
+
     pub(crate) fn solve(&mut self, query: Query) -> Result<Answer, QueryError> {
         Ok(match self {
-            Self::AStarCenters(planner) => Answer::Outcome(planner.solve(query)?),
-            Self::AStarCorners(planner) => Answer::Outcome(planner.solve(query)?),
+            Self::Ours(solver) => Answer::Outcome(solver.solve(query)?),
             Self::Bools(map) => Answer::Cells(map.solve(query)),
             Self::Pathing(pathing) => Answer::Points(solve_on(pathing, query)),
         })

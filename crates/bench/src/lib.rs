@@ -9,7 +9,7 @@
 //! Nothing is timed that was not checked: a path that is not as long as the scenario says is an error, not a result.
 //!
 //! * [`Archive`]: where the maps and scenarios of the benchmark sets are; [`Problem`]: one of them, loaded.
-//! * [`Task`]: one of our engines with its k, placement and rule of motion. [`Contender`]: a task or a yardstick.
+//! * [`Contender`]: one of our engines in a [`Setup`](mediant_engines::Setup), or a yardstick.
 //! * [`measure`]: the side by side. [`MapRecord`]: what it found.
 //! * [`Anchors`], [`Comparison`]: the other programs, and our ratio to each.
 //!
@@ -23,8 +23,6 @@ mod measure;
 mod problem;
 #[cfg(doctest)]
 mod readme;
-mod solve;
-mod task;
 mod yardstick;
 
 pub use anchors::{Anchors, AnchorsError, Comparand, MapAnchors, Preprocessing};
@@ -33,5 +31,4 @@ pub use comparison::{Comparison, geometric_mean};
 pub use contender::Contender;
 pub use measure::{MapRecord, MeasureError, Timing, measure};
 pub use problem::{Problem, ProblemError};
-pub use task::{Engine, Task, TaskError};
 pub use yardstick::Yardstick;

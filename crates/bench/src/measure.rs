@@ -2,15 +2,12 @@
 
 use std::{hint::black_box, time::Instant};
 
+use mediant_engines::EngineError;
 use mediant_formats::scenario_tolerance;
-use mediant_moves::KError;
 use mediant_search::QueryError;
 use serde::Serialize;
 
-use crate::{
-    Contender, Problem, Yardstick,
-    contender::{Prepared, Runner},
-};
+use crate::{Contender, Problem, Yardstick, contender::Runner};
 
 /// What all contenders took on one map.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -42,15 +39,15 @@ pub struct Timing {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeasureError {
-    /// A neighborhood that no search graph can be made for.
+    /// A planner that cannot be made.
     #[error("{contender} on map `{map}`: {source}")]
-    Graph {
+    Engine {
         /// Who.
         contender: String,
         /// Where.
         map: String,
         /// Why.
-        source: KError,
+        source: EngineError,
     },
     /// A query that was refused.
     #[error("{contender} on map `{map}`, instance {index}: {source}")]
@@ -85,9 +82,9 @@ pub enum MeasureError {
 }
 
 /// Times the contenders on a problem: a first pass of each, untimed, warms it and checks its answers; then `passes` rounds
-/// (at least one) in which each takes one pass after the other.
+/// (at least one) in which each takes two passes after the other, the first untimed: it warms the caches.
 ///
-/// A task at k = 3 between centers under `Never` and [`Yardstick::Pathfinding`] must return paths as long as the scenario
+/// Our exact engines at k = 3 between centers under `Never` and [`Yardstick::Pathfinding`] must return paths as long as the scenario
 /// says, and as each other's; any other must find a path, as it allows more moves or as many ways through.
 ///
 /// # Errors
@@ -97,15 +94,14 @@ pub fn measure(
     contenders: &[Contender],
     passes: usize,
 ) -> Result<MapRecord, MeasureError> {
-    let graph_error = |contender: Contender, source| MeasureError::Graph {
-        contender: contender.to_string(),
-        map: problem.name.clone(),
-        source,
+    let prepare = |&contender: &Contender| {
+        Runner::new(contender, problem).map_err(|source| MeasureError::Engine {
+            contender: contender.to_string(),
+            map: problem.name.clone(),
+            source,
+        })
     };
-    let prepare =
-        |&contender: &Contender| Prepared::new(contender, problem).map_err(|e| graph_error(contender, e));
-    let prepared: Vec<Prepared> = contenders.iter().map(prepare).collect::<Result<_, _>>()?;
-    let mut runners: Vec<Runner<'_>> = prepared.iter().map(Prepared::runner).collect();
+    let mut runners: Vec<Runner> = contenders.iter().map(prepare).collect::<Result<_, _>>()?;
 
     let mut optima: Vec<f64> = Vec::new();
     let mut timings = Vec::with_capacity(contenders.len());
@@ -119,6 +115,8 @@ pub fn measure(
     }
     for _ in 0..passes.max(1) {
         for (runner, timing) in runners.iter_mut().zip(&mut timings) {
+            // Between two passes the others have filled the caches with their own; the programs of the table ran alone.
+            pass(problem, runner);
             timing.passes.push(pass(problem, runner));
         }
     }
@@ -130,7 +128,7 @@ pub fn measure(
 
 fn solves_scenarios(contender: Contender) -> bool {
     match contender {
-        Contender::Task(task) => task.solves_scenarios(),
+        Contender::Ours(setup) => setup.solves_scenarios(),
         Contender::Yardstick(yardstick) => yardstick == Yardstick::Pathfinding,
     }
 }
@@ -139,7 +137,7 @@ fn solves_scenarios(contender: Contender) -> bool {
 fn check(
     problem: &Problem,
     contender: Contender,
-    runner: &mut Runner<'_>,
+    runner: &mut Runner,
     optima: &[f64],
 ) -> Result<Vec<f64>, MeasureError> {
     let mut costs = Vec::with_capacity(problem.len());
@@ -170,7 +168,7 @@ fn check(
 }
 
 /// The mean time of a query in microseconds.
-fn pass(problem: &Problem, runner: &mut Runner<'_>) -> f64 {
+fn pass(problem: &Problem, runner: &mut Runner) -> f64 {
     let begin = Instant::now();
     for case in &problem.cases {
         // The check has seen every answer, so none is an error here.

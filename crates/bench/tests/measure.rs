@@ -22,10 +22,16 @@ fn scenario(rng: &mut Rng, grid: &Grid, count: usize) -> Scenario {
     Scenario::from_instances(instances).expect("lengths are finite")
 }
 
+/// The last contenders: they solve the scenarios' problem.
+const EXACT: [&str; 5] =
+    ["dijkstra", "canonical,euclidean", "jps,limit=4", "jps-block,intermediate", "jps-plus"];
+
 fn contenders() -> Vec<Contender> {
-    let tasks = ["astar", "astar:2:never", "astar:4:one", "astar:3:always", "astar:3:open", "astar:5:closed"];
-    let tasks = tasks.iter().map(|task| Contender::Task(task.parse().expect("a task")));
-    tasks.chain(Yardstick::ALL.map(Contender::Yardstick)).collect()
+    let setups =
+        ["astar", "astar:2:never", "astar:4:one", "astar:3:always", "astar:3:open", "astar:5:closed"];
+    let setups = setups.iter().map(|setup| Contender::Ours(setup.parse().expect("a setup")));
+    let exact = EXACT.map(|setup| Contender::Ours(setup.parse().expect("a setup")));
+    setups.chain(Yardstick::ALL.map(Contender::Yardstick)).chain(exact).collect()
 }
 
 #[test]
@@ -41,7 +47,7 @@ fn all_contenders_answer_all_queries() {
         let problem = Problem::new("made", "test", grid, &scenario, 1).expect("a problem");
         let record =
             measure(&problem, &contenders(), 2).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
-        assert_eq!((record.instances, record.timings.len()), (problem.len(), 8), "seed {seed}");
+        assert_eq!((record.instances, record.timings.len()), (problem.len(), 13), "seed {seed}");
         for timing in &record.timings {
             assert_eq!(timing.passes.len(), 2, "seed {seed}");
             assert!(timing.passes.iter().all(|&pass| pass > 0.0) && timing.micros > 0.0, "seed {seed}");
@@ -50,6 +56,7 @@ fn all_contenders_answer_all_queries() {
         let optimum = scenario.instances().iter().map(|instance| instance.optimal).sum::<f64>();
         let optimum = optimum / problem.len() as f64;
         assert!((cost(0) - optimum).abs() < 1e-6 && (cost(6) - optimum).abs() < 1e-6, "seed {seed}");
+        assert!((8..13).all(|i| (cost(i) - cost(0)).abs() < 1e-9), "seed {seed}");
         // k = 2 is no better, rule `One` with more moves no worse; a path that cuts corners is never below the best of them.
         assert!(cost(1) >= cost(0) - 1e-6 && cost(2) <= cost(0) + 1e-6, "seed {seed}");
         assert!(cost(3) <= cost(0) + 1e-6 && cost(7) >= cost(3) - 1e-6, "seed {seed}");
@@ -81,7 +88,7 @@ fn wrong_lengths_are_found() {
         let problem = Problem::new("made", "test", map.grid.clone(), &scenario, 1).expect("a problem");
         measure(&problem, &[contender], 1)
     };
-    let astar = Contender::Task("astar".parse().expect("a task"));
+    let astar = Contender::Ours("astar".parse().expect("a setup"));
     for contender in [astar, Contender::Yardstick(Yardstick::Pathfinding)] {
         assert!(check(5.0, contender).is_ok());
         for wrong in [4.99, 5.01] {

@@ -9,14 +9,16 @@ use std::{
     str::FromStr,
 };
 
-use clap::{Args, Parser, Subcommand, ValueEnum, error::ErrorKind};
+use clap::{
+    ArgGroup, Args, Parser, Subcommand, ValueEnum,
+    builder::{PossibleValuesParser, TypedValueParser},
+    error::ErrorKind,
+};
+use mediant_engines::{Engine, HeuristicName, Options, Setup, Variant};
 use mediant_grid::{Centers, CornerRule, DiagonalGap, Lattice, Rules, Vertex};
 use mediant_moves::K;
 
-use crate::{
-    engines::{Engine, HeuristicName},
-    failure::{Ending, FAILURE, Failure, finish, say_error},
-};
+use crate::failure::{Ending, FAILURE, Failure, finish, say_error};
 
 /// Pathfinding on the 2^k neighborhoods of a grid: from the 4-connected grid (k = 2) towards any angle.
 #[derive(Debug, Parser)]
@@ -30,6 +32,8 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Answer queries on a map.
     Run(RunArgs),
+    /// Preprocess a map, and save what an engine needs of it.
+    Build(BuildArgs),
     /// Show the moves of N(k), its radius and its bounds.
     Moves(MovesArgs),
     /// List the engines: placements, k, guarantee, paper.
@@ -39,7 +43,7 @@ pub(crate) enum Command {
 }
 
 #[derive(Args, Debug)]
-#[command(after_help = RUN_HELP)]
+#[command(after_help = RUN_HELP, group(ArgGroup::new("aim").args(["to", "distances"])))]
 pub(crate) struct RunArgs {
     /// A MovingAI map file, or builtin:NAME (archipelago, cave, maze, town)
     pub(crate) map: PathBuf,
@@ -56,14 +60,55 @@ pub(crate) struct RunArgs {
     #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_count(text, &NonZeroUsize::MAX))]
     pub(crate) limit: Option<NonZeroUsize>,
     /// The start of a single query
-    #[arg(long, value_name = "X,Y", requires = "to", allow_hyphen_values = true, value_parser = parse_vertex)]
+    #[arg(long, value_name = "X,Y", requires = "aim", allow_hyphen_values = true, value_parser = parse_vertex)]
     pub(crate) from: Option<Vertex>,
     /// The goal of a single query
     #[arg(long, value_name = "X,Y", requires = "from", allow_hyphen_values = true, value_parser = parse_vertex)]
     pub(crate) to: Option<Vertex>,
 
-    /// How to search
+    #[command(flatten)]
+    pub(crate) setup: SetupArgs,
+    /// What guides the search: the cost on an empty grid, the straight-line distance, or nothing (Dijkstra)
+    #[arg(long, value_parser = names(HeuristicName::ALL, HeuristicName::name))]
+    pub(crate) heuristic: Option<HeuristicName>,
+    /// Of an engine with two rules: the one that is optimal (the default), or the one as published
+    #[arg(long, value_parser = names(Variant::ALL, Variant::name))]
+    pub(crate) variant: Option<Variant>,
+    /// Let no jump take more than N steps
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(value_parser = |text: &str| parse_count(text, &NonZeroU32::MAX))]
+    pub(crate) jump_limit: Option<NonZeroU32>,
+    /// Keep the jump points at which a path only turns on its way to another, which are otherwise passed by
+    #[arg(long)]
+    pub(crate) keep_intermediate: bool,
+    /// Load what the engine preprocesses from a file that `mediant build` made
+    #[arg(long, value_name = "FILE")]
+    pub(crate) index: Option<PathBuf>,
+
+    /// Time each query N times and report the best
+    #[arg(long, value_name = "N", default_value = "1")]
+    #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_count(text, &NonZeroU32::MAX))]
+    pub(crate) repeat: NonZeroU32,
+    /// A table for people, or one JSON object a line for programs
     #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+    /// Draw the map and the path of a single query
+    #[arg(long)]
+    pub(crate) draw: bool,
+    /// Write what the search of a single query does to this file, for the Posthoc visualizer
+    #[arg(long, value_name = "FILE")]
+    pub(crate) trace: Option<PathBuf>,
+    /// Write the distances from --from to all vertices to this file, as CSV (`-` is stdout); needs an engine that finds them
+    #[arg(long, value_name = "FILE", requires = "from")]
+    #[arg(conflicts_with_all = ["scen", "every", "limit", "index", "repeat", "format", "draw", "trace"])]
+    pub(crate) distances: Option<PathBuf>,
+}
+
+/// What to search, and by which engine.
+#[derive(Args, Debug)]
+pub(crate) struct SetupArgs {
+    /// How to search
+    #[arg(long, default_value_t, value_parser = names(Engine::ALL, Engine::name))]
     pub(crate) engine: Engine,
     /// The neighborhood: 2 to 12, or any (any-angle paths)
     #[arg(long, default_value = "3", allow_negative_numbers = true)]
@@ -78,20 +123,17 @@ pub(crate) struct RunArgs {
     /// At corners, whether a path may pass between two blocked cells that touch diagonally: open (the default), closed
     #[arg(long, value_enum, hide_possible_values = true, value_name = "open|closed")]
     pub(crate) gap: Option<GapArg>,
-    /// What guides the search: the cost on an empty grid, the straight-line distance, or nothing (Dijkstra)
-    #[arg(long, value_enum, default_value_t)]
-    pub(crate) heuristic: HeuristicName,
+}
 
-    /// Time each query N times and report the best
-    #[arg(long, value_name = "N", default_value = "1")]
-    #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_count(text, &NonZeroU32::MAX))]
-    pub(crate) repeat: NonZeroU32,
-    /// A table for people, or one JSON object a line for programs
-    #[arg(long, value_enum, default_value_t)]
-    pub(crate) format: Format,
-    /// Draw the map and the path of a single query
-    #[arg(long)]
-    pub(crate) draw: bool,
+#[derive(Args, Debug)]
+pub(crate) struct BuildArgs {
+    /// A MovingAI map file, or builtin:NAME (archipelago, cave, maze, town)
+    pub(crate) map: PathBuf,
+    #[command(flatten)]
+    pub(crate) setup: SetupArgs,
+    /// The file to make
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
 }
 
 const RUN_HELP: &str = "\
@@ -100,13 +142,16 @@ expanded and generated nodes and heap percolations; the timed runs count nothing
 
 A builtin map with no query given runs its own scenario.
 
+A trace is JSON for the Posthoc visualizer, with every event of the search, and the path found as its end.
+
 Exit status: 0 when every query was answered (found or unreachable), 1 when any was an error, 2 for bad arguments or an \
 unreadable file.
 
 Examples:
   mediant run builtin:archipelago
   mediant run arena.map --scen arena.map.scen --k 5 --placement corner --format jsonl
-  mediant run arena.map --from 1,11 --to 40,30 --draw";
+  mediant run arena.map --from 1,11 --to 40,30 --draw
+  mediant run arena.map --from 1,11 --engine dijkstra --distances -";
 
 #[derive(Args, Debug)]
 pub(crate) struct MovesArgs {
@@ -181,9 +226,43 @@ pub(crate) enum Format {
     Jsonl,
 }
 
+/// Takes one of these names.
+fn names<T: FromStr<Err = mediant_engines::UnknownName> + Clone + Send + Sync + 'static, const N: usize>(
+    all: [T; N],
+    name: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(all.map(name)).try_map(|name| name.parse())
+}
+
 impl RunArgs {
+    /// The setup that the arguments ask for, if there is one.
+    pub(crate) fn setup(&self) -> Result<Setup, Failure> {
+        let options = Options {
+            heuristic: self.heuristic,
+            variant: self.variant,
+            jump_limit: self.jump_limit,
+            intermediate: self.keep_intermediate,
+        };
+        self.setup.with(options)
+    }
+}
+
+impl SetupArgs {
+    /// The setup with these options, if there is one.
+    pub(crate) fn with(&self, options: Options) -> Result<Setup, Failure> {
+        let rules = self.rules()?;
+        let engine = self.engine;
+        let k = match self.k {
+            KArg::Finite(k) => k,
+            KArg::Any => return Err(Failure::NeedsFiniteK { engine, max: engine.about().max_k }),
+        };
+        let setup = Setup { options, ..Setup::new(engine, k, rules) };
+        setup.check()?;
+        Ok(setup)
+    }
+
     /// Placement and rule; an error for the rule of the other placement.
-    pub(crate) fn rules(&self) -> Result<Rules, Failure> {
+    fn rules(&self) -> Result<Rules, Failure> {
         let not_applicable =
             |option, placement, other| Err(Failure::NotApplicable { option, placement, other });
         match self.placement {

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use anstyle::RgbColor;
+use mediant_engines::{Engine, Prebuilt, Preprocessing, Setup, Visit, with_planner};
 use mediant_grid::{CornerRule, DiagonalGap, Placement, Rules, Vertex};
 use mediant_moves::{K, bound_at_corners};
 use mediant_search::{Outcome, Planner, Query};
@@ -10,7 +11,6 @@ use mediant_search::{Outcome, Planner, Query};
 use crate::{
     args::DemoArgs,
     braille::Stroke,
-    engines::{Engine, HeuristicName, Preprocessing, Setup, Task, with_planner},
     failure::Failure,
     map::{Builtin, Map},
     picture::{Canvas, GOAL_MARK, START_MARK},
@@ -38,10 +38,10 @@ struct Row {
 /// Solves the demo's query under one setup; `None` when there is no path.
 struct Solve(Setup, Query);
 
-impl Task for Solve {
+impl Visit for Solve {
     type Output = Option<Row>;
 
-    fn run<P: Planner>(self, mut planner: P, _: Preprocessing) -> Option<Row> {
+    fn visit<P: Planner>(self, mut planner: P, _: Preprocessing) -> Option<Row> {
         let Self(Setup { rules, k, .. }, query) = self;
         let Answer { outcome, counters, nanos } = Answer::new(&mut planner, query, REPEAT);
         let Ok(Outcome::Found(path)) = outcome else { return None };
@@ -60,8 +60,8 @@ pub(crate) fn demo(args: &DemoArgs, screen: &mut Screen) -> Result<(), Failure> 
     let setups = KS.map(|k| (corners, k)).into_iter().chain([(centers, 3)]);
     let mut rows = Vec::new();
     for (rules, k) in setups {
-        let setup = Setup { engine: Engine::Astar, k: K::new(k)?, rules, heuristic: HeuristicName::Hk };
-        rows.extend(with_planner(setup, map.grid.clone(), Solve(setup, query))?);
+        let setup = Setup::new(Engine::AStar, K::new(k)?, rules);
+        rows.extend(with_planner(setup, &map.grid, Prebuilt::default(), Solve(setup, query))?);
     }
     title(builtin, &map, query, screen)?;
     picture(&map, query, &rows, screen)?;

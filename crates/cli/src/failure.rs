@@ -2,14 +2,16 @@
 
 use std::{
     io::{self, Write},
+    path::{Path, PathBuf},
     process::ExitCode,
 };
 
 use anstyle::{AnsiColor, Style};
-use mediant_formats::{ReadError, ScenarioForOtherMap};
+use mediant_engines::{Engine, EngineError, SetupError};
+use mediant_formats::{IndexError, ReadError, ScenarioForOtherMap, WriteError};
 use mediant_grid::Vertex;
 
-use crate::{engines::Engine, text::printable};
+use crate::text::printable;
 
 /// Exit status 1: some query was an error.
 const QUERY_ERROR: u8 = 1;
@@ -47,18 +49,37 @@ pub(crate) enum Failure {
         "{option} does not apply to --placement {placement}: leave it out, or choose --placement {other}"
     )]
     NotApplicable { option: &'static str, placement: &'static str, other: &'static str },
-    #[error("{engine} needs a finite k: choose --k {min} … {max}")]
-    NeedsFiniteK { engine: Engine, min: u32, max: u32 },
+    #[error("{engine} needs a finite k: choose --k 2 … {max}")]
+    NeedsFiniteK { engine: Engine, max: u32 },
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error("{}: {source}", path.display())]
+    Index { path: PathBuf, source: IndexError },
+    #[error(transparent)]
+    WriteIndex(#[from] WriteError),
+    #[error("{}: cannot be written: {source}", path.display())]
+    Write { path: PathBuf, source: io::Error },
     #[error("--draw shows a single query: give --from and --to, or --limit 1")]
     DrawMany,
     #[error("--draw is for people: leave it out, or choose --format table")]
     DrawJsonl,
+    #[error("--trace follows a single query: give --from and --to, or --limit 1")]
+    TraceMany,
     #[error("give --k for the moves of a neighborhood, --ratio for the k that a bound asks for, or both")]
     NoK,
     #[error(transparent)]
     K(#[from] mediant_moves::KError),
     #[error("cannot write the output: {0}")]
     Output(#[from] io::Error),
+}
+
+impl Failure {
+    /// Names the file that cannot be written.
+    pub(crate) fn writing(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        move |source| Self::Write { path: path.to_owned(), source }
+    }
 }
 
 /// Says what is to be said on stderr. A reader of the output that has seen enough (`| head`) is no failure.

@@ -1,6 +1,6 @@
 //! `mediant`: pathfinding on the 2^k neighborhoods of a grid, from the command line.
 //!
-//! A thin program: it turns arguments into types (a closed [`Engine`](engines::Engine), rules, k), runs the queries on a
+//! A thin program: it turns arguments into types (a [`Setup`](mediant_engines::Setup) of a closed catalog), runs the queries on a
 //! planner that is compiled for just those types, and reports. What scripts rely on (the objects of `--format jsonl`, the
 //! exit status) is in [`record`] and [`failure`].
 
@@ -16,7 +16,9 @@ use crate::{
 
 mod args;
 mod braille;
+mod build;
 mod demo;
+mod distances;
 mod engines;
 mod failure;
 mod map;
@@ -33,6 +35,7 @@ mod star;
 mod summary;
 mod text;
 mod theme;
+mod trace;
 
 fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
@@ -42,6 +45,7 @@ fn main() -> ExitCode {
     let mut screen = Screen::stdout();
     let ending = match cli.command {
         Command::Run(args) => run::run(&args, &mut screen),
+        Command::Build(args) => build::build(&args, &mut screen).map(|()| Ending::Answered),
         Command::Demo(args) => demo::demo(&args, &mut screen).map(|()| Ending::Answered),
         Command::Engines => engines::list(&mut screen).map(|()| Ending::Answered),
         Command::Moves(args) => moves::moves(&args, &mut screen).map(|()| Ending::Answered),

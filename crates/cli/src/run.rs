@@ -1,13 +1,19 @@
 //! `mediant run`: queries on a map.
 
-use std::io::{self, IsTerminal, Write};
+use std::{
+    fs::File,
+    io::{self, BufWriter, IsTerminal, Write},
+    num::NonZeroU32,
+    time::{Duration, Instant},
+};
 
+use mediant_engines::{Prebuilt, Setup, with_planner};
 use mediant_grid::{CornerRule, DiagonalGap, Rules};
 
 use crate::{
     args::{Format, RunArgs},
     braille::Stroke,
-    engines::{Setup, with_planner},
+    build, distances,
     failure::{Ending, Failure},
     map::Map,
     picture::Canvas,
@@ -16,22 +22,36 @@ use crate::{
     record::RunRecord,
     report::{Jsonl, Report, TableReport},
     screen::Screen,
-    session::{Finished, Session},
+    session::{Finished, Session, TraceFile},
     text::count,
     theme::INKS,
 };
 
 /// Runs the command.
 pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure> {
-    let setup = Setup::new(args)?;
+    let setup = args.setup()?;
     if args.draw && args.format == Format::Jsonl {
         return Err(Failure::DrawJsonl);
     }
+    if args.index.is_some() {
+        setup.index_version()?;
+    }
     let map = Map::load(&args.map)?;
+    if let (Some(path), Some(from)) = (&args.distances, args.from) {
+        return distances::write(setup, &map, from, path, screen);
+    }
     let queries = Queries::load(args, &map)?;
     if args.draw && queries.len() > 1 {
         return Err(Failure::DrawMany);
     }
+    if args.trace.is_some() && queries.len() > 1 {
+        return Err(Failure::TraceMany);
+    }
+    let (prebuilt, load_time) = load_index(args, setup, &map)?;
+    let trace = args.trace.as_deref().map(|path| {
+        let file = File::create(path).map_err(Failure::writing(path))?;
+        Ok::<_, Failure>(TraceFile { path, out: BufWriter::new(file) })
+    });
     // Lines of JSON on the screen are progress enough, and a bar would break them.
     let lines_on_screen = args.format == Format::Jsonl && io::stdout().is_terminal();
     let mut report: Box<dyn Report> = match args.format {
@@ -45,13 +65,23 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
         run: describe(args, setup, &map, &queries),
         report: &mut *report,
         progress: Progress::new(queries.len(), !lines_on_screen),
+        load_time,
+        trace: trace.transpose()?,
     };
-    let finished = with_planner(setup, map.grid.clone(), session)??;
+    let finished = with_planner(setup, &map.grid, prebuilt, session)??;
     drop(report);
     if args.draw {
         draw(setup, &map, &queries, &finished, screen)?;
     }
     Ok(ending(&queries, finished))
+}
+
+/// The saved index, if one is named, and what reading it took.
+fn load_index(args: &RunArgs, setup: Setup, map: &Map) -> Result<(Prebuilt, Duration), Failure> {
+    let begin = Instant::now();
+    let index = args.index.as_deref().map(|path| build::load(path, setup, &map.grid)).transpose()?;
+    let time = if index.is_some() { begin.elapsed() } else { Duration::ZERO };
+    Ok((Prebuilt { index, ..Prebuilt::default() }, time))
 }
 
 /// All that is known of the run before its planner is made.
@@ -73,7 +103,10 @@ fn describe(args: &RunArgs, setup: Setup, map: &Map, queries: &Queries) -> RunRe
         placement: setup.rules.placement().to_string(),
         corners: corners.to_string(),
         gap: gap.to_string(),
-        heuristic: setup.heuristic.to_string(),
+        heuristic: setup.heuristic().to_string(),
+        variant: setup.variant().map(|variant| variant.to_string()),
+        jump_limit: setup.options.jump_limit.map(NonZeroU32::get),
+        keep_intermediate: setup.options.intermediate,
         smooth: false,
         guarantee: String::new(),
         repeat: args.repeat.get(),

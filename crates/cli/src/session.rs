@@ -1,17 +1,26 @@
 //! Answering queries one after the other on one warm planner.
 
-use std::{hint::black_box, io, time::Instant};
+use std::{
+    fs::File,
+    hint::black_box,
+    io::BufWriter,
+    path,
+    time::{Duration, Instant},
+};
 
+use mediant_engines::{Preprocessing, Visit};
 use mediant_grid::{Centers, Corners, Grid, Place, Placement, Vertex};
-use mediant_search::{Counters, Outcome, Planner, Query, QueryError};
+use mediant_search::{Counters, Outcome, Path, Planner, Query, QueryError};
 
 use crate::{
-    engines::{Preprocessing, Task, guarantee_name},
+    engines::guarantee_name,
+    failure::Failure,
     progress::Progress,
     queries::{Item, Queries},
     record::{QueryRecord, RunRecord, Status},
     report::Report,
     summary::{Summary, Tally},
+    trace::Tracer,
 };
 
 /// The queries of a run, and who is told of the answers.
@@ -23,6 +32,16 @@ pub(crate) struct Session<'s> {
     pub(crate) run: RunRecord,
     pub(crate) report: &'s mut dyn Report,
     pub(crate) progress: Progress,
+    /// What reading a saved index took.
+    pub(crate) load_time: Duration,
+    /// Where the search of the first query is to be written down.
+    pub(crate) trace: Option<TraceFile<'s>>,
+}
+
+/// A file for a trace.
+pub(crate) struct TraceFile<'s> {
+    pub(crate) path: &'s path::Path,
+    pub(crate) out: BufWriter<File>,
 }
 
 /// How a session ended.
@@ -34,20 +53,26 @@ pub(crate) struct Finished {
     pub(crate) path: Vec<Vertex>,
 }
 
-impl Task for Session<'_> {
-    type Output = io::Result<Finished>;
+impl Visit for Session<'_> {
+    type Output = Result<Finished, Failure>;
 
-    fn run<P: Planner>(self, mut planner: P, preprocessing: Preprocessing) -> io::Result<Finished> {
-        let Self { queries, grid, placement, mut run, report, mut progress } = self;
+    fn visit<P: Planner>(self, mut planner: P, preprocessing: Preprocessing) -> Result<Finished, Failure> {
+        let Self { queries, grid, placement, mut run, report, mut progress, load_time, mut trace } = self;
         let repeat = run.repeat;
         run.guarantee = guarantee_name(planner.guarantee());
-        run.preprocess_ns = preprocessing.time.as_nanos() as u64;
+        run.preprocess_ns = (load_time + preprocessing.time).as_nanos() as u64;
         run.index_bytes = preprocessing.index_bytes;
         report.begin(run)?;
         let mut tally = Tally::default();
         let (mut first_error, mut path) = (None, Vec::new());
         for item in queries.iter() {
             let answer = Answer::new(&mut planner, item.query, repeat);
+            if let Some(TraceFile { path, out }) = trace.take() {
+                let tracer = Tracer::new(out, grid, placement);
+                tracer
+                    .and_then(|tracer| tracer.run(&mut planner, item.query, &answer.outcome))
+                    .map_err(Failure::writing(path))?;
+            }
             let record = answer.into_record(item, |error| explain(error, grid, placement));
             tally.add(&record);
             if let Some(error) = record.error.as_ref().filter(|_| first_error.is_none()) {
@@ -92,25 +117,26 @@ impl Answer {
 
     fn into_record(self, item: Item, explain: impl FnOnce(QueryError) -> String) -> QueryRecord {
         let Query { start, goal } = item.query;
-        let (status, cost, path, error) = match self.outcome {
-            Ok(Outcome::Found(path)) => {
-                let waypoints = path.waypoints().iter().map(|at| [at.x, at.y]).collect();
-                (Status::Found, Some(path.cost()), waypoints, None)
-            }
-            Ok(Outcome::Unreachable) => (Status::Unreachable, None, Vec::new(), None),
-            Err(error) => (Status::Error, None, Vec::new(), Some(explain(error))),
+        let (status, path, error) = match self.outcome {
+            Ok(Outcome::Found(path)) => (Status::Found, Some(path), None),
+            Ok(Outcome::Unreachable) => (Status::Unreachable, None, None),
+            Err(error) => (Status::Error, None, Some(explain(error))),
         };
+        let waypoints = path.as_ref().map_or(&[][..], Path::waypoints);
         QueryRecord {
             index: item.index,
             start: [start.x, start.y],
             goal: [goal.x, goal.y],
             status,
-            cost,
-            path,
+            cost: path.as_ref().map(Path::cost),
+            path: waypoints.iter().map(|at| [at.x, at.y]).collect(),
+            smoothness: path.as_ref().map(Path::smoothness),
             reference: item.reference,
             expanded: self.counters.expanded,
             generated: self.counters.generated,
             percolations: self.counters.percolations,
+            updated: self.counters.updated,
+            scanned: self.counters.scanned,
             nanos: self.nanos,
             error,
         }
@@ -118,7 +144,7 @@ impl Answer {
 }
 
 /// A query error with, for a blocked end, a free vertex nearby.
-fn explain(error: QueryError, grid: &Grid, placement: Placement) -> String {
+pub(crate) fn explain(error: QueryError, grid: &Grid, placement: Placement) -> String {
     match error {
         QueryError::Blocked { at, .. } => match nearest_free(grid, placement, at) {
             Some(free) => format!("{error}; the nearest one is {free}"),

@@ -20,8 +20,12 @@ pub(crate) struct Summary {
     pub(crate) mean_expanded: f64,
     pub(crate) mean_generated: f64,
     pub(crate) mean_percolations: f64,
+    pub(crate) mean_updated: f64,
+    pub(crate) mean_scanned: f64,
     /// `null` where no path was found.
     pub(crate) mean_cost: Option<f64>,
+    /// `null` where no path was found.
+    pub(crate) mean_smoothness: Option<f64>,
     /// `null` where no answered query has a reference.
     pub(crate) reference: Option<References>,
 }
@@ -51,7 +55,10 @@ pub(crate) struct Tally {
     expanded: u64,
     generated: u64,
     percolations: u64,
+    updated: u64,
+    scanned: u64,
     cost: f64,
+    smoothness: f64,
     compared: u64,
     equal: u64,
     worst: (f64, usize),
@@ -73,6 +80,9 @@ impl Tally {
         self.expanded += record.expanded;
         self.generated += record.generated;
         self.percolations += record.percolations;
+        self.updated += record.updated;
+        self.scanned += record.scanned;
+        self.smoothness += record.smoothness.unwrap_or(0.0);
         let cost = record.cost.unwrap_or(0.0);
         self.cost += cost;
         if let Some(reference) = record.reference {
@@ -116,7 +126,10 @@ impl Tally {
             mean_expanded: mean(self.expanded as f64, answered),
             mean_generated: mean(self.generated as f64, answered),
             mean_percolations: mean(self.percolations as f64, answered),
+            mean_updated: mean(self.updated as f64, answered),
+            mean_scanned: mean(self.scanned as f64, answered),
             mean_cost: (self.found > 0).then(|| mean(self.cost, self.found)),
+            mean_smoothness: (self.found > 0).then(|| mean(self.smoothness, self.found)),
             reference: (self.compared > 0).then_some(references),
         }
     }
@@ -144,10 +157,13 @@ mod tests {
             status: if cost.is_some() { Status::Found } else { Status::Unreachable },
             cost,
             path: Vec::new(),
+            smoothness: cost.map(|_| 90.0),
             reference: Some(reference),
             expanded: 10,
             generated: 20,
             percolations: 30,
+            updated: 40,
+            scanned: 50,
             nanos,
             error: None,
         }
@@ -165,6 +181,8 @@ mod tests {
         assert_eq!((summary.queries, summary.found, summary.unreachable, summary.errors), (5, 3, 1, 1));
         assert_eq!((summary.median_nanos, summary.max_nanos, summary.total_nanos), (3, 100, 108));
         assert_eq!((summary.mean_nanos, summary.mean_expanded), (27.0, 10.0));
+        assert_eq!((summary.mean_updated, summary.mean_scanned), (40.0, 50.0));
+        assert_eq!(summary.mean_smoothness, Some(90.0));
         let reference = summary.reference.unwrap();
         assert_eq!((reference.compared, reference.equal), (4, 3));
         assert_eq!((reference.worst_deviation, reference.worst_index), (-1.0, 1));

@@ -24,11 +24,7 @@ fn arguments_that_make_no_sense() {
     check("run", "the following required arguments were not provided: <MAP>; see --help");
     check(
         "run builtin:cave --from 1,2",
-        "the following required arguments were not provided: --to <X,Y>; see --help",
-    );
-    check(
-        "run builtin:cave --engine jps",
-        "invalid value 'jps' for '--engine <ENGINE>' [possible values: astar]; see --help",
+        "the following required arguments were not provided: <--to <X,Y>|--distances <FILE>>; see --help",
     );
     check(
         "run builtin:cave --k 1",
@@ -78,6 +74,31 @@ fn arguments_that_make_no_sense() {
 }
 
 #[test]
+fn engines_and_options_that_are_none() {
+    check(
+        "run builtin:cave --engine warp",
+        "invalid value 'warp' for '--engine <ENGINE>' [possible values: astar, dijkstra, wavefront, canonical, jps, jps-block, \
+         jps-plus]; see --help",
+    );
+    check(
+        "run builtin:cave --engine canonical --variant best",
+        "invalid value 'best' for '--variant <VARIANT>' [possible values: exact, paper]; see --help",
+    );
+    check(
+        "run builtin:cave --heuristic manhattan",
+        "invalid value 'manhattan' for '--heuristic <HEURISTIC>' [possible values: hk, euclidean, zero]; see --help",
+    );
+    check(
+        "run builtin:cave --engine jps --jump-limit 0",
+        "invalid value '0' for '--jump-limit <N>': expected a whole number from 1 up; see --help",
+    );
+    check(
+        "build builtin:cave --engine jps-plus",
+        "the following required arguments were not provided: --output <FILE>; see --help",
+    );
+}
+
+#[test]
 fn vertices_that_are_none() {
     check(
         "run builtin:cave --from 3 --to 4,5",
@@ -120,11 +141,140 @@ fn options_that_do_not_go_together() {
         "run builtin:cave --scen builtin:cave --from 1,2 --to 3,4",
         "the argument '--scen <FILE>' cannot be used with: --from <X,Y>; --to <X,Y>; see --help",
     );
+    check(
+        "run builtin:cave --distances -",
+        "the following required arguments were not provided: --from <X,Y>; see --help",
+    );
+    check(
+        "run builtin:cave --from 1,2 --to 3,4 --distances -",
+        "the argument '--to <X,Y>' cannot be used with '--distances <FILE>'; see --help",
+    );
+    check(
+        "run builtin:cave --from 1,2 --distances - --format jsonl",
+        "the argument '--distances <FILE>' cannot be used with '--format <FORMAT>'; see --help",
+    );
+    check(
+        "run builtin:cave --trace t.json",
+        "--trace follows a single query: give --from and --to, or --limit 1",
+    );
     check("run builtin:cave --draw", "--draw shows a single query: give --from and --to, or --limit 1");
     check(
         "run builtin:cave --limit 1 --draw --format jsonl",
         "--draw is for people: leave it out, or choose --format table",
     );
+}
+
+#[test]
+fn what_an_engine_does_not_take() {
+    let jumpers = "leave it out, or choose jps, jps-block";
+    for (options, message) in [
+        (
+            "--engine dijkstra --heuristic hk",
+            "dijkstra takes no heuristic: leave it out, or choose astar, canonical, jps, jps-block, jps-plus"
+                .to_owned(),
+        ),
+        (
+            "--engine jps --variant paper",
+            "jps takes no variant: leave it out, or choose canonical".to_owned(),
+        ),
+        ("--jump-limit 3", format!("astar takes no jump limit: {jumpers}")),
+        ("--engine jps-plus --jump-limit 3", format!("jps-plus takes no jump limit: {jumpers}")),
+        (
+            "--engine canonical --keep-intermediate",
+            format!("canonical takes no intermediate jump points: {jumpers}, jps-plus"),
+        ),
+        ("--engine jps-block --k 4", "jps-block needs a k from 2 to 3, found 4".to_owned()),
+        ("--engine jps-plus --k 12", "jps-plus needs a k from 2 to 3, found 12".to_owned()),
+        ("--engine jps-plus --k any", "jps-plus needs a finite k: choose --k 2 … 3".to_owned()),
+        ("--engine jps --index x.idx", "jps has no index: choose jps-plus".to_owned()),
+        (
+            "--from 2,5 --distances -",
+            "astar has no distances to all vertices: choose dijkstra, wavefront".to_owned(),
+        ),
+    ] {
+        check(&format!("run builtin:cave {options}"), &message);
+    }
+    check("build builtin:cave --engine canonical -o x.idx", "canonical has no index: choose jps-plus");
+    check(
+        "build builtin:cave --engine jps-plus --gap open -o x.idx",
+        "--gap does not apply to --placement center: leave it out, or choose --placement corner",
+    );
+}
+
+#[test]
+fn an_index_for_something_else_is_refused() {
+    let files = Files::new();
+    let index = files.path("cave.idx");
+    let built = mediant(&["build", "builtin:cave", "--engine", "jps-plus", "-o", &index]);
+    assert_eq!((built.status, built.stderr.as_str()), (Some(0), ""));
+    let refused = |line: &str, path: &str| {
+        let args: Vec<&str> = line.split(' ').chain(["--engine", "jps-plus", "--index", path]).collect();
+        let Ran { status, stdout, stderr } = mediant(&args);
+        assert_eq!((stdout.as_str(), status), ("", Some(2)), "{line}");
+        files.strip(&stderr)
+    };
+    let again = "or build it again with `mediant build`";
+    let map = refused("run builtin:maze", &index);
+    assert!(
+        map.starts_with("error: cave.idx: expected an index for this map (69 × 33 cells, digest "),
+        "{map}"
+    );
+    assert!(map.ends_with(&format!("; name that map, {again}\n")), "{map}");
+    assert_eq!(
+        refused("run builtin:cave --k 2", &index),
+        format!(
+            "error: cave.idx: expected an index for k = 2, found one for k = 3; choose that k, {again}\n"
+        )
+    );
+    assert_eq!(
+        refused("run builtin:cave --corners one", &index),
+        format!(
+            "error: cave.idx: expected an index for the rules `center, corners one`, found one for `center, corners never`; \
+             choose those rules, {again}\n"
+        )
+    );
+    assert_eq!(
+        refused("run builtin:cave", &files.path("none.idx")),
+        "error: none.idx: no such file; check the path and the folder that you are in\n"
+    );
+    let mut bytes = std::fs::read(&index).expect("the index");
+    bytes.pop();
+    let cut = refused("run builtin:cave", &files.add("cut.idx", &bytes));
+    assert!(
+        cut.starts_with("error: cut.idx: expected an index of ") && cut.contains("copy the file again"),
+        "{cut}"
+    );
+}
+
+#[test]
+fn files_that_cannot_be_written() {
+    let files = Files::new();
+    let check = |args: &[&str], message: &str| {
+        let Ran { status, stdout, stderr } = mediant(args);
+        assert_eq!((stdout.as_str(), status), ("", Some(2)), "{args:?}");
+        assert_eq!(files.strip(&stderr), format!("error: {message}\n"), "{args:?}");
+    };
+    let nowhere = files.path("no/where");
+    let missing = "no/where: cannot be written: No such file or directory (os error 2)";
+    check(&["run", "builtin:cave", "--limit", "1", "--trace", &nowhere], missing);
+    check(
+        &["run", "builtin:cave", "--engine", "dijkstra", "--from", "2,5", "--distances", &nowhere],
+        missing,
+    );
+    let built = mediant(&["build", "builtin:cave", "--engine", "jps-plus", "-o", &nowhere]);
+    assert_eq!(built.status, Some(2));
+    assert!(files.strip(&built.stderr).starts_with("error: no/where: cannot be written: "), "{built:?}");
+}
+
+#[test]
+fn distances_from_a_blocked_start_are_a_query_without_an_answer() {
+    let files = Files::new();
+    let (map, csv) = (files.add("yard.map", MAP), files.path("yard.csv"));
+    let Ran { status, stdout, stderr } =
+        mediant(&["run", &map, "--engine", "wavefront", "--from", "1,0", "--distances", &csv]);
+    let message = "error: the start (1, 0) is blocked: choose a free vertex; the nearest one is (0, 0)\n";
+    assert_eq!((stdout.as_str(), stderr.as_str(), status), ("", message, Some(1)));
+    assert!(!std::path::Path::new(&csv).exists(), "nothing was found, nothing is written");
 }
 
 #[test]

@@ -12,7 +12,7 @@ use std::{
 use mediant_formats::{MapFile, Scenario};
 use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Grid, Lattice, Place, Rules};
 use mediant_moves::K;
-use mediant_search::{AStar, Counters, LatticeDistance, Planner, Query};
+use mediant_search::{AStar, Counters, LatticeDistance, Path, Planner, Query};
 use serde_json::Value;
 
 mod common;
@@ -60,7 +60,7 @@ fn every_record_is_complete() {
     assert!(keys(run).is_superset(&contract.into()), "{run}");
     let expected: Value = serde_json::json!({
         "map": "cave.map", "scenario": "cave.map.scen", "engine": "astar", "k": 3, "placement": "center", "corners": "never",
-        "gap": "open", "smooth": false, "guarantee": "optimal(3)", "heuristic": "hk", "repeat": 1, "queries": 32,
+        "variant": null, "jump_limit": null, "keep_intermediate": false, "gap": "open", "smooth": false, "guarantee": "optimal(3)", "heuristic": "hk", "repeat": 1, "queries": 32,
     });
     for (key, value) in expected.as_object().expect("an object") {
         assert_eq!(&run[key], value, "{key}");
@@ -82,6 +82,9 @@ fn every_record_is_complete() {
         "expanded",
         "generated",
         "percolations",
+        "updated",
+        "scanned",
+        "smoothness",
         "nanos",
     ];
     let scenario = Scenario::read(bundled("cave.map.scen")).expect("our own scenario");
@@ -270,6 +273,160 @@ fn every_option_reaches_the_planner() {
     }
     // At k = 2 no move passes a corner point, so that the corner rules agree, and town has few doubly blocked corners.
     assert!(different.len() >= 14, "only {} of 20 setups differ: are options lost?", different.len());
+}
+
+/// The run record and the queries of the town's scenario with these options.
+fn town(options: &str) -> (Value, Vec<Value>) {
+    let line = format!("run builtin:town --format jsonl{options}");
+    let records = records(&line.split(' ').collect::<Vec<_>>());
+    let (run, queries, _) = parts(&records);
+    (run.clone(), queries.to_vec())
+}
+
+fn costs(queries: &[Value]) -> Vec<Option<u64>> {
+    queries.iter().map(|query| query["cost"].as_f64().map(nanocells)).collect()
+}
+
+fn sum(queries: &[Value], count: &str) -> u64 {
+    queries.iter().filter_map(|query| query[count].as_u64()).sum()
+}
+
+#[test]
+fn every_exact_engine_costs_the_same() {
+    for k in [2, 3, 4] {
+        let (_, astar) = town(&format!(" --k {k}"));
+        assert_eq!(sum(&astar, "scanned"), 0);
+        for engine in ["dijkstra", "canonical", "jps", "jps-block", "jps-plus"] {
+            if k > 3 && ["jps-block", "jps-plus"].contains(&engine) {
+                continue;
+            }
+            let (run, queries) = town(&format!(" --k {k} --engine {engine}"));
+            assert_eq!(
+                (&run["engine"], &run["guarantee"]),
+                (&engine.into(), &format!("optimal({k})").into())
+            );
+            assert_eq!(costs(&queries), costs(&astar), "{engine}, k = {k}");
+        }
+    }
+    let (run, wavefront) = town(" --engine wavefront --k 2");
+    assert_eq!(run["guarantee"], "optimal(2)");
+    assert_eq!(costs(&wavefront), costs(&town(" --k 2").1));
+    assert_eq!(town(" --engine wavefront").0["guarantee"], "suboptimal");
+}
+
+#[test]
+fn variants_and_jump_options_reach_the_planner() {
+    let (exact, by_default) =
+        (town(" --engine canonical --variant exact --k 5"), town(" --engine canonical --k 5"));
+    assert_eq!((&exact.0["variant"], &by_default.0["variant"]), (&"exact".into(), &"exact".into()));
+    assert_eq!(sum(&exact.1, "generated"), sum(&by_default.1, "generated"));
+    let (run, paper) = town(" --engine canonical --variant paper --k 5");
+    assert_eq!((&run["variant"], &run["guarantee"]), (&"paper".into(), &"suboptimal".into()));
+    assert_ne!(sum(&paper, "generated"), sum(&exact.1, "generated"));
+    let cost = |queries: &[Value]| costs(queries).into_iter().flatten().sum::<u64>();
+    assert!(cost(&paper) >= cost(&exact.1));
+
+    let (run, far) = town(" --engine jps");
+    assert_eq!((&run["variant"], &run["jump_limit"]), (&Value::Null, &Value::Null));
+    let (run, bounded) = town(" --engine jps --jump-limit 3");
+    assert_eq!(run["jump_limit"].as_u64(), Some(3));
+    assert!(sum(&bounded, "expanded") > sum(&far, "expanded"));
+    let (run, kept) = town(" --engine jps --keep-intermediate");
+    assert_eq!((&run["keep_intermediate"], &run["type"]), (&true.into(), &"run".into()));
+    assert!(sum(&kept, "expanded") != sum(&far, "expanded"));
+    assert_eq!((costs(&bounded), costs(&kept)), (costs(&far), costs(&far)));
+    assert!(sum(&far, "scanned") > 0);
+}
+
+#[test]
+fn smoothness_is_that_of_the_path() {
+    let (_, queries) = town(" --k 4 --placement corner");
+    for query in &queries {
+        let waypoints = query["path"].as_array().expect("a path").iter().map(|at| {
+            let x = |i: usize| at[i].as_i64().expect("a coordinate") as i32;
+            (x(0), x(1)).into()
+        });
+        let expected = Path::new(waypoints.collect()).smoothness();
+        let found = query["smoothness"].as_f64().expect("a number");
+        assert!((found - expected).abs() < 1e-9, "{query}");
+    }
+    let mean =
+        queries.iter().filter_map(|query| query["smoothness"].as_f64()).sum::<f64>() / queries.len() as f64;
+    let records =
+        records(&"run builtin:town --k 4 --placement corner --format jsonl".split(' ').collect::<Vec<_>>());
+    let (_, _, summary) = parts(&records);
+    assert!((summary["mean_smoothness"].as_f64().expect("a number") - mean).abs() < 1e-9);
+    assert!(summary["mean_updated"].as_f64() > Some(0.0) && summary["mean_scanned"].as_f64() == Some(0.0));
+}
+
+#[test]
+fn a_saved_index_gives_the_same_answers() {
+    let files = Files::new();
+    let index = files.path("town.idx");
+    let rules: [&[&str]; 3] =
+        [&[], &["--k", "2", "--corners", "always"], &["--placement", "corner", "--gap", "closed"]];
+    for options in rules {
+        let build = ["build", "builtin:town", "--engine", "jps-plus", "-o", &index];
+        assert_eq!(mediant(&[&build[..], options].concat()).status, Some(0));
+        let run = ["run", "builtin:town", "--engine", "jps-plus", "--format", "jsonl"];
+        let new = records(&[&run[..], options].concat());
+        let saved = records(&[&run[..], options, &["--index", &index]].concat());
+        let told = |records: &[Value]| {
+            let (run, queries, _) = parts(records);
+            assert!(run["preprocess_ns"].as_u64() > Some(0));
+            let queries = queries.iter().map(|query| (query["path"].clone(), query["expanded"].clone()));
+            (run["index_bytes"].clone(), queries.collect::<Vec<_>>())
+        };
+        assert_eq!(told(&saved), told(&new), "{options:?}");
+    }
+}
+
+#[test]
+fn a_trace_has_the_search_and_its_path() {
+    let files = Files::new();
+    let path = files.path("trace.json");
+    for engine in ["astar", "dijkstra", "wavefront", "canonical", "jps", "jps-block", "jps-plus"] {
+        for placement in ["center", "corner"] {
+            let line = format!(
+                "run builtin:town --from 60,18 --to 10,5 --format jsonl --engine {engine} --trace {path}"
+            );
+            let args: Vec<&str> = line.split(' ').chain(["--placement", placement]).collect();
+            let records = records(&args);
+            let (_, queries, _) = parts(&records);
+            let text = std::fs::read_to_string(&path).expect("a trace");
+            let trace: Value = serde_json::from_str(&text).expect("a trace is JSON");
+            let events = trace["events"].as_array().expect("events");
+            let of = |kind: &str| events.iter().filter(|event| event["type"] == kind).collect::<Vec<_>>();
+            let count = |kind: &str| Some(of(kind).len() as u64);
+            assert_eq!(count("generating"), queries[0]["generated"].as_u64(), "{engine}");
+            assert_eq!(count("expanding"), queries[0]["expanded"].as_u64(), "{engine}");
+            assert_eq!(
+                (count("closing"), count("updating")),
+                (count("expanding"), queries[0]["updated"].as_u64())
+            );
+            assert_eq!((&events[0]["type"], &events[1]["type"]), (&"source".into(), &"destination".into()));
+            assert_eq!((&events[0]["x"], &events[0]["y"]), (&60.into(), &18.into()));
+            assert!(events[0]["map"].is_array(), "the map is drawn");
+            let ends: Vec<Value> =
+                of("end").iter().map(|event| serde_json::json!([event["x"], event["y"]])).collect();
+            assert_eq!(Value::from(ends), queries[0]["path"], "{engine}");
+            for pair in of("end").windows(2) {
+                assert_eq!(pair[1]["pId"], pair[0]["id"], "{engine}");
+            }
+            let last = of("end").last().and_then(|event| event["g"].as_f64()).map(nanocells);
+            assert_eq!(last, queries[0]["cost"].as_f64().map(nanocells), "{engine}");
+        }
+    }
+}
+
+#[test]
+fn a_query_that_is_an_error_has_a_trace_without_events() {
+    let files = Files::new();
+    let path = files.path("trace.json");
+    let Ran { status, .. } =
+        mediant(&["run", "builtin:town", "--from", "-5,99999", "--to", "10,5", "--trace", &path]);
+    let trace: Value = serde_json::from_str(&std::fs::read_to_string(&path).expect("a trace")).expect("JSON");
+    assert_eq!((status, &trace["events"]), (Some(1), &serde_json::json!([])));
 }
 
 #[test]

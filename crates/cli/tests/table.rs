@@ -51,7 +51,51 @@ fn errors_among_many_queries_are_listed() {
 
 #[test]
 fn the_engines() {
-    insta::assert_snapshot!(shown("engines"));
+    let text = shown("engines");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    insta::assert_snapshot!(text);
+}
+
+#[test]
+fn options_of_the_engine_are_named_and_all_fits_in_80_columns() {
+    let text =
+        shown("run builtin:town --engine jps --heuristic euclidean --jump-limit 5 --keep-intermediate --k 4");
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    insta::assert_snapshot!(text);
+    let paper = shown("run builtin:town --engine canonical --variant paper --limit 1");
+    assert!(paper.contains("\ncanonical, heuristic hk, variant paper · k = 3 · "), "{paper}");
+    assert!(paper.contains("\nsuboptimal · prepared in TIME\n"), "{paper}");
+}
+
+#[test]
+fn an_index_is_built_and_its_file_named() {
+    let files = Files::new();
+    let index = files.path("town.idx");
+    let Ran { status, stdout, stderr } =
+        mediant(&["build", "builtin:town", "--engine", "jps-plus", "-o", &index]);
+    assert_eq!((stderr.as_str(), status), ("", Some(0)));
+    // A byte for each of 8 moves at each of 72 × 36 cells.
+    assert_eq!(redact_times(&stdout), "town.idx · jps-plus of town.map · 20,736 bytes · built in TIME\n");
+}
+
+#[test]
+fn distances_are_csv() {
+    let files = Files::new();
+    let map = files.add("yard.map", "type octile\nheight 2\nwidth 4\nmap\n.@..\n...@\n");
+    let (map, path) = (map.as_str(), files.path("yard.csv"));
+    let distances = |options: &str, file: &str| {
+        let options = options.split(' ');
+        let args: Vec<&str> = ["run", map, "--distances", file].into_iter().chain(options).collect();
+        let Ran { status, stdout, stderr } = mediant(&args);
+        assert_eq!((stderr.as_str(), status), ("", Some(0)), "{args:?}");
+        stdout
+    };
+    let dijkstra = distances("--engine dijkstra --from 0,1 --corners one", "-");
+    assert_eq!(dijkstra, "x,y,distance\n0,0,1\n2,0,2.414213562\n3,0,3.414213562\n0,1,0\n1,1,1\n2,1,2\n");
+    let wavefront = distances("--engine wavefront --from 0,1 --corners one", &path);
+    assert_eq!(wavefront, "yard.csv · 6 vertices reached from (0, 1), the furthest (3, 0) at 3\n");
+    let written = std::fs::read_to_string(&path).expect("the distances");
+    assert_eq!(written, "x,y,distance\n0,0,1\n2,0,2\n3,0,3\n0,1,0\n1,1,1\n2,1,2\n");
 }
 
 #[test]

@@ -4,24 +4,23 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{AsciiMap, Centers, CornerRule, Corners, DiagonalGap, Lattice, Rules, draw};
+use mediant_grid::{AsciiMap, Centers, CornerRule, Corners, DiagonalGap, Grid, Lattice, Place, Rules, draw};
 use mediant_moves::K;
-use mediant_search::{AStar, LatticeDistance, Outcome, Planner, Query};
+use mediant_search::{AStar, Jps, LatticeDistance, Outcome, Planner, Query, QueryError};
 
 /// The picture of the best path from `s` to `g`, under its cost.
 fn picture(drawing: &str, rules: Rules, k: u32) -> String {
+    picture_by(false, drawing, rules, k)
+}
+
+/// The same, by jump point search or A*.
+fn picture_by(jumps: bool, drawing: &str, rules: Rules, k: u32) -> String {
     let map = AsciiMap::parse(drawing).expect("the drawing is a map");
     let query = Query::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
     let (grid, k) = (Arc::new(map.grid), K::new(k).expect("k is at least 2"));
     let outcome = match rules {
-        Rules::Center(corners) => {
-            let lattice = Lattice::<Centers>::new(Arc::clone(&grid), k, corners).expect("k is in range");
-            AStar::new(&lattice, LatticeDistance).solve(query)
-        }
-        Rules::Corner(gap) => {
-            let lattice = Lattice::<Corners>::new(Arc::clone(&grid), k, gap).expect("k is in range");
-            AStar::new(&lattice, LatticeDistance).solve(query)
-        }
+        Rules::Center(corners) => answer::<Centers>(jumps, &grid, k, corners, query),
+        Rules::Corner(gap) => answer::<Corners>(jumps, &grid, k, gap, query),
     };
     match outcome.expect("both ends are free") {
         Outcome::Found(path) => {
@@ -32,6 +31,21 @@ fn picture(drawing: &str, rules: Rules, k: u32) -> String {
             )
         }
         Outcome::Unreachable => format!("k = {k}, {rules}: unreachable\n"),
+    }
+}
+
+fn answer<P: Place>(
+    jumps: bool,
+    grid: &Arc<Grid>,
+    k: K,
+    rule: P::Rule,
+    query: Query,
+) -> Result<Outcome, QueryError> {
+    let lattice = Lattice::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
+    if jumps {
+        Jps::new(&lattice, LatticeDistance).solve(query)
+    } else {
+        AStar::new(&lattice, LatticeDistance).solve(query)
     }
 }
 
@@ -93,4 +107,11 @@ pictures! {
     gap_center_always: GAP, Rules::Center(CornerRule::Always), 3;
     gap_corner_open: GAP, OPEN, 4;
     gap_corner_closed: GAP, CLOSED, 4;
+}
+
+/// Of the paths of one cost the family takes the canonical one: odd moves first, turns only where an obstacle makes them.
+#[test]
+fn slalom_center_k4_canonical() {
+    let [a_star, jumps] = [false, true].map(|jumps| picture_by(jumps, SLALOM, NEVER, 4));
+    insta::assert_snapshot!(format!("A*, {a_star}\nJPS, {jumps}"));
 }

@@ -6,7 +6,8 @@ use std::{
     process::{Command, Stdio},
 };
 
-use mediant_bench::{Comparand, Comparison, MapRecord, Task, geometric_mean};
+use mediant_bench::{Comparand, Comparison, MapRecord, geometric_mean};
+use mediant_engines::Setup;
 use serde::Serialize;
 
 use super::{
@@ -14,7 +15,7 @@ use super::{
     table::{Table, number},
 };
 
-/// The tables: times, then for each task its ratios to the programs that solve the same problem, and to the others.
+/// The tables: times, then for each setup its ratios to the programs that solve the same problem, and to the others.
 pub(super) fn text(results: &Results<'_>, options: &Options) -> String {
     let mut lines = vec![format!(
         "Mean time of a query in µs: one thread, warm, paths included; median of {} passes.",
@@ -31,17 +32,17 @@ pub(super) fn text(results: &Results<'_>, options: &Options) -> String {
             "The times there are for --every {every}: the ratios compare different instances."
         ));
     }
-    for (i, &task) in results.tasks.iter().enumerate() {
+    for (i, &setup) in results.setups.iter().enumerate() {
         let (same, other): (Vec<_>, Vec<_>) =
-            results.anchors.programs.iter().enumerate().partition(|(_, program)| program.solves(task));
+            results.anchors.programs.iter().enumerate().partition(|(_, program)| program.solves(setup));
         if !same.is_empty() {
             lines.push(format!(
-                "\n{task} by the scaled time of programs that solve the same problem (< 1: we are faster)"
+                "\n{setup} by the scaled time of programs that solve the same problem (< 1: we are faster)"
             ));
             lines.extend(ratios(results, i, &same).lines());
         }
         if !other.is_empty() {
-            lines.push(format!("\n{task} by the scaled time of programs that solve another problem"));
+            lines.push(format!("\n{setup} by the scaled time of programs that solve another problem"));
             lines.extend(ratios(results, i, &other).lines());
         }
     }
@@ -73,12 +74,12 @@ fn times(results: &Results<'_>) -> Table {
     table
 }
 
-/// The ratios of the task at place `task` to some of the programs.
-fn ratios(results: &Results<'_>, task: usize, programs: &[(usize, &Comparand)]) -> Table {
+/// The ratios of the setup at place `setup` to some of the programs.
+fn ratios(results: &Results<'_>, setup: usize, programs: &[(usize, &Comparand)]) -> Table {
     let mut heading = vec!["map".to_owned()];
     heading.extend(programs.iter().map(|(_, program)| program.name.clone()));
     let mut table = Table::new(heading);
-    let comparisons = || results.comparisons.iter().filter_map(|all| all.get(task));
+    let comparisons = || results.comparisons.iter().filter_map(|all| all.get(setup));
     let ratio = |comparison: &Comparison, program: usize| comparison.ratios.get(program).copied().flatten();
     for comparison in comparisons() {
         let cell = |(program, _): &(usize, _)| ratio(comparison, *program).map_or("–".to_owned(), number);
@@ -127,7 +128,7 @@ pub(super) fn json(root: &Path, results: &Results<'_>, options: &Options) -> Str
         unit: "microseconds a query",
         every: options.every,
         passes: options.passes,
-        engines: results.tasks.iter().map(Task::to_string).collect(),
+        engines: results.setups.iter().map(Setup::to_string).collect(),
         programs: results.anchors.programs.iter().map(|program| program.name.as_str()).collect(),
         records: &results.records,
         comparisons: &results.comparisons,

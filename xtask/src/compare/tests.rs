@@ -89,7 +89,14 @@ fn wrong_answers_and_missing_maps_are_errors() {
     assert_eq!(error, expected);
     let error = compare(wrong.path(), &["--maps", "atlantis"]).unwrap_err().to_string();
     assert!(error.starts_with("no figures of other programs for map `atlantis`"), "{error}");
-    for refused in [["--every", "0"], ["--passes", "0"], ["--engines", "warp"], ["--engines", "astar:99"]] {
+    for refused in [
+        ["--every", "0"],
+        ["--passes", "0"],
+        ["--engines", "warp"],
+        ["--engines", "astar:99"],
+        ["--engines", "jps-block:4"],
+        ["--engines", "astar,paper"],
+    ] {
         assert!(Cli::try_parse_from(["compare"].iter().chain(&refused)).is_err(), "{refused:?}");
     }
 }

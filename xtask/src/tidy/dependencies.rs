@@ -14,7 +14,7 @@ enum Allowed {
 }
 
 /// The layers, lowest first.
-const LAYERS: [(&str, Allowed, &str); 11] = [
+const LAYERS: [(&str, Allowed, &str); 12] = [
     ("mediant-moves", Allowed::Nothing, "who wants the mathematics alone compiles nothing else"),
     ("mediant-grid", Allowed::Only(&["mediant-moves"]), "maps know nothing of files or searches"),
     ("mediant-formats", Allowed::Only(&["mediant-grid"]), "reading a file needs no search"),
@@ -27,6 +27,17 @@ const LAYERS: [(&str, Allowed, &str); 11] = [
         Allowed::Only(&["mediant-formats", "mediant-grid", "mediant-moves"]),
         "results can be looked at without the engines that made them",
     ),
+    (
+        "mediant-engines",
+        Allowed::Only(&[
+            "mediant-search",
+            "mediant-subgoal",
+            "mediant-hierarchy",
+            "mediant-grid",
+            "mediant-moves",
+        ]),
+        "the catalog serves tests of engines, and knows no files and no reports",
+    ),
     ("mediant", Allowed::All, ""),
     ("mediant-bench", Allowed::All, ""),
     ("xtask", Allowed::All, ""),
@@ -34,7 +45,7 @@ const LAYERS: [(&str, Allowed, &str); 11] = [
 
 const LOW: &str = "an engine stands on the layers below it, and serves programs of any kind";
 const INDEPENDENT: &str = "a reference that shares code with what it checks shares its errors";
-const ENGINES: [&str; 3] = ["mediant-search", "mediant-subgoal", "mediant-hierarchy"];
+const ENGINES: [&str; 4] = ["mediant-search", "mediant-subgoal", "mediant-hierarchy", "mediant-engines"];
 const SEARCH: &str = "mediant-search";
 
 /// Compares what the crates say that they need with the layers.

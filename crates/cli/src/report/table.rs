@@ -76,7 +76,9 @@ impl<'s> TableReport<'s> {
         let words = row.path.iter().enumerate();
         let words = words.map(|(i, [x, y])| format!("({x}, {y}){}", if i < last { " →" } else { "" }));
         let text = wrap("  path  ", words, self.screen.columns().min(100));
-        writeln!(self.screen, "\n{text}")
+        writeln!(self.screen, "\n{text}")?;
+        let smoothness = row.smoothness.unwrap_or(0.0);
+        writeln!(self.screen, "  turns {smoothness:.1}° in all")
     }
 
     fn references(&mut self, references: &References) -> io::Result<()> {
@@ -84,15 +86,13 @@ impl<'s> TableReport<'s> {
         let (equal, compared) = (grouped(equal), grouped(compared));
         // A deviation that the printed digits do not show has no sign either.
         let worst = if worst_deviation.abs() < 0.000_05 { 0.0 } else { worst_deviation };
-        let text = format!(
-            "{equal} of {compared} equal (within 0.005 or 0.001 %), furthest off {worst:+.4} at index {worst_index}"
-        );
-        self.fact("reference", &text)?;
+        self.fact("reference", &format!("{equal} of {compared} equal (within 0.005 or 0.001 %)"))?;
+        self.fact("", &format!("furthest off {worst:+.4} at index {worst_index}"))?;
         if self.is_reference {
             return Ok(());
         }
         let over = percent_over(cost_ratio, 3);
-        self.fact("", &format!("costs {over} in all; the references are for k = 3, center, corners never"))
+        self.fact("", &format!("costs {over} in all (references: k = 3, center, corners never)"))
     }
 
     fn fact(&mut self, name: &str, text: &str) -> io::Result<()> {
@@ -112,16 +112,19 @@ impl Report for TableReport<'_> {
         let (width, height) = (run.width, run.height);
         let size = format!("{width} × {height} cells, {} free", grouped(run.free_cells));
         writeln!(self.screen, "{} · {size}", self.screen.paint(BOLD, printable(&run.map)))?;
-        writeln!(
-            self.screen,
-            "{}, heuristic {} · k = {} · {}, {rule} · {} · prepared in {}\n",
-            self.screen.paint(BOLD, &run.engine),
-            run.heuristic,
-            run.k,
-            run.placement,
-            run.guarantee,
-            time(run.preprocess_ns as f64),
-        )
+        let mut parts = vec![format!("{}, heuristic {}", run.engine, run.heuristic)];
+        parts.extend(run.variant.map(|variant| format!("variant {variant}")));
+        parts.extend(run.jump_limit.map(|limit| format!("jumps up to {limit}")));
+        parts.extend(run.keep_intermediate.then(|| "intermediate jump points kept".to_owned()));
+        let problem = [format!("k = {}", run.k), format!("{}, {rule}", run.placement)];
+        let parts = [parts.join(", ")].into_iter().chain(problem).collect::<Vec<_>>();
+        let last = parts.len() - 1;
+        let words =
+            parts.iter().enumerate().map(|(i, part)| format!("{part}{}", if i < last { " ·" } else { "" }));
+        let text = wrap("", words, self.screen.columns());
+        let rest = text.strip_prefix(&run.engine).unwrap_or_default();
+        writeln!(self.screen, "{}{rest}", self.screen.paint(BOLD, &run.engine))?;
+        writeln!(self.screen, "{} · prepared in {}\n", run.guarantee, time(run.preprocess_ns as f64))
     }
 
     fn query(&mut self, query: QueryRecord) -> io::Result<()> {
@@ -160,9 +163,13 @@ impl Report for TableReport<'_> {
             [summary.median_nanos as f64, summary.mean_nanos, summary.max_nanos as f64].map(time);
         self.fact("time", &format!("median {median}, mean {mean}, max {max}"))?;
         let [expanded, generated] = [summary.mean_expanded, summary.mean_generated].map(mean_count);
-        self.fact("nodes", &format!("mean {expanded} expanded, {generated} generated"))?;
-        if let Some(cost) = summary.mean_cost {
-            self.fact("cost", &format!("mean {cost:.4}"))?;
+        let updated = mean_count(summary.mean_updated);
+        self.fact("nodes", &format!("mean {expanded} expanded, {generated} generated, {updated} updated"))?;
+        if summary.mean_scanned > 0.0 {
+            self.fact("runs", &format!("mean {} vertices scanned", mean_count(summary.mean_scanned)))?;
+        }
+        if let (Some(cost), Some(smoothness)) = (summary.mean_cost, summary.mean_smoothness) {
+            self.fact("paths", &format!("mean cost {cost:.4}, smoothness {smoothness:.1}°"))?;
         }
         match &summary.reference {
             Some(references) => self.references(references),

@@ -375,7 +375,7 @@ impl GoalWay {
             // Adjacent moves span a square of area 1, so this is Cramer's rule without its denominator.
             let sign = cross(u, v);
             let (slanted, straight) = (cross(d, v) * sign, cross(u, d) * sign);
-            (slanted > 0 && straight >= 0).then(|| Self {
+            (slanted > 0 && straight >= 0).then_some(Self {
                 slanted: slanted as u32,
                 index: beside,
                 straight: straight as u32,

@@ -1,18 +1,21 @@
-//! A* and what it is made of, on two generated maps: whole queries for k = 2…8 under both placements, the generation of
+//! The engines, and what A* is made of, on two generated maps: whole queries for every k that an engine takes up to 8, the generation of
 //! successors, and the open list. What these times are good for is the comparison of one revision with another.
 
 use std::{hint::black_box, sync::Arc};
 
 use criterion::{BenchmarkId, Criterion, Throughput};
+use mediant_engines::{Engine, Preprocessing, Setup, SharedRules, Visit, with_planner_on};
 use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Grid, Lattice, Place, Vertex, VertexId};
 use mediant_moves::{Cost, K};
 use mediant_oracle::{Rng, caves, noise, random_free_vertex};
-use mediant_search::{AStar, Entry, LatticeDistance, OpenList, Planner, Query};
+use mediant_search::{Entry, OpenList, Planner, Query};
 
 const SEED: u64 = 1;
 const SIDE: u32 = 160;
 const QUERIES: usize = 10;
 const ENTRIES: u32 = 4096;
+const ENGINES: [Engine; 5] =
+    [Engine::AStar, Engine::Canonical, Engine::Jps, Engine::JpsBlock, Engine::JpsPlus];
 
 fn main() {
     let mut c = Criterion::default().sample_size(20).configure_from_args();
@@ -21,11 +24,16 @@ fn main() {
         ("caves", Arc::new(caves(&mut rng, SIDE, SIDE))),
         ("noise", Arc::new(noise(&mut rng, SIDE, SIDE, 25))),
     ];
-    for (name, grid) in &maps {
-        for k in 2..=8 {
-            queries::<Centers>(&mut c, name, grid, CornerRule::Never, k);
-            queries::<Corners>(&mut c, name, grid, DiagonalGap::Open, k);
+    let rules = SharedRules::new();
+    for engine in ENGINES {
+        for (name, grid) in &maps {
+            for k in 2..=engine.about().max_k.min(8) {
+                queries::<Centers>(&mut c, engine, name, grid, CornerRule::Never, k, &rules);
+                queries::<Corners>(&mut c, engine, name, grid, DiagonalGap::Open, k, &rules);
+            }
         }
+    }
+    for (name, grid) in &maps {
         for k in [3, 5, 8] {
             successors::<Centers>(&mut c, name, grid, CornerRule::Never, k);
             successors::<Corners>(&mut c, name, grid, DiagonalGap::Open, k);
@@ -34,7 +42,6 @@ fn main() {
     heap(&mut c);
     c.final_summary();
 }
-
 fn lattice<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: u32) -> Lattice<P> {
     let k = K::new(k).expect("k is at least 2");
     Lattice::new(Arc::clone(grid), k, rule).expect("k is at most 12")
@@ -51,16 +58,42 @@ fn random_queries<P: Place>(lattice: &Lattice<P>) -> Vec<Query> {
 }
 
 /// The time of all queries, on a warm planner.
-fn queries<P: Place>(c: &mut Criterion, map: &str, grid: &Arc<Grid>, rule: P::Rule, k: u32) {
-    let lattice = lattice::<P>(grid, rule, k);
+fn queries<P: Place>(
+    c: &mut Criterion,
+    engine: Engine,
+    map: &str,
+    grid: &Arc<Grid>,
+    rule: P::Rule,
+    k: u32,
+    rules: &SharedRules,
+) {
+    let lattice = Arc::new(lattice::<P>(grid, rule, k));
+    let setup = Setup::new(engine, lattice.k(), lattice.rules());
     let queries = random_queries(&lattice);
-    let mut planner = AStar::new(&lattice, LatticeDistance);
-    let mut group = c.benchmark_group(format!("astar/{}/{map}", P::PLACEMENT));
-    group.throughput(Throughput::Elements(queries.len() as u64));
-    group.bench_function(BenchmarkId::from_parameter(k), |b| {
-        b.iter(|| queries.iter().for_each(|&query| _ = black_box(planner.solve(black_box(query)))));
-    });
-    group.finish();
+    let name = format!("{engine}/{}/{map}", P::PLACEMENT);
+    let bench = Bench { c, name, k, queries };
+    with_planner_on(setup, lattice, rules.prebuilt(setup), bench).expect("the engine takes this k");
+}
+
+struct Bench<'c> {
+    c: &'c mut Criterion,
+    name: String,
+    k: u32,
+    queries: Vec<Query>,
+}
+
+impl Visit for Bench<'_> {
+    type Output = ();
+
+    fn visit<P: Planner>(self, mut planner: P, _: Preprocessing) {
+        let Self { c, name, k, queries } = self;
+        let mut group = c.benchmark_group(name);
+        group.throughput(Throughput::Elements(queries.len() as u64));
+        group.bench_function(BenchmarkId::from_parameter(k), |b| {
+            b.iter(|| queries.iter().for_each(|&query| _ = black_box(planner.solve(black_box(query)))));
+        });
+        group.finish();
+    }
 }
 
 /// The time of finding all legal moves of all free vertices, row by row.

@@ -1,0 +1,53 @@
+//! `mediant build`: what an engine preprocesses, saved.
+
+use std::{io::Write, path::Path};
+
+use mediant_engines::{Options, Setup};
+use mediant_formats::{IndexFile, IndexKey};
+use mediant_grid::Grid;
+
+use crate::{
+    args::BuildArgs,
+    failure::Failure,
+    map::{Map, file_name},
+    screen::{BOLD, Screen},
+    text::{grouped, printable, time},
+};
+
+/// Runs the command.
+pub(crate) fn build(args: &BuildArgs, screen: &mut Screen) -> Result<(), Failure> {
+    let setup = args.setup.with(Options::default())?;
+    let version = setup.index_version()?;
+    let map = Map::load(&args.map)?;
+    let (payload, preprocessing) = mediant_engines::build(setup, &map.grid)?;
+    let key = key(setup, version, &map.grid).map_err(refused(&args.output))?;
+    let bytes = grouped(payload.len() as u64);
+    IndexFile::new(key, payload).write(&args.output)?;
+    let name = file_name(&args.output);
+    let name = screen.paint(BOLD, printable(&name)).to_string();
+    let took = time(preprocessing.time.as_nanos() as f64);
+    writeln!(
+        screen,
+        "{name} · {} of {} · {bytes} bytes · built in {took}",
+        setup.engine,
+        printable(&map.name)
+    )?;
+    Ok(())
+}
+
+/// The bytes of a saved index, if it is the one for this setup and map.
+pub(crate) fn load(path: &Path, setup: Setup, grid: &Grid) -> Result<Vec<u8>, Failure> {
+    let version = setup.index_version()?;
+    let file = IndexFile::read(path)?;
+    let expected = key(setup, version, grid).map_err(refused(path))?;
+    file.check(&expected).map_err(refused(path))?;
+    Ok(file.into_payload())
+}
+
+fn key(setup: Setup, version: u32, grid: &Grid) -> Result<IndexKey, mediant_formats::IndexError> {
+    IndexKey::new(setup.engine.name(), version, setup.rules, Some(setup.k.get()), grid)
+}
+
+fn refused(path: &Path) -> impl FnOnce(mediant_formats::IndexError) -> Failure {
+    move |source| Failure::Index { path: path.to_owned(), source }
+}

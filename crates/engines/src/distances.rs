@@ -1,0 +1,42 @@
+//! How far it is from one vertex to all others.
+
+use std::sync::Arc;
+
+use mediant_grid::{Centers, Corners, Grid, Lattice, Place, Rules, Vertex};
+use mediant_search::{Dijkstra, Wavefront};
+
+use crate::{Engine, EngineError, Setup, SetupError, setup::those};
+
+/// The vertices that can be reached from `start`, row by row, with their distances: in cells, by the wavefront algorithm in moves.
+///
+/// # Errors
+/// [`EngineError`] for a setup that does not exist, an engine that finds no distances, or a start that is blocked or outside the
+/// map.
+pub fn distances(setup: Setup, grid: &Arc<Grid>, start: Vertex) -> Result<Vec<(Vertex, f64)>, EngineError> {
+    setup.check()?;
+    match setup.rules {
+        Rules::Center(rule) => on(setup, &Lattice::<Centers>::new(Arc::clone(grid), setup.k, rule)?, start),
+        Rules::Corner(gap) => on(setup, &Lattice::<Corners>::new(Arc::clone(grid), setup.k, gap)?, start),
+    }
+}
+
+fn on<P: Place>(
+    setup: Setup,
+    lattice: &Lattice<P>,
+    start: Vertex,
+) -> Result<Vec<(Vertex, f64)>, EngineError> {
+    Ok(match setup.engine {
+        Engine::Dijkstra => {
+            let costs = Dijkstra::new(lattice, mediant_search::Zero).distances(start)?;
+            costs.iter().map(|(at, cost)| (at, cost.to_f64())).collect()
+        }
+        Engine::Wavefront => {
+            let moves = Wavefront::new(lattice).distances(start)?;
+            moves.iter().map(|(at, moves)| (at, f64::from(moves))).collect()
+        }
+        engine => {
+            let others = those(|about| about.distances);
+            return Err(SetupError::Without { engine, what: "distances to all vertices", others }.into());
+        }
+    })
+}

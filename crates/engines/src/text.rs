@@ -1,0 +1,101 @@
+//! Setups as text.
+
+use std::{fmt, num::NonZeroU32, str::FromStr};
+
+use mediant_grid::{CornerRule, DiagonalGap, Rules};
+use mediant_moves::K;
+
+use crate::{Engine, HeuristicName, Options, Setup, Variant};
+
+/// A text that is no [`Setup`].
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("expected ENGINE[:K[:RULE]][,OPTION…], found `{found}`: {wrong}")]
+pub struct TextError {
+    found: String,
+    wrong: String,
+}
+
+/// In full but for the options, of which those that were chosen.
+impl fmt::Display for Setup {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let rule = self.rule_name();
+        let Options { heuristic, variant, jump_limit, intermediate } = self.options;
+        let options = [
+            heuristic.map(|heuristic| heuristic.to_string()),
+            variant.map(|variant| variant.to_string()),
+            jump_limit.map(|limit| format!("limit={limit}")),
+            intermediate.then(|| "intermediate".to_owned()),
+        ];
+        let options: String = options.into_iter().flatten().map(|option| format!(",{option}")).collect();
+        f.pad(&format!("{}:{}:{rule}{options}", self.engine, self.k))
+    }
+}
+
+impl Setup {
+    /// The name of the rule of motion, without its placement.
+    #[must_use]
+    pub fn rule_name(&self) -> String {
+        match self.rules {
+            Rules::Center(rule) => rule.to_string(),
+            Rules::Corner(gap) => gap.to_string(),
+        }
+    }
+}
+
+impl FromStr for Setup {
+    type Err = TextError;
+
+    fn from_str(text: &str) -> Result<Self, TextError> {
+        let error = |wrong: String| TextError { found: text.to_owned(), wrong };
+        let mut options = text.split(',');
+        let mut parts = options.next().unwrap_or_default().split(':');
+        let engine: Engine =
+            parts.next().unwrap_or_default().parse().map_err(|_| {
+                error(format!("the engines are {}", Engine::ALL.map(Engine::name).join(", ")))
+            })?;
+        let k = parts.next().map_or(Ok(K::EIGHT_CONNECTED), |k| {
+            let max = engine.about().max_k;
+            let k = k.parse().ok().filter(|&k| k <= max).map(K::new);
+            k.and_then(Result::ok).ok_or_else(|| error(format!("K is a number from 2 to {max}")))
+        })?;
+        let rules = parts.next().map_or(Ok(Rules::Center(CornerRule::Never)), |rule| {
+            rule_named(rule).ok_or_else(|| error("the rules are never, one, always, open, closed".to_owned()))
+        })?;
+        if parts.next().is_some() {
+            return Err(error("nothing but options may follow the rule".to_owned()));
+        }
+        let mut setup = Self::new(engine, k, rules);
+        for option in options {
+            choose(&mut setup.options, option).ok_or_else(|| {
+                let names = "hk, euclidean, zero, exact, paper, limit=N, intermediate";
+                error(format!("the options are {names}"))
+            })?;
+        }
+        setup.check().map_err(|wrong| error(wrong.to_string()))?;
+        Ok(setup)
+    }
+}
+
+fn rule_named(name: &str) -> Option<Rules> {
+    Some(match name {
+        "never" => Rules::Center(CornerRule::Never),
+        "one" => Rules::Center(CornerRule::One),
+        "always" => Rules::Center(CornerRule::Always),
+        "open" => Rules::Corner(DiagonalGap::Open),
+        "closed" => Rules::Corner(DiagonalGap::Closed),
+        _ => return None,
+    })
+}
+
+fn choose(options: &mut Options, text: &str) -> Option<()> {
+    if let Ok(heuristic) = text.parse::<HeuristicName>() {
+        options.heuristic = Some(heuristic);
+    } else if let Ok(variant) = text.parse::<Variant>() {
+        options.variant = Some(variant);
+    } else if text == "intermediate" {
+        options.intermediate = true;
+    } else {
+        options.jump_limit = Some(text.strip_prefix("limit=")?.parse::<NonZeroU32>().ok()?);
+    }
+    Some(())
+}
