@@ -79,7 +79,7 @@ where
                 match nodes.get(next.id) {
                     Some(known)
                         if known.g < g
-                            || known.g == g && !successors.prefers(next.by, known.arrived_by())
+                            || known.g == g && !successors.prefers(lattice, next.by, known.arrived_by())
                             || next.id == start => {}
                     Some(&known) => {
                         let gain = known.g - g;
@@ -137,7 +137,15 @@ where
             return Ok(Outcome::Unreachable);
         };
         // The components know, in constant time, what the search would find out by expanding all that it can reach.
-        if !self.lattice.connected(query.start, query.goal) || !self.search(start, Some(goal), observer) {
+        if !self.lattice.connected(query.start, query.goal) {
+            return Ok(Outcome::Unreachable);
+        }
+        let mut found = self.search(start, Some(goal), observer);
+        if !found && self.successors.widen(true) {
+            found = self.search(start, Some(goal), observer);
+            self.successors.widen(false);
+        }
+        if !found {
             return Ok(Outcome::Unreachable);
         }
         Ok(Outcome::Found(Path::trace_back(&self.lattice, &self.nodes, start, goal)))

@@ -58,8 +58,15 @@ pub trait Successors<P: Place>: Debug {
     /// Whether of two equally cheap ways to a vertex the one whose last move is `new` replaces the one with `known`. A closed node
     /// is then expanded again.
     #[inline]
-    fn prefers(&self, new: usize, known: usize) -> bool {
-        let _ = (new, known);
+    fn prefers(&self, lattice: &Lattice<P>, new: usize, known: usize) -> bool {
+        let _ = (lattice, new, known);
+        false
+    }
+
+    /// Called with true when no path was found though there is one. Whether the search is to be tried again, with more successors; then it is
+    /// called with false. Only a rule that is not complete has any.
+    fn widen(&mut self, wide: bool) -> bool {
+        let _ = wide;
         false
     }
 

@@ -12,7 +12,7 @@ use mediant_oracle::{
     Case, Explicit, Rng, adversarial, describe, is_doubly_blocked, noise, seeds, suite_grid, validate,
 };
 use mediant_search::{
-    AStar, BlockJps, Canonical, CanonicalRule, Counters, Guarantee, Jps, JpsPlus, JumpTable, JumpTableError,
+    AStar, BlockJps, Canonical, CanonicalRule, Counters, Jps, JpsPlus, JumpTable, JumpTableError,
     LatticeDistance, NodeEvent, Observer, Outcome, PaperCanonical, Planner, Pruning, Query, QueryError, Zero,
 };
 
@@ -386,4 +386,36 @@ fn paths_begin_and_end_at_closed_gaps_and_pass_none() {
             assert!(paths > maps / 20, "k = {k}: {paths} paths where start, goal are gaps: {kind:?}");
         }
     }
+}
+
+/// At k = 2 a path may pass a gap, and how it goes on there depends on how it came: a way that is as cheap must not replace another. Found
+/// by the random suite.
+#[test]
+fn as_cheap_a_way_to_a_gap_replaces_no_other() {
+    let (grid, query) = drawn(
+        "
+        ......#...
+        .g..#.....
+        ###..#....
+        ....##..#.
+        #.##..#...
+        ..###..##.
+        .#....#...
+        ....#.....
+        ....#.#...
+        #.....#.##
+        .s#...#...
+    ",
+    );
+    let lattice = lattice::<Corners>(&grid, 2, DiagonalGap::Closed);
+    let check = |outcome: Result<Outcome, QueryError>| {
+        let outcome = outcome.unwrap();
+        let path = outcome.path().unwrap();
+        let (start, goal) = (query.start, query.goal);
+        let k = K::new(2).ok();
+        assert_eq!(validate(&grid, lattice.rules(), k, start, goal, path.waypoints(), path.cost()), Ok(()));
+    };
+    check(Canonical::new(&lattice, LatticeDistance).solve(query));
+    check(Jps::new(&lattice, LatticeDistance).solve(query));
+    check(BlockJps::new(&lattice, LatticeDistance).unwrap().solve(query));
 }

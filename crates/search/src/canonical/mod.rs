@@ -77,6 +77,13 @@ pub(crate) fn natural(a: usize, count: usize) -> impl Iterator<Item = usize> {
     (count - reach..=count + reach).map(move |turn| (a + turn) % count)
 }
 
+/// Whether anything is pruned on a lattice. If nothing is, ties need no rule; where paths may pass gaps they must not have one, since how
+/// a path leaves a gap depends on how it came there.
+#[inline]
+pub(crate) fn prunes<P: Place>(lattice: &Lattice<P>) -> bool {
+    !lattice.has_gaps() || lattice.k() != K::FOUR_CONNECTED
+}
+
 /// The pruning rule of one placement, rule of motion and k, for any map. Immutable; share it.
 #[derive(Clone, Debug)]
 pub struct CanonicalRule<P: Place> {
@@ -180,7 +187,7 @@ impl<P: Place> Pruning<P> {
     #[cold]
     fn is_exempt_from_gaps(&self, lattice: &Lattice<P>, at: Vertex, by: usize, goal: Vertex) -> bool {
         let to_goal = at.to(goal);
-        lattice.k() == K::FOUR_CONNECTED
+        !prunes(lattice)
             || lattice.is_gap(at + -lattice.step(by).vector())
             || lattice.is_gap(goal) && to_goal.x.abs().max(to_goal.y.abs()) <= self.rule.radius
     }
@@ -401,7 +408,7 @@ impl<P: Place> Successors<P> for CanonicalMoves<P> {
     }
 
     #[inline]
-    fn prefers(&self, new: usize, known: usize) -> bool {
-        rank(new) < rank(known)
+    fn prefers(&self, lattice: &Lattice<P>, new: usize, known: usize) -> bool {
+        prunes(lattice) && rank(new) < rank(known)
     }
 }

@@ -3,12 +3,12 @@
 use std::fmt::Debug;
 
 use mediant_grid::{Lattice, Place, Step, Vector, Vertex};
-use mediant_moves::{Cost, K, KError};
+use mediant_moves::{Cost, KError};
 
 use super::{JumpTable, planes::StopPlanes, slants::SlantPlanes};
 use crate::{
     Arrival, Successor,
-    canonical::{Pruning, View},
+    canonical::{Pruning, View, prunes},
 };
 
 /// What a run is followed on, and where to.
@@ -81,7 +81,7 @@ impl<P: Place> Course<'_, P> {
     /// Whether closed gaps make runs hard to foresee: then they are walked.
     #[inline]
     fn must_walk(&self) -> bool {
-        self.lattice.has_gaps() && (self.lattice.k() == K::FOUR_CONNECTED || self.lattice.is_gap(self.goal))
+        !prunes(self.lattice) || self.lattice.has_gaps() && self.lattice.is_gap(self.goal)
     }
 
     #[inline]

@@ -32,7 +32,10 @@ use std::{ops::Deref, sync::Arc};
 use mediant_grid::{Lattice, Place, Vertex, VertexId};
 use mediant_moves::KError;
 
-use crate::{Arrival, BestFirst, Heuristic, Pruning, Successor, Successors, canonical::rank};
+use crate::{
+    Arrival, BestFirst, Heuristic, Pruning, Successor, Successors,
+    canonical::{prunes, rank},
+};
 pub use locator::{Blocks, Course, Locator, Walk};
 pub use table::{JumpTable, JumpTableError};
 
@@ -151,7 +154,7 @@ impl<P: Place, J: Locator<P>> Successors<P> for JumpMoves<P, J> {
     }
 
     #[inline]
-    fn prefers(&self, new: usize, known: usize) -> bool {
-        rank(new) < rank(known)
+    fn prefers(&self, lattice: &Lattice<P>, new: usize, known: usize) -> bool {
+        prunes(lattice) && rank(new) < rank(known)
     }
 }
