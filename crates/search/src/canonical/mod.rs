@@ -32,7 +32,7 @@
 //! moves first. Everything else is a *turn*, and happens where an obstacle is in every way around.
 //!
 //! The paper instead keeps the jump points of the 8-neighborhood ([`PaperCanonical`]), which is complete but not optimal: with
-//! (1, 1) blocked, k = 4, from (0, 0) to (3, 1), the optimal path turns at (1, 0), which is none of them.
+//! (1, 1) blocked, k = 4, from (0, 0) to (3, 1), the optimal path turns at (1, 0), at which no arrival on the 8-neighborhood turns.
 //!
 //! # How it is looked up
 //!
@@ -254,6 +254,12 @@ impl<P: Place> Pruning<P> {
             Turns::Near(table) => table.slanted_runs_turn(),
             Turns::Trees(_) | Turns::Everywhere => true,
         }
+    }
+
+    /// Whether turns are known everywhere; else all vertices near corners count as having some.
+    #[inline]
+    pub(crate) const fn knows_turns(&self) -> bool {
+        self.clearance.is_none() || self.settled.is_some()
     }
 
     /// Whether `turn` is ever a turn after move `by`; for k ≤ 3.

@@ -2,8 +2,8 @@
 //! than queued.
 //!
 //! What a node leads to, and which vertices have turns, is [`canonical`](crate::canonical)'s rule, and so is the proof. Only vertices with a
-//! turn, the goal, and, unless they are pruned, vertices of a slanted run from which a straight one finds such, become nodes: on all
-//! others a path has one natural way on, or three at a slanted run's, and they are followed at once. At k = 3 under `Never` these are just the
+//! turn and the goal become nodes, and, unless they are pruned, vertices of a slanted run from which a straight one finds such. At all
+//! others a path has one natural way on, or three on a slanted run, and they are followed at once. At k = 3 under `Never` these are just the
 //! jump points of the original; nothing is special about k = 3 or about any rule of motion.
 //!
 //! How runs are followed is the [`Locator`]'s to say:
@@ -17,7 +17,23 @@
 //! **Intermediate jump points** (Harabor & Grastien 2014) are pruned by default: where a straight run beside a slanted one finds something, that
 //! becomes the successor, and the vertex between becomes no node; the path is put together again from its two legs.
 //!
-//! **Bounded jumps** (Sturtevant & Rabin 2016): a run of more steps than the jump limit ends in a node that goes on.
+//! **Bounded jumps** (Sturtevant & Rabin 2016): a run of more steps than the jump limit ends in a node that goes on. From k = 9 on, where
+//! turns are not tabulated, every run ends so after one step.
+//!
+//! # What made it fast
+//!
+//! Against Warthog's programs on the eighteen maps of `benchdata/anchors.json`, through both yardsticks: block-based JPS takes 0.64 of JPS2's
+//! time (worst map 0.94), JPS+ 0.51 of that of JPS+ (worst 0.76).
+//! - Straight runs from combined planes, one row a scan instead of three: 3 to 4 ns instead of 5 to 6.
+//! - One bit a step of a slanted run says whether a straight run beside it comes to anything (module `slants`): arena2 from 16.6 to 10.8 µs
+//!   a query, AR0011SR from 9.4 to 5.0.
+//! - Whether the goal lies beside a slanted run is computed once a run, not once a step.
+//! - A table of one byte a vertex and move, so that a vertex's entries are one word.
+//!
+//! For k ≥ 4 there is no such table, but a vertex is asked for turns only once (module `canonical::settled`), and far from corners a run takes
+//! several steps at once. Against A*: 9 times as fast at k = 4 and 7 times at k = 5 on ArcticStation; 3 at k = 5 on brc202d; no
+//! gain on dense noise, where every vertex has turns. From k = 6 on canonical A* is faster: more runs are scanned than nodes are saved.
+//! A jump limit changes times by some percent either way: 16 gave up to 0.9 on maps of a few rooms, nothing on large ones.
 
 mod locator;
 mod planes;
@@ -131,7 +147,8 @@ impl<P: Place, J: Locator<P>> Successors<P> for JumpMoves<P, J> {
             lattice,
             pruning: &self.pruning,
             goal,
-            limit: self.limit,
+            // Without knowing the turns, a scan would end almost everywhere, and find little that is new.
+            limit: if self.pruning.knows_turns() { self.limit } else { 1 },
             keeps_intermediate: self.keeps_intermediate,
         };
         let mut scanned = 0;
