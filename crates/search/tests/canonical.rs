@@ -12,7 +12,7 @@ use mediant_oracle::{
     Case, Explicit, Rng, adversarial, describe, is_doubly_blocked, noise, seeds, suite_grid, validate,
 };
 use mediant_search::{
-    AStar, BlockJps, Canonical, CanonicalRule, Counters, Jps, JpsPlus, JumpTable, JumpTableError,
+    AStar, BlockJps, Blocks, Canonical, CanonicalRule, Counters, Jps, JpsPlus, JumpTable, JumpTableError,
     LatticeDistance, NodeEvent, Observer, Outcome, PaperCanonical, Planner, Pruning, Query, QueryError, Zero,
 };
 
@@ -418,4 +418,43 @@ fn as_cheap_a_way_to_a_gap_replaces_no_other() {
     check(Canonical::new(&lattice, LatticeDistance).solve(query));
     check(Jps::new(&lattice, LatticeDistance).solve(query));
     check(BlockJps::new(&lattice, LatticeDistance).unwrap().solve(query));
+}
+
+/// What was made for another map, k or rule of motion changes no answer, and no planner walks off the map by it.
+#[test]
+fn what_was_made_for_other_lattices_is_not_believed() {
+    let mut rng = Rng::new(3);
+    let h = LatticeDistance;
+    let (map, other, larger) =
+        (noise(&mut rng, 30, 20, 20), noise(&mut rng, 30, 20, 20), noise(&mut rng, 70, 90, 5));
+    let map = Arc::new(map);
+    for (k, foreign_k) in [(3, 2), (3, 4), (5, 8), (4, 4)] {
+        let own = lattice::<Centers>(&map, k, CornerRule::Never);
+        for (grid, k, rule) in [
+            (Arc::new(other.clone()), k, CornerRule::Never),
+            (Arc::new(larger.clone()), foreign_k, CornerRule::Always),
+            (Arc::clone(&map), foreign_k, CornerRule::Always),
+        ] {
+            let foreign = lattice::<Centers>(&grid, k, rule);
+            let pruning = Arc::new(Pruning::new(&foreign));
+            let mut planners: Vec<Box<dyn FnMut(Query) -> Option<f64>>> = Vec::new();
+            let mut canonical = Canonical::with_pruning(&own, Arc::clone(&pruning), h);
+            planners.push(Box::new(move |query| cost(&canonical.solve(query))));
+            if let Ok(blocks) = Blocks::new(&foreign, &pruning) {
+                let mut block = BlockJps::with_locator(&own, Arc::clone(&pruning), blocks, h);
+                planners.push(Box::new(move |query| cost(&block.solve(query))));
+            }
+            for start in (0..600).step_by(37).map(|i| Vertex::new(i % 30, i / 30)) {
+                let query = Query::new(start, (28, 17));
+                if query.check(&own).is_ok() {
+                    let expected = cost(&AStar::new(&own, h).solve(query));
+                    planners.iter_mut().for_each(|solve| {
+                        let found = solve(query);
+                        let near = |(a, b): (f64, f64)| (a - b).abs() < 1e-9;
+                        assert!(found == expected || found.zip(expected).is_some_and(near), "{query:?}");
+                    });
+                }
+            }
+        }
+    }
 }

@@ -59,7 +59,7 @@ mod tree;
 
 use std::{ops::Deref, sync::Arc};
 
-use mediant_grid::{Lattice, Place, Vertex};
+use mediant_grid::{Grid, Lattice, Place, Vertex};
 use mediant_moves::{K, Neighborhood};
 
 use crate::{Arrival, BestFirst, Heuristic, Successor, Successors};
@@ -134,6 +134,7 @@ impl<P: Place> CanonicalRule<P> {
 /// The pruning rule on one map. Immutable; share it between planners.
 #[derive(Debug)]
 pub struct Pruning<P: Place> {
+    grid: Arc<Grid>,
     rule: Arc<CanonicalRule<P>>,
     clearance: Option<Clearance>,
     settled: Option<Settled>,
@@ -168,7 +169,17 @@ impl<P: Place> Pruning<P> {
         let clearance = (lattice.k() > K::EIGHT_CONNECTED).then(|| Clearance::new(lattice));
         let has_trees = matches!(rule.turns, Turns::Trees(_));
         let settled = has_trees.then(|| Settled::new(lattice.vertex_count(), lattice.k().get()));
-        Self { rule, clearance, settled }
+        Self { grid: Arc::clone(lattice.grid()), rule, clearance, settled }
+    }
+
+    /// This, if it was made for the lattice, or what is: what holds on one map must not be believed on another.
+    #[must_use]
+    pub(crate) fn fitting(self: Arc<Self>, lattice: &Lattice<P>) -> Arc<Self> {
+        let same_rule = (self.rule.k, self.rule.rule) == (lattice.k(), lattice.rule());
+        if same_rule && Arc::ptr_eq(&self.grid, lattice.grid()) {
+            return self;
+        }
+        Arc::new(Self::with_rule(lattice, Arc::clone(&self.rule)))
     }
 
     /// Its size.
@@ -384,9 +395,10 @@ impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> Canonical<L, H, P> {
         Self::with_pruning(lattice, pruning, heuristic)
     }
 
-    /// A planner with a pruning rule that was made for this lattice, and which it shares with other planners.
+    /// A planner that shares its pruning rule with others. One that was made for another map, k or rule of motion is not used.
     #[must_use]
     pub fn with_pruning(lattice: L, pruning: Arc<Pruning<P>>, heuristic: H) -> Self {
+        let pruning = pruning.fitting(&lattice);
         Self::with(lattice, heuristic, CanonicalMoves { pruning })
     }
 }

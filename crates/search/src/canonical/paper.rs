@@ -7,7 +7,7 @@
 //! With just the vertices at which an arrival on the 8-neighborhood turns, the search is not complete, whatever Theorem 4 says: on the test
 //! suite's random maps, k = 5 to 7, it missed 3 of 1,000 paths. A vertex on a straight run may be reached more cheaply by a move that leads
 //! into the wall beside the run; it keeps that one, and the run ends. So two kinds are added: every vertex that touches a convex corner of an
-//! obstacle, and every vertex at which the incoming move cannot be repeated. That leaves 7 of 7,000 on the benchmark sets, all at k = 7; for these
+//! obstacle, and every vertex at which the incoming move cannot be repeated. That leaves 7 of 3,600 queries of four benchmark sets at k = 7, none at k = 4 and 5; for these
 //! the search is run again with all moves.
 
 use std::ops::Deref;

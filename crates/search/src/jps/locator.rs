@@ -1,9 +1,9 @@
 //! How runs are followed: the point in which the engines of the jump point family differ.
 
-use std::fmt::Debug;
+use std::{fmt::Debug, sync::Arc};
 
-use mediant_grid::{Lattice, Place, Step, Vector, Vertex};
-use mediant_moves::{Cost, KError};
+use mediant_grid::{Grid, Lattice, Place, Rules, Step, Vector, Vertex};
+use mediant_moves::{Cost, K, KError};
 
 use super::{JumpTable, planes::StopPlanes, slants::SlantPlanes};
 use crate::{
@@ -16,6 +16,8 @@ pub struct Course<'c, P: Place> {
     pub(crate) lattice: &'c Lattice<P>,
     pub(crate) pruning: &'c Pruning<P>,
     pub(crate) goal: Vertex,
+    /// Whether all runs are walked.
+    pub(crate) walks: bool,
     /// The longest run.
     pub(crate) limit: u32,
     /// Whether a slanted run ends at the first vertex that has anything to either side.
@@ -27,6 +29,9 @@ pub struct Course<'c, P: Place> {
 /// A *straight* run repeats an even move until its first vertex with a turn; a *slanted* one repeats an odd move, and from each of its
 /// vertices sends out the straight runs of the two even moves beside it. Neither leads to anything else on open ground.
 pub trait Locator<P: Place>: Debug {
+    /// Whether it was made for this lattice.
+    fn fits(&self, lattice: &Lattice<P>) -> bool;
+
     /// After how many steps the straight run of move `index` from a vertex comes to a jump point or to the goal; `None` if to
     /// neither. The goal is `goal_steps` ahead, if it lies ahead at all. Adds to `scanned` the vertices that it looks at.
     fn straight(
@@ -78,15 +83,13 @@ impl<P: Place> Course<'_, P> {
         self.pruning.is_exempt(self.lattice, at, by, self.goal)
     }
 
-    /// Whether closed gaps make runs hard to foresee: then they are walked.
+    /// Whether the runs from a vertex are walked, because closed gaps make them hard to foresee or the locator knows another map.
     #[inline]
-    fn must_walk(&self) -> bool {
-        !prunes(self.lattice) || self.lattice.has_gaps() && self.lattice.is_gap(self.goal)
-    }
-
-    #[inline]
-    fn leaves_gap(&self, from: &Arrival) -> bool {
-        self.lattice.has_gaps() && self.lattice.is_gap(from.at)
+    fn must_walk(&self, from: &Arrival) -> bool {
+        let is_gap = |at| self.lattice.is_gap(at);
+        self.walks
+            || !prunes(self.lattice)
+            || self.lattice.has_gaps() && (is_gap(self.goal) || is_gap(from.at))
     }
 
     /// After how many steps of move `v` from a vertex the goal comes, if it lies ahead.
@@ -223,6 +226,10 @@ fn cross(v: Vector, d: Vector) -> i64 {
 pub struct Walk;
 
 impl<P: Place> Locator<P> for Walk {
+    fn fits(&self, _: &Lattice<P>) -> bool {
+        true
+    }
+
     #[inline]
     fn straight(
         &self,
@@ -239,6 +246,9 @@ impl<P: Place> Locator<P> for Walk {
 /// Straight runs by words of 64 vertices, for k ≤ 3.
 #[derive(Clone, Debug)]
 pub struct Blocks {
+    grid: Arc<Grid>,
+    k: K,
+    rules: Rules,
     planes: StopPlanes,
     slants: SlantPlanes,
 }
@@ -253,7 +263,14 @@ impl Blocks {
         if k > max {
             return Err(KError::TooLarge { k, max });
         }
-        Ok(Self { planes: StopPlanes::new(lattice), slants: SlantPlanes::new(lattice, pruning) })
+        let (grid, k, rules) = (Arc::clone(lattice.grid()), lattice.k(), lattice.rules());
+        Ok(Self {
+            grid,
+            k,
+            rules,
+            planes: StopPlanes::new(lattice),
+            slants: SlantPlanes::new(lattice, pruning),
+        })
     }
 
     /// Its size.
@@ -264,6 +281,10 @@ impl Blocks {
 }
 
 impl<P: Place> Locator<P> for Blocks {
+    fn fits(&self, lattice: &Lattice<P>) -> bool {
+        (self.k, self.rules) == (lattice.k(), lattice.rules()) && Arc::ptr_eq(&self.grid, lattice.grid())
+    }
+
     #[inline]
     fn straight(
         &self,
@@ -273,7 +294,7 @@ impl<P: Place> Locator<P> for Blocks {
         goal_steps: Option<u32>,
         scanned: &mut u32,
     ) -> Option<u32> {
-        if course.must_walk() || course.leaves_gap(from) {
+        if course.must_walk(from) {
             return course.walk_straight(from, index, goal_steps, scanned);
         }
         let quarter = index >> (course.lattice.k().get() - 2);
@@ -284,6 +305,9 @@ impl<P: Place> Locator<P> for Blocks {
 
     #[inline]
     fn look(&self, course: &Course<'_, P>, here: &Arrival, index: usize) -> View {
+        if course.walks {
+            return course.pruning.view(course.lattice, here, index);
+        }
         if course.pruning.slanted_runs_turn() {
             let view = course.pruning.view(course.lattice, here, index);
             return View { beside: self.slants.at(here.at, index).1, ..view };
@@ -294,7 +318,11 @@ impl<P: Place> Locator<P> for Blocks {
 }
 
 /// All runs from a table.
-impl<P: Place> Locator<P> for std::sync::Arc<JumpTable> {
+impl<P: Place> Locator<P> for Arc<JumpTable> {
+    fn fits(&self, lattice: &Lattice<P>) -> bool {
+        self.check(lattice).is_ok()
+    }
+
     #[inline]
     fn straight(
         &self,
@@ -304,7 +332,7 @@ impl<P: Place> Locator<P> for std::sync::Arc<JumpTable> {
         goal_steps: Option<u32>,
         scanned: &mut u32,
     ) -> Option<u32> {
-        if course.must_walk() || course.leaves_gap(from) {
+        if course.must_walk(from) {
             return course.walk_straight(from, index, goal_steps, scanned);
         }
         let (steps, found) = self.run(from.id, course.lattice.step(index), index);
@@ -323,7 +351,7 @@ impl<P: Place> Locator<P> for std::sync::Arc<JumpTable> {
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor),
     ) {
-        if course.must_walk() || course.leaves_gap(from) {
+        if course.must_walk(from) {
             return course.walk_slanted(self, from, index, scanned, visit);
         }
         let step = course.lattice.step(index);

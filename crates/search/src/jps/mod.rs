@@ -33,7 +33,8 @@
 //! For k ≥ 4 there is no such table, but a vertex is asked for turns only once (module `canonical::settled`), and far from corners a run takes
 //! several steps at once. Against A*: 9 times as fast at k = 4 and 7 times at k = 5 on ArcticStation; 3 at k = 5 on brc202d; no
 //! gain on dense noise, where every vertex has turns. From k = 6 on canonical A* is faster: more runs are scanned than nodes are saved.
-//! A jump limit changes times by some percent either way: 16 gave up to 0.9 on maps of a few rooms, nothing on large ones.
+//! A jump limit changes times by some percent either way: 32 gave 0.92 to 1.03 at k = 3 and 5 (arena2,
+//! AR0011SR), 4 took 1.3 to 1.7 times as long.
 
 mod locator;
 mod planes;
@@ -72,15 +73,20 @@ pub type JpsPlus<L, H, P> = Jumping<L, H, P, Arc<JumpTable>>;
 pub struct JumpMoves<P: Place, J> {
     pruning: Arc<Pruning<P>>,
     locator: J,
+    /// Whether the locator is one of another lattice.
+    walks: bool,
     limit: u32,
     keeps_intermediate: bool,
 }
 
 impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic, J: Locator<P>> Jumping<L, H, P, J> {
-    /// A planner with a locator that was made for this lattice, and a pruning rule that it may share with other planners.
+    /// A planner with a locator that was made for this lattice, and a pruning rule that it may share with other planners. Where either was
+    /// made for another map, k or rule of motion, it is not used, and runs are walked. (Of a [`JumpTable`] only the size is held against
+    /// the lattice.)
     #[must_use]
     pub fn with_locator(lattice: L, pruning: Arc<Pruning<P>>, locator: J, heuristic: H) -> Self {
-        let successors = JumpMoves { pruning, locator, limit: u32::MAX, keeps_intermediate: false };
+        let (pruning, walks) = (pruning.fitting(&lattice), !locator.fits(&lattice));
+        let successors = JumpMoves { pruning, locator, walks, limit: u32::MAX, keeps_intermediate: false };
         Self::with(lattice, heuristic, successors)
     }
 
@@ -147,6 +153,7 @@ impl<P: Place, J: Locator<P>> Successors<P> for JumpMoves<P, J> {
             lattice,
             pruning: &self.pruning,
             goal,
+            walks: self.walks,
             // Without knowing the turns, a scan would end almost everywhere, and find little that is new.
             limit: if self.pruning.knows_turns() { self.limit } else { 1 },
             keeps_intermediate: self.keeps_intermediate,

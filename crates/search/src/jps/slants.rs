@@ -5,7 +5,7 @@
 //! known from the geometry.) All is found by words of 64 vertices: which vertices are jump points straight from the definition, the
 //! turns' moves and the ways around them; which straight runs come to one from row to row, or within a row by carries.
 //!
-//! 1.25 bytes a vertex, on top of the 1 byte of [`StopPlanes`](super::planes::StopPlanes).
+//! A byte a vertex, on top of the 1 byte of [`StopPlanes`](super::planes::StopPlanes).
 
 use mediant_grid::{BitMatrix, CellOffset, Footprint, Lattice, Place, Vector, Vertex, load};
 use mediant_moves::Neighborhood;
