@@ -8,7 +8,7 @@ use mediant_moves::{Cost, K, KError};
 use super::{JumpTable, planes::StopPlanes, slants::SlantPlanes};
 use crate::{
     Arrival, Successor,
-    canonical::{Pruning, View, prunes},
+    canonical::{Pruning, View},
 };
 
 /// What a run is followed on, and where to.
@@ -16,7 +16,7 @@ pub struct Course<'c, P: Place> {
     pub(crate) lattice: &'c Lattice<P>,
     pub(crate) pruning: &'c Pruning<P>,
     pub(crate) goal: Vertex,
-    /// Whether all runs are walked.
+    /// Whether all runs are walked: closed gaps make some hard to foresee, and a locator may know another map.
     pub(crate) walks: bool,
     /// The longest run.
     pub(crate) limit: u32,
@@ -81,15 +81,6 @@ impl<P: Place> Course<'_, P> {
     #[inline]
     fn is_exempt(&self, at: Vertex, by: usize) -> bool {
         self.pruning.is_exempt(self.lattice, at, by, self.goal)
-    }
-
-    /// Whether the runs from a vertex are walked, because closed gaps make them hard to foresee or the locator knows another map.
-    #[inline]
-    fn must_walk(&self, from: &Arrival) -> bool {
-        let is_gap = |at| self.lattice.is_gap(at);
-        self.walks
-            || !prunes(self.lattice)
-            || self.lattice.has_gaps() && (is_gap(self.goal) || is_gap(from.at))
     }
 
     /// After how many steps of move `v` from a vertex the goal comes, if it lies ahead.
@@ -294,7 +285,7 @@ impl<P: Place> Locator<P> for Blocks {
         goal_steps: Option<u32>,
         scanned: &mut u32,
     ) -> Option<u32> {
-        if course.must_walk(from) {
+        if course.walks {
             return course.walk_straight(from, index, goal_steps, scanned);
         }
         let quarter = index >> (course.lattice.k().get() - 2);
@@ -332,7 +323,7 @@ impl<P: Place> Locator<P> for Arc<JumpTable> {
         goal_steps: Option<u32>,
         scanned: &mut u32,
     ) -> Option<u32> {
-        if course.must_walk(from) {
+        if course.walks {
             return course.walk_straight(from, index, goal_steps, scanned);
         }
         let (steps, found) = self.run(from.id, course.lattice.step(index), index);
@@ -351,7 +342,7 @@ impl<P: Place> Locator<P> for Arc<JumpTable> {
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor),
     ) {
-        if course.must_walk(from) {
+        if course.walks {
             return course.walk_slanted(self, from, index, scanned, visit);
         }
         let step = course.lattice.step(index);

@@ -153,7 +153,10 @@ impl<P: Place, J: Locator<P>> Successors<P> for JumpMoves<P, J> {
             lattice,
             pruning: &self.pruning,
             goal,
-            walks: self.walks,
+            // Once a node: a run never goes on from a gap, so only the node itself and the goal may be one.
+            walks: self.walks
+                || !prunes(lattice)
+                || lattice.has_gaps() && (lattice.is_gap(goal) || lattice.is_gap(node.at)),
             // Without knowing the turns, a scan would end almost everywhere, and find little that is new.
             limit: if self.pruning.knows_turns() { self.limit } else { 1 },
             keeps_intermediate: self.keeps_intermediate,
