@@ -39,7 +39,7 @@ pub struct Options {
     /// Compare with the reference costs in this folder, not with the scenarios' optima
     #[arg(long, value_name = "DIR")]
     oracle: Option<PathBuf>,
-    /// Fail unless exactly N costs were compared
+    /// Fail unless exactly N costs were compared, over all engines
     #[arg(long, value_name = "N", value_parser = number)]
     expect: Option<u64>,
 }
