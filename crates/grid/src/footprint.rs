@@ -76,7 +76,28 @@ impl CellMask {
     #[must_use]
     #[inline]
     pub fn is_free(&self, matrix: &BitMatrix, at: BitIndex) -> bool {
-        let offset = self.across * matrix.bits_per_row() + self.along;
-        load(matrix.words(), at.offset(offset)) & self.cells == 0
+        self.on(matrix).is_free(matrix.words(), at)
+    }
+
+    /// The mask for one matrix alone.
+    #[inline]
+    pub(crate) fn on(&self, matrix: &BitMatrix) -> BitMask {
+        BitMask { offset: self.across * matrix.bits_per_row() + self.along, cells: self.cells }
+    }
+}
+
+/// A [`CellMask`] for matrices of one width: testing it takes no multiplication, which is 4 % of the time of A* at k = 7.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BitMask {
+    /// From the bit of a vertex's own cell to the first of the 64.
+    offset: i32,
+    cells: u64,
+}
+
+impl BitMask {
+    /// Whether all cells of the mask are free around the bit `at`.
+    #[inline]
+    pub(crate) fn is_free(&self, words: &[u64], at: BitIndex) -> bool {
+        load(words, at.offset(self.offset)) & self.cells == 0
     }
 }

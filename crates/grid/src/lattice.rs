@@ -109,7 +109,7 @@ impl<P: Place> Lattice<P> {
             steps: steps.collect(),
             costs: CostTable::new(k)?,
             near: (0..P::PATTERNS).map(|pattern| near_moves::<P>(rule, k, &moves, pattern)).collect(),
-            octants: octants::<P>(rule, &moves),
+            octants: octants::<P>(rule, &moves, &grid),
             gaps: P::closes_gaps(rule).then(|| double_corners(&grid)).flatten(),
             components: Components::new(&grid, P::connectivity(rule, k)),
             grid,
@@ -407,10 +407,10 @@ fn near_moves<P: Place>(rule: P::Rule, k: K, moves: &[Vector], pattern: usize) -
 }
 
 /// The trees over the moves beyond N(3); none up to k = 3.
-fn octants<P: Place>(rule: P::Rule, moves: &[Vector]) -> Box<[Octant]> {
+fn octants<P: Place>(rule: P::Rule, moves: &[Vector], grid: &Grid) -> Box<[Octant]> {
     let size = moves.len() / 8;
     let between = moves.chunks_exact(size.max(1)).zip((0..).step_by(size.max(1))).filter(|_| size > 1);
-    between.map(|(moves, first)| Octant::new::<P>(rule, &moves[1..], first + 1)).collect()
+    between.map(|(moves, first)| Octant::new::<P>(rule, &moves[1..], first + 1, grid)).collect()
 }
 
 /// Which corner vertices are doubly blocked; `None` when there are none.

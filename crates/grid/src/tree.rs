@@ -17,7 +17,9 @@ use std::collections::BTreeSet;
 
 use mediant_moves::Vector;
 
-use crate::{BitIndex, BitMatrix, CellMask, CellOffset, Footprint, Place, sight::Frame};
+use crate::{
+    BitIndex, BitMatrix, CellMask, CellOffset, Footprint, Grid, Place, footprint::BitMask, sight::Frame,
+};
 
 #[derive(Clone, Copy, Debug)]
 struct Node {
@@ -38,17 +40,17 @@ pub(crate) struct Octant {
     /// Whether its masks are for the transposed map.
     pub(crate) transposed: bool,
     nodes: Vec<Node>,
-    masks: Vec<CellMask>,
+    masks: Vec<BitMask>,
     /// All that any of its moves asks of the map: when that is free, all of them are legal. Open ground is common, and on it
     /// this is a load a row instead of several a move.
-    all: Vec<CellMask>,
+    all: Vec<BitMask>,
     /// Two cells of which one must be free: corner rule `One`.
-    pairs: Vec<[CellOffset; 2]>,
+    pairs: Vec<[BitMask; 2]>,
 }
 
 impl Octant {
     /// The tree over `moves`, which has 2^n − 1 moves of one octant in angular order, the first of index `first` in N(k).
-    pub(crate) fn new<P: Place>(rule: P::Rule, moves: &[Vector], first: u16) -> Self {
+    pub(crate) fn new<P: Place>(rule: P::Rule, moves: &[Vector], first: u16, grid: &Grid) -> Self {
         let frame = Frame::of(moves[moves.len() / 2]).0;
         let mut octant = Self {
             transposed: frame.transposed,
@@ -61,13 +63,14 @@ impl Octant {
             moves.iter().map(|&v| in_matrix::<P>(rule, v, frame.transposed)).collect();
         let asked = |sweep: &Footprint| [&*sweep.free, sweep.either.as_flattened()].concat();
         let asked: BTreeSet<CellOffset> = sweeps.iter().flat_map(asked).collect();
-        octant.all = CellMask::cover(asked);
-        octant.add(&sweeps, first, &[]);
+        let matrix = if frame.transposed { grid.columns() } else { grid.rows() };
+        octant.all = masks(asked, matrix).collect();
+        octant.add(&sweeps, first, &[], matrix);
         octant
     }
 
     /// Adds the subtree of these moves. `tested` are the cells that the nodes above have tested.
-    fn add(&mut self, sweeps: &[Footprint], first: u16, tested: &[CellOffset]) {
+    fn add(&mut self, sweeps: &[Footprint], first: u16, tested: &[CellOffset], matrix: &BitMatrix) {
         if sweeps.is_empty() {
             return;
         }
@@ -83,12 +86,13 @@ impl Octant {
         let tested = [tested, &new].concat();
         let own = beyond(&sweeps[middle].free, &tested);
         let begin = self.masks.len() as u32;
-        self.masks.extend(CellMask::cover(new));
+        self.masks.extend(masks(new, matrix));
         let between = self.masks.len() as u32;
-        self.masks.extend(CellMask::cover(own));
+        self.masks.extend(masks(own, matrix));
         // A move has no common divisor, so it meets at most one corner point: its middle.
         let pair = sweeps[middle].either.first().map(|&cells| {
-            self.pairs.push(cells);
+            let bit = |(along, across)| CellMask { across, along, cells: 1 }.on(matrix);
+            self.pairs.push(cells.map(bit));
             self.pairs.len() as u16 - 1
         });
         let node = self.nodes.len();
@@ -100,8 +104,8 @@ impl Octant {
             own: self.masks.len() as u32,
             pair,
         });
-        self.add(&sweeps[..middle], first, &tested);
-        self.add(&sweeps[middle + 1..], index + 1, &tested);
+        self.add(&sweeps[..middle], first, &tested, matrix);
+        self.add(&sweeps[middle + 1..], index + 1, &tested, matrix);
         self.nodes[node].skip = self.nodes.len() as u16;
     }
 
@@ -114,7 +118,8 @@ impl Octant {
     /// vertex's own cell there.
     #[inline]
     pub(crate) fn for_each_legal(&self, matrix: &BitMatrix, at: BitIndex, mut legal: impl FnMut(usize)) {
-        let all_free = |masks: &[CellMask]| masks.iter().all(|mask| mask.is_free(matrix, at));
+        let words = matrix.words();
+        let all_free = |masks: &[BitMask]| masks.iter().all(|mask| mask.is_free(words, at));
         if all_free(&self.all) {
             // In the order of the tree, so that open ground changes nothing but the time.
             return self.nodes.iter().for_each(|node| legal(usize::from(node.index)));
@@ -128,17 +133,18 @@ impl Octant {
             }
             let pair = node.pair.map(|pair| self.pairs[usize::from(pair)]);
             if free(node.shared.1, node.own)
-                && pair.is_none_or(|cells| {
-                    cells
-                        .iter()
-                        .any(|&(along, across)| CellMask { across, along, cells: 1 }.is_free(matrix, at))
-                })
+                && pair.is_none_or(|cells| cells.iter().any(|cell| cell.is_free(words, at)))
             {
                 legal(usize::from(node.index));
             }
             i += 1;
         }
     }
+}
+
+/// Masks that hold just these cells.
+fn masks(cells: impl IntoIterator<Item = CellOffset>, matrix: &BitMatrix) -> impl Iterator<Item = BitMask> {
+    CellMask::cover(cells).into_iter().map(|mask| mask.on(matrix))
 }
 
 /// The footprint of a move, as (along, across) in its octant's matrix.
@@ -171,7 +177,7 @@ mod tests {
         let moves: Vec<Vector> = Neighborhood::new(K::new(8).unwrap()).unwrap().iter().collect();
         let mut sums = [0; 3];
         for (moves, first) in moves.chunks_exact(32).zip((0..).step_by(32)) {
-            let octant = Octant::new::<P>(rule, &moves[1..], first + 1);
+            let octant = Octant::new::<P>(rule, &moves[1..], first + 1, &grid);
             let (matrix, swap) =
                 if octant.transposed { (grid.columns(), true) } else { (grid.rows(), false) };
             for (x, y) in
@@ -182,7 +188,7 @@ mod tests {
                 let mut i = 0;
                 while let Some(node) = octant.nodes.get(i) {
                     let masks = &octant.masks[node.shared.0 as usize..node.shared.1 as usize];
-                    let blocked = masks.iter().any(|mask| !mask.is_free(matrix, at));
+                    let blocked = masks.iter().any(|mask| !mask.is_free(matrix.words(), at));
                     i = if blocked { usize::from(node.skip) } else { i + 1 };
                     sums[1] += 1;
                 }

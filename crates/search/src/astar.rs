@@ -81,7 +81,7 @@ impl<P: Place> Successors<P> for AllMoves {
         goal: Vertex,
         mut visit: impl FnMut(Successor),
     ) -> u32 {
-        lattice.for_each_successor(node.at, node.by, goal, |by| visit(node.step(lattice, by)));
+        lattice.for_each_successor(node.at, node.by, goal, move |by| visit(node.step(lattice, by)));
         0
     }
 }

@@ -26,6 +26,7 @@ pub(super) fn text(results: &Results<'_>, options: &Options) -> String {
         "here/there: the yardsticks' times by those on the machine of the other programs, geometric mean."
             .into(),
     );
+    lines.extend(disturbance(&scales(results)));
     if options.every as usize != results.anchors.instances.every {
         let every = results.anchors.instances.every;
         lines.push(format!(
@@ -68,10 +69,25 @@ fn times(results: &Results<'_>) -> Table {
     let queries: usize = results.records.iter().map(|record| record.instances).sum();
     let mut row = vec!["geometric mean".to_owned(), queries.to_string()];
     row.extend((0..first.len()).map(|i| mean(&|record| record.timings.get(i).map(|timing| timing.micros))));
-    let scales: Vec<f64> = results.comparisons.iter().filter_map(|all| Some(all.first()?.scale)).collect();
-    row.push(geometric_mean(&scales).map_or(String::new(), number));
+    row.push(geometric_mean(&scales(results)).map_or(String::new(), number));
     table.row(row);
     table
+}
+
+/// What the yardsticks take here by what they take there, of each map.
+fn scales(results: &Results<'_>) -> Vec<f64> {
+    results.comparisons.iter().filter_map(|all| Some(all.first()?.scale)).collect()
+}
+
+/// A warning when the yardsticks differ more from map to map than two machines do: on an idle one they stay within 1.15.
+/// Work beside the run slows them more than it slows engines that live in the caches, and so flatters those.
+pub(super) fn disturbance(scales: &[f64]) -> Option<String> {
+    let (least, most) =
+        scales.iter().fold((f64::MAX, 0.0_f64), |(a, b), &scale| (a.min(scale), b.max(scale)));
+    let factor = most / least;
+    (factor > 1.3).then(|| {
+        format!("CAUTION: here/there differs by a factor of {factor:.2} from map to map: was the machine busy? Measure again.")
+    })
 }
 
 /// The ratios of the setup at place `setup` to some of the programs.

@@ -102,6 +102,14 @@ fn wrong_answers_and_missing_maps_are_errors() {
 }
 
 #[test]
+fn a_disturbed_run_is_called_so() {
+    assert_eq!(report::disturbance(&[0.71, 0.80, 0.77]), None);
+    assert_eq!(report::disturbance(&[]), None);
+    let warning = report::disturbance(&[1.64, 0.70, 0.76]).unwrap();
+    assert!(warning.contains("a factor of 2.34"), "{warning}");
+}
+
+#[test]
 fn tables_are_aligned() {
     let mut table = table::Table::new(vec!["map".to_owned(), "µs".to_owned()]);
     table.row(vec!["a".to_owned(), table::number(1234.4)]);

@@ -22,8 +22,8 @@
 //!
 //! # What made it fast
 //!
-//! Against Warthog's programs on the eighteen maps of `benchdata/anchors.json`, through both yardsticks: block-based JPS takes 0.64 of JPS2's
-//! time (worst map 0.94), JPS+ 0.51 of that of JPS+ (worst 0.76).
+//! Against Warthog's programs on the eighteen maps of `benchdata/anchors.json`, through both yardsticks: block-based JPS takes 0.81 of JPS2's
+//! time (worst map 0.96), JPS+ 0.61 of that of JPS+ (worst 0.83).
 //! - Straight runs from combined planes, one row a scan instead of three: 3 to 4 ns instead of 5 to 6.
 //! - One bit a step of a slanted run says whether a straight run beside it comes to anything (module `slants`): arena2 from 16.6 to 10.8 µs
 //!   a query, AR0011SR from 9.4 to 5.0.
