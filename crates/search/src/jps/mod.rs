@@ -31,7 +31,7 @@
 //! - A table of one byte a vertex and move, so that a vertex's entries are one word.
 //!
 //! For k ≥ 4 there is no such table, but a vertex is asked for turns only once (module `canonical::settled`), and far from corners a run takes
-//! several steps at once. Against A*: 9 times as fast at k = 4 and 7 times at k = 5 on ArcticStation; 3 at k = 5 on brc202d; no
+//! several steps at once. Against A*: 9 times as fast at k = 4 and 7 times at k = 5 on ArcticStation; 2.6 at k = 5 on brc202d; no
 //! gain on dense noise, where every vertex has turns. From k = 6 on canonical A* is faster: more runs are scanned than nodes are saved.
 //! A jump limit changes times by some percent either way: 32 gave 0.92 to 1.03 at k = 3 and 5 (arena2,
 //! AR0011SR), 4 took 1.3 to 1.7 times as long.
