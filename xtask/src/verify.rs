@@ -105,15 +105,22 @@ impl Tally {
 /// Compares, and prints what was compared.
 ///
 /// # Errors
-/// [`Error::Verify`] for a cost that differs or a count that is not the expected one; the errors of reading files.
+/// Those of [`run_in`].
 pub fn run(options: &Options) -> Result<(), Error> {
-    let cache = project::root().join("benchdata/cache");
+    run_in(&project::root().join("benchdata/cache"), options)
+}
+
+/// [`run`] on the sets in a folder, each in a folder of its name.
+///
+/// # Errors
+/// [`Error::Verify`] for a cost that differs or a count that is not the expected one; the errors of reading files.
+pub fn run_in(cache: &Path, options: &Options) -> Result<(), Error> {
     let mut total = Tally::default();
     for &engine in &options.engine {
         println!("{engine}");
         total = total.add(match &options.oracle {
-            Some(folder) => against_references(&cache, folder, engine)?,
-            None => against_scenarios(&cache, options, engine)?,
+            Some(folder) => against_references(cache, folder, engine)?,
+            None => against_scenarios(cache, options, engine)?,
         });
     }
     if !total.mismatches.is_empty() {

@@ -81,7 +81,7 @@ fn scales(results: &Results<'_>) -> Vec<f64> {
 
 /// A warning when the yardsticks differ more from map to map than two machines do: on an idle one they stay within 1.15.
 /// Work beside the run slows them more than it slows engines that live in the caches, and so flatters those.
-pub(super) fn disturbance(scales: &[f64]) -> Option<String> {
+fn disturbance(scales: &[f64]) -> Option<String> {
     let (least, most) =
         scales.iter().fold((f64::MAX, 0.0_f64), |(a, b), &scale| (a.min(scale), b.max(scale)));
     let factor = most / least;

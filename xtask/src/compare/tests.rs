@@ -101,12 +101,28 @@ fn wrong_answers_and_missing_maps_are_errors() {
     }
 }
 
+/// The tables of maps on which this machine seems to be so much slower.
+fn tables(scales: &[f64]) -> String {
+    let anchors = Anchors::bundled().unwrap();
+    let comparison = |&scale: &f64| {
+        vec![Comparison {
+            map: "arena2".to_owned(),
+            contender: "astar".to_owned(),
+            scale,
+            ratios: Vec::new(),
+        }]
+    };
+    let comparisons = scales.iter().map(comparison).collect();
+    report::text(&Results { anchors: &anchors, setups: &[], records: Vec::new(), comparisons }, &options(&[]))
+}
+
 #[test]
 fn a_disturbed_run_is_called_so() {
-    assert_eq!(report::disturbance(&[0.71, 0.80, 0.77]), None);
-    assert_eq!(report::disturbance(&[]), None);
-    let warning = report::disturbance(&[1.64, 0.70, 0.76]).unwrap();
-    assert!(warning.contains("a factor of 2.34"), "{warning}");
+    for calm in [&[0.71, 0.80, 0.77][..], &[]] {
+        assert!(!tables(calm).contains("CAUTION"), "{calm:?}");
+    }
+    let text = tables(&[1.64, 0.70, 0.76]);
+    assert!(text.contains("CAUTION: here/there differs by a factor of 2.34"), "{text}");
 }
 
 #[test]

@@ -57,6 +57,8 @@ mod clearance;
 mod near;
 mod paper;
 mod settled;
+#[cfg(test)]
+mod tests;
 mod tree;
 
 use std::{ops::Deref, sync::Arc};
@@ -400,7 +402,7 @@ fn pattern<P: Place>(lattice: &Lattice<P>, at: Vertex) -> usize {
 /// ```
 pub type Canonical<L, H, P> = BestFirst<L, H, CanonicalMoves<P>>;
 
-/// Those moves that the rule leaves.
+/// Those moves that the rule leaves, and where it would take longer to find them out, all that are legal.
 #[derive(Clone, Debug)]
 pub struct CanonicalMoves<P: Place> {
     pruning: Arc<Pruning<P>>,

@@ -1,0 +1,73 @@
+//! What `verify` calls a success: as many costs as expected, all of them right.
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use std::{fs, path::Path};
+
+use clap::Parser;
+use xtask::verify::{Options, run_in};
+
+#[derive(Parser)]
+struct Cli {
+    #[command(flatten)]
+    options: Options,
+}
+
+/// A cache whose set `dao` has one map with one query, of which the scenario says this length.
+fn cache(optimal: &str) -> tempfile::TempDir {
+    let cache = tempfile::tempdir().unwrap();
+    let map = cache.path().join("dao").join("slalom.map");
+    fs::create_dir(cache.path().join("dao")).unwrap();
+    fs::write(&map, "type octile\nheight 3\nwidth 4\nmap\n....\n.@@.\n....\n").unwrap();
+    let scenario = format!("version 1\n0\tslalom.map\t4\t3\t0\t1\t3\t1\t{optimal}\n");
+    fs::write(map.with_extension("map.scen"), scenario).unwrap();
+    cache
+}
+
+/// What is wrong, if anything. Of the set's many instances there is one, so not every one is asked for.
+fn verify(cache: &Path, arguments: &[&str]) -> Option<String> {
+    let arguments = ["verify", "--every", "2"].iter().chain(arguments);
+    run_in(cache, &Cli::parse_from(arguments).options).err().map(|error| error.to_string())
+}
+
+#[test]
+fn costs_are_counted_over_all_engines() {
+    let cache = cache("5");
+    let engines = ["--engine", "astar", "jps-block", "--expect"];
+    assert_eq!(verify(cache.path(), &[&engines[..], &["2"]].concat()), None);
+    let wrong = verify(cache.path(), &[&engines[..], &["1_000"]].concat()).unwrap();
+    assert!(wrong.contains("expected 1000 comparisons, made 2"), "{wrong}");
+    assert_eq!(verify(cache.path(), &[]), None);
+}
+
+#[test]
+fn wrong_costs_and_none_at_all_are_errors() {
+    let wrong = verify(cache("4.5").path(), &["--expect", "1"]).unwrap();
+    assert!(wrong.contains("1 of 1 costs differ") && wrong.contains("found 5.000000, known 4.5"), "{wrong}");
+    let wrong = verify(tempfile::tempdir().unwrap().path(), &[]).unwrap();
+    assert!(wrong.contains("nothing was compared"), "{wrong}");
+    let wrong = verify(cache("5").path(), &["--engine", "wavefront"]).unwrap();
+    assert!(wrong.contains("wavefront is not optimal for k = 3"), "{wrong}");
+}
+
+#[test]
+fn references_are_those_of_the_problems_that_an_engine_solves() {
+    let (cache, oracle) = (cache("5"), tempfile::tempdir().unwrap());
+    let reference = |name: &str, row: &str| {
+        fs::write(oracle.path().join(name), format!("index,cost\n{row}\n")).unwrap();
+    };
+    let folder = oracle.path().to_str().unwrap();
+    reference("center-k3-slalom.csv", "0,5");
+    reference("center-k5-slalom.csv", "0,5");
+    reference("any-open-slalom.csv", "0,4.9");
+    // JPS by blocks knows no k = 5, and any-angle paths no engine yet.
+    let counts = [("astar", "2"), ("jps-block", "1")];
+    for (engine, count) in counts {
+        assert_eq!(verify(cache.path(), &["--oracle", folder, "--engine", engine, "--expect", count]), None);
+    }
+    reference("center-k5-slalom.csv", "0,4.9");
+    let wrong = verify(cache.path(), &["--oracle", folder]).unwrap();
+    assert!(wrong.contains("1 of 2 costs differ"), "{wrong}");
+    reference("center-k5-slalom.csv", "zero");
+    let wrong = verify(cache.path(), &["--oracle", folder]).unwrap();
+    assert!(wrong.contains("no index and cost: `zero`"), "{wrong}");
+}
