@@ -6,8 +6,8 @@
 //! **The key decision: a closed enum outside, types inside.** A visitor is compiled for each planner, so that a search is free
 //! of dynamic calls. Who must hold several planners at once takes [`Solver`]s: one dynamic call a query, none within it.
 //!
-//! To add an engine: a variant of [`Engine`] with what is to be known of it (`engine.rs`), and the line that makes its planner
-//! (`planner.rs`).
+//! To add an engine: a variant of [`Engine`] with what is to be known of it (`engine.rs`), the line that makes its planner
+//! (`planner.rs`), and whether it uses the pruning rule (`rule.rs`).
 //!
 //! What is not here: files. An index comes and goes as bytes.
 
