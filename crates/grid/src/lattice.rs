@@ -1,13 +1,10 @@
 //! The search graph: the vertices of one placement of a grid, joined by the legal moves of N(k).
 
-use std::sync::Arc;
+use std::{ops::Deref, sync::Arc};
 
 use mediant_moves::{Cost, CostTable, K, KError, Neighborhood, Vector};
 
-use crate::{
-    BitMatrix, Components, Demand, Grid, Place, Rules, Vertex, VertexId, line_of_sight, sight::Frame,
-    tree::Octant,
-};
+use crate::{Demand, Grid, Place, Terrain, Vertex, VertexId, sight::Frame, tree::Octant};
 
 /// One move of N(k), with what a search wants of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,19 +67,23 @@ impl Step {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Lattice<P: Place> {
-    grid: Arc<Grid>,
+    terrain: Terrain<P>,
     k: K,
-    rule: P::Rule,
-    width: u32,
-    height: u32,
     steps: Box<[Step]>,
     costs: CostTable,
     /// For each pattern of cells around a vertex, the legal moves of N(min(k, 3)).
     near: Box<[u8]>,
     octants: Box<[Octant]>,
-    /// The vertices that no path may pass, if there are any.
-    gaps: Option<BitMatrix>,
-    components: Components,
+}
+
+/// What does not depend on k: the map, the vertices, sight, components.
+impl<P: Place> Deref for Lattice<P> {
+    type Target = Terrain<P>;
+
+    #[inline]
+    fn deref(&self) -> &Terrain<P> {
+        &self.terrain
+    }
 }
 
 impl<P: Place> Lattice<P> {
@@ -97,7 +98,7 @@ impl<P: Place> Lattice<P> {
         if k.get() > Self::MAX_K {
             return Err(KError::TooLarge { k: k.get(), max: Self::MAX_K });
         }
-        let (width, height) = P::vertices(&grid);
+        let (width, _) = P::vertices(&grid);
         let moves: Vec<Vector> = Neighborhood::new(k)?.iter().collect();
         let steps = moves.iter().map(|&v| Step {
             cost: Cost::of_move(v),
@@ -110,38 +111,15 @@ impl<P: Place> Lattice<P> {
             costs: CostTable::new(k)?,
             near: (0..P::PATTERNS).map(|pattern| near_moves::<P>(rule, k, &moves, pattern)).collect(),
             octants: octants::<P>(rule, &moves, &grid),
-            gaps: P::closes_gaps(rule).then(|| double_corners(&grid)).flatten(),
-            components: Components::new(&grid, P::connectivity(rule, k)),
-            grid,
+            terrain: Terrain::with_connectivity(grid, rule, P::connectivity(rule, Some(k))),
             k,
-            rule,
-            width,
-            height,
         })
-    }
-
-    /// The map.
-    #[must_use]
-    pub const fn grid(&self) -> &Arc<Grid> {
-        &self.grid
     }
 
     /// The k of the neighborhood.
     #[must_use]
     pub const fn k(&self) -> K {
         self.k
-    }
-
-    /// The rule of motion.
-    #[must_use]
-    pub const fn rule(&self) -> P::Rule {
-        self.rule
-    }
-
-    /// Placement and rule as a value.
-    #[must_use]
-    pub fn rules(&self) -> Rules {
-        P::rules(self.rule)
     }
 
     /// The moves of N(k) in the order of [`Neighborhood`]: a move's index is its place here.
@@ -163,59 +141,11 @@ impl<P: Place> Lattice<P> {
         &self.costs
     }
 
-    /// The number of vertices, free or not; ids are below it.
-    #[must_use]
-    pub const fn vertex_count(&self) -> usize {
-        self.width as usize * self.height as usize
-    }
-
-    /// The id of a vertex; `None` outside the map.
-    #[must_use]
-    pub const fn id(&self, at: Vertex) -> Option<VertexId> {
-        if at.x as u32 >= self.width || at.y as u32 >= self.height {
-            return None;
-        }
-        Some(VertexId(at.y as u32 * self.width + at.x as u32))
-    }
-
-    /// The vertex with this id.
-    #[must_use]
-    #[inline]
-    pub const fn vertex(&self, id: VertexId) -> Vertex {
-        Vertex::new((id.0 % self.width) as i32, (id.0 / self.width) as i32)
-    }
-
-    /// Whether a path may stand on this vertex; false outside the map.
-    #[must_use]
-    pub fn is_free(&self, at: Vertex) -> bool {
-        P::is_free(&self.grid, at)
-    }
-
-    /// Whether a path leads from one free vertex to another, in constant time.
-    #[must_use]
-    pub fn connected(&self, from: Vertex, to: Vertex) -> bool {
-        if from == to {
-            return self.is_free(from);
-        }
-        let component = |at| {
-            let free = self.is_free(at);
-            free.then(|| self.components.of(P::representative(&self.grid, self.rule, at))).flatten()
-        };
-        component(from).is_some_and(|label| component(to) == Some(label))
-    }
-
     /// The memory that this takes beyond the map, in bytes: mostly four a cell for the components.
     #[must_use]
     pub fn index_bytes(&self) -> usize {
         let octants: usize = self.octants.iter().map(Octant::bytes).sum();
-        let gaps = self.gaps.as_ref().map_or(0, |gaps| size_of_val(gaps.words()));
-        size_of_val(&*self.steps) + size_of_val(&*self.near) + octants + gaps + self.components.bytes()
-    }
-
-    /// The components of the cells that [`connected`](Self::connected) looks up.
-    #[must_use]
-    pub const fn components(&self) -> &Components {
-        &self.components
+        size_of_val(&*self.steps) + size_of_val(&*self.near) + octants + self.terrain.index_bytes()
     }
 
     /// Whether `v` is a move of N(k) and legal at `at`. For a vertex of its own; for all moves of a vertex see
@@ -224,12 +154,6 @@ impl<P: Place> Lattice<P> {
     pub fn is_legal(&self, at: Vertex, v: Vector) -> bool {
         let known = Neighborhood::new(self.k).is_ok_and(|moves| moves.contains(v));
         known && self.id(at).is_some() && self.sees(at, at + v)
-    }
-
-    /// Whether the straight segment between two vertices obeys the rules of motion; see [`line_of_sight`].
-    #[must_use]
-    pub fn sees(&self, from: Vertex, to: Vertex) -> bool {
-        line_of_sight::<P>(&self.grid, self.rule, from, to)
     }
 
     /// All legal moves at a free vertex, as a bit set over their indices; empty for any other vertex.
@@ -249,7 +173,7 @@ impl<P: Place> Lattice<P> {
         if self.id(at).is_none() {
             return;
         }
-        let rows = self.grid.rows();
+        let rows = self.grid().rows();
         let (words, bit) = (rows.words(), rows.index(at.x, at.y));
         let mut near = self.near[P::pattern(words, bit, rows.bits_per_row())];
         let spread = self.k.get().saturating_sub(3);
@@ -259,7 +183,7 @@ impl<P: Place> Lattice<P> {
         }
         for octant in &self.octants {
             if octant.transposed {
-                let columns = self.grid.columns();
+                let columns = self.grid().columns();
                 octant.for_each_legal(columns, columns.index(at.y, at.x), &mut legal);
             } else {
                 octant.for_each_legal(rows, bit, &mut legal);
@@ -287,67 +211,29 @@ impl<P: Place> Lattice<P> {
         });
     }
 
-    /// Whether no path passes `at` because two blocked cells meet there diagonally, under
-    /// [`DiagonalGap::Closed`](crate::DiagonalGap::Closed).
-    #[must_use]
-    #[inline]
-    pub fn is_gap(&self, at: Vertex) -> bool {
-        self.gaps.as_ref().is_some_and(|gaps| gaps.get(at.x, at.y))
-    }
-
-    /// Whether there is any [gap](Self::is_gap).
-    #[must_use]
-    #[inline]
-    pub const fn has_gaps(&self) -> bool {
-        self.gaps.is_some()
-    }
-
     /// Whether a path to `goal` that arrived `from` by the one move may go on by the legal move `index`: false only where that would
     /// pass a [gap](Self::is_gap).
     #[must_use]
     #[inline]
     pub fn may_step(&self, from: Vertex, arrived_by: Option<usize>, index: usize, goal: Vertex) -> bool {
-        match &self.gaps {
-            None => true,
-            Some(gaps) => {
-                self.may_leave(gaps, from, arrived_by, index) && self.may_enter(gaps, from, index, goal)
-            }
-        }
-    }
-
-    /// [`DiagonalGap::Closed`](crate::DiagonalGap::Closed): a path that starts at a gap leaves it through the quadrant of
-    /// its own cell, and one that came there by an edge goes on within the free cell beside that edge.
-    #[inline]
-    fn may_leave(&self, gaps: &BitMatrix, from: Vertex, arrived_by: Option<usize>, index: usize) -> bool {
-        if !gaps.get(from.x, from.y) {
+        if !self.has_gaps() {
             return true;
         }
-        let v = self.steps[index].vector();
-        let Some(arrived_by) = arrived_by else { return self.is_in_own_quadrant(from, v) };
-        let back = -self.steps[arrived_by].vector();
-        let quadrants = [(1, 1), (1, -1), (-1, 1), (-1, -1)];
-        quadrants.iter().any(|&(sx, sy)| {
-            let within = |v: Vector| v.x * sx >= 0 && v.y * sy >= 0;
-            self.grid.is_free(from.x + (sx - 1) / 2, from.y + (sy - 1) / 2) && within(v) && within(back)
-        })
+        let moved = |index: usize| self.steps[index].vector();
+        let before = arrived_by.map(|by| from + -moved(by));
+        let to = from + moved(index);
+        self.may_turn(before, from, Some(to)) && self.may_enter(from, to, goal)
     }
 
-    /// [`DiagonalGap::Closed`](crate::DiagonalGap::Closed): a gap is entered only where the path ends, through the quadrant
-    /// of its own cell. At k = 2 also in passing: with only axis moves, from one corner of a cell to the opposite one, there may
-    /// be no other way than along its edges. (With diagonal moves a path that stays in one quadrant of a gap is never
-    /// shorter than one past it.)
+    /// [`DiagonalGap::Closed`](crate::DiagonalGap::Closed): a gap is entered only where the path ends. At k = 2 also in
+    /// passing: with only axis moves, from one corner of a cell to the opposite one, there may be no other way than along its edges.
+    /// (With diagonal moves a path that stays in one quadrant of a gap is never shorter than one past it.)
     #[inline]
-    fn may_enter(&self, gaps: &BitMatrix, from: Vertex, index: usize, goal: Vertex) -> bool {
-        let v = self.steps[index].vector();
-        let to = from + v;
-        if !gaps.get(to.x, to.y) {
+    fn may_enter(&self, from: Vertex, to: Vertex, goal: Vertex) -> bool {
+        if !self.is_gap(to) {
             return true;
         }
-        if to == goal { self.is_in_own_quadrant(to, -v) } else { self.k == K::FOUR_CONNECTED }
-    }
-
-    fn is_in_own_quadrant(&self, at: Vertex, v: Vector) -> bool {
-        v.x >= 0 && v.y >= 0 && self.grid.is_free(at.x, at.y)
+        if to == goal { self.may_turn(Some(from), to, None) } else { self.k == K::FOUR_CONNECTED }
     }
 }
 
@@ -411,19 +297,4 @@ fn octants<P: Place>(rule: P::Rule, moves: &[Vector], grid: &Grid) -> Box<[Octan
     let size = moves.len() / 8;
     let between = moves.chunks_exact(size.max(1)).zip((0..).step_by(size.max(1))).filter(|_| size > 1);
     between.map(|(moves, first)| Octant::new::<P>(rule, &moves[1..], first + 1, grid)).collect()
-}
-
-/// Which corner vertices are doubly blocked; `None` when there are none.
-fn double_corners(grid: &Grid) -> Option<BitMatrix> {
-    let mut gaps = BitMatrix::filled(grid.width() + 1, grid.height() + 1, false);
-    let mut any = false;
-    for y in 1..grid.height() {
-        for x in 1..grid.width() {
-            if grid.is_double_corner(Vertex::new(x as i32, y as i32)) {
-                gaps.set(x, y, true);
-                any = true;
-            }
-        }
-    }
-    any.then_some(gaps)
 }

@@ -1,7 +1,7 @@
 //! Bit-packed grid maps, and the rules of motion on them.
 //!
-//! A [`Grid`] says which cells are blocked; a [`Lattice`] is the search graph that a placement ([`Centers`] or [`Corners`]), a
-//! rule of motion and N(k) make of it.
+//! A [`Grid`] says which cells are blocked; a [`Terrain`] is what a placement ([`Centers`] or [`Corners`]) and a rule of motion make
+//! of it: vertices, line of sight, components. With N(k) that is a [`Lattice`], the search graph.
 //!
 //! **The key decision: no edge is stored, and no cell is asked for alone.** Which moves are legal at a vertex is found anew each
 //! time, from words of 64 cells: single steps by a table over the cells around the vertex, longer moves by masks over the rows
@@ -21,6 +21,7 @@ mod lattice;
 mod place;
 mod rules;
 mod sight;
+mod terrain;
 mod tree;
 mod vertex;
 
@@ -34,4 +35,5 @@ pub use mediant_moves::Vector;
 pub use place::{Centers, Corners, Demand, Place};
 pub use rules::{CornerRule, DiagonalGap, Placement, Rules};
 pub use sight::{line_of_sight, line_of_sight_under};
+pub use terrain::Terrain;
 pub use vertex::{Vertex, VertexId};

@@ -65,8 +65,8 @@ pub trait Place: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static
     #[doc(hidden)]
     fn pattern_is_blocked(pattern: usize, dx: i32, dy: i32) -> bool;
 
-    /// Which cells belong together, when it comes to whether there is any path at all.
-    fn connectivity(rule: Self::Rule, k: K) -> Connectivity;
+    /// Which cells belong together, when it comes to whether there is any path at all: over N(k), or without k at any angle.
+    fn connectivity(rule: Self::Rule, k: Option<K>) -> Connectivity;
 
     /// A cell whose component is that of this free vertex.
     #[doc(hidden)]
@@ -151,8 +151,8 @@ impl Place for Centers {
 
     /// A move's touched cells form a chain in which neighbors share an edge, except where it cuts a corner between two
     /// blocked cells.
-    fn connectivity(rule: CornerRule, k: K) -> Connectivity {
-        if rule == CornerRule::Always && k > K::FOUR_CONNECTED {
+    fn connectivity(rule: CornerRule, k: Option<K>) -> Connectivity {
+        if rule == CornerRule::Always && k != Some(K::FOUR_CONNECTED) {
             Connectivity::Eight
         } else {
             Connectivity::Four
@@ -228,7 +228,7 @@ impl Place for Corners {
     }
 
     /// The corners of a free cell are joined along its edges; a shared corner joins two cells unless gaps are closed.
-    fn connectivity(rule: DiagonalGap, _: K) -> Connectivity {
+    fn connectivity(rule: DiagonalGap, _: Option<K>) -> Connectivity {
         match rule {
             DiagonalGap::Open => Connectivity::Eight,
             DiagonalGap::Closed => Connectivity::Four,

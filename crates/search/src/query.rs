@@ -1,6 +1,6 @@
 //! Questions to a planner.
 
-use mediant_grid::{Lattice, Place, Vertex};
+use mediant_grid::{Place, Terrain, Vertex};
 
 /// From where to where.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -22,17 +22,17 @@ impl Query {
     ///
     /// # Errors
     /// A [`QueryError`] for the first end that is not.
-    pub fn check<P: Place>(self, lattice: &Lattice<P>) -> Result<(), QueryError> {
+    pub fn check<P: Place>(self, terrain: &Terrain<P>) -> Result<(), QueryError> {
         for (end, at) in [(End::Start, self.start), (End::Goal, self.goal)] {
-            if lattice.id(at).is_none() {
-                let (width, height) = P::vertices(lattice.grid());
+            if terrain.id(at).is_none() {
+                let (width, height) = P::vertices(terrain.grid());
                 return Err(QueryError::Outside {
                     end,
                     at,
                     last: Vertex::new(width as i32 - 1, height as i32 - 1),
                 });
             }
-            if !lattice.is_free(at) {
+            if !terrain.is_free(at) {
                 return Err(QueryError::Blocked { end, at });
             }
         }

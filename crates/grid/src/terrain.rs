@@ -1,0 +1,183 @@
+//! What the rules of motion make of a map, whatever moves a search takes: vertices, sight, gaps, components.
+
+use std::sync::Arc;
+
+use crate::{BitMatrix, Components, Connectivity, Grid, Place, Rules, Vertex, VertexId, line_of_sight};
+
+/// A grid under placement `P` and its rule of motion: all that any-angle search needs, and what the lattices of every k have in
+/// common. Immutable; planners share it.
+///
+/// ```
+/// use std::sync::Arc;
+/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, Terrain, Vertex};
+/// let map = AsciiMap::parse("
+///     .#
+///     #.
+/// ")?;
+/// let [start, goal] = [(0, 0), (2, 2)].map(Vertex::from);
+/// let grid = Arc::new(map.grid);
+/// let open = Terrain::<Corners>::new(Arc::clone(&grid), DiagonalGap::Open);
+/// assert!(open.sees(start, goal) && open.connected(start, goal));
+/// let closed = Terrain::<Corners>::new(grid, DiagonalGap::Closed);
+/// assert!(closed.is_gap(Vertex::new(1, 1)) && !closed.connected(start, goal));
+/// # Ok::<(), mediant_grid::GridError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Terrain<P: Place> {
+    grid: Arc<Grid>,
+    rule: P::Rule,
+    width: u32,
+    height: u32,
+    /// The vertices that no path may pass, if there are any.
+    gaps: Option<BitMatrix>,
+    components: Components,
+}
+
+impl<P: Place> Terrain<P> {
+    /// A grid under a rule, for paths at any angle.
+    #[must_use]
+    pub fn new(grid: Arc<Grid>, rule: P::Rule) -> Self {
+        Self::with_connectivity(grid, rule, P::connectivity(rule, None))
+    }
+
+    /// A grid for paths that connect the cells in this way.
+    pub(crate) fn with_connectivity(grid: Arc<Grid>, rule: P::Rule, connectivity: Connectivity) -> Self {
+        let (width, height) = P::vertices(&grid);
+        Self {
+            gaps: P::closes_gaps(rule).then(|| double_corners(&grid)).flatten(),
+            components: Components::new(&grid, connectivity),
+            grid,
+            rule,
+            width,
+            height,
+        }
+    }
+
+    /// The map.
+    #[must_use]
+    #[inline]
+    pub const fn grid(&self) -> &Arc<Grid> {
+        &self.grid
+    }
+
+    /// The rule of motion.
+    #[must_use]
+    pub const fn rule(&self) -> P::Rule {
+        self.rule
+    }
+
+    /// Placement and rule as a value.
+    #[must_use]
+    pub fn rules(&self) -> Rules {
+        P::rules(self.rule)
+    }
+
+    /// The number of vertices, free or not; ids are below it.
+    #[must_use]
+    pub const fn vertex_count(&self) -> usize {
+        self.width as usize * self.height as usize
+    }
+
+    /// The id of a vertex; `None` outside the map.
+    #[must_use]
+    pub const fn id(&self, at: Vertex) -> Option<VertexId> {
+        if at.x as u32 >= self.width || at.y as u32 >= self.height {
+            return None;
+        }
+        Some(VertexId(at.y as u32 * self.width + at.x as u32))
+    }
+
+    /// The vertex with this id.
+    #[must_use]
+    #[inline]
+    pub const fn vertex(&self, id: VertexId) -> Vertex {
+        Vertex::new((id.0 % self.width) as i32, (id.0 / self.width) as i32)
+    }
+
+    /// Whether a path may stand on this vertex; false outside the map.
+    #[must_use]
+    pub fn is_free(&self, at: Vertex) -> bool {
+        P::is_free(&self.grid, at)
+    }
+
+    /// Whether a path leads from one free vertex to another, in constant time.
+    #[must_use]
+    pub fn connected(&self, from: Vertex, to: Vertex) -> bool {
+        if from == to {
+            return self.is_free(from);
+        }
+        let component = |at| {
+            let free = self.is_free(at);
+            free.then(|| self.components.of(P::representative(&self.grid, self.rule, at))).flatten()
+        };
+        component(from).is_some_and(|label| component(to) == Some(label))
+    }
+
+    /// The components of the cells that [`connected`](Self::connected) looks up.
+    #[must_use]
+    pub const fn components(&self) -> &Components {
+        &self.components
+    }
+
+    /// The memory that this takes beyond the map, in bytes: mostly four a cell for the components.
+    #[must_use]
+    pub fn index_bytes(&self) -> usize {
+        let gaps = self.gaps.as_ref().map_or(0, |gaps| size_of_val(gaps.words()));
+        gaps + self.components.bytes()
+    }
+
+    /// Whether the straight segment between two vertices obeys the rules of motion; see [`line_of_sight`].
+    #[must_use]
+    pub fn sees(&self, from: Vertex, to: Vertex) -> bool {
+        line_of_sight::<P>(&self.grid, self.rule, from, to)
+    }
+
+    /// Whether no path passes `at` because two blocked cells meet there diagonally, under
+    /// [`DiagonalGap::Closed`](crate::DiagonalGap::Closed).
+    #[must_use]
+    #[inline]
+    pub fn is_gap(&self, at: Vertex) -> bool {
+        self.gaps.as_ref().is_some_and(|gaps| gaps.get(at.x, at.y))
+    }
+
+    /// Whether there is any [gap](Self::is_gap).
+    #[must_use]
+    #[inline]
+    pub const fn has_gaps(&self) -> bool {
+        self.gaps.is_some()
+    }
+
+    /// Whether a path may come straight from `before` to the free vertex `at` and go on straight to `after`, as far as
+    /// [gaps](Self::is_gap) are concerned: at a gap it stays in one free quadrant, and one that starts or ends there (`None`), in that
+    /// of the vertex's own cell.
+    #[must_use]
+    #[inline]
+    pub fn may_turn(&self, before: Option<Vertex>, at: Vertex, after: Option<Vertex>) -> bool {
+        !self.is_gap(at) || self.stays_in_quadrant(before, at, after)
+    }
+
+    fn stays_in_quadrant(&self, before: Option<Vertex>, at: Vertex, after: Option<Vertex>) -> bool {
+        let is_end = before.is_none() || after.is_none();
+        [(1, 1), (1, -1), (-1, 1), (-1, -1)].into_iter().take(if is_end { 1 } else { 4 }).any(|(sx, sy)| {
+            let holds = |other: Option<Vertex>| {
+                other.is_none_or(|other| (other.x - at.x) * sx >= 0 && (other.y - at.y) * sy >= 0)
+            };
+            self.grid.is_free(at.x + (sx - 1) / 2, at.y + (sy - 1) / 2) && holds(before) && holds(after)
+        })
+    }
+}
+
+/// Which corner vertices are doubly blocked; `None` when there are none.
+fn double_corners(grid: &Grid) -> Option<BitMatrix> {
+    let mut gaps = BitMatrix::filled(grid.width() + 1, grid.height() + 1, false);
+    let mut any = false;
+    for y in 1..grid.height() {
+        for x in 1..grid.width() {
+            if grid.is_double_corner(Vertex::new(x as i32, y as i32)) {
+                gaps.set(x, y, true);
+                any = true;
+            }
+        }
+    }
+    any.then_some(gaps)
+}
