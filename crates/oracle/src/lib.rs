@@ -8,6 +8,7 @@
 //!   every cell around it, in exact fractions.
 //! * [`neighborhood`]: the moves of N(k), mediant by mediant.
 //! * [`Explicit`]: Dijkstra on the graph of all legal moves, for every k and for any-angle paths.
+//! * [`Visibility`]: the same costs at corners from the visibility graph of the obstacles' convex corners, one for all k.
 //! * [`validate`]: whether a path is what a planner promised.
 //! * [`random_grid`], [`wide_grid`], [`Case`] and the generators behind them: maps and queries from a seed, those of a suite
 //!   from its [`seeds`].
@@ -42,6 +43,7 @@ mod legality;
 mod neighborhood;
 mod random;
 mod validate;
+mod visibility;
 
 pub use case::{Case, describe, seeds};
 pub use dijkstra::{Costs, Explicit};
@@ -53,3 +55,4 @@ pub use legality::{is_doubly_blocked, segment_is_legal, turn_is_legal, vertex_is
 pub use neighborhood::neighborhood;
 pub use random::Rng;
 pub use validate::{Fault, validate};
+pub use visibility::{Visibility, VisibilityCosts, VisibilityGraph};
