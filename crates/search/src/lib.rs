@@ -12,6 +12,7 @@
 //!
 //! What is not here: preprocessing (`mediant-subgoal`, `mediant-hierarchy`), threads, serialization.
 
+mod anya;
 mod astar;
 mod best_first;
 mod canonical;
@@ -27,6 +28,7 @@ mod query;
 mod successors;
 mod wavefront;
 
+pub use anya::Anya;
 pub use astar::{AStar, AllMoves, Dijkstra};
 pub use best_first::BestFirst;
 pub use canonical::{Canonical, CanonicalMoves, CanonicalRule, PaperCanonical, PaperMoves, Pruning, View};

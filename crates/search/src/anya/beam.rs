@@ -1,0 +1,185 @@
+//! A cone on its way over the lines: the most frequent step of a search, by additions and words.
+
+use mediant_grid::{Grid, Vertex};
+
+use super::{
+    frontier::Node,
+    interval::{End, Place, Side},
+    search::Successor,
+    strip::{Row, Strip, Window},
+};
+
+/// What a root sees through an interval of a line, before it crosses the row of cells ahead.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beam<'g> {
+    pub(super) root: Vertex,
+    /// The root's number.
+    pub(super) number: u32,
+    pub(super) line: i32,
+    /// 1 where the way leads downwards, −1 upwards.
+    pub(super) down: i32,
+    pub(super) left: Edge,
+    pub(super) right: Edge,
+    pub(super) ahead: Strip<'g>,
+}
+
+/// An end of a beam.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Edge {
+    end: End,
+    /// Whether it is at the end of the run of free cells behind: the ray through it leads into the obstacle, or along it. For as
+    /// long as it stays there it is followed as a vertical, and only afterwards becomes a ray of its own.
+    is_wall: bool,
+}
+
+/// The column where a wall cuts an interval off, if one does.
+type Wall = Option<i32>;
+
+impl Edge {
+    #[inline]
+    const fn on(end: End) -> Self {
+        Self { end, is_wall: false }
+    }
+
+    #[inline]
+    const fn wall(x: i32) -> Self {
+        Self { end: End::standing(x), is_wall: true }
+    }
+
+    /// Moves to the next line.
+    #[inline]
+    const fn advance(&mut self, next: Place, wall: Wall) {
+        match wall {
+            Some(x) => *self = Self::wall(x),
+            None => self.end.here = next,
+        }
+    }
+
+    /// Where it is.
+    #[inline]
+    pub(super) const fn here(&self) -> Place {
+        self.end.here
+    }
+}
+
+impl<'g> Beam<'g> {
+    #[inline]
+    pub(super) fn new(grid: &'g Grid, root: Vertex, node: Node) -> Self {
+        let Node { root: number, line, left, right } = node;
+        let down = (line - root.y).signum();
+        let edge = |ray| Edge::on(End::new(ray, root.x, (line - root.y) * down));
+        let ahead = Strip::ahead(grid, line, down);
+        Self { root, number, line, down, left: edge(left), right: edge(right), ahead }
+    }
+
+    /// The beam on the next line, from a root that sees it there.
+    #[inline]
+    pub(super) fn next(&self, root: Vertex, successor: Successor) -> Self {
+        let Successor { root: number, left, right } = successor;
+        let (line, ahead) = (self.line + self.down, self.ahead.next(self.down));
+        Self { root, number, line, left: Edge::on(left), right: Edge::on(right), ahead, ..*self }
+    }
+
+    /// The row of cells that it crossed last.
+    #[inline]
+    pub(super) const fn behind(&self) -> Strip<'g> {
+        self.ahead.next(-self.down)
+    }
+
+    /// The beam's interval as a node.
+    pub(super) fn node(&self) -> Node {
+        let [left, right] = [self.left, self.right].map(|edge| self.end(edge).ray);
+        Node { root: self.number, line: self.line, left, right }
+    }
+
+    /// How far the line is from the root.
+    #[inline]
+    pub(super) const fn distance(&self) -> i32 {
+        (self.line - self.root.y) * self.down
+    }
+
+    /// The ray at an edge.
+    #[inline]
+    pub(super) const fn end(&self, edge: Edge) -> End {
+        if edge.is_wall { self.corner(edge.end.here.floor()) } else { edge.end }
+    }
+
+    /// The end at a vertex of the line.
+    #[inline]
+    pub(super) const fn corner(&self, x: i32) -> End {
+        End::corner(x, self.root.x, self.distance())
+    }
+
+    /// Whether the interval holds a vertex.
+    #[inline]
+    pub(super) fn holds(&self, at: Vertex) -> bool {
+        self.line == at.y && self.left.here().ceil() <= at.x && at.x <= self.right.here().floor()
+    }
+
+    /// Moves on while the way ahead of the interval is one run of free cells and no corner shows at which a path may bend. Whether it came
+    /// to the goal.
+    #[inline]
+    pub(super) fn glide(&mut self, goal: Vertex) -> bool {
+        loop {
+            let (left, right) = (self.left.end.next(), self.right.end.next());
+            let low = self.left.here().floor().min(left.floor());
+            let high = self.right.here().ceil().max(right.ceil());
+            let walls = if high - low < Window::WIDTH - 1 {
+                self.walls(Window::new(self.ahead, low - 1), (left, right), (low, high))
+            } else {
+                self.walls(self.ahead, (left, right), (low, high))
+            };
+            let Some((left_wall, right_wall)) = walls else { return false };
+            self.line += self.down;
+            self.ahead = self.ahead.next(self.down);
+            self.left.advance(left, left_wall);
+            self.right.advance(right, right_wall);
+            if self.holds(goal) {
+                return true;
+            }
+        }
+    }
+
+    /// Where walls cut the interval off on its left and right before the next line; `None` where it splits, ends, or leaves something in
+    /// the shade of an obstacle. `left` and `right` are its ends on the next line if no obstacle is in the way, `low` to `high` the
+    /// columns that are crossed.
+    #[inline(always)]
+    fn walls(
+        &self,
+        ahead: impl Row,
+        (left, right): (Place, Place),
+        (low, high): (i32, i32),
+    ) -> Option<(Wall, Wall)> {
+        let (first, last) = (self.left.here().floor(), self.right.here().ceil());
+        if self.is_at_corner(&self.left, first - 1, ahead) || self.is_at_corner(&self.right, last, ahead) {
+            return None;
+        }
+        if ahead.first_blocked(low, high) == high {
+            // Along a wall the interval may end at a point.
+            return (left.floor() < right.ceil()).then_some((None, None));
+        }
+        let inside = ahead.first_free(first, last);
+        if inside == last {
+            return None;
+        }
+        let start = if inside > first { inside } else { ahead.run_start(first, low) };
+        let end = ahead.first_blocked(inside, high);
+        let splits = end < last && ahead.first_free(end, last) < last;
+        // An obstacle on the near side of the vertical through the root hides something.
+        let shades = inside > first && inside > self.root.x || end < last && end < self.root.x;
+        let empties = left.floor() >= end || right.ceil() <= start;
+        if splits || shades || empties {
+            return None;
+        }
+        let left_wall = inside > first || Side::Left.is_outside(left, start);
+        let right_wall = end < last || Side::Right.is_outside(right, end);
+        Some((left_wall.then_some(start), right_wall.then_some(end)))
+    }
+
+    /// Whether the obstacle beside an edge, in column `outer`, begins or ends on this line: then a path may bend around its corner.
+    #[inline]
+    fn is_at_corner(&self, edge: &Edge, outer: i32, ahead: impl Row) -> bool {
+        let behind = || edge.is_wall || self.behind().is_blocked(outer);
+        edge.here().is_vertex() && ahead.is_blocked(outer) != behind()
+    }
+}

@@ -1,0 +1,217 @@
+//! Interval ends: rays from a lattice vertex through another.
+
+/// A ray that leaves a root: the vector from the root to a lattice vertex on it. `dy` > 0 counts lines away from the root,
+/// up or down.
+///
+/// An end of an interval is never kept as a place but as the ray that bounds it: the vector from the root to the corner at which it was
+/// clipped, or, where a path turned at its root, the vector from the root before. So it is the difference of two vertices of the map.
+///
+/// **No overflow.** With sides of at most 2¹⁵ cells ([`Grid::MAX_SIDE`](mediant_grid::Grid::MAX_SIDE)) |dx| ≤ 2¹⁵ and 1 ≤ dy ≤ 2¹⁵. A place is
+/// asked for at most one line beyond the map, n ≤ 2¹⁵ + 1 lines from the root, so |n · dx| ≤ 2³⁰ + 2¹⁵ < 2³¹, and a place is at most
+/// 2³⁰ + 2¹⁶ columns away. Rays are never added to, multiplied by or intersected with each other, so nothing grows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Ray {
+    pub(super) dx: i32,
+    pub(super) dy: i32,
+}
+
+impl Ray {
+    /// Straight away from the root.
+    pub(super) const VERTICAL: Self = Self { dx: 0, dy: 1 };
+
+    /// Where it meets a line, `n` lines from a root in column `root`, rounded.
+    #[inline]
+    pub(super) fn place(self, root: i32, n: i32) -> f64 {
+        f64::from(root) + f64::from(n * self.dx) / f64::from(self.dy)
+    }
+}
+
+/// Where a ray meets a line, in columns: fixed point, with [`FRACTION`](Self::FRACTION) bits, and yet exact in what it decides.
+///
+/// A ray meets a line in a rational whose denominator is at most 2¹⁵: either at a vertex, or at least 2⁻¹⁵ away from one. A place is that
+/// rational, less at most the n · 2⁻⁴⁴ < 2⁻²⁸ that n additions of a cut-off step lose, plus 2⁻¹⁷. So its fraction is between 0 and 2⁻¹⁷ at a
+/// vertex and above 2⁻¹⁶ and below 1 elsewhere: floor, ceiling and whether it is a vertex are those of the rational.
+///
+/// An interval lies on the map, so a place on its line is between 0 and 2¹⁵. On the next line it is at most 2¹⁵ columns further out, as
+/// far as a ray leads from line to line: below 2¹⁷, in bits below 2⁶¹.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place(i64);
+
+impl Place {
+    const FRACTION: u32 = 44;
+    const ONE: i64 = 1 << Self::FRACTION;
+    const BIAS: i64 = Self::ONE >> 17;
+    const VERTEX: i64 = Self::ONE >> 16;
+
+    /// A vertex.
+    #[inline]
+    pub(super) const fn vertex(x: i32) -> Self {
+        Self(((x as i64) << Self::FRACTION) + Self::BIAS)
+    }
+
+    /// The column boundary at or to the left of it.
+    #[inline]
+    pub(super) const fn floor(self) -> i32 {
+        (self.0 >> Self::FRACTION) as i32
+    }
+
+    /// The column boundary at or to the right of it.
+    #[inline]
+    pub(super) const fn ceil(self) -> i32 {
+        ((self.0 + (Self::ONE - Self::VERTEX)) >> Self::FRACTION) as i32
+    }
+
+    /// Whether it is a vertex.
+    #[inline]
+    pub(super) const fn is_vertex(self) -> bool {
+        self.0 & (Self::ONE - 1) < Self::VERTEX
+    }
+}
+
+/// An end of an interval, followed from line to line by additions.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct End {
+    pub(super) ray: Ray,
+    /// Where it is on the line.
+    pub(super) here: Place,
+    /// What it moves by from line to line.
+    step: i64,
+}
+
+impl End {
+    /// The end where a ray from a root in column `root` is after `n` lines.
+    #[inline]
+    pub(super) const fn new(ray: Ray, root: i32, n: i32) -> Self {
+        let step = ((ray.dx as i64) << Place::FRACTION).div_euclid(ray.dy as i64);
+        // The corner at which it was clipped, exactly, so that at most n lines add their error.
+        let here = if n == ray.dy {
+            Place::vertex(root + ray.dx)
+        } else {
+            Place(Place::vertex(root).0 + n as i64 * step)
+        };
+        Self { ray, here, step }
+    }
+
+    /// The end at a vertex in column `x`, `n` lines from a root in column `root`.
+    #[inline]
+    pub(super) const fn corner(x: i32, root: i32, n: i32) -> Self {
+        Self::new(Ray { dx: x - root, dy: n }, root, n)
+    }
+
+    /// The end on the next line, where it is at [`next`](Self::next).
+    #[inline]
+    pub(super) const fn moved_to(self, next: Place) -> Self {
+        Self { here: next, ..self }
+    }
+
+    /// An end that stays in its column.
+    #[inline]
+    pub(super) const fn standing(x: i32) -> Self {
+        Self { ray: Ray::VERTICAL, here: Place::vertex(x), step: 0 }
+    }
+
+    /// Where the ray is on the next line.
+    #[inline]
+    pub(super) const fn next(&self) -> Place {
+        Place(self.here.0 + self.step)
+    }
+}
+
+/// The left or right end of an interval.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    Left,
+    Right,
+}
+
+impl Side {
+    pub(super) const fn sign(self) -> i32 {
+        match self {
+            Self::Left => -1,
+            Self::Right => 1,
+        }
+    }
+
+    /// The columns beside vertex x, the outer one first.
+    pub(super) const fn columns(self, x: i32) -> (i32, i32) {
+        match self {
+            Self::Left => (x - 1, x),
+            Self::Right => (x, x - 1),
+        }
+    }
+
+    /// Whether a place is strictly on the inner side of column boundary x.
+    #[inline]
+    pub(super) const fn is_inside(self, place: Place, x: i32) -> bool {
+        match self {
+            Self::Left => place.ceil() > x,
+            Self::Right => place.floor() < x,
+        }
+    }
+
+    /// Whether a place is strictly on the outer side of column boundary x.
+    #[inline]
+    pub(super) const fn is_outside(self, place: Place, x: i32) -> bool {
+        match self {
+            Self::Left => place.floor() < x,
+            Self::Right => place.ceil() > x,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The place of a ray from column `root` after `n` lines, by division.
+    fn rational(Ray { dx, dy }: Ray, root: i32, n: i32) -> (i32, i32, bool) {
+        let product = i64::from(n) * i64::from(dx);
+        let floor = root + product.div_euclid(i64::from(dy)) as i32;
+        let is_vertex = product % i64::from(dy) == 0;
+        (floor, floor + i32::from(!is_vertex), is_vertex)
+    }
+
+    fn seen(place: Place) -> (i32, i32, bool) {
+        (place.floor(), place.ceil(), place.is_vertex())
+    }
+
+    /// Follows a ray over all lines on which its place is on the largest map, and one line further.
+    #[track_caller]
+    fn follow(ray: Ray, root: i32) {
+        const SIDE: i32 = mediant_grid::Grid::MAX_SIDE as i32;
+        let mut end = End::new(ray, root, 1);
+        for n in 1..=SIDE {
+            assert_eq!(seen(end.here), rational(ray, root, n), "{ray:?} from {root}, line {n}");
+            assert_eq!(seen(End::new(ray, root, n).here), seen(end.here), "{ray:?} from {root}, line {n}");
+            end = end.moved_to(end.next());
+            assert_eq!(seen(end.here), rational(ray, root, n + 1), "{ray:?} from {root}, line {}", n + 1);
+            if !(0..=SIDE).contains(&end.here.floor()) {
+                break;
+            }
+        }
+    }
+
+    #[test]
+    fn places_decide_as_rationals_do() {
+        const SIDE: i32 = mediant_grid::Grid::MAX_SIDE as i32;
+        // The steepest, the flattest, and those that come closest to a vertex without meeting it.
+        for (dx, dy) in
+            [(0, 1), (1, 1), (1, SIDE), (SIDE, 1), (SIDE, SIDE - 1), (SIDE - 1, SIDE), (1, SIDE - 1)]
+        {
+            follow(Ray { dx, dy }, 0);
+            follow(Ray { dx: -dx, dy }, SIDE);
+        }
+        // A multiplicative congruence spreads the vectors over the square.
+        let mut state = 1_u32;
+        let mut below = |n: i32| {
+            state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+            ((u64::from(state) * n as u64) >> 32) as i32
+        };
+        for _ in 0..400 {
+            let ray = Ray { dx: below(2 * SIDE + 1) - SIDE, dy: 1 + below(SIDE) };
+            follow(ray, if ray.dx < 0 { SIDE } else { 0 });
+            let root = below(SIDE + 1);
+            follow(Ray { dx: below(65) - 32, dy: 1 + below(64) }, root);
+        }
+    }
+}

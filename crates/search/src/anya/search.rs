@@ -1,0 +1,314 @@
+//! A search under way: what the expansion of a node leads to.
+
+use mediant_grid::{Corners, Terrain, Vertex};
+
+use super::{
+    beam::Beam,
+    frontier::{Frontier, Node, fixed},
+    interval::{End, Place, Ray, Side},
+    strip::{Row, Strip},
+};
+use crate::{NodeEvent, Observer};
+
+/// A search under way.
+pub(super) struct Search<'s, O> {
+    pub(super) terrain: &'s Terrain<Corners>,
+    pub(super) frontier: &'s mut Frontier,
+    pub(super) goal: Vertex,
+    pub(super) observer: &'s mut O,
+    /// Scratch memory for the successors of one node.
+    pub(super) next: &'s mut Vec<Successor>,
+}
+
+impl<O: Observer> Search<'_, O> {
+    /// Forgets the last search and finds the nodes that the start sees.
+    pub(super) fn start(&mut self, at: Vertex) {
+        self.frontier.start(self.terrain, at);
+        let grid = self.terrain.grid();
+        // From a gap a path sets out into the quadrant of its own cell.
+        let gap = self.terrain.is_gap(at);
+        for down in [1, -1] {
+            if gap && down < 0 {
+                continue;
+            }
+            let strip = Strip::ahead(grid, at.y, down);
+            let first = if gap { at.x } else { strip.run_start(at.x, 0) };
+            let end = strip.first_blocked(at.x, i32::MAX);
+            if first < end {
+                let [left, right] = [first, end].map(|x| Ray { dx: x - at.x, dy: 1 });
+                self.push(Node { root: 0, line: at.y + down, left, right });
+            }
+        }
+        for right in [1, -1] {
+            if !gap || right > 0 {
+                self.flat(0, at, right);
+            }
+        }
+    }
+
+    /// Whether a path by the node's root leads to the goal in the node.
+    pub(super) fn reaches_goal(&self, node: Node) -> bool {
+        let root = self.frontier.root(node.root).at;
+        let found = if node.line == root.y {
+            self.goal == Vertex::new(root.x + node.left.dx, root.y)
+        } else {
+            node.line == self.goal.y && Beam::new(self.terrain.grid(), root, node).holds(self.goal)
+        };
+        found && self.terrain.may_turn(Some(root), self.goal, None)
+    }
+
+    /// Puts the successors of a node on the open list.
+    pub(super) fn expand(&mut self, node: Node) {
+        let terrain = self.terrain;
+        let root = self.frontier.root(node.root).at;
+        if node.line == root.y {
+            return self.turn_flat(node, root);
+        }
+        let mut beam = Beam::new(terrain.grid(), root, node);
+        loop {
+            self.next.clear();
+            if beam.glide(self.goal) {
+                self.push(beam.node());
+                break;
+            }
+            self.cross(&beam);
+            if self.next.len() > 1 {
+                self.next.retain(|next| !next.is_cul_de_sac(&beam, self.goal));
+            }
+            if let [only] = self.next[..] {
+                beam = beam.next(self.frontier.root(only.root).at, only);
+                if !beam.holds(self.goal) {
+                    continue;
+                }
+                self.push(beam.node());
+                break;
+            }
+            for i in 0..self.next.len() {
+                let Successor { root, left, right } = self.next[i];
+                self.push(Node { root, line: beam.line + beam.down, left: left.ray, right: right.ray });
+            }
+            break;
+        }
+    }
+
+    /// Puts a cone node on the open list.
+    fn push(&mut self, node: Node) {
+        let root = self.frontier.root(node.root);
+        let n = (node.line - root.at.y).abs();
+        let [left, right] = [node.left, node.right].map(|ray| ray.place(root.at.x, n));
+        let h = self.estimate(root.at, node.line, left, right);
+        self.add(node, root.g + h, h);
+    }
+
+    /// Puts a node on the open list, with its f and h.
+    fn add(&mut self, node: Node, f: f64, h: f64) {
+        self.frontier.push(node, f, h);
+        let root = self.frontier.root(node.root);
+        let parent = self.frontier.parent(node.root);
+        self.observer.generated(NodeEvent { at: root.at, parent, g: fixed(root.g), f: fixed(f) });
+    }
+
+    /// The length of a shortest way from the root through the interval to the goal, or to its mirror image where that is on this
+    /// side of the line (Harabor et al. 2016, Section 4.3).
+    #[inline]
+    fn estimate(&self, root: Vertex, line: i32, left: f64, right: f64) -> f64 {
+        let (x, y) = (f64::from(root.x), f64::from(root.y));
+        let line = f64::from(line);
+        let (goal_x, away, beyond) =
+            (f64::from(self.goal.x), (line - y).abs(), (f64::from(self.goal.y) - line).abs());
+        let straight = x + (goal_x - x) * away / (away + beyond);
+        let through = straight.max(left).min(right);
+        let length = |dx: f64, dy: f64| (dx * dx + dy * dy).sqrt();
+        if through == straight {
+            length(goal_x - x, away + beyond)
+        } else {
+            length(through - x, away) + length(goal_x - through, beyond)
+        }
+    }
+
+    /// Looks from a root along its own line for the next vertex at which a path may turn, beyond `from`.
+    fn flat(&mut self, root: u32, from: Vertex, right: i32) {
+        let grid = self.terrain.grid();
+        let [above, below] = [-1, 1].map(|down| Strip::ahead(grid, from.y, down));
+        let closed = self.terrain.has_gaps();
+        let mut passed = 0;
+        let (steps, dead) = loop {
+            let [(u, u_next), (d, d_next)] = [above, below].map(|strip| {
+                if right > 0 {
+                    let first = from.x + passed;
+                    (strip.word(first), strip.word(first + 1))
+                } else {
+                    let first = from.x - passed - 64;
+                    (strip.word(first).reverse_bits(), strip.word(first - 1).reverse_bits())
+                }
+            });
+            let dead = u & d;
+            let turn = u & !u_next | d & !d_next;
+            let gap = if closed { u & !u_next & !d & d_next | d & !d_next & !u & u_next } else { 0 };
+            let stop = dead | turn;
+            if stop != 0 {
+                let n = stop.trailing_zeros();
+                let at = |bits: u64| bits >> n & 1 == 1;
+                let is_dead = at(dead);
+                break (passed + n as i32 + i32::from(!is_dead), is_dead || at(gap));
+            }
+            passed += 64;
+        };
+        let to_goal = (self.goal.x - from.x) * right;
+        let is_goal = self.goal.y == from.y && 0 < to_goal && to_goal <= steps;
+        if dead && !is_goal {
+            return;
+        }
+        let x = from.x + right * if is_goal { to_goal } else { steps };
+        let start = self.frontier.root(root);
+        let dx = x - start.at.x;
+        let h = f64::from(dx.abs()) + Vertex::new(x, from.y).distance(self.goal);
+        let left = Ray { dx, dy: 1 };
+        self.add(Node { root, line: from.y, left, right: left }, start.g + h, h);
+    }
+
+    /// Turns off a line at a vertex, up or down, and goes on along it.
+    fn turn_flat(&mut self, node: Node, root: Vertex) {
+        let grid = self.terrain.grid();
+        let right = node.left.dx.signum();
+        let at = Vertex::new(root.x + node.left.dx, root.y);
+        let (passed, entered) = if right > 0 { (at.x - 1, at.x) } else { (at.x, at.x - 1) };
+        // A goal that is a gap, and that this path may not end at, is a vertex like any other; nothing may pass it.
+        if self.terrain.is_gap(at) {
+            return;
+        }
+        for down in [-1, 1] {
+            let strip = Strip::ahead(grid, at.y, down);
+            if !strip.is_blocked(passed) || strip.is_blocked(entered) {
+                continue;
+            }
+            let Some(number) = self.frontier.reach(self.terrain, node.root, at) else { continue };
+            let far = if right > 0 { strip.first_blocked(at.x, i32::MAX) } else { strip.run_start(at.x, 0) };
+            let far = Ray { dx: far - at.x, dy: 1 };
+            let (left, right) = if right > 0 { (Ray::VERTICAL, far) } else { (far, Ray::VERTICAL) };
+            self.push(Node { root: number, line: at.y + down, left, right });
+        }
+        self.flat(node.root, at, right);
+    }
+
+    /// Finds the nodes on the next line.
+    fn cross(&mut self, beam: &Beam<'_>) {
+        let (left, right) = (beam.end(beam.left), beam.end(beam.right));
+        if left.here.is_vertex() {
+            self.turn(beam, left, Side::Left);
+        }
+        if right.here.is_vertex() {
+            self.turn(beam, right, Side::Right);
+        }
+        let (next_left, next_right) = (left.next(), right.next());
+        let (first, last) = (left.here.floor(), right.here.ceil());
+        let mut column = first;
+        loop {
+            column = beam.ahead.first_free(column, last);
+            if column >= last {
+                break;
+            }
+            // A run matters as far as the cone reaches.
+            let start = if column == first {
+                beam.ahead.run_start(column, next_left.floor().min(column))
+            } else {
+                column
+            };
+            let stop = beam.ahead.first_blocked(column, last.max(next_right.ceil()));
+            self.pass(beam, (left, right), (start, stop));
+            column = stop + 1;
+        }
+    }
+
+    /// An end of the interval that is a corner of an obstacle on the near side of the line: a path may bend around it, into what the
+    /// obstacle hides.
+    fn turn(&mut self, beam: &Beam<'_>, end: End, side: Side) {
+        let (ahead, behind) = (beam.ahead, beam.behind());
+        let x = end.here.floor();
+        let (outer, inner) = side.columns(x);
+        if !behind.is_blocked(outer) || ahead.is_blocked(outer) {
+            return;
+        }
+        let at = Vertex::new(x, beam.line);
+        let is_gap = ahead.is_blocked(inner);
+        if is_gap && self.terrain.is_gap(at) {
+            return;
+        }
+        let (start, stop) = (ahead.run_start(x, 0), ahead.first_blocked(x, i32::MAX));
+        let (far, limit) = match side {
+            Side::Left => (start, stop),
+            Side::Right => (stop, start),
+        };
+        // Between two obstacles everything is hidden.
+        let end = if is_gap { End::standing(x) } else { end };
+        self.shade(beam, x, side, (far, limit), end);
+        if let Some(number) = self.frontier.reach(self.terrain, beam.number, at) {
+            self.flat(number, at, side.sign());
+        }
+    }
+
+    /// The interval behind a run of free cells that the cone enters: what is seen, and what the obstacles at the ends of the run hide.
+    #[inline]
+    fn pass(&mut self, beam: &Beam<'_>, (left, right): (End, End), (start, stop): (i32, i32)) {
+        let left = if start > left.here.floor() { beam.corner(start) } else { left };
+        let right = if stop < right.here.ceil() { beam.corner(stop) } else { right };
+        let (next_left, next_right) = (left.next(), right.next());
+        let is_corner = |end: End, x: i32| end.here.is_vertex() && end.here.floor() == x;
+        if is_corner(left, start) && beam.ahead.is_blocked(start - 1) {
+            self.shade(beam, start, Side::Left, (start, stop), left);
+        }
+        if is_corner(right, stop) && beam.ahead.is_blocked(stop) {
+            self.shade(beam, stop, Side::Right, (stop, start), right);
+        }
+        if next_left.floor() < stop && next_right.ceil() > start {
+            let clipped = |x: i32| End::corner(x, beam.root.x, beam.distance() + 1);
+            let is_wall = Side::Left.is_outside(next_left, start);
+            let left = if is_wall { clipped(start) } else { left.moved_to(next_left) };
+            let is_wall = Side::Right.is_outside(next_right, stop);
+            let right = if is_wall { clipped(stop) } else { right.moved_to(next_right) };
+            self.next.push(Successor { root: beam.number, left, right });
+        }
+    }
+
+    /// What an obstacle corner in column `x` hides of a run: on the next line, from `far` to `next`, where the ray past the corner goes, at
+    /// most to `limit`.
+    fn shade(&mut self, beam: &Beam<'_>, x: i32, side: Side, (far, limit): (i32, i32), end: End) {
+        let next = end.next();
+        if !side.is_inside(next, far) {
+            return;
+        }
+        let at = Vertex::new(x, beam.line);
+        let Some(root) = self.frontier.reach(self.terrain, beam.number, at) else { return };
+        let to = |column: i32| End::corner(column, x, 1);
+        let near = if side.is_inside(next, limit) { to(limit) } else { end.moved_to(next) };
+        let (left, right) = match side {
+            Side::Left => (to(far), near),
+            Side::Right => (near, to(far)),
+        };
+        self.next.push(Successor { root, left, right });
+    }
+}
+
+/// An interval of the next line.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Successor {
+    pub(super) root: u32,
+    pub(super) left: End,
+    pub(super) right: End,
+}
+
+impl Successor {
+    /// Whether nothing lies behind the interval, and the goal not in it.
+    #[inline]
+    fn is_cul_de_sac(self, beam: &Beam<'_>, goal: Vertex) -> bool {
+        let (left, right) = (self.left.here, self.right.here);
+        let (behind, ahead) = (beam.ahead, beam.ahead.next(beam.down));
+        let turns =
+            |at: Place, outer: i32| at.is_vertex() && behind.is_blocked(outer) && !ahead.is_blocked(outer);
+        let holds_goal = beam.line + beam.down == goal.y && left.ceil() <= goal.x && goal.x <= right.floor();
+        ahead.first_free(left.floor(), right.ceil()) == right.ceil()
+            && !turns(left, left.floor() - 1)
+            && !turns(right, right.floor())
+            && !holds_goal
+    }
+}
