@@ -1,7 +1,7 @@
 //! What a search returns.
 
-use mediant_grid::{Lattice, Place, Vector, Vertex, VertexId};
-use mediant_moves::{K, decompose};
+use mediant_grid::{CornerRule, Lattice, Place, Rules, Vector, Vertex, VertexId};
+use mediant_moves::{BOUND_WITHOUT_CORNER_CUTTING, K, bound_at_centers, bound_at_corners, decompose};
 
 use crate::{Link, NodeStore};
 
@@ -144,10 +144,46 @@ pub enum Guarantee {
     /// No path over N(k) is shorter: in fixed-point costs exactly, in real lengths up to a factor of 1 + 2⁻³¹ (see
     /// [`Cost`](mediant_moves::Cost)).
     Optimal(K),
+    /// No path over N(k) is shorter, in the same sense; the segments of this one run at any angle.
+    AtMost(K),
     /// No legal path at all is shorter.
     OptimalAnyAngle,
     /// None.
     Suboptimal,
+}
+
+impl Guarantee {
+    /// What a path may cost at most, as a multiple of the any-angle optimum between the same two vertices under the same rules, as far as
+    /// that is proven: for N(k) by Kramm 2018, Theorems 2 and 3, see [`bound_at_corners`] and [`bound_at_centers`]. `None` where
+    /// nothing is.
+    ///
+    /// ```
+    /// use mediant_grid::{CornerRule, DiagonalGap, Rules};
+    /// use mediant_moves::K;
+    /// use mediant_search::Guarantee;
+    /// let promised = Guarantee::Optimal(K::new(3)?);
+    /// assert!(promised.bound(Rules::Corner(DiagonalGap::Open)).is_some_and(|bound| (bound - 1.0824).abs() < 1e-4));
+    /// assert_eq!(promised.bound(Rules::Center(CornerRule::Always)), None);
+    /// # Ok::<(), mediant_moves::KError>(())
+    /// ```
+    #[must_use]
+    pub fn bound(self, rules: Rules) -> Option<f64> {
+        match (self, rules) {
+            (Self::OptimalAnyAngle, _) => Some(1.0),
+            (Self::Suboptimal, _) | (_, Rules::Center(CornerRule::Always)) => None,
+            (Self::Optimal(k) | Self::AtMost(k), Rules::Corner(_)) => Some(bound_at_corners(k)),
+            (Self::Optimal(k) | Self::AtMost(k), Rules::Center(CornerRule::One)) => Some(bound_at_centers(k)),
+            (_, Rules::Center(CornerRule::Never)) => Some(BOUND_WITHOUT_CORNER_CUTTING),
+        }
+    }
+
+    /// What every path between two vertices costs at least, given that one with this guarantee costs `cost` and that the straight line
+    /// between them measures `straight`: the larger of that and `cost` over the [bound](Self::bound). All in cells, and up to the
+    /// rounding that the guarantee allows.
+    #[must_use]
+    pub fn lower_bound(self, rules: Rules, cost: f64, straight: f64) -> f64 {
+        self.bound(rules).map_or(straight, |bound| straight.max(cost / bound))
+    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,89 @@
+//! The smoothing of Botea, Müller & Schaeffer 2004.
+
+use mediant_grid::{Place, Terrain, Vertex};
+
+/// Replaces what lies between two vertices of a path by a straight segment wherever they see each other (Botea, Müller & Schaeffer 2004,
+/// 'Near Optimal Hierarchical Path-Finding', Section 3.3): from the start one goes along the path for as long as it is in sight,
+/// places a waypoint at the last vertex that was, and goes on from there. That is one sight check for each vertex on the path, after one for each
+/// of its segments.
+///
+/// The vertices are all that lie on the path, as in the paper, and not its turning points alone: a segment of a path over N(k) has one
+/// after each move, and waypoints may come to stand there. The new path is legal, not longer than the old one, and has the same ends. A path that is
+/// not legal on this terrain comes back as it is.
+///
+/// ```
+/// use std::sync::Arc;
+/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, Terrain};
+/// use mediant_search::smooth;
+/// let map = AsciiMap::parse("
+///     ....
+///     .##.
+///     ....
+/// ")?;
+/// let terrain = Terrain::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
+/// let path = [(0, 0), (0, 2), (1, 3), (4, 3)].map(Into::into);
+/// assert_eq!(smooth(&terrain, &path), [(0, 0), (1, 3), (4, 3)].map(Into::into));
+/// # Ok::<(), mediant_grid::GridError>(())
+/// ```
+#[must_use]
+pub fn smooth<P: Place>(terrain: &Terrain<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
+    let corners = without_stops(waypoints);
+    if is_legal(terrain, &corners) { smooth_legal(terrain, &corners) } else { waypoints.to_vec() }
+}
+
+/// [`smooth`], for a legal path that never stands still.
+pub(super) fn smooth_legal<P: Place>(terrain: &Terrain<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
+    let way = vertices(waypoints);
+    let mut path: Vec<Vertex> = way.first().copied().into_iter().collect();
+    let mut last = 0;
+    while last + 1 < way.len() {
+        let (at, before) = (way[last], path.len().checked_sub(2).map(|index| path[index]));
+        let mut best = last + 1;
+        for (&next, index) in way[last + 2..].iter().zip(last + 2..) {
+            if next == at || !terrain.may_turn(before, at, Some(next)) || !terrain.sees(at, next) {
+                break;
+            }
+            // Not at a gap where the path would come through the other quadrant.
+            if terrain.may_turn(Some(at), next, way.get(index + 1).copied()) {
+                best = index;
+            }
+        }
+        path.push(way[best]);
+        last = best;
+    }
+    path
+}
+
+/// A path without waypoints that are the same as the one before.
+pub(super) fn without_stops(waypoints: &[Vertex]) -> Vec<Vertex> {
+    let mut path = waypoints.to_vec();
+    path.dedup();
+    path
+}
+
+/// Whether a path that never stands still keeps the rules of motion.
+pub(super) fn is_legal<P: Place>(terrain: &Terrain<P>, path: &[Vertex]) -> bool {
+    let at = |index: usize| path.get(index).copied();
+    let turns = |(index, &vertex): (usize, &Vertex)| {
+        terrain.may_turn(index.checked_sub(1).and_then(at), vertex, at(index + 1))
+    };
+    path.iter().all(|&at| terrain.id(at).is_some())
+        && path.windows(2).all(|ends| terrain.sees(ends[0], ends[1]))
+        && (path.len() < 2 || path.iter().enumerate().all(turns))
+}
+
+/// All vertices on a path.
+fn vertices(waypoints: &[Vertex]) -> Vec<Vertex> {
+    let mut all: Vec<Vertex> = waypoints.first().copied().into_iter().collect();
+    for ends in waypoints.windows(2) {
+        all.extend(between(ends[0], ends[1]).chain([ends[1]]));
+    }
+    all
+}
+
+/// The vertices strictly between two others, on the straight segment from the one to the other.
+pub(super) fn between(from: Vertex, to: Vertex) -> impl DoubleEndedIterator<Item = Vertex> {
+    let d = from.to(to);
+    let parts = d.gcd().max(1) as i32;
+    (1..parts).map(move |part| Vertex::new(from.x + d.x / parts * part, from.y + d.y / parts * part))
+}

@@ -1,0 +1,133 @@
+//! Smoothing: what is made of a path after the search. Its segments then run at any angle.
+//!
+//! | mean length over the any-angle optimum, A* over N(3), 300 random maps | as found | [`smooth`] | [`pull_taut`] | (Theta*) |
+//! |---|--:|--:|--:|--:|
+//! | corners, gaps open | 2.27 % | 0.17 % | 0.02 % | 0.16 % |
+//! | corners, gaps closed | 2.38 % | 0.15 % | 0.01 % | 0.14 % |
+//! | centers, corners never cut | 2.10 % | 0.77 % | 0.48 % | 0.77 % |
+//!
+//! On five maps of the benchmark sets [`smooth`] takes 1 to 4 % of the time of the search, [`pull_taut`] 3 to 12 %; on random512-10-0, where A*
+//! expands three vertices a cell of the path, 20 % and 140 %.
+
+mod linear;
+mod taut;
+
+use std::ops::Deref;
+
+use mediant_grid::{Lattice, Place, Terrain};
+
+pub use self::{linear::smooth, taut::pull_taut};
+
+use crate::{Guarantee, Observer, Outcome, Path, Planner, Query, QueryError};
+
+/// How a path is smoothed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Smoothing {
+    /// By [`smooth`]: the number of sight checks is linear in the length of the path.
+    Linear,
+    /// By [`pull_taut`]: until no waypoint can be skipped or moved.
+    Taut,
+}
+
+impl Smoothing {
+    /// The path, smoothed.
+    #[must_use]
+    pub fn apply<P: Place>(self, terrain: &Terrain<P>, path: &Path) -> Path {
+        Path::new(match self {
+            Self::Linear => smooth(terrain, path.waypoints()),
+            Self::Taut => pull_taut(terrain, path.waypoints()),
+        })
+    }
+}
+
+/// What has a terrain: a [`Terrain`] and a [`Lattice`].
+pub trait OnTerrain {
+    /// Its placement.
+    type Place: Place;
+
+    /// The terrain.
+    fn terrain(&self) -> &Terrain<Self::Place>;
+}
+
+impl<P: Place> OnTerrain for Terrain<P> {
+    type Place = P;
+
+    fn terrain(&self) -> &Self {
+        self
+    }
+}
+
+impl<P: Place> OnTerrain for Lattice<P> {
+    type Place = P;
+
+    fn terrain(&self) -> &Terrain<P> {
+        self
+    }
+}
+
+/// A planner whose paths are smoothed. What [`Planner::guarantee`] promises is [`Guarantee::AtMost`] for paths that were optimal over N(k).
+///
+/// `L` is how the terrain is held: by reference or `Arc`, as a [`Terrain`] or a [`Lattice`]. Smoothing, unlike searching, allocates.
+///
+/// ```
+/// use std::sync::Arc;
+/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, Lattice};
+/// use mediant_moves::K;
+/// use mediant_search::{AStar, Guarantee, LatticeDistance, Planner, Query, Smoothed, Smoothing};
+///
+/// let map = AsciiMap::parse("
+///     .....
+///     ..#..
+///     .....
+/// ")?;
+/// let (k, gap) = (K::new(3)?, DiagonalGap::Open);
+/// let lattice = Arc::new(Lattice::<Corners>::new(Arc::new(map.grid), k, gap)?);
+/// let search = AStar::new(Arc::clone(&lattice), LatticeDistance);
+/// let mut planner = Smoothed::new(search, lattice, Some(Smoothing::Taut));
+/// let outcome = planner.solve(Query::new((0, 0), (5, 3)))?;
+/// let expected = [(0, 0), (2, 2), (5, 3)].map(Into::into);
+/// assert_eq!(outcome.path().map(|path| path.waypoints()), Some(&expected[..]));
+/// assert_eq!(planner.guarantee(), Guarantee::AtMost(k));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Smoothed<L, E> {
+    planner: E,
+    terrain: L,
+    smoothing: Option<Smoothing>,
+}
+
+impl<L, E> Smoothed<L, E>
+where
+    L: Deref<Target: OnTerrain>,
+    E: Planner,
+{
+    /// Smooths the paths of `planner`; with `None`, passes them on as they are.
+    #[must_use]
+    pub const fn new(planner: E, terrain: L, smoothing: Option<Smoothing>) -> Self {
+        Self { planner, terrain, smoothing }
+    }
+}
+
+impl<L, E> Planner for Smoothed<L, E>
+where
+    L: Deref<Target: OnTerrain>,
+    E: Planner,
+{
+    fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
+        let outcome = self.planner.solve_observed(query, observer)?;
+        Ok(match (outcome, self.smoothing) {
+            (Outcome::Found(path), Some(smoothing)) => {
+                Outcome::Found(smoothing.apply(self.terrain.terrain(), &path))
+            }
+            (outcome, _) => outcome,
+        })
+    }
+
+    fn guarantee(&self) -> Guarantee {
+        match (self.planner.guarantee(), self.smoothing) {
+            (Guarantee::Optimal(k), Some(_)) => Guarantee::AtMost(k),
+            (guarantee, _) => guarantee,
+        }
+    }
+}

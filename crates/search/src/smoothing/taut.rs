@@ -1,0 +1,184 @@
+//! Paths pulled taut.
+
+use std::ops::Range;
+
+use mediant_grid::{Place, Terrain, Vector, Vertex};
+use mediant_moves::Cost;
+
+use super::linear::{between, is_legal, smooth_legal, without_stops};
+use crate::cover::Cover;
+
+/// Pulls a path taut, like a string: [`smooth`](super::smooth) first, and then waypoint by waypoint until none can be skipped or moved.
+///
+/// For each waypoint b of the new path, between a and c:
+/// - a and c do not see each other, nor do a and the waypoint after c.
+/// - No vertex on one of the two segments sees the far end of the other one, and the two vertices next to b on the segments do not see each other.
+/// - None of the eight vertices around b can take its place and make the path shorter, but perhaps by less than 2⁻²⁹ cells.
+/// - At corners: b is the corner of an obstacle within the turn. So the path is locally a shortest one: no path that passes the obstacles on the
+///   same sides is shorter.
+///
+/// (At centers, where a path keeps its distance from obstacles, the string is drawn around vertices beside them, if sight allows. There is not
+/// always such a string, and it need not be the shortest.)
+///
+/// The new path is legal, not longer than the smoothed one, and has the same ends. Pulled again, it stays as it is. A path that is not legal
+/// on this terrain comes back as it was.
+///
+/// **It ends**, since a step makes the path shorter, or leaves out a waypoint on a straight line, and of paths up to a given length there are
+/// finitely many. This is exact: a string pulled within a triangle is convex and lies within the old one, so it is shorter, and what is
+/// compared as lengths, in integers, has to be shorter by more than the rounding.
+///
+/// ```
+/// use std::sync::Arc;
+/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, Terrain};
+/// use mediant_search::pull_taut;
+/// let map = AsciiMap::parse("
+///     ......
+///     .###..
+///     ......
+/// ")?;
+/// let terrain = Terrain::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
+/// let path = [(0, 0), (0, 3), (6, 3)].map(Into::into);
+/// assert_eq!(pull_taut(&terrain, &path), [(0, 0), (1, 2), (6, 3)].map(Into::into));
+/// # Ok::<(), mediant_grid::GridError>(())
+/// ```
+#[must_use]
+pub fn pull_taut<P: Place>(terrain: &Terrain<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
+    let corners = without_stops(waypoints);
+    if !is_legal(terrain, &corners) {
+        return waypoints.to_vec();
+    }
+    let mut string = Taut { terrain, path: smooth_legal(terrain, &corners), cover: Cover::default() };
+    let mut index = 1;
+    while index + 1 < string.path.len() {
+        if string.pull(index) {
+            // What was settled of the three waypoints before may depend on what is no longer there.
+            index = index.saturating_sub(3).max(1);
+        } else {
+            index += 1;
+        }
+    }
+    string.path
+}
+
+/// A path that is being pulled.
+struct Taut<'t, P: Place> {
+    terrain: &'t Terrain<P>,
+    path: Vec<Vertex>,
+    cover: Cover,
+}
+
+impl<P: Place> Taut<'_, P> {
+    /// Pulls at a waypoint between two others. Whether it gave way.
+    fn pull(&mut self, index: usize) -> bool {
+        let [a, b, c] = [index - 1, index, index + 1].map(|index| self.path[index]);
+        if a == c {
+            self.path.drain(index..index + 2);
+            return true;
+        }
+        // Where corners are not cut, a staircase may be seen along though none of its steps can be left out alone.
+        for after in index + 1..self.path.len().min(index + 3) {
+            if self.turns_well(index..after, &[]) && self.terrain.sees(a, self.path[after]) {
+                self.path.drain(index..after);
+                return true;
+            }
+        }
+        let Some(instead) = self.instead_of(index, a, b, c) else { return false };
+        self.path.splice(index..=index, instead);
+        true
+    }
+
+    /// What makes the path shorter in the place of waypoint b.
+    fn instead_of(&mut self, index: usize, a: Vertex, b: Vertex, c: Vertex) -> Option<Vec<Vertex>> {
+        let terrain = self.terrain;
+        let fits = |taut: &Self, instead: &[Vertex]| taut.turns_well(index..index + 1, instead);
+        let side = a.to(c).det(a.to(b)).signum();
+        if side == 0 {
+            return None;
+        }
+        let string = self.string(a, b, c, side);
+        if string != [b] && fits(self, &string) && self.is_seen(a, &string, c) {
+            return Some(string);
+        }
+        let mut one = between(a, b).map(|p| (p, p, c)).chain(between(b, c).rev().map(|q| (q, a, q)));
+        if let Some((p, ..)) = one.find(|&(p, from, to)| fits(self, &[p]) && terrain.sees(from, to)) {
+            return Some(vec![p]);
+        }
+        if let (Some(p), Some(q)) = (between(a, b).next_back(), between(b, c).next())
+            && fits(self, &[p, q])
+            && terrain.sees(p, q)
+        {
+            return Some(vec![p, q]);
+        }
+        self.best_neighbor(index, a, b, c).map(|at| vec![at])
+    }
+
+    /// The string from a to c, without its ends, that is pulled from a–b–c until obstacles in the triangle stop it: the hull of these, or at
+    /// centers of vertices around them, on the side of b.
+    ///
+    /// At corners no segment of it meets an obstacle, since those that it could meet are among these; nor does it pass or bend at a gap, beside
+    /// which more than a quarter would have to be free.
+    fn string(&mut self, a: Vertex, b: Vertex, c: Vertex, side: i128) -> Vec<Vertex> {
+        let low = Vertex::new(a.x.min(b.x).min(c.x), a.y.min(b.y).min(c.y));
+        let high = Vertex::new(a.x.max(b.x).max(c.x), a.y.max(b.y).max(c.y));
+        self.cover.set::<P>(low, high, &[[a, b], [b, c], [c, a]]);
+        let is_within = |p: &Vertex| {
+            a.to(c).det(a.to(*p)) * side > 0
+                && a.to(b).det(a.to(*p)) * side <= 0
+                && b.to(c).det(b.to(*p)) * side <= 0
+        };
+        let corners: Vec<Vertex> =
+            self.cover.extremes::<P>(self.terrain.grid()).filter(is_within).chain([c]).collect();
+        let mut string = vec![a];
+        let mut last = a;
+        while last != c {
+            // The outermost direction, and in it the farthest corner.
+            let outer = |best: Vertex, &p: &Vertex| {
+                let (v, w) = (last.to(best), last.to(p));
+                let turn = v.det(w) * side;
+                if turn > 0 || (turn == 0 && w.norm_squared() > v.norm_squared()) { p } else { best }
+            };
+            last = corners.iter().filter(|&&p| p != last).fold(c, outer);
+            string.push(last);
+        }
+        string.pop();
+        string.remove(0);
+        string
+    }
+
+    /// Whether a path may go straight from vertex to vertex. At corners a string always may.
+    fn is_seen(&self, a: Vertex, string: &[Vertex], c: Vertex) -> bool {
+        let mut last = a;
+        string.iter().chain([&c]).all(|&next| self.terrain.sees(std::mem::replace(&mut last, next), next))
+    }
+
+    /// The best of the eight vertices around a waypoint, if it makes the path shorter.
+    fn best_neighbor(&self, index: usize, a: Vertex, b: Vertex, c: Vertex) -> Option<Vertex> {
+        let length = |at: Vertex| Cost::of_move(a.to(at)) + Cost::of_move(at.to(c));
+        // Each of the four lengths is off by 2⁻³³ at most.
+        let limit = length(b).to_bits().saturating_sub(4);
+        let around = (-1..=1).flat_map(|y| (-1..=1).map(move |x| b + Vector::new(x, y)));
+        let mut shorter: Vec<(Cost, Vertex)> = around
+            .filter(|&at| at != a && at != c)
+            .map(|at| (length(at), at))
+            .filter(|(length, _)| length.to_bits() <= limit)
+            .collect();
+        shorter.sort_unstable();
+        let fits = |at: Vertex| {
+            self.turns_well(index..index + 1, &[at]) && self.terrain.sees(a, at) && self.terrain.sees(at, c)
+        };
+        shorter.into_iter().map(|(_, at)| at).find(|&at| fits(at))
+    }
+
+    /// Whether the path keeps the rule of gaps with other vertices in the place of some waypoints.
+    fn turns_well(&self, places: Range<usize>, instead: &[Vertex]) -> bool {
+        let terrain = self.terrain;
+        if !terrain.has_gaps() {
+            return true;
+        }
+        let at = |index: usize| self.path.get(index).copied();
+        let mut around = vec![places.start.checked_sub(2).and_then(at), at(places.start - 1)];
+        around.extend(instead.iter().copied().map(Some));
+        around.extend([at(places.end), at(places.end + 1)]);
+        around.windows(3).all(|turn| turn[1].is_none_or(|at| terrain.may_turn(turn[0], at, turn[2])))
+    }
+}
