@@ -28,6 +28,7 @@ mod planner;
 mod query;
 mod smoothing;
 mod successors;
+mod theta;
 mod wavefront;
 
 pub use anya::Anya;
@@ -47,4 +48,5 @@ pub use planner::Planner;
 pub use query::{End, Query, QueryError};
 pub use smoothing::{OnTerrain, Smoothed, Smoothing, pull_taut, smooth};
 pub use successors::{Arrival, Link, Successor, Successors};
+pub use theta::{AtOnce, Lazily, LazyThetaStar, SightCheck, Theta, ThetaStar};
 pub use wavefront::Wavefront;

@@ -7,11 +7,11 @@ use std::{
     sync::Arc,
 };
 
-use mediant_grid::{Centers, Corners, Lattice, Place, Vertex};
+use mediant_grid::{Centers, Corners, DiagonalGap, Lattice, Place, Terrain, Vertex};
 use mediant_moves::K;
 use mediant_search::{
-    AStar, BlockJps, Canonical, Dijkstra, Jps, JpsPlus, JumpTable, LatticeDistance, Outcome, PaperCanonical,
-    Planner, Pruning, Query, Walk, Wavefront, Zero,
+    AStar, Anya, BlockJps, Canonical, Dijkstra, Jps, JpsPlus, JumpTable, LatticeDistance, LazyThetaStar,
+    Outcome, PaperCanonical, Planner, Pruning, Query, ThetaStar, Walk, Wavefront, Zero,
 };
 
 thread_local! {
@@ -38,7 +38,7 @@ unsafe impl GlobalAlloc for Counting {
 static COUNTING: Counting = Counting;
 
 /// Queries between vertices all over a map.
-fn queries<P: Place>(lattice: &Lattice<P>) -> Vec<Query> {
+fn queries<P: Place>(lattice: &Terrain<P>) -> Vec<Query> {
     let free: Vec<Vertex> = (0..50).flat_map(|y| (0..60).map(move |x| Vertex::new(x, y))).collect();
     let free: Vec<Vertex> = free.into_iter().filter(|&at| lattice.is_free(at)).step_by(197).collect();
     free.iter().flat_map(|&a| free.iter().map(move |&b| Query::new(a, b))).collect()
@@ -76,6 +76,8 @@ fn allocations_of<P: Place>(k: u32) {
     check(&case("canonical"), Canonical::with_pruning(lattice, pruning(), h), &queries);
     check(&case("canonical as published"), PaperCanonical::new(lattice, h), &queries);
     check(&case("jps"), jps(), &queries);
+    check(&case("theta"), ThetaStar::new(lattice, h), &queries);
+    check(&case("lazy-theta"), LazyThetaStar::new(lattice, h), &queries);
     check(&case("jps, bounded"), jps().with_jump_limit(Some(3)).with_intermediate(true), &queries);
     if k <= K::EIGHT_CONNECTED {
         let table = Arc::new(JumpTable::new(lattice).expect("k is in range"));
@@ -90,5 +92,14 @@ fn a_warm_query_allocates_its_path_and_nothing_else() {
     for k in [2, 3, 5, 9] {
         allocations_of::<Centers>(k);
         allocations_of::<Corners>(k);
+    }
+}
+
+#[test]
+fn nor_does_anya() {
+    for gap in [DiagonalGap::Open, DiagonalGap::Closed] {
+        let grid = Arc::new(mediant_oracle::caves(&mut mediant_oracle::Rng::new(7), 60, 50));
+        let terrain = Terrain::<Corners>::new(grid, gap);
+        check(&format!("anya, gap {gap}"), Anya::new(&terrain), &queries(&terrain));
     }
 }

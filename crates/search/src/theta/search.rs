@@ -1,0 +1,242 @@
+//! The search itself.
+
+use std::marker::PhantomData;
+
+use mediant_grid::{Lattice, Place, Step, Vector, Vertex, VertexId};
+use mediant_moves::Cost;
+
+use super::{SightCheck, views::Views};
+use crate::{Entry, Heuristic, Link, Node, NodeEvent, NodeStore, Observer, OpenList};
+
+/// What a node keeps of others.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Parents {
+    /// The vertex that it hangs on.
+    pub(super) parent: VertexId,
+    /// A vertex that it was found not to see, so that it is not looked at again: the next neighbor to be expanded often hangs on
+    /// the same one.
+    hidden_from: VertexId,
+}
+
+impl Link for Parents {
+    const NONE: Self = Self { parent: VertexId(0), hidden_from: VertexId(u32::MAX) };
+
+    #[inline]
+    fn to(parent: VertexId) -> Self {
+        Self { parent, ..Self::NONE }
+    }
+
+    #[inline]
+    fn parent<P: Place>(self, lattice: &Lattice<P>, _: &Step, _: VertexId, _: Vertex) -> (VertexId, Vertex) {
+        (self.parent, lattice.vertex(self.parent))
+    }
+}
+
+/// One search.
+pub(super) struct Search<'s, P: Place, H, S, O> {
+    pub(super) lattice: &'s Lattice<P>,
+    pub(super) heuristic: H,
+    pub(super) nodes: &'s mut NodeStore<Parents>,
+    pub(super) open: &'s mut OpenList,
+    pub(super) views: &'s mut Views,
+    pub(super) observer: &'s mut O,
+    pub(super) start: VertexId,
+    pub(super) goal: VertexId,
+    pub(super) goal_at: Vertex,
+    pub(super) check: PhantomData<S>,
+}
+
+/// A node that others may hang on.
+#[derive(Clone, Copy)]
+struct Hook {
+    id: VertexId,
+    at: Vertex,
+    g: Cost,
+}
+
+impl<P: Place, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S, O> {
+    /// Expands nodes until the goal is the best of them. Whether it was found.
+    pub(super) fn run(&mut self) -> bool {
+        let at = self.lattice.vertex(self.start);
+        let h = self.heuristic.estimate(self.lattice, at.to(self.goal_at));
+        self.nodes.start_search();
+        self.open.clear();
+        self.nodes.set_path(self.start, Cost::ZERO, 0, Parents::to(self.start));
+        self.observer.generated(NodeEvent { at, parent: None, g: Cost::ZERO, f: h });
+        self.open.push(Entry::new(h, h, self.start), |id, slot| self.nodes.set_slot(id, slot));
+
+        while let Some((entry, swaps)) = self.open.pop(|id, slot| self.nodes.set_slot(id, slot)) {
+            self.observer.percolated(swaps);
+            let id = entry.id();
+            self.nodes.set_slot(id, Node::<Parents>::CLOSED);
+            let Some(&(mut node)) = self.nodes.get(id) else { continue };
+            let here = Hook { id, at: self.lattice.vertex(id), g: node.g };
+            let mut f = entry.f();
+            if !S::AT_ONCE && !self.sees_parent(here, &node) {
+                self.hang_on_neighbor(here);
+                let Some(&settled) = self.nodes.get(id) else { continue };
+                f = settled.g + (f - node.g);
+                node = settled;
+            }
+            if id == self.goal {
+                return true;
+            }
+            let parent = (id != self.start).then(|| self.lattice.vertex(node.link.parent));
+            self.observer.expanded(NodeEvent { at: here.at, parent, g: node.g, f });
+            self.expand(Hook { g: node.g, ..here }, &node);
+        }
+        false
+    }
+
+    /// Generates the successors of a node. Each hangs on the node's parent if that sees it, or is taken to, and otherwise on the node.
+    #[inline]
+    fn expand(&mut self, here: Hook, node: &Node<Parents>) {
+        let lattice = self.lattice;
+        let by = (here.id != self.start).then(|| node.arrived_by());
+        // The start hangs on itself.
+        let parent = self.nodes.get(node.link.parent).map_or(here, |known| Hook {
+            id: node.link.parent,
+            at: lattice.vertex(node.link.parent),
+            g: known.g,
+        });
+        let grandparent = self.parent_of(parent.id);
+        let has_gaps = lattice.has_gaps();
+        lattice.for_each_successor(here.at, by, self.goal_at, |index| {
+            let step = lattice.step(index);
+            let (id, at) = (step.target(here.id), here.at + step.vector());
+            let known = self.nodes.get(id).copied();
+            if known.is_some_and(|known| known.slot == Node::<Parents>::CLOSED) {
+                return;
+            }
+            let straight = parent.at.to(at);
+            // The way through the node is, by the triangle inequality, no cheaper.
+            if known.is_some_and(|known| known.g <= parent.g || is_at_least(straight, known.g - parent.g)) {
+                return;
+            }
+            let hidden_from = known.map_or(Parents::NONE, |known| known.link).hidden_from;
+            if (!has_gaps || self.may_hang(grandparent, parent.at, at))
+                && (!S::AT_ONCE
+                    || hidden_from != parent.id && self.views.sees(lattice, parent.id, parent.at, at))
+            {
+                let to = Hook { id, at, g: parent.g + length(straight) };
+                return self.relax(to, index, known, parent.at, Parents { parent: parent.id, hidden_from });
+            }
+            let hidden = Parents { parent: here.id, hidden_from: parent.id };
+            let to = Hook { id, at, g: here.g + step.cost };
+            match known {
+                Some(known) if known.g <= to.g => {
+                    let link = Parents { parent: known.link.parent, ..hidden };
+                    self.nodes.set_path(id, known.g, known.arrived_by(), link);
+                }
+                _ => self.relax(to, index, known, here.at, hidden),
+            }
+        });
+    }
+
+    /// Makes a cheaper way to a vertex, which is not closed, the best known one.
+    #[inline]
+    fn relax(&mut self, to: Hook, by: usize, known: Option<Node<Parents>>, parent: Vertex, link: Parents) {
+        let Hook { id, at, g } = to;
+        self.nodes.set_path(id, g, by, link);
+        let event = |f| NodeEvent { at, parent: Some(parent), g, f };
+        let moved = |id, slot| self.nodes.set_slot(id, slot);
+        let swaps = if let Some(known) = known {
+            let gain = known.g - g;
+            let f = self.open.get(known.slot).map_or(g, |entry| entry.f() - gain);
+            self.observer.updated(event(f));
+            self.open.decrease(known.slot, gain, moved)
+        } else {
+            let h = self.heuristic.estimate(self.lattice, at.to(self.goal_at));
+            self.observer.generated(event(g + h));
+            self.open.push(Entry::new(g + h, h, id), moved)
+        };
+        self.observer.percolated(swaps);
+    }
+
+    /// Whether the path that comes from `before` to `parent` may go on straight to `at`, as far as gaps are concerned. Gaps that are
+    /// passed hang on the node before them, so that its last move tells the quadrant.
+    fn may_hang(&self, before: Option<Vertex>, parent: Vertex, at: Vertex) -> bool {
+        let lattice = self.lattice;
+        lattice.may_turn(before, parent, Some(at))
+            && (!lattice.is_gap(at) || at == self.goal_at && lattice.may_turn(Some(parent), at, None))
+    }
+
+    /// Whether a node sees what it hangs on, as was taken for granted.
+    fn sees_parent(&mut self, here: Hook, node: &Node<Parents>) -> bool {
+        let parent = node.link.parent;
+        here.id == self.start
+            || self.lattice.step(node.arrived_by()).source(here.id) == parent
+            || self.views.sees(self.lattice, parent, self.lattice.vertex(parent), here.at)
+    }
+
+    /// Hangs a node on that of its closed neighbors through which it is cheapest, the first of these in the order of the moves. There is one:
+    /// that by which it was generated.
+    fn hang_on_neighbor(&mut self, here: Hook) {
+        let lattice = self.lattice;
+        let opposite = lattice.steps().len() / 2;
+        let mut best: Option<(Cost, usize, VertexId)> = None;
+        lattice.for_each_legal_move(here.at, |index| {
+            let step = lattice.step(index);
+            let (id, at) = (step.target(here.id), here.at + step.vector());
+            let Some(node) = self.nodes.get(id).filter(|node| node.slot == Node::<Parents>::CLOSED) else {
+                return;
+            };
+            let g = node.g + step.cost;
+            if best.is_none_or(|(least, ..)| g < least)
+                && lattice.may_turn(self.parent_of(id), at, Some(here.at))
+                && (here.id != self.goal || lattice.may_turn(Some(at), here.at, None))
+            {
+                best = Some((g, (index + opposite) % (2 * opposite), id));
+            }
+        });
+        debug_assert!(best.is_some(), "{} was generated by no neighbor", here.at);
+        if let Some((g, by, id)) = best {
+            self.nodes.set_path(here.id, g, by, Parents::to(id));
+        }
+    }
+
+    /// What a node hangs on; `None` for the start.
+    fn parent_of(&self, id: VertexId) -> Option<Vertex> {
+        let node = self.nodes.get(id).filter(|_| id != self.start)?;
+        Some(self.lattice.vertex(node.link.parent))
+    }
+}
+
+/// [`Cost::of_move`] for the segments of a map, whose sides have at most 2¹⁵ cells, without its integer root.
+#[inline]
+fn length(v: Vector) -> Cost {
+    // IEEE 754 rounds the root correctly, to 53 bits. At most 49 of these stand before the point, so that this is off by 1 at most.
+    let root = ((v.norm_squared() as f64).sqrt() * (1_u64 << Cost::FRACTION_BITS) as f64 + 0.5) as u64;
+    debug_assert!(v.norm_squared() <= 1 << 32, "{v:?} is longer than any map");
+    let above = !is_at_least(v, Cost::from_bits(root));
+    let below = is_at_least(v, Cost::from_bits(root + 1));
+    Cost::from_bits(root + u64::from(below) - u64::from(above))
+}
+
+/// Whether the [`length`] of a segment is at least `cost`, without any root.
+#[inline]
+fn is_at_least(v: Vector, cost: Cost) -> bool {
+    // The nearest integer to √n is at least r when √n > r − ½, n > r² − r + ¼, which is no integer.
+    let (square, r) = (u128::from(v.norm_squared()) << (2 * Cost::FRACTION_BITS), u128::from(cost.to_bits()));
+    r == 0 || square > r * (r - 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use mediant_oracle::Rng;
+
+    use super::*;
+
+    #[test]
+    fn the_length_of_a_segment_is_the_cost_of_a_move() {
+        let mut rng = Rng::new(0);
+        let near = (0..300).flat_map(|x| (0..300).map(move |y| Vector::new(x, -y)));
+        let far = (0..50_000).map(|_| Vector::new(rng.below(32_769) as i32, rng.below(32_769) as i32));
+        let ends = [(32_768, 32_768), (-32_768, 32_767), (32_768, 0)].map(Vector::from);
+        for v in near.chain(far).chain(ends) {
+            let cost = Cost::of_move(v);
+            assert_eq!(length(v), cost, "{v:?}");
+            assert!(is_at_least(v, cost) && !is_at_least(v, Cost::from_bits(cost.to_bits() + 1)), "{v:?}");
+        }
+    }
+}
