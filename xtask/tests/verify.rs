@@ -45,8 +45,10 @@ fn wrong_costs_and_none_at_all_are_errors() {
     assert!(wrong.contains("1 of 1 costs differ") && wrong.contains("found 5.000000, known 4.5"), "{wrong}");
     let wrong = verify(tempfile::tempdir().unwrap().path(), &[]).unwrap();
     assert!(wrong.contains("nothing was compared"), "{wrong}");
-    let wrong = verify(cache("5").path(), &["--engine", "wavefront"]).unwrap();
-    assert!(wrong.contains("wavefront is not optimal for k = 3"), "{wrong}");
+    for engine in ["wavefront", "theta", "anya"] {
+        let wrong = verify(cache("5").path(), &["--engine", engine]).unwrap();
+        assert!(wrong.contains(&format!("{engine} is not optimal for k = 3")), "{wrong}");
+    }
 }
 
 #[test]
@@ -58,12 +60,23 @@ fn references_are_those_of_the_problems_that_an_engine_solves() {
     let folder = oracle.path().to_str().unwrap();
     reference("center-k3-slalom.csv", "0,5");
     reference("center-k5-slalom.csv", "0,5");
-    reference("any-open-slalom.csv", "0,4.9");
-    // JPS by blocks knows no k = 5, and any-angle paths no engine yet.
-    let counts = [("astar", "2"), ("jps-block", "1")];
+    // Between corners the straight line runs along the wall.
+    reference("any-open-slalom.csv", "0,3");
+    reference("any-closed-slalom.csv", "0,3.000002");
+    reference("somewhere-else.csv", "0,0");
+    // JPS by blocks knows no k = 5, and Theta* promises nothing.
+    let counts = [("astar", "2"), ("jps-block", "1"), ("anya", "2")];
     for (engine, count) in counts {
         assert_eq!(verify(cache.path(), &["--oracle", folder, "--engine", engine, "--expect", count]), None);
     }
+    let wrong = verify(cache.path(), &["--oracle", folder, "--engine", "theta"]).unwrap();
+    assert!(wrong.contains("nothing was compared"), "{wrong}");
+    reference("any-closed-slalom.csv", "0,3.000004");
+    let wrong = verify(cache.path(), &["--oracle", folder, "--engine", "anya"]).unwrap();
+    assert!(
+        wrong.contains("1 of 2 costs differ") && wrong.contains("any-closed-slalom.csv instance 0"),
+        "{wrong}"
+    );
     reference("center-k5-slalom.csv", "0,4.9");
     let wrong = verify(cache.path(), &["--oracle", folder]).unwrap();
     assert!(wrong.contains("1 of 2 costs differ"), "{wrong}");

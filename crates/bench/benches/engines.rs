@@ -4,9 +4,11 @@
 use std::{hint::black_box, sync::Arc};
 
 use criterion::{BenchmarkId, Criterion, Throughput};
-use mediant_engines::{Engine, Preprocessing, Setup, SharedRules, Visit, with_planner_on};
-use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Grid, Lattice, Place, Vertex, VertexId};
-use mediant_moves::{Cost, K};
+use mediant_engines::{Engine, Ground, Preprocessing, Setup, SharedRules, Visit, with_planner_on};
+use mediant_grid::{
+    Centers, CornerRule, Corners, DiagonalGap, Grid, Lattice, Place, Rules, Vertex, VertexId,
+};
+use mediant_moves::{Cost, K, Knob};
 use mediant_oracle::{Rng, caves, noise, random_free_vertex};
 use mediant_search::{Entry, OpenList, Planner, Query};
 
@@ -14,8 +16,17 @@ const SEED: u64 = 1;
 const SIDE: u32 = 160;
 const QUERIES: usize = 10;
 const ENTRIES: u32 = 4096;
-const ENGINES: [Engine; 5] =
-    [Engine::AStar, Engine::Canonical, Engine::Jps, Engine::JpsBlock, Engine::JpsPlus];
+const ENGINES: [Engine; 8] = [
+    Engine::AStar,
+    Engine::Canonical,
+    Engine::Jps,
+    Engine::JpsBlock,
+    Engine::JpsPlus,
+    Engine::Theta,
+    Engine::LazyTheta,
+    Engine::Anya,
+];
+const RULES: [Rules; 2] = [Rules::Center(CornerRule::Never), Rules::Corner(DiagonalGap::Open)];
 
 fn main() {
     let mut c = Criterion::default().sample_size(20).configure_from_args();
@@ -27,9 +38,10 @@ fn main() {
     let rules = SharedRules::new();
     for engine in ENGINES {
         for (name, grid) in &maps {
-            for k in 2..=engine.about().max_k.min(8) {
-                queries::<Centers>(&mut c, engine, name, grid, CornerRule::Never, k, &rules);
-                queries::<Corners>(&mut c, engine, name, grid, DiagonalGap::Open, k, &rules);
+            let ks = (2..=8).filter_map(|k| K::new(k).ok()).map(Knob::K).chain([Knob::Any]);
+            let setups = ks.flat_map(|k| RULES.map(|rules| Setup::new(engine, k, rules)));
+            for setup in setups.filter(|setup| setup.check().is_ok()) {
+                queries(&mut c, setup, name, grid, &rules);
             }
         }
     }
@@ -42,43 +54,34 @@ fn main() {
     heap(&mut c);
     c.final_summary();
 }
+
 fn lattice<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: u32) -> Lattice<P> {
     let k = K::new(k).expect("k is at least 2");
     Lattice::new(Arc::clone(grid), k, rule).expect("k is at most 12")
 }
 
 /// The same queries for every k, all of them solvable.
-fn random_queries<P: Place>(lattice: &Lattice<P>) -> Vec<Query> {
-    let mut rng = Rng::new(SEED);
-    let mut end =
-        || random_free_vertex(&mut rng, lattice.grid(), P::PLACEMENT).expect("the map has free cells");
+fn random_queries(grid: &Grid, ground: &Ground) -> Vec<Query> {
+    let (mut rng, placement) = (Rng::new(SEED), ground.rules().placement());
+    let mut end = || random_free_vertex(&mut rng, grid, placement).expect("the map has free cells");
     let pairs = std::iter::repeat_with(|| (end(), end()));
-    let connected = pairs.filter(|&(start, goal)| lattice.connected(start, goal));
+    let connected = pairs.filter(|&(start, goal)| ground.connected(start, goal));
     connected.take(QUERIES).map(|(start, goal)| Query::new(start, goal)).collect()
 }
 
 /// The time of all queries, on a warm planner.
-fn queries<P: Place>(
-    c: &mut Criterion,
-    engine: Engine,
-    map: &str,
-    grid: &Arc<Grid>,
-    rule: P::Rule,
-    k: u32,
-    rules: &SharedRules,
-) {
-    let lattice = Arc::new(lattice::<P>(grid, rule, k));
-    let setup = Setup::new(engine, lattice.k(), lattice.rules());
-    let queries = random_queries(&lattice);
-    let name = format!("{engine}/{}/{map}", P::PLACEMENT);
-    let bench = Bench { c, name, k, queries };
-    with_planner_on(setup, lattice, rules.prebuilt(setup), bench).expect("the engine takes this k");
+fn queries(c: &mut Criterion, setup: Setup, map: &str, grid: &Arc<Grid>, rules: &SharedRules) {
+    let ground = Ground::new(setup, grid).expect("the setup was checked");
+    let queries = random_queries(grid, &ground);
+    let name = format!("{}/{}/{map}", setup.engine, setup.rules.placement());
+    let bench = Bench { c, name, k: setup.k, queries };
+    with_planner_on(setup, &ground, rules.prebuilt(setup), bench).expect("the setup was checked");
 }
 
 struct Bench<'c> {
     c: &'c mut Criterion,
     name: String,
-    k: u32,
+    k: Knob,
     queries: Vec<Query>,
 }
 

@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer, de::Error as _};
 
 use mediant_engines::Setup;
-use mediant_search::Guarantee;
+use mediant_moves::Knob;
 
 /// The figures of other programs on the instances of our comparison.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -77,30 +77,27 @@ pub struct Comparand {
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ComparandProblem {
-    /// The k of the neighborhood.
-    pub k: AnyOrK,
+    /// The directions that its paths may take: a number or `any`.
+    #[serde(deserialize_with = "number_or_any")]
+    pub k: Knob,
     /// `center` or `corner`.
     pub placement: String,
     /// The corner rule or gap rule, where it is known.
     pub rule: Option<String>,
 }
 
-/// The k of a neighborhood, or any angle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(untagged)]
-pub enum AnyOrK {
-    /// N(k).
-    K(u32),
-    /// Any angle.
-    Any(Any),
-}
-
-/// The word `any`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Any {
-    /// `any`.
-    Any,
+fn number_or_any<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Knob, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum NumberOrWord {
+        Number(u32),
+        Word(String),
+    }
+    let text = match NumberOrWord::deserialize(deserializer)? {
+        NumberOrWord::Number(k) => k.to_string(),
+        NumberOrWord::Word(word) => word,
+    };
+    text.parse().map_err(D::Error::custom)
 }
 
 /// The figures on one map.
@@ -214,15 +211,17 @@ impl Anchors {
 }
 
 impl Comparand {
-    /// Whether the program solves the very problem of a setup, so that the two may be compared without a remark.
+    /// Whether the program solves the very problem of a setup, so that the two may be compared without a remark: both find the shortest
+    /// paths over the same directions under the same rules, or both find paths over the same directions that may be longer.
+    /// The rule of such a program need not be known, as the lengths of its paths are not compared.
     #[must_use]
     pub fn solves(&self, setup: Setup) -> bool {
         let ComparandProblem { k, placement, rule } = &self.problem;
-        self.optimal
-            && setup.guarantee() == Guarantee::Optimal(setup.k)
-            && *k == AnyOrK::K(setup.k.get())
+        let optimal = setup.optimal_over().is_some();
+        self.optimal == optimal
+            && *k == setup.paths()
             && *placement == setup.rules.placement().to_string()
-            && *rule == Some(setup.rule_name())
+            && rule.as_ref().map_or(!optimal, |rule| *rule == setup.rule_name())
     }
 }
 
@@ -307,13 +306,28 @@ mod tests {
         assert!(octile.contains(&"pathfinding") && !octile.contains(&"grid_pathfinding"));
         assert_eq!((comparable("jps-plus"), comparable("canonical,paper").len()), (octile, 0));
         assert!(comparable("astar:4:never").is_empty() && comparable("astar:3:open").is_empty());
+        assert_eq!(comparable("anya:any:closed"), ["Anya16", "Polyanya_MCDT", "RayScan", "EPS_MCDT"]);
+        assert_eq!(comparable("anya:any:open"), ["ENLSVG"]);
+        for suboptimal in ["theta:3:open", "lazy-theta:5:closed", "astar:4:open,smooth", "theta:3:open,taut"]
+        {
+            assert_eq!(comparable(suboptimal), ["Theta*", "Lazy Theta*"], "{suboptimal}");
+        }
+        assert!(comparable("theta:3:never").is_empty() && comparable("wavefront:3:always").len() == 1);
     }
 
     #[test]
     fn damaged_anchors_are_refused() {
         assert!(matches!(Anchors::parse("{"), Err(AnchorsError::Form(_))));
-        let text = include_str!("../../../benchdata/anchors.json").replacen("\"RayScan\": 47.7, ", "", 1);
-        let error = Anchors::parse(&text).unwrap_err().to_string();
+        let damaged = |whole: &str, damaged: &str| {
+            let text = include_str!("../../../benchdata/anchors.json");
+            assert!(text.contains(whole), "{whole}");
+            Anchors::parse(&text.replacen(whole, damaged, 1)).unwrap_err().to_string()
+        };
+        let error = damaged("\"RayScan\": 47.7, ", "");
         assert!(error.contains("`arena2`"), "{error}");
+        let error = damaged("\"k\": \"any\"", "\"k\": \"some\"");
+        assert!(error.contains("choose a number from 2 up, or any"), "{error}");
+        let error = damaged("\"k\": 3", "\"k\": 1");
+        assert!(error.contains("k = 1 is too small"), "{error}");
     }
 }

@@ -22,16 +22,20 @@ fn scenario(rng: &mut Rng, grid: &Grid, count: usize) -> Scenario {
     Scenario::from_instances(instances).expect("lengths are finite")
 }
 
-/// The last contenders: they solve the scenarios' problem.
+/// After the yardsticks: they solve the scenarios' problem.
 const EXACT: [&str; 5] =
     ["dijkstra", "canonical,euclidean", "jps,limit=4", "jps-block,intermediate", "jps-plus"];
+
+/// The last contenders: any-angle paths between corners, of which the second is held to the first.
+const ANY_ANGLE: [&str; 4] = ["anya:any:open", "anya:any:open,taut", "theta:3:open", "astar:3:open,smooth"];
 
 fn contenders() -> Vec<Contender> {
     let setups =
         ["astar", "astar:2:never", "astar:4:one", "astar:3:always", "astar:3:open", "astar:5:closed"];
     let setups = setups.iter().map(|setup| Contender::Ours(setup.parse().expect("a setup")));
     let exact = EXACT.map(|setup| Contender::Ours(setup.parse().expect("a setup")));
-    setups.chain(Yardstick::ALL.map(Contender::Yardstick)).chain(exact).collect()
+    let any_angle = ANY_ANGLE.map(|setup| Contender::Ours(setup.parse().expect("a setup")));
+    setups.chain(Yardstick::ALL.map(Contender::Yardstick)).chain(exact).chain(any_angle).collect()
 }
 
 #[test]
@@ -47,7 +51,7 @@ fn all_contenders_answer_all_queries() {
         let problem = Problem::new("made", "test", grid, &scenario, 1).expect("a problem");
         let record =
             measure(&problem, &contenders(), 2).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
-        assert_eq!((record.instances, record.timings.len()), (problem.len(), 13), "seed {seed}");
+        assert_eq!((record.instances, record.timings.len()), (problem.len(), 17), "seed {seed}");
         for timing in &record.timings {
             assert_eq!(timing.passes.len(), 2, "seed {seed}");
             assert!(timing.passes.iter().all(|&pass| pass > 0.0) && timing.micros > 0.0, "seed {seed}");
@@ -60,6 +64,10 @@ fn all_contenders_answer_all_queries() {
         // k = 2 is no better, rule `One` with more moves no worse; a path that cuts corners is never below the best of them.
         assert!(cost(1) >= cost(0) - 1e-6 && cost(2) <= cost(0) + 1e-6, "seed {seed}");
         assert!(cost(3) <= cost(0) + 1e-6 && cost(7) >= cost(3) - 1e-6, "seed {seed}");
+        // The rule of gaps at place 4 is that of the last four.
+        let best = cost(13);
+        assert!((cost(14) - best).abs() < 1e-9 && cost(15) >= best - 1e-9, "seed {seed}");
+        assert!((best - 1e-9..=cost(4) + 1e-9).contains(&cost(16)), "seed {seed}");
         queries += problem.len();
     }
     assert_eq!(

@@ -15,8 +15,9 @@ use clap::{
     error::ErrorKind,
 };
 use mediant_engines::{Engine, HeuristicName, Options, Setup, Variant};
-use mediant_grid::{Centers, CornerRule, DiagonalGap, Lattice, Rules, Vertex};
-use mediant_moves::K;
+use mediant_grid::{Centers, CornerRule, DiagonalGap, Lattice, Placement, Rules, Vertex};
+use mediant_moves::{K, Knob, KnobError};
+use mediant_search::Smoothing;
 
 use crate::failure::{Ending, FAILURE, Failure, finish, say_error};
 
@@ -81,6 +82,14 @@ pub(crate) struct RunArgs {
     /// Keep the jump points at which a path only turns on its way to another, which are otherwise passed by
     #[arg(long)]
     pub(crate) keep_intermediate: bool,
+    /// Make each path shorter afterwards, by straight segments at any angle: linear (the default) looks for the next vertex in sight
+    /// along the path, taut pulls the path tight around the corners
+    #[arg(long, value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "linear")]
+    #[arg(hide_possible_values = true, value_name = "linear|taut")]
+    pub(crate) smooth: Option<SmoothArg>,
+    /// Also find each query's shortest any-angle path by this engine, and say how much longer the path is
+    #[arg(long, value_name = "ENGINE", value_parser = names(REFERENCES, Engine::name))]
+    pub(crate) reference: Option<Engine>,
     /// Load what the engine preprocesses from a file that `mediant build` made
     #[arg(long, value_name = "FILE")]
     pub(crate) index: Option<PathBuf>,
@@ -100,7 +109,7 @@ pub(crate) struct RunArgs {
     pub(crate) trace: Option<PathBuf>,
     /// Write the distances from --from to all vertices to this file, as CSV (`-` is stdout); needs an engine that finds them
     #[arg(long, value_name = "FILE", requires = "from")]
-    #[arg(conflicts_with_all = ["scen", "every", "limit", "index", "repeat", "format", "draw", "trace"])]
+    #[arg(conflicts_with_all = ["scen", "every", "limit", "smooth", "reference", "index", "repeat", "format", "draw", "trace"])]
     pub(crate) distances: Option<PathBuf>,
 }
 
@@ -110,12 +119,12 @@ pub(crate) struct SetupArgs {
     /// How to search
     #[arg(long, default_value_t, value_parser = names(Engine::ALL, Engine::name))]
     pub(crate) engine: Engine,
-    /// The neighborhood: 2 to 12, or any (any-angle paths)
-    #[arg(long, default_value = "3", allow_negative_numbers = true)]
-    pub(crate) k: KArg,
-    /// Where the vertices are: at cell centers or at cell corners
-    #[arg(long, value_enum, default_value_t)]
-    pub(crate) placement: PlacementArg,
+    /// The neighborhood: 2 to 12, or any, which is every direction. 3 by default, any for anya
+    #[arg(long, allow_negative_numbers = true, value_parser = parse_knob)]
+    pub(crate) k: Option<Knob>,
+    /// Where the vertices are: at cell centers or at cell corners. center by default, corner for anya
+    #[arg(long, value_enum, hide_possible_values = true, value_name = "center|corner")]
+    pub(crate) placement: Option<PlacementArg>,
     /// At centers, whether a path may cut the corner of a blocked cell: never (the default), one (if the cell across is
     /// free), always
     #[arg(long, value_enum, hide_possible_values = true, value_name = "never|one|always")]
@@ -140,6 +149,9 @@ const RUN_HELP: &str = "\
 Times are of the query alone, on a warm planner: each query is first solved once without a clock, which also counts \
 expanded and generated nodes and heap percolations; the timed runs count nothing.
 
+Of each path found the report says how much longer than the shortest any-angle path it can be: the certificate, which follows from \
+what the engine guarantees and from the straight line between the ends. --reference says how much longer it is.
+
 A builtin map with no query given runs its own scenario.
 
 A trace is JSON for the Posthoc visualizer, with every event of the search, and the path found as its end.
@@ -151,6 +163,8 @@ Examples:
   mediant run builtin:archipelago
   mediant run arena.map --scen arena.map.scen --k 5 --placement corner --format jsonl
   mediant run arena.map --from 1,11 --to 40,30 --draw
+  mediant run arena.map --from 1,11 --to 40,30 --engine anya --draw
+  mediant run builtin:town --k 4 --placement corner --smooth --reference anya
   mediant run arena.map --from 1,11 --engine dijkstra --distances -";
 
 #[derive(Args, Debug)]
@@ -170,38 +184,14 @@ pub(crate) struct DemoArgs {
     pub(crate) name: String,
 }
 
-/// A k from the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum KArg {
-    Finite(K),
-    Any,
-}
+/// The largest k that lattices take.
+pub(crate) const MAX_K: u32 = Lattice::<Centers>::MAX_K;
 
-impl KArg {
-    /// The largest k that lattices take.
-    pub(crate) const MAX: u32 = Lattice::<Centers>::MAX_K;
-}
+/// The engines whose paths are the shortest at any angle.
+const REFERENCES: [Engine; 1] = [Engine::Anya];
 
-impl FromStr for KArg {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let form = format!("choose a number from 2 to {}, or any", Self::MAX);
-        if text == "any" {
-            return Ok(Self::Any);
-        }
-        let k = text.parse().map_err(|_| form.clone())?;
-        match K::new(k) {
-            Err(error) => Err(format!("{error}; {form}")),
-            Ok(_) if k > Self::MAX => Err(format!("k = {k} is too large; {form}")),
-            Ok(k) => Ok(Self::Finite(k)),
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PlacementArg {
-    #[default]
     Center,
     Corner,
 }
@@ -217,6 +207,12 @@ pub(crate) enum CornersArg {
 pub(crate) enum GapArg {
     Open,
     Closed,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SmoothArg {
+    Linear,
+    Taut,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -242,21 +238,30 @@ impl RunArgs {
             variant: self.variant,
             jump_limit: self.jump_limit,
             intermediate: self.keep_intermediate,
+            smoothing: self.smooth.map(|smooth| match smooth {
+                SmoothArg::Linear => Smoothing::Linear,
+                SmoothArg::Taut => Smoothing::Taut,
+            }),
         };
         self.setup.with(options)
+    }
+
+    /// The setup that finds the shortest any-angle paths to compare with, if it is asked for.
+    pub(crate) fn reference(&self, rules: Rules) -> Result<Option<Setup>, Failure> {
+        let Some(engine) = self.reference else { return Ok(None) };
+        let setup = Setup::new(engine, Knob::Any, rules);
+        match setup.check() {
+            Ok(()) => Ok(Some(setup)),
+            Err(_) => Err(Failure::NoReference { engine, placement: rules.placement() }),
+        }
     }
 }
 
 impl SetupArgs {
     /// The setup with these options, if there is one.
     pub(crate) fn with(&self, options: Options) -> Result<Setup, Failure> {
-        let rules = self.rules()?;
-        let engine = self.engine;
-        let k = match self.k {
-            KArg::Finite(k) => k,
-            KArg::Any => return Err(Failure::NeedsFiniteK { engine, max: engine.about().max_k }),
-        };
-        let setup = Setup { options, ..Setup::new(engine, k, rules) };
+        let k = self.k.unwrap_or(self.engine.about().default_k());
+        let setup = Setup { options, ..Setup::new(self.engine, k, self.rules()?) };
         setup.check()?;
         Ok(setup)
     }
@@ -265,15 +270,20 @@ impl SetupArgs {
     fn rules(&self) -> Result<Rules, Failure> {
         let not_applicable =
             |option, placement, other| Err(Failure::NotApplicable { option, placement, other });
-        match self.placement {
-            PlacementArg::Center if self.gap.is_some() => not_applicable("--gap", "center", "corner"),
-            PlacementArg::Corner if self.corners.is_some() => not_applicable("--corners", "corner", "center"),
-            PlacementArg::Center => Ok(Rules::Center(match self.corners {
+        let placement = match self.placement {
+            None => self.engine.about().default_rules().placement(),
+            Some(PlacementArg::Center) => Placement::Center,
+            Some(PlacementArg::Corner) => Placement::Corner,
+        };
+        match placement {
+            Placement::Center if self.gap.is_some() => not_applicable("--gap", "center", "corner"),
+            Placement::Corner if self.corners.is_some() => not_applicable("--corners", "corner", "center"),
+            Placement::Center => Ok(Rules::Center(match self.corners {
                 None | Some(CornersArg::Never) => CornerRule::Never,
                 Some(CornersArg::One) => CornerRule::One,
                 Some(CornersArg::Always) => CornerRule::Always,
             })),
-            PlacementArg::Corner => Ok(Rules::Corner(match self.gap {
+            Placement::Corner => Ok(Rules::Corner(match self.gap {
                 None | Some(GapArg::Open) => DiagonalGap::Open,
                 Some(GapArg::Closed) => DiagonalGap::Closed,
             })),
@@ -304,6 +314,17 @@ fn parse_count<N: FromStr<Err = ParseIntError> + Display>(text: &str, max: &N) -
         IntErrorKind::PosOverflow => format!("expected a whole number from 1 to {max}"),
         _ => "expected a whole number from 1 up".to_owned(),
     })
+}
+
+/// A k that some engine may take.
+fn parse_knob(text: &str) -> Result<Knob, String> {
+    let form = format!("choose a number from 2 to {MAX_K}, or any");
+    match text.parse() {
+        Err(KnobError::K(error)) => Err(format!("{error}; {form}")),
+        Ok(Knob::K(k)) if k.get() > MAX_K => Err(format!("k = {k} is too large; {form}")),
+        Ok(knob) => Ok(knob),
+        Err(_) => Err(form),
+    }
 }
 
 /// A k of which the moves can be computed, though no lattice may take it.
@@ -385,10 +406,19 @@ mod tests {
 
     #[test]
     fn k_is_a_number_or_any() {
-        assert_eq!("any".parse(), Ok(KArg::Any));
-        assert_eq!("2".parse(), Ok(KArg::Finite(K::FOUR_CONNECTED)));
+        assert_eq!(parse_knob("any"), Ok(Knob::Any));
+        assert_eq!(parse_knob("2"), Ok(Knob::K(K::FOUR_CONNECTED)));
         for wrong in ["1", "13", "-3", "three", ""] {
-            assert!(wrong.parse::<KArg>().is_err(), "{wrong}");
+            assert!(parse_knob(wrong).is_err(), "{wrong}");
         }
+    }
+
+    #[test]
+    fn references_are_the_engines_that_promise_the_shortest_any_angle_paths() {
+        let promises = |engine: &Engine| {
+            let setup = Setup::new(*engine, Knob::Any, engine.about().default_rules());
+            setup.check().is_ok() && setup.optimal_over() == Some(Knob::Any)
+        };
+        assert!(Engine::ALL.into_iter().filter(promises).eq(REFERENCES));
     }
 }

@@ -5,6 +5,7 @@ use std::{io::Write, path::Path};
 use mediant_engines::{Options, Setup};
 use mediant_formats::{IndexFile, IndexKey};
 use mediant_grid::Grid;
+use mediant_moves::K;
 
 use crate::{
     args::BuildArgs,
@@ -45,7 +46,7 @@ pub(crate) fn load(path: &Path, setup: Setup, grid: &Grid) -> Result<Vec<u8>, Fa
 }
 
 fn key(setup: Setup, version: u32, grid: &Grid) -> Result<IndexKey, mediant_formats::IndexError> {
-    IndexKey::new(setup.engine.name(), version, setup.rules, Some(setup.k.get()), grid)
+    IndexKey::new(setup.engine.name(), version, setup.rules, setup.k.finite().map(K::get), grid)
 }
 
 fn refused(path: &Path) -> impl FnOnce(mediant_formats::IndexError) -> Failure {

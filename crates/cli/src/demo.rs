@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use anstyle::RgbColor;
 use mediant_engines::{Engine, Prebuilt, Preprocessing, Setup, Visit, with_planner};
 use mediant_grid::{CornerRule, DiagonalGap, Placement, Rules, Vertex};
-use mediant_moves::{K, bound_at_corners};
+use mediant_moves::{K, Knob};
 use mediant_search::{Outcome, Planner, Query};
 
 use crate::{
@@ -20,7 +20,7 @@ use crate::{
     theme::INKS,
 };
 
-/// The k that the table compares; the last one is drawn as the best.
+/// The finite k that the table compares.
 const KS: [u32; 8] = [2, 3, 4, 5, 6, 7, 9, 12];
 /// Of so many timed runs the best counts.
 const REPEAT: u32 = 20;
@@ -28,7 +28,9 @@ const REPEAT: u32 = 20;
 /// A line of the table.
 struct Row {
     rules: Rules,
-    k: K,
+    k: Knob,
+    /// How much longer than an any-angle path it can be at most, where that is known.
+    bound: Option<f64>,
     cost: f64,
     waypoints: Vec<Vertex>,
     expanded: u64,
@@ -43,10 +45,13 @@ impl Visit for Solve {
 
     fn visit<P: Planner>(self, mut planner: P, _: Preprocessing) -> Option<Row> {
         let Self(Setup { rules, k, .. }, query) = self;
+        // Of paths between centers no bound over those between corners, the best here, is known.
+        let at_corners = rules.placement() == Placement::Corner;
+        let bound = planner.guarantee().bound(rules).filter(|_| at_corners);
         let Answer { outcome, counters, nanos } = Answer::new(&mut planner, query, REPEAT);
         let Ok(Outcome::Found(path)) = outcome else { return None };
         let (cost, expanded) = (path.cost(), counters.expanded);
-        Some(Row { rules, k, cost, waypoints: path.into_waypoints(), expanded, nanos })
+        Some(Row { rules, k, bound, cost, waypoints: path.into_waypoints(), expanded, nanos })
     }
 }
 
@@ -57,10 +62,14 @@ pub(crate) fn demo(args: &DemoArgs, screen: &mut Screen) -> Result<(), Failure> 
     let query = Query::new(builtin.start, builtin.goal);
     let corners = Rules::Corner(DiagonalGap::Open);
     let centers = Rules::Center(CornerRule::Never);
-    let setups = KS.map(|k| (corners, k)).into_iter().chain([(centers, 3)]);
+    let mut setups = Vec::new();
+    for k in KS {
+        setups.push(Setup::new(Engine::AStar, K::new(k)?, corners));
+    }
+    setups.push(Setup::new(Engine::Anya, Knob::Any, corners));
+    setups.push(Setup::new(Engine::AStar, K::EIGHT_CONNECTED, centers));
     let mut rows = Vec::new();
-    for (rules, k) in setups {
-        let setup = Setup::new(Engine::AStar, K::new(k)?, rules);
+    for setup in setups {
         rows.extend(with_planner(setup, &map.grid, Prebuilt::default(), Solve(setup, query))?);
     }
     title(builtin, &map, query, screen)?;
@@ -78,13 +87,17 @@ fn title(builtin: &Builtin, map: &Map, query: Query, screen: &mut Screen) -> io:
 
 /// How a row of the table is drawn on the map, if it is.
 fn stroke(row: &Row) -> Option<(Stroke, RgbColor)> {
-    const BEST: u32 = KS[KS.len() - 1];
-    match (row.rules.placement(), row.k.get()) {
-        (Placement::Corner, 2) => Some((Stroke::Dotted, INKS.four)),
-        (Placement::Corner, 3) => Some((Stroke::Dashed, INKS.eight)),
-        (Placement::Corner, BEST) => Some((Stroke::Solid, INKS.best)),
+    match (row.rules.placement(), row.k) {
+        (Placement::Corner, Knob::K(K::FOUR_CONNECTED)) => Some((Stroke::Dotted, INKS.four)),
+        (Placement::Corner, Knob::K(K::EIGHT_CONNECTED)) => Some((Stroke::Dashed, INKS.eight)),
+        (Placement::Corner, Knob::Any) => Some((Stroke::Solid, INKS.best)),
         _ => None,
     }
+}
+
+/// A k, ∞ by its sign.
+fn shown(k: Knob) -> String {
+    k.finite().map_or_else(|| "∞".to_owned(), |k| k.to_string())
 }
 
 fn picture(map: &Map, query: Query, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
@@ -104,7 +117,7 @@ fn picture(map: &Map, query: Query, rows: &[Row], screen: &mut Screen) -> io::Re
     for row in rows {
         if let Some((stroke, color)) = stroke(row) {
             let line = screen.paint(screen.ink_on(color, ground), stroke.sample().repeat(2));
-            legend += &format!("{line} k = {}   ", row.k);
+            legend += &format!("{line} k = {}   ", shown(row.k));
         }
     }
     writeln!(screen, "\n  {}\n", legend.trim_end())
@@ -118,16 +131,14 @@ fn table(map: &Map, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
         Table::new(names.map(|name| (name, if name == "at" { Align::Left } else { Align::Right })));
     for row in rows {
         let placement = row.rules.placement();
-        // Of paths between centers no bound over those between corners, the best here, is known.
-        let bound = (placement == Placement::Corner).then(|| percent_over(bound_at_corners(row.k), 2));
         let cells = [
             // A column wider than its numbers keeps them off the sample of the line.
-            format!("{:>3}", row.k.to_string()),
+            format!("{:>3}", shown(row.k)),
             format!("{placement}s"),
-            grouped(row.k.moves().unwrap_or(u64::MAX)),
+            row.k.finite().and_then(K::moves).map_or_else(|| "∞".to_owned(), grouped),
             format!("{:.4}", row.cost),
             percent_over(row.cost / best, 2),
-            bound.unwrap_or_else(|| "–".to_owned()),
+            row.bound.map_or_else(|| "–".to_owned(), |bound| percent_over(bound, 2)),
             row.waypoints.len().saturating_sub(2).to_string(),
             grouped(row.expanded),
             time(row.nanos as f64),
@@ -145,8 +156,8 @@ fn table(map: &Map, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
 
 fn explanation(builtin: &Builtin, screen: &mut Screen) -> io::Result<()> {
     let words = "Each path is the shortest that its moves allow: k = 2 steps along the axes, k = 3 adds the diagonals, and \
-                 each k after it puts a new move between every two. `bound` is the most that any map can cost them \
-                 over any-angle paths.";
+                 each k after it puts a new move between every two, and k = ∞ goes in any direction. `bound` is the most that \
+                 any map can cost them over such any-angle paths.";
     let text = wrap("  ", words.split(' ').map(str::to_owned), screen.columns().min(80) - 2);
     writeln!(screen, "\n{text}")?;
     let Builtin { name, start, goal, .. } = builtin;

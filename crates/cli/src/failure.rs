@@ -9,7 +9,7 @@ use std::{
 use anstyle::{AnsiColor, Style};
 use mediant_engines::{Engine, EngineError, SetupError};
 use mediant_formats::{IndexError, ReadError, ScenarioForOtherMap, WriteError};
-use mediant_grid::Vertex;
+use mediant_grid::{Placement, Vertex};
 
 use crate::text::printable;
 
@@ -49,8 +49,10 @@ pub(crate) enum Failure {
         "{option} does not apply to --placement {placement}: leave it out, or choose --placement {other}"
     )]
     NotApplicable { option: &'static str, placement: &'static str, other: &'static str },
-    #[error("{engine} needs a finite k: choose --k 2 … {max}")]
-    NeedsFiniteK { engine: Engine, max: u32 },
+    #[error(
+        "--reference {engine} finds no any-angle paths at --placement {placement}: leave it out, or choose --placement corner"
+    )]
+    NoReference { engine: Engine, placement: Placement },
     #[error(transparent)]
     Setup(#[from] SetupError),
     #[error(transparent)]

@@ -8,7 +8,7 @@ use mediant_moves::{
 };
 
 use crate::{
-    args::{KArg, MovesArgs},
+    args::{MAX_K, MovesArgs},
     failure::Failure,
     screen::{BOLD, DIM, Screen},
     star,
@@ -130,9 +130,9 @@ fn smallest(ratio: f64, after_moves: bool, screen: &mut Screen) -> io::Result<()
             None => writeln!(screen, "  {place}   {none}")?,
         }
     }
-    if places.iter().any(|&(_, k, _)| k.is_some_and(|k| k.get() > KArg::MAX)) {
+    if places.iter().any(|&(_, k, _)| k.is_some_and(|k| k.get() > MAX_K)) {
         let note =
-            format!("  `mediant run` takes k up to {}, `mediant moves` up to {}", KArg::MAX, K::MAX_MOVES);
+            format!("  `mediant run` takes k up to {MAX_K}, or any; `mediant moves` up to {}", K::MAX_MOVES);
         writeln!(screen, "{}", screen.paint(DIM, note))?;
     }
     Ok(())

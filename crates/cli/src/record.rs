@@ -3,7 +3,8 @@
 //! First a [`RunRecord`] (`"type": "run"`), then a [`QueryRecord`] (`"query"`) for each query in the order of the scenario,
 //! last a [`Summary`](crate::summary::Summary) (`"summary"`). Lengths are in cells, times in nanoseconds.
 
-use serde::Serialize;
+use mediant_moves::Knob;
+use serde::{Serialize, Serializer};
 
 /// What is run.
 #[derive(Clone, Debug, Serialize)]
@@ -18,23 +19,37 @@ pub(crate) struct RunRecord {
     pub(crate) scenario: Option<String>,
     pub(crate) queries: usize,
     pub(crate) engine: String,
-    pub(crate) k: u32,
+    /// A number or `any`.
+    #[serde(serialize_with = "number_or_any")]
+    pub(crate) k: Knob,
     pub(crate) placement: String,
     pub(crate) corners: String,
     pub(crate) gap: String,
-    pub(crate) heuristic: String,
+    /// `null` for an engine with one of its own.
+    pub(crate) heuristic: Option<String>,
     /// `exact` or `paper`; `null` for an engine that has no variants.
     pub(crate) variant: Option<String>,
     /// The most steps of a jump; `null` without a bound.
     pub(crate) jump_limit: Option<u32>,
     pub(crate) keep_intermediate: bool,
     pub(crate) smooth: bool,
+    /// `linear` or `taut`; `null` unless paths are smoothed.
+    pub(crate) smoothing: Option<&'static str>,
+    /// The engine that finds each query's `any_angle`; `null` without one.
+    pub(crate) any_angle: Option<&'static str>,
     pub(crate) guarantee: String,
     pub(crate) repeat: u32,
     /// Making the search graph of the loaded map and the engine's index of it; with a saved index, loading that.
     pub(crate) preprocess_ns: u64,
     pub(crate) index_bytes: u64,
     pub(crate) version: &'static str,
+}
+
+fn number_or_any<S: Serializer>(k: &Knob, serializer: S) -> Result<S::Ok, S::Error> {
+    match k {
+        Knob::K(k) => serializer.serialize_u32(k.get()),
+        Knob::Any => serializer.collect_str(k),
+    }
 }
 
 /// How a query ended.
@@ -63,6 +78,15 @@ pub(crate) struct QueryRecord {
     pub(crate) smoothness: Option<f64>,
     /// The scenario's length: optimal for k = 3 at centers, corners never cut.
     pub(crate) reference: Option<f64>,
+    /// The certificate: no any-angle path under the same rules is shorter, by what the engine guarantees of its path and by the straight
+    /// line; `null` unless found.
+    pub(crate) lower_bound: Option<f64>,
+    /// `cost / lower_bound`, at least 1: so many times as long as the shortest any-angle path is the path at most; `null` unless found.
+    pub(crate) bound: Option<f64>,
+    /// The length of the shortest any-angle path under the same rules; `null` unless asked for and there is one.
+    pub(crate) any_angle: Option<f64>,
+    /// `cost / any_angle`; `null` where either is.
+    pub(crate) ratio: Option<f64>,
     pub(crate) expanded: u64,
     pub(crate) generated: u64,
     pub(crate) percolations: u64,

@@ -7,8 +7,9 @@ use std::{
     time::{Duration, Instant},
 };
 
-use mediant_engines::{Prebuilt, Setup, with_planner};
+use mediant_engines::{Engine, Prebuilt, Setup, Solver, with_planner};
 use mediant_grid::{CornerRule, DiagonalGap, Rules};
+use mediant_search::Smoothing;
 
 use crate::{
     args::{Format, RunArgs},
@@ -30,6 +31,7 @@ use crate::{
 /// Runs the command.
 pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure> {
     let setup = args.setup()?;
+    let reference = args.reference(setup.rules)?;
     if args.draw && args.format == Format::Jsonl {
         return Err(Failure::DrawJsonl);
     }
@@ -61,7 +63,8 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     let session = Session {
         queries: &queries,
         grid: &map.grid,
-        placement: setup.rules.placement(),
+        rules: setup.rules,
+        any_angle: reference.map(|setup| Solver::new(setup, &map.grid, Prebuilt::default())).transpose()?,
         run: describe(args, setup, &map, &queries),
         report: &mut *report,
         progress: Progress::new(queries.len(), !lines_on_screen),
@@ -99,20 +102,29 @@ fn describe(args: &RunArgs, setup: Setup, map: &Map, queries: &Queries) -> RunRe
         scenario: queries.scenario_name().map(str::to_owned),
         queries: queries.len(),
         engine: setup.engine.to_string(),
-        k: setup.k.get(),
+        k: setup.k,
         placement: setup.rules.placement().to_string(),
         corners: corners.to_string(),
         gap: gap.to_string(),
-        heuristic: setup.heuristic().to_string(),
+        heuristic: setup.heuristic().map(|heuristic| heuristic.to_string()),
         variant: setup.variant().map(|variant| variant.to_string()),
         jump_limit: setup.options.jump_limit.map(NonZeroU32::get),
         keep_intermediate: setup.options.intermediate,
-        smooth: false,
+        smooth: setup.options.smoothing.is_some(),
+        smoothing: setup.options.smoothing.map(smoothing_name),
+        any_angle: args.reference.map(Engine::name),
         guarantee: String::new(),
         repeat: args.repeat.get(),
         preprocess_ns: 0,
         index_bytes: 0,
         version: env!("CARGO_PKG_VERSION"),
+    }
+}
+
+const fn smoothing_name(smoothing: Smoothing) -> &'static str {
+    match smoothing {
+        Smoothing::Linear => "linear",
+        Smoothing::Taut => "taut",
     }
 }
 

@@ -8,9 +8,9 @@ use std::{
     time::{Duration, Instant},
 };
 
-use mediant_engines::{Preprocessing, Visit};
-use mediant_grid::{Centers, Corners, Grid, Place, Placement, Vertex};
-use mediant_search::{Counters, Outcome, Path, Planner, Query, QueryError};
+use mediant_engines::{Preprocessing, Solver, Visit};
+use mediant_grid::{Centers, Corners, Grid, Place, Placement, Rules, Vertex};
+use mediant_search::{Counters, Guarantee, Outcome, Path, Planner, Query, QueryError};
 
 use crate::{
     engines::guarantee_name,
@@ -27,7 +27,9 @@ use crate::{
 pub(crate) struct Session<'s> {
     pub(crate) queries: &'s Queries,
     pub(crate) grid: &'s Grid,
-    pub(crate) placement: Placement,
+    pub(crate) rules: Rules,
+    /// What finds the shortest any-angle paths to compare with.
+    pub(crate) any_angle: Option<Solver>,
     /// All but what only the planner knows.
     pub(crate) run: RunRecord,
     pub(crate) report: &'s mut dyn Report,
@@ -57,9 +59,10 @@ impl Visit for Session<'_> {
     type Output = Result<Finished, Failure>;
 
     fn visit<P: Planner>(self, mut planner: P, preprocessing: Preprocessing) -> Result<Finished, Failure> {
-        let Self { queries, grid, placement, mut run, report, mut progress, load_time, mut trace } = self;
-        let repeat = run.repeat;
-        run.guarantee = guarantee_name(planner.guarantee());
+        let Self { queries, grid, rules, mut any_angle, mut run, report, mut progress, load_time, mut trace } =
+            self;
+        let (repeat, guarantee, placement) = (run.repeat, planner.guarantee(), rules.placement());
+        run.guarantee = guarantee_name(guarantee);
         run.preprocess_ns = (load_time + preprocessing.time).as_nanos() as u64;
         run.index_bytes = preprocessing.index_bytes;
         report.begin(run)?;
@@ -73,7 +76,11 @@ impl Visit for Session<'_> {
                     .and_then(|tracer| tracer.run(&mut planner, item.query, &answer.outcome))
                     .map_err(Failure::writing(path))?;
             }
-            let record = answer.into_record(item, |error| explain(error, grid, placement));
+            let mut record = answer.into_record(item, |error| explain(error, grid, placement));
+            certify(&mut record, guarantee, rules);
+            if let Some(solver) = &mut any_angle {
+                compare(&mut record, solver.solve(item.query));
+            }
             tally.add(&record);
             if let Some(error) = record.error.as_ref().filter(|_| first_error.is_none()) {
                 first_error = Some((record.index, error.clone()));
@@ -132,6 +139,10 @@ impl Answer {
             path: waypoints.iter().map(|at| [at.x, at.y]).collect(),
             smoothness: path.as_ref().map(Path::smoothness),
             reference: item.reference,
+            lower_bound: None,
+            bound: None,
+            any_angle: None,
+            ratio: None,
             expanded: self.counters.expanded,
             generated: self.counters.generated,
             percolations: self.counters.percolations,
@@ -141,6 +152,27 @@ impl Answer {
             error,
         }
     }
+}
+
+/// Writes down what is certain of the shortest any-angle path without one.
+fn certify(record: &mut QueryRecord, guarantee: Guarantee, rules: Rules) {
+    let Some(cost) = record.cost else { return };
+    let [start, goal] = [record.start, record.goal].map(|[x, y]| Vertex::new(x, y));
+    // A sum of lengths may round below the straight line that they make up.
+    let lower_bound = guarantee.lower_bound(rules, cost, start.distance(goal)).min(cost);
+    record.lower_bound = Some(lower_bound);
+    record.bound = Some(times(cost, lower_bound));
+}
+
+/// Writes down how the path compares with the shortest any-angle path. A query that is an error to one is to both.
+fn compare(record: &mut QueryRecord, any_angle: Result<Outcome, QueryError>) {
+    record.any_angle = any_angle.ok().and_then(|outcome| outcome.path().map(Path::cost));
+    record.ratio = record.cost.zip(record.any_angle).map(|(cost, best)| times(cost, best));
+}
+
+/// How many times as long; once where both are nothing.
+fn times(cost: f64, other: f64) -> f64 {
+    if cost == other { 1.0 } else { cost / other }
 }
 
 /// A query error with, for a blocked end, a free vertex nearby.

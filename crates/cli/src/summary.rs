@@ -26,8 +26,21 @@ pub(crate) struct Summary {
     pub(crate) mean_cost: Option<f64>,
     /// `null` where no path was found.
     pub(crate) mean_smoothness: Option<f64>,
+    /// Of how much longer than the shortest any-angle paths the paths can be; `null` where no path was found.
+    pub(crate) bound: Option<Ratios>,
+    /// Of how much longer they are; `null` where that is not known of any.
+    pub(crate) ratio: Option<Ratios>,
     /// `null` where no answered query has a reference.
     pub(crate) reference: Option<References>,
+}
+
+/// Ratios to the lengths of the shortest any-angle paths.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub(crate) struct Ratios {
+    pub(crate) mean: f64,
+    pub(crate) worst: f64,
+    /// The index of the first query with the worst.
+    pub(crate) worst_index: usize,
 }
 
 /// How the costs compare with the lengths in the scenario. No path counts as length 0, which is what scenarios give for it.
@@ -59,6 +72,8 @@ pub(crate) struct Tally {
     scanned: u64,
     cost: f64,
     smoothness: f64,
+    bound: RatioTally,
+    ratio: RatioTally,
     compared: u64,
     equal: u64,
     worst: (f64, usize),
@@ -85,6 +100,8 @@ impl Tally {
         self.smoothness += record.smoothness.unwrap_or(0.0);
         let cost = record.cost.unwrap_or(0.0);
         self.cost += cost;
+        self.bound.add(record.index, record.bound);
+        self.ratio.add(record.index, record.ratio);
         if let Some(reference) = record.reference {
             self.compare(record.index, cost, reference);
         }
@@ -130,8 +147,33 @@ impl Tally {
             mean_scanned: mean(self.scanned as f64, answered),
             mean_cost: (self.found > 0).then(|| mean(self.cost, self.found)),
             mean_smoothness: (self.found > 0).then(|| mean(self.smoothness, self.found)),
+            bound: self.bound.finish(),
+            ratio: self.ratio.finish(),
             reference: (self.compared > 0).then_some(references),
         }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct RatioTally {
+    sum: f64,
+    count: u64,
+    worst: Option<(f64, usize)>,
+}
+
+impl RatioTally {
+    fn add(&mut self, index: usize, ratio: Option<f64>) {
+        let Some(ratio) = ratio else { return };
+        self.sum += ratio;
+        self.count += 1;
+        if self.worst.is_none_or(|(worst, _)| ratio > worst) {
+            self.worst = Some((ratio, index));
+        }
+    }
+
+    fn finish(self) -> Option<Ratios> {
+        let (worst, worst_index) = self.worst?;
+        Some(Ratios { mean: self.sum / self.count as f64, worst, worst_index })
     }
 }
 
@@ -159,6 +201,10 @@ mod tests {
             path: Vec::new(),
             smoothness: cost.map(|_| 90.0),
             reference: Some(reference),
+            lower_bound: cost,
+            bound: cost.map(|_| 1.0),
+            any_angle: None,
+            ratio: None,
             expanded: 10,
             generated: 20,
             percolations: 30,
@@ -186,6 +232,22 @@ mod tests {
         let reference = summary.reference.unwrap();
         assert_eq!((reference.compared, reference.equal), (4, 3));
         assert_eq!((reference.worst_deviation, reference.worst_index), (-1.0, 1));
+    }
+
+    #[test]
+    fn of_ratios_there_are_the_mean_and_the_first_of_the_worst() {
+        let mut tally = Tally::default();
+        assert_eq!((tally.bound.finish(), tally.ratio.finish()), (None, None));
+        for (index, bound) in [(0, 1.0), (2, 1.5), (4, 1.5), (6, 1.2)] {
+            tally.add(&QueryRecord { bound: Some(bound), ..record(index, Some(3.0), 3.0, 1) });
+        }
+        tally.add(&QueryRecord { ratio: Some(1.25), ..record(8, Some(3.0), 3.0, 1) });
+        tally.add(&record(10, None, 0.0, 1));
+        let summary = tally.finish();
+        let bound = summary.bound.unwrap();
+        assert!((bound.mean - 6.2 / 5.0).abs() < 1e-12, "{bound:?}");
+        assert_eq!((bound.worst, bound.worst_index), (1.5, 2));
+        assert_eq!(summary.ratio, Some(Ratios { mean: 1.25, worst: 1.25, worst_index: 8 }));
     }
 
     #[test]

@@ -47,6 +47,13 @@ pub(crate) fn percent_over(ratio: f64, digits: usize) -> String {
     format!("{percent:+.digits$} %")
 }
 
+/// How much longer a length is than another by their ratio, in percent: `8.24 %`, `0.0120 %`.
+pub(crate) fn excess(ratio: f64) -> String {
+    let percent = (ratio - 1.0) * 100.0;
+    let digits = if percent < 0.095 { 4 } else { 2 };
+    format!("{percent:.digits$} %")
+}
+
 /// Text with its control characters escaped, since a file's name may hold codes that a terminal obeys.
 pub(crate) fn printable(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
@@ -173,6 +180,11 @@ mod tests {
         assert_eq!(percent_over(1.0824, 2), "+8.24 %");
         assert_eq!(percent_over(1.0 - 1e-12, 2), "+0.00 %");
         assert_eq!(percent_over(0.5, 1), "-50.0 %");
+    }
+
+    #[test]
+    fn what_is_longer_by_little_has_more_digits() {
+        assert_eq!([1.0824, 1.001, 1.00012, 12.5].map(excess), ["8.24 %", "0.10 %", "0.0120 %", "1150.00 %"]);
     }
 
     #[test]

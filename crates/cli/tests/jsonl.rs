@@ -60,7 +60,7 @@ fn every_record_is_complete() {
     assert!(keys(run).is_superset(&contract.into()), "{run}");
     let expected: Value = serde_json::json!({
         "map": "cave.map", "scenario": "cave.map.scen", "engine": "astar", "k": 3, "placement": "center", "corners": "never",
-        "variant": null, "jump_limit": null, "keep_intermediate": false, "gap": "open", "smooth": false, "guarantee": "optimal(3)", "heuristic": "hk", "repeat": 1, "queries": 32,
+        "variant": null, "jump_limit": null, "keep_intermediate": false, "gap": "open", "smooth": false, "smoothing": null, "any_angle": null, "guarantee": "optimal(3)", "heuristic": "hk", "repeat": 1, "queries": 32,
     });
     for (key, value) in expected.as_object().expect("an object") {
         assert_eq!(&run[key], value, "{key}");
@@ -85,6 +85,10 @@ fn every_record_is_complete() {
         "updated",
         "scanned",
         "smoothness",
+        "lower_bound",
+        "bound",
+        "any_angle",
+        "ratio",
         "nanos",
     ];
     let scenario = Scenario::read(bundled("cave.map.scen")).expect("our own scenario");
@@ -385,12 +389,12 @@ fn a_saved_index_gives_the_same_answers() {
 fn a_trace_has_the_search_and_its_path() {
     let files = Files::new();
     let path = files.path("trace.json");
-    for engine in ["astar", "dijkstra", "wavefront", "canonical", "jps", "jps-block", "jps-plus"] {
-        for placement in ["center", "corner"] {
+    for engine in mediant_engines::Engine::ALL {
+        for placement in engine.about().placements.iter().map(ToString::to_string) {
             let line = format!(
                 "run builtin:town --from 60,18 --to 10,5 --format jsonl --engine {engine} --trace {path}"
             );
-            let args: Vec<&str> = line.split(' ').chain(["--placement", placement]).collect();
+            let args: Vec<&str> = line.split(' ').chain(["--placement", &placement]).collect();
             let records = records(&args);
             let (_, queries, _) = parts(&records);
             let text = std::fs::read_to_string(&path).expect("a trace");

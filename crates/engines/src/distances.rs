@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Centers, Corners, Grid, Lattice, Place, Rules, Vertex};
+use mediant_grid::{Grid, Lattice, Place, Vertex};
 use mediant_search::{Dijkstra, Wavefront};
 
-use crate::{Engine, EngineError, Setup, SetupError, setup::those};
+use crate::{Engine, EngineError, Ground, Setup, SetupError, setup::those};
 
 /// The vertices that can be reached from `start`, row by row, with their distances: in cells, by the wavefront algorithm in moves.
 ///
@@ -13,10 +13,10 @@ use crate::{Engine, EngineError, Setup, SetupError, setup::those};
 /// [`EngineError`] for a setup that does not exist, an engine that finds no distances, or a start that is blocked or outside the
 /// map.
 pub fn distances(setup: Setup, grid: &Arc<Grid>, start: Vertex) -> Result<Vec<(Vertex, f64)>, EngineError> {
-    setup.check()?;
-    match setup.rules {
-        Rules::Center(rule) => on(setup, &Lattice::<Centers>::new(Arc::clone(grid), setup.k, rule)?, start),
-        Rules::Corner(gap) => on(setup, &Lattice::<Corners>::new(Arc::clone(grid), setup.k, gap)?, start),
+    match Ground::new(setup, grid)? {
+        Ground::Centers(lattice) => on(setup, &lattice, start),
+        Ground::Corners(lattice) => on(setup, &lattice, start),
+        Ground::AnyAngle(_) => Err(without_distances(setup.engine).into()),
     }
 }
 
@@ -34,9 +34,11 @@ fn on<P: Place>(
             let moves = Wavefront::new(lattice).distances(start)?;
             moves.iter().map(|(at, moves)| (at, f64::from(moves))).collect()
         }
-        engine => {
-            let others = those(|about| about.distances);
-            return Err(SetupError::Without { engine, what: "distances to all vertices", others }.into());
-        }
+        engine => return Err(without_distances(engine).into()),
     })
+}
+
+fn without_distances(engine: Engine) -> SetupError {
+    let others = those(|about| about.distances);
+    SetupError::Without { engine, what: "distances to all vertices", others }
 }

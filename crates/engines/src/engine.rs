@@ -1,7 +1,7 @@
 //! The engines, and what is to be known of each.
 
-use mediant_grid::{Centers, Lattice};
-
+use mediant_grid::{Centers, CornerRule, DiagonalGap, Lattice, Placement, Rules};
+use mediant_moves::{K, Knob};
 use mediant_search::JumpTable;
 
 use crate::names::names;
@@ -24,6 +24,12 @@ pub enum Engine {
     JpsBlock,
     /// [`JpsPlus`](mediant_search::JpsPlus) on a [`JumpTable`].
     JpsPlus,
+    /// [`ThetaStar`](mediant_search::ThetaStar).
+    Theta,
+    /// [`LazyThetaStar`](mediant_search::LazyThetaStar).
+    LazyTheta,
+    /// [`Anya`](mediant_search::Anya).
+    Anya,
 }
 
 names!(Engine:
@@ -34,18 +40,25 @@ names!(Engine:
     Jps => "jps",
     JpsBlock => "jps-block",
     JpsPlus => "jps-plus",
+    Theta => "theta",
+    LazyTheta => "lazy-theta",
+    Anya => "anya",
 );
 
-/// What is to be known of an engine. Every engine works on both placements, under every rule of motion.
+/// What is to be known of an engine. On the placements that it takes it works under every rule of motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct About {
-    /// The largest k; the smallest is 2.
-    pub max_k: u32,
+    /// Where its vertices may be.
+    pub placements: &'static [Placement],
+    /// The largest k of the neighborhoods that it searches, the smallest being 2; none for an engine that searches none.
+    pub max_k: Option<u32>,
+    /// Whether it searches every direction, k = ∞.
+    pub any: bool,
     /// What it promises of its paths, for a table.
     pub guarantee: &'static str,
     /// Who published it.
     pub paper: &'static str,
-    /// Whether it takes a heuristic; without one, it has none.
+    /// Whether it takes a heuristic.
     pub heuristic: bool,
     /// Whether there is a variant as published beside the exact one.
     pub variant: bool,
@@ -62,7 +75,9 @@ pub struct About {
 impl About {
     /// A search that takes a heuristic and no other option.
     const SEARCH: Self = Self {
-        max_k: Lattice::<Centers>::MAX_K,
+        placements: &[Placement::Center, Placement::Corner],
+        max_k: Some(Lattice::<Centers>::MAX_K),
+        any: false,
         guarantee: "optimal(k)",
         paper: "",
         heuristic: true,
@@ -72,6 +87,22 @@ impl About {
         distances: false,
         index: None,
     };
+
+    /// The k that is meant where none is said: 3, or ∞ of an engine that searches nothing else.
+    #[must_use]
+    pub const fn default_k(self) -> Knob {
+        if self.max_k.is_some() { Knob::K(K::EIGHT_CONNECTED) } else { Knob::Any }
+    }
+
+    /// The rules that are meant where none are said: `never` at centers, or `open` of an engine that takes corners alone.
+    #[must_use]
+    pub fn default_rules(self) -> Rules {
+        if self.placements.contains(&Placement::Center) {
+            Rules::Center(CornerRule::default())
+        } else {
+            Rules::Corner(DiagonalGap::default())
+        }
+    }
 }
 
 impl Engine {
@@ -80,6 +111,7 @@ impl Engine {
     pub const fn about(self) -> About {
         let search = About::SEARCH;
         let jumps = About { intermediate: true, ..search };
+        let theta = About { guarantee: "suboptimal", ..search };
         match self {
             Self::AStar => About { paper: "Hart 1968, Rivera 2017", ..search },
             Self::Dijkstra => About { paper: "Dijkstra 1959", heuristic: false, distances: true, ..search },
@@ -92,10 +124,21 @@ impl Engine {
             },
             Self::Canonical => About { paper: "Rivera 2017", variant: true, ..search },
             Self::Jps => About { paper: "Harabor 2011, Hammoud 2023", jump_limit: true, ..jumps },
-            Self::JpsBlock => About { paper: "Harabor 2014", max_k: 3, jump_limit: true, ..jumps },
+            Self::JpsBlock => About { paper: "Harabor 2014", max_k: Some(3), jump_limit: true, ..jumps },
             Self::JpsPlus => {
-                About { paper: "Harabor 2014", max_k: JumpTable::MAX_K, index: Some(1), ..jumps }
+                About { paper: "Harabor 2014", max_k: Some(JumpTable::MAX_K), index: Some(1), ..jumps }
             }
+            Self::Theta => About { paper: "Daniel 2010", ..theta },
+            Self::LazyTheta => About { paper: "Nash 2010", ..theta },
+            Self::Anya => About {
+                placements: &[Placement::Corner],
+                max_k: None,
+                any: true,
+                guarantee: "optimal(any)",
+                paper: "Harabor 2016",
+                heuristic: false,
+                ..search
+            },
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What an engine cannot be asked for.
 
-use mediant_moves::KError;
+use mediant_grid::{Placement, Rules};
+use mediant_moves::{K, KError, Knob};
 use mediant_search::{JumpTableError, QueryError};
 
 use crate::Engine;
@@ -19,7 +20,7 @@ pub enum SetupError {
         /// The engines that take it.
         others: String,
     },
-    /// A neighborhood that the engine does not search.
+    /// A neighborhood that the engine does not search, as it searches smaller ones.
     #[error("{engine} needs a k from 2 to {max}, found {k}")]
     K {
         /// The engine.
@@ -27,7 +28,37 @@ pub enum SetupError {
         /// The largest k.
         max: u32,
         /// What was asked for.
-        k: u32,
+        k: K,
+    },
+    /// Every direction, asked of an engine that searches neighborhoods.
+    #[error("{engine} needs a k from 2 to {max}; for any choose {others}")]
+    NeedsFiniteK {
+        /// The engine.
+        engine: Engine,
+        /// The largest k.
+        max: u32,
+        /// The engines that search every direction.
+        others: String,
+    },
+    /// A neighborhood, asked of an engine that searches every direction.
+    #[error("{engine} searches every direction, not those of k = {k}: leave k out, or say any")]
+    NeedsAny {
+        /// The engine.
+        engine: Engine,
+        /// What was asked for.
+        k: K,
+    },
+    /// A placement that the engine does not take.
+    #[error("{engine} needs placement {needed}; for {placement} choose {others}")]
+    Placement {
+        /// The engine.
+        engine: Engine,
+        /// What it takes.
+        needed: Placement,
+        /// What was asked for.
+        placement: Placement,
+        /// The engines that take that.
+        others: String,
     },
     /// An index, or something that only some engines find, asked of another engine.
     #[error("{engine} has no {what}: choose {others}")]
@@ -51,6 +82,14 @@ pub enum EngineError {
     /// A neighborhood without a search graph.
     #[error(transparent)]
     K(#[from] KError),
+    /// What the planners share was made for another k or other rules.
+    #[error("needs the ground of k = {} under {}, found that of k = {} under {}", expected.0, expected.1, found.0, found.1)]
+    Ground {
+        /// What the setup asks for.
+        expected: (Knob, Rules),
+        /// What there is.
+        found: (Knob, Rules),
+    },
     /// A jump table that is not that of the map.
     #[error(transparent)]
     JumpTable(#[from] JumpTableError),

@@ -1,7 +1,8 @@
 //! The catalog of engines: the one list of them, from which the program, the benches, the chores and the test suites take theirs.
 //!
 //! A [`Setup`] names an [`Engine`], what it searches (k, placement, rule) and its [`Options`], and is refused with a
-//! [`SetupError`] where the two do not fit. [`with_planner`] makes the planner and hands it to a [`Visit`].
+//! [`SetupError`] where the two do not fit. [`with_planner`] makes the planner and hands it to a [`Visit`], [`with_planner_on`] does so
+//! on a [`Ground`] that several planners share.
 //!
 //! **The key decision: a closed enum outside, types inside.** A visitor is compiled for each planner, so that a search is free
 //! of dynamic calls. Who must hold several planners at once takes [`Solver`]s: one dynamic call a query, none within it.
@@ -14,6 +15,7 @@
 mod distances;
 mod engine;
 mod error;
+mod ground;
 mod names;
 mod planner;
 mod rule;
@@ -24,6 +26,7 @@ mod text;
 pub use distances::distances;
 pub use engine::{About, Engine};
 pub use error::{EngineError, SetupError};
+pub use ground::Ground;
 pub use names::{HeuristicName, UnknownName, Variant};
 pub use planner::{Prebuilt, Preprocessing, Visit, build, with_planner, with_planner_on};
 pub use rule::{SharedRule, SharedRules};

@@ -2,18 +2,21 @@
 
 use std::{
     num::NonZeroU32,
+    ops::Deref,
     sync::Arc,
     time::{Duration, Instant},
 };
 
-use mediant_grid::{Centers, Corners, Grid, Lattice, Place, Rules};
+use mediant_grid::{Corners, Grid, Lattice, Place, Terrain};
 use mediant_search::{
-    AStar, BlockJps, Blocks, Canonical, Euclidean, Heuristic, Jps, JpsPlus, JumpTable, Jumping,
-    LatticeDistance, Locator, PaperCanonical, Planner, Walk, Wavefront, Zero,
+    AStar, Anya, BlockJps, Blocks, Canonical, Euclidean, Heuristic, Jps, JpsPlus, JumpTable, Jumping,
+    LatticeDistance, LazyThetaStar, Locator, OnTerrain, PaperCanonical, Planner, Smoothed, Smoothing,
+    ThetaStar, Walk, Wavefront, Zero,
 };
 
 use crate::{
-    Engine, EngineError, HeuristicName, Setup, SharedRule, Variant, rule::pruning, setup::without_index,
+    Engine, EngineError, Ground, HeuristicName, Setup, SharedRule, Variant, ground::no_ground, rule::pruning,
+    setup::without_index,
 };
 
 /// What preprocessing took.
@@ -60,26 +63,9 @@ pub fn with_planner<V: Visit>(
     prebuilt: Prebuilt,
     visit: V,
 ) -> Result<V::Output, EngineError> {
-    setup.check()?;
-    match setup.rules {
-        Rules::Center(rule) => lattice_and_planner::<Centers, V>(setup, grid, rule, prebuilt, visit),
-        Rules::Corner(gap) => lattice_and_planner::<Corners, V>(setup, grid, gap, prebuilt, visit),
-    }
-}
-
-fn lattice_and_planner<P: Place, V: Visit>(
-    setup: Setup,
-    grid: &Arc<Grid>,
-    rule: P::Rule,
-    prebuilt: Prebuilt,
-    visit: V,
-) -> Result<V::Output, EngineError> {
-    let begin = Instant::now();
-    let lattice = Arc::new(Lattice::<P>::new(Arc::clone(grid), setup.k, rule)?);
-    let time = begin.elapsed();
-    let add_lattice =
-        AddTo { visit, preprocessing: Preprocessing { time, index_bytes: lattice.index_bytes() as u64 } };
-    with_planner_on(setup, lattice, prebuilt, add_lattice)
+    let (ground, time) = timed(|| Ground::new(setup, grid))?;
+    let preprocessing = Preprocessing { time, index_bytes: ground.index_bytes() };
+    with_planner_on(setup, &ground, prebuilt, AddTo { visit, preprocessing })
 }
 
 /// Hands on a planner together with what was spent before it.
@@ -96,30 +82,79 @@ impl<V: Visit> Visit for AddTo<V> {
     }
 }
 
-/// [`with_planner`] on a lattice, which must be that of the setup's k and rules. The preprocessing is what came after the
-/// lattice.
+/// [`with_planner`] on a ground, which must be that of the setup's k and rules. The preprocessing is what came after the ground.
 ///
 /// # Errors
-/// [`EngineError`] for a setup that does not exist, or an index that is not the engine's for this lattice.
-pub fn with_planner_on<P: Place, V: Visit>(
+/// [`EngineError`] for a setup that does not exist, a ground for another one, or an index that is not the engine's for this ground.
+pub fn with_planner_on<V: Visit>(
     setup: Setup,
-    lattice: Arc<Lattice<P>>,
+    ground: &Ground,
     prebuilt: Prebuilt,
     visit: V,
 ) -> Result<V::Output, EngineError> {
     setup.check()?;
-    debug_assert_eq!((setup.k, setup.rules), (lattice.k(), lattice.rules()), "the lattice of another setup");
+    let (expected, found) = ((setup.k, setup.rules), (ground.k(), ground.rules()));
+    if expected != found {
+        return Err(EngineError::Ground { expected, found });
+    }
     if prebuilt.index.is_some() {
         setup.index_version()?;
     }
-    match setup.heuristic() {
-        HeuristicName::Hk => with_heuristic(setup, lattice, LatticeDistance, prebuilt, visit),
-        HeuristicName::Euclidean => with_heuristic(setup, lattice, Euclidean, prebuilt, visit),
-        HeuristicName::Zero => with_heuristic(setup, lattice, Zero, prebuilt, visit),
+    match ground {
+        Ground::Centers(lattice) => on_lattice(setup, lattice, prebuilt, visit),
+        Ground::Corners(lattice) => on_lattice(setup, lattice, prebuilt, visit),
+        Ground::AnyAngle(terrain) => on_terrain(setup, terrain, visit),
     }
 }
 
-/// Where each engine's planner is made. `setup` was checked.
+/// Hands on a planner that smooths its paths, if they are to be smoothed.
+struct Smooth<L, V> {
+    visit: V,
+    terrain: L,
+    smoothing: Option<Smoothing>,
+}
+
+impl<L, V> Visit for Smooth<L, V>
+where
+    L: Deref<Target: OnTerrain> + Send + 'static,
+    V: Visit,
+{
+    type Output = V::Output;
+
+    fn visit<P: Planner + Send + 'static>(self, planner: P, preprocessing: Preprocessing) -> V::Output {
+        self.visit.visit(Smoothed::new(planner, self.terrain, self.smoothing), preprocessing)
+    }
+}
+
+/// Where the planners for every direction are made. `setup` was checked.
+fn on_terrain<V: Visit>(
+    setup: Setup,
+    terrain: &Arc<Terrain<Corners>>,
+    visit: V,
+) -> Result<V::Output, EngineError> {
+    let visit = Smooth { visit, terrain: Arc::clone(terrain), smoothing: setup.options.smoothing };
+    match setup.engine {
+        Engine::Anya => Ok(visit.visit(Anya::new(Arc::clone(terrain)), Preprocessing::default())),
+        _ => Err(no_ground(setup)),
+    }
+}
+
+fn on_lattice<P: Place, V: Visit>(
+    setup: Setup,
+    lattice: &Arc<Lattice<P>>,
+    prebuilt: Prebuilt,
+    visit: V,
+) -> Result<V::Output, EngineError> {
+    let lattice = Arc::clone(lattice);
+    let visit = Smooth { visit, terrain: Arc::clone(&lattice), smoothing: setup.options.smoothing };
+    match setup.heuristic() {
+        Some(HeuristicName::Hk) => with_heuristic(setup, lattice, LatticeDistance, prebuilt, visit),
+        Some(HeuristicName::Euclidean) => with_heuristic(setup, lattice, Euclidean, prebuilt, visit),
+        Some(HeuristicName::Zero) | None => with_heuristic(setup, lattice, Zero, prebuilt, visit),
+    }
+}
+
+/// Where the planners for N(k) are made. `setup` was checked.
 fn with_heuristic<P: Place, H: Heuristic + Send + 'static, V: Visit>(
     setup: Setup,
     lattice: Arc<Lattice<P>>,
@@ -160,6 +195,9 @@ fn with_heuristic<P: Place, H: Heuristic + Send + 'static, V: Visit>(
             let planner = JpsPlus::with_locator(lattice, pruning, Arc::new(table), heuristic);
             visit.visit(with_options(planner, setup), took.and(more, bytes))
         }
+        Engine::Theta => visit.visit(ThetaStar::new(lattice, heuristic), nothing),
+        Engine::LazyTheta => visit.visit(LazyThetaStar::new(lattice, heuristic), nothing),
+        Engine::Anya => return Err(no_ground(setup)),
     })
 }
 
@@ -185,12 +223,12 @@ fn timed<T, E>(make: impl FnOnce() -> Result<T, E>) -> Result<(T, Duration), E> 
 pub fn build(setup: Setup, grid: &Arc<Grid>) -> Result<(Vec<u8>, Preprocessing), EngineError> {
     setup.check()?;
     setup.index_version()?;
-    let begin = Instant::now();
-    let bytes = match setup.rules {
-        Rules::Center(rule) => index_of(setup, &Lattice::<Centers>::new(Arc::clone(grid), setup.k, rule)?)?,
-        Rules::Corner(gap) => index_of(setup, &Lattice::<Corners>::new(Arc::clone(grid), setup.k, gap)?)?,
-    };
-    let preprocessing = Preprocessing { time: begin.elapsed(), index_bytes: bytes.len() as u64 };
+    let (bytes, time) = timed(|| match Ground::new(setup, grid)? {
+        Ground::Centers(lattice) => index_of(setup, &lattice),
+        Ground::Corners(lattice) => index_of(setup, &lattice),
+        Ground::AnyAngle(_) => Err(without_index(setup.engine).into()),
+    })?;
+    let preprocessing = Preprocessing { time, index_bytes: bytes.len() as u64 };
     Ok((bytes, preprocessing))
 }
 

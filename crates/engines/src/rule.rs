@@ -42,12 +42,18 @@ impl SharedRules {
     /// What the planner of a setup can use; nothing for an engine without the rule.
     pub fn prebuilt(&self, setup: Setup) -> Prebuilt {
         let prunes = match setup.engine {
-            Engine::AStar | Engine::Dijkstra | Engine::Wavefront => false,
+            Engine::AStar
+            | Engine::Dijkstra
+            | Engine::Wavefront
+            | Engine::Theta
+            | Engine::LazyTheta
+            | Engine::Anya => false,
             Engine::Canonical | Engine::Jps | Engine::JpsBlock | Engine::JpsPlus => {
                 setup.variant() != Some(Variant::Paper)
             }
         };
-        Prebuilt { index: None, rule: prunes.then(|| self.get(setup.k, setup.rules)) }
+        let k = setup.k.finite().filter(|_| prunes);
+        Prebuilt { index: None, rule: k.map(|k| self.get(k, setup.rules)) }
     }
 
     fn get(&self, k: K, rules: Rules) -> SharedRule {

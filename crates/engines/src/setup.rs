@@ -3,21 +3,23 @@
 use std::num::NonZeroU32;
 
 use mediant_grid::{CornerRule, Rules};
-use mediant_moves::K;
-use mediant_search::Guarantee;
+use mediant_moves::{K, Knob};
+use mediant_search::{Guarantee, Smoothing};
 
 use crate::{About, Engine, HeuristicName, SetupError, Variant};
 
 /// An engine, what it searches, and how.
 ///
-/// As text `ENGINE[:K[:RULE]][,OPTION…]`: RULE is `never`, `one` or `always` at centers, `open` or `closed` at corners; without it
-/// the problem is the scenarios' own, k = 3 at centers under `never`. The options are `euclidean`, `zero`, `paper`,
-/// `limit=N` (jumps of at most N steps) and `intermediate` (jump points that are otherwise passed by).
+/// As text `ENGINE[:K[:RULE]][,OPTION…]`: K is a number or `any`, RULE is `never`, `one` or `always` at centers, `open` or `closed` at
+/// corners. Without them the problem is the scenarios' own, k = 3 at centers under `never`; of an engine for any-angle paths between corners
+/// it is `any` under `open`. The options are `euclidean`, `zero`, `paper`, `limit=N` (jumps of at most N steps), `intermediate`
+/// (jump points that are otherwise passed by), and `smooth` or `taut` (the path made shorter afterwards).
 ///
 /// ```
 /// use mediant_engines::Setup;
 /// let setup: Setup = "astar:5:open,euclidean".parse()?;
-/// assert_eq!((setup.k.get(), setup.to_string().as_str()), (5, "astar:5:open,euclidean"));
+/// assert_eq!(setup.to_string(), "astar:5:open,euclidean");
+/// assert_eq!("anya".parse::<Setup>()?.to_string(), "anya:any:open");
 /// assert!(!setup.solves_scenarios() && "astar".parse::<Setup>()?.solves_scenarios());
 /// # Ok::<(), mediant_engines::TextError>(())
 /// ```
@@ -25,8 +27,8 @@ use crate::{About, Engine, HeuristicName, SetupError, Variant};
 pub struct Setup {
     /// The engine.
     pub engine: Engine,
-    /// The neighborhood.
-    pub k: K,
+    /// The directions that it searches.
+    pub k: Knob,
     /// The placement and its rule of motion.
     pub rules: Rules,
     /// How it searches.
@@ -44,7 +46,17 @@ pub struct Options {
     pub jump_limit: Option<NonZeroU32>,
     /// Whether to keep the jump points at which a path only turns on its way to another.
     pub intermediate: bool,
+    /// How the path is made shorter afterwards, if it is.
+    pub smoothing: Option<Smoothing>,
 }
+
+/// What [`Setup::all`] has of smoothed engines: paths over few and over many directions.
+const SMOOTHED: [(Engine, Smoothing); 4] = [
+    (Engine::AStar, Smoothing::Linear),
+    (Engine::AStar, Smoothing::Taut),
+    (Engine::Theta, Smoothing::Taut),
+    (Engine::Anya, Smoothing::Taut),
+];
 
 /// Whether something holds of an engine.
 type Has = fn(About) -> bool;
@@ -52,15 +64,14 @@ type Has = fn(About) -> bool;
 impl Setup {
     /// The engine with its default options.
     #[must_use]
-    pub const fn new(engine: Engine, k: K, rules: Rules) -> Self {
-        let options = Options { heuristic: None, variant: None, jump_limit: None, intermediate: false };
-        Self { engine, k, rules, options }
+    pub fn new(engine: Engine, k: impl Into<Knob>, rules: Rules) -> Self {
+        Self { engine, k: k.into(), rules, options: Options::default() }
     }
 
-    /// All that there are for these rules and this k: each engine with its default options, and with each other one of an option. The
-    /// first is A* with h_k.
-    pub fn all(k: K, rules: Rules) -> impl Iterator<Item = Self> {
-        let options = Options::default();
+    /// All that there are for these rules and this k: each engine with its default options, and with each other one of an option;
+    /// smoothed, a few. Of a finite k the first is A* with h_k; any-angle search between centers there is none.
+    pub fn all(k: impl Into<Knob>, rules: Rules) -> impl Iterator<Item = Self> {
+        let (k, options) = (k.into(), Options::default());
         let others = [
             options,
             Options { heuristic: Some(HeuristicName::Euclidean), ..options },
@@ -69,10 +80,12 @@ impl Setup {
             Options { jump_limit: NonZeroU32::new(2), ..options },
             Options { intermediate: true, ..options },
         ];
-        let setups = Engine::ALL
-            .into_iter()
-            .flat_map(move |engine| others.map(|options| Self { options, ..Self::new(engine, k, rules) }));
-        setups.filter(|setup| setup.check().is_ok())
+        let with = move |engine, options| Self { options, ..Self::new(engine, k, rules) };
+        let setups =
+            Engine::ALL.into_iter().flat_map(move |engine| others.map(|options| with(engine, options)));
+        let smooth = |smoothing| Options { smoothing: Some(smoothing), ..Options::default() };
+        let smoothed = SMOOTHED.into_iter().map(move |(engine, smoothing)| with(engine, smooth(smoothing)));
+        setups.chain(smoothed).filter(|setup| setup.check().is_ok())
     }
 
     /// Whether the engine takes all this.
@@ -80,7 +93,7 @@ impl Setup {
     /// # Errors
     /// [`SetupError`] for the first thing that it does not take.
     pub fn check(&self) -> Result<(), SetupError> {
-        let Self { engine, k, options, .. } = *self;
+        let Self { engine, k, rules, options } = *self;
         let about = engine.about();
         let takes: [(bool, Has, &str); 4] = [
             (options.heuristic.is_some(), |about| about.heuristic, "heuristic"),
@@ -91,10 +104,22 @@ impl Setup {
         if let Some(&(_, has, option)) = takes.iter().find(|(given, has, _)| *given && !has(about)) {
             return Err(SetupError::Option { engine, option, others: those(has) });
         }
-        if k.get() > about.max_k {
-            return Err(SetupError::K { engine, max: about.max_k, k: k.get() });
+        match (k, about.max_k) {
+            (Knob::K(k), Some(max)) if k.get() > max => return Err(SetupError::K { engine, max, k }),
+            (Knob::K(k), None) => return Err(SetupError::NeedsAny { engine, k }),
+            (Knob::Any, Some(max)) if !about.any => {
+                return Err(SetupError::NeedsFiniteK { engine, max, others: those(|about| about.any) });
+            }
+            _ => {}
         }
-        Ok(())
+        let placement = rules.placement();
+        match about.placements {
+            [needed] if *needed != placement => {
+                let others = those(|about| about.placements.contains(&placement));
+                Err(SetupError::Placement { engine, needed: *needed, placement, others })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The version of the index that the engine makes.
@@ -105,11 +130,11 @@ impl Setup {
         self.engine.about().index.ok_or_else(|| without_index(self.engine))
     }
 
-    /// The heuristic that guides the search.
+    /// The heuristic that guides the search; none of these of an any-angle search, which has one of its own.
     #[must_use]
-    pub fn heuristic(&self) -> HeuristicName {
+    pub fn heuristic(&self) -> Option<HeuristicName> {
         let default = if self.engine.about().heuristic { HeuristicName::Hk } else { HeuristicName::Zero };
-        self.options.heuristic.unwrap_or(default)
+        self.k.finite().map(|_| self.options.heuristic.unwrap_or(default))
     }
 
     /// The variant, of an engine that has several.
@@ -121,18 +146,41 @@ impl Setup {
     /// What the planner will promise.
     #[must_use]
     pub fn guarantee(&self) -> Guarantee {
-        let exact = match self.engine {
-            Engine::Wavefront => self.k == K::FOUR_CONNECTED,
-            _ => self.variant() != Some(Variant::Paper),
+        let plain = match (self.engine, self.k) {
+            (Engine::Theta | Engine::LazyTheta, _) => Guarantee::Suboptimal,
+            (Engine::Wavefront, k) if k != Knob::K(K::FOUR_CONNECTED) => Guarantee::Suboptimal,
+            _ if self.variant() == Some(Variant::Paper) => Guarantee::Suboptimal,
+            (Engine::Anya, _) | (_, Knob::Any) => Guarantee::OptimalAnyAngle,
+            (_, Knob::K(k)) => Guarantee::Optimal(k),
         };
-        if exact { Guarantee::Optimal(self.k) } else { Guarantee::Suboptimal }
+        match plain {
+            Guarantee::Optimal(k) if self.options.smoothing.is_some() => Guarantee::AtMost(k),
+            plain => plain,
+        }
+    }
+
+    /// The directions over which no path under its rules is shorter than its own; none where it does not promise that.
+    #[must_use]
+    pub fn optimal_over(&self) -> Option<Knob> {
+        match self.guarantee() {
+            Guarantee::Optimal(k) => Some(Knob::K(k)),
+            Guarantee::OptimalAnyAngle => Some(Knob::Any),
+            Guarantee::AtMost(_) | Guarantee::Suboptimal => None,
+        }
+    }
+
+    /// The directions that its paths may take: those that it searches, or every one where it straightens what it finds.
+    #[must_use]
+    pub fn paths(&self) -> Knob {
+        let straightens = matches!(self.engine, Engine::Theta | Engine::LazyTheta);
+        if straightens || self.options.smoothing.is_some() { Knob::Any } else { self.k }
     }
 
     /// Whether its paths are as long as the scenario files say: those are optimal for k = 3 at centers under `never`.
     #[must_use]
     pub fn solves_scenarios(&self) -> bool {
         self.rules == Rules::Center(CornerRule::Never)
-            && self.guarantee() == Guarantee::Optimal(K::EIGHT_CONNECTED)
+            && self.optimal_over() == Some(Knob::K(K::EIGHT_CONNECTED))
     }
 }
 

@@ -2,10 +2,10 @@
 
 use std::{fmt, sync::Arc};
 
-use mediant_grid::{Grid, Lattice, Place};
+use mediant_grid::Grid;
 use mediant_search::{Counters, Guarantee, Outcome, Planner, Query, QueryError};
 
-use crate::{EngineError, Prebuilt, Preprocessing, Setup, Visit, with_planner, with_planner_on};
+use crate::{EngineError, Ground, Prebuilt, Preprocessing, Setup, Visit, with_planner, with_planner_on};
 
 /// A planner whose type is forgotten: a query costs one dynamic call, in which the search is compiled for its types as ever.
 pub struct Solver {
@@ -51,16 +51,12 @@ impl Solver {
         with_planner(setup, grid, prebuilt, Forget)
     }
 
-    /// A solver on a lattice that others may use too.
+    /// A solver on a ground that others may use too.
     ///
     /// # Errors
     /// Those of [`with_planner_on`].
-    pub fn on<P: Place>(
-        setup: Setup,
-        lattice: Arc<Lattice<P>>,
-        prebuilt: Prebuilt,
-    ) -> Result<Self, EngineError> {
-        with_planner_on(setup, lattice, prebuilt, Forget)
+    pub fn on(setup: Setup, ground: &Ground, prebuilt: Prebuilt) -> Result<Self, EngineError> {
+        with_planner_on(setup, ground, prebuilt, Forget)
     }
 
     /// Answers a query.

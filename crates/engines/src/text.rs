@@ -3,9 +3,9 @@
 use std::{fmt, num::NonZeroU32, str::FromStr};
 
 use mediant_grid::{CornerRule, DiagonalGap, Rules};
-use mediant_moves::K;
+use mediant_search::Smoothing;
 
-use crate::{Engine, HeuristicName, Options, Setup, Variant};
+use crate::{About, Engine, HeuristicName, Options, Setup, Variant};
 
 /// A text that is no [`Setup`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -19,12 +19,13 @@ pub struct TextError {
 impl fmt::Display for Setup {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rule = self.rule_name();
-        let Options { heuristic, variant, jump_limit, intermediate } = self.options;
+        let Options { heuristic, variant, jump_limit, intermediate, smoothing } = self.options;
         let options = [
             heuristic.map(|heuristic| heuristic.to_string()),
             variant.map(|variant| variant.to_string()),
             jump_limit.map(|limit| format!("limit={limit}")),
             intermediate.then(|| "intermediate".to_owned()),
+            smoothing.map(|smoothing| smoothing_name(smoothing).to_owned()),
         ];
         let options: String = options.into_iter().flatten().map(|option| format!(",{option}")).collect();
         f.pad(&format!("{}:{}:{rule}{options}", self.engine, self.k))
@@ -53,12 +54,11 @@ impl FromStr for Setup {
             parts.next().unwrap_or_default().parse().map_err(|_| {
                 error(format!("the engines are {}", Engine::ALL.map(Engine::name).join(", ")))
             })?;
-        let k = parts.next().map_or(Ok(K::EIGHT_CONNECTED), |k| {
-            let max = engine.about().max_k;
-            let k = k.parse().ok().filter(|&k| k <= max).map(K::new);
-            k.and_then(Result::ok).ok_or_else(|| error(format!("K is a number from 2 to {max}")))
-        })?;
-        let rules = parts.next().map_or(Ok(Rules::Center(CornerRule::Never)), |rule| {
+        let about = engine.about();
+        let k = parts
+            .next()
+            .map_or(Ok(about.default_k()), |k| k.parse().map_err(|_| error(format!("K is {}", ks(about)))))?;
+        let rules = parts.next().map_or(Ok(about.default_rules()), |rule| {
             rule_named(rule).ok_or_else(|| error("the rules are never, one, always, open, closed".to_owned()))
         })?;
         if parts.next().is_some() {
@@ -67,12 +67,20 @@ impl FromStr for Setup {
         let mut setup = Self::new(engine, k, rules);
         for option in options {
             choose(&mut setup.options, option).ok_or_else(|| {
-                let names = "hk, euclidean, zero, exact, paper, limit=N, intermediate";
+                let names = "hk, euclidean, zero, exact, paper, limit=N, intermediate, smooth, taut";
                 error(format!("the options are {names}"))
             })?;
         }
         setup.check().map_err(|wrong| error(wrong.to_string()))?;
         Ok(setup)
+    }
+}
+
+/// The k that an engine takes, in words.
+fn ks(about: About) -> String {
+    match about.max_k {
+        None => "any".to_owned(),
+        Some(max) => format!("a number from 2 to {max}{}", if about.any { ", or any" } else { "" }),
     }
 }
 
@@ -87,6 +95,18 @@ fn rule_named(name: &str) -> Option<Rules> {
     })
 }
 
+/// The option of a setup's text; [`Smoothing`] itself is named for its method.
+const fn smoothing_name(smoothing: Smoothing) -> &'static str {
+    match smoothing {
+        Smoothing::Linear => "smooth",
+        Smoothing::Taut => "taut",
+    }
+}
+
+fn smoothing_named(name: &str) -> Option<Smoothing> {
+    [Smoothing::Linear, Smoothing::Taut].into_iter().find(|&smoothing| smoothing_name(smoothing) == name)
+}
+
 fn choose(options: &mut Options, text: &str) -> Option<()> {
     if let Ok(heuristic) = text.parse::<HeuristicName>() {
         options.heuristic = Some(heuristic);
@@ -94,6 +114,8 @@ fn choose(options: &mut Options, text: &str) -> Option<()> {
         options.variant = Some(variant);
     } else if text == "intermediate" {
         options.intermediate = true;
+    } else if let Some(smoothing) = smoothing_named(text) {
+        options.smoothing = Some(smoothing);
     } else {
         options.jump_limit = Some(text.strip_prefix("limit=")?.parse::<NonZeroU32>().ok()?);
     }

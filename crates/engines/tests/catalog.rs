@@ -3,14 +3,15 @@
 use std::{num::NonZeroU32, sync::Arc};
 
 use mediant_engines::{
-    Engine, EngineError, HeuristicName, Options, Prebuilt, Setup, SetupError, SharedRule, Solver, Variant,
-    build, distances,
+    Engine, EngineError, Ground, HeuristicName, Options, Prebuilt, Setup, SetupError, SharedRule, Solver,
+    Variant, build, distances,
 };
-use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Rules, Vertex};
-use mediant_moves::K;
-use mediant_search::{Guarantee, Query};
+use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Placement, Rules, Vertex};
+use mediant_moves::{K, Knob};
+use mediant_search::{Guarantee, Query, Smoothing};
 
 const NEVER: Rules = Rules::Center(CornerRule::Never);
+const OPEN: Rules = Rules::Corner(DiagonalGap::Open);
 
 fn k(k: u32) -> K {
     K::new(k).expect("k is at least 2")
@@ -27,6 +28,11 @@ fn grid() -> Arc<Grid> {
     Arc::new(AsciiMap::parse(drawing).expect("the drawing is a map").grid)
 }
 
+/// The engine on the problem that is meant where none is said.
+fn plain(engine: Engine) -> Setup {
+    Setup::new(engine, engine.about().default_k(), engine.about().default_rules())
+}
+
 fn solver(setup: Setup, prebuilt: Prebuilt) -> Solver {
     Solver::new(setup, &grid(), prebuilt).unwrap_or_else(|error| panic!("{setup}: {error}"))
 }
@@ -36,10 +42,22 @@ fn every_setup_makes_the_planner_that_it_promises() {
     let query = Query::new((0, 0), (8, 4));
     let mut setups = 0;
     for rules in Rules::ALL {
-        for k in (2..=5).map(k) {
+        let anya = Setup::new(Engine::Anya, Knob::Any, rules);
+        let any_angle =
+            Solver::new(anya, &grid(), Prebuilt::default()).and_then(|mut anya| Ok(anya.solve(query)?));
+        let shortest = match any_angle {
+            Ok(outcome) => outcome.path().expect("there is a way").cost(),
+            Err(_) => query.start.distance(query.goal),
+        };
+        for k in (2..=5).map(|n| Knob::K(k(n))).chain([Knob::Any]) {
             let all: Vec<Setup> = Setup::all(k, rules).collect();
-            assert_eq!(all[0], Setup::new(Engine::AStar, k, rules));
-            let best = solver(all[0], Prebuilt::default()).solve(query).expect("both ends are free");
+            let Some(&first) = all.first() else {
+                assert_eq!((k, rules.placement()), (Knob::Any, Placement::Center), "only this is left out");
+                continue;
+            };
+            let engine = if k == Knob::Any { Engine::Anya } else { Engine::AStar };
+            assert_eq!(first, Setup::new(engine, k, rules));
+            let best = solver(first, Prebuilt::default()).solve(query).expect("both ends are free");
             let best = best.path().expect("there is a way").cost();
             for setup in all {
                 let mut solver = solver(setup, Prebuilt::default());
@@ -47,7 +65,13 @@ fn every_setup_makes_the_planner_that_it_promises() {
                 let (outcome, counters) = solver.solve_counted(query).expect("both ends are free");
                 let cost = outcome.path().expect("there is a way").cost();
                 match setup.guarantee() {
-                    Guarantee::Suboptimal => assert!(cost >= best - 1e-9, "{setup}: {cost}, {best}"),
+                    Guarantee::Suboptimal => {
+                        let least = if setup.paths() == Knob::Any { shortest } else { best };
+                        assert!(cost >= least - 1e-9, "{setup}: {cost}, {least}");
+                    }
+                    Guarantee::AtMost(_) => {
+                        assert!((shortest - 1e-9..=best + 1e-9).contains(&cost), "{setup}: {cost}, {best}");
+                    }
                     _ => assert!((cost - best).abs() < 1e-9, "{setup}: {cost}, {best}"),
                 }
                 assert!(counters.generated > 0, "{setup}");
@@ -57,32 +81,108 @@ fn every_setup_makes_the_planner_that_it_promises() {
             }
         }
     }
-    // 3 of A*, Dijkstra, wavefront, 4 of canonical, 5 of jps; for k ≤ 3 also 5 of jps-block and 4 of jps-plus.
-    assert_eq!(setups, 5 * (4 * (3 + 1 + 1 + 4 + 5) + 2 * (5 + 4)));
+    // 3 of A*, Dijkstra, wavefront, 4 of canonical, 5 of jps, 3 each of theta and lazy-theta; for k ≤ 3 also 5 of jps-block and 4 of
+    // jps-plus; 3 that are smoothed. Of each gap rule anya, and once smoothed.
+    assert_eq!(setups, 5 * (4 * (3 + 1 + 1 + 4 + 5 + 3 + 3 + 3) + 2 * (5 + 4)) + 2 * 2);
 }
 
 #[test]
 fn every_engine_is_in_its_own_range_of_k() {
     for engine in Engine::ALL {
-        let max = engine.about().max_k;
-        let setup = |k| Setup::new(engine, k, NEVER);
-        assert_eq!((setup(k(2)).check(), setup(k(max)).check()), (Ok(()), Ok(())), "{engine}");
-        let error = SetupError::K { engine, max, k: max + 1 };
-        assert_eq!(setup(k(max + 1)).check(), Err(error.clone()));
-        let refused = Solver::new(setup(k(max + 1)), &grid(), Prebuilt::default()).map(|_| ());
-        assert_eq!(refused, Err(EngineError::Setup(error)));
+        let (about, rules) = (engine.about(), engine.about().default_rules());
+        let setup = |k: Knob| Setup::new(engine, k, rules);
+        let refused = |k: Knob, error: SetupError| {
+            assert_eq!(setup(k).check(), Err(error.clone()));
+            let solver = Solver::new(setup(k), &grid(), Prebuilt::default()).map(|_| ());
+            assert_eq!(solver, Err(EngineError::Setup(error)));
+        };
+        if let Some(max) = about.max_k {
+            let [least, most, beyond] = [2, max, max + 1].map(k);
+            assert_eq!(
+                (setup(least.into()).check(), setup(most.into()).check()),
+                (Ok(()), Ok(())),
+                "{engine}"
+            );
+            refused(beyond.into(), SetupError::K { engine, max, k: beyond });
+            let others = "anya".to_owned();
+            refused(Knob::Any, SetupError::NeedsFiniteK { engine, max, others });
+        } else {
+            assert_eq!((engine, setup(Knob::Any).check()), (Engine::Anya, Ok(())));
+            refused(k(2).into(), SetupError::NeedsAny { engine, k: k(2) });
+        }
     }
+}
+
+#[test]
+fn every_engine_takes_the_placements_that_it_says() {
+    for engine in Engine::ALL {
+        for rules in Rules::ALL {
+            let (about, placement) = (engine.about(), rules.placement());
+            let said = Setup { rules, ..plain(engine) }.check();
+            if about.placements.contains(&placement) {
+                assert_eq!(said, Ok(()), "{engine}, {rules}");
+            } else {
+                let said = said.expect_err("it does not take it").to_string();
+                assert!(
+                    said.starts_with("anya needs placement corner; for center choose astar, dijkstra,"),
+                    "{said}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_ground_is_for_its_own_k_and_rules() {
+    let setup = |text: &str| text.parse::<Setup>().expect("a setup");
+    let ground = |text: &str| Ground::new(setup(text), &grid()).expect("a setup that was checked");
+    for (ours, others) in [
+        ("astar:3:open", "theta:3:open,taut"),
+        ("anya", "anya:any:open,smooth"),
+        ("jps:4:one", "astar:4:one"),
+    ] {
+        let solver = Solver::on(setup(ours), &ground(others), Prebuilt::default());
+        let mut solver = solver.unwrap_or_else(|error| panic!("{ours} on the ground of {others}: {error}"));
+        let alone = Solver::new(setup(ours), &grid(), Prebuilt::default())
+            .expect("a solver")
+            .solve_counted(Query::new((0, 0), (8, 4)));
+        assert_eq!(solver.solve_counted(Query::new((0, 0), (8, 4))), alone, "{ours}");
+    }
+    for (ours, others) in [
+        ("astar:3:open", "astar:4:open"),
+        ("astar:3:open", "astar:3:closed"),
+        ("anya", "astar:3:open"),
+        ("astar:3:open", "anya"),
+    ] {
+        let refused = Solver::on(setup(ours), &ground(others), Prebuilt::default()).map(|_| ());
+        assert!(
+            matches!(refused, Err(EngineError::Ground { .. })),
+            "{ours} on the ground of {others}: {refused:?}"
+        );
+    }
+    assert!(matches!(
+        Ground::new(Setup::new(Engine::Anya, Knob::Any, NEVER), &grid()),
+        Err(EngineError::Setup(_))
+    ));
+    let said = Solver::on(setup("anya"), &ground("astar:3:open"), Prebuilt::default()).map(|_| ());
+    assert_eq!(
+        said.map_err(|error| error.to_string()),
+        Err("needs the ground of k = any under corner, gap open, found that of k = 3 under corner, gap open"
+            .to_owned())
+    );
 }
 
 #[test]
 fn options_are_refused_where_they_mean_nothing() {
     let chosen = |options: &str| {
-        let setup = |engine: Engine| format!("{engine}:3{options}").parse::<Setup>();
+        let setup = |engine: Engine| format!("{engine}{options}").parse::<Setup>();
         let takers = Engine::ALL.into_iter().filter(|&engine| setup(engine).is_ok());
         takers.map(Engine::name).collect::<Vec<_>>()
     };
     assert_eq!(chosen("").len(), Engine::ALL.len());
-    assert_eq!(chosen(",euclidean"), ["astar", "canonical", "jps", "jps-block", "jps-plus"]);
+    let guided = ["astar", "canonical", "jps", "jps-block", "jps-plus", "theta", "lazy-theta"];
+    assert_eq!(chosen(",euclidean"), guided);
+    assert_eq!((chosen(",smooth").len(), chosen(",taut").len()), (Engine::ALL.len(), Engine::ALL.len()));
     assert_eq!(chosen(",paper"), ["canonical"]);
     assert_eq!(chosen(",limit=4"), ["jps", "jps-block"]);
     assert_eq!(chosen(",intermediate"), ["jps", "jps-block", "jps-plus"]);
@@ -94,26 +194,61 @@ fn options_are_refused_where_they_mean_nothing() {
 #[test]
 fn what_is_left_out_has_its_default() {
     let setup = |text: &str| text.parse::<Setup>().expect("a setup");
-    assert_eq!(setup("astar").heuristic(), HeuristicName::Hk);
-    assert_eq!(setup("dijkstra").heuristic(), HeuristicName::Zero);
+    assert_eq!(setup("astar").heuristic(), Some(HeuristicName::Hk));
+    assert_eq!(setup("dijkstra").heuristic(), Some(HeuristicName::Zero));
+    assert_eq!((setup("anya").heuristic(), setup("anya")), (None, setup("anya:any:open")));
+    assert_eq!((setup("theta").to_string(), setup("anya:any").rules), ("theta:3:never".to_owned(), OPEN));
+    let paths = ["astar:4", "theta", "lazy-theta", "astar,smooth", "jps,taut", "anya"]
+        .map(|text| setup(text).paths());
+    assert_eq!(paths, [Knob::K(k(4)), Knob::Any, Knob::Any, Knob::Any, Knob::Any, Knob::Any]);
+    let promised = ["astar:4:one,smooth", "theta,taut", "anya,taut", "wavefront:2,taut", "wavefront,taut"];
+    assert_eq!(
+        promised.map(|text| setup(text).guarantee()),
+        [
+            Guarantee::AtMost(k(4)),
+            Guarantee::Suboptimal,
+            Guarantee::OptimalAnyAngle,
+            Guarantee::AtMost(k(2)),
+            Guarantee::Suboptimal,
+        ]
+    );
     assert_eq!((setup("canonical").variant(), setup("jps").variant()), (Some(Variant::Exact), None));
+    let over = ["jps:4", "wavefront:2", "anya,taut", "astar,taut", "theta", "canonical,paper"]
+        .map(|text| setup(text).optimal_over());
+    assert_eq!(over, [Some(Knob::K(k(4))), Some(Knob::K(k(2))), Some(Knob::Any), None, None, None]);
     let solves = |text: &str| setup(text).solves_scenarios();
     assert!(solves("jps-plus") && solves("canonical") && !solves("canonical,paper") && !solves("wavefront"));
-    assert!(!solves("jps:3:one") && !solves("jps:4"));
+    assert!(
+        !solves("jps:3:one")
+            && !solves("jps:4")
+            && !solves("astar,smooth")
+            && !solves("theta")
+            && !solves("anya")
+    );
 }
 
 #[test]
 fn setups_are_read_as_they_are_written() {
     let mut setups = 0;
     for rules in Rules::ALL {
-        for k in (2..=12).map(k) {
+        for k in (2..=12).map(|n| Knob::K(k(n))).chain([Knob::Any]) {
             for setup in Setup::all(k, rules) {
                 assert_eq!(setup.to_string().parse(), Ok(setup));
                 setups += 1;
             }
         }
     }
-    assert!(setups > 700, "{setups}");
+    assert!(setups > 1_200, "{setups}");
+    let both = Options {
+        heuristic: Some(HeuristicName::Zero),
+        smoothing: Some(Smoothing::Taut),
+        ..Options::default()
+    };
+    let both = Setup { options: both, ..Setup::new(Engine::LazyTheta, k(5), OPEN) };
+    assert_eq!(
+        (both.to_string().as_str(), "lazy-theta:5:open,taut,zero".parse()),
+        ("lazy-theta:5:open,zero,taut", Ok(both))
+    );
     assert_eq!("astar".parse(), "astar:3:never".parse::<Setup>());
     assert_eq!(format!("{:>16}|", "jps:4:open".parse::<Setup>().expect("a setup")), "      jps:4:open|");
 }
@@ -121,18 +256,29 @@ fn setups_are_read_as_they_are_written() {
 #[test]
 fn each_wrong_part_is_named() {
     let wrong = |text: &str| text.parse::<Setup>().expect_err("no setup").to_string();
-    let names = "astar, dijkstra, wavefront, canonical, jps, jps-block, jps-plus";
+    let names = "astar, dijkstra, wavefront, canonical, jps, jps-block, jps-plus, theta, lazy-theta, anya";
     let form = "expected ENGINE[:K[:RULE]][,OPTION…], found `warp`";
     assert_eq!(wrong("warp"), format!("{form}: the engines are {names}"));
-    for k in ["", "x", "1", "13", "-3"] {
+    for k in ["", "x", "1", "-3"] {
         assert!(wrong(&format!("astar:{k}")).ends_with("K is a number from 2 to 12"));
     }
-    assert!(wrong("jps-block:4").ends_with("K is a number from 2 to 3"));
+    assert!(
+        wrong("jps-block:x").ends_with("K is a number from 2 to 3") && wrong("anya:x").ends_with("K is any")
+    );
+    assert!(wrong("jps-block:4").ends_with("jps-block needs a k from 2 to 3, found 4"));
+    assert!(wrong("theta:any").ends_with("theta needs a k from 2 to 12; for any choose anya"));
+    assert!(
+        wrong("anya:3")
+            .ends_with("anya searches every direction, not those of k = 3: leave k out, or say any")
+    );
+    assert!(wrong("anya:any:one").contains("anya needs placement corner; for center choose astar, "));
     assert!(wrong("astar:3:sometimes").ends_with("the rules are never, one, always, open, closed"));
     assert!(wrong("astar:3:one:two").ends_with("nothing but options may follow the rule"));
     for option in ["", "limit=0", "limit=x", "limit", "fast"] {
         assert!(wrong(&format!("jps,{option}")).contains("the options are hk, euclidean, zero,"), "{option}");
     }
+    assert!(wrong("jps,best").ends_with("limit=N, intermediate, smooth, taut"));
+    assert!(wrong("anya,zero").contains("anya takes no heuristic: leave it out, or choose astar, "));
     assert!(wrong("jps,paper").ends_with("jps takes no variant: leave it out, or choose canonical"));
 }
 
@@ -161,7 +307,7 @@ fn a_saved_index_is_as_good_as_a_new_one() {
 #[test]
 fn only_some_engines_have_an_index_or_distances() {
     for engine in Engine::ALL.into_iter().filter(|&engine| engine != Engine::JpsPlus) {
-        let setup = Setup::new(engine, k(3), NEVER);
+        let setup = plain(engine);
         let error = format!("{engine} has no index: choose jps-plus");
         let said = [
             build(setup, &grid()).map(|_| ()),
@@ -173,7 +319,7 @@ fn only_some_engines_have_an_index_or_distances() {
         );
     }
     for engine in Engine::ALL {
-        let found = distances(Setup::new(engine, k(2), NEVER), &grid(), Vertex::new(0, 0));
+        let found = distances(plain(engine), &grid(), Vertex::new(0, 0));
         match found {
             // The wall parts nothing: every free cell is reached.
             Ok(found) => {

@@ -4,25 +4,26 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{AsciiMap, Centers, CornerRule, Corners, DiagonalGap, Grid, Lattice, Place, Rules, draw};
-use mediant_moves::K;
-use mediant_search::{AStar, Jps, LatticeDistance, Outcome, Planner, Query, QueryError};
+use mediant_engines::{Engine, Options, Prebuilt, Setup, Solver};
+use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Rules, draw};
+use mediant_moves::{K, Knob};
+use mediant_search::{Outcome, Query, Smoothing};
 
 /// The picture of the best path from `s` to `g`, under its cost.
 fn picture(drawing: &str, rules: Rules, k: u32) -> String {
-    picture_by(false, drawing, rules, k)
+    picture_by(Engine::AStar, drawing, rules, k, None)
 }
 
-/// The same, by jump point search or A*.
-fn picture_by(jumps: bool, drawing: &str, rules: Rules, k: u32) -> String {
+/// The same, by any engine, and smoothed.
+fn picture_by(engine: Engine, drawing: &str, rules: Rules, k: u32, smoothing: Option<Smoothing>) -> String {
     let map = AsciiMap::parse(drawing).expect("the drawing is a map");
     let query = Query::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
-    let (grid, k) = (Arc::new(map.grid), K::new(k).expect("k is at least 2"));
-    let outcome = match rules {
-        Rules::Center(corners) => answer::<Centers>(jumps, &grid, k, corners, query),
-        Rules::Corner(gap) => answer::<Corners>(jumps, &grid, k, gap, query),
-    };
-    match outcome.expect("both ends are free") {
+    let k = if engine == Engine::Anya { Knob::Any } else { K::new(k).expect("k is at least 2").into() };
+    let options = Options { smoothing, ..Options::default() };
+    let setup = Setup { options, ..Setup::new(engine, k, rules) };
+    let grid = Arc::new(map.grid);
+    let mut solver = Solver::new(setup, &grid, Prebuilt::default()).expect("the engine takes this");
+    match solver.solve(query).expect("both ends are free") {
         Outcome::Found(path) => {
             format!(
                 "k = {k}, {rules}: {:.4}\n{}",
@@ -31,21 +32,6 @@ fn picture_by(jumps: bool, drawing: &str, rules: Rules, k: u32) -> String {
             )
         }
         Outcome::Unreachable => format!("k = {k}, {rules}: unreachable\n"),
-    }
-}
-
-fn answer<P: Place>(
-    jumps: bool,
-    grid: &Arc<Grid>,
-    k: K,
-    rule: P::Rule,
-    query: Query,
-) -> Result<Outcome, QueryError> {
-    let lattice = Lattice::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
-    if jumps {
-        Jps::new(&lattice, LatticeDistance).solve(query)
-    } else {
-        AStar::new(&lattice, LatticeDistance).solve(query)
     }
 }
 
@@ -112,6 +98,26 @@ pictures! {
 /// Of the paths of one cost the family takes the canonical one: odd moves first, turns only where an obstacle makes them.
 #[test]
 fn slalom_center_k4_canonical() {
-    let [a_star, jumps] = [false, true].map(|jumps| picture_by(jumps, SLALOM, NEVER, 4));
+    let [a_star, jumps] =
+        [Engine::AStar, Engine::Jps].map(|engine| picture_by(engine, SLALOM, NEVER, 4, None));
     insta::assert_snapshot!(format!("A*, {a_star}\nJPS, {jumps}"));
+}
+
+/// At any angle: the best path, the one that Theta* finds, and smoothed ones.
+#[test]
+fn slalom_any_angle() {
+    let by = |engine, smoothing| picture_by(engine, SLALOM, OPEN, 3, smoothing);
+    let anya = by(Engine::Anya, None);
+    let theta = by(Engine::Theta, None);
+    let linear = by(Engine::AStar, Some(Smoothing::Linear));
+    let taut = by(Engine::AStar, Some(Smoothing::Taut));
+    insta::assert_snapshot!(format!(
+        "Anya, {anya}\nTheta*, {theta}\nA*, smoothed, {linear}\nA*, pulled taut, {taut}"
+    ));
+}
+
+#[test]
+fn gap_any_angle() {
+    let [open, closed] = [OPEN, CLOSED].map(|rules| picture_by(Engine::Anya, GAP, rules, 0, None));
+    insta::assert_snapshot!(format!("{open}\n{closed}"));
 }

@@ -37,8 +37,9 @@ pub(super) fn text(results: &Results<'_>, options: &Options) -> String {
         let (same, other): (Vec<_>, Vec<_>) =
             results.anchors.programs.iter().enumerate().partition(|(_, program)| program.solves(setup));
         if !same.is_empty() {
+            let quality = if setup.optimal_over().is_some() { "" } else { ", neither optimally" };
             lines.push(format!(
-                "\n{setup} by the scaled time of programs that solve the same problem (< 1: we are faster)"
+                "\n{setup} by the scaled time of programs that solve the same problem{quality} (< 1: we are faster)"
             ));
             lines.extend(ratios(results, i, &same).lines());
         }

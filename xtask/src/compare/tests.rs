@@ -80,6 +80,18 @@ fn tables_and_figures_of_the_maps_that_are_there() {
 }
 
 #[test]
+fn programs_that_solve_the_same_problem_have_a_table_of_their_own() {
+    let text = compare(mirror("5").path(), &["--engines", "anya", "theta:3:open"]).unwrap();
+    let [anya, theta] = ["anya:any:open", "theta:3:open"].map(|setup| {
+        let heading = format!("{setup} by the scaled time of programs that solve the same problem");
+        let mut lines = text.lines().skip_while(|line| !line.starts_with(&heading));
+        lines.next().zip(lines.next()).unwrap_or_else(|| panic!("{setup}: {text}"))
+    });
+    assert!(!anya.0.contains("neither") && anya.1.split_whitespace().eq(["map", "ENLSVG"]), "{anya:?}");
+    assert!(theta.0.contains(", neither optimally (") && theta.1.ends_with("Lazy Theta*"), "{theta:?}");
+}
+
+#[test]
 fn wrong_answers_and_missing_maps_are_errors() {
     let wrong = mirror("4.5");
     let error = compare(wrong.path(), &[]).unwrap_err();

@@ -6,8 +6,8 @@ use super::Report;
 use crate::{
     record::{QueryRecord, RunRecord, Status},
     screen::{BOLD, Screen},
-    summary::{References, Summary},
-    text::{Align, Table, count, grouped, percent_over, printable, time, wrap},
+    summary::{Ratios, References, Summary},
+    text::{Align, Table, count, excess, grouped, percent_over, printable, time, wrap},
 };
 
 /// Keeps the rows, since columns are as wide as their widest cell: all of a few queries, of many only the errors.
@@ -17,6 +17,8 @@ pub(crate) struct TableReport<'s> {
     from_scenario: bool,
     /// Whether the scenario's lengths are for these rules and this k.
     is_reference: bool,
+    /// The engine that finds the shortest any-angle paths.
+    any_angle: &'static str,
     rows: Vec<QueryRecord>,
     /// Errors beyond those in the rows.
     more_errors: u64,
@@ -32,6 +34,7 @@ impl<'s> TableReport<'s> {
             queries: 0,
             from_scenario: false,
             is_reference: false,
+            any_angle: "",
             rows: Vec::new(),
             more_errors: 0,
         }
@@ -78,7 +81,30 @@ impl<'s> TableReport<'s> {
         let text = wrap("  path  ", words, self.screen.columns().min(100));
         writeln!(self.screen, "\n{text}")?;
         let smoothness = row.smoothness.unwrap_or(0.0);
-        writeln!(self.screen, "  turns {smoothness:.1}° in all")
+        writeln!(self.screen, "  turns {smoothness:.1}° in all")?;
+        let certificate = match row.bound {
+            Some(bound) if bound > NO_LONGER => {
+                format!("at most {} longer than the shortest path at any angle", excess(bound))
+            }
+            _ => "no path at any angle is shorter".to_owned(),
+        };
+        writeln!(self.screen, "  {certificate} (certificate)")?;
+        let Some((ratio, best)) = row.ratio.zip(row.any_angle) else { return Ok(()) };
+        let than =
+            if ratio > NO_LONGER { format!("{} longer than", excess(ratio)) } else { "as short as".into() };
+        writeln!(self.screen, "  {than} the one that {} finds, of length {best:.4}", self.any_angle)
+    }
+
+    /// How much longer than the shortest any-angle paths the paths are, or are at most.
+    fn ratios(&mut self, name: &str, ratios: Option<Ratios>, at_most: &str, source: &str) -> io::Result<()> {
+        let Some(Ratios { mean, worst, worst_index }) = ratios else { return Ok(()) };
+        let text = if worst > NO_LONGER {
+            let [mean, worst] = [mean, worst].map(excess);
+            format!("{at_most}+{mean} on average, +{worst} at index {worst_index} ({source})")
+        } else {
+            format!("every path is a shortest one at any angle ({source})")
+        };
+        self.fact(name, &text)
     }
 
     fn references(&mut self, references: &References) -> io::Result<()> {
@@ -104,7 +130,9 @@ impl Report for TableReport<'_> {
     fn begin(&mut self, run: RunRecord) -> io::Result<()> {
         self.queries = run.queries;
         self.from_scenario = run.scenario.is_some();
-        self.is_reference = run.k == 3 && run.placement == "center" && run.corners == "never";
+        let rules = (run.placement.as_str(), run.corners.as_str());
+        self.is_reference = run.guarantee == "optimal(3)" && rules == ("center", "never");
+        self.any_angle = run.any_angle.unwrap_or_default();
         let rule = match run.placement.as_str() {
             "center" => format!("corners {}", run.corners),
             _ => format!("gap {}", run.gap),
@@ -112,10 +140,12 @@ impl Report for TableReport<'_> {
         let (width, height) = (run.width, run.height);
         let size = format!("{width} × {height} cells, {} free", grouped(run.free_cells));
         writeln!(self.screen, "{} · {size}", self.screen.paint(BOLD, printable(&run.map)))?;
-        let mut parts = vec![format!("{}, heuristic {}", run.engine, run.heuristic)];
+        let mut parts = vec![run.engine.clone()];
+        parts.extend(run.heuristic.map(|heuristic| format!("heuristic {heuristic}")));
         parts.extend(run.variant.map(|variant| format!("variant {variant}")));
         parts.extend(run.jump_limit.map(|limit| format!("jumps up to {limit}")));
         parts.extend(run.keep_intermediate.then(|| "intermediate jump points kept".to_owned()));
+        parts.extend(run.smoothing.map(|smoothing| format!("smoothing {smoothing}")));
         let problem = [format!("k = {}", run.k), format!("{}, {rule}", run.placement)];
         let parts = [parts.join(", ")].into_iter().chain(problem).collect::<Vec<_>>();
         let last = parts.len() - 1;
@@ -171,12 +201,18 @@ impl Report for TableReport<'_> {
         if let (Some(cost), Some(smoothness)) = (summary.mean_cost, summary.mean_smoothness) {
             self.fact("paths", &format!("mean cost {cost:.4}, smoothness {smoothness:.1}°"))?;
         }
+        self.ratios("any angle", summary.bound, "at most ", "certified")?;
+        let found = format!("found by {}", self.any_angle);
+        self.ratios("", summary.ratio, "", &found)?;
         match &summary.reference {
             Some(references) => self.references(references),
             None => Ok(()),
         }
     }
 }
+
+/// A path whose ratio to the shortest is no larger is as short, but for rounding.
+const NO_LONGER: f64 = 1.0 + 1e-9;
 
 fn mean_count(mean: f64) -> String {
     if mean < 1_000.0 { format!("{mean:.1}") } else { grouped(mean.round() as u64) }
