@@ -82,6 +82,13 @@ impl BitMatrix {
         BitIndex((64 + (y + 1) * self.bits_per_row() + x) as u32)
     }
 
+    /// Row y, for −1 ≤ y ≤ height.
+    #[must_use]
+    #[inline]
+    pub fn row(&self, y: i32) -> BitRow<'_> {
+        BitRow { words: self.words(), origin: self.index(0, y), bits_per_row: self.bits_per_row() }
+    }
+
     /// Sets one bit of the interior.
     pub(crate) fn set(&mut self, x: u32, y: u32, blocked: bool) {
         let index = self.index(x as i32, y as i32);
@@ -146,6 +153,82 @@ impl BitMatrix {
     }
 }
 
+/// A row of a [`BitMatrix`], scanned for runs by words of 64. Scans end at the frame at the latest.
+#[derive(Clone, Copy, Debug)]
+pub struct BitRow<'m> {
+    words: &'m [u64],
+    /// Column 0.
+    origin: BitIndex,
+    bits_per_row: i32,
+}
+
+impl BitRow<'_> {
+    /// The row `down` rows further down. Rows beyond the frame are blocked.
+    #[must_use]
+    #[inline]
+    pub const fn below(self, down: i32) -> Self {
+        Self { origin: self.origin.offset(self.bits_per_row * down), ..self }
+    }
+
+    /// The 64 bits from column `first` on, lowest first, for −64 ≤ `first`.
+    #[must_use]
+    #[inline]
+    pub fn word(self, first: i32) -> u64 {
+        load(self.words, self.origin.offset(first))
+    }
+
+    /// Whether a column is blocked, within the frame.
+    #[must_use]
+    #[inline]
+    pub fn is_blocked(self, column: i32) -> bool {
+        let BitIndex(at) = self.origin.offset(column);
+        self.words.get(at as usize / 64).is_none_or(|word| word >> (at % 64) & 1 == 1)
+    }
+
+    /// The first blocked column from `from` on; `to` if there is none before it.
+    #[must_use]
+    #[inline]
+    pub fn first_blocked(self, mut from: i32, to: i32) -> i32 {
+        while from < to {
+            let blocked = self.word(from);
+            if blocked != 0 {
+                return to.min(from + blocked.trailing_zeros() as i32);
+            }
+            from += 64;
+        }
+        to
+    }
+
+    /// The first free column from `from` on; `to` if there is none before it.
+    #[must_use]
+    #[inline]
+    pub fn first_free(self, mut from: i32, to: i32) -> i32 {
+        while from < to {
+            let free = !self.word(from);
+            if free != 0 {
+                return to.min(from + free.trailing_zeros() as i32);
+            }
+            from += 64;
+        }
+        to
+    }
+
+    /// The first column of the run of free columns that ends before column `end`, as far as it reaches back to `to`: `end` itself
+    /// if the column before it is blocked.
+    #[must_use]
+    #[inline]
+    pub fn run_start(self, mut end: i32, to: i32) -> i32 {
+        while end > to {
+            let blocked = self.word(end - 64);
+            if blocked != 0 {
+                return to.max(end - blocked.leading_zeros() as i32);
+            }
+            end -= 64;
+        }
+        to
+    }
+}
+
 /// The 64 bits from `at` on, lowest first; blocked where they would leave the matrix.
 #[must_use]
 #[inline]
@@ -161,6 +244,27 @@ pub fn load(words: &[u64], at: BitIndex) -> u64 {
 #[cfg(test)]
 mod tests {
     use crate::Grid;
+
+    /// A row of which two columns are blocked, scanned between all columns.
+    #[test]
+    fn scans_stop_at_the_first_and_at_the_bounds() {
+        for (a, b) in [(0, 199), (63, 64), (5, 128), (127, 190), (64, 66)] {
+            let grid = Grid::from_fn(200, 3, |x, y| y == 1 && (x as i32 == a || x as i32 == b));
+            let grid = grid.expect("a valid size");
+            let row = grid.rows().row(0).below(1);
+            let blocked = |x: i32| !(0..200).contains(&x) || x == a || x == b;
+            for from in 0..=200 {
+                assert_eq!(row.is_blocked(from), blocked(from));
+                for to in (from..=200).step_by(7) {
+                    let first = |free: bool| (from..to).find(|&x| blocked(x) != free).unwrap_or(to);
+                    assert_eq!(row.first_blocked(from, to), first(false), "{a}, {b}: {from} to {to}");
+                    assert_eq!(row.first_free(from, to), first(true), "{a}, {b}: {from} to {to}");
+                    let start = (from..to).rev().find(|&x| blocked(x)).map_or(from, |x| x + 1);
+                    assert_eq!(row.run_start(to, from), start, "{a}, {b}: {from} to {to}");
+                }
+            }
+        }
+    }
 
     /// Every run of every length at every offset within a word, with one blocked cell just inside or just outside it.
     #[test]

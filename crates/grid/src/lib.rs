@@ -26,7 +26,7 @@ mod tree;
 mod vertex;
 
 pub use ascii::{AsciiMap, draw};
-pub use bits::{BitIndex, BitMatrix, load};
+pub use bits::{BitIndex, BitMatrix, BitRow, load};
 pub use components::{Components, Connectivity};
 pub use footprint::{CellMask, CellOffset, Footprint};
 pub use grid::{Grid, GridError};

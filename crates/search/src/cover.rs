@@ -1,6 +1,6 @@
 //! The cells that a convex polygon meets, row by row, and which of them are blocked.
 
-use mediant_grid::{BitMatrix, Grid, Place, Placement, Vertex, load};
+use mediant_grid::{BitRow, Grid, Place, Placement, Vertex};
 
 /// The cells that a convex polygon between vertices meets: at corners those whose open interior its own meets, at centers those that it touches
 /// at all.
@@ -64,14 +64,15 @@ impl Cover {
 
     /// Whether no cell is blocked.
     pub(crate) fn is_free(&self, grid: &Grid) -> bool {
-        self.rows(grid).all(|(row, first, last)| row.first_blocked(first, last).is_none())
+        self.rows(grid).all(|(_, row, first, last)| row.first_blocked(first, last + 1) > last)
     }
 
     /// Vertices around the first and the last blocked cell of each row: at corners the two outer corners of each, the hull of which is that of all
     /// blocked cells; at centers the cells around both.
     pub(crate) fn extremes<P: Place>(&self, grid: &Grid) -> impl Iterator<Item = Vertex> {
-        let ends = self.rows(grid).filter_map(|(row, first, last)| {
-            Some((row.y, row.first_blocked(first, last)?, row.last_blocked(first, last)?))
+        let ends = self.rows(grid).filter_map(|(y, row, first, last)| {
+            let blocked = row.first_blocked(first, last + 1);
+            (blocked <= last).then(|| (y, blocked, row.run_start(last + 1, first) - 1))
         });
         let beyond = half::<P>();
         let around = move |(y, first, last)| {
@@ -83,9 +84,9 @@ impl Cover {
             .map(|(x, y)| if self.transposed { Vertex::new(y, x) } else { Vertex::new(x, y) })
     }
 
-    fn rows<'g>(&self, grid: &'g Grid) -> impl Iterator<Item = (Row<'g>, i32, i32)> {
+    fn rows<'g>(&self, grid: &'g Grid) -> impl Iterator<Item = (i32, BitRow<'g>, i32, i32)> {
         let matrix = if self.transposed { grid.columns() } else { grid.rows() };
-        self.rows.iter().zip(self.top..).map(move |(&(first, last), y)| (Row { matrix, y }, first, last))
+        self.rows.iter().zip(self.top..).map(move |(&(first, last), y)| (y, matrix.row(y), first, last))
     }
 }
 
@@ -94,46 +95,6 @@ const fn half<P: Place>() -> i32 {
     match P::PLACEMENT {
         Placement::Corner => 0,
         Placement::Center => 1,
-    }
-}
-
-/// A row of cells, or a column.
-#[derive(Clone, Copy)]
-struct Row<'g> {
-    matrix: &'g BitMatrix,
-    y: i32,
-}
-
-impl Row<'_> {
-    /// The first blocked cell from `first` to `last`.
-    fn first_blocked(self, first: i32, last: i32) -> Option<i32> {
-        let mut x = first;
-        while x <= last {
-            let word = self.word(x) & !0 >> (63 - (last - x).min(63));
-            if word != 0 {
-                return Some(x + word.trailing_zeros() as i32);
-            }
-            x += 64;
-        }
-        None
-    }
-
-    /// The last blocked cell from `first` to `last`.
-    fn last_blocked(self, first: i32, last: i32) -> Option<i32> {
-        let mut x = last;
-        while x >= first {
-            let word = self.word(x - 63) & !0 << (63 - (x - first).min(63));
-            if word != 0 {
-                return Some(x - word.leading_zeros() as i32);
-            }
-            x -= 64;
-        }
-        None
-    }
-
-    /// The 64 cells from x on. From x = −64 on they lie in the matrix.
-    fn word(self, x: i32) -> u64 {
-        load(self.matrix.words(), self.matrix.index(x, self.y))
     }
 }
 

@@ -353,6 +353,20 @@ fn closed_gaps_stay_closed() {
         &[(1, 1), (2, 1), (2, 2), (1, 2), (1, 1)],
         [&[(1, 1), (1, 2), (1, 1)], &[(1, 1)]],
     );
+
+    // What is in sight may lie in the other quadrant: of the start, and of a gap on the way.
+    let gap = "
+        .....
+        .#...
+        #....
+        .....
+    ";
+    let path: &[(i32, i32)] = &[(1, 2), (4, 2), (1, 0)];
+    check_paths(gap, CLOSED, path, [path, &[(1, 2), (2, 2), (2, 1), (1, 0)]]);
+    check_paths(gap, OPEN, path, [&[(1, 2), (1, 0)]; 2]);
+    let path: &[(i32, i32)] = &[(1, 0), (4, 3), (1, 2), (1, 4)];
+    check_paths(gap, CLOSED, path, [path, &[(1, 0), (2, 1), (2, 2), (1, 4)]]);
+    check_paths(gap, OPEN, path, [&[(1, 0), (1, 4)]; 2]);
 }
 
 #[test]

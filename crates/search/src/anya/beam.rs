@@ -1,12 +1,12 @@
 //! A cone on its way over the lines: the most frequent step of a search, by additions and words.
 
-use mediant_grid::{Grid, Vertex};
+use mediant_grid::{BitRow, Grid, Vertex};
 
 use super::{
     frontier::Node,
     interval::{End, Place, Side},
     search::Successor,
-    strip::{Row, Strip, Window},
+    strip::{Runs, Window, row_ahead},
 };
 
 /// What a root sees through an interval of a line, before it crosses the row of cells ahead.
@@ -20,7 +20,7 @@ pub(super) struct Beam<'g> {
     pub(super) down: i32,
     pub(super) left: Edge,
     pub(super) right: Edge,
-    pub(super) ahead: Strip<'g>,
+    pub(super) ahead: BitRow<'g>,
 }
 
 /// An end of a beam.
@@ -68,7 +68,7 @@ impl<'g> Beam<'g> {
         let Node { root: number, line, left, right } = node;
         let down = (line - root.y).signum();
         let edge = |ray| Edge::on(End::new(ray, root.x, (line - root.y) * down));
-        let ahead = Strip::ahead(grid, line, down);
+        let ahead = row_ahead(grid, line, down);
         Self { root, number, line, down, left: edge(left), right: edge(right), ahead }
     }
 
@@ -76,14 +76,14 @@ impl<'g> Beam<'g> {
     #[inline]
     pub(super) fn next(&self, root: Vertex, successor: Successor) -> Self {
         let Successor { root: number, left, right } = successor;
-        let (line, ahead) = (self.line + self.down, self.ahead.next(self.down));
+        let (line, ahead) = (self.line + self.down, self.ahead.below(self.down));
         Self { root, number, line, left: Edge::on(left), right: Edge::on(right), ahead, ..*self }
     }
 
     /// The row of cells that it crossed last.
     #[inline]
-    pub(super) const fn behind(&self) -> Strip<'g> {
-        self.ahead.next(-self.down)
+    pub(super) const fn behind(&self) -> BitRow<'g> {
+        self.ahead.below(-self.down)
     }
 
     /// The beam's interval as a node.
@@ -131,7 +131,7 @@ impl<'g> Beam<'g> {
             };
             let Some((left_wall, right_wall)) = walls else { return false };
             self.line += self.down;
-            self.ahead = self.ahead.next(self.down);
+            self.ahead = self.ahead.below(self.down);
             self.left.advance(left, left_wall);
             self.right.advance(right, right_wall);
             if self.holds(goal) {
@@ -146,7 +146,7 @@ impl<'g> Beam<'g> {
     #[inline(always)]
     fn walls(
         &self,
-        ahead: impl Row,
+        ahead: impl Runs,
         (left, right): (Place, Place),
         (low, high): (i32, i32),
     ) -> Option<(Wall, Wall)> {
@@ -178,7 +178,7 @@ impl<'g> Beam<'g> {
 
     /// Whether the obstacle beside an edge, in column `outer`, begins or ends on this line: then a path may bend around its corner.
     #[inline]
-    fn is_at_corner(&self, edge: &Edge, outer: i32, ahead: impl Row) -> bool {
+    fn is_at_corner(&self, edge: &Edge, outer: i32, ahead: impl Runs) -> bool {
         let behind = || edge.is_wall || self.behind().is_blocked(outer);
         edge.here().is_vertex() && ahead.is_blocked(outer) != behind()
     }

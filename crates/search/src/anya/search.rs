@@ -6,7 +6,7 @@ use super::{
     beam::Beam,
     frontier::{Frontier, Node, fixed},
     interval::{End, Place, Ray, Side},
-    strip::{Row, Strip},
+    strip::row_ahead,
 };
 use crate::{NodeEvent, Observer};
 
@@ -31,7 +31,7 @@ impl<O: Observer> Search<'_, O> {
             if gap && down < 0 {
                 continue;
             }
-            let strip = Strip::ahead(grid, at.y, down);
+            let strip = row_ahead(grid, at.y, down);
             let first = if gap { at.x } else { strip.run_start(at.x, 0) };
             let end = strip.first_blocked(at.x, i32::MAX);
             if first < end {
@@ -129,7 +129,7 @@ impl<O: Observer> Search<'_, O> {
     /// Looks from a root along its own line for the next vertex at which a path may turn, beyond `from`.
     fn flat(&mut self, root: u32, from: Vertex, right: i32) {
         let grid = self.terrain.grid();
-        let [above, below] = [-1, 1].map(|down| Strip::ahead(grid, from.y, down));
+        let [above, below] = [-1, 1].map(|down| row_ahead(grid, from.y, down));
         let closed = self.terrain.has_gaps();
         let mut passed = 0;
         let (steps, dead) = loop {
@@ -178,7 +178,7 @@ impl<O: Observer> Search<'_, O> {
             return;
         }
         for down in [-1, 1] {
-            let strip = Strip::ahead(grid, at.y, down);
+            let strip = row_ahead(grid, at.y, down);
             if !strip.is_blocked(passed) || strip.is_blocked(entered) {
                 continue;
             }
@@ -302,7 +302,7 @@ impl Successor {
     #[inline]
     fn is_cul_de_sac(self, beam: &Beam<'_>, goal: Vertex) -> bool {
         let (left, right) = (self.left.here, self.right.here);
-        let (behind, ahead) = (beam.ahead, beam.ahead.next(beam.down));
+        let (behind, ahead) = (beam.ahead, beam.ahead.below(beam.down));
         let turns =
             |at: Place, outer: i32| at.is_vertex() && behind.is_blocked(outer) && !ahead.is_blocked(outer);
         let holds_goal = beam.line + beam.down == goal.y && left.ceil() <= goal.x && goal.x <= right.floor();
