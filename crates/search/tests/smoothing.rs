@@ -365,7 +365,7 @@ fn closed_gaps_stay_closed() {
     check_paths(gap, CLOSED, path, [path, &[(1, 2), (2, 2), (2, 1), (1, 0)]]);
     check_paths(gap, OPEN, path, [&[(1, 2), (1, 0)]; 2]);
     let path: &[(i32, i32)] = &[(1, 0), (4, 3), (1, 2), (1, 4)];
-    check_paths(gap, CLOSED, path, [path, &[(1, 0), (2, 1), (2, 2), (1, 4)]]);
+    check_paths(gap, CLOSED, path, [&[(1, 0), (4, 3), (1, 4)], &[(1, 0), (2, 1), (2, 2), (1, 4)]]);
     check_paths(gap, OPEN, path, [&[(1, 0), (1, 4)]; 2]);
 }
 
