@@ -212,7 +212,7 @@ impl<P: Place> Lattice<P> {
     }
 
     /// Whether a path to `goal` that arrived `from` by the one move may go on by the legal move `index`: false only where that would
-    /// pass a [gap](Self::is_gap).
+    /// pass a [gap](Terrain::is_gap).
     #[must_use]
     #[inline]
     pub fn may_step(&self, from: Vertex, arrived_by: Option<usize>, index: usize, goal: Vertex) -> bool {
