@@ -9,7 +9,7 @@ use mediant_moves::K;
 use mediant_oracle::{Costs, Explicit, Rng, describe, random_free_vertex, seeds, suite_grid, validate};
 use mediant_search::{
     AtOnce, Counters, Euclidean, Guarantee, Heuristic, LatticeDistance, Lazily, LazyThetaStar, NodeEvent,
-    Observer, Outcome, Planner, Query, SightCheck, Theta, ThetaStar, Zero,
+    Observer, Outcome, Path, Planner, Query, SightCheck, Theta, ThetaStar, Zero,
 };
 
 /// What is known of a query, and where it came from.
@@ -270,6 +270,47 @@ fn gaps_are_passed_where_they_are_open() {
         check_paths(cell, CLOSED, k, [(2, 2), (1, 1)], [&[(2, 2), (1, 1)]; 2]);
         check_paths(cell, CLOSED, k, [(1, 1), (0, 0)], [&[]; 2]);
     }
+}
+
+/// What a vertex sees through the other quadrant of a gap it may not hang on. Without a heuristic the search comes to look.
+#[test]
+fn nothing_hangs_through_a_closed_gap() {
+    let both = |drawing: &str, k: u32, [start, goal]: [(i32, i32); 2], expected: &[(i32, i32)]| {
+        let grid = Arc::new(AsciiMap::parse(drawing).expect("the drawing is a map").grid);
+        let k = K::new(k).expect("k is at least 2");
+        let lattice = Lattice::<Corners>::new(grid, k, DiagonalGap::Closed).expect("k is in range");
+        let (query, expected) = (Query::new(start, goal), expected.iter().map(|&at| at.into()));
+        let expected = Ok(Outcome::Found(Path::new(expected.collect())));
+        assert_eq!(ThetaStar::new(&lattice, Zero).solve(query), expected);
+        assert_eq!(LazyThetaStar::new(&lattice, Zero).solve(query), expected);
+    };
+    // From the start: (4, 2), which hangs on it, leads to (1, 0) by (−3, −2).
+    let start = "
+        .....
+        .#...
+        #....
+        .....
+    ";
+    both(start, 5, [(1, 2), (1, 0)], &[(1, 2), (2, 2), (2, 1), (1, 0)]);
+    // To the goal: (5, 6), which hangs on the start, leads to it by (−4, −1).
+    let goal = "
+        ......
+        ......
+        ......
+        .##...
+        .##...
+        #.....
+        ......
+    ";
+    both(goal, 6, [(1, 0), (1, 5)], &[(1, 0), (3, 3), (3, 5), (1, 5)]);
+    // To the goal, instead of what does not see it: (3, 3) does not, and (1, 1) is a closed neighbor.
+    let neighbor = "
+        .....
+        .##..
+        #.#..
+        .....
+    ";
+    both(neighbor, 3, [(0, 0), (1, 2)], &[(0, 0), (3, 1), (3, 3), (2, 3), (1, 2)]);
 }
 
 /// Writes events down, without swaps.
