@@ -133,14 +133,7 @@ where
     N: Link,
 {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        query.check(&self.lattice)?;
-        let (Some(start), Some(goal)) = (self.lattice.id(query.start), self.lattice.id(query.goal)) else {
-            return Ok(Outcome::Unreachable);
-        };
-        // The components know, in constant time, what the search would find out by expanding all that it can reach.
-        if !self.lattice.connected(query.start, query.goal) {
-            return Ok(Outcome::Unreachable);
-        }
+        let Some((start, goal)) = query.ends(&self.lattice)? else { return Ok(Outcome::Unreachable) };
         let mut found = self.search(start, Some(goal), observer);
         if !found && self.successors.widen(true) {
             found = self.search(start, Some(goal), observer);

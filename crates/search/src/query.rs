@@ -1,6 +1,6 @@
 //! Questions to a planner.
 
-use mediant_grid::{Place, Terrain, Vertex};
+use mediant_grid::{Place, Terrain, Vertex, VertexId};
 
 /// From where to where.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -37,6 +37,20 @@ impl Query {
             }
         }
         Ok(())
+    }
+
+    /// The ids of start and goal; `None` when there is no path, which the components know in constant time, and a search would find
+    /// out by expanding all that it can reach.
+    ///
+    /// # Errors
+    /// Those of [`check`](Self::check).
+    pub(crate) fn ends<P: Place>(
+        self,
+        terrain: &Terrain<P>,
+    ) -> Result<Option<(VertexId, VertexId)>, QueryError> {
+        self.check(terrain)?;
+        let ends = terrain.id(self.start).zip(terrain.id(self.goal));
+        Ok(ends.filter(|_| terrain.connected(self.start, self.goal)))
     }
 }
 

@@ -124,11 +124,8 @@ impl<P: Place, L: Deref<Target = Lattice<P>>> Wavefront<L> {
 
 impl<P: Place, L: Deref<Target = Lattice<P>>> Planner for Wavefront<L> {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        query.check(&self.lattice)?;
-        let (Some(start), Some(goal)) = (self.lattice.id(query.start), self.lattice.id(query.goal)) else {
-            return Ok(Outcome::Unreachable);
-        };
-        if !self.lattice.connected(query.start, query.goal) || !self.search(start, Some(goal), observer) {
+        let Some((start, goal)) = query.ends(&self.lattice)? else { return Ok(Outcome::Unreachable) };
+        if !self.search(start, Some(goal), observer) {
             return Ok(Outcome::Unreachable);
         }
         Ok(Outcome::Found(Path::trace_back(&self.lattice, &self.nodes, start, goal)))

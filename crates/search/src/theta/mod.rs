@@ -125,13 +125,7 @@ where
     S: SightCheck,
 {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        query.check(&self.lattice)?;
-        let (Some(start), Some(goal)) = (self.lattice.id(query.start), self.lattice.id(query.goal)) else {
-            return Ok(Outcome::Unreachable);
-        };
-        if !self.lattice.connected(query.start, query.goal) {
-            return Ok(Outcome::Unreachable);
-        }
+        let Some((start, goal)) = query.ends(&self.lattice)? else { return Ok(Outcome::Unreachable) };
         let Self { lattice, heuristic, nodes, open, views, check } = self;
         let found = Search {
             lattice: &**lattice,
