@@ -188,25 +188,23 @@ impl BitRow<'_> {
     /// The first blocked column from `from` on; `to` if there is none before it.
     #[must_use]
     #[inline]
-    pub fn first_blocked(self, mut from: i32, to: i32) -> i32 {
-        while from < to {
-            let blocked = self.word(from);
-            if blocked != 0 {
-                return to.min(from + blocked.trailing_zeros() as i32);
-            }
-            from += 64;
-        }
-        to
+    pub fn first_blocked(self, from: i32, to: i32) -> i32 {
+        self.first_of(from, to, |word| word)
     }
 
     /// The first free column from `from` on; `to` if there is none before it.
     #[must_use]
     #[inline]
-    pub fn first_free(self, mut from: i32, to: i32) -> i32 {
+    pub fn first_free(self, from: i32, to: i32) -> i32 {
+        self.first_of(from, to, |word| !word)
+    }
+
+    #[inline]
+    fn first_of(self, mut from: i32, to: i32, wanted: impl Fn(u64) -> u64) -> i32 {
         while from < to {
-            let free = !self.word(from);
-            if free != 0 {
-                return to.min(from + free.trailing_zeros() as i32);
+            let found = wanted(self.word(from));
+            if found != 0 {
+                return to.min(from + found.trailing_zeros() as i32);
             }
             from += 64;
         }
