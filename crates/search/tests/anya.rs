@@ -42,30 +42,37 @@ fn check(grid: &Grid, rules: Rules, query: Query, outcome: &Outcome, expected: O
     }
 }
 
+/// Every start with its goals: how many paths there were, and how many there were not.
+fn check_all(grid: &Arc<Grid>, gap: DiagonalGap, queries: &[(Vertex, Vec<Vertex>)], seed: u64) -> [u64; 2] {
+    let visibility = Visibility::new(grid, gap);
+    let graph = visibility.over(None);
+    let terrain = Terrain::<Corners>::new(Arc::clone(grid), gap);
+    let mut anya = Anya::new(&terrain);
+    let mut answers = [0, 0];
+    for (start, goals) in queries {
+        let costs = graph.costs_from(*start);
+        for &goal in goals {
+            let query = Query::new(*start, goal);
+            let outcome = anya.solve(query).expect("both ends are free");
+            check(grid, Rules::Corner(gap), query, &outcome, costs.to(goal), seed);
+            answers[usize::from(outcome.path().is_none())] += 1;
+        }
+    }
+    answers
+}
+
 #[test]
 fn anya_costs_what_the_visibility_graph_says() {
     let (mut found, mut unreachable) = (0, 0);
     for seed in seeds(400) {
         let grid = Arc::new(suite_grid(seed).0);
         for gap in GAPS {
-            let rules = Rules::Corner(gap);
-            let visibility = Visibility::new(&grid, gap);
-            let graph = visibility.over(None);
-            let terrain = Terrain::<Corners>::new(Arc::clone(&grid), gap);
-            let mut anya = Anya::new(&terrain);
             let mut rng = Rng::new(seed ^ 0xA17A);
             let mut free = || random_free_vertex(&mut rng, &grid, Placement::Corner);
-            for _ in 0..3 {
-                let Some(start) = free() else { continue };
-                let costs = graph.costs_from(start);
-                for goal in (0..5).filter_map(|_| free()) {
-                    let query = Query::new(start, goal);
-                    let outcome = anya.solve(query).expect("both ends are free");
-                    check(&grid, rules, query, &outcome, costs.to(goal), seed);
-                    found += u64::from(outcome.path().is_some());
-                    unreachable += u64::from(outcome.path().is_none());
-                }
-            }
+            let queries: Vec<(Vertex, Vec<Vertex>)> =
+                (0..3).filter_map(|_| Some((free()?, (0..5).filter_map(|_| free()).collect()))).collect();
+            let [some, none] = check_all(&grid, gap, &queries, seed);
+            (found, unreachable) = (found + some, unreachable + none);
         }
     }
     let maps = seeds(400).end;
@@ -81,22 +88,13 @@ fn anya_is_exact_on_every_map_of_nine_cells() {
             let grid = Grid::from_fn(width, height, |x, y| cells >> (width * y + x) & 1 == 1);
             let grid = Arc::new(grid.expect("a valid size"));
             for gap in GAPS {
-                let rules = Rules::Corner(gap);
-                let visibility = Visibility::new(&grid, gap);
-                let graph = visibility.over(None);
                 let terrain = Terrain::<Corners>::new(Arc::clone(&grid), gap);
-                let mut anya = Anya::new(&terrain);
                 let vertices =
-                    || (0..=height as i32).flat_map(|y| (0..=width as i32).map(move |x| Vertex::new(x, y)));
-                for start in vertices().filter(|&at| terrain.is_free(at)) {
-                    let costs = graph.costs_from(start);
-                    for goal in vertices().filter(|&at| terrain.is_free(at)) {
-                        let query = Query::new(start, goal);
-                        let outcome = anya.solve(query).expect("both ends are free");
-                        check(&grid, rules, query, &outcome, costs.to(goal), u64::from(cells));
-                        queries += 1;
-                    }
-                }
+                    (0..=height as i32).flat_map(|y| (0..=width as i32).map(move |x| Vertex::new(x, y)));
+                let free: Vec<Vertex> = vertices.filter(|&at| terrain.is_free(at)).collect();
+                let pairs: Vec<_> = free.iter().map(|&start| (start, free.clone())).collect();
+                let [found, unreachable] = check_all(&grid, gap, &pairs, u64::from(cells));
+                queries += found + unreachable;
             }
         }
     }
