@@ -6,9 +6,10 @@
 /// An end of an interval is never kept as a place but as the ray that bounds it: the vector from the root to the corner at which it was
 /// clipped, or, where a path turned at its root, the vector from the root before. So it is the difference of two vertices of the map.
 ///
-/// **No overflow.** With sides of at most 2¹⁵ cells ([`Grid::MAX_SIDE`](mediant_grid::Grid::MAX_SIDE)) |dx| ≤ 2¹⁵ and 1 ≤ dy ≤ 2¹⁵. A place is
-/// asked for at most one line beyond the map, n ≤ 2¹⁵ + 1 lines from the root, so |n · dx| ≤ 2³⁰ + 2¹⁵ < 2³¹, and a place is at most
-/// 2³⁰ + 2¹⁶ columns away. Rays are never added to, multiplied by or intersected with each other, so nothing grows.
+/// **No overflow.** With sides of at most 2¹⁵ cells ([`Grid::MAX_SIDE`](mediant_grid::Grid::MAX_SIDE)) |dx| ≤ 2¹⁵ and 1 ≤ dy ≤ 2¹⁵. Products
+/// are made only for a line on which the interval is, n lines from the root. It lies on the map there, so the ray is at most 2¹⁵ columns
+/// from the root, and |n · dx| ≤ 2¹⁵ · dy ≤ 2³⁰. Rays are never added to, multiplied by or intersected with each other, so nothing
+/// grows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Ray {
     pub(super) dx: i32,
