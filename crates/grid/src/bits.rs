@@ -50,6 +50,22 @@ impl BitMatrix {
         Self { bits: BitVec::repeat(value, words * 64), width, height, words_per_row }
     }
 
+    /// A matrix within a frame of this value; `word(x, y)` gives the 64 bits of row y from column x on, lowest first, of which those beyond
+    /// the last column are ignored.
+    #[must_use]
+    pub fn from_words(width: u32, height: u32, frame: bool, mut word: impl FnMut(i32, i32) -> u64) -> Self {
+        let mut matrix = Self::filled(width, height, frame);
+        for y in 0..height as i32 {
+            for x in (0..width).step_by(64) {
+                let within = !0_u64 >> (64 - (width - x).min(64));
+                let at = matrix.index(x as i32, y).0 as usize / 64;
+                let bits = &mut matrix.bits.as_raw_mut_slice()[at];
+                *bits = *bits & !within | word(x as i32, y) & within;
+            }
+        }
+        matrix
+    }
+
     /// The number of columns.
     #[must_use]
     pub const fn width(&self) -> u32 {
@@ -105,6 +121,7 @@ impl BitMatrix {
 
     /// Whether any bit of row y from column `first` to column `last` is blocked, all within the frame.
     #[must_use]
+    #[inline]
     pub(crate) fn any(&self, y: i32, first: i32, last: i32) -> bool {
         self.any_of(first, last, |x| load(self.words(), self.index(x, y)))
     }
@@ -141,7 +158,7 @@ impl BitMatrix {
         last >= x && word(x) & keep != 0
     }
 
-    /// The matrix with rows and columns exchanged.
+    /// The matrix with rows and columns exchanged, in a frame of blocked bits.
     pub(crate) fn transposed(&self) -> Self {
         let mut result = Self::blocked(self.height, self.width);
         for y in 0..self.height {

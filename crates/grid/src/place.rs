@@ -116,21 +116,21 @@ impl Place for Centers {
     /// Row j of cells spans the heights j ± ½, where the segment runs over the columns around d.x/d.y · (j ± ½). It
     /// passes through a corner point where it leaves the row exactly between two columns.
     fn sweep(rule: CornerRule, d: Vector, mut demand: impl FnMut(Demand) -> bool) -> bool {
-        let (dx, dy) = (i64::from(d.x), i64::from(d.y));
         let mut first = 0;
-        for row in 0..=dy {
-            // In half cells, the segment leaves row `row` at (2·row + 1)·dx / dy.
-            let leaves = (2 * row + 1) * dx - dy;
-            let (last, corner) =
-                if row == dy { (dx, false) } else { (ceil_div(leaves, 2 * dy), leaves % (2 * dy) == 0) };
+        let (x, y) = (i64::from(d.x), i64::from(d.y));
+        // In half cells, the segment leaves row `row` at ((2·row + 1)·dx − dy) / dy.
+        let mut leaves = Quotients::new(x - y, 2 * x, 2 * y);
+        for row in 0..=d.y {
+            let (last, corner) = if row == d.y { (d.x, false) } else { (leaves.ceil(), leaves.rest == 0) };
             let widened = corner && rule == CornerRule::Never;
-            let (row, next) = (row as i32, last as i32 + i32::from(corner));
-            let free = Demand::Free { row, first, last: if widened { next } else { last as i32 } };
-            let touched = Demand::EitherFree([(next, row), (last as i32, row + 1)]);
+            let next = last + i32::from(corner);
+            let free = Demand::Free { row, first, last: if widened { next } else { last } };
+            let touched = Demand::EitherFree([(next, row), (last, row + 1)]);
             if !demand(free) || (corner && rule == CornerRule::One && !demand(touched)) {
                 return false;
             }
-            first = if corner && !widened { next } else { last as i32 };
+            first = if corner && !widened { next } else { last };
+            leaves.step();
         }
         true
     }
@@ -192,23 +192,23 @@ impl Place for Corners {
 
     /// Row j of cells spans the heights j to j + 1. Along an axis, one of the two cells beside each edge must be free.
     fn sweep(rule: DiagonalGap, d: Vector, mut demand: impl FnMut(Demand) -> bool) -> bool {
-        let (dx, dy) = (i64::from(d.x), i64::from(d.y));
-        if dy == 0 {
+        if d.y == 0 {
             return (0..d.x).all(|i| demand(Demand::EitherFree([(i, 0), (i, -1)])));
         }
         let mut first = 0;
-        for row in 0..dy {
-            let end = (row + 1) * dx;
-            let (last, vertex) = (ceil_div(end, dy) - 1, end % dy == 0 && row + 1 < dy);
-            if !demand(Demand::Free { row: row as i32, first, last: last as i32 }) {
+        let (x, y) = (i64::from(d.x), i64::from(d.y));
+        let mut end = Quotients::new(x, x, y);
+        for row in 0..d.y {
+            let (last, vertex) = (end.ceil() - 1, end.rest == 0 && row + 1 < d.y);
+            if !demand(Demand::Free { row, first, last }) {
                 return false;
             }
-            let (column, below) = (last as i32, row as i32 + 1);
-            let gap = Demand::EitherFree([(column + 1, below - 1), (column, below)]);
+            let gap = Demand::EitherFree([(last + 1, row), (last, row + 1)]);
             if vertex && rule == DiagonalGap::Closed && !demand(gap) {
                 return false;
             }
-            first = (end / dy) as i32;
+            first = end.floor as i32;
+            end.step();
         }
         true
     }
@@ -255,7 +255,35 @@ fn around(at: Vertex) -> [Vertex; 4] {
         .map(|(dx, dy)| Vertex::new(at.x.wrapping_add(dx), at.y.wrapping_add(dy)))
 }
 
-/// ⌈a / b⌉ for b > 0.
-const fn ceil_div(a: i64, b: i64) -> i64 {
-    -(-a).div_euclid(b)
+/// (start + i · step) / by for i = 0, 1, 2 …, by additions.
+struct Quotients {
+    floor: i64,
+    rest: i64,
+    step: (i64, i64),
+    by: i64,
+}
+
+impl Quotients {
+    /// With step ≥ 0 and by > 0.
+    #[inline]
+    const fn new(start: i64, step: i64, by: i64) -> Self {
+        let by = if by > 0 { by } else { 1 };
+        let step = (step / by, step % by);
+        Self { floor: start.div_euclid(by), rest: start.rem_euclid(by), step, by }
+    }
+
+    #[inline]
+    fn ceil(&self) -> i32 {
+        self.floor as i32 + i32::from(self.rest > 0)
+    }
+
+    #[inline]
+    fn step(&mut self) {
+        self.floor += self.step.0;
+        self.rest += self.step.1;
+        if self.rest >= self.by {
+            self.rest -= self.by;
+            self.floor += 1;
+        }
+    }
 }

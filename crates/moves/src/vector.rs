@@ -78,7 +78,7 @@ impl Vector {
 
     /// |x| and |y|.
     #[must_use]
-    pub(crate) const fn abs(self) -> (u32, u32) {
+    pub const fn abs(self) -> (u32, u32) {
         (self.x.unsigned_abs(), self.y.unsigned_abs())
     }
 
