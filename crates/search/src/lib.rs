@@ -14,6 +14,7 @@
 
 mod anya;
 mod astar;
+mod beams;
 mod best_first;
 mod canonical;
 mod cover;
@@ -26,6 +27,7 @@ mod open_list;
 mod path;
 mod planner;
 mod query;
+mod segment;
 mod smoothing;
 mod successors;
 mod theta;
@@ -33,6 +35,7 @@ mod wavefront;
 
 pub use anya::Anya;
 pub use astar::{AStar, AllMoves, Dijkstra};
+pub use beams::{Bands, Fan, Quadrants, Targets};
 pub use best_first::BestFirst;
 pub use canonical::{Canonical, CanonicalMoves, CanonicalRule, PaperCanonical, PaperMoves, Pruning, View};
 pub use distances::Distances;
@@ -46,6 +49,7 @@ pub use open_list::{Entry, OpenList};
 pub use path::{Guarantee, Outcome, Path};
 pub use planner::Planner;
 pub use query::{End, Query, QueryError};
+pub use segment::segment_cost;
 pub use smoothing::{OnTerrain, Smoothed, Smoothing, pull_taut, smooth};
 pub use successors::{Arrival, Link, Successor, Successors};
 pub use theta::{AtOnce, Lazily, LazyThetaStar, SightCheck, Theta, ThetaStar};

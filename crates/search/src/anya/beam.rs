@@ -2,12 +2,8 @@
 
 use mediant_grid::{BitRow, Grid, Vertex};
 
-use super::{
-    frontier::Node,
-    interval::{End, Place, Side},
-    search::Successor,
-    strip::{Runs, Window, row_ahead},
-};
+use super::{frontier::Node, search::Successor};
+use crate::beams::{End, Place, Runs, Side, Window, row_ahead};
 
 /// What a root sees through an interval of a line, before it crosses the row of cells ahead.
 #[derive(Clone, Copy, Debug)]

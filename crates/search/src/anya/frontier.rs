@@ -5,8 +5,7 @@ use std::{cmp::Reverse, collections::BinaryHeap};
 use mediant_grid::{Corners, Terrain, Vertex};
 use mediant_moves::Cost;
 
-use super::interval::Ray;
-use crate::Path;
+use crate::{Path, beams::Ray};
 
 /// A vertex at which paths turn, or the start.
 #[derive(Clone, Copy, Debug)]

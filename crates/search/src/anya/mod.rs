@@ -42,9 +42,7 @@
 
 mod beam;
 mod frontier;
-mod interval;
 mod search;
-mod strip;
 
 use std::ops::Deref;
 

@@ -5,10 +5,11 @@ use mediant_grid::{Corners, Terrain, Vertex};
 use super::{
     beam::Beam,
     frontier::{Frontier, Node, fixed},
-    interval::{End, Place, Ray, Side},
-    strip::row_ahead,
 };
-use crate::{NodeEvent, Observer};
+use crate::{
+    NodeEvent, Observer,
+    beams::{End, Place, Ray, Side, row_ahead},
+};
 
 /// A search under way.
 pub(super) struct Search<'s, O> {

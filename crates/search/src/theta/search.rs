@@ -2,11 +2,14 @@
 
 use std::marker::PhantomData;
 
-use mediant_grid::{Lattice, Place, Step, Vector, Vertex, VertexId};
+use mediant_grid::{Lattice, Place, Step, Vertex, VertexId};
 use mediant_moves::Cost;
 
 use super::{SightCheck, views::Views};
-use crate::{Entry, Heuristic, Link, Node, NodeEvent, NodeStore, Observer, OpenList};
+use crate::{
+    Entry, Heuristic, Link, Node, NodeEvent, NodeStore, Observer, OpenList, segment::is_at_least,
+    segment_cost,
+};
 
 /// What a node keeps of others.
 #[derive(Clone, Copy, Debug)]
@@ -118,7 +121,7 @@ impl<P: Place, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S, O> 
                 && (!S::AT_ONCE
                     || hidden_from != parent.id && self.views.sees(lattice, parent.id, parent.at, at))
             {
-                let to = Hook { id, at, g: parent.g + length(straight) };
+                let to = Hook { id, at, g: parent.g + segment_cost(straight) };
                 return self.relax(to, index, known, parent.at, Parents { parent: parent.id, hidden_from });
             }
             let hidden = Parents { parent: here.id, hidden_from: parent.id };
@@ -199,44 +202,5 @@ impl<P: Place, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S, O> 
     fn parent_of(&self, id: VertexId) -> Option<Vertex> {
         let node = self.nodes.get(id).filter(|_| id != self.start)?;
         Some(self.lattice.vertex(node.link.parent))
-    }
-}
-
-/// [`Cost::of_move`] for the segments of a map, whose sides have at most 2¹⁵ cells, without its integer root.
-#[inline]
-fn length(v: Vector) -> Cost {
-    // IEEE 754 rounds the root correctly, to 53 bits. At most 49 of these stand before the point, so that this is off by 1 at most.
-    let root = ((v.norm_squared() as f64).sqrt() * (1_u64 << Cost::FRACTION_BITS) as f64 + 0.5) as u64;
-    debug_assert!(v.norm_squared() <= 1 << 32, "{v:?} is longer than any map");
-    let above = !is_at_least(v, Cost::from_bits(root));
-    let below = is_at_least(v, Cost::from_bits(root + 1));
-    Cost::from_bits(root + u64::from(below) - u64::from(above))
-}
-
-/// Whether the [`length`] of a segment is at least `cost`, without any root.
-#[inline]
-fn is_at_least(v: Vector, cost: Cost) -> bool {
-    // The nearest integer to √n is at least r when √n > r − ½, n > r² − r + ¼, which is no integer.
-    let (square, r) = (u128::from(v.norm_squared()) << (2 * Cost::FRACTION_BITS), u128::from(cost.to_bits()));
-    r == 0 || square > r * (r - 1)
-}
-
-#[cfg(test)]
-mod tests {
-    use mediant_oracle::Rng;
-
-    use super::*;
-
-    #[test]
-    fn the_length_of_a_segment_is_the_cost_of_a_move() {
-        let mut rng = Rng::new(0);
-        let near = (0..300).flat_map(|x| (0..300).map(move |y| Vector::new(x, -y)));
-        let far = (0..50_000).map(|_| Vector::new(rng.below(32_769) as i32, rng.below(32_769) as i32));
-        let ends = [(32_768, 32_768), (-32_768, 32_767), (32_768, 0)].map(Vector::from);
-        for v in near.chain(far).chain(ends) {
-            let cost = Cost::of_move(v);
-            assert_eq!(length(v), cost, "{v:?}");
-            assert!(is_at_least(v, cost) && !is_at_least(v, Cost::from_bits(cost.to_bits() + 1)), "{v:?}");
-        }
     }
 }

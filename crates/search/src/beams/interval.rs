@@ -11,18 +11,18 @@
 /// from the root, and |n · dx| ≤ 2¹⁵ · dy ≤ 2³⁰. Rays are never added to, multiplied by or intersected with each other, so nothing
 /// grows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Ray {
-    pub(super) dx: i32,
-    pub(super) dy: i32,
+pub(crate) struct Ray {
+    pub(crate) dx: i32,
+    pub(crate) dy: i32,
 }
 
 impl Ray {
     /// Straight away from the root.
-    pub(super) const VERTICAL: Self = Self { dx: 0, dy: 1 };
+    pub(crate) const VERTICAL: Self = Self { dx: 0, dy: 1 };
 
     /// Where it meets a line, `n` lines from a root in column `root`, rounded.
     #[inline]
-    pub(super) fn place(self, root: i32, n: i32) -> f64 {
+    pub(crate) fn place(self, root: i32, n: i32) -> f64 {
         f64::from(root) + f64::from(n * self.dx) / f64::from(self.dy)
     }
 }
@@ -36,7 +36,7 @@ impl Ray {
 /// An interval lies on the map, so a place on its line is between 0 and 2¹⁵. On the next line it is at most 2¹⁵ columns further out, as
 /// far as a ray leads from line to line: below 2¹⁷, in bits below 2⁶¹.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place(i64);
+pub(crate) struct Place(i64);
 
 impl Place {
     const FRACTION: u32 = 44;
@@ -46,35 +46,35 @@ impl Place {
 
     /// A vertex.
     #[inline]
-    pub(super) const fn vertex(x: i32) -> Self {
+    pub(crate) const fn vertex(x: i32) -> Self {
         Self(((x as i64) << Self::FRACTION) + Self::BIAS)
     }
 
     /// The column boundary at or to the left of it.
     #[inline]
-    pub(super) const fn floor(self) -> i32 {
+    pub(crate) const fn floor(self) -> i32 {
         (self.0 >> Self::FRACTION) as i32
     }
 
     /// The column boundary at or to the right of it.
     #[inline]
-    pub(super) const fn ceil(self) -> i32 {
+    pub(crate) const fn ceil(self) -> i32 {
         ((self.0 + (Self::ONE - Self::VERTEX)) >> Self::FRACTION) as i32
     }
 
     /// Whether it is a vertex.
     #[inline]
-    pub(super) const fn is_vertex(self) -> bool {
+    pub(crate) const fn is_vertex(self) -> bool {
         self.0 & (Self::ONE - 1) < Self::VERTEX
     }
 }
 
 /// An end of an interval, followed from line to line by additions.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct End {
-    pub(super) ray: Ray,
+pub(crate) struct End {
+    pub(crate) ray: Ray,
     /// Where it is on the line.
-    pub(super) here: Place,
+    pub(crate) here: Place,
     /// What it moves by from line to line.
     step: i64,
 }
@@ -82,7 +82,7 @@ pub(super) struct End {
 impl End {
     /// The end where a ray from a root in column `root` is after `n` lines.
     #[inline]
-    pub(super) const fn new(ray: Ray, root: i32, n: i32) -> Self {
+    pub(crate) const fn new(ray: Ray, root: i32, n: i32) -> Self {
         let step = ((ray.dx as i64) << Place::FRACTION).div_euclid(ray.dy as i64);
         // The corner at which it was clipped, exactly, so that at most n lines add their error.
         let here = if n == ray.dy {
@@ -95,38 +95,44 @@ impl End {
 
     /// The end at a vertex in column `x`, `n` lines from a root in column `root`.
     #[inline]
-    pub(super) const fn corner(x: i32, root: i32, n: i32) -> Self {
+    pub(crate) const fn corner(x: i32, root: i32, n: i32) -> Self {
         Self::new(Ray { dx: x - root, dy: n }, root, n)
     }
 
     /// The end on the next line, where it is at [`next`](Self::next).
     #[inline]
-    pub(super) const fn moved_to(self, next: Place) -> Self {
+    pub(crate) const fn moved_to(self, next: Place) -> Self {
         Self { here: next, ..self }
     }
 
     /// An end that stays in its column.
     #[inline]
-    pub(super) const fn standing(x: i32) -> Self {
+    pub(crate) const fn standing(x: i32) -> Self {
         Self { ray: Ray::VERTICAL, here: Place::vertex(x), step: 0 }
     }
 
     /// Where the ray is on the next line.
     #[inline]
-    pub(super) const fn next(&self) -> Place {
-        Place(self.here.0 + self.step)
+    pub(crate) const fn next(&self) -> Place {
+        self.after(1)
+    }
+
+    /// Where it is some lines further on.
+    #[inline]
+    pub(crate) const fn after(&self, lines: i32) -> Place {
+        Place(self.here.0 + lines as i64 * self.step)
     }
 }
 
 /// The left or right end of an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
+pub(crate) enum Side {
     Left,
     Right,
 }
 
 impl Side {
-    pub(super) const fn sign(self) -> i32 {
+    pub(crate) const fn sign(self) -> i32 {
         match self {
             Self::Left => -1,
             Self::Right => 1,
@@ -134,7 +140,7 @@ impl Side {
     }
 
     /// The columns beside vertex x, the outer one first.
-    pub(super) const fn columns(self, x: i32) -> (i32, i32) {
+    pub(crate) const fn columns(self, x: i32) -> (i32, i32) {
         match self {
             Self::Left => (x - 1, x),
             Self::Right => (x, x - 1),
@@ -143,7 +149,7 @@ impl Side {
 
     /// Whether a place is strictly on the inner side of column boundary x.
     #[inline]
-    pub(super) const fn is_inside(self, place: Place, x: i32) -> bool {
+    pub(crate) const fn is_inside(self, place: Place, x: i32) -> bool {
         match self {
             Self::Left => place.ceil() > x,
             Self::Right => place.floor() < x,
@@ -152,7 +158,7 @@ impl Side {
 
     /// Whether a place is strictly on the outer side of column boundary x.
     #[inline]
-    pub(super) const fn is_outside(self, place: Place, x: i32) -> bool {
+    pub(crate) const fn is_outside(self, place: Place, x: i32) -> bool {
         match self {
             Self::Left => place.floor() < x,
             Self::Right => place.ceil() > x,

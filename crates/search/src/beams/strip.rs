@@ -3,7 +3,7 @@
 use mediant_grid::{BitRow, Grid};
 
 /// The runs of free cells of a row.
-pub(super) trait Runs: Copy {
+pub(crate) trait Runs: Copy {
     /// [`BitRow::is_blocked`].
     fn is_blocked(self, column: i32) -> bool;
 
@@ -20,7 +20,7 @@ pub(super) trait Runs: Copy {
 /// The row of cells that a path enters when it leaves horizontal line `line` downwards (`down` = 1) or upwards (−1). There is one
 /// beyond the last lines, too: it is blocked.
 #[inline]
-pub(super) fn row_ahead(grid: &Grid, line: i32, down: i32) -> BitRow<'_> {
+pub(crate) fn row_ahead(grid: &Grid, line: i32, down: i32) -> BitRow<'_> {
     grid.rows().row(line + (down - 1) / 2)
 }
 
@@ -48,17 +48,17 @@ impl Runs for BitRow<'_> {
 
 /// 64 cells of a row, loaded once. Only columns among them may be asked for.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Window {
+pub(crate) struct Window {
     blocked: u64,
     first: i32,
 }
 
 impl Window {
-    pub(super) const WIDTH: i32 = 64;
+    pub(crate) const WIDTH: i32 = 64;
 
     /// The cells from column `first` on.
     #[inline]
-    pub(super) fn new(row: BitRow<'_>, first: i32) -> Self {
+    pub(crate) fn new(row: BitRow<'_>, first: i32) -> Self {
         Self { blocked: row.word(first), first }
     }
 
