@@ -1,0 +1,93 @@
+//! Which subgoals a vertex is joined to.
+
+use mediant_grid::{BitMatrix, Place, Terrain, Vector, Vertex};
+use mediant_moves::{Cost, Knob};
+
+use crate::{Hierarchy, SubgoalError, norm::Norm, subgoals::Subgoals};
+
+/// A placement on which there are subgoal graphs.
+pub trait Connect: Place {
+    /// What [`Connect::links`] works with.
+    #[doc(hidden)]
+    type Scratch: Default + Send;
+
+    /// Whether there are subgoal graphs of this terrain for these directions.
+    #[doc(hidden)]
+    fn check(terrain: &Terrain<Self>, k: Knob) -> Result<(), SubgoalError>;
+
+    /// What makes finding links fast.
+    #[doc(hidden)]
+    type Prepared: Prepared;
+
+    /// The vertices that are subgoals, a bit for each vertex in a frame of zeros, and what makes finding links fast.
+    #[doc(hidden)]
+    fn prepare(terrain: &Terrain<Self>) -> (BitMatrix, Self::Prepared);
+
+    /// Which edges a graph has.
+    #[doc(hidden)]
+    fn edges(k: Knob, hierarchy: Hierarchy) -> Edges;
+
+    /// Tells the subgoals that a vertex is joined to, and what the ways there cost.
+    #[doc(hidden)]
+    fn links(
+        map: Map<'_, Self>,
+        scratch: &mut Self::Scratch,
+        from: Vertex,
+        which: Which,
+        tell: impl FnMut(u32, Cost),
+    );
+}
+
+/// What follows from a map and makes finding links fast.
+#[doc(hidden)]
+pub trait Prepared: Clone + std::fmt::Debug + Send + Sync {
+    /// The memory that it takes.
+    fn bytes(&self) -> usize;
+}
+
+/// Which edges a graph has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[doc(hidden)]
+pub enum Edges {
+    /// Between subgoals that are directly h_k-reachable from one another.
+    Direct,
+    /// Between subgoals that see one another along a line that a taut path can take at both of them.
+    Taut,
+}
+
+/// Which links of a vertex are asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[doc(hidden)]
+pub enum Which {
+    /// Those of a subgoal to the subgoals below it, or to the right on its own line: each edge of the graph from one of its ends.
+    Edges,
+    /// Those of a start or goal.
+    All,
+}
+
+impl Which {
+    /// Whether a link by this displacement is told.
+    #[inline]
+    pub(crate) const fn holds(self, to: Vector) -> bool {
+        matches!(self, Self::All) || to.y > 0 || to.y == 0 && to.x > 0
+    }
+}
+
+/// What links are found on.
+#[derive(Debug)]
+#[doc(hidden)]
+pub struct Map<'m, P: Connect> {
+    pub(crate) terrain: &'m Terrain<P>,
+    pub(crate) subgoals: &'m Subgoals<P::Prepared>,
+    pub(crate) norm: &'m Norm,
+    pub(crate) k: Knob,
+    pub(crate) edges: Edges,
+}
+
+impl<P: Connect> Clone for Map<'_, P> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<P: Connect> Copy for Map<'_, P> {}

@@ -1,0 +1,73 @@
+//! The arcs down to a goal.
+
+use mediant_moves::Cost;
+
+use crate::{Connect, SubgoalGraph, contract::NONE};
+
+/// For each subgoal above the links of a goal the arcs down from it on ways there. Forgotten in constant time.
+#[derive(Clone, Debug)]
+pub(super) struct Descent {
+    heads: Box<[Head]>,
+    generation: u32,
+    arcs: Vec<Down>,
+    pending: Vec<u32>,
+}
+
+/// The first arc down from a subgoal, if it was found in this search.
+#[derive(Clone, Copy, Debug, Default)]
+struct Head {
+    first: u32,
+    generation: u32,
+}
+
+/// An arc down, and the next from the same subgoal.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Down {
+    pub(super) to: u32,
+    pub(super) mid: u32,
+    next: u32,
+}
+
+impl Descent {
+    pub(super) fn new(count: usize) -> Self {
+        let heads = vec![Head::default(); count].into_boxed_slice();
+        Self { heads, generation: 0, arcs: Vec::new(), pending: Vec::new() }
+    }
+
+    /// Finds the arcs down to a goal, whose number follows those of the subgoals, from its links.
+    pub(super) fn start_search<P: Connect>(&mut self, graph: &SubgoalGraph<P>, links: &[(u32, Cost)]) {
+        self.arcs.clear();
+        self.generation = self.generation.wrapping_add(1);
+        if self.generation == 0 {
+            self.heads.fill(Head::default());
+            self.generation = 1;
+        }
+        for &(id, _) in links {
+            self.add(id, self.heads.len() as u32, NONE);
+        }
+        while let Some(id) = self.pending.pop() {
+            // The arcs of the core lead both ways already.
+            let up = if graph.is_core(id) { &[] } else { graph.up(id) };
+            up.iter().for_each(|arc| self.add(arc.to, id, arc.mid));
+        }
+    }
+
+    fn add(&mut self, from: u32, to: u32, mid: u32) {
+        let head = &mut self.heads[from as usize];
+        let is_new = head.generation != self.generation;
+        let next = if is_new { NONE } else { head.first };
+        *head = Head { first: self.arcs.len() as u32, generation: self.generation };
+        self.arcs.push(Down { to, mid, next });
+        if is_new {
+            self.pending.push(from);
+        }
+    }
+
+    /// The arcs down from a subgoal.
+    pub(super) fn below(&self, id: u32) -> impl Iterator<Item = Down> {
+        let arc = |number: u32| self.arcs.get(number as usize).copied();
+        let head = self.heads[id as usize];
+        let first = (head.generation == self.generation).then(|| arc(head.first)).flatten();
+        std::iter::successors(first, move |down| arc(down.next))
+    }
+}

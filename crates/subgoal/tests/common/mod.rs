@@ -1,0 +1,45 @@
+//! What several suites of subgoal graphs need.
+#![allow(dead_code, reason = "each suite uses a part")]
+
+use std::{num::NonZero, num::NonZeroU32, ops::Range, sync::Arc, thread};
+
+use mediant_grid::{DiagonalGap, Grid, Place, Terrain};
+use mediant_moves::{K, Knob};
+use mediant_subgoal::{Connect, Hierarchy, SubgoalGraph};
+
+pub(crate) const GAPS: [DiagonalGap; 2] = [DiagonalGap::Open, DiagonalGap::Closed];
+
+/// Every hierarchy: contracted, of one level, two, three, all.
+pub(crate) const HIERARCHIES: [Hierarchy; 5] =
+    [Hierarchy::Contracted, levels(1), levels(2), levels(3), Hierarchy::AllLevels];
+
+pub(crate) const fn levels(count: u32) -> Hierarchy {
+    Hierarchy::Levels(NonZeroU32::new(count).expect("there is a level at least"))
+}
+
+pub(crate) fn k(number: u32) -> Knob {
+    K::new(number).expect("k is at least 2").into()
+}
+
+/// k = 2, …, 8, and every direction.
+pub(crate) fn knobs() -> impl Iterator<Item = Knob> {
+    (2..=8).map(k).chain([Knob::Any])
+}
+
+pub(crate) fn terrain<P: Place>(grid: &Grid, rule: P::Rule) -> Terrain<P> {
+    Terrain::new(Arc::new(grid.clone()), rule)
+}
+
+pub(crate) fn graph<P: Connect>(terrain: &Terrain<P>, k: Knob, hierarchy: Hierarchy) -> SubgoalGraph<P> {
+    SubgoalGraph::new(terrain, k, hierarchy).expect("there is a graph for this k")
+}
+
+/// What `part` says of each seed, on all cores. In the order of the cores.
+pub(crate) fn on_all_cores<R: Send>(seeds: Range<u64>, part: impl Fn(u64) -> R + Sync) -> Vec<R> {
+    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    let part = |first: usize| seeds.clone().skip(first).step_by(threads).map(&part).collect::<Vec<R>>();
+    thread::scope(|scope| {
+        let parts: Vec<_> = (0..threads).map(|first| scope.spawn(move || part(first))).collect();
+        parts.into_iter().flat_map(|part| part.join().expect("a part failed, as said above")).collect()
+    })
+}

@@ -1,0 +1,271 @@
+//! Sub-A* costs what the references cost, and Sub-Theta* finds a path whenever there is one, on seeded random maps.
+
+mod common;
+
+use common::{GAPS, HIERARCHIES, graph, k, knobs, on_all_cores, terrain};
+use mediant_grid::{Centers, CornerRule, Corners, Grid, Placement, Rules, Terrain, Vertex};
+use mediant_moves::{K, Knob};
+use mediant_oracle::{
+    Explicit, Rng, Visibility, describe, is_doubly_blocked, random_free_vertex, seeds, suite_grid, validate,
+    vertex_is_free,
+};
+use mediant_search::{Counters, Guarantee, Outcome, Path, Planner, Query};
+use mediant_subgoal::{Connect, Hierarchy, SubgoalAStar, SubgoalGraph, SubgoalTheta};
+
+/// What is known of a query.
+#[derive(Clone, Copy)]
+struct Expected {
+    start: Vertex,
+    goal: Vertex,
+    /// The optimum over N(k); `None` where there is no path.
+    optimum: Option<f64>,
+    /// The any-angle optimum.
+    any_angle: Option<f64>,
+}
+
+/// How many answers there were of each kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Tally {
+    found: usize,
+    unreachable: usize,
+    /// Paths of Sub-Theta* that are the shortest, and others.
+    shortest: usize,
+    longer: usize,
+}
+
+impl Tally {
+    fn add(&mut self, other: Self) {
+        self.found += other.found;
+        self.unreachable += other.unreachable;
+        self.shortest += other.shortest;
+        self.longer += other.longer;
+    }
+}
+
+/// A graph, with all that is said of a failure.
+struct Suite<'t, P: Connect> {
+    terrain: &'t Terrain<P>,
+    graph: SubgoalGraph<P>,
+    seed: u64,
+}
+
+impl<'t, P: Connect> Suite<'t, P> {
+    fn new(terrain: &'t Terrain<P>, k: Knob, hierarchy: Hierarchy, seed: u64) -> Self {
+        Self { terrain, graph: graph(terrain, k, hierarchy), seed }
+    }
+
+    /// Both planners on all queries of a map, so that each is answered on what the others left behind.
+    fn check(&self, queries: &[Expected]) -> Tally {
+        let mut tally = Tally::default();
+        let mut a_star = SubgoalAStar::new(self.terrain, &self.graph);
+        let mut theta = SubgoalTheta::new(self.terrain, &self.graph);
+        let optimal = match self.graph.k() {
+            Knob::K(k) => Guarantee::Optimal(k),
+            Knob::Any => Guarantee::OptimalAnyAngle,
+        };
+        assert_eq!((a_star.guarantee(), theta.guarantee()), (optimal, Guarantee::Suboptimal));
+        for query in queries {
+            let slack = 1.0 + 1e-9;
+            let found = self.solve(&mut a_star, query, self.graph.k());
+            assert_eq!(found.is_some(), query.optimum.is_some(), "{found:?}; {}", self.case(query));
+            if let Some((cost, _)) = found {
+                let best = query.optimum.unwrap_or(f64::NAN);
+                let is_optimal = cost <= best * slack && best <= cost * slack;
+                assert!(is_optimal, "Sub-A* {cost}, reference {best}; {}", self.case(query));
+                tally.found += 1;
+            } else {
+                tally.unreachable += 1;
+            }
+            let found = self.solve(&mut theta, query, Knob::Any);
+            // At centers N(2) may hold no path though one cell sees the other.
+            let is_right = found.is_some() || query.optimum.is_none();
+            assert!(is_right, "{found:?}; {}", self.case(query));
+            if let Some((cost, counters)) = found {
+                let best = query.any_angle.unwrap_or(f64::NAN);
+                assert!(best <= cost * slack, "Sub-Theta* {cost} < {best}; {}", self.case(query));
+                let searched = counters != Counters::default();
+                assert!(
+                    !searched || counters.generated > counters.expanded,
+                    "{counters:?}; {}",
+                    self.case(query)
+                );
+                *if cost <= best * slack { &mut tally.shortest } else { &mut tally.longer } += 1;
+            }
+        }
+        tally
+    }
+
+    /// The cost of a path, if there is one, that was checked, and the counters.
+    fn solve(&self, planner: &mut impl Planner, expected: &Expected, k: Knob) -> Option<(f64, Counters)> {
+        let Expected { start, goal, .. } = *expected;
+        let mut solve = || {
+            let mut counters = Counters::default();
+            let outcome = planner.solve_observed(Query::new(start, goal), &mut counters);
+            (outcome.expect("both ends are free"), counters)
+        };
+        let (outcome, counters) = solve();
+        assert_eq!(solve(), (outcome.clone(), counters), "asked again; {}", self.case(expected));
+        let cost = outcome.path().map(Path::cost);
+        let Outcome::Found(path) = outcome else {
+            // Where there is no path at any angle the components say so without a search.
+            let searched = counters != Counters::default();
+            assert!(!searched || expected.any_angle.is_some(), "{}", self.case(expected));
+            return None;
+        };
+        let (grid, rules, way) = (self.terrain.grid(), self.terrain.rules(), path.waypoints());
+        let fault = validate(grid, rules, k.finite(), start, goal, way, path.cost());
+        assert_eq!(fault, Ok(()), "{way:?}; {}", self.case(expected));
+        let turns = |at: &[Vertex]| at[0].to(at[1]).det(at[1].to(at[2])) != 0;
+        assert!(way.windows(3).all(turns), "{way:?} goes straight on; {}", self.case(expected));
+        cost.map(|cost| (cost, counters))
+    }
+
+    fn case(&self, &Expected { start, goal, .. }: &Expected) -> String {
+        let (k, hierarchy) = (self.graph.k(), self.graph.hierarchy());
+        let map = describe(self.terrain.grid(), self.terrain.rules(), start, goal, self.seed);
+        format!("k = {k}, {hierarchy:?}; {map}")
+    }
+}
+
+/// Free vertices of a map, as ends of queries: some convex corners, some where two blocked cells meet, some of all.
+fn ends(grid: &Grid, corners: &[Vertex], seed: u64) -> Vec<Vertex> {
+    let mut rng = Rng::new(seed ^ 0x5AB6);
+    let (width, height) = (grid.width() as i32, grid.height() as i32);
+    let vertices = (0..=height).flat_map(|y| (0..=width).map(move |x| Vertex::new(x, y)));
+    let is_gap = |&at: &Vertex| is_doubly_blocked(grid, at) && vertex_is_free(grid, Placement::Corner, at);
+    let gaps: Vec<Vertex> = vertices.filter(is_gap).collect();
+    let special = [corners, &gaps, corners].map(|of| rng.pick(of).copied());
+    let any = (0..3).map(|_| random_free_vertex(&mut rng, grid, Placement::Corner));
+    special.into_iter().chain(any.collect::<Vec<_>>()).flatten().collect()
+}
+
+/// From each of some vertices to each.
+fn expected_at(visibility: &Visibility<'_>, ends: &[Vertex], k: Knob) -> Vec<Expected> {
+    let (over_k, any) = (visibility.over(k.finite()), visibility.over(None));
+    let mut expected = Vec::new();
+    for &start in ends {
+        let (costs, best) = (over_k.costs_from(start), any.costs_from(start));
+        let to = |&goal: &Vertex| {
+            let (optimum, any_angle) = (costs.to(goal), best.to(goal));
+            Expected { start, goal, optimum, any_angle }
+        };
+        expected.extend(ends.iter().map(to));
+    }
+    expected
+}
+
+fn check_corners(seed: u64) -> Tally {
+    let mut tally = Tally::default();
+    let grid = suite_grid(seed).0;
+    for gap in GAPS {
+        let terrain = terrain::<Corners>(&grid, gap);
+        let visibility = Visibility::new(&grid, gap);
+        let ends = ends(&grid, visibility.corners(), seed);
+        for (turn, k) in (0..).zip(knobs()) {
+            let expected = expected_at(&visibility, &ends, k);
+            // One of the hierarchies for each, all of them in turn.
+            let hierarchy = HIERARCHIES[(seed as usize + turn) % HIERARCHIES.len()];
+            tally.add(Suite::new(&terrain, k, hierarchy, seed).check(&expected));
+        }
+    }
+    tally
+}
+
+fn sum(tallies: &[Tally]) -> Tally {
+    let mut sum = Tally::default();
+    tallies.iter().for_each(|&part| sum.add(part));
+    assert!(sum.found <= sum.shortest + sum.longer, "{sum:?}");
+    sum
+}
+
+#[test]
+fn sub_a_star_costs_what_the_visibility_graph_costs() {
+    let tallies = on_all_cores(seeds(300), check_corners);
+    // A generator that went wrong must not make the suite empty.
+    let (maps, tally) = (seeds(300).end as usize, sum(&tallies));
+    assert_eq!(tallies.len(), maps);
+    assert!(tally.found > 200 * maps && tally.unreachable > 30 * maps, "{tally:?} on {maps} maps");
+    assert!(tally.shortest > 200 * maps && tally.longer > 4 * maps, "{tally:?} on {maps} maps");
+}
+
+/// The same against Dijkstra on the explicit graphs of N(k) and of all segments.
+fn check_explicitly<P: Connect>(
+    grid: &Grid,
+    rule: P::Rule,
+    k: Knob,
+    hierarchy: Hierarchy,
+    seed: u64,
+) -> Tally {
+    let terrain = terrain::<P>(grid, rule);
+    let [over_k, any] = [k, Knob::Any].map(|k| Explicit::new(grid, terrain.rules(), k.finite()));
+    let vertices: Vec<Vertex> = over_k.free_vertices().collect();
+    // All pairs of a small map.
+    let step = 1 + vertices.len() / 16;
+    let mut expected = Vec::new();
+    for &start in vertices.iter().skip(seed as usize % step).step_by(step) {
+        let (costs, best) = (over_k.costs_from(start), any.costs_from(start));
+        for &goal in vertices.iter().step_by(step) {
+            let (optimum, any_angle) = (costs.to(goal), best.to(goal));
+            expected.push(Expected { start, goal, optimum, any_angle });
+        }
+    }
+    Suite::new(&terrain, k, hierarchy, seed).check(&expected)
+}
+
+fn check_rules_explicitly(grid: &Grid, rules: Rules, k: Knob, hierarchy: Hierarchy, seed: u64) -> Tally {
+    match rules {
+        Rules::Corner(gap) => check_explicitly::<Corners>(grid, gap, k, hierarchy, seed),
+        Rules::Center(corners) => check_explicitly::<Centers>(grid, corners, k, hierarchy, seed),
+    }
+}
+
+/// Where there are subgoal graphs for this k.
+fn rules_of(k: Knob) -> impl Iterator<Item = Rules> {
+    let at_centers = match k.finite().map(K::get) {
+        Some(2) => &[CornerRule::Never, CornerRule::One, CornerRule::Always][..],
+        Some(3) => &[CornerRule::Never],
+        _ => &[],
+    };
+    GAPS.map(Rules::Corner).into_iter().chain(at_centers.iter().map(|&corners| Rules::Center(corners)))
+}
+
+#[test]
+fn sub_a_star_costs_what_dijkstra_on_the_explicit_graph_costs() {
+    let check = |seed: u64| {
+        let mut tally = Tally::default();
+        let (grid, k) = (suite_grid(seed).0, [k(2), k(3), k(4), Knob::Any][seed as usize % 4]);
+        // The graph of all segments takes long on the largest maps.
+        if grid.width() * grid.height() > 200 {
+            return tally;
+        }
+        for rules in rules_of(k) {
+            let hierarchy = HIERARCHIES[seed as usize / 4 % HIERARCHIES.len()];
+            tally.add(check_rules_explicitly(&grid, rules, k, hierarchy, seed));
+        }
+        tally
+    };
+    let tallies = on_all_cores(seeds(200), check);
+    let (maps, tally) = (seeds(200).end as usize, sum(&tallies));
+    assert_eq!(tallies.len(), maps);
+    assert!(tally.found > 150 * maps && tally.unreachable > 40 * maps, "{tally:?} on {maps} maps");
+    assert!(2 * tally.longer > maps, "{tally:?} on {maps} maps");
+}
+
+/// Every map of 3 × 3 cells: the smallest maps hold the oddest gaps.
+#[test]
+fn all_is_exact_on_every_map_of_nine_cells() {
+    let check = |cells: u64| {
+        let mut tally = Tally::default();
+        let grid = Grid::from_fn(3, 3, |x, y| cells >> (3 * y + x) & 1 == 1).expect("a valid size");
+        for (turn, k) in (0..).zip([k(2), k(3), k(4), Knob::Any]) {
+            for rules in rules_of(k) {
+                let hierarchy = HIERARCHIES[(cells as usize + turn) % HIERARCHIES.len()];
+                tally.add(check_rules_explicitly(&grid, rules, k, hierarchy, cells));
+            }
+        }
+        tally
+    };
+    let tally = sum(&on_all_cores(0..1 << 9, check));
+    assert_eq!((tally.found, tally.unreachable), (464_016, 127_472));
+    assert!(tally.shortest > 400_000 && tally.longer > 1000, "{tally:?}");
+}

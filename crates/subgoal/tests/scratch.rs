@@ -1,0 +1,117 @@
+//! A warm planner allocates nothing but the path that it returns, and a graph that is loaded little more than its bytes.
+#![allow(unsafe_code, reason = "a counting allocator implements an unsafe trait")]
+
+mod common;
+
+use std::{
+    alloc::{GlobalAlloc, Layout, System},
+    cell::Cell,
+};
+
+use common::{GAPS, HIERARCHIES, graph, k, levels, terrain};
+use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Terrain, Vertex};
+use mediant_moves::Knob;
+use mediant_oracle::{Rng, caves};
+use mediant_search::{Outcome, Planner, Query};
+use mediant_subgoal::{Connect, Hierarchy, SubgoalAStar, SubgoalGraph, SubgoalTheta};
+
+thread_local! {
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+    static BYTES: Cell<usize> = const { Cell::new(0) };
+}
+
+struct Counting;
+
+// SAFETY: every call goes to the system's allocator unchanged; the counts touch no heap memory.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
+        BYTES.set(BYTES.get() + layout.size());
+        // SAFETY: the caller keeps the contract of `alloc`.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, at: *mut u8, layout: Layout) {
+        // SAFETY: the caller keeps the contract of `dealloc`, and `at` came from `System`.
+        unsafe { System.dealloc(at, layout) }
+    }
+}
+
+#[global_allocator]
+static COUNTING: Counting = Counting;
+
+fn queries<P: Connect>(terrain: &Terrain<P>) -> Vec<Query> {
+    let vertices = (0..50).flat_map(|y| (0..60).map(move |x| Vertex::new(x, y)));
+    let free: Vec<Vertex> = vertices.filter(|&at| terrain.is_free(at)).step_by(97).collect();
+    free.iter().flat_map(|&a| free.iter().map(move |&b| Query::new(a, b))).collect()
+}
+
+/// How many allocations each answer takes on a warm planner beyond its path, at most.
+fn most_allocations(case: &str, mut planner: impl Planner, queries: &[Query]) -> usize {
+    for &query in queries {
+        planner.solve(query).expect("both ends are free");
+    }
+    let (mut found, mut most) = (0, 0);
+    for &query in queries {
+        let before = ALLOCATIONS.get();
+        let outcome = planner.solve(query).expect("both ends are free");
+        let path = usize::from(matches!(outcome, Outcome::Found(_)));
+        most = most.max(ALLOCATIONS.get() - before - path);
+        found += path;
+    }
+    assert!(found > 100, "only {found} paths were found: {case}");
+    most
+}
+
+fn check<P: Connect>(rule: P::Rule, knob: Knob) {
+    let terrain = terrain::<P>(&caves(&mut Rng::new(7), 60, 50), rule);
+    let queries = queries(&terrain);
+    for hierarchy in HIERARCHIES {
+        let (graph, case) =
+            (graph(&terrain, knob, hierarchy), format!("{hierarchy:?}, k = {knob}, {rule:?}"));
+        assert_eq!(
+            most_allocations(&case, SubgoalTheta::new(&terrain, &graph), &queries),
+            0,
+            "Theta, {case}"
+        );
+        assert_eq!(most_allocations(&case, SubgoalAStar::new(&terrain, &graph), &queries), 0, "A*, {case}");
+    }
+}
+
+#[test]
+fn a_warm_query_allocates_its_path_and_nothing_else() {
+    for (gap, knob) in GAPS.into_iter().flat_map(|gap| [k(3), k(6), Knob::Any].map(|k| (gap, k))) {
+        check::<Corners>(gap, knob);
+    }
+    for knob in [k(2), k(3)] {
+        check::<Centers>(CornerRule::Never, knob);
+    }
+}
+
+/// The first three numbers say how much is to come.
+#[test]
+fn huge_counts_allocate_nothing_huge() {
+    let terrain = terrain::<Corners>(&caves(&mut Rng::new(7), 60, 50), DiagonalGap::Open);
+    let bytes = graph(&terrain, k(3), levels(2)).to_bytes();
+    let allocated = |bytes: &[u8]| {
+        let before = BYTES.get();
+        let result = SubgoalGraph::from_bytes(&terrain, k(3), bytes);
+        (result.is_ok(), BYTES.get() - before)
+    };
+    let (is_ok, most) = allocated(&bytes);
+    assert!(is_ok && most > bytes.len(), "{most}");
+    for count in [1 << 20, 1 << 30, (1 << 31) - 1, 1 << 31, u32::MAX - 1, u32::MAX] {
+        // The counts of subgoals and of arcs, the first number of arcs of one subgoal.
+        for place in [4, 8, 12] {
+            let mut huge = bytes.clone();
+            huge[place..place + 4].copy_from_slice(&u32::to_le_bytes(count));
+            let (is_ok, taken) = allocated(&huge);
+            assert!(!is_ok && taken <= most, "{count} at {place}: {taken} bytes, {most} for the graph");
+        }
+    }
+    for hierarchy in [Hierarchy::Contracted, Hierarchy::AllLevels] {
+        let bytes = graph(&terrain, k(3), hierarchy).to_bytes();
+        let (is_ok, taken) = allocated(&bytes);
+        assert!(is_ok && taken < most + 4 * bytes.len(), "{taken} bytes for {}", bytes.len());
+    }
+}
