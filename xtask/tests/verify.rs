@@ -45,7 +45,7 @@ fn wrong_costs_and_none_at_all_are_errors() {
     assert!(wrong.contains("1 of 1 costs differ") && wrong.contains("found 5.000000, known 4.5"), "{wrong}");
     let wrong = verify(tempfile::tempdir().unwrap().path(), &[]).unwrap();
     assert!(wrong.contains("nothing was compared"), "{wrong}");
-    for engine in ["wavefront", "theta", "anya"] {
+    for engine in ["wavefront", "theta", "anya", "subgoal-theta"] {
         let wrong = verify(cache("5").path(), &["--engine", engine]).unwrap();
         assert!(wrong.contains(&format!("{engine} is not optimal for k = 3")), "{wrong}");
     }
@@ -65,7 +65,9 @@ fn references_are_those_of_the_problems_that_an_engine_solves() {
     reference("any-closed-slalom.csv", "0,3.000002");
     reference("somewhere-else.csv", "0,0");
     // JPS by blocks knows no k = 5, and Theta* promises nothing.
-    let counts = [("astar", "2"), ("jps-block", "1"), ("anya", "2")];
+    // Subgoal graphs are for k = 3 at centers, and for every k and any at corners.
+    reference("corner-k5-slalom.csv", "0,3");
+    let counts = [("astar", "3"), ("jps-block", "1"), ("anya", "2"), ("subgoal", "4")];
     for (engine, count) in counts {
         assert_eq!(verify(cache.path(), &["--oracle", folder, "--engine", engine, "--expect", count]), None);
     }
@@ -79,7 +81,7 @@ fn references_are_those_of_the_problems_that_an_engine_solves() {
     );
     reference("center-k5-slalom.csv", "0,4.9");
     let wrong = verify(cache.path(), &["--oracle", folder]).unwrap();
-    assert!(wrong.contains("1 of 2 costs differ"), "{wrong}");
+    assert!(wrong.contains("1 of 3 costs differ"), "{wrong}");
     reference("center-k5-slalom.csv", "zero");
     let wrong = verify(cache.path(), &["--oracle", folder]).unwrap();
     assert!(wrong.contains("no index and cost: `zero`"), "{wrong}");

@@ -16,7 +16,7 @@ const SEED: u64 = 1;
 const SIDE: u32 = 160;
 const QUERIES: usize = 10;
 const ENTRIES: u32 = 4096;
-const ENGINES: [Engine; 8] = [
+const ENGINES: [Engine; 10] = [
     Engine::AStar,
     Engine::Canonical,
     Engine::Jps,
@@ -25,6 +25,8 @@ const ENGINES: [Engine; 8] = [
     Engine::Theta,
     Engine::LazyTheta,
     Engine::Anya,
+    Engine::Subgoal,
+    Engine::SubgoalTheta,
 ];
 const RULES: [Rules; 2] = [Rules::Center(CornerRule::Never), Rules::Corner(DiagonalGap::Open)];
 

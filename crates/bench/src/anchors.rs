@@ -306,10 +306,13 @@ mod tests {
         assert!(octile.contains(&"pathfinding") && !octile.contains(&"grid_pathfinding"));
         assert_eq!((comparable("jps-plus"), comparable("canonical,paper").len()), (octile, 0));
         assert!(comparable("astar:4:never").is_empty() && comparable("astar:3:open").is_empty());
-        assert_eq!(comparable("anya:any:closed"), ["Anya16", "Polyanya_MCDT", "RayScan", "EPS_MCDT"]);
-        assert_eq!(comparable("anya:any:open"), ["ENLSVG"]);
-        for suboptimal in ["theta:3:open", "lazy-theta:5:closed", "astar:4:open,smooth", "theta:3:open,taut"]
-        {
+        for engine in ["anya", "subgoal"] {
+            let closed = ["Anya16", "Polyanya_MCDT", "RayScan", "EPS_MCDT"];
+            assert_eq!(comparable(&format!("{engine}:any:closed")), closed);
+            assert_eq!(comparable(&format!("{engine}:any:open")), ["ENLSVG"]);
+        }
+        assert_eq!((comparable("subgoal").len(), comparable("subgoal:3:open").len()), (7, 0));
+        for suboptimal in ["theta:3:open", "lazy-theta:5:closed", "subgoal-theta", "astar:4:open,smooth"] {
             assert_eq!(comparable(suboptimal), ["Theta*", "Lazy Theta*"], "{suboptimal}");
         }
         assert!(comparable("theta:3:never").is_empty() && comparable("wavefront:3:always").len() == 1);

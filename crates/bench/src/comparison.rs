@@ -17,6 +17,17 @@ pub struct Comparison {
     /// The contender's time by the scaled time of each program, in the order of [`Anchors::programs`]; below 1, the contender
     /// is faster. `None` where the program has no figure.
     pub ratios: Vec<Option<f64>>,
+    /// The same of what comes before the first query. `None` where the program has no figure, or did not finish.
+    pub preparation: Vec<Option<PreparationRatio>>,
+}
+
+/// What a contender takes before the first query by what another program takes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct PreparationRatio {
+    /// Our time by its scaled time.
+    pub time: f64,
+    /// Our memory by its file; `None` of an index that it keeps in memory.
+    pub bytes: Option<f64>,
 }
 
 impl Comparison {
@@ -34,7 +45,15 @@ impl Comparison {
         ])?;
         let ratio = |program: &str| Some(timing.micros / ((*row.micros.get(program)?)? * scale));
         let ratios = anchors.programs.iter().map(|program| ratio(&program.name)).collect();
-        Some(Self { map: record.map.clone(), contender: timing.contender.clone(), scale, ratios })
+        let preparation = |program: &str| {
+            let theirs = row.preprocessing.get(program).copied().flatten()?;
+            let ours = timing.preparation.filter(|_| !theirs.unfinished)?;
+            let bytes = theirs.megabytes.map(|megabytes| ours.bytes as f64 / (1e6 * megabytes));
+            Some(PreparationRatio { time: ours.seconds / (theirs.seconds * scale), bytes })
+        };
+        let preparation = anchors.programs.iter().map(|program| preparation(&program.name)).collect();
+        let (map, contender) = (record.map.clone(), timing.contender.clone());
+        Some(Self { map, contender, scale, ratios, preparation })
     }
 }
 
@@ -48,9 +67,11 @@ pub fn geometric_mean(values: &[f64]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Preparation;
 
     fn timing(contender: &str, micros: f64) -> Timing {
-        Timing { contender: contender.to_owned(), micros, passes: vec![micros], mean_cost: 1.0 }
+        let preparation = Some(Preparation { seconds: 0.016, bytes: 540_000 });
+        Timing { contender: contender.to_owned(), micros, passes: vec![micros], mean_cost: 1.0, preparation }
     }
 
     #[test]
@@ -65,6 +86,16 @@ mod tests {
         // Warthog A* takes 732 µs there, hence 2928 here.
         assert!((comparison.ratios[0].unwrap() - 0.5).abs() < 1e-12);
         assert_eq!(comparison.ratios.len(), 13);
+        // 2013-subgoal-fast takes 8 ms and 0.27 MB there; ENLSVG saves nothing, RayScan prepares nothing.
+        let prepared = |name: &str| {
+            let at = anchors.programs.iter().position(|program| program.name == name).unwrap();
+            comparison.preparation[at].map(|ratio| (ratio.time, ratio.bytes))
+        };
+        let (time, bytes) = prepared("2013-subgoal-fast").unwrap();
+        assert!((time - 0.5).abs() < 1e-12 && (bytes.unwrap() - 2.0).abs() < 1e-12);
+        assert!(
+            prepared("ENLSVG").is_some_and(|(_, bytes)| bytes.is_none()) && prepared("RayScan").is_none()
+        );
 
         record.map = "random512-10-0".to_owned();
         let comparison = Comparison::new(&anchors, &record, &record.timings[0]).unwrap();
@@ -73,6 +104,9 @@ mod tests {
             comparison.ratios[at].is_none()
         };
         assert!(missing("EPS_MCDT") && missing("2019-SGCH-JPD") && !missing("ENLSVG"));
+        // Its preprocessing was broken off.
+        let at = anchors.programs.iter().position(|program| program.name == "2019-SGCH-JPD").unwrap();
+        assert_eq!(comparison.preparation[at], None);
 
         record.timings.pop();
         assert_eq!(Comparison::new(&anchors, &record, &record.timings[0]), None);

@@ -8,7 +8,7 @@ use mediant_engines::{EngineError, Setup, SharedRules, Solver};
 use mediant_search::{Outcome, Query, QueryError};
 
 use crate::{
-    Problem, Yardstick,
+    Preparation, Problem, Yardstick,
     yardstick::{BoolMap, Length, pathing_grid, solve_on},
 };
 
@@ -55,6 +55,13 @@ impl Runner {
             Contender::Yardstick(Yardstick::Pathfinding) => Self::Bools(BoolMap::new(grid)),
             Contender::Yardstick(Yardstick::GridPathfinding) => Self::Pathing(Box::new(pathing_grid(grid))),
         })
+    }
+
+    /// What was made before the first query; `None` of a yardstick.
+    pub(crate) fn preparation(&self) -> Option<Preparation> {
+        let Self::Ours(solver) = self else { return None };
+        let made = solver.preprocessing();
+        Some(Preparation { seconds: made.time.as_secs_f64(), bytes: made.index_bytes })
     }
 
     pub(crate) fn solve(&mut self, query: Query) -> Result<Answer, QueryError> {

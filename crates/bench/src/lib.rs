@@ -27,8 +27,8 @@ mod yardstick;
 
 pub use anchors::{Anchors, AnchorsError, Comparand, MapAnchors, Preprocessing};
 pub use archive::{Archive, ArchiveError};
-pub use comparison::{Comparison, geometric_mean};
+pub use comparison::{Comparison, PreparationRatio, geometric_mean};
 pub use contender::Contender;
-pub use measure::{MapRecord, MeasureError, Timing, measure};
+pub use measure::{MapRecord, MeasureError, Preparation, Timing, measure};
 pub use problem::{Problem, ProblemError};
 pub use yardstick::Yardstick;

@@ -35,6 +35,17 @@ pub struct Timing {
     pub passes: Vec<f64>,
     /// The mean length of the paths, in cells.
     pub mean_cost: f64,
+    /// What came before the first query; `None` of a yardstick.
+    pub preparation: Option<Preparation>,
+}
+
+/// What one of our engines makes of a map before its first query: the search graph and its index.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Preparation {
+    /// The time, measured once.
+    pub seconds: f64,
+    /// The memory beyond the map.
+    pub bytes: u64,
 }
 
 /// A contender that could not be measured, or answered wrong.
@@ -113,7 +124,9 @@ pub fn measure(
         let known = optima.iter().find(|(optimum, _)| promise == Some(*optimum));
         let costs = check(problem, contender, runner, known.map_or(&[], |(_, costs)| costs))?;
         let mean_cost = costs.iter().sum::<f64>() / costs.len() as f64;
-        timings.push(Timing { contender: contender.to_string(), micros: 0.0, passes: Vec::new(), mean_cost });
+        let (passes, preparation) = (Vec::new(), runner.preparation());
+        let contender = contender.to_string();
+        timings.push(Timing { contender, micros: 0.0, passes, mean_cost, preparation });
         optima.extend(promise.map(|optimum| (optimum, costs)));
     }
     for _ in 0..passes.max(1) {

@@ -23,11 +23,12 @@ fn scenario(rng: &mut Rng, grid: &Grid, count: usize) -> Scenario {
 }
 
 /// After the yardsticks: they solve the scenarios' problem.
-const EXACT: [&str; 5] =
-    ["dijkstra", "canonical,euclidean", "jps,limit=4", "jps-block,intermediate", "jps-plus"];
+const EXACT: [&str; 6] =
+    ["dijkstra", "canonical,euclidean", "jps,limit=4", "jps-block,intermediate", "jps-plus", "subgoal"];
 
-/// The last contenders: any-angle paths between corners, of which the second is held to the first.
-const ANY_ANGLE: [&str; 4] = ["anya:any:open", "anya:any:open,taut", "theta:3:open", "astar:3:open,smooth"];
+/// The last contenders: any-angle paths between corners, of which those in the middle are held to the first.
+const ANY_ANGLE: [&str; 5] =
+    ["anya:any:open", "anya:any:open,taut", "subgoal:any:open", "theta:3:open", "astar:3:open,smooth"];
 
 fn contenders() -> Vec<Contender> {
     let setups =
@@ -51,23 +52,27 @@ fn all_contenders_answer_all_queries() {
         let problem = Problem::new("made", "test", grid, &scenario, 1).expect("a problem");
         let record =
             measure(&problem, &contenders(), 2).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
-        assert_eq!((record.instances, record.timings.len()), (problem.len(), 17), "seed {seed}");
+        assert_eq!((record.instances, record.timings.len()), (problem.len(), 19), "seed {seed}");
         for timing in &record.timings {
             assert_eq!(timing.passes.len(), 2, "seed {seed}");
+            // The yardsticks say nothing of what they prepare.
+            let ours = Yardstick::ALL.iter().all(|yardstick| yardstick.name() != timing.contender);
+            assert_eq!(timing.preparation.is_some_and(|made| made.bytes > 0 && made.seconds > 0.0), ours);
             assert!(timing.passes.iter().all(|&pass| pass > 0.0) && timing.micros > 0.0, "seed {seed}");
         }
         let cost = |i: usize| record.timings[i].mean_cost;
         let optimum = scenario.instances().iter().map(|instance| instance.optimal).sum::<f64>();
         let optimum = optimum / problem.len() as f64;
         assert!((cost(0) - optimum).abs() < 1e-6 && (cost(6) - optimum).abs() < 1e-6, "seed {seed}");
-        assert!((8..13).all(|i| (cost(i) - cost(0)).abs() < 1e-9), "seed {seed}");
+        assert!((8..14).all(|i| (cost(i) - cost(0)).abs() < 1e-9), "seed {seed}");
         // k = 2 is no better, rule `One` with more moves no worse; a path that cuts corners is never below the best of them.
         assert!(cost(1) >= cost(0) - 1e-6 && cost(2) <= cost(0) + 1e-6, "seed {seed}");
         assert!(cost(3) <= cost(0) + 1e-6 && cost(7) >= cost(3) - 1e-6, "seed {seed}");
-        // The rule of gaps at place 4 is that of the last four.
-        let best = cost(13);
-        assert!((cost(14) - best).abs() < 1e-9 && cost(15) >= best - 1e-9, "seed {seed}");
-        assert!((best - 1e-9..=cost(4) + 1e-9).contains(&cost(16)), "seed {seed}");
+        // The rule of gaps at place 4 is that of the last five.
+        let best = cost(14);
+        assert!([15, 16].into_iter().all(|i| (cost(i) - best).abs() < 1e-9), "seed {seed}");
+        assert!(cost(17) >= best - 1e-9, "seed {seed}");
+        assert!((best - 1e-9..=cost(4) + 1e-9).contains(&cost(18)), "seed {seed}");
         queries += problem.len();
     }
     assert_eq!(

@@ -14,7 +14,7 @@ use clap::{
     builder::{PossibleValuesParser, TypedValueParser},
     error::ErrorKind,
 };
-use mediant_engines::{Engine, HeuristicName, Options, Setup, Variant};
+use mediant_engines::{Engine, HeuristicName, Levels, Options, Setup, Variant};
 use mediant_grid::{Centers, CornerRule, DiagonalGap, Lattice, Placement, Rules, Vertex};
 use mediant_moves::{K, Knob, KnobError};
 use mediant_search::Smoothing;
@@ -122,7 +122,7 @@ pub(crate) struct SetupArgs {
     /// The neighborhood: 2 to 12, or any, which is every direction. 3 by default, any for anya
     #[arg(long, allow_negative_numbers = true, value_parser = parse_knob)]
     pub(crate) k: Option<Knob>,
-    /// Where the vertices are: at cell centers or at cell corners. center by default, corner for anya
+    /// Where the vertices are: at cell centers or at cell corners. center by default, corner for anya, subgoal-theta and k = any
     #[arg(long, value_enum, hide_possible_values = true, value_name = "center|corner")]
     pub(crate) placement: Option<PlacementArg>,
     /// At centers, whether a path may cut the corner of a blocked cell: never (the default), one (if the cell across is
@@ -132,6 +132,10 @@ pub(crate) struct SetupArgs {
     /// At corners, whether a path may pass between two blocked cells that touch diagonally: open (the default), closed
     #[arg(long, value_enum, hide_possible_values = true, value_name = "open|closed")]
     pub(crate) gap: Option<GapArg>,
+    /// Give the subgoal graph so many levels, of which 1 is the graph without a hierarchy, or all that there can be. A contraction
+    /// hierarchy by default, 2 levels for subgoal-theta; with --index, those of the index
+    #[arg(long, value_name = "N|all", allow_negative_numbers = true, value_parser = parse_levels)]
+    pub(crate) levels: Option<Levels>,
 }
 
 #[derive(Args, Debug)]
@@ -164,6 +168,7 @@ Examples:
   mediant run arena.map --scen arena.map.scen --k 5 --placement corner --format jsonl
   mediant run arena.map --from 1,11 --to 40,30 --draw
   mediant run arena.map --from 1,11 --to 40,30 --engine anya --draw
+  mediant run arena.map --scen arena.map.scen --engine subgoal --index arena.idx
   mediant run builtin:town --k 4 --placement corner --smooth --reference anya
   mediant run arena.map --from 1,11 --engine dijkstra --distances -";
 
@@ -188,7 +193,7 @@ pub(crate) struct DemoArgs {
 pub(crate) const MAX_K: u32 = Lattice::<Centers>::MAX_K;
 
 /// The engines whose paths are the shortest at any angle.
-const REFERENCES: [Engine; 1] = [Engine::Anya];
+const REFERENCES: [Engine; 2] = [Engine::Anya, Engine::Subgoal];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PlacementArg {
@@ -238,6 +243,7 @@ impl RunArgs {
             variant: self.variant,
             jump_limit: self.jump_limit,
             intermediate: self.keep_intermediate,
+            levels: self.setup.levels,
             smoothing: self.smooth.map(|smooth| match smooth {
                 SmoothArg::Linear => Smoothing::Linear,
                 SmoothArg::Taut => Smoothing::Taut,
@@ -257,21 +263,28 @@ impl RunArgs {
     }
 }
 
+impl BuildArgs {
+    /// The setup that the arguments ask for, if there is one.
+    pub(crate) fn setup(&self) -> Result<Setup, Failure> {
+        self.setup.with(Options { levels: self.setup.levels, ..Options::default() })
+    }
+}
+
 impl SetupArgs {
     /// The setup with these options, if there is one.
-    pub(crate) fn with(&self, options: Options) -> Result<Setup, Failure> {
+    fn with(&self, options: Options) -> Result<Setup, Failure> {
         let k = self.k.unwrap_or(self.engine.about().default_k());
-        let setup = Setup { options, ..Setup::new(self.engine, k, self.rules()?) };
+        let setup = Setup { options, ..Setup::new(self.engine, k, self.rules(k)?) };
         setup.check()?;
         Ok(setup)
     }
 
     /// Placement and rule; an error for the rule of the other placement.
-    fn rules(&self) -> Result<Rules, Failure> {
+    fn rules(&self, k: Knob) -> Result<Rules, Failure> {
         let not_applicable =
             |option, placement, other| Err(Failure::NotApplicable { option, placement, other });
         let placement = match self.placement {
-            None => self.engine.about().default_rules().placement(),
+            None => self.engine.about().default_rules(k).placement(),
             Some(PlacementArg::Center) => Placement::Center,
             Some(PlacementArg::Corner) => Placement::Corner,
         };
@@ -325,6 +338,11 @@ fn parse_knob(text: &str) -> Result<Knob, String> {
         Ok(knob) => Ok(knob),
         Err(_) => Err(form),
     }
+}
+
+fn parse_levels(text: &str) -> Result<Levels, String> {
+    let max = u32::MAX;
+    text.parse().map_err(|_| format!("expected a whole number from 1 to {max}, or all"))
 }
 
 /// A k of which the moves can be computed, though no lattice may take it.
@@ -416,7 +434,7 @@ mod tests {
     #[test]
     fn references_are_the_engines_that_promise_the_shortest_any_angle_paths() {
         let promises = |engine: &Engine| {
-            let setup = Setup::new(*engine, Knob::Any, engine.about().default_rules());
+            let setup = Setup::new(*engine, Knob::Any, engine.about().default_rules(Knob::Any));
             setup.check().is_ok() && setup.optimal_over() == Some(Knob::Any)
         };
         assert!(Engine::ALL.into_iter().filter(promises).eq(REFERENCES));

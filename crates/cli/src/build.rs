@@ -2,7 +2,7 @@
 
 use std::{io::Write, path::Path};
 
-use mediant_engines::{Options, Setup};
+use mediant_engines::{Setup, build_with_progress};
 use mediant_formats::{IndexFile, IndexKey};
 use mediant_grid::Grid;
 use mediant_moves::K;
@@ -11,16 +11,20 @@ use crate::{
     args::BuildArgs,
     failure::Failure,
     map::{Map, file_name},
+    progress::BuildProgress,
     screen::{BOLD, Screen},
     text::{grouped, printable, time},
 };
 
 /// Runs the command.
 pub(crate) fn build(args: &BuildArgs, screen: &mut Screen) -> Result<(), Failure> {
-    let setup = args.setup.with(Options::default())?;
+    let setup = args.setup()?;
     let version = setup.index_version()?;
     let map = Map::load(&args.map)?;
-    let (payload, preprocessing) = mediant_engines::build(setup, &map.grid)?;
+    let progress = BuildProgress::new();
+    let built = build_with_progress(setup, &map.grid, &|step| progress.tell(step));
+    progress.clear();
+    let (payload, preprocessing) = built?;
     let key = key(setup, version, &map.grid).map_err(refused(&args.output))?;
     let bytes = grouped(payload.len() as u64);
     IndexFile::new(key, payload).write(&args.output)?;

@@ -1,5 +1,7 @@
 //! `mediant engines`: the catalog as a table.
 
+use std::io::Write;
+
 use mediant_engines::{About, Engine};
 use mediant_moves::Knob;
 use mediant_search::Guarantee;
@@ -20,18 +22,24 @@ pub(crate) fn guarantee_name(guarantee: Guarantee) -> String {
     }
 }
 
+const NOTES: &str = "\
+Both is center and corner. optimal(k) with k = any: the shortest of all paths.
+At centers subgoal takes k = 2, and k = 3 under corners never.";
+
 /// Runs the command.
 pub(crate) fn list(screen: &mut Screen) -> Result<(), Failure> {
-    let heads = ["engine", "placements", "k", "guarantee", "paper"].map(|head| (head, Align::Left));
+    let heads = ["engine", "placement", "k", "guarantee", "paper"].map(|head| (head, Align::Left));
     let mut table = Table::new(heads);
     for engine in Engine::ALL {
         let About { placements, max_k, any, guarantee, paper, .. } = engine.about();
-        let placements: Vec<String> = placements.iter().map(ToString::to_string).collect();
-        let ks = [max_k.map(|max| format!("2 … {max}")), any.then(|| Knob::Any.to_string())];
+        let placement = match placements {
+            [one] => one.to_string(),
+            _ => "both".to_owned(),
+        };
+        let ks = [max_k.map(|max| format!("2–{max}")), any.then(|| Knob::Any.to_string())];
         let ks: Vec<String> = ks.into_iter().flatten().collect();
-        table.row(
-            [engine.name(), &placements.join(", "), &ks.join(", "), guarantee, paper].map(str::to_owned),
-        );
+        table.row([engine.name(), &placement, &ks.join(", "), guarantee, paper].map(str::to_owned));
     }
-    Ok(table.write(screen)?)
+    table.write(screen)?;
+    Ok(writeln!(screen, "\n{NOTES}")?)
 }

@@ -3,10 +3,15 @@
 use std::{
     fmt,
     io::{self, IsTerminal},
+    sync::OnceLock,
     time::{Duration, Instant},
 };
 
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
+use mediant_engines::Stage;
+
+/// How long people wait without a bar.
+const PATIENCE: Duration = Duration::from_millis(500);
 
 /// A bar that appears only when the job turns out to be a long one.
 pub(crate) struct Progress {
@@ -18,8 +23,6 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    const PATIENCE: Duration = Duration::from_millis(500);
-
     /// A bar for `total` queries. `wanted` is whether stdout leaves the screen to it.
     pub(crate) fn new(total: usize, wanted: bool) -> Self {
         let allowed = wanted && io::stderr().is_terminal();
@@ -29,9 +32,10 @@ impl Progress {
     /// One more query is answered.
     pub(crate) fn tick(&mut self) {
         self.done += 1;
-        if self.bar.is_none() && self.allowed && self.begin.elapsed() > Self::PATIENCE {
-            self.bar =
-                Some(ProgressBar::new(self.total).with_style(style()).with_elapsed(self.begin.elapsed()));
+        if self.bar.is_none() && self.allowed && self.begin.elapsed() > PATIENCE {
+            self.bar = Some(
+                ProgressBar::new(self.total).with_style(style(QUERIES)).with_elapsed(self.begin.elapsed()),
+            );
         }
         if let Some(bar) = &self.bar {
             bar.set_position(self.done);
@@ -46,8 +50,53 @@ impl Progress {
     }
 }
 
-fn style() -> ProgressStyle {
-    let template = "  {bar:40.cyan/blue} {human_pos} of {human_len} queries, {left} left";
+/// The bar of a [`mediant build`](crate::build), which any thread may move.
+#[derive(Debug)]
+pub(crate) struct BuildProgress {
+    begin: Instant,
+    allowed: bool,
+    bar: OnceLock<ProgressBar>,
+}
+
+impl BuildProgress {
+    pub(crate) fn new() -> Self {
+        Self { begin: Instant::now(), allowed: io::stderr().is_terminal(), bar: OnceLock::new() }
+    }
+
+    /// Shows how far it is.
+    pub(crate) fn tell(&self, progress: mediant_engines::Progress) {
+        let mediant_engines::Progress { stage, done, total } = progress;
+        if !self.allowed || self.begin.elapsed() < PATIENCE {
+            return;
+        }
+        let doing = match stage {
+            Stage::Edges => "edges",
+            Stage::Hierarchy => "hierarchy",
+        };
+        let bar = || {
+            let bar = ProgressBar::new(total as u64).with_style(style(SUBGOALS)).with_message(doing);
+            bar.with_elapsed(self.begin.elapsed())
+        };
+        let bar = self.bar.get_or_init(bar);
+        if bar.message() != doing {
+            bar.set_message(doing);
+            bar.reset();
+        }
+        bar.set_position(done as u64);
+    }
+
+    /// Takes the bar away.
+    pub(crate) fn clear(&self) {
+        if let Some(bar) = self.bar.get() {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+const QUERIES: &str = "  {bar:40.cyan/blue} {human_pos} of {human_len} queries, {left} left";
+const SUBGOALS: &str = "  {bar:40.cyan/blue} {msg}: {human_pos} of {human_len} subgoals, {left} left";
+
+fn style(template: &str) -> ProgressStyle {
     // indicatif's own estimate would take the queries before the bar appeared for instant ones.
     let left = |state: &ProgressState, text: &mut dyn fmt::Write| {
         let rest = state.len().unwrap_or(0).saturating_sub(state.pos());

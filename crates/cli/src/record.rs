@@ -3,6 +3,7 @@
 //! First a [`RunRecord`] (`"type": "run"`), then a [`QueryRecord`] (`"query"`) for each query in the order of the scenario,
 //! last a [`Summary`](crate::summary::Summary) (`"summary"`). Lengths are in cells, times in nanoseconds.
 
+use mediant_engines::{Hierarchy, Levels};
 use mediant_moves::Knob;
 use serde::{Serialize, Serializer};
 
@@ -32,6 +33,9 @@ pub(crate) struct RunRecord {
     /// The most steps of a jump; `null` without a bound.
     pub(crate) jump_limit: Option<u32>,
     pub(crate) keep_intermediate: bool,
+    /// Of the subgoal graph that is searched: a number, `all`, or `contracted` for a contraction hierarchy; `null` for an engine without.
+    #[serde(serialize_with = "levels")]
+    pub(crate) levels: Option<Hierarchy>,
     pub(crate) smooth: bool,
     /// `linear` or `taut`; `null` unless paths are smoothed.
     pub(crate) smoothing: Option<&'static str>,
@@ -49,6 +53,15 @@ fn number_or_any<S: Serializer>(k: &Knob, serializer: S) -> Result<S::Ok, S::Err
     match k {
         Knob::K(k) => serializer.serialize_u32(k.get()),
         Knob::Any => serializer.collect_str(k),
+    }
+}
+
+fn levels<S: Serializer>(levels: &Option<Hierarchy>, serializer: S) -> Result<S::Ok, S::Error> {
+    match levels.map(Levels::of) {
+        None => serializer.serialize_none(),
+        Some(None) => serializer.serialize_str("contracted"),
+        Some(Some(Levels::Number(number))) => serializer.serialize_u32(number.get()),
+        Some(Some(Levels::All)) => serializer.serialize_str("all"),
     }
 }
 

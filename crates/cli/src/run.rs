@@ -110,6 +110,7 @@ fn describe(args: &RunArgs, setup: Setup, map: &Map, queries: &Queries) -> RunRe
         variant: setup.variant().map(|variant| variant.to_string()),
         jump_limit: setup.options.jump_limit.map(NonZeroU32::get),
         keep_intermediate: setup.options.intermediate,
+        levels: None,
         smooth: setup.options.smoothing.is_some(),
         smoothing: setup.options.smoothing.map(smoothing_name),
         any_angle: args.reference.map(Engine::name),

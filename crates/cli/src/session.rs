@@ -65,6 +65,7 @@ impl Visit for Session<'_> {
         run.guarantee = guarantee_name(guarantee);
         run.preprocess_ns = (load_time + preprocessing.time).as_nanos() as u64;
         run.index_bytes = preprocessing.index_bytes;
+        run.levels = preprocessing.hierarchy;
         report.begin(run)?;
         let mut tally = Tally::default();
         let (mut first_error, mut path) = (None, Vec::new());

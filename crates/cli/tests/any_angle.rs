@@ -196,14 +196,15 @@ fn refused(line: &str, message: &str) {
 
 #[test]
 fn what_does_not_go_together_is_refused() {
-    let centers = "astar, dijkstra, wavefront, canonical, jps, jps-block, jps-plus, theta, lazy-theta";
+    let centers =
+        "astar, dijkstra, wavefront, canonical, jps, jps-block, jps-plus, theta, lazy-theta, subgoal";
     for (options, message) in [
         ("--engine anya --k 5", "anya searches every direction, not those of k = 5: leave k out, or say any"),
         (
             "--engine anya --placement center",
             &format!("anya needs placement corner; for center choose {centers}"),
         ),
-        ("--engine theta --k any", "theta needs a k from 2 to 12; for any choose anya"),
+        ("--engine theta --k any", "theta needs a k from 2 to 12; for any choose anya, subgoal"),
         (
             "--engine anya --corners one",
             "--corners does not apply to --placement corner: leave it out, or choose --placement center",
@@ -214,7 +215,7 @@ fn what_does_not_go_together_is_refused() {
         ),
         (
             "--reference astar",
-            "invalid value 'astar' for '--reference <ENGINE>' [possible values: anya]; see --help",
+            "invalid value 'astar' for '--reference <ENGINE>' [possible values: anya, subgoal]; see --help",
         ),
         (
             "--smooth=hard",
@@ -233,7 +234,7 @@ fn what_does_not_go_together_is_refused() {
             "--from 1,2 --distances - --engine anya",
             "anya has no distances to all vertices: choose dijkstra, wavefront",
         ),
-        ("--engine anya --index x.idx", "anya has no index: choose jps-plus"),
+        ("--engine anya --index x.idx", "anya has no index: choose jps-plus, subgoal, subgoal-theta"),
         (
             "--engine anya --heuristic zero",
             "anya takes no heuristic: leave it out, or choose astar, canonical, jps, jps-block, jps-plus, theta, lazy-theta",
@@ -241,7 +242,10 @@ fn what_does_not_go_together_is_refused() {
     ] {
         refused(&format!("run builtin:cave {options}"), message);
     }
-    refused("build builtin:cave --engine anya -o x.idx", "anya has no index: choose jps-plus");
+    refused(
+        "build builtin:cave --engine anya -o x.idx",
+        "anya has no index: choose jps-plus, subgoal, subgoal-theta",
+    );
     refused(
         "build builtin:cave --engine jps-plus --smooth -o x.idx",
         "unexpected argument '--smooth' found; see --help",

@@ -39,7 +39,7 @@ fn arguments_that_make_no_sense() {
         "run builtin:cave --k -3",
         "invalid value '-3' for '--k <K>': choose a number from 2 to 12, or any; see --help",
     );
-    check("run builtin:cave --k any", "astar needs a k from 2 to 12; for any choose anya");
+    check("run builtin:cave --k any", "astar needs a k from 2 to 12; for any choose anya, subgoal");
     check(
         "run builtin:cave --every 0",
         "invalid value '0' for '--every <N>': expected a whole number from 1 up; see --help",
@@ -77,7 +77,7 @@ fn engines_and_options_that_are_none() {
     check(
         "run builtin:cave --engine warp",
         "invalid value 'warp' for '--engine <ENGINE>' [possible values: astar, dijkstra, wavefront, canonical, jps, jps-block, \
-         jps-plus, theta, lazy-theta, anya]; see --help",
+         jps-plus, theta, lazy-theta, anya, subgoal, subgoal-theta]; see --help",
     );
     check(
         "run builtin:cave --engine canonical --variant best",
@@ -184,8 +184,8 @@ fn what_an_engine_does_not_take() {
         ),
         ("--engine jps-block --k 4", "jps-block needs a k from 2 to 3, found 4".to_owned()),
         ("--engine jps-plus --k 12", "jps-plus needs a k from 2 to 3, found 12".to_owned()),
-        ("--engine jps-plus --k any", "jps-plus needs a k from 2 to 3; for any choose anya".to_owned()),
-        ("--engine jps --index x.idx", "jps has no index: choose jps-plus".to_owned()),
+        ("--engine jps-plus --k any", "jps-plus needs a k from 2 to 3; for any choose anya, subgoal".to_owned()),
+        ("--engine jps --index x.idx", "jps has no index: choose jps-plus, subgoal, subgoal-theta".to_owned()),
         (
             "--from 2,5 --distances -",
             "astar has no distances to all vertices: choose dijkstra, wavefront".to_owned(),
@@ -193,7 +193,10 @@ fn what_an_engine_does_not_take() {
     ] {
         check(&format!("run builtin:cave {options}"), &message);
     }
-    check("build builtin:cave --engine canonical -o x.idx", "canonical has no index: choose jps-plus");
+    check(
+        "build builtin:cave --engine canonical -o x.idx",
+        "canonical has no index: choose jps-plus, subgoal, subgoal-theta",
+    );
     check(
         "build builtin:cave --engine jps-plus --gap open -o x.idx",
         "--gap does not apply to --placement center: leave it out, or choose --placement corner",

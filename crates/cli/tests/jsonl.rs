@@ -60,7 +60,7 @@ fn every_record_is_complete() {
     assert!(keys(run).is_superset(&contract.into()), "{run}");
     let expected: Value = serde_json::json!({
         "map": "cave.map", "scenario": "cave.map.scen", "engine": "astar", "k": 3, "placement": "center", "corners": "never",
-        "variant": null, "jump_limit": null, "keep_intermediate": false, "gap": "open", "smooth": false, "smoothing": null, "any_angle": null, "guarantee": "optimal(3)", "heuristic": "hk", "repeat": 1, "queries": 32,
+        "variant": null, "jump_limit": null, "keep_intermediate": false, "levels": null, "gap": "open", "smooth": false, "smoothing": null, "any_angle": null, "guarantee": "optimal(3)", "heuristic": "hk", "repeat": 1, "queries": 32,
     });
     for (key, value) in expected.as_object().expect("an object") {
         assert_eq!(&run[key], value, "{key}");

@@ -1,8 +1,9 @@
 //! The engines, and what is to be known of each.
 
-use mediant_grid::{Centers, CornerRule, DiagonalGap, Lattice, Placement, Rules};
+use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Lattice, Placement, Rules};
 use mediant_moves::{K, Knob};
 use mediant_search::JumpTable;
+use mediant_subgoal::SubgoalGraph;
 
 use crate::names::names;
 
@@ -30,6 +31,10 @@ pub enum Engine {
     LazyTheta,
     /// [`Anya`](mediant_search::Anya).
     Anya,
+    /// [`SubgoalAStar`](mediant_subgoal::SubgoalAStar) on a [`SubgoalGraph`].
+    Subgoal,
+    /// [`SubgoalTheta`](mediant_subgoal::SubgoalTheta) on a [`SubgoalGraph`] of levels.
+    SubgoalTheta,
 }
 
 names!(Engine:
@@ -43,9 +48,12 @@ names!(Engine:
     Theta => "theta",
     LazyTheta => "lazy-theta",
     Anya => "anya",
+    Subgoal => "subgoal",
+    SubgoalTheta => "subgoal-theta",
 );
 
-/// What is to be known of an engine. On the placements that it takes it works under every rule of motion.
+/// What is to be known of an engine. On the placements that it takes it works under every rule of motion, but for
+/// [`Engine::Subgoal`] at centers ([`Setup::check`](crate::Setup::check)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct About {
     /// Where its vertices may be.
@@ -54,7 +62,7 @@ pub struct About {
     pub max_k: Option<u32>,
     /// Whether it searches every direction, k = ∞.
     pub any: bool,
-    /// What it promises of its paths, for a table.
+    /// What it promises of its paths, for a table; `optimal(k)` with k = any is of all paths.
     pub guarantee: &'static str,
     /// Who published it.
     pub paper: &'static str,
@@ -66,6 +74,8 @@ pub struct About {
     pub jump_limit: bool,
     /// Whether it may keep the jump points that it otherwise passes by.
     pub intermediate: bool,
+    /// Whether what it preprocesses may have levels.
+    pub levels: bool,
     /// Whether it finds the distances to all vertices.
     pub distances: bool,
     /// The version of its index, if what it preprocesses can be saved.
@@ -84,6 +94,7 @@ impl About {
         variant: false,
         jump_limit: false,
         intermediate: false,
+        levels: false,
         distances: false,
         index: None,
     };
@@ -94,10 +105,11 @@ impl About {
         if self.max_k.is_some() { Knob::K(K::EIGHT_CONNECTED) } else { Knob::Any }
     }
 
-    /// The rules that are meant where none are said: `never` at centers, or `open` of an engine that takes corners alone.
+    /// The rules that are meant where none are said: `never` at centers, or `open` where there are only corners, which is of an engine that
+    /// takes nothing else, and of every direction.
     #[must_use]
-    pub fn default_rules(self) -> Rules {
-        if self.placements.contains(&Placement::Center) {
+    pub fn default_rules(self, k: Knob) -> Rules {
+        if self.placements.contains(&Placement::Center) && k != Knob::Any {
             Rules::Center(CornerRule::default())
         } else {
             Rules::Corner(DiagonalGap::default())
@@ -112,6 +124,8 @@ impl Engine {
         let search = About::SEARCH;
         let jumps = About { intermediate: true, ..search };
         let theta = About { guarantee: "suboptimal", ..search };
+        let index = Some(SubgoalGraph::<Corners>::VERSION);
+        let subgoals = About { heuristic: false, levels: true, index, ..search };
         match self {
             Self::AStar => About { paper: "Hart 1968, Rivera 2017", ..search },
             Self::Dijkstra => About { paper: "Dijkstra 1959", heuristic: false, distances: true, ..search },
@@ -138,6 +152,13 @@ impl Engine {
                 paper: "Harabor 2016",
                 heuristic: false,
                 ..search
+            },
+            Self::Subgoal => About { any: true, paper: "Hormazábal 2017", ..subgoals },
+            Self::SubgoalTheta => About {
+                placements: &[Placement::Corner],
+                guarantee: "suboptimal",
+                paper: "Uras 2015",
+                ..subgoals
             },
         }
     }

@@ -3,8 +3,9 @@
 use mediant_grid::{Placement, Rules};
 use mediant_moves::{K, KError, Knob};
 use mediant_search::{JumpTableError, QueryError};
+use mediant_subgoal::{Hierarchy, SubgoalError};
 
-use crate::Engine;
+use crate::{Engine, hierarchy_name};
 
 /// A setup that does not exist.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -60,6 +61,19 @@ pub enum SetupError {
         /// The engines that take that.
         others: String,
     },
+    /// Centers, asked of an engine that takes them for small k alone.
+    #[error(
+        "at centers {engine} needs k = 2, or k = 3 under corners never, found k = {k} under {rules}: \
+         choose one of these, placement corner, or another engine"
+    )]
+    Centers {
+        /// The engine.
+        engine: Engine,
+        /// The k that was asked for.
+        k: Knob,
+        /// The rules.
+        rules: Rules,
+    },
     /// An index, or something that only some engines find, asked of another engine.
     #[error("{engine} has no {what}: choose {others}")]
     Without {
@@ -93,6 +107,21 @@ pub enum EngineError {
     /// A jump table that is not that of the map.
     #[error(transparent)]
     JumpTable(#[from] JumpTableError),
+    /// A subgoal graph that cannot be made, or an index that is not that of the map.
+    #[error(transparent)]
+    Subgoal(#[from] SubgoalError),
+    /// An index with another hierarchy than the setup has.
+    #[error(
+        "needs a subgoal graph with {}, found one with {}; choose the levels that it has, or build it again",
+        hierarchy_name(*expected),
+        hierarchy_name(*found)
+    )]
+    Hierarchy {
+        /// What the setup asks for.
+        expected: Hierarchy,
+        /// What the index has.
+        found: Hierarchy,
+    },
     /// A query without an answer.
     #[error(transparent)]
     Query(#[from] QueryError),

@@ -21,7 +21,8 @@ pub enum Ground {
 /// What a setup that [`Setup::check`] refuses is told where there is nothing to search for it.
 pub(crate) fn no_ground(setup: Setup) -> EngineError {
     let about = setup.engine.about();
-    let expected = (about.default_k(), about.default_rules());
+    let k = about.default_k();
+    let expected = (k, about.default_rules(k));
     EngineError::Ground { expected, found: (setup.k, setup.rules) }
 }
 

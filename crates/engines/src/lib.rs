@@ -8,7 +8,7 @@
 //! of dynamic calls. Who must hold several planners at once takes [`Solver`]s: one dynamic call a query, none within it.
 //!
 //! To add an engine: a variant of [`Engine`] with what is to be known of it (`engine.rs`), the line that makes its planner
-//! (`planner.rs`), and whether it uses the pruning rule (`rule.rs`).
+//! (`planner.rs`, or `subgoal.rs` on a subgoal graph), and whether it uses the pruning rule (`rule.rs`).
 //!
 //! What is not here: files. An index comes and goes as bytes.
 
@@ -16,19 +16,25 @@ mod distances;
 mod engine;
 mod error;
 mod ground;
+mod levels;
 mod names;
 mod planner;
 mod rule;
 mod setup;
 mod solver;
+mod subgoal;
 mod text;
 
 pub use distances::distances;
 pub use engine::{About, Engine};
 pub use error::{EngineError, SetupError};
 pub use ground::Ground;
+pub use levels::{Levels, UnknownLevels, hierarchy_name};
+pub use mediant_subgoal::{Hierarchy, Progress, Stage};
 pub use names::{HeuristicName, UnknownName, Variant};
-pub use planner::{Prebuilt, Preprocessing, Visit, build, with_planner, with_planner_on};
+pub use planner::{
+    Prebuilt, Preprocessing, Visit, build, build_with_progress, with_planner, with_planner_on,
+};
 pub use rule::{SharedRule, SharedRules};
 pub use setup::{Options, Setup};
 pub use solver::Solver;

@@ -15,8 +15,8 @@ use mediant_search::{
 };
 
 use crate::{
-    Engine, EngineError, Ground, HeuristicName, Setup, SharedRule, Variant, ground::no_ground, rule::pruning,
-    setup::without_index,
+    Engine, EngineError, Ground, HeuristicName, Hierarchy, Progress, Setup, SharedRule, Variant,
+    ground::no_ground, rule::pruning, setup::without_index, subgoal,
 };
 
 /// What preprocessing took.
@@ -26,12 +26,14 @@ pub struct Preprocessing {
     pub time: Duration,
     /// The memory beyond the map itself.
     pub index_bytes: u64,
+    /// The hierarchy of the subgoal graph, where there is one: with an index, that of the index.
+    pub hierarchy: Option<Hierarchy>,
 }
 
 impl Preprocessing {
     /// This and something else.
     fn and(self, time: Duration, index_bytes: u64) -> Self {
-        Self { time: self.time + time, index_bytes: self.index_bytes + index_bytes }
+        Self { time: self.time + time, index_bytes: self.index_bytes + index_bytes, ..self }
     }
 }
 
@@ -64,7 +66,7 @@ pub fn with_planner<V: Visit>(
     visit: V,
 ) -> Result<V::Output, EngineError> {
     let (ground, time) = timed(|| Ground::new(setup, grid))?;
-    let preprocessing = Preprocessing { time, index_bytes: ground.index_bytes() };
+    let preprocessing = Preprocessing { time, index_bytes: ground.index_bytes(), hierarchy: None };
     with_planner_on(setup, &ground, prebuilt, AddTo { visit, preprocessing })
 }
 
@@ -78,7 +80,8 @@ impl<V: Visit> Visit for AddTo<V> {
     type Output = V::Output;
 
     fn visit<P: Planner + Send + 'static>(self, planner: P, more: Preprocessing) -> V::Output {
-        self.visit.visit(planner, self.preprocessing.and(more.time, more.index_bytes))
+        let Preprocessing { time, index_bytes, .. } = self.preprocessing;
+        self.visit.visit(planner, more.and(time, index_bytes))
     }
 }
 
@@ -100,6 +103,9 @@ pub fn with_planner_on<V: Visit>(
     if prebuilt.index.is_some() {
         setup.index_version()?;
     }
+    if matches!(setup.engine, Engine::Subgoal | Engine::SubgoalTheta) {
+        return subgoal::with_graph(setup, ground, prebuilt.index.as_deref(), visit);
+    }
     match ground {
         Ground::Centers(lattice) => on_lattice(setup, lattice, prebuilt, visit),
         Ground::Corners(lattice) => on_lattice(setup, lattice, prebuilt, visit),
@@ -108,10 +114,10 @@ pub fn with_planner_on<V: Visit>(
 }
 
 /// Hands on a planner that smooths its paths, if they are to be smoothed.
-struct Smooth<L, V> {
-    visit: V,
-    terrain: L,
-    smoothing: Option<Smoothing>,
+pub(crate) struct Smooth<L, V> {
+    pub(crate) visit: V,
+    pub(crate) terrain: L,
+    pub(crate) smoothing: Option<Smoothing>,
 }
 
 impl<L, V> Visit for Smooth<L, V>
@@ -197,7 +203,7 @@ fn with_heuristic<P: Place, H: Heuristic + Send + 'static, V: Visit>(
         }
         Engine::Theta => visit.visit(ThetaStar::new(lattice, heuristic), nothing),
         Engine::LazyTheta => visit.visit(LazyThetaStar::new(lattice, heuristic), nothing),
-        Engine::Anya => return Err(no_ground(setup)),
+        Engine::Anya | Engine::Subgoal | Engine::SubgoalTheta => return Err(no_ground(setup)),
     })
 }
 
@@ -210,7 +216,7 @@ fn with_options<P: Place, H: Heuristic, J: Locator<P>>(
 }
 
 /// What `make` makes, and how long it took.
-fn timed<T, E>(make: impl FnOnce() -> Result<T, E>) -> Result<(T, Duration), E> {
+pub(crate) fn timed<T, E>(make: impl FnOnce() -> Result<T, E>) -> Result<(T, Duration), E> {
     let begin = Instant::now();
     let made = make()?;
     Ok((made, begin.elapsed()))
@@ -221,21 +227,33 @@ fn timed<T, E>(make: impl FnOnce() -> Result<T, E>) -> Result<(T, Duration), E> 
 /// # Errors
 /// [`EngineError`] for a setup that does not exist, or an engine whose preprocessing is not saved.
 pub fn build(setup: Setup, grid: &Arc<Grid>) -> Result<(Vec<u8>, Preprocessing), EngineError> {
+    build_with_progress(setup, grid, &|_| {})
+}
+
+/// [`build`], telling `progress` how far it is, from any thread. Engines that build fast tell nothing.
+///
+/// # Errors
+/// As [`build`].
+pub fn build_with_progress(
+    setup: Setup,
+    grid: &Arc<Grid>,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<(Vec<u8>, Preprocessing), EngineError> {
     setup.check()?;
     setup.index_version()?;
-    let (bytes, time) = timed(|| match Ground::new(setup, grid)? {
-        Ground::Centers(lattice) => index_of(setup, &lattice),
-        Ground::Corners(lattice) => index_of(setup, &lattice),
-        Ground::AnyAngle(_) => Err(without_index(setup.engine).into()),
+    let (bytes, time) = timed(|| {
+        let ground = Ground::new(setup, grid)?;
+        match (setup.engine, &ground) {
+            (Engine::Subgoal | Engine::SubgoalTheta, _) => subgoal::build(setup, &ground, progress),
+            (Engine::JpsPlus, Ground::Centers(lattice)) => jump_table(lattice),
+            (Engine::JpsPlus, Ground::Corners(lattice)) => jump_table(lattice),
+            (engine, _) => Err(without_index(engine).into()),
+        }
     })?;
-    let preprocessing = Preprocessing { time, index_bytes: bytes.len() as u64 };
+    let preprocessing = Preprocessing { time, index_bytes: bytes.len() as u64, hierarchy: setup.hierarchy() };
     Ok((bytes, preprocessing))
 }
 
-/// Where each engine's index is made.
-fn index_of<P: Place>(setup: Setup, lattice: &Lattice<P>) -> Result<Vec<u8>, EngineError> {
-    match setup.engine {
-        Engine::JpsPlus => Ok(JumpTable::new(lattice)?.as_bytes().to_vec()),
-        engine => Err(without_index(engine).into()),
-    }
+fn jump_table<P: Place>(lattice: &Lattice<P>) -> Result<Vec<u8>, EngineError> {
+    Ok(JumpTable::new(lattice)?.as_bytes().to_vec())
 }

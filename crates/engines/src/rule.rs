@@ -47,7 +47,9 @@ impl SharedRules {
             | Engine::Wavefront
             | Engine::Theta
             | Engine::LazyTheta
-            | Engine::Anya => false,
+            | Engine::Anya
+            | Engine::Subgoal
+            | Engine::SubgoalTheta => false,
             Engine::Canonical | Engine::Jps | Engine::JpsBlock | Engine::JpsPlus => {
                 setup.variant() != Some(Variant::Paper)
             }
@@ -77,5 +79,5 @@ pub(crate) fn pruning<P: Place>(
     let rule = rule.unwrap_or_else(|| Arc::new(CanonicalRule::new(lattice.k(), lattice.rule())));
     let pruning = Pruning::with_rule(lattice, rule);
     let index_bytes = pruning.bytes() as u64;
-    (Arc::new(pruning), Preprocessing { time: begin.elapsed(), index_bytes })
+    (Arc::new(pruning), Preprocessing { time: begin.elapsed(), index_bytes, hierarchy: None })
 }

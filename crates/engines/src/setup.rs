@@ -5,15 +5,17 @@ use std::num::NonZeroU32;
 use mediant_grid::{CornerRule, Rules};
 use mediant_moves::{K, Knob};
 use mediant_search::{Guarantee, Smoothing};
+use mediant_subgoal::Hierarchy;
 
-use crate::{About, Engine, HeuristicName, SetupError, Variant};
+use crate::{About, Engine, HeuristicName, Levels, SetupError, Variant};
 
 /// An engine, what it searches, and how.
 ///
 /// As text `ENGINE[:K[:RULE]][,OPTION…]`: K is a number or `any`, RULE is `never`, `one` or `always` at centers, `open` or `closed` at
-/// corners. Without them the problem is the scenarios' own, k = 3 at centers under `never`; of an engine for any-angle paths between corners
-/// it is `any` under `open`. The options are `euclidean`, `zero`, `paper`, `limit=N` (jumps of at most N steps), `intermediate`
-/// (jump points that are otherwise passed by), and `smooth` or `taut` (the path made shorter afterwards).
+/// corners. Without them the problem is the scenarios' own, k = 3 at centers under `never`; at corners, which is where `any` and some engines
+/// are, it is under `open`, and k is `any` for an engine of any-angle paths. The options are `euclidean`, `zero`, `paper`, `limit=N` (jumps
+/// of at most N steps), `intermediate` (jump points that are otherwise passed by), `levels=N` or `levels=all` (of a subgoal graph), and
+/// `smooth` or `taut` (the path made shorter afterwards).
 ///
 /// ```
 /// use mediant_engines::Setup;
@@ -46,16 +48,19 @@ pub struct Options {
     pub jump_limit: Option<NonZeroU32>,
     /// Whether to keep the jump points at which a path only turns on its way to another.
     pub intermediate: bool,
+    /// The levels of the subgoal graph; without them it has a contraction hierarchy, or 2 levels where the engine needs levels.
+    pub levels: Option<Levels>,
     /// How the path is made shorter afterwards, if it is.
     pub smoothing: Option<Smoothing>,
 }
 
 /// What [`Setup::all`] has of smoothed engines: paths over few and over many directions.
-const SMOOTHED: [(Engine, Smoothing); 4] = [
+const SMOOTHED: [(Engine, Smoothing); 5] = [
     (Engine::AStar, Smoothing::Linear),
     (Engine::AStar, Smoothing::Taut),
     (Engine::Theta, Smoothing::Taut),
     (Engine::Anya, Smoothing::Taut),
+    (Engine::Subgoal, Smoothing::Taut),
 ];
 
 /// Whether something holds of an engine.
@@ -79,6 +84,9 @@ impl Setup {
             Options { variant: Some(Variant::Paper), ..options },
             Options { jump_limit: NonZeroU32::new(2), ..options },
             Options { intermediate: true, ..options },
+            Options { levels: NonZeroU32::new(1).map(Levels::Number), ..options },
+            Options { levels: NonZeroU32::new(2).map(Levels::Number), ..options },
+            Options { levels: Some(Levels::All), ..options },
         ];
         let with = move |engine, options| Self { options, ..Self::new(engine, k, rules) };
         let setups =
@@ -95,11 +103,12 @@ impl Setup {
     pub fn check(&self) -> Result<(), SetupError> {
         let Self { engine, k, rules, options } = *self;
         let about = engine.about();
-        let takes: [(bool, Has, &str); 4] = [
+        let takes: [(bool, Has, &str); 5] = [
             (options.heuristic.is_some(), |about| about.heuristic, "heuristic"),
             (options.variant.is_some(), |about| about.variant, "variant"),
             (options.jump_limit.is_some(), |about| about.jump_limit, "jump limit"),
             (options.intermediate, |about| about.intermediate, "intermediate jump points"),
+            (options.levels.is_some(), |about| about.levels, "levels"),
         ];
         if let Some(&(_, has, option)) = takes.iter().find(|(given, has, _)| *given && !has(about)) {
             return Err(SetupError::Option { engine, option, others: those(has) });
@@ -118,6 +127,9 @@ impl Setup {
                 let others = those(|about| about.placements.contains(&placement));
                 Err(SetupError::Placement { engine, needed: *needed, placement, others })
             }
+            _ if engine == Engine::Subgoal && !has_subgoals(k, rules) => {
+                Err(SetupError::Centers { engine, k, rules })
+            }
             _ => Ok(()),
         }
     }
@@ -130,11 +142,23 @@ impl Setup {
         self.engine.about().index.ok_or_else(|| without_index(self.engine))
     }
 
-    /// The heuristic that guides the search; none of these of an any-angle search, which has one of its own.
+    /// The heuristic that guides the search; none of these where the search has one of its own, at any angle or on a subgoal graph.
     #[must_use]
     pub fn heuristic(&self) -> Option<HeuristicName> {
-        let default = if self.engine.about().heuristic { HeuristicName::Hk } else { HeuristicName::Zero };
-        self.k.finite().map(|_| self.options.heuristic.unwrap_or(default))
+        let about = self.engine.about();
+        let default = if about.heuristic { HeuristicName::Hk } else { HeuristicName::Zero };
+        self.k.finite().filter(|_| !about.levels).map(|_| self.options.heuristic.unwrap_or(default))
+    }
+
+    /// The hierarchy of the subgoal graph, of an engine that searches one.
+    #[must_use]
+    pub fn hierarchy(&self) -> Option<Hierarchy> {
+        let chosen = self.options.levels.map(Hierarchy::from);
+        match self.engine {
+            Engine::Subgoal => Some(chosen.unwrap_or_default()),
+            Engine::SubgoalTheta => chosen.or(NonZeroU32::new(2).map(Hierarchy::Levels)),
+            _ => None,
+        }
     }
 
     /// The variant, of an engine that has several.
@@ -147,7 +171,7 @@ impl Setup {
     #[must_use]
     pub fn guarantee(&self) -> Guarantee {
         let plain = match (self.engine, self.k) {
-            (Engine::Theta | Engine::LazyTheta, _) => Guarantee::Suboptimal,
+            (Engine::Theta | Engine::LazyTheta | Engine::SubgoalTheta, _) => Guarantee::Suboptimal,
             (Engine::Wavefront, k) if k != Knob::K(K::FOUR_CONNECTED) => Guarantee::Suboptimal,
             _ if self.variant() == Some(Variant::Paper) => Guarantee::Suboptimal,
             (Engine::Anya, _) | (_, Knob::Any) => Guarantee::OptimalAnyAngle,
@@ -172,7 +196,7 @@ impl Setup {
     /// The directions that its paths may take: those that it searches, or every one where it straightens what it finds.
     #[must_use]
     pub fn paths(&self) -> Knob {
-        let straightens = matches!(self.engine, Engine::Theta | Engine::LazyTheta);
+        let straightens = matches!(self.engine, Engine::Theta | Engine::LazyTheta | Engine::SubgoalTheta);
         if straightens || self.options.smoothing.is_some() { Knob::Any } else { self.k }
     }
 
@@ -186,6 +210,15 @@ impl Setup {
 
 pub(crate) fn without_index(engine: Engine) -> SetupError {
     SetupError::Without { engine, what: "index", others: those(|about| about.index.is_some()) }
+}
+
+/// Whether there is a subgoal graph for these directions under these rules.
+fn has_subgoals(k: Knob, rules: Rules) -> bool {
+    match (rules, k) {
+        (Rules::Corner(_), _) | (_, Knob::K(K::FOUR_CONNECTED)) => true,
+        (Rules::Center(corners), Knob::K(K::EIGHT_CONNECTED)) => corners == CornerRule::Never,
+        (Rules::Center(_), _) => false,
+    }
 }
 
 /// The names of the engines of which something holds.

@@ -19,12 +19,13 @@ pub struct TextError {
 impl fmt::Display for Setup {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rule = self.rule_name();
-        let Options { heuristic, variant, jump_limit, intermediate, smoothing } = self.options;
+        let Options { heuristic, variant, jump_limit, intermediate, levels, smoothing } = self.options;
         let options = [
             heuristic.map(|heuristic| heuristic.to_string()),
             variant.map(|variant| variant.to_string()),
             jump_limit.map(|limit| format!("limit={limit}")),
             intermediate.then(|| "intermediate".to_owned()),
+            levels.map(|levels| format!("levels={levels}")),
             smoothing.map(|smoothing| smoothing_name(smoothing).to_owned()),
         ];
         let options: String = options.into_iter().flatten().map(|option| format!(",{option}")).collect();
@@ -58,7 +59,7 @@ impl FromStr for Setup {
         let k = parts
             .next()
             .map_or(Ok(about.default_k()), |k| k.parse().map_err(|_| error(format!("K is {}", ks(about)))))?;
-        let rules = parts.next().map_or(Ok(about.default_rules()), |rule| {
+        let rules = parts.next().map_or(Ok(about.default_rules(k)), |rule| {
             rule_named(rule).ok_or_else(|| error("the rules are never, one, always, open, closed".to_owned()))
         })?;
         if parts.next().is_some() {
@@ -67,7 +68,7 @@ impl FromStr for Setup {
         let mut setup = Self::new(engine, k, rules);
         for option in options {
             choose(&mut setup.options, option).ok_or_else(|| {
-                let names = "hk, euclidean, zero, exact, paper, limit=N, intermediate, smooth, taut";
+                let names = "hk, euclidean, zero, exact, paper, limit=N, intermediate, levels=N, levels=all, smooth, taut";
                 error(format!("the options are {names}"))
             })?;
         }
@@ -114,6 +115,8 @@ fn choose(options: &mut Options, text: &str) -> Option<()> {
         options.variant = Some(variant);
     } else if text == "intermediate" {
         options.intermediate = true;
+    } else if let Some(levels) = text.strip_prefix("levels=") {
+        options.levels = Some(levels.parse().ok()?);
     } else if let Some(smoothing) = smoothing_named(text) {
         options.smoothing = Some(smoothing);
     } else {

@@ -3,8 +3,8 @@
 use std::{num::NonZeroU32, sync::Arc};
 
 use mediant_engines::{
-    Engine, EngineError, Ground, HeuristicName, Options, Prebuilt, Setup, SetupError, SharedRule, Solver,
-    Variant, build, distances,
+    Engine, EngineError, Ground, HeuristicName, Hierarchy, Options, Prebuilt, Setup, SetupError, SharedRule,
+    Solver, Variant, build, distances,
 };
 use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Placement, Rules, Vertex};
 use mediant_moves::{K, Knob};
@@ -30,7 +30,8 @@ fn grid() -> Arc<Grid> {
 
 /// The engine on the problem that is meant where none is said.
 fn plain(engine: Engine) -> Setup {
-    Setup::new(engine, engine.about().default_k(), engine.about().default_rules())
+    let k = engine.about().default_k();
+    Setup::new(engine, k, engine.about().default_rules(k))
 }
 
 fn solver(setup: Setup, prebuilt: Prebuilt) -> Solver {
@@ -83,14 +84,18 @@ fn every_setup_makes_the_planner_that_it_promises() {
     }
     // 3 of A*, Dijkstra, wavefront, 4 of canonical, 5 of jps, 3 each of theta and lazy-theta; for k ≤ 3 also 5 of jps-block and 4 of
     // jps-plus; 3 that are smoothed. Of each gap rule anya, and once smoothed.
-    assert_eq!(setups, 5 * (4 * (3 + 1 + 1 + 4 + 5 + 3 + 3 + 3) + 2 * (5 + 4)) + 2 * 2);
+    let grids = 5 * (4 * (3 + 1 + 1 + 4 + 5 + 3 + 3 + 3) + 2 * (5 + 4)) + 2 * 2;
+    // 4 of subgoal, and once smoothed: at corners for each k and for any, at centers for k = 2 under 3 rules and for k = 3 under one. 4 of
+    // subgoal-theta at corners.
+    assert_eq!(setups, grids + 5 * (2 * (4 + 1) + 3 + 1) + 4 * 2 * 4);
 }
 
 #[test]
 fn every_engine_is_in_its_own_range_of_k() {
     for engine in Engine::ALL {
-        let (about, rules) = (engine.about(), engine.about().default_rules());
-        let setup = |k: Knob| Setup::new(engine, k, rules);
+        // Every engine takes corners, and there every k that it takes at all.
+        let about = engine.about();
+        let setup = |k: Knob| Setup::new(engine, k, OPEN);
         let refused = |k: Knob, error: SetupError| {
             assert_eq!(setup(k).check(), Err(error.clone()));
             let solver = Solver::new(setup(k), &grid(), Prebuilt::default()).map(|_| ());
@@ -104,8 +109,12 @@ fn every_engine_is_in_its_own_range_of_k() {
                 "{engine}"
             );
             refused(beyond.into(), SetupError::K { engine, max, k: beyond });
-            let others = "anya".to_owned();
-            refused(Knob::Any, SetupError::NeedsFiniteK { engine, max, others });
+            let others = "anya, subgoal".to_owned();
+            if about.any {
+                assert_eq!((engine, setup(Knob::Any).check()), (Engine::Subgoal, Ok(())));
+            } else {
+                refused(Knob::Any, SetupError::NeedsFiniteK { engine, max, others });
+            }
         } else {
             assert_eq!((engine, setup(Knob::Any).check()), (Engine::Anya, Ok(())));
             refused(k(2).into(), SetupError::NeedsAny { engine, k: k(2) });
@@ -118,15 +127,15 @@ fn every_engine_takes_the_placements_that_it_says() {
     for engine in Engine::ALL {
         for rules in Rules::ALL {
             let (about, placement) = (engine.about(), rules.placement());
-            let said = Setup { rules, ..plain(engine) }.check();
+            // Some engines take centers only for the smallest k under every rule.
+            let k = about.max_k.map_or(Knob::Any, |_| Knob::K(k(2)));
+            let said = Setup { rules, k, ..plain(engine) }.check();
             if about.placements.contains(&placement) {
                 assert_eq!(said, Ok(()), "{engine}, {rules}");
             } else {
                 let said = said.expect_err("it does not take it").to_string();
-                assert!(
-                    said.starts_with("anya needs placement corner; for center choose astar, dijkstra,"),
-                    "{said}"
-                );
+                let needs = format!("{engine} needs placement corner; for center choose astar, dijkstra,");
+                assert!(said.starts_with(&needs) && said.ends_with(" lazy-theta, subgoal"), "{said}");
             }
         }
     }
@@ -186,6 +195,9 @@ fn options_are_refused_where_they_mean_nothing() {
     assert_eq!(chosen(",paper"), ["canonical"]);
     assert_eq!(chosen(",limit=4"), ["jps", "jps-block"]);
     assert_eq!(chosen(",intermediate"), ["jps", "jps-block", "jps-plus"]);
+    for levels in ["1", "4", "all"] {
+        assert_eq!(chosen(&format!(",levels={levels}")), ["subgoal", "subgoal-theta"]);
+    }
     let options = Options { jump_limit: NonZeroU32::new(4), ..Options::default() };
     let error = Setup { options, ..Setup::new(Engine::AStar, k(3), NEVER) }.check().expect_err("no jumps");
     assert_eq!(error.to_string(), "astar takes no jump limit: leave it out, or choose jps, jps-block");
@@ -198,9 +210,34 @@ fn what_is_left_out_has_its_default() {
     assert_eq!(setup("dijkstra").heuristic(), Some(HeuristicName::Zero));
     assert_eq!((setup("anya").heuristic(), setup("anya")), (None, setup("anya:any:open")));
     assert_eq!((setup("theta").to_string(), setup("anya:any").rules), ("theta:3:never".to_owned(), OPEN));
-    let paths = ["astar:4", "theta", "lazy-theta", "astar,smooth", "jps,taut", "anya"]
-        .map(|text| setup(text).paths());
-    assert_eq!(paths, [Knob::K(k(4)), Knob::Any, Knob::Any, Knob::Any, Knob::Any, Knob::Any]);
+    assert_eq!(
+        (setup("subgoal"), setup("subgoal-theta")),
+        (setup("subgoal:3:never"), setup("subgoal-theta:3:open"))
+    );
+    assert_eq!((setup("subgoal").heuristic(), setup("subgoal-theta").heuristic()), (None, None));
+    let levels = |n| NonZeroU32::new(n).map(Hierarchy::Levels);
+    assert_eq!(
+        (setup("astar").hierarchy(), setup("subgoal").hierarchy()),
+        (None, Some(Hierarchy::Contracted))
+    );
+    assert_eq!(
+        ["subgoal,levels=1", "subgoal-theta"].map(|text| setup(text).hierarchy()),
+        [levels(1), levels(2)]
+    );
+    assert_eq!(setup("subgoal-theta,levels=all").hierarchy(), Some(Hierarchy::AllLevels));
+    let paths = [
+        "astar:4",
+        "subgoal:4:open",
+        "theta",
+        "lazy-theta",
+        "astar,smooth",
+        "jps,taut",
+        "anya",
+        "subgoal-theta",
+    ]
+    .map(|text| setup(text).paths());
+    assert_eq!(paths[..2], [Knob::K(k(4)); 2]);
+    assert_eq!(paths[2..], [Knob::Any; 6]);
     let promised = ["astar:4:one,smooth", "theta,taut", "anya,taut", "wavefront:2,taut", "wavefront,taut"];
     assert_eq!(
         promised.map(|text| setup(text).guarantee()),
@@ -213,10 +250,15 @@ fn what_is_left_out_has_its_default() {
         ]
     );
     assert_eq!((setup("canonical").variant(), setup("jps").variant()), (Some(Variant::Exact), None));
-    let over = ["jps:4", "wavefront:2", "anya,taut", "astar,taut", "theta", "canonical,paper"]
+    let over = ["jps:4", "subgoal:9:closed", "wavefront:2", "anya,taut", "subgoal:any"]
         .map(|text| setup(text).optimal_over());
-    assert_eq!(over, [Some(Knob::K(k(4))), Some(Knob::K(k(2))), Some(Knob::Any), None, None, None]);
+    let ks = [4, 9, 2].map(|n| Some(Knob::K(k(n))));
+    assert_eq!((&over[..3], &over[3..]), (&ks[..], &[Some(Knob::Any); 2][..]));
+    for text in ["astar,taut", "theta", "canonical,paper", "subgoal,taut", "subgoal-theta"] {
+        assert_eq!(setup(text).optimal_over(), None, "{text}");
+    }
     let solves = |text: &str| setup(text).solves_scenarios();
+    assert!(solves("subgoal") && !solves("subgoal:2:never") && !solves("subgoal-theta"));
     assert!(solves("jps-plus") && solves("canonical") && !solves("canonical,paper") && !solves("wavefront"));
     assert!(
         !solves("jps:3:one")
@@ -256,7 +298,8 @@ fn setups_are_read_as_they_are_written() {
 #[test]
 fn each_wrong_part_is_named() {
     let wrong = |text: &str| text.parse::<Setup>().expect_err("no setup").to_string();
-    let names = "astar, dijkstra, wavefront, canonical, jps, jps-block, jps-plus, theta, lazy-theta, anya";
+    let names = "astar, dijkstra, wavefront, canonical, jps, jps-block, jps-plus, theta, lazy-theta, anya, \
+                 subgoal, subgoal-theta";
     let form = "expected ENGINE[:K[:RULE]][,OPTION…], found `warp`";
     assert_eq!(wrong("warp"), format!("{form}: the engines are {names}"));
     for k in ["", "x", "1", "-3"] {
@@ -266,7 +309,24 @@ fn each_wrong_part_is_named() {
         wrong("jps-block:x").ends_with("K is a number from 2 to 3") && wrong("anya:x").ends_with("K is any")
     );
     assert!(wrong("jps-block:4").ends_with("jps-block needs a k from 2 to 3, found 4"));
-    assert!(wrong("theta:any").ends_with("theta needs a k from 2 to 12; for any choose anya"));
+    assert!(wrong("theta:any").ends_with("theta needs a k from 2 to 12; for any choose anya, subgoal"));
+    assert!(wrong("subgoal:x").ends_with("K is a number from 2 to 12, or any"));
+    assert!(
+        wrong("subgoal-theta:any")
+            .ends_with("subgoal-theta needs a k from 2 to 12; for any choose anya, subgoal")
+    );
+    assert!(wrong("subgoal:13:open").ends_with("subgoal needs a k from 2 to 12, found 13"));
+    assert!(
+        wrong("astar,levels=2")
+            .ends_with("astar takes no levels: leave it out, or choose subgoal, subgoal-theta")
+    );
+    for levels in ["levels", "levels=", "levels=0", "levels=-1", "levels=some"] {
+        assert!(
+            wrong(&format!("subgoal,{levels}")).contains("the options are hk, euclidean, zero,"),
+            "{levels}"
+        );
+    }
+
     assert!(
         wrong("anya:3")
             .ends_with("anya searches every direction, not those of k = 3: leave k out, or say any")
@@ -277,7 +337,7 @@ fn each_wrong_part_is_named() {
     for option in ["", "limit=0", "limit=x", "limit", "fast"] {
         assert!(wrong(&format!("jps,{option}")).contains("the options are hk, euclidean, zero,"), "{option}");
     }
-    assert!(wrong("jps,best").ends_with("limit=N, intermediate, smooth, taut"));
+    assert!(wrong("jps,best").ends_with("limit=N, intermediate, levels=N, levels=all, smooth, taut"));
     assert!(wrong("anya,zero").contains("anya takes no heuristic: leave it out, or choose astar, "));
     assert!(wrong("jps,paper").ends_with("jps takes no variant: leave it out, or choose canonical"));
 }
@@ -306,9 +366,9 @@ fn a_saved_index_is_as_good_as_a_new_one() {
 
 #[test]
 fn only_some_engines_have_an_index_or_distances() {
-    for engine in Engine::ALL.into_iter().filter(|&engine| engine != Engine::JpsPlus) {
+    for engine in Engine::ALL.into_iter().filter(|&engine| engine.about().index.is_none()) {
         let setup = plain(engine);
-        let error = format!("{engine} has no index: choose jps-plus");
+        let error = format!("{engine} has no index: choose jps-plus, subgoal, subgoal-theta");
         let said = [
             build(setup, &grid()).map(|_| ()),
             Solver::new(setup, &grid(), Prebuilt { index: Some(Vec::new()), rule: None }).map(|_| ()),

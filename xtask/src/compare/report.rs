@@ -42,6 +42,12 @@ pub(super) fn text(results: &Results<'_>, options: &Options) -> String {
                 "\n{setup} by the scaled time of programs that solve the same problem{quality} (< 1: we are faster)"
             ));
             lines.extend(ratios(results, i, &same).lines());
+            if setup.engine.about().index.is_some() {
+                lines.push(format!(
+                    "\n{setup}: what comes before the first query, on all cores, by the scaled time and the index file of these programs"
+                ));
+                lines.extend(preparation(results, i, &same).lines());
+            }
         }
         if !other.is_empty() {
             lines.push(format!("\n{setup} by the scaled time of programs that solve another problem"));
@@ -99,19 +105,56 @@ fn ratios(results: &Results<'_>, setup: usize, programs: &[(usize, &Comparand)])
     let comparisons = || results.comparisons.iter().filter_map(|all| all.get(setup));
     let ratio = |comparison: &Comparison, program: usize| comparison.ratios.get(program).copied().flatten();
     for comparison in comparisons() {
-        let cell = |(program, _): &(usize, _)| ratio(comparison, *program).map_or("–".to_owned(), number);
         let mut row = vec![comparison.map.clone()];
-        row.extend(programs.iter().map(cell));
+        row.extend(programs.iter().map(|(program, _)| cell(ratio(comparison, *program))));
         table.row(row);
     }
     let mean = |(program, _): &(usize, _)| {
         let values: Vec<f64> = comparisons().filter_map(|comparison| ratio(comparison, *program)).collect();
-        geometric_mean(&values).map_or("–".to_owned(), number)
+        cell(geometric_mean(&values))
     };
     let mut row = vec!["geometric mean".to_owned()];
     row.extend(programs.iter().map(mean));
     table.row(row);
     table
+}
+
+/// What the setup at place `setup` prepares, and its ratios to those of the programs that prepare something.
+fn preparation(results: &Results<'_>, setup: usize, programs: &[(usize, &Comparand)]) -> Table {
+    let prepares =
+        |name: &String| results.anchors.maps.iter().any(|row| row.preprocessing.contains_key(name));
+    let programs: Vec<_> = programs.iter().filter(|(_, program)| prepares(&program.name)).collect();
+    let heading = ["map", "ms", "MB"].map(str::to_owned).into_iter();
+    let columns = programs
+        .iter()
+        .flat_map(|(_, program)| ["time", "size"].map(|what| format!("{} {what}", program.name)));
+    let mut table = Table::new(heading.chain(columns).collect());
+    let mut all: Vec<Vec<Option<f64>>> = Vec::new();
+    for (record, comparisons) in results.records.iter().zip(&results.comparisons) {
+        let (Some(timing), Some(comparison)) = (record.timings.get(setup), comparisons.get(setup)) else {
+            continue;
+        };
+        let ours = timing.preparation;
+        let mut values = vec![ours.map(|ours| 1e3 * ours.seconds), ours.map(|ours| ours.bytes as f64 / 1e6)];
+        for (program, _) in &programs {
+            let ratio = comparison.preparation.get(*program).copied().flatten();
+            values.extend([ratio.map(|ratio| ratio.time), ratio.and_then(|ratio| ratio.bytes)]);
+        }
+        table.row([record.map.clone()].into_iter().chain(values.iter().copied().map(cell)).collect());
+        all.push(values);
+    }
+    let mean = |column: usize| {
+        let values: Vec<f64> = all.iter().filter_map(|row| row[column]).collect();
+        cell(geometric_mean(&values))
+    };
+    table.row(
+        ["geometric mean".to_owned()].into_iter().chain((0..2 + 2 * programs.len()).map(mean)).collect(),
+    );
+    table
+}
+
+fn cell(value: Option<f64>) -> String {
+    value.map_or("–".to_owned(), number)
 }
 
 /// The file that `--json` asks for.

@@ -92,6 +92,26 @@ fn programs_that_solve_the_same_problem_have_a_table_of_their_own() {
 }
 
 #[test]
+fn what_engines_prepare_is_compared_too() {
+    let text = compare(mirror("5").path(), &["--engines", "subgoal", "subgoal:any:closed", "astar"]).unwrap();
+    let table = |setup: &str| {
+        let heading = format!("{setup}: what comes before the first query");
+        let mut lines = text.lines().skip_while(|line| !line.starts_with(&heading)).skip(1);
+        let heading = lines.next().map(str::to_owned);
+        heading.zip(lines.nth(1).map(|row| row.split_whitespace().count()))
+    };
+    let (heading, cells) = table("subgoal:3:never").unwrap();
+    assert!(
+        heading.contains("2013-subgoal-fast time  2013-subgoal-fast size  2019-SGCH-JPD time"),
+        "{heading}"
+    );
+    assert_eq!(cells, 9, "{text}");
+    let (heading, cells) = table("subgoal:any:closed").unwrap();
+    assert!(heading.contains("Polyanya_MCDT time") && !heading.contains("RayScan"), "{heading}");
+    assert_eq!((cells, table("astar:3:never")), (7, None), "{text}");
+}
+
+#[test]
 fn wrong_answers_and_missing_maps_are_errors() {
     let wrong = mirror("4.5");
     let error = compare(wrong.path(), &[]).unwrap_err();
@@ -122,6 +142,7 @@ fn tables(scales: &[f64]) -> String {
             contender: "astar".to_owned(),
             scale,
             ratios: Vec::new(),
+            preparation: Vec::new(),
         }]
     };
     let comparisons = scales.iter().map(comparison).collect();

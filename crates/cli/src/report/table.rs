@@ -2,6 +2,8 @@
 
 use std::io::{self, Write};
 
+use mediant_engines::hierarchy_name;
+
 use super::Report;
 use crate::{
     record::{QueryRecord, RunRecord, Status},
@@ -145,6 +147,7 @@ impl Report for TableReport<'_> {
         parts.extend(run.variant.map(|variant| format!("variant {variant}")));
         parts.extend(run.jump_limit.map(|limit| format!("jumps up to {limit}")));
         parts.extend(run.keep_intermediate.then(|| "intermediate jump points kept".to_owned()));
+        parts.extend(run.levels.map(hierarchy_name));
         parts.extend(run.smoothing.map(|smoothing| format!("smoothing {smoothing}")));
         let problem = [format!("k = {}", run.k), format!("{}, {rule}", run.placement)];
         let parts = [parts.join(", ")].into_iter().chain(problem).collect::<Vec<_>>();

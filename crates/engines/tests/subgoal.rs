@@ -1,0 +1,179 @@
+//! Subgoal graphs in the catalog: where there are any, and what becomes of a saved one.
+
+use std::sync::{Arc, Mutex};
+
+use mediant_engines::{
+    Engine, EngineError, Ground, Hierarchy, Levels, Prebuilt, Progress, Setup, SetupError, Solver, Stage,
+    build, build_with_progress,
+};
+use mediant_grid::{AsciiMap, Grid, Placement, Rules};
+use mediant_moves::{K, Knob};
+use mediant_search::Query;
+use mediant_subgoal::SubgoalGraph;
+
+fn k(k: u32) -> K {
+    K::new(k).expect("k is at least 2")
+}
+
+fn grid() -> Arc<Grid> {
+    let drawing = "
+        ......#..
+        .##...#..
+        .#....#..
+        ...#.....
+        ...#..#..
+    ";
+    Arc::new(AsciiMap::parse(drawing).expect("the drawing is a map").grid)
+}
+
+fn solver(setup: Setup, prebuilt: Prebuilt) -> Solver {
+    Solver::new(setup, &grid(), prebuilt).unwrap_or_else(|error| panic!("{setup}: {error}"))
+}
+
+#[test]
+fn subgoal_graphs_at_centers_are_for_small_k() {
+    let mut taken = Vec::new();
+    for rules in Rules::ALL.into_iter().filter(|rules| rules.placement() == Placement::Center) {
+        for k in (2..=12).map(|n| Knob::K(k(n))).chain([Knob::Any]) {
+            let setup = Setup::new(Engine::Subgoal, k, rules);
+            // What the catalog says is what the engine says.
+            let lattice = k.finite().map_or(4, |k| k.get().min(4));
+            let ground =
+                Ground::new(Setup::new(Engine::AStar, K::new(lattice).expect("a k"), rules), &grid());
+            let Ok(Ground::Centers(lattice)) = ground else { panic!("{ground:?}") };
+            let there = SubgoalGraph::new(&lattice, k, Hierarchy::Contracted).is_ok();
+            match setup.check() {
+                Ok(()) => taken.push(setup.to_string()),
+                Err(error) => assert_eq!(error, SetupError::Centers { engine: Engine::Subgoal, k, rules }),
+            }
+            assert_eq!(setup.check().is_ok(), there, "{setup}");
+        }
+    }
+    assert_eq!(taken, ["subgoal:2:never", "subgoal:3:never", "subgoal:2:one", "subgoal:2:always"]);
+    let said = "subgoal:3:one".parse::<Setup>().expect_err("corners are cut").to_string();
+    assert!(
+        said.ends_with(
+            "at centers subgoal needs k = 2, or k = 3 under corners never, found k = 3 under center, corners one: \
+             choose one of these, placement corner, or another engine"
+        ),
+        "{said}"
+    );
+    // Where every direction is searched, corners are meant.
+    assert_eq!("subgoal:any".parse(), "subgoal:any:open".parse::<Setup>());
+}
+
+#[test]
+fn a_saved_subgoal_graph_is_as_good_as_a_new_one() {
+    let query = Query::new((0, 0), (8, 4));
+    let mut setups = 0;
+    for rules in Rules::ALL {
+        for k in [2, 3, 5].map(|n| Knob::K(k(n))).into_iter().chain([Knob::Any]) {
+            for setup in Setup::all(k, rules).filter(|setup| setup.engine.about().levels) {
+                let (bytes, took) = build(setup, &grid()).unwrap_or_else(|error| panic!("{setup}: {error}"));
+                assert_eq!((took.index_bytes, took.hierarchy), (bytes.len() as u64, setup.hierarchy()));
+                let mut new = solver(setup, Prebuilt::default());
+                let mut saved = solver(setup, Prebuilt { index: Some(bytes), rule: None });
+                assert_eq!(saved.solve_counted(query), new.solve_counted(query), "{setup}");
+                let [new, saved] = [&new, &saved]
+                    .map(|solver| (solver.preprocessing().index_bytes, solver.preprocessing().hierarchy));
+                assert_eq!((saved, new.1), (new, setup.hierarchy()), "{setup}");
+                setups += 1;
+            }
+        }
+    }
+    assert_eq!(setups, 5 * (2 * 4 + 3 + 1) + 4 * 2 * 3);
+}
+
+#[test]
+fn a_saved_subgoal_graph_has_the_levels_that_are_named() {
+    let setup = |text: &str| text.parse::<Setup>().expect("a setup");
+    let with = |built: &str, asked: &str| {
+        let index = build(setup(built), &grid()).expect("an index").0;
+        Solver::new(setup(asked), &grid(), Prebuilt { index: Some(index), rule: None })
+    };
+    for (built, asked) in [
+        ("subgoal:3:open,levels=2", "subgoal:3:open"),
+        ("subgoal:3:open,levels=2", "subgoal-theta,levels=2"),
+        ("subgoal:3:open,levels=all", "subgoal-theta"),
+    ] {
+        let solver = with(built, asked).unwrap_or_else(|error| panic!("{built}, {asked}: {error}"));
+        assert_eq!(solver.preprocessing().hierarchy, setup(built).hierarchy(), "{built}, {asked}");
+    }
+    for (built, asked, message) in [
+        (
+            "subgoal",
+            "subgoal,levels=1",
+            "needs a subgoal graph with 1 level, found one with a contraction hierarchy",
+        ),
+        (
+            "subgoal,levels=2",
+            "subgoal,levels=all",
+            "needs a subgoal graph with all levels, found one with 2 levels",
+        ),
+        (
+            "subgoal:3:open",
+            "subgoal-theta",
+            "needs a subgoal graph with 2 levels, found one with a contraction hierarchy",
+        ),
+    ] {
+        let error = with(built, asked).map(|_| ()).expect_err("another hierarchy");
+        assert!(matches!(error, EngineError::Hierarchy { .. }), "{error:?}");
+        let advice = "choose the levels that it has, or build it again";
+        assert_eq!(error.to_string(), format!("{message}; {advice}"));
+    }
+    for text in ["1", "7", "all"] {
+        assert_eq!(text.parse::<Levels>().map(|levels| levels.to_string()), Ok(text.to_owned()));
+    }
+    let said = "0".parse::<Levels>().expect_err("there is one level at least").to_string();
+    assert_eq!(said, "expected a number from 1 to 4294967295, or all, found `0`");
+}
+
+/// Bytes that were damaged are refused, or are those of another graph: never more than that.
+#[test]
+fn damaged_subgoal_graphs_do_no_harm() {
+    let (mut refused, mut read) = (0, 0);
+    for text in ["subgoal", "subgoal:4:closed", "subgoal:any,levels=2", "subgoal-theta"] {
+        let setup: Setup = text.parse().expect("a setup");
+        let whole = build(setup, &grid()).expect("an index").0;
+        let mut check = |bytes: Vec<u8>, what: &str| {
+            let prebuilt = Prebuilt { index: Some(bytes), rule: None };
+            match Solver::new(setup, &grid(), prebuilt) {
+                Ok(mut solver) => {
+                    let _ = solver.solve(Query::new((0, 0), (8, 4))).expect("both ends are free");
+                    read += 1;
+                }
+                Err(EngineError::Subgoal(_) | EngineError::Hierarchy { .. }) => refused += 1,
+                Err(error) => panic!("{text}, {what}: {error}"),
+            }
+        };
+        for length in 0..whole.len() {
+            check(whole[..length].to_vec(), "cut");
+        }
+        for bit in 0..8 * whole.len() {
+            let mut bytes = whole.clone();
+            bytes[bit / 8] ^= 1 << (bit % 8);
+            check(bytes, &format!("bit {bit}"));
+        }
+    }
+    assert!(refused > 5_000 && refused > 20 * read, "{refused} refused, {read} read");
+}
+
+#[test]
+fn a_build_tells_how_far_it_is() {
+    let told = |text: &str| {
+        let told = Mutex::new(Vec::new());
+        let progress = |step: Progress| told.lock().expect("nobody panics").push(step);
+        let setup: Setup = text.parse().expect("a setup");
+        assert_eq!(
+            build_with_progress(setup, &grid(), &progress).map(|built| built.0),
+            build(setup, &grid()).map(|built| built.0)
+        );
+        told.into_inner().expect("nobody panics")
+    };
+    let steps = told("subgoal");
+    for stage in [Stage::Edges, Stage::Hierarchy] {
+        let steps: Vec<&Progress> = steps.iter().filter(|step| step.stage == stage).collect();
+        assert!(!steps.is_empty() && steps.iter().all(|step| step.done <= step.total), "{steps:?}");
+    }
+    assert_eq!(told("jps-plus"), []);
+}
