@@ -95,7 +95,8 @@ impl BitMatrix {
     #[must_use]
     #[inline]
     pub const fn index(&self, x: i32, y: i32) -> BitIndex {
-        BitIndex((64 + (y + 1) * self.bits_per_row() + x) as u32)
+        // In 64 bits: the last bit of the largest matrix may be beyond 2³¹.
+        BitIndex((64 + (y as i64 + 1) * self.bits_per_row() as i64 + x as i64) as u32)
     }
 
     /// Row y, for −1 ≤ y ≤ height.
