@@ -63,7 +63,7 @@ impl<'m> Targets<'m> {
     }
 }
 
-/// Finds the marked vertices that a vertex sees: scratch memory for [`seen`](Self::seen).
+/// Finds the corners of obstacles that a vertex sees: scratch memory for [`seen`](Self::seen).
 ///
 /// The cells around a vertex are looked at row by row. What it sees of a horizontal line is a set of intervals, each bounded by two rays through
 /// corners of obstacles, which are followed by additions (`interval.rs` says why they decide exactly); of a row of cells between two lines,
@@ -142,9 +142,10 @@ struct Half<'t> {
 }
 
 impl Fan {
-    /// Tells `found` the vertices of `marks` that the free vertex `from` sees in these quadrants, each once. Of those behind one another on
-    /// a ray the ones behind may be left out. `bands` are those of the terrain's grid. Under [`DiagonalGap::Closed`](mediant_grid::DiagonalGap::Closed) no mark may be at a
-    /// [gap](Terrain::is_gap).
+    /// Tells `found` the marks that the free vertex `from` sees in these quadrants, each once. Marks are convex corners of obstacles; others may be
+    /// left out, as may those behind another corner on the same ray. On the vertical between a quadrant that is asked for and one that is not,
+    /// what is seen is what the cells of the first let through. `bands` are those of the terrain's grid. Under
+    /// [`DiagonalGap::Closed`](mediant_grid::DiagonalGap::Closed) no mark may be at a [gap](Terrain::is_gap).
     pub fn seen<'m>(
         &mut self,
         terrain: &'m Terrain<Corners>,
