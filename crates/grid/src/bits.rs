@@ -138,12 +138,15 @@ impl BitMatrix {
     /// above row y.
     #[must_use]
     pub(crate) fn any_double_corner(&self, y: i32, first: i32, last: i32) -> bool {
-        let words = self.words();
-        self.any_of(first, last, |x| {
-            let [nw, ne, sw, se] =
-                [(-1, -1), (0, -1), (-1, 0), (0, 0)].map(|(dx, dy)| load(words, self.index(x + dx, y + dy)));
-            (nw ^ ne) & !(nw ^ se) & !(ne ^ sw)
-        })
+        self.any_of(first, last, |x| self.double_corners(x, y))
+    }
+
+    /// Of the 64 corner vertices from column x on above row y, those at which two blocked bits meet diagonally, the two others being free.
+    #[must_use]
+    pub(crate) fn double_corners(&self, x: i32, y: i32) -> u64 {
+        let [nw, ne, sw, se] = [(-1, -1), (0, -1), (-1, 0), (0, 0)]
+            .map(|(dx, dy)| load(self.words(), self.index(x + dx, y + dy)));
+        (nw ^ ne) & !(nw ^ se) & !(ne ^ sw)
     }
 
     #[inline]

@@ -169,15 +169,7 @@ impl<P: Place> Terrain<P> {
 
 /// Which corner vertices are doubly blocked; `None` when there are none.
 fn double_corners(grid: &Grid) -> Option<BitMatrix> {
-    let mut gaps = BitMatrix::filled(grid.width() + 1, grid.height() + 1, false);
-    let mut any = false;
-    for y in 1..grid.height() {
-        for x in 1..grid.width() {
-            if grid.is_double_corner(Vertex::new(x as i32, y as i32)) {
-                gaps.set(x, y, true);
-                any = true;
-            }
-        }
-    }
-    any.then_some(gaps)
+    let (width, height) = (grid.width() + 1, grid.height() + 1);
+    let gaps = BitMatrix::from_words(width, height, false, |x, y| grid.rows().double_corners(x, y));
+    gaps.words().iter().any(|&word| word != 0).then_some(gaps)
 }
