@@ -56,13 +56,6 @@ impl<'m> From<&'m BitMatrix> for Targets<'m> {
     }
 }
 
-impl<'m> Targets<'m> {
-    /// Those with this sign of x · y.
-    const fn on(self, sign: i32) -> &'m BitMatrix {
-        if sign > 0 { self.same } else { self.opposite }
-    }
-}
-
 /// Finds the corners of obstacles that a vertex sees: scratch memory for [`seen`](Self::seen).
 ///
 /// The cells around a vertex are looked at row by row. What it sees of a horizontal line is a set of intervals, each bounded by two rays through
@@ -227,27 +220,36 @@ impl Half<'_> {
     /// Follows an interval from line to line until it ends; where it splits, all but the first part are left `pending`.
     fn follow(&self, mut piece: Piece, pending: &mut Vec<Piece>, found: &mut impl FnMut(Vertex)) {
         let mut ahead = self.ahead(piece.line);
+        let mut marks = [self.marks.same, self.marks.opposite].map(|marks| marks.row(piece.line));
         loop {
             self.end_walls(&mut piece, ahead);
             if piece.line % Bands::LINES == 0
                 && let Some(next) = self.leap(piece)
             {
-                self.report_ends(piece, found);
+                self.report_ends(piece, marks, found);
                 ahead = ahead.below(self.down * Bands::LINES);
+                marks = marks.map(|marks| marks.below(self.down * Bands::LINES));
                 piece = next;
                 continue;
             }
-            let next = [piece.left, piece.right].map(|edge| edge.after(1));
+            let [mut left, mut right] = [piece.left, piece.right].map(|edge| edge.after(1));
             let (first, last) = (piece.left.end.here.floor(), piece.right.end.here.ceil());
-            let (low, high) = (first.min(next[0].end.here.floor()), last.max(next[1].end.here.ceil()));
-            if ahead.first_blocked(low, high) == high {
-                self.report_ends(piece, found);
-                if !widens(next) {
+            let (low, high) = (first.min(left.end.here.floor()), last.max(right.end.here.ceil()));
+            if ahead.first_blocked(first, last) == last {
+                self.report_ends(piece, marks, found);
+                let (start, end) = (ahead.run_start(first, low), ahead.first_blocked(last, high));
+                if low < start {
+                    left = Edge::wall(start);
+                }
+                if end < high {
+                    right = Edge::wall(end);
+                }
+                if !widens([left, right]) {
                     return;
                 }
-                piece = Piece { line: piece.line + self.down, left: next[0], right: next[1] };
+                piece = Piece { line: piece.line + self.down, left, right };
             } else {
-                self.report(piece, found);
+                self.report(piece, marks, found);
                 let mut goes_on = None;
                 let mut from = first;
                 while from < last {
@@ -269,6 +271,7 @@ impl Half<'_> {
                 piece = part;
             }
             ahead = ahead.below(self.down);
+            marks = marks.map(|marks| marks.below(self.down));
         }
     }
 
@@ -346,36 +349,38 @@ impl Half<'_> {
     /// Tells the marked vertices of an interval beyond which all cells are free. Those on its near side are, so that only its ends can be
     /// corners of obstacles.
     #[inline]
-    fn report_ends(&self, piece: Piece, found: &mut impl FnMut(Vertex)) {
+    fn report_ends(&self, piece: Piece, marks: [BitRow<'_>; 2], found: &mut impl FnMut(Vertex)) {
         for edge in [piece.left, piece.right] {
-            let at = Vertex::new(edge.end.here.floor(), piece.line);
-            if edge.end.here.is_vertex() && self.is_marked(at) {
-                found(at);
+            let x = edge.end.here.floor();
+            if edge.end.here.is_vertex() && self.is_marked(x, marks) {
+                found(Vertex::new(x, piece.line));
             }
         }
     }
 
+    /// Whether a vertex of the line of these marks is one to look for.
     #[inline]
-    fn is_marked(&self, at: Vertex) -> bool {
-        let marked = |marks: &BitMatrix| marks.row(at.y).is_blocked(at.x);
-        match (at.x - self.from.x) * self.down {
-            0 => marked(self.marks.same) || marked(self.marks.opposite),
-            sign => marked(self.marks.on(sign)),
+    fn is_marked(&self, x: i32, [same, opposite]: [BitRow<'_>; 2]) -> bool {
+        match (x - self.from.x) * self.down {
+            0 => same.is_blocked(x) || opposite.is_blocked(x),
+            1.. => same.is_blocked(x),
+            _ => opposite.is_blocked(x),
         }
     }
 
     /// Tells the marked vertices of an interval.
-    fn report(&self, piece: Piece, found: &mut impl FnMut(Vertex)) {
+    fn report(&self, piece: Piece, marks: [BitRow<'_>; 2], found: &mut impl FnMut(Vertex)) {
         let (x, line) = (self.from.x, piece.line);
         let (first, last) = (piece.left.end.here.ceil(), piece.right.end.here.floor());
+        let [left, right] = if self.down > 0 { [marks[1], marks[0]] } else { marks };
         if first < x {
-            report(self.marks.on(-self.down).row(line), line, first, last.min(x - 1), found);
+            report(left, line, first, last.min(x - 1), found);
         }
-        if first <= x && x <= last && self.is_marked(Vertex::new(x, line)) {
+        if first <= x && x <= last && self.is_marked(x, marks) {
             found(Vertex::new(x, line));
         }
         if last > x {
-            report(self.marks.on(self.down).row(line), line, first.max(x + 1), last, found);
+            report(right, line, first.max(x + 1), last, found);
         }
     }
 }
