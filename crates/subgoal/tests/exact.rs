@@ -185,7 +185,7 @@ fn sub_a_star_costs_what_the_visibility_graph_costs() {
     let (maps, tally) = (seeds(300).end as usize, sum(&tallies));
     assert_eq!(tallies.len(), maps);
     assert!(tally.found > 200 * maps && tally.unreachable > 30 * maps, "{tally:?} on {maps} maps");
-    assert!(tally.shortest > 200 * maps && tally.longer > 4 * maps, "{tally:?} on {maps} maps");
+    assert!(tally.shortest > 200 * maps && tally.longer > 2 * maps, "{tally:?} on {maps} maps");
 }
 
 /// The same against Dijkstra on the explicit graphs of N(k) and of all segments.
