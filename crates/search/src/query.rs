@@ -44,10 +44,7 @@ impl Query {
     ///
     /// # Errors
     /// Those of [`check`](Self::check).
-    pub(crate) fn ends<P: Place>(
-        self,
-        terrain: &Terrain<P>,
-    ) -> Result<Option<(VertexId, VertexId)>, QueryError> {
+    pub fn ends<P: Place>(self, terrain: &Terrain<P>) -> Result<Option<(VertexId, VertexId)>, QueryError> {
         self.check(terrain)?;
         let ends = terrain.id(self.start).zip(terrain.id(self.goal));
         Ok(ends.filter(|_| terrain.connected(self.start, self.goal)))

@@ -68,13 +68,12 @@ where
 {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
         let terrain = self.terrain.terrain();
-        query.check(terrain)?;
+        if query.ends(terrain)?.is_none() {
+            return Ok(Outcome::Unreachable);
+        }
         let Query { start, goal } = query;
         if start == goal {
             return Ok(Outcome::Found(Path::new(vec![start])));
-        }
-        if !terrain.connected(start, goal) {
-            return Ok(Outcome::Unreachable);
         }
         if let Some(path) = direct(terrain, self.graph.k, start, goal, &mut self.waypoints) {
             return Ok(Outcome::Found(path));

@@ -103,13 +103,12 @@ where
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
         let Self { terrain, graph, scratch, labels, descent, links, bends, middles } = self;
         let (terrain, graph) = (terrain.terrain(), &**graph);
-        query.check(terrain)?;
+        if query.ends(terrain)?.is_none() {
+            return Ok(Outcome::Unreachable);
+        }
         let Query { start, goal } = query;
         if start == goal {
             return Ok(Outcome::Found(Path::new(vec![start])));
-        }
-        if !terrain.connected(start, goal) {
-            return Ok(Outcome::Unreachable);
         }
         if may_join(terrain, start, goal) {
             return Ok(Outcome::Found(Path::new(vec![start, goal])));
