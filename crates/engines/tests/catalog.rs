@@ -1,32 +1,21 @@
 //! The catalog keeps what it says of each engine.
 
-use std::{num::NonZeroU32, sync::Arc};
+mod common;
+
+use std::num::NonZeroU32;
 
 use mediant_engines::{
     Engine, EngineError, Ground, HeuristicName, Hierarchy, Options, Prebuilt, Setup, SetupError, SharedRule,
     Solver, Variant, build, distances,
 };
-use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Placement, Rules, Vertex};
-use mediant_moves::{K, Knob};
+use mediant_grid::{CornerRule, DiagonalGap, Placement, Rules, Vertex};
+use mediant_moves::Knob;
 use mediant_search::{Guarantee, Query, Smoothing};
+
+use common::{grid, k};
 
 const NEVER: Rules = Rules::Center(CornerRule::Never);
 const OPEN: Rules = Rules::Corner(DiagonalGap::Open);
-
-fn k(k: u32) -> K {
-    K::new(k).expect("k is at least 2")
-}
-
-fn grid() -> Arc<Grid> {
-    let drawing = "
-        ......#..
-        .##...#..
-        .#....#..
-        ...#.....
-        ...#..#..
-    ";
-    Arc::new(AsciiMap::parse(drawing).expect("the drawing is a map").grid)
-}
 
 /// The engine on the problem that is meant where none is said.
 fn plain(engine: Engine) -> Setup {

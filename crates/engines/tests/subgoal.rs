@@ -1,30 +1,19 @@
 //! Subgoal graphs in the catalog: where there are any, and what becomes of a saved one.
 
-use std::sync::{Arc, Mutex};
+mod common;
+
+use std::sync::Mutex;
 
 use mediant_engines::{
     Engine, EngineError, Ground, Hierarchy, Levels, Prebuilt, Progress, Setup, SetupError, Solver, Stage,
     build, build_with_progress,
 };
-use mediant_grid::{AsciiMap, Grid, Placement, Rules};
+use mediant_grid::{Placement, Rules};
 use mediant_moves::{K, Knob};
 use mediant_search::Query;
 use mediant_subgoal::SubgoalGraph;
 
-fn k(k: u32) -> K {
-    K::new(k).expect("k is at least 2")
-}
-
-fn grid() -> Arc<Grid> {
-    let drawing = "
-        ......#..
-        .##...#..
-        .#....#..
-        ...#.....
-        ...#..#..
-    ";
-    Arc::new(AsciiMap::parse(drawing).expect("the drawing is a map").grid)
-}
+use common::{grid, k};
 
 fn solver(setup: Setup, prebuilt: Prebuilt) -> Solver {
     Solver::new(setup, &grid(), prebuilt).unwrap_or_else(|error| panic!("{setup}: {error}"))

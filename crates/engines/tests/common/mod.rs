@@ -1,0 +1,21 @@
+//! What the suites of the catalog share.
+
+use std::sync::Arc;
+
+use mediant_grid::{AsciiMap, Grid};
+use mediant_moves::K;
+
+pub(crate) fn k(k: u32) -> K {
+    K::new(k).expect("k is at least 2")
+}
+
+pub(crate) fn grid() -> Arc<Grid> {
+    let drawing = "
+        ......#..
+        .##...#..
+        .#....#..
+        ...#.....
+        ...#..#..
+    ";
+    Arc::new(AsciiMap::parse(drawing).expect("the drawing is a map").grid)
+}
