@@ -39,7 +39,8 @@ const WITNESS_LIMIT: u64 = 800;
 /// How many arcs more than it had may take the place of a subgoal.
 const MAX_GROWTH: i64 = 200;
 
-/// How many arcs the searches for witnesses look at altogether, before what is left stays as it is: half a second's work.
+/// How many arcs the searches for witnesses look at altogether, before what is left stays as it is. In noise, where it
+/// is used up, preparing takes 0.7 to 0.8 s.
 const BUDGET: u64 = 1 << 26;
 
 /// A graph from which subgoals are taken out. Those that are left keep their distances.

@@ -35,7 +35,7 @@
 //! detour costs no more, in any norm, and what cannot be pulled further bends at convex corners, around them. And a line of sight is followed
 //! by moves of N(k) at the cost h_k (Kramm 2018, Lemma 13). So the *taut* lines of sight between subgoals, those that can be part of such a path at
 //! both ends, hold a path that is optimal for every k, and at any angle; only the lengths differ. k = ∞ is no special case.
-//! (Hormazábal's graph, of directly h_k-reachable subgoals, has at k = 9 three to four times as many edges. It is what
+//! (Hormazábal's graph, of directly h_k-reachable subgoals, has at k = 9 one and a half to three times as many edges. It is what
 //! [`Hierarchy::Levels`] makes, for the papers' figures.)
 //!
 //! **How it is exact.** A hierarchy takes subgoals out of the graph and adds shortcuts where a lightest way led over them. Ways are weighed by
@@ -43,8 +43,9 @@
 //! (`planner.rs`), at any angle along taut bends only.
 //!
 //! **How it is fast.** What a vertex sees is found row by row, by words of cells and eight rows at once where nothing is in the way
-//! ([`Fan`](mediant_search::Fan)); at centers, along the straight lines of cells (`lines.rs`). That is about half of a query, and builds the edges
-//! of a map of 1024 × 1024 cells in some 30 ms. Measured on the way, in µs a query at any angle (from several runs, not one):
+//! ([`Fan`](mediant_search::Fan)); at centers, along the straight lines of cells (`lines.rs`). On AR0011SR, at any angle, that
+//! is half of a query; it builds the edges of the maps of 1024 × 1024 cells in 30 to 40 ms. Measured on the way, in µs a query at any angle (from several runs, all
+//! but the last with other work beside them):
 //!
 //! | | AR0011SR | Moscow_2_1024 | ArcticStation |
 //! |---|--:|--:|--:|
@@ -54,8 +55,8 @@
 //! | only subgoals that taut paths pass; fans by eight rows, along walls without divisions | 17 | 79 | 106 |
 //! | arcs only along taut bends | 14 | 52 | 47 |
 //!
-//! Contraction takes most of the preparation: 0.13 to 0.5 s on these maps. With directly reachable edges in the place of taut ones it took 10 s and left half of the
-//! subgoals at k = 9. A budget of work bounds it, in noise above all.
+//! Contraction takes most of the preparation, which takes 7 to 162 ms on these maps. At k = 9, with directly reachable edges in the place of taut ones, it took 10 s
+//! on ArcticStation and 37 s on Moscow_2_1024, and left 59 and 82 % of the subgoals. A budget of work bounds it, in noise above all.
 //!
 //! **What Hormazábal et al. 2017 claim, and what is found** (each 20th instance of eleven maps of games and two of rooms, corners, gaps open; against the Anya and
 //! the Sub2-Theta* of this workspace, in one run):
