@@ -18,6 +18,19 @@ pub struct Grid {
     columns: BitMatrix,
 }
 
+/// A rectangle of cells; it may reach beyond a map, where there is nothing of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Rectangle {
+    /// Its first column.
+    pub x: u32,
+    /// Its first row.
+    pub y: u32,
+    /// The number of columns.
+    pub width: u32,
+    /// The number of rows.
+    pub height: u32,
+}
+
 /// A grid that cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -67,6 +80,29 @@ impl Grid {
             }
         }
         Ok(Self { columns: rows.transposed(), rows })
+    }
+
+    /// This map with other cells in a rectangle, as far as that lies on the map: `blocked(x, y)` is asked once for each, row by row.
+    ///
+    /// ```
+    /// use mediant_grid::{Grid, Rectangle};
+    /// let closed = Grid::from_fn(3, 3, |x, _| x == 1)?;
+    /// let open = closed.with_rectangle(Rectangle { x: 1, y: 2, width: 9, height: 1 }, |_, _| false);
+    /// assert!(open.is_free(1, 2) && open.is_blocked(1, 1));
+    /// # Ok::<(), mediant_grid::GridError>(())
+    /// ```
+    #[must_use]
+    pub fn with_rectangle(&self, at: Rectangle, mut blocked: impl FnMut(u32, u32) -> bool) -> Self {
+        let mut grid = self.clone();
+        let end = |first: u32, length: u32, side: u32| first.saturating_add(length).min(side);
+        for y in at.y..end(at.y, at.height, self.height()) {
+            for x in at.x..end(at.x, at.width, self.width()) {
+                let blocked = blocked(x, y);
+                grid.rows.set(x, y, blocked);
+                grid.columns.set(y, x, blocked);
+            }
+        }
+        grid
     }
 
     /// Whether a map may have these sides.

@@ -29,7 +29,7 @@ pub use ascii::{AsciiMap, draw};
 pub use bits::{BitIndex, BitMatrix, BitRow, load};
 pub use components::{Components, Connectivity};
 pub use footprint::{CellMask, CellOffset, Footprint};
-pub use grid::{Grid, GridError};
+pub use grid::{Grid, GridError, Rectangle};
 pub use lattice::{Lattice, MoveSet, Step};
 pub use mediant_moves::Vector;
 pub use place::{Centers, Corners, Demand, Place};
