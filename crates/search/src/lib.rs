@@ -21,6 +21,7 @@ mod cover;
 mod distances;
 mod heuristic;
 mod jps;
+mod labels;
 mod nodes;
 mod observer;
 mod open_list;
@@ -43,6 +44,7 @@ pub use heuristic::{Euclidean, Heuristic, LatticeDistance, Zero};
 pub use jps::{
     BlockJps, Blocks, Course, Jps, JpsPlus, JumpMoves, JumpTable, JumpTableError, Jumping, Locator, Walk,
 };
+pub use labels::Labels;
 pub use nodes::{Node, NodeStore};
 pub use observer::{Counters, NodeEvent, Observer};
 pub use open_list::{Entry, OpenList};

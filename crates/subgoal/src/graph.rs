@@ -71,6 +71,13 @@ impl Up {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Hop(i16, i16);
 
+/// How a search came to a subgoal: what the way from its parent leads over, and its last step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Way {
+    pub(crate) mid: u32,
+    pub(crate) hop: Hop,
+}
+
 impl Hop {
     pub(crate) fn of(v: Vector) -> Self {
         let fits = v.x.abs().max(v.y.abs()) <= i32::from(i16::MAX);

@@ -80,7 +80,6 @@ mod corners;
 mod direct;
 mod error;
 mod graph;
-mod labels;
 mod lines;
 mod norm;
 mod planner;

@@ -4,14 +4,15 @@ use std::ops::Deref;
 
 use mediant_grid::{Place, Placement, Terrain, Vertex};
 use mediant_moves::{Cost, Decomposition, Knob, decompose};
-use mediant_search::{Guarantee, NodeEvent, Observer, OnTerrain, Outcome, Path, Planner, Query, QueryError};
+use mediant_search::{
+    Guarantee, Labels, NodeEvent, Observer, OnTerrain, Outcome, Path, Planner, Query, QueryError,
+};
 
 use crate::{
     Connect, SubgoalGraph,
     connect::{Edges, Map, Which},
     contract::NONE,
-    graph::Hop,
-    labels::Labels,
+    graph::{Hop, Way},
     taut::Bend,
 };
 
@@ -29,7 +30,7 @@ pub struct SubgoalAStar<T, G, P: Connect> {
     graph: G,
     scratch: P::Scratch,
     /// Up from the start, and up from the goal.
-    sides: [Labels; 2],
+    sides: [Labels<Way>; 2],
     /// The links of the start and of the goal.
     links: [Vec<(u32, Cost)>; 2],
     ways: Vec<(u32, u32, u32)>,
@@ -206,7 +207,7 @@ where
             }
             let [forward, backward] = &mut *sides;
             let (this, other) = if side == 0 { (forward, backward) } else { (backward, forward) };
-            let came = this.hop(id).vector();
+            let came = this.way(id).hop.vector();
             let onward = came.and_then(|came| Some(Bend::of_shortest(terrain, graph.k, at)?.after(came)));
             for arc in graph.up(id) {
                 if let Some((onward, goes)) = onward.zip(arc.first.vector())
@@ -220,7 +221,7 @@ where
                 }
                 let h = graph.norm.estimate(graph.subgoals.vertex(arc.to).to(ends[1 - side]));
                 if g + h < best.0 {
-                    let (is_first, swaps) = this.reach(arc.to, g, h, (id, arc.mid));
+                    let (is_first, swaps) = this.reach(arc.to, g, h, id, Way { mid: arc.mid, hop: arc.last });
                     observer.percolated(swaps);
                     let event =
                         NodeEvent { at: graph.subgoals.vertex(arc.to), parent: Some(at), g, f: g + h };
@@ -228,7 +229,6 @@ where
                         true => observer.generated(event),
                         false => observer.updated(event),
                     }
-                    this.set_hop(arc.to, arc.last);
                     if let Some(rest) = other.cost(arc.to).filter(|&rest| g + rest < best.0) {
                         best = (g + rest, Some(arc.to));
                     }
@@ -246,7 +246,7 @@ where
         let mut to = |at: Vertex| extend(waypoints, terrain, graph, at);
         chain.clear();
         let mut at = meeting;
-        while let Some((parent, mid)) = forward.parent(at) {
+        while let Some((parent, Way { mid, .. })) = forward.parent(at) {
             chain.push((parent, at, mid));
             at = parent;
         }
@@ -255,7 +255,7 @@ where
             graph.unpack(way, ways, &mut to);
         }
         let mut at = meeting;
-        while let Some((parent, mid)) = backward.parent(at) {
+        while let Some((parent, Way { mid, .. })) = backward.parent(at) {
             graph.unpack((at, parent, mid), ways, &mut to);
             at = parent;
         }
@@ -267,7 +267,7 @@ where
 /// Puts the linked subgoals on both open lists. The best of those that are linked to both ends, and what it costs to go over it.
 fn begin<P: Connect>(
     graph: &SubgoalGraph<P>,
-    sides: &mut [Labels; 2],
+    sides: &mut [Labels<Way>; 2],
     links: &[Vec<(u32, Cost)>; 2],
     ends: [Vertex; 2],
     observer: &mut impl Observer,
@@ -278,10 +278,10 @@ fn begin<P: Connect>(
         for &(id, g) in links {
             let at = graph.subgoals.vertex(id);
             let h = graph.norm.estimate(at.to(ends[1 - side]));
-            let (_, swaps) = sides[side].reach(id, g, h, (NONE, NONE));
+            let (_, swaps) =
+                sides[side].reach(id, g, h, NONE, Way { mid: NONE, hop: Hop::of(ends[side].to(at)) });
             observer.percolated(swaps);
             observer.generated(NodeEvent { at, parent: Some(ends[side]), g, f: g + h });
-            sides[side].set_hop(id, Hop::of(ends[side].to(at)));
             if let Some(rest) = (side == 1).then(|| sides[0].cost(id)).flatten() {
                 best = best.min((g + rest, Some(id)));
             }

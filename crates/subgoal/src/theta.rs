@@ -7,13 +7,13 @@ use std::ops::Deref;
 
 use mediant_grid::Vertex;
 use mediant_moves::Cost;
-use mediant_search::{Guarantee, Observer, OnTerrain, Outcome, Path, Planner, Query, QueryError};
+use mediant_search::{Guarantee, Labels, Observer, OnTerrain, Outcome, Path, Planner, Query, QueryError};
 
 use self::{
     descent::Descent,
     search::{Bend, Middles, Search, may_join},
 };
-use crate::{Connect, SubgoalGraph, labels::Labels, planner::push};
+use crate::{Connect, SubgoalGraph, planner::push};
 
 /// Sub-Theta* (Uras & Koenig 2015, 'Speeding-up any-angle path-planning on grids'): Theta* over a subgoal graph. On [`Levels`] of 2 it is the
 /// Sub2-Theta* with which Hormazábal et al. 2017 compare Sub2-A*(k).

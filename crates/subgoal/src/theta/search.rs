@@ -2,10 +2,10 @@
 
 use mediant_grid::{Terrain, Vertex};
 use mediant_moves::Cost;
-use mediant_search::{NodeEvent, Observer, segment_cost};
+use mediant_search::{Labels, NodeEvent, Observer, segment_cost};
 
 use super::descent::Descent;
-use crate::{Connect, SubgoalGraph, contract::NONE, labels::Labels};
+use crate::{Connect, SubgoalGraph, contract::NONE};
 
 /// Where paths bend, or begin.
 #[derive(Clone, Copy, Debug)]
@@ -74,7 +74,7 @@ impl<P: Connect, O: Observer> Search<'_, P, O> {
         loop {
             let (f, id, g, swaps) = self.labels.pop()?;
             self.observer.percolated(swaps);
-            let (hook, _) = self.labels.parent(id)?;
+            let (hook, ()) = self.labels.parent(id)?;
             let at = self.vertex(id);
             if id == self.goal_id() {
                 return Some(hook);
@@ -158,7 +158,7 @@ impl<P: Connect, O: Observer> Search<'_, P, O> {
         } else {
             self.observer.generated(event);
         }
-        let (_, swaps) = self.labels.reach(id, g, h, (hook, NONE));
+        let (_, swaps) = self.labels.reach(id, g, h, hook, ());
         self.observer.percolated(swaps);
     }
 
