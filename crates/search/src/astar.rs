@@ -9,7 +9,7 @@ use mediant_grid::{Lattice, Place, Vertex, VertexId};
 use mediant_moves::Cost;
 
 use crate::{
-    Arrival, BestFirst, Distances, Heuristic, Query, QueryError, Successor, Successors, Zero,
+    Arrival, BestFirst, Distances, Heuristic, Observer, Path, Query, QueryError, Successor, Successors, Zero,
     distances::end_at_gaps,
 };
 
@@ -46,6 +46,51 @@ impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> AStar<L, H> {
     pub fn new(lattice: L, heuristic: H) -> Self {
         Self::with(lattice, heuristic, AllMoves)
     }
+
+    /// Goes on on another map, with the scratch memory if that has as many vertices.
+    pub fn set_lattice(&mut self, lattice: L) {
+        if lattice.vertex_count() == self.lattice.vertex_count() {
+            self.lattice = lattice;
+        } else {
+            *self = Self::new(lattice, self.heuristic);
+        }
+    }
+
+    /// Continues a path from its last waypoint to `goal`, but gives up where no path there costs at most `limit`: vertices through which every path is longer are
+    /// not expanded. Whether it found one; with a heuristic that overestimates it may miss one. The path remains as it is if not, or if it is empty.
+    ///
+    /// # Errors
+    /// [`QueryError`] when the last waypoint or the goal is blocked or outside the map.
+    pub fn extend(
+        &mut self,
+        path: &mut Vec<Vertex>,
+        goal: Vertex,
+        limit: Cost,
+        observer: &mut impl Observer,
+    ) -> Result<bool, QueryError> {
+        let Some(&start) = path.last() else { return Ok(false) };
+        let Some((start, goal)) = Query::new(start, goal).ends(&self.lattice)? else { return Ok(false) };
+        let found = self.search(start, Some(goal), limit, observer) && self.cost_to(goal) <= Some(limit);
+        if found {
+            self.extend_back(start, goal, path);
+        }
+        Ok(found)
+    }
+
+    /// Answers a query by a path that costs at most `limit`, as [`extend`](Self::extend) does.
+    ///
+    /// # Errors
+    /// [`QueryError`] when an end of the query is blocked or outside the map.
+    pub fn solve_within(
+        &mut self,
+        query: Query,
+        limit: Cost,
+        observer: &mut impl Observer,
+    ) -> Result<Option<Path>, QueryError> {
+        query.check(&self.lattice)?;
+        let mut path = vec![query.start];
+        Ok(self.extend(&mut path, query.goal, limit, observer)?.then(|| Path::new(path)))
+    }
 }
 
 impl<P: Place, L: Deref<Target = Lattice<P>>> Dijkstra<L> {
@@ -56,7 +101,7 @@ impl<P: Place, L: Deref<Target = Lattice<P>>> Dijkstra<L> {
     pub fn distances(&mut self, start: Vertex) -> Result<Distances<Cost>, QueryError> {
         Query::new(start, start).check(&self.lattice)?;
         if let Some(id) = self.lattice.id(start) {
-            self.search(id, None, &mut ());
+            self.search(id, None, Cost::MAX, &mut ());
         }
         let ids = (0..self.lattice.vertex_count() as u32).map(VertexId);
         let mut costs: Vec<Option<Cost>> = ids.map(|id| self.cost_to(id)).collect();
@@ -72,6 +117,8 @@ pub struct AllMoves;
 
 impl<P: Place> Successors<P> for AllMoves {
     type Link = ();
+
+    const FREE: bool = true;
 
     #[inline]
     fn for_each(

@@ -7,20 +7,21 @@ use mediant_moves::Cost;
 
 use crate::{
     Arrival, Entry, Guarantee, Heuristic, Link, Node, NodeEvent, NodeStore, Observer, OpenList, Outcome,
-    Path, Planner, Query, QueryError, Successor, Successors,
+    Path, Planner, Query, QueryError, Successor, Successors, path::extend_back,
 };
 
 /// Best-first search on a lattice: takes the node of least f = g + h from the open list until that is the goal.
 ///
 /// What a node's successors are is `S`'s to say. A cheaper path to a closed node reopens it, so a search with all successors is
-/// optimal with every heuristic that never overestimates, consistent or not.
+/// optimal with every heuristic that never overestimates, consistent or not. With one that does overestimate it would cost much and promise nothing: then closed nodes stay
+/// closed, unless how a node was reached decides where it leads, so that a path might be missed.
 ///
 /// `L` is how the planner holds its lattice: by reference, or, where both belong in one struct, by `Arc`. `N` is what a node keeps of its
 /// parent.
 #[derive(Clone, Debug)]
 pub struct BestFirst<L, H, S, N = ()> {
     pub(crate) lattice: L,
-    heuristic: H,
+    pub(crate) heuristic: H,
     pub(crate) successors: S,
     nodes: NodeStore<N>,
     open: OpenList,
@@ -40,17 +41,9 @@ where
         Self { lattice, heuristic, successors, nodes, open: OpenList::default() }
     }
 
-    /// Expands nodes until the goal is the best of them, or, without a goal, until there is none left. Whether it was found.
-    pub(crate) fn search(
-        &mut self,
-        start: VertexId,
-        goal: Option<VertexId>,
-        observer: &mut impl Observer,
-    ) -> bool {
-        let Self { lattice, heuristic, successors, nodes, open } = self;
-        let (lattice, heuristic, successors): (&Lattice<P>, &H, &S) = (lattice, heuristic, successors);
-        // No move leads to a vertex outside the map.
-        let goal_at = goal.map_or(Vertex::new(-1, -1), |goal| lattice.vertex(goal));
+    /// Makes the start the only node that is known.
+    fn begin(&mut self, start: VertexId, goal_at: Vertex, observer: &mut impl Observer) {
+        let Self { lattice, heuristic, nodes, open, .. } = self;
         let at = lattice.vertex(start);
         let h = heuristic.estimate(lattice, at.to(goal_at));
         nodes.start_search();
@@ -58,6 +51,23 @@ where
         nodes.set_path(start, Cost::ZERO, 0, N::to(start));
         observer.generated(NodeEvent { at, parent: None, g: Cost::ZERO, f: h });
         open.push(Entry::new(h, h, start), |id, slot| nodes.set_slot(id, slot));
+    }
+
+    /// Expands nodes until the goal is the best of them, or, without a goal, until there is none left. Whether it was found. Nodes through which no
+    /// path costs at most `limit` are not expanded.
+    pub(crate) fn search(
+        &mut self,
+        start: VertexId,
+        goal: Option<VertexId>,
+        limit: Cost,
+        observer: &mut impl Observer,
+    ) -> bool {
+        // No move leads to a vertex outside the map.
+        let goal_at = goal.map_or(Vertex::new(-1, -1), |goal| self.lattice.vertex(goal));
+        self.begin(start, goal_at, observer);
+        let Self { lattice, heuristic, successors, nodes, open } = self;
+        let (lattice, heuristic, successors): (&Lattice<P>, &H, &S) = (lattice, heuristic, successors);
+        let reopens = H::ADMISSIBLE || !S::FREE || lattice.has_gaps();
 
         while let Some((entry, swaps)) = open.pop(|id, slot| nodes.set_slot(id, slot)) {
             observer.percolated(swaps);
@@ -68,6 +78,9 @@ where
             nodes.set_slot(id, Node::<N>::CLOSED);
             let Some(&node) = nodes.get(id) else { continue };
             let at = lattice.vertex(id);
+            if limit != Cost::MAX && node.g + lattice.costs().distance(at.to(goal_at)) > limit {
+                continue;
+            }
             let by = (id != start).then(|| node.arrived_by());
             let parent = by.map(|by| node.link.parent(lattice, lattice.step(by), id, at).1);
             observer.expanded(NodeEvent { at, parent, g: node.g, f: entry.f() });
@@ -79,6 +92,7 @@ where
                 let event = |f| NodeEvent { at: next.at, parent: Some(at), g, f };
                 let estimate = || heuristic.estimate(lattice, next.at.to(goal_at));
                 match nodes.get(next.id) {
+                    Some(known) if !reopens && known.slot == Node::<N>::CLOSED => {}
                     Some(known)
                         if known.g < g
                             || known.g == g && !successors.prefers(lattice, next.by, known.arrived_by()) => {}
@@ -113,6 +127,14 @@ where
 }
 
 impl<L, H, S, N: Link> BestFirst<L, H, S, N> {
+    /// Adds the best known path to a goal after a search, but for its start.
+    pub(crate) fn extend_back<P: Place>(&self, start: VertexId, goal: VertexId, waypoints: &mut Vec<Vertex>)
+    where
+        L: Deref<Target = Lattice<P>>,
+    {
+        extend_back(&self.lattice, &self.nodes, start, goal, waypoints);
+    }
+
     /// The cost of the best known path to a vertex after a search.
     pub(crate) fn cost_to(&self, id: VertexId) -> Option<Cost> {
         self.nodes.get(id).map(|node| node.g)
@@ -134,9 +156,9 @@ where
 {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
         let Some((start, goal)) = query.ends(&self.lattice)? else { return Ok(Outcome::Unreachable) };
-        let mut found = self.search(start, Some(goal), observer);
+        let mut found = self.search(start, Some(goal), Cost::MAX, observer);
         if !found && self.successors.widen(true) {
-            found = self.search(start, Some(goal), observer);
+            found = self.search(start, Some(goal), Cost::MAX, observer);
             self.successors.widen(false);
         }
         if !found {
@@ -146,6 +168,6 @@ where
     }
 
     fn guarantee(&self) -> Guarantee {
-        self.successors.guarantee(&self.lattice)
+        if H::ADMISSIBLE { self.successors.guarantee(&self.lattice) } else { Guarantee::Suboptimal }
     }
 }

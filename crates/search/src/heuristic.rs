@@ -1,11 +1,14 @@
-//! Lower bounds on the cost to the goal.
+//! Estimates of the cost to the goal: lower bounds, and one that is none.
 
 use mediant_grid::{Lattice, Place, Vector};
 use mediant_moves::Cost;
 
-/// A lower bound on what any path over N(k) costs, in the lattice's fixed-point costs, from the displacement to the goal alone.
+/// An estimate of what a path over N(k) costs, in the lattice's fixed-point costs, from the displacement to the goal alone.
 pub trait Heuristic: Copy {
-    /// The bound for a displacement.
+    /// Whether it is a lower bound, so that A* with it is optimal.
+    const ADMISSIBLE: bool = true;
+
+    /// The estimate for a displacement.
     fn estimate<P: Place>(self, lattice: &Lattice<P>, to_goal: Vector) -> Cost;
 }
 
@@ -34,6 +37,23 @@ impl Heuristic for Euclidean {
         const ONE: f64 = (1_u64 << Cost::FRACTION_BITS) as f64;
         // Exact up to the root, which IEEE 754 rounds alike everywhere; the product loses at most one part in 2⁵².
         Cost::from_bits((to_goal.norm() * (ONE - 1.0)) as u64)
+    }
+}
+
+/// The square of the straight-line distance, in cells: no lower bound but where it is at most 1, so that paths are no longer optimal.
+///
+/// The farther from the goal, the more it outweighs the cost of the path, and the more the search runs straight ahead (SED of Teleiša &
+/// Čalnerytė 2023, Section 2.3).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SquaredEuclidean;
+
+impl Heuristic for SquaredEuclidean {
+    const ADMISSIBLE: bool = false;
+
+    #[inline]
+    fn estimate<P: Place>(self, _: &Lattice<P>, to_goal: Vector) -> Cost {
+        // On the largest map 2³¹ cells, to which a path adds less than 2³¹: their sum does not overflow.
+        Cost::from_bits(to_goal.norm_squared() << Cost::FRACTION_BITS)
     }
 }
 

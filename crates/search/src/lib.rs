@@ -40,7 +40,7 @@ pub use beams::{Bands, Fan, Quadrants, Targets};
 pub use best_first::BestFirst;
 pub use canonical::{Canonical, CanonicalMoves, CanonicalRule, PaperCanonical, PaperMoves, Pruning, View};
 pub use distances::Distances;
-pub use heuristic::{Euclidean, Heuristic, LatticeDistance, Zero};
+pub use heuristic::{Euclidean, Heuristic, LatticeDistance, SquaredEuclidean, Zero};
 pub use jps::{
     BlockJps, Blocks, Course, Jps, JpsPlus, JumpMoves, JumpTable, JumpTableError, Jumping, Locator, Walk,
 };

@@ -24,24 +24,17 @@ impl Path {
         Self { waypoints, cost }
     }
 
-    /// The path that a search found, told from the goal back to the start by its nodes. A waypoint stands where the direction
-    /// changes. Allocates nothing else.
+    /// The path that a search found. Allocates nothing else.
     pub(crate) fn trace_back<P: Place, N: Link>(
         lattice: &Lattice<P>,
         nodes: &NodeStore<N>,
         start: VertexId,
         goal: VertexId,
     ) -> Self {
-        let turns_back = || {
-            let node = (goal, lattice.vertex(goal));
-            let legs = LegsBack { lattice, nodes, start, node, elbow: None };
-            let mut last = None;
-            legs.filter(move |&(_, v)| last.replace(v) != Some(v))
-        };
-        let mut waypoints = Vec::with_capacity(turns_back().count() + 1);
-        waypoints.extend(turns_back().map(|(end, _)| end));
+        let turns = LegsBack::new(lattice, nodes, start, goal).turns().count();
+        let mut waypoints = Vec::with_capacity(turns + 1);
         waypoints.push(lattice.vertex(start));
-        waypoints.reverse();
+        extend_back(lattice, nodes, start, goal, &mut waypoints);
         Self::new(waypoints)
     }
 
@@ -86,6 +79,19 @@ impl Path {
     }
 }
 
+/// Adds the waypoints after the start of the path that a search found, told from the goal back by its nodes. A waypoint stands where the direction changes.
+pub(crate) fn extend_back<P: Place, N: Link>(
+    lattice: &Lattice<P>,
+    nodes: &NodeStore<N>,
+    start: VertexId,
+    goal: VertexId,
+    waypoints: &mut Vec<Vertex>,
+) {
+    let first = waypoints.len();
+    waypoints.extend(LegsBack::new(lattice, nodes, start, goal).turns());
+    waypoints[first..].reverse();
+}
+
 /// The straight legs of a path, from the goal back to the start: where each ends, and its move.
 struct LegsBack<'s, P: Place, N> {
     lattice: &'s Lattice<P>,
@@ -93,6 +99,18 @@ struct LegsBack<'s, P: Place, N> {
     start: VertexId,
     node: (VertexId, Vertex),
     elbow: Option<(Vertex, Vector)>,
+}
+
+impl<'s, P: Place, N: Link> LegsBack<'s, P, N> {
+    fn new(lattice: &'s Lattice<P>, nodes: &'s NodeStore<N>, start: VertexId, goal: VertexId) -> Self {
+        Self { lattice, nodes, start, node: (goal, lattice.vertex(goal)), elbow: None }
+    }
+
+    /// Where the legs end after which the direction changes.
+    fn turns(self) -> impl Iterator<Item = Vertex> {
+        let mut last = None;
+        self.filter(move |&(_, v)| last.replace(v) != Some(v)).map(|(end, _)| end)
+    }
 }
 
 impl<P: Place, N: Link> Iterator for LegsBack<'_, P, N> {
@@ -138,7 +156,8 @@ impl Outcome {
     }
 }
 
-/// What an engine promises of the paths that it returns. Every engine finds a path whenever there is one.
+/// What an engine promises of the paths that it returns. Every engine finds a path whenever there is one, but for those that say that they
+/// [gave up](crate::QueryError::GaveUp).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Guarantee {
     /// No path over N(k) is shorter: in fixed-point costs exactly, in real lengths up to a factor of 1 + 2⁻³¹ (see

@@ -46,6 +46,9 @@ pub trait Successors<P: Place>: Debug {
     /// What a node keeps to know its parent.
     type Link: Link;
 
+    /// Whether a node leads to the same successors however it was reached; under a gap rule it never does.
+    const FREE: bool = false;
+
     /// Calls `visit` with each successor of a node. How many vertices it looked at while it scanned runs.
     fn for_each(
         &self,

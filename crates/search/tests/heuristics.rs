@@ -1,13 +1,13 @@
-//! Heuristics: lower bounds, close ones, and what A* does with one that is not consistent.
+//! Heuristics: lower bounds, close ones, and what A* does with one that is not consistent or no bound; and searches within a bound.
 
 use std::{collections::HashMap, sync::Arc};
 
-use mediant_grid::{Centers, Corners, Grid, Lattice, Place, Rules, Vector, Vertex};
+use mediant_grid::{Centers, Corners, DiagonalGap, Grid, Lattice, Place, Rules, Vector, Vertex};
 use mediant_moves::{Cost, K, Neighborhood};
-use mediant_oracle::{Explicit, Rng, describe, random_free_vertex, seeds, suite_grid};
+use mediant_oracle::{Explicit, Rng, describe, random_free_vertex, seeds, suite_grid, validate};
 use mediant_search::{
-    AStar, Counters, Euclidean, Heuristic, LatticeDistance, NodeEvent, Observer, Outcome, Planner, Query,
-    Zero,
+    AStar, Counters, Dijkstra, Euclidean, Guarantee, Heuristic, LatticeDistance, NodeEvent, Observer,
+    Outcome, Planner, Query, SquaredEuclidean, Zero,
 };
 
 /// h_k at every other vertex, as on a checkerboard, and half of it between: a lower bound, and inconsistent. (With nothing
@@ -181,4 +181,129 @@ fn the_straight_line_is_a_bound_and_a_close_one() {
     for h in [Euclidean.estimate(&lattice, Vector::new(0, 0)), Zero.estimate(&lattice, Vector::new(9, 9))] {
         assert_eq!(h, Cost::ZERO);
     }
+}
+
+/// The queries with a path, those whose path is longer than the shortest, and the vertices expanded again.
+fn check_squared<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> [usize; 3] {
+    let lattice = Lattice::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
+    let (rules, graph) = (lattice.rules(), Explicit::new(grid, lattice.rules(), Some(k)));
+    let mut planner = AStar::new(&lattice, SquaredEuclidean);
+    assert_eq!(planner.guarantee(), Guarantee::Suboptimal);
+    let [mut found, mut longer, mut again] = [0; 3];
+    for (start, goal) in queries(grid, rules, seed) {
+        let case = || format!("k = {k}; {}", describe(grid, rules, start, goal, seed));
+        let mut log = Log::default();
+        let outcome = planner.solve_observed(Query::new(start, goal), &mut log).expect("both ends are free");
+        let best = graph.costs_from(start).to(goal);
+        assert_eq!(outcome.path().is_some(), best.is_some(), "{}", case());
+        for node in log.events {
+            let d = node.at.to(goal);
+            let h = Cost::from_bits(d.norm_squared() << Cost::FRACTION_BITS);
+            assert_eq!(node.f, node.g + h, "{node:?}; {}", case());
+        }
+        let (Outcome::Found(path), Some(best)) = (outcome, best) else { continue };
+        let fault = validate(grid, rules, Some(k), start, goal, path.waypoints(), path.cost());
+        assert_eq!(fault, Ok(()), "{}", case());
+        assert!(path.cost() >= best * (1.0 - 1e-9), "{} < {best}; {}", path.cost(), case());
+        found += 1;
+        longer += usize::from(path.cost() > best * (1.0 + 1e-9));
+        again += log.expansions.values().filter(|(times, _)| *times > 1).count();
+    }
+    assert!(lattice.has_gaps() || again == 0, "{again} vertices were expanded again, seed {seed}");
+    [found, longer, again]
+}
+
+#[test]
+fn a_star_finds_a_path_by_a_heuristic_that_overestimates_whenever_there_is_one() {
+    for rules in Rules::ALL {
+        let mut seen = [0; 3];
+        for (seed, k) in seeds(100).flat_map(|seed| (2..=8).map(move |k| (seed, k))) {
+            let grid = Arc::new(suite_grid(seed).0);
+            let k = K::new(k).expect("k is at least 2");
+            let more = match rules {
+                Rules::Center(corners) => check_squared::<Centers>(&grid, corners, k, seed),
+                Rules::Corner(gap) => check_squared::<Corners>(&grid, gap, k, seed),
+            };
+            seen.iter_mut().zip(more).for_each(|(seen, more)| *seen += more);
+        }
+        let [found, longer, again] = seen;
+        assert!(
+            found > 2_000 && longer > found / 20 && longer < found,
+            "{rules}: {longer} of {found} longer"
+        );
+        // At closed gaps how a vertex was reached decides where it leads, so that closed ones are reopened there.
+        let reopens = rules == Rules::Corner(DiagonalGap::Closed);
+        assert_eq!(again > 0, reopens, "{rules}: {again} vertices were expanded again");
+    }
+}
+
+/// Searches within bounds around the optimum: those that found a path, and those that found none where there is one.
+fn check_within<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> [usize; 2] {
+    let lattice = Lattice::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
+    let (mut rng, mut seen) = (Rng::new(seed ^ 0x11111), [0; 2]);
+    for (start, goal) in queries(grid, lattice.rules(), seed) {
+        let distances = Dijkstra::new(&lattice, Zero).distances(start).expect("a free start");
+        let best = distances.get(goal);
+        let mut limits = vec![Cost::ZERO, Cost::MAX];
+        if let Some(best) = best {
+            let bits = best.to_bits();
+            limits.extend([bits, bits + 1, bits.saturating_sub(1), bits / 2].map(Cost::from_bits));
+            limits.extend((0..3).map(|_| Cost::from_bits(rng.bits() % (2 * bits + 1))));
+        }
+        for limit in limits {
+            let case = || {
+                format!("k = {k}, within {limit:?}; {}", describe(grid, lattice.rules(), start, goal, seed))
+            };
+            let is_within = best.is_some_and(|best| best <= limit);
+            let query = Query::new(start, goal);
+            let mut few = Counters::default();
+            let answers = [
+                AStar::new(&lattice, LatticeDistance).solve_within(query, limit, &mut few),
+                AStar::new(&lattice, Euclidean).solve_within(query, limit, &mut ()),
+                AStar::new(&lattice, Checkered).solve_within(query, limit, &mut ()),
+                AStar::new(&lattice, Zero).solve_within(query, limit, &mut ()),
+            ];
+            for answer in answers {
+                let path = answer.expect("both ends are free");
+                assert_eq!(path.is_some(), is_within, "{path:?}; {}", case());
+                let Some((path, best)) = path.zip(best) else { continue };
+                assert!(
+                    (path.cost() - best.to_f64()).abs() < 1e-6,
+                    "{} and not {best:?}; {}",
+                    path.cost(),
+                    case()
+                );
+                let fault =
+                    validate(grid, lattice.rules(), Some(k), start, goal, path.waypoints(), path.cost());
+                assert_eq!(fault, Ok(()), "{}", case());
+            }
+            // Nothing through which every path is longer is expanded.
+            let mut all = Counters::default();
+            AStar::new(&lattice, LatticeDistance)
+                .solve_within(query, Cost::MAX, &mut all)
+                .expect("free ends");
+            assert!(few.expanded <= all.expanded, "{few:?}, {all:?}; {}", case());
+            if best.is_some() {
+                seen[usize::from(!is_within)] += 1;
+            }
+        }
+    }
+    seen
+}
+
+#[test]
+fn a_path_is_found_within_a_limit_if_the_shortest_is() {
+    let mut seen = [0; 2];
+    for seed in seeds(60) {
+        let grid = Arc::new(suite_grid(seed).0);
+        for (rules, k) in Rules::ALL.into_iter().flat_map(|rules| [2, 3, 5].map(|k| (rules, k))) {
+            let k = K::new(k).expect("k is at least 2");
+            let more = match rules {
+                Rules::Center(corners) => check_within::<Centers>(&grid, corners, k, seed),
+                Rules::Corner(gap) => check_within::<Corners>(&grid, gap, k, seed),
+            };
+            seen.iter_mut().zip(more).for_each(|(seen, more)| *seen += more);
+        }
+    }
+    assert!(seen.iter().all(|&cases| cases > 5_000), "too few cases: {seen:?}");
 }
