@@ -42,6 +42,10 @@ pub trait Observer {
         let _ = swaps;
     }
 
+    /// A hierarchical search left its plan where that led to nowhere, or only by a detour.
+    #[inline]
+    fn fell_back(&mut self) {}
+
     /// While a jump point search expanded a node, it looked at this many vertices of the runs that it scanned.
     #[inline]
     fn scanned(&mut self, vertices: u32) {
@@ -77,6 +81,11 @@ impl<O: Observer> Observer for &mut O {
     fn scanned(&mut self, vertices: u32) {
         (**self).scanned(vertices);
     }
+
+    #[inline]
+    fn fell_back(&mut self) {
+        (**self).fell_back();
+    }
 }
 
 /// Counts what the papers' tables report.
@@ -92,6 +101,8 @@ pub struct Counters {
     pub percolations: u64,
     /// Vertices that jump point searches looked at while they scanned runs.
     pub scanned: u64,
+    /// How often hierarchical searches left their plan.
+    pub fallbacks: u64,
 }
 
 impl Observer for Counters {
@@ -118,5 +129,10 @@ impl Observer for Counters {
     #[inline]
     fn scanned(&mut self, vertices: u32) {
         self.scanned += u64::from(vertices);
+    }
+
+    #[inline]
+    fn fell_back(&mut self) {
+        self.fallbacks += 1;
     }
 }

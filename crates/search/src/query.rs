@@ -83,6 +83,12 @@ pub enum QueryError {
         /// The map's last vertex.
         last: Vertex,
     },
+    /// The planner found no path, although there is one.
+    #[error("no path was found, though there is one: {why}")]
+    GaveUp {
+        /// Why that can be.
+        why: &'static str,
+    },
     /// An end is on a blocked cell (at corners: between four of them).
     #[error("the {end} {at} is blocked: choose a free vertex")]
     Blocked {

@@ -175,6 +175,7 @@ fn replay<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> u32 {
             updated: count(|event| matches!(event, Event::Updated(_))),
             percolations: u64::from(replay.swaps[0] + replay.swaps[1]),
             scanned: 0,
+            fallbacks: 0,
         };
         assert_eq!(counters, expected, "{}", case());
         assert!(counters.generated > counters.expanded, "{}", case());
