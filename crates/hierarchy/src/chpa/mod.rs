@@ -1,0 +1,8 @@
+//! CHPA*: the map in segments.
+
+mod codec;
+mod planner;
+mod segments;
+
+pub use planner::{ChpaStar, Conduct};
+pub use segments::SegmentGraph;

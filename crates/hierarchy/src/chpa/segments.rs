@@ -1,0 +1,248 @@
+//! The abstraction graph of CHPA*: made by sliding windows over the map, and mended where the map changed.
+
+use mediant_grid::{Centers, Grid, Lattice, Rectangle, Vector, Vertex};
+use mediant_moves::K;
+
+use crate::{
+    HierarchyError, check,
+    window::{MAX_SIDE, Rows, Window, low_bits},
+};
+
+/// A segment's edges, to the right and downward, from where the others follow.
+pub(crate) const EAST: u8 = 1;
+pub(crate) const SOUTH: u8 = 2;
+pub(crate) const SOUTH_EAST: u8 = 4;
+pub(crate) const SOUTH_WEST: u8 = 8;
+
+/// The index of CHPA*: the map in segments, and between which of them a path leads (Teleiša & Čalnerytė 2023, Section 3).
+///
+/// A window that is one tile longer than a segment slides over the map. Where a 4-connected path leads through it, from its first column to the one that belongs to the next segment, these two
+/// segments are joined; likewise downward, with the window turned. The paper says 'any valid path along the window'; between which of its tiles, it does not. A map whose sides are no
+/// multiples of the segment's is padded with its last row and column.
+///
+/// For k = 3, which the paper leaves open, a window that is one tile longer both ways joins diagonal neighbors: a path from one of the segment's two far sides to the one tile of
+/// the neighbor.
+///
+/// What becomes of paths *within* a segment is not asked, so that segments may seem connected that are not, and the other way round: what the planner does then is its
+/// [`Conduct`](crate::Conduct). Immutable but for [`repair`](Self::repair); planners share it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SegmentGraph {
+    pub(crate) k: K,
+    pub(crate) side: u32,
+    pub(crate) size: (u32, u32),
+    pub(crate) columns: u32,
+    pub(crate) rows: u32,
+    pub(crate) edges: Box<[u8]>,
+}
+
+impl SegmentGraph {
+    /// The side of the paper's segments.
+    pub const PAPER_SIDE: u32 = 3;
+    /// The longest side: the window, which is one tile longer, has rows of one word.
+    pub const MAX_SIDE: u32 = MAX_SIDE - 1;
+
+    /// The index of a map, with segments of `side` × `side` cells: 1 to [`MAX_SIDE`](Self::MAX_SIDE). It takes 6 to 50 ms on maps of 512 × 512 to 1024 × 1024 cells.
+    ///
+    /// # Errors
+    /// [`HierarchyError`] for k above 3, for corners that may be cut, or a side that is out of range.
+    pub fn new(lattice: &Lattice<Centers>, side: u32) -> Result<Self, HierarchyError> {
+        let mut graph = Self::without_edges(lattice, side)?;
+        for y in 0..graph.rows {
+            for x in 0..graph.columns {
+                graph.edges[(y * graph.columns + x) as usize] = graph.edges_of(lattice.grid(), x, y);
+            }
+        }
+        Ok(graph)
+    }
+
+    /// The index of a map without edges.
+    pub(crate) fn without_edges(lattice: &Lattice<Centers>, side: u32) -> Result<Self, HierarchyError> {
+        check::moves(lattice)?;
+        if !(1..=Self::MAX_SIDE).contains(&side) {
+            return Err(HierarchyError::Side { found: side, min: 1, max: Self::MAX_SIDE });
+        }
+        let size = (lattice.grid().width(), lattice.grid().height());
+        let (columns, rows) = (size.0.div_ceil(side), size.1.div_ceil(side));
+        let edges = vec![0; (columns * rows) as usize].into_boxed_slice();
+        Ok(Self { k: lattice.k(), side, size, columns, rows, edges })
+    }
+
+    /// Makes the edges anew whose windows touch the cells of a rectangle, in which alone `grid` may differ from the map that this is the index of. It is then equal to a new index
+    /// of `grid`.
+    ///
+    /// # Errors
+    /// [`HierarchyError::Size`] for a map of another size; nothing is changed then.
+    pub fn repair(&mut self, grid: &Grid, changed: Rectangle) -> Result<(), HierarchyError> {
+        check::size(self.size, grid)?;
+        // The windows of a segment reach one tile beyond it to the left, to the right, and downward.
+        let (columns, rows) = (
+            check::span(changed.x, changed.width, self.size.0),
+            check::span(changed.y, changed.height, self.size.1),
+        );
+        if columns.is_empty() || rows.is_empty() {
+            return Ok(());
+        }
+        let first = |cell: u32| cell.saturating_sub(1) / self.side;
+        for y in first(rows.start)..rows.end.div_ceil(self.side) {
+            for x in first(columns.start)..((columns.end + 1).div_ceil(self.side)).min(self.columns) {
+                self.edges[(y * self.columns + x) as usize] = self.edges_of(grid, x, y);
+            }
+        }
+        Ok(())
+    }
+
+    /// The side of the segments, in cells.
+    #[must_use]
+    pub const fn side(&self) -> u32 {
+        self.side
+    }
+
+    /// The number of segments.
+    #[must_use]
+    pub fn segments(&self) -> usize {
+        self.edges.len()
+    }
+
+    /// The number of pairs of segments that are joined.
+    #[must_use]
+    pub fn edges(&self) -> usize {
+        self.edges.iter().map(|edges| edges.count_ones() as usize).sum()
+    }
+
+    /// The memory that it takes, in bytes: one a segment.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        size_of_val(&*self.edges)
+    }
+
+    /// The segment of a vertex.
+    pub(crate) const fn segment_at(&self, at: Vertex) -> u32 {
+        at.y as u32 / self.side * self.columns + at.x as u32 / self.side
+    }
+
+    /// Where a segment is among the segments.
+    pub(crate) const fn place(&self, segment: u32) -> Vertex {
+        Vertex::new((segment % self.columns) as i32, (segment / self.columns) as i32)
+    }
+
+    /// The tile in the middle of a segment, as far as that is on the map.
+    pub(crate) const fn center(&self, segment: u32) -> Vertex {
+        let (at, side) = (self.place(segment), self.side as i32);
+        let (x, y) = (at.x * side + side / 2, at.y * side + side / 2);
+        let (last_x, last_y) = (self.size.0 as i32 - 1, self.size.1 as i32 - 1);
+        Vertex::new(if x < last_x { x } else { last_x }, if y < last_y { y } else { last_y })
+    }
+
+    /// Calls `visit` with each segment that an edge leads to, and the way there.
+    pub(crate) fn for_each_neighbor(&self, segment: u32, mut visit: impl FnMut(u32, Vector)) {
+        let at = self.place(segment);
+        let own = self.edges[segment as usize];
+        let other = |dx: i32, dy: i32| {
+            let at = Vertex::new(at.x + dx, at.y + dy);
+            let exists = at.x >= 0 && at.y >= 0 && at.x < self.columns as i32 && at.y < self.rows as i32;
+            exists.then(|| at.y as u32 * self.columns + at.x as u32)
+        };
+        for (dx, dy, edge) in [(1, 0, EAST), (0, 1, SOUTH), (1, 1, SOUTH_EAST), (-1, 1, SOUTH_WEST)] {
+            if own & edge != 0
+                && let Some(to) = other(dx, dy)
+            {
+                visit(to, Vector::new(dx, dy));
+            }
+            if let Some(to) = other(-dx, -dy)
+                && self.edges[to as usize] & edge != 0
+            {
+                visit(to, Vector::new(-dx, -dy));
+            }
+        }
+    }
+
+    /// The edges that lead to a segment.
+    pub(crate) fn possible_edges(&self, x: u32, y: u32) -> u8 {
+        let (has_right, has_left, has_below) = (x + 1 < self.columns, x > 0, y + 1 < self.rows);
+        let diagonals = self.k != K::FOUR_CONNECTED && has_below;
+        let edge = |exists: bool, edge: u8| if exists { edge } else { 0 };
+        edge(has_right, EAST)
+            | edge(has_below, SOUTH)
+            | edge(diagonals && has_right, SOUTH_EAST)
+            | edge(diagonals && has_left, SOUTH_WEST)
+    }
+
+    /// Slides the windows over a segment.
+    fn edges_of(&self, grid: &Grid, x: u32, y: u32) -> u8 {
+        let side = self.side;
+        let (left, top) = ((x * side) as i32, (y * side) as i32);
+        let possible = self.possible_edges(x, y);
+        let mut edges = 0;
+        let mut add =
+            |edge: u8, (left, width, height): (i32, u32, u32), from: fn(u32) -> Rows, to: fn(u32) -> Rows| {
+                if possible & edge != 0 {
+                    let window = padded(grid, left, top, width, height);
+                    let mut start = from(side);
+                    start.iter_mut().zip(&window.free).for_each(|(start, free)| *start &= free);
+                    let reached = window.flood(&start);
+                    if reached.iter().zip(to(side)).any(|(reached, to)| reached & to != 0) {
+                        edges |= edge;
+                    }
+                }
+            };
+        add(EAST, (left, side + 1, side), first_column, column_beyond);
+        add(SOUTH, (left, side, side + 1), first_row, row_beyond);
+        add(
+            SOUTH_EAST,
+            (left, side + 1, side + 1),
+            |side| both(first_row(side), first_column(side)),
+            |side| one(side, side),
+        );
+        add(
+            SOUTH_WEST,
+            (left - 1, side + 1, side + 1),
+            |side| both(first_row(side), column_beyond(side)),
+            |side| one(0, side),
+        );
+        edges
+    }
+}
+
+/// The cells of a rectangle, of which those beyond the map are as the nearest on it.
+fn padded(grid: &Grid, left: i32, top: i32, width: u32, height: u32) -> Window {
+    let mut free = [0; MAX_SIDE as usize];
+    let known = width.min((grid.width() as i32 - left) as u32);
+    for (free, y) in free[..height as usize].iter_mut().zip(top..) {
+        *free = !grid.rows().row(y.min(grid.height() as i32 - 1)).word(left) & low_bits(known);
+        if *free >> (known - 1) & 1 == 1 {
+            *free |= low_bits(width) & !low_bits(known);
+        }
+    }
+    Window { left, top, width, height, free }
+}
+
+fn first_column(_: u32) -> Rows {
+    [1; MAX_SIDE as usize]
+}
+
+fn column_beyond(side: u32) -> Rows {
+    [1 << side; MAX_SIDE as usize]
+}
+
+fn first_row(_: u32) -> Rows {
+    let mut rows = [0; MAX_SIDE as usize];
+    rows[0] = !0;
+    rows
+}
+
+fn row_beyond(side: u32) -> Rows {
+    let mut rows = [0; MAX_SIDE as usize];
+    rows[side as usize] = !0;
+    rows
+}
+
+fn one(x: u32, y: u32) -> Rows {
+    let mut rows = [0; MAX_SIDE as usize];
+    rows[y as usize] = 1 << x;
+    rows
+}
+
+fn both(mut a: Rows, b: Rows) -> Rows {
+    a.iter_mut().zip(b).for_each(|(a, b)| *a |= b);
+    a
+}

@@ -1,0 +1,10 @@
+//! HPA*: the map in clusters.
+
+mod codec;
+mod graph;
+mod level;
+mod planner;
+mod search;
+
+pub use graph::{ClusterGraph, Clustering};
+pub use planner::HpaStar;

@@ -1,0 +1,83 @@
+//! Straightening: what a path over N(k) loses to detours, regained without leaving N(k).
+
+use mediant_grid::{Centers, Lattice, Vector, Vertex};
+use mediant_moves::{Cost, decompose};
+
+/// How many turning points back a shortcut may begin. With 4 the paths of HPA* are 0.59 % longer than optimal in the mean of 14 maps, with 8 0.40 %, with 16 0.38 %; beyond 8 looking takes longer
+/// than the search.
+const REACH: usize = 8;
+
+/// The scratch memory of straightening.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Straighten {
+    turns: Vec<Vertex>,
+    /// For each turning point the cost of the best way to it, the turning point before it on that way, and where the path turns between the two.
+    best: Vec<(Cost, usize, Vertex)>,
+    cells: Vec<Vertex>,
+}
+
+impl Straighten {
+    /// The waypoints of the path through these vertices, made shorter: the shortest way over its turning points, of which two that are at most [`REACH`] apart are joined if
+    /// a shortest path on an empty grid that turns once is free (Botea 2004, Section 3.3, joins those on one straight line).
+    pub(crate) fn path(&mut self, lattice: &Lattice<Centers>, way: &[Vertex]) -> Vec<Vertex> {
+        let Self { turns, best, cells } = self;
+        waypoints(way, turns);
+        best.clear();
+        for (to, &at) in turns.iter().enumerate() {
+            let Some((&before, &(cost, ..))) =
+                to.checked_sub(1).and_then(|from| turns.get(from).zip(best.last()))
+            else {
+                best.push((Cost::ZERO, 0, at));
+                continue;
+            };
+            let mut found = (cost + lattice.costs().distance(before.to(at)), to - 1, at);
+            for from in to.saturating_sub(REACH)..to - 1 {
+                let cost = best[from].0 + lattice.costs().distance(turns[from].to(at));
+                if cost < found.0
+                    && let Some(elbow) = free(lattice, turns[from], at)
+                {
+                    found = (cost, from, elbow);
+                }
+            }
+            best.push(found);
+        }
+        cells.clear();
+        let mut at = turns.len().saturating_sub(1);
+        cells.extend(turns.get(at));
+        while at > 0 {
+            let (_, from, elbow) = best[at];
+            at = from;
+            cells.extend([elbow, turns[at]]);
+        }
+        cells.reverse();
+        let mut path = Vec::with_capacity(cells.len());
+        waypoints(cells, &mut path);
+        path
+    }
+}
+
+/// Where a path that is optimal on an empty grid turns between two vertices, if one of the two that turn once is free.
+pub(crate) fn free(lattice: &Lattice<Centers>, from: Vertex, to: Vertex) -> Option<Vertex> {
+    let parts = decompose(from.to(to), lattice.k())?;
+    [(parts.v, parts.alpha), (parts.w, parts.beta)]
+        .map(|(v, times)| from + Vector::new(v.x * times as i32, v.y * times as i32))
+        .into_iter()
+        .find(|&elbow| lattice.sees(from, elbow) && lattice.sees(elbow, to))
+}
+
+/// Of the vertices on a path over N(k), those at which it turns, and its ends.
+pub(crate) fn waypoints(way: &[Vertex], path: &mut Vec<Vertex>) {
+    path.clear();
+    for &at in way {
+        if path.last() == Some(&at) {
+            continue;
+        }
+        if let [.., before, last] = path[..] {
+            let (came, goes) = (before.to(last), last.to(at));
+            if came.det(goes) == 0 && came.dot(goes) > 0 {
+                path.pop();
+            }
+        }
+        path.push(at);
+    }
+}

@@ -1,0 +1,210 @@
+//! What several suites of hierarchies need.
+#![allow(dead_code, reason = "each suite uses a part")]
+
+use std::{
+    num::{NonZero, NonZeroU32},
+    ops::{Deref, Range},
+    sync::Arc,
+    thread,
+};
+
+use mediant_grid::{Centers, CornerRule, Grid, Lattice, Place, Vector, Vertex};
+use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, Conduct, HpaStar, SegmentGraph};
+use mediant_moves::{Cost, K};
+use mediant_oracle::{Rng, caves, describe, maze, noise, rooms, suite_grid, validate};
+use mediant_search::{
+    Counters, Euclidean, Heuristic, LatticeDistance, Outcome, Path, Planner, Query, QueryError,
+    SquaredEuclidean, Zero,
+};
+
+pub(crate) const CORNER_RULES: [CornerRule; 3] = [CornerRule::Never, CornerRule::One, CornerRule::Always];
+
+pub(crate) fn k(number: u32) -> K {
+    K::new(number).expect("k is at least 2")
+}
+
+pub(crate) fn number(number: u32) -> NonZeroU32 {
+    NonZeroU32::new(number).expect("it is at least 1")
+}
+
+pub(crate) fn lattice(grid: &Grid, k: K, rule: CornerRule) -> Lattice<Centers> {
+    Lattice::new(Arc::new(grid.clone()), k, rule).expect("k is in range")
+}
+
+/// The lattice of a map for one of the moves that there are hierarchies for.
+pub(crate) fn any_lattice(rng: &mut Rng, grid: &Grid) -> Lattice<Centers> {
+    if rng.chance(50) {
+        lattice(grid, k(3), CornerRule::Never)
+    } else {
+        lattice(grid, k(2), CORNER_RULES[rng.below(3) as usize])
+    }
+}
+
+/// The map of a suite's seed: those of all suites, and for one in four one that has room for clusters of several levels.
+pub(crate) fn map(seed: u64) -> Grid {
+    if seed % 4 != 3 {
+        return suite_grid(seed).0;
+    }
+    let mut rng = Rng::new(seed ^ 0x3A9);
+    let (width, height) = (20 + rng.below(40), 20 + rng.below(40));
+    match rng.below(4) {
+        0 => {
+            let percent = rng.below(45);
+            noise(&mut rng, width, height, percent)
+        }
+        1 => rooms(&mut rng, width, height),
+        2 => maze(&mut rng, width, height),
+        _ => caves(&mut rng, width, height),
+    }
+}
+
+/// Mostly small clusters, since the maps are small, in as many as four levels.
+pub(crate) fn any_clustering(rng: &mut Rng) -> Clustering {
+    let side = match rng.below(12) {
+        0 => 64,
+        1..=6 => 2 + rng.below(4),
+        _ => 2 + rng.below(11),
+    };
+    let fitting = (1..=4).filter(|level| side << (level - 1) <= Clustering::MAX_SIDE).count() as u32;
+    Clustering { side, levels: 1 + rng.below(fitting) }
+}
+
+pub(crate) fn clusters(lattice: &Lattice<Centers>, clustering: Clustering) -> ClusterGraph {
+    ClusterGraph::new(lattice, clustering).expect("there is an index for these moves")
+}
+
+pub(crate) fn segments(lattice: &Lattice<Centers>, side: u32) -> SegmentGraph {
+    SegmentGraph::new(lattice, side).expect("there is an index for these moves")
+}
+
+/// One of the lower bounds.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Bound {
+    Lattice,
+    Euclidean,
+    Zero,
+}
+
+impl Heuristic for Bound {
+    fn estimate<P: Place>(self, lattice: &Lattice<P>, to_goal: Vector) -> Cost {
+        match self {
+            Self::Lattice => LatticeDistance.estimate(lattice, to_goal),
+            Self::Euclidean => Euclidean.estimate(lattice, to_goal),
+            Self::Zero => Zero.estimate(lattice, to_goal),
+        }
+    }
+}
+
+/// The heuristic of a phase of CHPA*: a lower bound, or none of them, `SquaredEuclidean`.
+pub(crate) type Phase = Option<Bound>;
+
+/// How a CHPA* is to be made.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Setting {
+    pub(crate) phases: [Phase; 2],
+    pub(crate) step: NonZeroU32,
+    pub(crate) conduct: Conduct,
+}
+
+impl Setting {
+    pub(crate) fn any(rng: &mut Rng) -> Self {
+        let bounds = [Some(Bound::Lattice), Some(Bound::Euclidean), Some(Bound::Zero), None];
+        let phases = [(); 2].map(|()| bounds[rng.below(4) as usize]);
+        let detour = number(1 + rng.below(4));
+        Self { phases, step: number(1 + rng.below(4)), conduct: Conduct::Complete { detour } }
+    }
+
+    /// The same as published.
+    pub(crate) fn of_the_paper(self) -> Self {
+        Self { conduct: Conduct::Paper, ..self }
+    }
+}
+
+/// A planner, whatever its type.
+pub(crate) type Solve<'i> = Box<dyn FnMut(Query, &mut Counters) -> Result<Outcome, QueryError> + Send + 'i>;
+
+fn boxed<'i>(mut planner: impl Planner + Send + 'i) -> Solve<'i> {
+    Box::new(move |query, counters| planner.solve_observed(query, counters))
+}
+
+pub(crate) fn hpa<'i, L, G>(lattice: L, graph: G, straightens: bool) -> Solve<'i>
+where
+    L: Deref<Target = Lattice<Centers>> + Send + 'i,
+    G: Deref<Target = ClusterGraph> + Send + 'i,
+{
+    boxed(HpaStar::new(lattice, graph).expect("the index fits").with_straightening(straightens))
+}
+
+pub(crate) fn chpa<'i, L, G>(lattice: L, graph: G, setting: Setting) -> Solve<'i>
+where
+    L: Deref<Target = Lattice<Centers>> + Clone + Send + 'i,
+    G: Deref<Target = SegmentGraph> + Send + 'i,
+{
+    let Setting { phases, step, conduct } = setting;
+    macro_rules! planner {
+        ($first:expr, $second:expr) => {
+            boxed(
+                ChpaStar::new(lattice, graph, $first, $second)
+                    .expect("the index fits")
+                    .with_step(step)
+                    .with_conduct(conduct),
+            )
+        };
+    }
+    match phases {
+        [Some(first), Some(second)] => planner!(first, second),
+        [Some(first), None] => planner!(first, SquaredEuclidean),
+        [None, Some(second)] => planner!(SquaredEuclidean, second),
+        [None, None] => planner!(SquaredEuclidean, SquaredEuclidean),
+    }
+}
+
+/// An answer, and what it took.
+pub(crate) type Answer = (Result<Outcome, QueryError>, Counters);
+
+pub(crate) fn ask(solve: &mut Solve<'_>, query: Query) -> Answer {
+    let mut counters = Counters::default();
+    let answer = solve(query, &mut counters);
+    (answer, counters)
+}
+
+/// A map's random free cells.
+pub(crate) fn free_cells(grid: &Grid) -> Vec<Vertex> {
+    let (width, height) = (grid.width() as i32, grid.height() as i32);
+    let cells = (0..height).flat_map(|y| (0..width).map(move |x| Vertex::new(x, y)));
+    cells.filter(|at| grid.is_free(at.x, at.y)).collect()
+}
+
+/// Queries between random free cells; none where no cell is free.
+pub(crate) fn random_queries(rng: &mut Rng, grid: &Grid, count: usize) -> Vec<Query> {
+    let free = free_cells(grid);
+    (0..count).filter_map(|_| Some(Query::new(*rng.pick(&free)?, *rng.pick(&free)?))).collect()
+}
+
+/// Panics unless this is a legal path of the query, without a waypoint at which it goes straight on.
+pub(crate) fn check_path(lattice: &Lattice<Centers>, query: Query, path: &Path, case: &impl Fn() -> String) {
+    let (grid, rules, way) = (lattice.grid(), lattice.rules(), path.waypoints());
+    let fault = validate(grid, rules, Some(lattice.k()), query.start, query.goal, way, path.cost());
+    assert_eq!(fault, Ok(()), "{way:?}; {}", case());
+    let turns = |at: &[Vertex]| {
+        let (came, goes) = (at[0].to(at[1]), at[1].to(at[2]));
+        came.det(goes) != 0 || came.dot(goes) < 0
+    };
+    assert!(way.windows(3).all(turns), "{way:?} goes straight on; {}", case());
+}
+
+/// What a failing query says.
+pub(crate) fn describe_query(lattice: &Lattice<Centers>, query: Query, seed: u64) -> String {
+    let map = describe(lattice.grid(), lattice.rules(), query.start, query.goal, seed);
+    format!("k = {}; {map}", lattice.k())
+}
+
+/// What `part` says of each seed, on all cores. In the order of the cores.
+pub(crate) fn on_all_cores<R: Send>(seeds: Range<u64>, part: impl Fn(u64) -> R + Sync) -> Vec<R> {
+    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    let part = |first: usize| seeds.clone().skip(first).step_by(threads).map(&part).collect::<Vec<R>>();
+    thread::scope(|scope| {
+        let parts: Vec<_> = (0..threads).map(|first| scope.spawn(move || part(first))).collect();
+        parts.into_iter().flat_map(|part| part.join().expect("a part failed, as said above")).collect()
+    })
+}

@@ -1,0 +1,299 @@
+//! HPA* and CHPA* find a legal path whenever there is one, never one shorter than the optimum, and seldom one much longer, on seeded random maps.
+
+mod common;
+
+use common::{
+    Answer, Bound, Setting, any_clustering, any_lattice, ask, check_path, chpa, clusters, describe_query,
+    free_cells, hpa, k, lattice, map, number, on_all_cores, random_queries, segments,
+};
+use mediant_grid::{Centers, CornerRule, Grid, Lattice, Placement, Vertex};
+use mediant_hierarchy::{ChpaStar, Clustering, HpaStar};
+use mediant_oracle::{Explicit, Rng, random_vertex, seeds};
+use mediant_search::{
+    AStar, Counters, Guarantee, LatticeDistance, Outcome, Planner, Query, QueryError, SquaredEuclidean,
+};
+
+/// Costs within this factor of each other are the same: that is less than the shortest detour on the longest path of these maps.
+const SLACK: f64 = 1.0 + 1e-9;
+
+/// What the answers of a planner were.
+#[derive(Clone, Copy, Debug, Default)]
+struct Tally {
+    found: usize,
+    unreachable: usize,
+    gave_up: usize,
+    /// Of the paths found from one cell to another.
+    measured: usize,
+    /// By how much these are longer than the optimum, as a part of that, added up.
+    excess: f64,
+    fallbacks: u64,
+}
+
+impl Tally {
+    fn mean_excess(&self) -> f64 {
+        self.excess / self.measured as f64
+    }
+
+    fn add(&mut self, other: Self) {
+        self.found += other.found;
+        self.unreachable += other.unreachable;
+        self.gave_up += other.gave_up;
+        self.measured += other.measured;
+        self.excess += other.excess;
+        self.fallbacks += other.fallbacks;
+    }
+}
+
+/// A query and its optimum over N(k); `None` where there is no path.
+#[derive(Clone, Copy)]
+struct Expected {
+    query: Query,
+    optimum: Option<f64>,
+}
+
+/// From each of some free cells to some others.
+fn expected(rng: &mut Rng, lattice: &Lattice<Centers>) -> Vec<Expected> {
+    let graph = Explicit::new(lattice.grid(), lattice.rules(), Some(lattice.k()));
+    let free = free_cells(lattice.grid());
+    let mut all = Vec::new();
+    let mut draw = |count| (0..count).filter_map(|_| rng.pick(&free).copied()).collect::<Vec<_>>();
+    for start in draw(3) {
+        let costs = graph.costs_from(start);
+        for goal in draw(5).into_iter().chain([start]) {
+            all.push(Expected { query: Query::new(start, goal), optimum: costs.to(goal) });
+        }
+    }
+    all
+}
+
+/// Checks an answer and notes it; what the path costs, if one was found.
+fn note(
+    tally: &mut Tally,
+    lattice: &Lattice<Centers>,
+    Expected { query, optimum }: Expected,
+    (answer, counters): &Answer,
+    case: &impl Fn() -> String,
+) -> Option<f64> {
+    tally.fallbacks += counters.fallbacks;
+    match (answer, optimum) {
+        (Ok(Outcome::Unreachable), None) => {
+            assert_eq!(*counters, Counters::default(), "there is nothing to search; {}", case());
+            tally.unreachable += 1;
+        }
+        (Ok(Outcome::Found(path)), Some(best)) => {
+            check_path(lattice, query, path, case);
+            assert!(best <= path.cost() * SLACK, "{} < {best}; {}", path.cost(), case());
+            tally.found += 1;
+            if best > 0.0 {
+                tally.measured += 1;
+                tally.excess += path.cost() / best - 1.0;
+            }
+            return Some(path.cost());
+        }
+        (Err(QueryError::GaveUp { .. }), Some(_)) => tally.gave_up += 1,
+        (answer, optimum) => panic!("{answer:?}, but the optimum is {optimum:?}; {}", case()),
+    }
+    None
+}
+
+fn is_same(a: Option<f64>, b: Option<f64>) -> bool {
+    a.zip(b).is_some_and(|(a, b)| a <= b * SLACK && b <= a * SLACK)
+}
+
+/// HPA* straightened and refined.
+fn check_hpa(lattice: &Lattice<Centers>, clustering: Clustering, all: &[Expected], seed: u64) -> [Tally; 2] {
+    let graph = clusters(lattice, clustering);
+    let mut planners = [true, false].map(|straightens| hpa(lattice, &graph, straightens));
+    let mut tallies = [Tally::default(); 2];
+    let fits = lattice.grid().width().max(lattice.grid().height()) <= clustering.side;
+    for &expected in all {
+        let case = || format!("{clustering:?}; {}", describe_query(lattice, expected.query, seed));
+        let mut costs = [None; 2];
+        for ((planner, tally), cost) in planners.iter_mut().zip(&mut tallies).zip(&mut costs) {
+            *cost = note(tally, lattice, expected, &ask(planner, expected.query), &case);
+            let is_optimal = is_same(*cost, expected.optimum) || expected.optimum.is_none();
+            assert!(is_optimal || !fits, "{cost:?} within one cluster; {}", case());
+        }
+        let [straightened, refined] = costs;
+        let is_no_longer = straightened.zip(refined).is_none_or(|(a, b)| a <= b * SLACK);
+        assert!(is_no_longer, "straightened {straightened:?}, refined {refined:?}; {}", case());
+    }
+    tallies
+}
+
+/// CHPA*, complete and as published.
+fn check_chpa(rng: &mut Rng, lattice: &Lattice<Centers>, all: &[Expected], seed: u64) -> [Tally; 2] {
+    let (side, setting) = (1 + rng.below(9), Setting::any(rng));
+    let graph = segments(lattice, side);
+    let mut complete = chpa(lattice, &graph, setting);
+    let mut published = chpa(lattice, &graph, setting.of_the_paper());
+    let mut tallies = [Tally::default(); 2];
+    let segment = |at: Vertex| (at.x as u32 / side, at.y as u32 / side);
+    for &expected in all {
+        let Query { start, goal } = expected.query;
+        let case = || format!("side {side}, {setting:?}; {}", describe_query(lattice, expected.query, seed));
+        let answers = [&mut complete, &mut published].map(|planner| ask(planner, expected.query));
+        let mut costs = [None; 2];
+        for ((answer, tally), cost) in answers.iter().zip(&mut tallies).zip(&mut costs) {
+            *cost = note(tally, lattice, expected, answer, &case);
+            // Without checkpoints the second phase is all there is.
+            if segment(start) == segment(goal) && setting.phases[1].is_some() && expected.optimum.is_some() {
+                assert!(is_same(*cost, expected.optimum), "{cost:?} within one segment; {}", case());
+            }
+        }
+        let [(found, counters), (paper, of_paper)] = &answers;
+        assert_eq!(of_paper.fallbacks, 0, "{}", case());
+        let is_paper_s = paper.is_err() || counters.fallbacks > 0 || setting.phases[1].is_none();
+        assert!(paper.is_ok() || counters.fallbacks > 0, "the paper's gave up; {}", case());
+        assert!(is_paper_s || found == paper, "{found:?} without a fallback, but {paper:?}; {}", case());
+    }
+    tallies
+}
+
+/// Straightened, refined, complete, as published.
+fn check_map(seed: u64) -> [Tally; 4] {
+    let (grid, mut rng) = (map(seed), Rng::new(seed ^ 0x0C1A));
+    let lattice = any_lattice(&mut rng, &grid);
+    let all = expected(&mut rng, &lattice);
+    let clustering = any_clustering(&mut rng);
+    let [straightened, refined] = check_hpa(&lattice, clustering, &all, seed);
+    let [complete, published] = check_chpa(&mut rng, &lattice, &all, seed);
+    [straightened, refined, complete, published]
+}
+
+#[test]
+fn a_path_is_found_whenever_there_is_one() {
+    let mut sums = [Tally::default(); 4];
+    let tallies = on_all_cores(seeds(800), check_map);
+    let maps = seeds(800).end as usize;
+    assert_eq!(tallies.len(), maps);
+    for tally in tallies {
+        sums.iter_mut().zip(tally).for_each(|(sum, tally)| sum.add(tally));
+    }
+    let [straightened, refined, complete, published] = sums;
+    // A generator that went wrong must not make the suite empty.
+    for sum in [straightened, refined, complete] {
+        assert!(
+            sum.found > 10 * maps && sum.unreachable > maps && sum.gave_up == 0,
+            "{sum:?} on {maps} maps"
+        );
+    }
+    assert!(published.gave_up > 0 && 4 * published.gave_up < published.found, "{published:?} on {maps} maps");
+    assert_eq!(published.found + published.gave_up, complete.found, "{sums:?}");
+    assert_eq!(straightened.fallbacks + refined.fallbacks + published.fallbacks, 0, "{sums:?}");
+    assert!(complete.fallbacks > 0, "{complete:?}");
+    let excess = sums.map(|sum| sum.mean_excess());
+    // On the 20,000 maps of the long run these are 0.3, 3.7, 3.8 and 8.5 %.
+    let is_within = excess.iter().zip([0.006, 0.06, 0.06, 0.15]).all(|(excess, bound)| *excess < bound);
+    assert!(is_within, "the paths are too long by {excess:?}: {sums:?}");
+}
+
+/// Ends that are blocked or outside the map, half of them.
+fn any_query(rng: &mut Rng, grid: &Grid) -> Query {
+    let [start, goal] = [(); 2].map(|()| {
+        let at = random_vertex(rng, grid, Placement::Center);
+        let off = [(0, 0), (0, 0), (-at.x - 1, 0), (0, -at.y - 1), (grid.width() as i32, 0), (0, 99)];
+        at + off[rng.below(6) as usize].into()
+    });
+    Query::new(start, goal)
+}
+
+#[test]
+fn bad_ends_are_the_errors_that_a_star_gives() {
+    let check = |seed: u64| {
+        let (grid, mut rng) = (map(seed), Rng::new(seed ^ 0xE44));
+        let lattice = any_lattice(&mut rng, &grid);
+        let clusters = clusters(&lattice, any_clustering(&mut rng));
+        let (segments, setting) = (segments(&lattice, 1 + rng.below(9)), Setting::any(&mut rng));
+        let mut planners = [
+            hpa(&lattice, &clusters, rng.chance(50)),
+            chpa(&lattice, &segments, setting),
+            chpa(&lattice, &segments, setting.of_the_paper()),
+        ];
+        let mut a_star = AStar::new(&lattice, LatticeDistance);
+        let mut errors = 0;
+        for _ in 0..12 {
+            let query = any_query(&mut rng, &grid);
+            let Err(error) = a_star.solve(query) else { continue };
+            for planner in &mut planners {
+                let answer = ask(planner, query);
+                let case = || describe_query(&lattice, query, seed);
+                assert_eq!(answer, (Err(error), Counters::default()), "{}", case());
+            }
+            errors += 1;
+        }
+        errors
+    };
+    let errors: usize = on_all_cores(seeds(200), check).into_iter().sum();
+    assert!(errors > 6 * seeds(200).end as usize, "{errors} errors");
+}
+
+#[test]
+fn nothing_is_promised_of_the_length() {
+    let grid = Grid::from_fn(9, 9, |_, _| false).expect("a valid size");
+    let lattice = lattice(&grid, k(3), CornerRule::Never);
+    let (clusters, segments) = (clusters(&lattice, Clustering::default()), segments(&lattice, 3));
+    let hpa = HpaStar::new(&lattice, &clusters).expect("the index fits");
+    let chpa = ChpaStar::new(&lattice, &segments, SquaredEuclidean, LatticeDistance).expect("the index fits");
+    assert_eq!((hpa.guarantee(), chpa.guarantee()), (Guarantee::Suboptimal, Guarantee::Suboptimal));
+}
+
+/// The shortest path on an empty grid: |dx| + |dy|, or octile.
+fn distance(Query { start, goal }: Query, k: u32) -> f64 {
+    let (x, y) = (f64::from(start.x.abs_diff(goal.x)), f64::from(start.y.abs_diff(goal.y)));
+    if k == 2 { x + y } else { x.max(y) + x.min(y) * (2.0_f64.sqrt() - 1.0) }
+}
+
+/// One bend leads from each cell to each.
+#[test]
+fn straightened_paths_on_empty_maps_are_optimal() {
+    let check = |seed: u64| {
+        let mut rng = Rng::new(seed ^ 0xE3B);
+        let sides = [1 + rng.below(90), 1 + rng.below(90)];
+        let grid = Grid::from_fn(sides[0], sides[1], |_, _| false).expect("a valid size");
+        let number = 2 + rng.below(2);
+        let (lattice, clustering) = (lattice(&grid, k(number), CornerRule::Never), any_clustering(&mut rng));
+        let graph = clusters(&lattice, clustering);
+        let mut planners = [true, false].map(|straightens| hpa(&lattice, &graph, straightens));
+        let mut longer = 0;
+        for query in random_queries(&mut rng, &grid, 10) {
+            let case = || format!("{clustering:?}, {sides:?}, k = {number}, {query:?}, seed {seed}");
+            let [straightened, refined] = planners.each_mut().map(|planner| {
+                let outcome = ask(planner, query).0.expect("all is free");
+                outcome.path().expect("all is connected").cost()
+            });
+            let best = distance(query, number);
+            assert!(is_same(Some(straightened), Some(best)), "{straightened}, not {best}; {}", case());
+            longer += usize::from(refined > best * SLACK);
+        }
+        longer
+    };
+    let longer: usize = on_all_cores(seeds(100), check).into_iter().sum();
+    assert!(
+        longer > seeds(100).end as usize,
+        "only {longer} paths were longer before they were straightened"
+    );
+}
+
+/// With as many segments to a checkpoint there is none, and CHPA* is A* on the map.
+#[test]
+fn without_checkpoints_paths_are_optimal() {
+    let check = |seed: u64| {
+        let (grid, mut rng) = (map(seed), Rng::new(seed ^ 0x57E9));
+        let lattice = any_lattice(&mut rng, &grid);
+        let graph = segments(&lattice, 1 + rng.below(9));
+        let setting = Setting { step: number(u32::MAX), ..Setting::any(&mut rng) };
+        let phases = [setting.phases[0], Some(Bound::Euclidean)];
+        let mut planner = chpa(&lattice, &graph, Setting { phases, ..setting });
+        let all = expected(&mut rng, &lattice);
+        for &expected in &all {
+            let case = || format!("{setting:?}; {}", describe_query(&lattice, expected.query, seed));
+            let mut tally = Tally::default();
+            let cost = note(&mut tally, &lattice, expected, &ask(&mut planner, expected.query), &case);
+            assert!(is_same(cost, expected.optimum) || expected.optimum.is_none(), "{cost:?}; {}", case());
+        }
+        all.len()
+    };
+    let queries: usize = on_all_cores(seeds(100), check).into_iter().sum();
+    assert!(queries > 15 * seeds(100).end as usize, "{queries} queries");
+}

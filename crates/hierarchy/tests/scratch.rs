@@ -1,0 +1,227 @@
+//! What a planner did before does not matter to what it answers; warm, it allocates little; and bytes that say they are much allocate nothing.
+#![allow(unsafe_code, reason = "a counting allocator implements an unsafe trait")]
+
+mod common;
+
+use std::{
+    alloc::{GlobalAlloc, Layout, System},
+    cell::Cell,
+};
+
+use common::{
+    Bound, Setting, Solve, any_clustering, any_lattice, ask, chpa, clusters, describe_query, hpa, k, lattice,
+    map, number, on_all_cores, random_queries, segments,
+};
+use mediant_grid::{Centers, CornerRule, Grid, Lattice, Rectangle};
+use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, Conduct, HpaStar, SegmentGraph};
+use mediant_oracle::{Rng, caves, seeds};
+use mediant_search::{Counters, Outcome, Planner, Query};
+
+thread_local! {
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+    static BYTES: Cell<usize> = const { Cell::new(0) };
+}
+
+struct Counting;
+
+// SAFETY: every call goes to the system's allocator unchanged; the counts touch no heap memory.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
+        BYTES.set(BYTES.get() + layout.size());
+        // SAFETY: the caller keeps the contract of `alloc`.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, at: *mut u8, layout: Layout) {
+        // SAFETY: the caller keeps the contract of `dealloc`, and `at` came from `System`.
+        unsafe { System.dealloc(at, layout) }
+    }
+}
+
+#[global_allocator]
+static COUNTING: Counting = Counting;
+
+#[test]
+fn a_used_planner_answers_as_a_new_one() {
+    let check = |seed: u64| {
+        let (grid, mut rng) = (map(seed), Rng::new(seed ^ 0x5C4A));
+        let lattice = any_lattice(&mut rng, &grid);
+        let (of_clusters, of_segments) =
+            (clusters(&lattice, any_clustering(&mut rng)), segments(&lattice, 1 + rng.below(9)));
+        let setting = Setting::any(&mut rng);
+        let make = |which: usize| -> Solve<'_> {
+            match which {
+                0 | 1 => hpa(&lattice, &of_clusters, which == 0),
+                2 => chpa(&lattice, &of_segments, setting),
+                _ => chpa(&lattice, &of_segments, setting.of_the_paper()),
+            }
+        };
+        let mut used = [0, 1, 2, 3].map(make);
+        let mut searched = 0;
+        for query in random_queries(&mut rng, &grid, 10) {
+            for (which, used) in used.iter_mut().enumerate() {
+                let case = || format!("{which}, {setting:?}; {}", describe_query(&lattice, query, seed));
+                let answer = ask(used, query);
+                assert_eq!(answer, ask(&mut make(which), query), "a new planner; {}", case());
+                assert_eq!(answer, ask(used, query), "asked again; {}", case());
+                searched += usize::from(answer.1 != Counters::default());
+            }
+        }
+        searched
+    };
+    let searched: usize = on_all_cores(seeds(200), check).into_iter().sum();
+    assert!(searched > 10 * seeds(200).end as usize, "only {searched} searches");
+}
+
+/// A planner that repairs its index and goes on answers as a new one on a new index.
+#[test]
+fn a_planner_that_repaired_its_index_answers_as_a_new_one() {
+    let check = |seed: u64| {
+        let (mut grid, mut rng) = (map(seed), Rng::new(seed ^ 0x6035));
+        let first = any_lattice(&mut rng, &grid);
+        let (k, rule) = (first.k(), first.rule());
+        let (clustering, side) = (any_clustering(&mut rng), 1 + rng.below(9));
+        let mut lattices = vec![first];
+        let mut places = Vec::new();
+        for _ in 0..3 {
+            let at = Rectangle { x: rng.below(20), y: rng.below(20), width: 1 + rng.below(9), height: 5 };
+            let percent = [0, 50, 100][rng.below(3) as usize];
+            grid = grid.with_rectangle(at, |_, _| rng.chance(percent));
+            lattices.push(lattice(&grid, k, rule));
+            places.push(at);
+        }
+        let mut boxed = (
+            HpaStar::new(&lattices[0], Box::new(clusters(&lattices[0], clustering))).expect("it fits"),
+            ChpaStar::new(
+                &lattices[0],
+                Box::new(segments(&lattices[0], side)),
+                Bound::Lattice,
+                Bound::Lattice,
+            )
+            .expect("it fits"),
+        );
+        let setting =
+            Setting { phases: [Some(Bound::Lattice); 2], step: number(2), conduct: Conduct::default() };
+        let mut asked = 0;
+        for (lattice, at) in lattices[1..].iter().zip(places) {
+            for query in random_queries(&mut rng, lattice.grid(), 2) {
+                // What is refused or stale must leave no trace either.
+                _ = (boxed.0.solve(query), boxed.1.solve(query));
+            }
+            boxed.0.repair(lattice, at).expect("it fits");
+            boxed.1.repair(lattice, at).expect("it fits");
+            let (of_clusters, of_segments) = (clusters(lattice, clustering), segments(lattice, side));
+            let mut new = [hpa(lattice, &of_clusters, true), chpa(lattice, &of_segments, setting)];
+            for query in random_queries(&mut rng, lattice.grid(), 4) {
+                let case = || {
+                    format!("{clustering:?}, segments of {side}; {}", describe_query(lattice, query, seed))
+                };
+                let mut counters = [Counters::default(); 2];
+                let first = boxed.0.solve_observed(query, &mut counters[0]);
+                let second = boxed.1.solve_observed(query, &mut counters[1]);
+                assert_eq!((first, counters[0]), ask(&mut new[0], query), "{}", case());
+                assert_eq!((second, counters[1]), ask(&mut new[1], query), "{}", case());
+                asked += 1;
+            }
+        }
+        asked
+    };
+    let asked: usize = on_all_cores(seeds(200), check).into_iter().sum();
+    assert!(asked > 8 * seeds(200).end as usize, "only {asked} queries");
+}
+
+fn cave() -> Grid {
+    caves(&mut Rng::new(7), 60, 50)
+}
+
+/// How many allocations each answer takes on a warm planner beyond its path, at most.
+fn most_allocations(planner: &mut Solve<'_>, queries: &[Query], case: &str) -> usize {
+    for _ in 0..2 {
+        for &query in queries {
+            _ = ask(planner, query);
+        }
+    }
+    let (mut found, mut most) = (0, 0);
+    for &query in queries {
+        let before = ALLOCATIONS.get();
+        let (answer, _) = ask(planner, query);
+        let path = usize::from(matches!(answer, Ok(Outcome::Found(_))));
+        most = most.max(ALLOCATIONS.get() - before - path);
+        found += path;
+    }
+    assert!(found > 50, "only {found} paths were found: {case}");
+    most
+}
+
+#[test]
+fn a_warm_query_allocates_its_path_and_nothing_else() {
+    let grid = cave();
+    let queries = random_queries(&mut Rng::new(1), &grid, 120);
+    for number in [2, 3] {
+        let lattice = lattice(&grid, k(number), CornerRule::Never);
+        for (side, levels) in [(10, 1), (6, 3), (2, 4), (64, 1)] {
+            let graph = clusters(&lattice, Clustering { side, levels });
+            for straightens in [true, false] {
+                let case = format!("side {side}, {levels} levels, {straightens}, k = {number}");
+                let most = most_allocations(&mut hpa(&lattice, &graph, straightens), &queries, &case);
+                assert_eq!(most, 0, "{case}");
+            }
+        }
+        for side in [1, 3, 8] {
+            let graph = segments(&lattice, side);
+            for seed in 0..5 {
+                let setting = Setting::any(&mut Rng::new(seed));
+                for setting in [setting, setting.of_the_paper()] {
+                    let case = format!("segments of {side}, {setting:?}, k = {number}");
+                    let most = most_allocations(&mut chpa(&lattice, &graph, setting), &queries, &case);
+                    assert_eq!(most, 0, "{case}");
+                }
+            }
+        }
+    }
+}
+
+/// Whether bytes were read, and how many bytes that took.
+fn allocated<T, E>(read: impl FnOnce() -> Result<T, E>) -> (bool, usize) {
+    let before = BYTES.get();
+    let result = read();
+    (result.is_ok(), BYTES.get() - before)
+}
+
+fn check_headers<T, E>(words: usize, bytes: &[u8], read: impl Fn(&[u8]) -> Result<T, E>, may_take: usize) {
+    let (is_ok, most) = allocated(|| read(bytes));
+    assert!(is_ok && most > bytes.len() / 2, "{most} bytes for {}", bytes.len());
+    let numbers = [0, 1, 2, 3, 8, 9, 64, 65, 1 << 15, 1 << 16, 1 << 30, 1 << 31, u32::MAX - 1, u32::MAX];
+    for place in 0..words {
+        for number in numbers {
+            let mut crafted = bytes.to_vec();
+            if crafted[4 * place..4 * place + 4] == number.to_le_bytes() {
+                continue;
+            }
+            crafted[4 * place..4 * place + 4].copy_from_slice(&number.to_le_bytes());
+            let (is_ok, taken) = allocated(|| read(&crafted));
+            assert!(!is_ok && taken <= may_take, "{number} at {place}: {taken} bytes, {most} for the index");
+        }
+    }
+}
+
+/// The first words say how the map is cut; and behind those of clusters is how many nodes the first one has.
+#[test]
+fn no_header_allocates_more_than_an_index_of_the_map() {
+    let grid = cave();
+    let lattice: Lattice<Centers> = lattice(&grid, k(3), CornerRule::Never);
+    // As many as the smallest clusters have in all levels that fit, and the lists that are made of them.
+    let most = allocated(|| Ok::<_, ()>(clusters(&lattice, Clustering { side: 2, levels: 8 }))).1;
+    assert!(most < 10_000_000, "{most} bytes for a map of 60 × 50 cells");
+    let bytes = clusters(&lattice, Clustering { side: 6, levels: 2 }).to_bytes();
+    check_headers(5, &bytes, |bytes| ClusterGraph::from_bytes(&lattice, bytes), most);
+    let bytes = segments(&lattice, 3).to_bytes();
+    check_headers(3, &bytes, |bytes| SegmentGraph::from_bytes(&lattice, bytes), 60 * 50 + 100);
+    // One cell, and all that the header may say.
+    let one = Grid::from_fn(1, 1, |_, _| false).expect("a valid size");
+    let lattice = common::lattice(&one, k(3), CornerRule::Never);
+    let numbers: Vec<u8> = [64_u32, 3, 1, 1, 0, 0, 0].into_iter().flat_map(u32::to_le_bytes).collect();
+    let (is_ok, taken) = allocated(|| ClusterGraph::from_bytes(&lattice, &numbers));
+    assert!(is_ok && taken < 200_000, "{taken} bytes");
+}

@@ -1,0 +1,81 @@
+//! One index for any number of planners, in any number of threads.
+
+mod common;
+
+use std::{sync::Arc, thread};
+
+use common::{
+    Answer, Bound, Setting, ask, chpa, clusters, hpa, k, lattice, number, random_queries, segments,
+};
+use mediant_grid::{Centers, CornerRule, Lattice};
+use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, Conduct, HpaStar, SegmentGraph};
+use mediant_oracle::{Rng, caves};
+use mediant_search::{LatticeDistance, Query, SquaredEuclidean};
+
+#[derive(Clone)]
+struct Shared {
+    lattice: Arc<Lattice<Centers>>,
+    clusters: Arc<ClusterGraph>,
+    segments: Arc<SegmentGraph>,
+}
+
+impl Shared {
+    fn new(number: u32) -> Self {
+        let lattice = lattice(&caves(&mut Rng::new(7), 60, 50), k(number), CornerRule::Never);
+        let clusters = clusters(&lattice, Clustering { side: 7, levels: 2 });
+        let segments = segments(&lattice, 3);
+        Self { lattice: Arc::new(lattice), clusters: Arc::new(clusters), segments: Arc::new(segments) }
+    }
+
+    fn solve_all(&self, queries: &[Query]) -> Vec<[Answer; 3]> {
+        let (lattice, segments) = (|| Arc::clone(&self.lattice), || Arc::clone(&self.segments));
+        let step = number(2);
+        let complete = Setting { phases: [Some(Bound::Lattice), None], step, conduct: Conduct::default() };
+        let mut planners = [
+            hpa(lattice(), Arc::clone(&self.clusters), true),
+            chpa(lattice(), segments(), complete),
+            chpa(lattice(), segments(), complete.of_the_paper()),
+        ];
+        queries.iter().map(|&query| planners.each_mut().map(|planner| ask(planner, query))).collect()
+    }
+}
+
+#[test]
+fn planners_in_many_threads_answer_as_one() {
+    for number in [2, 3] {
+        let shared = Shared::new(number);
+        let queries = random_queries(&mut Rng::new(3), shared.lattice.grid(), 200);
+        let expected = shared.solve_all(&queries);
+        let found = expected
+            .iter()
+            .flatten()
+            .filter(|(answer, _)| matches!(answer, Ok(found) if found.path().is_some()));
+        let found = found.count();
+        assert!(found > 200, "only {found} paths");
+        // Each begins elsewhere, so that none repeats what another does.
+        let from = |first: usize| {
+            let mut turned = queries.clone();
+            turned.rotate_left(first);
+            let mut found = shared.solve_all(&turned);
+            found.rotate_right(first);
+            found
+        };
+        thread::scope(|scope| {
+            let from = &from;
+            let threads: Vec<_> = (0..4).map(|part| scope.spawn(move || from(part * 31))).collect();
+            for thread in threads {
+                assert_eq!(thread.join().expect("a thread failed"), expected, "k = {number}");
+            }
+        });
+    }
+}
+
+#[test]
+fn indexes_are_shared_and_planners_sent() {
+    const fn assert_send_sync<T: Send + Sync>() {}
+    const fn assert_send<T: Send>() {}
+    assert_send_sync::<ClusterGraph>();
+    assert_send_sync::<SegmentGraph>();
+    assert_send::<HpaStar<Arc<Lattice<Centers>>, Arc<ClusterGraph>>>();
+    assert_send::<ChpaStar<Arc<Lattice<Centers>>, Arc<SegmentGraph>, LatticeDistance, SquaredEuclidean>>();
+}

@@ -1,0 +1,66 @@
+//! Paths of the hierarchical planners, drawn, so that a reader can check them by eye. Waypoints are 0, 1, 2, … in order.
+
+mod common;
+
+use std::fmt::Write;
+
+use common::{Bound, Setting, Solve, ask, chpa, clusters, hpa, k, lattice, number, segments};
+use mediant_grid::{AsciiMap, CornerRule, Placement, draw};
+use mediant_hierarchy::{Clustering, Conduct};
+use mediant_search::Query;
+
+const HALL: &str = "
+    ........#...........
+    ........#...........
+    ...##........#......
+    s..##...#....#...##.
+    .....#.##....#...##.
+    .....#.......#......
+    .......#..####..#...
+    .......#........#..g
+    ####.###.....####...
+    ....................
+";
+
+/// The sizes of the indexes, and the paths from `s` to `g`, under their costs.
+fn picture(number_of_k: u32) -> String {
+    let map = AsciiMap::parse(HALL).expect("the drawing is a map");
+    let query = Query::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
+    let lattice = lattice(&map.grid, k(number_of_k), CornerRule::Never);
+    let graph = clusters(&lattice, Clustering { side: 5, levels: 2 });
+    let segments = segments(&lattice, 3);
+    let mut text = format!(
+        "k = {number_of_k}: {} clusters, {} nodes; {} segments, {} edges\n",
+        graph.clusters(),
+        graph.nodes(),
+        segments.segments(),
+        segments.edges()
+    );
+    let mut add = |name: &str, mut planner: Solve<'_>| {
+        let (answer, counters) = ask(&mut planner, query);
+        let outcome = answer.expect("there is a path");
+        let path = outcome.path().expect("there is a path");
+        let picture = draw(&map.grid, Placement::Center, path.waypoints());
+        let fallbacks = counters.fallbacks;
+        writeln!(text, "{name}: {:.4}, fallbacks {fallbacks}\n{picture}", path.cost())
+            .expect("a text takes all");
+    };
+    let bound = Some(Bound::Lattice);
+    let setting = Setting { phases: [bound; 2], step: number(2), conduct: Conduct::default() };
+    add("HPA*, refined", hpa(&lattice, &graph, false));
+    add("HPA*", hpa(&lattice, &graph, true));
+    add("CHPA*", chpa(&lattice, &segments, setting));
+    let hasty = Setting { step: number(1), conduct: Conduct::Complete { detour: number(1) }, ..setting };
+    add("CHPA*, which goes no detour", chpa(&lattice, &segments, hasty));
+    text
+}
+
+#[test]
+fn hall_k2() {
+    insta::assert_snapshot!(picture(2));
+}
+
+#[test]
+fn hall_k3() {
+    insta::assert_snapshot!(picture(3));
+}
