@@ -69,10 +69,11 @@ pub(crate) struct RunArgs {
 
     #[command(flatten)]
     pub(crate) setup: SetupArgs,
-    /// What guides the search: the cost on an empty grid, the straight-line distance, or nothing (Dijkstra)
+    /// What guides the search: the cost on an empty grid, the straight-line distance, nothing (Dijkstra), or the distance squared, which
+    /// overestimates
     #[arg(long, value_parser = names(HeuristicName::ALL, HeuristicName::name))]
     pub(crate) heuristic: Option<HeuristicName>,
-    /// Of an engine with two rules: the one that is optimal (the default), or the one as published
+    /// Of an engine that was published with a flaw: the optimal or complete one (the default), or the one as published
     #[arg(long, value_parser = names(Variant::ALL, Variant::name))]
     pub(crate) variant: Option<Variant>,
     /// Let no jump take more than N steps
@@ -82,6 +83,20 @@ pub(crate) struct RunArgs {
     /// Keep the jump points at which a path only turns on its way to another, which are otherwise passed by
     #[arg(long)]
     pub(crate) keep_intermediate: bool,
+    /// Leave a path through clusters as it is refined, without straightening it
+    #[arg(long)]
+    pub(crate) refined: bool,
+    /// What guides the second phase, from checkpoint to checkpoint. What guides the first by default
+    #[arg(long, value_name = "HEURISTIC", value_parser = names(HeuristicName::ALL, HeuristicName::name))]
+    pub(crate) second: Option<HeuristicName>,
+    /// Plan a checkpoint every N segments. 2 by default
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(value_parser = |text: &str| parse_count(text, &NonZeroU32::MAX))]
+    pub(crate) step: Option<NonZeroU32>,
+    /// Pass by a checkpoint to which the way is more than N times as long as on an empty grid. 3 by default
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(value_parser = |text: &str| parse_count(text, &NonZeroU32::MAX))]
+    pub(crate) detour: Option<NonZeroU32>,
     /// Make each path shorter afterwards, by straight segments at any angle: linear (the default) looks for the next vertex in sight
     /// along the path, taut pulls the path tight around the corners
     #[arg(long, value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "linear")]
@@ -132,10 +147,16 @@ pub(crate) struct SetupArgs {
     /// At corners, whether a path may pass between two blocked cells that touch diagonally: open (the default), closed
     #[arg(long, value_enum, hide_possible_values = true, value_name = "open|closed")]
     pub(crate) gap: Option<GapArg>,
-    /// Give the subgoal graph so many levels, of which 1 is the graph without a hierarchy, or all that there can be. A contraction
-    /// hierarchy by default, 2 levels for subgoal-theta; with --index, those of the index
+    /// Give the subgoal graph or the clusters so many levels, of which 1 is the graph without a hierarchy, or all that there can be.
+    /// A contraction hierarchy by default, 2 levels for subgoal-theta, 3 levels for hpa;
+    /// with --index, those of the index
     #[arg(long, value_name = "N|all", allow_negative_numbers = true, value_parser = parse_levels)]
     pub(crate) levels: Option<Levels>,
+    /// Cut the map into clusters (of the lowest level) or segments of N × N cells. 10 by default for hpa, 3 for chpa; with
+    /// --index, those of the index
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(value_parser = |text: &str| parse_count(text, &NonZeroU32::MAX))]
+    pub(crate) side: Option<NonZeroU32>,
 }
 
 #[derive(Args, Debug)]
@@ -244,6 +265,11 @@ impl RunArgs {
             jump_limit: self.jump_limit,
             intermediate: self.keep_intermediate,
             levels: self.setup.levels,
+            side: self.setup.side,
+            refined: self.refined,
+            second: self.second,
+            step: self.step,
+            detour: self.detour,
             smoothing: self.smooth.map(|smooth| match smooth {
                 SmoothArg::Linear => Smoothing::Linear,
                 SmoothArg::Taut => Smoothing::Taut,
@@ -266,7 +292,8 @@ impl RunArgs {
 impl BuildArgs {
     /// The setup that the arguments ask for, if there is one.
     pub(crate) fn setup(&self) -> Result<Setup, Failure> {
-        self.setup.with(Options { levels: self.setup.levels, ..Options::default() })
+        let SetupArgs { levels, side, .. } = self.setup;
+        self.setup.with(Options { levels, side, ..Options::default() })
     }
 }
 
@@ -407,6 +434,7 @@ fn one_line(error: &clap::Error) -> String {
 #[cfg(test)]
 mod tests {
     use clap::CommandFactory;
+    use mediant_engines::hierarchy_name;
 
     use super::*;
 
@@ -428,6 +456,32 @@ mod tests {
         assert_eq!(parse_knob("2"), Ok(Knob::K(K::FOUR_CONNECTED)));
         for wrong in ["1", "13", "-3", "three", ""] {
             assert!(parse_knob(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn the_help_says_what_is_meant_where_nothing_is_said() {
+        let command = Cli::command();
+        let run = command.find_subcommand("run").unwrap();
+        let help = |name: &str| {
+            let argument = run.get_arguments().find(|argument| argument.get_id() == name).unwrap();
+            argument.get_help().unwrap().to_string()
+        };
+        let setup = |engine: Engine| {
+            Setup::new(engine, K::FOUR_CONNECTED, engine.about().default_rules(K::FOUR_CONNECTED.into()))
+        };
+        for engine in [Engine::Subgoal, Engine::SubgoalTheta, Engine::Hpa] {
+            let name = hierarchy_name(setup(engine).hierarchy().unwrap()).replacen("a c", "A c", 1);
+            let name = if engine == Engine::Subgoal {
+                format!("{name} by default")
+            } else {
+                format!("{name} for {engine}")
+            };
+            assert!(help("levels").contains(&name), "{name}: {}", help("levels"));
+        }
+        let chpa = setup(Engine::Chpa);
+        for (option, value) in [("step", chpa.step()), ("detour", chpa.detour())] {
+            assert!(help(option).contains(&format!("{} by default", value.unwrap())), "{}", help(option));
         }
     }
 

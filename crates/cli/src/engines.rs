@@ -24,7 +24,7 @@ pub(crate) fn guarantee_name(guarantee: Guarantee) -> String {
 
 const NOTES: &str = "\
 Both is center and corner. optimal(k) with k = any: the shortest of all paths.
-At centers subgoal takes k = 2, and k = 3 under corners never.";
+At centers subgoal, hpa and chpa take k = 2, and k = 3 under corners never.";
 
 /// Runs the command.
 pub(crate) fn list(screen: &mut Screen) -> Result<(), Failure> {

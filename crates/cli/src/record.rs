@@ -28,14 +28,25 @@ pub(crate) struct RunRecord {
     pub(crate) gap: String,
     /// `null` for an engine with one of its own.
     pub(crate) heuristic: Option<String>,
-    /// `exact` or `paper`; `null` for an engine that has no variants.
+    /// The heuristic of the second phase; `null` for an engine without.
+    pub(crate) second: Option<String>,
+    /// `exact`, `complete` or `paper`; `null` for an engine that has no variants.
     pub(crate) variant: Option<String>,
     /// The most steps of a jump; `null` without a bound.
     pub(crate) jump_limit: Option<u32>,
     pub(crate) keep_intermediate: bool,
-    /// Of the subgoal graph that is searched: a number, `all`, or `contracted` for a contraction hierarchy; `null` for an engine without.
+    /// Of the subgoal graph or the clusters that are searched: a number, `all`, or `contracted` for a contraction hierarchy; `null` for an
+    /// engine without.
     #[serde(serialize_with = "levels")]
     pub(crate) levels: Option<Hierarchy>,
+    /// Of the lowest clusters or the segments, in cells; `null` for an engine without.
+    pub(crate) side: Option<u32>,
+    /// Whether paths through clusters are left as they are refined.
+    pub(crate) refined: bool,
+    /// Every how many segments there is a checkpoint; `null` for an engine without.
+    pub(crate) step: Option<u32>,
+    /// How many times as long as on an empty grid the way to a checkpoint may be; `null` for an engine that never leaves its plan.
+    pub(crate) detour: Option<u32>,
     pub(crate) smooth: bool,
     /// `linear` or `taut`; `null` unless paths are smoothed.
     pub(crate) smoothing: Option<&'static str>,
@@ -107,6 +118,8 @@ pub(crate) struct QueryRecord {
     pub(crate) updated: u64,
     /// Vertices that jump point searches looked at on the runs that they scanned.
     pub(crate) scanned: u64,
+    /// How often a search in two phases left its plan.
+    pub(crate) fallbacks: u64,
     /// The query alone on a warm planner, the best of all repetitions; 0 for errors.
     pub(crate) nanos: u64,
     /// What is wrong with the query; only where the status is `error`.

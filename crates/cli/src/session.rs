@@ -66,6 +66,7 @@ impl Visit for Session<'_> {
         run.preprocess_ns = (load_time + preprocessing.time).as_nanos() as u64;
         run.index_bytes = preprocessing.index_bytes;
         run.levels = preprocessing.hierarchy;
+        run.side = preprocessing.side;
         report.begin(run)?;
         let mut tally = Tally::default();
         let (mut first_error, mut path) = (None, Vec::new());
@@ -149,6 +150,7 @@ impl Answer {
             percolations: self.counters.percolations,
             updated: self.counters.updated,
             scanned: self.counters.scanned,
+            fallbacks: self.counters.fallbacks,
             nanos: self.nanos,
             error,
         }

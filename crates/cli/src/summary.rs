@@ -22,6 +22,8 @@ pub(crate) struct Summary {
     pub(crate) mean_percolations: f64,
     pub(crate) mean_updated: f64,
     pub(crate) mean_scanned: f64,
+    /// How often searches in two phases left their plans, in all.
+    pub(crate) fallbacks: u64,
     /// `null` where no path was found.
     pub(crate) mean_cost: Option<f64>,
     /// `null` where no path was found.
@@ -70,6 +72,7 @@ pub(crate) struct Tally {
     percolations: u64,
     updated: u64,
     scanned: u64,
+    fallbacks: u64,
     cost: f64,
     smoothness: f64,
     bound: RatioTally,
@@ -97,6 +100,7 @@ impl Tally {
         self.percolations += record.percolations;
         self.updated += record.updated;
         self.scanned += record.scanned;
+        self.fallbacks += record.fallbacks;
         self.smoothness += record.smoothness.unwrap_or(0.0);
         let cost = record.cost.unwrap_or(0.0);
         self.cost += cost;
@@ -145,6 +149,7 @@ impl Tally {
             mean_percolations: mean(self.percolations as f64, answered),
             mean_updated: mean(self.updated as f64, answered),
             mean_scanned: mean(self.scanned as f64, answered),
+            fallbacks: self.fallbacks,
             mean_cost: (self.found > 0).then(|| mean(self.cost, self.found)),
             mean_smoothness: (self.found > 0).then(|| mean(self.smoothness, self.found)),
             bound: self.bound.finish(),
@@ -210,6 +215,7 @@ mod tests {
             percolations: 30,
             updated: 40,
             scanned: 50,
+            fallbacks: 60,
             nanos,
             error: None,
         }
@@ -227,7 +233,7 @@ mod tests {
         assert_eq!((summary.queries, summary.found, summary.unreachable, summary.errors), (5, 3, 1, 1));
         assert_eq!((summary.median_nanos, summary.max_nanos, summary.total_nanos), (3, 100, 108));
         assert_eq!((summary.mean_nanos, summary.mean_expanded), (27.0, 10.0));
-        assert_eq!((summary.mean_updated, summary.mean_scanned), (40.0, 50.0));
+        assert_eq!((summary.mean_updated, summary.mean_scanned, summary.fallbacks), (40.0, 50.0, 240));
         assert_eq!(summary.mean_smoothness, Some(90.0));
         let reference = summary.reference.unwrap();
         assert_eq!((reference.compared, reference.equal), (4, 3));

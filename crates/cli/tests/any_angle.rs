@@ -196,8 +196,7 @@ fn refused(line: &str, message: &str) {
 
 #[test]
 fn what_does_not_go_together_is_refused() {
-    let centers =
-        "astar, dijkstra, wavefront, canonical, jps, jps-block, jps-plus, theta, lazy-theta, subgoal";
+    let centers = "astar, dijkstra, wavefront, canonical, jps, jps-block, jps-plus, theta, lazy-theta, subgoal, hpa, chpa";
     for (options, message) in [
         ("--engine anya --k 5", "anya searches every direction, not those of k = 5: leave k out, or say any"),
         (
@@ -234,17 +233,20 @@ fn what_does_not_go_together_is_refused() {
             "--from 1,2 --distances - --engine anya",
             "anya has no distances to all vertices: choose dijkstra, wavefront",
         ),
-        ("--engine anya --index x.idx", "anya has no index: choose jps-plus, subgoal, subgoal-theta"),
+        (
+            "--engine anya --index x.idx",
+            "anya has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa",
+        ),
         (
             "--engine anya --heuristic zero",
-            "anya takes no heuristic: leave it out, or choose astar, canonical, jps, jps-block, jps-plus, theta, lazy-theta",
+            "anya takes no heuristic: leave it out, or choose astar, canonical, jps, jps-block, jps-plus, theta, lazy-theta, chpa",
         ),
     ] {
         refused(&format!("run builtin:cave {options}"), message);
     }
     refused(
         "build builtin:cave --engine anya -o x.idx",
-        "anya has no index: choose jps-plus, subgoal, subgoal-theta",
+        "anya has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa",
     );
     refused(
         "build builtin:cave --engine jps-plus --smooth -o x.idx",

@@ -77,15 +77,15 @@ fn engines_and_options_that_are_none() {
     check(
         "run builtin:cave --engine warp",
         "invalid value 'warp' for '--engine <ENGINE>' [possible values: astar, dijkstra, wavefront, canonical, jps, jps-block, \
-         jps-plus, theta, lazy-theta, anya, subgoal, subgoal-theta]; see --help",
+         jps-plus, theta, lazy-theta, anya, subgoal, subgoal-theta, hpa, chpa]; see --help",
     );
     check(
         "run builtin:cave --engine canonical --variant best",
-        "invalid value 'best' for '--variant <VARIANT>' [possible values: exact, paper]; see --help",
+        "invalid value 'best' for '--variant <VARIANT>' [possible values: exact, complete, paper]; see --help",
     );
     check(
         "run builtin:cave --heuristic manhattan",
-        "invalid value 'manhattan' for '--heuristic <HEURISTIC>' [possible values: hk, euclidean, zero]; see --help",
+        "invalid value 'manhattan' for '--heuristic <HEURISTIC>' [possible values: hk, euclidean, zero, squared]; see --help",
     );
     check(
         "run builtin:cave --engine jps --jump-limit 0",
@@ -169,12 +169,12 @@ fn what_an_engine_does_not_take() {
     for (options, message) in [
         (
             "--engine dijkstra --heuristic hk",
-            "dijkstra takes no heuristic: leave it out, or choose astar, canonical, jps, jps-block, jps-plus, theta, lazy-theta"
+            "dijkstra takes no heuristic: leave it out, or choose astar, canonical, jps, jps-block, jps-plus, theta, lazy-theta, chpa"
                 .to_owned(),
         ),
         (
             "--engine jps --variant paper",
-            "jps takes no variant: leave it out, or choose canonical".to_owned(),
+            "jps takes no variant: leave it out, or choose canonical, chpa".to_owned(),
         ),
         ("--jump-limit 3", format!("astar takes no jump limit: {jumpers}")),
         ("--engine jps-plus --jump-limit 3", format!("jps-plus takes no jump limit: {jumpers}")),
@@ -185,7 +185,7 @@ fn what_an_engine_does_not_take() {
         ("--engine jps-block --k 4", "jps-block needs a k from 2 to 3, found 4".to_owned()),
         ("--engine jps-plus --k 12", "jps-plus needs a k from 2 to 3, found 12".to_owned()),
         ("--engine jps-plus --k any", "jps-plus needs a k from 2 to 3; for any choose anya, subgoal".to_owned()),
-        ("--engine jps --index x.idx", "jps has no index: choose jps-plus, subgoal, subgoal-theta".to_owned()),
+        ("--engine jps --index x.idx", "jps has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa".to_owned()),
         (
             "--from 2,5 --distances -",
             "astar has no distances to all vertices: choose dijkstra, wavefront".to_owned(),
@@ -195,7 +195,7 @@ fn what_an_engine_does_not_take() {
     }
     check(
         "build builtin:cave --engine canonical -o x.idx",
-        "canonical has no index: choose jps-plus, subgoal, subgoal-theta",
+        "canonical has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa",
     );
     check(
         "build builtin:cave --engine jps-plus --gap open -o x.idx",

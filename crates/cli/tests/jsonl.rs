@@ -60,7 +60,7 @@ fn every_record_is_complete() {
     assert!(keys(run).is_superset(&contract.into()), "{run}");
     let expected: Value = serde_json::json!({
         "map": "cave.map", "scenario": "cave.map.scen", "engine": "astar", "k": 3, "placement": "center", "corners": "never",
-        "variant": null, "jump_limit": null, "keep_intermediate": false, "levels": null, "gap": "open", "smooth": false, "smoothing": null, "any_angle": null, "guarantee": "optimal(3)", "heuristic": "hk", "repeat": 1, "queries": 32,
+        "variant": null, "jump_limit": null, "keep_intermediate": false, "levels": null, "side": null, "refined": false, "second": null, "step": null, "detour": null, "gap": "open", "smooth": false, "smoothing": null, "any_angle": null, "guarantee": "optimal(3)", "heuristic": "hk", "repeat": 1, "queries": 32,
     });
     for (key, value) in expected.as_object().expect("an object") {
         assert_eq!(&run[key], value, "{key}");
@@ -84,6 +84,7 @@ fn every_record_is_complete() {
         "percolations",
         "updated",
         "scanned",
+        "fallbacks",
         "smoothness",
         "lower_bound",
         "bound",
@@ -105,7 +106,7 @@ fn every_record_is_complete() {
         assert_eq!(query["reference"].as_f64(), Some(instance.optimal));
         assert!(query["nanos"].as_u64() > Some(0) && query["expanded"].as_u64() > Some(0));
     }
-    assert_eq!(summary["queries"].as_u64(), Some(32));
+    assert_eq!((&summary["queries"], &summary["fallbacks"]), (&32.into(), &0.into()));
     let total: u64 = queries.iter().filter_map(|query| query["nanos"].as_u64()).sum();
     assert_eq!(summary["total_nanos"].as_u64(), Some(total));
 }

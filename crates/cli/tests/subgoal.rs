@@ -100,7 +100,7 @@ fn an_index_says_which_levels_it_has() {
     let line = format!("run builtin:cave --engine subgoal --index {index} --levels");
     for (levels, name) in [("1", "1 level"), ("all", "all levels")] {
         let message = format!(
-            "error: needs a subgoal graph with {name}, found one with 2 levels; choose the levels that it has, or build it again\n"
+            "error: needs an index with {name}, found one with 2 levels; choose the levels that it has, or build it again\n"
         );
         assert_eq!(refused(&files, &format!("{line} {levels}")), message);
     }
@@ -163,7 +163,7 @@ fn an_index_for_something_else_is_refused() {
         "{map}"
     );
     let none = refused("builtin:cave --engine jps");
-    assert_eq!(none, "error: jps has no index: choose jps-plus, subgoal, subgoal-theta\n");
+    assert_eq!(none, "error: jps has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa\n");
 }
 
 #[test]
@@ -271,10 +271,10 @@ fn what_subgoal_graphs_are_not_for_is_refused() {
         assert_eq!(refused(&files, &format!("run builtin:cave {options}")), format!("error: {message}\n"));
     };
     for (options, message) in [
-        ("--levels 2", "astar takes no levels: leave it out, or choose subgoal, subgoal-theta"),
+        ("--levels 2", "astar takes no levels: leave it out, or choose subgoal, subgoal-theta, hpa"),
         (
             "--engine subgoal --heuristic hk",
-            "subgoal takes no heuristic: leave it out, or choose astar, canonical, jps, jps-block, jps-plus, theta, lazy-theta",
+            "subgoal takes no heuristic: leave it out, or choose astar, canonical, jps, jps-block, jps-plus, theta, lazy-theta, chpa",
         ),
         (
             "--engine subgoal --k 4",
@@ -293,7 +293,7 @@ fn what_subgoal_graphs_are_not_for_is_refused() {
         (
             "--engine subgoal-theta --placement center",
             "subgoal-theta needs placement corner; for center choose astar, dijkstra, wavefront, canonical, jps, jps-block, \
-             jps-plus, theta, lazy-theta, subgoal",
+             jps-plus, theta, lazy-theta, subgoal, hpa, chpa",
         ),
     ] {
         refused(options, message);

@@ -1,11 +1,12 @@
 //! The engines, and what is to be known of each.
 
 use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Lattice, Placement, Rules};
+use mediant_hierarchy::{ClusterGraph, SegmentGraph};
 use mediant_moves::{K, Knob};
 use mediant_search::JumpTable;
 use mediant_subgoal::SubgoalGraph;
 
-use crate::names::names;
+use crate::{Variant, names::names};
 
 /// Every engine that there is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -35,6 +36,10 @@ pub enum Engine {
     Subgoal,
     /// [`SubgoalTheta`](mediant_subgoal::SubgoalTheta) on a [`SubgoalGraph`] of levels.
     SubgoalTheta,
+    /// [`HpaStar`](mediant_hierarchy::HpaStar) on a [`ClusterGraph`].
+    Hpa,
+    /// [`ChpaStar`](mediant_hierarchy::ChpaStar) on a [`SegmentGraph`].
+    Chpa,
 }
 
 names!(Engine:
@@ -50,10 +55,12 @@ names!(Engine:
     Anya => "anya",
     Subgoal => "subgoal",
     SubgoalTheta => "subgoal-theta",
+    Hpa => "hpa",
+    Chpa => "chpa",
 );
 
 /// What is to be known of an engine. On the placements that it takes it works under every rule of motion, but for
-/// [`Engine::Subgoal`] at centers ([`Setup::check`](crate::Setup::check)).
+/// [`Engine::Subgoal`], [`Engine::Hpa`] and [`Engine::Chpa`] at centers ([`Setup::check`](crate::Setup::check)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct About {
     /// Where its vertices may be.
@@ -68,14 +75,22 @@ pub struct About {
     pub paper: &'static str,
     /// Whether it takes a heuristic.
     pub heuristic: bool,
-    /// Whether there is a variant as published beside the exact one.
-    pub variant: bool,
+    /// Whether a heuristic that overestimates does no harm but that its paths are longer.
+    pub overestimates: bool,
+    /// Its variants, the default first; none of an engine with one alone.
+    pub variants: &'static [Variant],
     /// Whether its jumps may be bounded.
     pub jump_limit: bool,
     /// Whether it may keep the jump points that it otherwise passes by.
     pub intermediate: bool,
     /// Whether what it preprocesses may have levels.
     pub levels: bool,
+    /// Whether it cuts the map into squares whose side may be chosen.
+    pub side: bool,
+    /// Whether the paths that it refines are straightened, unless that is left.
+    pub straightens: bool,
+    /// Whether it searches in two phases: among segments for a plan, whose checkpoints a second one visits.
+    pub phases: bool,
     /// Whether it finds the distances to all vertices.
     pub distances: bool,
     /// The version of its index, if what it preprocesses can be saved.
@@ -91,10 +106,14 @@ impl About {
         guarantee: "optimal(k)",
         paper: "",
         heuristic: true,
-        variant: false,
+        overestimates: false,
+        variants: &[],
         jump_limit: false,
         intermediate: false,
         levels: false,
+        side: false,
+        straightens: false,
+        phases: false,
         distances: false,
         index: None,
     };
@@ -126,8 +145,15 @@ impl Engine {
         let theta = About { guarantee: "suboptimal", ..search };
         let index = Some(SubgoalGraph::<Corners>::VERSION);
         let subgoals = About { heuristic: false, levels: true, index, ..search };
+        let squares = About {
+            placements: &[Placement::Center],
+            max_k: Some(3),
+            guarantee: "suboptimal",
+            side: true,
+            ..search
+        };
         match self {
-            Self::AStar => About { paper: "Hart 1968, Rivera 2017", ..search },
+            Self::AStar => About { paper: "Hart 1968, Rivera 2017", overestimates: true, ..search },
             Self::Dijkstra => About { paper: "Dijkstra 1959", heuristic: false, distances: true, ..search },
             Self::Wavefront => About {
                 guarantee: "optimal(2)",
@@ -136,7 +162,9 @@ impl Engine {
                 distances: true,
                 ..search
             },
-            Self::Canonical => About { paper: "Rivera 2017", variant: true, ..search },
+            Self::Canonical => {
+                About { paper: "Rivera 2017", variants: &[Variant::Exact, Variant::Paper], ..search }
+            }
             Self::Jps => About { paper: "Harabor 2011, Hammoud 2023", jump_limit: true, ..jumps },
             Self::JpsBlock => About { paper: "Harabor 2014", max_k: Some(3), jump_limit: true, ..jumps },
             Self::JpsPlus => {
@@ -159,6 +187,22 @@ impl Engine {
                 guarantee: "suboptimal",
                 paper: "Uras 2015",
                 ..subgoals
+            },
+            Self::Hpa => About {
+                paper: "Botea 2004",
+                heuristic: false,
+                levels: true,
+                straightens: true,
+                index: Some(ClusterGraph::VERSION),
+                ..squares
+            },
+            Self::Chpa => About {
+                paper: "Teleiša 2023",
+                overestimates: true,
+                variants: &[Variant::Complete, Variant::Paper],
+                phases: true,
+                index: Some(SegmentGraph::VERSION),
+                ..squares
             },
         }
     }

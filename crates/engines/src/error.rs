@@ -1,6 +1,7 @@
 //! What an engine cannot be asked for.
 
 use mediant_grid::{Placement, Rules};
+use mediant_hierarchy::HierarchyError;
 use mediant_moves::{K, KError, Knob};
 use mediant_search::{JumpTableError, QueryError};
 use mediant_subgoal::{Hierarchy, SubgoalError};
@@ -64,7 +65,8 @@ pub enum SetupError {
     /// Centers, asked of an engine that takes them for small k alone.
     #[error(
         "at centers {engine} needs k = 2, or k = 3 under corners never, found k = {k} under {rules}: \
-         choose one of these, placement corner, or another engine"
+         choose one of these,{} or another engine",
+        if engine.about().placements.contains(&Placement::Corner) { " placement corner," } else { "" }
     )]
     Centers {
         /// The engine.
@@ -73,6 +75,12 @@ pub enum SetupError {
         k: Knob,
         /// The rules.
         rules: Rules,
+    },
+    /// Two options of which one has no meaning beside the other.
+    #[error("{engine} as published knows no detours: leave out the detour, or the variant paper")]
+    DetourAsPublished {
+        /// The engine.
+        engine: Engine,
     },
     /// An index, or something that only some engines find, asked of another engine.
     #[error("{engine} has no {what}: choose {others}")]
@@ -110,9 +118,12 @@ pub enum EngineError {
     /// A subgoal graph that cannot be made, or an index that is not that of the map.
     #[error(transparent)]
     Subgoal(#[from] SubgoalError),
+    /// A graph of clusters or segments that cannot be made, or an index that is not that of the map.
+    #[error(transparent)]
+    Squares(#[from] HierarchyError),
     /// An index with another hierarchy than the setup has.
     #[error(
-        "needs a subgoal graph with {}, found one with {}; choose the levels that it has, or build it again",
+        "needs an index with {}, found one with {}; choose the levels that it has, or build it again",
         hierarchy_name(*expected),
         hierarchy_name(*found)
     )]
@@ -121,6 +132,17 @@ pub enum EngineError {
         expected: Hierarchy,
         /// What the index has.
         found: Hierarchy,
+    },
+    /// An index of clusters or segments of another size than the setup has.
+    #[error(
+        "needs an index of squares of {expected} × {expected} cells, found one of {found} × {found}; \
+         choose the side that it has, or build it again"
+    )]
+    Side {
+        /// What the setup asks for, in cells.
+        expected: u32,
+        /// What the index has.
+        found: u32,
     },
     /// A query without an answer.
     #[error(transparent)]

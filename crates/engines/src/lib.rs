@@ -8,7 +8,7 @@
 //! of dynamic calls. Who must hold several planners at once takes [`Solver`]s: one dynamic call a query, none within it.
 //!
 //! To add an engine: a variant of [`Engine`] with what is to be known of it (`engine.rs`), the line that makes its planner
-//! (`planner.rs`, or `subgoal.rs` on a subgoal graph), and whether it uses the pruning rule (`rule.rs`).
+//! (`planner.rs`, or `subgoal.rs` on a subgoal graph, `squares.rs` on a graph of clusters or segments), and whether it uses the pruning rule (`rule.rs`).
 //!
 //! What is not here: files. An index comes and goes as bytes.
 
@@ -22,6 +22,7 @@ mod planner;
 mod rule;
 mod setup;
 mod solver;
+mod squares;
 mod subgoal;
 mod text;
 

@@ -55,18 +55,21 @@ pub enum HeuristicName {
     Euclidean,
     /// None.
     Zero,
+    /// The square of the straight-line distance, which overestimates.
+    SquaredEuclidean,
 }
 
-names!(HeuristicName: Hk => "hk", Euclidean => "euclidean", Zero => "zero");
+names!(HeuristicName: Hk => "hk", Euclidean => "euclidean", Zero => "zero", SquaredEuclidean => "squared");
 
-/// Of an engine with two rules, which.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+/// Of an engine that was published with a flaw, which.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Variant {
     /// The rule that is optimal.
-    #[default]
     Exact,
-    /// The rule as published.
+    /// The search that finds a path whenever there is one.
+    Complete,
+    /// As published.
     Paper,
 }
 
-names!(Variant: Exact => "exact", Paper => "paper");
+names!(Variant: Exact => "exact", Complete => "complete", Paper => "paper");

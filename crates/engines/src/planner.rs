@@ -11,12 +11,12 @@ use mediant_grid::{Corners, Grid, Lattice, Place, Terrain};
 use mediant_search::{
     AStar, Anya, BlockJps, Blocks, Canonical, Euclidean, Heuristic, Jps, JpsPlus, JumpTable, Jumping,
     LatticeDistance, LazyThetaStar, Locator, OnTerrain, PaperCanonical, Planner, Smoothed, Smoothing,
-    ThetaStar, Walk, Wavefront, Zero,
+    SquaredEuclidean, ThetaStar, Walk, Wavefront, Zero,
 };
 
 use crate::{
     Engine, EngineError, Ground, HeuristicName, Hierarchy, Progress, Setup, SharedRule, Variant,
-    ground::no_ground, rule::pruning, setup::without_index, subgoal,
+    ground::no_ground, rule::pruning, setup::without_index, squares, subgoal,
 };
 
 /// What preprocessing took.
@@ -26,8 +26,10 @@ pub struct Preprocessing {
     pub time: Duration,
     /// The memory beyond the map itself.
     pub index_bytes: u64,
-    /// The hierarchy of the subgoal graph, where there is one: with an index, that of the index.
+    /// The hierarchy of the subgoal graph or the levels of clusters, where there are any: with an index, those of the index.
     pub hierarchy: Option<Hierarchy>,
+    /// The side of the lowest clusters or of the segments in cells, where there are any: with an index, those of the index.
+    pub side: Option<u32>,
 }
 
 impl Preprocessing {
@@ -66,7 +68,7 @@ pub fn with_planner<V: Visit>(
     visit: V,
 ) -> Result<V::Output, EngineError> {
     let (ground, time) = timed(|| Ground::new(setup, grid))?;
-    let preprocessing = Preprocessing { time, index_bytes: ground.index_bytes(), hierarchy: None };
+    let preprocessing = Preprocessing { time, index_bytes: ground.index_bytes(), ..Preprocessing::default() };
     with_planner_on(setup, &ground, prebuilt, AddTo { visit, preprocessing })
 }
 
@@ -103,10 +105,14 @@ pub fn with_planner_on<V: Visit>(
     if prebuilt.index.is_some() {
         setup.index_version()?;
     }
-    if matches!(setup.engine, Engine::Subgoal | Engine::SubgoalTheta) {
-        return subgoal::with_graph(setup, ground, prebuilt.index.as_deref(), visit);
-    }
+    let index = prebuilt.index.as_deref();
     match ground {
+        _ if matches!(setup.engine, Engine::Subgoal | Engine::SubgoalTheta) => {
+            subgoal::with_graph(setup, ground, index, visit)
+        }
+        _ if matches!(setup.engine, Engine::Hpa | Engine::Chpa) => {
+            squares::with_graph(setup, ground, index, visit)
+        }
         Ground::Centers(lattice) => on_lattice(setup, lattice, prebuilt, visit),
         Ground::Corners(lattice) => on_lattice(setup, lattice, prebuilt, visit),
         Ground::AnyAngle(terrain) => on_terrain(setup, terrain, visit),
@@ -157,6 +163,10 @@ fn on_lattice<P: Place, V: Visit>(
         Some(HeuristicName::Hk) => with_heuristic(setup, lattice, LatticeDistance, prebuilt, visit),
         Some(HeuristicName::Euclidean) => with_heuristic(setup, lattice, Euclidean, prebuilt, visit),
         Some(HeuristicName::Zero) | None => with_heuristic(setup, lattice, Zero, prebuilt, visit),
+        // Nothing else on a lattice takes it: no other search need be compiled for it.
+        Some(HeuristicName::SquaredEuclidean) => {
+            Ok(visit.visit(AStar::new(lattice, SquaredEuclidean), Preprocessing::default()))
+        }
     }
 }
 
@@ -203,7 +213,9 @@ fn with_heuristic<P: Place, H: Heuristic + Send + 'static, V: Visit>(
         }
         Engine::Theta => visit.visit(ThetaStar::new(lattice, heuristic), nothing),
         Engine::LazyTheta => visit.visit(LazyThetaStar::new(lattice, heuristic), nothing),
-        Engine::Anya | Engine::Subgoal | Engine::SubgoalTheta => return Err(no_ground(setup)),
+        Engine::Anya | Engine::Subgoal | Engine::SubgoalTheta | Engine::Hpa | Engine::Chpa => {
+            return Err(no_ground(setup));
+        }
     })
 }
 
@@ -241,17 +253,23 @@ pub fn build_with_progress(
 ) -> Result<(Vec<u8>, Preprocessing), EngineError> {
     setup.check()?;
     setup.index_version()?;
-    let (bytes, time) = timed(|| {
+    let nothing = Preprocessing::default();
+    let ((bytes, about), time) = timed(|| {
         let ground = Ground::new(setup, grid)?;
         match (setup.engine, &ground) {
-            (Engine::Subgoal | Engine::SubgoalTheta, _) => subgoal::build(setup, &ground, progress),
-            (Engine::JpsPlus, Ground::Centers(lattice)) => jump_table(lattice),
-            (Engine::JpsPlus, Ground::Corners(lattice)) => jump_table(lattice),
-            (engine, _) => Err(without_index(engine).into()),
+            (Engine::Subgoal | Engine::SubgoalTheta, _) => {
+                let hierarchy = setup.hierarchy();
+                let bytes = subgoal::build(setup, &ground, progress)?;
+                Ok((bytes, Preprocessing { hierarchy, ..nothing }))
+            }
+            (Engine::Hpa | Engine::Chpa, _) => squares::build(setup, &ground),
+            (Engine::JpsPlus, Ground::Centers(lattice)) => Ok((jump_table(lattice)?, nothing)),
+            (Engine::JpsPlus, Ground::Corners(lattice)) => Ok((jump_table(lattice)?, nothing)),
+            (engine, _) => Err(EngineError::from(without_index(engine))),
         }
     })?;
-    let preprocessing = Preprocessing { time, index_bytes: bytes.len() as u64, hierarchy: setup.hierarchy() };
-    Ok((bytes, preprocessing))
+    let index_bytes = bytes.len() as u64;
+    Ok((bytes, Preprocessing { time, index_bytes, ..about }))
 }
 
 fn jump_table<P: Place>(lattice: &Lattice<P>) -> Result<Vec<u8>, EngineError> {

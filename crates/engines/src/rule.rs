@@ -49,7 +49,9 @@ impl SharedRules {
             | Engine::LazyTheta
             | Engine::Anya
             | Engine::Subgoal
-            | Engine::SubgoalTheta => false,
+            | Engine::SubgoalTheta
+            | Engine::Hpa
+            | Engine::Chpa => false,
             Engine::Canonical | Engine::Jps | Engine::JpsBlock | Engine::JpsPlus => {
                 setup.variant() != Some(Variant::Paper)
             }
@@ -79,5 +81,5 @@ pub(crate) fn pruning<P: Place>(
     let rule = rule.unwrap_or_else(|| Arc::new(CanonicalRule::new(lattice.k(), lattice.rule())));
     let pruning = Pruning::with_rule(lattice, rule);
     let index_bytes = pruning.bytes() as u64;
-    (Arc::new(pruning), Preprocessing { time: begin.elapsed(), index_bytes, hierarchy: None })
+    (Arc::new(pruning), Preprocessing { time: begin.elapsed(), index_bytes, ..Preprocessing::default() })
 }

@@ -3,19 +3,22 @@
 use std::num::NonZeroU32;
 
 use mediant_grid::{CornerRule, Rules};
+use mediant_hierarchy::{Clustering, Conduct};
 use mediant_moves::{K, Knob};
 use mediant_search::{Guarantee, Smoothing};
 use mediant_subgoal::Hierarchy;
 
-use crate::{About, Engine, HeuristicName, Levels, SetupError, Variant};
+use crate::{About, Engine, HeuristicName, Levels, SetupError, Variant, squares::levels_of};
 
 /// An engine, what it searches, and how.
 ///
 /// As text `ENGINE[:K[:RULE]][,OPTION…]`: K is a number or `any`, RULE is `never`, `one` or `always` at centers, `open` or `closed` at
 /// corners. Without them the problem is the scenarios' own, k = 3 at centers under `never`; at corners, which is where `any` and some engines
-/// are, it is under `open`, and k is `any` for an engine of any-angle paths. The options are `euclidean`, `zero`, `paper`, `limit=N` (jumps
-/// of at most N steps), `intermediate` (jump points that are otherwise passed by), `levels=N` or `levels=all` (of a subgoal graph), and
-/// `smooth` or `taut` (the path made shorter afterwards).
+/// are, it is under `open`, and k is `any` for an engine of any-angle paths. The options are `euclidean`, `zero`, `squared`, `paper`,
+/// `limit=N` (jumps of at most N steps), `intermediate` (jump points that are otherwise passed by), `levels=N` or `levels=all` (of a
+/// subgoal graph, or of clusters), `side=N` (of a cluster or segment, in cells), `refined` (a path through clusters, not straightened),
+/// `second=NAME` (the heuristic of a second phase), `step=N` (a checkpoint every N segments), `detour=N` (how many times as long the way to one may
+/// be), and `smooth` or `taut` (the path made shorter afterwards).
 ///
 /// ```
 /// use mediant_engines::Setup;
@@ -48,19 +51,33 @@ pub struct Options {
     pub jump_limit: Option<NonZeroU32>,
     /// Whether to keep the jump points at which a path only turns on its way to another.
     pub intermediate: bool,
-    /// The levels of the subgoal graph; without them it has a contraction hierarchy, or 2 levels where the engine needs levels.
+    /// The levels of the subgoal graph, without which it has a contraction hierarchy, or 2 levels where the engine needs levels; or those of
+    /// clusters, [`Clustering::default`] without them.
     pub levels: Option<Levels>,
+    /// The side of the lowest clusters or of the segments, in cells; without it that of [`Clustering::default`] or of the paper.
+    pub side: Option<NonZeroU32>,
+    /// Whether to leave the path as it is refined, without straightening it.
+    pub refined: bool,
+    /// The heuristic of the second phase; that of the first without it.
+    pub second: Option<HeuristicName>,
+    /// Every how many segments there is a checkpoint; 2 without it.
+    pub step: Option<NonZeroU32>,
+    /// How many times as long as on an empty grid the way to a checkpoint may be, or the search leaves its plan; that of
+    /// [`Conduct::default`] without it.
+    pub detour: Option<NonZeroU32>,
     /// How the path is made shorter afterwards, if it is.
     pub smoothing: Option<Smoothing>,
 }
 
 /// What [`Setup::all`] has of smoothed engines: paths over few and over many directions.
-const SMOOTHED: [(Engine, Smoothing); 5] = [
+const SMOOTHED: [(Engine, Smoothing); 7] = [
     (Engine::AStar, Smoothing::Linear),
     (Engine::AStar, Smoothing::Taut),
     (Engine::Theta, Smoothing::Taut),
     (Engine::Anya, Smoothing::Taut),
     (Engine::Subgoal, Smoothing::Taut),
+    (Engine::Hpa, Smoothing::Taut),
+    (Engine::Chpa, Smoothing::Linear),
 ];
 
 /// Whether something holds of an engine.
@@ -77,16 +94,27 @@ impl Setup {
     /// smoothed, a few. Of a finite k the first is A* with h_k; any-angle search between centers there is none.
     pub fn all(k: impl Into<Knob>, rules: Rules) -> impl Iterator<Item = Self> {
         let (k, options) = (k.into(), Options::default());
+        let number = |number| NonZeroU32::new(number);
+        let levels = |levels| number(levels).map(Levels::Number);
         let others = [
             options,
             Options { heuristic: Some(HeuristicName::Euclidean), ..options },
             Options { heuristic: Some(HeuristicName::Zero), ..options },
+            Options { heuristic: Some(HeuristicName::SquaredEuclidean), ..options },
             Options { variant: Some(Variant::Paper), ..options },
-            Options { jump_limit: NonZeroU32::new(2), ..options },
+            Options { jump_limit: number(2), ..options },
             Options { intermediate: true, ..options },
-            Options { levels: NonZeroU32::new(1).map(Levels::Number), ..options },
-            Options { levels: NonZeroU32::new(2).map(Levels::Number), ..options },
+            Options { levels: levels(1), ..options },
+            Options { levels: levels(2), ..options },
             Options { levels: Some(Levels::All), ..options },
+            Options { side: number(2), ..options },
+            Options { side: number(5), ..options },
+            // Small clusters, so that small maps have some of each level.
+            Options { side: number(3), levels: levels(3), ..options },
+            Options { refined: true, ..options },
+            Options { second: Some(HeuristicName::SquaredEuclidean), ..options },
+            Options { step: number(1), ..options },
+            Options { detour: number(1), ..options },
         ];
         let with = move |engine, options| Self { options, ..Self::new(engine, k, rules) };
         let setups =
@@ -103,16 +131,23 @@ impl Setup {
     pub fn check(&self) -> Result<(), SetupError> {
         let Self { engine, k, rules, options } = *self;
         let about = engine.about();
-        let takes: [(bool, Has, &str); 5] = [
+        let overestimates = options.heuristic == Some(HeuristicName::SquaredEuclidean);
+        let takes: [(bool, Has, &str); 10] = [
+            (overestimates, |about| about.overestimates, "heuristic that overestimates"),
             (options.heuristic.is_some(), |about| about.heuristic, "heuristic"),
-            (options.variant.is_some(), |about| about.variant, "variant"),
             (options.jump_limit.is_some(), |about| about.jump_limit, "jump limit"),
             (options.intermediate, |about| about.intermediate, "intermediate jump points"),
             (options.levels.is_some(), |about| about.levels, "levels"),
+            (options.side.is_some(), |about| about.side, "side"),
+            (options.refined, |about| about.straightens, "option refined"),
+            (options.second.is_some(), |about| about.phases, "second heuristic"),
+            (options.step.is_some(), |about| about.phases, "step"),
+            (options.detour.is_some(), |about| about.phases, "detour"),
         ];
         if let Some(&(_, has, option)) = takes.iter().find(|(given, has, _)| *given && !has(about)) {
             return Err(SetupError::Option { engine, option, others: those(has) });
         }
+        self.check_variant()?;
         match (k, about.max_k) {
             (Knob::K(k), Some(max)) if k.get() > max => return Err(SetupError::K { engine, max, k }),
             (Knob::K(k), None) => return Err(SetupError::NeedsAny { engine, k }),
@@ -127,9 +162,26 @@ impl Setup {
                 let others = those(|about| about.placements.contains(&placement));
                 Err(SetupError::Placement { engine, needed: *needed, placement, others })
             }
-            _ if engine == Engine::Subgoal && !has_subgoals(k, rules) => {
-                Err(SetupError::Centers { engine, k, rules })
+            _ if !takes_both(engine, k, rules) => Err(SetupError::Centers { engine, k, rules }),
+            _ => Ok(()),
+        }
+    }
+
+    fn check_variant(&self) -> Result<(), SetupError> {
+        let Self { engine, options: Options { variant, detour, .. }, .. } = *self;
+        let variants = engine.about().variants;
+        match variant {
+            Some(variant) if !variants.contains(&variant) => {
+                let option = match variant {
+                    _ if variants.is_empty() => "variant",
+                    Variant::Exact => "variant exact",
+                    Variant::Complete => "variant complete",
+                    Variant::Paper => "variant paper",
+                };
+                let others = those(|about| about.variants.contains(&variant));
+                Err(SetupError::Option { engine, option, others })
             }
+            Some(Variant::Paper) if detour.is_some() => Err(SetupError::DetourAsPublished { engine }),
             _ => Ok(()),
         }
     }
@@ -142,7 +194,8 @@ impl Setup {
         self.engine.about().index.ok_or_else(|| without_index(self.engine))
     }
 
-    /// The heuristic that guides the search; none of these where the search has one of its own, at any angle or on a subgoal graph.
+    /// The heuristic that guides the search; none of these where the search has one of its own, at any angle or on a
+    /// graph of levels.
     #[must_use]
     pub fn heuristic(&self) -> Option<HeuristicName> {
         let about = self.engine.about();
@@ -150,13 +203,50 @@ impl Setup {
         self.k.finite().filter(|_| !about.levels).map(|_| self.options.heuristic.unwrap_or(default))
     }
 
-    /// The hierarchy of the subgoal graph, of an engine that searches one.
+    /// The heuristic that guides the second phase, of an engine that has two.
+    #[must_use]
+    pub fn second(&self) -> Option<HeuristicName> {
+        self.heuristic()
+            .filter(|_| self.engine.about().phases)
+            .map(|first| self.options.second.unwrap_or(first))
+    }
+
+    /// Every how many segments there is a checkpoint (Pstep of Teleiša & Čalnerytė 2023), of an engine that plans.
+    #[must_use]
+    pub fn step(&self) -> Option<NonZeroU32> {
+        let step = self.options.step.unwrap_or(NonZeroU32::MIN.saturating_add(1));
+        self.engine.about().phases.then_some(step)
+    }
+
+    /// How many times as long as on an empty grid the way to a checkpoint may be, of an engine that otherwise leaves its plan.
+    #[must_use]
+    pub fn detour(&self) -> Option<NonZeroU32> {
+        match self.conduct() {
+            Conduct::Complete { detour } if self.engine.about().phases => Some(detour),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn conduct(&self) -> Conduct {
+        match self.options.detour {
+            _ if self.variant() == Some(Variant::Paper) => Conduct::Paper,
+            Some(detour) => Conduct::Complete { detour },
+            None => Conduct::default(),
+        }
+    }
+
+    /// The hierarchy of the subgoal graph or the levels of clusters, of an engine that searches such a graph.
     #[must_use]
     pub fn hierarchy(&self) -> Option<Hierarchy> {
         let chosen = self.options.levels.map(Hierarchy::from);
         match self.engine {
             Engine::Subgoal => Some(chosen.unwrap_or_default()),
             Engine::SubgoalTheta => chosen.or(NonZeroU32::new(2).map(Hierarchy::Levels)),
+            Engine::Hpa => {
+                let Clustering { side, levels } = Clustering::default();
+                let side = self.options.side.map_or(side, NonZeroU32::get);
+                levels_of(self.options.levels, side).or(NonZeroU32::new(levels)).map(Hierarchy::Levels)
+            }
             _ => None,
         }
     }
@@ -164,17 +254,20 @@ impl Setup {
     /// The variant, of an engine that has several.
     #[must_use]
     pub fn variant(&self) -> Option<Variant> {
-        self.engine.about().variant.then(|| self.options.variant.unwrap_or_default())
+        let default = self.engine.about().variants.first()?;
+        Some(self.options.variant.unwrap_or(*default))
     }
 
     /// What the planner will promise.
     #[must_use]
     pub fn guarantee(&self) -> Guarantee {
+        use Engine::{Anya, Chpa, Hpa, LazyTheta, SubgoalTheta, Theta, Wavefront};
         let plain = match (self.engine, self.k) {
-            (Engine::Theta | Engine::LazyTheta | Engine::SubgoalTheta, _) => Guarantee::Suboptimal,
-            (Engine::Wavefront, k) if k != Knob::K(K::FOUR_CONNECTED) => Guarantee::Suboptimal,
+            (Theta | LazyTheta | SubgoalTheta | Hpa | Chpa, _) => Guarantee::Suboptimal,
+            _ if self.heuristic() == Some(HeuristicName::SquaredEuclidean) => Guarantee::Suboptimal,
+            (Wavefront, k) if k != Knob::K(K::FOUR_CONNECTED) => Guarantee::Suboptimal,
             _ if self.variant() == Some(Variant::Paper) => Guarantee::Suboptimal,
-            (Engine::Anya, _) | (_, Knob::Any) => Guarantee::OptimalAnyAngle,
+            (Anya, _) | (_, Knob::Any) => Guarantee::OptimalAnyAngle,
             (_, Knob::K(k)) => Guarantee::Optimal(k),
         };
         match plain {
@@ -212,9 +305,11 @@ pub(crate) fn without_index(engine: Engine) -> SetupError {
     SetupError::Without { engine, what: "index", others: those(|about| about.index.is_some()) }
 }
 
-/// Whether there is a subgoal graph for these directions under these rules.
-fn has_subgoals(k: Knob, rules: Rules) -> bool {
+/// Whether an engine that takes this placement and this k takes both together: at centers there are subgoal graphs, clusters and segments for
+/// the smallest k alone.
+fn takes_both(engine: Engine, k: Knob, rules: Rules) -> bool {
     match (rules, k) {
+        _ if !matches!(engine, Engine::Subgoal | Engine::Hpa | Engine::Chpa) => true,
         (Rules::Corner(_), _) | (_, Knob::K(K::FOUR_CONNECTED)) => true,
         (Rules::Center(corners), Knob::K(K::EIGHT_CONNECTED)) => corners == CornerRule::Never,
         (Rules::Center(_), _) => false,

@@ -56,8 +56,12 @@ fn graph<P: Connect>(
         None => new_graph(setup, terrain, &|_| {}),
         Some(bytes) => saved_graph(setup, terrain, bytes),
     })?;
-    let preprocessing =
-        Preprocessing { time, index_bytes: graph.bytes() as u64, hierarchy: Some(graph.hierarchy()) };
+    let preprocessing = Preprocessing {
+        time,
+        index_bytes: graph.bytes() as u64,
+        hierarchy: Some(graph.hierarchy()),
+        side: None,
+    };
     Ok((Arc::new(graph), preprocessing))
 }
 

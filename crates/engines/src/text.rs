@@ -15,17 +15,27 @@ pub struct TextError {
     wrong: String,
 }
 
+/// How the options are written.
+const OPTION_NAMES: &str = "hk, euclidean, zero, squared, exact, complete, paper, limit=N, intermediate, levels=N, \
+    levels=all, side=N, refined, second=HEURISTIC, step=N, detour=N, smooth, taut";
+
 /// In full but for the options, of which those that were chosen.
 impl fmt::Display for Setup {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rule = self.rule_name();
-        let Options { heuristic, variant, jump_limit, intermediate, levels, smoothing } = self.options;
+        let Options { heuristic, variant, jump_limit, intermediate, levels, .. } = self.options;
+        let Options { side, refined, second, step, detour, smoothing, .. } = self.options;
         let options = [
             heuristic.map(|heuristic| heuristic.to_string()),
             variant.map(|variant| variant.to_string()),
             jump_limit.map(|limit| format!("limit={limit}")),
             intermediate.then(|| "intermediate".to_owned()),
             levels.map(|levels| format!("levels={levels}")),
+            side.map(|side| format!("side={side}")),
+            refined.then(|| "refined".to_owned()),
+            second.map(|second| format!("second={second}")),
+            step.map(|step| format!("step={step}")),
+            detour.map(|detour| format!("detour={detour}")),
             smoothing.map(|smoothing| smoothing_name(smoothing).to_owned()),
         ];
         let options: String = options.into_iter().flatten().map(|option| format!(",{option}")).collect();
@@ -67,10 +77,8 @@ impl FromStr for Setup {
         }
         let mut setup = Self::new(engine, k, rules);
         for option in options {
-            choose(&mut setup.options, option).ok_or_else(|| {
-                let names = "hk, euclidean, zero, exact, paper, limit=N, intermediate, levels=N, levels=all, smooth, taut";
-                error(format!("the options are {names}"))
-            })?;
+            choose(&mut setup.options, option)
+                .ok_or_else(|| error(format!("the options are {OPTION_NAMES}")))?;
         }
         setup.check().map_err(|wrong| error(wrong.to_string()))?;
         Ok(setup)
@@ -109,18 +117,26 @@ fn smoothing_named(name: &str) -> Option<Smoothing> {
 }
 
 fn choose(options: &mut Options, text: &str) -> Option<()> {
+    let number = |name: &str| text.strip_prefix(name).map(str::parse::<NonZeroU32>);
     if let Ok(heuristic) = text.parse::<HeuristicName>() {
         options.heuristic = Some(heuristic);
     } else if let Ok(variant) = text.parse::<Variant>() {
         options.variant = Some(variant);
     } else if text == "intermediate" {
         options.intermediate = true;
+    } else if text == "refined" {
+        options.refined = true;
     } else if let Some(levels) = text.strip_prefix("levels=") {
         options.levels = Some(levels.parse().ok()?);
+    } else if let Some(second) = text.strip_prefix("second=") {
+        options.second = Some(second.parse().ok()?);
     } else if let Some(smoothing) = smoothing_named(text) {
         options.smoothing = Some(smoothing);
     } else {
-        options.jump_limit = Some(text.strip_prefix("limit=")?.parse::<NonZeroU32>().ok()?);
+        let Options { jump_limit, side, step, detour, .. } = options;
+        let numbers = [("limit=", jump_limit), ("side=", side), ("step=", step), ("detour=", detour)];
+        let (option, value) = numbers.into_iter().find_map(|(name, option)| Some((option, number(name)?)))?;
+        *option = Some(value.ok()?);
     }
     Some(())
 }

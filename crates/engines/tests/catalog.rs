@@ -9,8 +9,8 @@ use mediant_engines::{
     Solver, Variant, build, distances,
 };
 use mediant_grid::{CornerRule, DiagonalGap, Placement, Rules, Vertex};
-use mediant_moves::Knob;
-use mediant_search::{Guarantee, Query, Smoothing};
+use mediant_moves::{K, Knob};
+use mediant_search::{Guarantee, Query, QueryError, Smoothing};
 
 use common::{grid, k};
 
@@ -52,7 +52,15 @@ fn every_setup_makes_the_planner_that_it_promises() {
             for setup in all {
                 let mut solver = solver(setup, Prebuilt::default());
                 assert_eq!(solver.guarantee(), setup.guarantee(), "{setup}");
-                let (outcome, counters) = solver.solve_counted(query).expect("both ends are free");
+                let answer = solver.solve_counted(query);
+                setups += 1;
+                let as_published = (setup.engine, setup.variant()) == (Engine::Chpa, Some(Variant::Paper));
+                if as_published && k == Knob::K(K::FOUR_CONNECTED) {
+                    // The windows of its segments join only what is joined within them.
+                    assert!(matches!(answer, Err(QueryError::GaveUp { .. })), "{setup}: {answer:?}");
+                    continue;
+                }
+                let (outcome, counters) = answer.expect("both ends are free");
                 let cost = outcome.path().expect("there is a way").cost();
                 match setup.guarantee() {
                     Guarantee::Suboptimal => {
@@ -64,27 +72,29 @@ fn every_setup_makes_the_planner_that_it_promises() {
                     }
                     _ => assert!((cost - best).abs() < 1e-9, "{setup}: {cost}, {best}"),
                 }
-                assert!(counters.generated > 0, "{setup}");
+                assert!(counters.generated > 0 && counters.expanded > 0, "{setup}");
                 assert_eq!(solver.solve(query), Ok(outcome), "{setup}: the same again");
                 assert!(solver.preprocessing().index_bytes > 0 && !solver.preprocessing().time.is_zero());
-                setups += 1;
             }
         }
     }
-    // 3 of A*, Dijkstra, wavefront, 4 of canonical, 5 of jps, 3 each of theta and lazy-theta; for k ≤ 3 also 5 of jps-block and 4 of
+    // 4 of A*, Dijkstra, wavefront, 4 of canonical, 5 of jps, 3 each of theta and lazy-theta; for k ≤ 3 also 5 of jps-block and 4 of
     // jps-plus; 3 that are smoothed. Of each gap rule anya, and once smoothed.
-    let grids = 5 * (4 * (3 + 1 + 1 + 4 + 5 + 3 + 3 + 3) + 2 * (5 + 4)) + 2 * 2;
+    let grids = 5 * (4 * (4 + 1 + 1 + 4 + 5 + 3 + 3 + 3) + 2 * (5 + 4)) + 2 * 2;
     // 4 of subgoal, and once smoothed: at corners for each k and for any, at centers for k = 2 under 3 rules and for k = 3 under one. 4 of
     // subgoal-theta at corners.
-    assert_eq!(setups, grids + 5 * (2 * (4 + 1) + 3 + 1) + 4 * 2 * 4);
+    let subgoals = 5 * (2 * (4 + 1) + 3 + 1) + 4 * 2 * 4;
+    // 8 of hpa and 10 of chpa, each once smoothed, for the same k at centers.
+    assert_eq!(setups, grids + subgoals + (3 + 1) * (8 + 1 + 10 + 1));
 }
 
 #[test]
 fn every_engine_is_in_its_own_range_of_k() {
     for engine in Engine::ALL {
-        // Every engine takes corners, and there every k that it takes at all.
+        // Under one of these rules an engine takes every k that it takes at all.
         let about = engine.about();
-        let setup = |k: Knob| Setup::new(engine, k, OPEN);
+        let rules = if about.placements.contains(&Placement::Corner) { OPEN } else { NEVER };
+        let setup = |k: Knob| Setup::new(engine, k, rules);
         let refused = |k: Knob, error: SetupError| {
             assert_eq!(setup(k).check(), Err(error.clone()));
             let solver = Solver::new(setup(k), &grid(), Prebuilt::default()).map(|_| ());
@@ -123,8 +133,18 @@ fn every_engine_takes_the_placements_that_it_says() {
                 assert_eq!(said, Ok(()), "{engine}, {rules}");
             } else {
                 let said = said.expect_err("it does not take it").to_string();
-                let needs = format!("{engine} needs placement corner; for center choose astar, dijkstra,");
-                assert!(said.starts_with(&needs) && said.ends_with(" lazy-theta, subgoal"), "{said}");
+                let needs = match placement {
+                    Placement::Center => "placement corner; for center choose astar, dijkstra,",
+                    Placement::Corner => "placement center; for corner choose astar, dijkstra,",
+                };
+                let others = match placement {
+                    Placement::Center => " lazy-theta, subgoal, hpa, chpa",
+                    Placement::Corner => " lazy-theta, anya, subgoal, subgoal-theta",
+                };
+                assert!(
+                    said.starts_with(&format!("{engine} needs {needs}")) && said.ends_with(others),
+                    "{said}"
+                );
             }
         }
     }
@@ -179,13 +199,19 @@ fn options_are_refused_where_they_mean_nothing() {
     };
     assert_eq!(chosen("").len(), Engine::ALL.len());
     let guided = ["astar", "canonical", "jps", "jps-block", "jps-plus", "theta", "lazy-theta"];
-    assert_eq!(chosen(",euclidean"), guided);
+    assert_eq!(chosen(",euclidean"), [&guided[..], &["chpa"]].concat());
+    assert_eq!(chosen(",squared"), ["astar", "chpa"]);
     assert_eq!((chosen(",smooth").len(), chosen(",taut").len()), (Engine::ALL.len(), Engine::ALL.len()));
-    assert_eq!(chosen(",paper"), ["canonical"]);
+    assert_eq!(chosen(",paper"), ["canonical", "chpa"]);
+    assert_eq!((chosen(",exact"), chosen(",complete")), (vec!["canonical"], vec!["chpa"]));
+    assert_eq!((chosen(",side=3"), chosen(",refined")), (vec!["hpa", "chpa"], vec!["hpa"]));
+    for option in ["second=zero", "step=3", "detour=2"] {
+        assert_eq!(chosen(&format!(",{option}")), ["chpa"], "{option}");
+    }
     assert_eq!(chosen(",limit=4"), ["jps", "jps-block"]);
     assert_eq!(chosen(",intermediate"), ["jps", "jps-block", "jps-plus"]);
     for levels in ["1", "4", "all"] {
-        assert_eq!(chosen(&format!(",levels={levels}")), ["subgoal", "subgoal-theta"]);
+        assert_eq!(chosen(&format!(",levels={levels}")), ["subgoal", "subgoal-theta", "hpa"]);
     }
     let options = Options { jump_limit: NonZeroU32::new(4), ..Options::default() };
     let error = Setup { options, ..Setup::new(Engine::AStar, k(3), NEVER) }.check().expect_err("no jumps");
@@ -269,7 +295,11 @@ fn setups_are_read_as_they_are_written() {
             }
         }
     }
-    assert!(setups > 1_200, "{setups}");
+    assert!(setups > 1_300, "{setups}");
+    let many = "chpa:2:one,euclidean,side=4,second=squared,step=5,detour=7,taut";
+    assert_eq!(many.parse::<Setup>().map(|setup| setup.to_string()), Ok(many.to_owned()));
+    let many = "hpa:3:never,levels=2,side=4,refined";
+    assert_eq!(many.parse::<Setup>().map(|setup| setup.to_string()), Ok(many.to_owned()));
     let both = Options {
         heuristic: Some(HeuristicName::Zero),
         smoothing: Some(Smoothing::Taut),
@@ -288,7 +318,7 @@ fn setups_are_read_as_they_are_written() {
 fn each_wrong_part_is_named() {
     let wrong = |text: &str| text.parse::<Setup>().expect_err("no setup").to_string();
     let names = "astar, dijkstra, wavefront, canonical, jps, jps-block, jps-plus, theta, lazy-theta, anya, \
-                 subgoal, subgoal-theta";
+                 subgoal, subgoal-theta, hpa, chpa";
     let form = "expected ENGINE[:K[:RULE]][,OPTION…], found `warp`";
     assert_eq!(wrong("warp"), format!("{form}: the engines are {names}"));
     for k in ["", "x", "1", "-3"] {
@@ -307,7 +337,7 @@ fn each_wrong_part_is_named() {
     assert!(wrong("subgoal:13:open").ends_with("subgoal needs a k from 2 to 12, found 13"));
     assert!(
         wrong("astar,levels=2")
-            .ends_with("astar takes no levels: leave it out, or choose subgoal, subgoal-theta")
+            .ends_with("astar takes no levels: leave it out, or choose subgoal, subgoal-theta, hpa")
     );
     for levels in ["levels", "levels=", "levels=0", "levels=-1", "levels=some"] {
         assert!(
@@ -326,9 +356,12 @@ fn each_wrong_part_is_named() {
     for option in ["", "limit=0", "limit=x", "limit", "fast"] {
         assert!(wrong(&format!("jps,{option}")).contains("the options are hk, euclidean, zero,"), "{option}");
     }
-    assert!(wrong("jps,best").ends_with("limit=N, intermediate, levels=N, levels=all, smooth, taut"));
+    assert!(wrong("jps,best").ends_with(
+        "squared, exact, complete, paper, limit=N, intermediate, levels=N, levels=all, side=N, refined, second=HEURISTIC, \
+         step=N, detour=N, smooth, taut"
+    ));
     assert!(wrong("anya,zero").contains("anya takes no heuristic: leave it out, or choose astar, "));
-    assert!(wrong("jps,paper").ends_with("jps takes no variant: leave it out, or choose canonical"));
+    assert!(wrong("jps,paper").ends_with("jps takes no variant: leave it out, or choose canonical, chpa"));
 }
 
 #[test]
@@ -357,7 +390,7 @@ fn a_saved_index_is_as_good_as_a_new_one() {
 fn only_some_engines_have_an_index_or_distances() {
     for engine in Engine::ALL.into_iter().filter(|&engine| engine.about().index.is_none()) {
         let setup = plain(engine);
-        let error = format!("{engine} has no index: choose jps-plus, subgoal, subgoal-theta");
+        let error = format!("{engine} has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa");
         let said = [
             build(setup, &grid()).map(|_| ()),
             Solver::new(setup, &grid(), Prebuilt { index: Some(Vec::new()), rule: None }).map(|_| ()),

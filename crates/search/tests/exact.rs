@@ -8,7 +8,7 @@ use common::{Engine, with_any_angle_engines, with_engines};
 use mediant_grid::{CornerRule, Grid, Rules, Vertex};
 use mediant_moves::{K, Knob};
 use mediant_oracle::{Explicit, Rng, describe, random_free_vertex, suite_grid, validate};
-use mediant_search::{Counters, Guarantee, Outcome, Path, Query};
+use mediant_search::{Counters, Guarantee, Outcome, Path, Query, QueryError};
 
 fn seeds() -> std::ops::Range<u64> {
     mediant_oracle::seeds(120)
@@ -19,6 +19,44 @@ fn queries(grid: &Grid, rules: Rules, seed: u64) -> Vec<(Vertex, Vec<Vertex>)> {
     let mut rng = Rng::new(seed ^ 0x5EED);
     let mut free = || random_free_vertex(&mut rng, grid, rules.placement());
     (0..2).filter_map(|_| Some((free()?, (0..3).filter_map(|_| free()).collect()))).collect()
+}
+
+/// The hierarchical engines take one map in so many.
+const HIERARCHIES: u64 = 5;
+
+/// What came of a query that has an answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Found {
+    /// A path.
+    Path,
+    /// A path, of a search that left its plan.
+    OffPlan,
+    /// A path between two places, of a search that might have given up.
+    AsPublished,
+    /// None.
+    GaveUp,
+}
+
+/// How many queries of a kind there were.
+#[derive(Clone, Copy, Debug, Default)]
+struct Tally {
+    found: usize,
+    unreachable: usize,
+    off_plan: usize,
+    as_published: usize,
+    gave_up: usize,
+}
+
+impl Tally {
+    fn add(self, other: Self) -> Self {
+        Self {
+            found: self.found + other.found,
+            unreachable: self.unreachable + other.unreachable,
+            off_plan: self.off_plan + other.off_plan,
+            as_published: self.as_published + other.as_published,
+            gave_up: self.gave_up + other.gave_up,
+        }
+    }
 }
 
 /// A query on a map, with what its paths cost at least.
@@ -35,11 +73,18 @@ struct Case<'g> {
 }
 
 impl Case<'_> {
-    /// What an engine says, held to what it promises.
-    fn check(&self, engine: &mut Engine<'_>) {
+    /// What an engine says, held to what it promises. Whether it found a path; nothing where it gave up, or there is none.
+    fn check(&self, engine: &mut Engine<'_>) -> Option<Found> {
         let Self { grid, rules, start, goal, seed, .. } = *self;
-        let (outcome, counters) = engine.solve(Query::new(start, goal)).expect("both ends are free");
+        let answer = engine.solve(Query::new(start, goal));
         let case = || format!("{}; {}", engine.name, describe(grid, rules, start, goal, seed));
+        let (outcome, counters) = match answer {
+            Ok(answer) => answer,
+            Err(QueryError::GaveUp { .. }) if engine.may_give_up && self.optimum.is_some() => {
+                return Some(Found::GaveUp);
+            }
+            Err(error) => panic!("{error}: {}", case()),
+        };
         let cost = outcome.path().map(Path::cost);
         assert!(!cost.is_some_and(f64::is_sign_negative), "cost {cost:?}: {}", case());
         assert_eq!(
@@ -52,7 +97,7 @@ impl Case<'_> {
         let Outcome::Found(path) = outcome else {
             // The components know without a search.
             assert_eq!(counters, Counters::default(), "{}", case());
-            return;
+            return None;
         };
         let fault = validate(grid, rules, engine.paths.finite(), start, goal, path.waypoints(), path.cost());
         assert_eq!(fault, Ok(()), "{}", case());
@@ -69,12 +114,17 @@ impl Case<'_> {
         // What is certified of all paths, from this one alone.
         let certain = engine.guarantee.lower_bound(rules, cost, start.distance(goal));
         assert!(certain <= any_angle * slack, "certified {certain}, any-angle {any_angle}: {}", case());
+        Some(match engine.may_give_up {
+            true if start != goal => Found::AsPublished,
+            _ if counters.fallbacks > 0 => Found::OffPlan,
+            _ => Found::Path,
+        })
     }
 }
 
-/// All engines on the map of one seed: how many queries found a path, and how many had none.
-fn check_all(seed: u64) -> [usize; 2] {
-    let mut answers = [0, 0];
+/// All engines on the map of one seed.
+fn check_all(seed: u64) -> Tally {
+    let mut tally = Tally::default();
     let grid = Arc::new(suite_grid(seed).0);
     for rules in Rules::ALL {
         let any_angle = Explicit::new(&grid, rules, None);
@@ -85,8 +135,16 @@ fn check_all(seed: u64) -> [usize; 2] {
                 for &goal in goals {
                     let (optimum, any_angle) = (costs.to(goal), best.to(goal));
                     let case = Case { grid: &grid, rules, start: *start, goal, seed, optimum, any_angle };
-                    engines.iter_mut().for_each(|engine| case.check(engine));
-                    answers[usize::from(optimum.is_none())] += 1;
+                    let all = seed.is_multiple_of(HIERARCHIES);
+                    for engine in engines.iter_mut().filter(|engine| all || !engine.is_hierarchical) {
+                        match case.check(engine) {
+                            None | Some(Found::Path) => {}
+                            Some(Found::OffPlan) => tally.off_plan += 1,
+                            Some(Found::AsPublished) => tally.as_published += 1,
+                            Some(Found::GaveUp) => tally.gave_up += 1,
+                        }
+                    }
+                    *(if optimum.is_some() { &mut tally.found } else { &mut tally.unreachable }) += 1;
                 }
             }
         };
@@ -98,23 +156,31 @@ fn check_all(seed: u64) -> [usize; 2] {
             with_any_angle_engines(&grid, gap, |engines| run(&any_angle, engines));
         }
     }
-    answers
+    tally
 }
 
 #[test]
 fn engines_cost_what_dijkstra_on_the_explicit_graph_costs() {
     let threads = thread::available_parallelism().map_or(1, NonZero::get);
     let part = |first: usize| seeds().skip(first).step_by(threads).map(check_all);
-    let parts: Vec<[usize; 2]> = thread::scope(|scope| {
+    let parts: Vec<Tally> = thread::scope(|scope| {
         let parts: Vec<_> =
             (0..threads).map(|first| scope.spawn(move || part(first).collect::<Vec<_>>())).collect();
         parts.into_iter().flat_map(|part| part.join().expect("a part failed, as said above")).collect()
     });
-    let [found, unreachable] = [0, 1].map(|i| parts.iter().map(|answers| answers[i]).sum::<usize>());
+    let Tally { found, unreachable, off_plan, as_published, gave_up } =
+        parts.iter().copied().fold(Tally::default(), Tally::add);
     // A generator that went wrong must not make the suite empty.
     let maps = seeds().end as usize;
     assert_eq!(parts.len(), maps);
     assert!(found > 100 * maps && unreachable > 10 * maps, "{found} found, {unreachable} unreachable");
+    // Some plans must fail, those of CHPA* as published too, and most must not.
+    let maps = maps.div_ceil(HIERARCHIES as usize);
+    assert!(
+        off_plan > 5 * maps && as_published > 5 * maps,
+        "{off_plan} off plan, {as_published} as published"
+    );
+    assert!(2 * gave_up > maps && 2 * gave_up < as_published, "{gave_up} given up");
 }
 
 /// Every map of 3 × 3 cells, from every vertex to every other: the smallest maps hold the oddest cases.
@@ -133,7 +199,7 @@ fn engines_are_exact_on_every_map_of_nine_cells() {
                         let case = Case { grid: &grid, rules, start, goal, seed: 0, optimum, any_angle };
                         // The first engine on all pairs, the others in turn.
                         let turn = 1 + queries % (engines.len() - 1);
-                        [0, turn].into_iter().for_each(|i| case.check(&mut engines[i]));
+                        [0, turn].into_iter().for_each(|i| _ = case.check(&mut engines[i]));
                         queries += 1;
                     }
                 }

@@ -21,6 +21,8 @@ pub(crate) struct TableReport<'s> {
     is_reference: bool,
     /// The engine that finds the shortest any-angle paths.
     any_angle: &'static str,
+    /// Whether searches may leave their plans.
+    may_fall_back: bool,
     rows: Vec<QueryRecord>,
     /// Errors beyond those in the rows.
     more_errors: u64,
@@ -37,6 +39,7 @@ impl<'s> TableReport<'s> {
             from_scenario: false,
             is_reference: false,
             any_angle: "",
+            may_fall_back: false,
             rows: Vec::new(),
             more_errors: 0,
         }
@@ -82,6 +85,9 @@ impl<'s> TableReport<'s> {
         let words = words.map(|(i, [x, y])| format!("({x}, {y}){}", if i < last { " →" } else { "" }));
         let text = wrap("  path  ", words, self.screen.columns().min(100));
         writeln!(self.screen, "\n{text}")?;
+        if self.may_fall_back {
+            writeln!(self.screen, "  plan  {}", left(row.fallbacks))?;
+        }
         let smoothness = row.smoothness.unwrap_or(0.0);
         writeln!(self.screen, "  turns {smoothness:.1}° in all")?;
         let certificate = match row.bound {
@@ -135,6 +141,7 @@ impl Report for TableReport<'_> {
         let rules = (run.placement.as_str(), run.corners.as_str());
         self.is_reference = run.guarantee == "optimal(3)" && rules == ("center", "never");
         self.any_angle = run.any_angle.unwrap_or_default();
+        self.may_fall_back = run.detour.is_some();
         let rule = match run.placement.as_str() {
             "center" => format!("corners {}", run.corners),
             _ => format!("gap {}", run.gap),
@@ -142,19 +149,24 @@ impl Report for TableReport<'_> {
         let (width, height) = (run.width, run.height);
         let size = format!("{width} × {height} cells, {} free", grouped(run.free_cells));
         writeln!(self.screen, "{} · {size}", self.screen.paint(BOLD, printable(&run.map)))?;
+        let second = run.second.filter(|second| Some(second) != run.heuristic.as_ref());
         let mut parts = vec![run.engine.clone()];
         parts.extend(run.heuristic.map(|heuristic| format!("heuristic {heuristic}")));
+        parts.extend(second.map(|heuristic| format!("then {heuristic}")));
         parts.extend(run.variant.map(|variant| format!("variant {variant}")));
         parts.extend(run.jump_limit.map(|limit| format!("jumps up to {limit}")));
         parts.extend(run.keep_intermediate.then(|| "intermediate jump points kept".to_owned()));
         parts.extend(run.levels.map(hierarchy_name));
+        parts.extend(run.side.map(|side| format!("side {side}")));
+        parts.extend(run.refined.then(|| "path as refined".to_owned()));
+        parts.extend(run.step.map(|step| format!("step {step}")));
+        parts.extend(run.detour.map(|detour| format!("detours up to {detour}")));
         parts.extend(run.smoothing.map(|smoothing| format!("smoothing {smoothing}")));
-        let problem = [format!("k = {}", run.k), format!("{}, {rule}", run.placement)];
-        let parts = [parts.join(", ")].into_iter().chain(problem).collect::<Vec<_>>();
         let last = parts.len() - 1;
-        let words =
-            parts.iter().enumerate().map(|(i, part)| format!("{part}{}", if i < last { " ·" } else { "" }));
-        let text = wrap("", words, self.screen.columns());
+        let words = parts.iter().enumerate();
+        let words = words.map(|(i, part)| format!("{part}{}", if i < last { "," } else { " ·" }));
+        let problem = [format!("k = {} ·", run.k), format!("{}, {rule}", run.placement)];
+        let text = wrap("", words.chain(problem), self.screen.columns());
         let rest = text.strip_prefix(&run.engine).unwrap_or_default();
         writeln!(self.screen, "{}{rest}", self.screen.paint(BOLD, &run.engine))?;
         writeln!(self.screen, "{} · prepared in {}\n", run.guarantee, time(run.preprocess_ns as f64))
@@ -201,6 +213,9 @@ impl Report for TableReport<'_> {
         if summary.mean_scanned > 0.0 {
             self.fact("runs", &format!("mean {} vertices scanned", mean_count(summary.mean_scanned)))?;
         }
+        if self.may_fall_back {
+            self.fact("plans", &left(summary.fallbacks))?;
+        }
         if let (Some(cost), Some(smoothness)) = (summary.mean_cost, summary.mean_smoothness) {
             self.fact("paths", &format!("mean cost {cost:.4}, smoothness {smoothness:.1}°"))?;
         }
@@ -216,6 +231,15 @@ impl Report for TableReport<'_> {
 
 /// A path whose ratio to the shortest is no larger is as short, but for rounding.
 const NO_LONGER: f64 = 1.0 + 1e-9;
+
+/// How often plans were left.
+fn left(times: u64) -> String {
+    match times {
+        0 => "never left".to_owned(),
+        1 => "left once".to_owned(),
+        _ => format!("left {} times", grouped(times)),
+    }
+}
 
 fn mean_count(mean: f64) -> String {
     if mean < 1_000.0 { format!("{mean:.1}") } else { grouped(mean.round() as u64) }

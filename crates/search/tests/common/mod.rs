@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use mediant_engines::{Ground, Setup, SharedRules, Solver};
+use mediant_engines::{Engine as Catalog, Ground, Setup, SharedRules, Solver, Variant};
 use mediant_grid::{DiagonalGap, Grid, Rules};
 use mediant_moves::{K, Knob};
 use mediant_search::{Counters, Guarantee, Outcome, Query, QueryError};
@@ -20,6 +20,10 @@ pub(crate) struct Engine<'g> {
     pub(crate) guarantee: Guarantee,
     /// The directions that its paths may take.
     pub(crate) paths: Knob,
+    /// Whether it may find no path where there is one.
+    pub(crate) may_give_up: bool,
+    /// Whether it plans on a hierarchy, which has long suites of its own.
+    pub(crate) is_hierarchical: bool,
     solver: Option<Solver>,
     setup: Setup,
     ground: &'g Ground,
@@ -28,7 +32,10 @@ pub(crate) struct Engine<'g> {
 impl<'g> Engine<'g> {
     fn new(setup: Setup, ground: &'g Ground) -> Self {
         let (guarantee, paths) = (setup.guarantee(), setup.paths());
-        Self { name: setup.to_string(), guarantee, paths, solver: None, setup, ground }
+        let may_give_up = (setup.engine, setup.variant()) == (Catalog::Chpa, Some(Variant::Paper));
+        let is_hierarchical = matches!(setup.engine, Catalog::Hpa | Catalog::Chpa);
+        let name = setup.to_string();
+        Self { name, guarantee, paths, may_give_up, is_hierarchical, solver: None, setup, ground }
     }
 
     pub(crate) fn solve(&mut self, query: Query) -> Answer {
