@@ -8,6 +8,7 @@
 
 mod archive;
 pub mod ci;
+pub mod claims;
 pub mod compare;
 pub mod download;
 mod error;
