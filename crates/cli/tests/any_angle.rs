@@ -3,18 +3,7 @@
 use serde_json::Value;
 
 mod common;
-use common::{Files, Ran, mediant, redact_times, run};
-
-/// The run, the queries and the summary of a command that answers all its queries.
-#[track_caller]
-fn told(line: &str) -> (Value, Vec<Value>, Value) {
-    let Ran { status, stdout, stderr } = run(&format!("{line} --format jsonl"));
-    assert_eq!((stderr.as_str(), status), ("", Some(0)), "{line}");
-    let mut records: Vec<Value> =
-        stdout.lines().map(|line| serde_json::from_str(line).expect("each line is JSON")).collect();
-    let (summary, run) = (records.pop().expect("a summary"), records.remove(0));
-    (run, records, summary)
-}
+use common::{Files, Ran, mediant, redact_times, run, told};
 
 fn number(record: &Value, name: &str) -> f64 {
     record[name].as_f64().unwrap_or_else(|| panic!("a number `{name}` in {record}"))

@@ -5,18 +5,7 @@ use std::fs;
 use serde_json::Value;
 
 mod common;
-use common::{Files, Ran, redact_times, run};
-
-/// Answers a bundled map's queries, and parses each line.
-#[track_caller]
-fn told(line: &str) -> (Value, Vec<Value>, Value) {
-    let Ran { status, stdout, stderr } = run(&format!("{line} --format jsonl"));
-    assert_eq!((stderr.as_str(), status), ("", Some(0)), "{line}");
-    let mut records: Vec<Value> =
-        stdout.lines().map(|line| serde_json::from_str(line).expect("each line is JSON")).collect();
-    let summary = records.pop().expect("a summary");
-    (records.remove(0), records, summary)
-}
+use common::{Files, Ran, built, redact_times, refused, run, told};
 
 /// What a program can rely on being the same.
 fn answers(queries: &[Value]) -> Vec<[Value; 5]> {
@@ -26,24 +15,6 @@ fn answers(queries: &[Value]) -> Vec<[Value; 5]> {
 
 fn total(queries: &[Value], key: &str) -> f64 {
     queries.iter().filter_map(|query| query[key].as_f64()).sum()
-}
-
-/// Builds an index of a bundled map, and returns its path.
-#[track_caller]
-fn built(files: &Files, name: &str, options: &str) -> String {
-    let path = files.path(name);
-    let Ran { status, stderr, .. } = run(&format!("build {options} -o {path}"));
-    assert_eq!((stderr.as_str(), status), ("", Some(0)), "{options}");
-    path
-}
-
-/// Runs a command line that fails before there is any output.
-#[track_caller]
-fn refused(files: &Files, line: &str) -> String {
-    let Ran { status, stdout, stderr } = run(line);
-    assert_eq!((stdout.as_str(), status), ("", Some(2)), "{line}: {stderr}");
-    assert_eq!((stderr.lines().count(), stderr.starts_with("error: ")), (1, true), "{line}: {stderr}");
-    files.strip(&stderr)
 }
 
 /// The records of a run, a line each, without what differs from machine to machine.

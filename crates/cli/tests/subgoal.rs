@@ -7,41 +7,11 @@ use mediant_grid::{CornerRule, DiagonalGap, Rules};
 use serde_json::Value;
 
 mod common;
-use common::{Files, Ran, mediant, redact_times, run};
-
-/// Answers a bundled map's queries, and parses each line.
-#[track_caller]
-fn told(line: &str) -> (Value, Vec<Value>) {
-    let Ran { status, stdout, stderr } = run(&format!("{line} --format jsonl"));
-    assert_eq!((stderr.as_str(), status), ("", Some(0)), "{line}");
-    let mut records: Vec<Value> =
-        stdout.lines().map(|line| serde_json::from_str(line).expect("each line is JSON")).collect();
-    records.pop();
-    let run = records.remove(0);
-    (run, records)
-}
+use common::{Files, Ran, built, mediant, redact_times, refused, run, told};
 
 /// What a program can rely on being the same.
 fn answers(queries: &[Value]) -> Vec<[Value; 3]> {
     queries.iter().map(|query| ["status", "cost", "path"].map(|key| query[key].clone())).collect()
-}
-
-/// Builds an index of a bundled map, and returns its path.
-#[track_caller]
-fn built(files: &Files, name: &str, options: &str) -> String {
-    let path = files.path(name);
-    let Ran { status, stderr, .. } = run(&format!("build {options} -o {path}"));
-    assert_eq!((stderr.as_str(), status), ("", Some(0)), "{options}");
-    path
-}
-
-/// Runs a command line that fails before there is any output.
-#[track_caller]
-fn refused(files: &Files, line: &str) -> String {
-    let Ran { status, stdout, stderr } = run(line);
-    assert_eq!((stdout.as_str(), status), ("", Some(2)), "{line}: {stderr}");
-    assert_eq!((stderr.lines().count(), stderr.starts_with("error: ")), (1, true), "{line}: {stderr}");
-    files.strip(&stderr)
 }
 
 #[test]
@@ -59,8 +29,8 @@ fn a_saved_graph_gives_the_same_answers() {
         ("--engine subgoal-theta --levels all", "all".into()),
     ] {
         let index = built(&files, "town.idx", &format!("builtin:town {options}"));
-        let (run, new) = told(&format!("run builtin:town {options}"));
-        let (with, saved) = told(&format!("run builtin:town {options} --index {index}"));
+        let (run, new, _) = told(&format!("run builtin:town {options}"));
+        let (with, saved, _) = told(&format!("run builtin:town {options} --index {index}"));
         assert_eq!((&run["levels"], &with["levels"]), (&levels, &levels), "{options}");
         assert_eq!((new.len(), answers(&saved)), (22, answers(&new)), "{options}");
         assert_eq!(
@@ -95,7 +65,7 @@ fn answers_are_those_of_engines_that_prepare_nothing() {
 fn an_index_says_which_levels_it_has() {
     let files = Files::new();
     let index = built(&files, "cave.idx", "builtin:cave --engine subgoal --levels 2");
-    let (run, _) = told(&format!("run builtin:cave --engine subgoal --index {index}"));
+    let (run, ..) = told(&format!("run builtin:cave --engine subgoal --index {index}"));
     assert_eq!(run["levels"], 2);
     let line = format!("run builtin:cave --engine subgoal --index {index} --levels");
     for (levels, name) in [("1", "1 level"), ("all", "all levels")] {

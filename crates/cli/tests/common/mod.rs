@@ -6,6 +6,7 @@ use std::{
     process::{Command, Stdio},
 };
 
+use serde_json::Value;
 use tempfile::TempDir;
 
 /// What a run of the program left.
@@ -67,6 +68,35 @@ impl Files {
         let folder = self.path("");
         text.replace(&folder, "")
     }
+}
+
+/// Answers a bundled map's queries: what a run tells, line by line, of itself, of each query, and of all.
+#[track_caller]
+pub(crate) fn told(line: &str) -> (Value, Vec<Value>, Value) {
+    let Ran { status, stdout, stderr } = run(&format!("{line} --format jsonl"));
+    assert_eq!((stderr.as_str(), status), ("", Some(0)), "{line}");
+    let mut records: Vec<Value> =
+        stdout.lines().map(|line| serde_json::from_str(line).expect("each line is JSON")).collect();
+    let summary = records.pop().expect("a summary");
+    (records.remove(0), records, summary)
+}
+
+/// Builds an index of a bundled map, and returns its path.
+#[track_caller]
+pub(crate) fn built(files: &Files, name: &str, options: &str) -> String {
+    let path = files.path(name);
+    let Ran { status, stderr, .. } = run(&format!("build {options} -o {path}"));
+    assert_eq!((stderr.as_str(), status), ("", Some(0)), "{options}");
+    path
+}
+
+/// Runs a command line that fails before there is any output.
+#[track_caller]
+pub(crate) fn refused(files: &Files, line: &str) -> String {
+    let Ran { status, stdout, stderr } = run(line);
+    assert_eq!((stdout.as_str(), status), ("", Some(2)), "{line}: {stderr}");
+    assert_eq!((stderr.lines().count(), stderr.starts_with("error: ")), (1, true), "{line}: {stderr}");
+    files.strip(&stderr)
 }
 
 /// A file of the repository's `benchdata/maps`.
