@@ -79,7 +79,7 @@ impl PartialEq for ClusterGraph {
 impl Eq for ClusterGraph {}
 
 impl ClusterGraph {
-    /// The index of a map. It takes 11 to 90 ms on maps of 512 × 512 to 1024 × 1024 cells.
+    /// The index of a map. It takes 25 to 80 ms on maps of 512 × 512 to 1024 × 1024 cells.
     ///
     /// # Errors
     /// [`HierarchyError`] for k above 3, for corners that may be cut, or a clustering that is out of range.
