@@ -239,7 +239,7 @@ where
         let last = checkpoints.len().saturating_sub(1);
         while let Some(&to) = checkpoints.get(next) {
             let limit =
-                if next == last { Cost::MAX } else { lattice.costs().distance(at.to(to)) * detour.get() };
+                if next == last { Cost::MAX } else { times(lattice.costs().distance(at.to(to)), detour) };
             if second.extend(way, to, limit, observer)? {
                 (at, next, skip) = (to, next + 1, 1);
             } else if next == last {
@@ -260,24 +260,33 @@ impl SegmentGraph {
         let d = self.place(origin).to(self.place(target));
         let at = self.place(target);
         let side = self.side as i32;
-        // Of the tiles of the segment along one axis, that at the wall, or the one so far from the middle.
-        let tile = |first: i32, d: i32, off: i32, cells: u32| {
+        // Of the tiles of the segment along one axis, that at the wall, or the one so far along it.
+        let tile = |first: i32, d: i32, along: i32, cells: u32| {
             let tile = match d {
                 1 => first,
                 -1 => first + side - 1,
-                _ => first + (side - 1) / 2 + off,
+                _ => first + along,
             };
             // Beyond the map, the nearest tile on it.
             tile.min(cells as i32 - 1)
         };
-        (0..side)
-            .map(|i| if i % 2 == 1 { -(i + 1) / 2 } else { i / 2 })
-            .map(|off| {
-                let x = tile(at.x * side, d.x, off, self.size.0);
-                Vertex::new(x, tile(at.y * side, d.y, off, self.size.1))
+        from_the_middle(side)
+            .map(|along| {
+                let x = tile(at.x * side, d.x, along, self.size.0);
+                Vertex::new(x, tile(at.y * side, d.y, along, self.size.1))
             })
             .find(|&tile| lattice.is_free(tile))
     }
+}
+
+/// The places along a wall, the middle one first, then outward from it, the lower one of two first.
+fn from_the_middle(length: i32) -> impl Iterator<Item = i32> {
+    (0..length).map(move |i| length / 2 + if i % 2 == 1 { -(i + 1) / 2 } else { i / 2 })
+}
+
+/// So many times a cost; [`Cost::MAX`], which is no limit, where that is too much for any path.
+fn times(cost: Cost, factor: NonZeroU32) -> Cost {
+    Cost::from_bits(cost.to_bits().saturating_mul(u64::from(factor.get())))
 }
 
 /// The path through these vertices.
@@ -285,4 +294,28 @@ fn along(way: &[Vertex]) -> Path {
     let mut path = Vec::with_capacity(way.len());
     waypoints(way, &mut path);
     Path::new(path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_tile_of_a_wall_is_tried_once_the_middle_one_first() {
+        assert_eq!(from_the_middle(1).collect::<Vec<_>>(), [0]);
+        assert_eq!(from_the_middle(3).collect::<Vec<_>>(), [1, 0, 2]);
+        assert_eq!(from_the_middle(4).collect::<Vec<_>>(), [2, 1, 3, 0]);
+        for length in 1..=63 {
+            let mut order: Vec<i32> = from_the_middle(length).collect();
+            order.sort_unstable();
+            assert_eq!(order, (0..length).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn the_largest_detour_is_no_limit() {
+        let far = Cost::of_move(mediant_grid::Vector::new(30_000, 30_000));
+        assert_eq!(times(far, NonZeroU32::MAX), Cost::MAX);
+        assert_eq!(times(far, NonZeroU32::MIN), far);
+    }
 }
