@@ -5,10 +5,10 @@ mod common;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use common::{any_clustering, any_lattice, clusters, k, lattice, map, on_all_cores};
+use common::{any_clustering, any_lattice, clusters, k, lattice, map};
 use mediant_grid::{AsciiMap, Centers, CornerRule, Grid, Lattice, Vertex};
 use mediant_hierarchy::{Clustering, HierarchyError};
-use mediant_oracle::{Explicit, Rng, describe, seeds};
+use mediant_oracle::{Explicit, Rng, describe, on_all_cores, seeds};
 
 type Cells = BTreeSet<(i32, i32)>;
 

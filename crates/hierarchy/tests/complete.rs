@@ -4,11 +4,11 @@ mod common;
 
 use common::{
     Answer, Bound, Setting, any_clustering, any_lattice, ask, check_path, chpa, clusters, describe_query,
-    free_cells, hpa, k, lattice, map, number, on_all_cores, random_queries, segments,
+    free_cells, hpa, k, lattice, map, number, random_queries, segments,
 };
 use mediant_grid::{Centers, CornerRule, Grid, Lattice, Placement, Vertex};
 use mediant_hierarchy::{ChpaStar, Clustering, HpaStar};
-use mediant_oracle::{Explicit, Rng, random_vertex, seeds};
+use mediant_oracle::{Explicit, Rng, on_all_cores, random_vertex, seeds};
 use mediant_search::{
     AStar, Counters, Guarantee, LatticeDistance, Outcome, Planner, Query, QueryError, SquaredEuclidean,
 };

@@ -4,11 +4,11 @@ mod common;
 
 use common::{
     Setting, any_clustering, any_lattice, ask, check_path, chpa, clusters, describe_query, hpa, k, lattice,
-    map, on_all_cores, random_queries, segments,
+    map, random_queries, segments,
 };
 use mediant_grid::{AsciiMap, Centers, CornerRule, Grid, Lattice, Rectangle};
 use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, HierarchyError, HpaStar, SegmentGraph};
-use mediant_oracle::{Rng, seeds};
+use mediant_oracle::{Rng, on_all_cores, seeds};
 use mediant_search::{LatticeDistance, Outcome, Planner, Query, QueryError, Zero};
 
 #[test]

@@ -4,11 +4,11 @@ mod common;
 
 use common::{
     CORNER_RULES, Setting, any_clustering, any_lattice, ask, check_path, chpa, clusters, describe_query, hpa,
-    k, lattice, map, on_all_cores, random_queries, segments,
+    k, lattice, map, random_queries, segments,
 };
 use mediant_grid::{AsciiMap, CornerRule, Grid, Rectangle};
 use mediant_hierarchy::{Clustering, HierarchyError};
-use mediant_oracle::{Rng, describe, seeds};
+use mediant_oracle::{Rng, describe, on_all_cores, seeds};
 use mediant_search::{Outcome, QueryError};
 
 /// What may happen to a map.

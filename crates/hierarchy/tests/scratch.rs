@@ -10,11 +10,11 @@ use std::{
 
 use common::{
     Bound, Setting, Solve, any_clustering, any_lattice, ask, chpa, clusters, describe_query, hpa, k, lattice,
-    map, number, on_all_cores, random_queries, segments,
+    map, number, random_queries, segments,
 };
 use mediant_grid::{Centers, CornerRule, Grid, Lattice, Rectangle};
 use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, Conduct, HpaStar, SegmentGraph};
-use mediant_oracle::{Rng, caves, seeds};
+use mediant_oracle::{Rng, caves, on_all_cores, seeds};
 use mediant_search::{Counters, Outcome, Planner, Query};
 
 thread_local! {

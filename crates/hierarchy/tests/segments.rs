@@ -3,10 +3,10 @@
 
 mod common;
 
-use common::{k, lattice, map, on_all_cores, segments};
+use common::{k, lattice, map, segments};
 use mediant_grid::{AsciiMap, CornerRule, Grid, Vertex};
 use mediant_hierarchy::{HierarchyError, SegmentGraph};
-use mediant_oracle::{Rng, describe, seeds};
+use mediant_oracle::{Rng, describe, on_all_cores, seeds};
 
 const EAST: u8 = 1;
 const SOUTH: u8 = 2;

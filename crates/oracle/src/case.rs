@@ -1,6 +1,12 @@
 //! What a failing test should say.
 
-use std::{fmt, ops::Range};
+use std::{
+    fmt,
+    num::NonZero,
+    ops::Range,
+    panic::resume_unwind,
+    thread::{self, ScopedJoinHandle},
+};
 
 use mediant_grid::{Grid, Rules, Vertex};
 
@@ -53,6 +59,20 @@ pub fn seeds(default: u64) -> Range<u64> {
         number.unwrap_or_else(|| panic!("MEDIANT_GRIDS is {text:?}, not a number"))
     });
     0..asked.unwrap_or(default)
+}
+
+/// What `part` says of each seed, on all cores. In the order of the cores.
+///
+/// # Panics
+/// When `part` does.
+pub fn on_all_cores<R: Send>(seeds: Range<u64>, part: impl Fn(u64) -> R + Sync) -> Vec<R> {
+    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    let part = |first: usize| seeds.clone().skip(first).step_by(threads).map(&part).collect::<Vec<R>>();
+    thread::scope(|scope| {
+        let parts: Vec<_> = (0..threads).map(|first| scope.spawn(move || part(first))).collect();
+        let said = |part: ScopedJoinHandle<'_, Vec<R>>| part.join().unwrap_or_else(|why| resume_unwind(why));
+        parts.into_iter().flat_map(said).collect()
+    })
 }
 
 /// The rules, the query, the seed, and the map in a form that [`AsciiMap::parse`](mediant_grid::AsciiMap::parse) reads.

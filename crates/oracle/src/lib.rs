@@ -45,7 +45,7 @@ mod random;
 mod validate;
 mod visibility;
 
-pub use case::{Case, describe, seeds};
+pub use case::{Case, describe, on_all_cores, seeds};
 pub use dijkstra::{Costs, Explicit};
 pub use generate::{
     adversarial, caves, maze, noise, random_free_vertex, random_grid, random_vertex, rooms, suite_grid,

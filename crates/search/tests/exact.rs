@@ -2,12 +2,12 @@
 
 mod common;
 
-use std::{num::NonZero, sync::Arc, thread};
+use std::sync::Arc;
 
 use common::{Engine, with_any_angle_engines, with_engines};
 use mediant_grid::{CornerRule, Grid, Rules, Vertex};
 use mediant_moves::{K, Knob};
-use mediant_oracle::{Explicit, Rng, describe, random_free_vertex, suite_grid, validate};
+use mediant_oracle::{Explicit, Rng, describe, on_all_cores, random_free_vertex, suite_grid, validate};
 use mediant_search::{Counters, Guarantee, Outcome, Path, Query, QueryError};
 
 fn seeds() -> std::ops::Range<u64> {
@@ -161,13 +161,7 @@ fn check_all(seed: u64) -> Tally {
 
 #[test]
 fn engines_cost_what_dijkstra_on_the_explicit_graph_costs() {
-    let threads = thread::available_parallelism().map_or(1, NonZero::get);
-    let part = |first: usize| seeds().skip(first).step_by(threads).map(check_all);
-    let parts: Vec<Tally> = thread::scope(|scope| {
-        let parts: Vec<_> =
-            (0..threads).map(|first| scope.spawn(move || part(first).collect::<Vec<_>>())).collect();
-        parts.into_iter().flat_map(|part| part.join().expect("a part failed, as said above")).collect()
-    });
+    let parts: Vec<Tally> = on_all_cores(seeds(), check_all);
     let Tally { found, unreachable, off_plan, as_published, gave_up } =
         parts.iter().copied().fold(Tally::default(), Tally::add);
     // A generator that went wrong must not make the suite empty.

@@ -2,12 +2,12 @@
 
 mod common;
 
-use common::{GAPS, HIERARCHIES, graph, k, knobs, on_all_cores, terrain};
+use common::{GAPS, HIERARCHIES, graph, k, knobs, terrain};
 use mediant_grid::{Centers, CornerRule, Corners, Grid, Placement, Rules, Terrain, Vertex};
 use mediant_moves::{K, Knob};
 use mediant_oracle::{
-    Explicit, Rng, Visibility, describe, is_doubly_blocked, random_free_vertex, seeds, suite_grid, validate,
-    vertex_is_free,
+    Explicit, Rng, Visibility, describe, is_doubly_blocked, on_all_cores, random_free_vertex, seeds,
+    suite_grid, validate, vertex_is_free,
 };
 use mediant_search::{Counters, Guarantee, Outcome, Path, Planner, Query};
 use mediant_subgoal::{Connect, Hierarchy, SubgoalAStar, SubgoalGraph, SubgoalTheta};

@@ -2,10 +2,10 @@
 
 mod common;
 
-use common::{GAPS, HIERARCHIES, graph, k, levels, on_all_cores, terrain};
+use common::{GAPS, HIERARCHIES, graph, k, levels, terrain};
 use mediant_grid::{AsciiMap, Corners, DiagonalGap, Grid, Placement, Terrain, Vertex};
 use mediant_moves::Knob;
-use mediant_oracle::{Rng, random_free_vertex, seeds, suite_grid, validate};
+use mediant_oracle::{Rng, on_all_cores, random_free_vertex, seeds, suite_grid, validate};
 use mediant_search::{Outcome, Planner, Query};
 use mediant_subgoal::{SubgoalAStar, SubgoalError, SubgoalGraph, SubgoalTheta};
 

@@ -7,11 +7,12 @@ use std::{
     collections::{BTreeSet, BinaryHeap},
 };
 
-use common::{GAPS, HIERARCHIES, graph, k, levels, on_all_cores, terrain};
+use common::{GAPS, HIERARCHIES, graph, k, levels, terrain};
 use mediant_grid::{Corners, DiagonalGap, Grid, Rules, Vector, Vertex};
 use mediant_moves::{K, Knob};
 use mediant_oracle::{
-    Costs, Explicit, Visibility, describe, random_grid, seeds, segment_is_legal, suite_grid, turn_is_legal,
+    Costs, Explicit, Visibility, describe, on_all_cores, random_grid, seeds, segment_is_legal, suite_grid,
+    turn_is_legal,
 };
 use mediant_search::{Path, Planner, Query};
 use mediant_subgoal::{Hierarchy, SubgoalAStar};

@@ -1,12 +1,7 @@
 //! What several suites of hierarchies need.
 #![allow(dead_code, reason = "each suite uses a part")]
 
-use std::{
-    num::{NonZero, NonZeroU32},
-    ops::{Deref, Range},
-    sync::Arc,
-    thread,
-};
+use std::{num::NonZeroU32, ops::Deref, sync::Arc};
 
 use mediant_grid::{Centers, CornerRule, Grid, Lattice, Place, Vector, Vertex};
 use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, Conduct, HpaStar, SegmentGraph};
@@ -197,14 +192,4 @@ pub(crate) fn check_path(lattice: &Lattice<Centers>, query: Query, path: &Path, 
 pub(crate) fn describe_query(lattice: &Lattice<Centers>, query: Query, seed: u64) -> String {
     let map = describe(lattice.grid(), lattice.rules(), query.start, query.goal, seed);
     format!("k = {}; {map}", lattice.k())
-}
-
-/// What `part` says of each seed, on all cores. In the order of the cores.
-pub(crate) fn on_all_cores<R: Send>(seeds: Range<u64>, part: impl Fn(u64) -> R + Sync) -> Vec<R> {
-    let threads = thread::available_parallelism().map_or(1, NonZero::get);
-    let part = |first: usize| seeds.clone().skip(first).step_by(threads).map(&part).collect::<Vec<R>>();
-    thread::scope(|scope| {
-        let parts: Vec<_> = (0..threads).map(|first| scope.spawn(move || part(first))).collect();
-        parts.into_iter().flat_map(|part| part.join().expect("a part failed, as said above")).collect()
-    })
 }

@@ -1,7 +1,7 @@
 //! What several suites of subgoal graphs need.
 #![allow(dead_code, reason = "each suite uses a part")]
 
-use std::{num::NonZero, num::NonZeroU32, ops::Range, sync::Arc, thread};
+use std::{num::NonZeroU32, sync::Arc};
 
 use mediant_grid::{DiagonalGap, Grid, Place, Terrain};
 use mediant_moves::{K, Knob};
@@ -32,14 +32,4 @@ pub(crate) fn terrain<P: Place>(grid: &Grid, rule: P::Rule) -> Terrain<P> {
 
 pub(crate) fn graph<P: Connect>(terrain: &Terrain<P>, k: Knob, hierarchy: Hierarchy) -> SubgoalGraph<P> {
     SubgoalGraph::new(terrain, k, hierarchy).expect("there is a graph for this k")
-}
-
-/// What `part` says of each seed, on all cores. In the order of the cores.
-pub(crate) fn on_all_cores<R: Send>(seeds: Range<u64>, part: impl Fn(u64) -> R + Sync) -> Vec<R> {
-    let threads = thread::available_parallelism().map_or(1, NonZero::get);
-    let part = |first: usize| seeds.clone().skip(first).step_by(threads).map(&part).collect::<Vec<R>>();
-    thread::scope(|scope| {
-        let parts: Vec<_> = (0..threads).map(|first| scope.spawn(move || part(first))).collect();
-        parts.into_iter().flat_map(|part| part.join().expect("a part failed, as said above")).collect()
-    })
 }
