@@ -52,10 +52,10 @@
 //! | 3 | sc1 | 3.88 % | 0.25 % | 0.63 % | 56 × | 23 × |
 //! | 3 | wc3maps512 | 3.81 % | 0.26 % | 0.67 % | 36 × | 13 × |
 //!
-//! (Its authors: within 1 % of optimal after smoothing, up to ten times faster than A*. In noise, on random512-10-0, it is 1.5 % longer and 3.5 times as fast.)
+//! (Its authors: within 1 % of optimal after smoothing, up to ten times faster than A*. In noise, on random512-10-0, it is 1.5 % longer and 3.7 times as fast.)
 //!
 //! On Moscow_2_1024, 1024 × 1024 cells, k = 3, one core, an index takes 31 ms to make (CHPA*: 41 ms). Repairing it after a square of 10 × 10 cells changed takes 0.2 ms in the mean of 300,
-//! 0.4 ms at most (CHPA*: 0.01 and 0.07 ms); on random512-10-0 0.3 and 0.6 ms. (The first in a process, whose memory is new, took 2 ms.) The new grid takes 0.02 ms, the new lattice 0.4 ms, on other maps of this size up to 0.9 ms.
+//! 0.4 ms at most (CHPA*: 0.01 ms); on random512-10-0 0.3 and 0.6 ms. (The first in a process, whose memory is new, took 2 ms.) The new grid takes 0.02 ms (0.1 where its memory is new), the new lattice 0.4 ms, on other maps of this size up to 0.9 ms.
 //!
 //! **What Teleiša & Čalnerytė 2023 claim, and what is found** (their four maps of 768 × 768 tiles, 200 instances of each, drawn as they say, k = 2; MD, ED and SED are the Manhattan, the
 //! Euclidean and the squared Euclidean distance, and *tiles* nodes that were expanded):

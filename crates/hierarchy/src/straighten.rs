@@ -3,8 +3,8 @@
 use mediant_grid::{Centers, Lattice, Vector, Vertex};
 use mediant_moves::{Cost, decompose};
 
-/// How many turning points back a shortcut may begin. With 4 the paths of HPA* are 0.59 % longer than optimal in the mean of 14 maps, with 8 0.40 %, with 16 0.38 %; beyond 8 looking takes longer
-/// than the search.
+/// How many turning points back a shortcut may begin. In the mean of 14 maps, k = 3: with 4 the paths of HPA* are 0.57 % longer than optimal, and a query takes 1.08 times as long as without
+/// straightening; with 8 it is 0.43 % and 1.25 times, with 16 0.42 % and 1.71 times.
 const REACH: usize = 8;
 
 /// The scratch memory of straightening.

@@ -79,7 +79,7 @@ impl PartialEq for ClusterGraph {
 impl Eq for ClusterGraph {}
 
 impl ClusterGraph {
-    /// The index of a map. It takes 25 to 80 ms on maps of 512 × 512 to 1024 × 1024 cells.
+    /// The index of a map. On fourteen benchmark maps of up to 1024 × 1024 cells it takes 2 to 97 ms, longest in noise.
     ///
     /// # Errors
     /// [`HierarchyError`] for k above 3, for corners that may be cut, or a clustering that is out of range.
