@@ -295,3 +295,40 @@ fn hpa_on(map: &Path, k: u32, every: NonZeroUsize) -> Result<Option<[f64; 4]>, E
     let nodes = (astar.expanded() / hpa.expanded().max(1.0)).ln();
     Ok(Some([mean(refined), mean(hpa), nodes, (astar.seconds / hpa.seconds).ln()]))
 }
+
+#[cfg(test)]
+mod tests {
+    use mediant_grid::Vertex;
+
+    use super::*;
+
+    /// Of `count` lengths, in another order; where an instance starts says its length.
+    fn instances(count: i32) -> Vec<Instance> {
+        let instance = |i: i32| {
+            let length = i * 7 % count;
+            let (start, goal) = (Vertex::new(length, 0), Vertex::new(0, 0));
+            let optimal = f64::from(length);
+            Instance { bucket: 0, map: "map".into(), width: 1, height: 1, start, goal, optimal }
+        };
+        (0..count).map(instance).collect()
+    }
+
+    #[test]
+    fn one_instance_is_drawn_from_each_part_of_the_lengths() {
+        // 1,003 is no multiple of 200: three parts have one more than the others' five.
+        for (count, of_part) in [(1_003, 5..=6), (200, 1..=1)] {
+            let drawn = draw(instances(count), &mut Rng::new(1));
+            assert_eq!(drawn.len(), DRAWN);
+            for (part, query) in drawn.iter().enumerate() {
+                let [first, beyond] = [part, part + 1].map(|part| (part * count as usize / DRAWN) as i32);
+                assert!(of_part.contains(&(beyond - first)));
+                assert!((first..beyond).contains(&query.start.x), "part {part} of {count}: {query:?}");
+            }
+        }
+        let [same, again, other] = [1, 1, 2].map(|seed| draw(instances(1_003), &mut Rng::new(seed)));
+        assert_eq!(same, again);
+        assert_ne!(same, other);
+        // Fewer than there are parts: each once.
+        assert_eq!(draw(instances(11), &mut Rng::new(1)).len(), 11);
+    }
+}
