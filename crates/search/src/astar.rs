@@ -70,7 +70,8 @@ impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> AStar<L, H> {
     ) -> Result<bool, QueryError> {
         let Some(&start) = path.last() else { return Ok(false) };
         let Some((start, goal)) = Query::new(start, goal).ends(&self.lattice)? else { return Ok(false) };
-        let found = self.search(start, Some(goal), limit, observer) && self.cost_to(goal) <= Some(limit);
+        // The last move costs what h_k says of it, so that no path beyond the limit comes as far as the goal.
+        let found = self.search(start, Some(goal), limit, observer);
         if found {
             self.extend_back(start, goal, path);
         }
