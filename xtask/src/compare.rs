@@ -2,7 +2,6 @@
 //! `benchdata/anchors.json`.
 
 mod report;
-mod table;
 
 use std::{
     fs,

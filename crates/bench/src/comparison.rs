@@ -1,5 +1,6 @@
 //! Our ratio to programs that were measured elsewhere.
 
+use mediant_report::stats::geometric_mean;
 use serde::Serialize;
 
 use crate::{Anchors, MapRecord, Timing, Yardstick};
@@ -57,13 +58,6 @@ impl Comparison {
     }
 }
 
-/// The geometric mean of positive numbers; `None` of none.
-#[must_use]
-pub fn geometric_mean(values: &[f64]) -> Option<f64> {
-    let logarithms: f64 = values.iter().map(|value| value.ln()).sum();
-    (!values.is_empty()).then(|| (logarithms / values.len() as f64).exp())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -112,11 +106,5 @@ mod tests {
         assert_eq!(Comparison::new(&anchors, &record, &record.timings[0]), None);
         record.map = "elsewhere".to_owned();
         assert_eq!(Comparison::new(&anchors, &record, &record.timings[0]), None);
-    }
-
-    #[test]
-    fn geometric_means() {
-        assert_eq!(geometric_mean(&[]), None);
-        assert!((geometric_mean(&[2.0, 8.0]).unwrap() - 4.0).abs() < 1e-12);
     }
 }

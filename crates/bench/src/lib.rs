@@ -11,9 +11,10 @@
 //! * [`Archive`]: where the maps and scenarios of the benchmark sets are; [`Problem`]: one of them, loaded.
 //! * [`Contender`]: one of our engines in a [`Setup`](mediant_engines::Setup), or a yardstick.
 //! * [`measure`]: the side by side. [`MapRecord`]: what it found.
+//! * [`Study`]: setups on the queries of one map, with all that their searches count. [`Run`]: what one of them made of these.
 //! * [`Anchors`], [`Comparison`]: the other programs, and our ratio to each.
 //!
-//! What is not here: tables and files of results (`xtask compare`), and the criterion benches, which are in `benches/`.
+//! What is not here: tables and files of results (`mediant-report`, `xtask`), and the criterion benches, which are in `benches/`.
 
 mod anchors;
 mod archive;
@@ -23,12 +24,14 @@ mod measure;
 mod problem;
 #[cfg(doctest)]
 mod readme;
+mod study;
 mod yardstick;
 
-pub use anchors::{Anchors, AnchorsError, Comparand, MapAnchors, Preprocessing};
+pub use anchors::{Anchors, AnchorsError, Comparand, MapAnchors, Preprocessing, Published, PublishedRow};
 pub use archive::{Archive, ArchiveError};
-pub use comparison::{Comparison, PreparationRatio, geometric_mean};
+pub use comparison::{Comparison, PreparationRatio};
 pub use contender::Contender;
 pub use measure::{MapRecord, MeasureError, Preparation, Timing, measure};
 pub use problem::{Problem, ProblemError};
+pub use study::{Answer, Run, Study};
 pub use yardstick::Yardstick;

@@ -6,6 +6,7 @@ use mediant_engines::EngineError;
 use mediant_formats::scenario_tolerance;
 use mediant_grid::{CornerRule, Rules};
 use mediant_moves::{K, Knob};
+use mediant_report::stats::median;
 use mediant_search::QueryError;
 use serde::Serialize;
 
@@ -137,7 +138,7 @@ pub fn measure(
         }
     }
     for timing in &mut timings {
-        timing.micros = median(&timing.passes);
+        timing.micros = median(&timing.passes).unwrap_or_default();
     }
     Ok(MapRecord { map: problem.name.clone(), set: problem.set.clone(), instances: problem.len(), timings })
 }
@@ -202,15 +203,4 @@ fn pass(problem: &Problem, runner: &mut Runner) -> f64 {
         let _ = black_box(runner.solve(black_box(case.query)));
     }
     begin.elapsed().as_secs_f64() * 1e6 / problem.len() as f64
-}
-
-/// The middle value, or the mean of the two in the middle; 0 of none.
-fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let (low, high) = (sorted.len().saturating_sub(1) / 2, sorted.len() / 2);
-    match (sorted.get(low), sorted.get(high)) {
-        (Some(low), Some(high)) => f64::midpoint(*low, *high),
-        _ => 0.0,
-    }
 }

@@ -1,19 +1,14 @@
 //! What a comparison found, as text and as JSON.
 
-use std::{
-    fs,
-    path::Path,
-    process::{Command, Stdio},
-};
+use std::path::Path;
 
-use mediant_bench::{Comparand, Comparison, MapRecord, geometric_mean};
+use mediant_bench::{Comparand, Comparison, MapRecord};
 use mediant_engines::Setup;
+use mediant_report::{Machine, Table, number, stats::geometric_mean};
 use serde::Serialize;
 
-use super::{
-    Options, Results,
-    table::{Table, number},
-};
+use super::{Options, Results};
+use crate::project;
 
 /// The tables: times, then for each setup its ratios to the programs that solve the same problem, and to the others.
 pub(super) fn text(results: &Results<'_>, options: &Options) -> String {
@@ -128,7 +123,7 @@ fn preparation(results: &Results<'_>, setup: usize, programs: &[(usize, &Compara
     let columns = programs
         .iter()
         .flat_map(|(_, program)| ["time", "size"].map(|what| format!("{} {what}", program.name)));
-    let mut table = Table::new(heading.chain(columns).collect());
+    let mut table = Table::new(heading.chain(columns));
     let mut all: Vec<Vec<Option<f64>>> = Vec::new();
     for (record, comparisons) in results.records.iter().zip(&results.comparisons) {
         let (Some(timing), Some(comparison)) = (record.timings.get(setup), comparisons.get(setup)) else {
@@ -140,16 +135,14 @@ fn preparation(results: &Results<'_>, setup: usize, programs: &[(usize, &Compara
             let ratio = comparison.preparation.get(*program).copied().flatten();
             values.extend([ratio.map(|ratio| ratio.time), ratio.and_then(|ratio| ratio.bytes)]);
         }
-        table.row([record.map.clone()].into_iter().chain(values.iter().copied().map(cell)).collect());
+        table.row([record.map.clone()].into_iter().chain(values.iter().copied().map(cell)));
         all.push(values);
     }
     let mean = |column: usize| {
         let values: Vec<f64> = all.iter().filter_map(|row| row[column]).collect();
         cell(geometric_mean(&values))
     };
-    table.row(
-        ["geometric mean".to_owned()].into_iter().chain((0..2 + 2 * programs.len()).map(mean)).collect(),
-    );
+    table.row(["geometric mean".to_owned()].into_iter().chain((0..2 + 2 * programs.len()).map(mean)));
     table
 }
 
@@ -173,18 +166,10 @@ struct Figures<'a> {
     comparisons: &'a [Vec<Comparison>],
 }
 
-#[derive(Serialize)]
-struct Machine {
-    os: &'static str,
-    arch: &'static str,
-    cpu: Option<String>,
-    threads: Option<usize>,
-}
-
 pub(super) fn json(root: &Path, results: &Results<'_>, options: &Options) -> String {
     let figures = Figures {
-        revision: revision(root),
-        machine: machine(),
+        revision: project::revision(root),
+        machine: project::machine(),
         unit: "microseconds a query",
         every: options.every,
         passes: options.passes,
@@ -195,27 +180,4 @@ pub(super) fn json(root: &Path, results: &Results<'_>, options: &Options) -> Str
     };
     // Numbers, strings and lists only: this cannot fail.
     serde_json::to_string_pretty(&figures).unwrap_or_default() + "\n"
-}
-
-fn revision(root: &Path) -> String {
-    let git = Command::new("git")
-        .args(["describe", "--always", "--dirty", "--abbrev=40", "--exclude=*"])
-        .current_dir(root)
-        .stderr(Stdio::null())
-        .output();
-    match git {
-        Ok(output) if output.status.success() => String::from_utf8_lossy(&output.stdout).trim().to_owned(),
-        _ => "unknown".to_owned(),
-    }
-}
-
-fn machine() -> Machine {
-    let about = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let cpu = about.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));
-    Machine {
-        os: std::env::consts::OS,
-        arch: std::env::consts::ARCH,
-        cpu: cpu.map(|(_, name)| name.trim().to_owned()),
-        threads: std::thread::available_parallelism().ok().map(usize::from),
-    }
 }

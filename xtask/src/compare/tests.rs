@@ -157,13 +157,3 @@ fn a_disturbed_run_is_called_so() {
     let text = tables(&[1.64, 0.70, 0.76]);
     assert!(text.contains("CAUTION: here/there differs by a factor of 2.34"), "{text}");
 }
-
-#[test]
-fn tables_are_aligned() {
-    let mut table = table::Table::new(vec!["map".to_owned(), "µs".to_owned()]);
-    table.row(vec!["a".to_owned(), table::number(1234.4)]);
-    table.row(vec!["geo".to_owned(), table::number(0.5)]);
-    assert_eq!(table.lines(), ["map     µs", "──────────", "a     1234", "geo  0.500"]);
-    let numbers = [0.9996, 9.996, 99.96, 12.34].map(table::number);
-    assert_eq!(numbers, ["1.00", "10.0", "100", "12.3"]);
-}

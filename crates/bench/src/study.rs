@@ -1,0 +1,142 @@
+//! One setup on the queries of one map: what it answers, what it counts, how long it takes.
+
+use std::{hint::black_box, sync::Arc, time::Instant};
+
+use mediant_engines::{EngineError, Ground, Options, Setup, SharedRules, Solver, build};
+use mediant_grid::{Grid, Vertex};
+use mediant_report::stats::median;
+use mediant_search::{Counters, Outcome, Path, Query};
+
+use crate::Preparation;
+
+/// The pruning rules that the maps have in common.
+static RULES: SharedRules = SharedRules::new();
+
+/// Queries on a map that several setups answer, one after the other.
+#[derive(Debug)]
+pub struct Study<'a> {
+    grid: &'a Arc<Grid>,
+    queries: &'a [Query],
+    passes: u32,
+    /// The last ground, and what it took: setups of the same k and rules share it.
+    ground: Option<(Ground, f64)>,
+    index: Option<Index>,
+}
+
+/// The last index.
+#[derive(Debug)]
+struct Index {
+    of: Setup,
+    bytes: Vec<u8>,
+    seconds: f64,
+}
+
+/// What a setup made of the queries of a [`Study`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// The answers, in the order of the queries. `None` where there is no path, or none was found.
+    pub answers: Vec<Option<Answer>>,
+    /// The mean time of a query in microseconds, paths included: the median of the timed passes. `None` if there were none.
+    pub micros: Option<f64>,
+    /// What came before the first query; its time was measured once.
+    pub preparation: Preparation,
+}
+
+/// One path and what it took to find it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Answer {
+    /// Its Euclidean length in cells.
+    pub cost: f64,
+    /// How many steps it takes: of a path over N(k), its moves.
+    pub moves: u32,
+    /// How much it turns in all, in degrees: PS of Hammoud & Lupin 2023, Eq. 1.
+    pub smoothness: f64,
+    /// What the search did.
+    pub counters: Counters,
+}
+
+impl Answer {
+    fn new(path: &Path, counters: Counters) -> Self {
+        let step = |ends: &[Vertex]| ends[0].to(ends[1]).gcd();
+        let moves = path.waypoints().windows(2).map(step).sum();
+        Self { cost: path.cost(), moves, smoothness: path.smoothness(), counters }
+    }
+}
+
+impl<'a> Study<'a> {
+    /// A study whose runs are timed so many times; 0: not at all.
+    #[must_use]
+    pub const fn new(grid: &'a Arc<Grid>, queries: &'a [Query], passes: u32) -> Self {
+        Self { grid, queries, passes, ground: None, index: None }
+    }
+
+    /// The queries.
+    #[must_use]
+    pub const fn queries(&self) -> &'a [Query] {
+        self.queries
+    }
+
+    /// Answers all queries by a setup: once to count, which also warms its memory, then in the timed passes.
+    ///
+    /// A setup of the same engine, k, rules and levels as the one before it, smoothed in another way, takes over its index.
+    ///
+    /// # Errors
+    /// [`EngineError`] for a setup that does not exist.
+    pub fn run(&mut self, setup: Setup) -> Result<Run, EngineError> {
+        let (mut solver, preparation) = self.solver(setup)?;
+        let answer = |query: &Query| match solver.solve_counted(*query) {
+            Ok((Outcome::Found(path), counters)) => Some(Answer::new(&path, counters)),
+            // A query with a blocked end, or one at which CHPA* as published gives up.
+            Ok((Outcome::Unreachable, _)) | Err(_) => None,
+        };
+        let answers: Vec<Option<Answer>> = self.queries.iter().map(answer).collect();
+        let mut pass = || {
+            let begin = Instant::now();
+            for query in self.queries {
+                let _ = black_box(solver.solve(black_box(*query)));
+            }
+            begin.elapsed().as_secs_f64() * 1e6 / self.queries.len().max(1) as f64
+        };
+        let passes: Vec<f64> = (0..self.passes).map(|_| pass()).collect();
+        Ok(Run { answers, micros: median(&passes), preparation })
+    }
+
+    fn solver(&mut self, setup: Setup) -> Result<(Solver, Preparation), EngineError> {
+        setup.check()?;
+        let ground = match self.ground.take() {
+            Some((ground, seconds)) if (ground.k(), ground.rules()) == (setup.k, setup.rules) => {
+                (ground, seconds)
+            }
+            _ => {
+                let begin = Instant::now();
+                let ground = Ground::new(setup, self.grid)?;
+                (ground, begin.elapsed().as_secs_f64())
+            }
+        };
+        let (ground, seconds) = self.ground.insert(ground);
+        let (bytes, mut preparation) =
+            (ground.index_bytes(), Preparation { seconds: *seconds, bytes: ground.index_bytes() });
+        let mut prebuilt = RULES.prebuilt(setup);
+        if setup.engine.about().index.is_some() {
+            let of = Setup { options: Options { smoothing: None, ..setup.options }, ..setup };
+            let index = match self.index.take() {
+                Some(index) if index.of == of => index,
+                _ => {
+                    let (bytes, made) = build(of, self.grid)?;
+                    Index { of, bytes, seconds: made.time.as_secs_f64() }
+                }
+            };
+            // What `build` took has the ground in it.
+            preparation.seconds = index.seconds;
+            prebuilt.index = Some(index.bytes.clone());
+            self.index = Some(index);
+        }
+        let solver = Solver::on(setup, ground, prebuilt)?;
+        let made = solver.preprocessing();
+        preparation.bytes = bytes + made.index_bytes;
+        if setup.engine.about().index.is_none() {
+            preparation.seconds += made.time.as_secs_f64();
+        }
+        Ok((solver, preparation))
+    }
+}
