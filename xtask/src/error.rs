@@ -12,6 +12,9 @@ pub enum Error {
     /// Costs that differ from the known ones, or fewer of them than there should be.
     #[error("{0}")]
     Verify(String),
+    /// A table that could not be reproduced.
+    #[error("{0}")]
+    Reproduce(String),
     /// A comparison that could not be made.
     #[error(transparent)]
     Compare(#[from] crate::compare::CompareError),

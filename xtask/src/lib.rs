@@ -8,13 +8,13 @@
 
 mod archive;
 pub mod ci;
-pub mod claims;
 pub mod compare;
 pub mod download;
 mod error;
 mod fetch;
 pub mod manifest;
 pub mod project;
+pub mod reproduce;
 pub mod tidy;
 pub mod verify;
 

@@ -4,7 +4,7 @@
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use xtask::{ci, claims, compare, download, tidy, verify};
+use xtask::{ci, compare, download, reproduce, tidy, verify};
 
 /// The chores of the Mediant workspace
 #[derive(Parser)]
@@ -22,8 +22,8 @@ enum Task {
     Verify(verify::Options),
     /// Time our engines beside other programs, on the same instances
     Compare(compare::Options),
-    /// Measure what the papers on hierarchical planners claim
-    Claims(claims::Options),
+    /// Measure the papers' tables and figures, and write them beside the published values to docs/results
+    ReproduceTables(reproduce::Options),
     /// Check the rules of the project that the compiler does not know
     Tidy,
     /// Check all but the tests: format, lints, documentation, tidiness, the oldest supported Rust
@@ -35,7 +35,7 @@ fn main() -> ExitCode {
         Task::Download(options) => download::run(&options),
         Task::Verify(options) => verify::run(&options),
         Task::Compare(options) => compare::run(&options).map_err(Into::into),
-        Task::Claims(options) => claims::run(&options),
+        Task::ReproduceTables(options) => reproduce::run(&options),
         Task::Tidy => tidy::run(),
         Task::Ci => ci::run(),
     };

@@ -38,7 +38,7 @@
 //! **The key decision: what is stored follows from the map alone, part by part.** No numbering, no order of work and no history enters an index. So 'a repaired index equals a rebuilt one'
 //! is a comparison of values, and repairing is making anew what the changed cells can have touched.
 //!
-//! **How good, how fast.** `cargo xtask claims` measures it; lengths and counts are the same on every machine. HPA* with its default clustering on all maps of four sets
+//! **How good, how fast.** `cargo xtask reproduce-tables --only hpa-games teleisa2023` measures it; lengths and counts are the same on every machine. HPA* with its default clustering on all maps of four sets
 //! of games, each 100th instance, means over the maps:
 //!
 //! | k | set | as refined, longer than optimal | smoothed | worst map | fewer nodes than A* | less time |

@@ -1,0 +1,229 @@
+//! What a run is about, and what an experiment sees of it.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    sync::atomic::{AtomicBool, Ordering},
+};
+
+use mediant_oracle::Rng;
+use rayon::prelude::*;
+use serde::{Serialize, de::DeserializeOwned};
+use sha2::{Digest, Sha256};
+
+use super::{
+    Options,
+    experiment::Experiment,
+    maps::{Map, evenly},
+};
+use crate::{
+    Error, Source, download,
+    manifest::Manifest,
+    verify::{files, progress},
+};
+
+/// How often a time is taken.
+const PASSES: u32 = 3;
+
+/// What a run is about.
+pub(super) struct Setting {
+    pub(super) root: PathBuf,
+    pub(super) quick: bool,
+    pub(super) timed: bool,
+    pub(super) seed: u64,
+    /// The sets that were asked for; all if none was.
+    sets: Vec<String>,
+    /// The threads of what is not timed.
+    pool: rayon::ThreadPool,
+    /// Where what was measured waits for the rest, should the run be interrupted.
+    parts: PathBuf,
+}
+
+/// How the maps of a step are gone through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum How {
+    /// Several at once: nothing in it is timed.
+    Counted,
+    /// One after the other.
+    Timed,
+}
+
+impl Setting {
+    pub(super) fn new(root: &Path, options: &Options, quick: bool, timed: bool) -> Result<Self, Error> {
+        let manifest = Manifest::read(&Manifest::path(root))?;
+        for name in &options.sets {
+            manifest.set(name)?;
+        }
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(options.jobs.unwrap_or(0).into()).build();
+        let pool = pool.map_err(|wrong| Error::Reproduce(format!("no threads: {wrong}")))?;
+        // What another program or another request measured is no part of this run.
+        let program = std::env::current_exe().and_then(fs::read).unwrap_or_default();
+        let request = format!("{quick} {timed} {} {:?}", options.seed, options.sets);
+        let key = Sha256::new().chain_update(program).chain_update(request).finalize();
+        let key: String = key.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
+        let parts = root.join("benchdata").join("cache").join(".reproduce").join(key);
+        let sets = options.sets.clone();
+        Ok(Self { root: root.to_owned(), quick, timed, seed: options.seed, sets, pool, parts })
+    }
+
+    fn folder(&self, set: &str) -> PathBuf {
+        self.root.join("benchdata").join("cache").join(set)
+    }
+
+    /// Whether a set is there and asked for.
+    fn has(&self, set: &str) -> bool {
+        (self.sets.is_empty() || self.sets.iter().any(|asked| asked == set)) && self.folder(set).is_dir()
+    }
+
+    /// Downloads those of the sets that are not there, as far as that is possible.
+    pub(super) fn provide<'a>(
+        &self,
+        sets: impl Iterator<Item = &'a str>,
+        mirror: Option<&str>,
+    ) -> Result<(), Error> {
+        let manifest = Manifest::read(&Manifest::path(&self.root))?;
+        let folder = self.root.join("benchdata").join("cache");
+        let cache = download::Cache { folder, source: Source::from_mirror(mirror) };
+        let mut seen = Vec::new();
+        for name in sets {
+            let asked = self.sets.is_empty() || self.sets.iter().any(|asked| asked == name);
+            if !asked || seen.contains(&name) || self.folder(name).is_dir() {
+                continue;
+            }
+            seen.push(name);
+            match cache.provide(manifest.set(name)?) {
+                Ok(report) => eprintln!("{report}"),
+                Err(error @ Error::Network { .. }) => {
+                    // Where one set cannot be asked for, none can.
+                    eprintln!("no download: {error}");
+                    return Ok(());
+                }
+                Err(error @ (Error::Absent { .. } | Error::Status { .. })) => eprintln!("{name}: {error}"),
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(())
+    }
+
+    /// Forgets the parts of a run that is complete.
+    pub(super) fn forget(&self) -> Result<(), Error> {
+        if self.parts.is_dir() {
+            fs::remove_dir_all(&self.parts).map_err(Error::at(&self.parts))?;
+        }
+        Ok(())
+    }
+}
+
+/// What an experiment sees of a run.
+pub(super) struct Context<'a> {
+    setting: &'a Setting,
+    experiment: &'static Experiment,
+}
+
+impl<'a> Context<'a> {
+    pub(super) const fn new(setting: &'a Setting, experiment: &'static Experiment) -> Self {
+        Self { setting, experiment }
+    }
+
+    /// The first of an even sample, else the second.
+    pub(super) fn quick_or<T>(&self, quick: T, full: T) -> T {
+        if self.setting.quick { quick } else { full }
+    }
+
+    /// How often a time is taken: 0 if none is.
+    pub(super) fn passes(&self) -> u32 {
+        if self.setting.timed { PASSES } else { 0 }
+    }
+
+    /// The map's random numbers.
+    pub(super) fn rng(&self, map: &Map) -> Rng {
+        map.rng(self.setting.seed)
+    }
+
+    /// Whether the experiment runs on the maps that come with the project.
+    pub(super) fn is_bundled(&self) -> bool {
+        let sets = self.experiment.sets;
+        !sets.is_empty() && !sets.iter().any(|set| self.setting.has(set))
+    }
+
+    /// The experiment's sets that are there and asked for; `bundled` where there is none.
+    pub(super) fn sets(&self) -> Vec<&'static str> {
+        let sets: Vec<&str> =
+            self.experiment.sets.iter().copied().filter(|set| self.setting.has(set)).collect();
+        if sets.is_empty() && !self.experiment.sets.is_empty() { vec!["bundled"] } else { sets }
+    }
+
+    /// The maps of a set, sorted; of a quick run, `quick` of them, evenly.
+    pub(super) fn maps(&self, set: &str, quick: usize) -> Result<Vec<Map>, Error> {
+        let folder = match set {
+            "bundled" => self.setting.root.join("benchdata").join("maps"),
+            set => self.setting.folder(set),
+        };
+        let paths = files(&folder, ".map")?;
+        let all: Vec<Map> = paths.iter().map(|path| Map::new(set, path)).collect();
+        Ok(evenly(&all, self.quick_or(quick, usize::MAX)))
+    }
+
+    /// The maps of these names of a set; all bundled ones where the set is not there.
+    pub(super) fn named(&self, set: &str, names: &[&str]) -> Result<Vec<Map>, Error> {
+        if !self.setting.has(set) {
+            return self.maps("bundled", usize::MAX);
+        }
+        let mut maps = Vec::new();
+        for name in names {
+            let path = self.setting.folder(set).join(format!("{name}.map"));
+            if !path.is_file() {
+                return Err(Error::Reproduce(format!("set {set} has no map `{name}`: download it anew")));
+            }
+            maps.push(Map::new(set, &path));
+        }
+        Ok(maps)
+    }
+
+    /// Does something with each map, with a bar that says how long the rest will take. What an interrupted run did of this step is not
+    /// done again.
+    pub(super) fn each<T: Serialize + DeserializeOwned + Send>(
+        &self,
+        step: &str,
+        how: How,
+        maps: &[Map],
+        work: impl Fn(&Map) -> Result<T, Error> + Sync,
+    ) -> Result<Vec<T>, Error> {
+        let bar = progress(&format!("{} {step}", self.experiment.id), maps.len());
+        let folder = self.setting.parts.join(self.experiment.id).join(step);
+        let failed = AtomicBool::new(false);
+        let part = |map: &Map| {
+            let path = folder.join(format!("{}-{}.json", map.set, map.name));
+            let known = fs::read(&path).ok().and_then(|text| serde_json::from_slice(&text).ok());
+            let done = match known {
+                Some(known) => Ok(Some(known)),
+                // After an error the rest need not be measured.
+                None if failed.load(Ordering::Relaxed) => Ok(None),
+                None => work(map).and_then(|done| {
+                    save(&path, &done)?;
+                    Ok(Some(done))
+                }),
+            };
+            failed.fetch_or(done.is_err(), Ordering::Relaxed);
+            bar.inc(1);
+            done
+        };
+        let done: Vec<Result<Option<T>, Error>> = match how {
+            How::Timed if self.setting.timed => maps.iter().map(part).collect(),
+            _ => self.setting.pool.install(|| maps.par_iter().map(part).collect()),
+        };
+        bar.finish_and_clear();
+        done.into_iter().filter_map(Result::transpose).collect()
+    }
+}
+
+/// Writes a part under another name first, so that it is whole or not there.
+fn save(path: &Path, part: &impl Serialize) -> Result<(), Error> {
+    let text = serde_json::to_vec(part).map_err(|wrong| Error::Reproduce(wrong.to_string()))?;
+    let partial = path.with_extension("partial");
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder).map_err(Error::at(folder))?;
+    }
+    fs::write(&partial, text).map_err(Error::at(&partial))?;
+    fs::rename(&partial, path).map_err(Error::at(path))
+}

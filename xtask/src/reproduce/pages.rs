@@ -1,0 +1,235 @@
+//! The pages: drawn from the records alone.
+
+use std::{
+    collections::BTreeMap,
+    fs,
+    path::{Path, PathBuf},
+};
+
+use mediant_report::{Claim, Kind, Provenance, Record, Table, Verdict, thousands, verdicts};
+
+use super::{
+    DATA, EXPERIMENTS, FIGURES,
+    experiment::{Experiment, Page, Section},
+    records, write,
+};
+use crate::Error;
+
+/// What the marks of tables mean.
+const MARKS: &str = "✓ as published: to the printed digits where the instances are the same, else within 3 % or what is said. ≈ within what another draw \
+                     of the instances makes (two standard errors of the difference). ✗ differs: [deviations](deviations.md) says why. – not measured.";
+
+/// Draws the pages of a folder from the records in it, and writes those that changed.
+///
+/// # Errors
+/// [`Error::Reproduce`] for a damaged record, and for a deviation whose cause is not said; errors of files.
+pub(super) fn write_all(out: &Path) -> Result<(), Error> {
+    let drawn = draw(&records(out)?)?;
+    let figures = out.join(FIGURES);
+    // Figures of experiments that are gone, or go by another name.
+    if figures.is_dir() {
+        for entry in fs::read_dir(&figures).map_err(Error::at(&figures))? {
+            let path = entry.map_err(Error::at(&figures))?.path();
+            let name = path.file_name().unwrap_or_default();
+            if !drawn.contains_key(&Path::new(FIGURES).join(name)) {
+                fs::remove_file(&path).map_err(Error::at(&path))?;
+            }
+        }
+    }
+    drawn.iter().try_for_each(|(path, text)| write(&out.join(path), text))
+}
+
+/// All files, by their paths within the folder.
+pub(super) fn draw(records: &[(&'static Experiment, Record)]) -> Result<BTreeMap<PathBuf, String>, Error> {
+    let mut files = BTreeMap::new();
+    let mut shown: Vec<(&Experiment, &Record, Section)> = Vec::new();
+    for (experiment, record) in records {
+        let mut section = (experiment.show)(record);
+        for (name, svg) in section.figures.drain(..) {
+            files.insert(Path::new(FIGURES).join(name), svg);
+        }
+        let unexplained = |claim: &&Claim| claim.verdict() == Verdict::Deviates && claim.cause.is_empty();
+        // A sample, or other maps, may deviate from what is published without a reason that could be given.
+        if let Some(claim) = section.claims.iter().find(unexplained)
+            && !is_partial(&record.provenance)
+        {
+            let (published, ours) = (claim.text(claim.published), claim.text(claim.ours.unwrap_or_default()));
+            let place = format!("{}, {}: {}", record.id, claim.source, claim.what);
+            return Err(Error::Reproduce(format!("{place} is {ours}, published {published}: why?")));
+        }
+        shown.push((experiment, record, section));
+    }
+    for page in Page::ALL {
+        let sections = || shown.iter().filter(|(experiment, ..)| experiment.page == page);
+        if sections().next().is_none() {
+            continue;
+        }
+        let mut text = format!("# {}\n\n[All results](README.md). {MARKS}\n\n", page.title());
+        for (experiment, record, section) in sections() {
+            text += &format!("## {}\n\n{}\n\n{}", experiment.title, about(record), section.markdown);
+        }
+        files.insert(format!("{}.md", page.file()).into(), text.trim_end().to_owned() + "\n");
+    }
+    files.insert("deviations.md".into(), deviations(&shown));
+    files.insert("README.md".into(), index(&shown));
+    Ok(files)
+}
+
+const fn is_partial(provenance: &Provenance) -> bool {
+    provenance.quick || provenance.bundled
+}
+
+/// What a record's figures are over and where they come from.
+fn about(record: &Record) -> String {
+    let Provenance { revision, machine, sets, maps, instances, drawn, seed, quick, bundled, passes } =
+        &record.provenance;
+    let mut text = String::new();
+    if *bundled {
+        text += "> **Not the paper's maps.** The benchmark sets were not there, so this was measured on the maps that come with the project.\n\n";
+    }
+    if *quick {
+        text += "> A quick run, on an even sample.\n\n";
+    }
+    text += &format!("{} instances", thousands(*instances as f64));
+    if *maps > 0 {
+        text += &format!(" on {maps} maps");
+    }
+    if !sets.is_empty() && !*bundled && *maps > 0 {
+        text += &format!(" of {}", sets.join(", "));
+    }
+    text += &format!(": {drawn}.");
+    if let Some(seed) = seed {
+        text += &format!(" Seed {seed}.");
+    }
+    if let Some(passes) = passes {
+        let cpu = machine.cpu.as_deref().unwrap_or(&machine.arch);
+        text += &format!(
+            " Times: one thread, warm, paths included, reading and preprocessing excluded, median of {passes} passes, on {cpu}."
+        );
+    } else if record.columns.iter().any(|column| column.kind == Kind::Time) {
+        text += " No times were taken.";
+    }
+    let short = revision.get(..12).unwrap_or(revision);
+    let dirty = if revision.ends_with("-dirty") && !short.ends_with("-dirty") { "-dirty" } else { "" };
+    text + &format!(" Revision {short}{dirty}. [All figures]({DATA}/{}.json).", record.id)
+}
+
+/// The page of what differs, and why.
+fn deviations(shown: &[(&Experiment, &Record, Section)]) -> String {
+    let mut text = "# Where our numbers differ from the published ones\n\n[All results](README.md). Each group is of one table column, figure or sentence of a \
+                    paper. The difference is ours over the published number, less 1.\n\n"
+        .to_owned();
+    for page in Page::ALL {
+        let mut groups: Vec<(&str, &str, Vec<&Claim>)> = Vec::new();
+        let sections = shown
+            .iter()
+            .filter(|(experiment, record, _)| experiment.page == page && !is_partial(&record.provenance));
+        for claim in sections.flat_map(|(.., section)| &section.claims) {
+            if claim.verdict() != Verdict::Deviates {
+                continue;
+            }
+            let group = groups
+                .iter_mut()
+                .find(|(source, cause, _)| (*source, *cause) == (&claim.source, &claim.cause));
+            match group {
+                Some((.., claims)) => claims.push(claim),
+                None => groups.push((&claim.source, &claim.cause, vec![claim])),
+            }
+        }
+        if groups.is_empty() {
+            continue;
+        }
+        text += &format!("## [{}]({}.md)\n\n", page.title(), page.file());
+        for (source, cause, claims) in groups {
+            text += &format!("**{source}.** {}\n\n{}\n\n", listed(&claims), cause.trim());
+        }
+    }
+    text.trim_end().to_owned() + "\n"
+}
+
+/// Claims, one by one if there are few.
+fn listed(claims: &[&Claim]) -> String {
+    let by = |claim: &Claim| 100.0 * claim.difference().unwrap_or_default();
+    if claims.len() <= 4 {
+        let one = |claim: &&Claim| {
+            let (published, ours) = (claim.text(claim.published), claim.text(claim.ours.unwrap_or_default()));
+            format!("{}: published {published}, here {ours} ({:+.1} %).", claim.what, by(claim))
+        };
+        return claims.iter().map(one).collect::<Vec<_>>().join(" ");
+    }
+    let (least, most) = claims
+        .iter()
+        .fold((f64::MAX, f64::MIN), |(least, most), claim| (least.min(by(claim)), most.max(by(claim))));
+    let names: Vec<&str> = claims.iter().map(|claim| claim.what.as_str()).collect();
+    format!("{} numbers, by {least:+.1} to {most:+.1} %: {}.", claims.len(), names.join("; "))
+}
+
+/// The first page.
+fn index(shown: &[(&Experiment, &Record, Section)]) -> String {
+    let mut text = "# Results\n\nEvery table and figure of the five papers, measured by `cargo xtask reproduce-tables`, beside the published values.\n\n"
+        .to_owned();
+    if shown.iter().any(|(_, record, _)| record.provenance.bundled) {
+        text += "> **Not the papers' maps.** Some benchmark sets were not there: `cargo xtask download` fetches them.\n\n";
+    }
+    if shown.iter().any(|(_, record, _)| record.provenance.quick) {
+        text += "> A quick run, on an even sample.\n\n";
+    }
+    let mut table =
+        Table::new(["page", "what", "instances", "✓", "≈", "✗", "–", "revision", "`--only`"]).names(2);
+    let mut total = [0; 4];
+    for (experiment, record, section) in shown {
+        let page = experiment.page;
+        let counts = verdicts(&section.claims);
+        total.iter_mut().zip(counts).for_each(|(total, count)| *total += count);
+        let mut cells = vec![
+            format!("[{0}]({0}.md)", page.file()),
+            experiment.title.to_owned(),
+            thousands(record.provenance.instances as f64),
+        ];
+        cells.extend(counts.map(|count| if count == 0 { String::new() } else { count.to_string() }));
+        cells.push(record.provenance.revision.get(..8).unwrap_or("unknown").to_owned());
+        cells.push(format!("`{}`", experiment.id));
+        table.row(cells);
+    }
+    let mut cells = vec!["**together**".to_owned(), String::new(), String::new()];
+    cells.extend(total.map(|count| count.to_string()));
+    table.row(cells);
+    text += &table.markdown();
+    text += &format!(
+        "\n{MARKS}\n\n\
+         The pages are drawn from the records in [`{DATA}/`]({DATA}): JSON, a row a line, each column with its unit, with revision, machine, number of \
+         instances and seed. Lengths and numbers of nodes are the same on every machine; times are not, so that only their ratios compare.\n\n\
+         ```sh\n\
+         cargo xtask reproduce-tables                      # everything, {} experiments\n\
+         cargo xtask reproduce-tables --quick              # an even sample, into docs/results/quick\n\
+         cargo xtask reproduce-tables --only kramm2018     # one page, or one experiment\n\
+         cargo xtask reproduce-tables --render             # the pages again, from the records\n\
+         cargo xtask reproduce-tables --check              # whether the counts are still the same\n\
+         ```\n\n\
+         A run that is interrupted goes on where it was. Benchmark sets that are not there are downloaded, or taken from `--mirror`; without them the experiments run on the \
+         maps that come with the project, and say so.\n",
+        EXPERIMENTS.len()
+    );
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn claim(ours: f64, cause: &str) -> Claim {
+        Claim::new("Table 1", format!("cost {ours}"), 2.0, Some(ours)).because(cause)
+    }
+
+    #[test]
+    fn few_claims_are_listed_and_many_are_summed_up() {
+        let claims: Vec<Claim> = [2.2, 2.4, 1.0, 3.0, 2.5].map(|ours| claim(ours, "x")).to_vec();
+        let few: Vec<&Claim> = claims.iter().take(2).collect();
+        assert_eq!(
+            listed(&few),
+            "cost 2.2: published 2.00, here 2.20 (+10.0 %). cost 2.4: published 2.00, here 2.40 (+20.0 %)."
+        );
+        let many: Vec<&Claim> = claims.iter().collect();
+        assert!(listed(&many).starts_with("5 numbers, by -50.0 to +50.0 %: cost 2.2; "));
+    }
+}

@@ -1,0 +1,140 @@
+//! Setups by their text, and what their runs come to.
+
+use mediant_bench::{Run, Study};
+use mediant_engines::Setup;
+use mediant_report::{Column, Row};
+use serde::{Deserialize, Serialize};
+
+use crate::Error;
+
+/// The setup of a text that is written in the sources.
+pub(super) fn setup(text: &str) -> Result<Setup, Error> {
+    text.parse().map_err(|wrong| Error::Reproduce(format!("{text}: {wrong}")))
+}
+
+/// What a setup, given as text, makes of the queries of a study.
+pub(super) fn run(study: &mut Study<'_>, text: &str) -> Result<Run, Error> {
+    study.run(setup(text)?).map_err(|wrong| Error::Reproduce(format!("{text}: {wrong}")))
+}
+
+/// Sums over the queries of runs, each query counting alike.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Sums {
+    pub(super) queries: u64,
+    /// Those that were answered by a path; the sums up to `worst` are over these.
+    pub(super) found: u64,
+    pub(super) cost: f64,
+    pub(super) moves: f64,
+    pub(super) smoothness: f64,
+    /// Those whose optimum is known and not 0, the sum of the lengths over the optima, and the largest of these ratios.
+    pub(super) compared: u64,
+    pub(super) ratios: f64,
+    pub(super) worst: f64,
+    pub(super) expanded: f64,
+    pub(super) percolations: f64,
+    pub(super) scanned: f64,
+    pub(super) fallbacks: f64,
+    /// The queries that were timed, and their times in microseconds.
+    pub(super) timed: u64,
+    pub(super) micros: f64,
+    /// Over maps: how many, what was prepared, in seconds and bytes.
+    pub(super) maps: u64,
+    pub(super) seconds: f64,
+    pub(super) bytes: f64,
+}
+
+impl Sums {
+    /// Those of a run, whose lengths are held against `optima`, if there are any: one for each query, 0 where none is known.
+    pub(super) fn of(run: &Run, optima: &[f64]) -> Self {
+        let mut sums = Self { maps: 1, queries: run.answers.len() as u64, ..Self::default() };
+        for (at, answer) in run.answers.iter().enumerate() {
+            let Some(answer) = answer else { continue };
+            sums.found += 1;
+            sums.cost += answer.cost;
+            sums.moves += f64::from(answer.moves);
+            sums.smoothness += answer.smoothness;
+            sums.expanded += answer.counters.expanded as f64;
+            sums.percolations += answer.counters.percolations as f64;
+            sums.scanned += answer.counters.scanned as f64;
+            sums.fallbacks += answer.counters.fallbacks as f64;
+            if let Some(&optimum) = optima.get(at).filter(|&&optimum| optimum > 0.0) {
+                sums.compared += 1;
+                sums.ratios += answer.cost / optimum;
+                sums.worst = sums.worst.max(answer.cost / optimum);
+            }
+        }
+        if let Some(micros) = run.micros {
+            sums.timed = sums.queries;
+            sums.micros = micros * sums.queries as f64;
+        }
+        (sums.seconds, sums.bytes) = (run.preparation.seconds, run.preparation.bytes as f64);
+        sums
+    }
+
+    /// Adds those of other queries.
+    pub(super) fn add(&mut self, other: &Self) {
+        self.queries += other.queries;
+        self.found += other.found;
+        self.cost += other.cost;
+        self.moves += other.moves;
+        self.smoothness += other.smoothness;
+        self.compared += other.compared;
+        self.ratios += other.ratios;
+        self.worst = self.worst.max(other.worst);
+        self.expanded += other.expanded;
+        self.percolations += other.percolations;
+        self.scanned += other.scanned;
+        self.fallbacks += other.fallbacks;
+        self.timed += other.timed;
+        self.micros += other.micros;
+        self.maps += other.maps;
+        self.seconds += other.seconds;
+        self.bytes += other.bytes;
+    }
+
+    /// The columns that [`Self::row`] fills.
+    pub(super) fn columns() -> Vec<Column> {
+        vec![
+            Column::count("queries", "", "queries"),
+            Column::count("found", "", "queries that were answered by a path; means are over these"),
+            Column::count("cost", "cells", "mean length of a path"),
+            Column::count("moves", "", "mean number of steps of a path"),
+            Column::count("smoothness", "degrees", "mean sum of the angles by which a path turns"),
+            Column::count("excess", "%", "mean of the lengths over the optima, less 1"),
+            Column::count("worst", "", "largest length over its optimum"),
+            Column::count("expanded", "", "mean number of nodes expanded"),
+            Column::count("percolations", "", "mean number of swaps in the heap"),
+            Column::count("scanned", "", "mean number of vertices looked at by jumps"),
+            Column::count("fallbacks", "", "how often searches left their plan, in all"),
+            Column::count("bytes", "bytes", "mean size of what is prepared of a map, beyond the map"),
+            Column::time("micros", "µs", "mean time of a query"),
+            Column::time("preparation", "s", "mean time to prepare a map"),
+        ]
+    }
+
+    /// Fills these columns of a row.
+    pub(super) fn row(&self, row: Row) -> Row {
+        let mean = |sum: f64, of: u64| (of > 0).then(|| sum / of as f64);
+        let found = |sum| mean(sum, self.found);
+        let excess = mean(self.ratios, self.compared).map(|ratio| 100.0 * (ratio - 1.0));
+        row.with("queries", self.queries as f64)
+            .with("found", self.found as f64)
+            .with("cost", found(self.cost))
+            .with("moves", found(self.moves))
+            .with("smoothness", found(self.smoothness))
+            .with("excess", excess)
+            .with("worst", (self.compared > 0).then_some(self.worst))
+            .with("expanded", found(self.expanded))
+            .with("percolations", found(self.percolations))
+            .with("scanned", found(self.scanned))
+            .with("fallbacks", self.fallbacks)
+            .with("bytes", mean(self.bytes, self.maps))
+            .with("micros", mean(self.micros, self.timed))
+            .with("preparation", mean(self.seconds, self.maps))
+    }
+}
+
+/// The lengths of a run's paths, 0 where there is none: the optima that others are held against.
+pub(super) fn costs(run: &Run) -> Vec<f64> {
+    run.answers.iter().map(|answer| answer.map_or(0.0, |answer| answer.cost)).collect()
+}
