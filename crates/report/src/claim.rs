@@ -15,7 +15,7 @@ pub struct Claim {
     pub tolerance: f64,
     /// The standard error of ours by the draw of its instances, a part of ours; 0 where the instances are the same.
     pub error: f64,
-    /// Why they differ, where they do: found, not guessed.
+    /// Why they differ, where they do: found, not guessed. A line a cause.
     pub cause: String,
     /// How the numbers are written: digits after the point, and what follows.
     pub digits: usize,

@@ -133,7 +133,7 @@ impl Section {
                     claim.what.clone(),
                     claim.text(claim.published),
                     claim.ours.map_or("–".to_owned(), |ours| claim.text(ours)),
-                    claim.difference().map_or(String::new(), |by| format!("{:+.1} %", 100.0 * by)),
+                    claim.difference().map_or(String::new(), percent),
                     claim.verdict().mark().to_owned(),
                 ]);
             }
@@ -141,4 +141,9 @@ impl Section {
         }
         self.claims.extend(claims);
     }
+}
+
+/// A difference in percent, without a sign that means nothing.
+pub(super) fn percent(difference: f64) -> String {
+    if difference.abs() < 5e-4 { "0.0 %".to_owned() } else { format!("{:+.1} %", 100.0 * difference) }
 }

@@ -140,9 +140,29 @@ fn deviations(shown: &[(&Experiment, &Record, Section)]) -> String {
             continue;
         }
         text += &format!("## [{}]({}.md)\n\n", page.title(), page.file());
+        // What several groups have in common is said once.
+        let mut causes: Vec<&str> = Vec::new();
         for (source, cause, claims) in groups {
-            text += &format!("**{source}.** {}\n\n{}\n\n", listed(&claims), cause.trim());
+            let numbers: Vec<String> = cause
+                .lines()
+                .map(|line| {
+                    let known = causes.iter().position(|known| *known == line);
+                    let at = known.unwrap_or_else(|| {
+                        causes.push(line);
+                        causes.len() - 1
+                    });
+                    (at + 1).to_string()
+                })
+                .collect();
+            let plural = if numbers.len() == 1 { "" } else { "s" };
+            text +=
+                &format!("**{source}.** {} → *cause{plural} {}*\n\n", listed(&claims), numbers.join(", "));
         }
+        text += "Causes:\n\n";
+        for (at, cause) in causes.iter().enumerate() {
+            text += &format!("{}. {}\n", at + 1, cause.trim());
+        }
+        text += "\n";
     }
     text.trim_end().to_owned() + "\n"
 }
@@ -231,5 +251,44 @@ mod tests {
         );
         let many: Vec<&Claim> = claims.iter().collect();
         assert!(listed(&many).starts_with("5 numbers, by -50.0 to +50.0 %: cost 2.2; "));
+    }
+
+    fn record(quick: bool) -> Record {
+        let provenance = Provenance { quick, ..Provenance::default() };
+        let (id, title) = ("sample".to_owned(), "a sample".to_owned());
+        Record { id, title, provenance, columns: Vec::new(), rows: Vec::new() }
+    }
+
+    #[test]
+    fn causes_in_common_are_said_once() {
+        let claims = vec![
+            claim(2.2, "ties\ndraw"),
+            Claim { source: "Table 2".to_owned(), ..claim(3.0, "draw") },
+            claim(2.01, "no deviation"),
+        ];
+        let section = || Section { claims: claims.clone(), ..Section::default() };
+        let whole = record(false);
+        let text = deviations(&[(&EXPERIMENTS[0], &whole, section())]);
+        assert!(
+            text.contains("**Table 1.** cost 2.2: published 2.00, here 2.20 (+10.0 %). → *causes 1, 2*"),
+            "{text}"
+        );
+        assert!(
+            text.contains("**Table 2.** cost 3: published 2.00, here 3.00 (+50.0 %). → *cause 2*"),
+            "{text}"
+        );
+        assert!(text.contains("1. ties\n2. draw\n") && !text.contains("no deviation"), "{text}");
+        // A sample says nothing about the paper.
+        let quick = record(true);
+        assert!(!deviations(&[(&EXPERIMENTS[0], &quick, section())]).contains("cost 3"));
+    }
+
+    #[test]
+    fn a_deviation_without_a_cause_is_no_result() {
+        let show = |_: &Record| Section { claims: vec![claim(3.0, "")], ..Section::default() };
+        let experiment: &'static Experiment = Box::leak(Box::new(Experiment { show, ..EXPERIMENTS[0] }));
+        let wrong = draw(&[(experiment, record(false))]).unwrap_err().to_string();
+        assert!(wrong.contains("sample, Table 1: cost 3 is 3.00, published 2.00: why?"), "{wrong}");
+        assert!(draw(&[(experiment, record(true))]).is_ok());
     }
 }

@@ -291,7 +291,7 @@ fn claims(record: &Record) -> Vec<Claim> {
     let [without_2, from_4] = [3, 4].map(|k| below(record, k..=LAST_PUBLISHED_K).unwrap_or_default());
     let what = "the same, 'less than 2 %'";
     claims.push(Claim::new("Summary", what, 2.0, mean).written(1, " %").because(format!(
-        "The paper gives two numbers for it: about 3 % with the experiment, which is what we find, and less than 2 % in the summary. It is k = 2 that makes the difference: without it          the mean is {without_2:.1} %, from k = 4 on {from_4:.1} %."
+        "The paper gives two numbers for it: about 3 % with the experiment, which is what we find, and less than 2 % in the summary. It is k = 2 that makes the difference: without it the mean is {without_2:.1} %, from k = 4 on {from_4:.1} %."
     )));
     for (set, _) in PUBLISHED {
         let all: Option<f64> = (FIRST_K..=LAST_K).map(|k| ours(set, "all", k, "violations")).sum();
