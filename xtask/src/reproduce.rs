@@ -1,11 +1,11 @@
 //! `cargo xtask reproduce-tables`: the papers' tables and figures, measured here, beside the published values.
 //!
-//! **The key decision: measuring and showing are two steps.** An [`Experiment`] measures into a
+//! **The key decision: measuring and showing are two steps.** An `Experiment` measures into a
 //! [`Record`], which is written as JSON and is all that its pages and figures are drawn from. So pages are drawn again without measuring
 //! (`--render`), a test holds the committed pages against the committed records, and a later run is compared number by number
 //! (`--check`).
 //!
-//! To add an experiment: a module with an [`Experiment`], and its line in [`EXPERIMENTS`].
+//! To add an experiment: a module with an `Experiment`, and its line in `EXPERIMENTS`.
 
 mod compared;
 mod context;
