@@ -20,15 +20,15 @@ use crate::{
 /// octant are compared with d at once and h_k is linear in the sector found, then the rounds of Algorithm 2 are unrolled. Beyond, rounds
 /// that fall to the same side are taken together: whatever k, about as many steps as Euclid's algorithm takes on d.
 ///
-/// Time as a part of the linear search's, k = 5, 6, 7 (the paper: 0.65–0.75), by `benches/distance.rs`, the random order in one run, the other in three;
-/// AMD EPYC, Rust 1.95, November 2026:
+/// Time as a part of the linear search's, k = 5, 6, 7 (the paper: 0.65–0.75), inlined, by `cargo xtask reproduce-tables --only hormazabal2017-distance`, whose
+/// record is in `docs/results`; AMD EPYC, Rust 1.95, November 2026:
 ///
 /// | displacements | of [`LinearSearch`]'s | of one `if` a move, compiled for that k |
 /// |---|---|---|
-/// | at random | 0.23, 0.26, 0.32 | 0.28, 0.33, 0.43 |
-/// | each near the last: the searches' branches are foreseen | 0.80, 0.81, 0.75 | 1.3, 1.4, 1.5 |
+/// | at random | 0.24, 0.26, 0.32 | 0.29, 0.32, 0.42 |
+/// | each near the last: the searches' branches are foreseen | 0.83, 0.84, 0.76 | 1.5, 1.3, 1.4 |
 ///
-/// So at random the paper's ratio is met by far. Where branches are foreseen it is met at k = 7 alone, and against the chain of `if`s
+/// So at random the paper's ratio is met by far. Where branches are foreseen it is nearly met at k = 7 alone, and against the chain of `if`s
 /// missed throughout. (Summed rather than stored, the same distances take 0.74, 0.73, 0.68 of [`LinearSearch`]'s time.) All this
 /// in a loop with the function inlined, hence `inline(always)`; a call costs more than h_5 itself.
 ///
