@@ -140,3 +140,67 @@ impl<'a> Study<'a> {
         Ok((solver, preparation))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn setup(text: &str) -> Setup {
+        text.parse().expect("a setup")
+    }
+
+    /// A wall with a way around, and a cell that none leads to.
+    fn grid() -> Arc<Grid> {
+        let walls = ["......#.", ".####.##", "........", "........"];
+        let blocked = |x: u32, y: u32| walls[y as usize].as_bytes()[x as usize] == b'#';
+        Arc::new(Grid::from_fn(8, 4, blocked).expect("a grid"))
+    }
+
+    #[test]
+    fn answers_are_those_of_a_solver_with_its_counts() {
+        let grid = grid();
+        let queries =
+            [((0, 0), (5, 0)), ((0, 0), (0, 3)), ((0, 0), (7, 0)), ((1, 1), (0, 0)), ((2, 0), (4, 2))];
+        let queries = queries.map(|(start, goal)| Query::new(start, goal));
+        let mut study = Study::new(&grid, &queries, 0);
+        // The second shares the first one's ground, the fourth the third one's index, the last neither.
+        for text in [
+            "astar:4:never",
+            "canonical:4:never",
+            "subgoal:5:open",
+            "subgoal:5:open,taut",
+            "jps-plus:3:never",
+        ] {
+            let run = study.run(setup(text)).expect("a run");
+            let mut solver = Solver::new(setup(text), &grid, RULES.prebuilt(setup(text))).expect("a solver");
+            for (query, answer) in queries.iter().zip(&run.answers) {
+                let Ok((Outcome::Found(path), counters)) = solver.solve_counted(*query) else {
+                    assert_eq!(*answer, None, "{text}");
+                    continue;
+                };
+                let answer = answer.expect("a path");
+                assert_eq!((answer.cost, answer.counters), (path.cost(), counters), "{text}");
+            }
+            assert_eq!(run.micros, None);
+            let made = solver.preprocessing();
+            assert_eq!(run.preparation.bytes, made.index_bytes, "{text}");
+            assert!(run.preparation.seconds > 0.0);
+        }
+    }
+
+    #[test]
+    fn moves_are_counted_one_by_one() {
+        let grid = Arc::new(Grid::from_fn(9, 5, |_, _| false).expect("a grid"));
+        let queries = [Query::new((0, 0), (8, 4)), Query::new((0, 0), (7, 3)), Query::new((2, 2), (2, 2))];
+        let mut study = Study::new(&grid, &queries, 2);
+        let mut moves = |text: &str| {
+            let run = study.run(setup(text)).expect("a run");
+            assert!(run.micros.is_some_and(|micros| micros > 0.0), "two passes were timed");
+            run.answers.iter().map(|answer| answer.map(|answer| answer.moves)).collect::<Vec<_>>()
+        };
+        assert_eq!(moves("astar:2:never"), [Some(12), Some(10), Some(0)]);
+        assert_eq!(moves("astar:3:never"), [Some(8), Some(7), Some(0)]);
+        // (8, 4) is four moves (2, 1), (7, 3) three of them and (1, 0).
+        assert_eq!(moves("astar:4:never"), [Some(4), Some(4), Some(0)]);
+    }
+}

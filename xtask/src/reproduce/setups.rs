@@ -138,3 +138,43 @@ impl Sums {
 pub(super) fn costs(run: &Run) -> Vec<f64> {
     run.answers.iter().map(|answer| answer.map_or(0.0, |answer| answer.cost)).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use mediant_bench::{Answer, Preparation};
+    use mediant_search::Counters;
+
+    use super::*;
+
+    fn answer(cost: f64, expanded: u64) -> Option<Answer> {
+        let counters = Counters { expanded, percolations: 10 * expanded, ..Counters::default() };
+        Some(Answer { cost, moves: 3, smoothness: 45.0, counters })
+    }
+
+    #[test]
+    fn sums_are_over_queries() {
+        let preparation = |seconds, bytes| Preparation { seconds, bytes };
+        let first = Run {
+            answers: vec![answer(11.0, 4), None, answer(30.0, 8)],
+            micros: Some(2.0),
+            preparation: preparation(0.5, 100),
+        };
+        let second =
+            Run { answers: vec![answer(5.0, 0)], micros: Some(6.0), preparation: preparation(1.5, 300) };
+        // The optimum of the third is not known.
+        let mut sums = Sums::of(&first, &[10.0, 7.0, 0.0]);
+        sums.add(&Sums::of(&second, &[4.0]));
+        let row = sums.row(Row::new());
+        let number = |column: &str| row.number(column).unwrap_or(f64::NAN);
+        assert_eq!((number("queries"), number("found")), (4.0, 3.0));
+        assert_eq!((number("cost"), number("moves"), number("smoothness")), (46.0 / 3.0, 3.0, 45.0));
+        assert_eq!((number("expanded"), number("percolations")), (4.0, 40.0));
+        assert!((number("excess") - 17.5).abs() < 1e-9 && (number("worst") - 1.25).abs() < 1e-12);
+        assert_eq!((number("micros"), number("preparation"), number("bytes")), (3.0, 1.0, 200.0));
+        assert_eq!(costs(&first), [11.0, 0.0, 30.0]);
+        let untimed = Sums::of(&Run { micros: None, ..second }, &[]).row(Row::new());
+        assert_eq!((untimed.number("micros"), untimed.number("excess")), (None, None));
+        let columns = Sums::columns();
+        assert!(row.values().all(|(name, _)| columns.iter().any(|column| column.name == name)));
+    }
+}
