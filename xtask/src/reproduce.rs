@@ -35,7 +35,7 @@ use mediant_report::{Provenance, Record};
 
 use self::{
     context::{Context, Setting},
-    experiment::{Experiment, Findings},
+    experiment::{Experiment, Findings, Page},
 };
 use crate::{Error, project};
 
@@ -151,7 +151,9 @@ fn chosen(names: &[String]) -> Result<Vec<&'static Experiment>, Error> {
         |experiment: &Experiment, name: &String| experiment.id == name || experiment.page.file() == *name;
     if let Some(name) = names.iter().find(|name| !EXPERIMENTS.iter().any(|experiment| is(experiment, name))) {
         let known: Vec<&str> = EXPERIMENTS.iter().map(|experiment| experiment.id).collect();
-        return Err(Error::Reproduce(format!("unknown experiment `{name}`: there are {}", known.join(", "))));
+        let pages = Page::ALL.map(Page::file).join(", ");
+        let there = format!("there are {}, and the pages {pages}", known.join(", "));
+        return Err(Error::Reproduce(format!("unknown experiment `{name}`: {there}")));
     }
     let asked = |experiment: &&Experiment| names.is_empty() || names.iter().any(|name| is(experiment, name));
     Ok(EXPERIMENTS.iter().filter(asked).collect())

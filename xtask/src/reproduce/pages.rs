@@ -24,7 +24,12 @@ const MARKS: &str = "✓ as published: to the printed digits where the instances
 /// # Errors
 /// [`Error::Reproduce`] for a damaged record, and for a deviation whose cause is not said; errors of files.
 pub(super) fn write_all(out: &Path) -> Result<(), Error> {
-    let drawn = draw(&records(out)?)?;
+    let records = records(out)?;
+    if records.is_empty() {
+        let folder = out.join(DATA);
+        return Err(Error::Reproduce(format!("{}: no records to draw: measure first", folder.display())));
+    }
+    let drawn = draw(&records)?;
     let figures = out.join(FIGURES);
     // Figures of experiments that are gone, or go by another name.
     if figures.is_dir() {
@@ -47,6 +52,13 @@ pub(super) fn draw(records: &[(&'static Experiment, Record)]) -> Result<BTreeMap
         let mut section = (experiment.show)(record);
         for (name, svg) in section.figures.drain(..) {
             files.insert(Path::new(FIGURES).join(name), svg);
+        }
+        if record.provenance.bundled {
+            // What is published is of other maps.
+            section.claims.clear();
+            for verdict in [Verdict::Matched, Verdict::Drawn, Verdict::Deviates] {
+                section.markdown = section.markdown.replace(verdict.mark(), "");
+            }
         }
         let unexplained = |claim: &&Claim| claim.verdict() == Verdict::Deviates && claim.cause.is_empty();
         // A sample, or other maps, may deviate from what is published without a reason that could be given.

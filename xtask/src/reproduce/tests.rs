@@ -52,6 +52,10 @@ fn without_sets_the_bundled_maps_are_measured_and_it_is_said() {
         let text = fs::read_to_string(out.join(page)).unwrap();
         assert!(text.contains("Not the paper") && text.contains("A quick run"), "{page}: {text}");
     }
+    // Nothing is judged by what is published of other maps.
+    let text = fs::read_to_string(out.join("teleisa2023.md")).unwrap();
+    let (_, section) = text.split_once("## ").unwrap();
+    assert!(section.contains("| 119.0 % |") && !section.contains(['✓', '≈', '✗']), "{section}");
     // Every link leads somewhere.
     for page in ["teleisa2023.md", "beyond.md", "README.md"] {
         let text = fs::read_to_string(out.join(page)).unwrap();
@@ -90,6 +94,9 @@ fn counts_are_held_against_those_of_the_last_run() {
     let unknown = reproduce(folder.path(), &["--only", "rivera2018"]).unwrap_err().to_string();
     assert!(unknown.contains("rivera2018") && unknown.contains("rivera2017-tables"), "{unknown}");
     assert!(reproduce(folder.path(), &["--sets", "dao2"]).is_err());
+    let nothing = folder.path().join("nothing");
+    let wrong = reproduce(folder.path(), &["--render", "--out", &nothing.display().to_string()]);
+    assert!(wrong.is_err_and(|wrong| wrong.to_string().contains("measure first")) && !nothing.exists());
 }
 
 #[test]
