@@ -1,5 +1,5 @@
 //! `cargo xtask compare`: our engines, two crates that everyone can run, and, through those, the programs of
-//! `benchdata/anchors.json`.
+//! `benchdata/reference_timings.json`.
 
 mod report;
 
@@ -12,8 +12,8 @@ use std::{
 use clap::Args;
 use indicatif::ProgressBar;
 use mediant_bench::{
-    Anchors, AnchorsError, Archive, Comparison, Contender, MapRecord, MeasureError, Problem, ProblemError,
-    Yardstick, measure,
+    Archive, Baseline, Comparison, Competitor, MapRecord, MeasureError, Problem, ProblemError,
+    ReferenceTimings, ReferenceTimingsError, measure,
 };
 use mediant_engines::Setup;
 
@@ -33,7 +33,7 @@ pub struct Options {
     /// Of each scenario, only the instances whose index N divides; the other programs' times are for 20
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..))]
     every: u32,
-    /// The timed passes of each contender over a map, of which the median counts
+    /// The timed passes of each competitor over a map, of which the median counts
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=999))]
     passes: u32,
     /// A folder that holds the archives (SET-map.zip, SET-scen.zip) of sets that were not downloaded
@@ -48,16 +48,16 @@ pub struct Options {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CompareError {
-    /// Damaged anchors.
+    /// Damaged reference timings.
     #[error(transparent)]
-    Anchors(#[from] AnchorsError),
+    ReferenceTimings(#[from] ReferenceTimingsError),
     /// A map or scenario that cannot be measured on.
     #[error(transparent)]
     Problem(#[from] ProblemError),
     /// A wrong answer.
     #[error(transparent)]
     Measure(#[from] MeasureError),
-    /// A map that has no anchors.
+    /// A map that has no reference timings.
     #[error("no figures of other programs for map `{name}`: there are some for {known}")]
     UnknownMap {
         /// The name that was asked for.
@@ -83,7 +83,7 @@ pub enum CompareError {
 
 /// All figures of a run.
 struct Results<'a> {
-    anchors: &'a Anchors,
+    references: &'a ReferenceTimings,
     setups: &'a [Setup],
     records: Vec<MapRecord>,
     /// For each map, those of the setups in their order.
@@ -103,8 +103,8 @@ pub fn run(options: &Options) -> Result<(), CompareError> {
 /// # Errors
 /// [`CompareError`]; above all, an answer that is wrong.
 pub fn run_in(root: &Path, options: &Options, out: &mut impl Write) -> Result<(), CompareError> {
-    let anchors = Anchors::bundled()?;
-    let names: Vec<&str> = anchors.maps.iter().map(|row| row.map.as_str()).collect();
+    let references = ReferenceTimings::bundled()?;
+    let names: Vec<&str> = references.maps.iter().map(|row| row.map.as_str()).collect();
     if let Some(name) = options.maps.iter().find(|name| !names.contains(&name.as_str())) {
         return Err(CompareError::UnknownMap { name: name.clone(), known: names.join(", ") });
     }
@@ -119,17 +119,17 @@ pub fn run_in(root: &Path, options: &Options, out: &mut impl Write) -> Result<()
     let mirror = options.mirror.clone().filter(|mirror| mirror.is_dir());
     let folders = [Some(root.join("benchdata").join("cache")), mirror];
     let archive = Archive::new(folders.into_iter().flatten());
-    let Measured { records, missing } = measure_all(&anchors, &archive, options)?;
+    let Measured { records, missing } = measure_all(&references, &archive, options)?;
     let advice = missing_advice(&missing);
     if records.is_empty() {
         return Err(CompareError::NoMap(advice));
     }
     let compare = |record: &MapRecord| {
         let timings = record.timings.iter().take(options.engines.len());
-        timings.filter_map(|timing| Comparison::new(&anchors, record, timing)).collect()
+        timings.filter_map(|timing| Comparison::new(&references, record, timing)).collect()
     };
     let comparisons = records.iter().map(compare).collect();
-    let results = Results { anchors: &anchors, setups: &options.engines, records, comparisons };
+    let results = Results { references: &references, setups: &options.engines, records, comparisons };
     out.write_all(report::text(&results, options).as_bytes())?;
     if !missing.is_empty() {
         writeln!(out, "\nMissing: {advice}")?;
@@ -149,20 +149,21 @@ struct Measured<'a> {
 }
 
 fn measure_all<'a>(
-    anchors: &'a Anchors,
+    references: &'a ReferenceTimings,
     archive: &Archive,
     options: &Options,
 ) -> Result<Measured<'a>, CompareError> {
-    let ours = options.engines.iter().copied().map(Contender::Ours);
-    let contenders: Vec<Contender> = ours.chain(Yardstick::ALL.map(Contender::Yardstick)).collect();
-    let rows = anchors.maps.iter().filter(|row| options.maps.is_empty() || options.maps.contains(&row.map));
+    let ours = options.engines.iter().copied().map(Competitor::Ours);
+    let competitors: Vec<Competitor> = ours.chain(Baseline::ALL.map(Competitor::Baseline)).collect();
+    let rows =
+        references.maps.iter().filter(|row| options.maps.is_empty() || options.maps.contains(&row.map));
     let rows: Vec<_> = rows.collect();
     let bar = ProgressBar::new(rows.len() as u64);
     let mut measured = Measured::default();
     for row in rows {
         bar.set_message(row.map.clone());
         match Problem::load(archive, &row.set, &row.map, options.every as usize)? {
-            Some(problem) => measured.records.push(measure(&problem, &contenders, options.passes as usize)?),
+            Some(problem) => measured.records.push(measure(&problem, &competitors, options.passes as usize)?),
             None => measured.missing.push((row.set.as_str(), row.map.as_str())),
         }
         bar.inc(1);

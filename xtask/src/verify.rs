@@ -1,7 +1,7 @@
 //! `cargo xtask verify`: our costs against known ones, on the real benchmark sets.
 //!
 //! Every instance of the sets that `download` fetched against the optimal length that its scenario states, or the costs of
-//! independent programs in a folder of `PLACEMENT-kK-MAP.csv` and `any-GAP-MAP.csv` files. Engines whose paths may be longer must find one where
+//! independent programs in a folder of `KIND-kK-MAP.csv` and `any-GAP-MAP.csv` files. Engines whose paths may be longer must find one where
 //! there is one, and none that is shorter. How many were compared is part of the result: a file that is skipped in silence must not look like a
 //! success.
 
@@ -19,7 +19,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use mediant_engines::{Engine, Setup, SharedRules, Solver};
 use mediant_formats::{MapFile, Scenario, scenario_tolerance};
 use mediant_grid::{CornerRule, DiagonalGap, Rules};
-use mediant_moves::{K, Knob};
+use mediant_moves::{FiniteK, K};
 use mediant_search::{Query, QueryError};
 use rayon::prelude::*;
 
@@ -184,7 +184,7 @@ pub fn run_in(cache: &Path, options: &Options) -> Result<(), Error> {
 
 /// The engine on k = 3 between centers, no corner cut: the problem of the scenario files.
 fn scenarios_for(engine: Engine) -> Result<(Setup, Demand), Error> {
-    let setup = Setup::new(engine, K::EIGHT_CONNECTED, Rules::Center(CornerRule::Never));
+    let setup = Setup::new(engine, FiniteK::N8, Rules::Center(CornerRule::Never));
     let unknown = || {
         Error::Verify(format!("{engine} finds no paths over the moves of k = 3: their costs are not known"))
     };
@@ -304,10 +304,10 @@ fn cost(solver: &mut Solver, query: Query) -> Result<Option<f64>, QueryError> {
 fn reference_setup(name: &str, engine: Engine) -> Option<(Setup, &str)> {
     let (kind, rest) = name.strip_suffix(".csv")?.split_once('-')?;
     let (part, map) = rest.split_once('-')?;
-    let k = || part.strip_prefix('k')?.parse::<Knob>().ok();
+    let k = || part.strip_prefix('k')?.parse::<K>().ok();
     let (k, rules) = match (kind, part) {
-        ("any", "open") => (Knob::Any, Rules::Corner(DiagonalGap::Open)),
-        ("any", "closed") => (Knob::Any, Rules::Corner(DiagonalGap::Closed)),
+        ("any", "open") => (K::Any, Rules::Corner(DiagonalGap::Open)),
+        ("any", "closed") => (K::Any, Rules::Corner(DiagonalGap::Closed)),
         ("center", _) => (k()?, Rules::Center(CornerRule::Never)),
         ("corner", _) => (k()?, Rules::Corner(DiagonalGap::Open)),
         _ => return None,

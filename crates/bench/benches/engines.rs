@@ -6,9 +6,9 @@ use std::{hint::black_box, sync::Arc};
 use criterion::{BenchmarkId, Criterion, Throughput};
 use mediant_engines::{Engine, Ground, Preprocessing, Setup, SharedRules, Visit, with_planner_on};
 use mediant_grid::{
-    Centers, CornerRule, Corners, DiagonalGap, Grid, Lattice, Place, Rules, Vertex, VertexId,
+    Centers, CornerRule, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vertex, VertexId,
 };
-use mediant_moves::{Cost, K, Knob};
+use mediant_moves::{Cost, FiniteK, K};
 use mediant_oracle::{Rng, caves, noise, random_free_vertex};
 use mediant_search::{Entry, OpenList, Planner, Query};
 
@@ -40,7 +40,7 @@ fn main() {
     let rules = SharedRules::new();
     for engine in ENGINES {
         for (name, grid) in &maps {
-            let ks = (2..=8).filter_map(|k| K::new(k).ok()).map(Knob::K).chain([Knob::Any]);
+            let ks = (2..=8).filter_map(|k| FiniteK::new(k).ok()).map(K::Finite).chain([K::Any]);
             let setups = ks.flat_map(|k| RULES.map(|rules| Setup::new(engine, k, rules)));
             for setup in setups.filter(|setup| setup.check().is_ok()) {
                 queries(&mut c, setup, name, grid, &rules);
@@ -57,9 +57,9 @@ fn main() {
     c.final_summary();
 }
 
-fn lattice<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: u32) -> Lattice<P> {
-    let k = K::new(k).expect("k is at least 2");
-    Lattice::new(Arc::clone(grid), k, rule).expect("k is at most 12")
+fn grid_graph<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: u32) -> GridGraph<P> {
+    let k = FiniteK::new(k).expect("k is at least 2");
+    GridGraph::new(Arc::clone(grid), k, rule).expect("k is at most 12")
 }
 
 /// The same queries for every k, all of them solvable.
@@ -83,7 +83,7 @@ fn queries(c: &mut Criterion, setup: Setup, map: &str, grid: &Arc<Grid>, rules: 
 struct Bench<'c> {
     c: &'c mut Criterion,
     name: String,
-    k: Knob,
+    k: K,
     queries: Vec<Query>,
 }
 
@@ -102,18 +102,18 @@ impl Visit for Bench<'_> {
 }
 
 /// The time of finding all legal moves of all free vertices, row by row.
-fn successors<P: Place>(c: &mut Criterion, map: &str, grid: &Arc<Grid>, rule: P::Rule, k: u32) {
-    let lattice = lattice::<P>(grid, rule, k);
+fn successors<P: Placement>(c: &mut Criterion, map: &str, grid: &Arc<Grid>, rule: P::Rule, k: u32) {
+    let grid_graph = grid_graph::<P>(grid, rule, k);
     let (width, height) = P::vertices(grid);
     let all = (0..height as i32).flat_map(|y| (0..width as i32).map(move |x| Vertex::new(x, y)));
-    let vertices: Vec<Vertex> = all.filter(|&at| lattice.is_free(at)).collect();
-    let mut group = c.benchmark_group(format!("successors/{}/{map}", P::PLACEMENT));
+    let vertices: Vec<Vertex> = all.filter(|&at| grid_graph.is_free(at)).collect();
+    let mut group = c.benchmark_group(format!("successors/{}/{map}", P::KIND));
     group.throughput(Throughput::Elements(vertices.len() as u64));
     group.bench_function(BenchmarkId::from_parameter(k), |b| {
         b.iter(|| {
             let mut sum = 0;
             for &at in black_box(&vertices) {
-                lattice.for_each_legal_move(at, |index| sum += index);
+                grid_graph.for_each_legal_move(at, |index| sum += index);
             }
             sum
         });

@@ -3,26 +3,26 @@
 use mediant_report::stats::geometric_mean;
 use serde::Serialize;
 
-use crate::{Anchors, MapRecord, Timing, Yardstick};
+use crate::{Baseline, MapRecord, ReferenceTimings, Timing};
 
-/// One contender's ratios on one map.
+/// One competitor's ratios on one map.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
     /// The map's name, without extension.
     pub map: String,
     /// Who is compared.
-    pub contender: String,
-    /// How much slower this machine was than the anchors', on this map: the geometric mean over both yardsticks of the time here
+    pub competitor: String,
+    /// How much slower this machine was than the reference machine's, on this map: the geometric mean over both baselines of the time here
     /// by the time there.
     pub scale: f64,
-    /// The contender's time by the scaled time of each program, in the order of [`Anchors::programs`]; below 1, the contender
+    /// The competitor's time by the scaled time of each program, in the order of [`ReferenceTimings::programs`]; below 1, the competitor
     /// is faster. `None` where the program has no figure.
     pub ratios: Vec<Option<f64>>,
     /// The same of what comes before the first query. `None` where the program has no figure, or did not finish.
     pub preparation: Vec<Option<PreparationRatio>>,
 }
 
-/// What a contender takes before the first query by what another program takes.
+/// What a competitor takes before the first query by what another program takes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PreparationRatio {
     /// Our time by its scaled time.
@@ -32,29 +32,29 @@ pub struct PreparationRatio {
 }
 
 impl Comparison {
-    /// Compares a timing with the anchors of its map; `None` for a map without anchors or a record without both yardsticks.
+    /// Compares a timing with the reference timings of its map; `None` for a map without reference timings or a record without both baselines.
     #[must_use]
-    pub fn new(anchors: &Anchors, record: &MapRecord, timing: &Timing) -> Option<Self> {
-        let row = anchors.map(&record.map)?;
-        let here_by_there = |yardstick: Yardstick| {
-            let here = record.timings.iter().find(|timing| timing.contender == yardstick.name())?.micros;
-            Some(here / (*row.micros.get(yardstick.name())?)?)
+    pub fn new(references: &ReferenceTimings, record: &MapRecord, timing: &Timing) -> Option<Self> {
+        let row = references.map(&record.map)?;
+        let here_by_there = |baseline: Baseline| {
+            let here = record.timings.iter().find(|timing| timing.competitor == baseline.name())?.micros;
+            Some(here / (*row.micros.get(baseline.name())?)?)
         };
         let scale = geometric_mean(&[
-            here_by_there(Yardstick::Pathfinding)?,
-            here_by_there(Yardstick::GridPathfinding)?,
+            here_by_there(Baseline::Pathfinding)?,
+            here_by_there(Baseline::GridPathfinding)?,
         ])?;
         let ratio = |program: &str| Some(timing.micros / ((*row.micros.get(program)?)? * scale));
-        let ratios = anchors.programs.iter().map(|program| ratio(&program.name)).collect();
+        let ratios = references.programs.iter().map(|program| ratio(&program.name)).collect();
         let preparation = |program: &str| {
             let theirs = row.preprocessing.get(program).copied().flatten()?;
             let ours = timing.preparation.filter(|_| !theirs.unfinished)?;
             let bytes = theirs.megabytes.map(|megabytes| ours.bytes as f64 / (1e6 * megabytes));
             Some(PreparationRatio { time: ours.seconds / (theirs.seconds * scale), bytes })
         };
-        let preparation = anchors.programs.iter().map(|program| preparation(&program.name)).collect();
-        let (map, contender) = (record.map.clone(), timing.contender.clone());
-        Some(Self { map, contender, scale, ratios, preparation })
+        let preparation = references.programs.iter().map(|program| preparation(&program.name)).collect();
+        let (map, competitor) = (record.map.clone(), timing.competitor.clone());
+        Some(Self { map, competitor, scale, ratios, preparation })
     }
 }
 
@@ -63,26 +63,32 @@ mod tests {
     use super::*;
     use crate::Preparation;
 
-    fn timing(contender: &str, micros: f64) -> Timing {
+    fn timing(competitor: &str, micros: f64) -> Timing {
         let preparation = Some(Preparation { seconds: 0.016, bytes: 540_000 });
-        Timing { contender: contender.to_owned(), micros, passes: vec![micros], mean_cost: 1.0, preparation }
+        Timing {
+            competitor: competitor.to_owned(),
+            micros,
+            passes: vec![micros],
+            mean_cost: 1.0,
+            preparation,
+        }
     }
 
     #[test]
-    fn anchors_are_scaled_by_both_yardsticks() {
-        // arena2: twice and eight times the anchors' 1522 and 108 µs make a machine that is four times as slow.
+    fn references_are_scaled_by_both_baselines() {
+        // arena2: twice and eight times the reference machine's 1522 and 108 µs make a machine that is four times as slow.
         let timings =
             vec![timing("astar", 1464.0), timing("pathfinding", 3044.0), timing("grid_pathfinding", 864.0)];
         let mut record = MapRecord { map: "arena2".to_owned(), set: "dao".to_owned(), instances: 1, timings };
-        let anchors = Anchors::bundled().unwrap();
-        let comparison = Comparison::new(&anchors, &record, &record.timings[0]).unwrap();
+        let references = ReferenceTimings::bundled().unwrap();
+        let comparison = Comparison::new(&references, &record, &record.timings[0]).unwrap();
         assert!((comparison.scale - 4.0).abs() < 1e-12);
         // Warthog A* takes 732 µs there, hence 2928 here.
         assert!((comparison.ratios[0].unwrap() - 0.5).abs() < 1e-12);
         assert_eq!(comparison.ratios.len(), 13);
         // 2013-subgoal-fast takes 8 ms and 0.27 MB there; ENLSVG saves nothing, RayScan prepares nothing.
         let prepared = |name: &str| {
-            let at = anchors.programs.iter().position(|program| program.name == name).unwrap();
+            let at = references.programs.iter().position(|program| program.name == name).unwrap();
             comparison.preparation[at].map(|ratio| (ratio.time, ratio.bytes))
         };
         let (time, bytes) = prepared("2013-subgoal-fast").unwrap();
@@ -92,19 +98,19 @@ mod tests {
         );
 
         record.map = "random512-10-0".to_owned();
-        let comparison = Comparison::new(&anchors, &record, &record.timings[0]).unwrap();
+        let comparison = Comparison::new(&references, &record, &record.timings[0]).unwrap();
         let missing = |name: &str| {
-            let at = anchors.programs.iter().position(|program| program.name == name).unwrap();
+            let at = references.programs.iter().position(|program| program.name == name).unwrap();
             comparison.ratios[at].is_none()
         };
         assert!(missing("EPS_MCDT") && missing("2019-SGCH-JPD") && !missing("ENLSVG"));
         // Its preprocessing was broken off.
-        let at = anchors.programs.iter().position(|program| program.name == "2019-SGCH-JPD").unwrap();
+        let at = references.programs.iter().position(|program| program.name == "2019-SGCH-JPD").unwrap();
         assert_eq!(comparison.preparation[at], None);
 
         record.timings.pop();
-        assert_eq!(Comparison::new(&anchors, &record, &record.timings[0]), None);
+        assert_eq!(Comparison::new(&references, &record, &record.timings[0]), None);
         record.map = "elsewhere".to_owned();
-        assert_eq!(Comparison::new(&anchors, &record, &record.timings[0]), None);
+        assert_eq!(Comparison::new(&references, &record, &record.timings[0]), None);
     }
 }

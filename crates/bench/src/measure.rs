@@ -1,18 +1,18 @@
-//! The side by side: check, then time, all contenders in turn.
+//! The side by side: check, then time, all competitors in turn.
 
 use std::{hint::black_box, time::Instant};
 
 use mediant_engines::EngineError;
 use mediant_formats::scenario_tolerance;
 use mediant_grid::{CornerRule, Rules};
-use mediant_moves::{K, Knob};
+use mediant_moves::{FiniteK, K};
 use mediant_report::stats::median;
 use mediant_search::QueryError;
 use serde::Serialize;
 
-use crate::{Contender, Problem, Yardstick, contender::Runner};
+use crate::{Baseline, Competitor, Problem, competitor::Runner};
 
-/// What all contenders took on one map.
+/// What all competitors took on one map.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MapRecord {
     /// The map's name, without extension.
@@ -21,22 +21,22 @@ pub struct MapRecord {
     pub set: String,
     /// The number of queries.
     pub instances: usize,
-    /// The times, in the order of the contenders.
+    /// The times, in the order of the competitors.
     pub timings: Vec<Timing>,
 }
 
-/// What one contender took.
+/// What one competitor took.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Timing {
     /// Who.
-    pub contender: String,
+    pub competitor: String,
     /// The mean time of a query in microseconds, paths included: the median over the passes.
     pub micros: f64,
     /// The mean of each pass.
     pub passes: Vec<f64>,
     /// The mean length of the paths, in cells.
     pub mean_cost: f64,
-    /// What came before the first query; `None` of a yardstick.
+    /// What came before the first query; `None` of a baseline.
     pub preparation: Option<Preparation>,
 }
 
@@ -49,25 +49,25 @@ pub struct Preparation {
     pub bytes: u64,
 }
 
-/// A contender that could not be measured, or answered wrong.
+/// A competitor that could not be measured, or answered wrong.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeasureError {
     /// A planner that cannot be made.
-    #[error("{contender} on map `{map}`: {source}")]
+    #[error("{competitor} on map `{map}`: {source}")]
     Engine {
         /// Who.
-        contender: String,
+        competitor: String,
         /// Where.
         map: String,
         /// Why.
         source: EngineError,
     },
     /// A query that was refused.
-    #[error("{contender} on map `{map}`, instance {index}: {source}")]
+    #[error("{competitor} on map `{map}`, instance {index}: {source}")]
     Query {
         /// Who.
-        contender: String,
+        competitor: String,
         /// Where.
         map: String,
         /// The instance.
@@ -77,11 +77,11 @@ pub enum MeasureError {
     },
     /// A path of another length than it must have, or none.
     #[error(
-        "{contender} on map `{map}`, instance {index}: expected a path of length {expected} ({by}), found {found}"
+        "{competitor} on map `{map}`, instance {index}: expected a path of length {expected} ({by}), found {found}"
     )]
     Answer {
         /// Who.
-        contender: String,
+        competitor: String,
         /// Where.
         map: String,
         /// The instance.
@@ -95,39 +95,39 @@ pub enum MeasureError {
     },
 }
 
-/// Times the contenders on a problem: a first pass of each, untimed, warms it and checks its answers; then `passes` rounds
+/// Times the competitors on a problem: a first pass of each, untimed, warms it and checks its answers; then `passes` rounds
 /// (at least one) in which each takes two passes after the other, the first untimed: it warms the caches.
 ///
 /// Those that promise the shortest paths of the same problem must find paths as long as each other's, at k = 3 between centers under
-/// `Never`, which [`Yardstick::Pathfinding`] solves too, also as the scenario says. Any other must find a path, as it allows more
+/// `Never`, which [`Baseline::Pathfinding`] solves too, also as the scenario says. Any other must find a path, as it allows more
 /// moves or as many ways through.
 ///
 /// # Errors
-/// [`MeasureError`] for the first contender that does not.
+/// [`MeasureError`] for the first competitor that does not.
 pub fn measure(
     problem: &Problem,
-    contenders: &[Contender],
+    competitors: &[Competitor],
     passes: usize,
 ) -> Result<MapRecord, MeasureError> {
-    let prepare = |&contender: &Contender| {
-        Runner::new(contender, problem).map_err(|source| MeasureError::Engine {
-            contender: contender.to_string(),
+    let prepare = |&competitor: &Competitor| {
+        Runner::new(competitor, problem).map_err(|source| MeasureError::Engine {
+            competitor: competitor.to_string(),
             map: problem.name.clone(),
             source,
         })
     };
-    let mut runners: Vec<Runner> = contenders.iter().map(prepare).collect::<Result<_, _>>()?;
+    let mut runners: Vec<Runner> = competitors.iter().map(prepare).collect::<Result<_, _>>()?;
 
     let mut optima: Vec<(Optimum, Vec<f64>)> = Vec::new();
-    let mut timings = Vec::with_capacity(contenders.len());
-    for (runner, &contender) in runners.iter_mut().zip(contenders) {
-        let promise = promise(contender);
+    let mut timings = Vec::with_capacity(competitors.len());
+    for (runner, &competitor) in runners.iter_mut().zip(competitors) {
+        let promise = promise(competitor);
         let known = optima.iter().find(|(optimum, _)| promise == Some(*optimum));
-        let costs = check(problem, contender, runner, known.map_or(&[], |(_, costs)| costs))?;
+        let costs = check(problem, competitor, runner, known.map_or(&[], |(_, costs)| costs))?;
         let mean_cost = costs.iter().sum::<f64>() / costs.len() as f64;
         let (passes, preparation) = (Vec::new(), runner.preparation());
-        let contender = contender.to_string();
-        timings.push(Timing { contender, micros: 0.0, passes, mean_cost, preparation });
+        let competitor = competitor.to_string();
+        timings.push(Timing { competitor, micros: 0.0, passes, mean_cost, preparation });
         optima.extend(promise.map(|optimum| (optimum, costs)));
     }
     for _ in 0..passes.max(1) {
@@ -144,24 +144,24 @@ pub fn measure(
 }
 
 /// A problem of which the shortest paths are promised: over which directions, under which rules.
-type Optimum = (Knob, Rules);
+type Optimum = (K, Rules);
 
 /// The problem of the scenarios.
-const SCENARIOS: Optimum = (Knob::K(K::EIGHT_CONNECTED), Rules::Center(CornerRule::Never));
+const SCENARIOS: Optimum = (K::Finite(FiniteK::N8), Rules::Center(CornerRule::Never));
 
-/// The problem of which a contender promises the shortest paths, if of any.
-fn promise(contender: Contender) -> Option<Optimum> {
-    match contender {
-        Contender::Ours(setup) => setup.optimal_over().map(|k| (k, setup.rules)),
-        Contender::Yardstick(Yardstick::Pathfinding) => Some(SCENARIOS),
-        Contender::Yardstick(Yardstick::GridPathfinding) => None,
+/// The problem of which a competitor promises the shortest paths, if of any.
+fn promise(competitor: Competitor) -> Option<Optimum> {
+    match competitor {
+        Competitor::Ours(setup) => setup.optimal_over().map(|k| (k, setup.rules)),
+        Competitor::Baseline(Baseline::Pathfinding) => Some(SCENARIOS),
+        Competitor::Baseline(Baseline::GridPathfinding) => None,
     }
 }
 
-/// The lengths of all paths, checked. `optima` are those that another contender found for the same problem, if any.
+/// The lengths of all paths, checked. `optima` are those that another competitor found for the same problem, if any.
 fn check(
     problem: &Problem,
-    contender: Contender,
+    competitor: Competitor,
     runner: &mut Runner,
     optima: &[f64],
 ) -> Result<Vec<f64>, MeasureError> {
@@ -169,26 +169,26 @@ fn check(
     for (i, case) in problem.cases.iter().enumerate() {
         let (map, index) = (problem.name.clone(), case.index);
         let answer = runner.solve(case.query).map_err(|source| MeasureError::Query {
-            contender: contender.to_string(),
+            competitor: competitor.to_string(),
             map: map.clone(),
             index,
             source,
         })?;
         let cost = answer.cost();
         // Whatever the problem, the scenario says that there is a path.
-        let is_length = promise(contender) == Some(SCENARIOS);
+        let is_length = promise(competitor) == Some(SCENARIOS);
         let tolerance = if is_length { scenario_tolerance(case.optimum) } else { f64::INFINITY };
         let scenario = (case.optimum, tolerance, "the scenario");
         // Two programs differ by the rounding of their sums alone.
-        let other = optima.get(i).map(|&cost| (cost, 1e-8 * (1.0 + cost), "another contender"));
+        let other = optima.get(i).map(|&cost| (cost, 1e-8 * (1.0 + cost), "another competitor"));
         let is_wrong = |&(expected, tolerance, _): &(f64, f64, _)| match cost {
             Some(cost) => (cost - expected).abs() > tolerance,
             None => true,
         };
         if let Some((expected, _, by)) = [Some(scenario), other].into_iter().flatten().find(is_wrong) {
             let found = cost.map_or("none".to_owned(), |cost| cost.to_string());
-            let contender = contender.to_string();
-            return Err(MeasureError::Answer { contender, map, index, expected, by, found });
+            let competitor = competitor.to_string();
+            return Err(MeasureError::Answer { competitor, map, index, expected, by, found });
         }
         costs.extend(cost);
     }

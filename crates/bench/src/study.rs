@@ -115,7 +115,7 @@ impl<'a> Study<'a> {
         };
         let (ground, seconds) = self.ground.insert(ground);
         let (bytes, mut preparation) =
-            (ground.index_bytes(), Preparation { seconds: *seconds, bytes: ground.index_bytes() });
+            (ground.memory_bytes(), Preparation { seconds: *seconds, bytes: ground.memory_bytes() });
         let mut prebuilt = RULES.prebuilt(setup);
         if setup.engine.about().index.is_some() {
             let of = Setup { options: Options { smoothing: None, ..setup.options }, ..setup };

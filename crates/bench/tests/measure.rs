@@ -1,20 +1,20 @@
 //! The harness on generated maps, with the oracle's costs as the scenario.
 
-use mediant_bench::{Contender, MeasureError, Problem, ProblemError, Yardstick, measure};
+use mediant_bench::{Baseline, Competitor, MeasureError, Problem, ProblemError, measure};
 use mediant_formats::{Instance, Scenario};
-use mediant_grid::{AsciiMap, CornerRule, Grid, Placement, Rules};
-use mediant_moves::K;
+use mediant_grid::{AsciiMap, CornerRule, Grid, PlacementKind, Rules};
+use mediant_moves::FiniteK;
 use mediant_oracle::{Explicit, Rng, caves, noise, random_free_vertex};
 
 const SEED: u64 = 1;
 
 /// Up to `count` solvable queries with their optimal costs.
 fn scenario(rng: &mut Rng, grid: &Grid, count: usize) -> Scenario {
-    let graph = Explicit::new(grid, Rules::Center(CornerRule::Never), Some(K::EIGHT_CONNECTED));
+    let graph = Explicit::new(grid, Rules::Center(CornerRule::Never), Some(FiniteK::N8));
     let mut instances = Vec::new();
     for _ in 0..count {
-        let start = random_free_vertex(rng, grid, Placement::Center).expect("a free cell");
-        let goal = random_free_vertex(rng, grid, Placement::Center).expect("a free cell");
+        let start = random_free_vertex(rng, grid, PlacementKind::Center).expect("a free cell");
+        let goal = random_free_vertex(rng, grid, PlacementKind::Center).expect("a free cell");
         let Some(optimal) = graph.costs_from(start).to(goal) else { continue };
         let (width, height) = (grid.width(), grid.height());
         instances.push(Instance { bucket: 0, map: "test.map".into(), width, height, start, goal, optimal });
@@ -22,25 +22,25 @@ fn scenario(rng: &mut Rng, grid: &Grid, count: usize) -> Scenario {
     Scenario::from_instances(instances).expect("lengths are finite")
 }
 
-/// After the yardsticks: they solve the scenarios' problem.
+/// After the baselines: they solve the scenarios' problem.
 const EXACT: [&str; 6] =
     ["dijkstra", "canonical,euclidean", "jps,limit=4", "jps-block,intermediate", "jps-plus", "subgoal"];
 
-/// The last contenders: any-angle paths between corners, of which those in the middle are held to the first.
+/// The last competitors: any-angle paths between corners, of which those in the middle are held to the first.
 const ANY_ANGLE: [&str; 5] =
     ["anya:any:open", "anya:any:open,taut", "subgoal:any:open", "theta:3:open", "astar:3:open,smooth"];
 
-fn contenders() -> Vec<Contender> {
+fn competitors() -> Vec<Competitor> {
     let setups =
         ["astar", "astar:2:never", "astar:4:one", "astar:3:always", "astar:3:open", "astar:5:closed"];
-    let setups = setups.iter().map(|setup| Contender::Ours(setup.parse().expect("a setup")));
-    let exact = EXACT.map(|setup| Contender::Ours(setup.parse().expect("a setup")));
-    let any_angle = ANY_ANGLE.map(|setup| Contender::Ours(setup.parse().expect("a setup")));
-    setups.chain(Yardstick::ALL.map(Contender::Yardstick)).chain(exact).chain(any_angle).collect()
+    let setups = setups.iter().map(|setup| Competitor::Ours(setup.parse().expect("a setup")));
+    let exact = EXACT.map(|setup| Competitor::Ours(setup.parse().expect("a setup")));
+    let any_angle = ANY_ANGLE.map(|setup| Competitor::Ours(setup.parse().expect("a setup")));
+    setups.chain(Baseline::ALL.map(Competitor::Baseline)).chain(exact).chain(any_angle).collect()
 }
 
 #[test]
-fn all_contenders_answer_all_queries() {
+fn all_competitors_answer_all_queries() {
     let mut queries = 0;
     for seed in SEED..SEED + 12 {
         let mut rng = Rng::new(seed);
@@ -51,12 +51,12 @@ fn all_contenders_answer_all_queries() {
         }
         let problem = Problem::new("made", "test", grid, &scenario, 1).expect("a problem");
         let record =
-            measure(&problem, &contenders(), 2).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
+            measure(&problem, &competitors(), 2).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
         assert_eq!((record.instances, record.timings.len()), (problem.len(), 19), "seed {seed}");
         for timing in &record.timings {
             assert_eq!(timing.passes.len(), 2, "seed {seed}");
-            // The yardsticks say nothing of what they prepare.
-            let ours = Yardstick::ALL.iter().all(|yardstick| yardstick.name() != timing.contender);
+            // The baselines say nothing of what they prepare.
+            let ours = Baseline::ALL.iter().all(|baseline| baseline.name() != timing.competitor);
             assert_eq!(timing.preparation.is_some_and(|made| made.bytes > 0 && made.seconds > 0.0), ours);
             assert!(timing.passes.iter().all(|&pass| pass > 0.0) && timing.micros > 0.0, "seed {seed}");
         }
@@ -96,23 +96,23 @@ fn wrong_lengths_are_found() {
         goal: (3, 1).into(),
         optimal,
     };
-    let check = |optimal: f64, contender: Contender| {
+    let check = |optimal: f64, competitor: Competitor| {
         let scenario = Scenario::from_instances(vec![instance(5.0), instance(optimal)]).expect("a scenario");
         let problem = Problem::new("made", "test", map.grid.clone(), &scenario, 1).expect("a problem");
-        measure(&problem, &[contender], 1)
+        measure(&problem, &[competitor], 1)
     };
-    let astar = Contender::Ours("astar".parse().expect("a setup"));
-    for contender in [astar, Contender::Yardstick(Yardstick::Pathfinding)] {
-        assert!(check(5.0, contender).is_ok());
+    let astar = Competitor::Ours("astar".parse().expect("a setup"));
+    for competitor in [astar, Competitor::Baseline(Baseline::Pathfinding)] {
+        assert!(check(5.0, competitor).is_ok());
         for wrong in [4.99, 5.01] {
-            match check(wrong, contender) {
+            match check(wrong, competitor) {
                 Err(MeasureError::Answer { index: 1, expected, .. }) => assert_eq!(expected, wrong),
-                other => panic!("{contender}, {wrong}: {other:?}"),
+                other => panic!("{competitor}, {wrong}: {other:?}"),
             }
         }
     }
     // This one solves another problem, and is not held to the scenario's lengths.
-    assert!(check(4.99, Contender::Yardstick(Yardstick::GridPathfinding)).is_ok());
+    assert!(check(4.99, Competitor::Baseline(Baseline::GridPathfinding)).is_ok());
 }
 
 #[test]

@@ -15,8 +15,8 @@ use clap::{
     error::ErrorKind,
 };
 use mediant_engines::{Engine, HeuristicName, Levels, Options, Setup, Variant};
-use mediant_grid::{Centers, CornerRule, DiagonalGap, Lattice, Placement, Rules, Vertex};
-use mediant_moves::{K, Knob, KnobError};
+use mediant_grid::{Centers, CornerRule, DiagonalGap, GridGraph, PlacementKind, Rules, Vertex};
+use mediant_moves::{FiniteK, K, ParseKError};
 use mediant_search::Smoothing;
 
 use crate::failure::{Ending, FAILURE, Failure, finish, say_error};
@@ -135,8 +135,8 @@ pub(crate) struct SetupArgs {
     #[arg(long, default_value_t, value_parser = names(Engine::ALL, Engine::name))]
     pub(crate) engine: Engine,
     /// The neighborhood: 2 to 12, or any, which is every direction. 3 by default, any for anya
-    #[arg(long, allow_negative_numbers = true, value_parser = parse_knob)]
-    pub(crate) k: Option<Knob>,
+    #[arg(long, allow_negative_numbers = true, value_parser = parse_k)]
+    pub(crate) k: Option<K>,
     /// Where the vertices are: at cell centers or at cell corners. center by default, corner for anya, subgoal-theta and k = any
     #[arg(long, value_enum, hide_possible_values = true, value_name = "center|corner")]
     pub(crate) placement: Option<PlacementArg>,
@@ -197,7 +197,7 @@ Examples:
 pub(crate) struct MovesArgs {
     /// The neighborhood: 2 to 47
     #[arg(long, allow_negative_numbers = true, value_parser = parse_any_k)]
-    pub(crate) k: Option<K>,
+    pub(crate) k: Option<FiniteK>,
     /// Find the smallest k whose paths are at most R times as long as any-angle paths, for instance 1.01
     #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = parse_ratio)]
     pub(crate) ratio: Option<f64>,
@@ -210,8 +210,8 @@ pub(crate) struct DemoArgs {
     pub(crate) name: String,
 }
 
-/// The largest k that lattices take.
-pub(crate) const MAX_K: u32 = Lattice::<Centers>::MAX_K;
+/// The largest k that grid graphs take.
+pub(crate) const MAX_K: u32 = GridGraph::<Centers>::MAX_K;
 
 /// The engines whose paths are the shortest at any angle.
 const REFERENCES: [Engine; 2] = [Engine::Anya, Engine::Subgoal];
@@ -281,7 +281,7 @@ impl RunArgs {
     /// The setup that finds the shortest any-angle paths to compare with, if it is asked for.
     pub(crate) fn reference(&self, rules: Rules) -> Result<Option<Setup>, Failure> {
         let Some(engine) = self.reference else { return Ok(None) };
-        let setup = Setup::new(engine, Knob::Any, rules);
+        let setup = Setup::new(engine, K::Any, rules);
         match setup.check() {
             Ok(()) => Ok(Some(setup)),
             Err(_) => Err(Failure::NoReference { engine, placement: rules.placement() }),
@@ -306,24 +306,26 @@ impl SetupArgs {
         Ok(setup)
     }
 
-    /// Placement and rule; an error for the rule of the other placement.
-    fn rules(&self, k: Knob) -> Result<Rules, Failure> {
+    /// PlacementKind and rule; an error for the rule of the other placement.
+    fn rules(&self, k: K) -> Result<Rules, Failure> {
         let not_applicable =
             |option, placement, other| Err(Failure::NotApplicable { option, placement, other });
         let placement = match self.placement {
             None => self.engine.about().default_rules(k).placement(),
-            Some(PlacementArg::Center) => Placement::Center,
-            Some(PlacementArg::Corner) => Placement::Corner,
+            Some(PlacementArg::Center) => PlacementKind::Center,
+            Some(PlacementArg::Corner) => PlacementKind::Corner,
         };
         match placement {
-            Placement::Center if self.gap.is_some() => not_applicable("--gap", "center", "corner"),
-            Placement::Corner if self.corners.is_some() => not_applicable("--corners", "corner", "center"),
-            Placement::Center => Ok(Rules::Center(match self.corners {
+            PlacementKind::Center if self.gap.is_some() => not_applicable("--gap", "center", "corner"),
+            PlacementKind::Corner if self.corners.is_some() => {
+                not_applicable("--corners", "corner", "center")
+            }
+            PlacementKind::Center => Ok(Rules::Center(match self.corners {
                 None | Some(CornersArg::Never) => CornerRule::Never,
                 Some(CornersArg::One) => CornerRule::One,
                 Some(CornersArg::Always) => CornerRule::Always,
             })),
-            Placement::Corner => Ok(Rules::Corner(match self.gap {
+            PlacementKind::Corner => Ok(Rules::Corner(match self.gap {
                 None | Some(GapArg::Open) => DiagonalGap::Open,
                 Some(GapArg::Closed) => DiagonalGap::Closed,
             })),
@@ -357,12 +359,12 @@ fn parse_count<N: FromStr<Err = ParseIntError> + Display>(text: &str, max: &N) -
 }
 
 /// A k that some engine may take.
-fn parse_knob(text: &str) -> Result<Knob, String> {
+fn parse_k(text: &str) -> Result<K, String> {
     let form = format!("choose a number from 2 to {MAX_K}, or any");
     match text.parse() {
-        Err(KnobError::K(error)) => Err(format!("{error}; {form}")),
-        Ok(Knob::K(k)) if k.get() > MAX_K => Err(format!("k = {k} is too large; {form}")),
-        Ok(knob) => Ok(knob),
+        Err(ParseKError::K(error)) => Err(format!("{error}; {form}")),
+        Ok(K::Finite(k)) if k.get() > MAX_K => Err(format!("k = {k} is too large; {form}")),
+        Ok(k) => Ok(k),
         Err(_) => Err(form),
     }
 }
@@ -372,11 +374,12 @@ fn parse_levels(text: &str) -> Result<Levels, String> {
     text.parse().map_err(|_| format!("expected a whole number from 1 to {max}, or all"))
 }
 
-/// A k of which the moves can be computed, though no lattice may take it.
-fn parse_any_k(text: &str) -> Result<K, String> {
-    let max = K::MAX_MOVES;
+/// A k of which the moves can be computed, though no grid graph may take it.
+fn parse_any_k(text: &str) -> Result<FiniteK, String> {
+    let max = FiniteK::MAX_MOVES;
     let form = format!("choose a number from 2 to {max}");
-    let k = K::new(text.parse().map_err(|_| form.clone())?).map_err(|error| format!("{error}; {form}"))?;
+    let k =
+        FiniteK::new(text.parse().map_err(|_| form.clone())?).map_err(|error| format!("{error}; {form}"))?;
     match k.radius() {
         Ok(_) => Ok(k),
         Err(error) => Err(error.to_string()),
@@ -452,10 +455,10 @@ mod tests {
 
     #[test]
     fn k_is_a_number_or_any() {
-        assert_eq!(parse_knob("any"), Ok(Knob::Any));
-        assert_eq!(parse_knob("2"), Ok(Knob::K(K::FOUR_CONNECTED)));
+        assert_eq!(parse_k("any"), Ok(K::Any));
+        assert_eq!(parse_k("2"), Ok(K::Finite(FiniteK::N4)));
         for wrong in ["1", "13", "-3", "three", ""] {
-            assert!(parse_knob(wrong).is_err(), "{wrong}");
+            assert!(parse_k(wrong).is_err(), "{wrong}");
         }
     }
 
@@ -468,7 +471,7 @@ mod tests {
             argument.get_help().unwrap().to_string()
         };
         let setup = |engine: Engine| {
-            Setup::new(engine, K::FOUR_CONNECTED, engine.about().default_rules(K::FOUR_CONNECTED.into()))
+            Setup::new(engine, FiniteK::N4, engine.about().default_rules(FiniteK::N4.into()))
         };
         for engine in [Engine::Subgoal, Engine::SubgoalTheta, Engine::Hpa] {
             let name = hierarchy_name(setup(engine).hierarchy().unwrap()).replacen("a c", "A c", 1);
@@ -488,8 +491,8 @@ mod tests {
     #[test]
     fn references_are_the_engines_that_promise_the_shortest_any_angle_paths() {
         let promises = |engine: &Engine| {
-            let setup = Setup::new(*engine, Knob::Any, engine.about().default_rules(Knob::Any));
-            setup.check().is_ok() && setup.optimal_over() == Some(Knob::Any)
+            let setup = Setup::new(*engine, K::Any, engine.about().default_rules(K::Any));
+            setup.check().is_ok() && setup.optimal_over() == Some(K::Any)
         };
         assert!(Engine::ALL.into_iter().filter(promises).eq(REFERENCES));
     }

@@ -5,7 +5,7 @@ use std::{io::Write, path::Path};
 use mediant_engines::{Setup, build_with_progress};
 use mediant_formats::{IndexFile, IndexKey};
 use mediant_grid::Grid;
-use mediant_moves::K;
+use mediant_moves::FiniteK;
 
 use crate::{
     args::BuildArgs,
@@ -50,7 +50,7 @@ pub(crate) fn load(path: &Path, setup: Setup, grid: &Grid) -> Result<Vec<u8>, Fa
 }
 
 fn key(setup: Setup, version: u32, grid: &Grid) -> Result<IndexKey, mediant_formats::IndexError> {
-    IndexKey::new(setup.engine.name(), version, setup.rules, setup.k.finite().map(K::get), grid)
+    IndexKey::new(setup.engine.name(), version, setup.rules, setup.k.finite().map(FiniteK::get), grid)
 }
 
 fn refused(path: &Path) -> impl FnOnce(mediant_formats::IndexError) -> Failure {

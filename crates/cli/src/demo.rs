@@ -4,8 +4,8 @@ use std::io::{self, Write};
 
 use anstyle::RgbColor;
 use mediant_engines::{Engine, Prebuilt, Preprocessing, Setup, Visit, with_planner};
-use mediant_grid::{CornerRule, DiagonalGap, Placement, Rules, Vertex};
-use mediant_moves::{K, Knob};
+use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Rules, Vertex};
+use mediant_moves::{FiniteK, K};
 use mediant_search::{Outcome, Planner, Query};
 
 use crate::{
@@ -28,7 +28,7 @@ const REPEAT: u32 = 20;
 /// A line of the table.
 struct Row {
     rules: Rules,
-    k: Knob,
+    k: K,
     /// How much longer than an any-angle path it can be at most, where that is known.
     bound: Option<f64>,
     cost: f64,
@@ -46,7 +46,7 @@ impl Visit for Solve {
     fn visit<P: Planner>(self, mut planner: P, _: Preprocessing) -> Option<Row> {
         let Self(Setup { rules, k, .. }, query) = self;
         // Of paths between centers no bound over those between corners, the best here, is known.
-        let at_corners = rules.placement() == Placement::Corner;
+        let at_corners = rules.placement() == PlacementKind::Corner;
         let bound = planner.guarantee().bound(rules).filter(|_| at_corners);
         let Answer { outcome, counters, nanos } = Answer::new(&mut planner, query, REPEAT);
         let Ok(Outcome::Found(path)) = outcome else { return None };
@@ -64,10 +64,10 @@ pub(crate) fn demo(args: &DemoArgs, screen: &mut Screen) -> Result<(), Failure> 
     let centers = Rules::Center(CornerRule::Never);
     let mut setups = Vec::new();
     for k in KS {
-        setups.push(Setup::new(Engine::AStar, K::new(k)?, corners));
+        setups.push(Setup::new(Engine::AStar, FiniteK::new(k)?, corners));
     }
-    setups.push(Setup::new(Engine::Anya, Knob::Any, corners));
-    setups.push(Setup::new(Engine::AStar, K::EIGHT_CONNECTED, centers));
+    setups.push(Setup::new(Engine::Anya, K::Any, corners));
+    setups.push(Setup::new(Engine::AStar, FiniteK::N8, centers));
     let mut rows = Vec::new();
     for setup in setups {
         rows.extend(with_planner(setup, &map.grid, Prebuilt::default(), Solve(setup, query))?);
@@ -88,20 +88,20 @@ fn title(builtin: &Builtin, map: &Map, query: Query, screen: &mut Screen) -> io:
 /// How a row of the table is drawn on the map, if it is.
 fn stroke(row: &Row) -> Option<(Stroke, RgbColor)> {
     match (row.rules.placement(), row.k) {
-        (Placement::Corner, Knob::K(K::FOUR_CONNECTED)) => Some((Stroke::Dotted, INKS.four)),
-        (Placement::Corner, Knob::K(K::EIGHT_CONNECTED)) => Some((Stroke::Dashed, INKS.eight)),
-        (Placement::Corner, Knob::Any) => Some((Stroke::Solid, INKS.best)),
+        (PlacementKind::Corner, K::Finite(FiniteK::N4)) => Some((Stroke::Dotted, INKS.four)),
+        (PlacementKind::Corner, K::Finite(FiniteK::N8)) => Some((Stroke::Dashed, INKS.eight)),
+        (PlacementKind::Corner, K::Any) => Some((Stroke::Solid, INKS.best)),
         _ => None,
     }
 }
 
 /// A k, ∞ by its sign.
-fn shown(k: Knob) -> String {
+fn shown(k: K) -> String {
     k.finite().map_or_else(|| "∞".to_owned(), |k| k.to_string())
 }
 
 fn picture(map: &Map, query: Query, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
-    let mut canvas = Canvas::fit(map, Placement::Corner, screen);
+    let mut canvas = Canvas::fit(map, PlacementKind::Corner, screen);
     for row in rows {
         if let Some((stroke, ink)) = stroke(row) {
             canvas.path(&row.waypoints, stroke, ink);
@@ -124,7 +124,7 @@ fn picture(map: &Map, query: Query, rows: &[Row], screen: &mut Screen) -> io::Re
 }
 
 fn table(map: &Map, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
-    let best = rows.iter().filter(|row| row.rules.placement() == Placement::Corner).map(|row| row.cost);
+    let best = rows.iter().filter(|row| row.rules.placement() == PlacementKind::Corner).map(|row| row.cost);
     let best = best.fold(f64::INFINITY, f64::min);
     let names = ["k", "at", "moves", "cost", "over best", "bound", "turns", "expanded", "time"];
     let mut table =
@@ -135,7 +135,7 @@ fn table(map: &Map, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
             // A column wider than its numbers keeps them off the sample of the line.
             format!("{:>3}", shown(row.k)),
             format!("{placement}s"),
-            row.k.finite().and_then(K::moves).map_or_else(|| "∞".to_owned(), grouped),
+            row.k.finite().and_then(FiniteK::moves).map_or_else(|| "∞".to_owned(), grouped),
             format!("{:.4}", row.cost),
             percent_over(row.cost / best, 2),
             row.bound.map_or_else(|| "–".to_owned(), |bound| percent_over(bound, 2)),

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use mediant_engines::{About, Engine};
-use mediant_moves::Knob;
+use mediant_moves::K;
 use mediant_search::Guarantee;
 
 use crate::{
@@ -36,7 +36,7 @@ pub(crate) fn list(screen: &mut Screen) -> Result<(), Failure> {
             [one] => one.to_string(),
             _ => "both".to_owned(),
         };
-        let ks = [max_k.map(|max| format!("2–{max}")), any.then(|| Knob::Any.to_string())];
+        let ks = [max_k.map(|max| format!("2–{max}")), any.then(|| K::Any.to_string())];
         let ks: Vec<String> = ks.into_iter().flatten().collect();
         table.row([engine.name(), &placement, &ks.join(", "), guarantee, paper].map(str::to_owned));
     }

@@ -9,7 +9,7 @@ use std::{
 use anstyle::{AnsiColor, Style};
 use mediant_engines::{Engine, EngineError, SetupError};
 use mediant_formats::{IndexError, ReadError, ScenarioForOtherMap, WriteError};
-use mediant_grid::{Placement, Vertex};
+use mediant_grid::{PlacementKind, Vertex};
 
 use crate::text::printable;
 
@@ -52,7 +52,7 @@ pub(crate) enum Failure {
     #[error(
         "--reference {engine} finds no any-angle paths at --placement {placement}: leave it out, or choose --placement corner"
     )]
-    NoReference { engine: Engine, placement: Placement },
+    NoReference { engine: Engine, placement: PlacementKind },
     #[error(transparent)]
     Setup(#[from] SetupError),
     #[error(transparent)]

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use mediant_moves::{
-    BOUND_WITHOUT_CORNER_CUTTING, K, KError, Neighborhood, Parity, Quadrant, Vector, bound_at_centers,
+    BOUND_WITHOUT_CORNER_CUTTING, FiniteK, KError, Neighborhood, Parity, Quadrant, Vector, bound_at_centers,
     bound_at_corners, level, parents, smallest_k_at_centers, smallest_k_at_corners,
 };
 
@@ -131,8 +131,10 @@ fn smallest(ratio: f64, after_moves: bool, screen: &mut Screen) -> io::Result<()
         }
     }
     if places.iter().any(|&(_, k, _)| k.is_some_and(|k| k.get() > MAX_K)) {
-        let note =
-            format!("  `mediant run` takes k up to {MAX_K}, or any; `mediant moves` up to {}", K::MAX_MOVES);
+        let note = format!(
+            "  `mediant run` takes k up to {MAX_K}, or any; `mediant moves` up to {}",
+            FiniteK::MAX_MOVES
+        );
         writeln!(screen, "{}", screen.paint(DIM, note))?;
     }
     Ok(())

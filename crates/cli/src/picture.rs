@@ -7,7 +7,7 @@ use std::io::{self, Write};
 
 use anstyle::{Reset, RgbColor};
 use mediant_formats::MapFile;
-use mediant_grid::{Placement, Vertex};
+use mediant_grid::{PlacementKind, Vertex};
 use mediant_search::Query;
 
 use crate::{
@@ -26,7 +26,7 @@ struct Ground {
 
 /// A map in the size of the screen, to be drawn on.
 pub(crate) struct Canvas {
-    placement: Placement,
+    placement: PlacementKind,
     dots_per_cell: f64,
     /// As wide as the sheet in characters and twice as high, row by row.
     ground: Vec<Ground>,
@@ -41,7 +41,7 @@ impl Canvas {
     const MAX_ROWS: f64 = 48.0;
 
     /// The map, as large as fits on the screen but not larger than is good to look at.
-    pub(crate) fn fit(map: &Map, placement: Placement, screen: &Screen) -> Self {
+    pub(crate) fn fit(map: &Map, placement: PlacementKind, screen: &Screen) -> Self {
         let (width, height) = (f64::from(map.grid.width()), f64::from(map.grid.height()));
         // Margins, and the frame where there is no color.
         let columns = screen.columns().max(24) as f64 - 6.0;
@@ -56,7 +56,7 @@ impl Canvas {
         Self::new(map, placement, dots_per_cell)
     }
 
-    fn new(map: &Map, placement: Placement, dots_per_cell: f64) -> Self {
+    fn new(map: &Map, placement: PlacementKind, dots_per_cell: f64) -> Self {
         let chars =
             |cells: u32, dots: usize| (f64::from(cells) * dots_per_cell / dots as f64).ceil() as usize;
         let (columns, rows) = (chars(map.grid.width(), DOT_COLUMNS), chars(map.grid.height(), DOT_ROWS));
@@ -95,7 +95,7 @@ impl Canvas {
 
     /// Where a vertex is, in dots.
     fn position(&self, at: Vertex) -> (f64, f64) {
-        let offset = if self.placement == Placement::Center { 0.5 } else { 0.0 };
+        let offset = if self.placement == PlacementKind::Center { 0.5 } else { 0.0 };
         let dots = |cells: i32| (f64::from(cells) + offset) * self.dots_per_cell;
         (dots(at.x), dots(at.y))
     }

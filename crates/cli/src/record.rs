@@ -4,7 +4,7 @@
 //! last a [`Summary`](crate::summary::Summary) (`"summary"`). Lengths are in cells, times in nanoseconds.
 
 use mediant_engines::{Hierarchy, Levels};
-use mediant_moves::Knob;
+use mediant_moves::K;
 use serde::{Serialize, Serializer};
 
 /// What is run.
@@ -22,7 +22,7 @@ pub(crate) struct RunRecord {
     pub(crate) engine: String,
     /// A number or `any`.
     #[serde(serialize_with = "number_or_any")]
-    pub(crate) k: Knob,
+    pub(crate) k: K,
     pub(crate) placement: String,
     pub(crate) corners: String,
     pub(crate) gap: String,
@@ -60,10 +60,10 @@ pub(crate) struct RunRecord {
     pub(crate) version: &'static str,
 }
 
-fn number_or_any<S: Serializer>(k: &Knob, serializer: S) -> Result<S::Ok, S::Error> {
+fn number_or_any<S: Serializer>(k: &K, serializer: S) -> Result<S::Ok, S::Error> {
     match k {
-        Knob::K(k) => serializer.serialize_u32(k.get()),
-        Knob::Any => serializer.collect_str(k),
+        K::Finite(k) => serializer.serialize_u32(k.get()),
+        K::Any => serializer.collect_str(k),
     }
 }
 

@@ -9,7 +9,7 @@ use std::{
 };
 
 use mediant_engines::{Preprocessing, Solver, Visit};
-use mediant_grid::{Centers, Corners, Grid, Place, Placement, Rules, Vertex};
+use mediant_grid::{Centers, Corners, Grid, Placement, PlacementKind, Rules, Vertex};
 use mediant_search::{Counters, Guarantee, Outcome, Path, Planner, Query, QueryError};
 
 use crate::{
@@ -179,7 +179,7 @@ fn times(cost: f64, other: f64) -> f64 {
 }
 
 /// A query error with, for a blocked end, a free vertex nearby.
-pub(crate) fn explain(error: QueryError, grid: &Grid, placement: Placement) -> String {
+pub(crate) fn explain(error: QueryError, grid: &Grid, placement: PlacementKind) -> String {
     match error {
         QueryError::Blocked { at, .. } => match nearest_free(grid, placement, at) {
             Some(free) => format!("{error}; the nearest one is {free}"),
@@ -190,11 +190,11 @@ pub(crate) fn explain(error: QueryError, grid: &Grid, placement: Placement) -> S
 }
 
 /// The free vertex nearest to `at`, the first in row-major order of those that tie; `None` if there is none nearby.
-fn nearest_free(grid: &Grid, placement: Placement, at: Vertex) -> Option<Vertex> {
+fn nearest_free(grid: &Grid, placement: PlacementKind, at: Vertex) -> Option<Vertex> {
     const REACH: i32 = 64;
     let is_free = |v| match placement {
-        Placement::Center => Centers::is_free(grid, v),
-        Placement::Corner => Corners::is_free(grid, v),
+        PlacementKind::Center => Centers::is_free(grid, v),
+        PlacementKind::Corner => Corners::is_free(grid, v),
     };
     let around =
         (-REACH..=REACH).flat_map(|dy| (-REACH..=REACH).map(move |dx| Vertex::new(at.x + dx, at.y + dy)));

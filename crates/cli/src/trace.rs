@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use mediant_formats::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
-use mediant_grid::{Grid, Placement, Vertex};
+use mediant_grid::{Grid, PlacementKind, Vertex};
 use mediant_search::{NodeEvent, Observer, Outcome, Path, Planner, Query, QueryError};
 
 /// Writes the events of one search.
@@ -18,8 +18,8 @@ pub(crate) struct Tracer<'g, W: Write> {
 }
 
 impl<'g, W: Write> Tracer<'g, W> {
-    pub(crate) fn new(out: W, grid: &'g Grid, placement: Placement) -> io::Result<Self> {
-        let width = grid.width() + u32::from(placement == Placement::Corner);
+    pub(crate) fn new(out: W, grid: &'g Grid, placement: PlacementKind) -> io::Result<Self> {
+        let width = grid.width() + u32::from(placement == PlacementKind::Corner);
         let trace = TraceWriter::new(out, &TraceHeader { placement, map: Some(grid) })?;
         Ok(Self { trace, width, open: None, written: Ok(()) })
     }

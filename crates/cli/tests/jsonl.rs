@@ -10,9 +10,9 @@ use std::{
 };
 
 use mediant_formats::{MapFile, Scenario};
-use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Grid, Lattice, Place, Rules};
-use mediant_moves::K;
-use mediant_search::{AStar, Counters, LatticeDistance, Path, Planner, Query};
+use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules};
+use mediant_moves::FiniteK;
+use mediant_search::{AStar, Counters, Hk, Path, Planner, Query};
 use serde_json::Value;
 
 mod common;
@@ -206,15 +206,15 @@ fn nanocells(length: f64) -> u64 {
 }
 
 /// Costs and counts of the library's planner on a bundled map's scenario.
-fn library<P: Place>(
+fn library<P: Placement>(
     grid: &Arc<Grid>,
     k: u32,
     rule: P::Rule,
     scenario: &Scenario,
 ) -> Vec<(Option<u64>, u64, u64, u64)> {
-    let k = K::new(k).expect("a k");
-    let lattice = Lattice::<P>::new(grid.clone(), k, rule).expect("a lattice");
-    let mut planner = AStar::new(&lattice, LatticeDistance);
+    let k = FiniteK::new(k).expect("a k");
+    let grid_graph = GridGraph::<P>::new(grid.clone(), k, rule).expect("a grid_graph");
+    let mut planner = AStar::new(&grid_graph, Hk);
     let mut solve = |query| {
         let mut counters = Counters::default();
         let outcome = planner.solve_observed(query, &mut counters).expect("free ends");
@@ -276,7 +276,7 @@ fn every_option_reaches_the_planner() {
             different.insert(format!("{found:?}"));
         }
     }
-    // At k = 2 no move passes a corner point, so that the corner rules agree, and town has few doubly blocked corners.
+    // At k = 2 no move passes a corner point, so that the corner rules agree, and town has few gaps.
     assert!(different.len() >= 14, "only {} of 20 setups differ: are options lost?", different.len());
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Grid, Lattice, Place, Vertex};
+use mediant_grid::{Grid, GridGraph, Placement, Vertex};
 use mediant_search::{Dijkstra, Wavefront};
 
 use crate::{Engine, EngineError, Ground, Setup, SetupError, setup::those};
@@ -14,24 +14,24 @@ use crate::{Engine, EngineError, Ground, Setup, SetupError, setup::those};
 /// map.
 pub fn distances(setup: Setup, grid: &Arc<Grid>, start: Vertex) -> Result<Vec<(Vertex, f64)>, EngineError> {
     match Ground::new(setup, grid)? {
-        Ground::Centers(lattice) => on(setup, &lattice, start),
-        Ground::Corners(lattice) => on(setup, &lattice, start),
+        Ground::Centers(grid_graph) => on(setup, &grid_graph, start),
+        Ground::Corners(grid_graph) => on(setup, &grid_graph, start),
         Ground::AnyAngle(_) => Err(without_distances(setup.engine).into()),
     }
 }
 
-fn on<P: Place>(
+fn on<P: Placement>(
     setup: Setup,
-    lattice: &Lattice<P>,
+    grid_graph: &GridGraph<P>,
     start: Vertex,
 ) -> Result<Vec<(Vertex, f64)>, EngineError> {
     Ok(match setup.engine {
         Engine::Dijkstra => {
-            let costs = Dijkstra::new(lattice, mediant_search::Zero).distances(start)?;
+            let costs = Dijkstra::new(grid_graph, mediant_search::Zero).distances(start)?;
             costs.iter().map(|(at, cost)| (at, cost.to_f64())).collect()
         }
         Engine::Wavefront => {
-            let moves = Wavefront::new(lattice).distances(start)?;
+            let moves = Wavefront::new(grid_graph).distances(start)?;
             moves.iter().map(|(at, moves)| (at, f64::from(moves))).collect()
         }
         engine => return Err(without_distances(engine).into()),

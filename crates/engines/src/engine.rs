@@ -1,8 +1,8 @@
 //! The engines, and what is to be known of each.
 
-use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Lattice, Placement, Rules};
+use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, GridGraph, PlacementKind, Rules};
 use mediant_hierarchy::{ClusterGraph, SegmentGraph};
-use mediant_moves::{K, Knob};
+use mediant_moves::{FiniteK, K};
 use mediant_search::JumpTable;
 use mediant_subgoal::SubgoalGraph;
 
@@ -64,7 +64,7 @@ names!(Engine:
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct About {
     /// Where its vertices may be.
-    pub placements: &'static [Placement],
+    pub placements: &'static [PlacementKind],
     /// The largest k of the neighborhoods that it searches, the smallest being 2; none for an engine that searches none.
     pub max_k: Option<u32>,
     /// Whether it searches every direction, k = ∞.
@@ -100,8 +100,8 @@ pub struct About {
 impl About {
     /// A search that takes a heuristic and no other option.
     const SEARCH: Self = Self {
-        placements: &[Placement::Center, Placement::Corner],
-        max_k: Some(Lattice::<Centers>::MAX_K),
+        placements: &[PlacementKind::Center, PlacementKind::Corner],
+        max_k: Some(GridGraph::<Centers>::MAX_K),
         any: false,
         guarantee: "optimal(k)",
         paper: "",
@@ -120,15 +120,15 @@ impl About {
 
     /// The k that is meant where none is said: 3, or ∞ of an engine that searches nothing else.
     #[must_use]
-    pub const fn default_k(self) -> Knob {
-        if self.max_k.is_some() { Knob::K(K::EIGHT_CONNECTED) } else { Knob::Any }
+    pub const fn default_k(self) -> K {
+        if self.max_k.is_some() { K::Finite(FiniteK::N8) } else { K::Any }
     }
 
     /// The rules that are meant where none are said: `never` at centers, or `open` where there are only corners, which is of an engine that
     /// takes nothing else, and of every direction.
     #[must_use]
-    pub fn default_rules(self, k: Knob) -> Rules {
-        if self.placements.contains(&Placement::Center) && k != Knob::Any {
+    pub fn default_rules(self, k: K) -> Rules {
+        if self.placements.contains(&PlacementKind::Center) && k != K::Any {
             Rules::Center(CornerRule::default())
         } else {
             Rules::Corner(DiagonalGap::default())
@@ -146,7 +146,7 @@ impl Engine {
         let index = Some(SubgoalGraph::<Corners>::VERSION);
         let subgoals = About { heuristic: false, levels: true, index, ..search };
         let squares = About {
-            placements: &[Placement::Center],
+            placements: &[PlacementKind::Center],
             max_k: Some(3),
             guarantee: "suboptimal",
             side: true,
@@ -173,7 +173,7 @@ impl Engine {
             Self::Theta => About { paper: "Daniel 2010", ..theta },
             Self::LazyTheta => About { paper: "Nash 2010", ..theta },
             Self::Anya => About {
-                placements: &[Placement::Corner],
+                placements: &[PlacementKind::Corner],
                 max_k: None,
                 any: true,
                 guarantee: "optimal(any)",
@@ -183,7 +183,7 @@ impl Engine {
             },
             Self::Subgoal => About { any: true, paper: "Hormazábal 2017", ..subgoals },
             Self::SubgoalTheta => About {
-                placements: &[Placement::Corner],
+                placements: &[PlacementKind::Corner],
                 guarantee: "suboptimal",
                 paper: "Uras 2015",
                 ..subgoals

@@ -1,8 +1,8 @@
 //! What an engine cannot be asked for.
 
-use mediant_grid::{Placement, Rules};
+use mediant_grid::{PlacementKind, Rules};
 use mediant_hierarchy::HierarchyError;
-use mediant_moves::{K, KError, Knob};
+use mediant_moves::{FiniteK, K, KError};
 use mediant_search::{JumpTableError, QueryError};
 use mediant_subgoal::{Hierarchy, SubgoalError};
 
@@ -30,7 +30,7 @@ pub enum SetupError {
         /// The largest k.
         max: u32,
         /// What was asked for.
-        k: K,
+        k: FiniteK,
     },
     /// Every direction, asked of an engine that searches neighborhoods.
     #[error("{engine} needs a k from 2 to {max}; for any choose {others}")]
@@ -48,17 +48,17 @@ pub enum SetupError {
         /// The engine.
         engine: Engine,
         /// What was asked for.
-        k: K,
+        k: FiniteK,
     },
     /// A placement that the engine does not take.
     #[error("{engine} needs placement {needed}; for {placement} choose {others}")]
-    Placement {
+    PlacementKind {
         /// The engine.
         engine: Engine,
         /// What it takes.
-        needed: Placement,
+        needed: PlacementKind,
         /// What was asked for.
-        placement: Placement,
+        placement: PlacementKind,
         /// The engines that take that.
         others: String,
     },
@@ -66,13 +66,13 @@ pub enum SetupError {
     #[error(
         "at centers {engine} needs k = 2, or k = 3 under corners never, found k = {k} under {rules}: \
          choose one of these,{} or another engine",
-        if engine.about().placements.contains(&Placement::Corner) { " placement corner," } else { "" }
+        if engine.about().placements.contains(&PlacementKind::Corner) { " placement corner," } else { "" }
     )]
     Centers {
         /// The engine.
         engine: Engine,
         /// The k that was asked for.
-        k: Knob,
+        k: K,
         /// The rules.
         rules: Rules,
     },
@@ -108,9 +108,9 @@ pub enum EngineError {
     #[error("needs the ground of k = {} under {}, found that of k = {} under {}", expected.0, expected.1, found.0, found.1)]
     Ground {
         /// What the setup asks for.
-        expected: (Knob, Rules),
+        expected: (K, Rules),
         /// What there is.
-        found: (Knob, Rules),
+        found: (K, Rules),
     },
     /// A jump table that is not that of the map.
     #[error(transparent)]

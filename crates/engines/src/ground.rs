@@ -2,20 +2,20 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Centers, Corners, Grid, Lattice, Rules, Terrain, Vertex};
-use mediant_moves::Knob;
+use mediant_grid::{Centers, Corners, FreeSpace, Grid, GridGraph, Rules, Vertex};
+use mediant_moves::K;
 
 use crate::{EngineError, Setup};
 
-/// What the planners for one k and one rule of motion share: the search graph of N(k), or for every direction the terrain alone.
+/// What the planners for one k and one rule of motion share: the search graph of N(k), or for every direction the free space alone.
 #[derive(Clone, Debug)]
 pub enum Ground {
     /// N(k) between centers.
-    Centers(Arc<Lattice<Centers>>),
+    Centers(Arc<GridGraph<Centers>>),
     /// N(k) between corners.
-    Corners(Arc<Lattice<Corners>>),
+    Corners(Arc<GridGraph<Corners>>),
     /// Every direction between corners.
-    AnyAngle(Arc<Terrain<Corners>>),
+    AnyAngle(Arc<FreeSpace<Corners>>),
 }
 
 /// What a setup that [`Setup::check`] refuses is told where there is nothing to search for it.
@@ -35,40 +35,40 @@ impl Ground {
         setup.check()?;
         let grid = Arc::clone(grid);
         Ok(match (setup.k, setup.rules) {
-            (Knob::K(k), Rules::Center(rule)) => Self::Centers(Arc::new(Lattice::new(grid, k, rule)?)),
-            (Knob::K(k), Rules::Corner(gap)) => Self::Corners(Arc::new(Lattice::new(grid, k, gap)?)),
-            (Knob::Any, Rules::Corner(gap)) => Self::AnyAngle(Arc::new(Terrain::new(grid, gap))),
-            (Knob::Any, Rules::Center(_)) => return Err(no_ground(setup)),
+            (K::Finite(k), Rules::Center(rule)) => Self::Centers(Arc::new(GridGraph::new(grid, k, rule)?)),
+            (K::Finite(k), Rules::Corner(gap)) => Self::Corners(Arc::new(GridGraph::new(grid, k, gap)?)),
+            (K::Any, Rules::Corner(gap)) => Self::AnyAngle(Arc::new(FreeSpace::new(grid, gap))),
+            (K::Any, Rules::Center(_)) => return Err(no_ground(setup)),
         })
     }
 
     /// The directions.
     #[must_use]
-    pub fn k(&self) -> Knob {
+    pub fn k(&self) -> K {
         match self {
-            Self::Centers(lattice) => lattice.k().into(),
-            Self::Corners(lattice) => lattice.k().into(),
-            Self::AnyAngle(_) => Knob::Any,
+            Self::Centers(grid_graph) => grid_graph.k().into(),
+            Self::Corners(grid_graph) => grid_graph.k().into(),
+            Self::AnyAngle(_) => K::Any,
         }
     }
 
-    /// Placement and rule of motion.
+    /// PlacementKind and rule of motion.
     #[must_use]
     pub fn rules(&self) -> Rules {
         match self {
-            Self::Centers(lattice) => lattice.rules(),
-            Self::Corners(lattice) => lattice.rules(),
-            Self::AnyAngle(terrain) => terrain.rules(),
+            Self::Centers(grid_graph) => grid_graph.rules(),
+            Self::Corners(grid_graph) => grid_graph.rules(),
+            Self::AnyAngle(space) => space.rules(),
         }
     }
 
     /// The memory that it takes beyond the map, in bytes.
     #[must_use]
-    pub fn index_bytes(&self) -> u64 {
+    pub fn memory_bytes(&self) -> u64 {
         let bytes = match self {
-            Self::Centers(lattice) => lattice.index_bytes(),
-            Self::Corners(lattice) => lattice.index_bytes(),
-            Self::AnyAngle(terrain) => terrain.index_bytes(),
+            Self::Centers(grid_graph) => grid_graph.memory_bytes(),
+            Self::Corners(grid_graph) => grid_graph.memory_bytes(),
+            Self::AnyAngle(space) => space.memory_bytes(),
         };
         bytes as u64
     }
@@ -77,9 +77,9 @@ impl Ground {
     #[must_use]
     pub fn connected(&self, from: Vertex, to: Vertex) -> bool {
         match self {
-            Self::Centers(lattice) => lattice.connected(from, to),
-            Self::Corners(lattice) => lattice.connected(from, to),
-            Self::AnyAngle(terrain) => terrain.connected(from, to),
+            Self::Centers(grid_graph) => grid_graph.connected(from, to),
+            Self::Corners(grid_graph) => grid_graph.connected(from, to),
+            Self::AnyAngle(space) => space.connected(from, to),
         }
     }
 }

@@ -7,10 +7,10 @@ use std::{
     time::{Duration, Instant},
 };
 
-use mediant_grid::{Corners, Grid, Lattice, Place, Terrain};
+use mediant_grid::{Corners, FreeSpace, Grid, GridGraph, Placement};
 use mediant_search::{
-    AStar, Anya, BlockJps, Blocks, Canonical, Euclidean, Heuristic, Jps, JpsPlus, JumpTable, Jumping,
-    LatticeDistance, LazyThetaStar, Locator, OnTerrain, PaperCanonical, Planner, Smoothed, Smoothing,
+    AStar, Anya, BlockJps, Blocks, Canonical, Euclidean, HasFreeSpace, Heuristic, Hk, Jps, JpsPlus,
+    JumpFinder, JumpTable, Jumping, LazyThetaStar, PaperCanonical, Planner, Smoothed, Smoothing,
     SquaredEuclidean, ThetaStar, Walk, Wavefront, Zero,
 };
 
@@ -68,7 +68,8 @@ pub fn with_planner<V: Visit>(
     visit: V,
 ) -> Result<V::Output, EngineError> {
     let (ground, time) = timed(|| Ground::new(setup, grid))?;
-    let preprocessing = Preprocessing { time, index_bytes: ground.index_bytes(), ..Preprocessing::default() };
+    let preprocessing =
+        Preprocessing { time, index_bytes: ground.memory_bytes(), ..Preprocessing::default() };
     with_planner_on(setup, &ground, prebuilt, AddTo { visit, preprocessing })
 }
 
@@ -113,116 +114,116 @@ pub fn with_planner_on<V: Visit>(
         _ if matches!(setup.engine, Engine::Hpa | Engine::Chpa) => {
             squares::with_graph(setup, ground, index, visit)
         }
-        Ground::Centers(lattice) => on_lattice(setup, lattice, prebuilt, visit),
-        Ground::Corners(lattice) => on_lattice(setup, lattice, prebuilt, visit),
-        Ground::AnyAngle(terrain) => on_terrain(setup, terrain, visit),
+        Ground::Centers(grid_graph) => on_graph(setup, grid_graph, prebuilt, visit),
+        Ground::Corners(grid_graph) => on_graph(setup, grid_graph, prebuilt, visit),
+        Ground::AnyAngle(space) => on_space(setup, space, visit),
     }
 }
 
 /// Hands on a planner that smooths its paths, if they are to be smoothed.
 pub(crate) struct Smooth<L, V> {
     pub(crate) visit: V,
-    pub(crate) terrain: L,
+    pub(crate) space: L,
     pub(crate) smoothing: Option<Smoothing>,
 }
 
 impl<L, V> Visit for Smooth<L, V>
 where
-    L: Deref<Target: OnTerrain> + Send + 'static,
+    L: Deref<Target: HasFreeSpace> + Send + 'static,
     V: Visit,
 {
     type Output = V::Output;
 
     fn visit<P: Planner + Send + 'static>(self, planner: P, preprocessing: Preprocessing) -> V::Output {
-        self.visit.visit(Smoothed::new(planner, self.terrain, self.smoothing), preprocessing)
+        self.visit.visit(Smoothed::new(planner, self.space, self.smoothing), preprocessing)
     }
 }
 
 /// Where the planners for every direction are made. `setup` was checked.
-fn on_terrain<V: Visit>(
+fn on_space<V: Visit>(
     setup: Setup,
-    terrain: &Arc<Terrain<Corners>>,
+    space: &Arc<FreeSpace<Corners>>,
     visit: V,
 ) -> Result<V::Output, EngineError> {
-    let visit = Smooth { visit, terrain: Arc::clone(terrain), smoothing: setup.options.smoothing };
+    let visit = Smooth { visit, space: Arc::clone(space), smoothing: setup.options.smoothing };
     match setup.engine {
-        Engine::Anya => Ok(visit.visit(Anya::new(Arc::clone(terrain)), Preprocessing::default())),
+        Engine::Anya => Ok(visit.visit(Anya::new(Arc::clone(space)), Preprocessing::default())),
         _ => Err(no_ground(setup)),
     }
 }
 
-fn on_lattice<P: Place, V: Visit>(
+fn on_graph<P: Placement, V: Visit>(
     setup: Setup,
-    lattice: &Arc<Lattice<P>>,
+    grid_graph: &Arc<GridGraph<P>>,
     prebuilt: Prebuilt,
     visit: V,
 ) -> Result<V::Output, EngineError> {
-    let lattice = Arc::clone(lattice);
-    let visit = Smooth { visit, terrain: Arc::clone(&lattice), smoothing: setup.options.smoothing };
+    let grid_graph = Arc::clone(grid_graph);
+    let visit = Smooth { visit, space: Arc::clone(&grid_graph), smoothing: setup.options.smoothing };
     match setup.heuristic() {
-        Some(HeuristicName::Hk) => with_heuristic(setup, lattice, LatticeDistance, prebuilt, visit),
-        Some(HeuristicName::Euclidean) => with_heuristic(setup, lattice, Euclidean, prebuilt, visit),
-        Some(HeuristicName::Zero) | None => with_heuristic(setup, lattice, Zero, prebuilt, visit),
-        // Nothing else on a lattice takes it: no other search need be compiled for it.
+        Some(HeuristicName::Hk) => with_heuristic(setup, grid_graph, Hk, prebuilt, visit),
+        Some(HeuristicName::Euclidean) => with_heuristic(setup, grid_graph, Euclidean, prebuilt, visit),
+        Some(HeuristicName::Zero) | None => with_heuristic(setup, grid_graph, Zero, prebuilt, visit),
+        // Nothing else on a grid graph takes it: no other search need be compiled for it.
         Some(HeuristicName::SquaredEuclidean) => {
-            Ok(visit.visit(AStar::new(lattice, SquaredEuclidean), Preprocessing::default()))
+            Ok(visit.visit(AStar::new(grid_graph, SquaredEuclidean), Preprocessing::default()))
         }
     }
 }
 
 /// Where the planners for N(k) are made. `setup` was checked.
-fn with_heuristic<P: Place, H: Heuristic + Send + 'static, V: Visit>(
+fn with_heuristic<P: Placement, H: Heuristic + Send + 'static, V: Visit>(
     setup: Setup,
-    lattice: Arc<Lattice<P>>,
+    grid_graph: Arc<GridGraph<P>>,
     heuristic: H,
     prebuilt: Prebuilt,
     visit: V,
 ) -> Result<V::Output, EngineError> {
     let nothing = Preprocessing::default();
     Ok(match setup.engine {
-        Engine::AStar | Engine::Dijkstra => visit.visit(AStar::new(lattice, heuristic), nothing),
-        Engine::Wavefront => visit.visit(Wavefront::new(lattice), nothing),
+        Engine::AStar | Engine::Dijkstra => visit.visit(AStar::new(grid_graph, heuristic), nothing),
+        Engine::Wavefront => visit.visit(Wavefront::new(grid_graph), nothing),
         Engine::Canonical if setup.variant() == Some(Variant::Paper) => {
-            visit.visit(PaperCanonical::new(lattice, heuristic), nothing)
+            visit.visit(PaperCanonical::new(grid_graph, heuristic), nothing)
         }
         Engine::Canonical => {
-            let (pruning, took) = pruning(&lattice, prebuilt.rule);
-            visit.visit(Canonical::with_pruning(lattice, pruning, heuristic), took)
+            let (pruning, took) = pruning(&grid_graph, prebuilt.rule);
+            visit.visit(Canonical::with_pruning(grid_graph, pruning, heuristic), took)
         }
         Engine::Jps => {
-            let (pruning, took) = pruning(&lattice, prebuilt.rule);
-            let planner = Jps::with_locator(lattice, pruning, Walk, heuristic);
+            let (pruning, took) = pruning(&grid_graph, prebuilt.rule);
+            let planner = Jps::with_finder(grid_graph, pruning, Walk, heuristic);
             visit.visit(with_options(planner, setup), took)
         }
         Engine::JpsBlock => {
-            let (pruning, took) = pruning(&lattice, prebuilt.rule);
-            let (blocks, more) = timed(|| Blocks::new(&*lattice, &pruning))?;
-            let bytes = blocks.bytes() as u64;
-            let planner = BlockJps::with_locator(lattice, pruning, blocks, heuristic);
+            let (pruning, took) = pruning(&grid_graph, prebuilt.rule);
+            let (blocks, more) = timed(|| Blocks::new(&*grid_graph, &pruning))?;
+            let bytes = blocks.memory_bytes() as u64;
+            let planner = BlockJps::with_finder(grid_graph, pruning, blocks, heuristic);
             visit.visit(with_options(planner, setup), took.and(more, bytes))
         }
         Engine::JpsPlus => {
-            let (pruning, took) = pruning(&lattice, prebuilt.rule);
+            let (pruning, took) = pruning(&grid_graph, prebuilt.rule);
             let (table, more) = timed(|| match prebuilt.index {
-                None => JumpTable::new(&*lattice).map_err(EngineError::from),
-                Some(bytes) => JumpTable::from_bytes(&*lattice, bytes).map_err(EngineError::from),
+                None => JumpTable::new(&*grid_graph).map_err(EngineError::from),
+                Some(bytes) => JumpTable::from_bytes(&*grid_graph, bytes).map_err(EngineError::from),
             })?;
-            let bytes = table.bytes() as u64;
-            let planner = JpsPlus::with_locator(lattice, pruning, Arc::new(table), heuristic);
+            let bytes = table.memory_bytes() as u64;
+            let planner = JpsPlus::with_finder(grid_graph, pruning, Arc::new(table), heuristic);
             visit.visit(with_options(planner, setup), took.and(more, bytes))
         }
-        Engine::Theta => visit.visit(ThetaStar::new(lattice, heuristic), nothing),
-        Engine::LazyTheta => visit.visit(LazyThetaStar::new(lattice, heuristic), nothing),
+        Engine::Theta => visit.visit(ThetaStar::new(grid_graph, heuristic), nothing),
+        Engine::LazyTheta => visit.visit(LazyThetaStar::new(grid_graph, heuristic), nothing),
         Engine::Anya | Engine::Subgoal | Engine::SubgoalTheta | Engine::Hpa | Engine::Chpa => {
             return Err(no_ground(setup));
         }
     })
 }
 
-fn with_options<P: Place, H: Heuristic, J: Locator<P>>(
-    planner: Jumping<Arc<Lattice<P>>, H, P, J>,
+fn with_options<P: Placement, H: Heuristic, J: JumpFinder<P>>(
+    planner: Jumping<Arc<GridGraph<P>>, H, P, J>,
     setup: Setup,
-) -> Jumping<Arc<Lattice<P>>, H, P, J> {
+) -> Jumping<Arc<GridGraph<P>>, H, P, J> {
     let limit = setup.options.jump_limit.map(NonZeroU32::get);
     planner.with_jump_limit(limit).with_intermediate(setup.options.intermediate)
 }
@@ -263,8 +264,8 @@ pub fn build_with_progress(
                 Ok((bytes, Preprocessing { hierarchy, ..nothing }))
             }
             (Engine::Hpa | Engine::Chpa, _) => squares::build(setup, &ground),
-            (Engine::JpsPlus, Ground::Centers(lattice)) => Ok((jump_table(lattice)?, nothing)),
-            (Engine::JpsPlus, Ground::Corners(lattice)) => Ok((jump_table(lattice)?, nothing)),
+            (Engine::JpsPlus, Ground::Centers(grid_graph)) => Ok((jump_table(grid_graph)?, nothing)),
+            (Engine::JpsPlus, Ground::Corners(grid_graph)) => Ok((jump_table(grid_graph)?, nothing)),
             (engine, _) => Err(EngineError::from(without_index(engine))),
         }
     })?;
@@ -272,6 +273,6 @@ pub fn build_with_progress(
     Ok((bytes, Preprocessing { time, index_bytes, ..about }))
 }
 
-fn jump_table<P: Place>(lattice: &Lattice<P>) -> Result<Vec<u8>, EngineError> {
-    Ok(JumpTable::new(lattice)?.as_bytes().to_vec())
+fn jump_table<P: Placement>(grid_graph: &GridGraph<P>) -> Result<Vec<u8>, EngineError> {
+    Ok(JumpTable::new(grid_graph)?.as_bytes().to_vec())
 }

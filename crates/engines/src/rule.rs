@@ -7,8 +7,8 @@ use std::{
     time::Instant,
 };
 
-use mediant_grid::{Centers, Corners, Lattice, Place, Rules};
-use mediant_moves::K;
+use mediant_grid::{Centers, Corners, GridGraph, Placement, Rules};
+use mediant_moves::FiniteK;
 use mediant_search::{CanonicalRule, Pruning};
 
 use crate::{Engine, Prebuilt, Preprocessing, Setup, Variant};
@@ -20,7 +20,7 @@ pub struct SharedRule(Arc<dyn Any + Send + Sync>);
 impl SharedRule {
     /// The rule for these.
     #[must_use]
-    pub fn new(k: K, rules: Rules) -> Self {
+    pub fn new(k: FiniteK, rules: Rules) -> Self {
         Self(match rules {
             Rules::Center(corners) => Arc::new(CanonicalRule::<Centers>::new(k, corners)),
             Rules::Corner(gap) => Arc::new(CanonicalRule::<Corners>::new(k, gap)),
@@ -30,7 +30,7 @@ impl SharedRule {
 
 /// The rules that were asked for, each made once.
 #[derive(Debug, Default)]
-pub struct SharedRules(Mutex<Vec<(K, Rules, SharedRule)>>);
+pub struct SharedRules(Mutex<Vec<(FiniteK, Rules, SharedRule)>>);
 
 impl SharedRules {
     /// None yet.
@@ -60,7 +60,7 @@ impl SharedRules {
         Prebuilt { index: None, rule: k.map(|k| self.get(k, setup.rules)) }
     }
 
-    fn get(&self, k: K, rules: Rules) -> SharedRule {
+    fn get(&self, k: FiniteK, rules: Rules) -> SharedRule {
         let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((.., rule)) = known.iter().find(|known| (known.0, known.1) == (k, rules)) {
             return rule.clone();
@@ -71,15 +71,15 @@ impl SharedRules {
     }
 }
 
-/// The pruning of canonical search on a lattice, and what it took.
-pub(crate) fn pruning<P: Place>(
-    lattice: &Lattice<P>,
+/// The pruning of canonical search on a grid graph, and what it took.
+pub(crate) fn pruning<P: Placement>(
+    grid_graph: &GridGraph<P>,
     shared: Option<SharedRule>,
 ) -> (Arc<Pruning<P>>, Preprocessing) {
     let begin = Instant::now();
     let rule = shared.and_then(|SharedRule(rule)| rule.downcast().ok());
-    let rule = rule.unwrap_or_else(|| Arc::new(CanonicalRule::new(lattice.k(), lattice.rule())));
-    let pruning = Pruning::with_rule(lattice, rule);
-    let index_bytes = pruning.bytes() as u64;
+    let rule = rule.unwrap_or_else(|| Arc::new(CanonicalRule::new(grid_graph.k(), grid_graph.rule())));
+    let pruning = Pruning::with_rule(grid_graph, rule);
+    let index_bytes = pruning.memory_bytes() as u64;
     (Arc::new(pruning), Preprocessing { time: begin.elapsed(), index_bytes, ..Preprocessing::default() })
 }

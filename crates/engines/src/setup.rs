@@ -4,7 +4,7 @@ use std::num::NonZeroU32;
 
 use mediant_grid::{CornerRule, Rules};
 use mediant_hierarchy::{Clustering, Conduct};
-use mediant_moves::{K, Knob};
+use mediant_moves::{FiniteK, K};
 use mediant_search::{Guarantee, Smoothing};
 use mediant_subgoal::Hierarchy;
 
@@ -33,7 +33,7 @@ pub struct Setup {
     /// The engine.
     pub engine: Engine,
     /// The directions that it searches.
-    pub k: Knob,
+    pub k: K,
     /// The placement and its rule of motion.
     pub rules: Rules,
     /// How it searches.
@@ -86,13 +86,13 @@ type Has = fn(About) -> bool;
 impl Setup {
     /// The engine with its default options.
     #[must_use]
-    pub fn new(engine: Engine, k: impl Into<Knob>, rules: Rules) -> Self {
+    pub fn new(engine: Engine, k: impl Into<K>, rules: Rules) -> Self {
         Self { engine, k: k.into(), rules, options: Options::default() }
     }
 
     /// All that there are for these rules and this k: each engine with its default options, and with each other one of an option;
     /// smoothed, a few. Of a finite k the first is A* with h_k; any-angle search between centers there is none.
-    pub fn all(k: impl Into<Knob>, rules: Rules) -> impl Iterator<Item = Self> {
+    pub fn all(k: impl Into<K>, rules: Rules) -> impl Iterator<Item = Self> {
         let (k, options) = (k.into(), Options::default());
         let number = |number| NonZeroU32::new(number);
         let levels = |levels| number(levels).map(Levels::Number);
@@ -149,9 +149,9 @@ impl Setup {
         }
         self.check_variant()?;
         match (k, about.max_k) {
-            (Knob::K(k), Some(max)) if k.get() > max => return Err(SetupError::K { engine, max, k }),
-            (Knob::K(k), None) => return Err(SetupError::NeedsAny { engine, k }),
-            (Knob::Any, Some(max)) if !about.any => {
+            (K::Finite(k), Some(max)) if k.get() > max => return Err(SetupError::K { engine, max, k }),
+            (K::Finite(k), None) => return Err(SetupError::NeedsAny { engine, k }),
+            (K::Any, Some(max)) if !about.any => {
                 return Err(SetupError::NeedsFiniteK { engine, max, others: those(|about| about.any) });
             }
             _ => {}
@@ -160,7 +160,7 @@ impl Setup {
         match about.placements {
             [needed] if *needed != placement => {
                 let others = those(|about| about.placements.contains(&placement));
-                Err(SetupError::Placement { engine, needed: *needed, placement, others })
+                Err(SetupError::PlacementKind { engine, needed: *needed, placement, others })
             }
             _ if !takes_both(engine, k, rules) => Err(SetupError::Centers { engine, k, rules }),
             _ => Ok(()),
@@ -265,10 +265,10 @@ impl Setup {
         let plain = match (self.engine, self.k) {
             (Theta | LazyTheta | SubgoalTheta | Hpa | Chpa, _) => Guarantee::Suboptimal,
             _ if self.heuristic() == Some(HeuristicName::SquaredEuclidean) => Guarantee::Suboptimal,
-            (Wavefront, k) if k != Knob::K(K::FOUR_CONNECTED) => Guarantee::Suboptimal,
+            (Wavefront, k) if k != K::Finite(FiniteK::N4) => Guarantee::Suboptimal,
             _ if self.variant() == Some(Variant::Paper) => Guarantee::Suboptimal,
-            (Anya, _) | (_, Knob::Any) => Guarantee::OptimalAnyAngle,
-            (_, Knob::K(k)) => Guarantee::Optimal(k),
+            (Anya, _) | (_, K::Any) => Guarantee::OptimalAnyAngle,
+            (_, K::Finite(k)) => Guarantee::Optimal(k),
         };
         match plain {
             Guarantee::Optimal(k) if self.options.smoothing.is_some() => Guarantee::AtMost(k),
@@ -278,26 +278,25 @@ impl Setup {
 
     /// The directions over which no path under its rules is shorter than its own; none where it does not promise that.
     #[must_use]
-    pub fn optimal_over(&self) -> Option<Knob> {
+    pub fn optimal_over(&self) -> Option<K> {
         match self.guarantee() {
-            Guarantee::Optimal(k) => Some(Knob::K(k)),
-            Guarantee::OptimalAnyAngle => Some(Knob::Any),
+            Guarantee::Optimal(k) => Some(K::Finite(k)),
+            Guarantee::OptimalAnyAngle => Some(K::Any),
             Guarantee::AtMost(_) | Guarantee::Suboptimal => None,
         }
     }
 
     /// The directions that its paths may take: those that it searches, or every one where it straightens what it finds.
     #[must_use]
-    pub fn paths(&self) -> Knob {
+    pub fn paths(&self) -> K {
         let straightens = matches!(self.engine, Engine::Theta | Engine::LazyTheta | Engine::SubgoalTheta);
-        if straightens || self.options.smoothing.is_some() { Knob::Any } else { self.k }
+        if straightens || self.options.smoothing.is_some() { K::Any } else { self.k }
     }
 
     /// Whether its paths are as long as the scenario files say: those are optimal for k = 3 at centers under `never`.
     #[must_use]
     pub fn solves_scenarios(&self) -> bool {
-        self.rules == Rules::Center(CornerRule::Never)
-            && self.optimal_over() == Some(Knob::K(K::EIGHT_CONNECTED))
+        self.rules == Rules::Center(CornerRule::Never) && self.optimal_over() == Some(K::Finite(FiniteK::N8))
     }
 }
 
@@ -307,11 +306,11 @@ pub(crate) fn without_index(engine: Engine) -> SetupError {
 
 /// Whether an engine that takes this placement and this k takes both together: at centers there are subgoal graphs, clusters and segments for
 /// the smallest k alone.
-fn takes_both(engine: Engine, k: Knob, rules: Rules) -> bool {
+fn takes_both(engine: Engine, k: K, rules: Rules) -> bool {
     match (rules, k) {
         _ if !matches!(engine, Engine::Subgoal | Engine::Hpa | Engine::Chpa) => true,
-        (Rules::Corner(_), _) | (_, Knob::K(K::FOUR_CONNECTED)) => true,
-        (Rules::Center(corners), Knob::K(K::EIGHT_CONNECTED)) => corners == CornerRule::Never,
+        (Rules::Corner(_), _) | (_, K::Finite(FiniteK::N4)) => true,
+        (Rules::Center(corners), K::Finite(FiniteK::N8)) => corners == CornerRule::Never,
         (Rules::Center(_), _) => false,
     }
 }

@@ -2,9 +2,9 @@
 
 use std::{num::NonZeroU32, sync::Arc};
 
-use mediant_grid::{Centers, Lattice};
+use mediant_grid::{Centers, GridGraph};
 use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, HpaStar, SegmentGraph};
-use mediant_search::{Euclidean, Heuristic, LatticeDistance, SquaredEuclidean, Zero};
+use mediant_search::{Euclidean, Heuristic, Hk, SquaredEuclidean, Zero};
 
 use crate::{
     Engine, EngineError, Ground, HeuristicName, Hierarchy, Levels, Preprocessing, Setup, Visit,
@@ -19,19 +19,19 @@ pub(crate) fn with_graph<V: Visit>(
     index: Option<&[u8]>,
     visit: V,
 ) -> Result<V::Output, EngineError> {
-    let lattice = centers(setup, ground)?;
-    let visit = Smooth { visit, terrain: Arc::clone(lattice), smoothing: setup.options.smoothing };
+    let grid_graph = centers(setup, ground)?;
+    let visit = Smooth { visit, space: Arc::clone(grid_graph), smoothing: setup.options.smoothing };
     if setup.engine == Engine::Hpa {
-        let (graph, time) = timed(|| clusters(setup, lattice, index))?;
-        let planner = HpaStar::new(Arc::clone(lattice), Arc::clone(&graph))?;
+        let (graph, time) = timed(|| clusters(setup, grid_graph, index))?;
+        let planner = HpaStar::new(Arc::clone(grid_graph), Arc::clone(&graph))?;
         let planner = planner.with_straightening(!setup.options.refined);
         return Ok(visit.visit(planner, Preprocessing { time, ..about_clusters(&graph) }));
     }
-    let (graph, time) = timed(|| segments(setup, lattice, index))?;
+    let (graph, time) = timed(|| segments(setup, grid_graph, index))?;
     let preprocessing = Preprocessing { time, ..about_segments(&graph) };
-    let plan = Plan { setup, lattice, graph, preprocessing, visit };
+    let plan = Plan { setup, grid_graph, graph, preprocessing, visit };
     match setup.heuristic() {
-        Some(HeuristicName::Hk) => plan.by(LatticeDistance),
+        Some(HeuristicName::Hk) => plan.by(Hk),
         Some(HeuristicName::Euclidean) => plan.by(Euclidean),
         Some(HeuristicName::SquaredEuclidean) => plan.by(SquaredEuclidean),
         Some(HeuristicName::Zero) | None => plan.by(Zero),
@@ -40,18 +40,18 @@ pub(crate) fn with_graph<V: Visit>(
 
 /// The bytes of the graph of a setup that was checked, and what is to be told of it.
 pub(crate) fn build(setup: Setup, ground: &Ground) -> Result<(Vec<u8>, Preprocessing), EngineError> {
-    let lattice = centers(setup, ground)?;
+    let grid_graph = centers(setup, ground)?;
     if setup.engine == Engine::Hpa {
-        let graph = clusters(setup, lattice, None)?;
+        let graph = clusters(setup, grid_graph, None)?;
         return Ok((graph.to_bytes(), about_clusters(&graph)));
     }
-    let graph = segments(setup, lattice, None)?;
+    let graph = segments(setup, grid_graph, None)?;
     Ok((graph.to_bytes(), about_segments(&graph)))
 }
 
-fn centers(setup: Setup, ground: &Ground) -> Result<&Arc<Lattice<Centers>>, EngineError> {
+fn centers(setup: Setup, ground: &Ground) -> Result<&Arc<GridGraph<Centers>>, EngineError> {
     match ground {
-        Ground::Centers(lattice) => Ok(lattice),
+        Ground::Centers(grid_graph) => Ok(grid_graph),
         Ground::Corners(_) | Ground::AnyAngle(_) => Err(no_ground(setup)),
     }
 }
@@ -68,16 +68,16 @@ pub(crate) fn levels_of(levels: Option<Levels>, side: u32) -> Option<NonZeroU32>
 /// The graph of a new index or that of a saved one, whose side and levels must be those that the setup names.
 fn clusters(
     setup: Setup,
-    lattice: &Lattice<Centers>,
+    grid_graph: &GridGraph<Centers>,
     index: Option<&[u8]>,
 ) -> Result<Arc<ClusterGraph>, EngineError> {
     let Some(bytes) = index else {
         let default = Clustering::default();
         let side = setup.options.side.map_or(default.side, NonZeroU32::get);
         let levels = levels_of(setup.options.levels, side).map_or(default.levels, NonZeroU32::get);
-        return Ok(Arc::new(ClusterGraph::new(lattice, Clustering { side, levels })?));
+        return Ok(Arc::new(ClusterGraph::new(grid_graph, Clustering { side, levels })?));
     };
-    let graph = ClusterGraph::from_bytes(lattice, bytes)?;
+    let graph = ClusterGraph::from_bytes(grid_graph, bytes)?;
     let Clustering { side, levels } = graph.clustering();
     check_side(setup, side)?;
     let found = NonZeroU32::new(levels);
@@ -92,14 +92,14 @@ fn clusters(
 
 fn segments(
     setup: Setup,
-    lattice: &Lattice<Centers>,
+    grid_graph: &GridGraph<Centers>,
     index: Option<&[u8]>,
 ) -> Result<Arc<SegmentGraph>, EngineError> {
     let Some(bytes) = index else {
         let side = setup.options.side.map_or(SegmentGraph::PAPER_SIDE, NonZeroU32::get);
-        return Ok(Arc::new(SegmentGraph::new(lattice, side)?));
+        return Ok(Arc::new(SegmentGraph::new(grid_graph, side)?));
     };
-    let graph = SegmentGraph::from_bytes(lattice, bytes)?;
+    let graph = SegmentGraph::from_bytes(grid_graph, bytes)?;
     check_side(setup, graph.side())?;
     Ok(Arc::new(graph))
 }
@@ -118,7 +118,7 @@ fn hierarchy(levels: Option<NonZeroU32>) -> Hierarchy {
 fn about_clusters(graph: &ClusterGraph) -> Preprocessing {
     let Clustering { side, levels } = graph.clustering();
     Preprocessing {
-        index_bytes: graph.bytes() as u64,
+        index_bytes: graph.memory_bytes() as u64,
         hierarchy: Some(hierarchy(NonZeroU32::new(levels))),
         side: Some(side),
         ..Preprocessing::default()
@@ -126,13 +126,17 @@ fn about_clusters(graph: &ClusterGraph) -> Preprocessing {
 }
 
 fn about_segments(graph: &SegmentGraph) -> Preprocessing {
-    Preprocessing { index_bytes: graph.bytes() as u64, side: Some(graph.side()), ..Preprocessing::default() }
+    Preprocessing {
+        index_bytes: graph.memory_bytes() as u64,
+        side: Some(graph.side()),
+        ..Preprocessing::default()
+    }
 }
 
 /// All that CHPA* is made of but its heuristics.
 struct Plan<'l, V> {
     setup: Setup,
-    lattice: &'l Arc<Lattice<Centers>>,
+    grid_graph: &'l Arc<GridGraph<Centers>>,
     graph: Arc<SegmentGraph>,
     preprocessing: Preprocessing,
     visit: V,
@@ -141,7 +145,7 @@ struct Plan<'l, V> {
 impl<V: Visit> Plan<'_, V> {
     fn by(self, first: impl Heuristic + Send + 'static) -> Result<V::Output, EngineError> {
         match self.setup.second() {
-            Some(HeuristicName::Hk) => self.by_both(first, LatticeDistance),
+            Some(HeuristicName::Hk) => self.by_both(first, Hk),
             Some(HeuristicName::Euclidean) => self.by_both(first, Euclidean),
             Some(HeuristicName::SquaredEuclidean) => self.by_both(first, SquaredEuclidean),
             Some(HeuristicName::Zero) | None => self.by_both(first, Zero),
@@ -153,8 +157,8 @@ impl<V: Visit> Plan<'_, V> {
         first: impl Heuristic + Send + 'static,
         second: impl Heuristic + Send + 'static,
     ) -> Result<V::Output, EngineError> {
-        let Self { setup, lattice, graph, preprocessing, visit } = self;
-        let planner = ChpaStar::new(Arc::clone(lattice), graph, first, second)?;
+        let Self { setup, grid_graph, graph, preprocessing, visit } = self;
+        let planner = ChpaStar::new(Arc::clone(grid_graph), graph, first, second)?;
         let planner = planner.with_conduct(setup.conduct());
         let planner = match setup.step() {
             Some(step) => planner.with_step(step),

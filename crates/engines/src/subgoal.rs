@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use mediant_grid::Terrain;
-use mediant_search::OnTerrain;
+use mediant_grid::FreeSpace;
+use mediant_search::HasFreeSpace;
 use mediant_subgoal::{Connect, Hierarchy, Progress, SubgoalAStar, SubgoalGraph, SubgoalTheta};
 
 use crate::{
@@ -20,9 +20,9 @@ pub(crate) fn with_graph<V: Visit>(
     visit: V,
 ) -> Result<V::Output, EngineError> {
     match ground {
-        Ground::Centers(lattice) => on(setup, lattice, index, visit),
-        Ground::Corners(lattice) => on(setup, lattice, index, visit),
-        Ground::AnyAngle(terrain) => on(setup, terrain, index, visit),
+        Ground::Centers(grid_graph) => on(setup, grid_graph, index, visit),
+        Ground::Corners(grid_graph) => on(setup, grid_graph, index, visit),
+        Ground::AnyAngle(space) => on(setup, space, index, visit),
     }
 }
 
@@ -33,12 +33,12 @@ fn on<T, P, V>(
     visit: V,
 ) -> Result<V::Output, EngineError>
 where
-    T: OnTerrain<Place = P> + Send + Sync + 'static,
+    T: HasFreeSpace<Placement = P> + Send + Sync + 'static,
     P: Connect + Send + Sync + 'static,
     V: Visit,
 {
-    let (graph, preprocessing) = graph(setup, ground.terrain(), index)?;
-    let visit = Smooth { visit, terrain: Arc::clone(ground), smoothing: setup.options.smoothing };
+    let (graph, preprocessing) = graph(setup, ground.free_space(), index)?;
+    let visit = Smooth { visit, space: Arc::clone(ground), smoothing: setup.options.smoothing };
     let ground = Arc::clone(ground);
     Ok(match setup.engine {
         Engine::SubgoalTheta => visit.visit(SubgoalTheta::new(ground, graph), preprocessing),
@@ -49,16 +49,16 @@ where
 /// The graph of a setup, and what it took.
 fn graph<P: Connect>(
     setup: Setup,
-    terrain: &Terrain<P>,
+    space: &FreeSpace<P>,
     index: Option<&[u8]>,
 ) -> Result<(Arc<SubgoalGraph<P>>, Preprocessing), EngineError> {
     let (graph, time) = timed(|| match index {
-        None => new_graph(setup, terrain, &|_| {}),
-        Some(bytes) => saved_graph(setup, terrain, bytes),
+        None => new_graph(setup, space, &|_| {}),
+        Some(bytes) => saved_graph(setup, space, bytes),
     })?;
     let preprocessing = Preprocessing {
         time,
-        index_bytes: graph.bytes() as u64,
+        index_bytes: graph.memory_bytes() as u64,
         hierarchy: Some(graph.hierarchy()),
         side: None,
     };
@@ -67,20 +67,20 @@ fn graph<P: Connect>(
 
 fn new_graph<P: Connect>(
     setup: Setup,
-    terrain: &Terrain<P>,
+    space: &FreeSpace<P>,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<SubgoalGraph<P>, EngineError> {
     let hierarchy = setup.hierarchy().ok_or_else(|| without_index(setup.engine))?;
-    Ok(SubgoalGraph::with_progress(terrain, setup.k, hierarchy, &|step| progress(step))?)
+    Ok(SubgoalGraph::with_progress(space, setup.k, hierarchy, &|step| progress(step))?)
 }
 
 /// The graph in an index, which must have the levels that the setup names; one that names none takes those that there are.
 fn saved_graph<P: Connect>(
     setup: Setup,
-    terrain: &Terrain<P>,
+    space: &FreeSpace<P>,
     bytes: &[u8],
 ) -> Result<SubgoalGraph<P>, EngineError> {
-    let graph = SubgoalGraph::from_bytes(terrain, setup.k, bytes)?;
+    let graph = SubgoalGraph::from_bytes(space, setup.k, bytes)?;
     let found = graph.hierarchy();
     let needs_levels = setup.engine == Engine::SubgoalTheta && found == Hierarchy::Contracted;
     match setup.hierarchy() {
@@ -98,8 +98,8 @@ pub(crate) fn build(
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Vec<u8>, EngineError> {
     match ground {
-        Ground::Centers(lattice) => new_graph(setup, lattice, progress).map(|graph| graph.to_bytes()),
-        Ground::Corners(lattice) => new_graph(setup, lattice, progress).map(|graph| graph.to_bytes()),
-        Ground::AnyAngle(terrain) => new_graph(setup, terrain, progress).map(|graph| graph.to_bytes()),
+        Ground::Centers(grid_graph) => new_graph(setup, grid_graph, progress).map(|graph| graph.to_bytes()),
+        Ground::Corners(grid_graph) => new_graph(setup, grid_graph, progress).map(|graph| graph.to_bytes()),
+        Ground::AnyAngle(space) => new_graph(setup, space, progress).map(|graph| graph.to_bytes()),
     }
 }

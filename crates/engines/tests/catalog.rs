@@ -8,8 +8,8 @@ use mediant_engines::{
     Engine, EngineError, Ground, HeuristicName, Hierarchy, Options, Prebuilt, Setup, SetupError, SharedRule,
     Solver, Variant, build, distances,
 };
-use mediant_grid::{CornerRule, DiagonalGap, Placement, Rules, Vertex};
-use mediant_moves::{K, Knob};
+use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Rules, Vertex};
+use mediant_moves::{FiniteK, K};
 use mediant_search::{Guarantee, Query, QueryError, Smoothing};
 
 use common::{grid, k};
@@ -32,20 +32,20 @@ fn every_setup_makes_the_planner_that_it_promises() {
     let query = Query::new((0, 0), (8, 4));
     let mut setups = 0;
     for rules in Rules::ALL {
-        let anya = Setup::new(Engine::Anya, Knob::Any, rules);
+        let anya = Setup::new(Engine::Anya, K::Any, rules);
         let any_angle =
             Solver::new(anya, &grid(), Prebuilt::default()).and_then(|mut anya| Ok(anya.solve(query)?));
         let shortest = match any_angle {
             Ok(outcome) => outcome.path().expect("there is a way").cost(),
             Err(_) => query.start.distance(query.goal),
         };
-        for k in (2..=5).map(|n| Knob::K(k(n))).chain([Knob::Any]) {
+        for k in (2..=5).map(|n| K::Finite(k(n))).chain([K::Any]) {
             let all: Vec<Setup> = Setup::all(k, rules).collect();
             let Some(&first) = all.first() else {
-                assert_eq!((k, rules.placement()), (Knob::Any, Placement::Center), "only this is left out");
+                assert_eq!((k, rules.placement()), (K::Any, PlacementKind::Center), "only this is left out");
                 continue;
             };
-            let engine = if k == Knob::Any { Engine::Anya } else { Engine::AStar };
+            let engine = if k == K::Any { Engine::Anya } else { Engine::AStar };
             assert_eq!(first, Setup::new(engine, k, rules));
             let best = solver(first, Prebuilt::default()).solve(query).expect("both ends are free");
             let best = best.path().expect("there is a way").cost();
@@ -55,7 +55,7 @@ fn every_setup_makes_the_planner_that_it_promises() {
                 let answer = solver.solve_counted(query);
                 setups += 1;
                 let as_published = (setup.engine, setup.variant()) == (Engine::Chpa, Some(Variant::Paper));
-                if as_published && k == Knob::K(K::FOUR_CONNECTED) {
+                if as_published && k == K::Finite(FiniteK::N4) {
                     // The windows of its segments join only what is joined within them.
                     assert!(matches!(answer, Err(QueryError::GaveUp { .. })), "{setup}: {answer:?}");
                     continue;
@@ -64,7 +64,7 @@ fn every_setup_makes_the_planner_that_it_promises() {
                 let cost = outcome.path().expect("there is a way").cost();
                 match setup.guarantee() {
                     Guarantee::Suboptimal => {
-                        let least = if setup.paths() == Knob::Any { shortest } else { best };
+                        let least = if setup.paths() == K::Any { shortest } else { best };
                         assert!(cost >= least - 1e-9, "{setup}: {cost}, {least}");
                     }
                     Guarantee::AtMost(_) => {
@@ -93,9 +93,9 @@ fn every_engine_is_in_its_own_range_of_k() {
     for engine in Engine::ALL {
         // Under one of these rules an engine takes every k that it takes at all.
         let about = engine.about();
-        let rules = if about.placements.contains(&Placement::Corner) { OPEN } else { NEVER };
-        let setup = |k: Knob| Setup::new(engine, k, rules);
-        let refused = |k: Knob, error: SetupError| {
+        let rules = if about.placements.contains(&PlacementKind::Corner) { OPEN } else { NEVER };
+        let setup = |k: K| Setup::new(engine, k, rules);
+        let refused = |k: K, error: SetupError| {
             assert_eq!(setup(k).check(), Err(error.clone()));
             let solver = Solver::new(setup(k), &grid(), Prebuilt::default()).map(|_| ());
             assert_eq!(solver, Err(EngineError::Setup(error)));
@@ -110,12 +110,12 @@ fn every_engine_is_in_its_own_range_of_k() {
             refused(beyond.into(), SetupError::K { engine, max, k: beyond });
             let others = "anya, subgoal".to_owned();
             if about.any {
-                assert_eq!((engine, setup(Knob::Any).check()), (Engine::Subgoal, Ok(())));
+                assert_eq!((engine, setup(K::Any).check()), (Engine::Subgoal, Ok(())));
             } else {
-                refused(Knob::Any, SetupError::NeedsFiniteK { engine, max, others });
+                refused(K::Any, SetupError::NeedsFiniteK { engine, max, others });
             }
         } else {
-            assert_eq!((engine, setup(Knob::Any).check()), (Engine::Anya, Ok(())));
+            assert_eq!((engine, setup(K::Any).check()), (Engine::Anya, Ok(())));
             refused(k(2).into(), SetupError::NeedsAny { engine, k: k(2) });
         }
     }
@@ -127,19 +127,19 @@ fn every_engine_takes_the_placements_that_it_says() {
         for rules in Rules::ALL {
             let (about, placement) = (engine.about(), rules.placement());
             // Some engines take centers only for the smallest k under every rule.
-            let k = about.max_k.map_or(Knob::Any, |_| Knob::K(k(2)));
+            let k = about.max_k.map_or(K::Any, |_| K::Finite(k(2)));
             let said = Setup { rules, k, ..plain(engine) }.check();
             if about.placements.contains(&placement) {
                 assert_eq!(said, Ok(()), "{engine}, {rules}");
             } else {
                 let said = said.expect_err("it does not take it").to_string();
                 let needs = match placement {
-                    Placement::Center => "placement corner; for center choose astar, dijkstra,",
-                    Placement::Corner => "placement center; for corner choose astar, dijkstra,",
+                    PlacementKind::Center => "placement corner; for center choose astar, dijkstra,",
+                    PlacementKind::Corner => "placement center; for corner choose astar, dijkstra,",
                 };
                 let others = match placement {
-                    Placement::Center => " lazy-theta, subgoal, hpa, chpa",
-                    Placement::Corner => " lazy-theta, anya, subgoal, subgoal-theta",
+                    PlacementKind::Center => " lazy-theta, subgoal, hpa, chpa",
+                    PlacementKind::Corner => " lazy-theta, anya, subgoal, subgoal-theta",
                 };
                 assert!(
                     said.starts_with(&format!("{engine} needs {needs}")) && said.ends_with(others),
@@ -179,7 +179,7 @@ fn a_ground_is_for_its_own_k_and_rules() {
         );
     }
     assert!(matches!(
-        Ground::new(Setup::new(Engine::Anya, Knob::Any, NEVER), &grid()),
+        Ground::new(Setup::new(Engine::Anya, K::Any, NEVER), &grid()),
         Err(EngineError::Setup(_))
     ));
     let said = Solver::on(setup("anya"), &ground("astar:3:open"), Prebuilt::default()).map(|_| ());
@@ -251,8 +251,8 @@ fn what_is_left_out_has_its_default() {
         "subgoal-theta",
     ]
     .map(|text| setup(text).paths());
-    assert_eq!(paths[..2], [Knob::K(k(4)); 2]);
-    assert_eq!(paths[2..], [Knob::Any; 6]);
+    assert_eq!(paths[..2], [K::Finite(k(4)); 2]);
+    assert_eq!(paths[2..], [K::Any; 6]);
     let promised = ["astar:4:one,smooth", "theta,taut", "anya,taut", "wavefront:2,taut", "wavefront,taut"];
     assert_eq!(
         promised.map(|text| setup(text).guarantee()),
@@ -267,8 +267,8 @@ fn what_is_left_out_has_its_default() {
     assert_eq!((setup("canonical").variant(), setup("jps").variant()), (Some(Variant::Exact), None));
     let over = ["jps:4", "subgoal:9:closed", "wavefront:2", "anya,taut", "subgoal:any"]
         .map(|text| setup(text).optimal_over());
-    let ks = [4, 9, 2].map(|n| Some(Knob::K(k(n))));
-    assert_eq!((&over[..3], &over[3..]), (&ks[..], &[Some(Knob::Any); 2][..]));
+    let ks = [4, 9, 2].map(|n| Some(K::Finite(k(n))));
+    assert_eq!((&over[..3], &over[3..]), (&ks[..], &[Some(K::Any); 2][..]));
     for text in ["astar,taut", "theta", "canonical,paper", "subgoal,taut", "subgoal-theta"] {
         assert_eq!(setup(text).optimal_over(), None, "{text}");
     }
@@ -288,7 +288,7 @@ fn what_is_left_out_has_its_default() {
 fn setups_are_read_as_they_are_written() {
     let mut setups = 0;
     for rules in Rules::ALL {
-        for k in (2..=12).map(|n| Knob::K(k(n))).chain([Knob::Any]) {
+        for k in (2..=12).map(|n| K::Finite(k(n))).chain([K::Any]) {
             for setup in Setup::all(k, rules) {
                 assert_eq!(setup.to_string().parse(), Ok(setup));
                 setups += 1;

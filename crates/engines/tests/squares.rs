@@ -8,9 +8,9 @@ use mediant_engines::{
     Engine, EngineError, Ground, HeuristicName, Hierarchy, Levels, Options, Prebuilt, Setup, SetupError,
     Solver, Variant, build,
 };
-use mediant_grid::{CornerRule, Grid, Placement, Rules};
+use mediant_grid::{CornerRule, Grid, PlacementKind, Rules};
 use mediant_hierarchy::{ClusterGraph, Clustering, Conduct, HierarchyError, SegmentGraph};
-use mediant_moves::{K, Knob};
+use mediant_moves::{FiniteK, K};
 use mediant_oracle::{Rng, caves};
 use mediant_search::{Guarantee, Query, QueryError};
 
@@ -44,19 +44,19 @@ fn map() -> (Arc<Grid>, Vec<Query>) {
 fn there_are_graphs_where_the_catalog_says_so() {
     let mut taken = Vec::new();
     for rules in Rules::ALL {
-        for k in (2..=5).map(|n| Knob::K(k(n))).chain([Knob::Any]) {
+        for k in (2..=5).map(|n| K::Finite(k(n))).chain([K::Any]) {
             for engine in [Engine::Hpa, Engine::Chpa] {
                 let setup = Setup::new(engine, k, rules);
                 if setup.check().is_ok() {
                     taken.push(setup.to_string());
                 }
-                let (Knob::K(number), Rules::Center(_)) = (k, rules) else { continue };
+                let (K::Finite(number), Rules::Center(_)) = (k, rules) else { continue };
                 // What the catalog says is what the graphs say.
                 let ground = Ground::new(Setup::new(Engine::AStar, number, rules), &grid());
-                let Ok(Ground::Centers(lattice)) = ground else { panic!("{ground:?}") };
+                let Ok(Ground::Centers(grid_graph)) = ground else { panic!("{ground:?}") };
                 let there = match engine {
-                    Engine::Hpa => ClusterGraph::new(&lattice, Clustering::default()).map(|_| ()),
-                    _ => SegmentGraph::new(&lattice, 3).map(|_| ()),
+                    Engine::Hpa => ClusterGraph::new(&grid_graph, Clustering::default()).map(|_| ()),
+                    _ => SegmentGraph::new(&grid_graph, 3).map(|_| ()),
                 };
                 assert_eq!(setup.check().is_ok(), there.is_ok(), "{setup}: {there:?}");
             }
@@ -66,13 +66,13 @@ fn there_are_graphs_where_the_catalog_says_so() {
     let expected =
         expected.flat_map(|(rule, k)| ["hpa", "chpa"].map(|engine| format!("{engine}:{k}:{rule}")));
     assert_eq!(taken, expected.collect::<Vec<_>>());
-    let (k, rules) = (Knob::K(K::EIGHT_CONNECTED), Rules::Center(CornerRule::One));
+    let (k, rules) = (K::Finite(FiniteK::N8), Rules::Center(CornerRule::One));
     let refused = Setup::new(Engine::Hpa, k, rules).check();
     assert_eq!(refused, Err(SetupError::Centers { engine: Engine::Hpa, k, rules }));
-    let needed = Placement::Center;
+    let needed = PlacementKind::Center;
     let corners = Setup::new(Engine::Chpa, k, Rules::Corner(Default::default())).check();
     assert!(
-        matches!(corners, Err(SetupError::Placement { needed: found, .. }) if found == needed),
+        matches!(corners, Err(SetupError::PlacementKind { needed: found, .. }) if found == needed),
         "{corners:?}"
     );
 }
@@ -98,10 +98,7 @@ fn what_is_left_out_has_its_default() {
         assert_eq!(setup(text).guarantee(), Guarantee::Suboptimal, "{text}");
         assert!(!setup(text).solves_scenarios() && setup(text).optimal_over().is_none(), "{text}");
     }
-    assert_eq!(
-        (setup("hpa").paths(), setup("chpa,smooth").paths()),
-        (Knob::K(K::EIGHT_CONNECTED), Knob::Any)
-    );
+    assert_eq!((setup("hpa").paths(), setup("chpa,smooth").paths()), (K::Finite(FiniteK::N8), K::Any));
     let both = Options { variant: Some(Variant::Paper), detour: NonZeroU32::new(2), ..Options::default() };
     let refused = Setup { options: both, ..chpa }.check();
     assert_eq!(refused, Err(SetupError::DetourAsPublished { engine: Engine::Chpa }));

@@ -8,8 +8,8 @@ use mediant_engines::{
     Engine, EngineError, Ground, Hierarchy, Levels, Prebuilt, Progress, Setup, SetupError, Solver, Stage,
     build, build_with_progress,
 };
-use mediant_grid::{Placement, Rules};
-use mediant_moves::{K, Knob};
+use mediant_grid::{PlacementKind, Rules};
+use mediant_moves::{FiniteK, K};
 use mediant_search::Query;
 use mediant_subgoal::SubgoalGraph;
 
@@ -27,15 +27,17 @@ fn is_subgoal(setup: &Setup) -> bool {
 #[test]
 fn subgoal_graphs_at_centers_are_for_small_k() {
     let mut taken = Vec::new();
-    for rules in Rules::ALL.into_iter().filter(|rules| rules.placement() == Placement::Center) {
-        for k in (2..=12).map(|n| Knob::K(k(n))).chain([Knob::Any]) {
+    for rules in Rules::ALL.into_iter().filter(|rules| rules.placement() == PlacementKind::Center) {
+        for k in (2..=12).map(|n| K::Finite(k(n))).chain([K::Any]) {
             let setup = Setup::new(Engine::Subgoal, k, rules);
             // What the catalog says is what the engine says.
-            let lattice = k.finite().map_or(4, |k| k.get().min(4));
-            let ground =
-                Ground::new(Setup::new(Engine::AStar, K::new(lattice).expect("a k"), rules), &grid());
-            let Ok(Ground::Centers(lattice)) = ground else { panic!("{ground:?}") };
-            let there = SubgoalGraph::new(&lattice, k, Hierarchy::Contracted).is_ok();
+            let grid_graph = k.finite().map_or(4, |k| k.get().min(4));
+            let ground = Ground::new(
+                Setup::new(Engine::AStar, FiniteK::new(grid_graph).expect("a k"), rules),
+                &grid(),
+            );
+            let Ok(Ground::Centers(grid_graph)) = ground else { panic!("{ground:?}") };
+            let there = SubgoalGraph::new(&grid_graph, k, Hierarchy::Contracted).is_ok();
             match setup.check() {
                 Ok(()) => taken.push(setup.to_string()),
                 Err(error) => assert_eq!(error, SetupError::Centers { engine: Engine::Subgoal, k, rules }),
@@ -61,7 +63,7 @@ fn a_saved_subgoal_graph_is_as_good_as_a_new_one() {
     let query = Query::new((0, 0), (8, 4));
     let mut setups = 0;
     for rules in Rules::ALL {
-        for k in [2, 3, 5].map(|n| Knob::K(k(n))).into_iter().chain([Knob::Any]) {
+        for k in [2, 3, 5].map(|n| K::Finite(k(n))).into_iter().chain([K::Any]) {
             for setup in Setup::all(k, rules).filter(is_subgoal) {
                 let (bytes, took) = build(setup, &grid()).unwrap_or_else(|error| panic!("{setup}: {error}"));
                 assert_eq!((took.index_bytes, took.hierarchy), (bytes.len() as u64, setup.hierarchy()));

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use mediant_grid::{Grid, Placement};
+use mediant_grid::{Grid, PlacementKind};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 #[derive(Clone, Copy, Debug)]
 pub struct TraceHeader<'g> {
     /// Where the vertices are: at centers they are drawn as their cells, at corners as small squares around them.
-    pub placement: Placement,
+    pub placement: PlacementKind,
     /// The map, where the trace shall draw it. The visualizer can also show the `.map` file itself, as a layer of its own.
     pub map: Option<&'g Grid>,
 }
@@ -60,8 +60,8 @@ pub struct TraceEvent {
 ///
 /// ```
 /// use mediant_formats::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
-/// use mediant_grid::Placement;
-/// let mut trace = TraceWriter::new(Vec::new(), &TraceHeader { placement: Placement::Center, map: None })?;
+/// use mediant_grid::PlacementKind;
+/// let mut trace = TraceWriter::new(Vec::new(), &TraceHeader { placement: PlacementKind::Center, map: None })?;
 /// let start = TraceEvent { id: 7, parent: None, x: 3, y: 1, f: Some(2.5), g: Some(0.0) };
 /// trace.event(TraceEventKind::Source, &start)?;
 /// trace.event(TraceEventKind::Expanding, &start)?;
@@ -180,8 +180,8 @@ fn blocked_runs(map: &Grid, y: i32) -> impl Iterator<Item = (i32, i32)> {
 fn render(header: &TraceHeader<'_>) -> Value {
     // At centers the format's unit square at (x, y) is the cell itself.
     let (middle, side) = match header.placement {
-        Placement::Center => (0.5, 1.0),
-        Placement::Corner => (0.0, 0.5),
+        PlacementKind::Center => (0.5, 1.0),
+        PlacementKind::Corner => (0.0, 0.5),
     };
     let at = |of: &str, axis: &str, offset: f64| format!("{{{{$.{of}.{axis} + {offset}}}}}");
     let corner = middle - side / 2.0;

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use mediant_formats::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
-use mediant_grid::{AsciiMap, Grid, Placement};
+use mediant_grid::{AsciiMap, Grid, PlacementKind};
 use serde_json::{Value, json};
 
 fn event(id: u32, parent: Option<u32>, (x, y): (i32, i32), (f, g): (f64, f64)) -> TraceEvent {
@@ -37,7 +37,7 @@ fn parsed(text: &str) -> Value {
 
 #[test]
 fn a_trace_word_by_word() {
-    let text = written(&TraceHeader { placement: Placement::Center, map: None });
+    let text = written(&TraceHeader { placement: PlacementKind::Center, map: None });
     let render = "\"render\":";
     let (before, after) = (text.find(render).unwrap(), text.find("\n\"events\":").unwrap());
     assert_eq!(&text[..before], "{\"version\":\"1.0.5\",\n");
@@ -48,7 +48,7 @@ fn a_trace_word_by_word() {
 
 #[test]
 fn a_trace_is_json_with_its_events_in_order() {
-    let trace = parsed(&written(&TraceHeader { placement: Placement::Center, map: None }));
+    let trace = parsed(&written(&TraceHeader { placement: PlacementKind::Center, map: None }));
     assert_eq!(trace["version"], "1.0.5");
     let types: Vec<&str> =
         trace["events"].as_array().unwrap().iter().map(|event| event["type"].as_str().unwrap()).collect();
@@ -68,7 +68,7 @@ fn a_trace_is_json_with_its_events_in_order() {
 
 #[test]
 fn a_trace_without_events_is_a_document_too() {
-    let header = TraceHeader { placement: Placement::Corner, map: None };
+    let header = TraceHeader { placement: PlacementKind::Corner, map: None };
     let text = String::from_utf8(TraceWriter::new(Vec::new(), &header).unwrap().finish().unwrap()).unwrap();
     assert_eq!(parsed(&text)["events"], json!([]));
 }
@@ -76,7 +76,7 @@ fn a_trace_without_events_is_a_document_too() {
 #[test]
 fn squares_lie_on_cells_or_around_corners() {
     let drawn = |placement| parsed(&written(&TraceHeader { placement, map: None }))["render"].clone();
-    let (center, corner) = (drawn(Placement::Center), drawn(Placement::Corner));
+    let (center, corner) = (drawn(PlacementKind::Center), drawn(PlacementKind::Corner));
     let square = |render: &Value| render["components"]["vertex"][0].clone();
     assert_eq!(square(&center)["x"], "{{$.event.x + 0}}");
     assert_eq!(square(&center)["width"], 1.0);
@@ -101,7 +101,7 @@ fn winding(points: &[(f64, f64)], (x, y): (f64, f64)) -> i32 {
 }
 
 fn check_map(grid: &Grid) {
-    let trace = parsed(&written(&TraceHeader { placement: Placement::Center, map: Some(grid) }));
+    let trace = parsed(&written(&TraceHeader { placement: PlacementKind::Center, map: Some(grid) }));
     let (first, rest) = trace["events"].as_array().and_then(|events| events.split_first()).expect("events");
     assert!(rest.iter().all(|event| event.get("map").is_none()), "the map is written once");
     assert_eq!((&first["type"], &first["id"]), (&json!("source"), &json!(1)));
@@ -144,7 +144,7 @@ impl Write for Full {
 #[test]
 fn a_writer_that_fails_anywhere_is_reported() {
     let grid = AsciiMap::parse("#.").unwrap().grid;
-    let header = TraceHeader { placement: Placement::Center, map: Some(&grid) };
+    let header = TraceHeader { placement: PlacementKind::Center, map: Some(&grid) };
     let length = written(&header).len();
     let run = |room: usize| -> io::Result<()> {
         let mut trace = TraceWriter::new(Full(room), &header)?;
@@ -161,7 +161,7 @@ fn a_writer_that_fails_anywhere_is_reported() {
 #[test]
 fn nothing_is_held_back() {
     let mut out = Vec::new();
-    let header = TraceHeader { placement: Placement::Center, map: None };
+    let header = TraceHeader { placement: PlacementKind::Center, map: None };
     let mut trace = TraceWriter::new(&mut out, &header).unwrap();
     trace.event(TraceEventKind::Expanding, &event(7, None, (3, 1), (2.0, 0.0))).unwrap();
     assert!(out.ends_with(br#"{"type":"expanding","id":7,"pId":null,"x":3,"y":1,"f":2.0,"g":0.0}"#));

@@ -1,6 +1,6 @@
 //! Maps drawn in text: for tests, examples and error reports.
 
-use crate::{Grid, GridError, Placement, Vertex};
+use crate::{Grid, GridError, PlacementKind, Vertex};
 
 /// A grid with the letters that were drawn on it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -62,11 +62,11 @@ impl AsciiMap {
 /// under center placement. Under corner placement a cell is a character at an odd place of a grid of twice the size, and
 /// vertices stand at the even places, so that cells and vertices can be told apart.
 #[must_use]
-pub fn draw(grid: &Grid, placement: Placement, waypoints: &[Vertex]) -> String {
+pub fn draw(grid: &Grid, placement: PlacementKind, waypoints: &[Vertex]) -> String {
     let (width, height) = (grid.width() as usize, grid.height() as usize);
     let (scale, origin, free) = match placement {
-        Placement::Center => (1, 0, '.'),
-        Placement::Corner => (2, 1, ' '),
+        PlacementKind::Center => (1, 0, '.'),
+        PlacementKind::Corner => (2, 1, ' '),
     };
     let mut canvas =
         vec![vec![if scale == 1 { ' ' } else { '·' }; scale * width + origin]; scale * height + origin];

@@ -137,13 +137,13 @@ impl BitMatrix {
     /// Whether two blocked bits meet diagonally, the two others being free, at one of the corner vertices `first` to `last`
     /// above row y.
     #[must_use]
-    pub(crate) fn any_double_corner(&self, y: i32, first: i32, last: i32) -> bool {
-        self.any_of(first, last, |x| self.double_corners(x, y))
+    pub(crate) fn any_gap(&self, y: i32, first: i32, last: i32) -> bool {
+        self.any_of(first, last, |x| self.gaps(x, y))
     }
 
     /// Of the 64 corner vertices from column x on above row y, those at which two blocked bits meet diagonally, the two others being free.
     #[must_use]
-    pub(crate) fn double_corners(&self, x: i32, y: i32) -> u64 {
+    pub(crate) fn gaps(&self, x: i32, y: i32) -> u64 {
         let [nw, ne, sw, se] = [(-1, -1), (0, -1), (-1, 0), (0, 0)]
             .map(|(dx, dy)| load(self.words(), self.index(x + dx, y + dy)));
         (nw ^ ne) & !(nw ^ se) & !(ne ^ sw)
@@ -305,11 +305,7 @@ mod tests {
                     assert_eq!(grid.rows().any(1, first, last), run.contains(&at), "{at} in {run:?}");
                     assert_eq!(grid.rows().any_edge(1, first, last), run.contains(&at), "{at} in {run:?}");
                     assert!(!free.rows().any_edge(1, first, last), "{at} in {run:?}");
-                    assert_eq!(
-                        corner.rows().any_double_corner(1, first, last),
-                        run.contains(&at),
-                        "{at} in {run:?}"
-                    );
+                    assert_eq!(corner.rows().any_gap(1, first, last), run.contains(&at), "{at} in {run:?}");
                 }
             }
         }

@@ -71,7 +71,7 @@ impl Components {
         self.count
     }
 
-    pub(crate) fn bytes(&self) -> usize {
+    pub(crate) fn memory_bytes(&self) -> usize {
         size_of_val(&*self.labels)
     }
 

@@ -2,12 +2,12 @@
 
 use mediant_moves::Vector;
 
-use crate::{BitIndex, BitMatrix, Demand, Place, load, sight::Frame};
+use crate::{BitIndex, BitMatrix, Demand, Placement, load, sight::Frame};
 
 /// A cell by its offset from cell (x, y) of a vertex (x, y).
 pub type CellOffset = (i32, i32);
 
-/// What a straight segment asks of the map, by offsets from its start: [`Place::sweep`] in all directions.
+/// What a straight segment asks of the map, by offsets from its start: [`Placement::sweep`] in all directions.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Footprint {
     /// Cells that must be free, sorted.
@@ -19,7 +19,7 @@ pub struct Footprint {
 impl Footprint {
     /// The footprint of a displacement, not (0, 0), under a rule of motion.
     #[must_use]
-    pub fn new<P: Place>(rule: P::Rule, v: Vector) -> Self {
+    pub fn new<P: Placement>(rule: P::Rule, v: Vector) -> Self {
         let (frame, d) = Frame::of(v);
         let cell = |(i, j)| {
             let (along, across) = frame.cell::<P>(i, j);

@@ -167,7 +167,7 @@ impl Grid {
     /// [`DiagonalGap::Closed`](crate::DiagonalGap::Closed) forbids to pass.
     #[must_use]
     #[inline]
-    pub fn is_double_corner(&self, at: Vertex) -> bool {
+    pub fn is_gap(&self, at: Vertex) -> bool {
         let blocked = |dx: i32, dy: i32| self.is_blocked(at.x.wrapping_add(dx), at.y.wrapping_add(dy));
         let [nw, ne, sw, se] = [blocked(-1, -1), blocked(0, -1), blocked(-1, 0), blocked(0, 0)];
         nw == se && ne == sw && nw != ne

@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Where the vertices of the search graph are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Placement {
+pub enum PlacementKind {
     /// One vertex a cell, at its center: the setting of Rivera 2017 and of the MovingAI scenario files.
     Center,
     /// One vertex a cell corner, (W + 1) × (H + 1) of them: the setting of Hormazábal 2017 and of any-angle search.
@@ -55,10 +55,10 @@ impl Rules {
 
     /// The placement alone.
     #[must_use]
-    pub const fn placement(self) -> Placement {
+    pub const fn placement(self) -> PlacementKind {
         match self {
-            Self::Center(_) => Placement::Center,
-            Self::Corner(_) => Placement::Corner,
+            Self::Center(_) => PlacementKind::Center,
+            Self::Corner(_) => PlacementKind::Corner,
         }
     }
 }
@@ -74,7 +74,7 @@ macro_rules! names {
     };
 }
 
-names!(Placement: Placement::Center => "center", Placement::Corner => "corner");
+names!(PlacementKind: PlacementKind::Center => "center", PlacementKind::Corner => "corner");
 names!(CornerRule: CornerRule::Never => "never", CornerRule::One => "one", CornerRule::Always => "always");
 names!(DiagonalGap: DiagonalGap::Open => "open", DiagonalGap::Closed => "closed");
 

@@ -2,7 +2,7 @@
 
 use mediant_moves::Vector;
 
-use crate::{Demand, DiagonalGap, Grid, Place, Rules, Vertex};
+use crate::{Demand, DiagonalGap, Grid, Placement, Rules, Vertex};
 
 /// How the first octant lies on the map: which axis is the long one, and the signs along both.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ impl Frame {
     }
 
     /// The offset on the map (or on the transposed map) of cell (i, j) of the octant.
-    pub(crate) fn cell<P: Place>(self, i: i32, j: i32) -> (i32, i32) {
+    pub(crate) fn cell<P: Placement>(self, i: i32, j: i32) -> (i32, i32) {
         (P::cell(self.long, i), P::cell(self.short, j))
     }
 }
@@ -34,11 +34,11 @@ impl Frame {
 /// segment that leaves the map does not; one of length 0 does when its vertex is free.
 ///
 /// Under [`DiagonalGap::Closed`] the segment may not pass a gap; whether it may start or end at one is a matter of the
-/// path (see [`Lattice::for_each_successor`](crate::Lattice::for_each_successor)).
+/// path (see [`GridGraph::for_each_successor`](crate::GridGraph::for_each_successor)).
 ///
 /// Each row (or column, whichever the segment crosses fewer of) is tested by masked words.
 #[must_use]
-pub fn line_of_sight<P: Place>(grid: &Grid, rule: P::Rule, from: Vertex, to: Vertex) -> bool {
+pub fn line_of_sight<P: Placement>(grid: &Grid, rule: P::Rule, from: Vertex, to: Vertex) -> bool {
     if !P::is_free(grid, from) || !P::is_free(grid, to) {
         return false;
     }
@@ -51,7 +51,7 @@ pub fn line_of_sight<P: Place>(grid: &Grid, rule: P::Rule, from: Vertex, to: Ver
     if d.y == 0 && P::rules(rule).is_corner() {
         // A whole run of edges at once.
         let (low, high) = (u.min(u + frame.long * d.x), u.max(u + frame.long * d.x));
-        let gap = P::closes_gaps(rule) && matrix.any_double_corner(v, low + 1, high - 1);
+        let gap = P::closes_gaps(rule) && matrix.any_gap(v, low + 1, high - 1);
         return !gap && !matrix.any_edge(v, low, high - 1);
     }
     P::sweep(rule, d, |demand| match demand {

@@ -18,7 +18,7 @@ use std::collections::BTreeSet;
 use mediant_moves::Vector;
 
 use crate::{
-    BitIndex, BitMatrix, CellMask, CellOffset, Footprint, Grid, Place, footprint::BitMask, sight::Frame,
+    BitIndex, BitMatrix, CellMask, CellOffset, Footprint, Grid, Placement, footprint::BitMask, sight::Frame,
 };
 
 #[derive(Clone, Copy, Debug)]
@@ -50,7 +50,7 @@ pub(crate) struct Octant {
 
 impl Octant {
     /// The tree over `moves`, which has 2^n − 1 moves of one octant in angular order, the first of index `first` in N(k).
-    pub(crate) fn new<P: Place>(rule: P::Rule, moves: &[Vector], first: u16, grid: &Grid) -> Self {
+    pub(crate) fn new<P: Placement>(rule: P::Rule, moves: &[Vector], first: u16, grid: &Grid) -> Self {
         let frame = Frame::of(moves[moves.len() / 2]).0;
         let mut octant = Self {
             transposed: frame.transposed,
@@ -109,7 +109,7 @@ impl Octant {
         self.nodes[node].skip = self.nodes.len() as u16;
     }
 
-    pub(crate) fn bytes(&self) -> usize {
+    pub(crate) fn memory_bytes(&self) -> usize {
         let masks = size_of_val(&*self.masks) + size_of_val(&*self.all);
         size_of_val(&*self.nodes) + masks + size_of_val(&*self.pairs)
     }
@@ -148,7 +148,7 @@ fn masks(cells: impl IntoIterator<Item = CellOffset>, matrix: &BitMatrix) -> imp
 }
 
 /// The footprint of a move, as (along, across) in its octant's matrix.
-fn in_matrix<P: Place>(rule: P::Rule, v: Vector, transposed: bool) -> Footprint {
+fn in_matrix<P: Placement>(rule: P::Rule, v: Vector, transposed: bool) -> Footprint {
     let mut footprint = Footprint::new::<P>(rule, v);
     if transposed {
         let swap = |(x, y)| (y, x);
@@ -163,18 +163,18 @@ fn in_matrix<P: Place>(rule: P::Rule, v: Vector, transposed: bool) -> Footprint 
 mod tests {
     use super::*;
     use crate::{Centers, CornerRule, Corners, DiagonalGap, Grid};
-    use mediant_moves::{K, Neighborhood};
+    use mediant_moves::{FiniteK, Neighborhood};
 
     /// How many moves of N(8) beyond N(3) are legal, how many nodes are visited to find them, and how many moves there
     /// are, over all free vertices of a map with every n-th cell blocked at random.
-    fn work<P: Place>(rule: P::Rule, one_in: u64) -> [usize; 3] {
+    fn work<P: Placement>(rule: P::Rule, one_in: u64) -> [usize; 3] {
         let mut state = 1_u64;
         let grid = Grid::from_fn(100, 100, |_, _| {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (state >> 33).is_multiple_of(one_in)
         })
         .unwrap();
-        let moves: Vec<Vector> = Neighborhood::new(K::new(8).unwrap()).unwrap().iter().collect();
+        let moves: Vec<Vector> = Neighborhood::new(FiniteK::new(8).unwrap()).unwrap().iter().collect();
         let mut sums = [0; 3];
         for (moves, first) in moves.chunks_exact(32).zip((0..).step_by(32)) {
             let octant = Octant::new::<P>(rule, &moves[1..], first + 1, &grid);

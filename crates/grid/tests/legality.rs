@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use mediant_grid::{
-    Centers, Components, Connectivity, CornerRule, Corners, Grid, Lattice, Place, Rules, Vector, Vertex,
-    line_of_sight_under,
+    Centers, Components, Connectivity, CornerRule, Corners, Grid, GridGraph, Placement, Rules, Vector,
+    Vertex, line_of_sight_under,
 };
-use mediant_moves::{K, Neighborhood};
+use mediant_moves::{FiniteK, Neighborhood};
 use mediant_oracle::{Explicit, segment_is_legal, suite_grid, vertex_is_free};
 
 fn seeds() -> std::ops::Range<u64> {
@@ -26,20 +26,20 @@ fn describe(grid: &Grid, rules: Rules, from: Vertex, to: Vertex, seed: u64) -> S
     mediant_oracle::describe(grid, rules, from, to, seed)
 }
 
-fn check_moves<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> usize {
-    let lattice = Lattice::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
+fn check_moves<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> usize {
+    let graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
     let moves: Vec<Vector> = Neighborhood::new(k).expect("k is in range").iter().collect();
     let mut legal = 0;
     for at in vertices(grid) {
-        let set = lattice.legal_moves(at);
+        let set = graph.legal_moves(at);
         assert_eq!(set.iter().count(), set.len());
         for (index, &v) in moves.iter().enumerate() {
-            let expected = segment_is_legal(grid, lattice.rules(), at, at + v);
+            let expected = segment_is_legal(grid, graph.rules(), at, at + v);
             let message =
-                || format!("k = {k}, move {v:?}: {}", describe(grid, lattice.rules(), at, at + v, seed));
+                || format!("k = {k}, move {v:?}: {}", describe(grid, graph.rules(), at, at + v, seed));
             assert_eq!(set.contains(index), expected, "legal_moves, {}", message());
-            assert_eq!(lattice.is_legal(at, v), expected, "is_legal, {}", message());
-            assert_eq!(lattice.step(index).vector(), v);
+            assert_eq!(graph.is_legal(at, v), expected, "is_legal, {}", message());
+            assert_eq!(graph.step(index).vector(), v);
             legal += usize::from(expected);
         }
     }
@@ -57,7 +57,7 @@ fn legal_moves_are_those_of_brute_force() {
             () if seed % 8 == 0 => &[2, 3, 8],
             () => &[2, 3, 4, 6],
         };
-        for k in ks.iter().map(|&k| K::new(k).expect("k is at least 2")) {
+        for k in ks.iter().map(|&k| FiniteK::new(k).expect("k is at least 2")) {
             for rules in Rules::ALL {
                 legal += match rules {
                     Rules::Center(corners) => check_moves::<Centers>(&grid, corners, k, seed),
@@ -86,12 +86,12 @@ fn sparse_grid(seed: u64) -> Grid {
 }
 
 /// The number of legal moves among those of N(k) at a few vertices.
-fn check_long_moves<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> usize {
-    let lattice = Lattice::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
-    let rules = lattice.rules();
+fn check_long_moves<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> usize {
+    let graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
+    let rules = graph.rules();
     let mut legal = 0;
     for at in [(0, 0), (75, 70), (149, 139), (3, 120), (140, 2)].map(Vertex::from) {
-        let set = lattice.legal_moves(at);
+        let set = graph.legal_moves(at);
         for (index, v) in Neighborhood::new(k).expect("k is in range").iter().enumerate() {
             let case = || format!("seed {seed}, k {k}, {rules}, {v:?} at {at}");
             let expected = line_of_sight_under(grid, rules, at, at + v);
@@ -111,7 +111,7 @@ fn long_moves_of_large_k_are_legal_as_brute_force_says() {
     let mut legal = Rules::ALL.map(|_| 0);
     for seed in 0..3 {
         let grid = Arc::new(sparse_grid(seed));
-        for k in [10, 12].map(|k| K::new(k).expect("k is at least 2")) {
+        for k in [10, 12].map(|k| FiniteK::new(k).expect("k is at least 2")) {
             for (rules, legal) in Rules::ALL.into_iter().zip(&mut legal) {
                 *legal += match rules {
                     Rules::Center(corners) => check_long_moves::<Centers>(&grid, corners, k, seed),
@@ -128,24 +128,24 @@ fn long_moves_of_large_k_are_legal_as_brute_force_says() {
 /// Each move of N(12) that passes through a corner point, at its middle, past one or two blocked cells there.
 #[test]
 fn the_corner_rules_hold_in_the_middle_of_long_moves() {
-    let k = K::new(12).expect("k is at least 2");
+    let k = FiniteK::new(12).expect("k is at least 2");
     // The corner point is (100, 100). A falling move touches the cells to its upper right and lower left, a rising one the others.
     for (falling, cells) in [(true, [(100, 99), (99, 100)]), (false, [(99, 99), (100, 100)])] {
         for blocked in [&cells[..1], &cells[1..], &cells[..]] {
             let grid = Grid::from_fn(200, 200, |x, y| blocked.contains(&(x, y))).expect("a valid size");
             let grid = Arc::new(grid);
             for rule in [CornerRule::Never, CornerRule::One, CornerRule::Always] {
-                let lattice = Lattice::<Centers>::new(Arc::clone(&grid), k, rule).expect("k is in range");
+                let graph = GridGraph::<Centers>::new(Arc::clone(&grid), k, rule).expect("k is in range");
                 let expected = match rule {
                     CornerRule::Never => false,
                     CornerRule::One => blocked.len() == 1,
                     CornerRule::Always => true,
                 };
                 let mut moves = 0;
-                for (index, v) in lattice.steps().iter().map(|step| step.vector()).enumerate() {
+                for (index, v) in graph.steps().iter().map(|step| step.vector()).enumerate() {
                     if v.x % 2 != 0 && v.y % 2 != 0 && ((v.x > 0) == (v.y > 0)) == falling {
                         let at = Vertex::new((199 - v.x) / 2, (199 - v.y) / 2);
-                        let found = lattice.legal_moves(at).contains(index);
+                        let found = graph.legal_moves(at).contains(index);
                         assert_eq!(found, expected, "{rule:?}, {v:?} past {blocked:?}");
                         moves += 1;
                     }
@@ -185,17 +185,17 @@ fn components_tell_whether_there_is_any_path() {
     for seed in seeds() {
         let grid = Arc::new(suite_grid(seed).0);
         for rules in Rules::ALL {
-            for k in [2, 3, 5].map(|k| K::new(k).expect("k is at least 2")) {
+            for k in [2, 3, 5].map(|k| FiniteK::new(k).expect("k is at least 2")) {
                 let connected: Box<dyn Fn(Vertex, Vertex) -> bool> = match rules {
                     Rules::Center(corners) => {
-                        let lattice =
-                            Lattice::<Centers>::new(Arc::clone(&grid), k, corners).expect("k is in range");
-                        Box::new(move |a, b| lattice.connected(a, b))
+                        let graph =
+                            GridGraph::<Centers>::new(Arc::clone(&grid), k, corners).expect("k is in range");
+                        Box::new(move |a, b| graph.connected(a, b))
                     }
                     Rules::Corner(gap) => {
-                        let lattice =
-                            Lattice::<Corners>::new(Arc::clone(&grid), k, gap).expect("k is in range");
-                        Box::new(move |a, b| lattice.connected(a, b))
+                        let graph =
+                            GridGraph::<Corners>::new(Arc::clone(&grid), k, gap).expect("k is in range");
+                        Box::new(move |a, b| graph.connected(a, b))
                     }
                 };
                 let graph = Explicit::new(&grid, rules, Some(k));

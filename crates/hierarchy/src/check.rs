@@ -2,17 +2,17 @@
 
 use std::ops::Range;
 
-use mediant_grid::{Centers, CornerRule, Grid, Lattice};
-use mediant_moves::K;
+use mediant_grid::{Centers, CornerRule, Grid, GridGraph};
+use mediant_moves::FiniteK;
 
 use crate::HierarchyError;
 
 /// Whether there is a hierarchy for these moves.
-pub(crate) fn moves(lattice: &Lattice<Centers>) -> Result<(), HierarchyError> {
-    match lattice.k() {
-        K::FOUR_CONNECTED => Ok(()),
-        K::EIGHT_CONNECTED if lattice.rule() == CornerRule::Never => Ok(()),
-        k => Err(HierarchyError::Moves { k, rules: lattice.rules() }),
+pub(crate) fn moves(grid_graph: &GridGraph<Centers>) -> Result<(), HierarchyError> {
+    match grid_graph.k() {
+        FiniteK::N4 => Ok(()),
+        FiniteK::N8 if grid_graph.rule() == CornerRule::Never => Ok(()),
+        k => Err(HierarchyError::Moves { k, rules: grid_graph.rules() }),
     }
 }
 
@@ -22,11 +22,19 @@ pub(crate) fn size(expected: (u32, u32), grid: &Grid) -> Result<(), HierarchyErr
     if found == expected { Ok(()) } else { Err(HierarchyError::Size { expected, found }) }
 }
 
-/// Whether an index for k and a map of this size can be used on a lattice.
-pub(crate) fn lattice(k: K, size: (u32, u32), lattice: &Lattice<Centers>) -> Result<(), HierarchyError> {
-    moves(lattice)?;
-    self::size(size, lattice.grid())?;
-    if lattice.k() == k { Ok(()) } else { Err(HierarchyError::OtherK { expected: k, found: lattice.k() }) }
+/// Whether an index for k and a map of this size can be used on a grid graph.
+pub(crate) fn grid_graph(
+    k: FiniteK,
+    size: (u32, u32),
+    grid_graph: &GridGraph<Centers>,
+) -> Result<(), HierarchyError> {
+    moves(grid_graph)?;
+    self::size(size, grid_graph.grid())?;
+    if grid_graph.k() == k {
+        Ok(())
+    } else {
+        Err(HierarchyError::OtherK { expected: k, found: grid_graph.k() })
+    }
 }
 
 /// What of a rectangle's side lies on the map.

@@ -1,7 +1,7 @@
 //! What there is no hierarchy for.
 
 use mediant_grid::Rules;
-use mediant_moves::{K, KError};
+use mediant_moves::{FiniteK, KError};
 
 /// An index that cannot be made, repaired or read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -13,7 +13,7 @@ pub enum HierarchyError {
     )]
     Moves {
         /// What was asked for.
-        k: K,
+        k: FiniteK,
         /// The rules.
         rules: Rules,
     },
@@ -56,9 +56,9 @@ pub enum HierarchyError {
     )]
     OtherK {
         /// The index's k.
-        expected: K,
-        /// The lattice's.
-        found: K,
+        expected: FiniteK,
+        /// The grid graph's.
+        found: FiniteK,
     },
     /// A neighborhood that is too large.
     #[error(transparent)]

@@ -10,9 +10,9 @@
 //!
 //! ```
 //! use std::sync::Arc;
-//! use mediant_grid::{AsciiMap, Centers, CornerRule, Lattice, Rectangle};
+//! use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph, Rectangle};
 //! use mediant_hierarchy::{ClusterGraph, Clustering, HpaStar};
-//! use mediant_moves::K;
+//! use mediant_moves::FiniteK;
 //! use mediant_search::{Planner, Query};
 //!
 //! let map = AsciiMap::parse("
@@ -20,8 +20,8 @@
 //!     ..#..
 //!     ..#..
 //! ")?;
-//! let lattice = |grid| Lattice::<Centers>::new(Arc::new(grid), K::EIGHT_CONNECTED, CornerRule::Never);
-//! let before = Arc::new(lattice(map.grid.clone())?);
+//! let grid_graph = |grid| GridGraph::<Centers>::new(Arc::new(grid), FiniteK::N8, CornerRule::Never);
+//! let before = Arc::new(grid_graph(map.grid.clone())?);
 //! let graph = Box::new(ClusterGraph::new(&before, Clustering { side: 2, levels: 1 })?);
 //! let mut planner = HpaStar::new(before, graph)?;
 //! let query = Query::new((0, 0), (4, 0));
@@ -29,7 +29,7 @@
 //!
 //! // A door opens.
 //! let door = Rectangle { x: 2, y: 2, width: 1, height: 1 };
-//! let after = Arc::new(lattice(map.grid.with_rectangle(door, |_, _| false))?);
+//! let after = Arc::new(grid_graph(map.grid.with_rectangle(door, |_, _| false))?);
 //! planner.repair(after, door)?;
 //! assert!(planner.solve(query)?.path().is_some());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -55,7 +55,7 @@
 //! (Its authors: within 1 % of optimal after smoothing, up to ten times faster than A*. In noise, on random512-10-0, it is 1.5 % longer and 3.7 times as fast.)
 //!
 //! On Moscow_2_1024, 1024 × 1024 cells, k = 3, one core, an index takes 31 ms to make (CHPA*: 41 ms). Repairing it after a square of 10 × 10 cells changed takes 0.2 ms in the mean of 300,
-//! 0.4 ms at most (CHPA*: 0.01 ms); on random512-10-0 0.3 and 0.6 ms. (The first in a process, whose memory is new, took 2 ms.) The new grid takes 0.02 ms (0.1 where its memory is new), the new lattice 0.4 ms, on other maps of this size up to 0.9 ms.
+//! 0.4 ms at most (CHPA*: 0.01 ms); on random512-10-0 0.3 and 0.6 ms. (The first in a process, whose memory is new, took 2 ms.) The new grid takes 0.02 ms (0.1 where its memory is new), the new grid graph 0.4 ms, on other maps of this size up to 0.9 ms.
 //!
 //! **What Teleiša & Čalnerytė 2023 claim** stands beside what is found in `docs/results/teleisa2023.md`, and where it differs, with the causes, in `docs/results/deviations.md`. In short, on
 //! their four maps of 768 × 768 tiles, 200 instances of each drawn as they say, k = 2: CHPA*'s paths are 1.6 % longer than optimal (theirs: 2 to 4 %), with 87 % fewer nodes than A* by the

@@ -1,6 +1,6 @@
 //! Straightening: what a path over N(k) loses to detours, regained without leaving N(k).
 
-use mediant_grid::{Centers, Lattice, Vector, Vertex};
+use mediant_grid::{Centers, GridGraph, Vector, Vertex};
 use mediant_moves::{Cost, decompose};
 
 /// How many turning points back a shortcut may begin. In the mean of 14 maps, k = 3: with 4 the paths of HPA* are 0.57 % longer than optimal, and a query takes 1.08 times as long as without
@@ -19,7 +19,7 @@ pub(crate) struct Straighten {
 impl Straighten {
     /// The waypoints of the path through these vertices, made shorter: the shortest way over its turning points, of which two that are at most [`REACH`] apart are joined if
     /// a shortest path on an empty grid that turns once is free (Botea 2004, Section 3.3, joins those on one straight line).
-    pub(crate) fn path(&mut self, lattice: &Lattice<Centers>, way: &[Vertex]) -> Vec<Vertex> {
+    pub(crate) fn path(&mut self, grid_graph: &GridGraph<Centers>, way: &[Vertex]) -> Vec<Vertex> {
         let Self { turns, best, cells } = self;
         waypoints(way, turns);
         best.clear();
@@ -30,11 +30,11 @@ impl Straighten {
                 best.push((Cost::ZERO, 0, at));
                 continue;
             };
-            let mut found = (cost + lattice.costs().distance(before.to(at)), to - 1, at);
+            let mut found = (cost + grid_graph.costs().distance(before.to(at)), to - 1, at);
             for from in to.saturating_sub(REACH)..to - 1 {
-                let cost = best[from].0 + lattice.costs().distance(turns[from].to(at));
+                let cost = best[from].0 + grid_graph.costs().distance(turns[from].to(at));
                 if cost < found.0
-                    && let Some(elbow) = free(lattice, turns[from], at)
+                    && let Some(elbow) = free(grid_graph, turns[from], at)
                 {
                     found = (cost, from, elbow);
                 }
@@ -57,12 +57,12 @@ impl Straighten {
 }
 
 /// Where a path that is optimal on an empty grid turns between two vertices, if one of the two that turn once is free.
-pub(crate) fn free(lattice: &Lattice<Centers>, from: Vertex, to: Vertex) -> Option<Vertex> {
-    let parts = decompose(from.to(to), lattice.k())?;
+pub(crate) fn free(grid_graph: &GridGraph<Centers>, from: Vertex, to: Vertex) -> Option<Vertex> {
+    let parts = decompose(from.to(to), grid_graph.k())?;
     [(parts.v, parts.alpha), (parts.w, parts.beta)]
         .map(|(v, times)| from + Vector::new(v.x * times as i32, v.y * times as i32))
         .into_iter()
-        .find(|&elbow| lattice.sees(from, elbow) && lattice.sees(elbow, to))
+        .find(|&elbow| grid_graph.sees(from, elbow) && grid_graph.sees(elbow, to))
 }
 
 /// Of the vertices on a path over N(k), those at which it turns, and its ends.

@@ -3,7 +3,7 @@
 use std::{cmp::Reverse, collections::BinaryHeap};
 
 use mediant_grid::{Grid, Vertex, VertexId};
-use mediant_moves::{Cost, CostTable, K, Vector};
+use mediant_moves::{Cost, CostTable, FiniteK, Vector};
 use mediant_search::{Entry, NodeEvent, Observer};
 
 /// The longest side of a window: its rows are words.
@@ -99,11 +99,11 @@ pub(crate) struct Local {
 
 impl Local {
     /// For 4- or 8-connected paths that never cut corners.
-    pub(crate) fn new(k: K) -> Self {
+    pub(crate) fn new(k: FiniteK) -> Self {
         let cells = (MAX_SIDE * MAX_SIDE) as usize;
         Self {
             straight: Cost::of_move(Vector::new(1, 0)),
-            diagonal: (k != K::FOUR_CONNECTED).then(|| Cost::of_move(Vector::new(1, 1))),
+            diagonal: (k != FiniteK::N4).then(|| Cost::of_move(Vector::new(1, 1))),
             cost: vec![Cost::ZERO; cells].into_boxed_slice(),
             parent: vec![0; cells].into_boxed_slice(),
             reached: [0; MAX_SIDE as usize],

@@ -5,8 +5,8 @@ mod common;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use common::{any_clustering, any_lattice, clusters, k, lattice, map};
-use mediant_grid::{AsciiMap, Centers, CornerRule, Grid, Lattice, Vertex};
+use common::{any_clustering, any_grid_graph, clusters, grid_graph, k, map};
+use mediant_grid::{AsciiMap, Centers, CornerRule, Grid, GridGraph, Vertex};
 use mediant_hierarchy::{Clustering, HierarchyError};
 use mediant_oracle::{Explicit, Rng, describe, on_all_cores, seeds};
 
@@ -107,12 +107,12 @@ fn check_length(found: u32, best: Option<f64>, level: usize, case: impl Fn() -> 
 }
 
 /// How many nodes there are on all levels, and how many lengths were compared.
-fn check(lattice: &Lattice<Centers>, clustering: Clustering, seed: u64) -> [usize; 2] {
-    let grid = lattice.grid();
-    let graph = clusters(lattice, clustering);
+fn check(grid_graph: &GridGraph<Centers>, clustering: Clustering, seed: u64) -> [usize; 2] {
+    let grid = grid_graph.grid();
+    let graph = clusters(grid_graph, clustering);
     let case = || {
-        let map = describe(grid, lattice.rules(), Vertex::new(-1, -1), Vertex::new(-1, -1), seed);
-        format!("k = {}, {clustering:?}; {map}", lattice.k())
+        let map = describe(grid, grid_graph.rules(), Vertex::new(-1, -1), Vertex::new(-1, -1), seed);
+        format!("k = {}, {clustering:?}; {map}", grid_graph.k())
     };
     let words = graph.to_bytes();
     let words = words.chunks_exact(4).map(|word| u32::from_le_bytes(word.try_into().expect("four bytes")));
@@ -135,7 +135,7 @@ fn check(lattice: &Lattice<Centers>, clustering: Clustering, seed: u64) -> [usiz
             counts[0] += nodes.len();
             let Some(&first) = nodes.first() else { continue };
             let alone = cluster_alone(grid, first, side);
-            let explicit = Explicit::new(&alone, lattice.rules(), Some(lattice.k()));
+            let explicit = Explicit::new(&alone, grid_graph.rules(), Some(grid_graph.k()));
             let local = |(x, y): (i32, i32)| Vertex::new(x % side, y % side);
             for (number, &from) in nodes.iter().enumerate() {
                 let costs = explicit.costs_from(local(from));
@@ -155,8 +155,8 @@ fn check(lattice: &Lattice<Centers>, clustering: Clustering, seed: u64) -> [usiz
 fn nodes_and_lengths_are_those_of_the_definition() {
     let check = |seed: u64| {
         let (grid, mut rng) = (map(seed), Rng::new(seed ^ 0xC157));
-        let lattice = any_lattice(&mut rng, &grid);
-        check(&lattice, any_clustering(&mut rng), seed)
+        let grid_graph = any_grid_graph(&mut rng, &grid);
+        check(&grid_graph, any_clustering(&mut rng), seed)
     };
     let checked = on_all_cores(seeds(200), check);
     let maps = seeds(200).end as usize;
@@ -170,8 +170,8 @@ fn nodes_and_lengths_are_those_of_the_definition() {
 #[track_caller]
 fn check_drawing(drawing: &str, expected: usize) {
     let grid = AsciiMap::parse(drawing).expect("the drawing is a map").grid;
-    let lattice = lattice(&grid, k(3), CornerRule::Never);
-    let graph = clusters(&lattice, Clustering { side: 8, levels: 1 });
+    let grid_graph = grid_graph(&grid, k(3), CornerRule::Never);
+    let graph = clusters(&grid_graph, Clustering { side: 8, levels: 1 });
     assert_eq!(graph.nodes(), expected, "of {drawing}");
 }
 
@@ -197,9 +197,9 @@ fn known_entrances() {
 #[test]
 fn clusterings_out_of_range_are_refused() {
     let grid = Grid::from_fn(30, 20, |_, _| false).expect("a valid size");
-    let lattice = lattice(&grid, k(2), CornerRule::Never);
+    let grid_graph = grid_graph(&grid, k(2), CornerRule::Never);
     let new = |side, levels| {
-        mediant_hierarchy::ClusterGraph::new(&lattice, Clustering { side, levels })
+        mediant_hierarchy::ClusterGraph::new(&grid_graph, Clustering { side, levels })
             .map(|graph| graph.clustering())
     };
     for side in [0, 1, 65, 100, u32::MAX] {

@@ -3,15 +3,13 @@
 mod common;
 
 use common::{
-    Answer, Bound, Setting, any_clustering, any_lattice, ask, check_path, chpa, clusters, describe_query,
-    free_cells, hpa, k, lattice, map, number, random_queries, segments,
+    Answer, Bound, Setting, any_clustering, any_grid_graph, ask, check_path, chpa, clusters, describe_query,
+    free_cells, grid_graph, hpa, k, map, number, random_queries, segments,
 };
-use mediant_grid::{Centers, CornerRule, Grid, Lattice, Placement, Vertex};
+use mediant_grid::{Centers, CornerRule, Grid, GridGraph, PlacementKind, Vertex};
 use mediant_hierarchy::{ChpaStar, Clustering, HpaStar};
 use mediant_oracle::{Explicit, Rng, on_all_cores, random_vertex, seeds};
-use mediant_search::{
-    AStar, Counters, Guarantee, LatticeDistance, Outcome, Planner, Query, QueryError, SquaredEuclidean,
-};
+use mediant_search::{AStar, Counters, Guarantee, Hk, Outcome, Planner, Query, QueryError, SquaredEuclidean};
 
 /// Costs within this factor of each other are the same: that is less than the shortest detour on the longest path of these maps.
 const SLACK: f64 = 1.0 + 1e-9;
@@ -52,9 +50,9 @@ struct Expected {
 }
 
 /// From each of some free cells to some others.
-fn expected(rng: &mut Rng, lattice: &Lattice<Centers>) -> Vec<Expected> {
-    let graph = Explicit::new(lattice.grid(), lattice.rules(), Some(lattice.k()));
-    let free = free_cells(lattice.grid());
+fn expected(rng: &mut Rng, grid_graph: &GridGraph<Centers>) -> Vec<Expected> {
+    let graph = Explicit::new(grid_graph.grid(), grid_graph.rules(), Some(grid_graph.k()));
+    let free = free_cells(grid_graph.grid());
     let mut all = Vec::new();
     let mut draw = |count| (0..count).filter_map(|_| rng.pick(&free).copied()).collect::<Vec<_>>();
     for start in draw(3) {
@@ -69,7 +67,7 @@ fn expected(rng: &mut Rng, lattice: &Lattice<Centers>) -> Vec<Expected> {
 /// Checks an answer and notes it; what the path costs, if one was found.
 fn note(
     tally: &mut Tally,
-    lattice: &Lattice<Centers>,
+    grid_graph: &GridGraph<Centers>,
     Expected { query, optimum }: Expected,
     (answer, counters): &Answer,
     case: &impl Fn() -> String,
@@ -81,7 +79,7 @@ fn note(
             tally.unreachable += 1;
         }
         (Ok(Outcome::Found(path)), Some(best)) => {
-            check_path(lattice, query, path, case);
+            check_path(grid_graph, query, path, case);
             assert!(best <= path.cost() * SLACK, "{} < {best}; {}", path.cost(), case());
             tally.found += 1;
             if best > 0.0 {
@@ -101,16 +99,21 @@ fn is_same(a: Option<f64>, b: Option<f64>) -> bool {
 }
 
 /// HPA* straightened and refined.
-fn check_hpa(lattice: &Lattice<Centers>, clustering: Clustering, all: &[Expected], seed: u64) -> [Tally; 2] {
-    let graph = clusters(lattice, clustering);
-    let mut planners = [true, false].map(|straightens| hpa(lattice, &graph, straightens));
+fn check_hpa(
+    grid_graph: &GridGraph<Centers>,
+    clustering: Clustering,
+    all: &[Expected],
+    seed: u64,
+) -> [Tally; 2] {
+    let graph = clusters(grid_graph, clustering);
+    let mut planners = [true, false].map(|straightens| hpa(grid_graph, &graph, straightens));
     let mut tallies = [Tally::default(); 2];
-    let fits = lattice.grid().width().max(lattice.grid().height()) <= clustering.side;
+    let fits = grid_graph.grid().width().max(grid_graph.grid().height()) <= clustering.side;
     for &expected in all {
-        let case = || format!("{clustering:?}; {}", describe_query(lattice, expected.query, seed));
+        let case = || format!("{clustering:?}; {}", describe_query(grid_graph, expected.query, seed));
         let mut costs = [None; 2];
         for ((planner, tally), cost) in planners.iter_mut().zip(&mut tallies).zip(&mut costs) {
-            *cost = note(tally, lattice, expected, &ask(planner, expected.query), &case);
+            *cost = note(tally, grid_graph, expected, &ask(planner, expected.query), &case);
             let is_optimal = is_same(*cost, expected.optimum) || expected.optimum.is_none();
             assert!(is_optimal || !fits, "{cost:?} within one cluster; {}", case());
         }
@@ -122,20 +125,21 @@ fn check_hpa(lattice: &Lattice<Centers>, clustering: Clustering, all: &[Expected
 }
 
 /// CHPA*, complete and as published.
-fn check_chpa(rng: &mut Rng, lattice: &Lattice<Centers>, all: &[Expected], seed: u64) -> [Tally; 2] {
+fn check_chpa(rng: &mut Rng, grid_graph: &GridGraph<Centers>, all: &[Expected], seed: u64) -> [Tally; 2] {
     let (side, setting) = (1 + rng.below(9), Setting::any(rng));
-    let graph = segments(lattice, side);
-    let mut complete = chpa(lattice, &graph, setting);
-    let mut published = chpa(lattice, &graph, setting.of_the_paper());
+    let graph = segments(grid_graph, side);
+    let mut complete = chpa(grid_graph, &graph, setting);
+    let mut published = chpa(grid_graph, &graph, setting.of_the_paper());
     let mut tallies = [Tally::default(); 2];
     let segment = |at: Vertex| (at.x as u32 / side, at.y as u32 / side);
     for &expected in all {
         let Query { start, goal } = expected.query;
-        let case = || format!("side {side}, {setting:?}; {}", describe_query(lattice, expected.query, seed));
+        let case =
+            || format!("side {side}, {setting:?}; {}", describe_query(grid_graph, expected.query, seed));
         let answers = [&mut complete, &mut published].map(|planner| ask(planner, expected.query));
         let mut costs = [None; 2];
         for ((answer, tally), cost) in answers.iter().zip(&mut tallies).zip(&mut costs) {
-            *cost = note(tally, lattice, expected, answer, &case);
+            *cost = note(tally, grid_graph, expected, answer, &case);
             // Without checkpoints the second phase is all there is.
             if segment(start) == segment(goal) && setting.phases[1].is_some() && expected.optimum.is_some() {
                 assert!(is_same(*cost, expected.optimum), "{cost:?} within one segment; {}", case());
@@ -153,11 +157,11 @@ fn check_chpa(rng: &mut Rng, lattice: &Lattice<Centers>, all: &[Expected], seed:
 /// Straightened, refined, complete, as published.
 fn check_map(seed: u64) -> [Tally; 4] {
     let (grid, mut rng) = (map(seed), Rng::new(seed ^ 0x0C1A));
-    let lattice = any_lattice(&mut rng, &grid);
-    let all = expected(&mut rng, &lattice);
+    let grid_graph = any_grid_graph(&mut rng, &grid);
+    let all = expected(&mut rng, &grid_graph);
     let clustering = any_clustering(&mut rng);
-    let [straightened, refined] = check_hpa(&lattice, clustering, &all, seed);
-    let [complete, published] = check_chpa(&mut rng, &lattice, &all, seed);
+    let [straightened, refined] = check_hpa(&grid_graph, clustering, &all, seed);
+    let [complete, published] = check_chpa(&mut rng, &grid_graph, &all, seed);
     [straightened, refined, complete, published]
 }
 
@@ -191,7 +195,7 @@ fn a_path_is_found_whenever_there_is_one() {
 /// Ends that are blocked or outside the map, half of them.
 fn any_query(rng: &mut Rng, grid: &Grid) -> Query {
     let [start, goal] = [(); 2].map(|()| {
-        let at = random_vertex(rng, grid, Placement::Center);
+        let at = random_vertex(rng, grid, PlacementKind::Center);
         let off = [(0, 0), (0, 0), (-at.x - 1, 0), (0, -at.y - 1), (grid.width() as i32, 0), (0, 99)];
         at + off[rng.below(6) as usize].into()
     });
@@ -202,22 +206,22 @@ fn any_query(rng: &mut Rng, grid: &Grid) -> Query {
 fn bad_ends_are_the_errors_that_a_star_gives() {
     let check = |seed: u64| {
         let (grid, mut rng) = (map(seed), Rng::new(seed ^ 0xE44));
-        let lattice = any_lattice(&mut rng, &grid);
-        let clusters = clusters(&lattice, any_clustering(&mut rng));
-        let (segments, setting) = (segments(&lattice, 1 + rng.below(9)), Setting::any(&mut rng));
+        let grid_graph = any_grid_graph(&mut rng, &grid);
+        let clusters = clusters(&grid_graph, any_clustering(&mut rng));
+        let (segments, setting) = (segments(&grid_graph, 1 + rng.below(9)), Setting::any(&mut rng));
         let mut planners = [
-            hpa(&lattice, &clusters, rng.chance(50)),
-            chpa(&lattice, &segments, setting),
-            chpa(&lattice, &segments, setting.of_the_paper()),
+            hpa(&grid_graph, &clusters, rng.chance(50)),
+            chpa(&grid_graph, &segments, setting),
+            chpa(&grid_graph, &segments, setting.of_the_paper()),
         ];
-        let mut a_star = AStar::new(&lattice, LatticeDistance);
+        let mut a_star = AStar::new(&grid_graph, Hk);
         let mut errors = 0;
         for _ in 0..12 {
             let query = any_query(&mut rng, &grid);
             let Err(error) = a_star.solve(query) else { continue };
             for planner in &mut planners {
                 let answer = ask(planner, query);
-                let case = || describe_query(&lattice, query, seed);
+                let case = || describe_query(&grid_graph, query, seed);
                 assert_eq!(answer, (Err(error), Counters::default()), "{}", case());
             }
             errors += 1;
@@ -231,10 +235,10 @@ fn bad_ends_are_the_errors_that_a_star_gives() {
 #[test]
 fn nothing_is_promised_of_the_length() {
     let grid = Grid::from_fn(9, 9, |_, _| false).expect("a valid size");
-    let lattice = lattice(&grid, k(3), CornerRule::Never);
-    let (clusters, segments) = (clusters(&lattice, Clustering::default()), segments(&lattice, 3));
-    let hpa = HpaStar::new(&lattice, &clusters).expect("the index fits");
-    let chpa = ChpaStar::new(&lattice, &segments, SquaredEuclidean, LatticeDistance).expect("the index fits");
+    let grid_graph = grid_graph(&grid, k(3), CornerRule::Never);
+    let (clusters, segments) = (clusters(&grid_graph, Clustering::default()), segments(&grid_graph, 3));
+    let hpa = HpaStar::new(&grid_graph, &clusters).expect("the index fits");
+    let chpa = ChpaStar::new(&grid_graph, &segments, SquaredEuclidean, Hk).expect("the index fits");
     assert_eq!((hpa.guarantee(), chpa.guarantee()), (Guarantee::Suboptimal, Guarantee::Suboptimal));
 }
 
@@ -252,9 +256,10 @@ fn straightened_paths_on_empty_maps_are_optimal() {
         let sides = [1 + rng.below(90), 1 + rng.below(90)];
         let grid = Grid::from_fn(sides[0], sides[1], |_, _| false).expect("a valid size");
         let number = 2 + rng.below(2);
-        let (lattice, clustering) = (lattice(&grid, k(number), CornerRule::Never), any_clustering(&mut rng));
-        let graph = clusters(&lattice, clustering);
-        let mut planners = [true, false].map(|straightens| hpa(&lattice, &graph, straightens));
+        let (grid_graph, clustering) =
+            (grid_graph(&grid, k(number), CornerRule::Never), any_clustering(&mut rng));
+        let graph = clusters(&grid_graph, clustering);
+        let mut planners = [true, false].map(|straightens| hpa(&grid_graph, &graph, straightens));
         let mut longer = 0;
         for query in random_queries(&mut rng, &grid, 10) {
             let case = || format!("{clustering:?}, {sides:?}, k = {number}, {query:?}, seed {seed}");
@@ -280,16 +285,16 @@ fn straightened_paths_on_empty_maps_are_optimal() {
 fn without_checkpoints_paths_are_optimal() {
     let check = |seed: u64| {
         let (grid, mut rng) = (map(seed), Rng::new(seed ^ 0x57E9));
-        let lattice = any_lattice(&mut rng, &grid);
-        let graph = segments(&lattice, 1 + rng.below(9));
+        let grid_graph = any_grid_graph(&mut rng, &grid);
+        let graph = segments(&grid_graph, 1 + rng.below(9));
         let setting = Setting { step: number(u32::MAX), ..Setting::any(&mut rng) };
         let phases = [setting.phases[0], Some(Bound::Euclidean)];
-        let mut planner = chpa(&lattice, &graph, Setting { phases, ..setting });
-        let all = expected(&mut rng, &lattice);
+        let mut planner = chpa(&grid_graph, &graph, Setting { phases, ..setting });
+        let all = expected(&mut rng, &grid_graph);
         for &expected in &all {
-            let case = || format!("{setting:?}; {}", describe_query(&lattice, expected.query, seed));
+            let case = || format!("{setting:?}; {}", describe_query(&grid_graph, expected.query, seed));
             let mut tally = Tally::default();
-            let cost = note(&mut tally, &lattice, expected, &ask(&mut planner, expected.query), &case);
+            let cost = note(&mut tally, &grid_graph, expected, &ask(&mut planner, expected.query), &case);
             assert!(is_same(cost, expected.optimum) || expected.optimum.is_none(), "{cost:?}; {}", case());
         }
         all.len()

@@ -3,46 +3,46 @@
 mod common;
 
 use common::{
-    Setting, any_clustering, any_lattice, ask, check_path, chpa, clusters, describe_query, hpa, k, lattice,
-    map, random_queries, segments,
+    Setting, any_clustering, any_grid_graph, ask, check_path, chpa, clusters, describe_query, grid_graph,
+    hpa, k, map, random_queries, segments,
 };
-use mediant_grid::{AsciiMap, Centers, CornerRule, Grid, Lattice, Rectangle};
+use mediant_grid::{AsciiMap, Centers, CornerRule, Grid, GridGraph, Rectangle};
 use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, HierarchyError, HpaStar, SegmentGraph};
 use mediant_oracle::{Rng, on_all_cores, seeds};
-use mediant_search::{LatticeDistance, Outcome, Planner, Query, QueryError, Zero};
+use mediant_search::{Hk, Outcome, Planner, Query, QueryError, Zero};
 
 #[test]
 fn a_loaded_index_is_the_one_that_was_written() {
     let check = |seed: u64| {
         let (grid, mut rng) = (map(seed), Rng::new(seed ^ 0x10AD));
-        let lattice = any_lattice(&mut rng, &grid);
+        let grid_graph = any_grid_graph(&mut rng, &grid);
         let (clustering, side, setting) =
             (any_clustering(&mut rng), 1 + rng.below(9), Setting::any(&mut rng));
-        let case = || format!("{clustering:?}, segments of {side}, k = {}, seed {seed}", lattice.k());
+        let case = || format!("{clustering:?}, segments of {side}, k = {}, seed {seed}", grid_graph.k());
 
-        let of_clusters = clusters(&lattice, clustering);
-        let read_clusters = ClusterGraph::from_bytes(&lattice, &of_clusters.to_bytes());
+        let of_clusters = clusters(&grid_graph, clustering);
+        let read_clusters = ClusterGraph::from_bytes(&grid_graph, &of_clusters.to_bytes());
         let read_clusters = read_clusters.expect("these are its bytes");
         assert!(read_clusters == of_clusters, "{}", case());
         let facts = |graph: &ClusterGraph| {
-            (graph.clustering(), graph.clusters(), graph.nodes(), graph.bytes(), graph.to_bytes())
+            (graph.clustering(), graph.clusters(), graph.nodes(), graph.memory_bytes(), graph.to_bytes())
         };
         assert_eq!(facts(&read_clusters), facts(&of_clusters), "{}", case());
         assert_eq!(read_clusters.clustering(), clustering, "{}", case());
 
-        let of_segments = segments(&lattice, side);
-        let read_segments = SegmentGraph::from_bytes(&lattice, &of_segments.to_bytes());
+        let of_segments = segments(&grid_graph, side);
+        let read_segments = SegmentGraph::from_bytes(&grid_graph, &of_segments.to_bytes());
         let read_segments = read_segments.expect("these are its bytes");
         assert!(read_segments == of_segments, "{}", case());
         let facts = |graph: &SegmentGraph| {
-            (graph.side(), graph.segments(), graph.edges(), graph.bytes(), graph.to_bytes())
+            (graph.side(), graph.segments(), graph.edges(), graph.memory_bytes(), graph.to_bytes())
         };
         assert_eq!(facts(&read_segments), facts(&of_segments), "{}", case());
         assert_eq!(read_segments.side(), side, "{}", case());
 
         let mut pairs = [
-            [hpa(&lattice, &of_clusters, true), hpa(&lattice, &read_clusters, true)],
-            [chpa(&lattice, &of_segments, setting), chpa(&lattice, &read_segments, setting)],
+            [hpa(&grid_graph, &of_clusters, true), hpa(&grid_graph, &read_clusters, true)],
+            [chpa(&grid_graph, &of_segments, setting), chpa(&grid_graph, &read_segments, setting)],
         ];
         let queries = random_queries(&mut rng, &grid, 6);
         for &query in &queries {
@@ -60,7 +60,7 @@ fn a_loaded_index_is_the_one_that_was_written() {
 #[test]
 fn the_versions_are_those_of_the_bytes_below() {
     let grid = AsciiMap::parse("..#\n...\n").expect("the drawing is a map").grid;
-    let lattice = lattice(&grid, k(3), CornerRule::Never);
+    let grid_graph = grid_graph(&grid, k(3), CornerRule::Never);
     let words = |bytes: &[u8]| -> Vec<u32> {
         bytes
             .chunks(4)
@@ -68,10 +68,10 @@ fn the_versions_are_those_of_the_bytes_below() {
             .collect()
     };
     assert_eq!((ClusterGraph::VERSION, SegmentGraph::VERSION), (1, 1));
-    let one = clusters(&lattice, Clustering { side: 2, levels: 2 }).to_bytes();
+    let one = clusters(&grid_graph, Clustering { side: 2, levels: 2 }).to_bytes();
     // Side, levels, size; two clusters of a node each, and one that holds all.
     assert_eq!(words(&one), [2, 2, 3, 2, 1, 1, 0]);
-    let other = segments(&lattice, 1).to_bytes();
+    let other = segments(&grid_graph, 1).to_bytes();
     assert_eq!(words(&other[..12]), [1, 3, 2]);
     // East 1, south 2, south-east 4, south-west 8.
     assert_eq!(other[12..], [1 + 2 + 4, 2 + 4 + 8, 8, 1, 1, 0]);
@@ -93,24 +93,24 @@ fn rooms() -> Grid {
 }
 
 /// The moves, and indexes of the rooms for each, of several sizes.
-fn indexes() -> Vec<(Lattice<Centers>, Vec<ClusterGraph>, Vec<SegmentGraph>)> {
+fn indexes() -> Vec<(GridGraph<Centers>, Vec<ClusterGraph>, Vec<SegmentGraph>)> {
     let of = |number: u32| {
-        let lattice = lattice(&rooms(), k(number), CornerRule::Never);
+        let grid_graph = grid_graph(&rooms(), k(number), CornerRule::Never);
         let clusterings = [(12, 1), (4, 1), (3, 2), (2, 4)];
         let of_clusters =
-            clusterings.map(|(side, levels)| clusters(&lattice, Clustering { side, levels })).to_vec();
-        let of_segments = [1, 2, 3, 5, 12].map(|side| segments(&lattice, side)).to_vec();
-        (lattice, of_clusters, of_segments)
+            clusterings.map(|(side, levels)| clusters(&grid_graph, Clustering { side, levels })).to_vec();
+        let of_segments = [1, 2, 3, 5, 12].map(|side| segments(&grid_graph, side)).to_vec();
+        (grid_graph, of_clusters, of_segments)
     };
     vec![of(2), of(3)]
 }
 
 #[test]
 fn an_edge_to_no_segment_is_refused() {
-    for (lattice, _, of_segments) in indexes() {
+    for (grid_graph, _, of_segments) in indexes() {
         for graph in of_segments {
             let (columns, rows) = (12_u32.div_ceil(graph.side()), 8_u32.div_ceil(graph.side()));
-            let (bytes, has_diagonals) = (graph.to_bytes(), lattice.k() == k(3));
+            let (bytes, has_diagonals) = (graph.to_bytes(), grid_graph.k() == k(3));
             for (segment, bit) in
                 (0..graph.segments()).flat_map(|segment| (0..8).map(move |bit| (segment, bit)))
             {
@@ -125,7 +125,7 @@ fn an_edge_to_no_segment_is_refused() {
                 };
                 let mut other = bytes.clone();
                 other[12 + segment] |= 1 << bit;
-                let read = SegmentGraph::from_bytes(&lattice, &other);
+                let read = SegmentGraph::from_bytes(&grid_graph, &other);
                 assert_eq!(read.is_ok(), is_possible, "bit {bit} of segment {x}, {y}: {read:?}");
             }
         }
@@ -140,7 +140,7 @@ struct Answers {
 }
 
 fn check_answers(
-    lattice: &Lattice<Centers>,
+    grid_graph: &GridGraph<Centers>,
     planner: &mut common::Solve<'_>,
     queries: &[Query],
     may_give_up: bool,
@@ -148,11 +148,11 @@ fn check_answers(
     answers: &mut Answers,
 ) {
     for &query in queries {
-        let case = || format!("{}; {}", case(), describe_query(lattice, query, 0));
-        let is_connected = lattice.connected(query.start, query.goal);
+        let case = || format!("{}; {}", case(), describe_query(grid_graph, query, 0));
+        let is_connected = grid_graph.connected(query.start, query.goal);
         match ask(planner, query).0 {
             Ok(Outcome::Found(path)) => {
-                check_path(lattice, query, &path, &case);
+                check_path(grid_graph, query, &path, &case);
                 answers.found += 1;
             }
             Ok(Outcome::Unreachable) => assert!(!is_connected, "{}", case()),
@@ -166,33 +166,33 @@ fn check_answers(
 }
 
 fn check_clusters(
-    lattice: &Lattice<Centers>,
+    grid_graph: &GridGraph<Centers>,
     graph: &ClusterGraph,
     queries: &[Query],
     case: &impl Fn() -> String,
     answers: &mut Answers,
 ) {
     for straightens in [true, false] {
-        check_answers(lattice, &mut hpa(lattice, graph, straightens), queries, true, case, answers);
+        check_answers(grid_graph, &mut hpa(grid_graph, graph, straightens), queries, true, case, answers);
     }
 }
 
 fn check_segments(
-    lattice: &Lattice<Centers>,
+    grid_graph: &GridGraph<Centers>,
     graph: &SegmentGraph,
     queries: &[Query],
     case: &impl Fn() -> String,
     (complete, published): (&mut Answers, &mut Answers),
 ) {
     let setting = Setting::any(&mut Rng::new(graph.edges() as u64));
-    check_answers(lattice, &mut chpa(lattice, graph, setting), queries, false, case, complete);
-    let mut paper = chpa(lattice, graph, setting.of_the_paper());
-    check_answers(lattice, &mut paper, queries, true, case, published);
+    check_answers(grid_graph, &mut chpa(grid_graph, graph, setting), queries, false, case, complete);
+    let mut paper = chpa(grid_graph, graph, setting.of_the_paper());
+    check_answers(grid_graph, &mut paper, queries, true, case, published);
 }
 
 #[test]
 fn part_of_the_bytes_is_no_index_and_neither_is_more() {
-    for (lattice, of_clusters, of_segments) in indexes() {
+    for (grid_graph, of_clusters, of_segments) in indexes() {
         let all = |bytes: Vec<u8>, is_read: &dyn Fn(&[u8]) -> bool| {
             assert!(is_read(&bytes));
             for end in 0..bytes.len() {
@@ -203,10 +203,10 @@ fn part_of_the_bytes_is_no_index_and_neither_is_more() {
             }
         };
         for graph in of_clusters {
-            all(graph.to_bytes(), &|bytes| ClusterGraph::from_bytes(&lattice, bytes).is_ok());
+            all(graph.to_bytes(), &|bytes| ClusterGraph::from_bytes(&grid_graph, bytes).is_ok());
         }
         for graph in of_segments {
-            all(graph.to_bytes(), &|bytes| SegmentGraph::from_bytes(&lattice, bytes).is_ok());
+            all(graph.to_bytes(), &|bytes| SegmentGraph::from_bytes(&grid_graph, bytes).is_ok());
         }
     }
 }
@@ -216,8 +216,8 @@ fn part_of_the_bytes_is_no_index_and_neither_is_more() {
 fn no_flipped_bit_makes_an_illegal_path() {
     let [mut of_hpa, mut complete, mut published] = [Answers::default(); 3];
     let (mut refused, mut read) = ([0; 2], [0; 2]);
-    for (lattice, of_clusters, of_segments) in indexes() {
-        let queries = random_queries(&mut Rng::new(0xB17), lattice.grid(), 12);
+    for (grid_graph, of_clusters, of_segments) in indexes() {
+        let queries = random_queries(&mut Rng::new(0xB17), grid_graph.grid(), 12);
         let flipped = |bytes: &[u8], bit: usize| {
             let mut flipped = bytes.to_vec();
             flipped[bit / 8] ^= 1 << (bit % 8);
@@ -227,11 +227,11 @@ fn no_flipped_bit_makes_an_illegal_path() {
             let bytes = graph.to_bytes();
             for bit in 0..8 * bytes.len() {
                 let case = || format!("bit {bit}, {:?}", graph.clustering());
-                match ClusterGraph::from_bytes(&lattice, &flipped(&bytes, bit)) {
+                match ClusterGraph::from_bytes(&grid_graph, &flipped(&bytes, bit)) {
                     Err(_) => refused[0] += 1,
                     Ok(graph) => {
                         read[0] += 1;
-                        check_clusters(&lattice, &graph, &queries, &case, &mut of_hpa);
+                        check_clusters(&grid_graph, &graph, &queries, &case, &mut of_hpa);
                     }
                 }
             }
@@ -240,12 +240,12 @@ fn no_flipped_bit_makes_an_illegal_path() {
             let bytes = graph.to_bytes();
             for bit in 0..8 * bytes.len() {
                 let case = || format!("bit {bit}, segments of {}", graph.side());
-                match SegmentGraph::from_bytes(&lattice, &flipped(&bytes, bit)) {
+                match SegmentGraph::from_bytes(&grid_graph, &flipped(&bytes, bit)) {
                     Err(_) => refused[1] += 1,
                     Ok(graph) => {
                         read[1] += 1;
                         let tallies = (&mut complete, &mut published);
-                        check_segments(&lattice, &graph, &queries, &case, tallies);
+                        check_segments(&grid_graph, &graph, &queries, &case, tallies);
                     }
                 }
             }
@@ -264,15 +264,15 @@ fn no_flipped_bit_makes_an_illegal_path() {
 fn random_bytes_make_no_illegal_path() {
     let check = |seed: u64| {
         let (grid, mut rng) = (map(seed), Rng::new(seed ^ 0x4A4D));
-        let lattice = any_lattice(&mut rng, &grid);
+        let grid_graph = any_grid_graph(&mut rng, &grid);
         let queries = random_queries(&mut rng, &grid, 6);
         let case = || format!("seed {seed}");
         let mut read = [0; 2];
         let any: Vec<u8> = (0..rng.below(80)).map(|_| rng.below(256) as u8).collect();
-        let is_read = ClusterGraph::from_bytes(&lattice, &any).is_ok();
-        assert!(!is_read && SegmentGraph::from_bytes(&lattice, &any).is_err(), "{}", case());
+        let is_read = ClusterGraph::from_bytes(&grid_graph, &any).is_ok();
+        assert!(!is_read && SegmentGraph::from_bytes(&grid_graph, &any).is_err(), "{}", case());
 
-        let of_clusters = clusters(&lattice, any_clustering(&mut rng));
+        let of_clusters = clusters(&grid_graph, any_clustering(&mut rng));
         let mut bytes = of_clusters.to_bytes();
         for _ in 0..1 + rng.below(20) {
             // Counts that are wrong are refused: short words are left alone, so that many are read.
@@ -285,16 +285,16 @@ fn random_bytes_make_no_illegal_path() {
             }
         }
         let mut answers = [Answers::default(); 3];
-        if let Ok(graph) = ClusterGraph::from_bytes(&lattice, &bytes) {
+        if let Ok(graph) = ClusterGraph::from_bytes(&grid_graph, &bytes) {
             read[0] += 1;
-            check_clusters(&lattice, &graph, &queries, &case, &mut answers[0]);
+            check_clusters(&grid_graph, &graph, &queries, &case, &mut answers[0]);
         }
-        let mut bytes = segments(&lattice, 1 + rng.below(9)).to_bytes();
+        let mut bytes = segments(&grid_graph, 1 + rng.below(9)).to_bytes();
         bytes[12..].iter_mut().for_each(|edges| *edges &= rng.below(16) as u8);
-        if let Ok(graph) = SegmentGraph::from_bytes(&lattice, &bytes) {
+        if let Ok(graph) = SegmentGraph::from_bytes(&grid_graph, &bytes) {
             read[1] += 1;
             let [_, complete, published] = &mut answers;
-            check_segments(&lattice, &graph, &queries, &case, (complete, published));
+            check_segments(&grid_graph, &graph, &queries, &case, (complete, published));
         }
         (read, answers)
     };
@@ -314,14 +314,14 @@ fn random_bytes_make_no_illegal_path() {
 #[test]
 fn an_index_of_another_map_makes_no_illegal_path() {
     let (mut read, mut answers) = ([0; 2], [Answers::default(); 3]);
-    for (lattice, of_clusters, of_segments) in indexes() {
+    for (grid_graph, of_clusters, of_segments) in indexes() {
         for seed in 0..40 {
             let mut rng = Rng::new(seed ^ 0x0DD);
             let (percent, rooms) = (rng.below(40), rooms());
             // Few cells are others, so that as many transitions are there, some of the time.
             let at = Rectangle { x: rng.below(12), y: rng.below(8), width: 3, height: 3 };
             let grid = rooms.with_rectangle(at, |_, _| rng.chance(percent));
-            let other = common::lattice(&grid, lattice.k(), CornerRule::Never);
+            let other = common::grid_graph(&grid, grid_graph.k(), CornerRule::Never);
             let queries = random_queries(&mut rng, &grid, 10);
             let case = || format!("seed {seed}");
             for graph in &of_clusters {
@@ -345,10 +345,10 @@ fn an_index_of_another_map_makes_no_illegal_path() {
 #[test]
 fn an_index_of_another_size_or_other_moves_is_refused() {
     let sizes = [(12, 7), (12, 9), (11, 8), (13, 8), (8, 12), (1, 1)];
-    for (lattice, of_clusters, of_segments) in indexes() {
+    for (grid_graph, of_clusters, of_segments) in indexes() {
         for (width, height) in sizes {
             let grid = Grid::from_fn(width, height, |_, _| false).expect("a valid size");
-            let other = common::lattice(&grid, lattice.k(), CornerRule::Never);
+            let other = common::grid_graph(&grid, grid_graph.k(), CornerRule::Never);
             let error = HierarchyError::Size { expected: (12, 8), found: (width, height) };
             for graph in &of_clusters {
                 assert_eq!(ClusterGraph::from_bytes(&other, &graph.to_bytes()), Err(error.clone()));
@@ -358,7 +358,7 @@ fn an_index_of_another_size_or_other_moves_is_refused() {
             }
         }
         for (number, rule) in [(3, CornerRule::One), (3, CornerRule::Always), (4, CornerRule::Never)] {
-            let other = common::lattice(&rooms(), k(number), rule);
+            let other = common::grid_graph(&rooms(), k(number), rule);
             let expected = Err(HierarchyError::Moves { k: k(number), rules: other.rules() });
             let bytes = of_clusters[0].to_bytes();
             assert_eq!(ClusterGraph::from_bytes(&other, &bytes).map(|_| ()), expected);
@@ -373,17 +373,17 @@ fn an_index_of_another_size_or_other_moves_is_refused() {
 /// Neither a new planner takes such an index, nor one that repairs its own such a map.
 #[test]
 fn planners_refuse_an_index_of_another_size_or_other_moves() {
-    let lattice = lattice(&rooms(), k(2), CornerRule::Never);
-    let of_clusters = clusters(&lattice, Clustering { side: 4, levels: 2 });
-    let of_segments = segments(&lattice, 3);
+    let grid_graph = grid_graph(&rooms(), k(2), CornerRule::Never);
+    let of_clusters = clusters(&grid_graph, Clustering { side: 4, levels: 2 });
+    let of_segments = segments(&grid_graph, 3);
     let smaller = Grid::from_fn(11, 8, |_, _| false).expect("a valid size");
     let others = [
-        (common::lattice(&smaller, k(2), CornerRule::Never), true),
-        (common::lattice(&rooms(), k(3), CornerRule::Never), false),
-        (common::lattice(&rooms(), k(3), CornerRule::One), false),
-        (common::lattice(&rooms(), k(4), CornerRule::Never), false),
+        (common::grid_graph(&smaller, k(2), CornerRule::Never), true),
+        (common::grid_graph(&rooms(), k(3), CornerRule::Never), false),
+        (common::grid_graph(&rooms(), k(3), CornerRule::One), false),
+        (common::grid_graph(&rooms(), k(4), CornerRule::Never), false),
     ];
-    let is_right = |error: &HierarchyError, other: &Lattice<Centers>, is_smaller: bool| match error {
+    let is_right = |error: &HierarchyError, other: &GridGraph<Centers>, is_smaller: bool| match error {
         HierarchyError::Size { expected: (12, 8), found: (11, 8) } => is_smaller,
         HierarchyError::OtherK { expected, found } => *expected == k(2) && *found == other.k() && !is_smaller,
         HierarchyError::Moves { rules, .. } => *rules == other.rules() && !is_smaller,
@@ -391,14 +391,13 @@ fn planners_refuse_an_index_of_another_size_or_other_moves() {
     };
     let all = Rectangle { x: 0, y: 0, width: 12, height: 8 };
     for (other, is_smaller) in &others {
-        let mut hpa = HpaStar::new(&lattice, Box::new(of_clusters.clone())).expect("it fits");
-        let mut chpa =
-            ChpaStar::new(&lattice, Box::new(of_segments.clone()), LatticeDistance, Zero).expect("it fits");
+        let mut hpa = HpaStar::new(&grid_graph, Box::new(of_clusters.clone())).expect("it fits");
+        let mut chpa = ChpaStar::new(&grid_graph, Box::new(of_segments.clone()), Hk, Zero).expect("it fits");
         let query = Query::new((0, 0), (11, 7));
         let before = (hpa.solve(query), chpa.solve(query));
         let errors = [
             HpaStar::new(other, &of_clusters).map(|_| ()),
-            ChpaStar::new(other, &of_segments, LatticeDistance, Zero).map(|_| ()),
+            ChpaStar::new(other, &of_segments, Hk, Zero).map(|_| ()),
             hpa.repair(other, all),
             chpa.repair(other, all),
         ];
@@ -410,7 +409,7 @@ fn planners_refuse_an_index_of_another_size_or_other_moves() {
     }
     // With four neighbors corners are never cut, whatever the rule.
     for rule in common::CORNER_RULES {
-        let same = common::lattice(&rooms(), k(2), rule);
+        let same = common::grid_graph(&rooms(), k(2), rule);
         assert!(HpaStar::new(&same, &of_clusters).is_ok());
         assert!(ChpaStar::new(&same, &of_segments, Zero, Zero).is_ok());
     }

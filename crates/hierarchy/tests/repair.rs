@@ -3,8 +3,8 @@
 mod common;
 
 use common::{
-    CORNER_RULES, Setting, any_clustering, any_lattice, ask, check_path, chpa, clusters, describe_query, hpa,
-    k, lattice, map, random_queries, segments,
+    CORNER_RULES, Setting, any_clustering, any_grid_graph, ask, check_path, chpa, clusters, describe_query,
+    grid_graph, hpa, k, map, random_queries, segments,
 };
 use mediant_grid::{AsciiMap, CornerRule, Grid, Rectangle};
 use mediant_hierarchy::{Clustering, HierarchyError};
@@ -58,7 +58,7 @@ fn changed(rng: &mut Rng, grid: &Grid, at: Rectangle, change: Change) -> Grid {
 /// Whether what is there is other than before, of both indexes, each time.
 fn check_sequence(seed: u64) -> [usize; 2] {
     let (mut grid, mut rng) = (map(seed), Rng::new(seed ^ 0x4E9A));
-    let first = any_lattice(&mut rng, &grid);
+    let first = any_grid_graph(&mut rng, &grid);
     let (k, rule) = (first.k(), first.rule());
     let (clustering, side) = (any_clustering(&mut rng), 1 + rng.below(9));
     let (mut of_clusters, mut of_segments) = (clusters(&first, clustering), segments(&first, side));
@@ -77,10 +77,10 @@ fn check_sequence(seed: u64) -> [usize; 2] {
             of_clusters.repair(&grid, at).expect("the map has its size");
             of_segments.repair(&grid, at).expect("the map has its size");
         }
-        let lattice = lattice(&grid, k, rule);
-        let (new_clusters, new_segments) = (clusters(&lattice, clustering), segments(&lattice, side));
+        let grid_graph = grid_graph(&grid, k, rule);
+        let (new_clusters, new_segments) = (clusters(&grid_graph, clustering), segments(&grid_graph, side));
         let case = || {
-            let map = describe(&grid, lattice.rules(), (-1, -1).into(), (-1, -1).into(), seed);
+            let map = describe(&grid, grid_graph.rules(), (-1, -1).into(), (-1, -1).into(), seed);
             format!("k = {k}, {clustering:?}, segments of {side}, change {turn}: {places:?}; {map}")
         };
         assert!(of_clusters == new_clusters, "clusters; {}", case());
@@ -91,8 +91,8 @@ fn check_sequence(seed: u64) -> [usize; 2] {
         differing[1] += usize::from(before.1 != of_segments);
         let setting = Setting::any(&mut rng);
         let mut pairs = [
-            [hpa(&lattice, &of_clusters, true), hpa(&lattice, &new_clusters, true)],
-            [chpa(&lattice, &of_segments, setting), chpa(&lattice, &new_segments, setting)],
+            [hpa(&grid_graph, &of_clusters, true), hpa(&grid_graph, &new_clusters, true)],
+            [chpa(&grid_graph, &of_segments, setting), chpa(&grid_graph, &new_segments, setting)],
         ];
         for query in random_queries(&mut rng, &grid, 2) {
             for [repaired, new] in &mut pairs {
@@ -122,7 +122,7 @@ fn check_flip(drawing: &str, levels: u32, x: u32, y: u32) {
     let flipped = grid.with_rectangle(at, |x, y| grid.is_free(x as i32, y as i32));
     let clustering = Clustering { side: 2, levels };
     for number in [2, 3] {
-        let [first, second] = [&grid, &flipped].map(|grid| lattice(grid, k(number), CornerRule::Never));
+        let [first, second] = [&grid, &flipped].map(|grid| grid_graph(grid, k(number), CornerRule::Never));
         let mut repaired = clusters(&first, clustering);
         repaired.repair(&flipped, at).expect("the map has its size");
         assert!(
@@ -165,30 +165,30 @@ fn crowded_clusters_are_repaired() {
 /// What an index says that is not that of the map: legal paths, or that it gave up. How often each.
 fn check_stale(seed: u64) -> [usize; 2] {
     let (grid, mut rng) = (map(seed), Rng::new(seed ^ 0x57A1E));
-    let old = any_lattice(&mut rng, &grid);
+    let old = any_grid_graph(&mut rng, &grid);
     let (clustering, side) = (any_clustering(&mut rng), 1 + rng.below(9));
     let (of_clusters, of_segments) = (clusters(&old, clustering), segments(&old, side));
     let mut counts = [0; 2];
     for _ in 0..3 {
         let (at, change) = (any_rectangle(&mut rng, &grid), any_change(&mut rng));
-        let lattice = lattice(&changed(&mut rng, &grid, at, change), old.k(), old.rule());
+        let grid_graph = grid_graph(&changed(&mut rng, &grid, at, change), old.k(), old.rule());
         let setting = Setting::any(&mut rng);
         let mut planners = [
-            chpa(&lattice, &of_segments, setting),
-            hpa(&lattice, &of_clusters, true),
-            hpa(&lattice, &of_clusters, false),
-            chpa(&lattice, &of_segments, setting.of_the_paper()),
+            chpa(&grid_graph, &of_segments, setting),
+            hpa(&grid_graph, &of_clusters, true),
+            hpa(&grid_graph, &of_clusters, false),
+            chpa(&grid_graph, &of_segments, setting.of_the_paper()),
         ];
-        for query in random_queries(&mut rng, lattice.grid(), 6) {
+        for query in random_queries(&mut rng, grid_graph.grid(), 6) {
             let case = || {
                 let index = format!("{clustering:?}, segments of {side}, {setting:?}, {change:?} {at:?}");
-                format!("{index}; {}", describe_query(&lattice, query, seed))
+                format!("{index}; {}", describe_query(&grid_graph, query, seed))
             };
-            let is_connected = lattice.connected(query.start, query.goal);
+            let is_connected = grid_graph.connected(query.start, query.goal);
             for (number, planner) in planners.iter_mut().enumerate() {
                 match ask(planner, query).0 {
                     Ok(Outcome::Found(path)) => {
-                        check_path(&lattice, query, &path, &case);
+                        check_path(&grid_graph, query, &path, &case);
                         counts[0] += 1;
                     }
                     Ok(Outcome::Unreachable) => assert!(!is_connected, "planner {number}; {}", case()),
@@ -223,8 +223,8 @@ fn a_map_of_another_size_is_refused() {
         Grid::from_fn(width, height, |x, y| (x * y) % 5 == 4).expect("a valid size")
     };
     let grid = dotted(20, 13);
-    let lattices = CORNER_RULES.map(|rule| lattice(&grid, k(2), rule)).into_iter();
-    for first in lattices.chain([lattice(&grid, k(3), CornerRule::Never)]) {
+    let grid_graphs = CORNER_RULES.map(|rule| grid_graph(&grid, k(2), rule)).into_iter();
+    for first in grid_graphs.chain([grid_graph(&grid, k(3), CornerRule::Never)]) {
         let (of_clusters, of_segments) =
             (clusters(&first, Clustering { side: 4, levels: 2 }), segments(&first, 3));
         for (width, height) in [(19, 13), (21, 13), (20, 12), (20, 14), (13, 20), (1, 1), (260, 1)] {

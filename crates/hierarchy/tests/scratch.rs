@@ -9,10 +9,10 @@ use std::{
 };
 
 use common::{
-    Bound, Setting, Solve, any_clustering, any_lattice, ask, chpa, clusters, describe_query, hpa, k, lattice,
-    map, number, random_queries, segments,
+    Bound, Setting, Solve, any_clustering, any_grid_graph, ask, chpa, clusters, describe_query, grid_graph,
+    hpa, k, map, number, random_queries, segments,
 };
-use mediant_grid::{Centers, CornerRule, Grid, Lattice, Rectangle};
+use mediant_grid::{Centers, CornerRule, Grid, GridGraph, Rectangle};
 use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, Conduct, HpaStar, SegmentGraph};
 use mediant_oracle::{Rng, caves, on_all_cores, seeds};
 use mediant_search::{Counters, Outcome, Planner, Query};
@@ -46,22 +46,22 @@ static COUNTING: Counting = Counting;
 fn a_used_planner_answers_as_a_new_one() {
     let check = |seed: u64| {
         let (grid, mut rng) = (map(seed), Rng::new(seed ^ 0x5C4A));
-        let lattice = any_lattice(&mut rng, &grid);
+        let grid_graph = any_grid_graph(&mut rng, &grid);
         let (of_clusters, of_segments) =
-            (clusters(&lattice, any_clustering(&mut rng)), segments(&lattice, 1 + rng.below(9)));
+            (clusters(&grid_graph, any_clustering(&mut rng)), segments(&grid_graph, 1 + rng.below(9)));
         let setting = Setting::any(&mut rng);
         let make = |which: usize| -> Solve<'_> {
             match which {
-                0 | 1 => hpa(&lattice, &of_clusters, which == 0),
-                2 => chpa(&lattice, &of_segments, setting),
-                _ => chpa(&lattice, &of_segments, setting.of_the_paper()),
+                0 | 1 => hpa(&grid_graph, &of_clusters, which == 0),
+                2 => chpa(&grid_graph, &of_segments, setting),
+                _ => chpa(&grid_graph, &of_segments, setting.of_the_paper()),
             }
         };
         let mut used = [0, 1, 2, 3].map(make);
         let mut searched = 0;
         for query in random_queries(&mut rng, &grid, 10) {
             for (which, used) in used.iter_mut().enumerate() {
-                let case = || format!("{which}, {setting:?}; {}", describe_query(&lattice, query, seed));
+                let case = || format!("{which}, {setting:?}; {}", describe_query(&grid_graph, query, seed));
                 let answer = ask(used, query);
                 assert_eq!(answer, ask(&mut make(which), query), "a new planner; {}", case());
                 assert_eq!(answer, ask(used, query), "asked again; {}", case());
@@ -79,43 +79,43 @@ fn a_used_planner_answers_as_a_new_one() {
 fn a_planner_that_repaired_its_index_answers_as_a_new_one() {
     let check = |seed: u64| {
         let (mut grid, mut rng) = (map(seed), Rng::new(seed ^ 0x6035));
-        let first = any_lattice(&mut rng, &grid);
+        let first = any_grid_graph(&mut rng, &grid);
         let (k, rule) = (first.k(), first.rule());
         let (clustering, side) = (any_clustering(&mut rng), 1 + rng.below(9));
-        let mut lattices = vec![first];
+        let mut grid_graphs = vec![first];
         let mut places = Vec::new();
         for _ in 0..3 {
             let at = Rectangle { x: rng.below(20), y: rng.below(20), width: 1 + rng.below(9), height: 5 };
             let percent = [0, 50, 100][rng.below(3) as usize];
             grid = grid.with_rectangle(at, |_, _| rng.chance(percent));
-            lattices.push(lattice(&grid, k, rule));
+            grid_graphs.push(grid_graph(&grid, k, rule));
             places.push(at);
         }
         let mut boxed = (
-            HpaStar::new(&lattices[0], Box::new(clusters(&lattices[0], clustering))).expect("it fits"),
+            HpaStar::new(&grid_graphs[0], Box::new(clusters(&grid_graphs[0], clustering))).expect("it fits"),
             ChpaStar::new(
-                &lattices[0],
-                Box::new(segments(&lattices[0], side)),
-                Bound::Lattice,
-                Bound::Lattice,
+                &grid_graphs[0],
+                Box::new(segments(&grid_graphs[0], side)),
+                Bound::GridGraph,
+                Bound::GridGraph,
             )
             .expect("it fits"),
         );
         let setting =
-            Setting { phases: [Some(Bound::Lattice); 2], step: number(2), conduct: Conduct::default() };
+            Setting { phases: [Some(Bound::GridGraph); 2], step: number(2), conduct: Conduct::default() };
         let mut asked = 0;
-        for (lattice, at) in lattices[1..].iter().zip(places) {
-            for query in random_queries(&mut rng, lattice.grid(), 2) {
+        for (grid_graph, at) in grid_graphs[1..].iter().zip(places) {
+            for query in random_queries(&mut rng, grid_graph.grid(), 2) {
                 // What is refused or stale must leave no trace either.
                 _ = (boxed.0.solve(query), boxed.1.solve(query));
             }
-            boxed.0.repair(lattice, at).expect("it fits");
-            boxed.1.repair(lattice, at).expect("it fits");
-            let (of_clusters, of_segments) = (clusters(lattice, clustering), segments(lattice, side));
-            let mut new = [hpa(lattice, &of_clusters, true), chpa(lattice, &of_segments, setting)];
-            for query in random_queries(&mut rng, lattice.grid(), 4) {
+            boxed.0.repair(grid_graph, at).expect("it fits");
+            boxed.1.repair(grid_graph, at).expect("it fits");
+            let (of_clusters, of_segments) = (clusters(grid_graph, clustering), segments(grid_graph, side));
+            let mut new = [hpa(grid_graph, &of_clusters, true), chpa(grid_graph, &of_segments, setting)];
+            for query in random_queries(&mut rng, grid_graph.grid(), 4) {
                 let case = || {
-                    format!("{clustering:?}, segments of {side}; {}", describe_query(lattice, query, seed))
+                    format!("{clustering:?}, segments of {side}; {}", describe_query(grid_graph, query, seed))
                 };
                 let mut counters = [Counters::default(); 2];
                 let first = boxed.0.solve_observed(query, &mut counters[0]);
@@ -159,22 +159,22 @@ fn a_warm_query_allocates_its_path_and_nothing_else() {
     let grid = cave();
     let queries = random_queries(&mut Rng::new(1), &grid, 120);
     for number in [2, 3] {
-        let lattice = lattice(&grid, k(number), CornerRule::Never);
+        let grid_graph = grid_graph(&grid, k(number), CornerRule::Never);
         for (side, levels) in [(10, 1), (6, 3), (2, 4), (64, 1)] {
-            let graph = clusters(&lattice, Clustering { side, levels });
+            let graph = clusters(&grid_graph, Clustering { side, levels });
             for straightens in [true, false] {
                 let case = format!("side {side}, {levels} levels, {straightens}, k = {number}");
-                let most = most_allocations(&mut hpa(&lattice, &graph, straightens), &queries, &case);
+                let most = most_allocations(&mut hpa(&grid_graph, &graph, straightens), &queries, &case);
                 assert_eq!(most, 0, "{case}");
             }
         }
         for side in [1, 3, 8] {
-            let graph = segments(&lattice, side);
+            let graph = segments(&grid_graph, side);
             for seed in 0..5 {
                 let setting = Setting::any(&mut Rng::new(seed));
                 for setting in [setting, setting.of_the_paper()] {
                     let case = format!("segments of {side}, {setting:?}, k = {number}");
-                    let most = most_allocations(&mut chpa(&lattice, &graph, setting), &queries, &case);
+                    let most = most_allocations(&mut chpa(&grid_graph, &graph, setting), &queries, &case);
                     assert_eq!(most, 0, "{case}");
                 }
             }
@@ -210,18 +210,18 @@ fn check_headers<T, E>(words: usize, bytes: &[u8], read: impl Fn(&[u8]) -> Resul
 #[test]
 fn no_header_allocates_more_than_an_index_of_the_map() {
     let grid = cave();
-    let lattice: Lattice<Centers> = lattice(&grid, k(3), CornerRule::Never);
+    let grid_graph: GridGraph<Centers> = grid_graph(&grid, k(3), CornerRule::Never);
     // As many as the smallest clusters have in all levels that fit, and the lists that are made of them.
-    let most = allocated(|| Ok::<_, ()>(clusters(&lattice, Clustering { side: 2, levels: 8 }))).1;
+    let most = allocated(|| Ok::<_, ()>(clusters(&grid_graph, Clustering { side: 2, levels: 8 }))).1;
     assert!(most < 10_000_000, "{most} bytes for a map of 60 × 50 cells");
-    let bytes = clusters(&lattice, Clustering { side: 6, levels: 2 }).to_bytes();
-    check_headers(5, &bytes, |bytes| ClusterGraph::from_bytes(&lattice, bytes), most);
-    let bytes = segments(&lattice, 3).to_bytes();
-    check_headers(3, &bytes, |bytes| SegmentGraph::from_bytes(&lattice, bytes), 60 * 50 + 100);
+    let bytes = clusters(&grid_graph, Clustering { side: 6, levels: 2 }).to_bytes();
+    check_headers(5, &bytes, |bytes| ClusterGraph::from_bytes(&grid_graph, bytes), most);
+    let bytes = segments(&grid_graph, 3).to_bytes();
+    check_headers(3, &bytes, |bytes| SegmentGraph::from_bytes(&grid_graph, bytes), 60 * 50 + 100);
     // One cell, and all that the header may say.
     let one = Grid::from_fn(1, 1, |_, _| false).expect("a valid size");
-    let lattice = common::lattice(&one, k(3), CornerRule::Never);
+    let grid_graph = common::grid_graph(&one, k(3), CornerRule::Never);
     let numbers: Vec<u8> = [64_u32, 3, 1, 1, 0, 0, 0].into_iter().flat_map(u32::to_le_bytes).collect();
-    let (is_ok, taken) = allocated(|| ClusterGraph::from_bytes(&lattice, &numbers));
+    let (is_ok, taken) = allocated(|| ClusterGraph::from_bytes(&grid_graph, &numbers));
     assert!(is_ok && taken < 200_000, "{taken} bytes");
 }

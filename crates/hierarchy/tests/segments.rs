@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{k, lattice, map, segments};
+use common::{grid_graph, k, map, segments};
 use mediant_grid::{AsciiMap, CornerRule, Grid, Vertex};
 use mediant_hierarchy::{HierarchyError, SegmentGraph};
 use mediant_oracle::{Rng, describe, on_all_cores, seeds};
@@ -82,12 +82,12 @@ fn edges(graph: &SegmentGraph) -> Vec<u8> {
 
 /// How many windows had an edge, and how many none, of each kind.
 fn check(grid: &Grid, side: u32, number: u32, seed: u64) -> [[usize; 4]; 2] {
-    let lattice = lattice(grid, k(number), CornerRule::Never);
-    let graph = segments(&lattice, side);
+    let grid_graph = grid_graph(grid, k(number), CornerRule::Never);
+    let graph = segments(&grid_graph, side);
     let (columns, rows) = (grid.width().div_ceil(side), grid.height().div_ceil(side));
     let edges = edges(&graph);
     let case = || {
-        let map = describe(grid, lattice.rules(), Vertex::new(-1, -1), Vertex::new(-1, -1), seed);
+        let map = describe(grid, grid_graph.rules(), Vertex::new(-1, -1), Vertex::new(-1, -1), seed);
         format!("k = {number}, segments of {side}; {map}")
     };
     assert_eq!(graph.segments(), (columns * rows) as usize, "{}", case());
@@ -145,8 +145,8 @@ fn edges_are_right_on_every_map_of_nine_tiles() {
 #[track_caller]
 fn check_drawing(drawing: &str, expected: u8) {
     let grid = AsciiMap::parse(drawing).expect("the drawing is a map").grid;
-    let lattice = lattice(&grid, k(3), CornerRule::Never);
-    assert_eq!(edges(&segments(&lattice, 3))[0], expected, "of {drawing}");
+    let grid_graph = grid_graph(&grid, k(3), CornerRule::Never);
+    assert_eq!(edges(&segments(&grid_graph, 3))[0], expected, "of {drawing}");
 }
 
 #[test]
@@ -167,15 +167,15 @@ fn known_windows() {
 #[test]
 fn sides_out_of_range_are_refused() {
     let grid = Grid::from_fn(70, 3, |_, _| false).expect("a valid size");
-    let lattice = lattice(&grid, k(3), CornerRule::Never);
+    let grid_graph = grid_graph(&grid, k(3), CornerRule::Never);
     let max = SegmentGraph::MAX_SIDE;
     assert_eq!(max, 63);
     for side in [0, max + 1, max + 2, u32::MAX] {
-        let error = SegmentGraph::new(&lattice, side).expect_err("there are no such windows");
+        let error = SegmentGraph::new(&grid_graph, side).expect_err("there are no such windows");
         assert_eq!(error, HierarchyError::Side { found: side, min: 1, max });
     }
     for side in [1, max] {
-        let graph = SegmentGraph::new(&lattice, side).expect("there are such windows");
+        let graph = SegmentGraph::new(&grid_graph, side).expect("there are such windows");
         assert_eq!((graph.side(), graph.segments()), (side, if side == 1 { 210 } else { 2 }));
     }
 }

@@ -5,36 +5,36 @@ mod common;
 use std::{sync::Arc, thread};
 
 use common::{
-    Answer, Bound, Setting, ask, chpa, clusters, hpa, k, lattice, number, random_queries, segments,
+    Answer, Bound, Setting, ask, chpa, clusters, grid_graph, hpa, k, number, random_queries, segments,
 };
-use mediant_grid::{Centers, CornerRule, Lattice};
+use mediant_grid::{Centers, CornerRule, GridGraph};
 use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, Conduct, HpaStar, SegmentGraph};
 use mediant_oracle::{Rng, caves};
-use mediant_search::{LatticeDistance, Query, SquaredEuclidean};
+use mediant_search::{Hk, Query, SquaredEuclidean};
 
 #[derive(Clone)]
 struct Shared {
-    lattice: Arc<Lattice<Centers>>,
+    grid_graph: Arc<GridGraph<Centers>>,
     clusters: Arc<ClusterGraph>,
     segments: Arc<SegmentGraph>,
 }
 
 impl Shared {
     fn new(number: u32) -> Self {
-        let lattice = lattice(&caves(&mut Rng::new(7), 60, 50), k(number), CornerRule::Never);
-        let clusters = clusters(&lattice, Clustering { side: 7, levels: 2 });
-        let segments = segments(&lattice, 3);
-        Self { lattice: Arc::new(lattice), clusters: Arc::new(clusters), segments: Arc::new(segments) }
+        let grid_graph = grid_graph(&caves(&mut Rng::new(7), 60, 50), k(number), CornerRule::Never);
+        let clusters = clusters(&grid_graph, Clustering { side: 7, levels: 2 });
+        let segments = segments(&grid_graph, 3);
+        Self { grid_graph: Arc::new(grid_graph), clusters: Arc::new(clusters), segments: Arc::new(segments) }
     }
 
     fn solve_all(&self, queries: &[Query]) -> Vec<[Answer; 3]> {
-        let (lattice, segments) = (|| Arc::clone(&self.lattice), || Arc::clone(&self.segments));
+        let (grid_graph, segments) = (|| Arc::clone(&self.grid_graph), || Arc::clone(&self.segments));
         let step = number(2);
-        let complete = Setting { phases: [Some(Bound::Lattice), None], step, conduct: Conduct::default() };
+        let complete = Setting { phases: [Some(Bound::GridGraph), None], step, conduct: Conduct::default() };
         let mut planners = [
-            hpa(lattice(), Arc::clone(&self.clusters), true),
-            chpa(lattice(), segments(), complete),
-            chpa(lattice(), segments(), complete.of_the_paper()),
+            hpa(grid_graph(), Arc::clone(&self.clusters), true),
+            chpa(grid_graph(), segments(), complete),
+            chpa(grid_graph(), segments(), complete.of_the_paper()),
         ];
         queries.iter().map(|&query| planners.each_mut().map(|planner| ask(planner, query))).collect()
     }
@@ -44,7 +44,7 @@ impl Shared {
 fn planners_in_many_threads_answer_as_one() {
     for number in [2, 3] {
         let shared = Shared::new(number);
-        let queries = random_queries(&mut Rng::new(3), shared.lattice.grid(), 200);
+        let queries = random_queries(&mut Rng::new(3), shared.grid_graph.grid(), 200);
         let expected = shared.solve_all(&queries);
         let found = expected
             .iter()
@@ -76,6 +76,6 @@ fn indexes_are_shared_and_planners_sent() {
     const fn assert_send<T: Send>() {}
     assert_send_sync::<ClusterGraph>();
     assert_send_sync::<SegmentGraph>();
-    assert_send::<HpaStar<Arc<Lattice<Centers>>, Arc<ClusterGraph>>>();
-    assert_send::<ChpaStar<Arc<Lattice<Centers>>, Arc<SegmentGraph>, LatticeDistance, SquaredEuclidean>>();
+    assert_send::<HpaStar<Arc<GridGraph<Centers>>, Arc<ClusterGraph>>>();
+    assert_send::<ChpaStar<Arc<GridGraph<Centers>>, Arc<SegmentGraph>, Hk, SquaredEuclidean>>();
 }

@@ -4,8 +4,8 @@ mod common;
 
 use std::fmt::Write;
 
-use common::{Bound, Setting, Solve, ask, chpa, clusters, hpa, k, lattice, number, segments};
-use mediant_grid::{AsciiMap, CornerRule, Placement, draw};
+use common::{Bound, Setting, Solve, ask, chpa, clusters, grid_graph, hpa, k, number, segments};
+use mediant_grid::{AsciiMap, CornerRule, PlacementKind, draw};
 use mediant_hierarchy::{Clustering, Conduct};
 use mediant_search::Query;
 
@@ -26,9 +26,9 @@ const HALL: &str = "
 fn picture(number_of_k: u32) -> String {
     let map = AsciiMap::parse(HALL).expect("the drawing is a map");
     let query = Query::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
-    let lattice = lattice(&map.grid, k(number_of_k), CornerRule::Never);
-    let graph = clusters(&lattice, Clustering { side: 5, levels: 2 });
-    let segments = segments(&lattice, 3);
+    let grid_graph = grid_graph(&map.grid, k(number_of_k), CornerRule::Never);
+    let graph = clusters(&grid_graph, Clustering { side: 5, levels: 2 });
+    let segments = segments(&grid_graph, 3);
     let mut text = format!(
         "k = {number_of_k}: {} clusters, {} nodes; {} segments, {} edges\n",
         graph.clusters(),
@@ -40,18 +40,18 @@ fn picture(number_of_k: u32) -> String {
         let (answer, counters) = ask(&mut planner, query);
         let outcome = answer.expect("there is a path");
         let path = outcome.path().expect("there is a path");
-        let picture = draw(&map.grid, Placement::Center, path.waypoints());
+        let picture = draw(&map.grid, PlacementKind::Center, path.waypoints());
         let fallbacks = counters.fallbacks;
         writeln!(text, "{name}: {:.4}, fallbacks {fallbacks}\n{picture}", path.cost())
             .expect("a text takes all");
     };
-    let bound = Some(Bound::Lattice);
+    let bound = Some(Bound::GridGraph);
     let setting = Setting { phases: [bound; 2], step: number(2), conduct: Conduct::default() };
-    add("HPA*, refined", hpa(&lattice, &graph, false));
-    add("HPA*", hpa(&lattice, &graph, true));
-    add("CHPA*", chpa(&lattice, &segments, setting));
+    add("HPA*, refined", hpa(&grid_graph, &graph, false));
+    add("HPA*", hpa(&grid_graph, &graph, true));
+    add("CHPA*", chpa(&grid_graph, &segments, setting));
     let hasty = Setting { step: number(1), conduct: Conduct::Complete { detour: number(1) }, ..setting };
-    add("CHPA*, which goes no detour", chpa(&lattice, &segments, hasty));
+    add("CHPA*, which goes no detour", chpa(&grid_graph, &segments, hasty));
     text
 }
 

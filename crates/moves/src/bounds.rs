@@ -1,6 +1,6 @@
 //! How much longer than the any-angle optimum a path over N(k) can be.
 
-use crate::{K, sqrt::sqrt};
+use crate::{FiniteK, sqrt::sqrt};
 
 /// Γ_k with vertices at cell corners: cost(k) ≤ Γ_k · cost(∞) between any two vertices of any grid (Kramm 2018, Theorem 2;
 /// on an empty grid also with vertices at centers, Theorem 10). It falls as 1 + 1/(8k²), and is tight.
@@ -10,12 +10,12 @@ use crate::{K, sqrt::sqrt};
 /// enters at most one, or it would pass through the gap or a blocked cell; so the path, too, stays in one free quadrant there.
 ///
 /// ```
-/// use mediant_moves::{bound_at_corners, K};
-/// assert!((bound_at_corners(K::new(3)?) - 1.0824).abs() < 1e-4);
+/// use mediant_moves::{bound_at_corners, FiniteK};
+/// assert!((bound_at_corners(FiniteK::new(3)?) - 1.0824).abs() < 1e-4);
 /// # Ok::<(), mediant_moves::KError>(())
 /// ```
 #[must_use]
-pub fn bound_at_corners(k: K) -> f64 {
+pub fn bound_at_corners(k: FiniteK) -> f64 {
     // s − m = 1 / (s + m), which spares the subtraction of nearly equal numbers.
     let m = f64::from(k.depth());
     let s = sqrt(m * m + 1.0);
@@ -33,9 +33,9 @@ pub fn bound_at_corners(k: K) -> f64 {
 /// - `Never`: it fails. (2, 1) can be legal where (1, 1) is not, and then k = 3 takes three steps, 3/√5 ≈ 1.342 times the
 ///   straight line. There [`BOUND_WITHOUT_CORNER_CUTTING`] holds.
 #[must_use]
-pub fn bound_at_centers(k: K) -> f64 {
+pub fn bound_at_centers(k: FiniteK) -> f64 {
     let root = core::f64::consts::SQRT_2;
-    if k == K::FOUR_CONNECTED { 6.0 / (2.0 + root) } else { 3.0 * root - 3.0 }
+    if k == FiniteK::N4 { 6.0 / (2.0 + root) } else { 3.0 * root - 3.0 }
 }
 
 /// √2: at centers, where no move may touch an obstacle, no shortest path over N(k) exceeds the any-angle optimum under the same rule
@@ -54,8 +54,8 @@ pub const BOUND_WITHOUT_CORNER_CUTTING: f64 = core::f64::consts::SQRT_2;
 /// assert_eq!(smallest_k_at_corners(1.0), None);
 /// ```
 #[must_use]
-pub fn smallest_k_at_corners(ratio: f64) -> Option<K> {
-    let meets = |k: u32| K::new(k).is_ok_and(|k| bound_at_corners(k) <= ratio);
+pub fn smallest_k_at_corners(ratio: f64) -> Option<FiniteK> {
+    let meets = |k: u32| FiniteK::new(k).is_ok_and(|k| bound_at_corners(k) <= ratio);
     // Up to here the rounded Γ never rises with k (a test looks at each); much beyond, its distance from 1 drowns in rounding.
     const MAX: u32 = 1 << 20;
     if !meets(MAX) {
@@ -70,11 +70,11 @@ pub fn smallest_k_at_corners(ratio: f64) -> Option<K> {
             low = middle + 1;
         }
     }
-    K::new(low).ok()
+    FiniteK::new(low).ok()
 }
 
 /// The smallest k whose [`bound_at_centers`] is at most `ratio`; `None` below 3√2 − 3 ≈ 1.2426, which no k can promise.
 #[must_use]
-pub fn smallest_k_at_centers(ratio: f64) -> Option<K> {
-    [K::FOUR_CONNECTED, K::EIGHT_CONNECTED].into_iter().find(|&k| bound_at_centers(k) <= ratio)
+pub fn smallest_k_at_centers(ratio: f64) -> Option<FiniteK> {
+    [FiniteK::N4, FiniteK::N8].into_iter().find(|&k| bound_at_centers(k) <= ratio)
 }

@@ -104,9 +104,9 @@ mod table {
     use alloc::{boxed::Box, vec::Vec};
 
     use super::Cost;
-    use crate::{K, KError, Quadrant, Vector};
+    use crate::{FiniteK, KError, Quadrant, Vector};
 
-    /// The costs of the moves of Q(k − 2), and with them h_k in [`Cost`]s: the heuristic of the lattice engines.
+    /// The costs of the moves of Q(k − 2), and with them h_k in [`Cost`]s: the heuristic of the grid graph engines.
     ///
     /// h_k is built from the same rounded move costs as every path, and each move costs less than any detour over its
     /// neighbors by more than the rounding, up to [`CostTable::MAX_K`]. So it is exactly the cost of the
@@ -114,8 +114,8 @@ mod table {
     /// arithmetic, not up to an epsilon.
     ///
     /// ```
-    /// use mediant_moves::{Cost, CostTable, K, Vector};
-    /// let table = CostTable::new(K::new(4)?)?;
+    /// use mediant_moves::{Cost, CostTable, FiniteK, Vector};
+    /// let table = CostTable::new(FiniteK::new(4)?)?;
     /// let h = table.distance(Vector::new(-7, 9));
     /// assert_eq!(h, Cost::of_move(Vector::new(1, 1)) * 5 + Cost::of_move(Vector::new(1, 2)) * 2);
     /// # Ok::<(), mediant_moves::KError>(())
@@ -135,7 +135,7 @@ mod table {
         ///
         /// # Errors
         /// [`KError::TooLarge`] above [`MAX_K`](Self::MAX_K).
-        pub fn new(k: K) -> Result<Self, KError> {
+        pub fn new(k: FiniteK) -> Result<Self, KError> {
             if k.get() > Self::MAX_K {
                 return Err(KError::TooLarge { k: k.get(), max: Self::MAX_K });
             }

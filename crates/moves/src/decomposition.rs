@@ -1,6 +1,6 @@
 //! A vector as α·v + β·w of two adjacent moves, and the trees that decompose a move down to lower levels.
 
-use crate::{K, Parity, Vector};
+use crate::{FiniteK, Parity, Vector};
 
 /// d = α·v + β·w: the two adjacent moves of N(k) that contain d, and how often an optimal path on an empty grid takes
 /// each (Rivera 2017, Theorems 2 and 3, Corollary 1; Kramm 2018, Theorem 1).
@@ -45,13 +45,13 @@ impl Decomposition {
 /// 0 and k is far beyond what d needs).
 ///
 /// ```
-/// use mediant_moves::{decompose, K, Vector};
-/// let parts = decompose(Vector::new(7, 9), K::new(5)?).unwrap();
+/// use mediant_moves::{decompose, FiniteK, Vector};
+/// let parts = decompose(Vector::new(7, 9), FiniteK::new(5)?).unwrap();
 /// assert_eq!((parts.alpha, parts.v, parts.beta, parts.w), (2, Vector::new(2, 3), 3, Vector::new(1, 1)));
 /// # Ok::<(), mediant_moves::KError>(())
 /// ```
 #[must_use]
-pub fn decompose(d: Vector, k: K) -> Option<Decomposition> {
+pub fn decompose(d: Vector, k: FiniteK) -> Option<Decomposition> {
     if d.x == i32::MIN || d.y == i32::MIN {
         return None;
     }
@@ -73,7 +73,7 @@ pub fn decompose(d: Vector, k: K) -> Option<Decomposition> {
 
 /// The two adjacent moves of N(k) that contain d (Kramm 2018, 'Pairs'), in angular order; see [`decompose`].
 #[must_use]
-pub fn containing(d: Vector, k: K) -> Option<(Vector, Vector)> {
+pub fn containing(d: Vector, k: FiniteK) -> Option<(Vector, Vector)> {
     decompose(d, k).map(|parts| (parts.v, parts.w))
 }
 
@@ -121,7 +121,7 @@ pub use tree::{DecompositionTree, TreeNode};
 mod tree {
     use alloc::vec::Vec;
 
-    use crate::{K, Vector, level, parents};
+    use crate::{FiniteK, Vector, level, parents};
 
     /// One node of a [`DecompositionTree`].
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -139,8 +139,8 @@ mod tree {
     /// (Lemma 11) and that is as short as any over N(k) on an empty grid (Lemma 13).
     ///
     /// ```
-    /// use mediant_moves::{DecompositionTree, K, Vector};
-    /// let tree = DecompositionTree::new(Vector::new(7, 5), K::new(4)?).unwrap();
+    /// use mediant_moves::{DecompositionTree, FiniteK, Vector};
+    /// let tree = DecompositionTree::new(Vector::new(7, 5), FiniteK::new(4)?).unwrap();
     /// let path: Vec<(i32, i32)> = tree.leaves().map(|v| (v.x, v.y)).collect();
     /// assert_eq!(path, [(1, 1), (1, 1), (2, 1), (1, 1), (2, 1)]);
     /// # Ok::<(), mediant_moves::KError>(())
@@ -155,7 +155,7 @@ mod tree {
         ///
         /// It has at most 2·(|x| + |y|) nodes.
         #[must_use]
-        pub fn new(v: Vector, k: K) -> Option<Self> {
+        pub fn new(v: Vector, k: FiniteK) -> Option<Self> {
             if level(v)? < k.get() {
                 return None;
             }

@@ -7,7 +7,7 @@
 use core::hint::select_unpredictable;
 
 use crate::{
-    K, Quadrant, Vector,
+    FiniteK, Quadrant, Vector,
     decomposition::factorize,
     sector::{MAX_SECTORS, factors_of_sectors, sector},
     sqrt::{integer_sqrt, sqrt},
@@ -33,15 +33,15 @@ use crate::{
 /// in a loop with the function inlined, hence `inline(always)`; a call costs more than h_5 itself.
 ///
 /// ```
-/// use mediant_moves::{distance, K, Vector};
+/// use mediant_moves::{distance, FiniteK, Vector};
 /// // (7, 9) = 5·(1, 1) + 2·(1, 2) over the 16-neighborhood (Kramm 2018)
-/// let h = distance(Vector::new(7, 9), K::new(4)?);
+/// let h = distance(Vector::new(7, 9), FiniteK::new(4)?);
 /// assert_eq!(h, 5.0 * 2f64.sqrt() + 2.0 * 5f64.sqrt());
 /// # Ok::<(), mediant_moves::KError>(())
 /// ```
 #[must_use]
 #[inline(always)]
-pub fn distance(d: Vector, k: K) -> f64 {
+pub fn distance(d: Vector, k: FiniteK) -> f64 {
     match k.get() {
         2 => manhattan(d),
         3 => by_sector::<1>(d),
@@ -86,7 +86,7 @@ const ROUNDS: u32 = 8;
 
 /// The lengths of the moves of Q(8) from (0, 1) to (1, 1). Those of Q(i) are every 2^(8 − i)-th of them.
 static LENGTHS: [f64; (1 << (ROUNDS - 1)) + 1] = {
-    let Ok(k) = K::new(ROUNDS + 2) else { panic!("a constant k") };
+    let Ok(k) = FiniteK::new(ROUNDS + 2) else { panic!("a constant k") };
     let Ok(quadrant) = Quadrant::new(k) else { panic!("a constant k") };
     let mut lengths = [0.0; (1 << (ROUNDS - 1)) + 1];
     let mut i = 0;
@@ -191,7 +191,7 @@ impl LinearSearch {
     ///
     /// # Errors
     /// [`KError::TooLarge`](crate::KError::TooLarge) above k = 24, whose table would take more than 64 MiB.
-    pub fn new(k: K) -> Result<Self, crate::KError> {
+    pub fn new(k: FiniteK) -> Result<Self, crate::KError> {
         const MAX: u32 = 24;
         if k.get() > MAX {
             return Err(crate::KError::TooLarge { k: k.get(), max: MAX });

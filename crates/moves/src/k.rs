@@ -1,112 +1,96 @@
-//! The one knob: k.
+//! The neighborhood: k = 2, 3, 4, … ∞.
 
-use core::fmt;
+use core::{fmt, num::ParseIntError, str::FromStr};
 
-/// The k of a 2^k neighborhood: 2 (4-connected), 3 (8-connected), 4 (16 moves), …
+use crate::{FiniteK, KError};
+
+/// The neighborhood N(k) that a path is over: the 2^k moves of a finite k, or every direction at k = ∞.
 ///
-/// Distances and bounds exist for every `K`. Sets of moves stop at [`K::MAX_MOVES`], where coordinates would no
-/// longer fit in an `i32`.
+/// As text it is the number, or `any`.
 ///
 /// ```
-/// use mediant_moves::K;
-/// assert_eq!(K::new(3)?.moves(), Some(8));
-/// assert!(K::new(1).is_err());
-/// # Ok::<(), mediant_moves::KError>(())
+/// use mediant_moves::{FiniteK, K};
+/// assert_eq!("3".parse(), Ok(K::N8));
+/// assert_eq!("any".parse(), Ok(K::ANY));
+/// assert_eq!(K::N16.finite(), Some(FiniteK::N16));
+/// assert_eq!(K::ANY.finite(), None);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct K(u32);
+pub enum K {
+    /// The 2^k moves of N(k).
+    Finite(FiniteK),
+    /// Every direction: any-angle paths.
+    Any,
+}
 
 impl K {
     /// k = 2, the 4-connected neighborhood.
-    pub const FOUR_CONNECTED: Self = Self(2);
+    pub const N4: Self = Self::Finite(FiniteK::N4);
     /// k = 3, the 8-connected neighborhood.
-    pub const EIGHT_CONNECTED: Self = Self(3);
-    /// The largest k whose moves have `i32` coordinates: Fib(45) = 1,836,311,903 is the radius of N(47), and
-    /// Fib(46) exceeds `i32::MAX` (Rivera 2017, Theorem 1, with Fib(0) = Fib(1) = 1).
-    pub const MAX_MOVES: Self = Self(47);
+    pub const N8: Self = Self::Finite(FiniteK::N8);
+    /// k = 4, sixteen moves.
+    pub const N16: Self = Self::Finite(FiniteK::N16);
+    /// k = 5, thirty-two moves.
+    pub const N32: Self = Self::Finite(FiniteK::N32);
+    /// k = 6, sixty-four moves.
+    pub const N64: Self = Self::Finite(FiniteK::N64);
+    /// k = ∞, every direction.
+    pub const ANY: Self = Self::Any;
 
-    /// The given k.
-    ///
-    /// # Errors
-    /// [`KError::TooSmall`] for k < 2.
-    pub const fn new(k: u32) -> Result<Self, KError> {
-        if k < 2 { Err(KError::TooSmall { k }) } else { Ok(Self(k)) }
-    }
-
-    /// k as a number.
+    /// The finite k; `None` at k = ∞.
     #[must_use]
-    pub const fn get(self) -> u32 {
-        self.0
-    }
-
-    /// How often a mediant was inserted everywhere to come here from the 4-connected quadrant: i = k − 2, the index
-    /// of Q(i) in Kramm 2018 and of 𝒩^i in Rivera 2017.
-    #[must_use]
-    pub const fn depth(self) -> u32 {
-        self.0 - 2
-    }
-
-    /// |N(k)| = 2^k (Rivera 2017, Proposition 2); `None` from k = 64 on.
-    #[must_use]
-    pub const fn moves(self) -> Option<u64> {
-        1_u64.checked_shl(self.0)
-    }
-
-    /// The largest coordinate of the moves of N(k), without building them: Fib(k − 2) (Rivera 2017, Theorem 1).
-    ///
-    /// # Errors
-    /// [`KError::TooLarge`] above [`K::MAX_MOVES`].
-    pub const fn radius(self) -> Result<i32, KError> {
-        if self.0 > Self::MAX_MOVES.0 {
-            return Err(KError::TooLarge { k: self.0, max: Self::MAX_MOVES.0 });
+    pub const fn finite(self) -> Option<FiniteK> {
+        match self {
+            Self::Finite(k) => Some(k),
+            Self::Any => None,
         }
-        let (mut fib, mut next, mut i) = (1_i64, 1_i64, 0);
-        while i < self.depth() {
-            (fib, next) = (next, fib + next);
-            i += 1;
-        }
-        Ok(fib as i32)
     }
 }
 
-const _: () = {
-    assert!(matches!(K::MAX_MOVES.radius(), Ok(1_836_311_903)));
-    assert!(1_836_311_903_i64 + 1_134_903_170 > i32::MAX as i64);
-};
+impl From<FiniteK> for K {
+    fn from(k: FiniteK) -> Self {
+        Self::Finite(k)
+    }
+}
 
 impl fmt::Display for K {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
-    }
-}
-
-/// A k that does not serve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum KError {
-    /// There is no 2^k neighborhood below k = 2.
-    TooSmall {
-        /// The k that was asked for.
-        k: u32,
-    },
-    /// The integer types (or the tables) at hand do not hold this neighborhood.
-    TooLarge {
-        /// The k that was asked for.
-        k: u32,
-        /// The largest k that would do.
-        max: u32,
-    },
-}
-
-impl fmt::Display for KError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::TooSmall { k } => {
-                write!(f, "k = {k} is too small: the smallest 2^k neighborhood is the 4-connected one, k = 2")
-            }
-            Self::TooLarge { k, max } => write!(f, "k = {k} is too large: at most k = {max} fits here"),
+            Self::Finite(k) => k.fmt(f),
+            Self::Any => f.pad("any"),
         }
     }
 }
 
-impl core::error::Error for KError {}
+impl FromStr for K {
+    type Err = ParseKError;
+
+    fn from_str(text: &str) -> Result<Self, ParseKError> {
+        if text == "any" {
+            return Ok(Self::Any);
+        }
+        let k: u32 = text.parse().map_err(|_: ParseIntError| ParseKError::Form)?;
+        FiniteK::new(k).map(Self::Finite).map_err(ParseKError::K)
+    }
+}
+
+/// A text that is no [`K`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ParseKError {
+    /// Neither a number nor `any`.
+    Form,
+    /// A number that is no k.
+    K(KError),
+}
+
+impl fmt::Display for ParseKError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Self::K(error) = self {
+            write!(f, "{error}; ")?;
+        }
+        f.write_str("choose a number from 2 up, or any")
+    }
+}
+
+impl core::error::Error for ParseKError {}

@@ -1,6 +1,6 @@
 //! Levels of moves and the two moves that each one is the mediant of.
 
-use crate::{K, Vector};
+use crate::{FiniteK, Vector};
 
 /// level(v): the smallest k with v ∈ N(k) (Kramm 2018, before Lemma 12), for a move of any quadrant; `None` for a
 /// vector that is no move (gcd ≠ 1).
@@ -67,14 +67,14 @@ pub const fn parents(v: Vector) -> Option<(Vector, Vector)> {
 /// in N(k).
 ///
 /// ```
-/// use mediant_moves::{adjacent, K, Vector};
+/// use mediant_moves::{adjacent, FiniteK, Vector};
 /// let (u, v) = (Vector::new(0, 1), Vector::new(1, 1));
-/// assert!(adjacent(u, v, K::new(3)?));
-/// assert!(!adjacent(u, v, K::new(4)?)); // (1, 2) lies between them
+/// assert!(adjacent(u, v, FiniteK::new(3)?));
+/// assert!(!adjacent(u, v, FiniteK::new(4)?)); // (1, 2) lies between them
 /// # Ok::<(), mediant_moves::KError>(())
 /// ```
 #[must_use]
-pub fn adjacent(u: Vector, v: Vector, k: K) -> bool {
+pub fn adjacent(u: Vector, v: Vector, k: FiniteK) -> bool {
     let same_quadrant = u.dot(v) >= 0;
     let (Some(level_u), Some(level_v)) = (level(u), level(v)) else { return false };
     let mediant_level = 1 + level_u.max(level_v);

@@ -3,7 +3,7 @@
 //! Nothing is stored: the j-th move of Q(i) is (s(j), s(2^i − j)) with Stern's diatomic sequence s, and the next one
 //! follows from the last two in constant time.
 
-use crate::{K, KError, Vector};
+use crate::{FiniteK, KError, Vector};
 
 /// Whether a move stands at an even or an odd index of its quadrant (Rivera 2017, 'Canonical Orderings').
 ///
@@ -20,22 +20,22 @@ pub enum Parity {
 /// 2^(k−2) (Rivera 2017, Eq. 1–5; Kramm 2018, 'The 2^k Neighborhood').
 ///
 /// ```
-/// use mediant_moves::{K, Quadrant};
-/// let moves: Vec<(i32, i32)> = Quadrant::new(K::new(4)?)?.iter().map(|v| (v.x, v.y)).collect();
+/// use mediant_moves::{FiniteK, Quadrant};
+/// let moves: Vec<(i32, i32)> = Quadrant::new(FiniteK::new(4)?)?.iter().map(|v| (v.x, v.y)).collect();
 /// assert_eq!(moves, [(0, 1), (1, 2), (1, 1), (2, 1), (1, 0)]);
 /// # Ok::<(), mediant_moves::KError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Quadrant {
-    k: K,
+    k: FiniteK,
 }
 
 impl Quadrant {
     /// The quadrant of N(k).
     ///
     /// # Errors
-    /// [`KError::TooLarge`] above [`K::MAX_MOVES`].
-    pub const fn new(k: K) -> Result<Self, KError> {
+    /// [`KError::TooLarge`] above [`FiniteK::MAX_MOVES`].
+    pub const fn new(k: FiniteK) -> Result<Self, KError> {
         match k.radius() {
             Ok(_) => Ok(Self { k }),
             Err(error) => Err(error),
@@ -44,7 +44,7 @@ impl Quadrant {
 
     /// The k of the neighborhood.
     #[must_use]
-    pub const fn k(self) -> K {
+    pub const fn k(self) -> FiniteK {
         self.k
     }
 
@@ -190,8 +190,8 @@ impl Iterator for QuadrantMoves {
 /// index of a move keeps the parity of its index in the quadrant of the papers.
 ///
 /// ```
-/// use mediant_moves::{K, Neighborhood, Vector};
-/// let eight = Neighborhood::new(K::EIGHT_CONNECTED)?;
+/// use mediant_moves::{FiniteK, Neighborhood, Vector};
+/// let eight = Neighborhood::new(FiniteK::N8)?;
 /// assert_eq!(eight.len(), 8);
 /// assert_eq!(eight.get(3), Some(Vector::new(1, -1)));
 /// assert_eq!(eight.index_of(Vector::new(1, -1)), Some(3));
@@ -207,8 +207,8 @@ impl Neighborhood {
     /// The neighborhood N(k).
     ///
     /// # Errors
-    /// [`KError::TooLarge`] above [`K::MAX_MOVES`].
-    pub const fn new(k: K) -> Result<Self, KError> {
+    /// [`KError::TooLarge`] above [`FiniteK::MAX_MOVES`].
+    pub const fn new(k: FiniteK) -> Result<Self, KError> {
         match Quadrant::new(k) {
             Ok(quadrant) => Ok(Self { quadrant }),
             Err(error) => Err(error),
@@ -217,7 +217,7 @@ impl Neighborhood {
 
     /// The k of the neighborhood.
     #[must_use]
-    pub const fn k(self) -> K {
+    pub const fn k(self) -> FiniteK {
         self.quadrant.k
     }
 

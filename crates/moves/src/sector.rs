@@ -1,6 +1,6 @@
 //! h_k where an octant has few sectors: all its moves are compared with the vector at once, and h_k is linear in the sector found.
 
-use crate::{K, Quadrant, Vector};
+use crate::{FiniteK, Quadrant, Vector};
 
 /// The largest k for which [`sector`] takes less time than Hormazábal 2017, Algorithm 2: at k = 7 it takes twice as much.
 pub(crate) const MAX_K: u32 = 6;
@@ -10,7 +10,7 @@ pub(crate) const MAX_SECTORS: usize = 1 << (MAX_K - 3);
 
 /// The first moves of Q(k − 2) for N = 2^(k − 3): sector j of the octant from (0, 1) to (1, 1) lies between the moves j and j + 1.
 pub(crate) const fn moves<const N: usize>() -> [Vector; N] {
-    let Ok(k) = K::new(N.ilog2() + 3) else { panic!("a constant k") };
+    let Ok(k) = FiniteK::new(N.ilog2() + 3) else { panic!("a constant k") };
     let Ok(quadrant) = Quadrant::new(k) else { panic!("a constant k") };
     let mut moves = [Vector::ZERO; N];
     let mut j = 0;

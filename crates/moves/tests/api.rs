@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 
 use common::*;
 use mediant_moves::{
-    CostTable, K, KError, LinearSearch, Neighborhood, Quadrant, Vector, adjacent, bound_at_centers,
+    CostTable, FiniteK, KError, LinearSearch, Neighborhood, Quadrant, Vector, adjacent, bound_at_centers,
     bound_at_corners, containing, decompose, distance, distance_any_angle, level, parents,
     smallest_k_at_centers, smallest_k_at_corners,
 };
@@ -23,9 +23,9 @@ fn neighborhood(n: u32) -> Neighborhood {
 
 #[test]
 fn k_says_what_it_refuses() {
-    assert_eq!(K::new(0), Err(KError::TooSmall { k: 0 }));
-    assert_eq!(K::new(1), Err(KError::TooSmall { k: 1 }));
-    assert_eq!((K::new(2), K::new(3)), (Ok(K::FOUR_CONNECTED), Ok(K::EIGHT_CONNECTED)));
+    assert_eq!(FiniteK::new(0), Err(KError::TooSmall { k: 0 }));
+    assert_eq!(FiniteK::new(1), Err(KError::TooSmall { k: 1 }));
+    assert_eq!((FiniteK::new(2), FiniteK::new(3)), (Ok(FiniteK::N4), Ok(FiniteK::N8)));
     let too_large = |k, max| KError::TooLarge { k, max };
     assert_eq!(k(48).radius(), Err(too_large(48, 47)));
     assert_eq!(Quadrant::new(k(48)), Err(too_large(48, 47)));
@@ -43,7 +43,7 @@ fn k_says_what_it_refuses() {
 /// 47 is the last k whose radius fits: Fib(46) does not.
 #[test]
 fn k_max_moves_is_the_limit_of_i32() {
-    assert_eq!(K::MAX_MOVES.get(), 47);
+    assert_eq!(FiniteK::MAX_MOVES.get(), 47);
     assert!(fibonacci(45) <= i64::from(i32::MAX) && fibonacci(46) > i64::from(i32::MAX));
 }
 

@@ -5,7 +5,7 @@
 mod common;
 
 use common::*;
-use mediant_moves::{Cost, CostTable, K, Neighborhood, Quadrant, Vector};
+use mediant_moves::{Cost, CostTable, FiniteK, Neighborhood, Quadrant, Vector};
 
 fn table(n: u32) -> CostTable {
     CostTable::new(k(n)).expect("at most 18")
@@ -87,9 +87,9 @@ fn cost_table_holds_the_costs_of_the_quadrant() {
 fn cost_table_distance_is_exactly_the_cheapest_path() {
     for n in 2..=14 {
         let cost = |m: Pair| Cost::of_move(vector(m)).to_bits() as f64;
-        let lattice = Lattice::new(&naive_neighborhood(n), 28, 2f64.powi(32), cost);
+        let graph = GridGraph::new(&naive_neighborhood(n), 28, 2f64.powi(32), cost);
         for d in square(14) {
-            let (got, expected) = (table(n).distance(vector(d)).to_bits(), lattice.cost(d));
+            let (got, expected) = (table(n).distance(vector(d)).to_bits(), graph.cost(d));
             assert_eq!(got as f64, expected, "k = {n}, {d:?}");
         }
     }
@@ -158,5 +158,5 @@ fn cost_table_max_k_is_the_last_that_keeps_the_costs_convex() {
         assert!(detours(n).iter().all(|&excess| excess > 0), "k = {n}");
     }
     assert!(detours(19).iter().any(|&excess| excess < 0), "k = 19 bends inwards");
-    assert!(CostTable::new(k(19)).is_err() && CostTable::new(K::MAX_MOVES).is_err());
+    assert!(CostTable::new(k(19)).is_err() && CostTable::new(FiniteK::MAX_MOVES).is_err());
 }

@@ -7,7 +7,7 @@ mod common;
 
 use common::*;
 use mediant_moves::{
-    CostTable, K, LinearSearch, Quadrant, Vector, decompose, distance, distance_32, distance_any_angle,
+    CostTable, FiniteK, LinearSearch, Quadrant, Vector, decompose, distance, distance_32, distance_any_angle,
 };
 
 /// x·l + y·r, after some rounds of Algorithm 2.
@@ -184,5 +184,5 @@ fn theorem_2_the_linear_search_finds_the_same_beyond_small_displacements() {
             assert!((got - expected.length()).abs() <= error, "h_{n}({d:?}), seed {seed}");
         }
     }
-    assert_eq!(distance(Vector::ZERO, K::MAX_MOVES), 0.0);
+    assert_eq!(distance(Vector::ZERO, FiniteK::MAX_MOVES), 0.0);
 }

@@ -7,7 +7,8 @@ mod common;
 
 use common::*;
 use mediant_moves::{
-    K, Neighborhood, Quadrant, Vector, bound_at_centers, bound_at_corners, decompose, distance, level, octile,
+    FiniteK, Neighborhood, Quadrant, Vector, bound_at_centers, bound_at_corners, decompose, distance, level,
+    octile,
 };
 
 /// A little more than 1, for what two computations in `f64` may differ by.
@@ -114,7 +115,7 @@ fn proposition_6_no_move_is_shorter_than_1() {
 fn proposition_7_relative_primes_are_a_move_of_some_neighborhood() {
     for d in first_quadrant(70).filter(|&(p, q)| gcd(p, q) == 1) {
         let r = level(vector(d)).expect("relative primes");
-        if r <= K::MAX_MOVES.get() {
+        if r <= FiniteK::MAX_MOVES.get() {
             assert!(Quadrant::new(k(r)).expect("at most 47").index_of(vector(d)).is_some(), "{d:?}, k = {r}");
         }
         let mut largest = u32::MAX;

@@ -10,8 +10,8 @@ use std::collections::BTreeSet;
 
 use common::*;
 use mediant_moves::{
-    CostTable, K, LinearSearch, Neighborhood, Parity, Quadrant, Vector, decompose, distance, distance_16,
-    distance_32, manhattan, octile,
+    CostTable, FiniteK, LinearSearch, Neighborhood, Parity, Quadrant, Vector, decompose, distance,
+    distance_16, distance_32, manhattan, octile,
 };
 
 fn quadrant(n: u32) -> Quadrant {
@@ -212,9 +212,9 @@ fn equations_17_and_18_the_factors_one_level_back() {
 #[test]
 fn corollary_1_no_path_on_an_empty_lattice_is_shorter() {
     for n in 2..=14 {
-        let lattice = Lattice::new(&naive_neighborhood(n), 32, 1.0, norm);
+        let graph = GridGraph::new(&naive_neighborhood(n), 32, 1.0, norm);
         for d in square(16) {
-            let (got, expected) = (distance(vector(d), k(n)), lattice.cost(d));
+            let (got, expected) = (distance(vector(d), k(n)), graph.cost(d));
             assert!((got - expected).abs() < 1e-11, "h_{n}{d:?} = {got}, not {expected}");
         }
     }
@@ -307,7 +307,7 @@ fn canonical_paths_take_the_odd_move_first() {
             assert_eq!(sum, d, "k = {n}");
         }
     }
-    let diagonal = decompose(Vector::new(5, 2), K::EIGHT_CONNECTED).map(|parts| parts.canonical()[0]);
+    let diagonal = decompose(Vector::new(5, 2), FiniteK::N8).map(|parts| parts.canonical()[0]);
     assert_eq!(diagonal, Some((Vector::new(1, 1), 2)), "(1, 1) before (1, 0) on the 8-neighborhood");
 }
 

@@ -2,17 +2,17 @@
 
 use std::{cmp::Reverse, collections::BinaryHeap};
 
-use mediant_grid::{DiagonalGap, Grid, Placement, Rules, Vertex};
-use mediant_moves::{K, Vector};
+use mediant_grid::{DiagonalGap, Grid, PlacementKind, Rules, Vertex};
+use mediant_moves::{FiniteK, Vector};
 
 use crate::{
-    legality::{Footprint, free_quadrants, is_doubly_blocked, is_in_quadrant, vertex_is_free},
+    legality::{Footprint, free_quadrants, is_gap, is_in_quadrant, vertex_is_free},
     neighborhood,
 };
 
 /// The graph of all legal moves of a neighborhood on one grid: every free vertex, every move.
 ///
-/// Under [`DiagonalGap::Closed`] a doubly blocked corner is two states, one for each free quadrant, so that a path may
+/// Under [`DiagonalGap::Closed`] a gap is two states, one for each free quadrant, so that a path may
 /// touch the corner but not cross it. Nothing is assumed about optimal paths.
 ///
 /// Meant for maps up to about 40 × 40: a state keeps up to 2^k edges, and with any-angle moves every vertex in sight.
@@ -37,9 +37,9 @@ impl Explicit {
     /// The graph for N(k), or for k = `None` that of all moves with gcd 1, whose shortest paths are the shortest any-angle
     /// paths: a straight legal segment is a repeated move.
     #[must_use]
-    pub fn new(grid: &Grid, rules: Rules, k: Option<K>) -> Self {
+    pub fn new(grid: &Grid, rules: Rules, k: Option<FiniteK>) -> Self {
         let placement = rules.placement();
-        let extra = u32::from(placement == Placement::Corner);
+        let extra = u32::from(placement == PlacementKind::Corner);
         let (columns, rows) = (grid.width() + extra, grid.height() + extra);
         let at = |v: usize| Vertex::new((v % columns as usize) as i32, (v / columns as usize) as i32);
         let vertices = columns as usize * rows as usize;
@@ -169,13 +169,13 @@ fn length(d: Vector) -> f64 {
 enum Slots {
     /// One state, slot 0.
     Whole,
-    /// A doubly blocked corner under the closed rule: slots 0 and 1 are these free quadrants.
+    /// A gap under the closed rule: slots 0 and 1 are these free quadrants.
     Quadrants([(i64, i64); 2]),
 }
 
 impl Slots {
     fn new(grid: &Grid, rules: Rules, at: Vertex) -> Self {
-        if rules != Rules::Corner(DiagonalGap::Closed) || !is_doubly_blocked(grid, at) {
+        if rules != Rules::Corner(DiagonalGap::Closed) || !is_gap(grid, at) {
             return Self::Whole;
         }
         match free_quadrants(grid, at).collect::<Vec<_>>()[..] {

@@ -1,6 +1,6 @@
 //! Maps from a seed. Every generator clamps the sides to 1…[`Grid::MAX_SIDE`].
 
-use mediant_grid::{Grid, Placement, Vertex};
+use mediant_grid::{Grid, PlacementKind, Vertex};
 
 use crate::{Rng, legality::vertex_is_free};
 
@@ -195,15 +195,15 @@ pub(crate) fn draw_grid(rng: &mut Rng) -> (Grid, String) {
 }
 
 /// Any vertex of the map, free or not.
-pub fn random_vertex(rng: &mut Rng, grid: &Grid, placement: Placement) -> Vertex {
-    let extra = u32::from(placement == Placement::Corner);
+pub fn random_vertex(rng: &mut Rng, grid: &Grid, placement: PlacementKind) -> Vertex {
+    let extra = u32::from(placement == PlacementKind::Corner);
     let (x, y) = (rng.below(grid.width() + extra), rng.below(grid.height() + extra));
     Vertex::new(x as i32, y as i32)
 }
 
 /// A free vertex, each as likely as the others; `None` when there is none.
-pub fn random_free_vertex(rng: &mut Rng, grid: &Grid, placement: Placement) -> Option<Vertex> {
-    let extra = i32::from(placement == Placement::Corner);
+pub fn random_free_vertex(rng: &mut Rng, grid: &Grid, placement: PlacementKind) -> Option<Vertex> {
+    let extra = i32::from(placement == PlacementKind::Corner);
     let (columns, rows) = (grid.width() as i32 + extra, grid.height() as i32 + extra);
     let vertices = (0..rows).flat_map(|y| (0..columns).map(move |x| Vertex::new(x, y)));
     let free: Vec<Vertex> = vertices.filter(|&at| vertex_is_free(grid, placement, at)).collect();

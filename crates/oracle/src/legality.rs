@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use mediant_grid::{CornerRule, DiagonalGap, Grid, Placement, Rules, Vertex};
+use mediant_grid::{CornerRule, DiagonalGap, Grid, PlacementKind, Rules, Vertex};
 use mediant_moves::Vector;
 
 use crate::geometry::{Contact, Rectangle, Segment};
@@ -24,10 +24,10 @@ pub(crate) struct Footprint {
 
 impl Footprint {
     /// The footprint of displacement `d` ≠ (0, 0). Time is proportional to |x|·|y|.
-    pub(crate) fn new(placement: Placement, d: Vector) -> Self {
+    pub(crate) fn new(placement: PlacementKind, d: Vector) -> Self {
         match placement {
-            Placement::Center => Self::at_centers(d),
-            Placement::Corner => Self::at_corners(d),
+            PlacementKind::Center => Self::at_centers(d),
+            PlacementKind::Corner => Self::at_corners(d),
         }
     }
 
@@ -78,7 +78,7 @@ impl Footprint {
             Rules::Center(CornerRule::Always) => true,
             Rules::Corner(DiagonalGap::Open) => true,
             Rules::Corner(DiagonalGap::Closed) => {
-                !self.between.iter().any(|&vertex| is_doubly_blocked(grid, at + vertex))
+                !self.between.iter().any(|&vertex| is_gap(grid, at + vertex))
             }
         };
         corners && self.crossed.iter().all(free) && self.edges.iter().all(|cells| cells.iter().any(free))
@@ -138,16 +138,16 @@ pub(crate) fn is_in_quadrant(at: Vertex, other: Vertex, (sx, sy): (i64, i64)) ->
 ///
 /// Vertices outside the map are not free.
 #[must_use]
-pub fn vertex_is_free(grid: &Grid, placement: Placement, at: Vertex) -> bool {
+pub fn vertex_is_free(grid: &Grid, placement: PlacementKind, at: Vertex) -> bool {
     match placement {
-        Placement::Center => grid.is_free(at.x, at.y),
-        Placement::Corner => free_quadrants(grid, at).next().is_some(),
+        PlacementKind::Center => grid.is_free(at.x, at.y),
+        PlacementKind::Corner => free_quadrants(grid, at).next().is_some(),
     }
 }
 
 /// Whether two blocked cells meet diagonally at corner vertex `at` while the two others are free.
 #[must_use]
-pub fn is_doubly_blocked(grid: &Grid, at: Vertex) -> bool {
+pub fn is_gap(grid: &Grid, at: Vertex) -> bool {
     let free: Vec<_> = free_quadrants(grid, at).collect();
     matches!(free[..], [(ax, ay), (bx, by)] if ax == -bx && ay == -by)
 }
@@ -155,10 +155,10 @@ pub fn is_doubly_blocked(grid: &Grid, at: Vertex) -> bool {
 /// Whether the straight segment from `a` to `b` is legal under the rules of motion, by itself: what a path under
 /// [`DiagonalGap::Closed`] may do where segments meet is [`turn_is_legal`]'s business.
 ///
-/// * Centers: all cells that the closed segment meets must be free, but for those that it only meets in a lattice corner
+/// * Centers: all cells that the closed segment meets must be free, but for those that it only meets in a grid graph corner
 ///   point on its way: of these all, at least one at each point, or none must be free.
 /// * Corners: no blocked cell's open interior may be met, and the segment may not run along the edge of two blocked
-///   cells (outside counts as blocked). With closed gaps no doubly blocked corner may lie strictly between its ends.
+///   cells (outside counts as blocked). With closed gaps no gap may lie strictly between its ends.
 ///
 /// A segment of length 0 is legal at a free vertex. Time is proportional to the area of the bounding box.
 #[must_use]
@@ -172,12 +172,12 @@ pub fn segment_is_legal(grid: &Grid, rules: Rules, a: Vertex, b: Vertex) -> bool
 /// Whether a path under [`DiagonalGap::Closed`] may come from `before` to corner vertex `at` and go on to `after`, both
 /// segments being legal. `None` stands for the path's start or end at `at`.
 ///
-/// At a doubly blocked corner a path stays in one closed free quadrant, and one that starts or ends there in that of
+/// At a gap a path stays in one closed free quadrant, and one that starts or ends there in that of
 /// the vertex's own cell (x, y), which must be free. Everywhere else, and for a path that is `at` alone, there is
 /// nothing to observe.
 #[must_use]
 pub fn turn_is_legal(grid: &Grid, before: Option<Vertex>, at: Vertex, after: Option<Vertex>) -> bool {
-    if !is_doubly_blocked(grid, at) || (before.is_none() && after.is_none()) {
+    if !is_gap(grid, at) || (before.is_none() && after.is_none()) {
         return true;
     }
     let is_end = before.is_none() || after.is_none();

@@ -18,14 +18,14 @@
 //!
 //! ```
 //! use mediant_grid::{AsciiMap, CornerRule, Rules};
-//! use mediant_moves::K;
+//! use mediant_moves::FiniteK;
 //! use mediant_oracle::{Explicit, validate};
 //!
 //! let map = AsciiMap::parse("
 //!     s..
 //!     .#g
 //! ")?;
-//! let (rules, k) = (Rules::Center(CornerRule::Never), K::EIGHT_CONNECTED);
+//! let (rules, k) = (Rules::Center(CornerRule::Never), FiniteK::N8);
 //! let (start, goal) = (map.mark('s').unwrap(), map.mark('g').unwrap());
 //! let graph = Explicit::new(&map.grid, rules, Some(k));
 //! let costs = graph.costs_from(start);
@@ -51,7 +51,7 @@ pub use generate::{
     adversarial, caves, maze, noise, random_free_vertex, random_grid, random_vertex, rooms, suite_grid,
     wide_grid,
 };
-pub use legality::{is_doubly_blocked, segment_is_legal, turn_is_legal, vertex_is_free};
+pub use legality::{is_gap, segment_is_legal, turn_is_legal, vertex_is_free};
 pub use neighborhood::neighborhood;
 pub use random::Rng;
 pub use validate::{Fault, validate};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use mediant_moves::{K, Vector};
+use mediant_moves::{FiniteK, Vector};
 
 /// The moves (x, y) of N(k) with |x| ≤ `width` and |y| ≤ `height`, in the order of [`Vector`]; `None` stands for k = ∞,
 /// every vector with gcd 1.
@@ -10,7 +10,7 @@ use mediant_moves::{K, Vector};
 /// Between each two adjacent moves their sum is inserted, k − 2 times, and the quadrant is reflected (Rivera 2017).
 /// Sums only grow, so those that leave the rectangle end the insertion there.
 #[must_use]
-pub fn neighborhood(k: Option<K>, width: u32, height: u32) -> Vec<Vector> {
+pub fn neighborhood(k: Option<FiniteK>, width: u32, height: u32) -> Vec<Vector> {
     let limit = Vector::new(saturated(width), saturated(height));
     let (right, down) = (Vector::new(1, 0), Vector::new(0, 1));
     let mut quadrant: Vec<Vector> = [right, down].into_iter().filter(|&u| fits(u, limit)).collect();

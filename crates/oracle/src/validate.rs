@@ -3,7 +3,7 @@
 use std::{error::Error, fmt};
 
 use mediant_grid::{DiagonalGap, Grid, Rules, Vertex};
-use mediant_moves::{K, Vector};
+use mediant_moves::{FiniteK, Vector};
 
 use crate::{
     legality::{Footprint, segment_is_legal, turn_is_legal, vertex_is_free},
@@ -66,7 +66,7 @@ pub enum Fault {
         /// The second waypoint.
         to: Vertex,
         /// The neighborhood.
-        k: K,
+        k: FiniteK,
     },
     /// A move or segment breaks the rules of motion.
     Segment {
@@ -77,7 +77,7 @@ pub enum Fault {
         /// The rules.
         rules: Rules,
     },
-    /// The path crosses, or starts or ends in a forbidden quadrant of, a doubly blocked corner.
+    /// The path crosses, or starts or ends in a forbidden quadrant of, a gap.
     Turn {
         /// The vertex before the corner, `None` at the start.
         before: Option<Vertex>,
@@ -121,7 +121,7 @@ impl fmt::Display for Fault {
             }
             Self::Turn { before, at, after } => write!(
                 f,
-                "the path crosses the doubly blocked corner {at} or uses a quadrant of it that it may not: {} → {at} → {}",
+                "the path crosses the gap {at} or uses a quadrant of it that it may not: {} → {at} → {}",
                 name(before, "start"),
                 name(after, "goal")
             ),
@@ -147,7 +147,7 @@ impl Error for Fault {}
 pub fn validate(
     grid: &Grid,
     rules: Rules,
-    k: Option<K>,
+    k: Option<FiniteK>,
     start: Vertex,
     goal: Vertex,
     waypoints: &[Vertex],
@@ -200,7 +200,7 @@ fn check_ends(start: Vertex, goal: Vertex, waypoints: &[Vertex]) -> Result<(), F
 fn check_repeated_move(
     grid: &Grid,
     rules: Rules,
-    (k, moves): (K, &[Vector]),
+    (k, moves): (FiniteK, &[Vector]),
     (from, to): (Vertex, Vertex),
     path: &mut Vec<Vertex>,
 ) -> Result<(), Fault> {

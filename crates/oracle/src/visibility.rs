@@ -7,24 +7,24 @@
 //! of these in all norms at once. Its straight pieces can be followed over N(k) at cost h_k (Kramm 2018, Lemma 13), and
 //! a path over N(k) measures the same in h_k as in cells. What remains is to choose the sides, and for that there is Dijkstra.
 //!
-//! **Closed gaps** are cuts through free space. Seen from either of its free quadrants a doubly blocked corner is concave, so no
+//! **Closed gaps** are cuts through free space. Seen from either of its free quadrants a gap is concave, so no
 //! taut path bends there: it is a start or goal at most. That holds for k = 2 as well, though what follows a taut path over
-//! N(2) may have to touch such a corner: from one corner of a cell to the opposite one when both others are doubly blocked. It
+//! N(2) may have to touch such a corner: from one corner of a cell to the opposite one when both others are gaps. It
 //! bends there within one quadrant, which the rule allows, and so costs h_2 as anywhere.
 
 use std::{cmp::Reverse, collections::BinaryHeap, sync::OnceLock};
 
-use mediant_grid::{DiagonalGap, Grid, Placement, Rules, Vertex};
-use mediant_moves::{K, Vector};
+use mediant_grid::{DiagonalGap, Grid, PlacementKind, Rules, Vertex};
+use mediant_moves::{FiniteK, Vector};
 
 use crate::{
-    legality::{Footprint, free_quadrants, is_doubly_blocked, turn_is_legal, vertex_is_free},
+    legality::{Footprint, free_quadrants, is_gap, turn_is_legal, vertex_is_free},
     neighborhood,
 };
 
 /// The convex corners of the obstacles of one grid, under corner placement, and which of them see each other.
 ///
-/// Convex is a vertex with one blocked cell of four and, with [`DiagonalGap::Open`], a doubly blocked one. To see is
+/// Convex is a vertex with one blocked cell of four and, with [`DiagonalGap::Open`], a gap. To see is
 /// [`segment_is_legal`](crate::segment_is_legal). The graph is the same for all k; [`over`](Self::over) gives it lengths.
 ///
 /// Meant for maps up to about 40 × 40 or 1,000 × 4: it keeps what each displacement that was asked for meets.
@@ -64,7 +64,7 @@ impl<'g> Visibility<'g> {
 
     /// The graph with edges as long as h_k says or, for k = `None`, as they are.
     #[must_use]
-    pub fn over(&self, k: Option<K>) -> VisibilityGraph<'_> {
+    pub fn over(&self, k: Option<FiniteK>) -> VisibilityGraph<'_> {
         let grid = self.sight.grid;
         let (width, height) = (grid.width() as i32, grid.height() as i32);
         VisibilityGraph { visibility: self, columns: width as usize + 1, lengths: lengths(k, width, height) }
@@ -73,7 +73,7 @@ impl<'g> Visibility<'g> {
 
 /// Whether an optimal path may bend at a vertex.
 fn is_convex(grid: &Grid, gap: DiagonalGap, at: Vertex) -> bool {
-    free_quadrants(grid, at).count() == 3 || (gap == DiagonalGap::Open && is_doubly_blocked(grid, at))
+    free_quadrants(grid, at).count() == 3 || (gap == DiagonalGap::Open && is_gap(grid, at))
 }
 
 /// Which vertices of a map see each other.
@@ -96,7 +96,7 @@ impl<'g> Sight<'g> {
         let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
         let (d, width) = (a.to(b), self.grid.width() as i32);
         let place = d.y as usize * (2 * width as usize + 1) + (d.x + width) as usize;
-        let footprint = || self.footprints[place].get_or_init(|| Footprint::new(Placement::Corner, d));
+        let footprint = || self.footprints[place].get_or_init(|| Footprint::new(PlacementKind::Corner, d));
         a == b || footprint().is_legal(self.grid, Rules::Corner(self.gap), a)
     }
 
@@ -128,7 +128,7 @@ impl VisibilityGraph<'_> {
             cost: vec![f64::INFINITY; corners.len()],
             previous: vec![None; corners.len()],
         };
-        if !vertex_is_free(sight.grid, Placement::Corner, start) {
+        if !vertex_is_free(sight.grid, PlacementKind::Corner, start) {
             return costs;
         }
         // The bits of floats that are not negative are ordered as the floats.
@@ -202,7 +202,7 @@ impl VisibilityCosts<'_> {
     /// The cost to `goal`, and the corner from which it is reached, none when that is straight from the start.
     fn last_step(&self, goal: Vertex) -> Option<(f64, Option<u32>)> {
         let Visibility { sight, corners, .. } = self.graph.visibility;
-        let is_free = |at| vertex_is_free(sight.grid, Placement::Corner, at);
+        let is_free = |at| vertex_is_free(sight.grid, PlacementKind::Corner, at);
         if !is_free(self.start) || !is_free(goal) {
             return None;
         }
@@ -226,7 +226,7 @@ impl VisibilityCosts<'_> {
 ///
 /// From the definition: d is the one combination p·a + q·b with p, q ≥ 0 of two moves that are adjacent in angle, and its length is
 /// p·|a| + q·|b|. Moves beyond the rectangle combine to nothing in it.
-fn lengths(k: Option<K>, width: i32, height: i32) -> Vec<f64> {
+fn lengths(k: Option<FiniteK>, width: i32, height: i32) -> Vec<f64> {
     let displacements = || (0..=height).flat_map(|y| (0..=width).map(move |x| Vector::new(x, y)));
     if k.is_none() {
         return displacements().map(norm).collect();
@@ -267,7 +267,7 @@ mod tests {
             for gap in [DiagonalGap::Open, DiagonalGap::Closed] {
                 let (rules, sight) = (Rules::Corner(gap), Sight::new(&grid, gap));
                 for _ in 0..20 {
-                    let mut free = || random_free_vertex(&mut rng, &grid, Placement::Corner);
+                    let mut free = || random_free_vertex(&mut rng, &grid, PlacementKind::Corner);
                     let Some((a, b)) = free().zip(free()) else { continue };
                     let expected = segment_is_legal(&grid, rules, a, b);
                     // Asked again, from what was kept.
@@ -286,7 +286,7 @@ mod tests {
     fn lengths_are_the_least_over_all_pairs_of_moves() {
         let (width, height) = (9, 6);
         for k in [2, 3, 4, 5, 8] {
-            let k = K::new(k).ok();
+            let k = FiniteK::new(k).ok();
             let moves = neighborhood(k, width as u32, height as u32);
             let found = lengths(k, width, height);
             for (place, &found) in found.iter().enumerate() {

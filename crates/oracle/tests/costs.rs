@@ -3,27 +3,33 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Rules, Vertex};
-use mediant_moves::K;
+use mediant_moves::FiniteK;
 use mediant_oracle::{
-    Case, Explicit, describe, is_doubly_blocked, neighborhood, segment_is_legal, turn_is_legal, validate,
+    Case, Explicit, describe, is_gap, neighborhood, segment_is_legal, turn_is_legal, validate,
 };
 
 const OPEN: Rules = Rules::Corner(DiagonalGap::Open);
 const CLOSED: Rules = Rules::Corner(DiagonalGap::Closed);
 
-fn k(k: u32) -> Option<K> {
-    Some(K::new(k).expect("k in a test"))
+fn k(k: u32) -> Option<FiniteK> {
+    Some(FiniteK::new(k).expect("k in a test"))
 }
 
 /// Checks the cost from `s` to `g` on a drawing, both ways; under corner placement these are the upper left corners of the
 /// marked cells.
-fn check(drawing: &str, rules: Rules, k: Option<K>, expected: Option<f64>) {
+fn check(drawing: &str, rules: Rules, k: Option<FiniteK>, expected: Option<f64>) {
     let map = AsciiMap::parse(drawing).expect("a drawing in a test");
     let (s, g) = map.mark('s').zip(map.mark('g')).expect("both are marked");
     check_between(&map.grid, rules, k, (s, g), expected);
 }
 
-fn check_between(grid: &Grid, rules: Rules, k: Option<K>, (s, g): (Vertex, Vertex), expected: Option<f64>) {
+fn check_between(
+    grid: &Grid,
+    rules: Rules,
+    k: Option<FiniteK>,
+    (s, g): (Vertex, Vertex),
+    expected: Option<f64>,
+) {
     let graph = Explicit::new(grid, rules, k);
     for (a, b) in [(s, g), (g, s)] {
         let found = graph.costs_from(a).to(b);
@@ -96,8 +102,8 @@ fn closed_gaps_are_left_and_entered_through_the_own_quadrant() {
     check_between(&around, CLOSED, k(2), (at(1, 1), at(1, 2)), Some(1.0));
 }
 
-/// In a cell with two doubly blocked corners across, the 4-connected path from one of its other corners to the opposite
-/// one must touch a doubly blocked one.
+/// In a cell with two gaps across, the 4-connected path from one of its other corners to the opposite
+/// one must touch a gap.
 #[test]
 fn four_connected_paths_may_have_to_touch_a_closed_gap() {
     let grid = AsciiMap::parse("##.\n#.#\n.##").unwrap().grid;
@@ -148,8 +154,8 @@ fn costs_agree_with_paths_with_each_other_and_with_sight() {
                 assert!(cost.unwrap_or(f64::INFINITY) <= limit * (1.0 + 1e-9), "k = {k:?} is longer; {case}");
                 previous = Some(cost);
             }
-            let closed_end = rules == CLOSED
-                && [case.start, case.goal].iter().any(|&at| is_doubly_blocked(&case.grid, at));
+            let closed_end =
+                rules == CLOSED && [case.start, case.goal].iter().any(|&at| is_gap(&case.grid, at));
             if segment_is_legal(&case.grid, rules, case.start, case.goal) && !closed_end {
                 assert!(is_same(previous.flatten(), Some(straight)), "in sight, not straight; {case}");
                 in_sight += 1;
@@ -161,7 +167,7 @@ fn costs_agree_with_paths_with_each_other_and_with_sight() {
 
 /// The optimal cost under closed gaps from a search over pairs of consecutive vertices, with [`turn_is_legal`] between
 /// each two steps: no states of quadrants, and no order by cost.
-fn cost_by_pairs(grid: &Grid, k: Option<K>, start: Vertex, goal: Vertex) -> Option<f64> {
+fn cost_by_pairs(grid: &Grid, k: Option<FiniteK>, start: Vertex, goal: Vertex) -> Option<f64> {
     let mut cost: BTreeMap<(Option<Vertex>, Vertex), f64> = BTreeMap::from([((None, start), 0.0)]);
     let mut changed: VecDeque<_> = cost.keys().copied().collect();
     let moves = neighborhood(k, grid.width(), grid.height());
@@ -213,10 +219,10 @@ fn closed_costs_agree_with_a_search_over_pairs_of_vertices() {
 fn gap_corners(grid: &Grid) -> Vec<Vertex> {
     let (w, h) = (grid.width() as i32, grid.height() as i32);
     let all = (0..=h).flat_map(|y| (0..=w).map(move |x| Vertex::new(x, y)));
-    all.filter(|&at| is_doubly_blocked(grid, at)).collect()
+    all.filter(|&at| is_gap(grid, at)).collect()
 }
 
-/// From k = 3 on, an optimal path under closed gaps touches no doubly blocked corner but with its ends: at one it would
+/// From k = 3 on, an optimal path under closed gaps touches no gap but with its ends: at one it would
 /// turn by 90° or more within a free cell, and a shorter way leads through that cell.
 #[test]
 fn optimal_paths_need_no_closed_gap_from_k_3_on() {
@@ -233,7 +239,7 @@ fn optimal_paths_need_no_closed_gap_from_k_3_on() {
             for goal in graph.free_vertices() {
                 let path = costs.path_to(goal).unwrap_or_default();
                 let inner = path.get(1..path.len().saturating_sub(1)).unwrap_or_default();
-                let touched = inner.iter().find(|&&at| is_doubly_blocked(&case.grid, at));
+                let touched = inner.iter().find(|&&at| is_gap(&case.grid, at));
                 let context = describe(&case.grid, CLOSED, case.start, goal, seed);
                 assert_eq!(touched, None, "k = {k:?}; {context}");
             }

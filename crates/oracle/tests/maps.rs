@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Placement, Rules, Vertex};
-use mediant_moves::K;
+use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, PlacementKind, Rules, Vertex};
+use mediant_moves::FiniteK;
 use mediant_oracle::{
-    Case, Explicit, Rng, adversarial, caves, describe, is_doubly_blocked, maze, noise, random_free_vertex,
-    random_grid, random_vertex, rooms, vertex_is_free,
+    Case, Explicit, Rng, adversarial, caves, describe, is_gap, maze, noise, random_free_vertex, random_grid,
+    random_vertex, rooms, vertex_is_free,
 };
 
 #[test]
@@ -20,7 +20,7 @@ fn seeds_decide_and_every_kind_occurs() {
         assert!((1..=24).contains(&w) && (1..=24).contains(&h), "seed {seed}: {w} × {h}");
         sizes.extend([w, h]);
         let corners = (0..=h as i32).flat_map(|y| (0..=w as i32).map(move |x| Vertex::new(x, y)));
-        gaps += u32::from(corners.into_iter().any(|at| is_doubly_blocked(&grid, at)));
+        gaps += u32::from(corners.into_iter().any(|at| is_gap(&grid, at)));
         full += u32::from(grid.free_cells() == 0);
         lines += u32::from(w == 1 || h == 1);
         let name = kind.split(',').next().unwrap_or_default();
@@ -57,7 +57,7 @@ fn mazes_are_connected_where_carved() {
     let rules = Rules::Center(CornerRule::Never);
     for seed in 0..20 {
         let grid = maze(&mut Rng::new(seed), 21, 15);
-        let graph = Explicit::new(&grid, rules, Some(K::FOUR_CONNECTED));
+        let graph = Explicit::new(&grid, rules, Some(FiniteK::N4));
         let costs = graph.costs_from(Vertex::new(0, 0));
         for y in (0..15).step_by(2) {
             for x in (0..21).step_by(2) {
@@ -70,11 +70,11 @@ fn mazes_are_connected_where_carved() {
 
 #[test]
 fn drawn_vertices_lie_on_the_map() {
-    for placement in [Placement::Center, Placement::Corner] {
+    for placement in [PlacementKind::Center, PlacementKind::Corner] {
         for seed in 0..300 {
             let (grid, _) = random_grid(seed);
             let mut rng = Rng::new(seed);
-            let extra = i32::from(placement == Placement::Corner);
+            let extra = i32::from(placement == PlacementKind::Corner);
             let any = random_vertex(&mut rng, &grid, placement);
             let (w, h) = (grid.width() as i32 + extra, grid.height() as i32 + extra);
             assert!((0..w).contains(&any.x) && (0..h).contains(&any.y), "seed {seed}: {any}");

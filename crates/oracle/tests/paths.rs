@@ -1,7 +1,7 @@
 //! The validator: what it accepts, and each fault with the place that its message names.
 
 use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Rules, Vertex};
-use mediant_moves::K;
+use mediant_moves::FiniteK;
 use mediant_oracle::{Fault, validate};
 
 const NEVER: Rules = Rules::Center(CornerRule::Never);
@@ -11,7 +11,7 @@ const CLOSED: Rules = Rules::Corner(DiagonalGap::Closed);
 /// Validates a path from its first waypoint to its last.
 fn outcome(drawing: &str, rules: Rules, k: Option<u32>, path: &[(i32, i32)], cost: f64) -> Result<(), Fault> {
     let path: Vec<Vertex> = path.iter().map(|&at| at.into()).collect();
-    let k = k.map(|k| K::new(k).expect("k in a test"));
+    let k = k.map(|k| FiniteK::new(k).expect("k in a test"));
     let grid = AsciiMap::parse(drawing).expect("a drawing in a test").grid;
     validate(&grid, rules, k, path[0], path[path.len() - 1], &path, cost)
 }
@@ -42,7 +42,7 @@ fn accepts_what_is_right() {
 fn names_the_wrong_end() {
     let grid = AsciiMap::parse("...").unwrap().grid;
     let [a, b, c] = [0, 1, 2].map(|x| Vertex::new(x, 0));
-    let k = Some(K::EIGHT_CONNECTED);
+    let k = Some(FiniteK::N8);
     let check = |start, goal, path: &[Vertex], message: &str| {
         check_fault(validate(&grid, NEVER, k, start, goal, path, 1.0), message);
     };
@@ -87,8 +87,7 @@ fn names_the_wrong_step() {
 fn names_the_gap_that_is_crossed() {
     let root = f64::sqrt;
     let map = "#.\n.#";
-    let crossed =
-        "the path crosses the doubly blocked corner (1, 1) or uses a quadrant of it that it may not: ";
+    let crossed = "the path crosses the gap (1, 1) or uses a quadrant of it that it may not: ";
     let through = |path: &[(i32, i32)], k, cost| outcome(map, CLOSED, k, path, cost);
     check_fault(
         through(&[(2, 0), (0, 2)], Some(3), root(8.0)),

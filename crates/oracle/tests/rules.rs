@@ -1,10 +1,10 @@
 //! The rules of motion, each on a map drawn by hand, and what must hold on all maps.
 
-use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Placement, Rules, Vertex};
-use mediant_moves::{K, Vector};
+use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, PlacementKind, Rules, Vertex};
+use mediant_moves::{FiniteK, Vector};
 use mediant_oracle::{
-    Rng, describe, is_doubly_blocked, neighborhood, random_free_vertex, random_grid, segment_is_legal,
-    turn_is_legal, vertex_is_free,
+    Rng, describe, is_gap, neighborhood, random_free_vertex, random_grid, segment_is_legal, turn_is_legal,
+    vertex_is_free,
 };
 
 const OPEN: Rules = Rules::Corner(DiagonalGap::Open);
@@ -114,21 +114,24 @@ fn corners_diagonal_gap() {
 fn free_vertices() {
     let grid = grid("##.\n##.");
     let free = |placement, at| vertex_is_free(&grid, placement, vertex(at));
-    assert!(free(Placement::Center, (2, 1)) && !free(Placement::Center, (1, 1)));
-    assert!(!free(Placement::Center, (3, 0)) && !free(Placement::Center, (-1, 0)));
-    assert!(free(Placement::Corner, (3, 2)) && free(Placement::Corner, (2, 1)));
-    assert!(!free(Placement::Corner, (1, 1)) && !free(Placement::Corner, (0, 0)));
-    assert!(!free(Placement::Corner, (4, 2)) && !free(Placement::Corner, (3, -1)));
+    assert!(free(PlacementKind::Center, (2, 1)) && !free(PlacementKind::Center, (1, 1)));
+    assert!(!free(PlacementKind::Center, (3, 0)) && !free(PlacementKind::Center, (-1, 0)));
+    assert!(free(PlacementKind::Corner, (3, 2)) && free(PlacementKind::Corner, (2, 1)));
+    assert!(!free(PlacementKind::Corner, (1, 1)) && !free(PlacementKind::Corner, (0, 0)));
+    assert!(!free(PlacementKind::Corner, (4, 2)) && !free(PlacementKind::Corner, (3, -1)));
     for extreme in [(i32::MIN, 0), (0, i32::MAX), (i32::MAX, i32::MIN)] {
-        assert!(!free(Placement::Corner, extreme) && !free(Placement::Center, extreme), "{extreme:?}");
+        assert!(
+            !free(PlacementKind::Corner, extreme) && !free(PlacementKind::Center, extreme),
+            "{extreme:?}"
+        );
         assert!(!segment_is_legal(&grid, OPEN, vertex(extreme), Vertex::new(2, 1)));
-        assert!(!is_doubly_blocked(&grid, vertex(extreme)));
+        assert!(!is_gap(&grid, vertex(extreme)));
         assert!(turn_is_legal(&grid, Some(vertex(extreme)), Vertex::new(2, 1), Some(vertex(extreme))));
     }
 }
 
 #[test]
-fn doubly_blocked_corners() {
+fn gaps() {
     for (drawing, expected) in [
         ("#.\n.#", true),
         (".#\n#.", true),
@@ -138,10 +141,10 @@ fn doubly_blocked_corners() {
         ("##\n##", false),
         ("..\n..", false),
     ] {
-        assert_eq!(is_doubly_blocked(&grid(drawing), Vertex::new(1, 1)), expected, "{drawing}");
+        assert_eq!(is_gap(&grid(drawing), Vertex::new(1, 1)), expected, "{drawing}");
     }
     // Outside is blocked on two sides at once, so no border vertex has a gap.
-    assert!(!is_doubly_blocked(&grid("#."), Vertex::new(1, 0)));
+    assert!(!is_gap(&grid("#."), Vertex::new(1, 0)));
 }
 
 #[test]
@@ -186,7 +189,7 @@ fn turns_stay_in_one_free_quadrant() {
 
 #[test]
 fn neighborhoods() {
-    let k = |k| Some(K::new(k).unwrap());
+    let k = |k| Some(FiniteK::new(k).unwrap());
     let sorted = |mut moves: Vec<(i32, i32)>| {
         moves.sort_unstable();
         moves.into_iter().map(Vector::from).collect::<Vec<_>>()
@@ -225,7 +228,7 @@ fn legality_respects_symmetry_and_the_order_of_rules() {
             let Some((a, b)) = draw().zip(draw()) else { continue };
             let context = describe(&grid, rules, a, b, seed);
             let legal = segment_is_legal(&grid, rules, a, b);
-            let last = if rules.placement() == Placement::Center { w - 1 } else { w };
+            let last = if rules.placement() == PlacementKind::Center { w - 1 } else { w };
             let mirror = |v: Vertex| Vertex::new(last - v.x, v.y);
             let transpose = |v: Vertex| Vertex::new(v.y, v.x);
             assert_eq!(segment_is_legal(&grid, rules, b, a), legal, "reversed; {context}");

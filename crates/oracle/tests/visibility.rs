@@ -1,16 +1,16 @@
 //! The visibility graph against Dijkstra on the explicit graph of all legal moves, which assumes nothing about optimal paths.
 
-use mediant_grid::{AsciiMap, DiagonalGap, Grid, Placement, Rules, Vertex};
-use mediant_moves::K;
+use mediant_grid::{AsciiMap, DiagonalGap, Grid, PlacementKind, Rules, Vertex};
+use mediant_moves::FiniteK;
 use mediant_oracle::{
-    Explicit, Rng, Visibility, adversarial, describe, is_doubly_blocked, random_free_vertex, seeds,
-    suite_grid, validate, vertex_is_free,
+    Explicit, Rng, Visibility, adversarial, describe, is_gap, random_free_vertex, seeds, suite_grid,
+    validate, vertex_is_free,
 };
 
 const GAPS: [DiagonalGap; 2] = [DiagonalGap::Open, DiagonalGap::Closed];
 
-fn k(k: u32) -> Option<K> {
-    Some(K::new(k).expect("k in a test"))
+fn k(k: u32) -> Option<FiniteK> {
+    Some(FiniteK::new(k).expect("k in a test"))
 }
 
 fn at(x: i32, y: i32) -> Vertex {
@@ -32,15 +32,15 @@ struct Tally {
     unreachable: u64,
     /// Paths with a bend or more.
     bent: u64,
-    /// Paths that bend at a doubly blocked corner.
+    /// Paths that bend at a gap.
     bent_at_gap: u64,
-    /// Paths under closed gaps that start or end at a doubly blocked corner.
+    /// Paths under closed gaps that start or end at a gap.
     closed_end: u64,
 }
 
 impl Tally {
     /// Compares the costs from `starts` to all free vertices, and checks the paths.
-    fn compare(&mut self, grid: &Grid, gap: DiagonalGap, k: Option<K>, starts: &[Vertex], seed: u64) {
+    fn compare(&mut self, grid: &Grid, gap: DiagonalGap, k: Option<FiniteK>, starts: &[Vertex], seed: u64) {
         let rules = Rules::Corner(gap);
         let explicit = Explicit::new(grid, rules, k);
         let visibility = Visibility::new(grid, gap);
@@ -66,7 +66,7 @@ impl Tally {
         &mut self,
         grid: &Grid,
         gap: DiagonalGap,
-        k: Option<K>,
+        k: Option<FiniteK>,
         path: &[Vertex],
         (start, goal, cost): (Vertex, Vertex, f64),
         context: &dyn Fn() -> String,
@@ -77,14 +77,13 @@ impl Tally {
         assert_eq!(outcome, Ok(()), "{path:?}; {}", context());
         assert!(straight <= cost * (1.0 + 1e-9), "{path:?} is longer than {cost}; {}", context());
         let inner = path.get(1..path.len().saturating_sub(1)).unwrap_or_default();
-        let bends_at_gap = inner.iter().any(|&at| is_doubly_blocked(grid, at));
+        let bends_at_gap = inner.iter().any(|&at| is_gap(grid, at));
         assert!(!bends_at_gap || gap == DiagonalGap::Open, "{path:?}; {}", context());
         self.found += 1;
         self.bent += u64::from(!inner.is_empty());
         self.bent_at_gap += u64::from(bends_at_gap);
-        let closed_end = gap == DiagonalGap::Closed
-            && start != goal
-            && [start, goal].iter().any(|&end| is_doubly_blocked(grid, end));
+        let closed_end =
+            gap == DiagonalGap::Closed && start != goal && [start, goal].iter().any(|&end| is_gap(grid, end));
         self.closed_end += u64::from(closed_end);
     }
 }
@@ -92,7 +91,7 @@ impl Tally {
 fn free_vertices(grid: &Grid) -> Vec<Vertex> {
     let (width, height) = (grid.width() as i32, grid.height() as i32);
     let all = (0..=height).flat_map(|y| (0..=width).map(move |x| at(x, y)));
-    all.filter(|&at| vertex_is_free(grid, Placement::Corner, at)).collect()
+    all.filter(|&at| vertex_is_free(grid, PlacementKind::Corner, at)).collect()
 }
 
 /// Every map of 3 × 3 cells, from every vertex to every other: the smallest maps hold the oddest cases.
@@ -128,7 +127,8 @@ fn exact_on_random_maps() {
         let is_small = grid.width() * grid.height() <= 30;
         let mut starts = free_vertices(&grid);
         if !is_small {
-            starts = (0..6).filter_map(|_| random_free_vertex(&mut rng, &grid, Placement::Corner)).collect();
+            starts =
+                (0..6).filter_map(|_| random_free_vertex(&mut rng, &grid, PlacementKind::Corner)).collect();
         }
         for gap in GAPS {
             for k in [k(2), k(3), k(4), k(5), k(6), None] {
@@ -162,7 +162,7 @@ fn exact_on_empty_maps_for_larger_k() {
 }
 
 /// Checks the cost from `start` to `goal` on a drawing, both ways, under gap rules open and closed.
-fn check(drawing: &str, (start, goal): (Vertex, Vertex), k: Option<K>, expected: [Option<f64>; 2]) {
+fn check(drawing: &str, (start, goal): (Vertex, Vertex), k: Option<FiniteK>, expected: [Option<f64>; 2]) {
     let grid = AsciiMap::parse(drawing).expect("a drawing in a test").grid;
     for (gap, expected) in GAPS.into_iter().zip(expected) {
         let visibility = Visibility::new(&grid, gap);
@@ -238,7 +238,7 @@ fn known_costs_at_gaps() {
     check(".#.\n#.#\n.#.", (at(1, 1), at(2, 1)), None, [Some(1.0), None]);
 }
 
-/// From one corner of a cell to the opposite one, the others being doubly blocked: N(2) has to touch one of these, though it is no
+/// From one corner of a cell to the opposite one, the others being gaps: N(2) has to touch one of these, though it is no
 /// vertex of the graph under closed gaps.
 #[test]
 fn four_connected_costs_lead_past_a_closed_gap() {
@@ -249,7 +249,7 @@ fn four_connected_costs_lead_past_a_closed_gap() {
     assert_eq!(Visibility::new(&grid, DiagonalGap::Closed).corners(), []);
     let explicit = Explicit::new(&grid, Rules::Corner(DiagonalGap::Closed), k(2));
     let path = explicit.costs_from(at(1, 1)).path_to(at(2, 2)).expect("there is a path");
-    assert!(is_doubly_blocked(&grid, path[1]), "{path:?}");
+    assert!(is_gap(&grid, path[1]), "{path:?}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Figures: pictures of each kind, and what holds for all of them, on seeded random ones.
 
 use mediant_grid::{AsciiMap, Grid};
-use mediant_moves::{DecompositionTree, K, Vector};
+use mediant_moves::{DecompositionTree, FiniteK, Vector};
 use mediant_report::{Axis, Chart, GridDrawing, Mark, Scale, Series, TreeDrawing};
 
 /// SplitMix64.
@@ -206,7 +206,8 @@ fn small_chart() -> Chart {
 }
 
 fn tree(v: (i32, i32), k: u32) -> DecompositionTree {
-    DecompositionTree::new(Vector::new(v.0, v.1), K::new(k).expect("a k")).expect("a move of level k or more")
+    DecompositionTree::new(Vector::new(v.0, v.1), FiniteK::new(k).expect("a k"))
+        .expect("a move of level k or more")
 }
 
 fn small_map() -> Grid {
@@ -457,7 +458,7 @@ fn every_map_is_whole() {
 fn every_tree_is_whole() {
     for v in [(1, 0), (0, -1), (-7, 5), (13, 8), (60, 1), (-1, -90)] {
         let trees: Vec<DecompositionTree> = (2..=9)
-            .filter_map(|k| DecompositionTree::new(Vector::new(v.0, v.1), K::new(k).expect("a k")))
+            .filter_map(|k| DecompositionTree::new(Vector::new(v.0, v.1), FiniteK::new(k).expect("a k")))
             .collect();
         assert!(!trees.is_empty(), "{v:?} is a move");
         let drawing = trees.iter().fold(TreeDrawing::new("t"), |drawing, tree| drawing.tree("level", tree));

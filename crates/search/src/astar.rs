@@ -5,54 +5,54 @@
 
 use std::ops::Deref;
 
-use mediant_grid::{Lattice, Place, Vertex, VertexId};
+use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
 use mediant_moves::Cost;
 
 use crate::{
-    Arrival, BestFirst, Distances, Heuristic, Observer, Path, Query, QueryError, Successor, Successors, Zero,
-    distances::end_at_gaps,
+    BestFirst, Distances, ExpandedNode, Heuristic, Observer, Path, Query, QueryError, Successor, Successors,
+    Zero, distances::end_at_gaps,
 };
 
-/// A* on a lattice.
+/// A* on a grid graph.
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_grid::{AsciiMap, Centers, CornerRule, Lattice};
-/// use mediant_moves::K;
-/// use mediant_search::{AStar, LatticeDistance, Planner, Query};
+/// use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph};
+/// use mediant_moves::FiniteK;
+/// use mediant_search::{AStar, Hk, Planner, Query};
 ///
 /// let map = AsciiMap::parse("
 ///     ....
 ///     .##.
 ///     ....
 /// ")?;
-/// let lattice = Lattice::<Centers>::new(Arc::new(map.grid), K::new(3)?, CornerRule::Never)?;
-/// let mut planner = AStar::new(&lattice, LatticeDistance);
+/// let graph = GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::new(3)?, CornerRule::Never)?;
+/// let mut planner = AStar::new(&graph, Hk);
 /// let outcome = planner.solve(Query::new((0, 1), (3, 1)))?;
 /// assert_eq!(outcome.path().map(|path| path.cost()), Some(5.0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// `L` is how the planner holds its lattice: by reference, or, where both belong in one struct, by `Arc`. Its scratch memory takes 16
+/// `L` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`. Its scratch memory takes 16
 /// bytes a vertex.
 pub type AStar<L, H> = BestFirst<L, H, AllMoves>;
 
 /// Dijkstra's algorithm (1959): A* without a heuristic.
 pub type Dijkstra<L> = AStar<L, Zero>;
 
-impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> AStar<L, H> {
-    /// A planner with scratch memory for `lattice`.
+impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> AStar<L, H> {
+    /// A planner with scratch memory for `graph`.
     #[must_use]
-    pub fn new(lattice: L, heuristic: H) -> Self {
-        Self::with(lattice, heuristic, AllMoves)
+    pub fn new(graph: L, heuristic: H) -> Self {
+        Self::with(graph, heuristic, AllMoves)
     }
 
     /// Goes on on another map, with the scratch memory if that has as many vertices.
-    pub fn set_lattice(&mut self, lattice: L) {
-        if lattice.vertex_count() == self.lattice.vertex_count() {
-            self.lattice = lattice;
+    pub fn set_graph(&mut self, graph: L) {
+        if graph.vertex_count() == self.graph.vertex_count() {
+            self.graph = graph;
         } else {
-            *self = Self::new(lattice, self.heuristic);
+            *self = Self::new(graph, self.heuristic);
         }
     }
 
@@ -69,7 +69,7 @@ impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> AStar<L, H> {
         observer: &mut impl Observer,
     ) -> Result<bool, QueryError> {
         let Some(&start) = path.last() else { return Ok(false) };
-        let Some((start, goal)) = Query::new(start, goal).ends(&self.lattice)? else { return Ok(false) };
+        let Some((start, goal)) = Query::new(start, goal).ends(&self.graph)? else { return Ok(false) };
         // The last move costs what h_k says of it, so that no path beyond the limit comes as far as the goal.
         let found = self.search(start, Some(goal), limit, observer);
         if found {
@@ -88,27 +88,27 @@ impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> AStar<L, H> {
         limit: Cost,
         observer: &mut impl Observer,
     ) -> Result<Option<Path>, QueryError> {
-        query.check(&self.lattice)?;
+        query.check(&self.graph)?;
         let mut path = vec![query.start];
         Ok(self.extend(&mut path, query.goal, limit, observer)?.then(|| Path::new(path)))
     }
 }
 
-impl<P: Place, L: Deref<Target = Lattice<P>>> Dijkstra<L> {
+impl<P: Placement, L: Deref<Target = GridGraph<P>>> Dijkstra<L> {
     /// What it costs to come from `start` to every vertex.
     ///
     /// # Errors
     /// [`QueryError`] when the start is blocked or outside the map.
     pub fn distances(&mut self, start: Vertex) -> Result<Distances<Cost>, QueryError> {
-        Query::new(start, start).check(&self.lattice)?;
-        if let Some(id) = self.lattice.id(start) {
+        Query::new(start, start).check(&self.graph)?;
+        if let Some(id) = self.graph.id(start) {
             self.search(id, None, Cost::MAX, &mut ());
         }
-        let ids = (0..self.lattice.vertex_count() as u32).map(VertexId);
+        let ids = (0..self.graph.vertex_count() as u32).map(VertexId);
         let mut costs: Vec<Option<Cost>> = ids.map(|id| self.cost_to(id)).collect();
         let arrived_by = |id| self.arrived_by(id);
-        end_at_gaps(&self.lattice, start, &mut costs, arrived_by, |cost, step| cost + step.cost);
-        Ok(Distances::new(P::vertices(self.lattice.grid()).0, costs))
+        end_at_gaps(&self.graph, start, &mut costs, arrived_by, |cost, step| cost + step.cost);
+        Ok(Distances::new(P::vertices(self.graph.grid()).0, costs))
     }
 }
 
@@ -116,20 +116,20 @@ impl<P: Place, L: Deref<Target = Lattice<P>>> Dijkstra<L> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct AllMoves;
 
-impl<P: Place> Successors<P> for AllMoves {
-    type Link = ();
+impl<P: Placement> Successors<P> for AllMoves {
+    type ParentPointer = ();
 
     const FREE: bool = true;
 
     #[inline]
     fn for_each(
         &self,
-        lattice: &Lattice<P>,
-        node: Arrival,
+        graph: &GridGraph<P>,
+        node: ExpandedNode,
         goal: Vertex,
         mut visit: impl FnMut(Successor),
     ) -> u32 {
-        lattice.for_each_successor(node.at, node.by, goal, move |by| visit(node.step(lattice, by)));
+        graph.for_each_successor(node.at, node.by, goal, move |by| visit(node.step(graph, by)));
         0
     }
 }

@@ -1,26 +1,26 @@
-//! The search loop that all lattice engines share.
+//! The search loop that all grid graph engines share.
 
 use std::ops::Deref;
 
-use mediant_grid::{Lattice, Place, Vertex, VertexId};
+use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
 use mediant_moves::Cost;
 
 use crate::{
-    Arrival, Entry, Guarantee, Heuristic, Link, Node, NodeEvent, NodeStore, Observer, OpenList, Outcome,
-    Path, Planner, Query, QueryError, Successor, Successors, path::extend_back,
+    Entry, ExpandedNode, Guarantee, Heuristic, Node, NodeEvent, NodeStore, Observer, OpenList, Outcome,
+    ParentPointer, Path, Planner, Query, QueryError, Successor, Successors, path::extend_back,
 };
 
-/// Best-first search on a lattice: takes the node of least f = g + h from the open list until that is the goal.
+/// Best-first search on a grid graph: takes the node of least f = g + h from the open list until that is the goal.
 ///
 /// What a node's successors are is `S`'s to say. A cheaper path to a closed node reopens it, so a search with all successors is
 /// optimal with every heuristic that never overestimates, consistent or not. With one that does overestimate it would cost much and promise nothing: then closed nodes stay
 /// closed, unless how a node was reached decides where it leads, so that a path might be missed.
 ///
-/// `L` is how the planner holds its lattice: by reference, or, where both belong in one struct, by `Arc`. `N` is what a node keeps of its
+/// `L` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`. `N` is what a node keeps of its
 /// parent.
 #[derive(Clone, Debug)]
 pub struct BestFirst<L, H, S, N = ()> {
-    pub(crate) lattice: L,
+    pub(crate) graph: L,
     pub(crate) heuristic: H,
     pub(crate) successors: S,
     nodes: NodeStore<N>,
@@ -29,23 +29,23 @@ pub struct BestFirst<L, H, S, N = ()> {
 
 impl<P, L, H, S, N> BestFirst<L, H, S, N>
 where
-    P: Place,
-    L: Deref<Target = Lattice<P>>,
+    P: Placement,
+    L: Deref<Target = GridGraph<P>>,
     H: Heuristic,
-    S: Successors<P, Link = N>,
-    N: Link,
+    S: Successors<P, ParentPointer = N>,
+    N: ParentPointer,
 {
-    /// A planner with scratch memory for `lattice`.
-    pub(crate) fn with(lattice: L, heuristic: H, successors: S) -> Self {
-        let nodes = NodeStore::new(lattice.vertex_count());
-        Self { lattice, heuristic, successors, nodes, open: OpenList::default() }
+    /// A planner with scratch memory for `graph`.
+    pub(crate) fn with(graph: L, heuristic: H, successors: S) -> Self {
+        let nodes = NodeStore::new(graph.vertex_count());
+        Self { graph, heuristic, successors, nodes, open: OpenList::default() }
     }
 
     /// Makes the start the only node that is known.
     fn begin(&mut self, start: VertexId, goal_at: Vertex, observer: &mut impl Observer) {
-        let Self { lattice, heuristic, nodes, open, .. } = self;
-        let at = lattice.vertex(start);
-        let h = heuristic.estimate(lattice, at.to(goal_at));
+        let Self { graph, heuristic, nodes, open, .. } = self;
+        let at = graph.vertex(start);
+        let h = heuristic.estimate(graph, at.to(goal_at));
         nodes.start_search();
         open.clear();
         nodes.set_path(start, Cost::ZERO, 0, N::to(start));
@@ -63,11 +63,11 @@ where
         observer: &mut impl Observer,
     ) -> bool {
         // No move leads to a vertex outside the map.
-        let goal_at = goal.map_or(Vertex::new(-1, -1), |goal| self.lattice.vertex(goal));
+        let goal_at = goal.map_or(Vertex::new(-1, -1), |goal| self.graph.vertex(goal));
         self.begin(start, goal_at, observer);
-        let Self { lattice, heuristic, successors, nodes, open } = self;
-        let (lattice, heuristic, successors): (&Lattice<P>, &H, &S) = (lattice, heuristic, successors);
-        let reopens = H::ADMISSIBLE || !S::FREE || lattice.has_gaps();
+        let Self { graph, heuristic, successors, nodes, open } = self;
+        let (graph, heuristic, successors): (&GridGraph<P>, &H, &S) = (graph, heuristic, successors);
+        let reopens = H::ADMISSIBLE || !S::FREE || graph.has_closed_gaps();
 
         while let Some((entry, swaps)) = open.pop(|id, slot| nodes.set_slot(id, slot)) {
             observer.percolated(swaps);
@@ -77,12 +77,12 @@ where
             }
             nodes.set_slot(id, Node::<N>::CLOSED);
             let Some(&node) = nodes.get(id) else { continue };
-            let at = lattice.vertex(id);
-            if limit != Cost::MAX && node.g + lattice.costs().distance(at.to(goal_at)) > limit {
+            let at = graph.vertex(id);
+            if limit != Cost::MAX && node.g + graph.costs().distance(at.to(goal_at)) > limit {
                 continue;
             }
             let by = (id != start).then(|| node.arrived_by());
-            let parent = by.map(|by| node.link.parent(lattice, lattice.step(by), id, at).1);
+            let parent = by.map(|by| node.link.parent(graph, graph.step(by), id, at).1);
             observer.expanded(NodeEvent { at, parent, g: node.g, f: entry.f() });
 
             let (nodes, open, watcher) = (&mut *nodes, &mut *open, &mut *observer);
@@ -90,12 +90,12 @@ where
             let relax = move |next: Successor| {
                 let g = node.g + next.cost;
                 let event = |f| NodeEvent { at: next.at, parent: Some(at), g, f };
-                let estimate = || heuristic.estimate(lattice, next.at.to(goal_at));
+                let estimate = || heuristic.estimate(graph, next.at.to(goal_at));
                 match nodes.get(next.id) {
                     Some(known) if !reopens && known.slot == Node::<N>::CLOSED => {}
                     Some(known)
                         if known.g < g
-                            || known.g == g && !successors.prefers(lattice, next.by, known.arrived_by()) => {}
+                            || known.g == g && !successors.prefers(graph, next.by, known.arrived_by()) => {}
                     Some(&known) => {
                         let gain = known.g - g;
                         nodes.set_path(next.id, g, next.by, N::to(id));
@@ -119,20 +119,24 @@ where
                     }
                 }
             };
-            let scanned = successors.for_each(lattice, Arrival { id, at, by }, goal_at, relax);
+            let scanned = successors.for_each(graph, ExpandedNode { id, at, by }, goal_at, relax);
             observer.scanned(scanned);
         }
         false
     }
 }
 
-impl<L, H, S, N: Link> BestFirst<L, H, S, N> {
+impl<L, H, S, N: ParentPointer> BestFirst<L, H, S, N> {
     /// Adds the best known path to a goal after a search, but for its start.
-    pub(crate) fn extend_back<P: Place>(&self, start: VertexId, goal: VertexId, waypoints: &mut Vec<Vertex>)
-    where
-        L: Deref<Target = Lattice<P>>,
+    pub(crate) fn extend_back<P: Placement>(
+        &self,
+        start: VertexId,
+        goal: VertexId,
+        waypoints: &mut Vec<Vertex>,
+    ) where
+        L: Deref<Target = GridGraph<P>>,
     {
-        extend_back(&self.lattice, &self.nodes, start, goal, waypoints);
+        extend_back(&self.graph, &self.nodes, start, goal, waypoints);
     }
 
     /// The cost of the best known path to a vertex after a search.
@@ -148,14 +152,14 @@ impl<L, H, S, N: Link> BestFirst<L, H, S, N> {
 
 impl<P, L, H, S, N> Planner for BestFirst<L, H, S, N>
 where
-    P: Place,
-    L: Deref<Target = Lattice<P>>,
+    P: Placement,
+    L: Deref<Target = GridGraph<P>>,
     H: Heuristic,
-    S: Successors<P, Link = N>,
-    N: Link,
+    S: Successors<P, ParentPointer = N>,
+    N: ParentPointer,
 {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        let Some((start, goal)) = query.ends(&self.lattice)? else { return Ok(Outcome::Unreachable) };
+        let Some((start, goal)) = query.ends(&self.graph)? else { return Ok(Outcome::Unreachable) };
         let mut found = self.search(start, Some(goal), Cost::MAX, observer);
         if !found && self.successors.widen(true) {
             found = self.search(start, Some(goal), Cost::MAX, observer);
@@ -164,10 +168,10 @@ where
         if !found {
             return Ok(Outcome::Unreachable);
         }
-        Ok(Outcome::Found(Path::trace_back(&self.lattice, &self.nodes, start, goal)))
+        Ok(Outcome::Found(Path::trace_back(&self.graph, &self.nodes, start, goal)))
     }
 
     fn guarantee(&self) -> Guarantee {
-        if H::ADMISSIBLE { self.successors.guarantee(&self.lattice) } else { Guarantee::Suboptimal }
+        if H::ADMISSIBLE { self.successors.guarantee(&self.graph) } else { Guarantee::Suboptimal }
     }
 }

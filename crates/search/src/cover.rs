@@ -1,6 +1,6 @@
 //! The cells that a convex polygon meets, row by row, and which of them are blocked.
 
-use mediant_grid::{BitRow, Grid, Place, Placement, Vertex};
+use mediant_grid::{BitRow, Grid, Placement, PlacementKind, Vertex};
 
 /// The cells that a convex polygon between vertices meets: at corners those whose open interior its own meets, at centers those that it touches
 /// at all.
@@ -19,7 +19,7 @@ pub(crate) struct Cover {
 impl Cover {
     /// Covers the polygon, not a flat one, that has these edges and fills the box from `low` to `high`. Lines within the polygon may be
     /// among the edges, and edges along an axis may be missing.
-    pub(crate) fn set<P: Place>(&mut self, low: Vertex, high: Vertex, edges: &[[Vertex; 2]]) {
+    pub(crate) fn set<P: Placement>(&mut self, low: Vertex, high: Vertex, edges: &[[Vertex; 2]]) {
         self.transposed = high.y - low.y > high.x - low.x;
         let (first, last) = if self.transposed { (low.x, high.x) } else { (low.y, high.y) };
         self.top = first;
@@ -36,7 +36,7 @@ impl Cover {
     }
 
     /// Adds the cells along the edge from a down to b.
-    fn add_edge<P: Place>(&mut self, a: (i32, i32), b: (i32, i32)) {
+    fn add_edge<P: Placement>(&mut self, a: (i32, i32), b: (i32, i32)) {
         let (dx, dy) = (2 * (b.0 - a.0), 2 * (b.1 - a.1));
         // From a row to the next one it is two half cells, but at centers the edge begins and ends half way.
         let [one, two] = [dx, 2 * dx].map(|dx| (dx.div_euclid(dy), dx.rem_euclid(dy)));
@@ -51,9 +51,9 @@ impl Cover {
             let (low, high) = if dx >= 0 { ((x, rest), next) } else { (next, (x, rest)) };
             // ⌈x / 2⌉ is ⌊x / 2⌋ for even integers only.
             let ceil = |(x, rest): (i32, i32)| (x >> 1) + i32::from(x & 1 == 1 || rest > 0);
-            let (first, last) = match P::PLACEMENT {
-                Placement::Corner => (low.0 >> 1, ceil(high) - 1),
-                Placement::Center => (ceil(low) - 1, high.0 >> 1),
+            let (first, last) = match P::KIND {
+                PlacementKind::Corner => (low.0 >> 1, ceil(high) - 1),
+                PlacementKind::Center => (ceil(low) - 1, high.0 >> 1),
             };
             let row = &mut self.rows[((y >> 1) - self.top) as usize];
             *row = (row.0.min(first), row.1.max(last));
@@ -69,7 +69,7 @@ impl Cover {
 
     /// Vertices around the first and the last blocked cell of each row: at corners the two outer corners of each, the hull of which is that of all
     /// blocked cells; at centers the cells around both.
-    pub(crate) fn extremes<P: Place>(&self, grid: &Grid) -> impl Iterator<Item = Vertex> {
+    pub(crate) fn extremes<P: Placement>(&self, grid: &Grid) -> impl Iterator<Item = Vertex> {
         let ends = self.rows(grid).filter_map(|(y, row, first, last)| {
             let blocked = row.first_blocked(first, last + 1);
             (blocked <= last).then(|| (y, blocked, row.run_start(last + 1, first) - 1))
@@ -91,10 +91,10 @@ impl Cover {
 }
 
 /// In half cells, how far a vertex is from the corner of its cell.
-const fn half<P: Place>() -> i32 {
-    match P::PLACEMENT {
-        Placement::Corner => 0,
-        Placement::Center => 1,
+const fn half<P: Placement>() -> i32 {
+    match P::KIND {
+        PlacementKind::Corner => 0,
+        PlacementKind::Center => 1,
     }
 }
 
@@ -106,7 +106,7 @@ mod tests {
     use super::*;
 
     /// Whether the triangle and cell (x, y) meet, by separating lines, in half cells: at corners their interiors, at centers both with their rims.
-    fn meets<P: Place>(triangle: [Vertex; 3], x: i32, y: i32) -> bool {
+    fn meets<P: Placement>(triangle: [Vertex; 3], x: i32, y: i32) -> bool {
         let t = triangle.map(|at| (i64::from(2 * at.x + half::<P>()), i64::from(2 * at.y + half::<P>())));
         let (x, y) = (i64::from(2 * x), i64::from(2 * y));
         let square = [(x, y), (x + 2, y), (x, y + 2), (x + 2, y + 2)];
@@ -118,14 +118,14 @@ mod tests {
                 (along.clone().min().expect("a point"), along.max().expect("a point"))
             };
             let (one, other) = (range(&t), range(&square));
-            match P::PLACEMENT {
-                Placement::Corner => one.0 < other.1 && other.0 < one.1,
-                Placement::Center => one.0 <= other.1 && other.0 <= one.1,
+            match P::KIND {
+                PlacementKind::Corner => one.0 < other.1 && other.0 < one.1,
+                PlacementKind::Center => one.0 <= other.1 && other.0 <= one.1,
             }
         })
     }
 
-    fn check<P: Place>(seed: u64) -> [usize; 2] {
+    fn check<P: Placement>(seed: u64) -> [usize; 2] {
         let (grid, _) = random_grid(seed);
         let (width, height) = P::vertices(&grid);
         let mut rng = Rng::new(seed ^ 0xC0);

@@ -1,6 +1,6 @@
 //! How far it is from one vertex to all others.
 
-use mediant_grid::{DiagonalGap, Lattice, Place, Rules, Step, Vertex, VertexId};
+use mediant_grid::{DiagonalGap, GridGraph, Placement, Rules, Step, Vertex, VertexId};
 
 /// A distance for every vertex that can be reached from a start: a cost or a number of moves.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -11,7 +11,7 @@ pub struct Distances<T> {
 }
 
 impl<T: Copy> Distances<T> {
-    /// The distances by vertex number, on a lattice with `width` vertices in a row.
+    /// The distances by vertex number, on a grid graph with `width` vertices in a row.
     pub(crate) fn new(width: u32, values: Vec<Option<T>>) -> Self {
         debug_assert!(width > 0 && values.len().is_multiple_of(width as usize), "rows of {width} vertices");
         Self { width, values: values.into_boxed_slice() }
@@ -51,29 +51,29 @@ impl<T: Copy> Distances<T> {
 /// Of such a vertex a search without a goal knows at most how to pass it. A path ends there through the quadrant of the
 /// vertex's own cell; its last move comes from a vertex that the search knows. `values` are the search's distances by
 /// vertex number, `arrived_by` the move by which it reached a vertex other than the start, `extended` a distance longer by one move.
-pub(crate) fn end_at_gaps<P: Place, T: Copy + Ord>(
-    lattice: &Lattice<P>,
+pub(crate) fn end_at_gaps<P: Placement, T: Copy + Ord>(
+    graph: &GridGraph<P>,
     start: Vertex,
     values: &mut [Option<T>],
     arrived_by: impl Fn(VertexId) -> usize,
     extended: impl Fn(T, &Step) -> T,
 ) {
-    if lattice.rules() != Rules::Corner(DiagonalGap::Closed) {
+    if graph.rules() != Rules::Corner(DiagonalGap::Closed) {
         return;
     }
-    let grid = lattice.grid();
+    let grid = graph.grid();
     let last_move = |at: Vertex, id: VertexId| {
         let mut best = None;
-        lattice.for_each_legal_move(at, |index| {
-            let back = lattice.step(index);
+        graph.for_each_legal_move(at, |index| {
+            let back = graph.step(index);
             let (v, from) = (back.vector(), at + back.vector());
             let in_own_quadrant = v.x >= 0 && v.y >= 0 && grid.is_free(at.x, at.y);
             let Some(known) = values[back.target(id).index()].filter(|_| in_own_quadrant) else { return };
-            let mut may = !grid.is_double_corner(from);
+            let mut may = !grid.is_gap(from);
             if !may {
                 let arrived_by = (from != start).then(|| arrived_by(back.target(id)));
-                lattice.for_each_successor(from, arrived_by, at, |index| {
-                    may |= from + lattice.step(index).vector() == at;
+                graph.for_each_successor(from, arrived_by, at, |index| {
+                    may |= from + graph.step(index).vector() == at;
                 });
             }
             let length = may.then(|| extended(known, back));
@@ -81,8 +81,8 @@ pub(crate) fn end_at_gaps<P: Place, T: Copy + Ord>(
         });
         best
     };
-    let gaps = (0..values.len() as u32).map(VertexId).map(|id| (lattice.vertex(id), id));
-    let gaps = gaps.filter(|&(at, _)| at != start && grid.is_double_corner(at));
+    let gaps = (0..values.len() as u32).map(VertexId).map(|id| (graph.vertex(id), id));
+    let gaps = gaps.filter(|&(at, _)| at != start && grid.is_gap(at));
     // Not one by one in place: a gap may be passed on the way to the next.
     let ends: Vec<_> = gaps.map(|(at, id)| (id, last_move(at, id))).collect();
     for (id, value) in ends {

@@ -1,26 +1,26 @@
 //! Estimates of the cost to the goal: lower bounds, and one that is none.
 
-use mediant_grid::{Lattice, Place, Vector};
+use mediant_grid::{GridGraph, Placement, Vector};
 use mediant_moves::Cost;
 
-/// An estimate of what a path over N(k) costs, in the lattice's fixed-point costs, from the displacement to the goal alone.
+/// An estimate of what a path over N(k) costs, in the grid graph's fixed-point costs, from the displacement to the goal alone.
 pub trait Heuristic: Copy {
     /// Whether it is a lower bound, so that A* with it is optimal.
     const ADMISSIBLE: bool = true;
 
     /// The estimate for a displacement.
-    fn estimate<P: Place>(self, lattice: &Lattice<P>, to_goal: Vector) -> Cost;
+    fn estimate<P: Placement>(self, graph: &GridGraph<P>, to_goal: Vector) -> Cost;
 }
 
 /// h_k, the cost on an empty grid (Rivera 2017, 'The 2^k-Tile Heuristic'): the best bound that knows no obstacle, and
 /// consistent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct LatticeDistance;
+pub struct Hk;
 
-impl Heuristic for LatticeDistance {
+impl Heuristic for Hk {
     #[inline]
-    fn estimate<P: Place>(self, lattice: &Lattice<P>, to_goal: Vector) -> Cost {
-        lattice.costs().distance(to_goal)
+    fn estimate<P: Placement>(self, graph: &GridGraph<P>, to_goal: Vector) -> Cost {
+        graph.costs().distance(to_goal)
     }
 }
 
@@ -33,7 +33,7 @@ pub struct Euclidean;
 
 impl Heuristic for Euclidean {
     #[inline]
-    fn estimate<P: Place>(self, _: &Lattice<P>, to_goal: Vector) -> Cost {
+    fn estimate<P: Placement>(self, _: &GridGraph<P>, to_goal: Vector) -> Cost {
         const ONE: f64 = (1_u64 << Cost::FRACTION_BITS) as f64;
         // Exact up to the root, which IEEE 754 rounds alike everywhere; the product loses at most one part in 2⁵².
         Cost::from_bits((to_goal.norm() * (ONE - 1.0)) as u64)
@@ -51,7 +51,7 @@ impl Heuristic for SquaredEuclidean {
     const ADMISSIBLE: bool = false;
 
     #[inline]
-    fn estimate<P: Place>(self, _: &Lattice<P>, to_goal: Vector) -> Cost {
+    fn estimate<P: Placement>(self, _: &GridGraph<P>, to_goal: Vector) -> Cost {
         // On the largest map 2³¹ cells, to which a path adds less than 2³¹: their sum does not overflow.
         Cost::from_bits(to_goal.norm_squared() << Cost::FRACTION_BITS)
     }
@@ -63,7 +63,7 @@ pub struct Zero;
 
 impl Heuristic for Zero {
     #[inline]
-    fn estimate<P: Place>(self, _: &Lattice<P>, _: Vector) -> Cost {
+    fn estimate<P: Placement>(self, _: &GridGraph<P>, _: Vector) -> Cost {
         Cost::ZERO
     }
 }

@@ -1,6 +1,6 @@
 //! Search engines on the 2^k neighborhoods of a grid.
 //!
-//! Every engine is a [`Planner`]: it borrows an immutable [`Lattice`](mediant_grid::Lattice), owns its scratch memory, and answers
+//! Every engine is a [`Planner`]: it borrows an immutable [`GridGraph`](mediant_grid::GridGraph), owns its scratch memory, and answers
 //! [`Query`] after [`Query`] with an [`Outcome`] that it stands behind by a [`Guarantee`].
 //!
 //! **The key decision: costs are integers.** Open lists compare fixed-point sums ([`Cost`](mediant_moves::Cost)), so equal paths are
@@ -21,13 +21,13 @@ mod cover;
 mod distances;
 mod heuristic;
 mod jps;
-mod labels;
 mod nodes;
 mod observer;
 mod open_list;
 mod path;
 mod planner;
 mod query;
+mod search_tree;
 mod segment;
 mod smoothing;
 mod successors;
@@ -36,23 +36,26 @@ mod wavefront;
 
 pub use anya::Anya;
 pub use astar::{AStar, AllMoves, Dijkstra};
-pub use beams::{Bands, Fan, Quadrants, Targets};
+pub use beams::{Quadrants, RowSummary, Targets, VisibilitySweep};
 pub use best_first::BestFirst;
-pub use canonical::{Canonical, CanonicalMoves, CanonicalRule, PaperCanonical, PaperMoves, Pruning, View};
-pub use distances::Distances;
-pub use heuristic::{Euclidean, Heuristic, LatticeDistance, SquaredEuclidean, Zero};
-pub use jps::{
-    BlockJps, Blocks, Course, Jps, JpsPlus, JumpMoves, JumpTable, JumpTableError, Jumping, Locator, Walk,
+pub use canonical::{
+    Canonical, CanonicalMoves, CanonicalRule, LocalRule, PaperCanonical, PaperMoves, Pruning,
 };
-pub use labels::Labels;
+pub use distances::Distances;
+pub use heuristic::{Euclidean, Heuristic, Hk, SquaredEuclidean, Zero};
+pub use jps::{
+    BlockJps, Blocks, Jps, JpsPlus, JumpContext, JumpFinder, JumpMoves, JumpTable, JumpTableError, Jumping,
+    Walk,
+};
 pub use nodes::{Node, NodeStore};
 pub use observer::{Counters, NodeEvent, Observer};
 pub use open_list::{Entry, OpenList};
 pub use path::{Guarantee, Outcome, Path};
 pub use planner::Planner;
 pub use query::{End, Query, QueryError};
+pub use search_tree::SearchTree;
 pub use segment::segment_cost;
-pub use smoothing::{OnTerrain, Smoothed, Smoothing, pull_taut, smooth};
-pub use successors::{Arrival, Link, Successor, Successors};
+pub use smoothing::{HasFreeSpace, Smoothed, Smoothing, pull_taut, smooth};
+pub use successors::{ExpandedNode, ParentPointer, Successor, Successors};
 pub use theta::{AtOnce, Lazily, LazyThetaStar, SightCheck, Theta, ThetaStar};
 pub use wavefront::Wavefront;

@@ -1,9 +1,9 @@
 //! What a search remembers of each vertex, without clearing it between searches.
 
-use mediant_grid::{Centers, Lattice, VertexId};
+use mediant_grid::{Centers, GridGraph, VertexId};
 use mediant_moves::Cost;
 
-use crate::Link;
+use crate::ParentPointer;
 
 /// A search node: 16 bytes, so that four share a cache line, and what it keeps of its parent, `N`.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +19,7 @@ pub struct Node<N = ()> {
 }
 
 const _: () = assert!(size_of::<Node>() == 16);
-const _: () = assert!(Node::<()>::MOVE_BITS >= Lattice::<Centers>::MAX_K);
+const _: () = assert!(Node::<()>::MOVE_BITS >= GridGraph::<Centers>::MAX_K);
 
 impl<N> Node<N> {
     /// The slot of a node that is in no open list.
@@ -44,7 +44,7 @@ pub struct NodeStore<N = ()> {
     generation: u32,
 }
 
-impl<N: Link> NodeStore<N> {
+impl<N: ParentPointer> NodeStore<N> {
     /// A store for vertex ids below `len`, in which no node is known.
     #[must_use]
     pub fn new(len: usize) -> Self {
@@ -74,7 +74,7 @@ impl<N: Link> NodeStore<N> {
     pub fn set_path(&mut self, id: VertexId, g: Cost, arrived_by: usize, link: N) {
         debug_assert!(
             arrived_by < 1 << Node::<N>::MOVE_BITS,
-            "no move of any lattice has the index {arrived_by}"
+            "no move of any graph has the index {arrived_by}"
         );
         let node = &mut self.nodes[id.index()];
         node.g = g;

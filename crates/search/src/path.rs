@@ -1,9 +1,9 @@
 //! What a search returns.
 
-use mediant_grid::{CornerRule, Lattice, Place, Rules, Vector, Vertex, VertexId};
-use mediant_moves::{BOUND_WITHOUT_CORNER_CUTTING, K, bound_at_centers, bound_at_corners, decompose};
+use mediant_grid::{CornerRule, GridGraph, Placement, Rules, Vector, Vertex, VertexId};
+use mediant_moves::{BOUND_WITHOUT_CORNER_CUTTING, FiniteK, bound_at_centers, bound_at_corners, decompose};
 
-use crate::{Link, NodeStore};
+use crate::{NodeStore, ParentPointer};
 
 /// A path by its waypoints, with its length.
 ///
@@ -25,16 +25,16 @@ impl Path {
     }
 
     /// The path that a search found. Allocates nothing else.
-    pub(crate) fn trace_back<P: Place, N: Link>(
-        lattice: &Lattice<P>,
+    pub(crate) fn trace_back<P: Placement, N: ParentPointer>(
+        graph: &GridGraph<P>,
         nodes: &NodeStore<N>,
         start: VertexId,
         goal: VertexId,
     ) -> Self {
-        let turns = LegsBack::new(lattice, nodes, start, goal).turns().count();
+        let turns = LegsBack::new(graph, nodes, start, goal).turns().count();
         let mut waypoints = Vec::with_capacity(turns + 1);
-        waypoints.push(lattice.vertex(start));
-        extend_back(lattice, nodes, start, goal, &mut waypoints);
+        waypoints.push(graph.vertex(start));
+        extend_back(graph, nodes, start, goal, &mut waypoints);
         Self::new(waypoints)
     }
 
@@ -80,30 +80,30 @@ impl Path {
 }
 
 /// Adds the waypoints after the start of the path that a search found, told from the goal back by its nodes. A waypoint stands where the direction changes.
-pub(crate) fn extend_back<P: Place, N: Link>(
-    lattice: &Lattice<P>,
+pub(crate) fn extend_back<P: Placement, N: ParentPointer>(
+    graph: &GridGraph<P>,
     nodes: &NodeStore<N>,
     start: VertexId,
     goal: VertexId,
     waypoints: &mut Vec<Vertex>,
 ) {
     let first = waypoints.len();
-    waypoints.extend(LegsBack::new(lattice, nodes, start, goal).turns());
+    waypoints.extend(LegsBack::new(graph, nodes, start, goal).turns());
     waypoints[first..].reverse();
 }
 
 /// The straight legs of a path, from the goal back to the start: where each ends, and its move.
-struct LegsBack<'s, P: Place, N> {
-    lattice: &'s Lattice<P>,
+struct LegsBack<'s, P: Placement, N> {
+    graph: &'s GridGraph<P>,
     nodes: &'s NodeStore<N>,
     start: VertexId,
     node: (VertexId, Vertex),
     elbow: Option<(Vertex, Vector)>,
 }
 
-impl<'s, P: Place, N: Link> LegsBack<'s, P, N> {
-    fn new(lattice: &'s Lattice<P>, nodes: &'s NodeStore<N>, start: VertexId, goal: VertexId) -> Self {
-        Self { lattice, nodes, start, node: (goal, lattice.vertex(goal)), elbow: None }
+impl<'s, P: Placement, N: ParentPointer> LegsBack<'s, P, N> {
+    fn new(graph: &'s GridGraph<P>, nodes: &'s NodeStore<N>, start: VertexId, goal: VertexId) -> Self {
+        Self { graph, nodes, start, node: (goal, graph.vertex(goal)), elbow: None }
     }
 
     /// Where the legs end after which the direction changes.
@@ -113,7 +113,7 @@ impl<'s, P: Place, N: Link> LegsBack<'s, P, N> {
     }
 }
 
-impl<P: Place, N: Link> Iterator for LegsBack<'_, P, N> {
+impl<P: Placement, N: ParentPointer> Iterator for LegsBack<'_, P, N> {
     type Item = (Vertex, Vector);
 
     fn next(&mut self) -> Option<Self::Item> {
@@ -122,13 +122,13 @@ impl<P: Place, N: Link> Iterator for LegsBack<'_, P, N> {
         }
         let (id, at) = self.node;
         let node = self.nodes.get(id).filter(|_| id != self.start)?;
-        let step = self.lattice.step(node.arrived_by());
-        self.node = node.link.parent(self.lattice, step, id, at);
+        let step = self.graph.step(node.arrived_by());
+        self.node = node.link.parent(self.graph, step, id, at);
         let (from, v) = (self.node.1, step.vector());
         let d = from.to(at);
         if i64::from(d.x) * i64::from(v.y) != i64::from(d.y) * i64::from(v.x) {
             // Two legs in canonical order, the first by the odd move: an intermediate vertex that became no node.
-            let [(first, times), _] = decompose(d, self.lattice.k())?.canonical();
+            let [(first, times), _] = decompose(d, self.graph.k())?.canonical();
             let times = times as i32;
             self.elbow = Some((from + Vector::new(first.x * times, first.y * times), first));
         }
@@ -162,9 +162,9 @@ impl Outcome {
 pub enum Guarantee {
     /// No path over N(k) is shorter: in fixed-point costs exactly, in real lengths up to a factor of 1 + 2⁻³¹ (see
     /// [`Cost`](mediant_moves::Cost)).
-    Optimal(K),
+    Optimal(FiniteK),
     /// No path over N(k) is shorter, in the same sense; the segments of this one run at any angle.
-    AtMost(K),
+    AtMost(FiniteK),
     /// No legal path at all is shorter.
     OptimalAnyAngle,
     /// None.
@@ -178,9 +178,9 @@ impl Guarantee {
     ///
     /// ```
     /// use mediant_grid::{CornerRule, DiagonalGap, Rules};
-    /// use mediant_moves::K;
+    /// use mediant_moves::FiniteK;
     /// use mediant_search::Guarantee;
-    /// let promised = Guarantee::Optimal(K::new(3)?);
+    /// let promised = Guarantee::Optimal(FiniteK::new(3)?);
     /// assert!(promised.bound(Rules::Corner(DiagonalGap::Open)).is_some_and(|bound| (bound - 1.0824).abs() < 1e-4));
     /// assert_eq!(promised.bound(Rules::Center(CornerRule::Always)), None);
     /// # Ok::<(), mediant_moves::KError>(())

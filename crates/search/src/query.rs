@@ -1,6 +1,6 @@
 //! Questions to a planner.
 
-use mediant_grid::{Place, Terrain, Vertex, VertexId};
+use mediant_grid::{FreeSpace, Placement, Vertex, VertexId};
 
 /// From where to where.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -22,17 +22,17 @@ impl Query {
     ///
     /// # Errors
     /// A [`QueryError`] for the first end that is not.
-    pub fn check<P: Place>(self, terrain: &Terrain<P>) -> Result<(), QueryError> {
+    pub fn check<P: Placement>(self, space: &FreeSpace<P>) -> Result<(), QueryError> {
         for (end, at) in [(End::Start, self.start), (End::Goal, self.goal)] {
-            if terrain.id(at).is_none() {
-                let (width, height) = P::vertices(terrain.grid());
+            if space.id(at).is_none() {
+                let (width, height) = P::vertices(space.grid());
                 return Err(QueryError::Outside {
                     end,
                     at,
                     last: Vertex::new(width as i32 - 1, height as i32 - 1),
                 });
             }
-            if !terrain.is_free(at) {
+            if !space.is_free(at) {
                 return Err(QueryError::Blocked { end, at });
             }
         }
@@ -44,10 +44,13 @@ impl Query {
     ///
     /// # Errors
     /// Those of [`check`](Self::check).
-    pub fn ends<P: Place>(self, terrain: &Terrain<P>) -> Result<Option<(VertexId, VertexId)>, QueryError> {
-        self.check(terrain)?;
-        let ends = terrain.id(self.start).zip(terrain.id(self.goal));
-        Ok(ends.filter(|_| terrain.connected(self.start, self.goal)))
+    pub fn ends<P: Placement>(
+        self,
+        space: &FreeSpace<P>,
+    ) -> Result<Option<(VertexId, VertexId)>, QueryError> {
+        self.check(space)?;
+        let ends = space.id(self.start).zip(space.id(self.goal));
+        Ok(ends.filter(|_| space.connected(self.start, self.goal)))
     }
 }
 

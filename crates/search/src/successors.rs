@@ -1,15 +1,15 @@
-//! Which successors a search gives a node: the point in which the lattice engines differ.
+//! Which successors a search gives a node: the point in which the grid graph engines differ.
 
 use std::fmt::Debug;
 
-use mediant_grid::{Lattice, Place, Step, Vertex, VertexId};
+use mediant_grid::{GridGraph, Placement, Step, Vertex, VertexId};
 use mediant_moves::Cost;
 
 use crate::Guarantee;
 
 /// A node that is about to be expanded.
 #[derive(Clone, Copy, Debug)]
-pub struct Arrival {
+pub struct ExpandedNode {
     /// The vertex.
     pub id: VertexId,
     /// Where it is.
@@ -18,12 +18,12 @@ pub struct Arrival {
     pub by: Option<usize>,
 }
 
-impl Arrival {
+impl ExpandedNode {
     /// The successor by one move.
     #[must_use]
     #[inline]
-    pub fn step<P: Place>(&self, lattice: &Lattice<P>, by: usize) -> Successor {
-        let step = lattice.step(by);
+    pub fn step<P: Placement>(&self, graph: &GridGraph<P>, by: usize) -> Successor {
+        let step = graph.step(by);
         Successor { id: step.target(self.id), at: self.at + step.vector(), cost: step.cost, by }
     }
 }
@@ -42,9 +42,9 @@ pub struct Successor {
 }
 
 /// How a search expands its nodes. `P` is the placement.
-pub trait Successors<P: Place>: Debug {
+pub trait Successors<P: Placement>: Debug {
     /// What a node keeps to know its parent.
-    type Link: Link;
+    type ParentPointer: ParentPointer;
 
     /// Whether a node leads to the same successors however it was reached; under a gap rule it never does.
     const FREE: bool = false;
@@ -52,8 +52,8 @@ pub trait Successors<P: Place>: Debug {
     /// Calls `visit` with each successor of a node. How many vertices it looked at while it scanned runs.
     fn for_each(
         &self,
-        lattice: &Lattice<P>,
-        node: Arrival,
+        graph: &GridGraph<P>,
+        node: ExpandedNode,
         goal: Vertex,
         visit: impl FnMut(Successor),
     ) -> u32;
@@ -61,8 +61,8 @@ pub trait Successors<P: Place>: Debug {
     /// Whether of two equally cheap ways to a vertex the one whose last move is `new` replaces the one with `known`. A closed node
     /// is then expanded again.
     #[inline]
-    fn prefers(&self, lattice: &Lattice<P>, new: usize, known: usize) -> bool {
-        let _ = (lattice, new, known);
+    fn prefers(&self, graph: &GridGraph<P>, new: usize, known: usize) -> bool {
+        let _ = (graph, new, known);
         false
     }
 
@@ -74,13 +74,13 @@ pub trait Successors<P: Place>: Debug {
     }
 
     /// What is promised of the paths.
-    fn guarantee(&self, lattice: &Lattice<P>) -> Guarantee {
-        Guarantee::Optimal(lattice.k())
+    fn guarantee(&self, graph: &GridGraph<P>) -> Guarantee {
+        Guarantee::Optimal(graph.k())
     }
 }
 
 /// How a node knows its parent: engines that take one move at a time need to keep nothing.
-pub trait Link: Copy + Debug {
+pub trait ParentPointer: Copy + Debug {
     /// For nodes that were never reached.
     const NONE: Self;
 
@@ -88,9 +88,9 @@ pub trait Link: Copy + Debug {
     fn to(parent: VertexId) -> Self;
 
     /// The parent of the node (`id`, `at`) that was reached by the move `step`.
-    fn parent<P: Place>(
+    fn parent<P: Placement>(
         self,
-        lattice: &Lattice<P>,
+        graph: &GridGraph<P>,
         step: &Step,
         id: VertexId,
         at: Vertex,
@@ -98,20 +98,26 @@ pub trait Link: Copy + Debug {
 }
 
 /// The parent is one move away.
-impl Link for () {
+impl ParentPointer for () {
     const NONE: Self = ();
 
     #[inline]
     fn to(_: VertexId) -> Self {}
 
     #[inline]
-    fn parent<P: Place>(self, _: &Lattice<P>, step: &Step, id: VertexId, at: Vertex) -> (VertexId, Vertex) {
+    fn parent<P: Placement>(
+        self,
+        _: &GridGraph<P>,
+        step: &Step,
+        id: VertexId,
+        at: Vertex,
+    ) -> (VertexId, Vertex) {
         (step.source(id), at + -step.vector())
     }
 }
 
 /// The parent itself.
-impl Link for VertexId {
+impl ParentPointer for VertexId {
     const NONE: Self = Self(0);
 
     #[inline]
@@ -120,7 +126,13 @@ impl Link for VertexId {
     }
 
     #[inline]
-    fn parent<P: Place>(self, lattice: &Lattice<P>, _: &Step, _: VertexId, _: Vertex) -> (VertexId, Vertex) {
-        (self, lattice.vertex(self))
+    fn parent<P: Placement>(
+        self,
+        graph: &GridGraph<P>,
+        _: &Step,
+        _: VertexId,
+        _: Vertex,
+    ) -> (VertexId, Vertex) {
+        (self, graph.vertex(self))
     }
 }

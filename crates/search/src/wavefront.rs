@@ -7,7 +7,7 @@
 //! considered, as in all engines: a shortest path never needs another, one of fewest moves may, from k = 5 on.)
 //!
 //! Ties: the vertices of a layer are expanded in the order in which they were reached, the moves of a vertex in that of
-//! [`Lattice::for_each_legal_move`], and the first move that reaches a vertex keeps it.
+//! [`GridGraph::for_each_legal_move`], and the first move that reaches a vertex keeps it.
 //!
 //! Tried and left out: layers as bits, 64 vertices a word operation, for [`Wavefront::distances`]. At centers, corners never
 //! cut, it took 0.35 to 0.65 of the queue's time at k = 2 and 0.25 to 0.5 at k = 3 (12 maps of the benchmark sets, 24,000 to
@@ -16,20 +16,20 @@
 
 use std::ops::Deref;
 
-use mediant_grid::{Lattice, Place, Vertex, VertexId};
-use mediant_moves::{Cost, K};
+use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
+use mediant_moves::{Cost, FiniteK};
 
 use crate::{
     Distances, Guarantee, NodeEvent, NodeStore, Observer, Outcome, Path, Planner, Query, QueryError,
     distances::end_at_gaps,
 };
 
-/// The wavefront algorithm on a lattice.
+/// The wavefront algorithm on a grid graph.
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_grid::{AsciiMap, Centers, CornerRule, Lattice, Vertex};
-/// use mediant_moves::K;
+/// use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph, Vertex};
+/// use mediant_moves::FiniteK;
 /// use mediant_search::{Planner, Query, Wavefront};
 ///
 /// let map = AsciiMap::parse("
@@ -37,8 +37,8 @@ use crate::{
 ///     .##.
 ///     ....
 /// ")?;
-/// let lattice = Lattice::<Centers>::new(Arc::new(map.grid), K::new(2)?, CornerRule::Never)?;
-/// let mut planner = Wavefront::new(&lattice);
+/// let graph = GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::new(2)?, CornerRule::Never)?;
+/// let mut planner = Wavefront::new(&graph);
 /// let outcome = planner.solve(Query::new((0, 1), (3, 1)))?;
 /// assert_eq!(outcome.path().map(|path| path.cost()), Some(5.0));
 /// let moves = planner.distances(Vertex::new(0, 1))?;
@@ -46,21 +46,21 @@ use crate::{
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// `L` is how the planner holds its lattice: by reference, or, where both belong in one struct, by `Arc`.
+/// `L` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`.
 #[derive(Clone, Debug)]
 pub struct Wavefront<L> {
-    lattice: L,
+    graph: L,
     nodes: NodeStore,
     /// The vertices that were reached, in this order.
     reached: Vec<VertexId>,
 }
 
-impl<P: Place, L: Deref<Target = Lattice<P>>> Wavefront<L> {
-    /// A planner with scratch memory for `lattice`: 16 bytes a vertex, and up to 4 more for each that a search reaches.
+impl<P: Placement, L: Deref<Target = GridGraph<P>>> Wavefront<L> {
+    /// A planner with scratch memory for `graph`: 16 bytes a vertex, and up to 4 more for each that a search reaches.
     #[must_use]
-    pub fn new(lattice: L) -> Self {
-        let nodes = NodeStore::new(lattice.vertex_count());
-        Self { lattice, nodes, reached: Vec::new() }
+    pub fn new(graph: L) -> Self {
+        let nodes = NodeStore::new(graph.vertex_count());
+        Self { graph, nodes, reached: Vec::new() }
     }
 
     /// The fewest moves from `start` to every vertex.
@@ -68,45 +68,45 @@ impl<P: Place, L: Deref<Target = Lattice<P>>> Wavefront<L> {
     /// # Errors
     /// [`QueryError`] when the start is blocked or outside the map.
     pub fn distances(&mut self, start: Vertex) -> Result<Distances<u32>, QueryError> {
-        Query::new(start, start).check(&self.lattice)?;
-        let mut moves = vec![None; self.lattice.vertex_count()];
-        if let Some(id) = self.lattice.id(start) {
+        Query::new(start, start).check(&self.graph)?;
+        let mut moves = vec![None; self.graph.vertex_count()];
+        if let Some(id) = self.graph.id(start) {
             self.search(id, None, &mut ());
             moves[id.index()] = Some(0);
         }
-        let Self { lattice, nodes, reached } = self;
+        let Self { graph, nodes, reached } = self;
         let arrived_by = |id| nodes.get(id).map_or(0, |node| node.arrived_by());
         for &id in reached.iter().skip(1) {
-            let from = lattice.step(arrived_by(id)).source(id);
+            let from = graph.step(arrived_by(id)).source(id);
             moves[id.index()] = moves[from.index()].map(|moves| moves + 1);
         }
-        end_at_gaps(lattice, start, &mut moves, arrived_by, |moves, _| moves + 1);
-        Ok(Distances::new(P::vertices(lattice.grid()).0, moves))
+        end_at_gaps(graph, start, &mut moves, arrived_by, |moves, _| moves + 1);
+        Ok(Distances::new(P::vertices(graph.grid()).0, moves))
     }
 
     /// Reaches vertices layer by layer until the goal is among them. Whether it was.
     fn search(&mut self, start: VertexId, goal: Option<VertexId>, observer: &mut impl Observer) -> bool {
-        let Self { lattice, nodes, reached } = self;
-        let lattice: &Lattice<P> = lattice;
+        let Self { graph, nodes, reached } = self;
+        let graph: &GridGraph<P> = graph;
         // No move leads to a vertex outside the map.
-        let goal_at = goal.map_or(Vertex::new(-1, -1), |goal| lattice.vertex(goal));
+        let goal_at = goal.map_or(Vertex::new(-1, -1), |goal| graph.vertex(goal));
         nodes.start_search();
         reached.clear();
         nodes.set_path(start, Cost::ZERO, 0, ());
         reached.push(start);
         let event = |at, parent, g| NodeEvent { at, parent, g, f: g };
-        observer.generated(event(lattice.vertex(start), None, Cost::ZERO));
+        observer.generated(event(graph.vertex(start), None, Cost::ZERO));
         let mut found = goal == Some(start);
         let mut next = 0;
         while let Some(&id) = reached.get(next).filter(|_| !found) {
             next += 1;
             let Some(&node) = nodes.get(id) else { continue };
-            let at = lattice.vertex(id);
+            let at = graph.vertex(id);
             let arrived_by = (id != start).then(|| node.arrived_by());
-            let parent = arrived_by.map(|index| at + -lattice.step(index).vector());
+            let parent = arrived_by.map(|index| at + -graph.step(index).vector());
             observer.expanded(event(at, parent, node.g));
-            lattice.for_each_successor(at, arrived_by, goal_at, |index| {
-                let step = lattice.step(index);
+            graph.for_each_successor(at, arrived_by, goal_at, |index| {
+                let step = graph.step(index);
                 let to = step.target(id);
                 if found || nodes.get(to).is_some() {
                     return;
@@ -122,17 +122,17 @@ impl<P: Place, L: Deref<Target = Lattice<P>>> Wavefront<L> {
     }
 }
 
-impl<P: Place, L: Deref<Target = Lattice<P>>> Planner for Wavefront<L> {
+impl<P: Placement, L: Deref<Target = GridGraph<P>>> Planner for Wavefront<L> {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        let Some((start, goal)) = query.ends(&self.lattice)? else { return Ok(Outcome::Unreachable) };
+        let Some((start, goal)) = query.ends(&self.graph)? else { return Ok(Outcome::Unreachable) };
         if !self.search(start, Some(goal), observer) {
             return Ok(Outcome::Unreachable);
         }
-        Ok(Outcome::Found(Path::trace_back(&self.lattice, &self.nodes, start, goal)))
+        Ok(Outcome::Found(Path::trace_back(&self.graph, &self.nodes, start, goal)))
     }
 
     fn guarantee(&self) -> Guarantee {
-        let k = self.lattice.k();
-        if k == K::FOUR_CONNECTED { Guarantee::Optimal(k) } else { Guarantee::Suboptimal }
+        let k = self.graph.k();
+        if k == FiniteK::N4 { Guarantee::Optimal(k) } else { Guarantee::Suboptimal }
     }
 }

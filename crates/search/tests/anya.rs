@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{AsciiMap, Corners, DiagonalGap, Grid, Placement, Rules, Terrain, Vertex};
+use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace, Grid, PlacementKind, Rules, Vertex};
 use mediant_oracle::{Rng, Visibility, describe, random_free_vertex, seeds, suite_grid, validate};
 use mediant_search::{Anya, Counters, Guarantee, Outcome, Planner, Query, QueryError};
 
@@ -46,8 +46,8 @@ fn check(grid: &Grid, rules: Rules, query: Query, outcome: &Outcome, expected: O
 fn check_all(grid: &Arc<Grid>, gap: DiagonalGap, queries: &[(Vertex, Vec<Vertex>)], seed: u64) -> [u64; 2] {
     let visibility = Visibility::new(grid, gap);
     let graph = visibility.over(None);
-    let terrain = Terrain::<Corners>::new(Arc::clone(grid), gap);
-    let mut anya = Anya::new(&terrain);
+    let space = FreeSpace::<Corners>::new(Arc::clone(grid), gap);
+    let mut anya = Anya::new(&space);
     let mut answers = [0, 0];
     for (start, goals) in queries {
         let costs = graph.costs_from(*start);
@@ -68,7 +68,7 @@ fn anya_costs_what_the_visibility_graph_says() {
         let grid = Arc::new(suite_grid(seed).0);
         for gap in GAPS {
             let mut rng = Rng::new(seed ^ 0xA17A);
-            let mut free = || random_free_vertex(&mut rng, &grid, Placement::Corner);
+            let mut free = || random_free_vertex(&mut rng, &grid, PlacementKind::Corner);
             let queries: Vec<(Vertex, Vec<Vertex>)> =
                 (0..3).filter_map(|_| Some((free()?, (0..5).filter_map(|_| free()).collect()))).collect();
             let [some, none] = check_all(&grid, gap, &queries, seed);
@@ -88,10 +88,10 @@ fn anya_is_exact_on_every_map_of_nine_cells() {
             let grid = Grid::from_fn(width, height, |x, y| cells >> (width * y + x) & 1 == 1);
             let grid = Arc::new(grid.expect("a valid size"));
             for gap in GAPS {
-                let terrain = Terrain::<Corners>::new(Arc::clone(&grid), gap);
+                let space = FreeSpace::<Corners>::new(Arc::clone(&grid), gap);
                 let vertices =
                     (0..=height as i32).flat_map(|y| (0..=width as i32).map(move |x| Vertex::new(x, y)));
-                let free: Vec<Vertex> = vertices.filter(|&at| terrain.is_free(at)).collect();
+                let free: Vec<Vertex> = vertices.filter(|&at| space.is_free(at)).collect();
                 let pairs: Vec<_> = free.iter().map(|&start| (start, free.clone())).collect();
                 let [found, unreachable] = check_all(&grid, gap, &pairs, u64::from(cells));
                 queries += found + unreachable;
@@ -103,8 +103,8 @@ fn anya_is_exact_on_every_map_of_nine_cells() {
 
 fn solve(drawing: &str, gap: DiagonalGap, start: (i32, i32), goal: (i32, i32)) -> Option<f64> {
     let grid = Arc::new(AsciiMap::parse(drawing).expect("the drawing is a map").grid);
-    let terrain = Terrain::<Corners>::new(grid, gap);
-    let outcome = Anya::new(&terrain).solve(Query::new(start, goal)).expect("both ends are free");
+    let space = FreeSpace::<Corners>::new(grid, gap);
+    let outcome = Anya::new(&space).solve(Query::new(start, goal)).expect("both ends are free");
     outcome.path().map(|path| path.cost())
 }
 
@@ -165,8 +165,8 @@ fn odd_starts_and_goals() {
 #[test]
 fn ends_that_no_path_may_stand_on_are_errors() {
     let grid = Arc::new(AsciiMap::parse("##.\n##.").expect("the drawing is a map").grid);
-    let terrain = Terrain::<Corners>::new(grid, DiagonalGap::Open);
-    let mut anya = Anya::new(&terrain);
+    let space = FreeSpace::<Corners>::new(grid, DiagonalGap::Open);
+    let mut anya = Anya::new(&space);
     assert_eq!(anya.guarantee(), Guarantee::OptimalAnyAngle);
     let mut solve = |start: (i32, i32), goal: (i32, i32)| anya.solve(Query::new(start, goal));
     assert!(matches!(solve((0, 0), (2, 0)), Err(QueryError::Blocked { .. })));
@@ -174,14 +174,14 @@ fn ends_that_no_path_may_stand_on_are_errors() {
     assert!(matches!(solve((i32::MIN, 0), (i32::MAX, 9)), Err(QueryError::Outside { .. })));
     // No path: the components know without a search.
     let grid = Arc::new(AsciiMap::parse(".#.").expect("the drawing is a map").grid);
-    let terrain = Terrain::<Corners>::new(grid, DiagonalGap::Open);
+    let space = FreeSpace::<Corners>::new(grid, DiagonalGap::Open);
     let mut counters = Counters::default();
-    let outcome = Anya::new(&terrain).solve_observed(Query::new((0, 0), (3, 0)), &mut counters);
+    let outcome = Anya::new(&space).solve_observed(Query::new((0, 0), (3, 0)), &mut counters);
     assert_eq!((outcome, counters), (Ok(Outcome::Unreachable), Counters::default()));
     // All blocked: no vertex is free.
     let grid = Arc::new(Grid::from_fn(3, 2, |_, _| true).expect("a valid size"));
-    let terrain = Terrain::<Corners>::new(grid, DiagonalGap::Closed);
-    assert!(Anya::new(&terrain).solve(Query::new((0, 0), (1, 1))).is_err());
+    let space = FreeSpace::<Corners>::new(grid, DiagonalGap::Closed);
+    assert!(Anya::new(&space).solve(Query::new((0, 0), (1, 1))).is_err());
 }
 
 /// From corner to corner of a large map, free and with a comb of walls, whose gaps are in turn at the top and at the bottom.
@@ -191,8 +191,8 @@ fn large_maps() {
     let free = Arc::new(Grid::from_fn(side, side, |_, _| false).expect("a valid size"));
     let far = side as i32;
     for gap in GAPS {
-        let terrain = Terrain::<Corners>::new(Arc::clone(&free), gap);
-        let mut anya = Anya::new(&terrain);
+        let space = FreeSpace::<Corners>::new(Arc::clone(&free), gap);
+        let mut anya = Anya::new(&space);
         for (start, goal) in
             [((0, 0), (far, far)), ((far, 0), (0, far)), ((7, far), (far, 1)), ((0, 9), (far, 9))]
         {
@@ -204,8 +204,8 @@ fn large_maps() {
     }
     // Walls in every eighth column, open one cell at the end.
     let comb = Grid::from_fn(side, side, |x, y| x % 8 == 4 && y != if x % 16 == 4 { 0 } else { side - 1 });
-    let terrain = Terrain::<Corners>::new(Arc::new(comb.expect("a valid size")), DiagonalGap::Open);
-    let outcome = Anya::new(&terrain).solve(Query::new((0, far), (far, far))).expect("both ends are free");
+    let space = FreeSpace::<Corners>::new(Arc::new(comb.expect("a valid size")), DiagonalGap::Open);
+    let outcome = Anya::new(&space).solve(Query::new((0, far), (far, far))).expect("both ends are free");
     let path = outcome.path().expect("there is a way");
     // Two bends at each of the 512 walls, but one at the last.
     assert_eq!(path.waypoints().len(), 2 + 2 * 512 - 1);

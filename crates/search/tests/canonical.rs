@@ -5,19 +5,19 @@
 use std::{collections::HashMap, sync::Arc};
 
 use mediant_grid::{
-    AsciiMap, Centers, CornerRule, Corners, DiagonalGap, Grid, Lattice, Place, Rules, Vertex,
+    AsciiMap, Centers, CornerRule, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vertex,
 };
-use mediant_moves::K;
+use mediant_moves::FiniteK;
 use mediant_oracle::{
-    Case, Explicit, Rng, adversarial, describe, is_doubly_blocked, noise, seeds, suite_grid, validate,
+    Case, Explicit, Rng, adversarial, describe, is_gap, noise, seeds, suite_grid, validate,
 };
 use mediant_search::{
-    AStar, BlockJps, Blocks, Canonical, CanonicalRule, Counters, Jps, JpsPlus, JumpTable, JumpTableError,
-    LatticeDistance, NodeEvent, Observer, Outcome, PaperCanonical, Planner, Pruning, Query, QueryError, Zero,
+    AStar, BlockJps, Blocks, Canonical, CanonicalRule, Counters, Hk, Jps, JpsPlus, JumpTable, JumpTableError,
+    NodeEvent, Observer, Outcome, PaperCanonical, Planner, Pruning, Query, QueryError, Zero,
 };
 
-fn lattice<P: Place>(grid: &Arc<Grid>, k: u32, rule: P::Rule) -> Lattice<P> {
-    Lattice::new(Arc::clone(grid), K::new(k).unwrap(), rule).unwrap()
+fn grid_graph<P: Placement>(grid: &Arc<Grid>, k: u32, rule: P::Rule) -> GridGraph<P> {
+    GridGraph::new(Arc::clone(grid), FiniteK::new(k).unwrap(), rule).unwrap()
 }
 
 fn drawn(drawing: &str) -> (Arc<Grid>, Query) {
@@ -32,9 +32,9 @@ fn cost(outcome: &Result<Outcome, QueryError>) -> Option<f64> {
 
 fn center_costs(drawing: &str, k: u32, corners: CornerRule) -> [Option<f64>; 2] {
     let (grid, query) = drawn(drawing);
-    let lattice = &lattice::<Centers>(&grid, k, corners);
-    let exact = cost(&Canonical::new(lattice, LatticeDistance).solve(query));
-    [exact, cost(&PaperCanonical::new(lattice, LatticeDistance).solve(query))]
+    let grid_graph = &grid_graph::<Centers>(&grid, k, corners);
+    let exact = cost(&Canonical::new(grid_graph, Hk).solve(query));
+    [exact, cost(&PaperCanonical::new(grid_graph, Hk).solve(query))]
 }
 
 #[test]
@@ -48,8 +48,8 @@ fn the_published_rule_misses_what_the_exact_one_finds() {
         .....
         ",
     );
-    let lattice = lattice::<Centers>(&grid, 4, CornerRule::Never);
-    let outcome = Canonical::new(&lattice, LatticeDistance).solve(query).unwrap();
+    let grid_graph = grid_graph::<Centers>(&grid, 4, CornerRule::Never);
+    let outcome = Canonical::new(&grid_graph, Hk).solve(query).unwrap();
     assert_eq!(outcome.path().unwrap().waypoints(), [(0, 0), (1, 0), (3, 1)].map(Vertex::from));
     assert_eq!(outcome.path().unwrap().cost(), 1.0 + 5.0_f64.sqrt());
 
@@ -116,27 +116,27 @@ impl Observer for Births {
 }
 
 /// Searches open ground from its middle for a vertex in its last corner, without a heuristic: so all that is nearer is expanded.
-fn births<P: Place>(k: u32, rule: P::Rule) -> (Births, i32, Lattice<P>) {
-    let radius = K::new(k).unwrap().radius().unwrap();
+fn births<P: Placement>(k: u32, rule: P::Rule) -> (Births, i32, GridGraph<P>) {
+    let radius = FiniteK::new(k).unwrap().radius().unwrap();
     // So large that for some vertices around the middle nothing but the border is within reach of two moves.
     let side = 8 * radius + 9;
     let grid = Arc::new(Grid::from_fn(side as u32, side as u32, |_, _| false).unwrap());
-    let lattice = lattice::<P>(&grid, k, rule);
+    let grid_graph = grid_graph::<P>(&grid, k, rule);
     let (mut births, last) = (Births::default(), side - 1);
     let query = Query::new((side / 2, side / 2), (last, last));
-    Canonical::new(&lattice, Zero).solve_observed(query, &mut births).unwrap();
-    (births, side / 2, lattice)
+    Canonical::new(&grid_graph, Zero).solve_observed(query, &mut births).unwrap();
+    (births, side / 2, grid_graph)
 }
 
-fn open_ground<P: Place>(k: u32, rule: P::Rule) {
-    let (births, middle, lattice) = births::<P>(k, rule);
-    let case = format!("k = {k}, {}", lattice.rules());
+fn open_ground<P: Placement>(k: u32, rule: P::Rule) {
+    let (births, middle, grid_graph) = births::<P>(k, rule);
+    let case = format!("k = {k}, {}", grid_graph.rules());
     assert_eq!(births.updated, 0, "{case}");
     assert!(births.generated.values().all(|&times| times == 1), "{case}");
     // All vertices but a few as far as the goal.
-    assert!(births.generated.len() > lattice.vertex_count() - 4, "{case}: {}", births.generated.len());
-    let moves: Vec<_> = lattice.steps().iter().map(|step| step.vector()).collect();
-    let reach = lattice.k().radius().unwrap();
+    assert!(births.generated.len() > grid_graph.vertex_count() - 4, "{case}: {}", births.generated.len());
+    let moves: Vec<_> = grid_graph.steps().iter().map(|step| step.vector()).collect();
+    let reach = grid_graph.k().radius().unwrap();
     let mut seen = [0, 0];
     for &(at, parent) in &births.expanded {
         let d = Vertex::new(middle, middle).to(at);
@@ -181,14 +181,14 @@ fn on_random_maps(maps: u64, ks: &[u32], mut each: impl FnMut(&Arc<Grid>, u32, &
 }
 
 /// One of each rule for all maps: to make one takes longer than a search on a small map.
-struct Shared<P: Place>(HashMap<(u32, Rules), Arc<CanonicalRule<P>>>);
+struct Shared<P: Placement>(HashMap<(u32, Rules), Arc<CanonicalRule<P>>>);
 
-impl<P: Place> Shared<P> {
-    fn pruning(&mut self, lattice: &Lattice<P>) -> Arc<Pruning<P>> {
-        let (k, rule) = (lattice.k(), lattice.rule());
+impl<P: Placement> Shared<P> {
+    fn pruning(&mut self, grid_graph: &GridGraph<P>) -> Arc<Pruning<P>> {
+        let (k, rule) = (grid_graph.k(), grid_graph.rule());
         let known = self.0.entry((k.get(), P::rules(rule)));
         let known = known.or_insert_with(|| Arc::new(CanonicalRule::new(k, rule)));
-        Arc::new(Pruning::with_rule(lattice, Arc::clone(known)))
+        Arc::new(Pruning::with_rule(grid_graph, Arc::clone(known)))
     }
 }
 
@@ -202,19 +202,19 @@ fn solve(mut planner: impl Planner, case: &Case) -> Found {
 }
 
 /// What A*, the exact and the published variant find.
-fn three<P: Place>(
+fn three<P: Placement>(
     shared: &mut Shared<P>,
     grid: &Arc<Grid>,
     k: u32,
     rule: P::Rule,
     case: &Case,
 ) -> [Found; 3] {
-    let lattice = &lattice::<P>(grid, k, rule);
-    let pruning = shared.pruning(lattice);
+    let grid_graph = &grid_graph::<P>(grid, k, rule);
+    let pruning = shared.pruning(grid_graph);
     [
-        solve(AStar::new(lattice, LatticeDistance), case),
-        solve(Canonical::with_pruning(lattice, pruning, LatticeDistance), case),
-        solve(PaperCanonical::new(lattice, LatticeDistance), case),
+        solve(AStar::new(grid_graph, Hk), case),
+        solve(Canonical::with_pruning(grid_graph, pruning, Hk), case),
+        solve(PaperCanonical::new(grid_graph, Hk), case),
     ]
 }
 
@@ -248,20 +248,20 @@ fn canonical_generates_no_more_than_a_star_and_the_published_rule_is_complete() 
     }
 }
 
-fn mismatched<P: Place>(ks: [u32; 2], rules: [P::Rule; 2]) {
+fn mismatched<P: Placement>(ks: [u32; 2], rules: [P::Rule; 2]) {
     let others = [(ks[1], rules[0]), (ks[0], rules[1])];
     for seed in 0..20 {
         let grid = Arc::new(suite_grid(seed).0);
         let Some(case) = Case::random(seed, P::rules(rules[0])).filter(|case| case.grid == *grid) else {
             continue;
         };
-        let lattice = &lattice::<P>(&grid, ks[0], rules[0]);
-        let expected = solve(Canonical::new(lattice, LatticeDistance), &case);
+        let grid_graph = &grid_graph::<P>(&grid, ks[0], rules[0]);
+        let expected = solve(Canonical::new(grid_graph, Hk), &case);
         for (k, rule) in others.into_iter().filter(|&other| other != (ks[0], rules[0])) {
-            let other = Arc::new(CanonicalRule::new(K::new(k).unwrap(), rule));
-            let pruning = Arc::new(Pruning::with_rule(lattice, other));
-            assert_eq!(pruning.bytes(), Pruning::new(lattice).bytes(), "{case}");
-            let found = solve(Canonical::with_pruning(lattice, pruning, LatticeDistance), &case);
+            let other = Arc::new(CanonicalRule::new(FiniteK::new(k).unwrap(), rule));
+            let pruning = Arc::new(Pruning::with_rule(grid_graph, other));
+            assert_eq!(pruning.memory_bytes(), Pruning::new(grid_graph).memory_bytes(), "{case}");
+            let found = solve(Canonical::with_pruning(grid_graph, pruning, Hk), &case);
             assert_eq!(
                 found,
                 expected,
@@ -283,12 +283,12 @@ fn rules_for_other_moves_are_not_used() {
 }
 
 #[test]
-fn tables_of_other_lattices_are_refused() {
+fn tables_of_other_graphs_are_refused() {
     let grid = |width, height| Arc::new(noise(&mut Rng::new(1), width, height, 20));
-    let of = |width, height, k| lattice::<Centers>(&grid(width, height), k, CornerRule::Never);
+    let of = |width, height, k| grid_graph::<Centers>(&grid(width, height), k, CornerRule::Never);
     let own = of(12, 10, 3);
-    let table = |lattice: &Lattice<Centers>| Arc::new(JumpTable::new(lattice).unwrap());
-    let planner = |table| JpsPlus::new(&own, table, LatticeDistance).map(|_| ());
+    let table = |grid_graph: &GridGraph<Centers>| Arc::new(JumpTable::new(grid_graph).unwrap());
+    let planner = |table| JpsPlus::new(&own, table, Hk).map(|_| ());
     assert_eq!(planner(table(&own)), Ok(()));
     let length = |found| Err(JumpTableError::Length { expected: 12 * 10 * 8, found });
     assert_eq!(planner(table(&of(12, 11, 3))), length(12 * 11 * 8));
@@ -297,9 +297,9 @@ fn tables_of_other_lattices_are_refused() {
     assert_eq!(planner(table(&of(10, 12, 3))), Err(JumpTableError::Width { expected: 12, found: 10 }));
     assert_eq!(planner(table(&of(12, 20, 2))), length(12 * 20 * 4));
     let k4 = of(12, 10, 4);
-    let refused = JpsPlus::new(&k4, table(&own), LatticeDistance).map(|_| ());
+    let refused = JpsPlus::new(&k4, table(&own), Hk).map(|_| ());
     assert!(matches!(refused, Err(JumpTableError::Neighborhood(_))), "{refused:?}");
-    assert!(BlockJps::new(&k4, LatticeDistance).is_err());
+    assert!(BlockJps::new(&k4, Hk).is_err());
 }
 
 /// Small maps full of gaps.
@@ -319,8 +319,7 @@ fn gap_map(seed: u64) -> Arc<Grid> {
 /// Up to three gaps and two other vertices.
 fn ends(grid: &Grid, free: &[Vertex], seed: u64) -> Vec<Vertex> {
     let rng = &mut Rng::new(seed ^ 0x6A9);
-    let (gaps, others): (Vec<Vertex>, Vec<Vertex>) =
-        free.iter().partition(|&&at| is_doubly_blocked(grid, at));
+    let (gaps, others): (Vec<Vertex>, Vec<Vertex>) = free.iter().partition(|&&at| is_gap(grid, at));
     let mut ends: Vec<Vertex> = (0..3).filter_map(|_| rng.pick(&gaps).copied()).collect();
     ends.extend((0..2).filter_map(|_| rng.pick(&others).copied()));
     ends
@@ -328,21 +327,21 @@ fn ends(grid: &Grid, free: &[Vertex], seed: u64) -> Vec<Vertex> {
 
 /// Under closed gaps, from and to gaps and others: how many queries of each kind had a path.
 fn closed_gaps(k: u32, seeds: std::ops::Range<u64>) -> HashMap<[bool; 2], u32> {
-    let number = K::new(k).unwrap();
+    let number = FiniteK::new(k).unwrap();
     let rules = Rules::Corner(DiagonalGap::Closed);
     let shared = Arc::new(CanonicalRule::new(number, DiagonalGap::Closed));
     let mut found = HashMap::new();
     for seed in seeds {
         let grid = gap_map(seed);
-        let lattice = &lattice::<Corners>(&grid, k, DiagonalGap::Closed);
-        let pruning = || Arc::new(Pruning::with_rule(lattice, Arc::clone(&shared)));
+        let grid_graph = &grid_graph::<Corners>(&grid, k, DiagonalGap::Closed);
+        let pruning = || Arc::new(Pruning::with_rule(grid_graph, Arc::clone(&shared)));
         let graph = Explicit::new(&grid, rules, Some(number));
         let free: Vec<Vertex> = graph.free_vertices().collect();
-        let mut canonical = Canonical::with_pruning(lattice, pruning(), LatticeDistance);
-        let mut jps = Jps::with_locator(lattice, pruning(), mediant_search::Walk, LatticeDistance);
-        let mut blocks = (k <= 3).then(|| BlockJps::new(lattice, LatticeDistance).unwrap());
-        let table = (k <= 3).then(|| Arc::new(JumpTable::new(lattice).unwrap()));
-        let mut plus = table.map(|table| JpsPlus::new(lattice, table, LatticeDistance).unwrap());
+        let mut canonical = Canonical::with_pruning(grid_graph, pruning(), Hk);
+        let mut jps = Jps::with_finder(grid_graph, pruning(), mediant_search::Walk, Hk);
+        let mut blocks = (k <= 3).then(|| BlockJps::new(grid_graph, Hk).unwrap());
+        let table = (k <= 3).then(|| Arc::new(JumpTable::new(grid_graph).unwrap()));
+        let mut plus = table.map(|table| JpsPlus::new(grid_graph, table, Hk).unwrap());
         let ends = ends(&grid, &free, seed);
         for &start in &ends {
             let costs = graph.costs_from(start);
@@ -368,7 +367,7 @@ fn closed_gaps(k: u32, seeds: std::ops::Range<u64>) -> HashMap<[bool; 2], u32> {
                     assert!((path.cost() - best).abs() < 1e-9, "{} for {best}: {}", path.cost(), case());
                 }
                 if start != goal && costs.to(goal).is_some() {
-                    *found.entry([start, goal].map(|at| is_doubly_blocked(&grid, at))).or_default() += 1;
+                    *found.entry([start, goal].map(|at| is_gap(&grid, at))).or_default() += 1;
                 }
             }
         }
@@ -407,41 +406,44 @@ fn as_cheap_a_way_to_a_gap_replaces_no_other() {
         .s#...#...
     ",
     );
-    let lattice = lattice::<Corners>(&grid, 2, DiagonalGap::Closed);
+    let grid_graph = grid_graph::<Corners>(&grid, 2, DiagonalGap::Closed);
     let check = |outcome: Result<Outcome, QueryError>| {
         let outcome = outcome.unwrap();
         let path = outcome.path().unwrap();
         let (start, goal) = (query.start, query.goal);
-        let k = K::new(2).ok();
-        assert_eq!(validate(&grid, lattice.rules(), k, start, goal, path.waypoints(), path.cost()), Ok(()));
+        let k = FiniteK::new(2).ok();
+        assert_eq!(
+            validate(&grid, grid_graph.rules(), k, start, goal, path.waypoints(), path.cost()),
+            Ok(())
+        );
     };
-    check(Canonical::new(&lattice, LatticeDistance).solve(query));
-    check(Jps::new(&lattice, LatticeDistance).solve(query));
-    check(BlockJps::new(&lattice, LatticeDistance).unwrap().solve(query));
+    check(Canonical::new(&grid_graph, Hk).solve(query));
+    check(Jps::new(&grid_graph, Hk).solve(query));
+    check(BlockJps::new(&grid_graph, Hk).unwrap().solve(query));
 }
 
 /// What was made for another map, k or rule of motion changes no answer, and no planner walks off the map by it.
 #[test]
-fn what_was_made_for_other_lattices_is_not_believed() {
+fn what_was_made_for_other_graphs_is_not_believed() {
     let mut rng = Rng::new(3);
-    let h = LatticeDistance;
+    let h = Hk;
     let (map, other, larger) =
         (noise(&mut rng, 30, 20, 20), noise(&mut rng, 30, 20, 20), noise(&mut rng, 70, 90, 5));
     let map = Arc::new(map);
     for (k, foreign_k) in [(3, 2), (3, 4), (5, 8), (4, 4)] {
-        let own = lattice::<Centers>(&map, k, CornerRule::Never);
+        let own = grid_graph::<Centers>(&map, k, CornerRule::Never);
         for (grid, k, rule) in [
             (Arc::new(other.clone()), k, CornerRule::Never),
             (Arc::new(larger.clone()), foreign_k, CornerRule::Always),
             (Arc::clone(&map), foreign_k, CornerRule::Always),
         ] {
-            let foreign = lattice::<Centers>(&grid, k, rule);
+            let foreign = grid_graph::<Centers>(&grid, k, rule);
             let pruning = Arc::new(Pruning::new(&foreign));
             let mut planners: Vec<Box<dyn FnMut(Query) -> Option<f64>>> = Vec::new();
             let mut canonical = Canonical::with_pruning(&own, Arc::clone(&pruning), h);
             planners.push(Box::new(move |query| cost(&canonical.solve(query))));
             if let Ok(blocks) = Blocks::new(&foreign, &pruning) {
-                let mut block = BlockJps::with_locator(&own, Arc::clone(&pruning), blocks, h);
+                let mut block = BlockJps::with_finder(&own, Arc::clone(&pruning), blocks, h);
                 planners.push(Box::new(move |query| cost(&block.solve(query))));
             }
             for start in (0..600).step_by(37).map(|i| Vertex::new(i % 30, i / 30)) {

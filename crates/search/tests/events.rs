@@ -2,12 +2,12 @@
 
 use std::{collections::HashMap, sync::Arc};
 
-use mediant_grid::{AsciiMap, Centers, CornerRule, Corners, Grid, Lattice, Place, Rules, Vertex, VertexId};
-use mediant_moves::{Cost, K, Neighborhood};
-use mediant_oracle::{Rng, describe, random_free_vertex, seeds, segment_is_legal, suite_grid};
-use mediant_search::{
-    AStar, Counters, Entry, LatticeDistance, NodeEvent, Observer, OpenList, Outcome, Planner, Query,
+use mediant_grid::{
+    AsciiMap, Centers, CornerRule, Corners, Grid, GridGraph, Placement, Rules, Vertex, VertexId,
 };
+use mediant_moves::{Cost, FiniteK, Neighborhood};
+use mediant_oracle::{Rng, describe, random_free_vertex, seeds, segment_is_legal, suite_grid};
+use mediant_search::{AStar, Counters, Entry, Hk, NodeEvent, Observer, OpenList, Outcome, Planner, Query};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Event {
@@ -60,10 +60,11 @@ fn events_on_a_small_map() {
     ";
     let map = AsciiMap::parse(drawing).expect("the drawing is a map");
     let query = Query::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
-    let k = K::new(4).expect("k is at least 2");
-    let lattice = Lattice::<Centers>::new(Arc::new(map.grid), k, CornerRule::Never).expect("k is in range");
+    let k = FiniteK::new(4).expect("k is at least 2");
+    let grid_graph =
+        GridGraph::<Centers>::new(Arc::new(map.grid), k, CornerRule::Never).expect("k is in range");
     let mut log = Log::default();
-    AStar::new(&lattice, LatticeDistance).solve_observed(query, &mut log).expect("both ends are free");
+    AStar::new(&grid_graph, Hk).solve_observed(query, &mut log).expect("both ends are free");
     let lines: Vec<String> = log.0.iter().filter_map(line).collect();
     assert_eq!(
         lines,
@@ -103,10 +104,10 @@ impl Replay {
         Some(entry)
     }
 
-    fn apply<P: Place>(&mut self, event: Event, lattice: &Lattice<P>, goal: Vertex) {
+    fn apply<P: Placement>(&mut self, event: Event, grid_graph: &GridGraph<P>, goal: Vertex) {
         let (Event::Expanded(node) | Event::Generated(node) | Event::Updated(node)) = event else { return };
-        let id = lattice.id(node.at).expect("a vertex of the map");
-        let h = lattice.costs().distance(node.at.to(goal));
+        let id = grid_graph.id(node.at).expect("a vertex of the map");
+        let h = grid_graph.costs().distance(node.at.to(goal));
         assert_eq!(node.f, node.g + h, "f is g and the heuristic");
         let known = self.nodes.get(&node.at).copied();
         if let Event::Expanded(node) = event {
@@ -120,10 +121,10 @@ impl Replay {
             None => assert!(self.nodes.is_empty() && node.g == Cost::ZERO, "only the start has no parent"),
             Some(parent) => {
                 let step = parent.to(node.at);
-                let moves = Neighborhood::new(lattice.k()).expect("k is in range");
+                let moves = Neighborhood::new(grid_graph.k()).expect("k is in range");
                 assert!(
                     moves.contains(step)
-                        && segment_is_legal(lattice.grid(), lattice.rules(), parent, node.at)
+                        && segment_is_legal(grid_graph.grid(), grid_graph.rules(), parent, node.at)
                 );
                 let (from, is_expanded) = self.nodes[&parent];
                 assert!(is_expanded && node.g == from.g + Cost::of_move(step), "not a step from {from:?}");
@@ -146,14 +147,14 @@ impl Replay {
 }
 
 /// The swaps by decreases.
-fn replay<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> u32 {
-    let lattice = Lattice::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
-    let mut planner = AStar::new(&lattice, LatticeDistance);
+fn replay<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> u32 {
+    let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
+    let mut planner = AStar::new(&grid_graph, Hk);
     let mut rng = Rng::new(seed ^ 0xE7E);
-    let mut free = || random_free_vertex(&mut rng, grid, lattice.rules().placement());
+    let mut free = || random_free_vertex(&mut rng, grid, grid_graph.rules().placement());
     let mut swaps_by_decreases = 0;
     for (start, goal) in (0..4).filter_map(|_| Some((free()?, free()?))).collect::<Vec<_>>() {
-        let case = || format!("k = {k}; {}", describe(grid, lattice.rules(), start, goal, seed));
+        let case = || format!("k = {k}; {}", describe(grid, grid_graph.rules(), start, goal, seed));
         let (query, mut log, mut counters) = (Query::new(start, goal), Log::default(), Counters::default());
         let outcome = planner.solve_observed(query, &mut log).expect("both ends are free");
         assert_eq!(planner.solve_observed(query, &mut counters).as_ref(), Ok(&outcome), "{}", case());
@@ -162,9 +163,9 @@ fn replay<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> u32 {
             continue;
         };
         let mut replay = Replay::default();
-        log.0.iter().for_each(|&event| replay.apply(event, &lattice, goal));
+        log.0.iter().for_each(|&event| replay.apply(event, &grid_graph, goal));
         // The goal is taken from the open list, and not expanded.
-        assert_eq!(replay.pop().map(Entry::id), lattice.id(goal), "{}", case());
+        assert_eq!(replay.pop().map(Entry::id), grid_graph.id(goal), "{}", case());
         let (last, is_expanded) = replay.nodes[&goal];
         assert!((last.g.to_f64() - path.cost()).abs() < 1e-6 && !is_expanded, "{}", case());
 
@@ -190,7 +191,7 @@ fn events_tell_the_whole_search() {
     for seed in seeds(100) {
         let grid = Arc::new(suite_grid(seed).0);
         for (rules, k) in Rules::ALL.into_iter().flat_map(|rules| [2, 3, 5].map(|k| (rules, k))) {
-            let k = K::new(k).expect("k is at least 2");
+            let k = FiniteK::new(k).expect("k is at least 2");
             swaps_by_decreases += match rules {
                 Rules::Center(corners) => replay::<Centers>(&grid, corners, k, seed),
                 Rules::Corner(gap) => replay::<Corners>(&grid, gap, k, seed),

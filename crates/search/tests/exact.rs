@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use common::{Engine, with_any_angle_engines, with_engines};
 use mediant_grid::{CornerRule, Grid, Rules, Vertex};
-use mediant_moves::{K, Knob};
+use mediant_moves::{FiniteK, K};
 use mediant_oracle::{Explicit, Rng, describe, on_all_cores, random_free_vertex, suite_grid, validate};
 use mediant_search::{Counters, Guarantee, Outcome, Path, Query, QueryError};
 
@@ -106,7 +106,7 @@ impl Case<'_> {
             Guarantee::Optimal(_) => (optimum, optimum),
             Guarantee::AtMost(_) => (any_angle, optimum),
             Guarantee::OptimalAnyAngle => (any_angle, any_angle),
-            Guarantee::Suboptimal if engine.paths == Knob::Any => (any_angle, f64::INFINITY),
+            Guarantee::Suboptimal if engine.paths == K::Any => (any_angle, f64::INFINITY),
             Guarantee::Suboptimal => (optimum, f64::INFINITY),
         };
         let (cost, slack) = (path.cost(), 1.0 + 1e-9);
@@ -149,7 +149,7 @@ fn check_all(seed: u64) -> Tally {
             }
         };
         for k in 2..=8 {
-            let graph = Explicit::new(&grid, rules, K::new(k).ok());
+            let graph = Explicit::new(&grid, rules, FiniteK::new(k).ok());
             with_engines(&grid, rules, k, |engines| run(&graph, engines));
         }
         if let Rules::Corner(gap) = rules {
@@ -199,7 +199,7 @@ fn engines_are_exact_on_every_map_of_nine_cells() {
                 }
             };
             for k in 2..=4 {
-                let graph = Explicit::new(&grid, rules, K::new(k).ok());
+                let graph = Explicit::new(&grid, rules, FiniteK::new(k).ok());
                 with_engines(&grid, rules, k, |engines| run(&graph, engines));
             }
             if let Rules::Corner(gap) = rules {
@@ -217,7 +217,7 @@ const QUERIES: usize = 698_240;
 /// at corners, Theorem 3 at centers. Theorem 3 lets moves touch corners: it fails under `Never`, where (2, 1) can be legal and
 /// (1, 1) not, and at k = 2 under `Always`, since no axis moves lead between two blocked cells.
 fn bound(rules: Rules, k: u32) -> f64 {
-    let number = K::new(k).expect("k is at least 2");
+    let number = FiniteK::new(k).expect("k is at least 2");
     match rules {
         Rules::Corner(_) => mediant_moves::bound_at_corners(number),
         Rules::Center(CornerRule::Never) => mediant_moves::BOUND_WITHOUT_CORNER_CUTTING,

@@ -13,13 +13,13 @@ use std::{
 };
 
 use mediant_grid::{
-    Centers, CornerRule, Corners, DiagonalGap, Grid, Lattice, MoveSet, Place, Vector, Vertex, VertexId,
+    Centers, CornerRule, Corners, DiagonalGap, Grid, GridGraph, MoveSet, Placement, Vector, Vertex, VertexId,
 };
-use mediant_moves::{Cost, K};
+use mediant_moves::{Cost, FiniteK};
 use mediant_oracle::describe;
 use mediant_search::{
-    BlockJps, Blocks, Canonical, CanonicalRule, Dijkstra, Distances, Guarantee, Jps, JpsPlus, JumpTable,
-    LatticeDistance, Outcome, Path, Planner, Pruning, Query, Walk, Zero,
+    BlockJps, Blocks, Canonical, CanonicalRule, Dijkstra, Distances, Guarantee, Hk, Jps, JpsPlus, JumpTable,
+    Outcome, Path, Planner, Pruning, Query, Walk, Zero,
 };
 
 const SIDE: u32 = 4;
@@ -28,8 +28,8 @@ const MAPS: u64 = 1 << (SIDE * SIDE);
 const SAMPLE: u64 = 61;
 
 /// One map under one rule and k, with all that its engines are held to.
-struct Judge<'l, P: Place> {
-    lattice: &'l Lattice<P>,
+struct Judge<'l, P: Placement> {
+    grid_graph: &'l GridGraph<P>,
     map: u64,
     vertices: Vec<Vertex>,
     /// By vertex number.
@@ -39,19 +39,19 @@ struct Judge<'l, P: Place> {
     compared: u64,
 }
 
-impl<'l, P: Place> Judge<'l, P> {
-    fn new(lattice: &'l Lattice<P>, map: u64) -> Self {
-        let all = (0..lattice.vertex_count() as u32).map(|id| lattice.vertex(VertexId(id)));
-        let legal = all.clone().map(|at| lattice.legal_moves(at)).collect();
-        let vertices: Vec<Vertex> = all.filter(|&at| lattice.is_free(at)).collect();
-        let mut dijkstra = Dijkstra::new(lattice, Zero);
+impl<'l, P: Placement> Judge<'l, P> {
+    fn new(grid_graph: &'l GridGraph<P>, map: u64) -> Self {
+        let all = (0..grid_graph.vertex_count() as u32).map(|id| grid_graph.vertex(VertexId(id)));
+        let legal = all.clone().map(|at| grid_graph.legal_moves(at)).collect();
+        let vertices: Vec<Vertex> = all.filter(|&at| grid_graph.is_free(at)).collect();
+        let mut dijkstra = Dijkstra::new(grid_graph, Zero);
         let distances = vertices.iter().map(|&start| dijkstra.distances(start).unwrap()).collect();
-        Self { lattice, map, vertices, legal, distances, compared: 0 }
+        Self { grid_graph, map, vertices, legal, distances, compared: 0 }
     }
 
     /// Compares all answers of an engine.
     fn judge(&mut self, name: &str, mut planner: impl Planner) {
-        let k = self.lattice.k();
+        let k = self.grid_graph.k();
         assert_eq!(planner.guarantee(), Guarantee::Optimal(k), "{name}");
         for (&start, distances) in self.vertices.iter().zip(&self.distances) {
             for &goal in &self.vertices {
@@ -64,7 +64,7 @@ impl<'l, P: Place> Judge<'l, P> {
                     found == distances.get(goal).map(Ok),
                     "{name}, k = {k}: {outcome:?} costs {found:?}, Dijkstra {:?}; {}",
                     distances.get(goal),
-                    describe(self.lattice.grid(), self.lattice.rules(), start, goal, self.map)
+                    describe(self.grid_graph.grid(), self.grid_graph.rules(), start, goal, self.map)
                 );
                 self.compared += 1;
             }
@@ -73,7 +73,7 @@ impl<'l, P: Place> Judge<'l, P> {
 
     /// What the moves of a path cost, if it is legal.
     fn cost(&self, path: &Path, start: Vertex, goal: Vertex) -> Result<Cost, &'static str> {
-        let lattice = self.lattice;
+        let grid_graph = self.grid_graph;
         let (mut at, mut by, mut cost) = (start, None, Cost::ZERO);
         let [first, rest @ ..] = path.waypoints() else { return Err("no waypoint") };
         if *first != start || rest.last().unwrap_or(first) != &goal {
@@ -82,15 +82,15 @@ impl<'l, P: Place> Judge<'l, P> {
         for &end in rest {
             let d = at.to(end);
             let is_ahead = |v: Vector| v.x * d.y == v.y * d.x && v.x * d.x + v.y * d.y > 0;
-            let step = lattice.steps().iter().position(|step| is_ahead(step.vector()));
+            let step = grid_graph.steps().iter().position(|step| is_ahead(step.vector()));
             let index = step.ok_or("no move of the neighborhood")?;
             while at != end {
-                let id = lattice.id(at).ok_or("no multiple of a move")?;
-                if !self.legal[id.index()].contains(index) || !lattice.may_step(at, by, index, goal) {
+                let id = grid_graph.id(at).ok_or("no multiple of a move")?;
+                if !self.legal[id.index()].contains(index) || !grid_graph.may_step(at, by, index, goal) {
                     return Err("no legal move");
                 }
-                (at, by) = (at + lattice.step(index).vector(), Some(index));
-                cost += lattice.step(index).cost;
+                (at, by) = (at + grid_graph.step(index).vector(), Some(index));
+                cost += grid_graph.step(index).cost;
             }
         }
         Ok(cost)
@@ -98,32 +98,32 @@ impl<'l, P: Place> Judge<'l, P> {
 }
 
 /// Holds all engines to the distances on one map. How many answers were compared.
-fn compare<P: Place>(map: u64, k: K, rule: P::Rule, canonical: &Arc<CanonicalRule<P>>) -> u64 {
+fn compare<P: Placement>(map: u64, k: FiniteK, rule: P::Rule, canonical: &Arc<CanonicalRule<P>>) -> u64 {
     let grid = Grid::from_fn(SIDE, SIDE, |x, y| map >> (SIDE * y + x) & 1 == 1).unwrap();
-    let lattice = &Lattice::<P>::new(Arc::new(grid), k, rule).unwrap();
-    let pruning = &Arc::new(Pruning::with_rule(lattice, Arc::clone(canonical)));
-    let mut judge = Judge::new(lattice, map);
-    let (h, pruning) = (LatticeDistance, || Arc::clone(pruning));
-    judge.judge("canonical", Canonical::with_pruning(lattice, pruning(), h));
-    let jps = || Jps::with_locator(lattice, pruning(), Walk, h);
+    let grid_graph = &GridGraph::<P>::new(Arc::new(grid), k, rule).unwrap();
+    let pruning = &Arc::new(Pruning::with_rule(grid_graph, Arc::clone(canonical)));
+    let mut judge = Judge::new(grid_graph, map);
+    let (h, pruning) = (Hk, || Arc::clone(pruning));
+    judge.judge("canonical", Canonical::with_pruning(grid_graph, pruning(), h));
+    let jps = || Jps::with_finder(grid_graph, pruning(), Walk, h);
     judge.judge("jps", jps());
     judge.judge("jps, jumps of at most 2", jps().with_jump_limit(Some(2)));
     judge.judge("jps, with intermediate nodes", jps().with_intermediate(true));
-    if k == K::EIGHT_CONNECTED {
+    if k == FiniteK::N8 {
         let (blocks, table) =
-            (Blocks::new(lattice, &pruning()).unwrap(), Arc::new(JumpTable::new(lattice).unwrap()));
-        judge.judge("jps-block", BlockJps::with_locator(lattice, pruning(), blocks, h));
-        judge.judge("jps-plus", JpsPlus::with_locator(lattice, pruning(), table, h));
+            (Blocks::new(grid_graph, &pruning()).unwrap(), Arc::new(JumpTable::new(grid_graph).unwrap()));
+        judge.judge("jps-block", BlockJps::with_finder(grid_graph, pruning(), blocks, h));
+        judge.judge("jps-plus", JpsPlus::with_finder(grid_graph, pruning(), table, h));
     }
     judge.compared
 }
 
 /// Compares on all maps, or on the sample. `sample` and `all` pin how many answers that are, for each k.
-fn check<P: Place>(rule: P::Rule, sample: [u64; 3], all: [u64; 3]) {
+fn check<P: Placement>(rule: P::Rule, sample: [u64; 3], all: [u64; 3]) {
     let is_exhaustive = std::env::var_os("MEDIANT_EXHAUSTIVE").is_some_and(|value| value == "1");
     let (every, expected) = if is_exhaustive { (1, all) } else { (SAMPLE, sample) };
     for (k, expected) in (3..).zip(expected) {
-        let k = K::new(k).unwrap();
+        let k = FiniteK::new(k).unwrap();
         let canonical = Arc::new(CanonicalRule::new(k, rule));
         let (next, compared) = (AtomicU64::new(0), AtomicU64::new(0));
         let work = || {

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{BitMatrix, Corners, DiagonalGap, Grid, Rules, Terrain, Vertex};
+use mediant_grid::{BitMatrix, Corners, DiagonalGap, FreeSpace, Grid, Rules, Vertex};
 use mediant_oracle::{Rng, describe, noise, random_free_vertex, rooms, seeds, suite_grid};
-use mediant_search::{Bands, Fan, Quadrants, Targets};
+use mediant_search::{Quadrants, RowSummary, Targets, VisibilitySweep};
 
 /// Wide rooms with few obstacles, which beams leap through, among the maps of the other suites.
 fn draw(seed: u64) -> Grid {
@@ -34,25 +34,25 @@ fn draw(seed: u64) -> Grid {
 fn is_corner(grid: &Grid, at: Vertex) -> bool {
     let cells = [(-1, -1), (0, -1), (-1, 0), (0, 0)];
     let blocked = cells.iter().filter(|(dx, dy)| grid.is_blocked(at.x + dx, at.y + dy)).count();
-    blocked == 1 || grid.is_double_corner(at)
+    blocked == 1 || grid.is_gap(at)
 }
 
-fn marks(terrain: &Terrain<Corners>, mut marked: impl FnMut(Vertex) -> bool) -> BitMatrix {
-    let (width, height) = (terrain.grid().width() + 1, terrain.grid().height() + 1);
+fn marks(space: &FreeSpace<Corners>, mut marked: impl FnMut(Vertex) -> bool) -> BitMatrix {
+    let (width, height) = (space.grid().width() + 1, space.grid().height() + 1);
     BitMatrix::from_words(width, height, false, |x, y| {
         (0..64.min(width as i32 - x)).map(|i| u64::from(marked(Vertex::new(x + i, y))) << i).sum()
     })
 }
 
 /// Looks from a vertex; how many targets there were, and how many of them are seen and found.
-fn check(terrain: &Terrain<Corners>, seed: u64, rng: &mut Rng) -> [u64; 2] {
-    let grid = terrain.grid();
-    let bands = Bands::new(grid);
-    let is_target = |at| is_corner(grid, at) && !terrain.is_gap(at);
+fn check(space: &FreeSpace<Corners>, seed: u64, rng: &mut Rng) -> [u64; 2] {
+    let grid = space.grid();
+    let bands = RowSummary::new(grid);
+    let is_target = |at| is_corner(grid, at) && !space.is_closed_gap(at);
     let every = rng.below(3);
-    let [same, opposite] = [0, 1].map(|_| marks(terrain, |at| is_target(at) && rng.below(3) >= every));
-    let rules = Rules::Corner(terrain.rule());
-    let mut fan = Fan::default();
+    let [same, opposite] = [0, 1].map(|_| marks(space, |at| is_target(at) && rng.below(3) >= every));
+    let rules = Rules::Corner(space.rule());
+    let mut fan = VisibilitySweep::default();
     let mut counts = [0, 0];
     for _ in 0..12 {
         let Some(from) = random_free_vertex(rng, grid, rules.placement()) else { break };
@@ -62,12 +62,12 @@ fn check(terrain: &Terrain<Corners>, seed: u64, rng: &mut Rng) -> [u64; 2] {
         else {
             continue;
         };
-        if terrain.is_gap(from) {
+        if space.is_closed_gap(from) {
             continue;
         }
         let mut found = Vec::new();
         let targets = Targets { same: &same, opposite: &opposite };
-        fan.seen(terrain, &bands, targets, from, quadrants, |at| found.push(at));
+        fan.seen(space, &bands, targets, from, quadrants, |at| found.push(at));
         found.sort_by_key(|at| (at.y, at.x));
         let case = |at| describe(grid, rules, from, at, seed);
         assert!(found.windows(2).all(|two| two[0] != two[1]), "told twice: {}", case(from));
@@ -87,7 +87,7 @@ fn check(terrain: &Terrain<Corners>, seed: u64, rng: &mut Rng) -> [u64; 2] {
                 let steps = d.gcd() as i32;
                 let on_ray = |i| from + mediant_grid::Vector::new(d.x / steps * i, d.y / steps * i);
                 let is_behind = (1..steps).any(|i| is_corner(grid, on_ray(i)));
-                let (is_seen, is_found) = (terrain.sees(from, at), found.contains(&at));
+                let (is_seen, is_found) = (space.sees(from, at), found.contains(&at));
                 assert!(is_seen || !is_found, "{at} is not seen: {}", case(at));
                 // Along a border of what is asked for, only the cells on the inner side count.
                 let is_border = d.x == 0 && chosen.iter().filter(|(_, y)| y * d.y > 0).count() < 2;
@@ -106,8 +106,8 @@ fn a_fan_finds_what_is_in_sight() {
     for seed in seeds(300) {
         let grid = Arc::new(draw(seed));
         for gap in [DiagonalGap::Open, DiagonalGap::Closed] {
-            let terrain = Terrain::<Corners>::new(Arc::clone(&grid), gap);
-            let [targets, found] = check(&terrain, seed, &mut Rng::new(seed));
+            let space = FreeSpace::<Corners>::new(Arc::clone(&grid), gap);
+            let [targets, found] = check(&space, seed, &mut Rng::new(seed));
             counts[0] += targets;
             counts[1] += found;
         }

@@ -2,12 +2,12 @@
 
 use std::{collections::HashMap, sync::Arc};
 
-use mediant_grid::{Centers, Corners, DiagonalGap, Grid, Lattice, Place, Rules, Vector, Vertex};
-use mediant_moves::{Cost, K, Neighborhood};
+use mediant_grid::{Centers, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vector, Vertex};
+use mediant_moves::{Cost, FiniteK, Neighborhood};
 use mediant_oracle::{Explicit, Rng, describe, random_free_vertex, seeds, suite_grid, validate};
 use mediant_search::{
-    AStar, Counters, Dijkstra, Euclidean, Guarantee, Heuristic, LatticeDistance, NodeEvent, Observer,
-    Outcome, Planner, Query, SquaredEuclidean, Zero,
+    AStar, Counters, Dijkstra, Euclidean, Guarantee, Heuristic, Hk, NodeEvent, Observer, Outcome, Planner,
+    Query, SquaredEuclidean, Zero,
 };
 
 /// h_k at every other vertex, as on a checkerboard, and half of it between: a lower bound, and inconsistent. (With nothing
@@ -16,8 +16,8 @@ use mediant_search::{
 struct Checkered;
 
 impl Heuristic for Checkered {
-    fn estimate<P: Place>(self, lattice: &Lattice<P>, to_goal: Vector) -> Cost {
-        let h = LatticeDistance.estimate(lattice, to_goal);
+    fn estimate<P: Placement>(self, grid_graph: &GridGraph<P>, to_goal: Vector) -> Cost {
+        let h = Hk.estimate(grid_graph, to_goal);
         if (to_goal.x + to_goal.y) % 2 == 0 { Cost::from_bits(h.to_bits() / 2) } else { h }
     }
 }
@@ -54,12 +54,12 @@ fn queries(grid: &Grid, rules: Rules, seed: u64) -> Vec<(Vertex, Vertex)> {
 }
 
 /// The number of vertices expanded more than once, after comparison with Dijkstra.
-fn reopened<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> usize {
-    let lattice = Lattice::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
-    let graph = Explicit::new(grid, lattice.rules(), Some(k));
-    let mut planner = AStar::new(&lattice, Checkered);
+fn reopened<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> usize {
+    let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
+    let graph = Explicit::new(grid, grid_graph.rules(), Some(k));
+    let mut planner = AStar::new(&grid_graph, Checkered);
     let mut reopened = 0;
-    for (start, goal) in queries(grid, lattice.rules(), seed) {
+    for (start, goal) in queries(grid, grid_graph.rules(), seed) {
         let mut log = Log::default();
         let outcome = planner.solve_observed(Query::new(start, goal), &mut log);
         let cost = outcome.expect("both ends are free").path().map(|path| path.cost());
@@ -68,12 +68,12 @@ fn reopened<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> usize
             (None, None) => true,
             _ => false,
         };
-        assert!(agrees, "k = {k}: {cost:?}; {}", describe(grid, lattice.rules(), start, goal, seed));
+        assert!(agrees, "k = {k}: {cost:?}; {}", describe(grid, grid_graph.rules(), start, goal, seed));
         for node in log.events {
             // Also when a node enters the open list again.
             assert_eq!(
                 node.f,
-                node.g + Checkered.estimate(&lattice, node.at.to(goal)),
+                node.g + Checkered.estimate(&grid_graph, node.at.to(goal)),
                 "seed {seed}: {node:?}"
             );
         }
@@ -85,7 +85,7 @@ fn reopened<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> usize
 #[test]
 fn a_star_reopens_nodes_and_is_optimal_with_an_inconsistent_heuristic() {
     for k in 2..=5 {
-        let number = K::new(k).expect("k is at least 2");
+        let number = FiniteK::new(k).expect("k is at least 2");
         let mut seen = 0;
         for seed in seeds(120) {
             let grid = Arc::new(suite_grid(seed).0);
@@ -101,13 +101,13 @@ fn a_star_reopens_nodes_and_is_optimal_with_an_inconsistent_heuristic() {
 }
 
 /// Every vertex of a path, the ends of all its moves.
-fn vertices<P: Place>(lattice: &Lattice<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
+fn vertices<P: Placement>(grid_graph: &GridGraph<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
     let mut all = vec![waypoints[0]];
     for ends in waypoints.windows(2) {
         let by = ends[0].to(ends[1]);
         let is_step = |v: &Vector| v.x * by.y == v.y * by.x && v.x * by.x + v.y * by.y > 0;
         let step =
-            Neighborhood::new(lattice.k()).expect("k is in range").iter().find(is_step).expect("a move");
+            Neighborhood::new(grid_graph.k()).expect("k is in range").iter().find(is_step).expect("a move");
         while *all.last().expect("the start") != ends[1] {
             all.push(*all.last().expect("the start") + step);
         }
@@ -116,12 +116,12 @@ fn vertices<P: Place>(lattice: &Lattice<P>, waypoints: &[Vertex]) -> Vec<Vertex>
 }
 
 /// The number of vertices on the paths found.
-fn check_bounds<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> usize {
-    let lattice = Lattice::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
-    let (mut guided, mut blind) = (AStar::new(&lattice, LatticeDistance), AStar::new(&lattice, Zero));
+fn check_bounds<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> usize {
+    let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
+    let (mut guided, mut blind) = (AStar::new(&grid_graph, Hk), AStar::new(&grid_graph, Zero));
     let mut seen = 0;
-    for (start, goal) in queries(grid, lattice.rules(), seed) {
-        let case = || format!("k = {k}; {}", describe(grid, lattice.rules(), start, goal, seed));
+    for (start, goal) in queries(grid, grid_graph.rules(), seed) {
+        let case = || format!("k = {k}; {}", describe(grid, grid_graph.rules(), start, goal, seed));
         let (query, mut few, mut many) = (Query::new(start, goal), Counters::default(), Counters::default());
         let outcome = guided.solve_observed(query, &mut few).expect("both ends are free");
         blind.solve_observed(query, &mut many).expect("both ends are free");
@@ -129,11 +129,11 @@ fn check_bounds<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> u
         assert!(few.expanded <= many.expanded, "{few:?}, {many:?}; {}", case());
         let Outcome::Found(path) = outcome else { continue };
         let mut rest = Cost::ZERO;
-        let way = vertices(&lattice, path.waypoints());
+        let way = vertices(&grid_graph, path.waypoints());
         for (i, &at) in way.iter().enumerate().rev() {
             rest = way.get(i + 1).map_or(rest, |&next| rest + Cost::of_move(at.to(next)));
             let (h, straight) =
-                (LatticeDistance.estimate(&lattice, at.to(goal)), Euclidean.estimate(&lattice, at.to(goal)));
+                (Hk.estimate(&grid_graph, at.to(goal)), Euclidean.estimate(&grid_graph, at.to(goal)));
             assert!(h <= rest, "h_k = {h:?} > {rest:?} at {at}; {}", case());
             assert!(straight <= rest, "Euclidean {straight:?} > {rest:?} at {at}; {}", case());
             seen += 1;
@@ -148,7 +148,7 @@ fn no_estimate_exceeds_the_cost_along_a_path() {
     for seed in seeds(100) {
         let grid = Arc::new(suite_grid(seed).0);
         for (rules, k) in Rules::ALL.into_iter().flat_map(|rules| [2, 3, 4, 6, 8].map(|k| (rules, k))) {
-            let k = K::new(k).expect("k is at least 2");
+            let k = FiniteK::new(k).expect("k is at least 2");
             seen += match rules {
                 Rules::Center(corners) => check_bounds::<Centers>(&grid, corners, k, seed),
                 Rules::Corner(gap) => check_bounds::<Corners>(&grid, gap, k, seed),
@@ -162,15 +162,15 @@ fn no_estimate_exceeds_the_cost_along_a_path() {
 #[test]
 fn the_straight_line_is_a_bound_and_a_close_one() {
     let grid = Arc::new(Grid::from_fn(1, 1, |_, _| false).expect("a valid size"));
-    let k = K::new(8).expect("k is at least 2");
-    let lattice = Lattice::<Centers>::new(grid, k, Default::default()).expect("k is in range");
+    let k = FiniteK::new(8).expect("k is at least 2");
+    let grid_graph = GridGraph::<Centers>::new(grid, k, Default::default()).expect("k is in range");
     let mut rounded_down = 0;
     for v in Neighborhood::new(k).expect("k is in range").iter() {
         let length = Cost::of_move(v);
         rounded_down += usize::from(length.to_f64() < v.norm());
         for n in (1..100).chain([1_000, 1_500]) {
             let d = Vector::new(n * v.x, n * v.y);
-            let straight = Euclidean.estimate(&lattice, d);
+            let straight = Euclidean.estimate(&grid_graph, d);
             let cost = Cost::from_bits(n as u64 * length.to_bits());
             assert!(straight <= cost, "{n} times {v:?}: {straight:?} > {cost:?}");
             let least = d.norm() * (1.0 - 2.0_f64.powi(-30));
@@ -178,16 +178,18 @@ fn the_straight_line_is_a_bound_and_a_close_one() {
         }
     }
     assert!(rounded_down > 50, "only {rounded_down} moves cost less than their length");
-    for h in [Euclidean.estimate(&lattice, Vector::new(0, 0)), Zero.estimate(&lattice, Vector::new(9, 9))] {
+    for h in
+        [Euclidean.estimate(&grid_graph, Vector::new(0, 0)), Zero.estimate(&grid_graph, Vector::new(9, 9))]
+    {
         assert_eq!(h, Cost::ZERO);
     }
 }
 
 /// The queries with a path, those whose path is longer than the shortest, and the vertices expanded again.
-fn check_squared<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> [usize; 3] {
-    let lattice = Lattice::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
-    let (rules, graph) = (lattice.rules(), Explicit::new(grid, lattice.rules(), Some(k)));
-    let mut planner = AStar::new(&lattice, SquaredEuclidean);
+fn check_squared<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> [usize; 3] {
+    let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
+    let (rules, graph) = (grid_graph.rules(), Explicit::new(grid, grid_graph.rules(), Some(k)));
+    let mut planner = AStar::new(&grid_graph, SquaredEuclidean);
     assert_eq!(planner.guarantee(), Guarantee::Suboptimal);
     let [mut found, mut longer, mut again] = [0; 3];
     for (start, goal) in queries(grid, rules, seed) {
@@ -209,7 +211,7 @@ fn check_squared<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> 
         longer += usize::from(path.cost() > best * (1.0 + 1e-9));
         again += log.expansions.values().filter(|(times, _)| *times > 1).count();
     }
-    assert!(lattice.has_gaps() || again == 0, "{again} vertices were expanded again, seed {seed}");
+    assert!(grid_graph.has_closed_gaps() || again == 0, "{again} vertices were expanded again, seed {seed}");
     [found, longer, again]
 }
 
@@ -219,7 +221,7 @@ fn a_star_finds_a_path_by_a_heuristic_that_overestimates_whenever_there_is_one()
         let mut seen = [0; 3];
         for (seed, k) in seeds(100).flat_map(|seed| (2..=8).map(move |k| (seed, k))) {
             let grid = Arc::new(suite_grid(seed).0);
-            let k = K::new(k).expect("k is at least 2");
+            let k = FiniteK::new(k).expect("k is at least 2");
             let more = match rules {
                 Rules::Center(corners) => check_squared::<Centers>(&grid, corners, k, seed),
                 Rules::Corner(gap) => check_squared::<Corners>(&grid, gap, k, seed),
@@ -238,11 +240,11 @@ fn a_star_finds_a_path_by_a_heuristic_that_overestimates_whenever_there_is_one()
 }
 
 /// Searches within bounds around the optimum: those that found a path, and those that found none where there is one.
-fn check_within<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> [usize; 2] {
-    let lattice = Lattice::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
+fn check_within<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> [usize; 2] {
+    let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
     let (mut rng, mut seen) = (Rng::new(seed ^ 0x11111), [0; 2]);
-    for (start, goal) in queries(grid, lattice.rules(), seed) {
-        let distances = Dijkstra::new(&lattice, Zero).distances(start).expect("a free start");
+    for (start, goal) in queries(grid, grid_graph.rules(), seed) {
+        let distances = Dijkstra::new(&grid_graph, Zero).distances(start).expect("a free start");
         let best = distances.get(goal);
         let mut limits = vec![Cost::ZERO, Cost::MAX];
         if let Some(best) = best {
@@ -252,16 +254,19 @@ fn check_within<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> [
         }
         for limit in limits {
             let case = || {
-                format!("k = {k}, within {limit:?}; {}", describe(grid, lattice.rules(), start, goal, seed))
+                format!(
+                    "k = {k}, within {limit:?}; {}",
+                    describe(grid, grid_graph.rules(), start, goal, seed)
+                )
             };
             let is_within = best.is_some_and(|best| best <= limit);
             let query = Query::new(start, goal);
             let mut few = Counters::default();
             let answers = [
-                AStar::new(&lattice, LatticeDistance).solve_within(query, limit, &mut few),
-                AStar::new(&lattice, Euclidean).solve_within(query, limit, &mut ()),
-                AStar::new(&lattice, Checkered).solve_within(query, limit, &mut ()),
-                AStar::new(&lattice, Zero).solve_within(query, limit, &mut ()),
+                AStar::new(&grid_graph, Hk).solve_within(query, limit, &mut few),
+                AStar::new(&grid_graph, Euclidean).solve_within(query, limit, &mut ()),
+                AStar::new(&grid_graph, Checkered).solve_within(query, limit, &mut ()),
+                AStar::new(&grid_graph, Zero).solve_within(query, limit, &mut ()),
             ];
             for answer in answers {
                 let path = answer.expect("both ends are free");
@@ -274,14 +279,12 @@ fn check_within<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> [
                     case()
                 );
                 let fault =
-                    validate(grid, lattice.rules(), Some(k), start, goal, path.waypoints(), path.cost());
+                    validate(grid, grid_graph.rules(), Some(k), start, goal, path.waypoints(), path.cost());
                 assert_eq!(fault, Ok(()), "{}", case());
             }
             // Nothing through which every path is longer is expanded.
             let mut all = Counters::default();
-            AStar::new(&lattice, LatticeDistance)
-                .solve_within(query, Cost::MAX, &mut all)
-                .expect("free ends");
+            AStar::new(&grid_graph, Hk).solve_within(query, Cost::MAX, &mut all).expect("free ends");
             assert!(few.expanded <= all.expanded, "{few:?}, {all:?}; {}", case());
             if best.is_some() {
                 seen[usize::from(!is_within)] += 1;
@@ -297,7 +300,7 @@ fn a_path_is_found_within_a_limit_if_the_shortest_is() {
     for seed in seeds(60) {
         let grid = Arc::new(suite_grid(seed).0);
         for (rules, k) in Rules::ALL.into_iter().flat_map(|rules| [2, 3, 5].map(|k| (rules, k))) {
-            let k = K::new(k).expect("k is at least 2");
+            let k = FiniteK::new(k).expect("k is at least 2");
             let more = match rules {
                 Rules::Center(corners) => check_within::<Centers>(&grid, corners, k, seed),
                 Rules::Corner(gap) => check_within::<Corners>(&grid, gap, k, seed),

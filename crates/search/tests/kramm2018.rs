@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use common::with_engines;
 use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Rules, Vertex};
-use mediant_moves::{BOUND_WITHOUT_CORNER_CUTTING, K, bound_at_centers};
+use mediant_moves::{BOUND_WITHOUT_CORNER_CUTTING, FiniteK, bound_at_centers};
 use mediant_oracle::{Explicit, Rng, describe, noise};
 use mediant_search::Query;
 
@@ -84,7 +84,7 @@ fn drawn(drawing: &str, corners: CornerRule, k: u32) -> f64 {
 }
 
 fn bound(k: u32) -> f64 {
-    bound_at_centers(K::new(k).expect("k is at least 2"))
+    bound_at_centers(FiniteK::new(k).expect("k is at least 2"))
 }
 
 /// Theorem 3 on every map of 3 × 3 cells, which attain it.

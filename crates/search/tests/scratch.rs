@@ -7,11 +7,11 @@ use std::{
     sync::Arc,
 };
 
-use mediant_grid::{Centers, Corners, DiagonalGap, Lattice, Place, Terrain, Vertex};
-use mediant_moves::K;
+use mediant_grid::{Centers, Corners, DiagonalGap, FreeSpace, GridGraph, Placement, Vertex};
+use mediant_moves::FiniteK;
 use mediant_search::{
-    AStar, Anya, BlockJps, Canonical, Dijkstra, Jps, JpsPlus, JumpTable, LatticeDistance, LazyThetaStar,
-    Outcome, PaperCanonical, Planner, Pruning, Query, ThetaStar, Walk, Wavefront, Zero,
+    AStar, Anya, BlockJps, Canonical, Dijkstra, Hk, Jps, JpsPlus, JumpTable, LazyThetaStar, Outcome,
+    PaperCanonical, Planner, Pruning, Query, ThetaStar, Walk, Wavefront, Zero,
 };
 
 thread_local! {
@@ -38,9 +38,9 @@ unsafe impl GlobalAlloc for Counting {
 static COUNTING: Counting = Counting;
 
 /// Queries between vertices all over a map.
-fn queries<P: Place>(lattice: &Terrain<P>) -> Vec<Query> {
+fn queries<P: Placement>(grid_graph: &FreeSpace<P>) -> Vec<Query> {
     let free: Vec<Vertex> = (0..50).flat_map(|y| (0..60).map(move |x| Vertex::new(x, y))).collect();
-    let free: Vec<Vertex> = free.into_iter().filter(|&at| lattice.is_free(at)).step_by(197).collect();
+    let free: Vec<Vertex> = free.into_iter().filter(|&at| grid_graph.is_free(at)).step_by(197).collect();
     free.iter().flat_map(|&a| free.iter().map(move |&b| Query::new(a, b))).collect()
 }
 
@@ -60,29 +60,33 @@ fn check(case: &str, mut planner: impl Planner, queries: &[Query]) {
     assert!(found > 30, "only {found} paths were found: {case}");
 }
 
-fn allocations_of<P: Place>(k: u32) {
+fn allocations_of<P: Placement>(k: u32) {
     let mut rng = mediant_oracle::Rng::new(7);
     let grid = mediant_oracle::caves(&mut rng, 60, 50);
-    let k = K::new(k).expect("k is at least 2");
-    let lattice = Lattice::<P>::new(Arc::new(grid), k, P::Rule::default()).expect("k is in range");
-    let (lattice, queries) = (&lattice, queries(&lattice));
-    let (h, case) = (LatticeDistance, |name| format!("{name}, k = {k}"));
-    check(&case("astar"), AStar::new(lattice, h), &queries);
-    check(&case("dijkstra"), Dijkstra::new(lattice, Zero), &queries);
-    check(&case("wavefront"), Wavefront::new(lattice), &queries);
-    let pruning = Arc::new(Pruning::new(lattice));
+    let k = FiniteK::new(k).expect("k is at least 2");
+    let grid_graph = GridGraph::<P>::new(Arc::new(grid), k, P::Rule::default()).expect("k is in range");
+    let (grid_graph, queries) = (&grid_graph, queries(&grid_graph));
+    let (h, case) = (Hk, |name| format!("{name}, k = {k}"));
+    check(&case("astar"), AStar::new(grid_graph, h), &queries);
+    check(&case("dijkstra"), Dijkstra::new(grid_graph, Zero), &queries);
+    check(&case("wavefront"), Wavefront::new(grid_graph), &queries);
+    let pruning = Arc::new(Pruning::new(grid_graph));
     let pruning = || Arc::clone(&pruning);
-    let jps = || Jps::with_locator(lattice, pruning(), Walk, h);
-    check(&case("canonical"), Canonical::with_pruning(lattice, pruning(), h), &queries);
-    check(&case("canonical as published"), PaperCanonical::new(lattice, h), &queries);
+    let jps = || Jps::with_finder(grid_graph, pruning(), Walk, h);
+    check(&case("canonical"), Canonical::with_pruning(grid_graph, pruning(), h), &queries);
+    check(&case("canonical as published"), PaperCanonical::new(grid_graph, h), &queries);
     check(&case("jps"), jps(), &queries);
-    check(&case("theta"), ThetaStar::new(lattice, h), &queries);
-    check(&case("lazy-theta"), LazyThetaStar::new(lattice, h), &queries);
+    check(&case("theta"), ThetaStar::new(grid_graph, h), &queries);
+    check(&case("lazy-theta"), LazyThetaStar::new(grid_graph, h), &queries);
     check(&case("jps, bounded"), jps().with_jump_limit(Some(3)).with_intermediate(true), &queries);
-    if k <= K::EIGHT_CONNECTED {
-        let table = Arc::new(JumpTable::new(lattice).expect("k is in range"));
-        check(&case("jps-block"), BlockJps::new(lattice, h).expect("k is in range"), &queries);
-        check(&case("jps-plus"), JpsPlus::new(lattice, table, h).expect("the table is this map's"), &queries);
+    if k <= FiniteK::N8 {
+        let table = Arc::new(JumpTable::new(grid_graph).expect("k is in range"));
+        check(&case("jps-block"), BlockJps::new(grid_graph, h).expect("k is in range"), &queries);
+        check(
+            &case("jps-plus"),
+            JpsPlus::new(grid_graph, table, h).expect("the table is this map's"),
+            &queries,
+        );
     }
 }
 
@@ -99,7 +103,7 @@ fn a_warm_query_allocates_its_path_and_nothing_else() {
 fn nor_does_anya() {
     for gap in [DiagonalGap::Open, DiagonalGap::Closed] {
         let grid = Arc::new(mediant_oracle::caves(&mut mediant_oracle::Rng::new(7), 60, 50));
-        let terrain = Terrain::<Corners>::new(grid, gap);
-        check(&format!("anya, gap {gap}"), Anya::new(&terrain), &queries(&terrain));
+        let space = FreeSpace::<Corners>::new(grid, gap);
+        check(&format!("anya, gap {gap}"), Anya::new(&space), &queries(&space));
     }
 }

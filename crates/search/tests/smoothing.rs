@@ -3,15 +3,16 @@
 use std::sync::Arc;
 
 use mediant_grid::{
-    AsciiMap, Centers, CornerRule, Corners, DiagonalGap, Grid, Lattice, Place, Rules, Terrain, Vector, Vertex,
+    AsciiMap, Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, GridGraph, Placement, Rules,
+    Vector, Vertex,
 };
-use mediant_moves::K;
+use mediant_moves::FiniteK;
 use mediant_oracle::{
     Explicit, Rng, describe, random_free_vertex, seeds, segment_is_legal, suite_grid, turn_is_legal, validate,
 };
 use mediant_search::{
-    AStar, Counters, Guarantee, LatticeDistance, Outcome, Path, Planner, Query, Smoothed, Smoothing,
-    ThetaStar, pull_taut, smooth,
+    AStar, Counters, Guarantee, Hk, Outcome, Path, Planner, Query, Smoothed, Smoothing, ThetaStar, pull_taut,
+    smooth,
 };
 
 /// A path on a map. What the oracle says of paths like it.
@@ -75,7 +76,8 @@ impl Judge<'_> {
             if let Some(at) = around.into_iter().find(better) {
                 return Some(format!("{b} can move to {at}"));
             }
-            let free = self.rules.placement() == mediant_grid::Placement::Corner && !self.is_held(a, b, c);
+            let free =
+                self.rules.placement() == mediant_grid::PlacementKind::Corner && !self.is_held(a, b, c);
             free.then(|| format!("no obstacle holds {b}"))
         })
     }
@@ -117,8 +119,8 @@ fn check_smooth(judge: &Judge<'_>, before: &[Vertex], after: &[Vertex], case: &d
         if let Some(&beyond) = way.get(next + 1) {
             let further = [index.checked_sub(2).map(|i| after[i]), Some(way[last]), Some(beyond)];
             // Gaps apart, where it may have seen further.
-            let is_gap = judge.rules == Rules::Corner(DiagonalGap::Closed);
-            assert!(is_gap || !judge.is_legal(&further), "{} sees {beyond}; {}", way[last], case());
+            let is_closed_gap = judge.rules == Rules::Corner(DiagonalGap::Closed);
+            assert!(is_closed_gap || !judge.is_legal(&further), "{} sees {beyond}; {}", way[last], case());
         }
         last = next;
     }
@@ -126,42 +128,42 @@ fn check_smooth(judge: &Judge<'_>, before: &[Vertex], after: &[Vertex], case: &d
 }
 
 /// How many paths became shorter by each kind of smoothing.
-fn check<P: Place>(terrain: &Terrain<P>, path: &Path, case: &dyn Fn() -> String) -> [usize; 2] {
-    let judge = Judge { grid: terrain.grid(), rules: terrain.rules() };
+fn check<P: Placement>(space: &FreeSpace<P>, path: &Path, case: &dyn Fn() -> String) -> [usize; 2] {
+    let judge = Judge { grid: space.grid(), rules: space.rules() };
     let (way, slack) = (path.waypoints(), 1.0 + 1e-12);
     let (start, goal) = (way[0], way[way.len() - 1]);
     let [linear, taut] = [Smoothing::Linear, Smoothing::Taut].map(|smoothing| {
-        let smoothed = smoothing.apply(terrain, path);
+        let smoothed = smoothing.apply(space, path);
         let fault =
             validate(judge.grid, judge.rules, None, start, goal, smoothed.waypoints(), smoothed.cost());
         assert_eq!(fault, Ok(()), "{smoothing:?}; {}", case());
         smoothed
     });
-    assert_eq!(linear.waypoints(), smooth(terrain, way));
-    assert_eq!(taut.waypoints(), pull_taut(terrain, way));
+    assert_eq!(linear.waypoints(), smooth(space, way));
+    assert_eq!(taut.waypoints(), pull_taut(space, way));
     let costs = [path.cost(), linear.cost(), taut.cost()];
     assert!(costs[1] <= costs[0] * slack && costs[2] <= costs[1] * slack, "{costs:?}; {}", case());
     check_smooth(&judge, way, linear.waypoints(), case);
     let fault = judge.slack(taut.waypoints());
     assert_eq!(fault, None, "{way:?} became {taut:?}; {}", case());
-    assert_eq!(pull_taut(terrain, taut.waypoints()), taut.waypoints(), "pulled again; {}", case());
+    assert_eq!(pull_taut(space, taut.waypoints()), taut.waypoints(), "pulled again; {}", case());
     [linear.cost() < path.cost() / slack, taut.cost() < linear.cost() / slack].map(usize::from)
 }
 
-fn check_map<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> [usize; 2] {
-    let lattice = Lattice::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
-    let (mut a_star, mut theta) =
-        (AStar::new(&lattice, LatticeDistance), ThetaStar::new(&lattice, LatticeDistance));
+fn check_map<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> [usize; 2] {
+    let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
+    let (mut a_star, mut theta) = (AStar::new(&grid_graph, Hk), ThetaStar::new(&grid_graph, Hk));
     let mut rng = Rng::new(seed ^ 0x500);
-    let mut free = || random_free_vertex(&mut rng, grid, P::PLACEMENT);
+    let mut free = || random_free_vertex(&mut rng, grid, P::KIND);
     let queries: Vec<Query> = (0..6).filter_map(|_| Some(Query::new(free()?, free()?))).collect();
     let mut shorter = [0; 2];
     for query in queries {
         let outcomes = [a_star.solve(query), theta.solve(query)];
-        let case = || format!("k = {k}; {}", describe(grid, lattice.rules(), query.start, query.goal, seed));
+        let case =
+            || format!("k = {k}; {}", describe(grid, grid_graph.rules(), query.start, query.goal, seed));
         for path in outcomes.iter().filter_map(|outcome| outcome.as_ref().expect("both ends are free").path())
         {
-            let counts = check(&lattice, path, &case);
+            let counts = check(&grid_graph, path, &case);
             shorter.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count);
         }
     }
@@ -174,7 +176,7 @@ fn smoothed_paths_keep_all_promises() {
     for seed in seeds(150) {
         let grid = Arc::new(suite_grid(seed).0);
         for (rules, k) in Rules::ALL.into_iter().flat_map(|rules| [2, 3, 5].map(|k| (rules, k))) {
-            let k = K::new(k).expect("k is at least 2");
+            let k = FiniteK::new(k).expect("k is at least 2");
             let counts = match rules {
                 Rules::Center(corners) => check_map::<Centers>(&grid, corners, k, seed),
                 Rules::Corner(gap) => check_map::<Corners>(&grid, gap, k, seed),
@@ -214,13 +216,13 @@ fn without_islands_a_taut_path_at_corners_is_optimal() {
         for gap in [DiagonalGap::Open, DiagonalGap::Closed] {
             let any_angle = Explicit::new(&grid, Rules::Corner(gap), None);
             for k in [2, 3] {
-                let k = K::new(k).expect("k is at least 2");
-                let lattice = Lattice::<Corners>::new(Arc::clone(&grid), k, gap).expect("k is in range");
+                let k = FiniteK::new(k).expect("k is at least 2");
+                let grid_graph = GridGraph::<Corners>::new(Arc::clone(&grid), k, gap).expect("k is in range");
                 let mut planner =
-                    Smoothed::new(AStar::new(&lattice, LatticeDistance), &lattice, Some(Smoothing::Taut));
+                    Smoothed::new(AStar::new(&grid_graph, Hk), &grid_graph, Some(Smoothing::Taut));
                 let mut rng = Rng::new(seed ^ 0x15);
                 for _ in 0..6 {
-                    let mut free = || random_free_vertex(&mut rng, &grid, Corners::PLACEMENT);
+                    let mut free = || random_free_vertex(&mut rng, &grid, Corners::KIND);
                     let (Some(start), Some(goal)) = (free(), free()) else { continue };
                     let outcome = planner.solve(Query::new(start, goal)).expect("both ends are free");
                     let (cost, best) = (outcome.path().map(Path::cost), any_angle.costs_from(start).to(goal));
@@ -248,12 +250,12 @@ fn check_paths(drawing: &str, rules: Rules, path: &[(i32, i32)], expected: [&[(i
     let path: Vec<Vertex> = path.iter().map(|&at| at.into()).collect();
     let found = match rules {
         Rules::Center(corners) => {
-            let terrain = Terrain::<Centers>::new(grid, corners);
-            [smooth(&terrain, &path), pull_taut(&terrain, &path)]
+            let space = FreeSpace::<Centers>::new(grid, corners);
+            [smooth(&space, &path), pull_taut(&space, &path)]
         }
         Rules::Corner(gap) => {
-            let terrain = Terrain::<Corners>::new(grid, gap);
-            [smooth(&terrain, &path), pull_taut(&terrain, &path)]
+            let space = FreeSpace::<Corners>::new(grid, gap);
+            [smooth(&space, &path), pull_taut(&space, &path)]
         }
     };
     let expected = expected.map(|path| path.iter().map(|&at| at.into()).collect::<Vec<Vertex>>());
@@ -372,18 +374,18 @@ fn closed_gaps_stay_closed() {
 #[test]
 fn planners_smooth_their_paths() {
     let grid = Arc::new(AsciiMap::parse(ROUND).expect("the drawing is a map").grid);
-    let k = K::EIGHT_CONNECTED;
-    let lattice =
-        Arc::new(Lattice::<Corners>::new(Arc::clone(&grid), k, DiagonalGap::Open).expect("k is in range"));
-    let terrain = Arc::new(Terrain::<Corners>::new(grid, DiagonalGap::Open));
+    let k = FiniteK::N8;
+    let grid_graph =
+        Arc::new(GridGraph::<Corners>::new(Arc::clone(&grid), k, DiagonalGap::Open).expect("k is in range"));
+    let space = Arc::new(FreeSpace::<Corners>::new(grid, DiagonalGap::Open));
     let query = Query::new((2, 6), (8, 6));
-    let plain = AStar::new(&*lattice, LatticeDistance).solve(query).expect("both ends are free");
-    let best = pull_taut(&terrain, plain.path().expect("a path").waypoints());
+    let plain = AStar::new(&*grid_graph, Hk).solve(query).expect("both ends are free");
+    let best = pull_taut(&space, plain.path().expect("a path").waypoints());
 
-    let planner = || AStar::new(Arc::clone(&lattice), LatticeDistance);
-    let mut passing = Smoothed::new(planner(), Arc::clone(&lattice), None);
+    let planner = || AStar::new(Arc::clone(&grid_graph), Hk);
+    let mut passing = Smoothed::new(planner(), Arc::clone(&grid_graph), None);
     assert_eq!((passing.guarantee(), passing.solve(query).as_ref()), (Guarantee::Optimal(k), Ok(&plain)));
-    let mut taut = Smoothed::new(planner(), Arc::clone(&terrain), Some(Smoothing::Taut));
+    let mut taut = Smoothed::new(planner(), Arc::clone(&space), Some(Smoothing::Taut));
     assert_eq!(taut.guarantee(), Guarantee::AtMost(k));
     let mut counters = [Counters::default(); 2];
     let outcome = taut.solve_observed(query, &mut counters[0]).expect("both ends are free");
@@ -394,20 +396,19 @@ fn planners_smooth_their_paths() {
 
     // Errors and unreachable goals pass.
     assert_eq!(taut.solve(Query::new((0, 0), (5, 4))), planner().solve(Query::new((0, 0), (5, 4))));
-    let smoothed =
-        Smoothed::new(ThetaStar::new(&*lattice, LatticeDistance), &*lattice, Some(Smoothing::Linear));
+    let smoothed = Smoothed::new(ThetaStar::new(&*grid_graph, Hk), &*grid_graph, Some(Smoothing::Linear));
     assert_eq!(smoothed.guarantee(), Guarantee::Suboptimal);
 }
 
 /// What a guarantee says of the any-angle optimum, held against it.
-fn check_bounds<P: Place>(grid: &Arc<Grid>, rule: P::Rule, k: K, seed: u64) -> usize {
-    let lattice = Lattice::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
-    let (rules, any_angle) = (lattice.rules(), Explicit::new(grid, lattice.rules(), None));
+fn check_bounds<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> usize {
+    let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
+    let (rules, any_angle) = (grid_graph.rules(), Explicit::new(grid, grid_graph.rules(), None));
     let mut rng = Rng::new(seed ^ 0xB0D);
     let mut closer = 0;
     for smoothing in [None, Some(Smoothing::Linear), Some(Smoothing::Taut)] {
-        let mut planner = Smoothed::new(AStar::new(&lattice, LatticeDistance), &lattice, smoothing);
-        let mut free = || random_free_vertex(&mut rng, grid, P::PLACEMENT);
+        let mut planner = Smoothed::new(AStar::new(&grid_graph, Hk), &grid_graph, smoothing);
+        let mut free = || random_free_vertex(&mut rng, grid, P::KIND);
         let (Some(start), Some(goal)) = (free(), free()) else { continue };
         let outcome = planner.solve(Query::new(start, goal)).expect("both ends are free");
         let (Some(path), Some(best)) = (outcome.path(), any_angle.costs_from(start).to(goal)) else {
@@ -435,7 +436,7 @@ fn guarantees_bound_the_any_angle_optimum() {
             .zip([2, 3, 4, 5, 6].into_iter().cycle().skip(seed as usize % 5))
             .zip(&mut closer)
         {
-            let k = K::new(k).expect("k is at least 2");
+            let k = FiniteK::new(k).expect("k is at least 2");
             *count += match rules {
                 Rules::Center(corners) => check_bounds::<Centers>(&grid, corners, k, seed),
                 Rules::Corner(gap) => check_bounds::<Corners>(&grid, gap, k, seed),

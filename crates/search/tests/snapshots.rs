@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use mediant_engines::{Engine, Options, Prebuilt, Setup, Solver};
 use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Rules, draw};
-use mediant_moves::{K, Knob};
+use mediant_moves::{FiniteK, K};
 use mediant_search::{Outcome, Query, Smoothing};
 
 /// The picture of the best path from `s` to `g`, under its cost.
@@ -18,7 +18,7 @@ fn picture(drawing: &str, rules: Rules, k: u32) -> String {
 fn picture_by(engine: Engine, drawing: &str, rules: Rules, k: u32, smoothing: Option<Smoothing>) -> String {
     let map = AsciiMap::parse(drawing).expect("the drawing is a map");
     let query = Query::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
-    let k = if engine == Engine::Anya { Knob::Any } else { K::new(k).expect("k is at least 2").into() };
+    let k = if engine == Engine::Anya { K::Any } else { FiniteK::new(k).expect("k is at least 2").into() };
     let options = Options { smoothing, ..Options::default() };
     let setup = Setup { options, ..Setup::new(engine, k, rules) };
     let grid = Arc::new(map.grid);

@@ -3,13 +3,13 @@
 use std::{fmt::Debug, sync::Arc};
 
 use mediant_grid::{
-    AsciiMap, Centers, CornerRule, Corners, DiagonalGap, Grid, Lattice, Place, Rules, Vertex,
+    AsciiMap, Centers, CornerRule, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vertex,
 };
-use mediant_moves::K;
+use mediant_moves::FiniteK;
 use mediant_oracle::{Costs, Explicit, Rng, describe, random_free_vertex, seeds, suite_grid, validate};
 use mediant_search::{
-    AtOnce, Counters, Euclidean, Guarantee, Heuristic, LatticeDistance, Lazily, LazyThetaStar, NodeEvent,
-    Observer, Outcome, Path, Planner, Query, SightCheck, Theta, ThetaStar, Zero,
+    AtOnce, Counters, Euclidean, Guarantee, Heuristic, Hk, Lazily, LazyThetaStar, NodeEvent, Observer,
+    Outcome, Path, Planner, Query, SightCheck, Theta, ThetaStar, Zero,
 };
 
 /// What is known of a query, and where it came from.
@@ -17,21 +17,21 @@ struct Expected {
     start: Vertex,
     goal: Vertex,
     /// The optimum over N(k).
-    lattice: Option<f64>,
+    grid_graph: Option<f64>,
     /// The any-angle optimum, where it was asked for.
     any_angle: Option<f64>,
     seed: u64,
 }
 
 /// A planner for all queries of a map, so that each is answered on what the others left behind. How many paths were optimal, and not.
-fn check<P: Place, H: Heuristic + Debug, S: SightCheck>(
-    lattice: &Lattice<P>,
+fn check<P: Placement, H: Heuristic + Debug, S: SightCheck>(
+    grid_graph: &GridGraph<P>,
     h: H,
     queries: &[Expected],
 ) -> [usize; 2] {
-    let mut planner = Theta::<_, H, S>::new(lattice, h);
+    let mut planner = Theta::<_, H, S>::new(grid_graph, h);
     assert_eq!(planner.guarantee(), Guarantee::Suboptimal);
-    let (k, grid, rules) = (lattice.k(), lattice.grid(), lattice.rules());
+    let (k, grid, rules) = (grid_graph.k(), grid_graph.grid(), grid_graph.rules());
     let mut optimal = [0; 2];
     for expected in queries {
         let Expected { start, goal, .. } = *expected;
@@ -49,9 +49,9 @@ fn check<P: Place, H: Heuristic + Debug, S: SightCheck>(
             (outcome, counters)
         };
         let (outcome, counters) = solve(&mut planner);
-        assert_eq!((&outcome, counters), (&solve(&mut Theta::new(lattice, h)).0, counters), "{}", case());
+        assert_eq!((&outcome, counters), (&solve(&mut Theta::new(grid_graph, h)).0, counters), "{}", case());
         assert_eq!((&outcome, counters), (&solve(&mut planner).0, counters), "{}", case());
-        assert_eq!(outcome.path().is_some(), expected.lattice.is_some(), "{}", case());
+        assert_eq!(outcome.path().is_some(), expected.grid_graph.is_some(), "{}", case());
         let Outcome::Found(path) = outcome else {
             assert_eq!(counters, Counters::default(), "{}", case());
             continue;
@@ -64,33 +64,38 @@ fn check<P: Place, H: Heuristic + Debug, S: SightCheck>(
         let (best, slack) = (expected.any_angle.unwrap_or(0.0), 1.0 + 1e-9);
         assert!(cost * slack >= best, "{cost} < {best}; {}", case());
         // The heuristics are consistent: see `Theta`.
-        let limit = expected.lattice.filter(|_| S::AT_ONCE).unwrap_or(f64::INFINITY);
+        let limit = expected.grid_graph.filter(|_| S::AT_ONCE).unwrap_or(f64::INFINITY);
         assert!(cost <= limit * slack, "{cost} > {limit}; {}", case());
         optimal[usize::from(cost > best * slack)] += 1;
     }
     optimal
 }
 
-fn check_all<P: Place>(
+fn check_all<P: Placement>(
     grid: &Arc<Grid>,
     rule: P::Rule,
-    k: K,
+    k: FiniteK,
     queries: impl Fn(Rules) -> Vec<Expected>,
 ) -> [usize; 2] {
-    let lattice = Lattice::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
-    let queries = queries(lattice.rules());
+    let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
+    let queries = queries(grid_graph.rules());
     let optimal = [
-        check::<P, _, AtOnce>(&lattice, LatticeDistance, &queries),
-        check::<P, _, Lazily>(&lattice, LatticeDistance, &queries),
-        check::<P, _, AtOnce>(&lattice, Euclidean, &queries),
-        check::<P, _, Lazily>(&lattice, Euclidean, &queries),
-        check::<P, _, AtOnce>(&lattice, Zero, &queries),
-        check::<P, _, Lazily>(&lattice, Zero, &queries),
+        check::<P, _, AtOnce>(&grid_graph, Hk, &queries),
+        check::<P, _, Lazily>(&grid_graph, Hk, &queries),
+        check::<P, _, AtOnce>(&grid_graph, Euclidean, &queries),
+        check::<P, _, Lazily>(&grid_graph, Euclidean, &queries),
+        check::<P, _, AtOnce>(&grid_graph, Zero, &queries),
+        check::<P, _, Lazily>(&grid_graph, Zero, &queries),
     ];
     [0, 1].map(|i| optimal.iter().map(|counts| counts[i]).sum())
 }
 
-fn check_under(grid: &Arc<Grid>, rules: Rules, k: K, queries: impl Fn(Rules) -> Vec<Expected>) -> [usize; 2] {
+fn check_under(
+    grid: &Arc<Grid>,
+    rules: Rules,
+    k: FiniteK,
+    queries: impl Fn(Rules) -> Vec<Expected>,
+) -> [usize; 2] {
     match rules {
         Rules::Center(corners) => check_all::<Centers>(grid, corners, k, queries),
         Rules::Corner(gap) => check_all::<Corners>(grid, gap, k, queries),
@@ -108,12 +113,12 @@ fn a_path_is_found_whenever_there_is_one_and_is_no_shorter_than_any_path() {
             let pairs: Vec<(Vertex, Vertex)> = (0..5).filter_map(|_| Some((free()?, free()?))).collect();
             let any_angle = Explicit::new(&grid, rules, None);
             let any: Vec<Costs<'_>> = pairs.iter().map(|&(start, _)| any_angle.costs_from(start)).collect();
-            for k in [2, 3, 4, 6].map(|k| K::new(k).expect("k is at least 2")) {
+            for k in [2, 3, 4, 6].map(|k| FiniteK::new(k).expect("k is at least 2")) {
                 let graph = Explicit::new(&grid, rules, Some(k));
                 let counts = check_under(&grid, rules, k, |_| {
                     let expected = pairs.iter().zip(&any).map(|(&(start, goal), any)| {
-                        let lattice = graph.costs_from(start).to(goal);
-                        Expected { start, goal, lattice, any_angle: any.to(goal), seed }
+                        let grid_graph = graph.costs_from(start).to(goal);
+                        Expected { start, goal, grid_graph, any_angle: any.to(goal), seed }
                     });
                     expected.collect()
                 });
@@ -134,18 +139,23 @@ fn a_path_is_found_on_every_map_of_nine_cells() {
         let (rules, k) = (Rules::ALL[cells as usize % 5], [2, 3][cells as usize / 5 % 2]);
         // Under the rule of closed gaps all maps, under the others in turn.
         for rules in [Rules::Corner(DiagonalGap::Closed), rules] {
-            let graph = Explicit::new(&grid, rules, K::new(k).ok());
+            let graph = Explicit::new(&grid, rules, FiniteK::new(k).ok());
             let vertices: Vec<Vertex> = graph.free_vertices().collect();
             let all_pairs = |_| {
                 let from = |&start: &Vertex| {
                     let costs = graph.costs_from(start);
-                    let to =
-                        |&goal| Expected { start, goal, lattice: costs.to(goal), any_angle: None, seed: 0 };
+                    let to = |&goal| Expected {
+                        start,
+                        goal,
+                        grid_graph: costs.to(goal),
+                        any_angle: None,
+                        seed: 0,
+                    };
                     vertices.iter().map(to).collect::<Vec<_>>()
                 };
                 vertices.iter().flat_map(from).collect()
             };
-            let k = K::new(k).expect("k is at least 2");
+            let k = FiniteK::new(k).expect("k is at least 2");
             found += check_under(&grid, rules, k, all_pairs).iter().sum::<usize>();
         }
     }
@@ -162,7 +172,7 @@ fn check_paths(
     expected: [&[(i32, i32)]; 2],
 ) {
     let grid = Arc::new(AsciiMap::parse(drawing).expect("the drawing is a map").grid);
-    let (query, k) = (Query::new(start, goal), K::new(k).expect("k is at least 2"));
+    let (query, k) = (Query::new(start, goal), FiniteK::new(k).expect("k is at least 2"));
     let paths = match rules {
         Rules::Center(corners) => paths::<Centers>(grid, k, corners, query),
         Rules::Corner(gap) => paths::<Corners>(grid, k, gap, query),
@@ -171,10 +181,10 @@ fn check_paths(
     assert_eq!(paths, expected, "k = {k}, {rules}");
 }
 
-fn paths<P: Place>(grid: Arc<Grid>, k: K, rule: P::Rule, query: Query) -> [Vec<Vertex>; 2] {
-    let lattice = Lattice::<P>::new(grid, k, rule).expect("k is in range");
-    let at_once = ThetaStar::new(&lattice, LatticeDistance).solve(query);
-    let lazily = LazyThetaStar::new(&lattice, LatticeDistance).solve(query);
+fn paths<P: Placement>(grid: Arc<Grid>, k: FiniteK, rule: P::Rule, query: Query) -> [Vec<Vertex>; 2] {
+    let grid_graph = GridGraph::<P>::new(grid, k, rule).expect("k is in range");
+    let at_once = ThetaStar::new(&grid_graph, Hk).solve(query);
+    let lazily = LazyThetaStar::new(&grid_graph, Hk).solve(query);
     [at_once, lazily].map(|outcome| match outcome.expect("both ends are free") {
         Outcome::Found(path) => path.into_waypoints(),
         Outcome::Unreachable => Vec::new(),
@@ -277,12 +287,12 @@ fn gaps_are_passed_where_they_are_open() {
 fn nothing_hangs_through_a_closed_gap() {
     let both = |drawing: &str, k: u32, [start, goal]: [(i32, i32); 2], expected: &[(i32, i32)]| {
         let grid = Arc::new(AsciiMap::parse(drawing).expect("the drawing is a map").grid);
-        let k = K::new(k).expect("k is at least 2");
-        let lattice = Lattice::<Corners>::new(grid, k, DiagonalGap::Closed).expect("k is in range");
+        let k = FiniteK::new(k).expect("k is at least 2");
+        let grid_graph = GridGraph::<Corners>::new(grid, k, DiagonalGap::Closed).expect("k is in range");
         let (query, expected) = (Query::new(start, goal), expected.iter().map(|&at| at.into()));
         let expected = Ok(Outcome::Found(Path::new(expected.collect())));
-        assert_eq!(ThetaStar::new(&lattice, Zero).solve(query), expected);
-        assert_eq!(LazyThetaStar::new(&lattice, Zero).solve(query), expected);
+        assert_eq!(ThetaStar::new(&grid_graph, Zero).solve(query), expected);
+        assert_eq!(LazyThetaStar::new(&grid_graph, Zero).solve(query), expected);
     };
     // From the start: (4, 2), which hangs on it, leads to (1, 0) by (−3, −2).
     let start = "
@@ -351,10 +361,10 @@ fn events<S: SightCheck>() -> Vec<String> {
         ....
     ";
     let map = AsciiMap::parse(drawing).expect("the drawing is a map");
-    let lattice = Lattice::<Centers>::new(Arc::new(map.grid), K::EIGHT_CONNECTED, CornerRule::Never)
-        .expect("k is in range");
+    let grid_graph =
+        GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::N8, CornerRule::Never).expect("k is in range");
     let (mut log, mut counters) = (Log::default(), Counters::default());
-    let mut planner = Theta::<_, _, S>::new(&lattice, LatticeDistance);
+    let mut planner = Theta::<_, _, S>::new(&grid_graph, Hk);
     let query = Query::new((0, 0), (3, 1));
     planner.solve_observed(query, &mut log).expect("both ends are free");
     planner.solve_observed(query, &mut counters).expect("both ends are free");

@@ -2,11 +2,11 @@
 
 use std::{collections::VecDeque, sync::Arc};
 
-use mediant_grid::{Centers, Corners, DiagonalGap, Grid, Lattice, Place, Rules, Vertex};
-use mediant_moves::K;
+use mediant_grid::{Centers, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vertex};
+use mediant_moves::FiniteK;
 use mediant_oracle::{
-    Explicit, Rng, describe, is_doubly_blocked, neighborhood, random_free_vertex, segment_is_legal,
-    suite_grid, turn_is_legal, validate, vertex_is_free,
+    Explicit, Rng, describe, is_gap, neighborhood, random_free_vertex, segment_is_legal, suite_grid,
+    turn_is_legal, validate, vertex_is_free,
 };
 use mediant_search::{
     Counters, Distances, End, Guarantee, Outcome, Path, Planner, Query, QueryError, Wavefront,
@@ -16,13 +16,13 @@ use mediant_search::{
 struct Graph<'g> {
     grid: &'g Grid,
     rules: Rules,
-    k: K,
+    k: FiniteK,
     size: (i32, i32),
     successors: Vec<Vec<Vertex>>,
 }
 
 impl<'g> Graph<'g> {
-    fn new(grid: &'g Grid, rules: Rules, k: K) -> Self {
+    fn new(grid: &'g Grid, rules: Rules, k: FiniteK) -> Self {
         let extra = u32::from(matches!(rules, Rules::Corner(_)));
         let (columns, rows) = (grid.width() + extra, grid.height() + extra);
         let moves = neighborhood(Some(k), columns, rows);
@@ -39,13 +39,13 @@ impl<'g> Graph<'g> {
     }
 
     fn is_closed_gap(&self, at: Vertex) -> bool {
-        self.rules == Rules::Corner(DiagonalGap::Closed) && is_doubly_blocked(self.grid, at)
+        self.rules == Rules::Corner(DiagonalGap::Closed) && is_gap(self.grid, at)
     }
 
     /// The fewest moves from `start` to every vertex, row by row: for k > 2 on paths that touch closed gaps at their ends only,
     /// for k = 2 by Dijkstra on a graph that knows both quadrants of a gap.
     fn moves_from(&self, start: Vertex) -> Vec<Option<u32>> {
-        if self.k == K::FOUR_CONNECTED {
+        if self.k == FiniteK::N4 {
             let graph = Explicit::new(self.grid, self.rules, Some(self.k));
             let costs = graph.costs_from(start);
             let vertices = (0..self.size.1).flat_map(|y| (0..self.size.0).map(move |x| Vertex::new(x, y)));
@@ -81,7 +81,7 @@ trait Waves {
     fn promise(&self) -> Guarantee;
 }
 
-impl<P: Place> Waves for Wavefront<Lattice2<P>> {
+impl<P: Placement> Waves for Wavefront<Lattice2<P>> {
     fn distances(&mut self, start: Vertex) -> Result<Distances<u32>, QueryError> {
         Wavefront::distances(self, start)
     }
@@ -96,12 +96,12 @@ impl<P: Place> Waves for Wavefront<Lattice2<P>> {
     }
 }
 
-type Lattice2<P> = Arc<Lattice<P>>;
+type Lattice2<P> = Arc<GridGraph<P>>;
 
-fn waves(grid: &Arc<Grid>, rules: Rules, k: K) -> Box<dyn Waves> {
-    fn on<P: Place>(grid: &Arc<Grid>, k: K, rule: P::Rule) -> Box<dyn Waves> {
-        let lattice = Lattice::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
-        Box::new(Wavefront::new(Arc::new(lattice)))
+fn waves(grid: &Arc<Grid>, rules: Rules, k: FiniteK) -> Box<dyn Waves> {
+    fn on<P: Placement>(grid: &Arc<Grid>, k: FiniteK, rule: P::Rule) -> Box<dyn Waves> {
+        let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
+        Box::new(Wavefront::new(Arc::new(grid_graph)))
     }
     match rules {
         Rules::Center(corners) => on::<Centers>(grid, k, corners),
@@ -159,7 +159,7 @@ fn check_path(waves: &mut dyn Waves, graph: &Graph<'_>, query: Query, case: &dyn
     assert!(counters.expanded < counters.generated, "{counters:?}; {}", case());
     assert_eq!((counters.updated, counters.percolations), (0, 0), "{}", case());
     assert_eq!(waves.answer(query), Ok((outcome.clone(), counters)), "the same again; {}", case());
-    assert_eq!(waves.promise() == Guarantee::Optimal(k), k == K::FOUR_CONNECTED);
+    assert_eq!(waves.promise() == Guarantee::Optimal(k), k == FiniteK::N4);
 }
 
 #[test]
@@ -168,7 +168,7 @@ fn moves_are_the_fewest_on_random_maps() {
     for seed in mediant_oracle::seeds(80) {
         let grid = Arc::new(suite_grid(seed).0);
         for rules in Rules::ALL {
-            for k in (2..=6).map(|k| K::new(k).unwrap()) {
+            for k in (2..=6).map(|k| FiniteK::new(k).unwrap()) {
                 let graph = Graph::new(&grid, rules, k);
                 let mut waves = waves(&grid, rules, k);
                 let mut rng = Rng::new(seed ^ 0xFACE);
@@ -195,7 +195,7 @@ fn moves_are_the_fewest_on_every_map_of_nine_cells() {
         let grid = Arc::new(Grid::from_fn(3, 3, |x, y| cells >> (3 * y + x) & 1 == 1).unwrap());
         for rules in Rules::ALL {
             let free = Explicit::new(&grid, rules, None);
-            for k in (2..=4).map(|k| K::new(k).unwrap()) {
+            for k in (2..=4).map(|k| FiniteK::new(k).unwrap()) {
                 let graph = Graph::new(&grid, rules, k);
                 let mut waves = waves(&grid, rules, k);
                 for start in free.free_vertices() {
@@ -214,7 +214,7 @@ fn ties_go_to_the_vertex_reached_first() {
     let grid = Arc::new(Grid::from_fn(4, 3, |_, _| false).unwrap());
     let path = |k: u32, goal: (i32, i32)| {
         let rules = Rules::Center(mediant_grid::CornerRule::Never);
-        let mut waves = waves(&grid, rules, K::new(k).unwrap());
+        let mut waves = waves(&grid, rules, FiniteK::new(k).unwrap());
         let (outcome, _) = waves.answer(Query::new((0, 0), goal)).unwrap();
         outcome.path().unwrap().waypoints().iter().map(|at| (at.x, at.y)).collect::<Vec<_>>()
     };
@@ -229,7 +229,7 @@ fn ties_go_to_the_vertex_reached_first() {
 fn starts_that_are_no_vertices_are_errors() {
     let grid = Arc::new(Grid::from_fn(3, 2, |x, y| (x, y) == (1, 1)).unwrap());
     let rules = Rules::Center(mediant_grid::CornerRule::Never);
-    let mut waves = waves(&grid, rules, K::EIGHT_CONNECTED);
+    let mut waves = waves(&grid, rules, FiniteK::N8);
     let (end, last) = (End::Start, Vertex::new(2, 1));
     for at in [(3, 0), (0, 2), (-1, 0), (i32::MIN, i32::MAX)].map(Vertex::from) {
         assert_eq!(waves.distances(at), Err(QueryError::Outside { end, at, last }));

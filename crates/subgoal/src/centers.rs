@@ -1,7 +1,7 @@
 //! Subgoal graphs at centers, over N(2) and N(3): those of Uras, Koenig & Hernández 2013, in which corners are never cut.
 
-use mediant_grid::{BitIndex, BitMatrix, Centers, CornerRule, Grid, Terrain, Vector, Vertex, load};
-use mediant_moves::{Cost, K, Knob};
+use mediant_grid::{BitIndex, BitMatrix, Centers, CornerRule, FreeSpace, Grid, Vector, Vertex, load};
+use mediant_moves::{Cost, FiniteK, K};
 
 use crate::{
     Connect, Hierarchy, SubgoalError,
@@ -13,34 +13,34 @@ impl Connect for Centers {
     type Scratch = ();
     type Prepared = Lines;
 
-    fn check(terrain: &Terrain<Self>, k: Knob) -> Result<(), SubgoalError> {
+    fn check(space: &FreeSpace<Self>, k: K) -> Result<(), SubgoalError> {
         match k {
-            Knob::K(K::FOUR_CONNECTED) => Ok(()),
-            Knob::K(K::EIGHT_CONNECTED) if terrain.rule() == CornerRule::Never => Ok(()),
-            _ => Err(SubgoalError::Centers { k, rules: terrain.rules() }),
+            K::Finite(FiniteK::N4) => Ok(()),
+            K::Finite(FiniteK::N8) if space.rule() == CornerRule::Never => Ok(()),
+            _ => Err(SubgoalError::Centers { k, rules: space.rules() }),
         }
     }
 
-    fn prepare(terrain: &Terrain<Self>) -> (BitMatrix, Lines) {
-        Lines::new(terrain.grid())
+    fn prepare(space: &FreeSpace<Self>) -> (BitMatrix, Lines) {
+        Lines::new(space.grid())
     }
 
-    fn edges(_: Knob, _: Hierarchy) -> Edges {
+    fn edges(_: K, _: Hierarchy) -> Edges {
         Edges::Direct
     }
 
     fn links(map: Map<'_, Self>, (): &mut (), from: Vertex, which: Which, mut tell: impl FnMut(u32, Cost)) {
-        let Map { terrain, subgoals, norm, k, .. } = map;
+        let Map { space, subgoals, norm, k, .. } = map;
         let lines = subgoals.prepared();
         let tell = |to: Vector, cost: Cost| {
             if let Some(id) = subgoals.id(from + to) {
                 tell(id, cost);
             }
         };
-        let diagonally = k == Knob::K(K::EIGHT_CONNECTED);
+        let diagonally = k == K::Finite(FiniteK::N8);
         let [straight, other] =
             [Vector::new(1, 0), Vector::new(1, i32::from(diagonally))].map(|v| norm.length(v));
-        Links { grid: terrain.grid(), lines, from, which, costs: (straight, other), tell }.find(diagonally);
+        Links { grid: space.grid(), lines, from, which, costs: (straight, other), tell }.find(diagonally);
     }
 }
 
@@ -162,8 +162,8 @@ fn free_beyond<const AHEAD: bool>(words: &[u64], at: BitIndex, most: i32) -> i32
 mod tests {
     use std::sync::Arc;
 
-    use mediant_grid::{Centers, CornerRule, Grid, Place, Terrain, Vector, Vertex};
-    use mediant_moves::{Cost, K, Knob};
+    use mediant_grid::{Centers, CornerRule, FreeSpace, Grid, Placement, Vector, Vertex};
+    use mediant_moves::{Cost, FiniteK, K};
     use mediant_oracle::{Explicit, random_grid, wide_grid};
 
     use crate::{
@@ -184,13 +184,13 @@ mod tests {
     }
 
     /// Of all subgoals those to which an optimal path among obstacles is as short as without any, and does not lead over another one: by
-    /// searches of the lattice.
-    fn check(grid: &Grid, k: K, rule: CornerRule, every: usize, seed: u64) -> usize {
-        let terrain = Terrain::<Centers>::new(Arc::new(grid.clone()), rule);
-        let norm = Norm::new(Knob::K(k)).expect("a small k");
-        let subgoals = Subgoals::new(Centers::prepare(&terrain));
+    /// searches of the grid graph.
+    fn check(grid: &Grid, k: FiniteK, rule: CornerRule, every: usize, seed: u64) -> usize {
+        let space = FreeSpace::<Centers>::new(Arc::new(grid.clone()), rule);
+        let norm = Norm::new(K::Finite(k)).expect("a small k");
+        let subgoals = Subgoals::new(Centers::prepare(&space));
         let edges = Edges::Direct;
-        let map = Map { terrain: &terrain, subgoals: &subgoals, norm: &norm, k: Knob::K(k), edges };
+        let map = Map { space: &space, subgoals: &subgoals, norm: &norm, k: K::Finite(k), edges };
         let explicit = Explicit::new(grid, Centers::rules(rule), Some(k));
         let all: Vec<Vertex> = explicit.free_vertices().filter(|&at| is_subgoal(grid, at)).collect();
         assert_eq!(
@@ -239,10 +239,10 @@ mod tests {
     }
 
     /// k, rule.
-    const CASES: [(K, CornerRule); 3] = [
-        (K::EIGHT_CONNECTED, CornerRule::Never),
-        (K::FOUR_CONNECTED, CornerRule::Never),
-        (K::FOUR_CONNECTED, CornerRule::Always),
+    const CASES: [(FiniteK, CornerRule); 3] = [
+        (FiniteK::N8, CornerRule::Never),
+        (FiniteK::N4, CornerRule::Never),
+        (FiniteK::N4, CornerRule::Always),
     ];
 
     #[test]
@@ -271,7 +271,7 @@ mod tests {
         }
         for seed in 0..4 {
             let (grid, _) = wide_grid(seed);
-            far += check(&grid, K::EIGHT_CONNECTED, CornerRule::Never, 41, seed);
+            far += check(&grid, FiniteK::N8, CornerRule::Never, 41, seed);
         }
         assert!(far > 1000, "{far}");
     }
@@ -280,13 +280,13 @@ mod tests {
     fn there_are_none_where_corners_are_cut_or_moves_are_longer() {
         let grid = Arc::new(Grid::from_fn(2, 2, |_, _| false).expect("a valid size"));
         for rule in [CornerRule::Never, CornerRule::One, CornerRule::Always] {
-            let terrain = Terrain::<Centers>::new(Arc::clone(&grid), rule);
+            let space = FreeSpace::<Centers>::new(Arc::clone(&grid), rule);
             let never = rule == CornerRule::Never;
             for (k, is_there) in [(2, true), (3, never), (4, false)] {
-                let k = Knob::K(K::new(k).expect("a valid k"));
-                assert_eq!(Centers::check(&terrain, k).is_ok(), is_there, "k = {k}, {rule:?}");
+                let k = K::Finite(FiniteK::new(k).expect("a valid k"));
+                assert_eq!(Centers::check(&space, k).is_ok(), is_there, "k = {k}, {rule:?}");
             }
-            assert!(Centers::check(&terrain, Knob::Any).is_err(), "{rule:?}");
+            assert!(Centers::check(&space, K::Any).is_err(), "{rule:?}");
         }
     }
 }

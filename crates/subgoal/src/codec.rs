@@ -6,8 +6,8 @@
 
 use std::num::NonZeroU32;
 
-use mediant_grid::Terrain;
-use mediant_moves::{Cost, Knob};
+use mediant_grid::FreeSpace;
+use mediant_moves::{Cost, K};
 
 use crate::{
     Connect, Hierarchy, SubgoalError, SubgoalGraph,
@@ -35,18 +35,18 @@ impl<P: Connect> SubgoalGraph<P> {
         numbers.into_iter().flat_map(u32::to_le_bytes).collect()
     }
 
-    /// The graph that gave these bytes for the same terrain and directions. It answers exactly as that one.
+    /// The graph that gave these bytes for the same free space and directions. It answers exactly as that one.
     ///
     /// Whatever the bytes are, the paths of what is read are legal. But whether they were made of this map and k, and are not damaged, only the
     /// file knows that holds them: see `IndexFile` of `mediant-formats`.
     ///
     /// # Errors
-    /// [`SubgoalError`] for bytes that are no subgoal graph on this terrain. Little more is allocated than the bytes take.
-    pub fn from_bytes(terrain: &Terrain<P>, k: impl Into<Knob>, bytes: &[u8]) -> Result<Self, SubgoalError> {
+    /// [`SubgoalError`] for bytes that are no subgoal graph on this free space. Little more is allocated than the bytes take.
+    pub fn from_bytes(space: &FreeSpace<P>, k: impl Into<K>, bytes: &[u8]) -> Result<Self, SubgoalError> {
         let k = k.into();
-        P::check(terrain, k)?;
+        P::check(space, k)?;
         let norm = Norm::new(k)?;
-        let subgoals = Subgoals::new(P::prepare(terrain));
+        let subgoals = Subgoals::new(P::prepare(space));
         let (words, rest) = bytes.as_chunks::<4>();
         let mut numbers = words.iter().map(|&word| u32::from_le_bytes(word));
         let header = numbers.next().zip(numbers.next()).zip(numbers.next());
@@ -89,12 +89,12 @@ impl<P: Connect> SubgoalGraph<P> {
             offsets: offsets.into_boxed_slice(),
             arcs: arcs.into_boxed_slice(),
         };
-        let graph = graph.with_costs(terrain)?;
+        let graph = graph.with_costs(space)?;
         let is_free = |id: u32, arc: &Up| {
             let [from, to] = [id, arc.to].map(|id| graph.subgoals.vertex(id));
             let is_free = || match graph.edges {
-                Edges::Direct => is_free(terrain, k, from, to),
-                Edges::Taut => terrain.sees(from, to),
+                Edges::Direct => is_free(space, k, from, to),
+                Edges::Taut => space.sees(from, to),
             };
             arc.mid != NONE || from != to && is_free()
         };
@@ -107,7 +107,7 @@ impl<P: Connect> SubgoalGraph<P> {
     }
 
     /// The same with the costs of the arcs, from the lowest subgoal up.
-    pub(crate) fn with_costs(mut self, terrain: &Terrain<P>) -> Result<Self, SubgoalError> {
+    pub(crate) fn with_costs(mut self, space: &FreeSpace<P>) -> Result<Self, SubgoalError> {
         let count = self.subgoals() as u32;
         let mut below = vec![0_u32; count as usize];
         for id in 0..count {
@@ -138,7 +138,7 @@ impl<P: Connect> SubgoalGraph<P> {
         }
         // A shortest way over N(2) visits each vertex once at most, and the others are shorter. Shortcuts are not always shortest ways, but nearly. The
         // bound keeps crafted bytes, in which each shortcut has twice the length of the one below, from making paths without end.
-        let most = (terrain.vertex_count() as u64).saturating_mul(16 << Cost::FRACTION_BITS);
+        let most = (space.vertex_count() as u64).saturating_mul(16 << Cost::FRACTION_BITS);
         // What is over a subgoal that is lower has its cost already.
         let mut known = vec![false; count as usize];
         order.extend((0..count).filter(|&id| self.is_core(id)));

@@ -1,19 +1,19 @@
 //! Which subgoals a vertex is joined to.
 
-use mediant_grid::{BitMatrix, Place, Terrain, Vector, Vertex};
-use mediant_moves::{Cost, Knob};
+use mediant_grid::{BitMatrix, FreeSpace, Placement, Vector, Vertex};
+use mediant_moves::{Cost, K};
 
 use crate::{Hierarchy, SubgoalError, norm::Norm, subgoals::Subgoals};
 
 /// A placement on which there are subgoal graphs.
-pub trait Connect: Place {
+pub trait Connect: Placement {
     /// What [`Connect::links`] works with.
     #[doc(hidden)]
     type Scratch: Default + Send;
 
-    /// Whether there are subgoal graphs of this terrain for these directions.
+    /// Whether there are subgoal graphs of this free space for these directions.
     #[doc(hidden)]
-    fn check(terrain: &Terrain<Self>, k: Knob) -> Result<(), SubgoalError>;
+    fn check(space: &FreeSpace<Self>, k: K) -> Result<(), SubgoalError>;
 
     /// What makes finding links fast.
     #[doc(hidden)]
@@ -21,11 +21,11 @@ pub trait Connect: Place {
 
     /// The vertices that are subgoals, a bit for each vertex in a frame of zeros, and what makes finding links fast.
     #[doc(hidden)]
-    fn prepare(terrain: &Terrain<Self>) -> (BitMatrix, Self::Prepared);
+    fn prepare(space: &FreeSpace<Self>) -> (BitMatrix, Self::Prepared);
 
     /// Which edges a graph has.
     #[doc(hidden)]
-    fn edges(k: Knob, hierarchy: Hierarchy) -> Edges;
+    fn edges(k: K, hierarchy: Hierarchy) -> Edges;
 
     /// Tells the subgoals that a vertex is joined to, and what the ways there cost.
     #[doc(hidden)]
@@ -42,7 +42,7 @@ pub trait Connect: Place {
 #[doc(hidden)]
 pub trait Prepared: Clone + std::fmt::Debug + Send + Sync {
     /// The memory that it takes.
-    fn bytes(&self) -> usize;
+    fn memory_bytes(&self) -> usize;
 }
 
 /// Which edges a graph has.
@@ -77,10 +77,10 @@ impl Which {
 #[derive(Debug)]
 #[doc(hidden)]
 pub struct Map<'m, P: Connect> {
-    pub(crate) terrain: &'m Terrain<P>,
+    pub(crate) space: &'m FreeSpace<P>,
     pub(crate) subgoals: &'m Subgoals<P::Prepared>,
     pub(crate) norm: &'m Norm,
-    pub(crate) k: Knob,
+    pub(crate) k: K,
     pub(crate) edges: Edges,
 }
 

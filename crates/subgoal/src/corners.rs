@@ -1,8 +1,8 @@
 //! Subgoal graphs at corners, over N(k) and at any angle.
 
-use mediant_grid::{BitMatrix, Corners, Place, Terrain, Vertex, load};
-use mediant_moves::{Cost, Knob};
-use mediant_search::{Bands, Fan, Quadrants, Targets};
+use mediant_grid::{BitMatrix, Corners, FreeSpace, Placement, Vertex, load};
+use mediant_moves::{Cost, K};
+use mediant_search::{Quadrants, RowSummary, Targets, VisibilitySweep};
 
 use crate::{
     Connect, Hierarchy, SubgoalError,
@@ -14,7 +14,7 @@ use crate::{
 #[derive(Debug, Default)]
 #[doc(hidden)]
 pub struct Seen {
-    fan: Fan,
+    fan: VisibilitySweep,
     direct: DirectFilter,
 }
 
@@ -22,14 +22,15 @@ pub struct Seen {
 #[derive(Clone, Debug)]
 #[doc(hidden)]
 pub struct Views {
-    bands: Bands,
+    bands: RowSummary,
     /// The subgoals that taut paths pass in directions in which x and y have the same sign, and in which they have opposite ones.
     tangents: [BitMatrix; 2],
 }
 
 impl Prepared for Views {
-    fn bytes(&self) -> usize {
-        self.bands.bytes() + self.tangents.iter().map(|marks| size_of_val(marks.words())).sum::<usize>()
+    fn memory_bytes(&self) -> usize {
+        self.bands.memory_bytes()
+            + self.tangents.iter().map(|marks| size_of_val(marks.words())).sum::<usize>()
     }
 }
 
@@ -37,16 +38,16 @@ impl Connect for Corners {
     type Scratch = Seen;
     type Prepared = Views;
 
-    fn check(_: &Terrain<Self>, _: Knob) -> Result<(), SubgoalError> {
+    fn check(_: &FreeSpace<Self>, _: K) -> Result<(), SubgoalError> {
         Ok(())
     }
 
     /// The convex corners of obstacles: of the four cells around one is blocked, or, where a path may pass between them, two that meet
     /// diagonally. (Hormazábal 2017: a corner of an obstacle at which both ways along a diagonal are legal.)
-    fn prepare(terrain: &Terrain<Self>) -> (BitMatrix, Views) {
-        let cells = terrain.grid().rows();
-        let (width, height) = Self::vertices(terrain.grid());
-        let gaps_open = !Self::closes_gaps(terrain.rule());
+    fn prepare(space: &FreeSpace<Self>) -> (BitMatrix, Views) {
+        let cells = space.grid().rows();
+        let (width, height) = Self::vertices(space.grid());
+        let gaps_open = !Self::closes_gaps(space.rule());
         let around = |x, y| {
             [(-1, -1), (0, -1), (-1, 0), (0, 0)]
                 .map(|(dx, dy)| load(cells.words(), cells.index(x + dx, y + dy)))
@@ -63,7 +64,7 @@ impl Connect for Corners {
         // A taut path comes and goes through the quadrants beside the blocked cell's.
         let same = |cells: [u64; 4]| convex(cells) & (cells[1] | cells[2]);
         let opposite = |cells: [u64; 4]| convex(cells) & (cells[0] | cells[3]);
-        let views = Views { bands: Bands::new(terrain.grid()), tangents: [made(&same), made(&opposite)] };
+        let views = Views { bands: RowSummary::new(space.grid()), tangents: [made(&same), made(&opposite)] };
         (made(&convex), views)
     }
 
@@ -74,7 +75,7 @@ impl Connect for Corners {
         which: Which,
         mut tell: impl FnMut(u32, Cost),
     ) {
-        let Map { terrain, subgoals, norm, k, edges } = map;
+        let Map { space, subgoals, norm, k, edges } = map;
         let Views { bands, tangents } = subgoals.prepared();
         let tangents = (edges == Edges::Taut).then_some(tangents);
         let quadrants = match (which, tangents) {
@@ -84,22 +85,22 @@ impl Connect for Corners {
             }
             (Which::Edges, None) => Quadrants::only(1, 1).and(Quadrants::only(-1, 1)),
             // From a gap a path sets out into the quadrant of its own cell.
-            (Which::All, _) if terrain.is_gap(from) => Quadrants::only(1, 1),
+            (Which::All, _) if space.is_closed_gap(from) => Quadrants::only(1, 1),
             (Which::All, _) => Quadrants::ALL,
         };
         let Seen { fan, direct } = scratch;
         match (k, tangents) {
             (_, Some([same, opposite])) => {
-                fan.seen(terrain, bands, Targets { same, opposite }, from, quadrants, |at| {
+                fan.seen(space, bands, Targets { same, opposite }, from, quadrants, |at| {
                     let to = from.to(at);
                     if let Some(id) = subgoals.id(at).filter(|_| which.holds(to)) {
                         tell(id, norm.length(to));
                     }
                 });
             }
-            (Knob::K(k), None) => {
+            (K::Finite(k), None) => {
                 direct.clear();
-                fan.seen(terrain, bands, subgoals.marks(), from, quadrants, |at| {
+                fan.seen(space, bands, subgoals.marks(), from, quadrants, |at| {
                     if let Some(id) = subgoals.id(at) {
                         direct.push(from.to(at), k.depth(), id);
                     }
@@ -112,11 +113,11 @@ impl Connect for Corners {
                 });
             }
             // Every subgoal that is seen is directly reachable at any angle; the taut ones are enough.
-            (Knob::Any, None) => {}
+            (K::Any, None) => {}
         }
     }
 
-    fn edges(k: Knob, hierarchy: Hierarchy) -> Edges {
-        if k == Knob::Any || hierarchy == Hierarchy::Contracted { Edges::Taut } else { Edges::Direct }
+    fn edges(k: K, hierarchy: Hierarchy) -> Edges {
+        if k == K::Any || hierarchy == Hierarchy::Contracted { Edges::Taut } else { Edges::Direct }
     }
 }

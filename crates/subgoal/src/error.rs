@@ -1,7 +1,7 @@
 //! What there is no subgoal graph for.
 
 use mediant_grid::Rules;
-use mediant_moves::{KError, Knob};
+use mediant_moves::{K, KError};
 
 /// A subgoal graph that cannot be made or read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -13,7 +13,7 @@ pub enum SubgoalError {
     )]
     Centers {
         /// What was asked for.
-        k: Knob,
+        k: K,
         /// The rules.
         rules: Rules,
     },

@@ -2,8 +2,8 @@
 
 use std::num::NonZeroU32;
 
-use mediant_grid::{Terrain, Vector, Vertex};
-use mediant_moves::Knob;
+use mediant_grid::{FreeSpace, Vector, Vertex};
+use mediant_moves::K;
 
 use crate::{
     Connect, SubgoalError,
@@ -102,7 +102,7 @@ impl Hop {
 pub struct SubgoalGraph<P: Connect> {
     pub(crate) subgoals: Subgoals<P::Prepared>,
     pub(crate) norm: Norm,
-    pub(crate) k: Knob,
+    pub(crate) k: K,
     pub(crate) edges: Edges,
     pub(crate) hierarchy: Hierarchy,
     /// Twice the number of the subgoal's first arc, plus 1 if it belongs to the core.
@@ -111,12 +111,12 @@ pub struct SubgoalGraph<P: Connect> {
 }
 
 impl<P: Connect> SubgoalGraph<P> {
-    /// The subgoal graph of a terrain for paths over N(k), or at any angle.
+    /// The subgoal graph of a free space for paths over N(k), or at any angle.
     ///
     /// # Errors
     /// [`SubgoalError`] where the placement has none for this k and rule.
-    pub fn new(terrain: &Terrain<P>, k: impl Into<Knob>, hierarchy: Hierarchy) -> Result<Self, SubgoalError> {
-        Self::with_progress(terrain, k.into(), hierarchy, &|_| {})
+    pub fn new(space: &FreeSpace<P>, k: impl Into<K>, hierarchy: Hierarchy) -> Result<Self, SubgoalError> {
+        Self::with_progress(space, k.into(), hierarchy, &|_| {})
     }
 
     /// [`new`](Self::new), telling `progress` how far it is, from any thread.
@@ -124,21 +124,21 @@ impl<P: Connect> SubgoalGraph<P> {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn with_progress(
-        terrain: &Terrain<P>,
-        k: Knob,
+        space: &FreeSpace<P>,
+        k: K,
         hierarchy: Hierarchy,
         progress: &(impl Fn(Progress) + Sync),
     ) -> Result<Self, SubgoalError> {
-        P::check(terrain, k)?;
+        P::check(space, k)?;
         let hierarchy = match hierarchy {
             Hierarchy::Levels(NonZeroU32::MAX) => Hierarchy::AllLevels,
             other => other,
         };
         let norm = Norm::new(k)?;
-        let subgoals = Subgoals::new(P::prepare(terrain));
+        let subgoals = Subgoals::new(P::prepare(space));
         let total = subgoals.len();
         let edges = P::edges(k, hierarchy);
-        let map = Map { terrain, subgoals: &subgoals, norm: &norm, k, edges };
+        let map = Map { space, subgoals: &subgoals, norm: &norm, k, edges };
         let found = find_edges(map, &|done| progress(Progress { stage: Stage::Edges, done, total }));
         let mut contraction = Contraction::new(total, &found, map);
         let mut step = |done| progress(Progress { stage: Stage::Hierarchy, done, total });
@@ -162,7 +162,7 @@ impl<P: Connect> SubgoalGraph<P> {
         offsets.push(2 * arcs.len() as u32);
         let (offsets, arcs) = (offsets.into_boxed_slice(), arcs.into_boxed_slice());
         let graph = Self { subgoals, norm, k, edges, hierarchy, offsets, arcs };
-        graph.with_costs(terrain)
+        graph.with_costs(space)
     }
 }
 
@@ -209,7 +209,7 @@ impl<P: Connect> SubgoalGraph<P> {
 
     /// The directions.
     #[must_use]
-    pub const fn k(&self) -> Knob {
+    pub const fn k(&self) -> K {
         self.k
     }
 
@@ -221,8 +221,8 @@ impl<P: Connect> SubgoalGraph<P> {
 
     /// The memory that it takes.
     #[must_use]
-    pub fn bytes(&self) -> usize {
-        self.subgoals.bytes() + size_of_val(&*self.offsets) + size_of_val(&*self.arcs)
+    pub fn memory_bytes(&self) -> usize {
+        self.subgoals.memory_bytes() + size_of_val(&*self.offsets) + size_of_val(&*self.arcs)
     }
 
     /// Whether a subgoal belongs to the core.
@@ -250,7 +250,7 @@ impl<P: Connect> Rules for Map<'_, P> {
     }
 
     fn bend(&self, id: u32) -> Option<Bend> {
-        Bend::of_lightest(self.terrain, self.k, self.edges, self.subgoals.vertex(id))
+        Bend::of_lightest(self.space, self.k, self.edges, self.subgoals.vertex(id))
     }
 
     fn weight(&self, from: u32, to: u32) -> u128 {

@@ -12,8 +12,8 @@
 //!
 //! ```
 //! use std::sync::Arc;
-//! use mediant_grid::{AsciiMap, Corners, DiagonalGap, Terrain};
-//! use mediant_moves::Knob;
+//! use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace};
+//! use mediant_moves::K;
 //! use mediant_search::{Planner, Query};
 //! use mediant_subgoal::{Hierarchy, SubgoalAStar, SubgoalGraph};
 //!
@@ -22,9 +22,9 @@
 //!     .####.
 //!     ......
 //! ")?;
-//! let terrain = Terrain::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
-//! let graph = SubgoalGraph::new(&terrain, Knob::Any, Hierarchy::Contracted)?;
-//! let mut planner = SubgoalAStar::new(&terrain, &graph);
+//! let space = FreeSpace::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
+//! let graph = SubgoalGraph::new(&space, K::Any, Hierarchy::Contracted)?;
+//! let mut planner = SubgoalAStar::new(&space, &graph);
 //! let outcome = planner.solve(Query::new((0, 0), (5, 3)))?;
 //! let path = outcome.path().ok_or("there is a way")?;
 //! assert_eq!(path.waypoints(), [(0, 0), (1, 2), (5, 3)].map(Into::into));
@@ -43,7 +43,7 @@
 //! (`planner.rs`), at any angle along taut bends only.
 //!
 //! **How it is fast.** What a vertex sees is found row by row, by words of cells and eight rows at once where nothing is in the way
-//! ([`Fan`](mediant_search::Fan)); at centers, along the straight lines of cells (`lines.rs`). On AR0011SR, at any angle, that
+//! ([`VisibilitySweep`](mediant_search::VisibilitySweep)); at centers, along the straight lines of cells (`lines.rs`). On AR0011SR, at any angle, that
 //! is half of a query; it builds the edges of the maps of 1024 × 1024 cells in 30 to 40 ms. Measured on the way, in µs a query at any angle (from several runs, all
 //! but the last with other work beside them):
 //!

@@ -27,7 +27,7 @@ pub(crate) struct Run {
 }
 
 impl Prepared for Lines {
-    fn bytes(&self) -> usize {
+    fn memory_bytes(&self) -> usize {
         let Self { rows, columns, diagonals: [down, up] } = self;
         [rows, columns, down, up].into_iter().map(|bits| size_of_val(bits.words())).sum()
     }

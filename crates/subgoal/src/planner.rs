@@ -2,10 +2,10 @@
 
 use std::ops::Deref;
 
-use mediant_grid::{Place, Placement, Terrain, Vertex};
-use mediant_moves::{Cost, Decomposition, Knob, decompose};
+use mediant_grid::{FreeSpace, Placement, PlacementKind, Vertex};
+use mediant_moves::{Cost, Decomposition, K, decompose};
 use mediant_search::{
-    Guarantee, Labels, NodeEvent, Observer, OnTerrain, Outcome, Path, Planner, Query, QueryError,
+    Guarantee, HasFreeSpace, NodeEvent, Observer, Outcome, Path, Planner, Query, QueryError, SearchTree,
 };
 
 use crate::{
@@ -26,11 +26,11 @@ use crate::{
 /// same path and counts each time, on every platform. Events are those of both searches; of a subgoal that both come to, each tells.
 #[derive(Debug)]
 pub struct SubgoalAStar<T, G, P: Connect> {
-    terrain: T,
+    space: T,
     graph: G,
     scratch: P::Scratch,
     /// Up from the start, and up from the goal.
-    sides: [Labels<Way>; 2],
+    sides: [SearchTree<Way>; 2],
     /// The links of the start and of the goal.
     links: [Vec<(u32, Cost)>; 2],
     ways: Vec<(u32, u32, u32)>,
@@ -41,18 +41,18 @@ pub struct SubgoalAStar<T, G, P: Connect> {
 impl<T, G, P> SubgoalAStar<T, G, P>
 where
     P: Connect,
-    T: Deref<Target: OnTerrain<Place = P>>,
+    T: Deref<Target: HasFreeSpace<Placement = P>>,
     G: Deref<Target = SubgoalGraph<P>>,
 {
-    /// A planner with scratch memory for `graph`, which must be that of `terrain`.
+    /// A planner with scratch memory for `graph`, which must be that of `space`.
     #[must_use]
-    pub fn new(terrain: T, graph: G) -> Self {
+    pub fn new(space: T, graph: G) -> Self {
         let count = graph.subgoals();
         Self {
-            terrain,
+            space,
             graph,
             scratch: P::Scratch::default(),
-            sides: [Labels::new(count), Labels::new(count)],
+            sides: [SearchTree::new(count), SearchTree::new(count)],
             links: [Vec::new(), Vec::new()],
             ways: Vec::new(),
             chain: Vec::new(),
@@ -64,24 +64,24 @@ where
 impl<T, G, P> Planner for SubgoalAStar<T, G, P>
 where
     P: Connect,
-    T: Deref<Target: OnTerrain<Place = P>>,
+    T: Deref<Target: HasFreeSpace<Placement = P>>,
     G: Deref<Target = SubgoalGraph<P>>,
 {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        let terrain = self.terrain.terrain();
-        if query.ends(terrain)?.is_none() {
+        let space = self.space.free_space();
+        if query.ends(space)?.is_none() {
             return Ok(Outcome::Unreachable);
         }
         let Query { start, goal } = query;
         if start == goal {
             return Ok(Outcome::Found(Path::new(vec![start])));
         }
-        if let Some(path) = direct(terrain, self.graph.k, start, goal, &mut self.waypoints) {
+        if let Some(path) = direct(space, self.graph.k, start, goal, &mut self.waypoints) {
             return Ok(Outcome::Found(path));
         }
         let Self { graph, scratch, links, .. } = self;
         for (at, links) in [start, goal].into_iter().zip(links) {
-            graph.links_of(terrain, scratch, at, links);
+            graph.links_of(space, scratch, at, links);
         }
         let meeting = self.search([start, goal], observer);
         Ok(meeting.map_or(Outcome::Unreachable, |at| Outcome::Found(self.path(start, at, goal))))
@@ -89,8 +89,8 @@ where
 
     fn guarantee(&self) -> Guarantee {
         match self.graph.k {
-            Knob::K(k) => Guarantee::Optimal(k),
-            Knob::Any => Guarantee::OptimalAnyAngle,
+            K::Finite(k) => Guarantee::Optimal(k),
+            K::Any => Guarantee::OptimalAnyAngle,
         }
     }
 }
@@ -99,7 +99,7 @@ impl<P: Connect> SubgoalGraph<P> {
     /// Finds the links of a start or goal.
     pub(crate) fn links_of(
         &self,
-        terrain: &Terrain<P>,
+        space: &FreeSpace<P>,
         scratch: &mut P::Scratch,
         at: Vertex,
         links: &mut Vec<(u32, Cost)>,
@@ -110,7 +110,7 @@ impl<P: Connect> SubgoalGraph<P> {
         match subgoals.id(at).filter(|_| *edges == Edges::Direct) {
             Some(id) => links.push((id, Cost::ZERO)),
             None => {
-                let map = Map { terrain, subgoals, norm, k: *k, edges: *edges };
+                let map = Map { space, subgoals, norm, k: *k, edges: *edges };
                 P::links(map, scratch, at, Which::All, |id, cost| links.push((id, cost)));
             }
         }
@@ -118,26 +118,26 @@ impl<P: Connect> SubgoalGraph<P> {
 }
 
 /// The path between two vertices where the way that is optimal on an empty grid is free.
-fn direct<P: Place>(
-    terrain: &Terrain<P>,
-    k: Knob,
+fn direct<P: Placement>(
+    space: &FreeSpace<P>,
+    k: K,
     start: Vertex,
     goal: Vertex,
     waypoints: &mut Vec<Vertex>,
 ) -> Option<Path> {
-    let straight = || leg(terrain, None, start, goal, None).then(|| Path::new(vec![start, goal]));
-    let Knob::K(k) = k else { return straight() };
+    let straight = || leg(space, None, start, goal, None).then(|| Path::new(vec![start, goal]));
+    let K::Finite(k) = k else { return straight() };
     let parts = decompose(start.to(goal), k)?;
     for elbow in elbows(start, parts) {
         if elbow == start || elbow == goal {
             return straight();
         }
-        if bends_free(terrain, start, elbow, goal) {
+        if bends_free(space, start, elbow, goal) {
             return Some(Path::new(vec![start, elbow, goal]));
         }
     }
     // At centers a line of sight may touch fewer cells than the moves along it.
-    (P::PLACEMENT == Placement::Corner && leg(terrain, None, start, goal, None)).then(|| {
+    (P::KIND == PlacementKind::Corner && leg(space, None, start, goal, None)).then(|| {
         waypoints.clear();
         waypoints.push(start);
         along_line(waypoints, parts);
@@ -146,29 +146,27 @@ fn direct<P: Place>(
 }
 
 /// Whether the paths of an edge are free, in both directions.
-pub(crate) fn is_free<P: Place>(terrain: &Terrain<P>, k: Knob, from: Vertex, to: Vertex) -> bool {
+pub(crate) fn is_free<P: Placement>(space: &FreeSpace<P>, k: K, from: Vertex, to: Vertex) -> bool {
     let parts = k.finite().and_then(|k| decompose(from.to(to), k));
     let elbows = parts.map_or([from; 2], |parts| elbows(from, parts));
     elbows.into_iter().all(|elbow| match () {
-        () if elbow == from || elbow == to => leg(terrain, None, from, to, None),
-        () => bends_free(terrain, from, elbow, to),
+        () if elbow == from || elbow == to => leg(space, None, from, to, None),
+        () => bends_free(space, from, elbow, to),
     })
 }
 
-fn bends_free<P: Place>(terrain: &Terrain<P>, from: Vertex, elbow: Vertex, to: Vertex) -> bool {
-    leg(terrain, None, from, elbow, Some(to)) && leg(terrain, Some(from), elbow, to, None)
+fn bends_free<P: Placement>(space: &FreeSpace<P>, from: Vertex, elbow: Vertex, to: Vertex) -> bool {
+    leg(space, None, from, elbow, Some(to)) && leg(space, Some(from), elbow, to, None)
 }
 
-fn leg<P: Place>(
-    terrain: &Terrain<P>,
+fn leg<P: Placement>(
+    space: &FreeSpace<P>,
     before: Option<Vertex>,
     from: Vertex,
     to: Vertex,
     after: Option<Vertex>,
 ) -> bool {
-    terrain.may_turn(before, from, Some(to))
-        && terrain.may_turn(Some(from), to, after)
-        && terrain.sees(from, to)
+    space.may_turn(before, from, Some(to)) && space.may_turn(Some(from), to, after) && space.sees(from, to)
 }
 
 fn elbows(start: Vertex, parts: Decomposition) -> [Vertex; 2] {
@@ -181,14 +179,14 @@ fn elbows(start: Vertex, parts: Decomposition) -> [Vertex; 2] {
 impl<T, G, P> SubgoalAStar<T, G, P>
 where
     P: Connect,
-    T: Deref<Target: OnTerrain<Place = P>>,
+    T: Deref<Target: HasFreeSpace<Placement = P>>,
     G: Deref<Target = SubgoalGraph<P>>,
 {
     /// Finds the subgoal at which the shortest path over the graph goes down: two searches upward, from the start and from the goal, of which only
     /// the first goes through the core. Both are A*.
     fn search(&mut self, ends: [Vertex; 2], observer: &mut impl Observer) -> Option<u32> {
-        let Self { terrain, graph, sides, links, .. } = self;
-        let (graph, terrain) = (&**graph, terrain.terrain());
+        let Self { space, graph, sides, links, .. } = self;
+        let (graph, space) = (&**graph, space.free_space());
         let mut best = begin(graph, sides, links, ends, observer);
         loop {
             let [forward, backward] = [0, 1].map(|side| sides[side].least().unwrap_or(Cost::MAX));
@@ -208,7 +206,7 @@ where
             let [forward, backward] = &mut *sides;
             let (this, other) = if side == 0 { (forward, backward) } else { (backward, forward) };
             let came = this.way(id).hop.vector();
-            let onward = came.and_then(|came| Some(Bend::of_shortest(terrain, graph.k, at)?.after(came)));
+            let onward = came.and_then(|came| Some(Bend::of_shortest(space, graph.k, at)?.after(came)));
             for arc in graph.up(id) {
                 if let Some((onward, goes)) = onward.zip(arc.first.vector())
                     && !onward.allows(goes)
@@ -239,11 +237,11 @@ where
 
     /// The path over a subgoal to which both searches came.
     fn path(&mut self, start: Vertex, meeting: u32, goal: Vertex) -> Path {
-        let Self { terrain, graph, sides: [forward, backward], ways, chain, waypoints, .. } = self;
-        let (terrain, graph) = (terrain.terrain(), &**graph);
+        let Self { space, graph, sides: [forward, backward], ways, chain, waypoints, .. } = self;
+        let (space, graph) = (space.free_space(), &**graph);
         waypoints.clear();
         waypoints.push(start);
-        let mut to = |at: Vertex| extend(waypoints, terrain, graph, at);
+        let mut to = |at: Vertex| extend(waypoints, space, graph, at);
         chain.clear();
         let mut at = meeting;
         while let Some((parent, Way { mid, .. })) = forward.parent(at) {
@@ -267,7 +265,7 @@ where
 /// Puts the linked subgoals on both open lists. The best of those that are linked to both ends, and what it costs to go over it.
 fn begin<P: Connect>(
     graph: &SubgoalGraph<P>,
-    sides: &mut [Labels<Way>; 2],
+    sides: &mut [SearchTree<Way>; 2],
     links: &[Vec<(u32, Cost)>; 2],
     ends: [Vertex; 2],
     observer: &mut impl Observer,
@@ -293,7 +291,7 @@ fn begin<P: Connect>(
 /// Goes on to a vertex, along an edge or link.
 fn extend<P: Connect>(
     waypoints: &mut Vec<Vertex>,
-    terrain: &Terrain<P>,
+    space: &FreeSpace<P>,
     graph: &SubgoalGraph<P>,
     to: Vertex,
 ) {
@@ -301,14 +299,14 @@ fn extend<P: Connect>(
     if from == to {
         return;
     }
-    let Knob::K(k) = graph.k else { return push(waypoints, to) };
+    let K::Finite(k) = graph.k else { return push(waypoints, to) };
     let Some(parts) = decompose(from.to(to), k) else { return };
     let [first, second] = elbows(from, parts);
     let elbow = match graph.edges {
         // All that is on an optimal path is free.
         Edges::Direct => Some(first),
         _ if first == from || first == to => Some(to),
-        Edges::Taut => [first, second].into_iter().find(|&elbow| bends_free(terrain, from, elbow, to)),
+        Edges::Taut => [first, second].into_iter().find(|&elbow| bends_free(space, from, elbow, to)),
     };
     if let Some(elbow) = elbow.filter(|&elbow| elbow != from) {
         push(waypoints, elbow);

@@ -73,8 +73,11 @@ impl<T: Prepared> Subgoals<T> {
     }
 
     /// The memory that this takes.
-    pub(crate) fn bytes(&self) -> usize {
+    pub(crate) fn memory_bytes(&self) -> usize {
         let Self { marks, before, vertices, prepared } = self;
-        size_of_val(marks.words()) + size_of_val(&**before) + size_of_val(&**vertices) + prepared.bytes()
+        size_of_val(marks.words())
+            + size_of_val(&**before)
+            + size_of_val(&**vertices)
+            + prepared.memory_bytes()
     }
 }

@@ -1,7 +1,7 @@
 //! Where a shortest path may bend.
 
-use mediant_grid::{Grid, Place, Placement, Terrain, Vector, Vertex};
-use mediant_moves::{K, Knob};
+use mediant_grid::{FreeSpace, Grid, Placement, PlacementKind, Vector, Vertex};
+use mediant_moves::{FiniteK, K};
 
 use crate::{
     connect::Edges,
@@ -15,33 +15,33 @@ pub(crate) enum Bend {
     /// Those that count are taut.
     Taut(Corner),
     /// They are over N(k), at corners; `rounds` is k − 2.
-    Lattice(Corner, u32),
+    GridGraph(Corner, u32),
     /// They are over N(3), at centers.
     Eight(Turns),
 }
 
 impl Bend {
     /// That of all shortest paths, where something is known of them.
-    pub(crate) fn of_shortest<P: Place>(terrain: &Terrain<P>, k: Knob, at: Vertex) -> Option<Self> {
-        let grid = terrain.grid();
-        match (P::PLACEMENT, k) {
-            (Placement::Corner, Knob::Any) => Some(Self::Taut(Corner::at(grid, at))),
-            (Placement::Corner, Knob::K(k)) => Some(Self::Lattice(Corner::at(grid, at), k.depth())),
-            (Placement::Center, Knob::K(K::EIGHT_CONNECTED)) => Some(Self::Eight(Turns::at(grid, at))),
-            (Placement::Center, _) => None,
+    pub(crate) fn of_shortest<P: Placement>(space: &FreeSpace<P>, k: K, at: Vertex) -> Option<Self> {
+        let grid = space.grid();
+        match (P::KIND, k) {
+            (PlacementKind::Corner, K::Any) => Some(Self::Taut(Corner::at(grid, at))),
+            (PlacementKind::Corner, K::Finite(k)) => Some(Self::GridGraph(Corner::at(grid, at), k.depth())),
+            (PlacementKind::Center, K::Finite(FiniteK::N8)) => Some(Self::Eight(Turns::at(grid, at))),
+            (PlacementKind::Center, _) => None,
         }
     }
 
     /// That of the lightest paths (see [`Norm::weight`](crate::norm::Norm::weight)), which are taut if `edges` are.
-    pub(crate) fn of_lightest<P: Place>(
-        terrain: &Terrain<P>,
-        k: Knob,
+    pub(crate) fn of_lightest<P: Placement>(
+        space: &FreeSpace<P>,
+        k: K,
         edges: Edges,
         at: Vertex,
     ) -> Option<Self> {
         match edges {
-            Edges::Taut => Some(Self::Taut(Corner::at(terrain.grid(), at))),
-            Edges::Direct => Self::of_shortest(terrain, k, at),
+            Edges::Taut => Some(Self::Taut(Corner::at(space.grid(), at))),
+            Edges::Direct => Self::of_shortest(space, k, at),
         }
     }
 
@@ -50,7 +50,7 @@ impl Bend {
     pub(crate) fn after(self, v: Vector) -> Onward {
         match self {
             Self::Taut(corner) => Onward::Taut(corner.after(v)),
-            Self::Lattice(corner, rounds) => Onward::Lattice(corner.after(v), rounds),
+            Self::GridGraph(corner, rounds) => Onward::GridGraph(corner.after(v), rounds),
             Self::Eight(turns) => Onward::Eight(turns.after(v)),
         }
     }
@@ -60,7 +60,7 @@ impl Bend {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Onward {
     Taut(Around),
-    Lattice(Around, u32),
+    GridGraph(Around, u32),
     Eight(Turn),
 }
 
@@ -72,7 +72,7 @@ impl Onward {
             Self::Taut(around) => around.allows(w),
             // Where no obstacle is on the inner side of the bend, the path can be cut short there, and that is shorter by h_k unless both directions are
             // in one cone, in which h_k is linear.
-            Self::Lattice(around, rounds) => around.allows(w) || are_in_one_cone(around.came, w, rounds),
+            Self::GridGraph(around, rounds) => around.allows(w) || are_in_one_cone(around.came, w, rounds),
             Self::Eight(turn) => turn.allows(w),
         }
     }

@@ -7,7 +7,9 @@ use std::ops::Deref;
 
 use mediant_grid::Vertex;
 use mediant_moves::Cost;
-use mediant_search::{Guarantee, Labels, Observer, OnTerrain, Outcome, Path, Planner, Query, QueryError};
+use mediant_search::{
+    Guarantee, HasFreeSpace, Observer, Outcome, Path, Planner, Query, QueryError, SearchTree,
+};
 
 use self::{
     descent::Descent,
@@ -39,8 +41,8 @@ use crate::{Connect, SubgoalGraph, planner::push};
 ///
 /// ```
 /// use std::{num::NonZeroU32, sync::Arc};
-/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, Terrain};
-/// use mediant_moves::K;
+/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace};
+/// use mediant_moves::FiniteK;
 /// use mediant_search::{Planner, Query};
 /// use mediant_subgoal::{Hierarchy, SubgoalGraph, SubgoalTheta};
 ///
@@ -50,21 +52,21 @@ use crate::{Connect, SubgoalGraph, planner::push};
 ///     ...#..
 ///     ......
 /// ")?;
-/// let terrain = Terrain::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
+/// let space = FreeSpace::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
 /// let levels = Hierarchy::Levels(NonZeroU32::MIN.saturating_add(1));
-/// let graph = SubgoalGraph::new(&terrain, K::EIGHT_CONNECTED, levels)?;
-/// let outcome = SubgoalTheta::new(&terrain, &graph).solve(Query::new((0, 1), (6, 2)))?;
+/// let graph = SubgoalGraph::new(&space, FiniteK::N8, levels)?;
+/// let outcome = SubgoalTheta::new(&space, &graph).solve(Query::new((0, 1), (6, 2)))?;
 /// let expected = [(0, 1), (4, 1), (6, 2)].map(Into::into);
 /// assert_eq!(outcome.path().map(|path| path.waypoints()), Some(&expected[..]));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
 pub struct SubgoalTheta<T, G, P: Connect> {
-    terrain: T,
+    space: T,
     graph: G,
     scratch: P::Scratch,
     /// Of the subgoals and, after the last of them, of the goal.
-    labels: Labels,
+    labels: SearchTree,
     descent: Descent,
     links: Vec<(u32, Cost)>,
     bends: Vec<Bend>,
@@ -74,18 +76,18 @@ pub struct SubgoalTheta<T, G, P: Connect> {
 impl<T, G, P> SubgoalTheta<T, G, P>
 where
     P: Connect,
-    T: Deref<Target: OnTerrain<Place = P>>,
+    T: Deref<Target: HasFreeSpace<Placement = P>>,
     G: Deref<Target = SubgoalGraph<P>>,
 {
-    /// A planner with scratch memory for `graph`, which must be that of `terrain`.
+    /// A planner with scratch memory for `graph`, which must be that of `space`.
     #[must_use]
-    pub fn new(terrain: T, graph: G) -> Self {
+    pub fn new(space: T, graph: G) -> Self {
         let count = graph.subgoals();
         Self {
-            terrain,
+            space,
             graph,
             scratch: P::Scratch::default(),
-            labels: Labels::new(count + 1),
+            labels: SearchTree::new(count + 1),
             descent: Descent::new(count),
             links: Vec::new(),
             bends: Vec::new(),
@@ -97,26 +99,26 @@ where
 impl<T, G, P> Planner for SubgoalTheta<T, G, P>
 where
     P: Connect,
-    T: Deref<Target: OnTerrain<Place = P>>,
+    T: Deref<Target: HasFreeSpace<Placement = P>>,
     G: Deref<Target = SubgoalGraph<P>>,
 {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        let Self { terrain, graph, scratch, labels, descent, links, bends, middles } = self;
-        let (terrain, graph) = (terrain.terrain(), &**graph);
-        if query.ends(terrain)?.is_none() {
+        let Self { space, graph, scratch, labels, descent, links, bends, middles } = self;
+        let (space, graph) = (space.free_space(), &**graph);
+        if query.ends(space)?.is_none() {
             return Ok(Outcome::Unreachable);
         }
         let Query { start, goal } = query;
         if start == goal {
             return Ok(Outcome::Found(Path::new(vec![start])));
         }
-        if may_join(terrain, start, goal) {
+        if may_join(space, start, goal) {
             return Ok(Outcome::Found(Path::new(vec![start, goal])));
         }
-        graph.links_of(terrain, scratch, goal, links);
+        graph.links_of(space, scratch, goal, links);
         descent.start_search(graph, links);
-        graph.links_of(terrain, scratch, start, links);
-        let mut search = Search { terrain, graph, labels, descent, bends, middles, observer, goal };
+        graph.links_of(space, scratch, start, links);
+        let mut search = Search { space, graph, labels, descent, bends, middles, observer, goal };
         let last = search.run(start, links);
         Ok(last.map_or(Outcome::Unreachable, |last| Outcome::Found(path(bends, last, goal))))
     }

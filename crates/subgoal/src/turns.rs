@@ -74,8 +74,8 @@ fn direction(v: Vector) -> i32 {
 mod tests {
     use std::sync::Arc;
 
-    use mediant_grid::{Centers, CornerRule, Place, Terrain};
-    use mediant_moves::{K, Knob};
+    use mediant_grid::{Centers, CornerRule, FreeSpace, Placement};
+    use mediant_moves::{FiniteK, K};
     use mediant_oracle::{Explicit, random_grid};
 
     use super::Turns;
@@ -92,11 +92,11 @@ mod tests {
         let (mut refused, mut passed) = (0, 0);
         for seed in 0..60 {
             let (grid, _) = random_grid(seed);
-            let k = Knob::K(K::EIGHT_CONNECTED);
-            let terrain = Terrain::<Centers>::new(Arc::new(grid.clone()), CornerRule::Never);
+            let k = K::Finite(FiniteK::N8);
+            let space = FreeSpace::<Centers>::new(Arc::new(grid.clone()), CornerRule::Never);
             let norm = Norm::new(k).expect("a small k");
-            let subgoals = Subgoals::new(Centers::prepare(&terrain));
-            let map = Map { terrain: &terrain, subgoals: &subgoals, norm: &norm, k, edges: Edges::Direct };
+            let subgoals = Subgoals::new(Centers::prepare(&space));
+            let map = Map { space: &space, subgoals: &subgoals, norm: &norm, k, edges: Edges::Direct };
             let explicit = Explicit::new(&grid, Centers::rules(CornerRule::Never), k.finite());
             for id in 0..subgoals.len() as u32 {
                 let at = subgoals.vertex(id);

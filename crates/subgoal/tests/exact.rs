@@ -2,12 +2,12 @@
 
 mod common;
 
-use common::{GAPS, HIERARCHIES, graph, k, knobs, terrain};
-use mediant_grid::{Centers, CornerRule, Corners, Grid, Placement, Rules, Terrain, Vertex};
-use mediant_moves::{K, Knob};
+use common::{GAPS, HIERARCHIES, all_ks, graph, k, space};
+use mediant_grid::{Centers, CornerRule, Corners, FreeSpace, Grid, PlacementKind, Rules, Vertex};
+use mediant_moves::{FiniteK, K};
 use mediant_oracle::{
-    Explicit, Rng, Visibility, describe, is_doubly_blocked, on_all_cores, random_free_vertex, seeds,
-    suite_grid, validate, vertex_is_free,
+    Explicit, Rng, Visibility, describe, is_gap, on_all_cores, random_free_vertex, seeds, suite_grid,
+    validate, vertex_is_free,
 };
 use mediant_search::{Counters, Guarantee, Outcome, Path, Planner, Query};
 use mediant_subgoal::{Connect, Hierarchy, SubgoalAStar, SubgoalGraph, SubgoalTheta};
@@ -44,24 +44,24 @@ impl Tally {
 
 /// A graph, with all that is said of a failure.
 struct Suite<'t, P: Connect> {
-    terrain: &'t Terrain<P>,
+    space: &'t FreeSpace<P>,
     graph: SubgoalGraph<P>,
     seed: u64,
 }
 
 impl<'t, P: Connect> Suite<'t, P> {
-    fn new(terrain: &'t Terrain<P>, k: Knob, hierarchy: Hierarchy, seed: u64) -> Self {
-        Self { terrain, graph: graph(terrain, k, hierarchy), seed }
+    fn new(space: &'t FreeSpace<P>, k: K, hierarchy: Hierarchy, seed: u64) -> Self {
+        Self { space, graph: graph(space, k, hierarchy), seed }
     }
 
     /// Both planners on all queries of a map, so that each is answered on what the others left behind.
     fn check(&self, queries: &[Expected]) -> Tally {
         let mut tally = Tally::default();
-        let mut a_star = SubgoalAStar::new(self.terrain, &self.graph);
-        let mut theta = SubgoalTheta::new(self.terrain, &self.graph);
+        let mut a_star = SubgoalAStar::new(self.space, &self.graph);
+        let mut theta = SubgoalTheta::new(self.space, &self.graph);
         let optimal = match self.graph.k() {
-            Knob::K(k) => Guarantee::Optimal(k),
-            Knob::Any => Guarantee::OptimalAnyAngle,
+            K::Finite(k) => Guarantee::Optimal(k),
+            K::Any => Guarantee::OptimalAnyAngle,
         };
         assert_eq!((a_star.guarantee(), theta.guarantee()), (optimal, Guarantee::Suboptimal));
         for query in queries {
@@ -76,7 +76,7 @@ impl<'t, P: Connect> Suite<'t, P> {
             } else {
                 tally.unreachable += 1;
             }
-            let found = self.solve(&mut theta, query, Knob::Any);
+            let found = self.solve(&mut theta, query, K::Any);
             // At centers N(2) may hold no path though one cell sees the other.
             let is_right = found.is_some() || query.optimum.is_none();
             assert!(is_right, "{found:?}; {}", self.case(query));
@@ -96,7 +96,7 @@ impl<'t, P: Connect> Suite<'t, P> {
     }
 
     /// The cost of a path, if there is one, that was checked, and the counters.
-    fn solve(&self, planner: &mut impl Planner, expected: &Expected, k: Knob) -> Option<(f64, Counters)> {
+    fn solve(&self, planner: &mut impl Planner, expected: &Expected, k: K) -> Option<(f64, Counters)> {
         let Expected { start, goal, .. } = *expected;
         let mut solve = || {
             let mut counters = Counters::default();
@@ -112,7 +112,7 @@ impl<'t, P: Connect> Suite<'t, P> {
             assert!(!searched || expected.any_angle.is_some(), "{}", self.case(expected));
             return None;
         };
-        let (grid, rules, way) = (self.terrain.grid(), self.terrain.rules(), path.waypoints());
+        let (grid, rules, way) = (self.space.grid(), self.space.rules(), path.waypoints());
         let fault = validate(grid, rules, k.finite(), start, goal, way, path.cost());
         assert_eq!(fault, Ok(()), "{way:?}; {}", self.case(expected));
         let turns = |at: &[Vertex]| at[0].to(at[1]).det(at[1].to(at[2])) != 0;
@@ -122,7 +122,7 @@ impl<'t, P: Connect> Suite<'t, P> {
 
     fn case(&self, &Expected { start, goal, .. }: &Expected) -> String {
         let (k, hierarchy) = (self.graph.k(), self.graph.hierarchy());
-        let map = describe(self.terrain.grid(), self.terrain.rules(), start, goal, self.seed);
+        let map = describe(self.space.grid(), self.space.rules(), start, goal, self.seed);
         format!("k = {k}, {hierarchy:?}; {map}")
     }
 }
@@ -132,15 +132,15 @@ fn ends(grid: &Grid, corners: &[Vertex], seed: u64) -> Vec<Vertex> {
     let mut rng = Rng::new(seed ^ 0x5AB6);
     let (width, height) = (grid.width() as i32, grid.height() as i32);
     let vertices = (0..=height).flat_map(|y| (0..=width).map(move |x| Vertex::new(x, y)));
-    let is_gap = |&at: &Vertex| is_doubly_blocked(grid, at) && vertex_is_free(grid, Placement::Corner, at);
-    let gaps: Vec<Vertex> = vertices.filter(is_gap).collect();
+    let is_closed_gap = |&at: &Vertex| is_gap(grid, at) && vertex_is_free(grid, PlacementKind::Corner, at);
+    let gaps: Vec<Vertex> = vertices.filter(is_closed_gap).collect();
     let special = [corners, &gaps, corners].map(|of| rng.pick(of).copied());
-    let any = (0..3).map(|_| random_free_vertex(&mut rng, grid, Placement::Corner));
+    let any = (0..3).map(|_| random_free_vertex(&mut rng, grid, PlacementKind::Corner));
     special.into_iter().chain(any.collect::<Vec<_>>()).flatten().collect()
 }
 
 /// From each of some vertices to each.
-fn expected_at(visibility: &Visibility<'_>, ends: &[Vertex], k: Knob) -> Vec<Expected> {
+fn expected_at(visibility: &Visibility<'_>, ends: &[Vertex], k: K) -> Vec<Expected> {
     let (over_k, any) = (visibility.over(k.finite()), visibility.over(None));
     let mut expected = Vec::new();
     for &start in ends {
@@ -158,14 +158,14 @@ fn check_corners(seed: u64) -> Tally {
     let mut tally = Tally::default();
     let grid = suite_grid(seed).0;
     for gap in GAPS {
-        let terrain = terrain::<Corners>(&grid, gap);
+        let space = space::<Corners>(&grid, gap);
         let visibility = Visibility::new(&grid, gap);
         let ends = ends(&grid, visibility.corners(), seed);
-        for (turn, k) in (0..).zip(knobs()) {
+        for (turn, k) in (0..).zip(all_ks()) {
             let expected = expected_at(&visibility, &ends, k);
             // One of the hierarchies for each, all of them in turn.
             let hierarchy = HIERARCHIES[(seed as usize + turn) % HIERARCHIES.len()];
-            tally.add(Suite::new(&terrain, k, hierarchy, seed).check(&expected));
+            tally.add(Suite::new(&space, k, hierarchy, seed).check(&expected));
         }
     }
     tally
@@ -189,15 +189,9 @@ fn sub_a_star_costs_what_the_visibility_graph_costs() {
 }
 
 /// The same against Dijkstra on the explicit graphs of N(k) and of all segments.
-fn check_explicitly<P: Connect>(
-    grid: &Grid,
-    rule: P::Rule,
-    k: Knob,
-    hierarchy: Hierarchy,
-    seed: u64,
-) -> Tally {
-    let terrain = terrain::<P>(grid, rule);
-    let [over_k, any] = [k, Knob::Any].map(|k| Explicit::new(grid, terrain.rules(), k.finite()));
+fn check_explicitly<P: Connect>(grid: &Grid, rule: P::Rule, k: K, hierarchy: Hierarchy, seed: u64) -> Tally {
+    let space = space::<P>(grid, rule);
+    let [over_k, any] = [k, K::Any].map(|k| Explicit::new(grid, space.rules(), k.finite()));
     let vertices: Vec<Vertex> = over_k.free_vertices().collect();
     // All pairs of a small map.
     let step = 1 + vertices.len() / 16;
@@ -209,10 +203,10 @@ fn check_explicitly<P: Connect>(
             expected.push(Expected { start, goal, optimum, any_angle });
         }
     }
-    Suite::new(&terrain, k, hierarchy, seed).check(&expected)
+    Suite::new(&space, k, hierarchy, seed).check(&expected)
 }
 
-fn check_rules_explicitly(grid: &Grid, rules: Rules, k: Knob, hierarchy: Hierarchy, seed: u64) -> Tally {
+fn check_rules_explicitly(grid: &Grid, rules: Rules, k: K, hierarchy: Hierarchy, seed: u64) -> Tally {
     match rules {
         Rules::Corner(gap) => check_explicitly::<Corners>(grid, gap, k, hierarchy, seed),
         Rules::Center(corners) => check_explicitly::<Centers>(grid, corners, k, hierarchy, seed),
@@ -220,8 +214,8 @@ fn check_rules_explicitly(grid: &Grid, rules: Rules, k: Knob, hierarchy: Hierarc
 }
 
 /// Where there are subgoal graphs for this k.
-fn rules_of(k: Knob) -> impl Iterator<Item = Rules> {
-    let at_centers = match k.finite().map(K::get) {
+fn rules_of(k: K) -> impl Iterator<Item = Rules> {
+    let at_centers = match k.finite().map(FiniteK::get) {
         Some(2) => &[CornerRule::Never, CornerRule::One, CornerRule::Always][..],
         Some(3) => &[CornerRule::Never],
         _ => &[],
@@ -233,7 +227,7 @@ fn rules_of(k: Knob) -> impl Iterator<Item = Rules> {
 fn sub_a_star_costs_what_dijkstra_on_the_explicit_graph_costs() {
     let check = |seed: u64| {
         let mut tally = Tally::default();
-        let (grid, k) = (suite_grid(seed).0, [k(2), k(3), k(4), Knob::Any][seed as usize % 4]);
+        let (grid, k) = (suite_grid(seed).0, [k(2), k(3), k(4), K::Any][seed as usize % 4]);
         // The graph of all segments takes long on the largest maps.
         if grid.width() * grid.height() > 200 {
             return tally;
@@ -257,7 +251,7 @@ fn all_is_exact_on_every_map_of_nine_cells() {
     let check = |cells: u64| {
         let mut tally = Tally::default();
         let grid = Grid::from_fn(3, 3, |x, y| cells >> (3 * y + x) & 1 == 1).expect("a valid size");
-        for (turn, k) in (0..).zip([k(2), k(3), k(4), Knob::Any]) {
+        for (turn, k) in (0..).zip([k(2), k(3), k(4), K::Any]) {
             for rules in rules_of(k) {
                 let hierarchy = HIERARCHIES[(cells as usize + turn) % HIERARCHIES.len()];
                 tally.add(check_rules_explicitly(&grid, rules, k, hierarchy, cells));

@@ -7,9 +7,9 @@ use std::{
     collections::{BTreeSet, BinaryHeap},
 };
 
-use common::{GAPS, HIERARCHIES, graph, k, levels, terrain};
+use common::{GAPS, HIERARCHIES, graph, k, levels, space};
 use mediant_grid::{Corners, DiagonalGap, Grid, Rules, Vector, Vertex};
-use mediant_moves::{K, Knob};
+use mediant_moves::{FiniteK, K};
 use mediant_oracle::{
     Costs, Explicit, Visibility, describe, on_all_cores, random_grid, seeds, segment_is_legal, suite_grid,
     turn_is_legal,
@@ -44,7 +44,7 @@ fn subgoals_are_the_corners_that_a_diagonal_passes() {
     for seed in seeds(300) {
         let grid = suite_grid(seed).0;
         for gap in GAPS {
-            let graph = graph(&terrain::<Corners>(&grid, gap), k(3), levels(1));
+            let graph = graph(&space::<Corners>(&grid, gap), k(3), levels(1));
             let expected: Vec<Vertex> = vertices(&grid).filter(|&at| is_subgoal(&grid, gap, at)).collect();
             let found: Vec<Vertex> = graph.vertices().collect();
             assert_eq!(found, expected, "{}", describe(&grid, Rules::Corner(gap), found[0], found[0], seed));
@@ -65,7 +65,7 @@ fn is_same(a: f64, b: f64) -> bool {
 }
 
 /// Definitions 1 and 2: the pairs of subgoals between which h_k is what an optimal path costs, and no other subgoal is on one.
-fn directly_reachable(graph: &Explicit, subgoals: &[Vertex], k: K) -> BTreeSet<(Vertex, Vertex)> {
+fn directly_reachable(graph: &Explicit, subgoals: &[Vertex], k: FiniteK) -> BTreeSet<(Vertex, Vertex)> {
     let costs: Vec<Costs<'_>> = subgoals.iter().map(|&at| graph.costs_from(at)).collect();
     let cost = |a: usize, b: usize| costs[a].to(subgoals[b]).unwrap_or(f64::INFINITY);
     let is_direct = |a: usize, b: usize| {
@@ -82,12 +82,12 @@ fn directly_reachable(graph: &Explicit, subgoals: &[Vertex], k: K) -> BTreeSet<(
 fn edges_join_what_is_directly_reachable() {
     let check = |seed: u64| {
         let (grid, mut count) = (random_grid(seed).0, 0);
-        let number = K::new(2 + seed as u32 % 5).expect("k is at least 2");
+        let number = FiniteK::new(2 + seed as u32 % 5).expect("k is at least 2");
         for gap in GAPS {
             let subgoals: Vec<Vertex> = vertices(&grid).filter(|&at| is_subgoal(&grid, gap, at)).collect();
             let explicit = Explicit::new(&grid, Rules::Corner(gap), Some(number));
             let expected = directly_reachable(&explicit, &subgoals, number);
-            let graph = graph(&terrain::<Corners>(&grid, gap), number.into(), levels(1));
+            let graph = graph(&space::<Corners>(&grid, gap), number.into(), levels(1));
             let found: Vec<_> = graph.edges().map(in_order).collect();
             let edges: BTreeSet<_> = found.iter().copied().collect();
             assert_eq!(edges.len(), found.len(), "an edge is told twice: seed {seed}, {gap:?}, k = {number}");
@@ -122,8 +122,8 @@ fn dijkstra(lengths: &[Vec<f64>], from: usize, is_in: impl Fn(usize) -> bool) ->
 }
 
 /// The subgoals, and between each two of them the length of the edge.
-fn lengths(grid: &Grid, gap: DiagonalGap, k: K) -> (Vec<Vertex>, Vec<Vec<f64>>) {
-    let graph = graph(&terrain::<Corners>(grid, gap), k.into(), levels(1));
+fn lengths(grid: &Grid, gap: DiagonalGap, k: FiniteK) -> (Vec<Vertex>, Vec<Vec<f64>>) {
+    let graph = graph(&space::<Corners>(grid, gap), k.into(), levels(1));
     let subgoals: Vec<Vertex> = graph.vertices().collect();
     let mut lengths = vec![vec![f64::INFINITY; subgoals.len()]; subgoals.len()];
     for (a, b) in graph.edges() {
@@ -139,11 +139,11 @@ fn lengths(grid: &Grid, gap: DiagonalGap, k: K) -> (Vec<Vertex>, Vec<Vec<f64>>) 
 fn every_hierarchy_keeps_the_distances_of_the_edges() {
     let check = |seed: u64| {
         let (grid, gap) = (suite_grid(seed).0, GAPS[seed as usize % 2]);
-        let number = K::new(2 + seed as u32 / 2 % 5).expect("k is at least 2");
-        let terrain = terrain::<Corners>(&grid, gap);
+        let number = FiniteK::new(2 + seed as u32 / 2 % 5).expect("k is at least 2");
+        let space = space::<Corners>(&grid, gap);
         let (subgoals, lengths) = lengths(&grid, gap, number);
-        let graphs = HIERARCHIES.map(|hierarchy| graph(&terrain, number.into(), hierarchy));
-        let mut planners = graphs.each_ref().map(|graph| SubgoalAStar::new(&terrain, graph));
+        let graphs = HIERARCHIES.map(|hierarchy| graph(&space, number.into(), hierarchy));
+        let mut planners = graphs.each_ref().map(|graph| SubgoalAStar::new(&space, graph));
         let mut count = 0;
         for (i, &start) in subgoals.iter().enumerate().step_by(1 + subgoals.len() / 8) {
             let costs = dijkstra(&lengths, i, |_| true);
@@ -169,7 +169,7 @@ fn every_hierarchy_keeps_the_distances_of_the_edges() {
 
 /// How many subgoals are on the level above `left`, of which those are: all that are taken out in order are needed by none of the others, or
 /// only by such as are h_k-reachable over them.
-fn take_out_a_level(subgoals: &[Vertex], lengths: &mut [Vec<f64>], left: &mut [bool], k: K) {
+fn take_out_a_level(subgoals: &[Vertex], lengths: &mut [Vec<f64>], left: &mut [bool], k: FiniteK) {
     for id in 0..subgoals.len() {
         let around: Vec<usize> =
             (0..subgoals.len()).filter(|&at| left[at] && lengths[id][at].is_finite()).collect();
@@ -201,13 +201,13 @@ fn take_out_a_level(subgoals: &[Vertex], lengths: &mut [Vec<f64>], left: &mut [b
 fn levels_leave_out_what_no_distance_needs() {
     let check = |seed: u64| {
         let (grid, gap) = (random_grid(seed).0, GAPS[seed as usize % 2]);
-        let number = K::new(2 + seed as u32 / 2 % 5).expect("k is at least 2");
+        let number = FiniteK::new(2 + seed as u32 / 2 % 5).expect("k is at least 2");
         let (subgoals, mut lengths) = lengths(&grid, gap, number);
         if subgoals.len() > 40 {
             return [0; 3];
         }
-        let terrain = terrain::<Corners>(&grid, gap);
-        let core = |hierarchy| graph(&terrain, number.into(), hierarchy).core();
+        let space = space::<Corners>(&grid, gap);
+        let core = |hierarchy| graph(&space, number.into(), hierarchy).core();
         let mut left = vec![true; subgoals.len()];
         let mut cores = [0; 3];
         for (level, count) in (1..).zip(&mut cores) {
@@ -239,8 +239,8 @@ fn edges_at_any_angle_are_tangents() {
     let mut count = [0; 2];
     for seed in seeds(200) {
         let (grid, gap) = (random_grid(seed).0, GAPS[seed as usize % 2]);
-        let (terrain, visibility) = (terrain::<Corners>(&grid, gap), Visibility::new(&grid, gap));
-        let edges: BTreeSet<_> = graph(&terrain, Knob::Any, levels(1)).edges().map(in_order).collect();
+        let (space, visibility) = (space::<Corners>(&grid, gap), Visibility::new(&grid, gap));
+        let edges: BTreeSet<_> = graph(&space, K::Any, levels(1)).edges().map(in_order).collect();
         let corners = visibility.corners();
         for (i, &a) in corners.iter().enumerate() {
             for &b in &corners[i + 1..] {

@@ -8,9 +8,9 @@ use std::{
     cell::Cell,
 };
 
-use common::{GAPS, HIERARCHIES, graph, k, levels, terrain};
-use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Terrain, Vertex};
-use mediant_moves::Knob;
+use common::{GAPS, HIERARCHIES, graph, k, levels, space};
+use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Vertex};
+use mediant_moves::K;
 use mediant_oracle::{Rng, caves};
 use mediant_search::{Outcome, Planner, Query};
 use mediant_subgoal::{Connect, Hierarchy, SubgoalAStar, SubgoalGraph, SubgoalTheta};
@@ -40,9 +40,9 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static COUNTING: Counting = Counting;
 
-fn queries<P: Connect>(terrain: &Terrain<P>) -> Vec<Query> {
+fn queries<P: Connect>(space: &FreeSpace<P>) -> Vec<Query> {
     let vertices = (0..50).flat_map(|y| (0..60).map(move |x| Vertex::new(x, y)));
-    let free: Vec<Vertex> = vertices.filter(|&at| terrain.is_free(at)).step_by(97).collect();
+    let free: Vec<Vertex> = vertices.filter(|&at| space.is_free(at)).step_by(97).collect();
     free.iter().flat_map(|&a| free.iter().map(move |&b| Query::new(a, b))).collect()
 }
 
@@ -63,39 +63,34 @@ fn most_allocations(case: &str, mut planner: impl Planner, queries: &[Query]) ->
     most
 }
 
-fn check<P: Connect>(rule: P::Rule, knob: Knob) {
-    let terrain = terrain::<P>(&caves(&mut Rng::new(7), 60, 50), rule);
-    let queries = queries(&terrain);
+fn check<P: Connect>(rule: P::Rule, k: K) {
+    let space = space::<P>(&caves(&mut Rng::new(7), 60, 50), rule);
+    let queries = queries(&space);
     for hierarchy in HIERARCHIES {
-        let (graph, case) =
-            (graph(&terrain, knob, hierarchy), format!("{hierarchy:?}, k = {knob}, {rule:?}"));
-        assert_eq!(
-            most_allocations(&case, SubgoalTheta::new(&terrain, &graph), &queries),
-            0,
-            "Theta, {case}"
-        );
-        assert_eq!(most_allocations(&case, SubgoalAStar::new(&terrain, &graph), &queries), 0, "A*, {case}");
+        let (graph, case) = (graph(&space, k, hierarchy), format!("{hierarchy:?}, k = {k}, {rule:?}"));
+        assert_eq!(most_allocations(&case, SubgoalTheta::new(&space, &graph), &queries), 0, "Theta, {case}");
+        assert_eq!(most_allocations(&case, SubgoalAStar::new(&space, &graph), &queries), 0, "A*, {case}");
     }
 }
 
 #[test]
 fn a_warm_query_allocates_its_path_and_nothing_else() {
-    for (gap, knob) in GAPS.into_iter().flat_map(|gap| [k(3), k(6), Knob::Any].map(|k| (gap, k))) {
-        check::<Corners>(gap, knob);
+    for (gap, k) in GAPS.into_iter().flat_map(|gap| [k(3), k(6), K::Any].map(|k| (gap, k))) {
+        check::<Corners>(gap, k);
     }
-    for knob in [k(2), k(3)] {
-        check::<Centers>(CornerRule::Never, knob);
+    for k in [k(2), k(3)] {
+        check::<Centers>(CornerRule::Never, k);
     }
 }
 
 /// The first three numbers say how much is to come.
 #[test]
 fn huge_counts_allocate_nothing_huge() {
-    let terrain = terrain::<Corners>(&caves(&mut Rng::new(7), 60, 50), DiagonalGap::Open);
-    let bytes = graph(&terrain, k(3), levels(2)).to_bytes();
+    let space = space::<Corners>(&caves(&mut Rng::new(7), 60, 50), DiagonalGap::Open);
+    let bytes = graph(&space, k(3), levels(2)).to_bytes();
     let allocated = |bytes: &[u8]| {
         let before = BYTES.get();
-        let result = SubgoalGraph::from_bytes(&terrain, k(3), bytes);
+        let result = SubgoalGraph::from_bytes(&space, k(3), bytes);
         (result.is_ok(), BYTES.get() - before)
     };
     let (is_ok, most) = allocated(&bytes);
@@ -110,7 +105,7 @@ fn huge_counts_allocate_nothing_huge() {
         }
     }
     for hierarchy in [Hierarchy::Contracted, Hierarchy::AllLevels] {
-        let bytes = graph(&terrain, k(3), hierarchy).to_bytes();
+        let bytes = graph(&space, k(3), hierarchy).to_bytes();
         let (is_ok, taken) = allocated(&bytes);
         assert!(is_ok && taken < most + 4 * bytes.len(), "{taken} bytes for {}", bytes.len());
     }

@@ -8,27 +8,27 @@ use std::{
 };
 
 use common::{GAPS, HIERARCHIES, graph, k, levels};
-use mediant_grid::{Centers, Corners, DiagonalGap, Terrain, Vertex};
-use mediant_moves::Knob;
+use mediant_grid::{Centers, Corners, DiagonalGap, FreeSpace, Vertex};
+use mediant_moves::K;
 use mediant_oracle::{Rng, caves};
 use mediant_search::{Outcome, Planner, Query};
 use mediant_subgoal::{Hierarchy, Progress, Stage, SubgoalAStar, SubgoalGraph, SubgoalTheta};
 
-fn cave(gap: DiagonalGap) -> Terrain<Corners> {
-    Terrain::new(Arc::new(caves(&mut Rng::new(7), 60, 50)), gap)
+fn cave(gap: DiagonalGap) -> FreeSpace<Corners> {
+    FreeSpace::new(Arc::new(caves(&mut Rng::new(7), 60, 50)), gap)
 }
 
-fn queries(terrain: &Terrain<Corners>) -> Vec<Query> {
+fn queries(space: &FreeSpace<Corners>) -> Vec<Query> {
     let vertices = (0..=50).flat_map(|y| (0..=60).map(move |x| Vertex::new(x, y)));
-    let free: Vec<Vertex> = vertices.filter(|&at| terrain.is_free(at)).step_by(137).collect();
+    let free: Vec<Vertex> = vertices.filter(|&at| space.is_free(at)).step_by(137).collect();
     free.iter().flat_map(|&a| free.iter().map(move |&b| Query::new(a, b))).collect()
 }
 
-type Shared = (Arc<Terrain<Corners>>, Arc<SubgoalGraph<Corners>>);
+type Shared = (Arc<FreeSpace<Corners>>, Arc<SubgoalGraph<Corners>>);
 
-fn solve_all((terrain, graph): &Shared, queries: &[Query]) -> Vec<[Outcome; 2]> {
-    let mut a_star = SubgoalAStar::new(Arc::clone(terrain), Arc::clone(graph));
-    let mut theta = SubgoalTheta::new(Arc::clone(terrain), Arc::clone(graph));
+fn solve_all((space, graph): &Shared, queries: &[Query]) -> Vec<[Outcome; 2]> {
+    let mut a_star = SubgoalAStar::new(Arc::clone(space), Arc::clone(graph));
+    let mut theta = SubgoalTheta::new(Arc::clone(space), Arc::clone(graph));
     let mut solve = |&query| {
         [a_star.solve(query), theta.solve(query)].map(|outcome| outcome.expect("both ends are free"))
     };
@@ -37,11 +37,11 @@ fn solve_all((terrain, graph): &Shared, queries: &[Query]) -> Vec<[Outcome; 2]> 
 
 #[test]
 fn planners_in_many_threads_answer_as_one() {
-    for (gap, knob) in GAPS.into_iter().zip([k(4), Knob::Any]) {
-        let terrain = Arc::new(cave(gap));
-        let queries = queries(&terrain);
+    for (gap, k) in GAPS.into_iter().zip([k(4), K::Any]) {
+        let space = Arc::new(cave(gap));
+        let queries = queries(&space);
         for hierarchy in [Hierarchy::Contracted, levels(2)] {
-            let shared = (Arc::clone(&terrain), Arc::new(graph(&terrain, knob, hierarchy)));
+            let shared = (Arc::clone(&space), Arc::new(graph(&space, k, hierarchy)));
             let expected = solve_all(&shared, &queries);
             let found = expected.iter().filter(|[outcome, _]| outcome.path().is_some()).count();
             assert!(found > 50, "only {found} paths");
@@ -56,11 +56,7 @@ fn planners_in_many_threads_answer_as_one() {
             thread::scope(|scope| {
                 let threads: Vec<_> = (0..4).map(|part| scope.spawn(move || from(part * 31))).collect();
                 for thread in threads {
-                    assert_eq!(
-                        thread.join().expect("a thread failed"),
-                        expected,
-                        "{hierarchy:?}, k = {knob}"
-                    );
+                    assert_eq!(thread.join().expect("a thread failed"), expected, "{hierarchy:?}, k = {k}");
                 }
             });
         }
@@ -73,28 +69,24 @@ fn graphs_are_shared_and_planners_sent() {
     const fn assert_send<T: Send>() {}
     assert_send_sync::<SubgoalGraph<Corners>>();
     assert_send_sync::<SubgoalGraph<Centers>>();
-    assert_send::<SubgoalAStar<Arc<Terrain<Corners>>, Arc<SubgoalGraph<Corners>>, Corners>>();
-    assert_send::<SubgoalTheta<Arc<Terrain<Centers>>, Arc<SubgoalGraph<Centers>>, Centers>>();
+    assert_send::<SubgoalAStar<Arc<FreeSpace<Corners>>, Arc<SubgoalGraph<Corners>>, Corners>>();
+    assert_send::<SubgoalTheta<Arc<FreeSpace<Centers>>, Arc<SubgoalGraph<Centers>>, Centers>>();
 }
 
 /// What was told, in the order in which it was.
-fn told(
-    terrain: &Terrain<Corners>,
-    knob: Knob,
-    hierarchy: Hierarchy,
-) -> (SubgoalGraph<Corners>, Vec<Progress>) {
+fn told(space: &FreeSpace<Corners>, k: K, hierarchy: Hierarchy) -> (SubgoalGraph<Corners>, Vec<Progress>) {
     let told = Mutex::new(Vec::new());
     let tell = |progress| told.lock().expect("no one panicked").push(progress);
-    let graph = SubgoalGraph::with_progress(terrain, knob, hierarchy, &tell).expect("k is in range");
+    let graph = SubgoalGraph::with_progress(space, k, hierarchy, &tell).expect("k is in range");
     (graph, told.into_inner().expect("no one panicked"))
 }
 
 #[test]
 fn progress_is_told_to_the_end() {
-    let terrain = cave(DiagonalGap::Open);
-    for (knob, hierarchy) in [k(3), Knob::Any].into_iter().flat_map(|k| HIERARCHIES.map(|h| (k, h))) {
-        let (made, told) = told(&terrain, knob, hierarchy);
-        assert_eq!(made.to_bytes(), graph(&terrain, knob, hierarchy).to_bytes());
+    let space = cave(DiagonalGap::Open);
+    for (k, hierarchy) in [k(3), K::Any].into_iter().flat_map(|k| HIERARCHIES.map(|h| (k, h))) {
+        let (made, told) = told(&space, k, hierarchy);
+        assert_eq!(made.to_bytes(), graph(&space, k, hierarchy).to_bytes());
         let total = made.subgoals();
         assert!(total > 300, "only {total} subgoals");
         assert!(told.iter().all(|progress| progress.total == total && progress.done <= total), "{told:?}");
@@ -113,14 +105,14 @@ fn progress_is_told_to_the_end() {
 fn maps_without_subgoals_have_graphs() {
     for cells in [false, true] {
         let grid = mediant_grid::Grid::from_fn(5, 4, |_, _| cells).expect("a valid size");
-        let terrain = Terrain::<Corners>::new(Arc::new(grid), DiagonalGap::Open);
-        for (knob, hierarchy) in [k(3), Knob::Any].into_iter().flat_map(|k| HIERARCHIES.map(|h| (k, h))) {
-            let (made, _) = told(&terrain, knob, hierarchy);
+        let space = FreeSpace::<Corners>::new(Arc::new(grid), DiagonalGap::Open);
+        for (k, hierarchy) in [k(3), K::Any].into_iter().flat_map(|k| HIERARCHIES.map(|h| (k, h))) {
+            let (made, _) = told(&space, k, hierarchy);
             assert_eq!((made.subgoals(), made.arcs(), made.core()), (0, 0, 0));
             let query = Query::new((0, 0), (5, 3));
             let [a_star, theta] = [
-                SubgoalAStar::new(&terrain, &made).solve(query),
-                SubgoalTheta::new(&terrain, &made).solve(query),
+                SubgoalAStar::new(&space, &made).solve(query),
+                SubgoalTheta::new(&space, &made).solve(query),
             ];
             assert_eq!(theta.is_ok(), !cells);
             assert_eq!(

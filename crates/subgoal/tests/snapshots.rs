@@ -6,9 +6,9 @@ mod common;
 
 use std::fmt::Write;
 
-use common::{graph, k, levels, terrain};
-use mediant_grid::{AsciiMap, Corners, DiagonalGap, Placement, draw};
-use mediant_moves::Knob;
+use common::{graph, k, levels, space};
+use mediant_grid::{AsciiMap, Corners, DiagonalGap, PlacementKind, draw};
+use mediant_moves::K;
 use mediant_search::{Planner, Query};
 use mediant_subgoal::{SubgoalAStar, SubgoalTheta};
 
@@ -24,25 +24,25 @@ const HALL: &str = "
 ";
 
 /// The subgoals and edges of the graph, and the paths from `s` to `g`, under their costs.
-fn picture(knob: Knob, gap: DiagonalGap) -> String {
+fn picture(k: K, gap: DiagonalGap) -> String {
     let map = AsciiMap::parse(HALL).expect("the drawing is a map");
     let query = Query::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
-    let terrain = terrain::<Corners>(&map.grid, gap);
-    let graph = |hierarchy| graph(&terrain, knob, hierarchy);
+    let space = space::<Corners>(&map.grid, gap);
+    let graph = |hierarchy| graph(&space, k, hierarchy);
     let (one, two) = (graph(levels(1)), graph(levels(2)));
     let mut text = format!(
-        "k = {knob}, gap {gap}: {} subgoals, {} edges; {} subgoals on level 2\n",
+        "k = {k}, gap {gap}: {} subgoals, {} edges; {} subgoals on level 2\n",
         one.subgoals(),
         one.edges().count(),
         two.core()
     );
     let mut add = |name: &str, planner: &mut dyn FnMut(Query) -> Option<mediant_search::Path>| {
         let path = planner(query).expect("there is a path");
-        let picture = draw(&map.grid, Placement::Corner, path.waypoints());
+        let picture = draw(&map.grid, PlacementKind::Corner, path.waypoints());
         write!(text, "{name}: {:.4}\n{picture}", path.cost()).expect("a text takes all");
     };
-    let mut a_star = SubgoalAStar::new(&terrain, &two);
-    let mut theta = SubgoalTheta::new(&terrain, &two);
+    let mut a_star = SubgoalAStar::new(&space, &two);
+    let mut theta = SubgoalTheta::new(&space, &two);
     add("Sub2-A*", &mut |query| a_star.solve(query).ok()?.path().cloned());
     add("Sub2-Theta*", &mut |query| theta.solve(query).ok()?.path().cloned());
     text
@@ -60,7 +60,7 @@ fn hall_k5() {
 
 #[test]
 fn hall_any_angle() {
-    insta::assert_snapshot!(picture(Knob::Any, DiagonalGap::Open));
+    insta::assert_snapshot!(picture(K::Any, DiagonalGap::Open));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{graph, k, levels, terrain};
+use common::{graph, k, levels, space};
 use mediant_grid::{AsciiMap, Corners, DiagonalGap, Vertex};
 use mediant_search::{Counters, NodeEvent, Observer, Outcome, Planner, Query};
 use mediant_subgoal::{Hierarchy, SubgoalTheta};
@@ -36,9 +36,9 @@ impl Observer for Log {
 /// The events of a search over N(3), and the path.
 fn solve(drawing: &str, hierarchy: Hierarchy, [start, goal]: [(i32, i32); 2]) -> (Vec<String>, Vec<Vertex>) {
     let map = AsciiMap::parse(drawing).expect("the drawing is a map");
-    let terrain = terrain::<Corners>(&map.grid, DiagonalGap::Open);
-    let graph = graph(&terrain, k(3), hierarchy);
-    let mut planner = SubgoalTheta::new(&terrain, &graph);
+    let space = space::<Corners>(&map.grid, DiagonalGap::Open);
+    let graph = graph(&space, k(3), hierarchy);
+    let mut planner = SubgoalTheta::new(&space, &graph);
     let (query, mut log, mut counters) = (Query::new(start, goal), Log::default(), Counters::default());
     let outcome = planner.solve_observed(query, &mut log).expect("both ends are free");
     assert_eq!(planner.solve_observed(query, &mut counters), Ok(outcome.clone()));

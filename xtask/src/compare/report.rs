@@ -18,19 +18,19 @@ pub(super) fn text(results: &Results<'_>, options: &Options) -> String {
     )];
     lines.extend(times(results).lines());
     lines.push(
-        "here/there: the yardsticks' times by those on the machine of the other programs, geometric mean."
+        "here/there: the baselines' times by those on the machine of the other programs, geometric mean."
             .into(),
     );
     lines.extend(disturbance(&scales(results)));
-    if options.every as usize != results.anchors.instances.every {
-        let every = results.anchors.instances.every;
+    if options.every as usize != results.references.instances.every {
+        let every = results.references.instances.every;
         lines.push(format!(
             "The times there are for --every {every}: the ratios compare different instances."
         ));
     }
     for (i, &setup) in results.setups.iter().enumerate() {
         let (same, other): (Vec<_>, Vec<_>) =
-            results.anchors.programs.iter().enumerate().partition(|(_, program)| program.solves(setup));
+            results.references.programs.iter().enumerate().partition(|(_, program)| program.solves(setup));
         if !same.is_empty() {
             let quality = if setup.optimal_over().is_some() { "" } else { ", neither optimally" };
             lines.push(format!(
@@ -55,7 +55,7 @@ pub(super) fn text(results: &Results<'_>, options: &Options) -> String {
 fn times(results: &Results<'_>) -> Table {
     let first = results.records.first().map_or(&[][..], |record| &record.timings);
     let mut heading = vec!["map".to_owned(), "queries".to_owned()];
-    heading.extend(first.iter().map(|timing| timing.contender.clone()));
+    heading.extend(first.iter().map(|timing| timing.competitor.clone()));
     heading.push("here/there".to_owned());
     let mut table = Table::new(heading);
     for (record, comparisons) in results.records.iter().zip(&results.comparisons) {
@@ -76,12 +76,12 @@ fn times(results: &Results<'_>) -> Table {
     table
 }
 
-/// What the yardsticks take here by what they take there, of each map.
+/// What the baselines take here by what they take there, of each map.
 fn scales(results: &Results<'_>) -> Vec<f64> {
     results.comparisons.iter().filter_map(|all| Some(all.first()?.scale)).collect()
 }
 
-/// A warning when the yardsticks differ more from map to map than two machines do: on an idle one they stay within 1.15.
+/// A warning when the baselines differ more from map to map than two machines do: on an idle one they stay within 1.15.
 /// Work beside the run slows them more than it slows engines that live in the caches, and so flatters those.
 fn disturbance(scales: &[f64]) -> Option<String> {
     let (least, most) =
@@ -117,7 +117,7 @@ fn ratios(results: &Results<'_>, setup: usize, programs: &[(usize, &Comparand)])
 /// What the setup at place `setup` prepares, and its ratios to those of the programs that prepare something.
 fn preparation(results: &Results<'_>, setup: usize, programs: &[(usize, &Comparand)]) -> Table {
     let prepares =
-        |name: &String| results.anchors.maps.iter().any(|row| row.preprocessing.contains_key(name));
+        |name: &String| results.references.maps.iter().any(|row| row.preprocessing.contains_key(name));
     let programs: Vec<_> = programs.iter().filter(|(_, program)| prepares(&program.name)).collect();
     let heading = ["map", "ms", "MB"].map(str::to_owned).into_iter();
     let columns = programs
@@ -174,7 +174,7 @@ pub(super) fn json(root: &Path, results: &Results<'_>, options: &Options) -> Str
         every: options.every,
         passes: options.passes,
         engines: results.setups.iter().map(Setup::to_string).collect(),
-        programs: results.anchors.programs.iter().map(|program| program.name.as_str()).collect(),
+        programs: results.references.programs.iter().map(|program| program.name.as_str()).collect(),
         records: &results.records,
         comparisons: &results.comparisons,
     };

@@ -66,9 +66,9 @@ fn tables_and_figures_of_the_maps_that_are_there() {
     assert_eq!(figures["engines"], serde_json::json!(["astar:3:never", "astar:5:open"]));
     let record = &figures["records"][0];
     assert_eq!((&record["map"], &record["instances"]), (&"arena2".into(), &1.into()));
-    let contenders: Vec<_> =
-        record["timings"].as_array().unwrap().iter().map(|timing| &timing["contender"]).collect();
-    assert_eq!(contenders, ["astar:3:never", "astar:5:open", "pathfinding", "grid_pathfinding"]);
+    let competitors: Vec<_> =
+        record["timings"].as_array().unwrap().iter().map(|timing| &timing["competitor"]).collect();
+    assert_eq!(competitors, ["astar:3:never", "astar:5:open", "pathfinding", "grid_pathfinding"]);
     let ratio =
         |task: usize, program: usize| figures["comparisons"][0][task]["ratios"][program].as_f64().unwrap();
     let micros = |i: usize| record["timings"][i]["micros"].as_f64().unwrap();
@@ -135,18 +135,21 @@ fn wrong_answers_and_missing_maps_are_errors() {
 
 /// The tables of maps on which this machine seems to be so much slower.
 fn tables(scales: &[f64]) -> String {
-    let anchors = Anchors::bundled().unwrap();
+    let references = ReferenceTimings::bundled().unwrap();
     let comparison = |&scale: &f64| {
         vec![Comparison {
             map: "arena2".to_owned(),
-            contender: "astar".to_owned(),
+            competitor: "astar".to_owned(),
             scale,
             ratios: Vec::new(),
             preparation: Vec::new(),
         }]
     };
     let comparisons = scales.iter().map(comparison).collect();
-    report::text(&Results { anchors: &anchors, setups: &[], records: Vec::new(), comparisons }, &options(&[]))
+    report::text(
+        &Results { references: &references, setups: &[], records: Vec::new(), comparisons },
+        &options(&[]),
+    )
 }
 
 #[test]

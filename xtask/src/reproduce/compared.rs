@@ -1,8 +1,8 @@
 //! Our engines beside other programs: what `cargo xtask compare` measures, as a page; and the figures that Central64 publishes.
 
 use mediant_bench::{
-    Anchors, Archive, Comparison, Contender, MapRecord, Problem, PublishedRow, Study, Timing, Yardstick,
-    measure as side_by_side,
+    Archive, Baseline, Comparison, Competitor, MapRecord, Problem, PublishedRow, ReferenceTimings, Study,
+    Timing, measure as side_by_side,
 };
 use mediant_engines::Setup;
 use mediant_report::{
@@ -19,7 +19,7 @@ use super::{
 };
 use crate::Error;
 
-/// The programs of `benchdata/anchors.json`.
+/// The programs of `benchdata/reference_timings.json`.
 pub(super) const PROGRAMS: Experiment = Experiment {
     id: "compared-programs",
     page: Page::Compared,
@@ -59,14 +59,14 @@ const SETUPS: [&str; 15] = [
 /// The maps of a quick run: small ones.
 const QUICK: [&str; 4] = ["arena2", "hrt201n", "AR0011SR", "Berlin_0_256"];
 
-fn anchors() -> Result<Anchors, Error> {
-    Anchors::bundled().map_err(|wrong| Error::Reproduce(wrong.to_string()))
+fn references() -> Result<ReferenceTimings, Error> {
+    ReferenceTimings::bundled().map_err(|wrong| Error::Reproduce(wrong.to_string()))
 }
 
 /// A timing as it is kept between runs.
 #[derive(Serialize, Deserialize)]
 struct Kept {
-    contender: String,
+    competitor: String,
     queries: u64,
     micros: f64,
     cost: f64,
@@ -75,18 +75,18 @@ struct Kept {
 }
 
 fn measure_programs(context: &Context<'_>) -> Result<Findings, Error> {
-    let anchors = anchors()?;
-    let mut contenders =
-        SETUPS.iter().map(|text| Ok(Contender::Ours(setup(text)?))).collect::<Result<Vec<_>, Error>>()?;
+    let references = references()?;
+    let mut competitors =
+        SETUPS.iter().map(|text| Ok(Competitor::Ours(setup(text)?))).collect::<Result<Vec<_>, Error>>()?;
     if context.passes() > 0 {
-        contenders.extend(Yardstick::ALL.map(Contender::Yardstick));
+        competitors.extend(Baseline::ALL.map(Competitor::Baseline));
     }
     let sets = context.sets();
     let mut maps = Vec::new();
     if context.is_bundled() {
         maps = context.maps("bundled", usize::MAX)?;
     }
-    for row in &anchors.maps {
+    for row in &references.maps {
         let wanted = context.quick_or(QUICK.contains(&row.map.as_str()), true);
         if wanted && sets.contains(&row.set.as_str()) {
             maps.extend(context.named(&row.set, &[&row.map])?);
@@ -97,13 +97,13 @@ fn measure_programs(context: &Context<'_>) -> Result<Findings, Error> {
         let folder =
             map.path.parent().and_then(std::path::Path::file_name).unwrap_or_default().to_string_lossy();
         let wrong = |wrong: &dyn std::error::Error| Error::Reproduce(wrong.to_string());
-        let problem = Problem::load(&archive, &folder, &map.name, anchors.instances.every)
+        let problem = Problem::load(&archive, &folder, &map.name, references.instances.every)
             .map_err(|error| wrong(&error))?;
         let problem = problem.ok_or_else(|| Error::Reproduce(format!("{}: no scenario", map.name)))?;
         let passes = context.passes() as usize;
-        let record = side_by_side(&problem, &contenders, passes).map_err(|error| wrong(&error))?;
+        let record = side_by_side(&problem, &competitors, passes).map_err(|error| wrong(&error))?;
         let keep = |timing: &Timing| Kept {
-            contender: timing.contender.clone(),
+            competitor: timing.competitor.clone(),
             queries: record.instances as u64,
             micros: timing.micros,
             cost: timing.mean_cost,
@@ -114,7 +114,7 @@ fn measure_programs(context: &Context<'_>) -> Result<Findings, Error> {
     })?;
     let timed = context.passes() > 0;
     let row = |map: &Map, kept: &Kept| {
-        let row = Row::new().key("map", &map.name).key("set", &map.set).key("contender", &kept.contender);
+        let row = Row::new().key("map", &map.name).key("set", &map.set).key("competitor", &kept.competitor);
         let row = row.with("queries", kept.queries as f64).with("cost", kept.cost).with("bytes", kept.bytes);
         row.with("micros", timed.then_some(kept.micros)).with("preparation", kept.seconds)
     };
@@ -126,7 +126,7 @@ fn measure_programs(context: &Context<'_>) -> Result<Findings, Error> {
     let columns = vec![
         Column::key("map", "the map"),
         Column::key("set", "its set"),
-        Column::key("contender", "our engine, or a crate that was measured on both machines"),
+        Column::key("competitor", "our engine, or a crate that was measured on both machines"),
         Column::count("queries", "", "queries"),
         Column::count("cost", "cells", "mean length of a path"),
         Column::count("bytes", "bytes", "what is prepared of the map, beyond the map"),
@@ -134,14 +134,14 @@ fn measure_programs(context: &Context<'_>) -> Result<Findings, Error> {
         Column::time("preparation", "s", "time to prepare the map, on all cores"),
     ];
     let instances = measured.iter().filter_map(|all| all.first()).map(|kept| kept.queries).sum();
-    let drawn = format!("of each scenario the instances whose index {} divides", anchors.instances.every);
+    let drawn = format!("of each scenario the instances whose index {} divides", references.instances.every);
     Ok(Findings { columns, rows, maps: maps.len(), instances, drawn, seeded: false })
 }
 
 /// The comparisons of a record, as `compare` makes them: by map, by setup.
-fn comparisons(record: &Record, anchors: &Anchors) -> Vec<(String, Vec<Option<Comparison>>)> {
+fn comparisons(record: &Record, references: &ReferenceTimings) -> Vec<(String, Vec<Option<Comparison>>)> {
     let timing = |row: &Row| Timing {
-        contender: row.text("contender").to_owned(),
+        competitor: row.text("competitor").to_owned(),
         micros: row.number("micros").unwrap_or(f64::NAN),
         passes: Vec::new(),
         mean_cost: row.number("cost").unwrap_or(f64::NAN),
@@ -151,8 +151,8 @@ fn comparisons(record: &Record, anchors: &Anchors) -> Vec<(String, Vec<Option<Co
         let timings: Vec<Timing> = record.select(&[("map", map)]).map(timing).collect();
         let record = MapRecord { map: (*map).to_owned(), set: String::new(), instances: 0, timings };
         let compare = |setup: &&str| {
-            let timing = record.timings.iter().find(|timing| timing.contender == canonical(setup))?;
-            Comparison::new(anchors, &record, timing)
+            let timing = record.timings.iter().find(|timing| timing.competitor == canonical(setup))?;
+            Comparison::new(references, &record, timing)
         };
         ((*map).to_owned(), SETUPS.iter().map(compare).collect())
     };
@@ -166,19 +166,19 @@ fn canonical(text: &str) -> String {
 
 fn show_programs(record: &Record) -> Section {
     let mut section = Section::default();
-    let Ok(anchors) = Anchors::bundled() else { return section };
+    let Ok(references) = ReferenceTimings::bundled() else { return section };
     section.text(
         "Ratios, never times: two crates that anyone can run were measured on the machine of the other programs and here, in the same passes as ours; their times say how the machines \
          compare, map by map. Below 1, ours is faster. Only programs that solve the same problem are compared: the same directions and rules, both optimally or neither.",
     );
-    let compared = comparisons(record, &anchors);
+    let compared = comparisons(record, &references);
     let mut table =
         Table::new(["ours", "program", "geometric mean", "best map", "worst map", "maps"]).names(2);
     let mut means: Vec<(&'static str, String, f64)> = Vec::new();
     for (at, text) in SETUPS.iter().enumerate() {
         let Ok(parsed) = text.parse::<Setup>() else { continue };
         for (which, program) in
-            anchors.programs.iter().enumerate().filter(|(_, program)| program.solves(parsed))
+            references.programs.iter().enumerate().filter(|(_, program)| program.solves(parsed))
         {
             let ratio = |(map, all): &(String, Vec<Option<Comparison>>)| {
                 let ratio = all[at].as_ref()?.ratios.get(which).copied().flatten()?;
@@ -270,27 +270,27 @@ fn ratio_chart(record: &Record, title: &str, means: &[(&'static str, String, f64
 
 fn times(record: &Record) -> Table {
     let maps = record.distinct("map");
-    let heading = ["contender".to_owned()].into_iter().chain(maps.iter().map(|map| (*map).to_owned()));
+    let heading = ["competitor".to_owned()].into_iter().chain(maps.iter().map(|map| (*map).to_owned()));
     let mut table = Table::new(heading.chain(["geometric mean".to_owned()]));
-    for contender in record.distinct("contender") {
+    for competitor in record.distinct("competitor") {
         let micros: Vec<Option<f64>> = maps
             .iter()
-            .map(|map| record.number(&[("map", map), ("contender", contender)], "micros"))
+            .map(|map| record.number(&[("map", map), ("competitor", competitor)], "micros"))
             .collect();
         let all: Vec<f64> = micros.iter().flatten().copied().collect();
         let mean = stats::geometric_mean(&all);
         let cells = micros.into_iter().chain([mean]).map(|value| value.map_or("–".to_owned(), number));
-        table.row([format!("`{contender}`")].into_iter().chain(cells));
+        table.row([format!("`{competitor}`")].into_iter().chain(cells));
     }
     table
 }
 
 fn prepared(record: &Record) -> Table {
     let mut table = Table::new(["engine", "ms, mean", "ms, most", "MB, mean", "MB, most"]);
-    for contender in record.distinct("contender") {
+    for competitor in record.distinct("competitor") {
         let values = |column: &str, scale: f64| -> Vec<f64> {
             record
-                .select(&[("contender", contender)])
+                .select(&[("competitor", competitor)])
                 .filter_map(|row| Some(scale * row.number(column)?))
                 .collect()
         };
@@ -301,7 +301,7 @@ fn prepared(record: &Record) -> Table {
         }
         let cells = [stats::mean(&times), most(&times), stats::mean(&sizes), most(&sizes)];
         let cells = cells.map(|value| value.map_or("–".to_owned(), number));
-        table.row([format!("`{contender}`")].into_iter().chain(cells));
+        table.row([format!("`{competitor}`")].into_iter().chain(cells));
     }
     table
 }
@@ -399,7 +399,8 @@ fn smoothing(record: &Record) -> String {
 
 fn show_central(record: &Record) -> Section {
     let mut section = Section::default();
-    let Some(published) = Anchors::bundled().ok().and_then(|anchors| anchors.published.into_iter().next())
+    let Some(published) =
+        ReferenceTimings::bundled().ok().and_then(|references| references.published.into_iter().next())
     else {
         return section;
     };

@@ -6,7 +6,7 @@ use std::{
 };
 
 use mediant_formats::{Instance, MapFile, Scenario};
-use mediant_grid::{Grid, Placement, Rules};
+use mediant_grid::{Grid, PlacementKind, Rules};
 use mediant_oracle::{Rng, random_free_vertex};
 use mediant_search::Query;
 
@@ -69,7 +69,7 @@ pub(super) fn random_queries(
     count: usize,
     mut solvable: impl FnMut(Query) -> bool,
 ) -> Vec<Query> {
-    let placement: Placement = rules.placement();
+    let placement: PlacementKind = rules.placement();
     let mut queries = Vec::with_capacity(count);
     for _ in 0..1000 * count {
         if queries.len() == count {

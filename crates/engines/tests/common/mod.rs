@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use mediant_grid::{AsciiMap, Grid};
-use mediant_moves::K;
+use mediant_moves::FiniteK;
 
-pub(crate) fn k(k: u32) -> K {
-    K::new(k).expect("k is at least 2")
+pub(crate) fn k(k: u32) -> FiniteK {
+    FiniteK::new(k).expect("k is at least 2")
 }
 
 pub(crate) fn grid() -> Arc<Grid> {

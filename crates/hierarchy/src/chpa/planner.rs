@@ -6,10 +6,10 @@ use std::{
     ops::{Deref, DerefMut},
 };
 
-use mediant_grid::{Centers, Lattice, Rectangle, Vertex};
+use mediant_grid::{Centers, GridGraph, Rectangle, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{
-    AStar, Guarantee, Heuristic, Labels, NodeEvent, Observer, Outcome, Path, Planner, Query, QueryError,
+    AStar, Guarantee, Heuristic, NodeEvent, Observer, Outcome, Path, Planner, Query, QueryError, SearchTree,
 };
 
 use super::segments::SegmentGraph;
@@ -20,19 +20,19 @@ use crate::{HierarchyError, check, straighten::waypoints};
 /// A checkpoint is the tile at which the path arrives in each [`step`](Self::with_step)-th segment: of those along the wall to the segment before, the free one nearest to its middle. `H1` guides
 /// the search over segments, whose costs are counted in segments, `H2` those over tiles. What happens where a checkpoint cannot be reached is the planner's [`Conduct`].
 ///
-/// `L` and `G` are how the planner holds the lattice and its index: by reference or `Arc`; a planner that holds its index in a `Box` can [repair](Self::repair) it.
+/// `L` and `G` are how the planner holds the grid graph and its index: by reference or `Arc`; a planner that holds its index in a `Box` can [repair](Self::repair) it.
 ///
 /// **Ties** are decided by the open lists' order (f, h, the number of segment or vertex). Events are those of both phases; those of the first have the middle of the segment. Scratch memory:
 /// 16 bytes a vertex, 24 a segment.
 #[derive(Clone, Debug)]
 pub struct ChpaStar<L, G, H1, H2> {
-    lattice: L,
+    grid_graph: L,
     graph: G,
     first: H1,
     second: AStar<L, H2>,
     step: NonZeroU32,
     conduct: Conduct,
-    labels: Labels,
+    labels: SearchTree,
     /// The segments on the way.
     segments: Vec<u32>,
     checkpoints: Vec<Vertex>,
@@ -61,28 +61,28 @@ impl Default for Conduct {
 
 impl<L, G, H1, H2> ChpaStar<L, G, H1, H2>
 where
-    L: Deref<Target = Lattice<Centers>> + Clone,
+    L: Deref<Target = GridGraph<Centers>> + Clone,
     G: Deref<Target = SegmentGraph>,
     H1: Heuristic,
     H2: Heuristic,
 {
-    /// A planner with scratch memory for `graph`, which must be the index of `lattice`; with a step of 2, and complete.
+    /// A planner with scratch memory for `graph`, which must be the index of `grid_graph`; with a step of 2, and complete.
     ///
     /// # Errors
     /// [`HierarchyError`] when it is that of a map of another size or of other moves. With the index of another map paths may be longer, no more.
-    pub fn new(lattice: L, graph: G, first: H1, second: H2) -> Result<Self, HierarchyError> {
-        check::lattice(graph.k, graph.size, &lattice)?;
+    pub fn new(grid_graph: L, graph: G, first: H1, second: H2) -> Result<Self, HierarchyError> {
+        check::grid_graph(graph.k, graph.size, &grid_graph)?;
         Ok(Self {
-            labels: Labels::new(graph.segments()),
+            labels: SearchTree::new(graph.segments()),
             graph,
             first,
-            second: AStar::new(lattice.clone(), second),
+            second: AStar::new(grid_graph.clone(), second),
             step: NonZeroU32::MIN.saturating_add(1),
             conduct: Conduct::default(),
             segments: Vec::new(),
             checkpoints: Vec::new(),
             way: Vec::new(),
-            lattice,
+            grid_graph,
         })
     }
 
@@ -101,33 +101,33 @@ where
 
 impl<L, G, H1, H2> ChpaStar<L, G, H1, H2>
 where
-    L: Deref<Target = Lattice<Centers>> + Clone,
+    L: Deref<Target = GridGraph<Centers>> + Clone,
     G: DerefMut<Target = SegmentGraph>,
     H1: Heuristic,
     H2: Heuristic,
 {
-    /// Goes on on a changed map: `lattice` differs from the one before only in the cells of a rectangle. Repairs the index, and keeps the scratch memory.
+    /// Goes on on a changed map: `grid_graph` differs from the one before only in the cells of a rectangle. Repairs the index, and keeps the scratch memory.
     ///
     /// # Errors
-    /// [`HierarchyError`] for a lattice of another size or other moves; nothing is changed then.
-    pub fn repair(&mut self, lattice: L, changed: Rectangle) -> Result<(), HierarchyError> {
-        check::lattice(self.graph.k, self.graph.size, &lattice)?;
-        self.graph.repair(lattice.grid(), changed)?;
-        self.second.set_lattice(lattice.clone());
-        self.lattice = lattice;
+    /// [`HierarchyError`] for a grid graph of another size or other moves; nothing is changed then.
+    pub fn repair(&mut self, grid_graph: L, changed: Rectangle) -> Result<(), HierarchyError> {
+        check::grid_graph(self.graph.k, self.graph.size, &grid_graph)?;
+        self.graph.repair(grid_graph.grid(), changed)?;
+        self.second.set_graph(grid_graph.clone());
+        self.grid_graph = grid_graph;
         Ok(())
     }
 }
 
 impl<L, G, H1, H2> Planner for ChpaStar<L, G, H1, H2>
 where
-    L: Deref<Target = Lattice<Centers>> + Clone,
+    L: Deref<Target = GridGraph<Centers>> + Clone,
     G: Deref<Target = SegmentGraph>,
     H1: Heuristic,
     H2: Heuristic,
 {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        if query.ends(&self.lattice)?.is_none() {
+        if query.ends(&self.grid_graph)?.is_none() {
             return Ok(Outcome::Unreachable);
         }
         let found = self.abstract_path(query, observer);
@@ -153,20 +153,20 @@ where
 
 impl<L, G, H1, H2> ChpaStar<L, G, H1, H2>
 where
-    L: Deref<Target = Lattice<Centers>> + Clone,
+    L: Deref<Target = GridGraph<Centers>> + Clone,
     G: Deref<Target = SegmentGraph>,
     H1: Heuristic,
     H2: Heuristic,
 {
     /// Phase 1: finds a path over segments. Whether there is one.
     fn abstract_path(&mut self, query: Query, observer: &mut impl Observer) -> bool {
-        let Self { lattice, graph, first, labels, segments, .. } = self;
+        let Self { grid_graph, graph, first, labels, segments, .. } = self;
         let (start, goal) = (graph.segment_at(query.start), graph.segment_at(query.goal));
         let goal_at = graph.place(goal);
-        let estimate = |at: Vertex| first.estimate(lattice, at.to(goal_at));
+        let estimate = |at: Vertex| first.estimate(grid_graph, at.to(goal_at));
         let h = estimate(graph.place(start));
         labels.start_search();
-        labels.reach(start, Cost::ZERO, h, Labels::<()>::NONE, ());
+        labels.reach(start, Cost::ZERO, h, SearchTree::<()>::NONE, ());
         observer.generated(NodeEvent { at: graph.center(start), parent: None, g: Cost::ZERO, f: h });
         while let Some((f, id, g, swaps)) = labels.pop() {
             observer.percolated(swaps);
@@ -181,7 +181,7 @@ where
             let parent = labels.parent(id).map(|(parent, ())| graph.center(parent));
             observer.expanded(NodeEvent { at: graph.center(id), parent, g, f });
             graph.for_each_neighbor(id, |to, d| {
-                let g = g + lattice.costs().distance(d);
+                let g = g + grid_graph.costs().distance(d);
                 // With a heuristic that overestimates, going back to closed segments would cost much and promise nothing.
                 let is_settled = !H1::ADMISSIBLE && labels.is_closed(to);
                 if is_settled || labels.cost(to).is_some_and(|known| known <= g) {
@@ -199,14 +199,14 @@ where
 
     /// The places that phase 2 visits: the checkpoints of the path over segments, if there is one, and the goal.
     fn place_checkpoints(&mut self, has_path: bool, goal: Vertex) {
-        let Self { lattice, graph, segments, checkpoints, step, .. } = self;
+        let Self { grid_graph, graph, segments, checkpoints, step, .. } = self;
         checkpoints.clear();
         if has_path {
             let step = step.get() as usize;
             let legs = segments.windows(2).skip(step - 1).step_by(step);
             // The goal itself stands for its segment.
             let legs = legs.filter(|legs| legs[1] != graph.segment_at(goal));
-            checkpoints.extend(legs.filter_map(|legs| graph.checkpoint(lattice, legs[0], legs[1])));
+            checkpoints.extend(legs.filter_map(|legs| graph.checkpoint(grid_graph, legs[0], legs[1])));
         }
         checkpoints.push(goal);
     }
@@ -231,7 +231,7 @@ where
         detour: NonZeroU32,
         observer: &mut impl Observer,
     ) -> Result<Outcome, QueryError> {
-        let Self { lattice, second, checkpoints, way, .. } = self;
+        let Self { grid_graph, second, checkpoints, way, .. } = self;
         way.clear();
         way.push(query.start);
         let (mut at, mut next, mut skip) = (query.start, 0, 1);
@@ -239,7 +239,7 @@ where
         let last = checkpoints.len().saturating_sub(1);
         while let Some(&to) = checkpoints.get(next) {
             let limit =
-                if next == last { Cost::MAX } else { times(lattice.costs().distance(at.to(to)), detour) };
+                if next == last { Cost::MAX } else { times(grid_graph.costs().distance(at.to(to)), detour) };
             if second.extend(way, to, limit, observer)? {
                 (at, next, skip) = (to, next + 1, 1);
             } else if next == last {
@@ -256,7 +256,7 @@ where
 impl SegmentGraph {
     /// The tile of `target` at which a path arrives that comes from the segment `origin` beside it: of those along the wall between the two, the free one that is nearest to the
     /// middle, first to the left or above it.
-    fn checkpoint(&self, lattice: &Lattice<Centers>, origin: u32, target: u32) -> Option<Vertex> {
+    fn checkpoint(&self, grid_graph: &GridGraph<Centers>, origin: u32, target: u32) -> Option<Vertex> {
         let d = self.place(origin).to(self.place(target));
         let at = self.place(target);
         let side = self.side as i32;
@@ -275,7 +275,7 @@ impl SegmentGraph {
                 let x = tile(at.x * side, d.x, along, self.size.0);
                 Vertex::new(x, tile(at.y * side, d.y, along, self.size.1))
             })
-            .find(|&tile| lattice.is_free(tile))
+            .find(|&tile| grid_graph.is_free(tile))
     }
 }
 

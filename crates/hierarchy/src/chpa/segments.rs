@@ -1,7 +1,7 @@
 //! The abstraction graph of CHPA*: made by sliding windows over the map, and mended where the map changed.
 
-use mediant_grid::{Centers, Grid, Lattice, Rectangle, Vector, Vertex};
-use mediant_moves::K;
+use mediant_grid::{Centers, Grid, GridGraph, Rectangle, Vector, Vertex};
+use mediant_moves::FiniteK;
 
 use crate::{
     HierarchyError, check,
@@ -27,7 +27,7 @@ pub(crate) const SOUTH_WEST: u8 = 8;
 /// [`Conduct`](crate::Conduct). Immutable but for [`repair`](Self::repair); planners share it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SegmentGraph {
-    pub(crate) k: K,
+    pub(crate) k: FiniteK,
     pub(crate) side: u32,
     pub(crate) size: (u32, u32),
     pub(crate) columns: u32,
@@ -45,26 +45,26 @@ impl SegmentGraph {
     ///
     /// # Errors
     /// [`HierarchyError`] for k above 3, for corners that may be cut, or a side that is out of range.
-    pub fn new(lattice: &Lattice<Centers>, side: u32) -> Result<Self, HierarchyError> {
-        let mut graph = Self::without_edges(lattice, side)?;
+    pub fn new(grid_graph: &GridGraph<Centers>, side: u32) -> Result<Self, HierarchyError> {
+        let mut graph = Self::without_edges(grid_graph, side)?;
         for y in 0..graph.rows {
             for x in 0..graph.columns {
-                graph.edges[(y * graph.columns + x) as usize] = graph.edges_of(lattice.grid(), x, y);
+                graph.edges[(y * graph.columns + x) as usize] = graph.edges_of(grid_graph.grid(), x, y);
             }
         }
         Ok(graph)
     }
 
     /// The index of a map without edges.
-    pub(crate) fn without_edges(lattice: &Lattice<Centers>, side: u32) -> Result<Self, HierarchyError> {
-        check::moves(lattice)?;
+    pub(crate) fn without_edges(grid_graph: &GridGraph<Centers>, side: u32) -> Result<Self, HierarchyError> {
+        check::moves(grid_graph)?;
         if !(1..=Self::MAX_SIDE).contains(&side) {
             return Err(HierarchyError::Side { found: side, min: 1, max: Self::MAX_SIDE });
         }
-        let size = (lattice.grid().width(), lattice.grid().height());
+        let size = (grid_graph.grid().width(), grid_graph.grid().height());
         let (columns, rows) = (size.0.div_ceil(side), size.1.div_ceil(side));
         let edges = vec![0; (columns * rows) as usize].into_boxed_slice();
-        Ok(Self { k: lattice.k(), side, size, columns, rows, edges })
+        Ok(Self { k: grid_graph.k(), side, size, columns, rows, edges })
     }
 
     /// Makes the edges anew whose windows touch the cells of a rectangle, in which alone `grid` may differ from the map that this is the index of. It is then equal to a new index
@@ -111,7 +111,7 @@ impl SegmentGraph {
 
     /// The memory that it takes, in bytes: one a segment.
     #[must_use]
-    pub fn bytes(&self) -> usize {
+    pub fn memory_bytes(&self) -> usize {
         size_of_val(&*self.edges)
     }
 
@@ -159,7 +159,7 @@ impl SegmentGraph {
     /// The edges that lead to a segment.
     pub(crate) fn possible_edges(&self, x: u32, y: u32) -> u8 {
         let (has_right, has_left, has_below) = (x + 1 < self.columns, x > 0, y + 1 < self.rows);
-        let diagonals = self.k != K::FOUR_CONNECTED && has_below;
+        let diagonals = self.k != FiniteK::N4 && has_below;
         let edge = |exists: bool, edge: u8| if exists { edge } else { 0 };
         edge(has_right, EAST)
             | edge(has_below, SOUTH)

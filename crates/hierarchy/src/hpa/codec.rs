@@ -3,7 +3,7 @@
 //! All numbers are `u32`, little endian: the side of the clusters of the lowest level, the number of levels, the width and height of the map; then for each cluster, level by
 //! level and row by row, how many nodes it has, and what it costs from each to those after it. The nodes themselves follow from the map.
 
-use mediant_grid::{Centers, Lattice};
+use mediant_grid::{Centers, GridGraph};
 
 use super::{
     graph::{ClusterGraph, Clustering},
@@ -30,20 +30,20 @@ impl ClusterGraph {
         numbers.into_iter().flat_map(u32::to_le_bytes).collect()
     }
 
-    /// The index that gave these bytes for the same lattice. It answers exactly as that one.
+    /// The index that gave these bytes for the same grid graph. It answers exactly as that one.
     ///
     /// Whatever the bytes are, the paths found with what is read are legal. But whether they were made of this map and k, and are not damaged, only the file knows that holds
     /// them: see `IndexFile` of `mediant-formats`. With bytes that were not, a planner may find longer paths, or give up.
     ///
     /// # Errors
-    /// [`HierarchyError`] for bytes that are no index on this lattice, or a lattice of moves that there is no index for.
-    pub fn from_bytes(lattice: &Lattice<Centers>, bytes: &[u8]) -> Result<Self, HierarchyError> {
+    /// [`HierarchyError`] for bytes that are no index on this grid graph, or a grid graph of moves that there is no index for.
+    pub fn from_bytes(grid_graph: &GridGraph<Centers>, bytes: &[u8]) -> Result<Self, HierarchyError> {
         let mut numbers = Numbers::of(bytes)?;
         let clustering = Clustering { side: numbers.next()?, levels: numbers.next()? };
         let size = (numbers.next()?, numbers.next()?);
-        check::size(size, lattice.grid())?;
-        let mut graph = Self::without_nodes(lattice, clustering)?;
-        graph.add_nodes(lattice.grid());
+        check::size(size, grid_graph.grid())?;
+        let mut graph = Self::without_nodes(grid_graph, clustering)?;
+        graph.add_nodes(grid_graph.grid());
         for level in &mut graph.levels {
             for cluster in &mut level.clusters {
                 let count = numbers.next()?;

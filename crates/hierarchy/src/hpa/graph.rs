@@ -1,8 +1,8 @@
 //! The abstract graph: made, and mended where the map changed.
 
-use mediant_grid::{BitMatrix, Centers, Grid, Lattice, Rectangle, Vertex};
-use mediant_moves::{Cost, CostTable, K};
-use mediant_search::Labels;
+use mediant_grid::{BitMatrix, Centers, Grid, GridGraph, Rectangle, Vertex};
+use mediant_moves::{Cost, CostTable, FiniteK};
+use mediant_search::SearchTree;
 
 use super::{
     level::{Bounds, Length, Level, NONE, transitions},
@@ -62,7 +62,7 @@ impl Default for Clustering {
 /// Clusters of the upper levels have the transitions across their borders, and what it costs to cross them follows from the level below.
 #[derive(Clone, Debug)]
 pub struct ClusterGraph {
-    pub(crate) k: K,
+    pub(crate) k: FiniteK,
     pub(crate) clustering: Clustering,
     pub(crate) size: (u32, u32),
     pub(crate) costs: CostTable,
@@ -83,25 +83,25 @@ impl ClusterGraph {
     ///
     /// # Errors
     /// [`HierarchyError`] for k above 3, for corners that may be cut, or a clustering that is out of range.
-    pub fn new(lattice: &Lattice<Centers>, clustering: Clustering) -> Result<Self, HierarchyError> {
-        let mut graph = Self::without_nodes(lattice, clustering)?;
+    pub fn new(grid_graph: &GridGraph<Centers>, clustering: Clustering) -> Result<Self, HierarchyError> {
+        let mut graph = Self::without_nodes(grid_graph, clustering)?;
         let all = (0..graph.clusters() as u32).collect();
-        graph.update(lattice.grid(), all);
+        graph.update(grid_graph.grid(), all);
         Ok(graph)
     }
 
     /// The index of a map without anything.
     pub(crate) fn without_nodes(
-        lattice: &Lattice<Centers>,
+        grid_graph: &GridGraph<Centers>,
         clustering: Clustering,
     ) -> Result<Self, HierarchyError> {
-        check::moves(lattice)?;
-        let (grid, sides) = (lattice.grid(), clustering.sides()?);
+        check::moves(grid_graph)?;
+        let (grid, sides) = (grid_graph.grid(), clustering.sides()?);
         Ok(Self {
-            k: lattice.k(),
+            k: grid_graph.k(),
             clustering,
             size: (grid.width(), grid.height()),
-            costs: CostTable::new(lattice.k())?,
+            costs: CostTable::new(grid_graph.k())?,
             levels: sides.into_iter().map(|side| Level::new(grid, side, clustering.side)).collect(),
         })
     }
@@ -146,7 +146,7 @@ impl ClusterGraph {
 
     /// The memory that it takes, in bytes.
     #[must_use]
-    pub fn bytes(&self) -> usize {
+    pub fn memory_bytes(&self) -> usize {
         self.levels
             .iter()
             .map(|level| {
@@ -244,7 +244,7 @@ impl ClusterGraph {
     fn update_upper_lengths(&mut self, grid: &Grid, number: usize, clusters: &[u32]) {
         let (below, rest) = self.levels.split_at_mut(number);
         let (Some(below), Some(level)) = (below.last(), rest.first_mut()) else { return };
-        let mut labels = Labels::new(below.nodes.len() + 2);
+        let mut labels = SearchTree::new(below.nodes.len() + 2);
         for &id in clusters {
             let bounds = level.bounds(id, grid);
             let nodes: Vec<u32> = level.nodes_of(id).iter().map(|node| node.below).collect();

@@ -2,9 +2,9 @@
 
 use std::ops::{Deref, DerefMut};
 
-use mediant_grid::{Centers, Lattice, Rectangle, Vertex};
+use mediant_grid::{Centers, GridGraph, Rectangle, Vertex};
 use mediant_moves::Cost;
-use mediant_search::{Guarantee, Labels, Observer, Outcome, Path, Planner, Query, QueryError};
+use mediant_search::{Guarantee, Observer, Outcome, Path, Planner, Query, QueryError, SearchTree};
 
 use super::{
     graph::{ClusterGraph, window_of},
@@ -23,16 +23,16 @@ use crate::{
 /// the highest level on which they lie in different clusters; it is *refined* level by level, down to cells; and *smoothed* ([`with_straightening`](Self::with_straightening)).
 /// Where the paper's smoothing joins vertices on one straight line, this one joins them by what is shortest over N(k) on an empty grid, so that paths stay paths over N(k).
 ///
-/// `L` and `G` are how the planner holds the lattice and its index: by reference or `Arc`; a planner that holds its index in a `Box` can [repair](Self::repair) it.
+/// `L` and `G` are how the planner holds the grid graph and its index: by reference or `Arc`; a planner that holds its index in a `Box` can [repair](Self::repair) it.
 ///
 /// **Ties** are decided by the open lists' order (f, h, the number of node or cell); the same path and counts each time, on every platform. Events are those of all searches, on
 /// every level and within clusters; percolations those of the former. Scratch memory: 24 bytes for each number that a node may have (20 a cluster of 10 × 10 cells).
 #[derive(Clone, Debug)]
 pub struct HpaStar<L, G> {
-    lattice: L,
+    grid_graph: L,
     graph: G,
     straightens: bool,
-    labels: Labels,
+    labels: SearchTree,
     local: Local,
     /// What it costs from the start, and to the goal, from each node of its cluster, level by level.
     rows: [Vec<Vec<Length>>; 2],
@@ -53,28 +53,28 @@ struct Stop {
 
 impl<L, G> HpaStar<L, G>
 where
-    L: Deref<Target = Lattice<Centers>>,
+    L: Deref<Target = GridGraph<Centers>>,
     G: Deref<Target = ClusterGraph>,
 {
-    /// A planner with scratch memory for `graph`, which must be the index of `lattice`.
+    /// A planner with scratch memory for `graph`, which must be the index of `grid_graph`.
     ///
     /// # Errors
     /// [`HierarchyError`] when it is that of a map of another size or of other moves. That it is of this very map is not checked: with the index of another one a planner may give
     /// up ([`QueryError::GaveUp`]), but its paths are legal.
-    pub fn new(lattice: L, graph: G) -> Result<Self, HierarchyError> {
-        check::lattice(graph.k, graph.size, &lattice)?;
+    pub fn new(grid_graph: L, graph: G) -> Result<Self, HierarchyError> {
+        check::grid_graph(graph.k, graph.size, &grid_graph)?;
         let nodes = graph.levels.iter().map(|level| level.nodes.len()).max().unwrap_or(0);
         let rows = vec![Vec::new(); graph.levels.len()];
         Ok(Self {
             straightens: true,
-            labels: Labels::new(nodes + 2),
+            labels: SearchTree::new(nodes + 2),
             local: Local::new(graph.k),
             rows: [rows.clone(), rows],
             chain: Vec::new(),
             finer: Vec::new(),
             cells: Vec::new(),
             straighten: Straighten::default(),
-            lattice,
+            grid_graph,
             graph,
         })
     }
@@ -88,17 +88,17 @@ where
 
 impl<L, G> HpaStar<L, G>
 where
-    L: Deref<Target = Lattice<Centers>>,
+    L: Deref<Target = GridGraph<Centers>>,
     G: DerefMut<Target = ClusterGraph>,
 {
-    /// Goes on on a changed map: `lattice` differs from the one before only in the cells of a rectangle. Repairs the index, and keeps the scratch memory.
+    /// Goes on on a changed map: `grid_graph` differs from the one before only in the cells of a rectangle. Repairs the index, and keeps the scratch memory.
     ///
     /// # Errors
-    /// [`HierarchyError`] for a lattice of another size or other moves; nothing is changed then.
-    pub fn repair(&mut self, lattice: L, changed: Rectangle) -> Result<(), HierarchyError> {
-        check::lattice(self.graph.k, self.graph.size, &lattice)?;
-        self.graph.repair(lattice.grid(), changed)?;
-        self.lattice = lattice;
+    /// [`HierarchyError`] for a grid graph of another size or other moves; nothing is changed then.
+    pub fn repair(&mut self, grid_graph: L, changed: Rectangle) -> Result<(), HierarchyError> {
+        check::grid_graph(self.graph.k, self.graph.size, &grid_graph)?;
+        self.graph.repair(grid_graph.grid(), changed)?;
+        self.grid_graph = grid_graph;
         Ok(())
     }
 }
@@ -108,11 +108,11 @@ const STALE: QueryError =
 
 impl<L, G> Planner for HpaStar<L, G>
 where
-    L: Deref<Target = Lattice<Centers>>,
+    L: Deref<Target = GridGraph<Centers>>,
     G: Deref<Target = ClusterGraph>,
 {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        if query.ends(&self.lattice)?.is_none() {
+        if query.ends(&self.grid_graph)?.is_none() {
             return Ok(Outcome::Unreachable);
         }
         let Query { start, goal } = query;
@@ -121,7 +121,7 @@ where
         }
         // The furthest that smoothing can reach, looked at first.
         if self.straightens
-            && let Some(elbow) = free(&self.lattice, start, goal)
+            && let Some(elbow) = free(&self.grid_graph, start, goal)
         {
             let mut path = Vec::with_capacity(3);
             waypoints(&[start, elbow, goal], &mut path);
@@ -136,7 +136,7 @@ where
         }
         self.walk(observer).ok_or(STALE)?;
         let path = if self.straightens {
-            self.straighten.path(&self.lattice, &self.cells)
+            self.straighten.path(&self.grid_graph, &self.cells)
         } else {
             let mut path = Vec::with_capacity(self.cells.len());
             waypoints(&self.cells, &mut path);
@@ -152,20 +152,20 @@ where
 
 impl<L, G> HpaStar<L, G>
 where
-    L: Deref<Target = Lattice<Centers>>,
+    L: Deref<Target = GridGraph<Centers>>,
     G: Deref<Target = ClusterGraph>,
 {
     /// Finds what it costs from start and goal to the nodes of their clusters, on the levels up to `top`, and from the one to the other within a cluster of the lowest.
     fn insert(&mut self, query: Query, top: usize, observer: &mut impl Observer) -> Length {
         let direct = self.insert_lowest(0, query.start, Some(query.goal), observer);
         self.insert_lowest(1, query.goal, None, observer);
-        let Self { lattice, graph, labels, rows, .. } = self;
+        let Self { grid_graph, graph, labels, rows, .. } = self;
         for number in 1..=top {
             let (below, level) = (&graph.levels[number - 1], &graph.levels[number]);
             for (rows, at) in rows.iter_mut().zip([query.start, query.goal]) {
                 let (lower, upper) = rows.split_at_mut(number);
                 let cluster = level.cluster_at(at);
-                let bounds = level.bounds(cluster, lattice.grid());
+                let bounds = level.bounds(cluster, grid_graph.grid());
                 let end = End { cluster: below.cluster_at(at), row: &lower[number - 1] };
                 search(below, bounds, labels, |_| Cost::ZERO, end, None, observer);
                 let lengths = level.nodes_of(cluster).iter().map(|node| Length::of(labels.cost(node.below)));
@@ -184,19 +184,19 @@ where
         other: Option<Vertex>,
         observer: &mut impl Observer,
     ) -> Length {
-        let Self { lattice, graph, local, rows, .. } = self;
+        let Self { grid_graph, graph, local, rows, .. } = self;
         let level = &graph.levels[0];
         let cluster = level.cluster_at(at);
-        let bounds = level.bounds(cluster, lattice.grid());
+        let bounds = level.bounds(cluster, grid_graph.grid());
         let other = other.filter(|&other| bounds.contains(other));
         let ends = level.nodes_of(cluster).iter().map(Node::at).chain(other);
         let row = &mut rows[side][0];
         row.clear();
         // Where nothing is in the way to any of them, there is nothing to search.
-        let clear = |to: Vertex| free(lattice, at, to).map(|_| graph.costs.distance(at.to(to)));
+        let clear = |to: Vertex| free(grid_graph, at, to).map(|_| graph.costs.distance(at.to(to)));
         row.extend(ends.clone().map_while(clear).map(|cost| Length::of(Some(cost))));
         if row.len() < ends.clone().count() {
-            let window = window_of(lattice.grid(), bounds);
+            let window = window_of(grid_graph.grid(), bounds);
             let cells = ends.map(|end| window.cell(end));
             let mut targets = [0; MAX_SIDE as usize];
             cells.clone().for_each(|cell| insert(&mut targets, cell));
@@ -229,7 +229,7 @@ where
 
     /// Replaces the way through a level by one through the level below it, `number`.
     fn refine(&mut self, number: usize, observer: &mut impl Observer) -> Option<()> {
-        let Self { lattice, graph, labels, rows, chain, finer, .. } = self;
+        let Self { grid_graph, graph, labels, rows, chain, finer, .. } = self;
         let (below, level) = (&graph.levels[number], &graph.levels[number + 1]);
         // Where a stop is on the level below: what it costs from there to the nodes of its cluster, and which of these it is, if it is one.
         let end = |stop: Stop| {
@@ -259,7 +259,7 @@ where
                     (true, Some(node), None) => goal.row[node],
                     _ => Length::NONE,
                 };
-                let bounds = level.bounds(cluster, lattice.grid());
+                let bounds = level.bounds(cluster, grid_graph.grid());
                 let estimate = |at: Vertex| graph.costs.distance(at.to(to.at));
                 let goal = Goal { end: goal, direct };
                 if !search(below, bounds, labels, estimate, start, Some(goal), observer) {
@@ -276,21 +276,21 @@ where
 
     /// Walks the way through the lowest level: straight where that is free, else cell by cell.
     fn walk(&mut self, observer: &mut impl Observer) -> Option<()> {
-        let Self { lattice, graph, local, chain, cells, .. } = self;
-        let (level, grid) = (&graph.levels[0], lattice.grid());
+        let Self { grid_graph, graph, local, chain, cells, .. } = self;
+        let (level, grid) = (&graph.levels[0], grid_graph.grid());
         cells.clear();
         cells.extend(chain.first().map(|stop| stop.at));
         for legs in chain.windows(2) {
             let [from, to] = [legs[0].at, legs[1].at];
             let cluster = level.cluster_at(from);
-            if !lattice.is_free(to) {
+            if !grid_graph.is_free(to) {
                 return None;
             }
             if cluster != level.cluster_at(to) {
                 cells.push(to);
                 continue;
             }
-            if let Some(elbow) = free(lattice, from, to) {
+            if let Some(elbow) = free(grid_graph, from, to) {
                 cells.extend([elbow, to]);
                 continue;
             }
@@ -311,7 +311,7 @@ where
 }
 
 /// Adds the stops after the start of the last search, up to its goal.
-fn trace(level: &Level, labels: &Labels, goal: Vertex, stops: &mut Vec<Stop>) {
+fn trace(level: &Level, labels: &SearchTree, goal: Vertex, stops: &mut Vec<Stop>) {
     let first = stops.len();
     stops.push(Stop { at: goal, id: level.goal_id() });
     let mut id = level.goal_id();

@@ -2,7 +2,7 @@
 
 use mediant_grid::Vertex;
 use mediant_moves::Cost;
-use mediant_search::{Labels, NodeEvent, Observer};
+use mediant_search::{NodeEvent, Observer, SearchTree};
 
 use super::level::{Bounds, Length, Level};
 
@@ -39,7 +39,7 @@ impl Level {
 pub(crate) fn search(
     level: &Level,
     bounds: Bounds,
-    labels: &mut Labels,
+    labels: &mut SearchTree,
     estimate: impl Fn(Vertex) -> Cost,
     start: End<'_>,
     goal: Option<Goal<'_>>,
@@ -47,7 +47,7 @@ pub(crate) fn search(
 ) -> bool {
     labels.start_search();
     let mut search = Search { level, bounds, labels, estimate, observer };
-    search.labels.note(level.start_id(), Cost::ZERO, Labels::<()>::NONE, ());
+    search.labels.note(level.start_id(), Cost::ZERO, SearchTree::<()>::NONE, ());
     search.cross(level.start_id(), start, Cost::ZERO);
     if let Some(cost) = goal.and_then(|goal| goal.direct.cost()) {
         search.labels.reach(level.goal_id(), cost, Cost::ZERO, level.start_id(), ());
@@ -78,7 +78,7 @@ pub(crate) fn search(
 struct Search<'s, E, O> {
     level: &'s Level,
     bounds: Bounds,
-    labels: &'s mut Labels,
+    labels: &'s mut SearchTree,
     estimate: E,
     observer: &'s mut O,
 }

@@ -3,35 +3,34 @@
 
 use std::{num::NonZeroU32, ops::Deref, sync::Arc};
 
-use mediant_grid::{Centers, CornerRule, Grid, Lattice, Place, Vector, Vertex};
+use mediant_grid::{Centers, CornerRule, Grid, GridGraph, Placement, Vector, Vertex};
 use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, Conduct, HpaStar, SegmentGraph};
-use mediant_moves::{Cost, K};
+use mediant_moves::{Cost, FiniteK};
 use mediant_oracle::{Rng, caves, describe, maze, noise, rooms, suite_grid, validate};
 use mediant_search::{
-    Counters, Euclidean, Heuristic, LatticeDistance, Outcome, Path, Planner, Query, QueryError,
-    SquaredEuclidean, Zero,
+    Counters, Euclidean, Heuristic, Hk, Outcome, Path, Planner, Query, QueryError, SquaredEuclidean, Zero,
 };
 
 pub(crate) const CORNER_RULES: [CornerRule; 3] = [CornerRule::Never, CornerRule::One, CornerRule::Always];
 
-pub(crate) fn k(number: u32) -> K {
-    K::new(number).expect("k is at least 2")
+pub(crate) fn k(number: u32) -> FiniteK {
+    FiniteK::new(number).expect("k is at least 2")
 }
 
 pub(crate) fn number(number: u32) -> NonZeroU32 {
     NonZeroU32::new(number).expect("it is at least 1")
 }
 
-pub(crate) fn lattice(grid: &Grid, k: K, rule: CornerRule) -> Lattice<Centers> {
-    Lattice::new(Arc::new(grid.clone()), k, rule).expect("k is in range")
+pub(crate) fn grid_graph(grid: &Grid, k: FiniteK, rule: CornerRule) -> GridGraph<Centers> {
+    GridGraph::new(Arc::new(grid.clone()), k, rule).expect("k is in range")
 }
 
-/// The lattice of a map for one of the moves that there are hierarchies for.
-pub(crate) fn any_lattice(rng: &mut Rng, grid: &Grid) -> Lattice<Centers> {
+/// The grid graph of a map for one of the moves that there are hierarchies for.
+pub(crate) fn any_grid_graph(rng: &mut Rng, grid: &Grid) -> GridGraph<Centers> {
     if rng.chance(50) {
-        lattice(grid, k(3), CornerRule::Never)
+        grid_graph(grid, k(3), CornerRule::Never)
     } else {
-        lattice(grid, k(2), CORNER_RULES[rng.below(3) as usize])
+        grid_graph(grid, k(2), CORNER_RULES[rng.below(3) as usize])
     }
 }
 
@@ -64,28 +63,28 @@ pub(crate) fn any_clustering(rng: &mut Rng) -> Clustering {
     Clustering { side, levels: 1 + rng.below(fitting) }
 }
 
-pub(crate) fn clusters(lattice: &Lattice<Centers>, clustering: Clustering) -> ClusterGraph {
-    ClusterGraph::new(lattice, clustering).expect("there is an index for these moves")
+pub(crate) fn clusters(grid_graph: &GridGraph<Centers>, clustering: Clustering) -> ClusterGraph {
+    ClusterGraph::new(grid_graph, clustering).expect("there is an index for these moves")
 }
 
-pub(crate) fn segments(lattice: &Lattice<Centers>, side: u32) -> SegmentGraph {
-    SegmentGraph::new(lattice, side).expect("there is an index for these moves")
+pub(crate) fn segments(grid_graph: &GridGraph<Centers>, side: u32) -> SegmentGraph {
+    SegmentGraph::new(grid_graph, side).expect("there is an index for these moves")
 }
 
 /// One of the lower bounds.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Bound {
-    Lattice,
+    GridGraph,
     Euclidean,
     Zero,
 }
 
 impl Heuristic for Bound {
-    fn estimate<P: Place>(self, lattice: &Lattice<P>, to_goal: Vector) -> Cost {
+    fn estimate<P: Placement>(self, grid_graph: &GridGraph<P>, to_goal: Vector) -> Cost {
         match self {
-            Self::Lattice => LatticeDistance.estimate(lattice, to_goal),
-            Self::Euclidean => Euclidean.estimate(lattice, to_goal),
-            Self::Zero => Zero.estimate(lattice, to_goal),
+            Self::GridGraph => Hk.estimate(grid_graph, to_goal),
+            Self::Euclidean => Euclidean.estimate(grid_graph, to_goal),
+            Self::Zero => Zero.estimate(grid_graph, to_goal),
         }
     }
 }
@@ -103,7 +102,7 @@ pub(crate) struct Setting {
 
 impl Setting {
     pub(crate) fn any(rng: &mut Rng) -> Self {
-        let bounds = [Some(Bound::Lattice), Some(Bound::Euclidean), Some(Bound::Zero), None];
+        let bounds = [Some(Bound::GridGraph), Some(Bound::Euclidean), Some(Bound::Zero), None];
         let phases = [(); 2].map(|()| bounds[rng.below(4) as usize]);
         let detour = number(1 + rng.below(4));
         Self { phases, step: number(1 + rng.below(4)), conduct: Conduct::Complete { detour } }
@@ -122,24 +121,24 @@ fn boxed<'i>(mut planner: impl Planner + Send + 'i) -> Solve<'i> {
     Box::new(move |query, counters| planner.solve_observed(query, counters))
 }
 
-pub(crate) fn hpa<'i, L, G>(lattice: L, graph: G, straightens: bool) -> Solve<'i>
+pub(crate) fn hpa<'i, L, G>(grid_graph: L, graph: G, straightens: bool) -> Solve<'i>
 where
-    L: Deref<Target = Lattice<Centers>> + Send + 'i,
+    L: Deref<Target = GridGraph<Centers>> + Send + 'i,
     G: Deref<Target = ClusterGraph> + Send + 'i,
 {
-    boxed(HpaStar::new(lattice, graph).expect("the index fits").with_straightening(straightens))
+    boxed(HpaStar::new(grid_graph, graph).expect("the index fits").with_straightening(straightens))
 }
 
-pub(crate) fn chpa<'i, L, G>(lattice: L, graph: G, setting: Setting) -> Solve<'i>
+pub(crate) fn chpa<'i, L, G>(grid_graph: L, graph: G, setting: Setting) -> Solve<'i>
 where
-    L: Deref<Target = Lattice<Centers>> + Clone + Send + 'i,
+    L: Deref<Target = GridGraph<Centers>> + Clone + Send + 'i,
     G: Deref<Target = SegmentGraph> + Send + 'i,
 {
     let Setting { phases, step, conduct } = setting;
     macro_rules! planner {
         ($first:expr, $second:expr) => {
             boxed(
-                ChpaStar::new(lattice, graph, $first, $second)
+                ChpaStar::new(grid_graph, graph, $first, $second)
                     .expect("the index fits")
                     .with_step(step)
                     .with_conduct(conduct),
@@ -177,9 +176,14 @@ pub(crate) fn random_queries(rng: &mut Rng, grid: &Grid, count: usize) -> Vec<Qu
 }
 
 /// Panics unless this is a legal path of the query, without a waypoint at which it goes straight on.
-pub(crate) fn check_path(lattice: &Lattice<Centers>, query: Query, path: &Path, case: &impl Fn() -> String) {
-    let (grid, rules, way) = (lattice.grid(), lattice.rules(), path.waypoints());
-    let fault = validate(grid, rules, Some(lattice.k()), query.start, query.goal, way, path.cost());
+pub(crate) fn check_path(
+    grid_graph: &GridGraph<Centers>,
+    query: Query,
+    path: &Path,
+    case: &impl Fn() -> String,
+) {
+    let (grid, rules, way) = (grid_graph.grid(), grid_graph.rules(), path.waypoints());
+    let fault = validate(grid, rules, Some(grid_graph.k()), query.start, query.goal, way, path.cost());
     assert_eq!(fault, Ok(()), "{way:?}; {}", case());
     let turns = |at: &[Vertex]| {
         let (came, goes) = (at[0].to(at[1]), at[1].to(at[2]));
@@ -189,7 +193,7 @@ pub(crate) fn check_path(lattice: &Lattice<Centers>, query: Query, path: &Path, 
 }
 
 /// What a failing query says.
-pub(crate) fn describe_query(lattice: &Lattice<Centers>, query: Query, seed: u64) -> String {
-    let map = describe(lattice.grid(), lattice.rules(), query.start, query.goal, seed);
-    format!("k = {}; {map}", lattice.k())
+pub(crate) fn describe_query(grid_graph: &GridGraph<Centers>, query: Query, seed: u64) -> String {
+    let map = describe(grid_graph.grid(), grid_graph.rules(), query.start, query.goal, seed);
+    format!("k = {}; {map}", grid_graph.k())
 }

@@ -1,4 +1,4 @@
-//! The 2^k neighborhoods as naively as the papers define them, and the plainest shortest-path search over a lattice.
+//! The 2^k neighborhoods as naively as the papers define them, and the plainest shortest-path search over a grid graph.
 
 #![allow(dead_code, reason = "each test file takes what it needs")]
 
@@ -7,13 +7,13 @@ use std::{
     collections::{BTreeSet, BinaryHeap},
 };
 
-use mediant_moves::{K, Vector};
+use mediant_moves::{FiniteK, Vector};
 
 /// A pair of integers, of which sums and products of interest do not overflow.
 pub(crate) type Pair = (i64, i64);
 
-pub(crate) fn k(n: u32) -> K {
-    K::new(n).expect("k is at least 2")
+pub(crate) fn k(n: u32) -> FiniteK {
+    FiniteK::new(n).expect("k is at least 2")
 }
 
 pub(crate) fn vector((x, y): Pair) -> Vector {
@@ -127,13 +127,13 @@ pub(crate) fn first_quadrant(n: i64) -> impl Iterator<Item = Pair> {
     (0..=n).flat_map(move |x| (0..=n).map(move |y| (x, y)))
 }
 
-/// The costs of the cheapest paths from (0, 0) to the vertices of an unbounded empty lattice.
-pub(crate) struct Lattice {
+/// The costs of the cheapest paths from (0, 0) to the vertices of an unbounded empty grid graph.
+pub(crate) struct GridGraph {
     reach: i64,
     costs: Vec<f64>,
 }
 
-impl Lattice {
+impl GridGraph {
     /// By Dijkstra's algorithm, for all vertices of cost at most `reach` times `unit`. No move may cost less than `unit`
     /// times its larger coordinate: then no such path leaves the square −reach…reach.
     ///

@@ -49,12 +49,12 @@ impl Placer {
         Self { inside, boxes: Vec::new(), lines: Vec::new() }
     }
 
-    /// Labels should not cover this marker.
+    /// SearchTree should not cover this marker.
     pub(super) fn avoid_marker(&mut self, at: Point, radius: f64) {
         self.boxes.push((Rect::around(at, radius + 1.0), ON_MARKER));
     }
 
-    /// Labels should not cover this line.
+    /// SearchTree should not cover this line.
     pub(super) fn avoid_line(&mut self, points: &[Point]) {
         self.lines.extend(points.windows(2).map(|ends| [ends[0], ends[1]]));
     }

@@ -2,7 +2,7 @@
 
 use std::{cmp::Reverse, collections::BinaryHeap};
 
-use mediant_grid::{Corners, Terrain, Vertex};
+use mediant_grid::{Corners, FreeSpace, Vertex};
 use mediant_moves::Cost;
 
 use crate::{Path, beams::Ray};
@@ -91,7 +91,7 @@ impl Frontier {
     }
 
     /// Forgets all, in constant time but for once in 2³² calls, and makes a vertex the first root, number 0.
-    pub(super) fn start(&mut self, terrain: &Terrain<Corners>, at: Vertex) {
+    pub(super) fn start(&mut self, space: &FreeSpace<Corners>, at: Vertex) {
         self.roots.clear();
         self.nodes.clear();
         self.open.clear();
@@ -101,7 +101,7 @@ impl Frontier {
             self.generation = 1;
         }
         self.roots.push(Root { at, g: 0.0, parent: 0 });
-        if let Some(id) = terrain.id(at) {
+        if let Some(id) = space.id(at) {
             self.seen[id.index()] = Seen { generation: self.generation, root: 0 };
         }
     }
@@ -120,8 +120,8 @@ impl Frontier {
     /// The number of the root at a vertex that another root sees; `None` when there is another way to it that is as short. (Paths that go on
     /// from there are no shorter than by that other way; if they are as short, they are taut by it too, and so among its nodes.)
     #[inline]
-    pub(super) fn reach(&mut self, terrain: &Terrain<Corners>, parent: u32, at: Vertex) -> Option<u32> {
-        let id = terrain.id(at)?;
+    pub(super) fn reach(&mut self, space: &FreeSpace<Corners>, parent: u32, at: Vertex) -> Option<u32> {
+        let id = space.id(at)?;
         let from = self.root(parent);
         let g = from.g + from.at.distance(at);
         let seen = &mut self.seen[id.index()];
@@ -152,8 +152,8 @@ impl Frontier {
     }
 
     /// Whether there is no shorter way to the root's vertex than to the root.
-    pub(super) fn is_current(&self, terrain: &Terrain<Corners>, number: u32) -> bool {
-        terrain.id(self.root(number).at).is_some_and(|id| self.seen[id.index()].root == number)
+    pub(super) fn is_current(&self, space: &FreeSpace<Corners>, number: u32) -> bool {
+        space.id(self.root(number).at).is_some_and(|id| self.seen[id.index()].root == number)
     }
 
     /// The path to the goal by a root that sees it. Allocates nothing else.

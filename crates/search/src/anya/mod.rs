@@ -31,7 +31,7 @@
 //!
 //! Ties: the open list orders by f, then h, then the age of the node; see module `frontier`.
 //!
-//! On the eighteen maps of `benchdata/anchors.json` it takes 0.13 to 0.31 of the time of Anya16 (Java), 0.94 of Polyanya's in the geometric
+//! On the eighteen maps of `benchdata/reference_timings.json` it takes 0.13 to 0.31 of the time of Anya16 (Java), 0.94 of Polyanya's in the geometric
 //! mean (0.40 in noise, 1.8 in large empty rooms, which Polyanya crosses in one step), same instances, scaled by `cargo xtask compare`.
 //!
 //! Measured on the way, in instructions for each query on six maps of the benchmark sets (geometric mean): a row's cells loaded once for a line
@@ -40,13 +40,13 @@
 //! lines on which nothing is in the way (1.05 to 1.15), and expanding the best successor without queueing it when it beats the open
 //! list (1.00).
 
-mod beam;
+mod cone;
 mod frontier;
 mod search;
 
 use std::ops::Deref;
 
-use mediant_grid::{Corners, Terrain};
+use mediant_grid::{Corners, FreeSpace};
 
 use crate::{Guarantee, NodeEvent, Observer, Outcome, Path, Planner, Query, QueryError};
 use frontier::{Frontier, fixed};
@@ -56,7 +56,7 @@ use search::{Search, Successor};
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, Terrain};
+/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace};
 /// use mediant_search::{Anya, Planner, Query};
 ///
 /// let map = AsciiMap::parse("
@@ -64,8 +64,8 @@ use search::{Search, Successor};
 ///     .##.
 ///     ....
 /// ")?;
-/// let terrain = Terrain::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
-/// let outcome = Anya::new(&terrain).solve(Query::new((0, 1), (4, 3)))?;
+/// let space = FreeSpace::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
+/// let outcome = Anya::new(&space).solve(Query::new((0, 1), (4, 3)))?;
 /// let path = outcome.path().ok_or("there is a way")?;
 /// assert_eq!(path.waypoints(), [(0, 1), (1, 2), (4, 3)].map(Into::into));
 /// assert_eq!(path.cost(), 2.0_f64.sqrt() + 10.0_f64.sqrt());
@@ -76,27 +76,27 @@ use search::{Search, Successor};
 /// 40 for each node and 24 for each root of the largest search. An event of its search is that of the root of a node: expansions are told apart by f alone.
 #[derive(Clone, Debug)]
 pub struct Anya<T> {
-    terrain: T,
+    space: T,
     frontier: Frontier,
     /// The successors of the node under expansion.
     next: Vec<Successor>,
 }
 
-impl<T: Deref<Target = Terrain<Corners>>> Anya<T> {
+impl<T: Deref<Target = FreeSpace<Corners>>> Anya<T> {
     /// A planner with scratch memory for a map.
     #[must_use]
-    pub fn new(terrain: T) -> Self {
-        let frontier = Frontier::new(terrain.vertex_count());
-        Self { terrain, frontier, next: Vec::new() }
+    pub fn new(space: T) -> Self {
+        let frontier = Frontier::new(space.vertex_count());
+        Self { space, frontier, next: Vec::new() }
     }
 
     /// The last root of an optimal path to the goal.
     fn search(&mut self, query: Query, observer: &mut impl Observer) -> Option<u32> {
-        let Self { terrain, frontier, next } = self;
-        let mut search = Search { terrain, frontier, goal: query.goal, observer, next };
+        let Self { space, frontier, next } = self;
+        let mut search = Search { space, frontier, goal: query.goal, observer, next };
         search.start(query.start);
         while let Some((f, node)) = search.frontier.pop() {
-            if !search.frontier.is_current(search.terrain, node.root) {
+            if !search.frontier.is_current(search.space, node.root) {
                 continue;
             }
             if search.reaches_goal(node) {
@@ -111,9 +111,9 @@ impl<T: Deref<Target = Terrain<Corners>>> Anya<T> {
     }
 }
 
-impl<T: Deref<Target = Terrain<Corners>>> Planner for Anya<T> {
+impl<T: Deref<Target = FreeSpace<Corners>>> Planner for Anya<T> {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        if query.ends(&self.terrain)?.is_none() {
+        if query.ends(&self.space)?.is_none() {
             return Ok(Outcome::Unreachable);
         }
         if query.start == query.goal {

@@ -1,19 +1,19 @@
 //! A search under way: what the expansion of a node leads to.
 
-use mediant_grid::{Corners, Terrain, Vertex};
+use mediant_grid::{Corners, FreeSpace, Vertex};
 
 use super::{
-    beam::Beam,
+    cone::Cone,
     frontier::{Frontier, Node, fixed},
 };
 use crate::{
     NodeEvent, Observer,
-    beams::{End, Place, Ray, Side, row_ahead},
+    beams::{Crossing, End, Ray, Side, row_ahead},
 };
 
 /// A search under way.
 pub(super) struct Search<'s, O> {
-    pub(super) terrain: &'s Terrain<Corners>,
+    pub(super) space: &'s FreeSpace<Corners>,
     pub(super) frontier: &'s mut Frontier,
     pub(super) goal: Vertex,
     pub(super) observer: &'s mut O,
@@ -24,10 +24,10 @@ pub(super) struct Search<'s, O> {
 impl<O: Observer> Search<'_, O> {
     /// Forgets the last search and finds the nodes that the start sees.
     pub(super) fn start(&mut self, at: Vertex) {
-        self.frontier.start(self.terrain, at);
-        let grid = self.terrain.grid();
+        self.frontier.start(self.space, at);
+        let grid = self.space.grid();
         // From a gap a path sets out into the quadrant of its own cell.
-        let gap = self.terrain.is_gap(at);
+        let gap = self.space.is_closed_gap(at);
         for down in [1, -1] {
             if gap && down < 0 {
                 continue;
@@ -53,19 +53,19 @@ impl<O: Observer> Search<'_, O> {
         let found = if node.line == root.y {
             self.goal == Vertex::new(root.x + node.left.dx, root.y)
         } else {
-            node.line == self.goal.y && Beam::new(self.terrain.grid(), root, node).holds(self.goal)
+            node.line == self.goal.y && Cone::new(self.space.grid(), root, node).holds(self.goal)
         };
-        found && self.terrain.may_turn(Some(root), self.goal, None)
+        found && self.space.may_turn(Some(root), self.goal, None)
     }
 
     /// Puts the successors of a node on the open list.
     pub(super) fn expand(&mut self, node: Node) {
-        let terrain = self.terrain;
+        let space = self.space;
         let root = self.frontier.root(node.root).at;
         if node.line == root.y {
             return self.turn_flat(node, root);
         }
-        let mut beam = Beam::new(terrain.grid(), root, node);
+        let mut beam = Cone::new(space.grid(), root, node);
         loop {
             self.next.clear();
             if beam.glide(self.goal) {
@@ -129,9 +129,9 @@ impl<O: Observer> Search<'_, O> {
 
     /// Looks from a root along its own line for the next vertex at which a path may turn, beyond `from`.
     fn flat(&mut self, root: u32, from: Vertex, right: i32) {
-        let grid = self.terrain.grid();
+        let grid = self.space.grid();
         let [above, below] = [-1, 1].map(|down| row_ahead(grid, from.y, down));
-        let closed = self.terrain.has_gaps();
+        let closed = self.space.has_closed_gaps();
         let mut passed = 0;
         let (steps, dead) = loop {
             let [(u, u_next), (d, d_next)] = [above, below].map(|strip| {
@@ -170,12 +170,12 @@ impl<O: Observer> Search<'_, O> {
 
     /// Turns off a line at a vertex, up or down, and goes on along it.
     fn turn_flat(&mut self, node: Node, root: Vertex) {
-        let grid = self.terrain.grid();
+        let grid = self.space.grid();
         let right = node.left.dx.signum();
         let at = Vertex::new(root.x + node.left.dx, root.y);
         let (passed, entered) = if right > 0 { (at.x - 1, at.x) } else { (at.x, at.x - 1) };
         // A goal that is a gap, and that this path may not end at, is a vertex like any other; nothing may pass it.
-        if self.terrain.is_gap(at) {
+        if self.space.is_closed_gap(at) {
             return;
         }
         for down in [-1, 1] {
@@ -183,7 +183,7 @@ impl<O: Observer> Search<'_, O> {
             if !strip.is_blocked(passed) || strip.is_blocked(entered) {
                 continue;
             }
-            let Some(number) = self.frontier.reach(self.terrain, node.root, at) else { continue };
+            let Some(number) = self.frontier.reach(self.space, node.root, at) else { continue };
             let far = if right > 0 { strip.first_blocked(at.x, i32::MAX) } else { strip.run_start(at.x, 0) };
             let far = Ray { dx: far - at.x, dy: 1 };
             let (left, right) = if right > 0 { (Ray::VERTICAL, far) } else { (far, Ray::VERTICAL) };
@@ -193,7 +193,7 @@ impl<O: Observer> Search<'_, O> {
     }
 
     /// Finds the nodes on the next line.
-    fn cross(&mut self, beam: &Beam<'_>) {
+    fn cross(&mut self, beam: &Cone<'_>) {
         let (left, right) = (beam.end(beam.left), beam.end(beam.right));
         if left.here.is_vertex() {
             self.turn(beam, left, Side::Left);
@@ -223,7 +223,7 @@ impl<O: Observer> Search<'_, O> {
 
     /// An end of the interval that is a corner of an obstacle on the near side of the line: a path may bend around it, into what the
     /// obstacle hides.
-    fn turn(&mut self, beam: &Beam<'_>, end: End, side: Side) {
+    fn turn(&mut self, beam: &Cone<'_>, end: End, side: Side) {
         let (ahead, behind) = (beam.ahead, beam.behind());
         let x = end.here.floor();
         let (outer, inner) = side.columns(x);
@@ -231,8 +231,8 @@ impl<O: Observer> Search<'_, O> {
             return;
         }
         let at = Vertex::new(x, beam.line);
-        let is_gap = ahead.is_blocked(inner);
-        if is_gap && self.terrain.is_gap(at) {
+        let is_closed_gap = ahead.is_blocked(inner);
+        if is_closed_gap && self.space.is_closed_gap(at) {
             return;
         }
         let (start, stop) = (ahead.run_start(x, 0), ahead.first_blocked(x, i32::MAX));
@@ -241,16 +241,16 @@ impl<O: Observer> Search<'_, O> {
             Side::Right => (stop, start),
         };
         // Between two obstacles everything is hidden.
-        let end = if is_gap { End::standing(x) } else { end };
+        let end = if is_closed_gap { End::standing(x) } else { end };
         self.shade(beam, x, side, (far, limit), end);
-        if let Some(number) = self.frontier.reach(self.terrain, beam.number, at) {
+        if let Some(number) = self.frontier.reach(self.space, beam.number, at) {
             self.flat(number, at, side.sign());
         }
     }
 
     /// The interval behind a run of free cells that the cone enters: what is seen, and what the obstacles at the ends of the run hide.
     #[inline]
-    fn pass(&mut self, beam: &Beam<'_>, (left, right): (End, End), (start, stop): (i32, i32)) {
+    fn pass(&mut self, beam: &Cone<'_>, (left, right): (End, End), (start, stop): (i32, i32)) {
         let left = if start > left.here.floor() { beam.corner(start) } else { left };
         let right = if stop < right.here.ceil() { beam.corner(stop) } else { right };
         let (next_left, next_right) = (left.next(), right.next());
@@ -273,13 +273,13 @@ impl<O: Observer> Search<'_, O> {
 
     /// What an obstacle corner in column `x` hides of a run: on the next line, from `far` to `next`, where the ray past the corner goes, at
     /// most to `limit`.
-    fn shade(&mut self, beam: &Beam<'_>, x: i32, side: Side, (far, limit): (i32, i32), end: End) {
+    fn shade(&mut self, beam: &Cone<'_>, x: i32, side: Side, (far, limit): (i32, i32), end: End) {
         let next = end.next();
         if !side.is_inside(next, far) {
             return;
         }
         let at = Vertex::new(x, beam.line);
-        let Some(root) = self.frontier.reach(self.terrain, beam.number, at) else { return };
+        let Some(root) = self.frontier.reach(self.space, beam.number, at) else { return };
         let to = |column: i32| End::corner(column, x, 1);
         let near = if side.is_inside(next, limit) { to(limit) } else { end.moved_to(next) };
         let (left, right) = match side {
@@ -301,11 +301,11 @@ pub(super) struct Successor {
 impl Successor {
     /// Whether nothing lies behind the interval, and the goal not in it.
     #[inline]
-    fn is_cul_de_sac(self, beam: &Beam<'_>, goal: Vertex) -> bool {
+    fn is_cul_de_sac(self, beam: &Cone<'_>, goal: Vertex) -> bool {
         let (left, right) = (self.left.here, self.right.here);
         let (behind, ahead) = (beam.ahead, beam.ahead.below(beam.down));
         let turns =
-            |at: Place, outer: i32| at.is_vertex() && behind.is_blocked(outer) && !ahead.is_blocked(outer);
+            |at: Crossing, outer: i32| at.is_vertex() && behind.is_blocked(outer) && !ahead.is_blocked(outer);
         let holds_goal = beam.line + beam.down == goal.y && left.ceil() <= goal.x && goal.x <= right.floor();
         ahead.first_free(left.floor(), right.ceil()) == right.ceil()
             && !turns(left, left.floor() - 1)

@@ -1,6 +1,6 @@
-//! Interval ends: rays from a lattice vertex through another.
+//! Interval ends: rays from a grid graph vertex through another.
 
-/// A ray that leaves a root: the vector from the root to a lattice vertex on it. `dy` > 0 counts lines away from the root,
+/// A ray that leaves a root: the vector from the root to a grid graph vertex on it. `dy` > 0 counts lines away from the root,
 /// up or down.
 ///
 /// An end of an interval is never kept as a place but as the ray that bounds it: the vector from the root to the corner at which it was
@@ -36,9 +36,9 @@ impl Ray {
 /// An interval lies on the map, so a place on its line is between 0 and 2¹⁵. On the next line it is at most 2¹⁵ columns further out, as
 /// far as a ray leads from line to line: below 2¹⁷, in bits below 2⁶¹.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place(i64);
+pub(crate) struct Crossing(i64);
 
-impl Place {
+impl Crossing {
     const FRACTION: u32 = 44;
     const ONE: i64 = 1 << Self::FRACTION;
     const BIAS: i64 = Self::ONE >> 17;
@@ -74,7 +74,7 @@ impl Place {
 pub(crate) struct End {
     pub(crate) ray: Ray,
     /// Where it is on the line.
-    pub(crate) here: Place,
+    pub(crate) here: Crossing,
     /// What it moves by from line to line.
     step: i64,
 }
@@ -83,12 +83,12 @@ impl End {
     /// The end where a ray from a root in column `root` is after `n` lines.
     #[inline]
     pub(crate) const fn new(ray: Ray, root: i32, n: i32) -> Self {
-        let step = ((ray.dx as i64) << Place::FRACTION).div_euclid(ray.dy as i64);
+        let step = ((ray.dx as i64) << Crossing::FRACTION).div_euclid(ray.dy as i64);
         // The corner at which it was clipped, exactly, so that at most n lines add their error.
         let here = if n == ray.dy {
-            Place::vertex(root + ray.dx)
+            Crossing::vertex(root + ray.dx)
         } else {
-            Place(Place::vertex(root).0 + n as i64 * step)
+            Crossing(Crossing::vertex(root).0 + n as i64 * step)
         };
         Self { ray, here, step }
     }
@@ -101,26 +101,26 @@ impl End {
 
     /// The end on the next line, where it is at [`next`](Self::next).
     #[inline]
-    pub(crate) const fn moved_to(self, next: Place) -> Self {
+    pub(crate) const fn moved_to(self, next: Crossing) -> Self {
         Self { here: next, ..self }
     }
 
     /// An end that stays in its column.
     #[inline]
     pub(crate) const fn standing(x: i32) -> Self {
-        Self { ray: Ray::VERTICAL, here: Place::vertex(x), step: 0 }
+        Self { ray: Ray::VERTICAL, here: Crossing::vertex(x), step: 0 }
     }
 
     /// Where the ray is on the next line.
     #[inline]
-    pub(crate) const fn next(&self) -> Place {
+    pub(crate) const fn next(&self) -> Crossing {
         self.after(1)
     }
 
     /// Where it is some lines further on.
     #[inline]
-    pub(crate) const fn after(&self, lines: i32) -> Place {
-        Place(self.here.0 + lines as i64 * self.step)
+    pub(crate) const fn after(&self, lines: i32) -> Crossing {
+        Crossing(self.here.0 + lines as i64 * self.step)
     }
 }
 
@@ -149,7 +149,7 @@ impl Side {
 
     /// Whether a place is strictly on the inner side of column boundary x.
     #[inline]
-    pub(crate) const fn is_inside(self, place: Place, x: i32) -> bool {
+    pub(crate) const fn is_inside(self, place: Crossing, x: i32) -> bool {
         match self {
             Self::Left => place.ceil() > x,
             Self::Right => place.floor() < x,
@@ -158,7 +158,7 @@ impl Side {
 
     /// Whether a place is strictly on the outer side of column boundary x.
     #[inline]
-    pub(crate) const fn is_outside(self, place: Place, x: i32) -> bool {
+    pub(crate) const fn is_outside(self, place: Crossing, x: i32) -> bool {
         match self {
             Self::Left => place.floor() < x,
             Self::Right => place.ceil() > x,
@@ -178,7 +178,7 @@ mod tests {
         (floor, floor + i32::from(!is_vertex), is_vertex)
     }
 
-    fn seen(place: Place) -> (i32, i32, bool) {
+    fn seen(place: Crossing) -> (i32, i32, bool) {
         (place.floor(), place.ceil(), place.is_vertex())
     }
 

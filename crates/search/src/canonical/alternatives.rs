@@ -1,7 +1,7 @@
 //! The ways around a pair of moves: legal in its stead, they make it superfluous.
 
-use mediant_grid::{CellOffset, Footprint, Place};
-use mediant_moves::{Cost, K, Neighborhood, Vector, decompose};
+use mediant_grid::{CellOffset, Footprint, Placement};
+use mediant_moves::{Cost, FiniteK, Neighborhood, Vector, decompose};
 
 /// The order among last moves: even ones first, then by index. Of two equally cheap ways to a vertex, the one whose last move comes first
 /// is the earlier; of two with the same last move, the one whose way to that move is.
@@ -10,7 +10,7 @@ pub(crate) const fn rank(index: usize) -> usize {
 }
 
 /// The moves of N(k), what they cost, and what they ask of the map.
-pub(crate) struct Moves<P: Place> {
+pub(crate) struct Moves<P: Placement> {
     pub(crate) vectors: Vec<Vector>,
     pub(crate) footprints: Vec<Footprint>,
     costs: Vec<Cost>,
@@ -27,7 +27,7 @@ pub(crate) struct Asked {
     pub(crate) passed: Vec<Vector>,
 }
 
-impl<P: Place> Moves<P> {
+impl<P: Placement> Moves<P> {
     pub(crate) fn new(rule: P::Rule, neighborhood: Neighborhood) -> Self {
         let vectors: Vec<Vector> = neighborhood.iter().collect();
         let footprints = vectors.iter().map(|&v| Footprint::new::<P>(rule, v)).collect();
@@ -39,7 +39,7 @@ impl<P: Place> Moves<P> {
         self.vectors.len()
     }
 
-    fn k(&self) -> K {
+    fn k(&self) -> FiniteK {
         self.neighborhood.k()
     }
 

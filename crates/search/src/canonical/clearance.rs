@@ -6,9 +6,9 @@
 //! and without pinches. The moves a into v and b out of v, and so their ends u and w, lie in one such rectangle. With them the whole
 //! bounding box of u and w does, and every cheapest path of displacement a + b on an empty grid stays in that. So all turns
 //! are pruned, under either placement and every rule of motion. (At corners the box is taken one wider, so that no vertex of the
-//! path is a doubly blocked corner.)
+//! path is a gap.)
 
-use mediant_grid::{CellOffset, Lattice, Place, Placement, VertexId};
+use mediant_grid::{CellOffset, GridGraph, Placement, PlacementKind, VertexId};
 
 /// What is known of the surroundings of each vertex, two bytes each; 255 stands for all above.
 #[derive(Clone, Debug)]
@@ -27,8 +27,8 @@ pub(crate) struct Around {
 }
 
 impl Clearance {
-    pub(crate) fn new<P: Place>(lattice: &Lattice<P>) -> Self {
-        let grid = lattice.grid();
+    pub(crate) fn new<P: Placement>(graph: &GridGraph<P>) -> Self {
+        let grid = graph.grid();
         let (width, height) = (grid.width() as usize, grid.height() as usize);
         let cells = distances(width, height, 0, |x, y| grid.is_blocked(x as i32, y as i32));
         let blocked = |x: usize, y: usize| grid.is_blocked(x as i32, y as i32);
@@ -37,15 +37,15 @@ impl Clearance {
             is_convex_corner([blocked(left, above), blocked(x, above), blocked(left, y), blocked(x, y)])
         });
         let point = |x: usize, y: usize| points[y * (width + 1) + x];
-        let values = match P::PLACEMENT {
-            Placement::Center => (0..height)
+        let values = match P::KIND {
+            PlacementKind::Center => (0..height)
                 .flat_map(|y| (0..width).map(move |x| (x, y)))
                 .map(|(x, y)| {
                     let above = point(x, y).min(point(x + 1, y));
                     [cells[y * width + x], above.min(point(x, y + 1)).min(point(x + 1, y + 1))]
                 })
                 .collect(),
-            Placement::Corner => {
+            PlacementKind::Corner => {
                 let cell =
                     |x: usize, y: usize| if x < width && y < height { cells[y * width + x] } else { 0 };
                 (0..=height)
@@ -67,22 +67,22 @@ impl Clearance {
         Around { free, corner }
     }
 
-    pub(crate) fn bytes(&self) -> usize {
+    pub(crate) fn memory_bytes(&self) -> usize {
         size_of_val(&*self.values)
     }
 
     /// The side of a free square that holds this cell.
-    pub(crate) fn needed<P: Place>((x, y): CellOffset) -> u32 {
-        let along = |offset: i32| match P::PLACEMENT {
-            Placement::Corner if offset < 0 => offset.unsigned_abs(),
+    pub(crate) fn needed<P: Placement>((x, y): CellOffset) -> u32 {
+        let along = |offset: i32| match P::KIND {
+            PlacementKind::Corner if offset < 0 => offset.unsigned_abs(),
             _ => offset.unsigned_abs() + 1,
         };
         along(x).max(along(y))
     }
 
     /// The distance to corners from which on there are no turns, where moves have coordinates up to `radius`.
-    pub(crate) fn needed_from_corners<P: Place>(radius: i32) -> u32 {
-        radius.unsigned_abs() + u32::from(P::PLACEMENT == Placement::Corner)
+    pub(crate) fn needed_from_corners<P: Placement>(radius: i32) -> u32 {
+        radius.unsigned_abs() + u32::from(P::KIND == PlacementKind::Corner)
     }
 }
 
@@ -124,16 +124,16 @@ mod tests {
     use std::sync::Arc;
 
     use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Grid, Vertex};
-    use mediant_moves::K;
+    use mediant_moves::FiniteK;
     use mediant_oracle::{seeds, suite_grid};
 
     use super::*;
 
-    fn check<P: Place>(grid: &Arc<Grid>, rule: P::Rule, seed: u64) {
-        let lattice = Lattice::<P>::new(Arc::clone(grid), K::FOUR_CONNECTED, rule).unwrap();
-        let clearance = Clearance::new(&lattice);
-        for id in (0..lattice.vertex_count() as u32).map(VertexId) {
-            let Vertex { x, y } = lattice.vertex(id);
+    fn check<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, seed: u64) {
+        let graph = GridGraph::<P>::new(Arc::clone(grid), FiniteK::N4, rule).unwrap();
+        let clearance = Clearance::new(&graph);
+        for id in (0..graph.vertex_count() as u32).map(VertexId) {
+            let Vertex { x, y } = graph.vertex(id);
             let free = |c: u32| {
                 let reach = -(c as i32) - 1..=c as i32;
                 let cells = reach.clone().flat_map(|dy| reach.clone().map(move |dx| (dx, dy)));
@@ -153,8 +153,8 @@ mod tests {
             check::<Corners>(&grid, DiagonalGap::Open, seed);
         }
         let open = Arc::new(Grid::from_fn(600, 530, |_, _| false).unwrap());
-        let lattice = Lattice::<Centers>::new(open, K::FOUR_CONNECTED, CornerRule::Never).unwrap();
-        let at = |x, y| Clearance::new(&lattice).of(lattice.id(Vertex::new(x, y)).unwrap()).free;
+        let graph = GridGraph::<Centers>::new(open, FiniteK::N4, CornerRule::Never).unwrap();
+        let at = |x, y| Clearance::new(&graph).of(graph.id(Vertex::new(x, y)).unwrap()).free;
         assert_eq!([at(0, 0), at(9, 300), at(300, 253), at(300, 265)], [1, 10, 254, 255]);
     }
 }

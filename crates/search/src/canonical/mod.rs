@@ -54,25 +54,25 @@
 mod alternatives;
 mod cells;
 mod clearance;
+mod forced_cache;
 mod near;
 mod paper;
-mod settled;
 #[cfg(test)]
 mod tests;
 mod tree;
 
 use std::{ops::Deref, sync::Arc};
 
-use mediant_grid::{Grid, Lattice, Place, Vertex};
-use mediant_moves::{K, Neighborhood};
+use mediant_grid::{Grid, GridGraph, Placement, Vertex};
+use mediant_moves::{FiniteK, Neighborhood};
 
-use crate::{Arrival, BestFirst, Heuristic, Successor, Successors};
+use crate::{BestFirst, ExpandedNode, Heuristic, Successor, Successors};
 
 pub(crate) use alternatives::{Asked, Moves, rank};
 use clearance::{Around, Clearance};
+use forced_cache::ForcedCache;
 use near::NearTable;
 pub use paper::{PaperCanonical, PaperMoves};
-use settled::Settled;
 use tree::TurnTrees;
 
 /// The moves that follow move `a` on open ground, of `count` moves.
@@ -81,17 +81,17 @@ pub(crate) fn natural(a: usize, count: usize) -> impl Iterator<Item = usize> {
     (count - reach..=count + reach).map(move |turn| (a + turn) % count)
 }
 
-/// Whether anything is pruned on a lattice. If nothing is, ties need no rule; where paths may pass gaps they must not have one, since how
+/// Whether anything is pruned on a grid graph. If nothing is, ties need no rule; where paths may pass gaps they must not have one, since how
 /// a path leaves a gap depends on how it came there.
 #[inline]
-pub(crate) fn prunes<P: Place>(lattice: &Lattice<P>) -> bool {
-    !lattice.has_gaps() || lattice.k() != K::FOUR_CONNECTED
+pub(crate) fn prunes<P: Placement>(graph: &GridGraph<P>) -> bool {
+    !graph.has_closed_gaps() || graph.k() != FiniteK::N4
 }
 
 /// The pruning rule of one placement, rule of motion and k, for any map. Immutable; share it.
 #[derive(Clone, Debug)]
-pub struct CanonicalRule<P: Place> {
-    k: K,
+pub struct CanonicalRule<P: Placement> {
+    k: FiniteK,
     rule: P::Rule,
     /// The largest coordinate of a move.
     radius: i32,
@@ -108,17 +108,17 @@ enum Turns {
     Everywhere,
 }
 
-impl<P: Place> CanonicalRule<P> {
+impl<P: Placement> CanonicalRule<P> {
     /// The largest k whose turns are tabulated.
     pub const MAX_TREES: u32 = 8;
 
-    /// The rule for these, in time and memory that grow with 4^k: see [`bytes`](Self::bytes).
+    /// The rule for these, in time and memory that grow with 4^k: see [`bytes`](Self::memory_bytes).
     #[must_use]
-    pub fn new(k: K, rule: P::Rule) -> Self {
+    pub fn new(k: FiniteK, rule: P::Rule) -> Self {
         let radius = k.radius().unwrap_or(1 << 16).min(1 << 16);
         let turns = match Neighborhood::new(k).ok().filter(|_| k.get() <= Self::MAX_TREES) {
             None => Turns::Everywhere,
-            Some(all) if k <= K::EIGHT_CONNECTED => Turns::Near(NearTable::new(&Moves::<P>::new(rule, all))),
+            Some(all) if k <= FiniteK::N8 => Turns::Near(NearTable::new(&Moves::<P>::new(rule, all))),
             Some(all) => Turns::Trees(TurnTrees::new(&Moves::<P>::new(rule, all))),
         };
         Self { k, rule, radius, corners: Clearance::needed_from_corners::<P>(radius), turns }
@@ -126,10 +126,10 @@ impl<P: Place> CanonicalRule<P> {
 
     /// Its size.
     #[must_use]
-    pub fn bytes(&self) -> usize {
+    pub fn memory_bytes(&self) -> usize {
         match &self.turns {
-            Turns::Near(table) => table.bytes(),
-            Turns::Trees(trees) => trees.bytes(),
+            Turns::Near(table) => table.memory_bytes(),
+            Turns::Trees(trees) => trees.memory_bytes(),
             Turns::Everywhere => 0,
         }
     }
@@ -137,16 +137,16 @@ impl<P: Place> CanonicalRule<P> {
 
 /// The pruning rule on one map. Immutable; share it between planners.
 #[derive(Debug)]
-pub struct Pruning<P: Place> {
+pub struct Pruning<P: Placement> {
     grid: Arc<Grid>,
     rule: Arc<CanonicalRule<P>>,
     clearance: Option<Clearance>,
-    settled: Option<Settled>,
+    settled: Option<ForcedCache>,
 }
 
 /// What a vertex allows to a path that arrives there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct View {
+pub struct LocalRule {
     /// Whether there is any turn.
     pub(crate) turns: bool,
     /// Whether the incoming move may be repeated.
@@ -157,69 +157,69 @@ pub struct View {
     pub(crate) beside: bool,
 }
 
-impl<P: Place> Pruning<P> {
-    /// The rule for a lattice.
+impl<P: Placement> Pruning<P> {
+    /// The rule for a grid graph.
     #[must_use]
-    pub fn new(lattice: &Lattice<P>) -> Self {
-        Self::with_rule(lattice, Arc::new(CanonicalRule::new(lattice.k(), lattice.rule())))
+    pub fn new(graph: &GridGraph<P>) -> Self {
+        Self::with_rule(graph, Arc::new(CanonicalRule::new(graph.k(), graph.rule())))
     }
 
     /// The same with a rule that other maps use as well; one for another k or rule of motion is not used.
     #[must_use]
-    pub fn with_rule(lattice: &Lattice<P>, rule: Arc<CanonicalRule<P>>) -> Self {
-        if (rule.k, rule.rule) != (lattice.k(), lattice.rule()) {
-            return Self::new(lattice);
+    pub fn with_rule(graph: &GridGraph<P>, rule: Arc<CanonicalRule<P>>) -> Self {
+        if (rule.k, rule.rule) != (graph.k(), graph.rule()) {
+            return Self::new(graph);
         }
-        let clearance = (lattice.k() > K::EIGHT_CONNECTED).then(|| Clearance::new(lattice));
+        let clearance = (graph.k() > FiniteK::N8).then(|| Clearance::new(graph));
         let has_trees = matches!(rule.turns, Turns::Trees(_));
-        let settled = has_trees.then(|| Settled::new(lattice.vertex_count(), lattice.k().get()));
-        Self { grid: Arc::clone(lattice.grid()), rule, clearance, settled }
+        let settled = has_trees.then(|| ForcedCache::new(graph.vertex_count(), graph.k().get()));
+        Self { grid: Arc::clone(graph.grid()), rule, clearance, settled }
     }
 
-    /// This, if it was made for the lattice, or what is: what holds on one map must not be believed on another.
+    /// This, if it was made for the grid graph, or what is: what holds on one map must not be believed on another.
     #[must_use]
-    pub(crate) fn fitting(self: Arc<Self>, lattice: &Lattice<P>) -> Arc<Self> {
-        let same_rule = (self.rule.k, self.rule.rule) == (lattice.k(), lattice.rule());
-        if same_rule && Arc::ptr_eq(&self.grid, lattice.grid()) {
+    pub(crate) fn fitting(self: Arc<Self>, graph: &GridGraph<P>) -> Arc<Self> {
+        let same_rule = (self.rule.k, self.rule.rule) == (graph.k(), graph.rule());
+        if same_rule && Arc::ptr_eq(&self.grid, graph.grid()) {
             return self;
         }
-        Arc::new(Self::with_rule(lattice, Arc::clone(&self.rule)))
+        Arc::new(Self::with_rule(graph, Arc::clone(&self.rule)))
     }
 
     /// Its size.
     #[must_use]
-    pub fn bytes(&self) -> usize {
-        let settled = self.settled.as_ref().map_or(0, Settled::bytes);
-        self.rule.bytes() + self.clearance.as_ref().map_or(0, Clearance::bytes) + settled
+    pub fn memory_bytes(&self) -> usize {
+        let settled = self.settled.as_ref().map_or(0, ForcedCache::memory_bytes);
+        self.rule.memory_bytes() + self.clearance.as_ref().map_or(0, Clearance::memory_bytes) + settled
     }
 
     /// Whether a path that arrives at `at` by move `by` is subject to no pruning there, because of closed gaps.
     #[inline]
-    pub(crate) fn is_exempt(&self, lattice: &Lattice<P>, at: Vertex, by: usize, goal: Vertex) -> bool {
-        lattice.has_gaps() && self.is_exempt_from_gaps(lattice, at, by, goal)
+    pub(crate) fn is_exempt(&self, graph: &GridGraph<P>, at: Vertex, by: usize, goal: Vertex) -> bool {
+        graph.has_closed_gaps() && self.is_exempt_from_gaps(graph, at, by, goal)
     }
 
     #[cold]
-    fn is_exempt_from_gaps(&self, lattice: &Lattice<P>, at: Vertex, by: usize, goal: Vertex) -> bool {
+    fn is_exempt_from_gaps(&self, graph: &GridGraph<P>, at: Vertex, by: usize, goal: Vertex) -> bool {
         let to_goal = at.to(goal);
-        !prunes(lattice)
-            || lattice.is_gap(at + -lattice.step(by).vector())
-            || lattice.is_gap(goal) && to_goal.x.abs().max(to_goal.y.abs()) <= self.rule.radius
+        !prunes(graph)
+            || graph.is_closed_gap(at + -graph.step(by).vector())
+            || graph.is_closed_gap(goal) && to_goal.x.abs().max(to_goal.y.abs()) <= self.rule.radius
     }
 
     /// Calls `take` with the successors of a path that arrived at `at` by move `by`.
     #[inline]
     pub(crate) fn for_each(
         &self,
-        lattice: &Lattice<P>,
-        node: &Arrival,
+        graph: &GridGraph<P>,
+        node: &ExpandedNode,
         by: usize,
         mut take: impl FnMut(usize),
     ) {
         let at = node.at;
         match &self.rule.turns {
             Turns::Near(table) => {
-                let mut left = table.successors(by, pattern(lattice, at));
+                let mut left = table.successors(by, pattern(graph, at));
                 while left != 0 {
                     take(left.trailing_zeros() as usize);
                     left &= left - 1;
@@ -228,8 +228,8 @@ impl<P: Place> Pruning<P> {
             Turns::Trees(trees) => {
                 let around = self.around(node);
                 let is_open = around.free >= trees.needed[by];
-                for b in natural(by, lattice.steps().len()) {
-                    if is_open || trees.is_legal(b, lattice.grid(), at) {
+                for b in natural(by, graph.steps().len()) {
+                    if is_open || trees.is_legal(b, graph.grid(), at) {
                         take(b);
                     }
                 }
@@ -239,7 +239,7 @@ impl<P: Place> Pruning<P> {
                 let known = self.settled(node, by);
                 if known != Some(false) {
                     let mut any = false;
-                    trees.for_each_turn(by, lattice.grid(), at, |turn| {
+                    trees.for_each_turn(by, graph.grid(), at, |turn| {
                         any = true;
                         take(turn);
                         true
@@ -251,10 +251,10 @@ impl<P: Place> Pruning<P> {
             }
             Turns::Everywhere => {
                 if self.around(node).corner < self.rule.corners {
-                    return lattice.for_each_legal_move(at, take);
+                    return graph.for_each_legal_move(at, take);
                 }
-                for b in natural(by, lattice.steps().len()) {
-                    if lattice.sees(at, at + lattice.step(b).vector()) {
+                for b in natural(by, graph.steps().len()) {
+                    if graph.sees(at, at + graph.step(b).vector()) {
                         take(b);
                     }
                 }
@@ -298,88 +298,88 @@ impl<P: Place> Pruning<P> {
     /// turn. Canonical A* at k = 7 then takes 0.57 of the time on random512-10-0, 0.55 on 8room_000, 0.78 on brc202d and 1.0 on ArcticStation,
     /// at k = 8 0.4, 0.4, 0.46 and 0.7. At k = 6 it would be about even, at k = 5 a loss.
     #[inline]
-    pub(crate) fn takes_all(&self, lattice: &Lattice<P>, node: &Arrival, by: usize) -> bool {
+    pub(crate) fn takes_all(&self, graph: &GridGraph<P>, node: &ExpandedNode, by: usize) -> bool {
         let Turns::Trees(trees) = &self.rule.turns else { return false };
-        lattice.k().get() >= 7
+        graph.k().get() >= 7
             && self.around(node).corner < self.rule.corners
-            && self.has_turn(trees, lattice, node, by)
+            && self.has_turn(trees, graph, node, by)
     }
 
     /// Whether a path that arrives by move `by` at a vertex near a corner finds a turn there.
     #[inline]
-    fn has_turn(&self, trees: &TurnTrees, lattice: &Lattice<P>, node: &Arrival, by: usize) -> bool {
+    fn has_turn(&self, trees: &TurnTrees, graph: &GridGraph<P>, node: &ExpandedNode, by: usize) -> bool {
         self.settled(node, by).unwrap_or_else(|| {
-            let turns = !trees.for_each_turn(by, lattice.grid(), node.at, |_| false);
+            let turns = !trees.for_each_turn(by, graph.grid(), node.at, |_| false);
             self.settle(node, by, turns);
             turns
         })
     }
 
     #[inline]
-    fn settled(&self, node: &Arrival, by: usize) -> Option<bool> {
+    fn settled(&self, node: &ExpandedNode, by: usize) -> Option<bool> {
         self.settled.as_ref()?.get(node.id, by)
     }
 
     #[inline]
-    fn settle(&self, node: &Arrival, by: usize, turns: bool) {
+    fn settle(&self, node: &ExpandedNode, by: usize, turns: bool) {
         if let Some(settled) = &self.settled {
             settled.note(node.id, by, turns);
         }
     }
 
     #[inline]
-    fn around(&self, node: &Arrival) -> Around {
+    fn around(&self, node: &ExpandedNode) -> Around {
         let nothing_known = Around { free: 0, corner: 0 };
         self.clearance.as_ref().map_or(nothing_known, |clearance| clearance.of(node.id))
     }
 
     /// What a vertex allows to a path that arrives there by move `by`.
     #[inline]
-    pub(crate) fn view(&self, lattice: &Lattice<P>, node: &Arrival, by: usize) -> View {
-        let all = View { turns: false, ahead: true, steps: 0, beside: true };
+    pub(crate) fn view(&self, graph: &GridGraph<P>, node: &ExpandedNode, by: usize) -> LocalRule {
+        let all = LocalRule { turns: false, ahead: true, steps: 0, beside: true };
         let Turns::Near(table) = &self.rule.turns else {
             let (around, needed) = (self.around(node), self.rule.corners);
             if around.corner < needed {
                 return match &self.rule.turns {
                     Turns::Trees(trees) => {
-                        let turns = self.has_turn(trees, lattice, node, by);
-                        View { turns, ahead: trees.is_legal(by, lattice.grid(), node.at), ..all }
+                        let turns = self.has_turn(trees, graph, node, by);
+                        LocalRule { turns, ahead: trees.is_legal(by, graph.grid(), node.at), ..all }
                     }
-                    _ => View { turns: true, ..all },
+                    _ => LocalRule { turns: true, ..all },
                 };
             }
             // No move leads further than this.
             let Some(spare) = around.free.checked_sub(self.rule.radius as u32 + 1) else {
-                return View { ahead: self.is_legal(lattice, node, by), ..all };
+                return LocalRule { ahead: self.is_legal(graph, node, by), ..all };
             };
-            return View { steps: open_steps(lattice, by, spare.min(around.corner - needed)), ..all };
+            return LocalRule { steps: open_steps(graph, by, spare.min(around.corner - needed)), ..all };
         };
-        let set = table.successors(by, pattern(lattice, node.at));
-        View { turns: table.turns(by, set) != 0, ahead: set >> by & 1 == 1, ..all }
+        let set = table.successors(by, pattern(graph, node.at));
+        LocalRule { turns: table.turns(by, set) != 0, ahead: set >> by & 1 == 1, ..all }
     }
 
     /// Whether a natural successor is legal.
     #[inline]
-    pub(crate) fn is_legal(&self, lattice: &Lattice<P>, node: &Arrival, index: usize) -> bool {
+    pub(crate) fn is_legal(&self, graph: &GridGraph<P>, node: &ExpandedNode, index: usize) -> bool {
         match &self.rule.turns {
-            Turns::Near(table) => table.successors(index, pattern(lattice, node.at)) >> index & 1 == 1,
-            Turns::Trees(trees) => trees.is_legal(index, lattice.grid(), node.at),
-            Turns::Everywhere => lattice.sees(node.at, node.at + lattice.step(index).vector()),
+            Turns::Near(table) => table.successors(index, pattern(graph, node.at)) >> index & 1 == 1,
+            Turns::Trees(trees) => trees.is_legal(index, graph.grid(), node.at),
+            Turns::Everywhere => graph.sees(node.at, node.at + graph.step(index).vector()),
         }
     }
 }
 
 /// How many steps further a clearance that is `spare` above what is needed still suffices.
 #[inline]
-fn open_steps<P: Place>(lattice: &Lattice<P>, by: usize, spare: u32) -> u32 {
-    let v = lattice.step(by).vector();
+fn open_steps<P: Placement>(graph: &GridGraph<P>, by: usize, spare: u32) -> u32 {
+    let v = graph.step(by).vector();
     spare / v.x.unsigned_abs().max(v.y.unsigned_abs())
 }
 
 /// The pattern of cells around a vertex of the map.
 #[inline]
-fn pattern<P: Place>(lattice: &Lattice<P>, at: Vertex) -> usize {
-    let rows = lattice.grid().rows();
+fn pattern<P: Placement>(graph: &GridGraph<P>, at: Vertex) -> usize {
+    let rows = graph.grid().rows();
     P::pattern(rows.words(), rows.index(at.x, at.y), rows.bits_per_row())
 }
 
@@ -387,16 +387,16 @@ fn pattern<P: Place>(lattice: &Lattice<P>, at: Vertex) -> usize {
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_grid::{AsciiMap, Centers, CornerRule, Lattice};
-/// use mediant_moves::K;
-/// use mediant_search::{Canonical, LatticeDistance, Planner, Query};
+/// use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph};
+/// use mediant_moves::FiniteK;
+/// use mediant_search::{Canonical, Hk, Planner, Query};
 ///
 /// let map = AsciiMap::parse("
 ///     ....
 ///     .#..
 /// ")?;
-/// let lattice = Lattice::<Centers>::new(Arc::new(map.grid), K::new(4)?, CornerRule::Never)?;
-/// let outcome = Canonical::new(&lattice, LatticeDistance).solve(Query::new((0, 0), (3, 1)))?;
+/// let graph = GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::new(4)?, CornerRule::Never)?;
+/// let outcome = Canonical::new(&graph, Hk).solve(Query::new((0, 0), (3, 1)))?;
 /// assert_eq!(outcome.path().map(|path| path.cost()), Some(1.0 + 5.0_f64.sqrt()));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -404,46 +404,45 @@ pub type Canonical<L, H, P> = BestFirst<L, H, CanonicalMoves<P>>;
 
 /// Those moves that the rule leaves, and where it would take longer to find them out, all that are legal.
 #[derive(Clone, Debug)]
-pub struct CanonicalMoves<P: Place> {
+pub struct CanonicalMoves<P: Placement> {
     pruning: Arc<Pruning<P>>,
 }
 
-impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> Canonical<L, H, P> {
-    /// A planner with scratch memory for `lattice`, and its own [`Pruning`].
+impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> Canonical<L, H, P> {
+    /// A planner with scratch memory for `graph`, and its own [`Pruning`].
     #[must_use]
-    pub fn new(lattice: L, heuristic: H) -> Self {
-        let pruning = Arc::new(Pruning::new(&*lattice));
-        Self::with_pruning(lattice, pruning, heuristic)
+    pub fn new(graph: L, heuristic: H) -> Self {
+        let pruning = Arc::new(Pruning::new(&*graph));
+        Self::with_pruning(graph, pruning, heuristic)
     }
 
     /// A planner that shares its pruning rule with others. One that was made for another map, k or rule of motion is not used.
     #[must_use]
-    pub fn with_pruning(lattice: L, pruning: Arc<Pruning<P>>, heuristic: H) -> Self {
-        let pruning = pruning.fitting(&lattice);
-        Self::with(lattice, heuristic, CanonicalMoves { pruning })
+    pub fn with_pruning(graph: L, pruning: Arc<Pruning<P>>, heuristic: H) -> Self {
+        let pruning = pruning.fitting(&graph);
+        Self::with(graph, heuristic, CanonicalMoves { pruning })
     }
 }
 
-impl<P: Place> Successors<P> for CanonicalMoves<P> {
-    type Link = ();
+impl<P: Placement> Successors<P> for CanonicalMoves<P> {
+    type ParentPointer = ();
 
     #[inline]
     fn for_each(
         &self,
-        lattice: &Lattice<P>,
-        node: Arrival,
+        graph: &GridGraph<P>,
+        node: ExpandedNode,
         goal: Vertex,
         mut visit: impl FnMut(Successor),
     ) -> u32 {
         let is_pruned = |by: &usize| {
-            !self.pruning.is_exempt(lattice, node.at, *by, goal)
-                && !self.pruning.takes_all(lattice, &node, *by)
+            !self.pruning.is_exempt(graph, node.at, *by, goal) && !self.pruning.takes_all(graph, &node, *by)
         };
         match node.by.filter(is_pruned) {
-            None => lattice.for_each_successor(node.at, node.by, goal, |by| visit(node.step(lattice, by))),
-            Some(by) => self.pruning.for_each(lattice, &node, by, |next| {
-                if lattice.may_step(node.at, node.by, next, goal) {
-                    visit(node.step(lattice, next));
+            None => graph.for_each_successor(node.at, node.by, goal, |by| visit(node.step(graph, by))),
+            Some(by) => self.pruning.for_each(graph, &node, by, |next| {
+                if graph.may_step(node.at, node.by, next, goal) {
+                    visit(node.step(graph, next));
                 }
             }),
         }
@@ -451,7 +450,7 @@ impl<P: Place> Successors<P> for CanonicalMoves<P> {
     }
 
     #[inline]
-    fn prefers(&self, lattice: &Lattice<P>, new: usize, known: usize) -> bool {
-        prunes(lattice) && rank(new) < rank(known)
+    fn prefers(&self, graph: &GridGraph<P>, new: usize, known: usize) -> bool {
+        prunes(graph) && rank(new) < rank(known)
     }
 }

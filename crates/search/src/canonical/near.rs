@@ -4,7 +4,7 @@
 
 use std::ops::{BitAnd, BitOr, Not};
 
-use mediant_grid::{CellOffset, Centers, Corners, Place};
+use mediant_grid::{CellOffset, Centers, Corners, Placement};
 use mediant_moves::Vector;
 
 use super::alternatives::{Asked, Moves};
@@ -22,7 +22,7 @@ pub(crate) struct NearTable {
 }
 
 impl NearTable {
-    pub(crate) fn new<P: Place>(moves: &Moves<P>) -> Self {
+    pub(crate) fn new<P: Placement>(moves: &Moves<P>) -> Self {
         let (around, count) = (Around::new::<P>(), moves.len());
         let legal: Vec<Patterns> =
             (0..count).map(|b| around.holds(&moves.asked(Vector::default(), &[b]), Patterns::NONE)).collect();
@@ -76,7 +76,7 @@ impl NearTable {
         self.slanted_runs_turn
     }
 
-    pub(crate) fn bytes(&self) -> usize {
+    pub(crate) fn memory_bytes(&self) -> usize {
         size_of_val(&*self.successors)
     }
 }
@@ -124,7 +124,7 @@ impl Not for Patterns {
 struct Around([[Option<Patterns>; 3]; 3]);
 
 impl Around {
-    fn new<P: Place>() -> Self {
+    fn new<P: Placement>() -> Self {
         let free = |(x, y): CellOffset| {
             P::pattern_holds(x, y).then(|| {
                 let mut patterns = Patterns::NONE;

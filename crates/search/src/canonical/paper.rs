@@ -12,10 +12,10 @@
 
 use std::ops::Deref;
 
-use mediant_grid::{Lattice, Place, Vertex};
+use mediant_grid::{GridGraph, Placement, Vertex};
 
 use super::{clearance::is_convex_corner, natural, pattern};
-use crate::{Arrival, BestFirst, Guarantee, Heuristic, Successor, Successors};
+use crate::{BestFirst, ExpandedNode, Guarantee, Heuristic, Successor, Successors};
 
 /// Canonical A* with the published rule.
 pub type PaperCanonical<L, H> = BestFirst<L, H, PaperMoves>;
@@ -29,10 +29,10 @@ pub struct PaperMoves {
     wide: bool,
 }
 
-impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> PaperCanonical<L, H> {
-    /// A planner with scratch memory for `lattice`.
+impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> PaperCanonical<L, H> {
+    /// A planner with scratch memory for `graph`.
     #[must_use]
-    pub fn new(lattice: L, heuristic: H) -> Self {
+    pub fn new(graph: L, heuristic: H) -> Self {
         let is_jump_point = |pattern| {
             // The grid points around the vertex whose four cells the pattern holds.
             [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().any(|(x, y)| {
@@ -42,28 +42,28 @@ impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> PaperCanonical<L, H>
             })
         };
         let jump_points = (0..P::PATTERNS).map(is_jump_point).collect();
-        Self::with(lattice, heuristic, PaperMoves { jump_points, wide: false })
+        Self::with(graph, heuristic, PaperMoves { jump_points, wide: false })
     }
 }
 
-impl<P: Place> Successors<P> for PaperMoves {
-    type Link = ();
+impl<P: Placement> Successors<P> for PaperMoves {
+    type ParentPointer = ();
 
     #[inline]
     fn for_each(
         &self,
-        lattice: &Lattice<P>,
-        node: Arrival,
+        graph: &GridGraph<P>,
+        node: ExpandedNode,
         goal: Vertex,
         mut visit: impl FnMut(Successor),
     ) -> u32 {
-        let is_jump_point = self.wide || self.jump_points.get(pattern(lattice, node.at)).is_none_or(|&is| is);
-        let is_legal = |by: usize| lattice.sees(node.at, node.at + lattice.step(by).vector());
-        match node.by.filter(|&by| !is_jump_point && !lattice.has_gaps() && is_legal(by)) {
-            None => lattice.for_each_successor(node.at, node.by, goal, |by| visit(node.step(lattice, by))),
-            Some(by) => natural(by, lattice.steps().len())
+        let is_jump_point = self.wide || self.jump_points.get(pattern(graph, node.at)).is_none_or(|&is| is);
+        let is_legal = |by: usize| graph.sees(node.at, node.at + graph.step(by).vector());
+        match node.by.filter(|&by| !is_jump_point && !graph.has_closed_gaps() && is_legal(by)) {
+            None => graph.for_each_successor(node.at, node.by, goal, |by| visit(node.step(graph, by))),
+            Some(by) => natural(by, graph.steps().len())
                 .filter(|&next| next == by || is_legal(next))
-                .for_each(|next| visit(node.step(lattice, next))),
+                .for_each(|next| visit(node.step(graph, next))),
         }
         0
     }
@@ -73,7 +73,7 @@ impl<P: Place> Successors<P> for PaperMoves {
         true
     }
 
-    fn guarantee(&self, _: &Lattice<P>) -> Guarantee {
+    fn guarantee(&self, _: &GridGraph<P>) -> Guarantee {
         Guarantee::Suboptimal
     }
 }

@@ -2,11 +2,11 @@
 
 use std::{collections::BTreeSet, sync::Arc};
 
-use mediant_grid::{AsciiMap, Centers, CornerRule, Lattice, Vertex};
-use mediant_moves::K;
+use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph, Vertex};
+use mediant_moves::FiniteK;
 
 use super::{CanonicalMoves, Pruning, natural};
-use crate::{Arrival, Successors};
+use crate::{ExpandedNode, Successors};
 
 /// Up to k = 6 those that the rule leaves, everywhere; from k = 7 on all legal ones at vertices with a turn.
 #[test]
@@ -15,31 +15,31 @@ fn where_there_is_a_turn_all_legal_moves_are_taken_from_k_7_on() {
     let drawing: Vec<String> = (0..40).map(row).collect();
     let grid = Arc::new(AsciiMap::parse(&drawing.join("\n")).unwrap().grid);
     for k in [4, 6, 7] {
-        check(&Lattice::new(Arc::clone(&grid), K::new(k).unwrap(), CornerRule::Never).unwrap());
+        check(&GridGraph::new(Arc::clone(&grid), FiniteK::new(k).unwrap(), CornerRule::Never).unwrap());
     }
 }
 
-fn check(lattice: &Lattice<Centers>) {
-    let pruning = Arc::new(Pruning::new(lattice));
+fn check(graph: &GridGraph<Centers>) {
+    let pruning = Arc::new(Pruning::new(graph));
     let moves = CanonicalMoves { pruning: Arc::clone(&pruning) };
-    let count = lattice.steps().len();
+    let count = graph.steps().len();
     let (mut with_turns, mut fewer) = (0, 0);
     for at in (14..27).flat_map(|y| (14..27).map(move |x| Vertex::new(x, y))) {
-        let Some(id) = lattice.id(at).filter(|_| lattice.is_free(at)) else { continue };
+        let Some(id) = graph.id(at).filter(|_| graph.is_free(at)) else { continue };
         for by in 0..count {
-            let node = Arrival { id, at, by: Some(by) };
+            let node = ExpandedNode { id, at, by: Some(by) };
             let mut taken = BTreeSet::new();
-            moves.for_each(lattice, node, Vertex::new(0, 0), |next| assert!(taken.insert(next.by)));
+            moves.for_each(graph, node, Vertex::new(0, 0), |next| assert!(taken.insert(next.by)));
             let (mut legal, mut left) = (BTreeSet::new(), BTreeSet::new());
-            lattice.for_each_legal_move(at, |index| _ = legal.insert(index));
-            pruning.for_each(lattice, &node, by, |index| _ = left.insert(index));
-            let case = format!("k = {}, at {at} by move {by}", lattice.k());
+            graph.for_each_legal_move(at, |index| _ = legal.insert(index));
+            pruning.for_each(graph, &node, by, |index| _ = left.insert(index));
+            let case = format!("k = {}, at {at} by move {by}", graph.k());
             let turns = left.iter().any(|&index| natural(by, count).all(|other| other != index));
-            let all = turns && lattice.k().get() >= 7;
+            let all = turns && graph.k().get() >= 7;
             assert_eq!(taken, if all { legal.clone() } else { left.clone() }, "{case}");
             with_turns += u32::from(turns);
             fewer += u32::from(left.len() < legal.len());
         }
     }
-    assert!(with_turns > 0 && fewer > with_turns, "k = {}: {with_turns}, {fewer}", lattice.k());
+    assert!(with_turns > 0 && fewer > with_turns, "k = {}: {with_turns}, {fewer}", graph.k());
 }

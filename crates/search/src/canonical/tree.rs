@@ -9,7 +9,7 @@
 //! A leaf is one turn, with the cells of its move and up to [`WAYS`] ways around it. Cells that the two moves themselves
 //! have swept are known to be free and not asked for again.
 
-use mediant_grid::{CellOffset, Grid, Place, Vertex, load};
+use mediant_grid::{CellOffset, Grid, Placement, Vertex, load};
 
 use super::{
     alternatives::{Asked, Moves},
@@ -99,7 +99,7 @@ struct Turn {
 }
 
 impl TurnTrees {
-    pub(crate) fn new<P: Place>(moves: &Moves<P>) -> Self {
+    pub(crate) fn new<P: Placement>(moves: &Moves<P>) -> Self {
         let count = moves.len();
         let mut trees = Self {
             begins: vec![0],
@@ -140,7 +140,7 @@ impl TurnTrees {
     }
 
     /// Adds the subtree of these turns. `tested` are the cells that the nodes above know to be swept by all.
-    fn add<P: Place>(&mut self, moves: &Moves<P>, turns: &[Turn], tested: &Cells) {
+    fn add<P: Placement>(&mut self, moves: &Moves<P>, turns: &[Turn], tested: &Cells) {
         let [first, ..] = turns else { return };
         let swept = |turn: &Turn| moves.footprints[turn.index].free.iter().copied().collect::<Cells>();
         let shared = turns.iter().map(swept).fold(swept(first), |all, cells| all.common(&cells));
@@ -234,7 +234,7 @@ impl TurnTrees {
         true
     }
 
-    pub(crate) fn bytes(&self) -> usize {
+    pub(crate) fn memory_bytes(&self) -> usize {
         let nodes = size_of_val(&*self.nodes) + size_of_val(&*self.ways) + size_of_val(&*self.masks);
         nodes + size_of_val(&*self.steps) + size_of_val(&*self.begins) + size_of_val(&*self.needed)
     }
@@ -246,7 +246,7 @@ fn is_either_free(cells: Option<[CellOffset; 2]>, grid: &Grid, at: Vertex) -> bo
 }
 
 impl Turn {
-    fn new<P: Place>(moves: &Moves<P>, a: usize, b: usize) -> Self {
+    fn new<P: Placement>(moves: &Moves<P>, a: usize, b: usize) -> Self {
         let before = -moves.vectors[a];
         let mut known: Cells = moves.footprints[b].free.iter().copied().collect();
         known.extend(moves.footprints[a].free.iter().map(|&(x, y)| (x + before.x, y + before.y)));

@@ -6,7 +6,7 @@
 //! others a path has one natural way on, or three on a slanted run, and they are followed at once. At k = 3 under `Never` these are just the
 //! jump points of the original; nothing is special about k = 3 or about any rule of motion.
 //!
-//! How runs are followed is the [`Locator`]'s to say:
+//! How runs are followed is the [`JumpFinder`]'s to say:
 //!
 //! | engine | straight runs | slanted runs | k |
 //! |---|---|---|---|
@@ -22,7 +22,7 @@
 //!
 //! # What made it fast
 //!
-//! Against Warthog's programs on the eighteen maps of `benchdata/anchors.json`, through both yardsticks: block-based JPS takes 0.81 of JPS2's
+//! Against Warthog's programs on the eighteen maps of `benchdata/reference_timings.json`, through both baselines: block-based JPS takes 0.81 of JPS2's
 //! time (worst map 0.96), JPS+ 0.61 of that of JPS+ (worst 0.83).
 //! - Straight runs from combined planes, one row a scan instead of three: 3 to 4 ns instead of 5 to 6.
 //! - One bit a step of a slanted run says whether a straight run beside it comes to anything (module `slants`): arena2 from 16.6 to 10.8 µs
@@ -36,7 +36,7 @@
 //! A jump limit changes times by some percent either way: 32 gave 0.92 to 1.03 at k = 3 and 5 (arena2,
 //! AR0011SR), 4 took 1.3 to 1.7 times as long.
 
-mod locator;
+mod finder;
 mod planes;
 mod slants;
 mod table;
@@ -46,14 +46,14 @@ mod tests;
 
 use std::{ops::Deref, sync::Arc};
 
-use mediant_grid::{Lattice, Place, Vertex, VertexId};
+use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
 use mediant_moves::KError;
 
 use crate::{
-    Arrival, BestFirst, Heuristic, Pruning, Successor, Successors,
+    BestFirst, ExpandedNode, Heuristic, Pruning, Successor, Successors,
     canonical::{prunes, rank},
 };
-pub use locator::{Blocks, Course, Locator, Walk};
+pub use finder::{Blocks, JumpContext, JumpFinder, Walk};
 pub use table::{JumpTable, JumpTableError};
 
 /// A planner of the jump point family: 24 bytes a vertex.
@@ -70,24 +70,24 @@ pub type JpsPlus<L, H, P> = Jumping<L, H, P, Arc<JumpTable>>;
 
 /// The jump points that a node leads to.
 #[derive(Clone, Debug)]
-pub struct JumpMoves<P: Place, J> {
+pub struct JumpMoves<P: Placement, J> {
     pruning: Arc<Pruning<P>>,
-    locator: J,
-    /// Whether the locator is one of another lattice.
+    finder: J,
+    /// Whether the finder is one of another grid graph.
     walks: bool,
     limit: u32,
     keeps_intermediate: bool,
 }
 
-impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic, J: Locator<P>> Jumping<L, H, P, J> {
-    /// A planner with a locator that was made for this lattice, and a pruning rule that it may share with other planners. Where either was
+impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic, J: JumpFinder<P>> Jumping<L, H, P, J> {
+    /// A planner with a finder that was made for this grid graph, and a pruning rule that it may share with other planners. Where either was
     /// made for another map, k or rule of motion, it is not used, and runs are walked. (Of a [`JumpTable`] only the size is held against
-    /// the lattice.)
+    /// the grid graph.)
     #[must_use]
-    pub fn with_locator(lattice: L, pruning: Arc<Pruning<P>>, locator: J, heuristic: H) -> Self {
-        let (pruning, walks) = (pruning.fitting(&lattice), !locator.fits(&lattice));
-        let successors = JumpMoves { pruning, locator, walks, limit: u32::MAX, keeps_intermediate: false };
-        Self::with(lattice, heuristic, successors)
+    pub fn with_finder(graph: L, pruning: Arc<Pruning<P>>, finder: J, heuristic: H) -> Self {
+        let (pruning, walks) = (pruning.fitting(&graph), !finder.fits(&graph));
+        let successors = JumpMoves { pruning, finder, walks, limit: u32::MAX, keeps_intermediate: false };
+        Self::with(graph, heuristic, successors)
     }
 
     /// The same planner with runs of at most `limit` steps, at least 1; `None` for no limit. (Runs of a [`JumpTable`] are not limited.)
@@ -105,58 +105,58 @@ impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic, J: Locator<P>> Jumpi
     }
 }
 
-impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> Jps<L, H, P> {
-    /// A planner with scratch memory for `lattice`, and its own [`Pruning`].
+impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> Jps<L, H, P> {
+    /// A planner with scratch memory for `graph`, and its own [`Pruning`].
     #[must_use]
-    pub fn new(lattice: L, heuristic: H) -> Self {
-        let pruning = Arc::new(Pruning::new(&*lattice));
-        Self::with_locator(lattice, pruning, Walk, heuristic)
+    pub fn new(graph: L, heuristic: H) -> Self {
+        let pruning = Arc::new(Pruning::new(&*graph));
+        Self::with_finder(graph, pruning, Walk, heuristic)
     }
 }
 
-impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> BlockJps<L, H, P> {
-    /// A planner with scratch memory for `lattice`, and a byte a vertex for its own scans.
+impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> BlockJps<L, H, P> {
+    /// A planner with scratch memory for `graph`, and a byte a vertex for its own scans.
     ///
     /// # Errors
     /// [`KError::TooLarge`] above k = 3.
-    pub fn new(lattice: L, heuristic: H) -> Result<Self, KError> {
-        let pruning = Arc::new(Pruning::new(&*lattice));
-        let blocks = Blocks::new(&*lattice, &pruning)?;
-        Ok(Self::with_locator(lattice, pruning, blocks, heuristic))
+    pub fn new(graph: L, heuristic: H) -> Result<Self, KError> {
+        let pruning = Arc::new(Pruning::new(&*graph));
+        let blocks = Blocks::new(&*graph, &pruning)?;
+        Ok(Self::with_finder(graph, pruning, blocks, heuristic))
     }
 }
 
-impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic> JpsPlus<L, H, P> {
-    /// A planner with scratch memory for `lattice`, on its table.
+impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> JpsPlus<L, H, P> {
+    /// A planner with scratch memory for `graph`, on its table.
     ///
     /// # Errors
-    /// [`JumpTableError`] for a table of a lattice of another size or k.
-    pub fn new(lattice: L, table: Arc<JumpTable>, heuristic: H) -> Result<Self, JumpTableError> {
-        table.check(&*lattice)?;
-        let pruning = Arc::new(Pruning::new(&*lattice));
-        Ok(Self::with_locator(lattice, pruning, table, heuristic))
+    /// [`JumpTableError`] for a table of a grid graph of another size or k.
+    pub fn new(graph: L, table: Arc<JumpTable>, heuristic: H) -> Result<Self, JumpTableError> {
+        table.check(&*graph)?;
+        let pruning = Arc::new(Pruning::new(&*graph));
+        Ok(Self::with_finder(graph, pruning, table, heuristic))
     }
 }
 
-impl<P: Place, J: Locator<P>> Successors<P> for JumpMoves<P, J> {
-    type Link = VertexId;
+impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
+    type ParentPointer = VertexId;
 
     #[inline]
     fn for_each(
         &self,
-        lattice: &Lattice<P>,
-        node: Arrival,
+        graph: &GridGraph<P>,
+        node: ExpandedNode,
         goal: Vertex,
         mut visit: impl FnMut(Successor),
     ) -> u32 {
-        let course = Course {
-            lattice,
+        let course = JumpContext {
+            graph,
             pruning: &self.pruning,
             goal,
             // Once a node: a run never goes on from a gap, so only the node itself and the goal may be one.
             walks: self.walks
-                || !prunes(lattice)
-                || lattice.has_gaps() && (lattice.is_gap(goal) || lattice.is_gap(node.at)),
+                || !prunes(graph)
+                || graph.has_closed_gaps() && (graph.is_closed_gap(goal) || graph.is_closed_gap(node.at)),
             // Without knowing the turns, a scan would end almost everywhere, and find little that is new.
             limit: if self.pruning.knows_turns() { self.limit } else { 1 },
             keeps_intermediate: self.keeps_intermediate,
@@ -164,24 +164,24 @@ impl<P: Place, J: Locator<P>> Successors<P> for JumpMoves<P, J> {
         let mut scanned = 0;
         let mut follow = |index: usize| {
             if index & 1 == 1 {
-                self.locator.slanted(&course, &node, index, &mut scanned, &mut visit);
+                self.finder.slanted(&course, &node, index, &mut scanned, &mut visit);
                 return;
             }
-            let step = lattice.step(index);
+            let step = graph.step(index);
             let goal_steps = course.steps_to_goal(node.at, step.vector());
-            if let Some(n) = self.locator.straight(&course, &node, index, goal_steps, &mut scanned) {
+            if let Some(n) = self.finder.straight(&course, &node, index, goal_steps, &mut scanned) {
                 visit(course.after(&node, step, index, n).reached(step.cost * n, index));
             }
         };
-        match node.by.filter(|&by| !self.pruning.is_exempt(lattice, node.at, by, goal)) {
-            None => lattice.for_each_successor(node.at, node.by, goal, follow),
-            Some(by) => self.pruning.for_each(lattice, &node, by, &mut follow),
+        match node.by.filter(|&by| !self.pruning.is_exempt(graph, node.at, by, goal)) {
+            None => graph.for_each_successor(node.at, node.by, goal, follow),
+            Some(by) => self.pruning.for_each(graph, &node, by, &mut follow),
         }
         scanned
     }
 
     #[inline]
-    fn prefers(&self, lattice: &Lattice<P>, new: usize, known: usize) -> bool {
-        prunes(lattice) && rank(new) < rank(known)
+    fn prefers(&self, graph: &GridGraph<P>, new: usize, known: usize) -> bool {
+        prunes(graph) && rank(new) < rank(known)
     }
 }

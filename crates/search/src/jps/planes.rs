@@ -7,15 +7,15 @@
 //! and all directions are one code without a branch on the direction, which is what most of a scan's time is where directions
 //! vary.
 //!
-//! Rule variants: all five, k = 2 and k = 3. Under closed gaps a run ends before a doubly blocked corner.
+//! Rule variants: all five, k = 2 and k = 3. Under closed gaps a run ends before a gap.
 //!
 //! A byte a vertex (two bits a direction), made in 0.14 ms for 512 × 512 cells. A scan takes 3.0 to 4.0 ns (seven maps of the
 //! benchmark sets, the two scans of each step of diagonal runs; dao, sc1, random), and 3.0 to 7.9 ns where directions follow one
 //! another at random and their branches are mispredicted. Tried and left out: combining the rows anew at every scan, 63 vertices
 //! a step, takes 5.0 to 7.5 ns, and 9 to 15 ns.
 
-use mediant_grid::{BitMatrix, CornerRule, DiagonalGap, Lattice, Place, Rules, Vertex, load};
-use mediant_moves::K;
+use mediant_grid::{BitMatrix, CornerRule, DiagonalGap, GridGraph, Placement, Rules, Vertex, load};
+use mediant_moves::FiniteK;
 
 /// Where a straight run ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,12 +62,10 @@ struct Ends {
 }
 
 impl Turns {
-    fn of<P: Place>(lattice: &Lattice<P>) -> Self {
-        match lattice.rules() {
+    fn of<P: Placement>(graph: &GridGraph<P>) -> Self {
+        match graph.rules() {
             Rules::Corner(gap) => Self::Edges { closed: gap == DiagonalGap::Closed },
-            Rules::Center(rule) if rule == CornerRule::Never || lattice.k() == K::FOUR_CONNECTED => {
-                Self::Behind
-            }
+            Rules::Center(rule) if rule == CornerRule::Never || graph.k() == FiniteK::N4 => Self::Behind,
             Rules::Center(rule) => Self::Ahead { one: rule == CornerRule::One },
         }
     }
@@ -95,7 +93,7 @@ impl Turns {
     }
 
     /// The ends at vertex `u` of line `v` of a matrix and at the 63 next ones of the run.
-    fn ends_from<P: Place>(self, matrix: &BitMatrix, (u, v): (i32, i32), forward: bool) -> Ends {
+    fn ends_from<P: Placement>(self, matrix: &BitMatrix, (u, v): (i32, i32), forward: bool) -> Ends {
         let (at, row) = (matrix.index(u, v), matrix.bits_per_row());
         self.ends(|ahead, beside| {
             // Backward, the cell of the first vertex is the last of the 64, at corners the one before it.
@@ -123,11 +121,11 @@ struct Plane {
 }
 
 impl StopPlanes {
-    /// The planes of a lattice.
-    pub(crate) fn new<P: Place>(lattice: &Lattice<P>) -> Self {
-        let grid = lattice.grid();
+    /// The planes of a grid graph.
+    pub(crate) fn new<P: Placement>(graph: &GridGraph<P>) -> Self {
+        let grid = graph.grid();
         let (width, height) = P::vertices(grid);
-        let turns = Turns::of(lattice);
+        let turns = Turns::of(graph);
         let mut words = Vec::new();
         let planes = [0, 1, 2, 3].map(|quarter| {
             let (vertical, forward) = (quarter % 2 == 0, quarter < 2);
@@ -182,7 +180,7 @@ impl StopPlanes {
     }
 
     /// The memory that the planes take, in bytes.
-    pub(crate) fn bytes(&self) -> usize {
+    pub(crate) fn memory_bytes(&self) -> usize {
         size_of_val(&*self.words)
     }
 }

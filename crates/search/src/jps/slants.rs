@@ -7,7 +7,7 @@
 //!
 //! A byte a vertex, on top of the 1 byte of [`StopPlanes`](super::planes::StopPlanes).
 
-use mediant_grid::{BitMatrix, CellOffset, Footprint, Lattice, Place, Vector, Vertex, load};
+use mediant_grid::{BitMatrix, CellOffset, Footprint, GridGraph, Placement, Vector, Vertex, load};
 use mediant_moves::Neighborhood;
 
 use crate::{
@@ -15,7 +15,7 @@ use crate::{
     canonical::{Asked, Moves, natural},
 };
 
-/// What slanted runs meet on a lattice with k ≤ 3.
+/// What slanted runs meet on a grid graph with k ≤ 3.
 #[derive(Clone, Debug)]
 pub(crate) struct SlantPlanes {
     /// For 64 vertices of a row: where each odd move is legal; where a straight run beside each comes to a jump point.
@@ -24,14 +24,14 @@ pub(crate) struct SlantPlanes {
 }
 
 impl SlantPlanes {
-    pub(crate) fn new<P: Place>(lattice: &Lattice<P>, pruning: &Pruning<P>) -> Self {
-        let (width, height) = P::vertices(lattice.grid());
+    pub(crate) fn new<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>) -> Self {
+        let (width, height) = P::vertices(graph.grid());
         let per_row = width.div_ceil(64) as usize;
         let mut words = vec![[[0; 4]; 2]; per_row * height as usize];
-        let Ok(all) = Neighborhood::new(lattice.k()) else { return Self { words, per_row } };
-        let moves = Moves::<P>::new(lattice.rule(), all);
+        let Ok(all) = Neighborhood::new(graph.k()) else { return Self { words, per_row } };
+        let moves = Moves::<P>::new(graph.rule(), all);
         let count = moves.len();
-        let rows = lattice.grid().rows();
+        let rows = graph.grid().rows();
         let place = |word: usize| ((word % per_row) as i32 * 64, (word / per_row) as i32);
         for (word, [legal, found]) in words.iter_mut().enumerate() {
             let (x, y) = place(word);
@@ -39,9 +39,9 @@ impl SlantPlanes {
                 *legal = holds(rows, (x, y), &asked.free, &asked.either);
             }
             // With closed gaps, every vertex is worth a scan.
-            *found = if lattice.has_gaps() { [!0; 4] } else { [0; 4] };
+            *found = if graph.has_closed_gaps() { [!0; 4] } else { [0; 4] };
         }
-        if lattice.has_gaps() {
+        if graph.has_closed_gaps() {
             return Self { words, per_row };
         }
         for straight in (0..count).step_by(2) {
@@ -66,7 +66,7 @@ impl SlantPlanes {
         (bit(&words[0]), bit(&words[1]))
     }
 
-    pub(crate) fn bytes(&self) -> usize {
+    pub(crate) fn memory_bytes(&self) -> usize {
         size_of_val(&*self.words)
     }
 }
@@ -80,7 +80,7 @@ struct Run {
 }
 
 impl Run {
-    fn new<P: Place>(moves: &Moves<P>, pruning: &Pruning<P>, index: usize) -> Self {
+    fn new<P: Placement>(moves: &Moves<P>, pruning: &Pruning<P>, index: usize) -> Self {
         let v = moves.vectors[index];
         let turns = (0..moves.len()).filter(|&turn| turn != index && pruning.may_turn(index, turn));
         let turns = turns.map(|turn| {

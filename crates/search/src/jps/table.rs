@@ -8,15 +8,15 @@
 //! - Odd moves: of interest is a vertex with a turn of its own, or from which one of the two adjacent even runs finds a
 //!   jump point.
 //!
-//! Rule variants: all five. Under closed gaps a run ends before a doubly blocked corner; what paths do at one (where they begin, where
+//! Rule variants: all five. Under closed gaps a run ends before a gap; what paths do at one (where they begin, where
 //! they end, at k = 2 also on their way) the table does not say.
 
-use mediant_grid::{Lattice, Place, Step, Vector, Vertex, VertexId};
-use mediant_moves::{K, KError};
+use mediant_grid::{GridGraph, Placement, Step, Vector, Vertex, VertexId};
+use mediant_moves::{FiniteK, KError};
 
 use crate::Pruning;
 
-/// The jump distances of a lattice with k ≤ 3: 2^k bytes a vertex. Immutable; planners share it.
+/// The jump distances of a grid graph with k ≤ 3: 2^k bytes a vertex. Immutable; planners share it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct JumpTable {
     /// That of a move at `id · 2^k + index`.
@@ -26,7 +26,7 @@ pub struct JumpTable {
     width: u32,
 }
 
-/// Bytes that are no table of the lattice.
+/// Bytes that are no table of the grid graph.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum JumpTableError {
@@ -35,7 +35,7 @@ pub enum JumpTableError {
     Neighborhood(#[from] KError),
     /// Too few bytes, or too many.
     #[error(
-        "a jump table of {found} bytes, where this lattice needs {expected}: the table is for another map, placement or k, or cut off; build it anew"
+        "a jump table of {found} bytes, where this graph needs {expected}: the table is for another map, placement or k, or cut off; build it anew"
     )]
     Length {
         /// 2^k for each vertex.
@@ -44,16 +44,16 @@ pub enum JumpTableError {
         found: usize,
     },
     /// As many entries, but in longer or shorter rows.
-    #[error("a jump table with {found} vertices a row, where this lattice has {expected}: build it anew")]
+    #[error("a jump table with {found} vertices a row, where this graph has {expected}: build it anew")]
     Width {
-        /// The lattice's vertices in a row.
+        /// The grid graph's vertices in a row.
         expected: u32,
         /// The table's.
         found: u32,
     },
     /// A distance that is not the map's.
     #[error(
-        "the jump table says {found:#04x} for move ({}, {}) at {at}, where this lattice has {expected:#04x}: the table is for another map or rule, or damaged; build it anew",
+        "the jump table says {found:#04x} for move ({}, {}) at {at}, where this graph has {expected:#04x}: the table is for another map or rule, or damaged; build it anew",
         towards.x,
         towards.y
     )]
@@ -86,15 +86,15 @@ impl JumpTable {
     /// The largest k that has a table.
     pub const MAX_K: u32 = 3;
 
-    /// The table of a lattice; each entry follows from the one a step ahead.
+    /// The table of a grid graph; each entry follows from the one a step ahead.
     ///
     /// # Errors
     /// [`KError::TooLarge`] above [`MAX_K`](Self::MAX_K).
-    pub fn new<P: Place>(lattice: &Lattice<P>) -> Result<Self, KError> {
-        let k = checked(lattice.k())?;
-        let mut entries = vec![0; lattice.vertex_count() << k];
-        let around = Surroundings::new(lattice);
-        let ids = 0..lattice.vertex_count();
+    pub fn new<P: Placement>(graph: &GridGraph<P>) -> Result<Self, KError> {
+        let k = checked(graph.k())?;
+        let mut entries = vec![0; graph.vertex_count() << k];
+        let around = Surroundings::new(graph);
+        let ids = 0..graph.vertex_count();
         // A move that adds to ids needs the larger ones first.
         let moves = |parity: usize, adds: bool| {
             let steps = (parity..1 << k).step_by(2);
@@ -104,41 +104,41 @@ impl JumpTable {
         around.pass(&mut entries, ids.clone().rev(), &moves(0, true));
         around.pass(&mut entries, ids.clone(), &[moves(0, false), moves(1, false)].concat());
         around.pass(&mut entries, ids.rev(), &moves(1, true));
-        Ok(Self { entries, k, width: P::vertices(lattice.grid()).0 })
+        Ok(Self { entries, k, width: P::vertices(graph.grid()).0 })
     }
 
     /// The table that these bytes are; see [`as_bytes`](Self::as_bytes). Every entry is held against the map and the entry a
     /// step ahead, so a table that is accepted is the one that [`new`](Self::new) makes.
     ///
     /// # Errors
-    /// A [`JumpTableError`] for bytes that are no table of this lattice.
-    pub fn from_bytes<P: Place>(lattice: &Lattice<P>, bytes: Vec<u8>) -> Result<Self, JumpTableError> {
-        let k = checked(lattice.k())?;
-        let expected = lattice.vertex_count() << k;
+    /// A [`JumpTableError`] for bytes that are no table of this grid graph.
+    pub fn from_bytes<P: Placement>(graph: &GridGraph<P>, bytes: Vec<u8>) -> Result<Self, JumpTableError> {
+        let k = checked(graph.k())?;
+        let expected = graph.vertex_count() << k;
         if bytes.len() != expected {
             return Err(JumpTableError::Length { expected, found: bytes.len() });
         }
-        let around = Surroundings::new(lattice);
-        for id in 0..lattice.vertex_count() {
+        let around = Surroundings::new(graph);
+        for id in 0..graph.vertex_count() {
             for index in 0..1 << k {
                 let (expected, found) = (around.entry(&bytes, id, index), bytes[id << k | index]);
                 if expected != found {
-                    let (at, towards) = (lattice.vertex(VertexId(id as u32)), lattice.step(index).vector());
+                    let (at, towards) = (graph.vertex(VertexId(id as u32)), graph.step(index).vector());
                     return Err(JumpTableError::Entry { at, towards, expected, found });
                 }
             }
         }
-        Ok(Self { entries: bytes, k, width: P::vertices(lattice.grid()).0 })
+        Ok(Self { entries: bytes, k, width: P::vertices(graph.grid()).0 })
     }
 
-    /// Whether a lattice has the vertices and moves that this table is about.
+    /// Whether a grid graph has the vertices and moves that this table is about.
     ///
     /// # Errors
     /// [`JumpTableError::Length`] and [`JumpTableError::Width`].
-    pub(crate) fn check<P: Place>(&self, lattice: &Lattice<P>) -> Result<(), JumpTableError> {
-        let k = checked(lattice.k())?;
-        let (expected, found) = (lattice.vertex_count() << k, self.entries.len());
-        let width = P::vertices(lattice.grid()).0;
+    pub(crate) fn check<P: Placement>(&self, graph: &GridGraph<P>) -> Result<(), JumpTableError> {
+        let k = checked(graph.k())?;
+        let (expected, found) = (graph.vertex_count() << k, self.entries.len());
+        let width = P::vertices(graph.grid()).0;
         if expected != found || k != self.k {
             return Err(JumpTableError::Length { expected, found });
         }
@@ -149,7 +149,7 @@ impl JumpTable {
     }
 
     /// After how many steps the run of a move ends, and whether that is at a vertex of interest. `step` is the move at
-    /// `index` of the lattice.
+    /// `index` of the grid graph.
     #[inline]
     pub(crate) fn run(&self, id: VertexId, step: &Step, index: usize) -> (u32, bool) {
         let mut at = id.index() << self.k | index;
@@ -175,12 +175,12 @@ impl JumpTable {
 
     /// The memory that this takes, in bytes.
     #[must_use]
-    pub fn bytes(&self) -> usize {
+    pub fn memory_bytes(&self) -> usize {
         self.entries.len()
     }
 }
 
-const fn checked(k: K) -> Result<u32, KError> {
+const fn checked(k: FiniteK) -> Result<u32, KError> {
     let (k, max) = (k.get(), JumpTable::MAX_K);
     if k > max { Err(KError::TooLarge { k, max }) } else { Ok(k) }
 }
@@ -208,28 +208,28 @@ struct Local {
 }
 
 impl Surroundings {
-    fn new<P: Place>(lattice: &Lattice<P>) -> Self {
-        let pruning = Pruning::new(lattice);
-        let (k, rows) = (lattice.k().get(), lattice.grid().rows());
+    fn new<P: Placement>(graph: &GridGraph<P>) -> Self {
+        let pruning = Pruning::new(graph);
+        let (k, rows) = (graph.k().get(), graph.grid().rows());
         let (words, bits_per_row) = (rows.words(), rows.bits_per_row());
         let mut local: Vec<Option<Local>> = vec![None; P::PATTERNS];
-        let patterns = (0..lattice.vertex_count()).map(|id| {
-            let at = lattice.vertex(VertexId(id as u32));
+        let patterns = (0..graph.vertex_count()).map(|id| {
+            let at = graph.vertex(VertexId(id as u32));
             let pattern = P::pattern(words, rows.index(at.x, at.y), bits_per_row);
             // The rules of motion are asked once for each pattern that occurs.
             local[pattern].get_or_insert_with(|| Local {
-                legal: lattice.legal_moves(at).iter().fold(0, |set, index| set | 1 << index),
+                legal: graph.legal_moves(at).iter().fold(0, |set, index| set | 1 << index),
                 turns: (0..1 << k)
                     .filter(|&index| pruning.turns_at(pattern, index))
                     .fold(0, |set, index| set | 1 << index),
-                gap: lattice.is_gap(at),
+                gap: graph.is_closed_gap(at),
             });
             pattern as u16
         });
         let patterns = patterns.collect();
         Self {
             k,
-            offsets: lattice.steps().iter().map(|step| step.target(VertexId(0)).0 as i32 as isize).collect(),
+            offsets: graph.steps().iter().map(|step| step.target(VertexId(0)).0 as i32 as isize).collect(),
             patterns,
             local: local.into_iter().map(Option::unwrap_or_default).collect(),
         }

@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Centers, Corners, DiagonalGap, Grid, Lattice, Place, Rules, Vector, Vertex, VertexId};
-use mediant_moves::K;
-use mediant_oracle::{Rng, describe, is_doubly_blocked, noise, seeds, suite_grid, wide_grid};
+use mediant_grid::{
+    Centers, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vector, Vertex, VertexId,
+};
+use mediant_moves::FiniteK;
+use mediant_oracle::{Rng, describe, is_gap, noise, seeds, suite_grid, wide_grid};
 
 use super::{
     JumpTable, JumpTableError,
@@ -16,9 +18,9 @@ const AXES: [Vector; 4] = [Vector::new(0, 1), Vector::new(1, 0), Vector::new(0, 
 /// How a run ends: its steps, and whether it found what it looked for.
 type End = (u32, bool);
 
-/// A lattice, and runs on it step by step.
-struct Reference<P: Place> {
-    lattice: Lattice<P>,
+/// A grid graph, and runs on it step by step.
+struct Reference<P: Placement> {
+    graph: GridGraph<P>,
     /// By obstacle pattern: the moves that find a turn, one bit each.
     turns: Vec<u8>,
     /// By vertex: the legal moves.
@@ -26,12 +28,12 @@ struct Reference<P: Place> {
 }
 
 /// The side of the grid that is a pattern.
-fn pattern_side<P: Place>() -> u32 {
+fn pattern_side<P: Placement>() -> u32 {
     P::PATTERNS.ilog2().isqrt()
 }
 
 /// The pattern of cells around a vertex, cell by cell.
-fn pattern_at<P: Place>(grid: &Grid, at: Vertex) -> usize {
+fn pattern_at<P: Placement>(grid: &Grid, at: Vertex) -> usize {
     let side = pattern_side::<P>() as i32;
     let bits = (0..side * side).map(|i| (at.x - 1 + i % side, at.y - 1 + i / side));
     bits.enumerate().map(|(i, (x, y))| usize::from(grid.is_blocked(x, y)) << i).sum()
@@ -41,12 +43,12 @@ fn pattern_at<P: Place>(grid: &Grid, at: Vertex) -> usize {
 /// there is no path of displacement a + b from where a started that is shorter, or as long with a last move that comes
 /// earlier. All beyond the pattern is blocked, so that only those paths count that the pattern alone makes legal. (As
 /// gaps depend on more than that, they are open here.)
-fn turns_of<P: Place>(rule: P::Rule, k: K, pattern: usize) -> u8 {
+fn turns_of<P: Placement>(rule: P::Rule, k: FiniteK, pattern: usize) -> u8 {
     let side = pattern_side::<P>();
     let grid = Grid::from_fn(side, side, |x, y| pattern >> (x + y * side) & 1 == 1).unwrap();
-    let lattice = Lattice::<P>::new(Arc::new(grid), k, rule).unwrap();
+    let graph = GridGraph::<P>::new(Arc::new(grid), k, rule).unwrap();
     let at = Vertex::new(1, 1);
-    let moves: Vec<Vector> = lattice.steps().iter().map(|step| step.vector()).collect();
+    let moves: Vec<Vector> = graph.steps().iter().map(|step| step.vector()).collect();
     let last = moves.len() - 1;
     let rank = |index: usize| (index % 2, index);
     (0..moves.len()).fold(0, |turns, a| {
@@ -56,58 +58,57 @@ fn turns_of<P: Place>(rule: P::Rule, k: K, pattern: usize) -> u8 {
             let to = at + moves[b];
             let length = moves[a].norm() + moves[b].norm();
             // Where no shorter one exists, a path as long has two moves.
-            let straight = to == from || moves.contains(&from.to(to)) && lattice.sees(from, to);
+            let straight = to == from || moves.contains(&from.to(to)) && graph.sees(from, to);
             let bent = (0..moves.len()).any(|first| {
                 let middle = from + moves[first];
                 let Some(then) = moves.iter().position(|&v| v == middle.to(to)) else { return false };
                 let other = moves[first].norm() + moves[then].norm();
                 let better = other < length - 1e-9 || (other < length + 1e-9 && rank(then) < rank(b));
-                better && lattice.sees(from, middle) && lattice.sees(middle, to)
+                better && graph.sees(from, middle) && graph.sees(middle, to)
             });
-            lattice.sees(at, to) && !straight && !bent
+            graph.sees(at, to) && !straight && !bent
         };
         turns | u8::from((0..moves.len()).any(|b| !natural(b) && is_turn(b))) << a
     })
 }
 
-impl<P: Place> Reference<P> {
+impl<P: Placement> Reference<P> {
     fn new(grid: &Arc<Grid>, rule: P::Rule, k: u32, turns: &[u8]) -> Self {
-        let lattice = Lattice::<P>::new(Arc::clone(grid), K::new(k).unwrap(), rule).unwrap();
-        let legal = (0..lattice.vertex_count()).map(|id| {
-            let at = lattice.vertex(VertexId(id as u32));
-            let steps = lattice.steps().iter().enumerate();
-            steps.fold(0, |set, (i, step)| set | u8::from(lattice.is_legal(at, step.vector())) << i)
+        let graph = GridGraph::<P>::new(Arc::clone(grid), FiniteK::new(k).unwrap(), rule).unwrap();
+        let legal = (0..graph.vertex_count()).map(|id| {
+            let at = graph.vertex(VertexId(id as u32));
+            let steps = graph.steps().iter().enumerate();
+            steps.fold(0, |set, (i, step)| set | u8::from(graph.is_legal(at, step.vector())) << i)
         });
         let legal = legal.collect();
-        Self { lattice, turns: turns.to_vec(), legal }
+        Self { graph, turns: turns.to_vec(), legal }
     }
 
     fn vertices(&self) -> impl Iterator<Item = (VertexId, Vertex)> {
-        (0..self.lattice.vertex_count()).map(|id| {
+        (0..self.graph.vertex_count()).map(|id| {
             let id = VertexId(id as u32);
-            (id, self.lattice.vertex(id))
+            (id, self.graph.vertex(id))
         })
     }
 
-    fn is_gap(&self, at: Vertex) -> bool {
-        self.lattice.rules() == Rules::Corner(DiagonalGap::Closed)
-            && is_doubly_blocked(self.lattice.grid(), at)
+    fn is_closed_gap(&self, at: Vertex) -> bool {
+        self.graph.rules() == Rules::Corner(DiagonalGap::Closed) && is_gap(self.graph.grid(), at)
     }
 
     /// Where a legal move leads.
     fn next(&self, from: Vertex, index: usize) -> Option<Vertex> {
-        let id = self.lattice.id(from).unwrap();
-        (self.legal[id.index()] >> index & 1 == 1).then(|| from + self.lattice.step(index).vector())
+        let id = self.graph.id(from).unwrap();
+        (self.legal[id.index()] >> index & 1 == 1).then(|| from + self.graph.step(index).vector())
     }
 
     fn has_turn(&self, at: Vertex, index: usize) -> bool {
-        self.turns[pattern_at::<P>(self.lattice.grid(), at)] >> index & 1 == 1
+        self.turns[pattern_at::<P>(self.graph.grid(), at)] >> index & 1 == 1
     }
 
     /// The run of an even move.
     fn scan(&self, from: Vertex, index: usize, goal: Option<Vertex>) -> End {
         let (mut at, mut steps) = (from, 0);
-        while let Some(to) = self.next(at, index).filter(|&to| !self.is_gap(to)) {
+        while let Some(to) = self.next(at, index).filter(|&to| !self.is_closed_gap(to)) {
             (at, steps) = (to, steps + 1);
             if goal == Some(at) || self.has_turn(at, index) {
                 return (steps, true);
@@ -123,7 +124,7 @@ impl<P: Place> Reference<P> {
         }
         let last = self.move_count() - 1;
         let (mut at, mut steps) = (from, 0);
-        while let Some(to) = self.next(at, index).filter(|&to| !self.is_gap(to)) {
+        while let Some(to) = self.next(at, index).filter(|&to| !self.is_closed_gap(to)) {
             let beside = [(index + 1) & last, (index + last) & last];
             let finds = |&even: &usize| self.scan(to, even, None).1;
             (at, steps) = (to, steps + 1);
@@ -135,19 +136,19 @@ impl<P: Place> Reference<P> {
     }
 
     fn move_count(&self) -> usize {
-        self.lattice.steps().len()
+        self.graph.steps().len()
     }
 }
 
-/// What is to be done on many lattices.
+/// What is to be done on many grid graphs.
 trait Suite {
-    fn check<P: Place>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String);
+    fn check<P: Placement>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String);
 }
 
 /// Does it under all rules, for k = 2 and 3.
 fn on_all(grids: impl Iterator<Item = (u64, Grid)>, suite: &mut impl Suite) {
-    fn on_one<P: Place>(grids: &[(u64, Arc<Grid>)], rule: P::Rule, k: u32, suite: &mut impl Suite) {
-        let turns = |pattern| turns_of::<P>(rule, K::new(k).unwrap(), pattern);
+    fn on_one<P: Placement>(grids: &[(u64, Arc<Grid>)], rule: P::Rule, k: u32, suite: &mut impl Suite) {
+        let turns = |pattern| turns_of::<P>(rule, FiniteK::new(k).unwrap(), pattern);
         let turns: Vec<u8> = (0..P::PATTERNS).map(turns).collect();
         for (seed, grid) in grids {
             let case = |from, to| format!("k = {k}, {}", describe(grid, P::rules(rule), from, to, *seed));
@@ -186,11 +187,11 @@ struct Scans {
 }
 
 impl Suite for Scans {
-    fn check<P: Place>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
-        let lattice = &reference.lattice;
-        let planes = StopPlanes::new(lattice);
-        let count = lattice.steps().len();
-        for (_, from) in reference.vertices().filter(|&(_, at)| lattice.is_free(at)) {
+    fn check<P: Placement>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
+        let graph = &reference.graph;
+        let planes = StopPlanes::new(graph);
+        let count = graph.steps().len();
+        for (_, from) in reference.vertices().filter(|&(_, at)| graph.is_free(at)) {
             for (quarter, &towards) in AXES.iter().enumerate() {
                 let index = quarter * count / 4;
                 if index % 2 == 1 {
@@ -226,11 +227,11 @@ struct Tables {
 }
 
 impl Suite for Tables {
-    fn check<P: Place>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
-        let lattice = &reference.lattice;
-        let table = JumpTable::new(lattice).unwrap();
+    fn check<P: Placement>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
+        let graph = &reference.graph;
+        let table = JumpTable::new(graph).unwrap();
         for (id, from) in reference.vertices() {
-            for (index, step) in lattice.steps().iter().enumerate() {
+            for (index, step) in graph.steps().iter().enumerate() {
                 let expected = reference.run(from, index);
                 let found = table.run(id, step, index);
                 assert_eq!(found, expected, "{:?}, {}", step.vector(), case(from, from));
@@ -238,7 +239,7 @@ impl Suite for Tables {
                 self.longest = self.longest.max(expected.0);
             }
         }
-        let again = JumpTable::from_bytes(lattice, table.as_bytes().to_vec());
+        let again = JumpTable::from_bytes(graph, table.as_bytes().to_vec());
         assert_eq!(again.as_ref(), Ok(&table), "{}", case(Vertex::default(), Vertex::default()));
     }
 }
@@ -259,10 +260,10 @@ fn runs_longer_than_an_entry_can_say_are_followed_to_their_end() {
         for with_turn in [false, true] {
             let grid = Grid::from_fn(length + 1, 2, |x, y| y == 1 && (x != length || !with_turn)).unwrap();
             for k in [2, 3] {
-                let (k, grid) = (K::new(k).unwrap(), Arc::new(transposed(&grid)));
-                let lattice = Lattice::<Centers>::new(grid, k, Default::default()).unwrap();
-                let table = JumpTable::new(&lattice).unwrap();
-                let run = table.run(VertexId(0), lattice.step(0), 0);
+                let (k, grid) = (FiniteK::new(k).unwrap(), Arc::new(transposed(&grid)));
+                let graph = GridGraph::<Centers>::new(grid, k, Default::default()).unwrap();
+                let table = JumpTable::new(&graph).unwrap();
+                let run = table.run(VertexId(0), graph.step(0), 0);
                 assert_eq!(run, (length, with_turn), "{length}, k = {k}");
             }
         }
@@ -277,7 +278,7 @@ fn transposed(grid: &Grid) -> Grid {
 struct Patterns;
 
 impl Suite for Patterns {
-    fn check<P: Place>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
+    fn check<P: Placement>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
         Scans { compared: 0 }.check(reference, case);
         Tables { compared: 0, longest: 0 }.check(reference, case);
     }
@@ -295,46 +296,47 @@ fn turns_are_those_of_the_definition_in_every_pattern() {
     on_all(grids, &mut Patterns);
 }
 
-fn damaged_lattice() -> Lattice<Centers> {
+fn damaged_graph() -> GridGraph<Centers> {
     let grid = noise(&mut Rng::new(5), 20, 15, 20);
-    Lattice::new(Arc::new(grid), K::EIGHT_CONNECTED, Default::default()).unwrap()
+    GridGraph::new(Arc::new(grid), FiniteK::N8, Default::default()).unwrap()
 }
 
 #[test]
 fn bytes_of_another_length_are_refused() {
-    let lattice = damaged_lattice();
-    let bytes = JumpTable::new(&lattice).unwrap().as_bytes().to_vec();
+    let graph = damaged_graph();
+    let bytes = JumpTable::new(&graph).unwrap().as_bytes().to_vec();
     assert_eq!(bytes.len(), 20 * 15 * 8);
     for length in [0, 1, bytes.len() - 1, bytes.len() + 1, 2 * bytes.len()] {
         let mut other = bytes.clone();
         other.resize(length, 0);
         let error = JumpTableError::Length { expected: bytes.len(), found: length };
-        assert_eq!(JumpTable::from_bytes(&lattice, other), Err(error));
+        assert_eq!(JumpTable::from_bytes(&graph, other), Err(error));
     }
 }
 
 #[test]
 fn every_flipped_bit_is_refused() {
-    let lattice = damaged_lattice();
-    let bytes = JumpTable::new(&lattice).unwrap().as_bytes().to_vec();
+    let graph = damaged_graph();
+    let bytes = JumpTable::new(&graph).unwrap().as_bytes().to_vec();
     for bit in 0..8 * bytes.len() {
         let mut other = bytes.clone();
         other[bit / 8] ^= 1 << (bit % 8);
-        let refused = JumpTable::from_bytes(&lattice, other);
+        let refused = JumpTable::from_bytes(&graph, other);
         assert!(matches!(refused, Err(JumpTableError::Entry { .. })), "bit {bit}: {refused:?}");
     }
 }
 
 #[test]
-fn tables_of_other_lattices_are_refused() {
-    let lattice = damaged_lattice();
-    let table = JumpTable::new(&lattice).unwrap();
+fn tables_of_other_graphs_are_refused() {
+    let graph = damaged_graph();
+    let table = JumpTable::new(&graph).unwrap();
     let other = noise(&mut Rng::new(6), 20, 15, 20);
-    let other = Lattice::<Centers>::new(Arc::new(other), lattice.k(), lattice.rule()).unwrap();
+    let other = GridGraph::<Centers>::new(Arc::new(other), graph.k(), graph.rule()).unwrap();
     let refused = JumpTable::from_bytes(&other, table.as_bytes().to_vec());
     assert!(matches!(refused, Err(JumpTableError::Entry { .. })), "{refused:?}");
 
-    let k4 = Lattice::<Centers>::new(Arc::clone(lattice.grid()), K::new(4).unwrap(), lattice.rule()).unwrap();
+    let k4 =
+        GridGraph::<Centers>::new(Arc::clone(graph.grid()), FiniteK::new(4).unwrap(), graph.rule()).unwrap();
     assert!(JumpTable::new(&k4).is_err());
     let refused = JumpTable::from_bytes(&k4, table.as_bytes().to_vec());
     assert!(matches!(refused, Err(JumpTableError::Neighborhood(_))), "{refused:?}");
@@ -342,12 +344,12 @@ fn tables_of_other_lattices_are_refused() {
 
 #[test]
 fn errors_say_what_was_expected_and_found() {
-    let lattice = damaged_lattice();
-    let mut bytes = JumpTable::new(&lattice).unwrap().as_bytes().to_vec();
+    let graph = damaged_graph();
+    let mut bytes = JumpTable::new(&graph).unwrap().as_bytes().to_vec();
     bytes[9] ^= 0x80;
-    let text = JumpTable::from_bytes(&lattice, bytes.clone()).unwrap_err().to_string();
+    let text = JumpTable::from_bytes(&graph, bytes.clone()).unwrap_err().to_string();
     assert!(text.contains("(1, 1)") && text.contains("(1, 0)") && text.contains("build it anew"), "{text}");
     bytes.pop();
-    let text = JumpTable::from_bytes(&lattice, bytes).unwrap_err().to_string();
+    let text = JumpTable::from_bytes(&graph, bytes).unwrap_err().to_string();
     assert!(text.contains("2399 bytes") && text.contains("needs 2400"), "{text}");
 }

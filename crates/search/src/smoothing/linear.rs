@@ -1,6 +1,6 @@
 //! The smoothing of Botea, Müller & Schaeffer 2004.
 
-use mediant_grid::{Place, Terrain, Vertex};
+use mediant_grid::{FreeSpace, Placement, Vertex};
 
 /// Replaces what lies between two vertices of a path by a straight segment wherever they see each other (Botea, Müller & Schaeffer 2004,
 /// 'Near Optimal Hierarchical Path-Finding', Section 3.3): from the start one goes along the path for as long as it is in sight,
@@ -9,30 +9,30 @@ use mediant_grid::{Place, Terrain, Vertex};
 ///
 /// The vertices are all that lie on the path, as in the paper, and not its turning points alone: a segment of a path over N(k) has one
 /// after each move, and waypoints may come to stand there. The new path is legal, not longer than the old one, and has the same ends. A path that is
-/// not legal on this terrain comes back as it is.
+/// not legal on this free space comes back as it is.
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, Terrain};
+/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace};
 /// use mediant_search::smooth;
 /// let map = AsciiMap::parse("
 ///     ....
 ///     .##.
 ///     ....
 /// ")?;
-/// let terrain = Terrain::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
+/// let space = FreeSpace::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
 /// let path = [(0, 0), (0, 2), (1, 3), (4, 3)].map(Into::into);
-/// assert_eq!(smooth(&terrain, &path), [(0, 0), (1, 3), (4, 3)].map(Into::into));
+/// assert_eq!(smooth(&space, &path), [(0, 0), (1, 3), (4, 3)].map(Into::into));
 /// # Ok::<(), mediant_grid::GridError>(())
 /// ```
 #[must_use]
-pub fn smooth<P: Place>(terrain: &Terrain<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
+pub fn smooth<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
     let corners = without_stops(waypoints);
-    if is_legal(terrain, &corners) { smooth_legal(terrain, &corners) } else { waypoints.to_vec() }
+    if is_legal(space, &corners) { smooth_legal(space, &corners) } else { waypoints.to_vec() }
 }
 
 /// [`smooth`], for a legal path that never stands still.
-pub(super) fn smooth_legal<P: Place>(terrain: &Terrain<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
+pub(super) fn smooth_legal<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
     let way = vertices(waypoints);
     let mut path: Vec<Vertex> = way.first().copied().into_iter().collect();
     let mut last = 0;
@@ -40,11 +40,11 @@ pub(super) fn smooth_legal<P: Place>(terrain: &Terrain<P>, waypoints: &[Vertex])
         let (at, before) = (way[last], path.len().checked_sub(2).map(|index| path[index]));
         let mut best = last + 1;
         for (&next, index) in way[last + 2..].iter().zip(last + 2..) {
-            if next == at || !terrain.may_turn(before, at, Some(next)) || !terrain.sees(at, next) {
+            if next == at || !space.may_turn(before, at, Some(next)) || !space.sees(at, next) {
                 break;
             }
             // Not at a gap where the path would come through the other quadrant.
-            if terrain.may_turn(Some(at), next, way.get(index + 1).copied()) {
+            if space.may_turn(Some(at), next, way.get(index + 1).copied()) {
                 best = index;
             }
         }
@@ -62,13 +62,13 @@ pub(super) fn without_stops(waypoints: &[Vertex]) -> Vec<Vertex> {
 }
 
 /// Whether a path that never stands still keeps the rules of motion.
-pub(super) fn is_legal<P: Place>(terrain: &Terrain<P>, path: &[Vertex]) -> bool {
+pub(super) fn is_legal<P: Placement>(space: &FreeSpace<P>, path: &[Vertex]) -> bool {
     let at = |index: usize| path.get(index).copied();
     let turns = |(index, &vertex): (usize, &Vertex)| {
-        terrain.may_turn(index.checked_sub(1).and_then(at), vertex, at(index + 1))
+        space.may_turn(index.checked_sub(1).and_then(at), vertex, at(index + 1))
     };
-    path.iter().all(|&at| terrain.id(at).is_some())
-        && path.windows(2).all(|ends| terrain.sees(ends[0], ends[1]))
+    path.iter().all(|&at| space.id(at).is_some())
+        && path.windows(2).all(|ends| space.sees(ends[0], ends[1]))
         && (path.len() < 2 || path.iter().enumerate().all(turns))
 }
 

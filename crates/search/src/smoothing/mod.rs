@@ -14,7 +14,7 @@ mod taut;
 
 use std::ops::Deref;
 
-use mediant_grid::{Lattice, Place, Terrain};
+use mediant_grid::{FreeSpace, GridGraph, Placement};
 
 pub use self::{linear::smooth, taut::pull_taut};
 
@@ -32,58 +32,58 @@ pub enum Smoothing {
 impl Smoothing {
     /// The path, smoothed.
     #[must_use]
-    pub fn apply<P: Place>(self, terrain: &Terrain<P>, path: &Path) -> Path {
+    pub fn apply<P: Placement>(self, space: &FreeSpace<P>, path: &Path) -> Path {
         Path::new(match self {
-            Self::Linear => smooth(terrain, path.waypoints()),
-            Self::Taut => pull_taut(terrain, path.waypoints()),
+            Self::Linear => smooth(space, path.waypoints()),
+            Self::Taut => pull_taut(space, path.waypoints()),
         })
     }
 }
 
-/// What has a terrain: a [`Terrain`] and a [`Lattice`].
-pub trait OnTerrain {
+/// What has a free space: a [`FreeSpace`] and a [`GridGraph`].
+pub trait HasFreeSpace {
     /// Its placement.
-    type Place: Place;
+    type Placement: Placement;
 
-    /// The terrain.
-    fn terrain(&self) -> &Terrain<Self::Place>;
+    /// The free space.
+    fn free_space(&self) -> &FreeSpace<Self::Placement>;
 }
 
-impl<P: Place> OnTerrain for Terrain<P> {
-    type Place = P;
+impl<P: Placement> HasFreeSpace for FreeSpace<P> {
+    type Placement = P;
 
-    fn terrain(&self) -> &Self {
+    fn free_space(&self) -> &Self {
         self
     }
 }
 
-impl<P: Place> OnTerrain for Lattice<P> {
-    type Place = P;
+impl<P: Placement> HasFreeSpace for GridGraph<P> {
+    type Placement = P;
 
-    fn terrain(&self) -> &Terrain<P> {
+    fn free_space(&self) -> &FreeSpace<P> {
         self
     }
 }
 
 /// A planner whose paths are smoothed. What [`Planner::guarantee`] promises is [`Guarantee::AtMost`] for paths that were optimal over N(k).
 ///
-/// `L` is how the terrain is held: by reference or `Arc`, as a [`Terrain`] or a [`Lattice`]. Smoothing, unlike searching, allocates.
+/// `L` is how the free space is held: by reference or `Arc`, as a [`FreeSpace`] or a [`GridGraph`]. Smoothing, unlike searching, allocates.
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, Lattice};
-/// use mediant_moves::K;
-/// use mediant_search::{AStar, Guarantee, LatticeDistance, Planner, Query, Smoothed, Smoothing};
+/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, GridGraph};
+/// use mediant_moves::FiniteK;
+/// use mediant_search::{AStar, Guarantee, Hk, Planner, Query, Smoothed, Smoothing};
 ///
 /// let map = AsciiMap::parse("
 ///     .....
 ///     ..#..
 ///     .....
 /// ")?;
-/// let (k, gap) = (K::new(3)?, DiagonalGap::Open);
-/// let lattice = Arc::new(Lattice::<Corners>::new(Arc::new(map.grid), k, gap)?);
-/// let search = AStar::new(Arc::clone(&lattice), LatticeDistance);
-/// let mut planner = Smoothed::new(search, lattice, Some(Smoothing::Taut));
+/// let (k, gap) = (FiniteK::new(3)?, DiagonalGap::Open);
+/// let graph = Arc::new(GridGraph::<Corners>::new(Arc::new(map.grid), k, gap)?);
+/// let search = AStar::new(Arc::clone(&graph), Hk);
+/// let mut planner = Smoothed::new(search, graph, Some(Smoothing::Taut));
 /// let outcome = planner.solve(Query::new((0, 0), (5, 3)))?;
 /// let expected = [(0, 0), (2, 2), (5, 3)].map(Into::into);
 /// assert_eq!(outcome.path().map(|path| path.waypoints()), Some(&expected[..]));
@@ -93,32 +93,32 @@ impl<P: Place> OnTerrain for Lattice<P> {
 #[derive(Clone, Debug)]
 pub struct Smoothed<L, E> {
     planner: E,
-    terrain: L,
+    space: L,
     smoothing: Option<Smoothing>,
 }
 
 impl<L, E> Smoothed<L, E>
 where
-    L: Deref<Target: OnTerrain>,
+    L: Deref<Target: HasFreeSpace>,
     E: Planner,
 {
     /// Smooths the paths of `planner`; with `None`, passes them on as they are.
     #[must_use]
-    pub const fn new(planner: E, terrain: L, smoothing: Option<Smoothing>) -> Self {
-        Self { planner, terrain, smoothing }
+    pub const fn new(planner: E, space: L, smoothing: Option<Smoothing>) -> Self {
+        Self { planner, space, smoothing }
     }
 }
 
 impl<L, E> Planner for Smoothed<L, E>
 where
-    L: Deref<Target: OnTerrain>,
+    L: Deref<Target: HasFreeSpace>,
     E: Planner,
 {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
         let outcome = self.planner.solve_observed(query, observer)?;
         Ok(match (outcome, self.smoothing) {
             (Outcome::Found(path), Some(smoothing)) => {
-                Outcome::Found(smoothing.apply(self.terrain.terrain(), &path))
+                Outcome::Found(smoothing.apply(self.space.free_space(), &path))
             }
             (outcome, _) => outcome,
         })

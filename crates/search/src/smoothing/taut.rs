@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use mediant_grid::{Place, Terrain, Vector, Vertex};
+use mediant_grid::{FreeSpace, Placement, Vector, Vertex};
 use mediant_moves::Cost;
 
 use super::linear::{between, is_legal, smooth_legal, without_stops};
@@ -21,7 +21,7 @@ use crate::cover::Cover;
 /// always such a string, and it need not be the shortest.)
 ///
 /// The new path is legal, not longer than the smoothed one, and has the same ends. Pulled again, it stays as it is. A path that is not legal
-/// on this terrain comes back as it was.
+/// on this free space comes back as it was.
 ///
 /// **It ends**, since a step makes the path shorter, or leaves out a waypoint on a straight line, and of paths up to a given length there are
 /// finitely many. This is exact: a string pulled within a triangle is convex and lies within the old one, so it is shorter, and what is
@@ -29,25 +29,25 @@ use crate::cover::Cover;
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, Terrain};
+/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace};
 /// use mediant_search::pull_taut;
 /// let map = AsciiMap::parse("
 ///     ......
 ///     .###..
 ///     ......
 /// ")?;
-/// let terrain = Terrain::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
+/// let space = FreeSpace::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
 /// let path = [(0, 0), (0, 3), (6, 3)].map(Into::into);
-/// assert_eq!(pull_taut(&terrain, &path), [(0, 0), (1, 2), (6, 3)].map(Into::into));
+/// assert_eq!(pull_taut(&space, &path), [(0, 0), (1, 2), (6, 3)].map(Into::into));
 /// # Ok::<(), mediant_grid::GridError>(())
 /// ```
 #[must_use]
-pub fn pull_taut<P: Place>(terrain: &Terrain<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
+pub fn pull_taut<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
     let corners = without_stops(waypoints);
-    if !is_legal(terrain, &corners) {
+    if !is_legal(space, &corners) {
         return waypoints.to_vec();
     }
-    let mut string = Taut { terrain, path: smooth_legal(terrain, &corners), cover: Cover::default() };
+    let mut string = Taut { space, path: smooth_legal(space, &corners), cover: Cover::default() };
     let mut index = 1;
     while index + 1 < string.path.len() {
         if string.pull(index) {
@@ -61,13 +61,13 @@ pub fn pull_taut<P: Place>(terrain: &Terrain<P>, waypoints: &[Vertex]) -> Vec<Ve
 }
 
 /// A path that is being pulled.
-struct Taut<'t, P: Place> {
-    terrain: &'t Terrain<P>,
+struct Taut<'t, P: Placement> {
+    space: &'t FreeSpace<P>,
     path: Vec<Vertex>,
     cover: Cover,
 }
 
-impl<P: Place> Taut<'_, P> {
+impl<P: Placement> Taut<'_, P> {
     /// Pulls at a waypoint between two others. Whether it gave way.
     fn pull(&mut self, index: usize) -> bool {
         let [a, b, c] = [index - 1, index, index + 1].map(|index| self.path[index]);
@@ -77,7 +77,7 @@ impl<P: Place> Taut<'_, P> {
         }
         // Where corners are not cut, a staircase may be seen along though none of its steps can be left out alone.
         for after in index + 1..self.path.len().min(index + 3) {
-            if self.turns_well(index..after, &[]) && self.terrain.sees(a, self.path[after]) {
+            if self.turns_well(index..after, &[]) && self.space.sees(a, self.path[after]) {
                 self.path.drain(index..after);
                 return true;
             }
@@ -89,7 +89,7 @@ impl<P: Place> Taut<'_, P> {
 
     /// What makes the path shorter in the place of waypoint b.
     fn instead_of(&mut self, index: usize, a: Vertex, b: Vertex, c: Vertex) -> Option<Vec<Vertex>> {
-        let terrain = self.terrain;
+        let space = self.space;
         let fits = |taut: &Self, instead: &[Vertex]| taut.turns_well(index..index + 1, instead);
         let side = a.to(c).det(a.to(b)).signum();
         if side == 0 {
@@ -100,12 +100,12 @@ impl<P: Place> Taut<'_, P> {
             return Some(string);
         }
         let mut one = between(a, b).map(|p| (p, p, c)).chain(between(b, c).rev().map(|q| (q, a, q)));
-        if let Some((p, ..)) = one.find(|&(p, from, to)| fits(self, &[p]) && terrain.sees(from, to)) {
+        if let Some((p, ..)) = one.find(|&(p, from, to)| fits(self, &[p]) && space.sees(from, to)) {
             return Some(vec![p]);
         }
         if let (Some(p), Some(q)) = (between(a, b).next_back(), between(b, c).next())
             && fits(self, &[p, q])
-            && terrain.sees(p, q)
+            && space.sees(p, q)
         {
             return Some(vec![p, q]);
         }
@@ -127,7 +127,7 @@ impl<P: Place> Taut<'_, P> {
                 && b.to(c).det(b.to(*p)) * side <= 0
         };
         let corners: Vec<Vertex> =
-            self.cover.extremes::<P>(self.terrain.grid()).filter(is_within).chain([c]).collect();
+            self.cover.extremes::<P>(self.space.grid()).filter(is_within).chain([c]).collect();
         let mut string = vec![a];
         let mut last = a;
         while last != c {
@@ -148,7 +148,7 @@ impl<P: Place> Taut<'_, P> {
     /// Whether a path may go straight from vertex to vertex. At corners a string always may.
     fn is_seen(&self, a: Vertex, string: &[Vertex], c: Vertex) -> bool {
         let mut last = a;
-        string.iter().chain([&c]).all(|&next| self.terrain.sees(std::mem::replace(&mut last, next), next))
+        string.iter().chain([&c]).all(|&next| self.space.sees(std::mem::replace(&mut last, next), next))
     }
 
     /// The best of the eight vertices around a waypoint, if it makes the path shorter.
@@ -164,21 +164,21 @@ impl<P: Place> Taut<'_, P> {
             .collect();
         shorter.sort_unstable();
         let fits = |at: Vertex| {
-            self.turns_well(index..index + 1, &[at]) && self.terrain.sees(a, at) && self.terrain.sees(at, c)
+            self.turns_well(index..index + 1, &[at]) && self.space.sees(a, at) && self.space.sees(at, c)
         };
         shorter.into_iter().map(|(_, at)| at).find(|&at| fits(at))
     }
 
     /// Whether the path keeps the rule of gaps with other vertices in the place of some waypoints.
     fn turns_well(&self, places: Range<usize>, instead: &[Vertex]) -> bool {
-        let terrain = self.terrain;
-        if !terrain.has_gaps() {
+        let space = self.space;
+        if !space.has_closed_gaps() {
             return true;
         }
         let at = |index: usize| self.path.get(index).copied();
         let mut around = vec![places.start.checked_sub(2).and_then(at), at(places.start - 1)];
         around.extend(instead.iter().copied().map(Some));
         around.extend([at(places.end), at(places.end + 1)]);
-        around.windows(3).all(|turn| turn[1].is_none_or(|at| terrain.may_turn(turn[0], at, turn[2])))
+        around.windows(3).all(|turn| turn[1].is_none_or(|at| space.may_turn(turn[0], at, turn[2])))
     }
 }

@@ -24,14 +24,14 @@
 //! not true: s may be expanded while its best neighbor is open. (In a random suite 51 of 13,698 paths were longer, by a quarter at most.)
 //!
 //! **Ties.** The open list's order is that of all engines. Of equally cheap ways to a vertex the first is kept, successors and closed neighbors
-//! come in the order of [`Lattice::for_each_legal_move`].
+//! come in the order of [`GridGraph::for_each_legal_move`].
 
 mod search;
 mod views;
 
 use std::{fmt::Debug, marker::PhantomData, ops::Deref};
 
-use mediant_grid::{Lattice, Place, Vertex, VertexId};
+use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
 
 use self::{
     search::{Parents, Search},
@@ -43,9 +43,9 @@ use crate::{Guarantee, Heuristic, NodeStore, Observer, OpenList, Outcome, Path, 
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, Lattice};
-/// use mediant_moves::K;
-/// use mediant_search::{LatticeDistance, Planner, Query, ThetaStar};
+/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, GridGraph};
+/// use mediant_moves::FiniteK;
+/// use mediant_search::{Hk, Planner, Query, ThetaStar};
 ///
 /// let map = AsciiMap::parse("
 ///     ......
@@ -53,8 +53,8 @@ use crate::{Guarantee, Heuristic, NodeStore, Observer, OpenList, Outcome, Path, 
 ///     ...#..
 ///     ......
 /// ")?;
-/// let lattice = Lattice::<Corners>::new(Arc::new(map.grid), K::new(3)?, DiagonalGap::Open)?;
-/// let outcome = ThetaStar::new(&lattice, LatticeDistance).solve(Query::new((0, 1), (6, 2)))?;
+/// let graph = GridGraph::<Corners>::new(Arc::new(map.grid), FiniteK::new(3)?, DiagonalGap::Open)?;
+/// let outcome = ThetaStar::new(&graph, Hk).solve(Query::new((0, 1), (6, 2)))?;
 /// let expected = [(0, 1), (4, 1), (6, 2)].map(Into::into);
 /// assert_eq!(outcome.path().map(|path| path.waypoints()), Some(&expected[..]));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -67,11 +67,11 @@ pub type LazyThetaStar<L, H> = Theta<L, H, Lazily>;
 
 /// The search that [`ThetaStar`] and [`LazyThetaStar`] share; `S` says when lines of sight are checked.
 ///
-/// `L` is how the planner holds its lattice: by reference, or, where both belong in one struct, by `Arc`. Its scratch memory takes 24½
+/// `L` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`. Its scratch memory takes 24½
 /// bytes a vertex. Segments cost what a move of their displacement would, [`Cost::of_move`](mediant_moves::Cost::of_move).
 #[derive(Clone, Debug)]
 pub struct Theta<L, H, S> {
-    lattice: L,
+    graph: L,
     heuristic: H,
     nodes: NodeStore<Parents>,
     open: OpenList,
@@ -107,28 +107,28 @@ impl SightCheck for Lazily {
     const AT_ONCE: bool = false;
 }
 
-impl<P: Place, L: Deref<Target = Lattice<P>>, H: Heuristic, S: SightCheck> Theta<L, H, S> {
-    /// A planner with scratch memory for `lattice`.
+impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic, S: SightCheck> Theta<L, H, S> {
+    /// A planner with scratch memory for `graph`.
     #[must_use]
-    pub fn new(lattice: L, heuristic: H) -> Self {
-        let nodes = NodeStore::new(lattice.vertex_count());
-        let views = Views::new::<P>(&lattice);
-        Self { lattice, heuristic, nodes, open: OpenList::default(), views, check: PhantomData }
+    pub fn new(graph: L, heuristic: H) -> Self {
+        let nodes = NodeStore::new(graph.vertex_count());
+        let views = Views::new::<P>(&graph);
+        Self { graph, heuristic, nodes, open: OpenList::default(), views, check: PhantomData }
     }
 }
 
 impl<P, L, H, S> Planner for Theta<L, H, S>
 where
-    P: Place,
-    L: Deref<Target = Lattice<P>>,
+    P: Placement,
+    L: Deref<Target = GridGraph<P>>,
     H: Heuristic,
     S: SightCheck,
 {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        let Some((start, goal)) = query.ends(&self.lattice)? else { return Ok(Outcome::Unreachable) };
-        let Self { lattice, heuristic, nodes, open, views, check } = self;
+        let Some((start, goal)) = query.ends(&self.graph)? else { return Ok(Outcome::Unreachable) };
+        let Self { graph, heuristic, nodes, open, views, check } = self;
         let found = Search {
-            lattice: &**lattice,
+            graph: &**graph,
             heuristic: *heuristic,
             nodes,
             open,
@@ -148,13 +148,13 @@ where
     }
 }
 
-impl<P: Place, L: Deref<Target = Lattice<P>>, H, S> Theta<L, H, S> {
+impl<P: Placement, L: Deref<Target = GridGraph<P>>, H, S> Theta<L, H, S> {
     /// The path that a search found, without waypoints on a straight line between their neighbors.
     fn path(&self, start: VertexId, goal: VertexId) -> Path {
         let up = |&id: &VertexId| self.nodes.get(id).filter(|_| id != start).map(|node| node.link.parent);
         let mut waypoints: Vec<Vertex> = Vec::with_capacity(std::iter::successors(Some(goal), up).count());
         for id in std::iter::successors(Some(goal), up) {
-            let at = self.lattice.vertex(id);
+            let at = self.graph.vertex(id);
             if let [.., before, last] = waypoints[..] {
                 let (v, w) = (before.to(last), last.to(at));
                 if v.det(w) == 0 && v.dot(w) > 0 {

@@ -2,12 +2,12 @@
 
 use std::marker::PhantomData;
 
-use mediant_grid::{Lattice, Place, Step, Vertex, VertexId};
+use mediant_grid::{GridGraph, Placement, Step, Vertex, VertexId};
 use mediant_moves::Cost;
 
 use super::{SightCheck, views::Views};
 use crate::{
-    Entry, Heuristic, Link, Node, NodeEvent, NodeStore, Observer, OpenList, segment::is_at_least,
+    Entry, Heuristic, Node, NodeEvent, NodeStore, Observer, OpenList, ParentPointer, segment::is_at_least,
     segment_cost,
 };
 
@@ -21,7 +21,7 @@ pub(super) struct Parents {
     hidden_from: VertexId,
 }
 
-impl Link for Parents {
+impl ParentPointer for Parents {
     const NONE: Self = Self { parent: VertexId(0), hidden_from: VertexId(u32::MAX) };
 
     #[inline]
@@ -30,14 +30,20 @@ impl Link for Parents {
     }
 
     #[inline]
-    fn parent<P: Place>(self, lattice: &Lattice<P>, _: &Step, _: VertexId, _: Vertex) -> (VertexId, Vertex) {
-        (self.parent, lattice.vertex(self.parent))
+    fn parent<P: Placement>(
+        self,
+        graph: &GridGraph<P>,
+        _: &Step,
+        _: VertexId,
+        _: Vertex,
+    ) -> (VertexId, Vertex) {
+        (self.parent, graph.vertex(self.parent))
     }
 }
 
 /// One search.
-pub(super) struct Search<'s, P: Place, H, S, O> {
-    pub(super) lattice: &'s Lattice<P>,
+pub(super) struct Search<'s, P: Placement, H, S, O> {
+    pub(super) graph: &'s GridGraph<P>,
     pub(super) heuristic: H,
     pub(super) nodes: &'s mut NodeStore<Parents>,
     pub(super) open: &'s mut OpenList,
@@ -57,11 +63,11 @@ struct Hook {
     g: Cost,
 }
 
-impl<P: Place, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S, O> {
+impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S, O> {
     /// Expands nodes until the goal is the best of them. Whether it was found.
     pub(super) fn run(&mut self) -> bool {
-        let at = self.lattice.vertex(self.start);
-        let h = self.heuristic.estimate(self.lattice, at.to(self.goal_at));
+        let at = self.graph.vertex(self.start);
+        let h = self.heuristic.estimate(self.graph, at.to(self.goal_at));
         self.nodes.start_search();
         self.open.clear();
         self.nodes.set_path(self.start, Cost::ZERO, 0, Parents::to(self.start));
@@ -73,7 +79,7 @@ impl<P: Place, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S, O> 
             let id = entry.id();
             self.nodes.set_slot(id, Node::<Parents>::CLOSED);
             let Some(&(mut node)) = self.nodes.get(id) else { continue };
-            let here = Hook { id, at: self.lattice.vertex(id), g: node.g };
+            let here = Hook { id, at: self.graph.vertex(id), g: node.g };
             let mut f = entry.f();
             if !S::AT_ONCE && !self.sees_parent(here, &node) {
                 self.hang_on_neighbor(here);
@@ -84,7 +90,7 @@ impl<P: Place, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S, O> 
             if id == self.goal {
                 return true;
             }
-            let parent = (id != self.start).then(|| self.lattice.vertex(node.link.parent));
+            let parent = (id != self.start).then(|| self.graph.vertex(node.link.parent));
             self.observer.expanded(NodeEvent { at: here.at, parent, g: node.g, f });
             self.expand(Hook { g: node.g, ..here }, &node);
         }
@@ -94,18 +100,18 @@ impl<P: Place, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S, O> 
     /// Generates the successors of a node. Each hangs on the node's parent if that sees it, or is taken to, and otherwise on the node.
     #[inline]
     fn expand(&mut self, here: Hook, node: &Node<Parents>) {
-        let lattice = self.lattice;
+        let graph = self.graph;
         let by = (here.id != self.start).then(|| node.arrived_by());
         // The start hangs on itself.
         let parent = self.nodes.get(node.link.parent).map_or(here, |known| Hook {
             id: node.link.parent,
-            at: lattice.vertex(node.link.parent),
+            at: graph.vertex(node.link.parent),
             g: known.g,
         });
         let grandparent = self.parent_of(parent.id);
-        let has_gaps = lattice.has_gaps();
-        lattice.for_each_successor(here.at, by, self.goal_at, |index| {
-            let step = lattice.step(index);
+        let has_closed_gaps = graph.has_closed_gaps();
+        graph.for_each_successor(here.at, by, self.goal_at, |index| {
+            let step = graph.step(index);
             let (id, at) = (step.target(here.id), here.at + step.vector());
             let known = self.nodes.get(id).copied();
             if known.is_some_and(|known| known.slot == Node::<Parents>::CLOSED) {
@@ -117,9 +123,9 @@ impl<P: Place, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S, O> 
                 return;
             }
             let hidden_from = known.map_or(Parents::NONE, |known| known.link).hidden_from;
-            if (!has_gaps || self.may_hang(grandparent, parent.at, at))
+            if (!has_closed_gaps || self.may_hang(grandparent, parent.at, at))
                 && (!S::AT_ONCE
-                    || hidden_from != parent.id && self.views.sees(lattice, parent.id, parent.at, at))
+                    || hidden_from != parent.id && self.views.sees(graph, parent.id, parent.at, at))
             {
                 let to = Hook { id, at, g: parent.g + segment_cost(straight) };
                 return self.relax(to, index, known, parent.at, Parents { parent: parent.id, hidden_from });
@@ -149,7 +155,7 @@ impl<P: Place, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S, O> 
             self.observer.updated(event(f));
             self.open.decrease(known.slot, gain, moved)
         } else {
-            let h = self.heuristic.estimate(self.lattice, at.to(self.goal_at));
+            let h = self.heuristic.estimate(self.graph, at.to(self.goal_at));
             self.observer.generated(event(g + h));
             self.open.push(Entry::new(g + h, h, id), moved)
         };
@@ -159,35 +165,35 @@ impl<P: Place, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S, O> 
     /// Whether the path that comes from `before` to `parent` may go on straight to `at`, as far as gaps are concerned. Gaps that are
     /// passed hang on the node before them, so that its last move tells the quadrant.
     fn may_hang(&self, before: Option<Vertex>, parent: Vertex, at: Vertex) -> bool {
-        let lattice = self.lattice;
-        lattice.may_turn(before, parent, Some(at))
-            && (!lattice.is_gap(at) || at == self.goal_at && lattice.may_turn(Some(parent), at, None))
+        let graph = self.graph;
+        graph.may_turn(before, parent, Some(at))
+            && (!graph.is_closed_gap(at) || at == self.goal_at && graph.may_turn(Some(parent), at, None))
     }
 
     /// Whether a node sees what it hangs on, as was taken for granted.
     fn sees_parent(&mut self, here: Hook, node: &Node<Parents>) -> bool {
         let parent = node.link.parent;
         here.id == self.start
-            || self.lattice.step(node.arrived_by()).source(here.id) == parent
-            || self.views.sees(self.lattice, parent, self.lattice.vertex(parent), here.at)
+            || self.graph.step(node.arrived_by()).source(here.id) == parent
+            || self.views.sees(self.graph, parent, self.graph.vertex(parent), here.at)
     }
 
     /// Hangs a node on that of its closed neighbors through which it is cheapest, the first of these in the order of the moves. There is one:
     /// that by which it was generated.
     fn hang_on_neighbor(&mut self, here: Hook) {
-        let lattice = self.lattice;
-        let opposite = lattice.steps().len() / 2;
+        let graph = self.graph;
+        let opposite = graph.steps().len() / 2;
         let mut best: Option<(Cost, usize, VertexId)> = None;
-        lattice.for_each_legal_move(here.at, |index| {
-            let step = lattice.step(index);
+        graph.for_each_legal_move(here.at, |index| {
+            let step = graph.step(index);
             let (id, at) = (step.target(here.id), here.at + step.vector());
             let Some(node) = self.nodes.get(id).filter(|node| node.slot == Node::<Parents>::CLOSED) else {
                 return;
             };
             let g = node.g + step.cost;
             if best.is_none_or(|(least, ..)| g < least)
-                && lattice.may_turn(self.parent_of(id), at, Some(here.at))
-                && (here.id != self.goal || lattice.may_turn(Some(at), here.at, None))
+                && graph.may_turn(self.parent_of(id), at, Some(here.at))
+                && (here.id != self.goal || graph.may_turn(Some(at), here.at, None))
             {
                 best = Some((g, (index + opposite) % (2 * opposite), id));
             }
@@ -201,6 +207,6 @@ impl<P: Place, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S, O> 
     /// What a node hangs on; `None` for the start.
     fn parent_of(&self, id: VertexId) -> Option<Vertex> {
         let node = self.nodes.get(id).filter(|_| id != self.start)?;
-        Some(self.lattice.vertex(node.link.parent))
+        Some(self.graph.vertex(node.link.parent))
     }
 }

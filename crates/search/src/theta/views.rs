@@ -4,7 +4,7 @@
 //! meets the hull of a vertex and a block, it sees all of the block: one look for 16 lines. On the maps ArcticStation and
 //! AR0011SR this answers 80 % of the questions.
 
-use mediant_grid::{Place, Terrain, Vertex, VertexId};
+use mediant_grid::{FreeSpace, Placement, Vertex, VertexId};
 
 use crate::cover::Cover;
 
@@ -39,8 +39,8 @@ impl View {
 const SHIFT: u32 = 2;
 
 impl Views {
-    pub(super) fn new<P: Place>(terrain: &Terrain<P>) -> Self {
-        let (width, height) = P::vertices(terrain.grid());
+    pub(super) fn new<P: Placement>(space: &FreeSpace<P>) -> Self {
+        let (width, height) = P::vertices(space.grid());
         let [columns, rows] = [width, height].map(|side| side.div_ceil(1 << SHIFT) as usize);
         Self {
             blocks: vec![[View::UNKNOWN; 2]; columns * rows].into_boxed_slice(),
@@ -50,11 +50,11 @@ impl Views {
         }
     }
 
-    /// [`Terrain::sees`] for two free vertices.
+    /// [`FreeSpace::sees`] for two free vertices.
     #[inline]
-    pub(super) fn sees<P: Place>(
+    pub(super) fn sees<P: Placement>(
         &mut self,
-        terrain: &Terrain<P>,
+        space: &FreeSpace<P>,
         id: VertexId,
         from: Vertex,
         to: Vertex,
@@ -67,17 +67,17 @@ impl Views {
         } else if first == hidden || second == hidden || first == View::NEVER {
             false
         } else {
-            self.look(terrain, id, from, to, block)
+            self.look(space, id, from, to, block)
         };
-        debug_assert!(!is_clear || terrain.sees(from, to), "{from} does not see {to}");
-        is_clear || terrain.sees(from, to)
+        debug_assert!(!is_clear || space.sees(from, to), "{from} does not see {to}");
+        is_clear || space.sees(from, to)
     }
 
     /// Whether a vertex sees all of the block of `to`.
     #[inline(never)]
-    fn look<P: Place>(
+    fn look<P: Placement>(
         &mut self,
-        terrain: &Terrain<P>,
+        space: &FreeSpace<P>,
         id: VertexId,
         from: Vertex,
         to: Vertex,
@@ -96,7 +96,7 @@ impl Views {
         }
         if self.blocks[block][0] == View::UNKNOWN {
             self.cover.set::<P>(low, high, &edges);
-            if !self.cover.is_free(terrain.grid()) {
+            if !self.cover.is_free(space.grid()) {
                 self.blocks[block] = [View::NEVER; 2];
                 return false;
             }
@@ -114,7 +114,7 @@ impl Views {
         let least = Vertex::new(low.x.min(from.x), low.y.min(from.y));
         let greatest = Vertex::new(high.x.max(from.x), high.y.max(from.y));
         self.cover.set::<P>(least, greatest, &edges);
-        let clear = self.cover.is_free(terrain.grid());
+        let clear = self.cover.is_free(space.grid());
         let views = &mut self.blocks[block];
         *views = [View::new(id, clear), views[0]];
         clear
@@ -131,19 +131,19 @@ mod tests {
     use super::*;
 
     /// How many of the answers came from a block that is seen whole.
-    fn check<P: Place>(rule: P::Rule, seed: u64) -> usize {
-        let terrain = Terrain::<P>::new(Arc::new(suite_grid(seed).0), rule);
+    fn check<P: Placement>(rule: P::Rule, seed: u64) -> usize {
+        let space = FreeSpace::<P>::new(Arc::new(suite_grid(seed).0), rule);
         let mut rng = Rng::new(seed ^ 0x51);
-        let mut views = Views::new(&terrain);
-        let mut free = |_| random_free_vertex(&mut rng, terrain.grid(), P::PLACEMENT);
+        let mut views = Views::new(&space);
+        let mut free = |_| random_free_vertex(&mut rng, space.grid(), P::KIND);
         // Few vertices that look, so that answers are remembered, and remembered ones driven out.
         let lookouts: Vec<Vertex> = (0..5).filter_map(&mut free).collect();
         let mut clear = 0;
         for to in (0..400).filter_map(free) {
             let from = lookouts[(to.x + to.y) as usize % lookouts.len()];
-            let id = terrain.id(from).expect("a vertex of the map");
-            let seen = views.sees(&terrain, id, from, to);
-            assert_eq!(seen, terrain.sees(from, to), "seed {seed}, {}: {from} to {to}", terrain.rules());
+            let id = space.id(from).expect("a vertex of the map");
+            let seen = views.sees(&space, id, from, to);
+            assert_eq!(seen, space.sees(from, to), "seed {seed}, {}: {from} to {to}", space.rules());
             let block = (to.y >> SHIFT) as usize * views.blocks_per_row + (to.x >> SHIFT) as usize;
             clear += usize::from(views.blocks[block].contains(&View::new(id, true)));
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use mediant_engines::{Engine as Catalog, Ground, Setup, SharedRules, Solver, Variant};
 use mediant_grid::{DiagonalGap, Grid, Rules};
-use mediant_moves::{K, Knob};
+use mediant_moves::{FiniteK, K};
 use mediant_search::{Counters, Guarantee, Outcome, Query, QueryError};
 
 /// Pruning rules depend on no map: each is made once.
@@ -19,7 +19,7 @@ pub(crate) struct Engine<'g> {
     pub(crate) name: String,
     pub(crate) guarantee: Guarantee,
     /// The directions that its paths may take.
-    pub(crate) paths: Knob,
+    pub(crate) paths: K,
     /// Whether it may find no path where there is one.
     pub(crate) may_give_up: bool,
     /// Whether it plans on a hierarchy, which has long suites of its own.
@@ -58,7 +58,7 @@ pub(crate) fn with_engines<R>(
     k: u32,
     suite: impl FnOnce(Vec<Engine<'_>>) -> R,
 ) -> R {
-    on(grid, rules, Knob::K(K::new(k).expect("k is at least 2")), suite)
+    on(grid, rules, K::Finite(FiniteK::new(k).expect("k is at least 2")), suite)
 }
 
 /// Runs `suite` on every engine of the catalog that searches every direction under these rules. There is one at least.
@@ -67,10 +67,10 @@ pub(crate) fn with_any_angle_engines<R>(
     gap: DiagonalGap,
     suite: impl FnOnce(Vec<Engine<'_>>) -> R,
 ) -> R {
-    on(grid, Rules::Corner(gap), Knob::Any, suite)
+    on(grid, Rules::Corner(gap), K::Any, suite)
 }
 
-fn on<R>(grid: &Arc<Grid>, rules: Rules, k: Knob, suite: impl FnOnce(Vec<Engine<'_>>) -> R) -> R {
+fn on<R>(grid: &Arc<Grid>, rules: Rules, k: K, suite: impl FnOnce(Vec<Engine<'_>>) -> R) -> R {
     let setups: Vec<Setup> = Setup::all(k, rules).collect();
     let ground = Ground::new(setups[0], grid).expect("k is in range");
     suite(setups.into_iter().map(|setup| Engine::new(setup, &ground)).collect())

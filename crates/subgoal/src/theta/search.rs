@@ -1,8 +1,8 @@
 //! The search itself.
 
-use mediant_grid::{Terrain, Vertex};
+use mediant_grid::{FreeSpace, Vertex};
 use mediant_moves::Cost;
-use mediant_search::{Labels, NodeEvent, Observer, segment_cost};
+use mediant_search::{NodeEvent, Observer, SearchTree, segment_cost};
 
 use super::descent::Descent;
 use crate::{Connect, SubgoalGraph, contract::NONE};
@@ -32,16 +32,16 @@ pub(super) struct Middles {
 }
 
 /// Whether a straight segment between two vertices keeps the rules of motion. Of them only the start and the goal of a path are gaps.
-pub(super) fn may_join<P: Connect>(terrain: &Terrain<P>, from: Vertex, to: Vertex) -> bool {
-    terrain.may_turn(None, from, Some(to)) && terrain.may_turn(Some(from), to, None) && terrain.sees(from, to)
+pub(super) fn may_join<P: Connect>(space: &FreeSpace<P>, from: Vertex, to: Vertex) -> bool {
+    space.may_turn(None, from, Some(to)) && space.may_turn(Some(from), to, None) && space.sees(from, to)
 }
 
 /// One search.
 pub(super) struct Search<'s, P: Connect, O> {
-    pub(super) terrain: &'s Terrain<P>,
+    pub(super) space: &'s FreeSpace<P>,
     pub(super) graph: &'s SubgoalGraph<P>,
     /// A parent is the number of the bend that a subgoal hangs on.
-    pub(super) labels: &'s mut Labels,
+    pub(super) labels: &'s mut SearchTree,
     pub(super) descent: &'s Descent,
     pub(super) bends: &'s mut Vec<Bend>,
     pub(super) middles: &'s mut Middles,
@@ -107,10 +107,10 @@ impl<P: Connect, O: Observer> Search<'_, P, O> {
         if straight >= known {
             return;
         }
-        let (g, hook) = if may_join(self.terrain, hook.at, at) {
+        let (g, hook) = if may_join(self.space, hook.at, at) {
             (straight, node.hook)
         } else if mid == NONE {
-            debug_assert!(may_join(self.terrain, node.at, at), "{} – {at} is no edge", node.at);
+            debug_assert!(may_join(self.space, node.at, at), "{} – {at} is no edge", node.at);
             (node.g + segment_cost(node.at.to(at)), self.own(node))
         } else {
             self.over_middles(node, to, mid)
@@ -127,7 +127,7 @@ impl<P: Connect, O: Observer> Search<'_, P, O> {
         self.graph.unpack((node.id, to, mid), &mut pending, &mut |at| vertices.push(at));
         let (mut hook, mut at, mut g) = (node.hook, node.at, node.g);
         for &next in &vertices {
-            if !may_join(self.terrain, self.bends[hook as usize].at, next) {
+            if !may_join(self.space, self.bends[hook as usize].at, next) {
                 hook = if at == node.at { self.own(node) } else { self.bend(at, g, hook) };
             }
             let bend = self.bends[hook as usize];

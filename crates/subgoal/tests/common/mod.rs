@@ -3,8 +3,8 @@
 
 use std::{num::NonZeroU32, sync::Arc};
 
-use mediant_grid::{DiagonalGap, Grid, Place, Terrain};
-use mediant_moves::{K, Knob};
+use mediant_grid::{DiagonalGap, FreeSpace, Grid, Placement};
+use mediant_moves::{FiniteK, K};
 use mediant_subgoal::{Connect, Hierarchy, SubgoalGraph};
 
 pub(crate) const GAPS: [DiagonalGap; 2] = [DiagonalGap::Open, DiagonalGap::Closed];
@@ -17,19 +17,19 @@ pub(crate) const fn levels(count: u32) -> Hierarchy {
     Hierarchy::Levels(NonZeroU32::new(count).expect("there is a level at least"))
 }
 
-pub(crate) fn k(number: u32) -> Knob {
-    K::new(number).expect("k is at least 2").into()
+pub(crate) fn k(number: u32) -> K {
+    FiniteK::new(number).expect("k is at least 2").into()
 }
 
 /// k = 2, …, 8, and every direction.
-pub(crate) fn knobs() -> impl Iterator<Item = Knob> {
-    (2..=8).map(k).chain([Knob::Any])
+pub(crate) fn all_ks() -> impl Iterator<Item = K> {
+    (2..=8).map(k).chain([K::Any])
 }
 
-pub(crate) fn terrain<P: Place>(grid: &Grid, rule: P::Rule) -> Terrain<P> {
-    Terrain::new(Arc::new(grid.clone()), rule)
+pub(crate) fn space<P: Placement>(grid: &Grid, rule: P::Rule) -> FreeSpace<P> {
+    FreeSpace::new(Arc::new(grid.clone()), rule)
 }
 
-pub(crate) fn graph<P: Connect>(terrain: &Terrain<P>, k: Knob, hierarchy: Hierarchy) -> SubgoalGraph<P> {
-    SubgoalGraph::new(terrain, k, hierarchy).expect("there is a graph for this k")
+pub(crate) fn graph<P: Connect>(space: &FreeSpace<P>, k: K, hierarchy: Hierarchy) -> SubgoalGraph<P> {
+    SubgoalGraph::new(space, k, hierarchy).expect("there is a graph for this k")
 }

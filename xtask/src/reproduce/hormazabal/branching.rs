@@ -2,8 +2,8 @@
 
 use std::num::NonZeroU32;
 
-use mediant_grid::{Corners, DiagonalGap, Terrain};
-use mediant_moves::K;
+use mediant_grid::{Corners, DiagonalGap, FreeSpace};
+use mediant_moves::FiniteK;
 use mediant_report::{Axis, Chart, Claim, Column, Mark, Record, Row, Series, Table};
 use mediant_subgoal::{Hierarchy, SubgoalGraph};
 use serde::{Deserialize, Serialize};
@@ -46,13 +46,13 @@ struct Graphs {
 }
 
 impl Graphs {
-    fn of(terrain: &Terrain<Corners>, k: u32) -> Result<Self, Error> {
+    fn of(space: &FreeSpace<Corners>, k: u32) -> Result<Self, Error> {
         let wrong =
             |wrong: &dyn std::fmt::Display| Error::Reproduce(format!("subgoal graph, k = {k}: {wrong}"));
-        let k = K::new(k).map_err(|error| wrong(&error))?;
+        let k = FiniteK::new(k).map_err(|error| wrong(&error))?;
         let graph = |levels: u32| {
             let levels = NonZeroU32::MIN.saturating_add(levels - 1);
-            SubgoalGraph::new(terrain, k, Hierarchy::Levels(levels)).map_err(|error| wrong(&error))
+            SubgoalGraph::new(space, k, Hierarchy::Levels(levels)).map_err(|error| wrong(&error))
         };
         let (one, two) = (graph(1)?, graph(2)?);
         let count = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
@@ -121,8 +121,8 @@ fn measure(ctx: &Context<'_>) -> Result<Findings, Error> {
         maps.extend(ctx.maps(set, 4)?);
     }
     let part = |map: &Map| -> Result<Vec<Graphs>, Error> {
-        let terrain = Terrain::<Corners>::new(map.grid()?, DiagonalGap::Open);
-        KS.map(|k| Graphs::of(&terrain, k)).collect()
+        let space = FreeSpace::<Corners>::new(map.grid()?, DiagonalGap::Open);
+        KS.map(|k| Graphs::of(&space, k)).collect()
     };
     let parts = ctx.each("graphs", How::Counted, &maps, part)?;
     let mut rows = Vec::new();
@@ -295,8 +295,8 @@ mod tests {
     fn factors_of_one_obstacle() {
         // Four corners around one cell, each next to two others: a single path around.
         let grid = Grid::from_fn(3, 3, |x, y| (x, y) == (1, 1)).unwrap();
-        let terrain = Terrain::<Corners>::new(Arc::new(grid), DiagonalGap::Open);
-        let graphs = Graphs::of(&terrain, 3).unwrap();
+        let space = FreeSpace::<Corners>::new(Arc::new(grid), DiagonalGap::Open);
+        let graphs = Graphs::of(&space, 3).unwrap();
         assert_eq!((graphs.subgoals, graphs.factor(Sense::OneLevel)), (4, Some(2.0)));
         assert!(graphs.core <= 4 && graphs.upward >= graphs.core_arcs);
         assert_eq!(Graphs::default().factor(Sense::Core), None);

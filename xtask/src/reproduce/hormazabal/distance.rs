@@ -2,7 +2,7 @@
 
 use std::{hint::black_box, path::Path, time::Instant};
 
-use mediant_moves::{CostTable, K, LinearSearch, Vector, distance, distance_16, distance_32, octile};
+use mediant_moves::{CostTable, FiniteK, LinearSearch, Vector, distance, distance_16, distance_32, octile};
 use mediant_oracle::Rng;
 use mediant_report::{Axis, Chart, Claim, Column, Mark, Record, Row, Series, Table, stats::median};
 
@@ -130,7 +130,7 @@ fn measure(ctx: &Context<'_>) -> Result<Findings, Error> {
 
 fn row(n: u32, vectors: &[Vector], repeats: u32, called: bool) -> Result<Row, Error> {
     let wrong = |wrong| Error::Reproduce(format!("k = {n}: {wrong}"));
-    let k = black_box(K::new(n).map_err(wrong)?);
+    let k = black_box(FiniteK::new(n).map_err(wrong)?);
     let (table, linear) = (CostTable::new(k).map_err(wrong)?, LinearSearch::new(k).map_err(wrong)?);
     let expected: Vec<f64> = vectors.iter().map(|&vector| linear.distance(vector)).collect();
     let bench = Bench { vectors, expected: &expected, repeats, called };

@@ -161,6 +161,6 @@ mod tests {
         }
         assert_eq!(planners.len(), 1 + 21 + 1 + 3 + 2);
         // The first promises what the others are held against.
-        assert!(setup(&planners[0].setup).unwrap().optimal_over() == Some(mediant_moves::Knob::Any));
+        assert!(setup(&planners[0].setup).unwrap().optimal_over() == Some(mediant_moves::K::Any));
     }
 }

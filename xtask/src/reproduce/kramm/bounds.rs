@@ -1,7 +1,7 @@
 //! The bounds Γ_k at corners and at centers, how tight they are, and the trees of decompositions behind their proof.
 
 use mediant_moves::{
-    DecompositionTree, K, Vector, bound_at_centers, bound_at_corners, decompose, distance, level,
+    DecompositionTree, FiniteK, Vector, bound_at_centers, bound_at_corners, decompose, distance, level,
 };
 use mediant_report::{Axis, Chart, Claim, Column, Mark, Record, Row, Series, Table, TreeDrawing};
 
@@ -28,12 +28,12 @@ const LAST_K: u32 = 12;
 /// The k at which the rate of Γ_k is read off: there the next term, of 1/k³, is some 4/k of it.
 const LARGE_K: u32 = 10_000;
 
-fn knob(k: u32) -> Result<K, Error> {
-    K::new(k).map_err(|wrong| Error::Reproduce(wrong.to_string()))
+fn finite_k(k: u32) -> Result<FiniteK, Error> {
+    FiniteK::new(k).map_err(|wrong| Error::Reproduce(wrong.to_string()))
 }
 
 /// The displacement within `side` cells each way whose length over N(k) exceeds the straight line most, the first of equals.
-fn tightest(k: K, side: i32) -> (f64, Vector) {
+fn tightest(k: FiniteK, side: i32) -> (f64, Vector) {
     let mut worst = (0.0, Vector::ZERO);
     for y in 1..=side {
         for x in 0..=y {
@@ -48,7 +48,7 @@ fn tightest(k: K, side: i32) -> (f64, Vector) {
 }
 
 /// The paper's goal (n, ⌊n(s + m)⌋), m = k − 2, s = √(m² + 1), with the largest n of those within `side` cells.
-fn bisecting(k: K, side: i32) -> Vector {
+fn bisecting(k: FiniteK, side: i32) -> Vector {
     let m = f64::from(k.depth());
     let slope = (m * m + 1.0).sqrt() + m;
     let goal = |n: i32| Vector::new(n, (f64::from(n) * slope).floor() as i32);
@@ -60,7 +60,7 @@ fn measure(ctx: &Context<'_>) -> Result<Findings, Error> {
     let worst = Worst::new()?;
     let mut rows = Vec::new();
     for k in FIRST_K..=LAST_K {
-        let neighborhood = knob(k)?;
+        let neighborhood = finite_k(k)?;
         let (tight, at) = tightest(neighborhood, side);
         let goal = bisecting(neighborhood, side);
         let (bound, center) = (bound_at_corners(neighborhood), worst.ratio(k)?);
@@ -70,7 +70,7 @@ fn measure(ctx: &Context<'_>) -> Result<Findings, Error> {
         let row = row.with("violations", f64::from(u8::from(tight > bound * SLACK)));
         rows.push(row.with("center_bound", bound_at_centers(neighborhood)).with("center", center));
     }
-    let large = bound_at_corners(knob(LARGE_K)?);
+    let large = bound_at_corners(finite_k(LARGE_K)?);
     rows.push(Row::new().key("k", LARGE_K).with("bound", large));
     let vectors = i64::from(side) * i64::from(side + 3) / 2;
     Ok(Findings {
@@ -197,7 +197,7 @@ fn trees() -> String {
     let mut drawing = TreeDrawing::new("Decomposition trees of (7, 5)")
         .note("A node above level k has the two adjacent moves for children of which it is the sum; the leaves are a path over N(k)");
     for k in [7, 6, 5, 4] {
-        if let Some(tree) = K::new(k).ok().and_then(|k| DecompositionTree::new(Vector::new(7, 5), k)) {
+        if let Some(tree) = FiniteK::new(k).ok().and_then(|k| DecompositionTree::new(Vector::new(7, 5), k)) {
             drawing = drawing.tree(format!("level {k}"), &tree);
         }
     }
@@ -220,7 +220,7 @@ fn claims(record: &Record) -> Vec<Claim> {
     }
     for k in FIRST_K..=LAST_K {
         let what = format!("Γ_{k} attained on an empty grid");
-        let published = K::new(k).map_or(f64::NAN, bound_at_corners);
+        let published = FiniteK::new(k).map_or(f64::NAN, bound_at_corners);
         claims.push(Claim::new("Theorem 2, tightness", what, published, ours(k, "tight")).exact(5));
     }
     let rate = ours(LARGE_K, "bound").map(|bound| 8.0 * f64::from(LARGE_K).powi(2) * (bound - 1.0));
@@ -244,7 +244,7 @@ fn worked_example() -> Vec<Claim> {
     let mut claims: Vec<Claim> = printed
         .iter()
         .map(|(k, terms)| {
-            let ours = K::new(*k).ok().and_then(|k| decompose(nine, k)).map(|found| found.length());
+            let ours = FiniteK::new(*k).ok().and_then(|k| decompose(nine, k)).map(|found| found.length());
             let length = terms.iter().map(|(v, times)| f64::from(*times) * v.norm()).sum();
             let [(a, i), (b, j)] = terms;
             let what = format!("{i}({}, {}) + {j}({}, {}): its length over N({k})", a.x, a.y, b.x, b.y);
@@ -267,18 +267,18 @@ mod tests {
     #[test]
     fn goals_bisect() {
         // √2 + 1 = 2.414…: 4 · 2.414… = 9.66
-        assert_eq!(bisecting(K::EIGHT_CONNECTED, 10), Vector::new(4, 9));
-        assert_eq!(bisecting(K::FOUR_CONNECTED, 10), Vector::new(10, 10));
-        assert_eq!(bisecting(K::new(12).unwrap(), 10), Vector::ZERO);
+        assert_eq!(bisecting(FiniteK::N8, 10), Vector::new(4, 9));
+        assert_eq!(bisecting(FiniteK::N4, 10), Vector::new(10, 10));
+        assert_eq!(bisecting(FiniteK::new(12).unwrap(), 10), Vector::ZERO);
     }
 
     #[test]
     fn tightest_is_the_diagonal_at_k_2() {
-        let (ratio, at) = tightest(K::FOUR_CONNECTED, 9);
+        let (ratio, at) = tightest(FiniteK::N4, 9);
         assert!((ratio - std::f64::consts::SQRT_2).abs() < 1e-12);
         assert_eq!(at.x, at.y);
-        let bound = bound_at_corners(K::EIGHT_CONNECTED);
-        let (ratio, _) = tightest(K::EIGHT_CONNECTED, 30);
+        let bound = bound_at_corners(FiniteK::N8);
+        let (ratio, _) = tightest(FiniteK::N8, 30);
         assert!(ratio <= bound * SLACK && ratio > bound - 1e-3, "{ratio}");
     }
 

@@ -1,7 +1,7 @@
 //! 'Empirical Evaluation', Figure 7: average and largest ratio of the optimum over N(k) to that at any angle, on benchmark maps.
 
 use mediant_bench::Study;
-use mediant_moves::{K, bound_at_corners};
+use mediant_moves::{FiniteK, bound_at_corners};
 use mediant_report::{Axis, Chart, Claim, Column, Mark, Record, Row, Series, Table, thousands};
 use serde::{Deserialize, Serialize};
 
@@ -118,7 +118,7 @@ impl Ofk {
 }
 
 fn bound(k: u32) -> f64 {
-    K::new(k).map_or(f64::NAN, bound_at_corners)
+    FiniteK::new(k).map_or(f64::NAN, bound_at_corners)
 }
 
 fn part(map: &Map, every: usize) -> Result<Part, Error> {

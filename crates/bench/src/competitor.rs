@@ -8,8 +8,8 @@ use mediant_engines::{EngineError, Setup, SharedRules, Solver};
 use mediant_search::{Outcome, Query, QueryError};
 
 use crate::{
-    Preparation, Problem, Yardstick,
-    yardstick::{BoolMap, Length, pathing_grid, solve_on},
+    Baseline, Preparation, Problem,
+    baseline::{BoolMap, Length, pathing_grid, solve_on},
 };
 
 /// The pruning rules that the maps have in common.
@@ -17,30 +17,30 @@ static RULES: SharedRules = SharedRules::new();
 
 /// Whoever takes part in a measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Contender {
+pub enum Competitor {
     /// One of our engines.
     Ours(Setup),
     /// Another crate.
-    Yardstick(Yardstick),
+    Baseline(Baseline),
 }
 
-impl fmt::Display for Contender {
+impl fmt::Display for Competitor {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Ours(setup) => setup.fmt(f),
-            Self::Yardstick(yardstick) => f.pad(yardstick.name()),
+            Self::Baseline(baseline) => f.pad(baseline.name()),
         }
     }
 }
 
-/// What answers queries. A yardstick keeps no scratch memory here: it takes it anew for each query, or hides it.
+/// What answers queries. A baseline keeps no scratch memory here: it takes it anew for each query, or hides it.
 pub(crate) enum Runner {
     Ours(Solver),
     Bools(BoolMap),
     Pathing(Box<PathingGrid>),
 }
 
-/// An answer as its contender gives it.
+/// An answer as its competitor gives it.
 pub(crate) enum Answer {
     Outcome(Outcome),
     Cells(Option<(Vec<(u16, u16)>, Length)>),
@@ -48,16 +48,16 @@ pub(crate) enum Answer {
 }
 
 impl Runner {
-    pub(crate) fn new(contender: Contender, problem: &Problem) -> Result<Self, EngineError> {
+    pub(crate) fn new(competitor: Competitor, problem: &Problem) -> Result<Self, EngineError> {
         let grid = &problem.grid;
-        Ok(match contender {
-            Contender::Ours(setup) => Self::Ours(Solver::new(setup, grid, RULES.prebuilt(setup))?),
-            Contender::Yardstick(Yardstick::Pathfinding) => Self::Bools(BoolMap::new(grid)),
-            Contender::Yardstick(Yardstick::GridPathfinding) => Self::Pathing(Box::new(pathing_grid(grid))),
+        Ok(match competitor {
+            Competitor::Ours(setup) => Self::Ours(Solver::new(setup, grid, RULES.prebuilt(setup))?),
+            Competitor::Baseline(Baseline::Pathfinding) => Self::Bools(BoolMap::new(grid)),
+            Competitor::Baseline(Baseline::GridPathfinding) => Self::Pathing(Box::new(pathing_grid(grid))),
         })
     }
 
-    /// What was made before the first query; `None` of a yardstick.
+    /// What was made before the first query; `None` of a baseline.
     pub(crate) fn preparation(&self) -> Option<Preparation> {
         let Self::Ours(solver) = self else { return None };
         let made = solver.preprocessing();

@@ -4,14 +4,14 @@ use mediant_grid::{BitMatrix, Grid};
 
 /// What eight rows of cells have in common, so that a beam can leap over them.
 #[derive(Clone, Debug)]
-pub struct Bands {
+pub struct RowSummary {
     /// For each column, whether any of the cells is blocked.
     pub(super) blocked: BitMatrix,
     /// For each column, whether all are.
     pub(super) solid: BitMatrix,
 }
 
-impl Bands {
+impl RowSummary {
     /// The rows of a band.
     pub(super) const LINES: i32 = 8;
 
@@ -33,7 +33,7 @@ impl Bands {
 
     /// The memory that they take.
     #[must_use]
-    pub fn bytes(&self) -> usize {
+    pub fn memory_bytes(&self) -> usize {
         size_of_val(self.blocked.words()) + size_of_val(self.solid.words())
     }
 }

@@ -1,16 +1,16 @@
-//! What other programs take: `benchdata/anchors.json`.
+//! What other programs take: `benchdata/reference_timings.json`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Deserializer, de::Error as _};
 
 use mediant_engines::Setup;
-use mediant_moves::Knob;
+use mediant_moves::K;
 
 /// The figures of other programs on the instances of our comparison.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Anchors {
+pub struct ReferenceTimings {
     /// What this is.
     pub about: String,
     /// Where, when and how the times were taken.
@@ -19,12 +19,12 @@ pub struct Anchors {
     pub instances: Instances,
     /// How the times are carried over to another machine.
     pub scaling: String,
-    /// The programs that are measured here as well, in the order of [`Yardstick::ALL`](crate::Yardstick::ALL).
-    pub yardsticks: Vec<Comparand>,
+    /// The programs that are measured here as well, in the order of [`Baseline::ALL`](crate::Baseline::ALL).
+    pub baselines: Vec<Comparand>,
     /// The others.
     pub programs: Vec<Comparand>,
     /// The figures.
-    pub maps: Vec<MapAnchors>,
+    pub maps: Vec<MapTimings>,
     /// Figures on other instances, as their authors published them.
     pub published: Vec<Published>,
 }
@@ -79,14 +79,14 @@ pub struct Comparand {
 pub struct ComparandProblem {
     /// The directions that its paths may take: a number or `any`.
     #[serde(deserialize_with = "number_or_any")]
-    pub k: Knob,
+    pub k: K,
     /// `center` or `corner`.
     pub placement: String,
     /// The corner rule or gap rule, where it is known.
     pub rule: Option<String>,
 }
 
-fn number_or_any<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Knob, D::Error> {
+fn number_or_any<'de, D: Deserializer<'de>>(deserializer: D) -> Result<K, D::Error> {
     #[derive(Deserialize)]
     #[serde(untagged)]
     enum NumberOrWord {
@@ -103,7 +103,7 @@ fn number_or_any<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Knob, D::
 /// The figures on one map.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct MapAnchors {
+pub struct MapTimings {
     /// Its name, without extension.
     pub map: String,
     /// The benchmark set that it belongs to.
@@ -159,16 +159,16 @@ pub struct PublishedRow {
     pub excess_percent: Option<f64>,
 }
 
-/// A text that is no list of anchors.
+/// A text that is no list of reference timings.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum AnchorsError {
+pub enum ReferenceTimingsError {
     /// Not JSON, or not of the form above.
-    #[error("the anchors cannot be read: {0}")]
+    #[error("the reference timings cannot be read: {0}")]
     Form(#[from] serde_json::Error),
     /// A map's figures and the list of programs do not match.
     #[error(
-        "the anchors of map `{map}`: each program of the list needs one entry, and no other may have one"
+        "the reference timings of map `{map}`: each program of the list needs one entry, and no other may have one"
     )]
     Programs {
         /// The map.
@@ -176,36 +176,36 @@ pub enum AnchorsError {
     },
 }
 
-impl Anchors {
-    /// Those of `benchdata/anchors.json`.
+impl ReferenceTimings {
+    /// Those of `benchdata/reference_timings.json`.
     ///
     /// # Errors
-    /// [`AnchorsError`] when that file has been damaged.
-    pub fn bundled() -> Result<Self, AnchorsError> {
-        Self::parse(include_str!("../../../benchdata/anchors.json"))
+    /// [`ReferenceTimingsError`] when that file has been damaged.
+    pub fn bundled() -> Result<Self, ReferenceTimingsError> {
+        Self::parse(include_str!("../../../benchdata/reference_timings.json"))
     }
 
     /// Those of a JSON text.
     ///
     /// # Errors
-    /// [`AnchorsError`] says what is wrong.
-    pub fn parse(text: &str) -> Result<Self, AnchorsError> {
-        let anchors: Self = serde_json::from_str(text)?;
-        let names: BTreeSet<&String> = anchors.comparands().map(|program| &program.name).collect();
-        match anchors.maps.iter().find(|row| !row.micros.keys().eq(names.iter().copied())) {
-            Some(row) => Err(AnchorsError::Programs { map: row.map.clone() }),
-            None => Ok(anchors),
+    /// [`ReferenceTimingsError`] says what is wrong.
+    pub fn parse(text: &str) -> Result<Self, ReferenceTimingsError> {
+        let references: Self = serde_json::from_str(text)?;
+        let names: BTreeSet<&String> = references.comparands().map(|program| &program.name).collect();
+        match references.maps.iter().find(|row| !row.micros.keys().eq(names.iter().copied())) {
+            Some(row) => Err(ReferenceTimingsError::Programs { map: row.map.clone() }),
+            None => Ok(references),
         }
     }
 
-    /// The yardsticks and the other programs.
+    /// The baselines and the other programs.
     pub fn comparands(&self) -> impl Iterator<Item = &Comparand> {
-        self.yardsticks.iter().chain(&self.programs)
+        self.baselines.iter().chain(&self.programs)
     }
 
     /// The figures on a map.
     #[must_use]
-    pub fn map(&self, name: &str) -> Option<&MapAnchors> {
+    pub fn map(&self, name: &str) -> Option<&MapTimings> {
         self.maps.iter().find(|row| row.map == name)
     }
 }
@@ -229,18 +229,21 @@ impl Comparand {
 mod tests {
     use super::*;
 
-    fn bundled() -> Anchors {
-        Anchors::bundled().unwrap()
+    fn bundled() -> ReferenceTimings {
+        ReferenceTimings::bundled().unwrap()
     }
 
     #[test]
     fn all_figures_are_there_but_for_those_marked_missing() {
-        let anchors = bundled();
-        assert_eq!((anchors.maps.len(), anchors.yardsticks.len(), anchors.programs.len()), (18, 2, 13));
-        assert_eq!((anchors.instances.every, anchors.instances.count), (20, 2203));
-        let maps: BTreeSet<&str> = anchors.maps.iter().map(|row| row.map.as_str()).collect();
+        let references = bundled();
+        assert_eq!(
+            (references.maps.len(), references.baselines.len(), references.programs.len()),
+            (18, 2, 13)
+        );
+        assert_eq!((references.instances.every, references.instances.count), (20, 2203));
+        let maps: BTreeSet<&str> = references.maps.iter().map(|row| row.map.as_str()).collect();
         assert_eq!(maps.len(), 18);
-        let missing: Vec<(&str, &str)> = anchors
+        let missing: Vec<(&str, &str)> = references
             .maps
             .iter()
             .flat_map(|row| row.micros.iter().map(|(program, micros)| (&*row.map, &**program, micros)))
@@ -254,9 +257,9 @@ mod tests {
         ];
         assert_eq!(missing, marked);
         assert!(
-            anchors.maps.iter().flat_map(|row| row.micros.values()).flatten().all(|&micros| micros > 0.0)
+            references.maps.iter().flat_map(|row| row.micros.values()).flatten().all(|&micros| micros > 0.0)
         );
-        for row in &anchors.maps {
+        for row in &references.maps {
             assert_eq!(row.preprocessing.len(), 6, "{}", row.map);
             for (program, figures) in &row.preprocessing {
                 let Some(figures) = figures else {
@@ -271,8 +274,8 @@ mod tests {
 
     #[test]
     fn figures_stand_where_they_belong() {
-        let anchors = bundled();
-        let micros = |map: &str, program: &str| anchors.map(map).unwrap().micros[program];
+        let references = bundled();
+        let micros = |map: &str, program: &str| references.map(map).unwrap().micros[program];
         assert_eq!(micros("arena2", "pathfinding"), Some(1522.0));
         assert_eq!(micros("Moscow_2_1024", "grid_pathfinding"), Some(10_788.0));
         assert_eq!(micros("Cauldron", "Warthog A*"), Some(18_853.0));
@@ -280,22 +283,22 @@ mod tests {
         assert_eq!(micros("8room_000", "warthog-jps 0.5.1 jps2+"), Some(326.0));
         assert_eq!(micros("32room_000", "EPS_MCDT"), Some(6.6));
         assert_eq!(micros("Moscow_2_1024", "ENLSVG"), Some(520.0));
-        let built = |map: &str, program: &str| anchors.map(map).unwrap().preprocessing[program].unwrap();
+        let built = |map: &str, program: &str| references.map(map).unwrap().preprocessing[program].unwrap();
         let unfinished = Preprocessing { seconds: 292.0, unfinished: true, megabytes: Some(18.42) };
         assert_eq!(built("random512-10-0", "2019-SGCH-JPD"), unfinished);
         let in_memory = Preprocessing { seconds: 0.026, unfinished: false, megabytes: None };
         assert_eq!(built("orz900d", "ENLSVG"), in_memory);
         assert_eq!(built("TheFrozenSea", "EPS_MCDT").seconds, 365.732);
-        let central: Vec<f64> = anchors.published[0].rows.iter().map(|row| row.micros).collect();
+        let central: Vec<f64> = references.published[0].rows.iter().map(|row| row.micros).collect();
         assert_eq!(central, [848.0, 1637.0, 2879.0, 4967.0, 293.0, 530.0, 968.0, 1960.0, 816.0]);
     }
 
     #[test]
     fn only_programs_that_solve_the_same_problem_compare() {
-        let anchors = bundled();
+        let references = bundled();
         let comparable = |setup: &str| {
             let setup = setup.parse().unwrap();
-            anchors
+            references
                 .comparands()
                 .filter(|program| program.solves(setup))
                 .map(|program| &*program.name)
@@ -319,12 +322,12 @@ mod tests {
     }
 
     #[test]
-    fn damaged_anchors_are_refused() {
-        assert!(matches!(Anchors::parse("{"), Err(AnchorsError::Form(_))));
+    fn damaged_references_are_refused() {
+        assert!(matches!(ReferenceTimings::parse("{"), Err(ReferenceTimingsError::Form(_))));
         let damaged = |whole: &str, damaged: &str| {
-            let text = include_str!("../../../benchdata/anchors.json");
+            let text = include_str!("../../../benchdata/reference_timings.json");
             assert!(text.contains(whole), "{whole}");
-            Anchors::parse(&text.replacen(whole, damaged, 1)).unwrap_err().to_string()
+            ReferenceTimings::parse(&text.replacen(whole, damaged, 1)).unwrap_err().to_string()
         };
         let error = damaged("\"RayScan\": 47.7, ", "");
         assert!(error.contains("`arena2`"), "{error}");

@@ -3,11 +3,11 @@
 use mediant_grid::{BitRow, Grid, Vertex};
 
 use super::{frontier::Node, search::Successor};
-use crate::beams::{End, Place, Runs, Side, Window, row_ahead};
+use crate::beams::{Crossing, End, Runs, Side, Window, row_ahead};
 
 /// What a root sees through an interval of a line, before it crosses the row of cells ahead.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Beam<'g> {
+pub(super) struct Cone<'g> {
     pub(super) root: Vertex,
     /// The root's number.
     pub(super) number: u32,
@@ -44,7 +44,7 @@ impl Edge {
 
     /// Moves to the next line.
     #[inline]
-    const fn advance(&mut self, next: Place, wall: Wall) {
+    const fn advance(&mut self, next: Crossing, wall: Wall) {
         match wall {
             Some(x) => *self = Self::wall(x),
             None => self.end.here = next,
@@ -53,12 +53,12 @@ impl Edge {
 
     /// Where it is.
     #[inline]
-    pub(super) const fn here(&self) -> Place {
+    pub(super) const fn here(&self) -> Crossing {
         self.end.here
     }
 }
 
-impl<'g> Beam<'g> {
+impl<'g> Cone<'g> {
     #[inline]
     pub(super) fn new(grid: &'g Grid, root: Vertex, node: Node) -> Self {
         let Node { root: number, line, left, right } = node;
@@ -143,7 +143,7 @@ impl<'g> Beam<'g> {
     fn walls(
         &self,
         ahead: impl Runs,
-        (left, right): (Place, Place),
+        (left, right): (Crossing, Crossing),
         (low, high): (i32, i32),
     ) -> Option<(Wall, Wall)> {
         let (first, last) = (self.left.here().floor(), self.right.here().ceil());

@@ -1,4 +1,4 @@
-//! Two crates that everyone can run, as the measure between this machine and the one of the anchors.
+//! Two crates that everyone can run, as the measure between this machine and the one of the reference timings.
 
 use std::{cmp::Ordering, ops::Add};
 
@@ -8,9 +8,9 @@ use mediant_grid::{Grid, Vertex};
 use mediant_search::Query;
 use pathfinding::{num_traits::Zero, prelude::astar};
 
-/// A crate that was measured together with the anchors.
+/// A crate that was measured together with the reference timings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Yardstick {
+pub enum Baseline {
     /// `pathfinding::astar` on nodes `(u16, u16)` with costs in f64 and the octile heuristic; no corner is cut, so it
     /// solves k = 3 at centers under `Never`.
     Pathfinding,
@@ -18,8 +18,8 @@ pub enum Yardstick {
     GridPathfinding,
 }
 
-impl Yardstick {
-    /// Both, in the order of the anchors.
+impl Baseline {
+    /// Both, in the order of the reference timings.
     pub const ALL: [Self; 2] = [Self::Pathfinding, Self::GridPathfinding];
 
     /// The crate's name.

@@ -5,12 +5,12 @@ use mediant_moves::Cost;
 
 use crate::{Entry, OpenList};
 
-/// Labels of the nodes of an abstract graph, with the open list; forgotten in constant time. [`NodeStore`](crate::NodeStore) is their counterpart for the vertices of a
-/// lattice, whose parents are found by the move.
+/// SearchTree of the nodes of an abstract graph, with the open list; forgotten in constant time. [`NodeStore`](crate::NodeStore) is their counterpart for the vertices of a
+/// grid graph, whose parents are found by the move.
 ///
 /// `W` is what a label keeps of the way from the parent.
 #[derive(Clone, Debug)]
-pub struct Labels<W = ()> {
+pub struct SearchTree<W = ()> {
     labels: Box<[Label<W>]>,
     generation: u32,
     open: OpenList,
@@ -25,13 +25,13 @@ struct Label<W> {
     way: W,
 }
 
-impl<W: Copy + Default> Labels<W> {
+impl<W: Copy + Default> SearchTree<W> {
     /// The parent of a first node.
     pub const NONE: u32 = u32::MAX;
     /// The slot of what is not on the open list any more.
     const CLOSED: u32 = u32::MAX;
 
-    /// Labels for nodes below `count`, of which none is known.
+    /// SearchTree for nodes below `count`, of which none is known.
     #[must_use]
     pub fn new(count: usize) -> Self {
         Self {

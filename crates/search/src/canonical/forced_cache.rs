@@ -7,12 +7,12 @@ use mediant_grid::VertexId;
 /// For each vertex and incoming move, whether a turn follows, as far as that is known: two bits. Filled as searches ask, by any number of
 /// planners at once; since each bit is a fact of the map, what they answer does not depend on it.
 #[derive(Debug)]
-pub(crate) struct Settled {
+pub(crate) struct ForcedCache {
     words: Box<[AtomicU64]>,
     k: u32,
 }
 
-impl Settled {
+impl ForcedCache {
     /// Larger maps do without: 256 MiB.
     const MAX_WORDS: usize = 1 << 25;
 
@@ -47,7 +47,7 @@ impl Settled {
         }
     }
 
-    pub(crate) fn bytes(&self) -> usize {
+    pub(crate) fn memory_bytes(&self) -> usize {
         size_of_val(&*self.words)
     }
 }

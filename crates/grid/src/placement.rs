@@ -2,15 +2,15 @@
 
 use std::fmt::Debug;
 
-use mediant_moves::{K, Vector};
+use mediant_moves::{FiniteK, Vector};
 
 use crate::{
-    BitIndex, CornerRule, DiagonalGap, Grid, Placement, Rules, Vertex, components::Connectivity, load,
+    BitIndex, CornerRule, DiagonalGap, Grid, PlacementKind, Rules, Vertex, components::Connectivity, load,
 };
 
 /// What a straight segment asks of the map, in the frame of the first octant: the segment starts at the origin and runs
 /// right and down, right at least as far as down. Cell (i, j) is the i-th column and j-th row of cells that it can meet,
-/// counted from its start; see [`Place::cell`].
+/// counted from its start; see [`Placement::cell`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Demand {
     /// All cells of row `row` from column `first` to column `last` must be free.
@@ -26,10 +26,10 @@ pub enum Demand {
     EitherFree([(i32, i32); 2]),
 }
 
-/// A placement of vertices, as a type parameter of lattices and engines: [`Centers`] or [`Corners`].
-pub trait Place: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static {
+/// A placement of vertices, as a type parameter of grid graphs and engines: [`Centers`] or [`Corners`].
+pub trait Placement: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static {
     /// The placement as a value.
-    const PLACEMENT: Placement;
+    const KIND: PlacementKind;
     /// How many obstacle patterns there are around a vertex, as far as single steps are concerned.
     #[doc(hidden)]
     const PATTERNS: usize;
@@ -66,7 +66,7 @@ pub trait Place: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static
     fn pattern_is_blocked(pattern: usize, dx: i32, dy: i32) -> bool;
 
     /// Which cells belong together, when it comes to whether there is any path at all: over N(k), or without k at any angle.
-    fn connectivity(rule: Self::Rule, k: Option<K>) -> Connectivity;
+    fn connectivity(rule: Self::Rule, k: Option<FiniteK>) -> Connectivity;
 
     /// A cell whose component is that of this free vertex.
     #[doc(hidden)]
@@ -91,8 +91,8 @@ pub struct Centers;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Corners;
 
-impl Place for Centers {
-    const PLACEMENT: Placement = Placement::Center;
+impl Placement for Centers {
+    const KIND: PlacementKind = PlacementKind::Center;
     /// The 3 × 3 cells around the vertex, row by row.
     const PATTERNS: usize = 1 << 9;
     type Rule = CornerRule;
@@ -151,8 +151,8 @@ impl Place for Centers {
 
     /// A move's touched cells form a chain in which neighbors share an edge, except where it cuts a corner between two
     /// blocked cells.
-    fn connectivity(rule: CornerRule, k: Option<K>) -> Connectivity {
-        if rule == CornerRule::Always && k != Some(K::FOUR_CONNECTED) {
+    fn connectivity(rule: CornerRule, k: Option<FiniteK>) -> Connectivity {
+        if rule == CornerRule::Always && k != Some(FiniteK::N4) {
             Connectivity::Eight
         } else {
             Connectivity::Four
@@ -168,8 +168,8 @@ impl Place for Centers {
     }
 }
 
-impl Place for Corners {
-    const PLACEMENT: Placement = Placement::Corner;
+impl Placement for Corners {
+    const KIND: PlacementKind = PlacementKind::Corner;
     /// The 2 × 2 cells around the vertex, row by row.
     const PATTERNS: usize = 1 << 4;
     type Rule = DiagonalGap;
@@ -228,7 +228,7 @@ impl Place for Corners {
     }
 
     /// The corners of a free cell are joined along its edges; a shared corner joins two cells unless gaps are closed.
-    fn connectivity(rule: DiagonalGap, _: Option<K>) -> Connectivity {
+    fn connectivity(rule: DiagonalGap, _: Option<FiniteK>) -> Connectivity {
         match rule {
             DiagonalGap::Open => Connectivity::Eight,
             DiagonalGap::Closed => Connectivity::Four,
@@ -236,7 +236,7 @@ impl Place for Corners {
     }
 
     fn representative(grid: &Grid, rule: DiagonalGap, at: Vertex) -> Vertex {
-        if rule == DiagonalGap::Closed && grid.is_double_corner(at) {
+        if rule == DiagonalGap::Closed && grid.is_gap(at) {
             return at;
         }
         let cells = around(at);

@@ -2,21 +2,21 @@
 
 use std::{fmt::Debug, sync::Arc};
 
-use mediant_grid::{Grid, Lattice, Place, Rules, Step, Vector, Vertex};
-use mediant_moves::{Cost, K, KError};
+use mediant_grid::{Grid, GridGraph, Placement, Rules, Step, Vector, Vertex};
+use mediant_moves::{Cost, FiniteK, KError};
 
 use super::{JumpTable, planes::StopPlanes, slants::SlantPlanes};
 use crate::{
-    Arrival, Successor,
-    canonical::{Pruning, View},
+    ExpandedNode, Successor,
+    canonical::{LocalRule, Pruning},
 };
 
 /// What a run is followed on, and where to.
-pub struct Course<'c, P: Place> {
-    pub(crate) lattice: &'c Lattice<P>,
+pub struct JumpContext<'c, P: Placement> {
+    pub(crate) graph: &'c GridGraph<P>,
     pub(crate) pruning: &'c Pruning<P>,
     pub(crate) goal: Vertex,
-    /// Whether all runs are walked: closed gaps make some hard to foresee, and a locator may know another map.
+    /// Whether all runs are walked: closed gaps make some hard to foresee, and a finder may know another map.
     pub(crate) walks: bool,
     /// The longest run.
     pub(crate) limit: u32,
@@ -28,16 +28,16 @@ pub struct Course<'c, P: Place> {
 ///
 /// A *straight* run repeats an even move until its first vertex with a turn; a *slanted* one repeats an odd move, and from each of its
 /// vertices sends out the straight runs of the two even moves beside it. Neither leads to anything else on open ground.
-pub trait Locator<P: Place>: Debug {
-    /// Whether it was made for this lattice.
-    fn fits(&self, lattice: &Lattice<P>) -> bool;
+pub trait JumpFinder<P: Placement>: Debug {
+    /// Whether it was made for this grid graph.
+    fn fits(&self, graph: &GridGraph<P>) -> bool;
 
     /// After how many steps the straight run of move `index` from a vertex comes to a jump point or to the goal; `None` if to
     /// neither. The goal is `goal_steps` ahead, if it lies ahead at all. Adds to `scanned` the vertices that it looks at.
     fn straight(
         &self,
-        course: &Course<'_, P>,
-        from: &Arrival,
+        course: &JumpContext<'_, P>,
+        from: &ExpandedNode,
         index: usize,
         goal_steps: Option<u32>,
         scanned: &mut u32,
@@ -45,16 +45,16 @@ pub trait Locator<P: Place>: Debug {
 
     /// What the vertex `here` allows to a slanted run of move `index`.
     #[inline]
-    fn look(&self, course: &Course<'_, P>, here: &Arrival, index: usize) -> View {
-        course.pruning.view(course.lattice, here, index)
+    fn look(&self, course: &JumpContext<'_, P>, here: &ExpandedNode, index: usize) -> LocalRule {
+        course.pruning.view(course.graph, here, index)
     }
 
     /// Calls `visit` with all that the slanted run of move `index` from a vertex leads to.
     #[inline]
     fn slanted(
         &self,
-        course: &Course<'_, P>,
-        from: &Arrival,
+        course: &JumpContext<'_, P>,
+        from: &ExpandedNode,
         index: usize,
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor),
@@ -63,24 +63,24 @@ pub trait Locator<P: Place>: Debug {
     }
 }
 
-impl<P: Place> Course<'_, P> {
+impl<P: Placement> JumpContext<'_, P> {
     /// The even moves beside an odd one.
     #[inline]
     pub(crate) fn beside(&self, index: usize) -> [usize; 2] {
         // The number of moves is a power of two.
-        let last = self.lattice.steps().len() - 1;
+        let last = self.graph.steps().len() - 1;
         [index.wrapping_sub(1) & last, (index + 1) & last]
     }
 
     /// Whether a path that came to `from` may step on by move `index`.
     #[inline]
-    fn may_step(&self, from: &Arrival, index: usize) -> bool {
-        self.lattice.may_step(from.at, from.by, index, self.goal)
+    fn may_step(&self, from: &ExpandedNode, index: usize) -> bool {
+        self.graph.may_step(from.at, from.by, index, self.goal)
     }
 
     #[inline]
     fn is_exempt(&self, at: Vertex, by: usize) -> bool {
-        self.pruning.is_exempt(self.lattice, at, by, self.goal)
+        self.pruning.is_exempt(self.graph, at, by, self.goal)
     }
 
     /// After how many steps of move `v` from a vertex the goal comes, if it lies ahead.
@@ -95,25 +95,25 @@ impl<P: Place> Course<'_, P> {
 
     /// The vertex `n` steps of move `index` away.
     #[inline]
-    pub(crate) fn after(&self, from: &Arrival, step: &Step, index: usize, n: u32) -> Arrival {
+    pub(crate) fn after(&self, from: &ExpandedNode, step: &Step, index: usize, n: u32) -> ExpandedNode {
         let v = step.vector();
         let at = Vertex::new(from.at.x + v.x * n as i32, from.at.y + v.y * n as i32);
-        Arrival { id: step.target_after(from.id, n), at, by: Some(index) }
+        ExpandedNode { id: step.target_after(from.id, n), at, by: Some(index) }
     }
 
     /// A straight run, vertex by vertex, but where the nearest obstacle is so far that several have no turn.
     #[inline]
     fn walk_straight(
         &self,
-        from: &Arrival,
+        from: &ExpandedNode,
         index: usize,
         goal_steps: Option<u32>,
         scanned: &mut u32,
     ) -> Option<u32> {
-        if !self.may_step(from, index) || !self.pruning.is_legal(self.lattice, from, index) {
+        if !self.may_step(from, index) || !self.pruning.is_legal(self.graph, from, index) {
             return None;
         }
-        let step = self.lattice.step(index);
+        let step = self.graph.step(index);
         let goal_steps = goal_steps.unwrap_or(u32::MAX).min(self.limit);
         let mut n = 0;
         loop {
@@ -123,7 +123,7 @@ impl<P: Place> Course<'_, P> {
             if n >= goal_steps || self.is_exempt(here.at, index) {
                 return Some(n.min(goal_steps));
             }
-            let view = self.pruning.view(self.lattice, &here, index);
+            let view = self.pruning.view(self.graph, &here, index);
             if view.turns {
                 return Some(n);
             }
@@ -140,18 +140,18 @@ impl<P: Place> Course<'_, P> {
 
     /// A slanted run, vertex by vertex.
     #[inline]
-    fn walk_slanted<J: Locator<P> + ?Sized>(
+    fn walk_slanted<J: JumpFinder<P> + ?Sized>(
         &self,
-        locator: &J,
-        from: &Arrival,
+        finder: &J,
+        from: &ExpandedNode,
         index: usize,
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor),
     ) {
-        if !self.may_step(from, index) || !self.pruning.is_legal(self.lattice, from, index) {
+        if !self.may_step(from, index) || !self.pruning.is_legal(self.graph, from, index) {
             return;
         }
-        let step = self.lattice.step(index);
+        let step = self.graph.step(index);
         let to_goal = GoalWay::new(self, from.at, index);
         let mut here = self.after(from, step, index, 1);
         let mut cost = step.cost;
@@ -159,11 +159,11 @@ impl<P: Place> Course<'_, P> {
             *scanned += 1;
             let way = to_goal.filter(|way| way.slanted == n);
             let is_goal = way.is_some_and(|way| way.straight == 0);
-            let view = locator.look(self, &here, index);
+            let view = finder.look(self, &here, index);
             if is_goal || n >= self.limit || view.turns || self.is_exempt(here.at, index) {
                 return visit(here.reached(cost, index));
             }
-            if (view.beside || way.is_some()) && self.send_out(locator, &here, cost, way, scanned, visit) {
+            if (view.beside || way.is_some()) && self.send_out(finder, &here, cost, way, scanned, visit) {
                 return visit(here.reached(cost, index));
             }
             if !view.ahead || !self.may_step(&here, index) {
@@ -176,10 +176,10 @@ impl<P: Place> Course<'_, P> {
 
     /// The two straight runs from a vertex of a slanted run. Whether the slanted run must end there for their sake.
     #[inline]
-    fn send_out<J: Locator<P> + ?Sized>(
+    fn send_out<J: JumpFinder<P> + ?Sized>(
         &self,
-        locator: &J,
-        from: &Arrival,
+        finder: &J,
+        from: &ExpandedNode,
         cost: Cost,
         to_goal: Option<GoalWay>,
         scanned: &mut u32,
@@ -188,10 +188,10 @@ impl<P: Place> Course<'_, P> {
         let mut ends = false;
         for index in self.beside(from.by.unwrap_or(0)) {
             let goal_steps = to_goal.filter(|way| way.index == index).map(|way| way.straight);
-            if let Some(n) = locator.straight(self, from, index, goal_steps, scanned) {
+            if let Some(n) = finder.straight(self, from, index, goal_steps, scanned) {
                 ends |= self.keeps_intermediate;
                 if !ends {
-                    let step = self.lattice.step(index);
+                    let step = self.graph.step(index);
                     visit(self.after(from, step, index, n).reached(cost + step.cost * n, index));
                 }
             }
@@ -200,7 +200,7 @@ impl<P: Place> Course<'_, P> {
     }
 }
 
-impl Arrival {
+impl ExpandedNode {
     #[inline]
     pub(crate) fn reached(&self, cost: Cost, by: usize) -> Successor {
         Successor { id: self.id, at: self.at, cost, by }
@@ -216,16 +216,16 @@ fn cross(v: Vector, d: Vector) -> i64 {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Walk;
 
-impl<P: Place> Locator<P> for Walk {
-    fn fits(&self, _: &Lattice<P>) -> bool {
+impl<P: Placement> JumpFinder<P> for Walk {
+    fn fits(&self, _: &GridGraph<P>) -> bool {
         true
     }
 
     #[inline]
     fn straight(
         &self,
-        course: &Course<'_, P>,
-        from: &Arrival,
+        course: &JumpContext<'_, P>,
+        from: &ExpandedNode,
         index: usize,
         goal_steps: Option<u32>,
         scanned: &mut u32,
@@ -238,49 +238,43 @@ impl<P: Place> Locator<P> for Walk {
 #[derive(Clone, Debug)]
 pub struct Blocks {
     grid: Arc<Grid>,
-    k: K,
+    k: FiniteK,
     rules: Rules,
     planes: StopPlanes,
     slants: SlantPlanes,
 }
 
 impl Blocks {
-    /// The locator of a lattice.
+    /// The finder of a grid graph.
     ///
     /// # Errors
     /// [`KError::TooLarge`] above k = 3.
-    pub fn new<P: Place>(lattice: &Lattice<P>, pruning: &Pruning<P>) -> Result<Self, KError> {
-        let (k, max) = (lattice.k().get(), JumpTable::MAX_K);
+    pub fn new<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>) -> Result<Self, KError> {
+        let (k, max) = (graph.k().get(), JumpTable::MAX_K);
         if k > max {
             return Err(KError::TooLarge { k, max });
         }
-        let (grid, k, rules) = (Arc::clone(lattice.grid()), lattice.k(), lattice.rules());
-        Ok(Self {
-            grid,
-            k,
-            rules,
-            planes: StopPlanes::new(lattice),
-            slants: SlantPlanes::new(lattice, pruning),
-        })
+        let (grid, k, rules) = (Arc::clone(graph.grid()), graph.k(), graph.rules());
+        Ok(Self { grid, k, rules, planes: StopPlanes::new(graph), slants: SlantPlanes::new(graph, pruning) })
     }
 
     /// Its size.
     #[must_use]
-    pub fn bytes(&self) -> usize {
-        self.planes.bytes() + self.slants.bytes()
+    pub fn memory_bytes(&self) -> usize {
+        self.planes.memory_bytes() + self.slants.memory_bytes()
     }
 }
 
-impl<P: Place> Locator<P> for Blocks {
-    fn fits(&self, lattice: &Lattice<P>) -> bool {
-        (self.k, self.rules) == (lattice.k(), lattice.rules()) && Arc::ptr_eq(&self.grid, lattice.grid())
+impl<P: Placement> JumpFinder<P> for Blocks {
+    fn fits(&self, graph: &GridGraph<P>) -> bool {
+        (self.k, self.rules) == (graph.k(), graph.rules()) && Arc::ptr_eq(&self.grid, graph.grid())
     }
 
     #[inline]
     fn straight(
         &self,
-        course: &Course<'_, P>,
-        from: &Arrival,
+        course: &JumpContext<'_, P>,
+        from: &ExpandedNode,
         index: usize,
         goal_steps: Option<u32>,
         scanned: &mut u32,
@@ -288,37 +282,37 @@ impl<P: Place> Locator<P> for Blocks {
         if course.walks {
             return course.walk_straight(from, index, goal_steps, scanned);
         }
-        let quarter = index >> (course.lattice.k().get() - 2);
+        let quarter = index >> (course.graph.k().get() - 2);
         let scan = self.planes.scan(from.at, quarter, goal_steps);
         *scanned += scan.scanned;
         scan.found.then_some(scan.steps)
     }
 
     #[inline]
-    fn look(&self, course: &Course<'_, P>, here: &Arrival, index: usize) -> View {
+    fn look(&self, course: &JumpContext<'_, P>, here: &ExpandedNode, index: usize) -> LocalRule {
         if course.walks {
-            return course.pruning.view(course.lattice, here, index);
+            return course.pruning.view(course.graph, here, index);
         }
         if course.pruning.slanted_runs_turn() {
-            let view = course.pruning.view(course.lattice, here, index);
-            return View { beside: self.slants.at(here.at, index).1, ..view };
+            let view = course.pruning.view(course.graph, here, index);
+            return LocalRule { beside: self.slants.at(here.at, index).1, ..view };
         }
         let (ahead, beside) = self.slants.at(here.at, index);
-        View { turns: false, ahead, steps: 0, beside }
+        LocalRule { turns: false, ahead, steps: 0, beside }
     }
 }
 
 /// All runs from a table.
-impl<P: Place> Locator<P> for Arc<JumpTable> {
-    fn fits(&self, lattice: &Lattice<P>) -> bool {
-        self.check(lattice).is_ok()
+impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
+    fn fits(&self, graph: &GridGraph<P>) -> bool {
+        self.check(graph).is_ok()
     }
 
     #[inline]
     fn straight(
         &self,
-        course: &Course<'_, P>,
-        from: &Arrival,
+        course: &JumpContext<'_, P>,
+        from: &ExpandedNode,
         index: usize,
         goal_steps: Option<u32>,
         scanned: &mut u32,
@@ -326,7 +320,7 @@ impl<P: Place> Locator<P> for Arc<JumpTable> {
         if course.walks {
             return course.walk_straight(from, index, goal_steps, scanned);
         }
-        let (steps, found) = self.run(from.id, course.lattice.step(index), index);
+        let (steps, found) = self.run(from.id, course.graph.step(index), index);
         match goal_steps {
             Some(goal_steps) if goal_steps <= steps => Some(goal_steps),
             _ => found.then_some(steps),
@@ -336,8 +330,8 @@ impl<P: Place> Locator<P> for Arc<JumpTable> {
     #[inline]
     fn slanted(
         &self,
-        course: &Course<'_, P>,
-        from: &Arrival,
+        course: &JumpContext<'_, P>,
+        from: &ExpandedNode,
         index: usize,
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor),
@@ -345,14 +339,14 @@ impl<P: Place> Locator<P> for Arc<JumpTable> {
         if course.walks {
             return course.walk_slanted(self, from, index, scanned, visit);
         }
-        let step = course.lattice.step(index);
+        let step = course.graph.step(index);
         let to_goal = GoalWay::new(course, from.at, index);
         let (mut here, mut gone) = (*from, 0);
         loop {
             let (steps, found) = self.run(here.id, step, index);
             if let Some(way) = to_goal.filter(|way| (gone + 1..=gone + steps).contains(&way.slanted)) {
                 let elbow = course.after(from, step, index, way.slanted);
-                let beside = course.lattice.step(way.index);
+                let beside = course.graph.step(way.index);
                 if way.straight == 0 || self.run(elbow.id, beside, way.index).0 >= way.straight {
                     // Nothing can be nearer to the goal by way of this node.
                     let goal = course.after(&elbow, beside, way.index, way.straight);
@@ -367,7 +361,7 @@ impl<P: Place> Locator<P> for Arc<JumpTable> {
             here = course.after(&here, step, index, steps);
             let cost = step.cost * gone;
             let turns =
-                course.pruning.slanted_runs_turn() && course.pruning.view(course.lattice, &here, index).turns;
+                course.pruning.slanted_runs_turn() && course.pruning.view(course.graph, &here, index).turns;
             if turns || course.keeps_intermediate {
                 return visit(here.reached(cost, index));
             }
@@ -387,10 +381,10 @@ struct GoalWay {
 
 impl GoalWay {
     #[inline]
-    fn new<P: Place>(course: &Course<'_, P>, from: Vertex, index: usize) -> Option<Self> {
-        let (d, u) = (from.to(course.goal), course.lattice.step(index).vector());
+    fn new<P: Placement>(course: &JumpContext<'_, P>, from: Vertex, index: usize) -> Option<Self> {
+        let (d, u) = (from.to(course.goal), course.graph.step(index).vector());
         course.beside(index).into_iter().find_map(|beside| {
-            let v = course.lattice.step(beside).vector();
+            let v = course.graph.step(beside).vector();
             // Adjacent moves span a square of area 1, so this is Cramer's rule without its denominator.
             let sign = cross(u, v);
             let (slanted, straight) = (cross(d, v) * sign, cross(u, d) * sign);

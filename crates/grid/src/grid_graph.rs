@@ -2,9 +2,9 @@
 
 use std::{ops::Deref, sync::Arc};
 
-use mediant_moves::{Cost, CostTable, K, KError, Neighborhood, Vector};
+use mediant_moves::{Cost, CostTable, FiniteK, KError, Neighborhood, Vector};
 
-use crate::{Demand, Grid, Place, Terrain, Vertex, VertexId, sight::Frame, tree::Octant};
+use crate::{Demand, FreeSpace, Grid, Placement, Vertex, VertexId, sight::Frame, tree::Octant};
 
 /// One move of N(k), with what a search wants of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,21 +54,21 @@ impl Step {
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, Lattice, Vertex};
-/// use mediant_moves::K;
+/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, GridGraph, Vertex};
+/// use mediant_moves::FiniteK;
 /// let map = AsciiMap::parse("
 ///     ..
 ///     .#
 /// ")?;
-/// let lattice = Lattice::<Corners>::new(Arc::new(map.grid), K::new(4)?, DiagonalGap::Open)?;
+/// let graph = GridGraph::<Corners>::new(Arc::new(map.grid), FiniteK::new(4)?, DiagonalGap::Open)?;
 /// // Of the moves from (1, 1), only those through the blocked cell to the lower right are missing.
-/// assert_eq!(lattice.legal_moves(Vertex::new(1, 1)).len(), 16 - 1 - 2 - 6);
+/// assert_eq!(graph.legal_moves(Vertex::new(1, 1)).len(), 16 - 1 - 2 - 6);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Lattice<P: Place> {
-    terrain: Terrain<P>,
-    k: K,
+pub struct GridGraph<P: Placement> {
+    space: FreeSpace<P>,
+    k: FiniteK,
     steps: Box<[Step]>,
     costs: CostTable,
     /// For each pattern of cells around a vertex, the legal moves of N(min(k, 3)).
@@ -77,16 +77,16 @@ pub struct Lattice<P: Place> {
 }
 
 /// What does not depend on k: the map, the vertices, sight, components.
-impl<P: Place> Deref for Lattice<P> {
-    type Target = Terrain<P>;
+impl<P: Placement> Deref for GridGraph<P> {
+    type Target = FreeSpace<P>;
 
     #[inline]
-    fn deref(&self) -> &Terrain<P> {
-        &self.terrain
+    fn deref(&self) -> &FreeSpace<P> {
+        &self.space
     }
 }
 
-impl<P: Place> Lattice<P> {
+impl<P: Placement> GridGraph<P> {
     /// The largest k of a search graph: 4,096 moves, of up to 89 cells.
     pub const MAX_K: u32 = 12;
 
@@ -94,7 +94,7 @@ impl<P: Place> Lattice<P> {
     ///
     /// # Errors
     /// [`KError::TooLarge`] above [`MAX_K`](Self::MAX_K).
-    pub fn new(grid: Arc<Grid>, k: K, rule: P::Rule) -> Result<Self, KError> {
+    pub fn new(grid: Arc<Grid>, k: FiniteK, rule: P::Rule) -> Result<Self, KError> {
         if k.get() > Self::MAX_K {
             return Err(KError::TooLarge { k: k.get(), max: Self::MAX_K });
         }
@@ -111,14 +111,14 @@ impl<P: Place> Lattice<P> {
             costs: CostTable::new(k)?,
             near: (0..P::PATTERNS).map(|pattern| near_moves::<P>(rule, k, &moves, pattern)).collect(),
             octants: octants::<P>(rule, &moves, &grid),
-            terrain: Terrain::with_connectivity(grid, rule, P::connectivity(rule, Some(k))),
+            space: FreeSpace::with_connectivity(grid, rule, P::connectivity(rule, Some(k))),
             k,
         })
     }
 
     /// The k of the neighborhood.
     #[must_use]
-    pub const fn k(&self) -> K {
+    pub const fn k(&self) -> FiniteK {
         self.k
     }
 
@@ -128,7 +128,7 @@ impl<P: Place> Lattice<P> {
         &self.steps
     }
 
-    /// The move at an index that this lattice handed out.
+    /// The move at an index that this grid graph handed out.
     #[must_use]
     #[inline]
     pub fn step(&self, index: usize) -> &Step {
@@ -143,9 +143,9 @@ impl<P: Place> Lattice<P> {
 
     /// The memory that this takes beyond the map, in bytes: mostly four a cell for the components.
     #[must_use]
-    pub fn index_bytes(&self) -> usize {
-        let octants: usize = self.octants.iter().map(Octant::bytes).sum();
-        size_of_val(&*self.steps) + size_of_val(&*self.near) + octants + self.terrain.index_bytes()
+    pub fn memory_bytes(&self) -> usize {
+        let octants: usize = self.octants.iter().map(Octant::memory_bytes).sum();
+        size_of_val(&*self.steps) + size_of_val(&*self.near) + octants + self.space.memory_bytes()
     }
 
     /// Whether `v` is a move of N(k) and legal at `at`. For a vertex of its own; for all moves of a vertex see
@@ -201,7 +201,7 @@ impl<P: Place> Lattice<P> {
         goal: Vertex,
         mut step: impl FnMut(usize),
     ) {
-        if !self.has_gaps() {
+        if !self.has_closed_gaps() {
             return self.for_each_legal_move(from, step);
         }
         self.for_each_legal_move(from, |index| {
@@ -212,11 +212,11 @@ impl<P: Place> Lattice<P> {
     }
 
     /// Whether a path to `goal` that arrived `from` by the one move may go on by the legal move `index`: false only where that would
-    /// pass a [gap](Terrain::is_gap).
+    /// pass a [gap](FreeSpace::is_closed_gap).
     #[must_use]
     #[inline]
     pub fn may_step(&self, from: Vertex, arrived_by: Option<usize>, index: usize, goal: Vertex) -> bool {
-        if !self.has_gaps() {
+        if !self.has_closed_gaps() {
             return true;
         }
         let moved = |index: usize| self.steps[index].vector();
@@ -230,10 +230,10 @@ impl<P: Place> Lattice<P> {
     /// (With diagonal moves a path that stays in one quadrant of a gap is never shorter than one past it.)
     #[inline]
     fn may_enter(&self, from: Vertex, to: Vertex, goal: Vertex) -> bool {
-        if !self.is_gap(to) {
+        if !self.is_closed_gap(to) {
             return true;
         }
-        if to == goal { self.may_turn(Some(from), to, None) } else { self.k == K::FOUR_CONNECTED }
+        if to == goal { self.may_turn(Some(from), to, None) } else { self.k == FiniteK::N4 }
     }
 }
 
@@ -245,7 +245,7 @@ pub struct MoveSet {
 
 impl MoveSet {
     /// Room for the moves of the largest k.
-    const WORDS: usize = (1 << Lattice::<crate::Centers>::MAX_K) / 64;
+    const WORDS: usize = (1 << GridGraph::<crate::Centers>::MAX_K) / 64;
 
     /// The number of moves in the set.
     #[must_use]
@@ -275,7 +275,7 @@ impl MoveSet {
 }
 
 /// The legal moves of N(min(k, 3)) at a vertex around which the cells form this pattern, one bit each.
-fn near_moves<P: Place>(rule: P::Rule, k: K, moves: &[Vector], pattern: usize) -> u8 {
+fn near_moves<P: Placement>(rule: P::Rule, k: FiniteK, moves: &[Vector], pattern: usize) -> u8 {
     let near = moves.iter().step_by(1 << k.get().saturating_sub(3));
     near.enumerate().fold(0, |set, (bit, &v)| {
         let (frame, d) = Frame::of(v);
@@ -293,7 +293,7 @@ fn near_moves<P: Place>(rule: P::Rule, k: K, moves: &[Vector], pattern: usize) -
 }
 
 /// The trees over the moves beyond N(3); none up to k = 3.
-fn octants<P: Place>(rule: P::Rule, moves: &[Vector], grid: &Grid) -> Box<[Octant]> {
+fn octants<P: Placement>(rule: P::Rule, moves: &[Vector], grid: &Grid) -> Box<[Octant]> {
     let size = moves.len() / 8;
     let between = moves.chunks_exact(size.max(1)).zip((0..).step_by(size.max(1))).filter(|_| size > 1);
     between.map(|(moves, first)| Octant::new::<P>(rule, &moves[1..], first + 1, grid)).collect()

@@ -1,10 +1,10 @@
 //! All that a vertex sees.
 
-use mediant_grid::{BitMatrix, BitRow, Corners, Terrain, Vertex};
+use mediant_grid::{BitMatrix, BitRow, Corners, FreeSpace, Vertex};
 
 use super::{
-    bands::Bands,
     interval::{End, Ray},
+    row_summary::RowSummary,
     strip::row_ahead,
 };
 
@@ -64,25 +64,25 @@ impl<'m> From<&'m BitMatrix> for Targets<'m> {
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_grid::{AsciiMap, BitMatrix, Corners, DiagonalGap, Terrain, Vertex};
-/// use mediant_search::{Bands, Fan, Quadrants};
+/// use mediant_grid::{AsciiMap, BitMatrix, Corners, DiagonalGap, FreeSpace, Vertex};
+/// use mediant_search::{RowSummary, VisibilitySweep, Quadrants};
 /// let map = AsciiMap::parse("
 ///     ....
 ///     .#..
 ///     ....
 /// ")?;
-/// let terrain = Terrain::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
+/// let space = FreeSpace::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
 /// // Column 4 is marked.
 /// let marks = BitMatrix::from_words(5, 4, false, |_, _| 1 << 4);
 /// let mut seen = Vec::new();
-/// let bands = Bands::new(terrain.grid());
-/// Fan::default().seen(&terrain, &bands, &marks, Vertex::new(0, 1), Quadrants::ALL, |at| seen.push(at.y));
+/// let bands = RowSummary::new(space.grid());
+/// VisibilitySweep::default().seen(&space, &bands, &marks, Vertex::new(0, 1), Quadrants::ALL, |at| seen.push(at.y));
 /// seen.sort();
 /// assert_eq!(seen, [0, 1]);
 /// # Ok::<(), mediant_grid::GridError>(())
 /// ```
 #[derive(Clone, Debug, Default)]
-pub struct Fan {
+pub struct VisibilitySweep {
     pending: Vec<Piece>,
 }
 
@@ -126,23 +126,23 @@ impl Edge {
 
 /// One half of what there is to be seen, above or below.
 struct Half<'t> {
-    terrain: &'t Terrain<Corners>,
-    bands: &'t Bands,
+    space: &'t FreeSpace<Corners>,
+    bands: &'t RowSummary,
     marks: Targets<'t>,
     from: Vertex,
     /// 1 below, −1 above.
     down: i32,
 }
 
-impl Fan {
+impl VisibilitySweep {
     /// Tells `found` the marks that the free vertex `from` sees in these quadrants, each once. Marks are convex corners of obstacles; others may be
     /// left out, as may those behind another corner on the same ray. On the vertical between a quadrant that is asked for and one that is not,
-    /// what is seen is what the cells of the first let through. `bands` are those of the terrain's grid. Under
-    /// [`DiagonalGap::Closed`](mediant_grid::DiagonalGap::Closed) no mark may be at a [gap](Terrain::is_gap).
+    /// what is seen is what the cells of the first let through. `bands` are those of the free space's grid. Under
+    /// [`DiagonalGap::Closed`](mediant_grid::DiagonalGap::Closed) no mark may be at a [gap](FreeSpace::is_closed_gap).
     pub fn seen<'m>(
         &mut self,
-        terrain: &'m Terrain<Corners>,
-        bands: &'m Bands,
+        space: &'m FreeSpace<Corners>,
+        bands: &'m RowSummary,
         marks: impl Into<Targets<'m>>,
         from: Vertex,
         quadrants: Quadrants,
@@ -152,7 +152,7 @@ impl Fan {
         for down in [1, -1] {
             let (left, right) = (quadrants.has(-1, down), quadrants.has(1, down));
             if left || right {
-                let half = Half { terrain, bands, marks, from, down };
+                let half = Half { space, bands, marks, from, down };
                 self.pending.clear();
                 self.pending.extend(half.first(left, right));
                 while let Some(piece) = self.pending.pop() {
@@ -162,8 +162,8 @@ impl Fan {
         }
         for right in [1, -1] {
             if quadrants.has(right, 1) || quadrants.has(right, -1) || quadrants.0 & Quadrants::LINE.0 != 0 {
-                let mark = along_line(terrain, marks, from, right);
-                if let Some(at) = mark.filter(|&at| !terrain.has_gaps() || terrain.sees(from, at)) {
+                let mark = along_line(space, marks, from, right);
+                if let Some(at) = mark.filter(|&at| !space.has_closed_gaps() || space.sees(from, at)) {
                     found(at);
                 }
             }
@@ -172,8 +172,8 @@ impl Fan {
 }
 
 /// The nearest marked vertex that can be reached along the horizontal line.
-fn along_line(terrain: &Terrain<Corners>, marks: Targets<'_>, from: Vertex, right: i32) -> Option<Vertex> {
-    let [above, below] = [1, -1].map(|down| row_ahead(terrain.grid(), from.y, -down));
+fn along_line(space: &FreeSpace<Corners>, marks: Targets<'_>, from: Vertex, right: i32) -> Option<Vertex> {
+    let [above, below] = [1, -1].map(|down| row_ahead(space.grid(), from.y, -down));
     let [same, opposite] = [marks.same, marks.opposite].map(|marks| marks.row(from.y));
     let mut x = from.x;
     loop {
@@ -214,7 +214,7 @@ impl Half<'_> {
 
     /// The row of cells beyond a line.
     fn ahead(&self, line: i32) -> BitRow<'_> {
-        row_ahead(self.terrain.grid(), line, self.down)
+        row_ahead(self.space.grid(), line, self.down)
     }
 
     /// Follows an interval from line to line until it ends; where it splits, all but the first part are left `pending`.
@@ -223,12 +223,12 @@ impl Half<'_> {
         let mut marks = [self.marks.same, self.marks.opposite].map(|marks| marks.row(piece.line));
         loop {
             self.end_walls(&mut piece, ahead);
-            if piece.line % Bands::LINES == 0
+            if piece.line % RowSummary::LINES == 0
                 && let Some(next) = self.leap(piece)
             {
                 self.report_ends(piece, marks, found);
-                ahead = ahead.below(self.down * Bands::LINES);
-                marks = marks.map(|marks| marks.below(self.down * Bands::LINES));
+                ahead = ahead.below(self.down * RowSummary::LINES);
+                marks = marks.map(|marks| marks.below(self.down * RowSummary::LINES));
                 piece = next;
                 continue;
             }
@@ -296,9 +296,9 @@ impl Half<'_> {
     /// The interval a band of rows further on, if all its cells on the way are free, and the walls that it follows go on.
     #[inline]
     fn leap(&self, piece: Piece) -> Option<Piece> {
-        let band = piece.line / Bands::LINES + (self.down - 1) / 2;
+        let band = piece.line / RowSummary::LINES + (self.down - 1) / 2;
         let (blocked, solid) = (self.bands.blocked.row(band), self.bands.solid.row(band));
-        let [left, right] = [piece.left, piece.right].map(|edge| edge.after(Bands::LINES));
+        let [left, right] = [piece.left, piece.right].map(|edge| edge.after(RowSummary::LINES));
         let (mut low, mut high) = (
             piece.left.end.here.floor().min(left.end.here.floor()),
             piece.right.end.here.ceil().max(right.end.here.ceil()),
@@ -314,7 +314,7 @@ impl Half<'_> {
         } else if !solid.is_blocked(high) {
             return None;
         }
-        let line = piece.line + self.down * Bands::LINES;
+        let line = piece.line + self.down * RowSummary::LINES;
         let is_free = widens([left, right]) && blocked.first_blocked(low, high) == high;
         is_free.then_some(Piece { line, left, right })
     }

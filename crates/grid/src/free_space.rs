@@ -2,28 +2,28 @@
 
 use std::sync::Arc;
 
-use crate::{BitMatrix, Components, Connectivity, Grid, Place, Rules, Vertex, VertexId, line_of_sight};
+use crate::{BitMatrix, Components, Connectivity, Grid, Placement, Rules, Vertex, VertexId, line_of_sight};
 
-/// A grid under placement `P` and its rule of motion: all that any-angle search needs, and what the lattices of every k have in
+/// A grid under placement `P` and its rule of motion: all that any-angle search needs, and what the grid graphs of every k have in
 /// common. Immutable; planners share it.
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, Terrain, Vertex};
+/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace, Vertex};
 /// let map = AsciiMap::parse("
 ///     .#
 ///     #.
 /// ")?;
 /// let [start, goal] = [(0, 0), (2, 2)].map(Vertex::from);
 /// let grid = Arc::new(map.grid);
-/// let open = Terrain::<Corners>::new(Arc::clone(&grid), DiagonalGap::Open);
+/// let open = FreeSpace::<Corners>::new(Arc::clone(&grid), DiagonalGap::Open);
 /// assert!(open.sees(start, goal) && open.connected(start, goal));
-/// let closed = Terrain::<Corners>::new(grid, DiagonalGap::Closed);
-/// assert!(closed.is_gap(Vertex::new(1, 1)) && !closed.connected(start, goal));
+/// let closed = FreeSpace::<Corners>::new(grid, DiagonalGap::Closed);
+/// assert!(closed.is_closed_gap(Vertex::new(1, 1)) && !closed.connected(start, goal));
 /// # Ok::<(), mediant_grid::GridError>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Terrain<P: Place> {
+pub struct FreeSpace<P: Placement> {
     grid: Arc<Grid>,
     rule: P::Rule,
     width: u32,
@@ -33,7 +33,7 @@ pub struct Terrain<P: Place> {
     components: Components,
 }
 
-impl<P: Place> Terrain<P> {
+impl<P: Placement> FreeSpace<P> {
     /// A grid under a rule, for paths at any angle.
     #[must_use]
     pub fn new(grid: Arc<Grid>, rule: P::Rule) -> Self {
@@ -44,7 +44,7 @@ impl<P: Place> Terrain<P> {
     pub(crate) fn with_connectivity(grid: Arc<Grid>, rule: P::Rule, connectivity: Connectivity) -> Self {
         let (width, height) = P::vertices(&grid);
         Self {
-            gaps: P::closes_gaps(rule).then(|| double_corners(&grid)).flatten(),
+            gaps: P::closes_gaps(rule).then(|| gaps(&grid)).flatten(),
             components: Components::new(&grid, connectivity),
             grid,
             rule,
@@ -66,7 +66,7 @@ impl<P: Place> Terrain<P> {
         self.rule
     }
 
-    /// Placement and rule as a value.
+    /// PlacementKind and rule as a value.
     #[must_use]
     pub fn rules(&self) -> Rules {
         P::rules(self.rule)
@@ -121,9 +121,9 @@ impl<P: Place> Terrain<P> {
 
     /// The memory that this takes beyond the map, in bytes: mostly four a cell for the components.
     #[must_use]
-    pub fn index_bytes(&self) -> usize {
+    pub fn memory_bytes(&self) -> usize {
         let gaps = self.gaps.as_ref().map_or(0, |gaps| size_of_val(gaps.words()));
-        gaps + self.components.bytes()
+        gaps + self.components.memory_bytes()
     }
 
     /// Whether the straight segment between two vertices obeys the rules of motion; see [`line_of_sight`].
@@ -136,24 +136,24 @@ impl<P: Place> Terrain<P> {
     /// [`DiagonalGap::Closed`](crate::DiagonalGap::Closed).
     #[must_use]
     #[inline]
-    pub fn is_gap(&self, at: Vertex) -> bool {
+    pub fn is_closed_gap(&self, at: Vertex) -> bool {
         self.gaps.as_ref().is_some_and(|gaps| gaps.get(at.x, at.y))
     }
 
-    /// Whether there is any [gap](Self::is_gap).
+    /// Whether there is any [gap](Self::is_closed_gap).
     #[must_use]
     #[inline]
-    pub const fn has_gaps(&self) -> bool {
+    pub const fn has_closed_gaps(&self) -> bool {
         self.gaps.is_some()
     }
 
     /// Whether a path may come straight from `before` to the free vertex `at` and go on straight to `after`, as far as
-    /// [gaps](Self::is_gap) are concerned: at a gap it stays in one free quadrant, and one that starts or ends there (`None`), in that
+    /// [gaps](Self::is_closed_gap) are concerned: at a gap it stays in one free quadrant, and one that starts or ends there (`None`), in that
     /// of the vertex's own cell.
     #[must_use]
     #[inline]
     pub fn may_turn(&self, before: Option<Vertex>, at: Vertex, after: Option<Vertex>) -> bool {
-        !self.is_gap(at) || self.stays_in_quadrant(before, at, after)
+        !self.is_closed_gap(at) || self.stays_in_quadrant(before, at, after)
     }
 
     fn stays_in_quadrant(&self, before: Option<Vertex>, at: Vertex, after: Option<Vertex>) -> bool {
@@ -168,8 +168,8 @@ impl<P: Place> Terrain<P> {
 }
 
 /// Which corner vertices are doubly blocked; `None` when there are none.
-fn double_corners(grid: &Grid) -> Option<BitMatrix> {
+fn gaps(grid: &Grid) -> Option<BitMatrix> {
     let (width, height) = (grid.width() + 1, grid.height() + 1);
-    let gaps = BitMatrix::from_words(width, height, false, |x, y| grid.rows().double_corners(x, y));
+    let gaps = BitMatrix::from_words(width, height, false, |x, y| grid.rows().gaps(x, y));
     gaps.words().iter().any(|&word| word != 0).then_some(gaps)
 }

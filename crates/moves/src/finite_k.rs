@@ -1,0 +1,118 @@
+//! The finite neighborhoods: k = 2, 3, 4, …
+
+use core::fmt;
+
+/// The k of a 2^k neighborhood: 2 (4-connected), 3 (8-connected), 4 (16 moves), …
+///
+/// Distances and bounds exist for every `FiniteK`. Sets of moves stop at [`FiniteK::MAX_MOVES`], where coordinates would no
+/// longer fit in an `i32`.
+///
+/// ```
+/// use mediant_moves::FiniteK;
+/// assert_eq!(FiniteK::new(3)?.moves(), Some(8));
+/// assert!(FiniteK::new(1).is_err());
+/// # Ok::<(), mediant_moves::KError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct FiniteK(u32);
+
+impl FiniteK {
+    /// k = 2, the 4-connected neighborhood.
+    pub const N4: Self = Self(2);
+    /// k = 3, the 8-connected neighborhood.
+    pub const N8: Self = Self(3);
+    /// k = 4, sixteen moves.
+    pub const N16: Self = Self(4);
+    /// k = 5, thirty-two moves.
+    pub const N32: Self = Self(5);
+    /// k = 6, sixty-four moves.
+    pub const N64: Self = Self(6);
+    /// The largest k whose moves have `i32` coordinates: Fib(45) = 1,836,311,903 is the radius of N(47), and
+    /// Fib(46) exceeds `i32::MAX` (Rivera 2017, Theorem 1, with Fib(0) = Fib(1) = 1).
+    pub const MAX_MOVES: Self = Self(47);
+
+    /// The given k.
+    ///
+    /// # Errors
+    /// [`KError::TooSmall`] for k < 2.
+    pub const fn new(k: u32) -> Result<Self, KError> {
+        if k < 2 { Err(KError::TooSmall { k }) } else { Ok(Self(k)) }
+    }
+
+    /// k as a number.
+    #[must_use]
+    pub const fn get(self) -> u32 {
+        self.0
+    }
+
+    /// How often a mediant was inserted everywhere to come here from the 4-connected quadrant: i = k − 2, the index
+    /// of Q(i) in Kramm 2018 and of 𝒩^i in Rivera 2017.
+    #[must_use]
+    pub const fn depth(self) -> u32 {
+        self.0 - 2
+    }
+
+    /// |N(k)| = 2^k (Rivera 2017, Proposition 2); `None` from k = 64 on.
+    #[must_use]
+    pub const fn moves(self) -> Option<u64> {
+        1_u64.checked_shl(self.0)
+    }
+
+    /// The largest coordinate of the moves of N(k), without building them: Fib(k − 2) (Rivera 2017, Theorem 1).
+    ///
+    /// # Errors
+    /// [`KError::TooLarge`] above [`FiniteK::MAX_MOVES`].
+    pub const fn radius(self) -> Result<i32, KError> {
+        if self.0 > Self::MAX_MOVES.0 {
+            return Err(KError::TooLarge { k: self.0, max: Self::MAX_MOVES.0 });
+        }
+        let (mut fib, mut next, mut i) = (1_i64, 1_i64, 0);
+        while i < self.depth() {
+            (fib, next) = (next, fib + next);
+            i += 1;
+        }
+        Ok(fib as i32)
+    }
+}
+
+const _: () = {
+    assert!(matches!(FiniteK::MAX_MOVES.radius(), Ok(1_836_311_903)));
+    assert!(1_836_311_903_i64 + 1_134_903_170 > i32::MAX as i64);
+};
+
+impl fmt::Display for FiniteK {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+/// A k that does not serve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum KError {
+    /// There is no 2^k neighborhood below k = 2.
+    TooSmall {
+        /// The k that was asked for.
+        k: u32,
+    },
+    /// The integer types (or the tables) at hand do not hold this neighborhood.
+    TooLarge {
+        /// The k that was asked for.
+        k: u32,
+        /// The largest k that would do.
+        max: u32,
+    },
+}
+
+impl fmt::Display for KError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooSmall { k } => {
+                write!(f, "k = {k} is too small: the smallest 2^k neighborhood is the 4-connected one, k = 2")
+            }
+            Self::TooLarge { k, max } => write!(f, "k = {k} is too large: at most k = {max} fits here"),
+        }
+    }
+}
+
+impl core::error::Error for KError {}
