@@ -3,7 +3,7 @@
 use std::num::NonZeroU32;
 
 use mediant_grid::{CornerRule, Rules};
-use mediant_hierarchy::{Clustering, Conduct};
+use mediant_hierarchy::{Clustering, FallbackPolicy};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{Guarantee, Smoothing};
 use mediant_subgoal::Hierarchy;
@@ -63,7 +63,7 @@ pub struct Options {
     /// Every how many segments there is a checkpoint; 2 without it.
     pub step: Option<NonZeroU32>,
     /// How many times as long as on an empty grid the way to a checkpoint may be, or the search leaves its plan; that of
-    /// [`Conduct::default`] without it.
+    /// [`FallbackPolicy::default`] without it.
     pub detour: Option<NonZeroU32>,
     /// How the path is made shorter afterwards, if it is.
     pub smoothing: Option<Smoothing>,
@@ -221,17 +221,17 @@ impl Setup {
     /// How many times as long as on an empty grid the way to a checkpoint may be, of an engine that otherwise leaves its plan.
     #[must_use]
     pub fn detour(&self) -> Option<NonZeroU32> {
-        match self.conduct() {
-            Conduct::Complete { detour } if self.engine.about().phases => Some(detour),
+        match self.fallback_policy() {
+            FallbackPolicy::Complete { detour } if self.engine.about().phases => Some(detour),
             _ => None,
         }
     }
 
-    pub(crate) fn conduct(&self) -> Conduct {
+    pub(crate) fn fallback_policy(&self) -> FallbackPolicy {
         match self.options.detour {
-            _ if self.variant() == Some(Variant::Paper) => Conduct::Paper,
-            Some(detour) => Conduct::Complete { detour },
-            None => Conduct::default(),
+            _ if self.variant() == Some(Variant::Paper) => FallbackPolicy::Paper,
+            Some(detour) => FallbackPolicy::Complete { detour },
+            None => FallbackPolicy::default(),
         }
     }
 

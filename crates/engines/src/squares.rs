@@ -159,7 +159,7 @@ impl<V: Visit> Plan<'_, V> {
     ) -> Result<V::Output, EngineError> {
         let Self { setup, grid_graph, graph, preprocessing, visit } = self;
         let planner = ChpaStar::new(Arc::clone(grid_graph), graph, first, second)?;
-        let planner = planner.with_conduct(setup.conduct());
+        let planner = planner.with_fallback_policy(setup.fallback_policy());
         let planner = match setup.step() {
             Some(step) => planner.with_step(step),
             None => planner,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use mediant_grid::FreeSpace;
 use mediant_search::HasFreeSpace;
-use mediant_subgoal::{Connect, Hierarchy, Progress, SubgoalAStar, SubgoalGraph, SubgoalTheta};
+use mediant_subgoal::{Hierarchy, Progress, SubgoalAStar, SubgoalGraph, SubgoalPlacement, SubgoalTheta};
 
 use crate::{
     Engine, EngineError, Ground, Preprocessing, Setup, Visit,
@@ -34,7 +34,7 @@ fn on<T, P, V>(
 ) -> Result<V::Output, EngineError>
 where
     T: HasFreeSpace<Placement = P> + Send + Sync + 'static,
-    P: Connect + Send + Sync + 'static,
+    P: SubgoalPlacement + Send + Sync + 'static,
     V: Visit,
 {
     let (graph, preprocessing) = graph(setup, ground.free_space(), index)?;
@@ -47,7 +47,7 @@ where
 }
 
 /// The graph of a setup, and what it took.
-fn graph<P: Connect>(
+fn graph<P: SubgoalPlacement>(
     setup: Setup,
     space: &FreeSpace<P>,
     index: Option<&[u8]>,
@@ -65,7 +65,7 @@ fn graph<P: Connect>(
     Ok((Arc::new(graph), preprocessing))
 }
 
-fn new_graph<P: Connect>(
+fn new_graph<P: SubgoalPlacement>(
     setup: Setup,
     space: &FreeSpace<P>,
     progress: &(dyn Fn(Progress) + Sync),
@@ -75,7 +75,7 @@ fn new_graph<P: Connect>(
 }
 
 /// The graph in an index, which must have the levels that the setup names; one that names none takes those that there are.
-fn saved_graph<P: Connect>(
+fn saved_graph<P: SubgoalPlacement>(
     setup: Setup,
     space: &FreeSpace<P>,
     bytes: &[u8],

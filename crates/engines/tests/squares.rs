@@ -9,7 +9,7 @@ use mediant_engines::{
     Solver, Variant, build,
 };
 use mediant_grid::{CornerRule, Grid, PlacementKind, Rules};
-use mediant_hierarchy::{ClusterGraph, Clustering, Conduct, HierarchyError, SegmentGraph};
+use mediant_hierarchy::{ClusterGraph, Clustering, FallbackPolicy, HierarchyError, SegmentGraph};
 use mediant_moves::{FiniteK, K};
 use mediant_oracle::{Rng, caves};
 use mediant_search::{Guarantee, Query, QueryError};
@@ -91,7 +91,9 @@ fn what_is_left_out_has_its_default() {
     assert_eq!(setup("chpa,squared").second(), Some(HeuristicName::SquaredEuclidean));
     assert_eq!(setup("chpa,squared,second=zero").second(), Some(HeuristicName::Zero));
     assert_eq!(chpa.variant(), Some(Variant::Complete));
-    let Conduct::Complete { detour } = Conduct::default() else { panic!("it is complete by default") };
+    let FallbackPolicy::Complete { detour } = FallbackPolicy::default() else {
+        panic!("it is complete by default")
+    };
     assert_eq!((chpa.detour(), setup("chpa,paper").detour()), (Some(detour), None));
     assert_eq!((chpa.step(), setup("chpa,step=5").step()), (NonZeroU32::new(2), NonZeroU32::new(5)));
     for text in ["hpa", "chpa", "chpa,paper", "hpa,taut", "astar,squared", "astar:5:open,squared,smooth"] {

@@ -6,7 +6,7 @@
 //! | paper | index | planner |
 //! |---|---|---|
 //! | Botea, Müller & Schaeffer 2004, HPA* | [`ClusterGraph`]: clusters, transitions, costs between them, on one or more levels | [`HpaStar`] |
-//! | Teleiša & Čalnerytė 2023, CHPA* | [`SegmentGraph`]: segments, and which neighbors a path through a sliding window joins | [`ChpaStar`], as published or [complete](Conduct) |
+//! | Teleiša & Čalnerytė 2023, CHPA* | [`SegmentGraph`]: segments, and which neighbors a path through a sliding window joins | [`ChpaStar`], as published or [complete](FallbackPolicy) |
 //!
 //! ```
 //! use std::sync::Arc;
@@ -76,6 +76,6 @@ mod hpa;
 mod straighten;
 mod window;
 
-pub use chpa::{ChpaStar, Conduct, SegmentGraph};
+pub use chpa::{ChpaStar, FallbackPolicy, SegmentGraph};
 pub use error::HierarchyError;
 pub use hpa::{ClusterGraph, Clustering, HpaStar};

@@ -13,7 +13,7 @@ use common::{
     hpa, k, map, number, random_queries, segments,
 };
 use mediant_grid::{Centers, CornerRule, Grid, GridGraph, Rectangle};
-use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, Conduct, HpaStar, SegmentGraph};
+use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, FallbackPolicy, HpaStar, SegmentGraph};
 use mediant_oracle::{Rng, caves, on_all_cores, seeds};
 use mediant_search::{Counters, Outcome, Planner, Query};
 
@@ -101,8 +101,11 @@ fn a_planner_that_repaired_its_index_answers_as_a_new_one() {
             )
             .expect("it fits"),
         );
-        let setting =
-            Setting { phases: [Some(Bound::GridGraph); 2], step: number(2), conduct: Conduct::default() };
+        let setting = Setting {
+            phases: [Some(Bound::GridGraph); 2],
+            step: number(2),
+            fallback: FallbackPolicy::default(),
+        };
         let mut asked = 0;
         for (grid_graph, at) in grid_graphs[1..].iter().zip(places) {
             for query in random_queries(&mut rng, grid_graph.grid(), 2) {

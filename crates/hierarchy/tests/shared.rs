@@ -8,7 +8,7 @@ use common::{
     Answer, Bound, Setting, ask, chpa, clusters, grid_graph, hpa, k, number, random_queries, segments,
 };
 use mediant_grid::{Centers, CornerRule, GridGraph};
-use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, Conduct, HpaStar, SegmentGraph};
+use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, FallbackPolicy, HpaStar, SegmentGraph};
 use mediant_oracle::{Rng, caves};
 use mediant_search::{Hk, Query, SquaredEuclidean};
 
@@ -30,7 +30,8 @@ impl Shared {
     fn solve_all(&self, queries: &[Query]) -> Vec<[Answer; 3]> {
         let (grid_graph, segments) = (|| Arc::clone(&self.grid_graph), || Arc::clone(&self.segments));
         let step = number(2);
-        let complete = Setting { phases: [Some(Bound::GridGraph), None], step, conduct: Conduct::default() };
+        let complete =
+            Setting { phases: [Some(Bound::GridGraph), None], step, fallback: FallbackPolicy::default() };
         let mut planners = [
             hpa(grid_graph(), Arc::clone(&self.clusters), true),
             chpa(grid_graph(), segments(), complete),

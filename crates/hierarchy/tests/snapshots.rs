@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use common::{Bound, Setting, Solve, ask, chpa, clusters, grid_graph, hpa, k, number, segments};
 use mediant_grid::{AsciiMap, CornerRule, PlacementKind, draw};
-use mediant_hierarchy::{Clustering, Conduct};
+use mediant_hierarchy::{Clustering, FallbackPolicy};
 use mediant_search::Query;
 
 const HALL: &str = "
@@ -46,11 +46,12 @@ fn picture(number_of_k: u32) -> String {
             .expect("a text takes all");
     };
     let bound = Some(Bound::GridGraph);
-    let setting = Setting { phases: [bound; 2], step: number(2), conduct: Conduct::default() };
+    let setting = Setting { phases: [bound; 2], step: number(2), fallback: FallbackPolicy::default() };
     add("HPA*, refined", hpa(&grid_graph, &graph, false));
     add("HPA*", hpa(&grid_graph, &graph, true));
     add("CHPA*", chpa(&grid_graph, &segments, setting));
-    let hasty = Setting { step: number(1), conduct: Conduct::Complete { detour: number(1) }, ..setting };
+    let hasty =
+        Setting { step: number(1), fallback: FallbackPolicy::Complete { detour: number(1) }, ..setting };
     add("CHPA*, which goes no detour", chpa(&grid_graph, &segments, hasty));
     text
 }

@@ -4,12 +4,12 @@ use mediant_grid::{BitIndex, BitMatrix, Centers, CornerRule, FreeSpace, Grid, Ve
 use mediant_moves::{Cost, FiniteK, K};
 
 use crate::{
-    Connect, Hierarchy, SubgoalError,
-    connect::{Edges, Map, Which},
+    Hierarchy, SubgoalError, SubgoalPlacement,
     lines::{Lines, Run, ahead, behind},
+    placement::{BuildContext, EdgeKind, Edges},
 };
 
-impl Connect for Centers {
+impl SubgoalPlacement for Centers {
     type Scratch = ();
     type Prepared = Lines;
 
@@ -29,8 +29,14 @@ impl Connect for Centers {
         Edges::Direct
     }
 
-    fn links(map: Map<'_, Self>, (): &mut (), from: Vertex, which: Which, mut tell: impl FnMut(u32, Cost)) {
-        let Map { space, subgoals, norm, k, .. } = map;
+    fn links(
+        map: BuildContext<'_, Self>,
+        (): &mut (),
+        from: Vertex,
+        which: EdgeKind,
+        mut tell: impl FnMut(u32, Cost),
+    ) {
+        let BuildContext { space, subgoals, norm, k, .. } = map;
         let lines = subgoals.prepared();
         let tell = |to: Vector, cost: Cost| {
             if let Some(id) = subgoals.id(from + to) {
@@ -49,7 +55,7 @@ struct Links<'l, F> {
     grid: &'l Grid,
     lines: &'l Lines,
     from: Vertex,
-    which: Which,
+    which: EdgeKind,
     /// Of u and v.
     costs: (Cost, Cost),
     /// Is told where a subgoal is, or a blocked cell, and what the way there costs.
@@ -81,7 +87,7 @@ impl<F: FnMut(Vector, Cost)> Links<'_, F> {
         let [down, up] = [1, -1].map(|y| self.axis(false, y));
         for (x, across) in [(1, right), (-1, left)] {
             for (y, along) in [(1, down), (-1, up)] {
-                if y < 0 && self.which == Which::Edges {
+                if y < 0 && self.which == EdgeKind::Edges {
                     continue;
                 }
                 if !diagonally {
@@ -167,9 +173,9 @@ mod tests {
     use mediant_oracle::{Explicit, random_grid, wide_grid};
 
     use crate::{
-        Connect,
-        connect::{Edges, Map, Which},
+        SubgoalPlacement,
         norm::Norm,
+        placement::{BuildContext, EdgeKind, Edges},
         subgoals::Subgoals,
     };
 
@@ -190,7 +196,7 @@ mod tests {
         let norm = Norm::new(K::Finite(k)).expect("a small k");
         let subgoals = Subgoals::new(Centers::prepare(&space));
         let edges = Edges::Direct;
-        let map = Map { space: &space, subgoals: &subgoals, norm: &norm, k: K::Finite(k), edges };
+        let map = BuildContext { space: &space, subgoals: &subgoals, norm: &norm, k: K::Finite(k), edges };
         let explicit = Explicit::new(grid, Centers::rules(rule), Some(k));
         let all: Vec<Vertex> = explicit.free_vertices().filter(|&at| is_subgoal(grid, at)).collect();
         assert_eq!(
@@ -219,13 +225,13 @@ mod tests {
                 i != j && direct[j][i] && h(from, all[j]) + h(all[j], all[i]) == h(from, all[i])
             };
             let joined = |i: &usize| !near.iter().any(|&j| over(*i, j));
-            for which in [Which::All, Which::Edges] {
+            for which in [EdgeKind::All, EdgeKind::Edges] {
                 let below = |to: Vector| to.y > 0 || to.y == 0 && to.x > 0;
                 let expected: Vec<(u32, Cost)> = near
                     .iter()
                     .copied()
                     .filter(joined)
-                    .filter(|&i| which == Which::All || below(from.to(all[i])))
+                    .filter(|&i| which == EdgeKind::All || below(from.to(all[i])))
                     .map(|i| (i as u32, h(from, all[i])))
                     .collect();
                 let mut links = Vec::new();

@@ -10,16 +10,16 @@ use mediant_grid::FreeSpace;
 use mediant_moves::{Cost, K};
 
 use crate::{
-    Connect, Hierarchy, SubgoalError, SubgoalGraph,
-    connect::Edges,
+    Hierarchy, SubgoalError, SubgoalGraph, SubgoalPlacement,
     contract::NONE,
-    graph::{Hop, Up},
+    graph::{Step, UpwardArc},
     norm::Norm,
+    placement::Edges,
     planner::is_free,
     subgoals::Subgoals,
 };
 
-impl<P: Connect> SubgoalGraph<P> {
+impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// The version of what [`to_bytes`](Self::to_bytes) writes.
     pub const VERSION: u32 = 1;
 
@@ -78,7 +78,7 @@ impl<P: Connect> SubgoalGraph<P> {
             if to >= count || mid != NONE && mid >= count {
                 return Err(SubgoalError::Bytes("an arc leads to no subgoal"));
             }
-            arcs.push(Up::to(to, mid));
+            arcs.push(UpwardArc::to(to, mid));
         }
         let graph = Self {
             subgoals,
@@ -90,7 +90,7 @@ impl<P: Connect> SubgoalGraph<P> {
             arcs: arcs.into_boxed_slice(),
         };
         let graph = graph.with_costs(space)?;
-        let is_free = |id: u32, arc: &Up| {
+        let is_free = |id: u32, arc: &UpwardArc| {
             let [from, to] = [id, arc.to].map(|id| graph.subgoals.vertex(id));
             let is_free = || match graph.edges {
                 Edges::Direct => is_free(space, k, from, to),
@@ -145,18 +145,23 @@ impl<P: Connect> SubgoalGraph<P> {
         for id in order {
             let first = (self.offsets[id as usize] / 2) as usize;
             for number in first..first + self.up(id).len() {
-                let Up { to, mid, .. } = self.arcs[number];
+                let UpwardArc { to, mid, .. } = self.arcs[number];
                 let way = if mid == NONE {
-                    let step = self.subgoals.vertex(id).to(self.subgoals.vertex(to));
-                    let hop = Hop::of(step);
-                    Up { cost: self.norm.length(step).to_bits(), first: hop, last: hop, ..Up::to(to, mid) }
+                    let v = self.subgoals.vertex(id).to(self.subgoals.vertex(to));
+                    let step = Step::of(v);
+                    UpwardArc {
+                        cost: self.norm.length(v).to_bits(),
+                        first: step,
+                        last: step,
+                        ..UpwardArc::to(to, mid)
+                    }
                 } else {
                     let halves = self.arc(mid, id).zip(self.arc(mid, to)).filter(|_| known[mid as usize]);
                     let (a, b) =
                         halves.ok_or(SubgoalError::Bytes("a shortcut leads over no subgoal below it"))?;
                     let cost = a.cost.checked_add(b.cost).filter(|&cost| cost <= most);
                     let cost = cost.ok_or(SubgoalError::Bytes("a way is too long"))?;
-                    Up { cost, first: a.last.back(), last: b.last, ..Up::to(to, mid) }
+                    UpwardArc { cost, first: a.last.back(), last: b.last, ..UpwardArc::to(to, mid) }
                 };
                 self.arcs[number] = way;
             }

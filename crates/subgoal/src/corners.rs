@@ -5,9 +5,9 @@ use mediant_moves::{Cost, K};
 use mediant_search::{Quadrants, RowSummary, Targets, VisibilitySweep};
 
 use crate::{
-    Connect, Hierarchy, SubgoalError,
-    connect::{Edges, Map, Prepared, Which},
+    Hierarchy, SubgoalError, SubgoalPlacement,
     direct::DirectFilter,
+    placement::{BuildContext, EdgeKind, Edges, Prepared},
 };
 
 /// Scratch memory at corners.
@@ -34,7 +34,7 @@ impl Prepared for Views {
     }
 }
 
-impl Connect for Corners {
+impl SubgoalPlacement for Corners {
     type Scratch = Seen;
     type Prepared = Views;
 
@@ -69,24 +69,24 @@ impl Connect for Corners {
     }
 
     fn links(
-        map: Map<'_, Self>,
+        map: BuildContext<'_, Self>,
         scratch: &mut Seen,
         from: Vertex,
-        which: Which,
+        which: EdgeKind,
         mut tell: impl FnMut(u32, Cost),
     ) {
-        let Map { space, subgoals, norm, k, edges } = map;
+        let BuildContext { space, subgoals, norm, k, edges } = map;
         let Views { bands, tangents } = subgoals.prepared();
         let tangents = (edges == Edges::Taut).then_some(tangents);
         let quadrants = match (which, tangents) {
-            (Which::Edges, Some([same, _])) => {
+            (EdgeKind::Edges, Some([same, _])) => {
                 let tangent = if same.get(from.x, from.y) { 1 } else { -1 };
                 Quadrants::only(tangent, 1).and(Quadrants::LINE)
             }
-            (Which::Edges, None) => Quadrants::only(1, 1).and(Quadrants::only(-1, 1)),
+            (EdgeKind::Edges, None) => Quadrants::only(1, 1).and(Quadrants::only(-1, 1)),
             // From a gap a path sets out into the quadrant of its own cell.
-            (Which::All, _) if space.is_closed_gap(from) => Quadrants::only(1, 1),
-            (Which::All, _) => Quadrants::ALL,
+            (EdgeKind::All, _) if space.is_closed_gap(from) => Quadrants::only(1, 1),
+            (EdgeKind::All, _) => Quadrants::ALL,
         };
         let Seen { fan, direct } = scratch;
         match (k, tangents) {

@@ -6,10 +6,10 @@ use mediant_grid::{FreeSpace, Vector, Vertex};
 use mediant_moves::K;
 
 use crate::{
-    Connect, SubgoalError,
-    connect::{Edges, Map, Which},
+    SubgoalError, SubgoalPlacement,
     contract::{Contraction, NONE, Rules},
     norm::Norm,
+    placement::{BuildContext, EdgeKind, Edges},
     subgoals::Subgoals,
     taut::Bend,
 };
@@ -50,35 +50,35 @@ pub enum Stage {
 
 /// An arc of the graph, upward.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Up {
+pub(crate) struct UpwardArc {
     pub(crate) cost: u64,
     pub(crate) to: u32,
     /// The subgoal that a shortcut leads over; [`NONE`] for an edge.
     pub(crate) mid: u32,
     /// The first and the last step of the way, from subgoal to subgoal.
-    pub(crate) first: Hop,
-    pub(crate) last: Hop,
+    pub(crate) first: Step,
+    pub(crate) last: Step,
 }
 
-impl Up {
+impl UpwardArc {
     /// A way whose costs are not known yet.
     pub(crate) const fn to(to: u32, mid: u32) -> Self {
-        Self { cost: 0, to, mid, first: Hop(0, 0), last: Hop(0, 0) }
+        Self { cost: 0, to, mid, first: Step(0, 0), last: Step(0, 0) }
     }
 }
 
 /// A displacement in little space; zero where it does not fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Hop(i16, i16);
+pub(crate) struct Step(i16, i16);
 
 /// How a search came to a subgoal: what the way from its parent leads over, and its last step.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Way {
+pub(crate) struct ParentEdge {
     pub(crate) mid: u32,
-    pub(crate) hop: Hop,
+    pub(crate) step: Step,
 }
 
-impl Hop {
+impl Step {
     pub(crate) fn of(v: Vector) -> Self {
         let fits = v.x.abs().max(v.y.abs()) <= i32::from(i16::MAX);
         if fits { Self(v.x as i16, v.y as i16) } else { Self::default() }
@@ -99,7 +99,7 @@ impl Hop {
 
 /// A subgoal graph: the index that planners search. Immutable, and shared by any number of them.
 #[derive(Clone, Debug)]
-pub struct SubgoalGraph<P: Connect> {
+pub struct SubgoalGraph<P: SubgoalPlacement> {
     pub(crate) subgoals: Subgoals<P::Prepared>,
     pub(crate) norm: Norm,
     pub(crate) k: K,
@@ -107,10 +107,10 @@ pub struct SubgoalGraph<P: Connect> {
     pub(crate) hierarchy: Hierarchy,
     /// Twice the number of the subgoal's first arc, plus 1 if it belongs to the core.
     pub(crate) offsets: Box<[u32]>,
-    pub(crate) arcs: Box<[Up]>,
+    pub(crate) arcs: Box<[UpwardArc]>,
 }
 
-impl<P: Connect> SubgoalGraph<P> {
+impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// The subgoal graph of a free space for paths over N(k), or at any angle.
     ///
     /// # Errors
@@ -138,7 +138,7 @@ impl<P: Connect> SubgoalGraph<P> {
         let subgoals = Subgoals::new(P::prepare(space));
         let total = subgoals.len();
         let edges = P::edges(k, hierarchy);
-        let map = Map { space, subgoals: &subgoals, norm: &norm, k, edges };
+        let map = BuildContext { space, subgoals: &subgoals, norm: &norm, k, edges };
         let found = find_edges(map, &|done| progress(Progress { stage: Stage::Edges, done, total }));
         let mut contraction = Contraction::new(total, &found, map);
         let mut step = |done| progress(Progress { stage: Stage::Hierarchy, done, total });
@@ -157,7 +157,7 @@ impl<P: Connect> SubgoalGraph<P> {
         let (mut offsets, mut arcs) = (Vec::with_capacity(total + 1), Vec::new());
         for (around, taken) in contracted.arcs.iter().zip(&contracted.taken) {
             offsets.push(2 * arcs.len() as u32 + u32::from(!taken));
-            arcs.extend(around.iter().map(|arc| Up::to(arc.to, arc.mid)));
+            arcs.extend(around.iter().map(|arc| UpwardArc::to(arc.to, arc.mid)));
         }
         offsets.push(2 * arcs.len() as u32);
         let (offsets, arcs) = (offsets.into_boxed_slice(), arcs.into_boxed_slice());
@@ -166,7 +166,7 @@ impl<P: Connect> SubgoalGraph<P> {
     }
 }
 
-impl<P: Connect> SubgoalGraph<P> {
+impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// The number of subgoals.
     #[must_use]
     pub const fn subgoals(&self) -> usize {
@@ -182,8 +182,8 @@ impl<P: Connect> SubgoalGraph<P> {
     pub fn edges(&self) -> impl Iterator<Item = (Vertex, Vertex)> {
         (0..self.subgoals() as u32).flat_map(move |id| {
             // Those of the core are stored at both ends.
-            let is_edge = move |arc: &&Up| arc.mid == NONE && (id < arc.to || !self.is_core(id));
-            let ends = move |arc: &Up| (self.subgoals.vertex(id), self.subgoals.vertex(arc.to));
+            let is_edge = move |arc: &&UpwardArc| arc.mid == NONE && (id < arc.to || !self.is_core(id));
+            let ends = move |arc: &UpwardArc| (self.subgoals.vertex(id), self.subgoals.vertex(arc.to));
             self.up(id).iter().filter(is_edge).map(ends)
         })
     }
@@ -233,18 +233,18 @@ impl<P: Connect> SubgoalGraph<P> {
 
     /// The arcs of a subgoal, upward or in the core.
     #[inline]
-    pub(crate) fn up(&self, id: u32) -> &[Up] {
+    pub(crate) fn up(&self, id: u32) -> &[UpwardArc] {
         let [first, end] = [id, id + 1].map(|id| (self.offsets[id as usize] / 2) as usize);
         &self.arcs[first..end]
     }
 
     /// The arc from one subgoal to another.
-    pub(crate) fn arc(&self, from: u32, to: u32) -> Option<Up> {
+    pub(crate) fn arc(&self, from: u32, to: u32) -> Option<UpwardArc> {
         self.up(from).iter().copied().find(|arc| arc.to == to)
     }
 }
 
-impl<P: Connect> Rules for Map<'_, P> {
+impl<P: SubgoalPlacement> Rules for BuildContext<'_, P> {
     fn vertex(&self, id: u32) -> Vertex {
         self.subgoals.vertex(id)
     }
@@ -264,7 +264,10 @@ impl<P: Connect> Rules for Map<'_, P> {
 }
 
 /// Every edge of the graph, from one of its ends.
-fn find_edges<P: Connect>(map: Map<'_, P>, progress: &(impl Fn(usize) + Sync)) -> Vec<(u32, u32)> {
+fn find_edges<P: SubgoalPlacement>(
+    map: BuildContext<'_, P>,
+    progress: &(impl Fn(usize) + Sync),
+) -> Vec<(u32, u32)> {
     const CHUNK: usize = 64;
     let count = map.subgoals.len();
     let done = std::sync::atomic::AtomicUsize::new(0);
@@ -273,7 +276,9 @@ fn find_edges<P: Connect>(map: Map<'_, P>, progress: &(impl Fn(usize) + Sync)) -
         let mut edges = Vec::new();
         for id in ids.clone() {
             let from = id as u32;
-            P::links(map, scratch, map.subgoals.vertex(from), Which::Edges, |to, _| edges.push((from, to)));
+            P::links(map, scratch, map.subgoals.vertex(from), EdgeKind::Edges, |to, _| {
+                edges.push((from, to))
+            });
         }
         let done = done.fetch_add(ids.len(), std::sync::atomic::Ordering::Relaxed) + ids.len();
         progress(done);
@@ -293,7 +298,7 @@ fn find_edges<P: Connect>(map: Map<'_, P>, progress: &(impl Fn(usize) + Sync)) -
     edges.concat()
 }
 
-impl<P: Connect> SubgoalGraph<P> {
+impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// Tells the vertices of the subgoals on a way (from, to, over), without the first. `pending` is scratch memory.
     pub(crate) fn unpack(
         &self,

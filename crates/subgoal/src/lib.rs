@@ -74,7 +74,6 @@
 
 mod centers;
 mod codec;
-mod connect;
 mod contract;
 mod corners;
 mod direct;
@@ -82,14 +81,15 @@ mod error;
 mod graph;
 mod lines;
 mod norm;
+mod placement;
 mod planner;
 mod subgoals;
 mod taut;
 mod theta;
 mod turns;
 
-pub use connect::Connect;
 pub use error::SubgoalError;
 pub use graph::{Hierarchy, Progress, Stage, SubgoalGraph};
+pub use placement::SubgoalPlacement;
 pub use planner::SubgoalAStar;
 pub use theta::SubgoalTheta;

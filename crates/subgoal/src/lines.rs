@@ -2,7 +2,7 @@
 
 use mediant_grid::{BitIndex, BitMatrix, Grid, Vertex, load};
 
-use crate::connect::Prepared;
+use crate::placement::Prepared;
 
 /// What ends a way from a center along a row, a column or a diagonal, as bits along that line, so that the first one ahead or behind is
 /// found by words.

@@ -9,10 +9,10 @@ use mediant_search::{
 };
 
 use crate::{
-    Connect, SubgoalGraph,
-    connect::{Edges, Map, Which},
+    SubgoalGraph, SubgoalPlacement,
     contract::NONE,
-    graph::{Hop, Way},
+    graph::{ParentEdge, Step},
+    placement::{BuildContext, EdgeKind, Edges},
     taut::Bend,
 };
 
@@ -25,12 +25,12 @@ use crate::{
 /// **Ties** are decided by the open lists' order (f, h, the subgoal's number), between the two searches in favor of the start's, and between meetings by the first: the
 /// same path and counts each time, on every platform. Events are those of both searches; of a subgoal that both come to, each tells.
 #[derive(Debug)]
-pub struct SubgoalAStar<T, G, P: Connect> {
+pub struct SubgoalAStar<T, G, P: SubgoalPlacement> {
     space: T,
     graph: G,
     scratch: P::Scratch,
     /// Up from the start, and up from the goal.
-    sides: [SearchTree<Way>; 2],
+    sides: [SearchTree<ParentEdge>; 2],
     /// The links of the start and of the goal.
     links: [Vec<(u32, Cost)>; 2],
     ways: Vec<(u32, u32, u32)>,
@@ -40,7 +40,7 @@ pub struct SubgoalAStar<T, G, P: Connect> {
 
 impl<T, G, P> SubgoalAStar<T, G, P>
 where
-    P: Connect,
+    P: SubgoalPlacement,
     T: Deref<Target: HasFreeSpace<Placement = P>>,
     G: Deref<Target = SubgoalGraph<P>>,
 {
@@ -63,7 +63,7 @@ where
 
 impl<T, G, P> Planner for SubgoalAStar<T, G, P>
 where
-    P: Connect,
+    P: SubgoalPlacement,
     T: Deref<Target: HasFreeSpace<Placement = P>>,
     G: Deref<Target = SubgoalGraph<P>>,
 {
@@ -95,7 +95,7 @@ where
     }
 }
 
-impl<P: Connect> SubgoalGraph<P> {
+impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// Finds the links of a start or goal.
     pub(crate) fn links_of(
         &self,
@@ -110,8 +110,8 @@ impl<P: Connect> SubgoalGraph<P> {
         match subgoals.id(at).filter(|_| *edges == Edges::Direct) {
             Some(id) => links.push((id, Cost::ZERO)),
             None => {
-                let map = Map { space, subgoals, norm, k: *k, edges: *edges };
-                P::links(map, scratch, at, Which::All, |id, cost| links.push((id, cost)));
+                let map = BuildContext { space, subgoals, norm, k: *k, edges: *edges };
+                P::links(map, scratch, at, EdgeKind::All, |id, cost| links.push((id, cost)));
             }
         }
     }
@@ -178,7 +178,7 @@ fn elbows(start: Vertex, parts: Decomposition) -> [Vertex; 2] {
 
 impl<T, G, P> SubgoalAStar<T, G, P>
 where
-    P: Connect,
+    P: SubgoalPlacement,
     T: Deref<Target: HasFreeSpace<Placement = P>>,
     G: Deref<Target = SubgoalGraph<P>>,
 {
@@ -205,7 +205,7 @@ where
             }
             let [forward, backward] = &mut *sides;
             let (this, other) = if side == 0 { (forward, backward) } else { (backward, forward) };
-            let came = this.way(id).hop.vector();
+            let came = this.way(id).step.vector();
             let onward = came.and_then(|came| Some(Bend::of_shortest(space, graph.k, at)?.after(came)));
             for arc in graph.up(id) {
                 if let Some((onward, goes)) = onward.zip(arc.first.vector())
@@ -219,7 +219,8 @@ where
                 }
                 let h = graph.norm.estimate(graph.subgoals.vertex(arc.to).to(ends[1 - side]));
                 if g + h < best.0 {
-                    let (is_first, swaps) = this.reach(arc.to, g, h, id, Way { mid: arc.mid, hop: arc.last });
+                    let (is_first, swaps) =
+                        this.reach(arc.to, g, h, id, ParentEdge { mid: arc.mid, step: arc.last });
                     observer.percolated(swaps);
                     let event =
                         NodeEvent { at: graph.subgoals.vertex(arc.to), parent: Some(at), g, f: g + h };
@@ -244,7 +245,7 @@ where
         let mut to = |at: Vertex| extend(waypoints, space, graph, at);
         chain.clear();
         let mut at = meeting;
-        while let Some((parent, Way { mid, .. })) = forward.parent(at) {
+        while let Some((parent, ParentEdge { mid, .. })) = forward.parent(at) {
             chain.push((parent, at, mid));
             at = parent;
         }
@@ -253,7 +254,7 @@ where
             graph.unpack(way, ways, &mut to);
         }
         let mut at = meeting;
-        while let Some((parent, Way { mid, .. })) = backward.parent(at) {
+        while let Some((parent, ParentEdge { mid, .. })) = backward.parent(at) {
             graph.unpack((at, parent, mid), ways, &mut to);
             at = parent;
         }
@@ -263,9 +264,9 @@ where
 }
 
 /// Puts the linked subgoals on both open lists. The best of those that are linked to both ends, and what it costs to go over it.
-fn begin<P: Connect>(
+fn begin<P: SubgoalPlacement>(
     graph: &SubgoalGraph<P>,
-    sides: &mut [SearchTree<Way>; 2],
+    sides: &mut [SearchTree<ParentEdge>; 2],
     links: &[Vec<(u32, Cost)>; 2],
     ends: [Vertex; 2],
     observer: &mut impl Observer,
@@ -276,8 +277,13 @@ fn begin<P: Connect>(
         for &(id, g) in links {
             let at = graph.subgoals.vertex(id);
             let h = graph.norm.estimate(at.to(ends[1 - side]));
-            let (_, swaps) =
-                sides[side].reach(id, g, h, NONE, Way { mid: NONE, hop: Hop::of(ends[side].to(at)) });
+            let (_, swaps) = sides[side].reach(
+                id,
+                g,
+                h,
+                NONE,
+                ParentEdge { mid: NONE, step: Step::of(ends[side].to(at)) },
+            );
             observer.percolated(swaps);
             observer.generated(NodeEvent { at, parent: Some(ends[side]), g, f: g + h });
             if let Some(rest) = (side == 1).then(|| sides[0].cost(id)).flatten() {
@@ -289,7 +295,7 @@ fn begin<P: Connect>(
 }
 
 /// Goes on to a vertex, along an edge or link.
-fn extend<P: Connect>(
+fn extend<P: SubgoalPlacement>(
     waypoints: &mut Vec<Vertex>,
     space: &FreeSpace<P>,
     graph: &SubgoalGraph<P>,

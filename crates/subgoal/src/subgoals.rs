@@ -2,7 +2,7 @@
 
 use mediant_grid::{BitMatrix, Vertex};
 
-use crate::connect::Prepared;
+use crate::placement::Prepared;
 
 /// The subgoals of a map, numbered row by row.
 #[derive(Clone, Debug)]

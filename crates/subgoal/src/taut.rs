@@ -4,8 +4,8 @@ use mediant_grid::{FreeSpace, Grid, Placement, PlacementKind, Vector, Vertex};
 use mediant_moves::{FiniteK, K};
 
 use crate::{
-    connect::Edges,
     direct::are_in_one_cone,
+    placement::Edges,
     turns::{Turn, Turns},
 };
 

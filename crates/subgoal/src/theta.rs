@@ -15,7 +15,7 @@ use self::{
     descent::Descent,
     search::{Bend, Middles, Search, may_join},
 };
-use crate::{Connect, SubgoalGraph, planner::push};
+use crate::{SubgoalGraph, SubgoalPlacement, planner::push};
 
 /// Sub-Theta* (Uras & Koenig 2015, 'Speeding-up any-angle path-planning on grids'): Theta* over a subgoal graph. On [`Levels`] of 2 it is the
 /// Sub2-Theta* with which Hormazábal et al. 2017 compare Sub2-A*(k).
@@ -61,7 +61,7 @@ use crate::{Connect, SubgoalGraph, planner::push};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
-pub struct SubgoalTheta<T, G, P: Connect> {
+pub struct SubgoalTheta<T, G, P: SubgoalPlacement> {
     space: T,
     graph: G,
     scratch: P::Scratch,
@@ -75,7 +75,7 @@ pub struct SubgoalTheta<T, G, P: Connect> {
 
 impl<T, G, P> SubgoalTheta<T, G, P>
 where
-    P: Connect,
+    P: SubgoalPlacement,
     T: Deref<Target: HasFreeSpace<Placement = P>>,
     G: Deref<Target = SubgoalGraph<P>>,
 {
@@ -98,7 +98,7 @@ where
 
 impl<T, G, P> Planner for SubgoalTheta<T, G, P>
 where
-    P: Connect,
+    P: SubgoalPlacement,
     T: Deref<Target: HasFreeSpace<Placement = P>>,
     G: Deref<Target = SubgoalGraph<P>>,
 {

@@ -80,9 +80,9 @@ mod tests {
 
     use super::Turns;
     use crate::{
-        Connect,
-        connect::{Edges, Map, Which},
+        SubgoalPlacement,
         norm::Norm,
+        placement::{BuildContext, EdgeKind, Edges},
         subgoals::Subgoals,
     };
 
@@ -96,13 +96,14 @@ mod tests {
             let space = FreeSpace::<Centers>::new(Arc::new(grid.clone()), CornerRule::Never);
             let norm = Norm::new(k).expect("a small k");
             let subgoals = Subgoals::new(Centers::prepare(&space));
-            let map = Map { space: &space, subgoals: &subgoals, norm: &norm, k, edges: Edges::Direct };
+            let map =
+                BuildContext { space: &space, subgoals: &subgoals, norm: &norm, k, edges: Edges::Direct };
             let explicit = Explicit::new(&grid, Centers::rules(CornerRule::Never), k.finite());
             for id in 0..subgoals.len() as u32 {
                 let at = subgoals.vertex(id);
                 let turns = Turns::at(&grid, at);
                 let mut links = Vec::new();
-                Centers::links(map, &mut (), at, Which::All, |id, cost| {
+                Centers::links(map, &mut (), at, EdgeKind::All, |id, cost| {
                     links.push((subgoals.vertex(id), cost));
                 });
                 for &(before, first) in &links {

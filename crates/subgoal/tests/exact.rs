@@ -10,7 +10,7 @@ use mediant_oracle::{
     validate, vertex_is_free,
 };
 use mediant_search::{Counters, Guarantee, Outcome, Path, Planner, Query};
-use mediant_subgoal::{Connect, Hierarchy, SubgoalAStar, SubgoalGraph, SubgoalTheta};
+use mediant_subgoal::{Hierarchy, SubgoalAStar, SubgoalGraph, SubgoalPlacement, SubgoalTheta};
 
 /// What is known of a query.
 #[derive(Clone, Copy)]
@@ -43,13 +43,13 @@ impl Tally {
 }
 
 /// A graph, with all that is said of a failure.
-struct Suite<'t, P: Connect> {
+struct Suite<'t, P: SubgoalPlacement> {
     space: &'t FreeSpace<P>,
     graph: SubgoalGraph<P>,
     seed: u64,
 }
 
-impl<'t, P: Connect> Suite<'t, P> {
+impl<'t, P: SubgoalPlacement> Suite<'t, P> {
     fn new(space: &'t FreeSpace<P>, k: K, hierarchy: Hierarchy, seed: u64) -> Self {
         Self { space, graph: graph(space, k, hierarchy), seed }
     }
@@ -189,7 +189,13 @@ fn sub_a_star_costs_what_the_visibility_graph_costs() {
 }
 
 /// The same against Dijkstra on the explicit graphs of N(k) and of all segments.
-fn check_explicitly<P: Connect>(grid: &Grid, rule: P::Rule, k: K, hierarchy: Hierarchy, seed: u64) -> Tally {
+fn check_explicitly<P: SubgoalPlacement>(
+    grid: &Grid,
+    rule: P::Rule,
+    k: K,
+    hierarchy: Hierarchy,
+    seed: u64,
+) -> Tally {
     let space = space::<P>(grid, rule);
     let [over_k, any] = [k, K::Any].map(|k| Explicit::new(grid, space.rules(), k.finite()));
     let vertices: Vec<Vertex> = over_k.free_vertices().collect();

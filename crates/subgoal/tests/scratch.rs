@@ -13,7 +13,7 @@ use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Vertex}
 use mediant_moves::K;
 use mediant_oracle::{Rng, caves};
 use mediant_search::{Outcome, Planner, Query};
-use mediant_subgoal::{Connect, Hierarchy, SubgoalAStar, SubgoalGraph, SubgoalTheta};
+use mediant_subgoal::{Hierarchy, SubgoalAStar, SubgoalGraph, SubgoalPlacement, SubgoalTheta};
 
 thread_local! {
     static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
@@ -40,7 +40,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static COUNTING: Counting = Counting;
 
-fn queries<P: Connect>(space: &FreeSpace<P>) -> Vec<Query> {
+fn queries<P: SubgoalPlacement>(space: &FreeSpace<P>) -> Vec<Query> {
     let vertices = (0..50).flat_map(|y| (0..60).map(move |x| Vertex::new(x, y)));
     let free: Vec<Vertex> = vertices.filter(|&at| space.is_free(at)).step_by(97).collect();
     free.iter().flat_map(|&a| free.iter().map(move |&b| Query::new(a, b))).collect()
@@ -63,7 +63,7 @@ fn most_allocations(case: &str, mut planner: impl Planner, queries: &[Query]) ->
     most
 }
 
-fn check<P: Connect>(rule: P::Rule, k: K) {
+fn check<P: SubgoalPlacement>(rule: P::Rule, k: K) {
     let space = space::<P>(&caves(&mut Rng::new(7), 60, 50), rule);
     let queries = queries(&space);
     for hierarchy in HIERARCHIES {

@@ -4,5 +4,5 @@ mod codec;
 mod planner;
 mod segments;
 
-pub use planner::{ChpaStar, Conduct};
+pub use planner::{ChpaStar, FallbackPolicy};
 pub use segments::SegmentGraph;

@@ -18,7 +18,7 @@ use crate::{HierarchyError, check, straighten::waypoints};
 /// CHPA* (Teleiša & Čalnerytė 2023): A* over segments finds checkpoints, A* over tiles goes from each to the next.
 ///
 /// A checkpoint is the tile at which the path arrives in each [`step`](Self::with_step)-th segment: of those along the wall to the segment before, the free one nearest to its middle. `H1` guides
-/// the search over segments, whose costs are counted in segments, `H2` those over tiles. What happens where a checkpoint cannot be reached is the planner's [`Conduct`].
+/// the search over segments, whose costs are counted in segments, `H2` those over tiles. What happens where a checkpoint cannot be reached is the planner's [`FallbackPolicy`].
 ///
 /// `L` and `G` are how the planner holds the grid graph and its index: by reference or `Arc`; a planner that holds its index in a `Box` can [repair](Self::repair) it.
 ///
@@ -31,7 +31,7 @@ pub struct ChpaStar<L, G, H1, H2> {
     first: H1,
     second: AStar<L, H2>,
     step: NonZeroU32,
-    conduct: Conduct,
+    fallback: FallbackPolicy,
     labels: SearchTree,
     /// The segments on the way.
     segments: Vec<u32>,
@@ -41,7 +41,7 @@ pub struct ChpaStar<L, G, H1, H2> {
 
 /// What CHPA* does where a checkpoint cannot be reached, or only by a detour, since the segments do not tell all of the map ('preprocessing edge cases' in the paper, Section 6).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Conduct {
+pub enum FallbackPolicy {
     /// As published: the planner goes the detour, and gives up where there is none ([`QueryError::GaveUp`]).
     Paper,
     /// The planner leaves out checkpoints, first one, then two, four and so on, until one can be reached, at the latest the goal; where the segments are not connected it goes straight to the goal. So it finds a
@@ -53,7 +53,7 @@ pub enum Conduct {
 }
 
 /// Complete, with detours of up to three times h_k.
-impl Default for Conduct {
+impl Default for FallbackPolicy {
     fn default() -> Self {
         Self::Complete { detour: NonZeroU32::MIN.saturating_add(2) }
     }
@@ -78,7 +78,7 @@ where
             first,
             second: AStar::new(grid_graph.clone(), second),
             step: NonZeroU32::MIN.saturating_add(1),
-            conduct: Conduct::default(),
+            fallback: FallbackPolicy::default(),
             segments: Vec::new(),
             checkpoints: Vec::new(),
             way: Vec::new(),
@@ -94,8 +94,8 @@ where
 
     /// What to do where a checkpoint cannot be reached.
     #[must_use]
-    pub fn with_conduct(self, conduct: Conduct) -> Self {
-        Self { conduct, ..self }
+    pub fn with_fallback_policy(self, fallback: FallbackPolicy) -> Self {
+        Self { fallback, ..self }
     }
 }
 
@@ -132,12 +132,12 @@ where
         }
         let found = self.abstract_path(query, observer);
         self.place_checkpoints(found, query.goal);
-        match self.conduct {
-            Conduct::Paper if !found => {
+        match self.fallback {
+            FallbackPolicy::Paper if !found => {
                 Err(QueryError::GaveUp { why: "the segments of its ends are not connected" })
             }
-            Conduct::Paper => self.visit_all(query, observer),
-            Conduct::Complete { detour } => {
+            FallbackPolicy::Paper => self.visit_all(query, observer),
+            FallbackPolicy::Complete { detour } => {
                 if !found {
                     observer.fell_back();
                 }

@@ -24,7 +24,7 @@ pub(crate) const SOUTH_WEST: u8 = 8;
 /// the neighbor.
 ///
 /// What becomes of paths *within* a segment is not asked, so that segments may seem connected that are not, and the other way round: what the planner does then is its
-/// [`Conduct`](crate::Conduct). Immutable but for [`repair`](Self::repair); planners share it.
+/// [`FallbackPolicy`](crate::FallbackPolicy). Immutable but for [`repair`](Self::repair); planners share it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SegmentGraph {
     pub(crate) k: FiniteK,

@@ -4,7 +4,7 @@
 use std::{num::NonZeroU32, ops::Deref, sync::Arc};
 
 use mediant_grid::{Centers, CornerRule, Grid, GridGraph, Placement, Vector, Vertex};
-use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, Conduct, HpaStar, SegmentGraph};
+use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, FallbackPolicy, HpaStar, SegmentGraph};
 use mediant_moves::{Cost, FiniteK};
 use mediant_oracle::{Rng, caves, describe, maze, noise, rooms, suite_grid, validate};
 use mediant_search::{
@@ -97,7 +97,7 @@ pub(crate) type Phase = Option<Bound>;
 pub(crate) struct Setting {
     pub(crate) phases: [Phase; 2],
     pub(crate) step: NonZeroU32,
-    pub(crate) conduct: Conduct,
+    pub(crate) fallback: FallbackPolicy,
 }
 
 impl Setting {
@@ -105,12 +105,12 @@ impl Setting {
         let bounds = [Some(Bound::GridGraph), Some(Bound::Euclidean), Some(Bound::Zero), None];
         let phases = [(); 2].map(|()| bounds[rng.below(4) as usize]);
         let detour = number(1 + rng.below(4));
-        Self { phases, step: number(1 + rng.below(4)), conduct: Conduct::Complete { detour } }
+        Self { phases, step: number(1 + rng.below(4)), fallback: FallbackPolicy::Complete { detour } }
     }
 
     /// The same as published.
     pub(crate) fn of_the_paper(self) -> Self {
-        Self { conduct: Conduct::Paper, ..self }
+        Self { fallback: FallbackPolicy::Paper, ..self }
     }
 }
 
@@ -134,14 +134,14 @@ where
     L: Deref<Target = GridGraph<Centers>> + Clone + Send + 'i,
     G: Deref<Target = SegmentGraph> + Send + 'i,
 {
-    let Setting { phases, step, conduct } = setting;
+    let Setting { phases, step, fallback } = setting;
     macro_rules! planner {
         ($first:expr, $second:expr) => {
             boxed(
                 ChpaStar::new(grid_graph, graph, $first, $second)
                     .expect("the index fits")
                     .with_step(step)
-                    .with_conduct(conduct),
+                    .with_fallback_policy(fallback),
             )
         };
     }

@@ -2,7 +2,7 @@
 
 use mediant_moves::Cost;
 
-use crate::{Connect, SubgoalGraph, contract::NONE};
+use crate::{SubgoalGraph, SubgoalPlacement, contract::NONE};
 
 /// For each subgoal above the links of a goal the arcs down from it on ways there. Forgotten in constant time.
 #[derive(Clone, Debug)]
@@ -35,7 +35,11 @@ impl Descent {
     }
 
     /// Finds the arcs down to a goal, whose number follows those of the subgoals, from its links.
-    pub(super) fn start_search<P: Connect>(&mut self, graph: &SubgoalGraph<P>, links: &[(u32, Cost)]) {
+    pub(super) fn start_search<P: SubgoalPlacement>(
+        &mut self,
+        graph: &SubgoalGraph<P>,
+        links: &[(u32, Cost)],
+    ) {
         self.arcs.clear();
         self.generation = self.generation.wrapping_add(1);
         if self.generation == 0 {

@@ -5,7 +5,7 @@ use mediant_moves::Cost;
 use mediant_search::{NodeEvent, Observer, SearchTree, segment_cost};
 
 use super::descent::Descent;
-use crate::{Connect, SubgoalGraph, contract::NONE};
+use crate::{SubgoalGraph, SubgoalPlacement, contract::NONE};
 
 /// Where paths bend, or begin.
 #[derive(Clone, Copy, Debug)]
@@ -32,12 +32,12 @@ pub(super) struct Middles {
 }
 
 /// Whether a straight segment between two vertices keeps the rules of motion. Of them only the start and the goal of a path are gaps.
-pub(super) fn may_join<P: Connect>(space: &FreeSpace<P>, from: Vertex, to: Vertex) -> bool {
+pub(super) fn may_join<P: SubgoalPlacement>(space: &FreeSpace<P>, from: Vertex, to: Vertex) -> bool {
     space.may_turn(None, from, Some(to)) && space.may_turn(Some(from), to, None) && space.sees(from, to)
 }
 
 /// One search.
-pub(super) struct Search<'s, P: Connect, O> {
+pub(super) struct Search<'s, P: SubgoalPlacement, O> {
     pub(super) space: &'s FreeSpace<P>,
     pub(super) graph: &'s SubgoalGraph<P>,
     /// A parent is the number of the bend that a subgoal hangs on.
@@ -61,7 +61,7 @@ struct Node {
     own: Option<u32>,
 }
 
-impl<P: Connect, O: Observer> Search<'_, P, O> {
+impl<P: SubgoalPlacement, O: Observer> Search<'_, P, O> {
     /// Expands subgoals until the goal is the best of them. The last bend before it.
     pub(super) fn run(&mut self, start: Vertex, links: &[(u32, Cost)]) -> Option<u32> {
         self.labels.start_search();

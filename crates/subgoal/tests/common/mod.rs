@@ -5,7 +5,7 @@ use std::{num::NonZeroU32, sync::Arc};
 
 use mediant_grid::{DiagonalGap, FreeSpace, Grid, Placement};
 use mediant_moves::{FiniteK, K};
-use mediant_subgoal::{Connect, Hierarchy, SubgoalGraph};
+use mediant_subgoal::{Hierarchy, SubgoalGraph, SubgoalPlacement};
 
 pub(crate) const GAPS: [DiagonalGap; 2] = [DiagonalGap::Open, DiagonalGap::Closed];
 
@@ -30,6 +30,10 @@ pub(crate) fn space<P: Placement>(grid: &Grid, rule: P::Rule) -> FreeSpace<P> {
     FreeSpace::new(Arc::new(grid.clone()), rule)
 }
 
-pub(crate) fn graph<P: Connect>(space: &FreeSpace<P>, k: K, hierarchy: Hierarchy) -> SubgoalGraph<P> {
+pub(crate) fn graph<P: SubgoalPlacement>(
+    space: &FreeSpace<P>,
+    k: K,
+    hierarchy: Hierarchy,
+) -> SubgoalGraph<P> {
     SubgoalGraph::new(space, k, hierarchy).expect("there is a graph for this k")
 }

@@ -6,8 +6,8 @@ use mediant_moves::{Cost, K};
 use crate::{Hierarchy, SubgoalError, norm::Norm, subgoals::Subgoals};
 
 /// A placement on which there are subgoal graphs.
-pub trait Connect: Placement {
-    /// What [`Connect::links`] works with.
+pub trait SubgoalPlacement: Placement {
+    /// What [`SubgoalPlacement::links`] works with.
     #[doc(hidden)]
     type Scratch: Default + Send;
 
@@ -30,10 +30,10 @@ pub trait Connect: Placement {
     /// Tells the subgoals that a vertex is joined to, and what the ways there cost.
     #[doc(hidden)]
     fn links(
-        map: Map<'_, Self>,
+        map: BuildContext<'_, Self>,
         scratch: &mut Self::Scratch,
         from: Vertex,
-        which: Which,
+        which: EdgeKind,
         tell: impl FnMut(u32, Cost),
     );
 }
@@ -58,14 +58,14 @@ pub enum Edges {
 /// Which links of a vertex are asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[doc(hidden)]
-pub enum Which {
+pub enum EdgeKind {
     /// Those of a subgoal to the subgoals below it, or to the right on its own line: each edge of the graph from one of its ends.
     Edges,
     /// Those of a start or goal.
     All,
 }
 
-impl Which {
+impl EdgeKind {
     /// Whether a link by this displacement is told.
     #[inline]
     pub(crate) const fn holds(self, to: Vector) -> bool {
@@ -76,7 +76,7 @@ impl Which {
 /// What links are found on.
 #[derive(Debug)]
 #[doc(hidden)]
-pub struct Map<'m, P: Connect> {
+pub struct BuildContext<'m, P: SubgoalPlacement> {
     pub(crate) space: &'m FreeSpace<P>,
     pub(crate) subgoals: &'m Subgoals<P::Prepared>,
     pub(crate) norm: &'m Norm,
@@ -84,10 +84,10 @@ pub struct Map<'m, P: Connect> {
     pub(crate) edges: Edges,
 }
 
-impl<P: Connect> Clone for Map<'_, P> {
+impl<P: SubgoalPlacement> Clone for BuildContext<'_, P> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<P: Connect> Copy for Map<'_, P> {}
+impl<P: SubgoalPlacement> Copy for BuildContext<'_, P> {}
