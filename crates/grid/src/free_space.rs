@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use crate::{BitMatrix, Components, Connectivity, Grid, Placement, Rules, Vertex, VertexId, line_of_sight};
+use crate::{
+    BitMatrix, Components, Connectivity, Grid, Placement, Rules, Vertex, VertexId, sight::line_of_sight,
+};
 
 /// A grid under placement `P` and its rule of motion: all that any-angle search needs, and what the grid graphs of every k have in
 /// common. Immutable; planners share it.

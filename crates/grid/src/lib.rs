@@ -21,7 +21,7 @@ mod grid;
 mod grid_graph;
 mod placement;
 mod rules;
-mod sight;
+pub mod sight;
 mod tree;
 mod vertex;
 
@@ -35,5 +35,4 @@ pub use grid_graph::{GridGraph, MoveSet, Step};
 pub use mediant_moves::Vector;
 pub use placement::{Centers, Corners, Demand, Placement};
 pub use rules::{CornerRule, DiagonalGap, PlacementKind, Rules};
-pub use sight::{line_of_sight, line_of_sight_under};
 pub use vertex::{Vertex, VertexId};

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use mediant_grid::{
     Centers, Components, Connectivity, CornerRule, Corners, Grid, GridGraph, Placement, Rules, Vector,
-    Vertex, line_of_sight_under,
+    Vertex, sight::line_of_sight_under,
 };
 use mediant_moves::{FiniteK, Neighborhood};
 use mediant_oracle::{Explicit, segment_is_legal, suite_grid, vertex_is_free};

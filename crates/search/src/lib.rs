@@ -14,10 +14,8 @@
 
 mod anya;
 mod astar;
-mod beams;
 mod best_first;
 mod canonical;
-mod cover;
 mod distances;
 mod heuristic;
 mod jps;
@@ -36,7 +34,6 @@ mod wavefront;
 
 pub use anya::Anya;
 pub use astar::{AStar, AllMoves, Dijkstra};
-pub use beams::{Quadrants, RowSummary, Targets, VisibilitySweep};
 pub use best_first::BestFirst;
 pub use canonical::{
     Canonical, CanonicalMoves, CanonicalRule, LocalRule, PaperCanonical, PaperMoves, Pruning,

@@ -1,8 +1,10 @@
 //! Subgoal graphs at corners, over N(k) and at any angle.
 
-use mediant_grid::{BitMatrix, Corners, FreeSpace, Placement, Vertex, load};
+use mediant_grid::{
+    BitMatrix, Corners, FreeSpace, Placement, Vertex, load,
+    sight::{Quadrants, RowSummary, Targets, VisibilitySweep},
+};
 use mediant_moves::{Cost, K};
-use mediant_search::{Quadrants, RowSummary, Targets, VisibilitySweep};
 
 use crate::{
     Hierarchy, SubgoalError, SubgoalPlacement,

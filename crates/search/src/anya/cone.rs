@@ -1,9 +1,11 @@
 //! A cone on its way over the lines: the most frequent step of a search, by additions and words.
 
-use mediant_grid::{BitRow, Grid, Vertex};
+use mediant_grid::{
+    BitRow, Grid, Vertex,
+    sight::{Crossing, IntervalEnd, Runs, Side, Window, row_ahead},
+};
 
 use super::{frontier::Node, search::Successor};
-use crate::beams::{Crossing, End, Runs, Side, Window, row_ahead};
 
 /// What a root sees through an interval of a line, before it crosses the row of cells ahead.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +24,7 @@ pub(super) struct Cone<'g> {
 /// An end of a beam.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Edge {
-    end: End,
+    end: IntervalEnd,
     /// Whether it is at the end of the run of free cells behind: the ray through it leads into the obstacle, or along it. For as
     /// long as it stays there it is followed as a vertical, and only afterwards becomes a ray of its own.
     is_wall: bool,
@@ -33,13 +35,13 @@ type Wall = Option<i32>;
 
 impl Edge {
     #[inline]
-    const fn on(end: End) -> Self {
+    const fn on(end: IntervalEnd) -> Self {
         Self { end, is_wall: false }
     }
 
     #[inline]
     const fn wall(x: i32) -> Self {
-        Self { end: End::standing(x), is_wall: true }
+        Self { end: IntervalEnd::standing(x), is_wall: true }
     }
 
     /// Moves to the next line.
@@ -63,7 +65,7 @@ impl<'g> Cone<'g> {
     pub(super) fn new(grid: &'g Grid, root: Vertex, node: Node) -> Self {
         let Node { root: number, line, left, right } = node;
         let down = (line - root.y).signum();
-        let edge = |ray| Edge::on(End::new(ray, root.x, (line - root.y) * down));
+        let edge = |ray| Edge::on(IntervalEnd::new(ray, root.x, (line - root.y) * down));
         let ahead = row_ahead(grid, line, down);
         Self { root, number, line, down, left: edge(left), right: edge(right), ahead }
     }
@@ -96,14 +98,14 @@ impl<'g> Cone<'g> {
 
     /// The ray at an edge.
     #[inline]
-    pub(super) const fn end(&self, edge: Edge) -> End {
+    pub(super) const fn end(&self, edge: Edge) -> IntervalEnd {
         if edge.is_wall { self.corner(edge.end.here.floor()) } else { edge.end }
     }
 
     /// The end at a vertex of the line.
     #[inline]
-    pub(super) const fn corner(&self, x: i32) -> End {
-        End::corner(x, self.root.x, self.distance())
+    pub(super) const fn corner(&self, x: i32) -> IntervalEnd {
+        IntervalEnd::corner(x, self.root.x, self.distance())
     }
 
     /// Whether the interval holds a vertex.

@@ -2,10 +2,10 @@
 
 use std::{cmp::Reverse, collections::BinaryHeap};
 
-use mediant_grid::{Corners, FreeSpace, Vertex};
+use mediant_grid::{Corners, FreeSpace, Vertex, sight::Ray};
 use mediant_moves::Cost;
 
-use crate::{Path, beams::Ray};
+use crate::Path;
 
 /// A vertex at which paths turn, or the start.
 #[derive(Clone, Copy, Debug)]

@@ -1,15 +1,15 @@
 //! A search under way: what the expansion of a node leads to.
 
-use mediant_grid::{Corners, FreeSpace, Vertex};
+use mediant_grid::{
+    Corners, FreeSpace, Vertex,
+    sight::{Crossing, IntervalEnd, Ray, Side, row_ahead},
+};
 
 use super::{
     cone::Cone,
     frontier::{Frontier, Node, fixed},
 };
-use crate::{
-    NodeEvent, Observer,
-    beams::{Crossing, End, Ray, Side, row_ahead},
-};
+use crate::{NodeEvent, Observer};
 
 /// A search under way.
 pub(super) struct Search<'s, O> {
@@ -223,7 +223,7 @@ impl<O: Observer> Search<'_, O> {
 
     /// An end of the interval that is a corner of an obstacle on the near side of the line: a path may bend around it, into what the
     /// obstacle hides.
-    fn turn(&mut self, beam: &Cone<'_>, end: End, side: Side) {
+    fn turn(&mut self, beam: &Cone<'_>, end: IntervalEnd, side: Side) {
         let (ahead, behind) = (beam.ahead, beam.behind());
         let x = end.here.floor();
         let (outer, inner) = side.columns(x);
@@ -241,7 +241,7 @@ impl<O: Observer> Search<'_, O> {
             Side::Right => (stop, start),
         };
         // Between two obstacles everything is hidden.
-        let end = if is_closed_gap { End::standing(x) } else { end };
+        let end = if is_closed_gap { IntervalEnd::standing(x) } else { end };
         self.shade(beam, x, side, (far, limit), end);
         if let Some(number) = self.frontier.reach(self.space, beam.number, at) {
             self.flat(number, at, side.sign());
@@ -250,11 +250,16 @@ impl<O: Observer> Search<'_, O> {
 
     /// The interval behind a run of free cells that the cone enters: what is seen, and what the obstacles at the ends of the run hide.
     #[inline]
-    fn pass(&mut self, beam: &Cone<'_>, (left, right): (End, End), (start, stop): (i32, i32)) {
+    fn pass(
+        &mut self,
+        beam: &Cone<'_>,
+        (left, right): (IntervalEnd, IntervalEnd),
+        (start, stop): (i32, i32),
+    ) {
         let left = if start > left.here.floor() { beam.corner(start) } else { left };
         let right = if stop < right.here.ceil() { beam.corner(stop) } else { right };
         let (next_left, next_right) = (left.next(), right.next());
-        let is_corner = |end: End, x: i32| end.here.is_vertex() && end.here.floor() == x;
+        let is_corner = |end: IntervalEnd, x: i32| end.here.is_vertex() && end.here.floor() == x;
         if is_corner(left, start) && beam.ahead.is_blocked(start - 1) {
             self.shade(beam, start, Side::Left, (start, stop), left);
         }
@@ -262,7 +267,7 @@ impl<O: Observer> Search<'_, O> {
             self.shade(beam, stop, Side::Right, (stop, start), right);
         }
         if next_left.floor() < stop && next_right.ceil() > start {
-            let clipped = |x: i32| End::corner(x, beam.root.x, beam.distance() + 1);
+            let clipped = |x: i32| IntervalEnd::corner(x, beam.root.x, beam.distance() + 1);
             let is_wall = Side::Left.is_outside(next_left, start);
             let left = if is_wall { clipped(start) } else { left.moved_to(next_left) };
             let is_wall = Side::Right.is_outside(next_right, stop);
@@ -273,14 +278,14 @@ impl<O: Observer> Search<'_, O> {
 
     /// What an obstacle corner in column `x` hides of a run: on the next line, from `far` to `next`, where the ray past the corner goes, at
     /// most to `limit`.
-    fn shade(&mut self, beam: &Cone<'_>, x: i32, side: Side, (far, limit): (i32, i32), end: End) {
+    fn shade(&mut self, beam: &Cone<'_>, x: i32, side: Side, (far, limit): (i32, i32), end: IntervalEnd) {
         let next = end.next();
         if !side.is_inside(next, far) {
             return;
         }
         let at = Vertex::new(x, beam.line);
         let Some(root) = self.frontier.reach(self.space, beam.number, at) else { return };
-        let to = |column: i32| End::corner(column, x, 1);
+        let to = |column: i32| IntervalEnd::corner(column, x, 1);
         let near = if side.is_inside(next, limit) { to(limit) } else { end.moved_to(next) };
         let (left, right) = match side {
             Side::Left => (to(far), near),
@@ -294,8 +299,8 @@ impl<O: Observer> Search<'_, O> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Successor {
     pub(super) root: u32,
-    pub(super) left: End,
-    pub(super) right: End,
+    pub(super) left: IntervalEnd,
+    pub(super) right: IntervalEnd,
 }
 
 impl Successor {

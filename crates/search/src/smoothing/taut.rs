@@ -6,7 +6,7 @@ use mediant_grid::{FreeSpace, Placement, Vector, Vertex};
 use mediant_moves::Cost;
 
 use super::linear::{between, is_legal, smooth_legal, without_stops};
-use crate::cover::Cover;
+use mediant_grid::sight::Cover;
 
 /// Pulls a path taut, like a string: [`smooth`](super::smooth) first, and then waypoint by waypoint until none can be skipped or moved.
 ///

@@ -6,7 +6,7 @@
 
 use mediant_grid::{FreeSpace, Placement, Vertex, VertexId};
 
-use crate::cover::Cover;
+use mediant_grid::sight::Cover;
 
 /// What some vertices see: a cache, that holds for a map whatever is searched on it.
 #[derive(Clone, Debug)]

@@ -1,9 +1,9 @@
 //! All that a vertex sees.
 
-use mediant_grid::{BitMatrix, BitRow, Corners, FreeSpace, Vertex};
+use crate::{BitMatrix, BitRow, Corners, FreeSpace, Vertex};
 
 use super::{
-    interval::{End, Ray},
+    interval::{IntervalEnd, Ray},
     row_summary::RowSummary,
     strip::row_ahead,
 };
@@ -64,7 +64,7 @@ impl<'m> From<&'m BitMatrix> for Targets<'m> {
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_grid::{AsciiMap, BitMatrix, Corners, DiagonalGap, FreeSpace, Vertex};
+/// use crate::{AsciiMap, BitMatrix, Corners, DiagonalGap, FreeSpace, Vertex};
 /// use mediant_search::{RowSummary, VisibilitySweep, Quadrants};
 /// let map = AsciiMap::parse("
 ///     ....
@@ -79,7 +79,7 @@ impl<'m> From<&'m BitMatrix> for Targets<'m> {
 /// VisibilitySweep::default().seen(&space, &bands, &marks, Vertex::new(0, 1), Quadrants::ALL, |at| seen.push(at.y));
 /// seen.sort();
 /// assert_eq!(seen, [0, 1]);
-/// # Ok::<(), mediant_grid::GridError>(())
+/// # Ok::<(), crate::GridError>(())
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct VisibilitySweep {
@@ -97,18 +97,18 @@ struct Piece {
 /// An end of an interval.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
-    end: End,
+    end: IntervalEnd,
     /// Whether it follows a wall: then it stays in its column, and becomes a ray where the wall ends.
     is_wall: bool,
 }
 
 impl Edge {
-    const fn ray(end: End) -> Self {
+    const fn ray(end: IntervalEnd) -> Self {
         Self { end, is_wall: false }
     }
 
     const fn wall(x: i32) -> Self {
-        Self { end: End::standing(x), is_wall: true }
+        Self { end: IntervalEnd::standing(x), is_wall: true }
     }
 
     /// Where it is some lines further on, if nothing is in the way.
@@ -138,7 +138,7 @@ impl VisibilitySweep {
     /// Tells `found` the marks that the free vertex `from` sees in these quadrants, each once. Marks are convex corners of obstacles; others may be
     /// left out, as may those behind another corner on the same ray. On the vertical between a quadrant that is asked for and one that is not,
     /// what is seen is what the cells of the first let through. `bands` are those of the free space's grid. Under
-    /// [`DiagonalGap::Closed`](mediant_grid::DiagonalGap::Closed) no mark may be at a [gap](FreeSpace::is_closed_gap).
+    /// [`DiagonalGap::Closed`](crate::DiagonalGap::Closed) no mark may be at a [gap](FreeSpace::is_closed_gap).
     pub fn seen<'m>(
         &mut self,
         space: &'m FreeSpace<Corners>,
@@ -207,7 +207,7 @@ impl Half<'_> {
         let start = if left { ahead.run_start(x, 0) } else { x };
         let end = if right { ahead.first_blocked(x, i32::MAX) } else { x };
         // Where nothing is in the way but the quadrant ends, the edge is the vertical through the root.
-        let edge = |end| if end == x { Edge::ray(End::standing(x)) } else { Edge::wall(end) };
+        let edge = |end| if end == x { Edge::ray(IntervalEnd::standing(x)) } else { Edge::wall(end) };
         let piece = Piece { line: self.from.y + self.down, left: edge(start), right: edge(end) };
         (start < end).then_some(piece)
     }
@@ -288,7 +288,7 @@ impl Half<'_> {
         for (edge, beside) in [(&mut piece.left, -1), (&mut piece.right, 0)] {
             let x = edge.end.here.floor();
             if edge.is_wall && !ahead.is_blocked(x + beside) {
-                *edge = Edge::ray(End::corner(x, self.from.x, n));
+                *edge = Edge::ray(IntervalEnd::corner(x, self.from.x, n));
             }
         }
     }
@@ -325,7 +325,7 @@ impl Half<'_> {
         let [left, right] = [piece.left, piece.right].map(|edge| edge.after(1));
         // An obstacle that stands in the way clips the interval by the corner that hides most: on its near side if it is away from the
         // vertical through the root, and else on its far side.
-        let shaded = |end: i32| Edge::ray(End::new(Ray { dx: end - x, dy: n }, x, n + 1));
+        let shaded = |end: i32| Edge::ray(IntervalEnd::new(Ray { dx: end - x, dy: n }, x, n + 1));
         let left = if start > piece.left.end.here.floor() {
             if start > x { shaded(start) } else { Edge::wall(start) }
         } else if left.end.here.floor() < start {

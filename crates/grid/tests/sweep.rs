@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{BitMatrix, Corners, DiagonalGap, FreeSpace, Grid, Rules, Vertex};
+use mediant_grid::{
+    BitMatrix, Corners, DiagonalGap, FreeSpace, Grid, Rules, Vertex,
+    sight::{Quadrants, RowSummary, Targets, VisibilitySweep},
+};
 use mediant_oracle::{Rng, describe, noise, random_free_vertex, rooms, seeds, suite_grid};
-use mediant_search::{Quadrants, RowSummary, Targets, VisibilitySweep};
 
 /// Wide rooms with few obstacles, which beams leap through, among the maps of the other suites.
 fn draw(seed: u64) -> Grid {

@@ -6,23 +6,25 @@
 /// An end of an interval is never kept as a place but as the ray that bounds it: the vector from the root to the corner at which it was
 /// clipped, or, where a path turned at its root, the vector from the root before. So it is the difference of two vertices of the map.
 ///
-/// **No overflow.** With sides of at most 2¹⁵ cells ([`Grid::MAX_SIDE`](mediant_grid::Grid::MAX_SIDE)) |dx| ≤ 2¹⁵ and 1 ≤ dy ≤ 2¹⁵. Products
+/// **No overflow.** With sides of at most 2¹⁵ cells ([`Grid::MAX_SIDE`](crate::Grid::MAX_SIDE)) |dx| ≤ 2¹⁵ and 1 ≤ dy ≤ 2¹⁵. Products
 /// are made only for a line on which the interval is, n lines from the root. It lies on the map there, so the ray is at most 2¹⁵ columns
 /// from the root, and |n · dx| ≤ 2¹⁵ · dy ≤ 2³⁰. Rays are never added to, multiplied by or intersected with each other, so nothing
 /// grows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Ray {
-    pub(crate) dx: i32,
-    pub(crate) dy: i32,
+pub struct Ray {
+    /// Columns to the right.
+    pub dx: i32,
+    /// Lines away from the root, at least 1.
+    pub dy: i32,
 }
 
 impl Ray {
     /// Straight away from the root.
-    pub(crate) const VERTICAL: Self = Self { dx: 0, dy: 1 };
+    pub const VERTICAL: Self = Self { dx: 0, dy: 1 };
 
     /// Where it meets a line, `n` lines from a root in column `root`, rounded.
     #[inline]
-    pub(crate) fn place(self, root: i32, n: i32) -> f64 {
+    pub fn place(self, root: i32, n: i32) -> f64 {
         f64::from(root) + f64::from(n * self.dx) / f64::from(self.dy)
     }
 }
@@ -36,7 +38,7 @@ impl Ray {
 /// An interval lies on the map, so a place on its line is between 0 and 2¹⁵. On the next line it is at most 2¹⁵ columns further out, as
 /// far as a ray leads from line to line: below 2¹⁷, in bits below 2⁶¹.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Crossing(i64);
+pub struct Crossing(i64);
 
 impl Crossing {
     const FRACTION: u32 = 44;
@@ -46,43 +48,44 @@ impl Crossing {
 
     /// A vertex.
     #[inline]
-    pub(crate) const fn vertex(x: i32) -> Self {
+    pub const fn vertex(x: i32) -> Self {
         Self(((x as i64) << Self::FRACTION) + Self::BIAS)
     }
 
     /// The column boundary at or to the left of it.
     #[inline]
-    pub(crate) const fn floor(self) -> i32 {
+    pub const fn floor(self) -> i32 {
         (self.0 >> Self::FRACTION) as i32
     }
 
     /// The column boundary at or to the right of it.
     #[inline]
-    pub(crate) const fn ceil(self) -> i32 {
+    pub const fn ceil(self) -> i32 {
         ((self.0 + (Self::ONE - Self::VERTEX)) >> Self::FRACTION) as i32
     }
 
     /// Whether it is a vertex.
     #[inline]
-    pub(crate) const fn is_vertex(self) -> bool {
+    pub const fn is_vertex(self) -> bool {
         self.0 & (Self::ONE - 1) < Self::VERTEX
     }
 }
 
 /// An end of an interval, followed from line to line by additions.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct End {
-    pub(crate) ray: Ray,
+pub struct IntervalEnd {
+    /// The ray that bounds the interval.
+    pub ray: Ray,
     /// Where it is on the line.
-    pub(crate) here: Crossing,
+    pub here: Crossing,
     /// What it moves by from line to line.
     step: i64,
 }
 
-impl End {
+impl IntervalEnd {
     /// The end where a ray from a root in column `root` is after `n` lines.
     #[inline]
-    pub(crate) const fn new(ray: Ray, root: i32, n: i32) -> Self {
+    pub const fn new(ray: Ray, root: i32, n: i32) -> Self {
         let step = ((ray.dx as i64) << Crossing::FRACTION).div_euclid(ray.dy as i64);
         // The corner at which it was clipped, exactly, so that at most n lines add their error.
         let here = if n == ray.dy {
@@ -95,44 +98,47 @@ impl End {
 
     /// The end at a vertex in column `x`, `n` lines from a root in column `root`.
     #[inline]
-    pub(crate) const fn corner(x: i32, root: i32, n: i32) -> Self {
+    pub const fn corner(x: i32, root: i32, n: i32) -> Self {
         Self::new(Ray { dx: x - root, dy: n }, root, n)
     }
 
     /// The end on the next line, where it is at [`next`](Self::next).
     #[inline]
-    pub(crate) const fn moved_to(self, next: Crossing) -> Self {
+    pub const fn moved_to(self, next: Crossing) -> Self {
         Self { here: next, ..self }
     }
 
     /// An end that stays in its column.
     #[inline]
-    pub(crate) const fn standing(x: i32) -> Self {
+    pub const fn standing(x: i32) -> Self {
         Self { ray: Ray::VERTICAL, here: Crossing::vertex(x), step: 0 }
     }
 
     /// Where the ray is on the next line.
     #[inline]
-    pub(crate) const fn next(&self) -> Crossing {
+    pub const fn next(&self) -> Crossing {
         self.after(1)
     }
 
     /// Where it is some lines further on.
     #[inline]
-    pub(crate) const fn after(&self, lines: i32) -> Crossing {
+    pub const fn after(&self, lines: i32) -> Crossing {
         Crossing(self.here.0 + lines as i64 * self.step)
     }
 }
 
 /// The left or right end of an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Side {
+pub enum Side {
+    /// Toward smaller x.
     Left,
+    /// Toward larger x.
     Right,
 }
 
 impl Side {
-    pub(crate) const fn sign(self) -> i32 {
+    /// −1 on the left, 1 on the right.
+    pub const fn sign(self) -> i32 {
         match self {
             Self::Left => -1,
             Self::Right => 1,
@@ -140,7 +146,7 @@ impl Side {
     }
 
     /// The columns beside vertex x, the outer one first.
-    pub(crate) const fn columns(self, x: i32) -> (i32, i32) {
+    pub const fn columns(self, x: i32) -> (i32, i32) {
         match self {
             Self::Left => (x - 1, x),
             Self::Right => (x, x - 1),
@@ -149,7 +155,7 @@ impl Side {
 
     /// Whether a place is strictly on the inner side of column boundary x.
     #[inline]
-    pub(crate) const fn is_inside(self, place: Crossing, x: i32) -> bool {
+    pub const fn is_inside(self, place: Crossing, x: i32) -> bool {
         match self {
             Self::Left => place.ceil() > x,
             Self::Right => place.floor() < x,
@@ -158,7 +164,7 @@ impl Side {
 
     /// Whether a place is strictly on the outer side of column boundary x.
     #[inline]
-    pub(crate) const fn is_outside(self, place: Crossing, x: i32) -> bool {
+    pub const fn is_outside(self, place: Crossing, x: i32) -> bool {
         match self {
             Self::Left => place.floor() < x,
             Self::Right => place.ceil() > x,
@@ -185,11 +191,15 @@ mod tests {
     /// Follows a ray over all lines on which its place is on the largest map, and one line further.
     #[track_caller]
     fn follow(ray: Ray, root: i32) {
-        const SIDE: i32 = mediant_grid::Grid::MAX_SIDE as i32;
-        let mut end = End::new(ray, root, 1);
+        const SIDE: i32 = crate::Grid::MAX_SIDE as i32;
+        let mut end = IntervalEnd::new(ray, root, 1);
         for n in 1..=SIDE {
             assert_eq!(seen(end.here), rational(ray, root, n), "{ray:?} from {root}, line {n}");
-            assert_eq!(seen(End::new(ray, root, n).here), seen(end.here), "{ray:?} from {root}, line {n}");
+            assert_eq!(
+                seen(IntervalEnd::new(ray, root, n).here),
+                seen(end.here),
+                "{ray:?} from {root}, line {n}"
+            );
             end = end.moved_to(end.next());
             assert_eq!(seen(end.here), rational(ray, root, n + 1), "{ray:?} from {root}, line {}", n + 1);
             if !(0..=SIDE).contains(&end.here.floor()) {
@@ -200,7 +210,7 @@ mod tests {
 
     #[test]
     fn places_decide_as_rationals_do() {
-        const SIDE: i32 = mediant_grid::Grid::MAX_SIDE as i32;
+        const SIDE: i32 = crate::Grid::MAX_SIDE as i32;
         // The steepest, the flattest, and those that come closest to a vertex without meeting it.
         for (dx, dy) in
             [(0, 1), (1, 1), (1, SIDE), (SIDE, 1), (SIDE, SIDE - 1), (SIDE - 1, SIDE), (1, SIDE - 1)]

@@ -1,9 +1,9 @@
 //! A row of cells, read by words of 64.
 
-use mediant_grid::{BitRow, Grid};
+use crate::{BitRow, Grid};
 
 /// The runs of free cells of a row.
-pub(crate) trait Runs: Copy {
+pub trait Runs: Copy {
     /// [`BitRow::is_blocked`].
     fn is_blocked(self, column: i32) -> bool;
 
@@ -20,7 +20,7 @@ pub(crate) trait Runs: Copy {
 /// The row of cells that a path enters when it leaves horizontal line `line` downwards (`down` = 1) or upwards (−1). There is one
 /// beyond the last lines, too: it is blocked.
 #[inline]
-pub(crate) fn row_ahead(grid: &Grid, line: i32, down: i32) -> BitRow<'_> {
+pub fn row_ahead(grid: &Grid, line: i32, down: i32) -> BitRow<'_> {
     grid.rows().row(line + (down - 1) / 2)
 }
 
@@ -48,17 +48,18 @@ impl Runs for BitRow<'_> {
 
 /// 64 cells of a row, loaded once. Only columns among them may be asked for.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Window {
+pub struct Window {
     blocked: u64,
     first: i32,
 }
 
 impl Window {
-    pub(crate) const WIDTH: i32 = 64;
+    /// How many columns it has.
+    pub const WIDTH: i32 = 64;
 
     /// The cells from column `first` on.
     #[inline]
-    pub(crate) fn new(row: BitRow<'_>, first: i32) -> Self {
+    pub fn new(row: BitRow<'_>, first: i32) -> Self {
         Self { blocked: row.word(first), first }
     }
 

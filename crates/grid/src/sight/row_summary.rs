@@ -1,6 +1,6 @@
 //! Rows of cells by eights.
 
-use mediant_grid::{BitMatrix, Grid};
+use crate::{BitMatrix, Grid};
 
 /// What eight rows of cells have in common, so that a beam can leap over them.
 #[derive(Clone, Debug)]
