@@ -2,6 +2,8 @@
 
 use std::process::{Command, Stdio};
 
+use mediant_sets::root;
+
 use crate::{Error, project, tidy};
 
 /// What cargo is to do. Warnings of rustdoc are made errors by the environment.
@@ -55,7 +57,7 @@ fn minimum_version() -> Result<(), Error> {
     let arguments = ["run", version, "cargo", "check", "--workspace"];
     // The toolchain of this run would otherwise be handed down.
     let mut command = Command::new("rustup");
-    command.args(arguments).current_dir(project::root()).env_remove("RUSTUP_TOOLCHAIN").env_remove("CARGO");
+    command.args(arguments).current_dir(root()).env_remove("RUSTUP_TOOLCHAIN").env_remove("CARGO");
     step(&mut command, &format!("rustup {}", arguments.join(" ")))
 }
 

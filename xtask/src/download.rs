@@ -1,19 +1,12 @@
 //! `cargo xtask download`: the benchmark sets, fetched, unpacked and verified.
 
-use std::{
-    fmt, fs,
-    path::{Path, PathBuf},
-};
+use std::path::Path;
 
 use clap::Args;
-use indicatif::{HumanCount, ProgressBar};
+use indicatif::HumanCount;
+use mediant_sets::{Cache, DIGEST, Error as SetError, Manifest, Report, Set, Source, cache, root};
 
-use crate::{
-    Error, Source,
-    archive::extract,
-    manifest::{Contents, DIGEST, Manifest, Set},
-    project,
-};
+use crate::Error;
 
 /// The options of `cargo xtask download`.
 #[derive(Args, Clone, Debug, Default)]
@@ -34,7 +27,7 @@ pub struct Options {
 /// # Errors
 /// Those of [`run_in`].
 pub fn run(options: &Options) -> Result<(), Error> {
-    run_in(&project::root(), options)
+    run_in(&root(), options)
 }
 
 /// [`run`] in the project at `root`. Sets that a mirror does not hold are passed over, unless they were named.
@@ -53,7 +46,7 @@ pub fn run_in(root: &Path, options: &Options) -> Result<(), Error> {
     }
     let source = Source::from_mirror(options.mirror.as_deref());
     let may_lack = options.sets.is_empty() && source != Source::Site;
-    let cache = Cache { folder: root.join("benchdata").join("cache"), source };
+    let cache = Cache { folder: cache(root), source };
     let mut reports = Vec::new();
     for name in &names {
         let set = manifest.set(name)?;
@@ -63,10 +56,10 @@ pub fn run_in(root: &Path, options: &Options) -> Result<(), Error> {
             cache.provide(set)
         };
         match provided {
-            Err(Error::Absent { place }) if may_lack => {
+            Err(SetError::Absent { place }) if may_lack => {
                 println!("{name:12} passed over: {place} is not there");
             }
-            Err(error) => return Err(error),
+            Err(error) => return Err(error.into()),
             Ok(report) => {
                 println!("{report}");
                 reports.push(report);
@@ -79,7 +72,10 @@ pub fn run_in(root: &Path, options: &Options) -> Result<(), Error> {
     let maps: usize = reports.iter().map(|report| report.contents.maps.len()).sum();
     let instances = reports.iter().map(|report| report.contents.instances).sum();
     println!("{:12} {maps} maps, {} instances", "together", HumanCount(instances));
-    if options.write_manifest { record(manifest, reports).write(&path) } else { Ok(()) }
+    if options.write_manifest {
+        record(manifest, reports).write(&path)?;
+    }
+    Ok(())
 }
 
 /// The manifest with what was found in the sets.
@@ -92,106 +88,4 @@ fn record(mut manifest: Manifest, reports: Vec<Report>) -> Manifest {
         }
     }
     manifest
-}
-
-/// What is known of a set after it was provided.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Report {
-    /// The set.
-    pub name: String,
-    /// Its maps and instances.
-    pub contents: Contents,
-    /// Whether the manifest knows the digests, and all agree.
-    pub verified: bool,
-    /// Whether it was unpacked now; otherwise all was there.
-    pub unpacked: bool,
-}
-
-impl fmt::Display for Report {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { name, contents, verified, unpacked } = self;
-        let verdict = if *verified { "verified" } else { "unverified" };
-        let (maps, instances) = (contents.maps.len(), HumanCount(contents.instances));
-        write!(f, "{name:12} {verdict} {maps} maps, {instances} instances")?;
-        f.write_str(if *verified { "" } else { " (the manifest knows no digest)" })?;
-        f.write_str(if *unpacked { "" } else { " (all there)" })
-    }
-}
-
-/// The folder that holds the sets, and where they come from.
-#[derive(Clone, Debug)]
-pub struct Cache {
-    /// Holds `SET/*.map`, `SET/*.map.scen` and `zips/`.
-    pub folder: PathBuf,
-    /// Where archives come from.
-    pub source: Source,
-}
-
-impl Cache {
-    /// Makes sure that a set is there: nothing to do if its files agree with the manifest, else [`install`](Self::install).
-    ///
-    /// # Errors
-    /// Those of [`install`](Self::install).
-    pub fn provide(&self, set: &Set) -> Result<Report, Error> {
-        match examine(set, &self.folder.join(&set.name), false) {
-            Ok(report) => Ok(report),
-            Err(_) => self.install(set),
-        }
-    }
-
-    /// Fetches the archives of a set (unless they are there), unpacks them beside its place, verifies the files, and only
-    /// then puts them in place of what was there.
-    ///
-    /// # Errors
-    /// Any [`Error`]; the set's place is then as it was, and archives that were downloaded and are bad are removed.
-    pub fn install(&self, set: &Set) -> Result<Report, Error> {
-        let zips = self.folder.join("zips");
-        let fetch =
-            |kind: &str, url: &str| self.source.fetch(&format!("{}-{kind}.zip", set.name), url, &zips);
-        let archives =
-            [(fetch("map", &set.maps_url)?, ".map"), (fetch("scen", &set.scenarios_url)?, ".scen")];
-        let beside = self.folder.join(format!(".{}.partial", set.name));
-        match unpack(&archives, &beside).and_then(|()| examine(set, &beside, true)) {
-            Ok(report) => {
-                replace(&beside, &self.folder.join(&set.name))?;
-                Ok(report)
-            }
-            Err(error) => {
-                remove_folder(&beside)?;
-                let ours: Vec<_> =
-                    archives.iter().map(|(zip, _)| zip).filter(|zip| zip.starts_with(&zips)).collect();
-                for zip in &ours {
-                    fs::remove_file(zip).map_err(Error::at(zip))?;
-                }
-                Err(if ours.is_empty() { error } else { Error::Discarded(Box::new(error)) })
-            }
-        }
-    }
-}
-
-fn unpack(archives: &[(PathBuf, &str)], folder: &Path) -> Result<(), Error> {
-    remove_folder(folder)?;
-    fs::create_dir_all(folder).map_err(Error::at(folder))?;
-    archives.iter().try_for_each(|(zip, ending)| extract(zip, folder, ending))
-}
-
-/// Parses all files of a folder and compares them with the manifest.
-fn examine(set: &Set, folder: &Path, unpacked: bool) -> Result<Report, Error> {
-    let files = fs::read_dir(folder).map_err(Error::at(folder))?.count();
-    let bar = ProgressBar::new(files as u64).with_message(set.name.clone());
-    let contents = Contents::of(folder, || bar.inc(1));
-    bar.finish_and_clear();
-    let contents = contents?;
-    let verified = set.check(&contents)?;
-    Ok(Report { name: set.name.clone(), contents, verified, unpacked })
-}
-
-/// Renames a folder to a place, where an older one may be.
-fn replace(folder: &Path, place: &Path) -> Result<(), Error> {
-    remove_folder(place)?;
-    fs::rename(folder, place).map_err(Error::at(place))
-}
-
-fn remove_folder(folder: &Path) -> Result<(), Error> {
-    if folder.exists() { fs::remove_dir_all(folder).map_err(Error::at(folder)) } else { Ok(()) }
 }

@@ -1,10 +1,14 @@
 //! The chores of the workspace, `cargo xtask --help`.
 #![allow(clippy::print_stderr, reason = "a program talks to its user")]
 
-use std::process::ExitCode;
+use std::{ffi::OsString, process::ExitCode};
 
-use clap::{Parser, Subcommand};
-use xtask::{ci, compare, download, reproduce, tidy, verify};
+use clap::{Args, Parser, Subcommand};
+use xtask::{
+    ci, download,
+    program::{COMPARE, REPRODUCE, VERIFY},
+    tidy,
+};
 
 /// The chores of the Mediant workspace
 #[derive(Parser)]
@@ -19,31 +23,37 @@ enum Task {
     /// Fetch the MovingAI benchmark sets into benchdata/cache, and verify them
     Download(download::Options),
     /// Compare our costs with the scenarios' optima, or with those of independent programs
-    Verify(verify::Options),
+    Verify(HandedOn),
     /// Time our engines beside other programs, on the same instances
-    Compare(compare::Options),
+    Compare(HandedOn),
     /// Measure the papers' tables and figures, and write them beside the published values to docs/results
-    ReproduceTables(reproduce::Options),
+    ReproduceTables(HandedOn),
     /// Check the rules of the project that the compiler does not know
     Tidy,
     /// Check all but the tests: format, lints, documentation, tidiness, the oldest supported Rust
     Ci,
 }
 
+/// Arguments that another program reads, `--help` among them.
+#[derive(Args)]
+#[command(disable_help_flag = true)]
+struct HandedOn {
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "OPTION")]
+    arguments: Vec<OsString>,
+}
+
 fn main() -> ExitCode {
-    let done = match Cli::parse().task {
-        Task::Download(options) => download::run(&options),
-        Task::Verify(options) => verify::run(&options),
-        Task::Compare(options) => compare::run(&options).map_err(Into::into),
-        Task::ReproduceTables(options) => reproduce::run(&options),
-        Task::Tidy => tidy::run(),
-        Task::Ci => ci::run(),
+    let done = |()| ExitCode::SUCCESS;
+    let outcome = match Cli::parse().task {
+        Task::Download(options) => download::run(&options).map(done),
+        Task::Verify(options) => VERIFY.run(&options.arguments),
+        Task::Compare(options) => COMPARE.run(&options.arguments),
+        Task::ReproduceTables(options) => REPRODUCE.run(&options.arguments),
+        Task::Tidy => tidy::run().map(done),
+        Task::Ci => ci::run().map(done),
     };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    outcome.unwrap_or_else(|error| {
+        eprintln!("error: {error}");
+        ExitCode::FAILURE
+    })
 }

@@ -1,4 +1,4 @@
-//! Where the project lies, and which files it has.
+//! The crates and files of the project.
 
 use std::{
     env, fs, io,
@@ -6,7 +6,7 @@ use std::{
     process::{Command, Stdio},
 };
 
-use mediant_report::Machine;
+use mediant_sets::root;
 use serde::Deserialize;
 
 use crate::Error;
@@ -39,15 +39,6 @@ pub enum Kind {
     Build,
     /// Its tests, benches and examples.
     Dev,
-}
-
-/// The folder of the workspace: the one that cargo runs this in, since two clones can share a target folder and with it
-/// the compiled program; without cargo, the one where it was compiled.
-#[must_use]
-pub fn root() -> PathBuf {
-    let xtask =
-        env::var_os("CARGO_MANIFEST_DIR").map_or_else(|| env!("CARGO_MANIFEST_DIR").into(), PathBuf::from);
-    xtask.parent().unwrap_or(&xtask).to_owned()
 }
 
 /// The cargo that runs this, or the one on the path.
@@ -123,31 +114,4 @@ fn walk(root: &Path, folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Erro
         }
     }
     Ok(())
-}
-
-/// What git calls the sources at `root`, `-dirty` if they differ from it.
-#[must_use]
-pub fn revision(root: &Path) -> String {
-    let git = Command::new("git")
-        .args(["describe", "--always", "--dirty", "--abbrev=40", "--exclude=*"])
-        .current_dir(root)
-        .stderr(Stdio::null())
-        .output();
-    match git {
-        Ok(output) if output.status.success() => String::from_utf8_lossy(&output.stdout).trim().to_owned(),
-        _ => "unknown".to_owned(),
-    }
-}
-
-/// This machine.
-#[must_use]
-pub fn machine() -> Machine {
-    let about = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let cpu = about.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));
-    Machine {
-        os: env::consts::OS.to_owned(),
-        arch: env::consts::ARCH.to_owned(),
-        cpu: cpu.map(|(_, name)| name.trim().to_owned()),
-        threads: std::thread::available_parallelism().ok().map(usize::from),
-    }
 }

@@ -13,6 +13,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use mediant_sets::root;
+
 use crate::{Error, project};
 
 pub use dependencies::{check_packages, check_tree};
@@ -126,7 +128,7 @@ pub fn check(root: &Path) -> Result<Vec<Finding>, Error> {
 /// # Errors
 /// Those of [`check`], and [`Error::Tidy`] if there is a finding.
 pub fn run() -> Result<(), Error> {
-    let findings = check(&project::root())?;
+    let findings = check(&root())?;
     for finding in &findings {
         println!("{finding}");
     }

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use mediant_sets::root;
 use xtask::{
     project::{self, Dependency, Kind, Package},
     tidy::{self, Exception, Finding, Tree},
@@ -9,14 +10,14 @@ use xtask::{
 
 #[test]
 fn the_project_is_tidy() {
-    let findings = tidy::check(&project::root()).unwrap();
+    let findings = tidy::check(&root()).unwrap();
     let listed: String = findings.iter().map(|finding| format!("{finding}\n")).collect();
     assert!(findings.is_empty(), "{} broken rules:\n{listed}", findings.len());
 }
 
 #[test]
 fn the_files_of_the_project_are_found() {
-    let files = project::files(&project::root()).unwrap();
+    let files = project::files(&root()).unwrap();
     for file in ["Cargo.toml", "xtask/src/lib.rs", "xtask/tests/tidy.rs", "crates/formats/src/map.rs"] {
         assert!(files.contains(&PathBuf::from(file)), "{file}");
     }

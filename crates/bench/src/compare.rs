@@ -11,13 +11,13 @@ use std::{
 
 use clap::Args;
 use indicatif::ProgressBar;
-use mediant_bench::{
-    Archive, Baseline, Comparison, Competitor, MapRecord, MeasureError, Problem, ProblemError,
-    ReferenceTimings, ReferenceTimingsError, measure,
-};
 use mediant_engines::Setup;
+use mediant_sets::{Archive, cache, root};
 
-use crate::project;
+use crate::{
+    Baseline, Comparison, Competitor, MapRecord, MeasureError, Problem, ProblemError, ReferenceTimings,
+    ReferenceTimingsError, measure,
+};
 
 /// The options of `cargo xtask compare`.
 #[derive(Args, Clone, Debug)]
@@ -95,7 +95,7 @@ struct Results<'a> {
 /// # Errors
 /// Those of [`run_in`].
 pub fn run(options: &Options) -> Result<(), CompareError> {
-    run_in(&project::root(), options, &mut io::stdout().lock())
+    run_in(&root(), options, &mut io::stdout().lock())
 }
 
 /// [`run`] in the project at `root`, printing to `out`. Maps that are not there are named at the end.
@@ -117,7 +117,7 @@ pub fn run_in(root: &Path, options: &Options, out: &mut impl Write) -> Result<()
     }
     // A mirror that is an address serves `download`; here only a folder does.
     let mirror = options.mirror.clone().filter(|mirror| mirror.is_dir());
-    let folders = [Some(root.join("benchdata").join("cache")), mirror];
+    let folders = [Some(cache(root)), mirror];
     let archive = Archive::new(folders.into_iter().flatten());
     let Measured { records, missing } = measure_all(&references, &archive, options)?;
     let advice = missing_advice(&missing);

@@ -8,16 +8,18 @@
 //!
 //! Nothing is timed that was not checked: a path that is not as long as the scenario says is an error, not a result.
 //!
-//! * [`Archive`]: where the maps and scenarios of the benchmark sets are; [`Problem`]: one of them, loaded.
+//! * [`Problem`]: a map of a benchmark set with the queries of its scenario, loaded.
 //! * [`Competitor`]: one of our engines in a [`Setup`](mediant_engines::Setup), or a baseline.
 //! * [`measure`]: the side by side. [`MapRecord`]: what it found.
 //! * [`Study`]: setups on the queries of one map, with all that their searches count. [`Run`]: what one of them made of these.
 //! * [`ReferenceTimings`], [`Comparison`]: the other programs, and our ratio to each.
+//! * [`compare`] and [`verify`]: the programs behind `cargo xtask compare` and `cargo xtask verify`. `verify` measures no time,
+//!   but needs the same: all engines, and the benchmark sets.
 //!
-//! What is not here: tables and files of results (`mediant-report`, `xtask`), and the criterion benches, which are in `benches/`.
+//! What is not here: tables and files of results (`mediant-report`, `mediant-papers`), and the criterion benches, which are in `benches/`.
 
-mod archive;
 mod baseline;
+pub mod compare;
 mod comparison;
 mod competitor;
 mod measure;
@@ -26,8 +28,8 @@ mod problem;
 mod readme;
 mod reference_timings;
 mod study;
+pub mod verify;
 
-pub use archive::{Archive, ArchiveError};
 pub use baseline::Baseline;
 pub use comparison::{Comparison, PreparationRatio};
 pub use competitor::Competitor;

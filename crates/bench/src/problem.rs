@@ -5,8 +5,7 @@ use std::sync::Arc;
 use mediant_formats::{MapError, MapFile, Scenario, ScenarioError, ScenarioForOtherMap};
 use mediant_grid::Grid;
 use mediant_search::Query;
-
-use crate::{Archive, ArchiveError};
+use mediant_sets::{Archive, ArchiveError};
 
 /// A map with the queries that are measured on it.
 #[derive(Clone, Debug)]

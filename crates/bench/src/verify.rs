@@ -1,29 +1,27 @@
 //! `cargo xtask verify`: our costs against known ones, on the real benchmark sets.
 //!
-//! Every instance of the sets that `download` fetched against the optimal length that its scenario states, or the costs of
-//! independent programs in a folder of `KIND-kK-MAP.csv` and `any-GAP-MAP.csv` files. Engines whose paths may be longer must find one where
-//! there is one, and none that is shorter. How many were compared is part of the result: a file that is skipped in silence must not look like a
-//! success.
+//! Each instance of the downloaded sets is compared with the optimal length that its scenario states; or with the
+//! costs that independent programs found, in a folder of files `KIND-kK-MAP.csv` and `any-GAP-MAP.csv`. An engine
+//! that is not optimal must find a path wherever there is one, and none that is shorter than the known cost. How
+//! many costs were compared is part of the result, so that a file that is skipped does not look like a success.
 
 use std::{
     collections::BTreeMap,
     fmt::Write as _,
-    fs,
+    fs, io,
     num::NonZeroUsize,
     path::{Path, PathBuf},
     sync::Arc,
 };
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 use mediant_engines::{Engine, Setup, SharedRules, Solver};
 use mediant_formats::{MapFile, Scenario, scenario_tolerance};
 use mediant_grid::{CornerRule, DiagonalGap, Rules};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{Query, QueryError};
+use mediant_sets::{Error as SetError, Manifest, cache, files, progress, root};
 use rayon::prelude::*;
-
-use crate::{Error, manifest::Manifest, project};
 
 /// What `verify` is asked for.
 #[derive(Args, Clone, Debug)]
@@ -43,6 +41,24 @@ pub struct Options {
     /// Fail unless exactly N costs were compared, over all engines
     #[arg(long, value_name = "N", value_parser = number)]
     expect: Option<u64>,
+}
+
+/// What makes `verify` fail.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum VerifyError {
+    /// Costs that differ from the known ones, another number of comparisons than expected, or a file that makes no sense.
+    #[error("{0}")]
+    Wrong(String),
+    /// A benchmark set that cannot be read.
+    #[error(transparent)]
+    Set(#[from] SetError),
+    /// A map or scenario that cannot be read.
+    #[error(transparent)]
+    Read(#[from] mediant_formats::ReadError),
+    /// The report cannot be printed.
+    #[error("the output: {0}")]
+    Print(#[from] io::Error),
 }
 
 /// A number that may be written with underscores.
@@ -147,21 +163,21 @@ impl Tally {
 ///
 /// # Errors
 /// Those of [`run_in`].
-pub fn run(options: &Options) -> Result<(), Error> {
-    run_in(&project::root().join("benchdata/cache"), options)
+pub fn run(options: &Options) -> Result<(), VerifyError> {
+    run_in(&cache(&root()), options, &mut io::stdout().lock())
 }
 
-/// [`run`] on the sets in a folder, each in a folder of its name.
+/// [`run`] on the sets in the folder `cache`, each in a folder of its name, printing to `out`.
 ///
 /// # Errors
-/// [`Error::Verify`] for a cost that differs or a count that is not the expected one; the errors of reading files.
-pub fn run_in(cache: &Path, options: &Options) -> Result<(), Error> {
+/// [`VerifyError`]; above all, a cost that differs or a count that is not the expected one.
+pub fn run_in(cache: &Path, options: &Options, out: &mut dyn io::Write) -> Result<(), VerifyError> {
     let mut total = Tally::default();
     for &engine in &options.engine {
-        println!("{engine}");
+        writeln!(out, "{engine}")?;
         total = total.add(match &options.oracle {
-            Some(folder) => against_references(cache, folder, engine)?,
-            None => against_scenarios(cache, options, engine)?,
+            Some(folder) => against_references(cache, folder, engine, out)?,
+            None => against_scenarios(cache, options, engine, out)?,
         });
     }
     if !total.mismatches.is_empty() {
@@ -169,31 +185,38 @@ pub fn run_in(cache: &Path, options: &Options) -> Result<(), Error> {
         for mismatch in total.mismatches.iter().take(10) {
             let _ = write!(text, "\n  {mismatch}");
         }
-        return Err(Error::Verify(text));
+        return Err(VerifyError::Wrong(text));
     }
     match options.expect {
         Some(expected) if expected != total.compared => {
-            Err(Error::Verify(format!("expected {expected} comparisons, made {}", total.compared)))
+            Err(VerifyError::Wrong(format!("expected {expected} comparisons, made {}", total.compared)))
         }
         _ if total.compared == 0 => {
-            Err(Error::Verify("nothing was compared: cargo xtask download fetches the sets".to_owned()))
+            Err(VerifyError::Wrong("nothing was compared: cargo xtask download fetches the sets".to_owned()))
         }
         _ => Ok(()),
     }
 }
 
 /// The engine on k = 3 between centers, no corner cut: the problem of the scenario files.
-fn scenarios_for(engine: Engine) -> Result<(Setup, Demand), Error> {
+fn scenarios_for(engine: Engine) -> Result<(Setup, Demand), VerifyError> {
     let setup = Setup::new(engine, FiniteK::N8, Rules::Center(CornerRule::Never));
     let unknown = || {
-        Error::Verify(format!("{engine} finds no paths over the moves of k = 3: their costs are not known"))
+        VerifyError::Wrong(format!(
+            "{engine} finds no paths over the moves of k = 3: their costs are not known"
+        ))
     };
     Demand::of(setup).map(|demand| (setup, demand)).ok_or_else(unknown)
 }
 
-fn against_scenarios(cache: &Path, options: &Options, engine: Engine) -> Result<Tally, Error> {
+fn against_scenarios(
+    cache: &Path,
+    options: &Options,
+    engine: Engine,
+    out: &mut dyn io::Write,
+) -> Result<Tally, VerifyError> {
     let (setup, demand) = scenarios_for(engine)?;
-    let manifest = Manifest::read(&Manifest::path(&project::root()))?;
+    let manifest = Manifest::read(&Manifest::path(&root()))?;
     let asked = |name: &String| options.set.is_empty() || options.set.contains(name);
     for name in &options.set {
         manifest.set(name)?;
@@ -203,7 +226,7 @@ fn against_scenarios(cache: &Path, options: &Options, engine: Engine) -> Result<
         let folder = cache.join(&set.name);
         if !folder.is_dir() {
             if !options.set.is_empty() {
-                return Err(Error::Verify(format!(
+                return Err(VerifyError::Wrong(format!(
                     "set {0} is not there: cargo xtask download --set {0}",
                     set.name
                 )));
@@ -223,31 +246,36 @@ fn against_scenarios(cache: &Path, options: &Options, engine: Engine) -> Result<
         let tally = tallies.into_iter().fold(Tally::default(), Tally::add);
         let seen = tally.compared + tally.blocked + tally.shorter;
         if options.every.get() == 1 && set.instances.is_some_and(|instances| instances != seen) {
-            return Err(Error::Verify(format!("set {}: {seen} instances, not all that it has", set.name)));
+            return Err(VerifyError::Wrong(format!(
+                "set {}: {seen} instances, not all that it has",
+                set.name
+            )));
         }
         let known = if demand == Demand::Equal { KNOWN } else { (KNOWN.0, 0) };
         if options.every.get() == 1 && set.name == OTHER_MAPS && (tally.blocked, tally.shorter) != known {
             let (blocked, shorter) = (tally.blocked, tally.shorter);
             let wrong =
                 format!("{blocked} blocked and {shorter} shorter references in {OTHER_MAPS}, not {known:?}");
-            return Err(Error::Verify(wrong));
+            return Err(VerifyError::Wrong(wrong));
         }
-        println!(
+        writeln!(
+            out,
             "{:<12} {:>3} maps, {:>7} costs compared with the scenarios' optima: {}",
             set.name,
             maps.len(),
             tally.compared,
             tally.distance(demand),
-        );
+        )?;
         if tally.blocked + tally.shorter > 0 {
-            println!(
+            writeln!(
+                out,
                 "{:<12} not compared, since made on other maps: {} instances with a blocked end, {} with a shorter reference",
                 "", tally.blocked, tally.shorter
-            );
+            )?;
         }
         total = total.add(tally);
     }
-    println!("{:<12} {} costs compared", "in all", total.compared);
+    writeln!(out, "{:<12} {} costs compared", "in all", total.compared)?;
     Ok(total)
 }
 
@@ -267,12 +295,12 @@ fn scenario_of(
     path: &Path,
     every: usize,
     other_map: bool,
-) -> Result<Tally, Error> {
+) -> Result<Tally, VerifyError> {
     let grid = Arc::new(MapFile::read(path)?.to_grid());
     let scenario = Scenario::read(path.with_extension("map.scen"))?;
     let mut tally = Tally::default();
     let mut solver = Solver::new(setup, &grid, RULES.prebuilt(setup))
-        .map_err(|wrong| Error::Verify(format!("{}: {wrong}", path.display())))?;
+        .map_err(|wrong| VerifyError::Wrong(format!("{}: {wrong}", path.display())))?;
     for (index, instance) in scenario.instances().iter().enumerate().step_by(every) {
         let reachable = instance.optimal > 0.0 || instance.start == instance.goal;
         let optimal = reachable.then_some(instance.optimal);
@@ -315,10 +343,15 @@ fn reference_setup(name: &str, engine: Engine) -> Option<(Setup, &str)> {
     Some((Setup::new(engine, k, rules), map))
 }
 
-fn against_references(cache: &Path, folder: &Path, engine: Engine) -> Result<Tally, Error> {
+fn against_references(
+    cache: &Path,
+    folder: &Path,
+    engine: Engine,
+    out: &mut dyn io::Write,
+) -> Result<Tally, VerifyError> {
     let mut maps = BTreeMap::new();
-    for set in fs::read_dir(cache).map_err(Error::at(cache))? {
-        let set = set.map_err(Error::at(cache))?.path();
+    for set in fs::read_dir(cache).map_err(SetError::at(cache))? {
+        let set = set.map_err(SetError::at(cache))?.path();
         if set.is_dir() {
             for map in files(&set, ".map")? {
                 maps.insert(map.file_stem().unwrap_or_default().to_string_lossy().into_owned(), map);
@@ -347,14 +380,16 @@ fn against_references(cache: &Path, folder: &Path, engine: Engine) -> Result<Tal
             Compared::Unknown => unknown += 1,
         }
     }
-    println!(
+    writeln!(
+        out,
         "{files} files, {} costs compared with independent programs: {}",
         total.compared,
         total.distance(demanded)
-    );
-    println!(
+    )?;
+    writeln!(
+        out,
         "not compared: {unsupported} files of problems that {engine} does not solve, {unknown} whose names say no problem"
-    );
+    )?;
     Ok(total)
 }
 
@@ -367,15 +402,15 @@ enum Compared {
     Unknown,
 }
 
-fn reference(file: &Path, engine: Engine, maps: &BTreeMap<String, PathBuf>) -> Result<Compared, Error> {
+fn reference(file: &Path, engine: Engine, maps: &BTreeMap<String, PathBuf>) -> Result<Compared, VerifyError> {
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     let Some((setup, map)) = reference_setup(&name, engine) else { return Ok(Compared::Unknown) };
     let Some(demand) = Demand::of(setup) else { return Ok(Compared::Unsupported) };
-    let wrong = |wrong: String| Error::Verify(format!("{name}: {wrong}"));
+    let wrong = |wrong: String| VerifyError::Wrong(format!("{name}: {wrong}"));
     let Some(path) = maps.get(map) else {
         return Err(wrong(format!("map {map} is not in the cache: cargo xtask download")));
     };
-    let text = fs::read_to_string(file).map_err(Error::at(file))?;
+    let text = fs::read_to_string(file).map_err(SetError::at(file))?;
     let row = |line: &str| -> Option<(usize, f64)> {
         let (index, cost) = line.split_once(',')?;
         Some((index.parse().ok()?, cost.parse().ok()?))
@@ -399,25 +434,4 @@ fn reference(file: &Path, engine: Engine, maps: &BTreeMap<String, PathBuf>) -> R
         tally.compare(demand, what, found, (known >= 0.0).then_some(known), 1e-6 * known.max(1.0));
     }
     Ok(Compared::Costs(tally, demand))
-}
-
-/// The files of a folder with this ending, sorted.
-/// The files of a folder whose names end so, sorted.
-pub(crate) fn files(folder: &Path, ending: &str) -> Result<Vec<PathBuf>, Error> {
-    let mut files = Vec::new();
-    for entry in fs::read_dir(folder).map_err(Error::at(folder))? {
-        let path = entry.map_err(Error::at(folder))?.path();
-        if path.to_string_lossy().ends_with(ending) {
-            files.push(path);
-        }
-    }
-    files.sort();
-    Ok(files)
-}
-
-/// A bar on stderr.
-pub(crate) fn progress(name: &str, len: usize) -> ProgressBar {
-    let style = ProgressStyle::with_template("{prefix:<12} {bar:40} {pos}/{len} {eta} left");
-    let bar = ProgressBar::new(len as u64).with_prefix(name.to_owned());
-    style.map_or(bar.clone(), |style| bar.with_style(style))
 }

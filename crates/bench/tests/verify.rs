@@ -4,7 +4,7 @@
 use std::{fs, path::Path};
 
 use clap::Parser;
-use xtask::verify::{Options, run_in};
+use mediant_bench::verify::{Options, run_in};
 
 #[derive(Parser)]
 struct Cli {
@@ -26,7 +26,7 @@ fn cache(optimal: &str) -> tempfile::TempDir {
 /// What is wrong, if anything. Of the set's many instances there is one, so not every one is asked for.
 fn verify(cache: &Path, arguments: &[&str]) -> Option<String> {
     let arguments = ["verify", "--every", "2"].iter().chain(arguments);
-    run_in(cache, &Cli::parse_from(arguments).options).err().map(|error| error.to_string())
+    run_in(cache, &Cli::parse_from(arguments).options, &mut Vec::new()).err().map(|error| error.to_string())
 }
 
 #[test]

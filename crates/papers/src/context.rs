@@ -7,32 +7,36 @@ use std::{
 };
 
 use mediant_oracle::Rng;
+use mediant_sets::{Cache, Error as SetError, Manifest, Source, cache, files, progress};
 use rayon::prelude::*;
 use serde::{Serialize, de::DeserializeOwned};
 use sha2::{Digest, Sha256};
 
-use super::{
-    Options,
-    experiment::Experiment,
-    maps::{Map, evenly},
-};
 use crate::{
-    Error, Source, download,
-    manifest::Manifest,
-    verify::{files, progress},
+    Error,
+    maps::{Map, evenly},
 };
 
 /// How often a time is taken.
 const PASSES: u32 = 3;
 
-/// What a run is about.
+/// What is asked of a run.
+#[derive(Clone, Debug)]
+pub(super) struct Request {
+    /// Whether an even sample of everything is enough.
+    pub(super) quick: bool,
+    /// Whether times are taken.
+    pub(super) timed: bool,
+    /// The seed of what is drawn at random.
+    pub(super) seed: u64,
+    /// The only sets to run on; all if there are none.
+    pub(super) sets: Vec<String>,
+}
+
+/// A request with what a run needs to answer it.
 pub(super) struct Setting {
     pub(super) root: PathBuf,
-    pub(super) quick: bool,
-    pub(super) timed: bool,
-    pub(super) seed: u64,
-    /// The sets that were asked for; all if none was.
-    sets: Vec<String>,
+    pub(super) request: Request,
     /// The threads of what is not timed.
     pool: rayon::ThreadPool,
     /// Where what was measured waits for the rest, should the run be interrupted.
@@ -49,30 +53,38 @@ pub(super) enum How {
 }
 
 impl Setting {
-    pub(super) fn new(root: &Path, options: &Options, quick: bool, timed: bool) -> Result<Self, Error> {
+    /// The setting of a request in the project at `root`, on so many threads; 0: one for each core.
+    ///
+    /// # Errors
+    /// [`SetError::UnknownSet`], and the errors of the manifest.
+    pub(super) fn new(root: &Path, request: Request, threads: usize) -> Result<Self, Error> {
         let manifest = Manifest::read(&Manifest::path(root))?;
-        for name in &options.sets {
+        for name in &request.sets {
             manifest.set(name)?;
         }
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(options.jobs.unwrap_or(0).into()).build();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = pool.map_err(|wrong| Error::Reproduce(format!("no threads: {wrong}")))?;
         // What another program or another request measured is no part of this run.
         let program = std::env::current_exe().and_then(fs::read).unwrap_or_default();
-        let request = format!("{quick} {timed} {} {:?}", options.seed, options.sets);
-        let key = Sha256::new().chain_update(program).chain_update(request).finalize();
+        let key = Sha256::new().chain_update(program).chain_update(format!("{request:?}")).finalize();
         let key: String = key.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
-        let parts = root.join("benchdata").join("cache").join(".reproduce").join(key);
-        let sets = options.sets.clone();
-        Ok(Self { root: root.to_owned(), quick, timed, seed: options.seed, sets, pool, parts })
+        let parts = cache(root).join(".reproduce").join(key);
+        Ok(Self { root: root.to_owned(), request, pool, parts })
     }
 
     fn folder(&self, set: &str) -> PathBuf {
-        self.root.join("benchdata").join("cache").join(set)
+        cache(&self.root).join(set)
     }
 
-    /// Whether a set is there and asked for.
+    /// Whether a set is asked for.
+    fn asks(&self, set: &str) -> bool {
+        let sets = &self.request.sets;
+        sets.is_empty() || sets.iter().any(|asked| asked == set)
+    }
+
+    /// Whether a set is asked for and there.
     fn has(&self, set: &str) -> bool {
-        (self.sets.is_empty() || self.sets.iter().any(|asked| asked == set)) && self.folder(set).is_dir()
+        self.asks(set) && self.folder(set).is_dir()
     }
 
     /// Downloads those of the sets that are not there, as far as that is possible.
@@ -82,24 +94,24 @@ impl Setting {
         mirror: Option<&str>,
     ) -> Result<(), Error> {
         let manifest = Manifest::read(&Manifest::path(&self.root))?;
-        let folder = self.root.join("benchdata").join("cache");
-        let cache = download::Cache { folder, source: Source::from_mirror(mirror) };
+        let cache = Cache { folder: cache(&self.root), source: Source::from_mirror(mirror) };
         let mut seen = Vec::new();
         for name in sets {
-            let asked = self.sets.is_empty() || self.sets.iter().any(|asked| asked == name);
-            if !asked || seen.contains(&name) || self.folder(name).is_dir() {
+            if !self.asks(name) || seen.contains(&name) || self.folder(name).is_dir() {
                 continue;
             }
             seen.push(name);
             match cache.provide(manifest.set(name)?) {
                 Ok(report) => eprintln!("{report}"),
-                Err(error @ Error::Network { .. }) => {
+                Err(error @ SetError::Network { .. }) => {
                     // Where one set cannot be asked for, none can.
                     eprintln!("no download: {error}");
                     return Ok(());
                 }
-                Err(error @ (Error::Absent { .. } | Error::Status { .. })) => eprintln!("{name}: {error}"),
-                Err(error) => return Err(error),
+                Err(error @ (SetError::Absent { .. } | SetError::Status { .. })) => {
+                    eprintln!("{name}: {error}")
+                }
+                Err(error) => return Err(error.into()),
             }
         }
         Ok(())
@@ -117,40 +129,43 @@ impl Setting {
 /// What an experiment sees of a run.
 pub(super) struct Context<'a> {
     setting: &'a Setting,
-    experiment: &'static Experiment,
+    /// The experiment.
+    id: &'static str,
+    /// Its benchmark sets.
+    sets: &'static [&'static str],
 }
 
 impl<'a> Context<'a> {
-    pub(super) const fn new(setting: &'a Setting, experiment: &'static Experiment) -> Self {
-        Self { setting, experiment }
+    /// What the experiment `id`, which runs on `sets`, sees of a run.
+    pub(super) const fn new(setting: &'a Setting, id: &'static str, sets: &'static [&'static str]) -> Self {
+        Self { setting, id, sets }
     }
 
     /// The first of an even sample, else the second.
     pub(super) fn quick_or<T>(&self, quick: T, full: T) -> T {
-        if self.setting.quick { quick } else { full }
+        if self.setting.request.quick { quick } else { full }
     }
 
     /// How often a time is taken: 0 if none is.
     pub(super) fn passes(&self) -> u32 {
-        if self.setting.timed { PASSES } else { 0 }
+        if self.setting.request.timed { PASSES } else { 0 }
     }
 
     /// The map's random numbers.
     pub(super) fn rng(&self, map: &Map) -> Rng {
-        map.rng(self.setting.seed)
+        map.rng(self.setting.request.seed)
     }
 
     /// Whether the experiment runs on the maps that come with the project.
     pub(super) fn is_bundled(&self) -> bool {
-        let sets = self.experiment.sets;
+        let sets = self.sets;
         !sets.is_empty() && !sets.iter().any(|set| self.setting.has(set))
     }
 
     /// The experiment's sets that are there and asked for; `bundled` where there is none.
     pub(super) fn sets(&self) -> Vec<&'static str> {
-        let sets: Vec<&str> =
-            self.experiment.sets.iter().copied().filter(|set| self.setting.has(set)).collect();
-        if sets.is_empty() && !self.experiment.sets.is_empty() { vec!["bundled"] } else { sets }
+        let sets: Vec<&str> = self.sets.iter().copied().filter(|set| self.setting.has(set)).collect();
+        if sets.is_empty() && !self.sets.is_empty() { vec!["bundled"] } else { sets }
     }
 
     /// The maps of a set, sorted; of a quick run, `quick` of them, evenly.
@@ -189,8 +204,8 @@ impl<'a> Context<'a> {
         maps: &[Map],
         work: impl Fn(&Map) -> Result<T, Error> + Sync,
     ) -> Result<Vec<T>, Error> {
-        let bar = progress(&format!("{} {step}", self.experiment.id), maps.len());
-        let folder = self.setting.parts.join(self.experiment.id).join(step);
+        let bar = progress(&format!("{} {step}", self.id), maps.len());
+        let folder = self.setting.parts.join(self.id).join(step);
         let failed = AtomicBool::new(false);
         let part = |map: &Map| {
             let path = folder.join(format!("{}-{}.json", map.set, map.name));
@@ -209,7 +224,7 @@ impl<'a> Context<'a> {
             done
         };
         let done: Vec<Result<Option<T>, Error>> = match how {
-            How::Timed if self.setting.timed => maps.iter().map(part).collect(),
+            How::Timed if self.setting.request.timed => maps.iter().map(part).collect(),
             _ => self.setting.pool.install(|| maps.par_iter().map(part).collect()),
         };
         bar.finish_and_clear();

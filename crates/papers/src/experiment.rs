@@ -2,8 +2,10 @@
 
 use mediant_report::{Claim, Column, Record, Row, Table};
 
-use super::{FIGURES, context::Context};
-use crate::Error;
+use crate::{Error, context::Context};
+
+/// The folder of the figures, in that of the pages.
+pub(crate) const FIGURES: &str = "figures";
 
 /// Something to measure, and how to show it.
 pub(super) struct Experiment {

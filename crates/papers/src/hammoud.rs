@@ -7,7 +7,7 @@ mod figures;
 mod published;
 mod tables;
 
-use super::experiment::{Experiment, Page};
+use crate::experiment::{Experiment, Page};
 
 /// Tables I and II, row by row.
 pub(super) const TABLES: Experiment = Experiment {
@@ -16,7 +16,7 @@ pub(super) const TABLES: Experiment = Experiment {
     title: "Tables I and II: sixteen queries",
     sets: &["street"],
     measure: tables::measure,
-    show: tables::show,
+    show: tables::pages::show,
 };
 
 /// Figures 8 to 13, and what they leave out.
@@ -26,5 +26,5 @@ pub(super) const FIGURES: Experiment = Experiment {
     title: "Figures 8 to 13: all street maps",
     sets: &["street"],
     measure: figures::measure,
-    show: figures::show,
+    show: figures::pages::show,
 };

@@ -1,11 +1,8 @@
 //! Kramm, Rivera, Hernández & Baier 2018: how much longer than at any angle paths over N(k) are, by proof and on maps.
 
-mod bounds;
+pub(crate) mod bounds;
 mod center;
-mod ratios;
-
-pub(super) use bounds::BOUNDS;
-pub(super) use ratios::{RATIOS, is_published};
+pub(crate) mod ratios;
 
 /// By how much a ratio may exceed its bound: the rounding of sums.
 const SLACK: f64 = 1.0 + 1e-9;

@@ -8,12 +8,12 @@ use std::{
 
 use mediant_report::{Claim, Kind, Provenance, Record, Table, Verdict, thousands, verdicts};
 
-use super::{
-    DATA, EXPERIMENTS, FIGURES,
-    experiment::{Experiment, Page, Section},
-    records, write,
+use crate::{
+    Error,
+    catalog::EXPERIMENTS,
+    experiment::{Experiment, FIGURES, Page, Section},
+    records::{DATA, records, write},
 };
-use crate::Error;
 
 /// What the marks of tables mean.
 const MARKS: &str = "✓ as published: to the printed digits where the instances are the same, else within 3 % or what is said. ≈ within what another draw \

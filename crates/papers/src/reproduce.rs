@@ -7,56 +7,24 @@
 //!
 //! To add an experiment: a module with an `Experiment`, and its line in `EXPERIMENTS`.
 
-mod compared;
-mod context;
-mod engines;
-mod experiment;
-mod growth;
-mod hammoud;
-mod hierarchies;
-mod hormazabal;
-mod kramm;
-mod maps;
-mod pages;
-mod rivera;
-mod setups;
-mod teleisa;
-#[cfg(test)]
-mod tests;
-
 use std::{
-    fs,
     path::{Path, PathBuf},
     time::Instant,
 };
 
 use clap::Args;
-use mediant_report::{Provenance, Record};
+use mediant_report::{Kind, Machine, Provenance, Record, revision};
+use mediant_sets::root;
 
-use self::{
-    context::{Context, Setting},
-    experiment::{Experiment, Findings, Page},
+use crate::{
+    Error,
+    catalog::chosen,
+    check::{bless, check},
+    context::{Context, Request, Setting},
+    experiment::{Experiment, Findings},
+    pages,
+    records::{DATA, write},
 };
-use crate::{Error, project};
-
-/// All experiments, in the order in which they run and stand on the pages.
-const EXPERIMENTS: &[Experiment] = &[
-    rivera::TABLES,
-    rivera::THETA,
-    hormazabal::PLANNERS,
-    hormazabal::BRANCHING,
-    hormazabal::DISTANCE,
-    kramm::RATIOS,
-    kramm::BOUNDS,
-    hammoud::TABLES,
-    hammoud::FIGURES,
-    teleisa::RUNS,
-    engines::ENGINES,
-    growth::GROWTH,
-    hierarchies::HPA,
-    compared::PROGRAMS,
-    compared::CENTRAL64,
-];
 
 /// The options of `cargo xtask reproduce-tables`.
 #[derive(Args, Clone, Debug)]
@@ -93,19 +61,12 @@ pub struct Options {
     bless: bool,
 }
 
-/// The folder of the records, in that of the pages.
-const DATA: &str = "data";
-/// The folder of the figures, in that of the pages.
-const FIGURES: &str = "figures";
-/// By how much counts may differ: sums of numbers that are rounded the same everywhere, but written as text in between.
-const TOLERANCE: f64 = 1e-9;
-
 /// Measures and writes the pages.
 ///
 /// # Errors
 /// Those of [`run_in`].
 pub fn run(options: &Options) -> Result<(), Error> {
-    run_in(&project::root(), options)
+    run_in(&root(), options)
 }
 
 /// [`run`] in the project at `root`.
@@ -120,7 +81,8 @@ pub fn run_in(root: &Path, options: &Options) -> Result<(), Error> {
     }
     let checked = options.check || options.bless;
     let quick = options.quick || checked;
-    let setting = Setting::new(root, options, quick, !checked)?;
+    let request = Request { quick, timed: !checked, seed: options.seed, sets: options.sets.clone() };
+    let setting = Setting::new(root, request, options.jobs.unwrap_or(0).into())?;
     let needed = || experiments.iter().flat_map(|experiment| experiment.sets.iter().copied());
     setting.provide(needed(), options.mirror.as_deref())?;
     let out =
@@ -145,22 +107,8 @@ pub fn run_in(root: &Path, options: &Options) -> Result<(), Error> {
     setting.forget()
 }
 
-/// The experiments of these names, or of the pages of these names; all for none.
-fn chosen(names: &[String]) -> Result<Vec<&'static Experiment>, Error> {
-    let is =
-        |experiment: &Experiment, name: &String| experiment.id == name || experiment.page.file() == *name;
-    if let Some(name) = names.iter().find(|name| !EXPERIMENTS.iter().any(|experiment| is(experiment, name))) {
-        let known: Vec<&str> = EXPERIMENTS.iter().map(|experiment| experiment.id).collect();
-        let pages = Page::ALL.map(Page::file).join(", ");
-        let there = format!("there are {}, and the pages {pages}", known.join(", "));
-        return Err(Error::Reproduce(format!("unknown experiment `{name}`: {there}")));
-    }
-    let asked = |experiment: &&Experiment| names.is_empty() || names.iter().any(|name| is(experiment, name));
-    Ok(EXPERIMENTS.iter().filter(asked).collect())
-}
-
 fn measure(setting: &Setting, experiment: &'static Experiment) -> Result<Record, Error> {
-    let context = Context::new(setting, experiment);
+    let context = Context::new(setting, experiment.id, experiment.sets);
     if context.is_bundled() {
         eprintln!(
             "{}: none of the sets {} is there. It runs on the maps that come with the project: these are not the paper's.",
@@ -172,16 +120,16 @@ fn measure(setting: &Setting, experiment: &'static Experiment) -> Result<Record,
     let Findings { columns, rows, maps, instances, drawn, seeded } = (experiment.measure)(&context)?;
     eprintln!("{:<24} {:.0} s", experiment.id, begin.elapsed().as_secs_f64());
     let provenance = Provenance {
-        revision: project::revision(&setting.root),
-        machine: project::machine(),
+        revision: revision(&setting.root),
+        machine: Machine::here(),
         sets: context.sets().into_iter().map(str::to_owned).collect(),
         maps,
         instances,
         drawn,
-        seed: seeded.then_some(setting.seed),
-        quick: setting.quick,
+        seed: seeded.then_some(setting.request.seed),
+        quick: setting.request.quick,
         bundled: context.is_bundled(),
-        passes: (setting.timed && columns.iter().any(|column| column.kind == mediant_report::Kind::Time))
+        passes: (setting.request.timed && columns.iter().any(|column| column.kind == Kind::Time))
             .then_some(context.passes()),
     };
     let record = Record {
@@ -193,66 +141,4 @@ fn measure(setting: &Setting, experiment: &'static Experiment) -> Result<Record,
     };
     record.check().map_err(|wrong| Error::Reproduce(wrong.to_string()))?;
     Ok(record)
-}
-
-/// Writes a file, and the folder that it is in.
-fn write(path: &Path, text: &str) -> Result<(), Error> {
-    if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder).map_err(Error::at(folder))?;
-    }
-    fs::write(path, text).map_err(Error::at(path))
-}
-
-/// The records of a folder of results, in the order of the experiments.
-fn records(out: &Path) -> Result<Vec<(&'static Experiment, Record)>, Error> {
-    let mut found = Vec::new();
-    for experiment in EXPERIMENTS {
-        let path = out.join(DATA).join(format!("{}.json", experiment.id));
-        if path.is_file() {
-            let text = fs::read_to_string(&path).map_err(Error::at(&path))?;
-            let wrong = |wrong| Error::Reproduce(format!("{}: {wrong}", path.display()));
-            found.push((experiment, Record::parse(&text).map_err(wrong)?));
-        }
-    }
-    Ok(found)
-}
-
-/// Writes the counts that `--check` compares with; those of experiments that were not run stay.
-fn bless(path: &Path, records: &[Record]) -> Result<(), Error> {
-    let mut known = if path.is_file() { blessed(path)? } else { Vec::new() };
-    known.retain(|old| !records.iter().any(|new| new.id == old.id));
-    known.extend(records.iter().map(Record::counts));
-    known.sort_by_key(|record| EXPERIMENTS.iter().position(|experiment| experiment.id == record.id));
-    let texts: Vec<String> = known.iter().map(Record::json).collect();
-    write(path, &format!("[\n{}]\n", texts.join(",\n")))
-}
-
-fn blessed(path: &Path) -> Result<Vec<Record>, Error> {
-    let text = fs::read_to_string(path).map_err(Error::at(path))?;
-    serde_json::from_str(&text).map_err(|wrong| Error::Reproduce(format!("{}: {wrong}", path.display())))
-}
-
-fn check(path: &Path, records: &[Record]) -> Result<(), Error> {
-    let known = blessed(path)?;
-    let mut numbers = 0;
-    let mut differences = Vec::new();
-    for record in records {
-        match known.iter().find(|known| known.id == record.id) {
-            None => differences.push(format!("{}: not in {}", record.id, path.display())),
-            Some(known) => {
-                differences.extend(record.differences(known, TOLERANCE).iter().map(ToString::to_string));
-            }
-        }
-        numbers += record.counts().rows.iter().map(|row| row.values().count()).sum::<usize>();
-    }
-    if differences.is_empty() {
-        println!("{numbers} numbers of {} experiments are those of the last run", records.len());
-        return Ok(());
-    }
-    let shown = differences.iter().take(20).map(|difference| format!("\n  {difference}")).collect::<String>();
-    Err(Error::Reproduce(format!(
-        "{} numbers are not those of {}:{shown}\n--bless writes the new ones, once it is known why",
-        differences.len(),
-        path.display()
-    )))
 }

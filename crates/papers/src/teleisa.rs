@@ -320,7 +320,7 @@ mod tests {
     #[test]
     fn each_algorithm_is_one() {
         for (setup, _) in ALGORITHMS {
-            assert!(super::super::setups::setup(setup).unwrap().check().is_ok(), "{setup}");
+            assert!(crate::setups::setup(setup).unwrap().check().is_ok(), "{setup}");
         }
         let setups: BTreeMap<&str, &str> = ALGORITHMS.into_iter().collect();
         assert_eq!(setups.len(), ALGORITHMS.len());

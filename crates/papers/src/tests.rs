@@ -9,7 +9,18 @@ use std::{
 
 use clap::Parser;
 
-use super::{context::How, *};
+use mediant_report::Record;
+use mediant_sets::root;
+
+use crate::{
+    Error, Options,
+    catalog::EXPERIMENTS,
+    context::{Context, How, Request, Setting},
+    experiment::FIGURES,
+    maps, pages,
+    records::records,
+    run_in,
+};
 
 #[derive(Parser)]
 struct Cli {
@@ -23,7 +34,7 @@ fn options(arguments: &[&str]) -> Options {
 
 /// A project with the bundled maps and no sets, and a mirror that has none: no network is asked.
 fn project_without_sets() -> tempfile::TempDir {
-    let (folder, real) = (tempfile::tempdir().unwrap(), project::root());
+    let (folder, real) = (tempfile::tempdir().unwrap(), root());
     let benchdata = folder.path().join("benchdata");
     fs::create_dir_all(benchdata.join("maps")).unwrap();
     fs::create_dir_all(folder.path().join("mirror")).unwrap();
@@ -102,10 +113,13 @@ fn counts_are_held_against_those_of_the_last_run() {
 #[test]
 fn an_interrupted_run_goes_on_where_it_was() {
     let folder = project_without_sets();
-    let setting = |seed| Setting::new(folder.path(), &options(&["--seed", seed]), false, true).unwrap();
+    let setting = |seed| {
+        let request = Request { quick: false, timed: true, seed, sets: Vec::new() };
+        Setting::new(folder.path(), request, 0).unwrap()
+    };
     let done = AtomicUsize::new(0);
     let run = |setting: &Setting, until: usize| {
-        let context = Context::new(setting, &EXPERIMENTS[0]);
+        let context = Context::new(setting, "step", &["nowhere"]);
         let maps = context.maps("bundled", usize::MAX).unwrap();
         let work = |map: &maps::Map| match done.fetch_add(1, Ordering::Relaxed) {
             done if done >= until => Err(Error::Reproduce("interrupted".to_owned())),
@@ -113,12 +127,12 @@ fn an_interrupted_run_goes_on_where_it_was() {
         };
         context.each("step", How::Timed, &maps, work)
     };
-    let first = setting("1");
+    let first = setting(1);
     assert!(run(&first, 2).is_err());
     assert_eq!(done.swap(0, Ordering::Relaxed), 3, "two maps, and the one at which it failed");
     assert_eq!(run(&first, 9).unwrap(), ["archipelago", "cave", "maze", "town"]);
     assert_eq!(done.swap(0, Ordering::Relaxed), 2, "the other two");
-    run(&setting("2"), 9).unwrap();
+    run(&setting(2), 9).unwrap();
     assert_eq!(done.swap(0, Ordering::Relaxed), 4, "another request is another run");
     first.forget().unwrap();
     run(&first, 9).unwrap();
@@ -128,7 +142,7 @@ fn an_interrupted_run_goes_on_where_it_was() {
 /// The pages that are committed are those of the records that are committed, which are whole: of each experiment, of all its sets, timed.
 #[test]
 fn committed_pages_are_drawn_from_the_committed_records() {
-    let out = project::root().join("docs/results");
+    let out = root().join("docs/results");
     let records = records(&out).unwrap();
     for (experiment, (of, record)) in EXPERIMENTS.iter().zip(&records) {
         assert_eq!(experiment.id, of.id, "no record of {}", experiment.id);

@@ -10,15 +10,17 @@
 //! * [`stats`]: means, medians, ratios of means with their standard errors.
 //! * [`Chart`], [`GridDrawing`], [`TreeDrawing`]: SVG figures.
 //!
-//! What is not here: engines and measurements (`mediant-bench`), and which tables and figures there are (`xtask`).
+//! What is not here: engines and measurements (`mediant-bench`), and which tables and figures there are (`mediant-papers`).
 
 mod claim;
 mod figure;
+mod here;
 mod record;
 pub mod stats;
 mod table;
 
 pub use claim::{Claim, Verdict, verdicts};
 pub use figure::{Axis, Chart, GridDrawing, Mark, Scale, Series, TreeDrawing};
+pub use here::revision;
 pub use record::{Column, Difference, Kind, Machine, Provenance, Record, RecordError, Row, Value};
 pub use table::{Align, Table, number, thousands};

@@ -1,23 +1,14 @@
-//! What can go wrong with a chore: one line each.
+//! What can go wrong with a benchmark set: one line each.
 
 use std::{
     io,
     path::{Path, PathBuf},
 };
 
-/// A chore that failed.
+/// A benchmark set that cannot be provided or read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Costs that differ from the known ones, or fewer of them than there should be.
-    #[error("{0}")]
-    Verify(String),
-    /// A table that could not be reproduced.
-    #[error("{0}")]
-    Reproduce(String),
-    /// A comparison that could not be made.
-    #[error(transparent)]
-    Compare(#[from] crate::compare::CompareError),
     /// A set that the manifest does not list.
     #[error("unknown set `{name}`: the manifest lists {known}")]
     UnknownSet {
@@ -34,21 +25,13 @@ pub enum Error {
         /// What was asked for.
         url: String,
         /// Why there was no answer.
-        source: Box<ureq::Error>,
+        source: Box<dyn std::error::Error + Send + Sync>,
     },
     /// The server or the mirror folder does not hold the file.
     #[error("{place}: not there; check --mirror, or leave the set out by --set")]
     Absent {
         /// The address or path.
         place: String,
-    },
-    /// A mirror without any of the sets.
-    #[error(
-        "{mirror}: none of the sets is there; check --mirror: it holds files like dao-map.zip and dao-scen.zip"
-    )]
-    NoSet {
-        /// The address or path.
-        mirror: String,
     },
     /// The server refuses.
     #[error("{url}: expected the file, found HTTP status {status}; try again later or use --mirror")]
@@ -121,18 +104,6 @@ pub enum Error {
         path: PathBuf,
         /// What the system says.
         source: io::Error,
-    },
-    /// Rules that are broken; each was printed.
-    #[error("broken rules: {count}")]
-    Tidy {
-        /// Their number.
-        count: usize,
-    },
-    /// A step of `ci` that failed.
-    #[error("`{command}` failed")]
-    Step {
-        /// The command.
-        command: String,
     },
 }
 

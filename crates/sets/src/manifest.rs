@@ -10,7 +10,7 @@ use mediant_formats::{MapFile, Scenario};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use crate::Error;
+use crate::{Error, files};
 
 /// All sets.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -126,13 +126,15 @@ impl Contents {
     pub fn of(folder: &Path, tick: impl Fn()) -> Result<Self, Error> {
         let mut sides = BTreeMap::new();
         let mut contents = Self { maps: BTreeMap::new(), instances: 0 };
-        for (name, path) in listed(folder, ".map")? {
+        for path in files(folder, ".map")? {
+            let name = name(&path);
             let map = MapFile::read(path)?;
             sides.insert(name.clone(), (map.width(), map.height()));
             contents.maps.insert(name, map_digest(&map));
             tick();
         }
-        for (file, path) in listed(folder, ".scen")? {
+        for path in files(folder, ".scen")? {
+            let file = name(&path);
             let scenario = Scenario::read(path)?;
             let map = file.trim_end_matches(".scen");
             if let Some(&sides) = sides.get(map) {
@@ -145,15 +147,8 @@ impl Contents {
     }
 }
 
-/// The files of a folder whose names end so, sorted.
-fn listed(folder: &Path, ending: &str) -> Result<Vec<(String, PathBuf)>, Error> {
-    let entries: Result<Vec<_>, _> = fs::read_dir(folder).and_then(Iterator::collect);
-    let entries = entries.map_err(Error::at(folder))?;
-    let named =
-        entries.into_iter().map(|entry| (entry.file_name().to_string_lossy().into_owned(), entry.path()));
-    let mut files: Vec<_> = named.filter(|(name, _)| name.ends_with(ending)).collect();
-    files.sort();
-    Ok(files)
+fn name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
 /// What [`Manifest::digest`] says of [`map_digest`].

@@ -1,4 +1,4 @@
-//! `cargo xtask download` against archives that the test makes and a server that the test runs.
+//! Downloads of archives that the test makes, from a server that the test runs.
 
 mod server;
 
@@ -10,12 +10,8 @@ use std::{
 };
 
 use mediant_formats::MapFile;
+use mediant_sets::{Cache, Manifest, Report, Set, Source, map_digest, root};
 use server::Server;
-use xtask::{
-    Source,
-    download::{self, Cache, Options, Report},
-    manifest::{Manifest, Set, map_digest},
-};
 use zip::{ZipWriter, write::SimpleFileOptions};
 
 const MAP: &str = "type octile\nheight 2\nwidth 9\nmap\n.@.......\n.........\n";
@@ -392,41 +388,8 @@ fn the_digest_has_the_documented_form() {
 }
 
 #[test]
-fn the_command_with_a_manifest_of_its_own() {
-    let bench = Bench::new();
-    let root = bench.folder.path();
-    let path = Manifest::path(root);
-    fs::create_dir_all(path.parent().unwrap()).unwrap();
-    let blank = Set { maps: None, instances: None, ..bench.set.clone() };
-    let absent = Set { name: "absent".to_owned(), ..blank.clone() };
-    let manifest = Manifest { digest: String::new(), sets: vec![absent.clone(), blank] };
-    manifest.write(&path).unwrap();
-    let mirror = bench.mirror().to_str().unwrap().to_owned();
-    let run = |sets: &[&str], mirror: &str, write_manifest| {
-        let sets = sets.iter().map(|&set| set.to_owned()).collect();
-        let done = download::run_in(root, &Options { sets, mirror: Some(mirror.to_owned()), write_manifest });
-        done.map_err(|error| error.to_string().replace(&format!("{}/", root.display()), ""))
-    };
-    // All sets: one that the mirror lacks is passed over, and the manifest then knows the other.
-    assert_eq!(run(&[], &mirror, true), Ok(()));
-    let written = Manifest::read(&path).unwrap();
-    assert_eq!(written.sets, [absent, bench.set.clone()]);
-    assert_eq!(written.digest, xtask::manifest::DIGEST);
-    assert_eq!(run(&["tiny"], &mirror, false), Ok(()));
-    assert_eq!(Manifest::read(&path).unwrap(), written);
-    let message = "mirror/absent-map.zip: not there; check --mirror, or leave the set out by --set";
-    assert_eq!(run(&["tiny", "absent"], &mirror, false), Err(message.to_owned()));
-    let message = "unknown set `dao`: the manifest lists absent, tiny";
-    assert_eq!(run(&["tiny", "dao"], &mirror, false), Err(message.to_owned()));
-    fs::remove_dir_all(root.join("benchdata/cache")).unwrap();
-    let message = "nowhere: none of the sets is there; \
-                   check --mirror: it holds files like dao-map.zip and dao-scen.zip";
-    assert_eq!(run(&[], "nowhere", false), Err(message.to_owned()));
-}
-
-#[test]
 fn the_manifest_of_the_project() {
-    let manifest = Manifest::read(&Manifest::path(&xtask::project::root())).unwrap();
+    let manifest = Manifest::read(&Manifest::path(&root())).unwrap();
     let counts: BTreeMap<&str, Option<(usize, u64)>> = manifest
         .sets
         .iter()
@@ -447,7 +410,7 @@ fn the_manifest_of_the_project() {
     let folder = tempfile::tempdir().unwrap();
     let copy = folder.path().join("manifest.json");
     manifest.write(&copy).unwrap();
-    assert_eq!(fs::read(copy).unwrap(), fs::read(Manifest::path(&xtask::project::root())).unwrap());
+    assert_eq!(fs::read(copy).unwrap(), fs::read(Manifest::path(&root())).unwrap());
     assert_eq!(
         manifest.set("quake").unwrap_err().to_string(),
         "unknown set `quake`: the manifest lists dao, da2, bg512, wc3maps512, sc1, random, room, street, maze"

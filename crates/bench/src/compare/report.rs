@@ -2,13 +2,12 @@
 
 use std::path::Path;
 
-use mediant_bench::{Comparand, Comparison, MapRecord};
 use mediant_engines::Setup;
-use mediant_report::{Machine, Table, number, stats::geometric_mean};
+use mediant_report::{Machine, Table, number, revision, stats::geometric_mean};
 use serde::Serialize;
 
 use super::{Options, Results};
-use crate::project;
+use crate::{Comparand, Comparison, MapRecord};
 
 /// The tables: times, then for each setup its ratios to the programs that solve the same problem, and to the others.
 pub(super) fn text(results: &Results<'_>, options: &Options) -> String {
@@ -168,8 +167,8 @@ struct Figures<'a> {
 
 pub(super) fn json(root: &Path, results: &Results<'_>, options: &Options) -> String {
     let figures = Figures {
-        revision: project::revision(root),
-        machine: project::machine(),
+        revision: revision(root),
+        machine: Machine::here(),
         unit: "microseconds a query",
         every: options.every,
         passes: options.passes,

@@ -1,20 +1,19 @@
 //! Figures 8 to 13: six engines over all street maps, under two rules.
 
-mod shown;
+pub(super) mod pages;
 
 use mediant_bench::Study;
 use mediant_report::{Column, Row};
 use mediant_search::Query;
 use serde::{Deserialize, Serialize};
 
-pub(super) use self::shown::show;
-use super::super::{
+use crate::{
+    Error,
     context::{Context, How},
     experiment::Findings,
     maps::Map,
     setups::{self, Sums},
 };
-use crate::Error;
 
 /// The corner rules: of the scenarios and the paper's A*, and of its JPS.
 const RULES: [&str; 2] = ["never", "one"];

@@ -1,7 +1,7 @@
 //! Tables I and II: sixteen queries, each answered by four engines under three rules.
 
 mod list;
-mod shown;
+pub(super) mod pages;
 
 use mediant_bench::{Answer, Study};
 use mediant_formats::Instance;
@@ -10,18 +10,15 @@ use mediant_report::{Column, Row};
 use mediant_search::Query;
 use serde::{Deserialize, Serialize};
 
-pub(super) use self::shown::show;
-use self::{list::plain_astar, shown::point};
-use super::{
-    super::{
-        context::{Context, How},
-        experiment::Findings,
-        maps::Map,
-        setups,
-    },
-    published::{MAPS, Published, rows},
+use self::list::plain_astar;
+use super::published::{MAPS, Published, rows};
+use crate::{
+    Error,
+    context::{Context, How},
+    experiment::Findings,
+    maps::Map,
+    setups,
 };
-use crate::Error;
 
 /// The corner rules.
 const RULES: [&str; 3] = ["never", "one", "always"];
@@ -33,6 +30,11 @@ const SUSPECTS: [&str; 3] = ["jps:3:one,euclidean", "jps:3:one,zero", KEPT];
 const KEPT: &str = "jps:3:one,intermediate";
 /// A* whose open list is a list, [`plain_astar`].
 const LIST: &str = "A* in a list";
+
+/// A point as records and pages write it.
+fn point((x, y): (i32, i32)) -> String {
+    format!("({x}, {y})")
+}
 
 /// What one engine made of one query.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]

@@ -8,18 +8,16 @@ use mediant_report::{Axis, Chart, Claim, Column, Mark, Record, Row, Series, Tabl
 use mediant_subgoal::{Hierarchy, SubgoalGraph};
 use serde::{Deserialize, Serialize};
 
-use super::KS;
+use super::planners::KS;
 use crate::{
     Error,
-    reproduce::{
-        context::{Context, How},
-        experiment::{Experiment, Findings, Page, Section},
-        kramm::is_published,
-        maps::Map,
-    },
+    context::{Context, How},
+    experiment::{Experiment, Findings, Page, Section},
+    kramm::ratios::is_published,
+    maps::Map,
 };
 
-pub(in crate::reproduce) const BRANCHING: Experiment = Experiment {
+pub(crate) const BRANCHING: Experiment = Experiment {
     id: "hormazabal2017-branching",
     page: Page::Hormazabal2017,
     title: "Branching factors of subgoal graphs",

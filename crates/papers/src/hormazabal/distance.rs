@@ -8,17 +8,15 @@ use mediant_report::{Axis, Chart, Claim, Column, Mark, Record, Row, Series, Tabl
 
 use crate::{
     Error,
-    reproduce::{
-        context::Context,
-        experiment::{Experiment, Findings, Page, Section},
-        maps::Map,
-    },
+    context::Context,
+    experiment::{Experiment, Findings, Page, Section},
+    maps::Map,
 };
 
 mod chain;
 use chain::{algorithm_2, chain_32, chain_64, chain_128};
 
-pub(in crate::reproduce) const DISTANCE: Experiment = Experiment {
+pub(crate) const DISTANCE: Experiment = Experiment {
     id: "hormazabal2017-distance",
     page: Page::Hormazabal2017,
     title: "The iterative h_k (Algorithm 2)",

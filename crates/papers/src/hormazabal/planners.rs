@@ -1,30 +1,21 @@
 //! Sub2-A*(k), Sub2-Theta* and Anya ('Empirical Evaluation', Figures 2 to 4).
 
-mod pages;
+pub(super) mod pages;
 
 use mediant_bench::Study;
 use mediant_report::{Column, Row};
 use serde::{Deserialize, Serialize};
 
-use super::KS;
 use crate::{
     Error,
-    reproduce::{
-        context::{Context, How},
-        experiment::{Experiment, Findings, Page},
-        maps::Map,
-        setups::{Sums, costs, run},
-    },
+    context::{Context, How},
+    experiment::Findings,
+    maps::Map,
+    setups::{Sums, costs, run},
 };
 
-pub(in crate::reproduce) const PLANNERS: Experiment = Experiment {
-    id: "hormazabal2017-planners",
-    page: Page::Hormazabal2017,
-    title: "Sub2-A*(k) against Sub2-Theta* and Anya (Figures 2 to 4)",
-    sets: &["bg512", "dao", "sc1", "random", "room"],
-    measure,
-    show: pages::show,
-};
+/// The paper's range of k, as far as the text tells it.
+pub(super) const KS: std::ops::RangeInclusive<u32> = 3..=9;
 
 /// The names of planners in the record.
 const SUB2_A_STAR: &str = "Sub2-A*";
@@ -95,7 +86,7 @@ fn part(map: &Map, every: usize, passes: u32) -> Result<Part, Error> {
     Ok(Part { sums })
 }
 
-fn measure(ctx: &Context<'_>) -> Result<Findings, Error> {
+pub(super) fn measure(ctx: &Context<'_>) -> Result<Findings, Error> {
     let mut maps = Vec::new();
     for set in ctx.sets() {
         let all: Vec<Map> = ctx.maps(set, usize::MAX)?.into_iter().filter(is_taken).collect();
@@ -147,7 +138,7 @@ fn measure(ctx: &Context<'_>) -> Result<Findings, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reproduce::setups::setup;
+    use crate::setups::setup;
 
     #[test]
     fn planners_exist_and_differ() {

@@ -8,13 +8,11 @@ use mediant_report::{Axis, Chart, Claim, Column, Mark, Record, Row, Series, Tabl
 use super::{SLACK, center::Worst};
 use crate::{
     Error,
-    reproduce::{
-        context::Context,
-        experiment::{Experiment, Findings, Page, Section},
-    },
+    context::Context,
+    experiment::{Experiment, Findings, Page, Section},
 };
 
-pub(in crate::reproduce) const BOUNDS: Experiment = Experiment {
+pub(crate) const BOUNDS: Experiment = Experiment {
     id: "kramm2018-bounds",
     page: Page::Kramm2018,
     title: "The bounds, and instances that attain them (Theorems 2 and 3, Figures 5 and 6)",

@@ -8,7 +8,7 @@ use mediant_oracle::Visibility;
 use mediant_report::GridDrawing;
 use mediant_search::Query;
 
-use crate::{Error, reproduce::setups::setup};
+use crate::{Error, setups::setup};
 
 /// A move may touch one obstacle, but not pass between two. So the path goes around through three free cells; an any-angle
 /// path keeps to the corners of the obstacles between them.

@@ -8,15 +8,13 @@ use serde::{Deserialize, Serialize};
 use super::SLACK;
 use crate::{
     Error,
-    reproduce::{
-        context::{Context, How},
-        experiment::{Experiment, Findings, Page, Section},
-        maps::Map,
-        setups::{costs, run},
-    },
+    context::{Context, How},
+    experiment::{Experiment, Findings, Page, Section},
+    maps::Map,
+    setups::{costs, run},
 };
 
-pub(in crate::reproduce) const RATIOS: Experiment = Experiment {
+pub(crate) const RATIOS: Experiment = Experiment {
     id: "kramm2018-ratios",
     page: Page::Kramm2018,
     title: "Ratios on benchmark maps (Figure 7)",
@@ -36,7 +34,7 @@ const PUBLISHED: [(&str, f64); 3] = [("bg512", 6_282.0), ("random", 45_760.0), (
 const LAST_PUBLISHED_K: u32 = 7;
 
 /// The paper does not say which maps it took. The last five of each kind, by name, have its number of instances, in all three sets.
-pub(in crate::reproduce) fn is_published(map: &Map) -> bool {
+pub(crate) fn is_published(map: &Map) -> bool {
     let last_five = |prefix: &str| {
         map.name
             .strip_prefix(prefix)

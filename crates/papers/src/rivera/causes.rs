@@ -2,7 +2,7 @@
 
 use mediant_report::Record;
 
-use super::{Algorithm, Cell, Heuristic, Measure, published::KS};
+use super::searches::{Algorithm, Heuristic, KS, Measure, Search};
 
 /// Of other problems.
 const DRAW: &str = "The problems are others; ratios change with their length. WC3 has 776,789 cells of swamp, `S`, free here as the \
@@ -31,9 +31,9 @@ const CANONICAL_TIES: &str = "Ties, as in Table 1: a heap that compares f alone 
     (published 10,859 with 2.6), and at 16, 128 over 8 neighbors 0.90, 0.88 instead of 1.03, 1.11 (published 0.91, 0.85).";
 
 /// Why a number of the tables differs, where it does.
-pub(super) fn of(record: &Record, cell: Cell, measure: Measure) -> String {
-    match (cell.algorithm, cell.heuristic, measure) {
-        (_, _, Measure::Time) => time(record, cell),
+pub(super) fn of(record: &Record, search: Search, measure: Measure) -> String {
+    match (search.algorithm, search.heuristic, measure) {
+        (_, _, Measure::Time) => time(record, search),
         (_, _, Measure::Cost | Measure::Moves) => [BOXES, DRAW].join("\n"),
         (Algorithm::AStar, Heuristic::Euclidean, _) => DRAW.to_owned(),
         (Algorithm::AStar, Heuristic::Hk, _) => [TIES, DRAW].join("\n"),
@@ -45,16 +45,19 @@ pub(super) fn of(record: &Record, cell: Cell, measure: Measure) -> String {
 /// The nanoseconds of an expansion by k, on StarCraft, here and as published.
 fn expansions(record: &Record, algorithm: Algorithm, heuristic: Heuristic) -> [Vec<(f64, f64)>; 2] {
     let moves = |k: u32| f64::from(1_u32 << k);
-    let of = |number: &dyn Fn(Cell) -> Option<f64>| {
-        let cells = KS.map(|k| Cell { algorithm, heuristic, k });
-        cells.into_iter().filter_map(|cell| Some((moves(cell.k), number(cell)?))).collect()
+    let of = |number: &dyn Fn(Search) -> Option<f64>| {
+        let searches = KS.map(|k| Search { algorithm, heuristic, k });
+        searches.into_iter().filter_map(|search| Some((moves(search.k), number(search)?))).collect()
     };
     [
-        of(&|cell| {
-            Some(1e3 * cell.number(record, "sc1", "micros")? / cell.number(record, "sc1", "timed_expanded")?)
+        of(&|search| {
+            Some(
+                1e3 * search.number(record, "sc1", "micros")?
+                    / search.number(record, "sc1", "timed_expanded")?,
+            )
         }),
-        of(&|cell| {
-            Some(1e6 * cell.published("sc1", Measure::Time)? / cell.published("sc1", Measure::Expanded)?)
+        of(&|search| {
+            Some(1e6 * search.published("sc1", Measure::Time)? / search.published("sc1", Measure::Expanded)?)
         }),
     ]
 }
@@ -73,12 +76,12 @@ fn line(points: &[(f64, f64)]) -> Option<(f64, f64)> {
 const NO_TIMES: &str = "The program and the machine are others. StarCraft, on whose maps the time of an expansion is taken apart, was left out.";
 
 /// Of times: what an expansion takes, a fixed part and a part for each move.
-fn time(record: &Record, cell: Cell) -> String {
-    let [ours, theirs] = expansions(record, cell.algorithm, cell.heuristic);
+fn time(record: &Record, search: Search) -> String {
+    let [ours, theirs] = expansions(record, search.algorithm, search.heuristic);
     let Some((ours, theirs)) = line(&ours).zip(line(&theirs)) else {
         return NO_TIMES.to_owned();
     };
-    let why = if cell.algorithm == Algorithm::AStar {
+    let why = if search.algorithm == Algorithm::AStar {
         "Each legal move is tried in both programs; what does not depend on k is the smaller part here, so that the whole grows faster with k."
     } else {
         "What does not depend on k is the smaller part here, and jump points pass on all legal moves."
@@ -92,14 +95,14 @@ fn time(record: &Record, cell: Cell) -> String {
 
 /// A* with both heuristics at a k on StarCraft: nanoseconds an expansion and expansions, with h_k over Euclidean.
 fn heuristics(record: &Record, algorithm: Algorithm, k: u32) -> Option<[f64; 4]> {
-    let ratio = |number: &dyn Fn(Cell) -> Option<f64>| {
-        let of = |heuristic| number(Cell { algorithm, heuristic, k });
+    let ratio = |number: &dyn Fn(Search) -> Option<f64>| {
+        let of = |heuristic| number(Search { algorithm, heuristic, k });
         Some(of(Heuristic::Hk)? / of(Heuristic::Euclidean)?)
     };
-    let time = ratio(&|cell| cell.number(record, "sc1", "micros"))?;
-    let expanded = ratio(&|cell| cell.number(record, "sc1", "timed_expanded"))?;
-    let published = ratio(&|cell| cell.published("sc1", Measure::Time))?;
-    let theirs = ratio(&|cell| cell.published("sc1", Measure::Expanded))?;
+    let time = ratio(&|search| search.number(record, "sc1", "micros"))?;
+    let expanded = ratio(&|search| search.number(record, "sc1", "timed_expanded"))?;
+    let published = ratio(&|search| search.published("sc1", Measure::Time))?;
+    let theirs = ratio(&|search| search.published("sc1", Measure::Expanded))?;
     Some([expanded, time / expanded, theirs, published / theirs])
 }
 

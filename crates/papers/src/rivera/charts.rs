@@ -3,8 +3,8 @@
 use mediant_report::{Axis, Chart, Mark, Record, Series};
 
 use super::{
-    Algorithm, Cell, Heuristic, Measure,
-    published::{KS, SETS},
+    published::SETS,
+    searches::{Algorithm, Heuristic, KS, Measure, Search},
 };
 
 /// The searches that are shown.
@@ -20,12 +20,12 @@ fn neighbors() -> Axis {
     Axis::new("neighbors, 2^k").log().ticks(ticks)
 }
 
-/// The points of a search, by what `number` finds in its cells.
+/// The points of a curve: for each k, what `number` finds of its search.
 fn points(
     (algorithm, heuristic): (Algorithm, Heuristic),
-    number: impl Fn(Cell) -> Option<f64>,
+    number: impl Fn(Search) -> Option<f64>,
 ) -> Vec<(f64, f64)> {
-    let point = |k: u32| Some((f64::from(1_u32 << k), number(Cell { algorithm, heuristic, k })?));
+    let point = |k: u32| Some((f64::from(1_u32 << k), number(Search { algorithm, heuristic, k })?));
     KS.into_iter().filter_map(point).collect()
 }
 
@@ -35,7 +35,7 @@ fn name((algorithm, heuristic): (Algorithm, Heuristic), whose: &str) -> String {
 
 /// Figure 3: the time of each search against the number of neighbors. None if no time was taken on that set.
 pub(super) fn runtime(record: &Record, set: &str) -> Option<String> {
-    let ours = |cell: Cell| Some(cell.number(record, set, "micros")? / 1000.0);
+    let ours = |search: Search| Some(search.number(record, set, "micros")? / 1000.0);
     let mut chart =
         Chart::new(format!("Time of a query on {}", title(set)), neighbors(), Axis::new("ms").log())
             .note(note(record, set)?);
@@ -43,7 +43,7 @@ pub(super) fn runtime(record: &Record, set: &str) -> Option<String> {
         chart.push(Series::new(name(search, ""), Mark::Line, points(search, ours)).style(style));
     }
     for (style, search) in SHOWN.into_iter().enumerate() {
-        let published = points(search, |cell| cell.published(set, Measure::Time));
+        let published = points(search, |search| search.published(set, Measure::Time));
         if !published.is_empty() {
             chart.push(
                 Series::new(name(search, ", published"), Mark::Points, published).style(style).hollow(),
@@ -55,11 +55,11 @@ pub(super) fn runtime(record: &Record, set: &str) -> Option<String> {
 
 /// The time of an expansion against the number of neighbors.
 pub(super) fn expansion(record: &Record, set: &str) -> Option<String> {
-    let ours = |cell: Cell| {
-        Some(1000.0 * cell.number(record, set, "micros")? / cell.number(record, set, "timed_expanded")?)
+    let ours = |search: Search| {
+        Some(1000.0 * search.number(record, set, "micros")? / search.number(record, set, "timed_expanded")?)
     };
-    let theirs = |cell: Cell| {
-        Some(1e6 * cell.published(set, Measure::Time)? / cell.published(set, Measure::Expanded)?)
+    let theirs = |search: Search| {
+        Some(1e6 * search.published(set, Measure::Time)? / search.published(set, Measure::Expanded)?)
     };
     let title = format!("Time of an expansion on {}", title(set));
     let mut chart = Chart::new(title, neighbors(), Axis::new("ns").log()).note(note(record, set)?);

@@ -1,15 +1,9 @@
 //! What Rivera, Hernández & Baier 2017 print in Tables 1 and 2, and which of their numbers each is held against.
 
-use super::{Algorithm, Heuristic, Measure};
+use super::searches::{Algorithm, Heuristic, KS, Measure, Search};
 
 /// The sets, as here and as in the paper.
 pub(super) const SETS: [(&str, &str); 3] = [("sc1", "StarCraft"), ("bg512", "BG"), ("wc3maps512", "WC3")];
-
-/// The k of the rows.
-pub(super) const KS: [u32; 6] = [2, 3, 4, 5, 6, 7];
-
-/// The k that the others are compared with.
-pub(super) const BASE: u32 = 3;
 
 /// Table 1: for each set and k the cost, the moves, and of each heuristic expansions, percolations and milliseconds.
 const TABLE_1: [[[f64; 8]; 6]; 3] = [
@@ -67,31 +61,28 @@ const TABLE_2: [[[f64; 6]; 6]; 3] = [
     ],
 ];
 
-/// A printed number; none where the paper prints none.
-pub(super) fn published(
-    set: &str,
-    algorithm: Algorithm,
-    heuristic: Heuristic,
-    k: u32,
-    measure: Measure,
-) -> Option<f64> {
-    let set = SETS.iter().position(|(name, _)| *name == set)?;
-    let row = KS.iter().position(|&known| known == k)?;
-    let column = match measure {
-        // The same for both heuristics, printed once.
-        Measure::Cost => return (algorithm == Algorithm::AStar).then(|| TABLE_1[set][row][0]),
-        Measure::Moves => return (algorithm == Algorithm::AStar).then(|| TABLE_1[set][row][1]),
-        Measure::Expanded => 0,
-        Measure::Percolations => 1,
-        Measure::Time => 2,
-    } + match heuristic {
-        Heuristic::Hk => 0,
-        Heuristic::Euclidean => 3,
-    };
-    match algorithm {
-        Algorithm::AStar => Some(TABLE_1[set][row][column + 2]),
-        Algorithm::Paper => Some(TABLE_2[set][row][column]),
-        Algorithm::Exact => None,
+impl Search {
+    /// A printed number; none where the paper prints none.
+    pub(super) fn published(self, set: &str, measure: Measure) -> Option<f64> {
+        let Self { algorithm, heuristic, k } = self;
+        let set = SETS.iter().position(|(name, _)| *name == set)?;
+        let row = KS.iter().position(|&known| known == k)?;
+        let column = match measure {
+            // The same for both heuristics, printed once.
+            Measure::Cost => return (algorithm == Algorithm::AStar).then(|| TABLE_1[set][row][0]),
+            Measure::Moves => return (algorithm == Algorithm::AStar).then(|| TABLE_1[set][row][1]),
+            Measure::Expanded => 0,
+            Measure::Percolations => 1,
+            Measure::Time => 2,
+        } + match heuristic {
+            Heuristic::Hk => 0,
+            Heuristic::Euclidean => 3,
+        };
+        match algorithm {
+            Algorithm::AStar => Some(TABLE_1[set][row][column + 2]),
+            Algorithm::Paper => Some(TABLE_2[set][row][column]),
+            Algorithm::Exact => None,
+        }
     }
 }
 
@@ -117,7 +108,7 @@ mod tests {
             ("bundled", AStar, Hk, 3, Measure::Time, None),
         ];
         for (set, algorithm, heuristic, k, measure, expected) in cases {
-            let found = published(set, algorithm, heuristic, k, measure);
+            let found = Search { algorithm, heuristic, k }.published(set, measure);
             assert_eq!(found, expected, "{set} {algorithm:?} {heuristic:?} {k} {measure:?}");
         }
     }

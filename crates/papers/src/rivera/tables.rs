@@ -1,6 +1,6 @@
 //! Tables 1 and 2: what is measured.
 
-mod show;
+pub(super) mod pages;
 
 use mediant_bench::Study;
 use mediant_engines::Ground;
@@ -8,18 +8,14 @@ use mediant_grid::Rules;
 use mediant_report::{Column, Row};
 use mediant_search::Query;
 
-use super::{Algorithm, Cell, Heuristic, Measure};
+use super::searches::{Algorithm, Heuristic, Measure, Search};
 use crate::{
     Error,
-    reproduce::{
-        context::{Context, How},
-        experiment::Findings,
-        maps::{Map, random_queries},
-        setups::{run, setup},
-    },
+    context::{Context, How},
+    experiment::Findings,
+    maps::{Map, random_queries},
+    setups::{run, setup},
 };
-
-pub(super) use show::show;
 
 /// The five StarCraft maps.
 const STARCRAFT: [&str; 5] = ["Cauldron", "Expedition", "Octopus", "PrimevalIsles", "TheFrozenSea"];
@@ -134,13 +130,13 @@ fn queries(context: &Context<'_>, map: &Map) -> Result<Vec<Query>, Error> {
 fn counts(context: &Context<'_>, map: &Map) -> Result<Counted, Error> {
     let (grid, queries) = (map.grid()?, queries(context, map)?);
     let mut study = Study::new(&grid, &queries, 0);
-    let one = |cell: Cell| {
-        let found = run(&mut study, &cell.setup())?.answers.into_iter().map(|answer| {
+    let one = |search: Search| {
+        let found = run(&mut study, &search.setup())?.answers.into_iter().map(|answer| {
             let answer = answer.ok_or_else(|| {
                 Error::Reproduce(format!(
                     "{}, {}: a problem with a path and no answer",
                     map.name,
-                    cell.setup()
+                    search.setup()
                 ))
             })?;
             let counters = answer.counters;
@@ -148,36 +144,36 @@ fn counts(context: &Context<'_>, map: &Map) -> Result<Counted, Error> {
         });
         found.collect()
     };
-    Cell::all().map(one).collect()
+    Search::all().map(one).collect()
 }
 
 fn times(context: &Context<'_>, map: &Map) -> Result<Timed, Error> {
     let (grid, mut queries) = (map.grid()?, queries(context, map)?);
     queries.truncate(timed_of(queries.len()));
     let mut study = Study::new(&grid, &queries, context.passes());
-    let one = |cell: Cell| {
-        if cell.algorithm == Algorithm::Exact && cell.heuristic == Heuristic::Euclidean {
+    let one = |search: Search| {
+        if search.algorithm == Algorithm::Exact && search.heuristic == Heuristic::Euclidean {
             return Ok(None);
         }
-        let micros = run(&mut study, &cell.setup())?.micros;
+        let micros = run(&mut study, &search.setup())?.micros;
         Ok(micros.map(|micros| micros * queries.len() as f64))
     };
-    Cell::all().map(one).collect()
+    Search::all().map(one).collect()
 }
 
 /// The rows of a set, by what its maps gave.
 fn rows_of(set: &str, counted: &[&Counted], timed: &[&Timed]) -> Vec<Row> {
-    let cells: Vec<Cell> = Cell::all().collect();
-    let row = |(at, &cell): (usize, &Cell)| {
+    let searches: Vec<Search> = Search::all().collect();
+    let row = |(at, &search): (usize, &Search)| {
         let reference =
-            cell.reference().and_then(|reference| cells.iter().position(|&cell| cell == reference));
+            search.reference().and_then(|reference| searches.iter().position(|&search| search == reference));
         let all = || counted.iter().flat_map(|searches| &searches[at]);
         let queries = all().count() as f64;
         let mut row = Row::new()
             .key("set", set)
-            .key("algorithm", cell.algorithm.name())
-            .key("heuristic", cell.heuristic.name())
-            .key("k", cell.k)
+            .key("algorithm", search.algorithm.name())
+            .key("heuristic", search.heuristic.name())
+            .key("k", search.k)
             .with("queries", queries);
         for (number, measure) in COUNTS.into_iter().enumerate() {
             let sum: f64 = all().map(|query| query[number]).sum();
@@ -202,7 +198,7 @@ fn rows_of(set: &str, counted: &[&Counted], timed: &[&Timed]) -> Vec<Row> {
             .with("timed_expanded", expanded / count)
             .with("micros", micros.map(|sum| sum / count))
     };
-    cells.iter().enumerate().map(row).collect()
+    searches.iter().enumerate().map(row).collect()
 }
 
 /// The relative standard error of the ratio of the means of pairs (a, b) that are drawn at random on each of several maps, by their
@@ -241,9 +237,9 @@ mod tests {
 
     #[test]
     fn rows_are_of_their_searches() {
-        let cells: Vec<Cell> = Cell::all().collect();
-        assert_eq!((cells.len(), timed_of(50), timed_of(1)), (36, 5, 1));
-        let setups: Vec<String> = cells.iter().map(|cell| cell.setup()).collect();
+        let searches: Vec<Search> = Search::all().collect();
+        assert_eq!((searches.len(), timed_of(50), timed_of(1)), (36, 5, 1));
+        let setups: Vec<String> = searches.iter().map(|search| search.setup()).collect();
         assert_eq!(setups[0], "astar:2:never");
         assert!(setups.contains(&"canonical:7:never,paper,euclidean".to_owned()));
         assert!(setups.iter().all(|text| setup(text).is_ok()));
@@ -251,14 +247,14 @@ mod tests {
         let counted: Counted = (1..=36).map(|n| vec![[f64::from(n); 4], [f64::from(2 * n); 4]]).collect();
         let timed: Timed = (1..=36).map(|n| (n > 1).then_some(f64::from(n))).collect();
         let rows = rows_of("sc1", &[&counted], &[&timed]);
-        for ((n, row), cell) in (1..).zip(&rows).zip(&cells) {
+        for ((n, row), search) in (1..).zip(&rows).zip(&searches) {
             assert_eq!(row.number("cost"), Some(1.5 * f64::from(n)));
             assert_eq!(row.number("timed_expanded"), Some(f64::from(n)));
             assert_eq!(row.number("micros"), (n > 1).then_some(f64::from(n)));
-            assert_eq!(row.text("k"), cell.k.to_string());
+            assert_eq!(row.text("k"), search.k.to_string());
             // All ratios are the same, but one is no ratio.
             let error = row.number("moves_error").unwrap();
-            assert_eq!(error < 1e-12, cell.reference().is_some(), "{cell:?}: {error}");
+            assert_eq!(error < 1e-12, search.reference().is_some(), "{search:?}: {error}");
         }
     }
 }

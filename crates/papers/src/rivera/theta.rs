@@ -4,15 +4,13 @@ use mediant_bench::Study;
 use mediant_report::{Axis, Chart, Claim, Column, Mark, Record, Row, Series, Table, number, thousands};
 use serde::{Deserialize, Serialize};
 
-use super::{causes, published::KS};
+use super::{causes, searches::KS};
 use crate::{
     Error,
-    reproduce::{
-        context::{Context, How},
-        experiment::{Findings, Section},
-        maps::Map,
-        setups::{Sums, run},
-    },
+    context::{Context, How},
+    experiment::{Findings, Section},
+    maps::Map,
+    setups::{Sums, run},
 };
 
 /// Of so many instances one is timed.

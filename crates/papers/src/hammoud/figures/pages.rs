@@ -2,14 +2,15 @@
 
 use mediant_report::{Axis, Chart, Claim, Mark, Record, Row, Series, Table, number, stats, thousands};
 
-use super::{super::super::experiment::Section, ENGINES, RULES};
+use super::{ENGINES, RULES};
+use crate::experiment::Section;
 
 /// What the paper compares: its A* cuts no corners, its JPS does.
 const ASTAR: (&str, &str) = ("never", "astar");
 const JPS: (&str, &str) = ("one", "jps");
 
 /// The section.
-pub(in super::super) fn show(record: &Record) -> Section {
+pub(in crate::hammoud) fn show(record: &Record) -> Section {
     let mut section = Section::default();
     let sizes = sizes(record);
     section.text(

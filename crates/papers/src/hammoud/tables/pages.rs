@@ -3,17 +3,10 @@
 use mediant_report::{Claim, Record, Row, Table, number, stats, thousands};
 
 use super::{
-    super::{
-        super::experiment::Section,
-        published::{Published, rows},
-    },
-    ENGINES, KEPT, LIST, RULES,
+    super::published::{Published, rows},
+    ENGINES, KEPT, LIST, RULES, point,
 };
-
-/// A point as the pages write it.
-pub(super) fn point((x, y): (i32, i32)) -> String {
-    format!("({x}, {y})")
-}
+use crate::experiment::Section;
 
 /// A query of the record or of the tables.
 struct Asked<'a> {
@@ -73,7 +66,7 @@ fn asked(record: &Record) -> Vec<Asked<'_>> {
 }
 
 /// The section.
-pub(in super::super) fn show(record: &Record) -> Section {
+pub(in crate::hammoud) fn show(record: &Record) -> Section {
     let asked = asked(record);
     let mut section = Section::default();
     lengths(&mut section, &asked);

@@ -3,7 +3,7 @@
 use mediant_report::{Axis, Chart, Claim, Mark, Record, Row, Series, Table, number, stats, thousands};
 
 use super::{ANYA, ANYA_CLOSED, CONTRACTED, KS, SMOOTHINGS, SUB2_A_STAR, SUB2_THETA};
-use crate::reproduce::experiment::Section;
+use crate::experiment::Section;
 
 /// A column of a planner on a set.
 fn of(record: &Record, set: &str, engine: &str, k: &str, smoothing: &str, column: &str) -> Option<f64> {
@@ -28,7 +28,7 @@ fn ratio(record: &Record, set: &str, k: u32, smoothing: &str, column: &str) -> O
     Some(theta(record, set, column)? / a_star(record, set, k, smoothing, column)?)
 }
 
-pub(super) fn show(record: &Record) -> Section {
+pub(in crate::hormazabal) fn show(record: &Record) -> Section {
     let mut section = Section::default();
     let smoothed = |smoothing| match smoothing {
         "smooth" => "smoothed",

@@ -2,17 +2,17 @@
 
 use mediant_report::{Claim, Record, Table, thousands};
 
-use crate::reproduce::experiment::Section;
-
 use super::{
     super::{
-        Algorithm, Cell, Heuristic, Measure, causes, charts,
-        published::{BASE, KS, SETS},
+        causes, charts,
+        published::SETS,
+        searches::{Algorithm, BASE, Heuristic, KS, Measure, Search},
     },
     error_column,
 };
+use crate::experiment::Section;
 
-pub(in super::super) fn show(record: &Record) -> Section {
+pub(in crate::rivera) fn show(record: &Record) -> Section {
     let mut section = Section::default();
     section.text(
         "The paper's problems are lost, so numbers are compared as ratios: each to that of 2^3 = 8 neighbors in its own column, with the same problems in \
@@ -27,9 +27,9 @@ pub(in super::super) fn show(record: &Record) -> Section {
             section.table(&table(record, set, algorithm));
         }
     }
-    section.claims(claims(record, |cell| cell.k != BASE), false);
+    section.claims(claims(record, |search| search.k != BASE), false);
     section.heading("Columns beside each other, at 8 neighbors");
-    section.claims(claims(record, |cell| cell.k == BASE), true);
+    section.claims(claims(record, |search| search.k == BASE), true);
     section.heading("Figure 3: time against the number of neighbors");
     for &set in sets.iter().take(1) {
         if let Some(svg) = charts::runtime(record, set) {
@@ -88,9 +88,9 @@ fn column((heuristic, measure): (Heuristic, Measure)) -> String {
 }
 
 /// Ours of a published number, in its unit.
-fn ours(record: &Record, set: &str, cell: Cell, measure: Measure) -> Option<f64> {
+fn ours(record: &Record, set: &str, search: Search, measure: Measure) -> Option<f64> {
     let unit = if measure == Measure::Time { 1000.0 } else { 1.0 };
-    Some(cell.number(record, set, measure.column())? / unit)
+    Some(search.number(record, set, measure.column())? / unit)
 }
 
 fn written(measure: Measure, number: Option<f64>) -> String {
@@ -107,20 +107,25 @@ fn table(record: &Record, set: &str, algorithm: Algorithm) -> Table {
     let heading = ["".to_owned(), "2^k".to_owned()].into_iter().chain(KS.map(|k| (1 << k).to_string()));
     let mut table = Table::new(heading).names(2);
     for (heuristic, measure) in printed(algorithm) {
-        let cells = KS.map(|k| Cell { algorithm, heuristic, k });
+        let searches = KS.map(|k| Search { algorithm, heuristic, k });
         let row = |first: &str, second: &str, texts: [String; 6]| {
             [first.to_owned(), second.to_owned()].into_iter().chain(texts).collect::<Vec<_>>()
         };
         let known = SETS.iter().any(|(name, _)| *name == set);
         let name = column((heuristic, measure));
-        let here = cells.map(|cell| written(measure, ours(record, set, cell, measure)));
+        let here = searches.map(|search| written(measure, ours(record, set, search, measure)));
         if !known {
             table.row(row(&name, "here", here));
             continue;
         }
-        table.row(row(&name, "published", cells.map(|cell| written(measure, cell.published(set, measure)))));
+        table.row(row(
+            &name,
+            "published",
+            searches.map(|search| written(measure, search.published(set, measure))),
+        ));
         table.row(row("", "here", here));
-        let claims = cells.map(|cell| (cell.k != BASE).then(|| claim(record, set, cell, measure)).flatten());
+        let claims =
+            searches.map(|search| (search.k != BASE).then(|| claim(record, set, search, measure)).flatten());
         let published = |claim: &Option<Claim>| {
             claim.as_ref().map_or("1".to_owned(), |claim| claim.text(claim.published))
         };
@@ -138,17 +143,17 @@ fn table(record: &Record, set: &str, algorithm: Algorithm) -> Table {
 }
 
 /// A number of the tables, as a claim: a ratio, if it has a reference. None of the times that have none.
-fn claim(record: &Record, set: &str, cell: Cell, measure: Measure) -> Option<Claim> {
-    let number = if cell.algorithm == Algorithm::AStar { 1 } else { 2 };
-    let source = format!("Table {number}, {}", column((cell.heuristic, measure)));
-    let (mut published, mut here) = (cell.published(set, measure)?, ours(record, set, cell, measure));
-    let mut what = format!("{}, 2^k = {}", title(set), 1 << cell.k);
-    let digits = match (cell.reference(), measure) {
+fn claim(record: &Record, set: &str, search: Search, measure: Measure) -> Option<Claim> {
+    let number = if search.algorithm == Algorithm::AStar { 1 } else { 2 };
+    let source = format!("Table {number}, {}", column((search.heuristic, measure)));
+    let (mut published, mut here) = (search.published(set, measure)?, ours(record, set, search, measure));
+    let mut what = format!("{}, 2^k = {}", title(set), 1 << search.k);
+    let digits = match (search.reference(), measure) {
         (None, Measure::Time) => return None,
         (None, Measure::Cost) => 1,
         (None, _) => 0,
         (Some(reference), _) => {
-            what += &match (reference.k == cell.k, reference.algorithm == cell.algorithm) {
+            what += &match (reference.k == search.k, reference.algorithm == search.algorithm) {
                 (false, _) => format!(" over {}", 1 << BASE),
                 (true, true) => format!(", over {}", reference.heuristic.words()),
                 (true, false) => format!(", over {}", reference.algorithm.words()),
@@ -158,20 +163,22 @@ fn claim(record: &Record, set: &str, cell: Cell, measure: Measure) -> Option<Cla
             3
         }
     };
-    let error = cell.number(record, set, &error_column(measure));
+    let error = search.number(record, set, &error_column(measure));
     let claim = Claim::new(source, what, published, here).drawn(error).written(digits, "");
-    Some(claim.because(causes::of(record, cell, measure)))
+    Some(claim.because(causes::of(record, search, measure)))
 }
 
-/// The claims of those cells of both tables that are asked for.
-fn claims(record: &Record, asked: impl Fn(Cell) -> bool) -> Vec<Claim> {
+/// The claims of those searches of both tables that are asked for.
+fn claims(record: &Record, asked: impl Fn(Search) -> bool) -> Vec<Claim> {
     let mut claims = Vec::new();
     for algorithm in [Algorithm::AStar, Algorithm::Paper] {
         for (heuristic, measure) in printed(algorithm) {
             for (set, _) in SETS {
-                let cells =
-                    KS.map(|k| Cell { algorithm, heuristic, k }).into_iter().filter(|&cell| asked(cell));
-                claims.extend(cells.filter_map(|cell| claim(record, set, cell, measure)));
+                let searches = KS
+                    .map(|k| Search { algorithm, heuristic, k })
+                    .into_iter()
+                    .filter(|&search| asked(search));
+                claims.extend(searches.filter_map(|search| claim(record, set, search, measure)));
             }
         }
     }
@@ -187,7 +194,7 @@ fn count(holds: impl Iterator<Item = Option<bool>>) -> Option<f64> {
 /// What the text says of the tables. Where that can be counted in the printed numbers, these are what is claimed.
 fn sentences(record: &Record) -> Vec<Claim> {
     let time = |set: &str, algorithm, heuristic, k| {
-        ours(record, set, Cell { algorithm, heuristic, k }, Measure::Time)
+        ours(record, set, Search { algorithm, heuristic, k }, Measure::Time)
     };
     let less = |a: Option<f64>, b: Option<f64>| a.zip(b).map(|(a, b)| a < b);
     let all = || SETS.into_iter().flat_map(|(set, _)| KS.map(|k| (set, k)));
@@ -195,7 +202,7 @@ fn sentences(record: &Record) -> Vec<Claim> {
     let source = "Empirical Findings";
     let (a_star, paper, hk, euclidean) =
         (Algorithm::AStar, Algorithm::Paper, Heuristic::Hk, Heuristic::Euclidean);
-    let cost = |set, k| ours(record, set, Cell { algorithm: a_star, heuristic: hk, k }, Measure::Cost);
+    let cost = |set, k| ours(record, set, Search { algorithm: a_star, heuristic: hk, k }, Measure::Cost);
     let said = |what: &str, published: f64, of: usize, ours, cause: &str| {
         Claim::new(source, what, published, ours).within(0.0).written(0, &format!(" of {of}")).because(cause)
     };
@@ -266,7 +273,7 @@ fn rules(record: &Record, sets: &[&str]) -> Table {
     for &set in sets {
         for k in KS {
             let of = |algorithm, measure| {
-                ours(record, set, Cell { algorithm, heuristic: Heuristic::Hk, k }, measure)
+                ours(record, set, Search { algorithm, heuristic: Heuristic::Hk, k }, measure)
             };
             let longer = of(Algorithm::Paper, Measure::Cost).zip(of(Algorithm::AStar, Measure::Cost));
             let longer = longer

@@ -1,0 +1,40 @@
+//! The list of the experiments.
+
+use crate::{
+    Error, compared, engines,
+    experiment::{Experiment, Page},
+    growth, hammoud, hierarchies, hormazabal, kramm, rivera, teleisa,
+};
+
+/// All experiments, in the order in which they run and stand on the pages.
+pub(crate) const EXPERIMENTS: &[Experiment] = &[
+    rivera::TABLES,
+    rivera::THETA,
+    hormazabal::PLANNERS,
+    hormazabal::branching::BRANCHING,
+    hormazabal::distance::DISTANCE,
+    kramm::ratios::RATIOS,
+    kramm::bounds::BOUNDS,
+    hammoud::TABLES,
+    hammoud::FIGURES,
+    teleisa::RUNS,
+    engines::ENGINES,
+    growth::GROWTH,
+    hierarchies::HPA,
+    compared::PROGRAMS,
+    compared::CENTRAL64,
+];
+
+/// The experiments of these names, or of the pages of these names; all for none.
+pub(crate) fn chosen(names: &[String]) -> Result<Vec<&'static Experiment>, Error> {
+    let is =
+        |experiment: &Experiment, name: &String| experiment.id == name || experiment.page.file() == *name;
+    if let Some(name) = names.iter().find(|name| !EXPERIMENTS.iter().any(|experiment| is(experiment, name))) {
+        let known: Vec<&str> = EXPERIMENTS.iter().map(|experiment| experiment.id).collect();
+        let pages = Page::ALL.map(Page::file).join(", ");
+        let there = format!("there are {}, and the pages {pages}", known.join(", "));
+        return Err(Error::Reproduce(format!("unknown experiment `{name}`: {there}")));
+    }
+    let asked = |experiment: &&Experiment| names.is_empty() || names.iter().any(|name| is(experiment, name));
+    Ok(EXPERIMENTS.iter().filter(asked).collect())
+}

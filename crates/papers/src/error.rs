@@ -1,0 +1,36 @@
+//! What keeps a table from being reproduced: one line each.
+
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+
+/// A reproduction that failed.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A table that could not be reproduced.
+    #[error("{0}")]
+    Reproduce(String),
+    /// A benchmark set that cannot be provided.
+    #[error(transparent)]
+    Set(#[from] mediant_sets::Error),
+    /// A map or scenario that cannot be read.
+    #[error(transparent)]
+    Read(#[from] mediant_formats::ReadError),
+    /// A file or folder that the system refuses.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+}
+
+impl Error {
+    /// Names the file or folder that an error of the system is about.
+    pub fn at(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        move |source| Self::Io { path: path.to_owned(), source }
+    }
+}

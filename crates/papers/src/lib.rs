@@ -1,0 +1,44 @@
+//! The reproduction of the five papers: their tables and figures, measured by the engines of this workspace, and drawn
+//! beside the published values.
+//!
+//! **The key decision: measuring and drawing are two steps.** An `Experiment` measures into a
+//! [`Record`](mediant_report::Record), which is written as JSON and is all that its pages and figures are drawn from. So pages
+//! are drawn again without measuring (`--render`), a test holds the committed pages against the committed records, and
+//! a later run is compared number by number (`--check`).
+//!
+//! A module for each paper holds its experiments; what compares the engines beyond the papers is in `engines`, `growth`,
+//! `hierarchies` and `compared`. Modules called `pages` draw, from records alone. To add an experiment: a module with
+//! an `Experiment`, and its line in `catalog`.
+//!
+//! What is not here: how a query is timed (`mediant-bench`), what records, tables and charts are (`mediant-report`), and
+//! where the maps come from (`mediant-sets`).
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "the library of one program, which talks to its user"
+)]
+
+mod catalog;
+mod check;
+mod compared;
+mod context;
+mod engines;
+mod error;
+mod experiment;
+mod growth;
+mod hammoud;
+mod hierarchies;
+mod hormazabal;
+mod kramm;
+mod maps;
+mod pages;
+mod records;
+mod reproduce;
+mod rivera;
+mod setups;
+mod teleisa;
+#[cfg(test)]
+mod tests;
+
+pub use error::Error;
+pub use reproduce::{Options, run, run_in};

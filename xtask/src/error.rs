@@ -1,0 +1,50 @@
+//! What can go wrong with a chore: one line each.
+
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+
+/// A chore that failed.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A benchmark set that cannot be provided.
+    #[error(transparent)]
+    Set(#[from] mediant_sets::Error),
+    /// A mirror without any of the sets.
+    #[error(
+        "{mirror}: none of the sets is there; check --mirror: it holds files like dao-map.zip and dao-scen.zip"
+    )]
+    NoSet {
+        /// The address or path.
+        mirror: String,
+    },
+    /// A file or folder that the system refuses.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// Rules that are broken; each was printed.
+    #[error("broken rules: {count}")]
+    Tidy {
+        /// Their number.
+        count: usize,
+    },
+    /// A command that failed, or could not be started.
+    #[error("`{command}` failed")]
+    Step {
+        /// The command.
+        command: String,
+    },
+}
+
+impl Error {
+    /// Names the file or folder that an error of the system is about.
+    pub fn at(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        move |source| Self::Io { path: path.to_owned(), source }
+    }
+}
