@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use mediant_sets::root;
 use xtask::{
     project::{self, Dependency, Kind, Package},
-    tidy::{self, Exception, Finding, Tree},
+    tidy::{self, COMPILED, Exception, Finding, Tree},
 };
 
 #[test]
@@ -243,7 +243,13 @@ fn dependencies() {
         package("mediant-oracle", &[("mediant-grid", None), ("mediant-search", Some(Kind::Dev))]),
         package("mediant-engines", &[("mediant-search", None), ("mediant-formats", None)]),
         package("mediant-report", &[("serde", None), ("mediant-search", None)]),
-        package("xtask", &[("mediant-search", None)]),
+        package("mediant-sets", &[("mediant-formats", None), ("zip", None), ("mediant-bench", None)]),
+        package(
+            "mediant-bench",
+            &[("mediant-search", None), ("mediant-sets", None), ("mediant-papers", None)],
+        ),
+        package("mediant-papers", &[("mediant-bench", None), ("mediant-oracle", None)]),
+        package("xtask", &[("mediant-sets", None), ("syn", None), ("mediant-search", None)]),
         package("mediant-new", &[]),
     ];
     let findings = tidy::check_packages(&packages);
@@ -255,12 +261,66 @@ fn dependencies() {
         "mediant-oracle: depends on mediant-search",
         "mediant-engines: depends on mediant-formats",
         "mediant-report: depends on mediant-search",
+        "mediant-sets: depends on mediant-bench",
+        "mediant-bench: depends on mediant-papers",
+        "xtask: depends on mediant-search",
         "mediant-new: has no place among the layers",
     ];
     assert_eq!(findings.iter().map(short).collect::<Vec<_>>(), expected);
+}
 
-    let heavy = "mediant-search v0.1.0\nbitvec v1.1.1\nserde_core v1.0.229\nrayon-core v1.0.0\nserde v1.0.229 (*)\nserdes v1.0.0\n";
+/// What a rule finds in the list of `cargo tree`, by the crate that the rule is about.
+#[track_caller]
+fn compiled(package: &str, tree: &str) -> Vec<String> {
+    let rule = COMPILED.iter().find(|rule| rule.package == package).expect("a rule");
+    tidy::check_compiled(rule, tree).iter().map(short).collect()
+}
+
+#[test]
+fn what_a_crate_compiles() {
+    let tree = "mediant-search v0.1.0\nbitvec v1.1.1\nserde_core v1.0.229\nrayon-core v1.0.0\n\
+                serde v1.0.229 (*)\nserdes v1.0.0\n";
     let expected =
         ["serde_core", "rayon-core", "serde"].map(|name| format!("mediant-search: compiles {name}"));
-    assert_eq!(tidy::check_tree(heavy).iter().map(short).collect::<Vec<_>>(), expected);
+    assert_eq!(compiled("mediant-search", tree), expected);
+    let tree = "mediant-formats v0.1.0\nmediant-grid v0.1.0\nserde_json v1.0.0\nsha2 v0.11.0\n";
+    let expected = ["serde_json", "sha2"].map(|name| format!("mediant-formats: compiles {name}"));
+    assert_eq!(compiled("mediant-formats", tree), expected);
+    let tree =
+        "xtask v0.1.0\nmediant-sets v0.1.0\nmediant-formats v0.1.0\nserde v1.0.0\nmediant-subgoal v0.1.0\n";
+    assert_eq!(compiled("xtask", tree), ["xtask: compiles mediant-subgoal"]);
+}
+
+#[test]
+fn long_lines_of_prose() {
+    let words = "word ".repeat(30);
+    let line = words.trim_end();
+    let link = format!("https://example.org/{}", "x".repeat(120));
+    let source = format!(
+        "//! {line}\n//! | {line} |\n//! ```\n//! {line}\n//! ```\n//! {line}\n//\nfn f() {{\n    \
+         g(\"// {line}\", '\"'); // {line}\n    g(\"{line}\n// {line}\n\");\n}}\n/// - {link}\n/// a {link}\nfn h() {{}}\n"
+    );
+    let page = format!("{line}\n| {line} |\n```\n{line}\n```\n1. {link}\n1. a {link}\n{}\n", "é".repeat(110));
+    let files = [
+        PACKAGE,
+        ("a/src/main.rs", &source),
+        ("README.md", &page),
+        ("docs/results/README.md", &page),
+        ("notes.txt", &page),
+    ];
+    let columns = |line: &str| line.rsplit_once(": ").expect("a message").1.to_owned();
+    let expected = |file: &str, lines: &[usize]| -> Vec<String> {
+        lines.iter().map(|line| format!("{file}:{line}")).collect()
+    };
+    let all = found(&files, &[]);
+    let places: Vec<String> =
+        all.iter().map(|line| line.rsplit_once(": ").expect("a message").0.to_owned()).collect();
+    let all_expected = [expected("README.md", &[1, 7]), expected("a/src/main.rs", &[1, 6, 9, 15])].concat();
+    assert_eq!(places, all_expected);
+    assert_eq!(columns(&all[0]), "149 columns of prose, at most 110");
+    // Exactly as long as a line may be, in characters, not bytes.
+    let fits = format!("{} {}\n", "é".repeat(54), "é".repeat(55));
+    assert_eq!(found(&[("README.md", &fits)], &[]), [""; 0]);
+    let longer = format!("{} {}\n", "é".repeat(55), "é".repeat(55));
+    assert_eq!(found(&[("README.md", &longer)], &[]).len(), 1);
 }

@@ -14,6 +14,7 @@ use indicatif::ProgressBar;
 use mediant_engines::Setup;
 use mediant_sets::{Archive, cache, root};
 
+use self::report::Results;
 use crate::{
     Baseline, Comparison, Competitor, MapRecord, MeasureError, Problem, ProblemError, ReferenceTimings,
     ReferenceTimingsError, measure,
@@ -81,15 +82,6 @@ pub enum CompareError {
     Print(#[from] io::Error),
 }
 
-/// All figures of a run.
-struct Results<'a> {
-    references: &'a ReferenceTimings,
-    setups: &'a [Setup],
-    records: Vec<MapRecord>,
-    /// For each map, those of the setups in their order.
-    comparisons: Vec<Vec<Comparison>>,
-}
-
 /// Measures what the options name, and prints the tables.
 ///
 /// # Errors
@@ -129,14 +121,21 @@ pub fn run_in(root: &Path, options: &Options, out: &mut impl Write) -> Result<()
         timings.filter_map(|timing| Comparison::new(&references, record, timing)).collect()
     };
     let comparisons = records.iter().map(compare).collect();
-    let results = Results { references: &references, setups: &options.engines, records, comparisons };
-    out.write_all(report::text(&results, options).as_bytes())?;
+    let results = Results {
+        references: &references,
+        setups: &options.engines,
+        every: options.every,
+        passes: options.passes,
+        records,
+        comparisons,
+    };
+    out.write_all(report::text(&results).as_bytes())?;
     if !missing.is_empty() {
         writeln!(out, "\nMissing: {advice}")?;
     }
     match &options.json {
         None => Ok(()),
-        Some(path) => write(path, report::json(root, &results, options)),
+        Some(path) => write(path, report::json(root, &results)),
     }
 }
 

@@ -1,52 +1,79 @@
 //! What each crate may depend on.
 
-use super::Finding;
+use std::collections::BTreeSet;
+
+use super::finding::Finding;
 use crate::{
     Error,
     project::{Dependency, Kind, Package, run_cargo},
 };
 
-/// The crates of the workspace that a crate itself may use.
-enum Allowed {
-    Nothing,
-    Only(&'static [&'static str]),
-    All,
+/// A crate, what it may use of the workspace, and why no more. Tests, benches and examples may use more.
+struct Layer {
+    package: &'static str,
+    uses: &'static [&'static str],
+    /// Whether crates from elsewhere are allowed.
+    foreign: bool,
+    reason: &'static str,
 }
 
-/// The layers, lowest first.
-const LAYERS: [(&str, Allowed, &str); 12] = [
-    ("mediant-moves", Allowed::Nothing, "who wants the mathematics alone compiles nothing else"),
-    ("mediant-grid", Allowed::Only(&["mediant-moves"]), "maps know nothing of files or searches"),
-    ("mediant-formats", Allowed::Only(&["mediant-grid"]), "reading a file needs no search"),
-    ("mediant-search", Allowed::Only(&["mediant-grid", "mediant-moves"]), LOW),
-    ("mediant-subgoal", Allowed::Only(&["mediant-search", "mediant-grid", "mediant-moves"]), LOW),
-    ("mediant-hierarchy", Allowed::Only(&["mediant-search", "mediant-grid", "mediant-moves"]), LOW),
-    ("mediant-oracle", Allowed::Only(&["mediant-grid", "mediant-moves"]), INDEPENDENT),
-    (
-        "mediant-report",
-        Allowed::Only(&["mediant-formats", "mediant-grid", "mediant-moves"]),
-        "results can be looked at without the engines that made them",
-    ),
-    (
-        "mediant-engines",
-        Allowed::Only(&[
-            "mediant-search",
-            "mediant-subgoal",
-            "mediant-hierarchy",
-            "mediant-grid",
-            "mediant-moves",
-        ]),
+const fn layer(package: &'static str, uses: &'static [&'static str], reason: &'static str) -> Layer {
+    Layer { package, uses, foreign: true, reason }
+}
+
+/// The layers, lowest first, in four groups.
+const LAYERS: [Layer; 14] = [
+    // The mathematics and the map.
+    Layer {
+        foreign: false,
+        ..layer(MOVES, &[], "a user who wants the mathematics alone compiles nothing else")
+    },
+    layer(GRID, &[MOVES], "maps know nothing of files or searches"),
+    // The engines.
+    layer(SEARCH, &[MOVES, GRID], LOW),
+    layer(SUBGOAL, &[MOVES, GRID, SEARCH], LOW),
+    layer(HIERARCHY, &[MOVES, GRID, SEARCH], LOW),
+    // What people depend on.
+    layer(
+        ENGINES,
+        &[MOVES, GRID, SEARCH, SUBGOAL, HIERARCHY],
         "the catalog serves tests of engines, and knows no files and no reports",
     ),
-    ("mediant", Allowed::All, ""),
-    ("mediant-bench", Allowed::All, ""),
-    ("xtask", Allowed::All, ""),
+    layer(FORMATS, &[GRID], "reading a file needs no search"),
+    layer(
+        "mediant-cli",
+        &[MOVES, GRID, SEARCH, ENGINES, FORMATS],
+        "the program is thin: it shows what the library and the files hold",
+    ),
+    // What proves it.
+    layer(ORACLE, &[MOVES, GRID], "a reference that shares code with what it checks shares its errors"),
+    layer(REPORT, &[MOVES, GRID], "results can be looked at without the engines that made them"),
+    layer(SETS, &[GRID, FORMATS], "a set is downloaded and verified without an engine"),
+    layer(
+        BENCH,
+        &[MOVES, GRID, SEARCH, ENGINES, FORMATS, REPORT, SETS],
+        "measurements take engines as users have them",
+    ),
+    layer(
+        "mediant-papers",
+        &[MOVES, GRID, SEARCH, SUBGOAL, ENGINES, FORMATS, ORACLE, REPORT, SETS, BENCH],
+        "the papers are reproduced by the library, not by the program",
+    ),
+    layer("xtask", &[SETS], "chores that run engines are programs of other crates"),
 ];
 
-const LOW: &str = "an engine stands on the layers below it, and serves programs of any kind";
-const INDEPENDENT: &str = "a reference that shares code with what it checks shares its errors";
-const ENGINES: [&str; 4] = ["mediant-search", "mediant-subgoal", "mediant-hierarchy", "mediant-engines"];
+const MOVES: &str = "mediant-moves";
+const GRID: &str = "mediant-grid";
 const SEARCH: &str = "mediant-search";
+const SUBGOAL: &str = "mediant-subgoal";
+const HIERARCHY: &str = "mediant-hierarchy";
+const ENGINES: &str = "mediant-engines";
+const FORMATS: &str = "mediant-formats";
+const ORACLE: &str = "mediant-oracle";
+const REPORT: &str = "mediant-report";
+const SETS: &str = "mediant-sets";
+const BENCH: &str = "mediant-bench";
+const LOW: &str = "an engine stands on the layers below it, and serves programs of any kind";
 
 /// Compares what the crates say that they need with the layers.
 #[must_use]
@@ -56,7 +83,7 @@ pub fn check_packages(packages: &[Package]) -> Vec<Finding> {
         let mut find = |message: String| {
             findings.push(Finding { file: package.name.clone().into(), line: 0, message });
         };
-        let Some((_, allowed, reason)) = LAYERS.iter().find(|(name, ..)| *name == package.name) else {
+        let Some(layer) = LAYERS.iter().find(|layer| layer.package == package.name) else {
             find(
                 "has no place among the layers: add it to them, so that its dependencies are a decision"
                     .to_owned(),
@@ -65,34 +92,74 @@ pub fn check_packages(packages: &[Package]) -> Vec<Finding> {
         };
         for Dependency { name, kind } in &package.dependencies {
             let ours = packages.iter().any(|package| package.name == *name);
-            let fits = match allowed {
-                _ if *kind == Some(Kind::Dev) => {
-                    package.name != "mediant-oracle" || !ENGINES.contains(&&**name)
+            let fits = match kind {
+                Some(Kind::Dev) => {
+                    let engine = [SEARCH, SUBGOAL, HIERARCHY, ENGINES].contains(&&**name);
+                    package.name != ORACLE || !engine
                 }
-                Allowed::Nothing => false,
-                Allowed::Only(layers) => !ours || layers.contains(&&**name),
-                Allowed::All => true,
+                _ if ours => layer.uses.contains(&&**name),
+                _ => layer.foreign,
             };
             if !fits {
-                find(format!("depends on {name}: {reason}"));
+                find(format!("depends on {name}: {}", layer.reason));
             }
         }
     }
     findings
 }
 
-/// Looks through what `cargo tree` lists for the search crate.
-#[must_use]
-pub fn check_tree(tree: &str) -> Vec<Finding> {
-    let names = tree.lines().filter_map(|line| line.split(' ').next());
-    let heavy = names.filter(|name| matches!(name.split(['-', '_']).next(), Some("serde" | "rayon")));
-    let message = |name| {
-        format!("compiles {name}: a game or a robot that searches needs no serialization and no thread pool")
-    };
-    heavy.map(|name| Finding { file: SEARCH.into(), line: 0, message: message(name) }).collect()
+/// What a crate must not compile, by itself or by what it depends on.
+#[derive(Clone, Copy, Debug)]
+pub struct Compiled {
+    /// The crate.
+    pub package: &'static str,
+    /// What `cargo tree` is asked besides.
+    options: &'static [&'static str],
+    /// The crates; those whose names go on after `-` or `_` are meant too.
+    never: &'static [&'static str],
+    reason: &'static str,
 }
 
-/// All that a user of the search crate compiles.
-pub(super) fn search_tree() -> Result<String, Error> {
-    run_cargo(&["tree", "-p", SEARCH, "-e", "normal", "--prefix", "none"])
+/// The crates that must stay light.
+pub const COMPILED: [Compiled; 3] = [
+    Compiled {
+        package: SEARCH,
+        options: &[],
+        never: &["serde", "rayon"],
+        reason: "a game or a robot that searches needs no serialization and no thread pool",
+    },
+    Compiled {
+        package: FORMATS,
+        options: &["--no-default-features"],
+        never: &["serde", "sha2"],
+        reason: "a reader of `.map` files needs neither JSON nor hashes",
+    },
+    Compiled {
+        package: "xtask",
+        options: &[],
+        never: &[SEARCH, SUBGOAL, HIERARCHY, ENGINES],
+        reason: "`cargo xtask tidy` answers within seconds, and an engine takes minutes",
+    },
+];
+
+impl Compiled {
+    /// All that a user of the crate compiles, as `cargo tree` lists it.
+    pub(super) fn tree(&self) -> Result<String, Error> {
+        let tree = ["tree", "-p", self.package, "-e", "normal", "--prefix", "none"];
+        run_cargo(&[&tree[..], self.options].concat())
+    }
+}
+
+/// Looks for what must not be compiled in what `cargo tree` lists.
+#[must_use]
+pub fn check_compiled(rule: &Compiled, tree: &str) -> Vec<Finding> {
+    let is = |name: &str, never: &&str| {
+        name.strip_prefix(never).is_some_and(|rest| rest.is_empty() || rest.starts_with(['-', '_']))
+    };
+    // A crate is listed once for each that depends on it.
+    let mut seen = BTreeSet::new();
+    let names = tree.lines().filter_map(|line| line.split(' ').next()).filter(|name| seen.insert(*name));
+    let heavy = names.filter(|name| rule.never.iter().any(|never| is(name, never)));
+    let message = |name: &str| format!("compiles {name}: {}", rule.reason);
+    heavy.map(|name| Finding { file: rule.package.into(), line: 0, message: message(name) }).collect()
 }

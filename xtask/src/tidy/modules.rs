@@ -7,7 +7,7 @@ use std::{
 
 use syn::Item;
 
-use super::{Finding, Tree};
+use super::{finding::Finding, tree::Tree};
 
 pub(super) fn check(tree: &Tree, findings: &mut Vec<Finding>) {
     let sources: Vec<(&Path, &str)> = tree.texts(&["rs"]).collect();

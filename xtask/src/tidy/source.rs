@@ -8,7 +8,10 @@ use syn::{
     visit::{self, Visit},
 };
 
-use super::{Exception, Finding, Tree};
+use super::{
+    finding::{Exception, Finding},
+    tree::Tree,
+};
 
 const FUNCTION_LINES: usize = 70;
 const FILE_LINES: usize = 500;

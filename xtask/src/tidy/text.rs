@@ -1,6 +1,6 @@
 //! Rules that need no understanding of a file.
 
-use super::{Finding, Tree};
+use super::{finding::Finding, tree::Tree};
 
 const LARGEST: usize = 512 << 10;
 

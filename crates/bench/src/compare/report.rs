@@ -6,14 +6,29 @@ use mediant_engines::Setup;
 use mediant_report::{Machine, Table, number, revision, stats::geometric_mean};
 use serde::Serialize;
 
-use super::{Options, Results};
-use crate::{Comparand, Comparison, MapRecord};
+use crate::{Comparand, Comparison, MapRecord, ReferenceTimings};
+
+/// All figures of a run.
+pub(super) struct Results<'a> {
+    /// The times of the other programs.
+    pub(super) references: &'a ReferenceTimings,
+    /// Our engines.
+    pub(super) setups: &'a [Setup],
+    /// Of each scenario, the instances whose index this divides.
+    pub(super) every: u32,
+    /// The timed passes, of which the median counts.
+    pub(super) passes: u32,
+    /// What was measured, of each map.
+    pub(super) records: Vec<MapRecord>,
+    /// For each map, the comparisons of the setups in their order.
+    pub(super) comparisons: Vec<Vec<Comparison>>,
+}
 
 /// The tables: times, then for each setup its ratios to the programs that solve the same problem, and to the others.
-pub(super) fn text(results: &Results<'_>, options: &Options) -> String {
+pub(super) fn text(results: &Results<'_>) -> String {
     let mut lines = vec![format!(
         "Mean time of a query in µs: one thread, warm, paths included; median of {} passes.",
-        options.passes
+        results.passes
     )];
     lines.extend(times(results).lines());
     lines.push(
@@ -21,7 +36,7 @@ pub(super) fn text(results: &Results<'_>, options: &Options) -> String {
             .into(),
     );
     lines.extend(disturbance(&scales(results)));
-    if options.every as usize != results.references.instances.every {
+    if results.every as usize != results.references.instances.every {
         let every = results.references.instances.every;
         lines.push(format!(
             "The times there are for --every {every}: the ratios compare different instances."
@@ -165,13 +180,13 @@ struct Figures<'a> {
     comparisons: &'a [Vec<Comparison>],
 }
 
-pub(super) fn json(root: &Path, results: &Results<'_>, options: &Options) -> String {
+pub(super) fn json(root: &Path, results: &Results<'_>) -> String {
     let figures = Figures {
         revision: revision(root),
         machine: Machine::here(),
         unit: "microseconds a query",
-        every: options.every,
-        passes: options.passes,
+        every: results.every,
+        passes: results.passes,
         engines: results.setups.iter().map(Setup::to_string).collect(),
         programs: results.references.programs.iter().map(|program| program.name.as_str()).collect(),
         records: &results.records,

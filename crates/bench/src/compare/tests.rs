@@ -146,10 +146,14 @@ fn tables(scales: &[f64]) -> String {
         }]
     };
     let comparisons = scales.iter().map(comparison).collect();
-    report::text(
-        &Results { references: &references, setups: &[], records: Vec::new(), comparisons },
-        &options(&[]),
-    )
+    report::text(&Results {
+        references: &references,
+        setups: &[],
+        every: 20,
+        passes: 3,
+        records: Vec::new(),
+        comparisons,
+    })
 }
 
 #[test]
