@@ -101,7 +101,7 @@ fn show(record: &Record) -> Section {
     let mut section = Section::default();
     section.text(
         "Queries are drawn over the whole map, so that paths grow with its sides. Memory is what an engine prepares beyond the map itself: search graph and index, without the \
-         scratch of a search, which for engines on the grid_graph is 16 to 24 bytes a vertex.",
+         scratch of a search, which for engines on the grid graph is 16 to 24 bytes a vertex.",
     );
     for (column, scale, label, title) in [
         ("micros", 1.0, "mean time of a query, µs", "Time of a query"),

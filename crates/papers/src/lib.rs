@@ -39,6 +39,7 @@ mod setups;
 mod teleisa;
 #[cfg(test)]
 mod tests;
+mod wrap;
 
 pub use error::Error;
 pub use reproduce::{Options, run, run_in};

@@ -13,6 +13,7 @@ use crate::{
     catalog::EXPERIMENTS,
     experiment::{Experiment, FIGURES, Page, Section},
     records::{DATA, records, write},
+    wrap::wrapped,
 };
 
 /// What the marks of tables mean.
@@ -80,10 +81,10 @@ pub(super) fn draw(records: &[(&'static Experiment, Record)]) -> Result<BTreeMap
         for (experiment, record, section) in sections() {
             text += &format!("## {}\n\n{}\n\n{}", experiment.title, about(record), section.markdown);
         }
-        files.insert(format!("{}.md", page.file()).into(), text.trim_end().to_owned() + "\n");
+        files.insert(format!("{}.md", page.file()).into(), wrapped(text.trim_end()));
     }
-    files.insert("deviations.md".into(), deviations(&shown));
-    files.insert("README.md".into(), index(&shown));
+    files.insert("deviations.md".into(), wrapped(&deviations(&shown)));
+    files.insert("README.md".into(), wrapped(&index(&shown)));
     Ok(files)
 }
 

@@ -148,16 +148,20 @@ fn on_map(context: &Context<'_>, map: &Map, parts: usize) -> Result<Part, Error>
     Ok(part)
 }
 
-/// Why numbers of theirs are others here.
-const TIES: &str = "How ties are broken. Ours takes, of nodes with equal f, the one nearest to the goal. An A* that takes the one that came first (written for this question, on the same 800 \
-                    instances) makes A* + MD expand 67.6 % of the tiles of A* + ED, and A* + SED 19.9 % of those of A* + MD: the published 67 and 20 %. With ties turned around in all of our searches, \
-                    CHPA* by ED expands 142 % of the tiles of CHPA* by MD (published 134, ours 164), and CHPA* by MD 68 % of those of A* + SED (published 80, ours 59).";
-const CHECKPOINTS: &str = "Where the checkpoints are. The paper does not say in which order the tiles of a wall are tried. Ours, from its middle outwards, loses so little at Pstep 1 that there is \
-                           little to win back; two other orders, from either end of the wall, came to 0.2 and 0.3 %. Among free tiles no order can lose any length, as the path stays monotone from checkpoint to \
-                           checkpoint. What is left are the walls: the paper itself reports obstacles that its windows do not recognize, and extremely long paths there. Ours gives such queries up (column *gave up*).";
-const PER_NODE: &str = "The time of a node. The published numbers need a node of CHPA* to cost a quarter of a node of A*: 3 % of the time for 13 % of the nodes. Here both cost the same, as the open list is a \
-                        heap. On these instances the open list of A* + MD holds 694 entries in the mean (ties first in, first out); that of a search from checkpoint to checkpoint holds a few. A list \
-                        that is searched from end to end would make the difference; which one the paper's program has is not published.";
+// Why their numbers are others here.
+
+const TIES: &str = "Our guess: how ties are broken. Ours takes, of nodes with equal f, the one nearest to the goal. Measured once, by code that is not kept here, on the same 800 \
+    instances: an A* that takes the one that came first makes A* + MD expand 67.6 % of the tiles of A* + ED, and A* + SED 19.9 % of those of A* + MD: the published 67 and \
+    20 %. With ties turned around in all of our searches, CHPA* by ED expands 142 % of the tiles of CHPA* by MD (published 134, ours 164), and CHPA* by MD 68 % of those of \
+    A* + SED (published 80, ours 59).";
+const CHECKPOINTS: &str = "Our guess: where the checkpoints are. The paper does not say in which order the tiles of a wall are tried. Ours, from its middle outwards, loses so little at \
+    Pstep 1 that there is little to win back; two other orders, from either end of the wall, lost 0.2 and 0.3 % (measured once, by code that is not kept here). Among free tiles no \
+    order can lose any length, as the path stays monotone from checkpoint to checkpoint. What is left are the walls: the paper itself reports obstacles that its windows do not \
+    recognize, and extremely long paths there. Ours gives such queries up (column *gave up*).";
+const PER_NODE: &str = "Our guess: the time of a node. The published numbers need a node of CHPA* to cost a quarter of a node of A*: 3 % of the time for 13 % of the nodes. Here both cost \
+    the same, as the open list is a heap. A list that is searched from end to end would make the difference: the one of A* + MD holds 694 entries in the mean on these instances \
+    if ties are taken first in, first out (measured once, by code that is not kept here), that of a search from checkpoint to checkpoint a few. Which list the paper's program \
+    has is not published.";
 
 fn claims(record: &Record) -> Vec<Claim> {
     const TABLE_1: &str = "Section 5, Table 1";

@@ -236,7 +236,7 @@ fn sentences(record: &Record) -> Vec<Claim> {
                 Heuristic::ALL
                     .map(|heuristic| less(time(set, paper, heuristic, k), time(set, a_star, heuristic, k)))
             })),
-            causes::CANONICAL,
+            &causes::canonical(record),
         ),
     ];
     for (set, name) in SETS {
