@@ -6,7 +6,7 @@ use mediant_sets::root;
 
 use crate::{Error, project, tidy};
 
-/// What cargo is to do. Warnings of rustdoc are made errors by the environment.
+/// The arguments of cargo in each step. The environment makes warnings of rustdoc errors.
 const STEPS: [&[&str]; 4] = [
     &["fmt", "--all", "--check"],
     &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"],
@@ -55,7 +55,7 @@ fn minimum_version() -> Result<(), Error> {
         return Ok(());
     }
     let arguments = ["run", version, "cargo", "check", "--workspace"];
-    // The toolchain of this run would otherwise be handed down.
+    // Without this, rustup would run the toolchain of this process.
     let mut command = Command::new("rustup");
     command.args(arguments).current_dir(root()).env_remove("RUSTUP_TOOLCHAIN").env_remove("CARGO");
     step(&mut command, &format!("rustup {}", arguments.join(" ")))

@@ -22,7 +22,7 @@ pub struct Options {
     pub write_manifest: bool,
 }
 
-/// Fetches what the options name into the project's cache, and prints a line a set.
+/// Fetches the sets that the options name into the project's cache, and prints a line for each.
 ///
 /// # Errors
 /// Those of [`run_in`].
@@ -30,10 +30,11 @@ pub fn run(options: &Options) -> Result<(), Error> {
     run_in(&root(), options)
 }
 
-/// [`run`] in the project at `root`. Sets that a mirror does not hold are passed over, unless they were named.
+/// [`run`] in the project at `root`. Sets that a mirror does not hold are passed over, unless they were
+/// named.
 ///
 /// # Errors
-/// The first [`Error`] ends the run; what was complete before stays.
+/// The first [`Error`] ends the run; sets that were complete before stay.
 pub fn run_in(root: &Path, options: &Options) -> Result<(), Error> {
     let path = Manifest::path(root);
     let manifest = Manifest::read(&path)?;

@@ -27,8 +27,8 @@ pub const COMPARE: Program = Program { package: "mediant-bench", name: "compare"
 pub const REPRODUCE: Program = Program { package: "mediant-papers", name: "reproduce-tables" };
 
 impl Program {
-    /// The command that compiles the program for release and runs it with these arguments. It runs in the current
-    /// folder, so that relative paths among the arguments mean what the user means.
+    /// The command that compiles the program for release and runs it with these arguments. It runs in the
+    /// current folder, so that relative paths among the arguments mean what the user means.
     #[must_use]
     pub fn command(self, arguments: &[OsString]) -> Command {
         let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));

@@ -11,14 +11,14 @@ use serde::Deserialize;
 
 use crate::Error;
 
-/// A crate of the workspace, as `cargo metadata` tells.
+/// A crate of the workspace, from `cargo metadata`.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Package {
     /// Its name.
     pub name: String,
     /// The oldest Rust that it promises to compile with.
     pub rust_version: Option<String>,
-    /// What it depends on, tests included.
+    /// Its dependencies, with those of tests.
     pub dependencies: Vec<Dependency>,
 }
 
@@ -49,10 +49,10 @@ pub fn cargo() -> Command {
     command
 }
 
-/// What a cargo command prints.
+/// The output of a cargo command.
 ///
 /// # Errors
-/// [`Error::Step`] if it fails; what it says of that went to stderr.
+/// [`Error::Step`] if it fails; its messages went to stderr.
 pub fn run_cargo(arguments: &[&str]) -> Result<String, Error> {
     let output = cargo().args(arguments).stderr(Stdio::inherit()).output();
     let output = output.ok().filter(|output| output.status.success());
@@ -76,8 +76,8 @@ pub fn packages() -> Result<Vec<Package>, Error> {
         .map_err(|error| Error::Step { command: format!("cargo {}: {error}", arguments.join(" ")) })
 }
 
-/// The files that git tracks or would add, as paths from `root`, sorted. Where git does not answer (an unpacked archive,
-/// or a checkout of another user), all files but those of `.gitignore`'s folders.
+/// The files that git tracks or would add, as paths from `root`, sorted. Where git does not answer (an
+/// unpacked archive, or a checkout of another user), all files but those of `.gitignore`'s folders.
 ///
 /// # Errors
 /// [`Error::Io`] for a folder that cannot be listed.

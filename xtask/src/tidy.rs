@@ -1,6 +1,7 @@
 //! `cargo xtask tidy`: the rules of the project that the compiler does not know.
 //!
-//! Each finding states the reason of its rule. The same check is a test of this crate, so that `cargo test` holds it too.
+//! Each finding states the reason of its rule. The same check is a test of this crate, so that `cargo test`
+//! holds it too.
 
 mod dependencies;
 mod finding;
@@ -21,7 +22,8 @@ pub use dependencies::{COMPILED, Compiled, check_compiled, check_packages};
 pub use finding::{Exception, Finding};
 pub use tree::Tree;
 
-/// All exceptions of the project. One that is not needed any more is itself a finding, so that the list only shrinks.
+/// All exceptions of the project. One that is not needed any more is itself a finding, so that the list only
+/// shrinks.
 pub const EXCEPTIONS: &[Exception] = &[];
 
 /// What the rules about the files find, sorted.

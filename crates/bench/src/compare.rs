@@ -23,9 +23,9 @@ use crate::{
 /// The options of `cargo xtask compare`.
 #[derive(Args, Clone, Debug)]
 pub struct Options {
-    /// Our engines: ENGINE[:K[:RULE]][,OPTION…], RULE one of never, one, always (centers), open, closed (corners),
-    /// OPTION one of euclidean, zero, squared, paper, limit=N, intermediate, levels=N, levels=all, side=N, refined, second=NAME,
-    /// step=N, detour=N, smooth, taut
+    /// Our engines: ENGINE[:K[:RULE]][,OPTION…], RULE one of never, one, always (centers), open, closed
+    /// (corners), OPTION one of euclidean, zero, squared, paper, limit=N, intermediate, levels=N, levels=all,
+    /// side=N, refined, second=NAME, step=N, detour=N, smooth, taut
     #[arg(long, value_name = "SETUP", num_args = 1.., default_value = "astar")]
     engines: Vec<Setup>,
     /// Only these maps
@@ -104,10 +104,10 @@ pub fn run_in(root: &Path, options: &Options, out: &mut impl Write) -> Result<()
         fs::write(path, text).map_err(|source| CompareError::Write { path: path.clone(), source })
     };
     if let Some(path) = &options.json {
-        // A file that cannot be written is better known before minutes of measuring than after.
+        // An error of writing should come before minutes of measuring, not after.
         write(path, String::new())?;
     }
-    // A mirror that is an address serves `download`; here only a folder does.
+    // An address as mirror is for `download`; here only a folder can be read.
     let mirror = options.mirror.clone().filter(|mirror| mirror.is_dir());
     let folders = [Some(cache(root)), mirror];
     let archive = Archive::new(folders.into_iter().flatten());
@@ -139,11 +139,11 @@ pub fn run_in(root: &Path, options: &Options, out: &mut impl Write) -> Result<()
     }
 }
 
-/// What came of the maps.
+/// The maps that were measured, and those that are missing.
 #[derive(Default)]
 struct Measured<'a> {
     records: Vec<MapRecord>,
-    /// The set and the name of each map that is not there.
+    /// The set and the name of each missing map.
     missing: Vec<(&'a str, &'a str)>,
 }
 

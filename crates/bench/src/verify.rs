@@ -1,9 +1,10 @@
 //! `cargo xtask verify`: our costs against known ones, on the real benchmark sets.
 //!
-//! Each instance of the downloaded sets is compared with the optimal length that its scenario states; or with the
-//! costs that independent programs found, in a folder of files `KIND-kK-MAP.csv` and `any-GAP-MAP.csv`. An engine
-//! that is not optimal must find a path wherever there is one, and none that is shorter than the known cost. How
-//! many costs were compared is part of the result, so that a file that is skipped does not look like a success.
+//! Each instance of the downloaded sets is compared with the optimal length that its scenario states; or with
+//! the costs that independent programs found, in a folder of files `KIND-kK-MAP.csv` and `any-GAP-MAP.csv`.
+//! An engine that is not optimal must find a path wherever there is one, and none that is shorter than the
+//! known cost. How many costs were compared is part of the result, so that a file that is skipped does not
+//! look like a success.
 
 use std::{
     collections::BTreeMap,
@@ -23,7 +24,7 @@ use mediant_search::{Query, QueryError};
 use mediant_sets::{Error as SetError, Manifest, cache, files, progress, root};
 use rayon::prelude::*;
 
-/// What `verify` is asked for.
+/// The options of `cargo xtask verify`.
 #[derive(Args, Clone, Debug)]
 pub struct Options {
     /// Only these benchmark sets, of those that `download` fetched
@@ -32,7 +33,7 @@ pub struct Options {
     /// Of each scenario, only the instances whose index N divides
     #[arg(long, value_name = "N", default_value = "1")]
     every: NonZeroUsize,
-    /// The engines that are to find the costs, one after the other
+    /// The engines to verify, one after the other
     #[arg(long, value_name = "NAME", num_args = 1.., default_value = "astar")]
     engine: Vec<Engine>,
     /// Compare with the reference costs in this folder, not with the scenarios' optima
@@ -47,7 +48,8 @@ pub struct Options {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum VerifyError {
-    /// Costs that differ from the known ones, another number of comparisons than expected, or a file that makes no sense.
+    /// Costs that differ from the known ones, another number of comparisons than expected, or a file that
+    /// makes no sense.
     #[error("{0}")]
     Wrong(String),
     /// A benchmark set that cannot be read.
@@ -66,20 +68,21 @@ fn number(text: &str) -> Result<u64, std::num::ParseIntError> {
     text.replace('_', "").parse()
 }
 
-/// The pruning rules that the files have in common.
+/// The pruning rules, which all maps share.
 static RULES: SharedRules = SharedRules::new();
 
-/// What the costs of an engine must be.
+/// How the costs of an engine must relate to the known ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Demand {
-    /// The known ones.
+enum Relation {
+    /// They are equal.
     Equal,
-    /// Those or greater ones.
+    /// They are equal or greater.
     AtLeast,
 }
 
-impl Demand {
-    /// What is known of a setup's costs by the optimal ones for its k; nothing of paths at any angle that may be longer.
+impl Relation {
+    /// The relation of a setup's costs to the optimal ones for its k; none for any-angle paths that may be
+    /// longer than the shortest.
     fn of(setup: Setup) -> Option<Self> {
         match setup.optimal_over() {
             _ if setup.check().is_err() => None,
@@ -89,15 +92,15 @@ impl Demand {
     }
 }
 
-/// What came of one file's comparisons.
+/// The comparisons of a file, or of several.
 #[derive(Clone, Debug, Default)]
 struct Tally {
     compared: u64,
-    /// Instances of [`OTHER_MAPS`] that are no query: an end is on a blocked cell.
+    /// Instances of [`OTHER_MAPS`] that are invalid queries: an end is on a blocked cell.
     blocked: u64,
     /// Instances of [`OTHER_MAPS`] whose reference is shorter than any path on the map.
     shorter: u64,
-    /// The largest difference that counts as agreement, relative to the known cost.
+    /// The largest difference among the costs that agree, relative to the known cost.
     worst: f64,
     /// The sums of all costs found, and of the known ones.
     sums: [f64; 2],
@@ -107,7 +110,7 @@ struct Tally {
 impl Tally {
     fn compare(
         &mut self,
-        demand: Demand,
+        relation: Relation,
         what: impl FnOnce() -> String,
         found: Option<f64>,
         known: Option<f64>,
@@ -117,7 +120,7 @@ impl Tally {
         let agrees = match (found, known) {
             (Some(found), Some(known)) => {
                 let (difference, shorter) = ((found - known).abs(), known - found);
-                let agrees = if demand == Demand::Equal { difference } else { shorter } <= tolerance;
+                let agrees = if relation == Relation::Equal { difference } else { shorter } <= tolerance;
                 if agrees {
                     self.worst = self.worst.max(difference / known.max(1.0));
                     self.sums = [self.sums[0] + found, self.sums[1] + known];
@@ -144,13 +147,13 @@ impl Tally {
     }
 
     /// How far the costs are from the known ones.
-    fn distance(&self, demand: Demand) -> String {
+    fn distance(&self, relation: Relation) -> String {
         let wrong = self.mismatches.len();
-        match demand {
-            Demand::Equal => {
+        match relation {
+            Relation::Equal => {
                 format!("{wrong} differ, the others by at most {:.1e} of the cost", self.worst)
             }
-            Demand::AtLeast => {
+            Relation::AtLeast => {
                 let longer = (self.sums[0] / self.sums[1].max(1.0) - 1.0) * 100.0;
                 let worst = self.worst * 100.0;
                 format!("{wrong} are wrong, the others {longer:.3} % longer in all and {worst:.1} % at most")
@@ -198,15 +201,15 @@ pub fn run_in(cache: &Path, options: &Options, out: &mut dyn io::Write) -> Resul
     }
 }
 
-/// The engine on k = 3 between centers, no corner cut: the problem of the scenario files.
-fn scenarios_for(engine: Engine) -> Result<(Setup, Demand), VerifyError> {
+/// The setup of an engine for the problem of the scenario files: k = 3 between centers, no corner cut.
+fn scenarios_for(engine: Engine) -> Result<(Setup, Relation), VerifyError> {
     let setup = Setup::new(engine, FiniteK::N8, Rules::Center(CornerRule::Never));
     let unknown = || {
         VerifyError::Wrong(format!(
             "{engine} finds no paths over the moves of k = 3: their costs are not known"
         ))
     };
-    Demand::of(setup).map(|demand| (setup, demand)).ok_or_else(unknown)
+    Relation::of(setup).map(|relation| (setup, relation)).ok_or_else(unknown)
 }
 
 fn against_scenarios(
@@ -215,7 +218,7 @@ fn against_scenarios(
     engine: Engine,
     out: &mut dyn io::Write,
 ) -> Result<Tally, VerifyError> {
-    let (setup, demand) = scenarios_for(engine)?;
+    let (setup, relation) = scenarios_for(engine)?;
     let manifest = Manifest::read(&Manifest::path(&root()))?;
     let asked = |name: &String| options.set.is_empty() || options.set.contains(name);
     for name in &options.set {
@@ -238,7 +241,7 @@ fn against_scenarios(
         let tallies: Vec<Tally> = maps
             .par_iter()
             .map(|map| {
-                scenario_of(setup, demand, map, options.every.get(), set.name == OTHER_MAPS)
+                scenario_of(setup, relation, map, options.every.get(), set.name == OTHER_MAPS)
                     .inspect(|_| bar.inc(1))
             })
             .collect::<Result<_, _>>()?;
@@ -251,7 +254,7 @@ fn against_scenarios(
                 set.name
             )));
         }
-        let known = if demand == Demand::Equal { KNOWN } else { (KNOWN.0, 0) };
+        let known = if relation == Relation::Equal { KNOWN } else { (KNOWN.0, 0) };
         if options.every.get() == 1 && set.name == OTHER_MAPS && (tally.blocked, tally.shorter) != known {
             let (blocked, shorter) = (tally.blocked, tally.shorter);
             let wrong =
@@ -264,7 +267,7 @@ fn against_scenarios(
             set.name,
             maps.len(),
             tally.compared,
-            tally.distance(demand),
+            tally.distance(relation),
         )?;
         if tally.blocked + tally.shorter > 0 {
             writeln!(
@@ -279,19 +282,20 @@ fn against_scenarios(
     Ok(total)
 }
 
-/// The set whose scenarios were made on other maps than those it holds: their program could stand on cells that the files
-/// block. 2,446 instances start or end on such a cell, many of them on a cliff line `@` one cell wide, and yet have an
-/// optimal length. So a reference may be shorter than the best path on the map as it is, and never longer.
+/// The set whose scenarios were made on other maps than those it holds: their program could stand on cells
+/// that the files block. 2,446 instances start or end on such a cell, many of them on a cliff line `@` one
+/// cell wide, and yet have an optimal length. So a reference may be shorter than the best path on the map as
+/// it is, and never longer.
 const OTHER_MAPS: &str = "wc3maps512";
-/// How many instances of [`OTHER_MAPS`] have a blocked end, and how many others have a shorter reference: independent
-/// programs (`--oracle`) agree with us there.
+/// How many instances of [`OTHER_MAPS`] have a blocked end, and how many others have a shorter reference:
+/// independent programs (`--oracle`) agree with us there.
 const KNOWN: (u64, u64) = (2_446, 5_182);
 
-/// One map with its scenario. The scenarios carry as few as six digits, and say 0 where there is no path (173 instances of
-/// set dao).
+/// Compares the costs of one map with its scenario. Scenarios state lengths with as few as six digits, and 0
+/// where there is no path (173 instances of set dao).
 fn scenario_of(
     setup: Setup,
-    demand: Demand,
+    relation: Relation,
     path: &Path,
     every: usize,
     other_map: bool,
@@ -309,14 +313,14 @@ fn scenario_of(
             Err(_) if other_map => tally.blocked += 1,
             Ok(Some(cost))
                 if other_map
-                    && demand == Demand::Equal
+                    && relation == Relation::Equal
                     && cost > instance.optimal + 2.0 * scenario_tolerance(instance.optimal) =>
             {
                 tally.shorter += 1;
             }
             found => {
                 let found = found.unwrap_or(None);
-                tally.compare(demand, what, found, optimal, scenario_tolerance(instance.optimal));
+                tally.compare(relation, what, found, optimal, scenario_tolerance(instance.optimal));
             }
         }
     }
@@ -328,7 +332,7 @@ fn cost(solver: &mut Solver, query: Query) -> Result<Option<f64>, QueryError> {
     solver.solve(query).map(|outcome| outcome.path().map(|path| path.cost()))
 }
 
-/// What the name of a reference file says.
+/// The setup and the map that the name of a reference file states.
 fn reference_setup(name: &str, engine: Engine) -> Option<(Setup, &str)> {
     let (kind, rest) = name.strip_suffix(".csv")?.split_once('-')?;
     let (part, map) = rest.split_once('-')?;
@@ -366,13 +370,13 @@ fn against_references(
         .collect::<Result<_, _>>()?;
     bar.finish_and_clear();
     let (mut total, mut files, mut unsupported, mut unknown) = (Tally::default(), 0, 0, 0);
-    let mut demanded = Demand::Equal;
+    let mut weakest = Relation::Equal;
     for compared in tallies {
         match compared {
-            Compared::Costs(tally, demand) => {
+            Compared::Costs(tally, relation) => {
                 files += 1;
-                if demand == Demand::AtLeast {
-                    demanded = demand;
+                if relation == Relation::AtLeast {
+                    weakest = relation;
                 }
                 total = total.add(tally);
             }
@@ -384,7 +388,7 @@ fn against_references(
         out,
         "{files} files, {} costs compared with independent programs: {}",
         total.compared,
-        total.distance(demanded)
+        total.distance(weakest)
     )?;
     writeln!(
         out,
@@ -393,19 +397,19 @@ fn against_references(
     Ok(total)
 }
 
-/// What came of a file of reference costs.
+/// The result of a file of reference costs.
 enum Compared {
-    Costs(Tally, Demand),
+    Costs(Tally, Relation),
     /// The engine does not search this k, or finds longer paths at any angle.
     Unsupported,
-    /// Its name says no problem.
+    /// Its name states no problem.
     Unknown,
 }
 
 fn reference(file: &Path, engine: Engine, maps: &BTreeMap<String, PathBuf>) -> Result<Compared, VerifyError> {
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     let Some((setup, map)) = reference_setup(&name, engine) else { return Ok(Compared::Unknown) };
-    let Some(demand) = Demand::of(setup) else { return Ok(Compared::Unsupported) };
+    let Some(relation) = Relation::of(setup) else { return Ok(Compared::Unsupported) };
     let wrong = |wrong: String| VerifyError::Wrong(format!("{name}: {wrong}"));
     let Some(path) = maps.get(map) else {
         return Err(wrong(format!("map {map} is not in the cache: cargo xtask download")));
@@ -430,8 +434,8 @@ fn reference(file: &Path, engine: Engine, maps: &BTreeMap<String, PathBuf>) -> R
         let instance = instance.ok_or_else(|| wrong(format!("no instance {index}")))?;
         let found = cost(&mut solver, Query::new(instance.start, instance.goal)).unwrap_or(None);
         let what = || format!("{setup}, {name} instance {index}");
-        // Those programs know no blocked ends: they say that there is no path.
-        tally.compare(demand, what, found, (known >= 0.0).then_some(known), 1e-6 * known.max(1.0));
+        // For a blocked end, those programs report that there is no path.
+        tally.compare(relation, what, found, (known >= 0.0).then_some(known), 1e-6 * known.max(1.0));
     }
-    Ok(Compared::Costs(tally, demand))
+    Ok(Compared::Costs(tally, relation))
 }

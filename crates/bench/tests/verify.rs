@@ -51,7 +51,8 @@ fn wrong_costs_and_none_at_all_are_errors() {
     }
 }
 
-/// The shortest path costs 5: those of engines that may find longer ones cost as much or more, and there are some.
+/// The shortest path costs 5: those of engines that may find longer ones cost as much or more, and there are
+/// some.
 #[test]
 fn paths_that_may_be_longer_are_never_shorter_nor_missing() {
     for engine in ["hpa", "chpa", "wavefront"] {

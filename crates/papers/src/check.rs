@@ -1,4 +1,4 @@
-//! Counts that are held against those of an earlier run.
+//! Comparison of counts with those of an earlier run.
 
 use std::{fs, path::Path};
 
@@ -6,10 +6,11 @@ use mediant_report::Record;
 
 use crate::{Error, catalog::EXPERIMENTS, records::write};
 
-/// By how much counts may differ: sums of numbers that are rounded the same everywhere, but written as text in between.
+/// The largest relative difference of equal counts: they are the same everywhere, but were written as text in
+/// between.
 const TOLERANCE: f64 = 1e-9;
 
-/// Writes the counts that `--check` compares with; those of experiments that were not run stay.
+/// Writes the counts that `--check` compares with. The counts of experiments that were not run stay.
 pub(crate) fn bless(path: &Path, records: &[Record]) -> Result<(), Error> {
     let mut known = if path.is_file() { blessed(path)? } else { Vec::new() };
     known.retain(|old| !records.iter().any(|new| new.id == old.id));
@@ -24,7 +25,7 @@ fn blessed(path: &Path) -> Result<Vec<Record>, Error> {
     serde_json::from_str(&text).map_err(|wrong| Error::Reproduce(format!("{}: {wrong}", path.display())))
 }
 
-/// Compares the counts of the records with those that [`bless`] wrote, and prints how many agree.
+/// Compares the counts of the records with those that [`bless`] wrote, and prints their number if all agree.
 pub(crate) fn check(path: &Path, records: &[Record]) -> Result<(), Error> {
     let known = blessed(path)?;
     let mut numbers = 0;

@@ -1,4 +1,5 @@
-//! Our engines beside other programs: what `cargo xtask compare` measures, as a page; and the figures that Central64 publishes.
+//! Our engines beside other programs: what `cargo xtask compare` measures, as a page; and the figures that
+//! Central64 publishes.
 
 use mediant_bench::{
     Baseline, Comparison, Competitor, MapRecord, Problem, PublishedRow, ReferenceTimings, Study, Timing,
@@ -20,7 +21,7 @@ use super::{
 };
 use crate::Error;
 
-/// The programs of `benchdata/reference_timings.json`.
+/// Our engines beside the programs of `benchdata/reference_timings.json`.
 pub(super) const PROGRAMS: Experiment = Experiment {
     id: "compared-programs",
     page: Page::Compared,
@@ -30,7 +31,7 @@ pub(super) const PROGRAMS: Experiment = Experiment {
     show: show_programs,
 };
 
-/// What Autodesk's Central64 publishes.
+/// Our engines beside the figures that Autodesk's Central64 publishes.
 pub(super) const CENTRAL64: Experiment = Experiment {
     id: "compared-central64",
     page: Page::Compared,
@@ -64,7 +65,7 @@ fn references() -> Result<ReferenceTimings, Error> {
     ReferenceTimings::bundled().map_err(|wrong| Error::Reproduce(wrong.to_string()))
 }
 
-/// A timing as it is kept between runs.
+/// A timing in the form in which an interrupted run keeps it.
 #[derive(Serialize, Deserialize)]
 struct Kept {
     competitor: String,
@@ -160,7 +161,7 @@ fn comparisons(record: &Record, references: &ReferenceTimings) -> Vec<(String, V
     record.distinct("map").iter().map(on_map).collect()
 }
 
-/// A setup as it writes itself.
+/// The full text of a setup.
 fn canonical(text: &str) -> String {
     text.parse::<Setup>().map_or_else(|_| text.to_owned(), |setup| setup.to_string())
 }
@@ -169,8 +170,8 @@ fn show_programs(record: &Record) -> Section {
     let mut section = Section::default();
     let Ok(references) = ReferenceTimings::bundled() else { return section };
     section.text(
-        "Ratios, never times: two crates that anyone can run were measured on the machine of the other programs and here, in the same passes as ours; their times say how the machines \
-         compare, map by map. Below 1, ours is faster. Only programs that solve the same problem are compared: the same directions and rules, both optimally or neither.",
+        "Ratios, never times: two crates that anyone can run were measured on the machine of the other programs, and here in the same passes as our engines; their times tell the ratio \
+         of the machines, map by map. Below 1, ours is faster. Only programs that solve the same problem are compared: the same directions and rules, both optimally or neither.",
     );
     let compared = comparisons(record, &references);
     let mut table =
@@ -307,7 +308,7 @@ fn prepared(record: &Record) -> Table {
     table
 }
 
-/// A variant that Central64 publishes, its k, and ours.
+/// A variant that Central64 publishes, its k, and our setup.
 const VARIANTS: [(&str, u32, &str); 8] = [
     ("A* with smoothing", 3, "astar:3:open,smooth"),
     ("A* with smoothing", 4, "astar:4:open,smooth"),
@@ -318,7 +319,8 @@ const VARIANTS: [(&str, u32, &str); 8] = [
     ("bounded JPS with smoothing", 5, "jps:5:open,smooth"),
     ("bounded JPS with smoothing", 6, "jps:6:open,smooth"),
 ];
-/// Ours that it has nothing like. Those that differ in smoothing alone stand together: they share an index.
+/// Our setups without a counterpart. Those that differ in smoothing alone stand together, so that they share
+/// an index.
 const OURS: [&str; 11] = [
     "jps-block:3:open,smooth",
     "anya:any:open",
@@ -382,7 +384,7 @@ fn measure_central(context: &Context<'_>) -> Result<Findings, Error> {
     Ok(Findings { columns, rows, maps: maps.len(), instances, drawn, seeded: false })
 }
 
-/// Why the excess is another: how much the paths of one k lose by another smoothing.
+/// Why the excess differs: how much longer the paths of one k are with another smoothing.
 fn smoothing(record: &Record) -> String {
     let excess = |setup: String| record.number(&[("setup", &setup)], "excess");
     let list = |how: &str| {

@@ -1,4 +1,4 @@
-//! What a run is about, and what an experiment sees of it.
+//! The setting of a run, and what an experiment sees of it.
 
 use std::{
     fs,
@@ -17,7 +17,7 @@ use crate::{
     maps::{Map, evenly},
 };
 
-/// How often a time is taken.
+/// The timed passes over the queries of a map, of which the median counts.
 const PASSES: u32 = 3;
 
 /// What is asked of a run.
@@ -33,17 +33,18 @@ pub(super) struct Request {
     pub(super) sets: Vec<String>,
 }
 
-/// A request with what a run needs to answer it.
+/// A request with the project, the threads and the folder that a run needs for it.
 pub(super) struct Setting {
     pub(super) root: PathBuf,
     pub(super) request: Request,
-    /// The threads of what is not timed.
+    /// The threads of experiments that take no time.
     pool: rayon::ThreadPool,
-    /// Where what was measured waits for the rest, should the run be interrupted.
+    /// Holds the results of each map until the run is complete, so that an interrupted run goes on where it
+    /// was.
     parts: PathBuf,
 }
 
-/// How the maps of a step are gone through.
+/// Whether the maps of a step are measured at once or in turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum How {
     /// Several at once: nothing in it is timed.
@@ -53,7 +54,7 @@ pub(super) enum How {
 }
 
 impl Setting {
-    /// The setting of a request in the project at `root`, on so many threads; 0: one for each core.
+    /// The setting of a request in the project at `root`, on so many threads; 0 stands for one a core.
     ///
     /// # Errors
     /// [`SetError::UnknownSet`], and the errors of the manifest.
@@ -64,7 +65,7 @@ impl Setting {
         }
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = pool.map_err(|wrong| Error::Reproduce(format!("no threads: {wrong}")))?;
-        // What another program or another request measured is no part of this run.
+        // Parts that another program or another request measured must not be mixed with those of this run.
         let program = std::env::current_exe().and_then(fs::read).unwrap_or_default();
         let key = Sha256::new().chain_update(program).chain_update(format!("{request:?}")).finalize();
         let key: String = key.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
@@ -87,7 +88,8 @@ impl Setting {
         self.asks(set) && self.folder(set).is_dir()
     }
 
-    /// Downloads those of the sets that are not there, as far as that is possible.
+    /// Downloads the sets that are missing. One that cannot be downloaded is named on stderr, and is no
+    /// error.
     pub(super) fn provide<'a>(
         &self,
         sets: impl Iterator<Item = &'a str>,
@@ -104,7 +106,7 @@ impl Setting {
             match cache.provide(manifest.set(name)?) {
                 Ok(report) => eprintln!("{report}"),
                 Err(error @ SetError::Network { .. }) => {
-                    // Where one set cannot be asked for, none can.
+                    // Without a network for one set, there is none for the others.
                     eprintln!("no download: {error}");
                     return Ok(());
                 }
@@ -117,7 +119,7 @@ impl Setting {
         Ok(())
     }
 
-    /// Forgets the parts of a run that is complete.
+    /// Removes the parts, once the run is complete.
     pub(super) fn forget(&self) -> Result<(), Error> {
         if self.parts.is_dir() {
             fs::remove_dir_all(&self.parts).map_err(Error::at(&self.parts))?;
@@ -141,17 +143,17 @@ impl<'a> Context<'a> {
         Self { setting, id, sets }
     }
 
-    /// The first of an even sample, else the second.
+    /// `quick` in a quick run, else `full`.
     pub(super) fn quick_or<T>(&self, quick: T, full: T) -> T {
         if self.setting.request.quick { quick } else { full }
     }
 
-    /// How often a time is taken: 0 if none is.
+    /// The number of timed passes: 0 in a run without times.
     pub(super) fn passes(&self) -> u32 {
         if self.setting.request.timed { PASSES } else { 0 }
     }
 
-    /// The map's random numbers.
+    /// The random numbers of a map.
     pub(super) fn rng(&self, map: &Map) -> Rng {
         map.rng(self.setting.request.seed)
     }
@@ -162,13 +164,13 @@ impl<'a> Context<'a> {
         !sets.is_empty() && !sets.iter().any(|set| self.setting.has(set))
     }
 
-    /// The experiment's sets that are there and asked for; `bundled` where there is none.
+    /// The experiment's sets that are there and asked for; `bundled` if there are none.
     pub(super) fn sets(&self) -> Vec<&'static str> {
         let sets: Vec<&str> = self.sets.iter().copied().filter(|set| self.setting.has(set)).collect();
         if sets.is_empty() && !self.sets.is_empty() { vec!["bundled"] } else { sets }
     }
 
-    /// The maps of a set, sorted; of a quick run, `quick` of them, evenly.
+    /// The maps of a set, sorted; in a quick run, an even sample of `quick` maps.
     pub(super) fn maps(&self, set: &str, quick: usize) -> Result<Vec<Map>, Error> {
         let folder = match set {
             "bundled" => self.setting.root.join("benchdata").join("maps"),
@@ -179,7 +181,7 @@ impl<'a> Context<'a> {
         Ok(evenly(&all, self.quick_or(quick, usize::MAX)))
     }
 
-    /// The maps of these names of a set; all bundled ones where the set is not there.
+    /// The maps of a set that have these names; all bundled maps if the set is not there.
     pub(super) fn named(&self, set: &str, names: &[&str]) -> Result<Vec<Map>, Error> {
         if !self.setting.has(set) {
             return self.maps("bundled", usize::MAX);
@@ -195,8 +197,8 @@ impl<'a> Context<'a> {
         Ok(maps)
     }
 
-    /// Does something with each map, with a bar that says how long the rest will take. What an interrupted run did of this step is not
-    /// done again.
+    /// Calls `work` for each map, and shows on a bar how long the rest will take. Maps that an interrupted
+    /// run completed in this step are not measured again.
     pub(super) fn each<T: Serialize + DeserializeOwned + Send>(
         &self,
         step: &str,
@@ -212,7 +214,7 @@ impl<'a> Context<'a> {
             let known = fs::read(&path).ok().and_then(|text| serde_json::from_slice(&text).ok());
             let done = match known {
                 Some(known) => Ok(Some(known)),
-                // After an error the rest need not be measured.
+                // After an error, the other maps are not worth measuring.
                 None if failed.load(Ordering::Relaxed) => Ok(None),
                 None => work(map).and_then(|done| {
                     save(&path, &done)?;
@@ -232,7 +234,7 @@ impl<'a> Context<'a> {
     }
 }
 
-/// Writes a part under another name first, so that it is whole or not there.
+/// Writes a part under another name first, so that a file of its final name is always complete.
 fn save(path: &Path, part: &impl Serialize) -> Result<(), Error> {
     let text = serde_json::to_vec(part).map_err(|wrong| Error::Reproduce(wrong.to_string()))?;
     let partial = path.with_extension("partial");

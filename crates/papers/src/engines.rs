@@ -1,4 +1,4 @@
-//! Every engine of the workspace, on time against suboptimality.
+//! Every engine of the workspace: its time against its suboptimality.
 
 use std::collections::BTreeMap;
 
@@ -25,7 +25,8 @@ pub(super) const ENGINES: Experiment = Experiment {
     show,
 };
 
-/// Between corners, gap open: held against the shortest paths at any angle.
+/// Between corners, gap open: the reference, which finds shortest paths at any angle, and the setups that are
+/// compared with it.
 const CORNERS: (&str, &[&str]) = (
     "subgoal:any:open",
     &[
@@ -54,7 +55,7 @@ const CORNERS: (&str, &[&str]) = (
         "theta:5:open",
         "lazy-theta:3:open",
         "anya:any:open",
-        // Those that differ in smoothing alone stand together: they share an index.
+        // Setups that differ in smoothing alone stand together, so that they share an index.
         "subgoal:3:open",
         "subgoal:3:open,taut",
         "subgoal:4:open",
@@ -65,7 +66,8 @@ const CORNERS: (&str, &[&str]) = (
         "subgoal-theta:3:open",
     ],
 );
-/// Between centers, no corner cut: held against the paths of A* over N(7), pulled taut, since there is no exact reference at any angle.
+/// Between centers, no corner cut: the reference, A* over N(7) with paths pulled taut, since no engine is
+/// exact at any angle there; and the setups that are compared with it.
 const CENTERS: (&str, &[&str]) = (
     "astar:7:never,taut",
     &[
@@ -154,7 +156,7 @@ fn on_map(context: &Context<'_>, map: &Map, count: usize) -> Result<Vec<Sums>, E
         .collect()
 }
 
-/// The engine of a setup with what else but k makes it another series, and its k.
+/// The series of a setup, which is its engine with all options but k; and its k.
 fn series_of(setup: &str) -> (String, String) {
     let Ok(parsed) = setup.parse::<Setup>() else { return (setup.to_owned(), String::new()) };
     let options = setup.split_once(',').map_or(String::new(), |(_, options)| format!(", {options}"));
@@ -198,8 +200,8 @@ fn chart(record: &Record, set: &str, placement: &str) -> Chart {
 fn show(record: &Record) -> Section {
     let mut section = Section::default();
     section.text(
-        "Between corners all are held against the shortest path at any angle. Between centers there is no exact reference at any angle; there it is A* over N(7), pulled taut. \
-         Below and to the left is better; what is at the lower border is exact, or as good as the reference.",
+        "Between corners, the reference is the shortest path at any angle. Between centers no engine is exact at any angle; the reference there is A* over N(7), pulled taut. \
+         Below and to the left is better; a point at the lower border is exact, or as good as the reference.",
     );
     for set in record.distinct("set") {
         section.heading(set);

@@ -1,4 +1,4 @@
-//! What an experiment is, what it finds, and what it shows.
+//! Experiments, their findings, and the sections of the pages.
 
 use mediant_report::{Claim, Column, Record, Row, Table};
 
@@ -17,7 +17,7 @@ pub(super) struct Experiment {
     pub(super) title: &'static str,
     /// The benchmark sets that it runs on.
     pub(super) sets: &'static [&'static str],
-    /// Measures.
+    /// Measures on the maps that the context gives.
     pub(super) measure: fn(&Context<'_>) -> Result<Findings, Error>,
     /// Draws the section of the page.
     pub(super) show: fn(&Record) -> Section,
@@ -77,17 +77,17 @@ impl Page {
     }
 }
 
-/// What an experiment found.
+/// What an experiment found; with its provenance it becomes a record.
 pub(super) struct Findings {
     /// What the rows hold.
     pub(super) columns: Vec<Column>,
     pub(super) rows: Vec<Row>,
-    /// How many maps and how many queries (or other cases) the figures are over.
+    /// The numbers of maps and of queries (or other cases) that the figures are over.
     pub(super) maps: usize,
     pub(super) instances: u64,
-    /// How these were chosen, in words.
+    /// How the queries were chosen, in words.
     pub(super) drawn: String,
-    /// Whether by the seed.
+    /// Whether the seed has a part in that choice.
     pub(super) seeded: bool,
 }
 
@@ -95,7 +95,7 @@ pub(super) struct Findings {
 #[derive(Default)]
 pub(super) struct Section {
     pub(super) markdown: String,
-    /// Names of files, and what is in them.
+    /// The figures: name of the file, and SVG.
     pub(super) figures: Vec<(String, String)>,
     pub(super) claims: Vec<Claim>,
 }
@@ -125,7 +125,7 @@ impl Section {
         self.figures.push((format!("{name}.svg"), svg));
     }
 
-    /// Adds claims, to be judged and listed; and, if `shown`, a table of them here.
+    /// Adds claims to those that are judged and listed; and, if `shown`, a table of them to the section.
     pub(super) fn claims(&mut self, claims: Vec<Claim>, shown: bool) {
         if shown {
             let mut table = Table::new(["where", "what", "published", "here", "difference", ""]).names(2);
@@ -145,7 +145,7 @@ impl Section {
     }
 }
 
-/// A difference in percent, without a sign that means nothing.
+/// A relative difference in percent, with its sign unless it is rounded to 0.
 pub(super) fn percent(difference: f64) -> String {
     if difference.abs() < 5e-4 { "0.0 %".to_owned() } else { format!("{:+.1} %", 100.0 * difference) }
 }

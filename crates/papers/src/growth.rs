@@ -26,9 +26,9 @@ pub(super) const GROWTH: Experiment = Experiment {
 
 /// The map that is tiled: its streets lead to its borders, so that the tiles are connected.
 const MAP: &str = "Berlin_0_256";
-/// Its place where the set is not there.
+/// The bundled map that stands in for it where the set is not there.
 const BUNDLED: &str = "town";
-/// How often, along each side.
+/// How many times the map is repeated along each side.
 const TILES: [u32; 4] = [1, 2, 4, 8];
 const SETUPS: [&str; 11] = [
     "astar:3:never",
@@ -44,7 +44,7 @@ const SETUPS: [&str; 11] = [
     "subgoal:any:open",
 ];
 
-/// A grid beside and below itself.
+/// A grid repeated `times` times along each side.
 fn tiled(grid: &Grid, times: u32) -> Result<Grid, Error> {
     let (width, height) = (grid.width(), grid.height());
     let blocked = |x: u32, y: u32| !grid.is_free((x % width) as i32, (y % height) as i32);
@@ -100,8 +100,8 @@ fn on_tiles(context: &Context<'_>, map: &Map, times: u32, count: usize) -> Resul
 fn show(record: &Record) -> Section {
     let mut section = Section::default();
     section.text(
-        "Queries are drawn over the whole map, so that paths grow with its sides. Memory is what an engine prepares beyond the map itself: search graph and index, without the \
-         scratch of a search, which for engines on the grid graph is 16 to 24 bytes a vertex.",
+        "Queries are drawn over the whole map, so that paths grow with its sides. Memory counts what an engine prepares besides the map: search graph and index. The scratch of a \
+         search comes on top; for engines on the grid graph it is 16 to 24 bytes a vertex.",
     );
     for (column, scale, label, title) in [
         ("micros", 1.0, "mean time of a query, µs", "Time of a query"),

@@ -1,7 +1,8 @@
 //! Hammoud & Lupin 2023: jump point search on the street maps, tables I and II and figures 8 to 13.
 //!
-//! **The key decision: each engine answers under each corner rule.** The paper holds an A* that cuts no corners against a JPS that does, so that
-//! its two columns are lengths of two problems. Here each column stands beside the same rule, and the two rules beside each other.
+//! **The key decision: each engine answers under each corner rule.** The paper compares an A* that cuts no
+//! corners with a JPS that does, so that its two columns are lengths of two different problems. Here each
+//! column is compared under its own rule, and the two rules with each other.
 
 mod figures;
 mod published;
@@ -19,7 +20,7 @@ pub(super) const TABLES: Experiment = Experiment {
     show: tables::pages::show,
 };
 
-/// Figures 8 to 13, and what they leave out.
+/// Figures 8 to 13, with engines and rules that they leave out.
 pub(super) const FIGURES: Experiment = Experiment {
     id: "hammoud2023-figures",
     page: Page::Hammoud2023,

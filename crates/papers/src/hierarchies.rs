@@ -15,7 +15,7 @@ use super::{
 };
 use crate::Error;
 
-/// What HPA* is published for, on all maps of games.
+/// The published claims about HPA*, on all maps of games.
 pub(super) const HPA: Experiment = Experiment {
     id: "hpa-games",
     page: Page::Beyond,
@@ -29,7 +29,8 @@ const KS: [&str; 2] = ["2", "3"];
 /// Of each scenario, the instances whose index this divides.
 const EVERY: usize = 100;
 
-/// One map at one k: mean excess as refined and smoothed, in %; A*'s nodes and time over those of HPA*.
+/// One map at one k: the mean excess of refined and of straightened paths, in %; the nodes and the time of A*
+/// over those of HPA*.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 struct OnMap {
     queries: u64,
@@ -140,7 +141,7 @@ fn show(record: &Record) -> Section {
     section.table(&table);
     let claims = record.rows.iter().map(|row| {
         let what = format!("{}, k = {}: length over the optimum, at most", row.text("set"), row.text("k"));
-        // A bound: what is below it is as published.
+        // The claim is a bound: any value below it is as published.
         let ours = row.number("smoothed").map(|excess| (100.0 + excess).max(101.0));
         Claim::new("Botea 2004, abstract", what, 101.0, ours).within(0.0).written(1, " %")
     });

@@ -1,17 +1,17 @@
-//! The reproduction of the five papers: their tables and figures, measured by the engines of this workspace, and drawn
-//! beside the published values.
+//! The reproduction of the five papers: their tables and figures, measured by the engines of this workspace,
+//! and drawn beside the published values.
 //!
 //! **The key decision: measuring and drawing are two steps.** An `Experiment` measures into a
-//! [`Record`](mediant_report::Record), which is written as JSON and is all that its pages and figures are drawn from. So pages
-//! are drawn again without measuring (`--render`), a test holds the committed pages against the committed records, and
-//! a later run is compared number by number (`--check`).
+//! [`Record`](mediant_report::Record), which is written as JSON and is all that its pages and figures are
+//! drawn from. So pages are drawn again without measuring (`--render`), a test holds the committed pages
+//! against the committed records, and a later run is compared number by number (`--check`).
 //!
-//! A module for each paper holds its experiments; what compares the engines beyond the papers is in `engines`, `growth`,
-//! `hierarchies` and `compared`. Modules called `pages` draw, from records alone. To add an experiment: a module with
-//! an `Experiment`, and its line in `catalog`.
+//! A module for each paper holds its experiments; what compares the engines beyond the papers is in
+//! `engines`, `growth`, `hierarchies` and `compared`. Modules called `pages` draw, from records alone. To add
+//! an experiment: a module with an `Experiment`, and its line in `catalog`.
 //!
-//! What is not here: how a query is timed (`mediant-bench`), what records, tables and charts are (`mediant-report`), and
-//! where the maps come from (`mediant-sets`).
+//! What is not here: how a query is timed (`mediant-bench`), what records, tables and charts are
+//! (`mediant-report`), and where the maps come from (`mediant-sets`).
 #![allow(
     clippy::print_stdout,
     clippy::print_stderr,

@@ -28,7 +28,7 @@ impl Map {
         Self { set: set.to_owned(), name, path: path.to_owned() }
     }
 
-    /// Its cells.
+    /// Its grid.
     pub(super) fn grid(&self) -> Result<Arc<Grid>, Error> {
         Ok(Arc::new(MapFile::read(&self.path)?.to_grid()))
     }
@@ -38,7 +38,7 @@ impl Map {
         Ok(Scenario::read(self.path.with_extension("map.scen"))?.instances().to_vec())
     }
 
-    /// The instances of its scenario whose index `every` divides, but for those that start at their goal.
+    /// The queries of its scenario whose index `every` divides, without those that start at their goal.
     pub(super) fn queries(&self, every: usize) -> Result<Vec<Query>, Error> {
         let instances = self.instances()?;
         let picked =
@@ -46,7 +46,7 @@ impl Map {
         Ok(picked.map(|instance| Query::new(instance.start, instance.goal)).collect())
     }
 
-    /// The map's own numbers for a seed: they do not depend on which other maps there are.
+    /// Random numbers by the seed and the map's name: other maps do not change them.
     pub(super) fn rng(&self, seed: u64) -> Rng {
         let digest = self.name.bytes().fold(0xCBF2_9CE4_8422_2325_u64, |digest, byte| {
             (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3)
@@ -55,13 +55,14 @@ impl Map {
     }
 }
 
-/// `count` of them, or all if there are fewer, from the middles of equal parts.
+/// An even sample of `count` items (all, if there are fewer): the middles of equal parts.
 pub(super) fn evenly<T: Clone>(all: &[T], count: usize) -> Vec<T> {
     let count = count.min(all.len());
     (0..count).map(|part| all[(2 * part + 1) * all.len() / (2 * count)].clone()).collect()
 }
 
-/// `count` queries between different free vertices, drawn at random, that `solvable` accepts; fewer if a thousand draws for each do not find them.
+/// `count` random queries between different free vertices that `solvable` accepts; fewer if 1,000 · `count`
+/// draws do not find so many.
 pub(super) fn random_queries(
     rng: &mut Rng,
     grid: &Grid,

@@ -1,4 +1,4 @@
-//! The pages: drawn from the records alone.
+//! The pages, drawn from the records alone.
 
 use std::{
     collections::BTreeMap,
@@ -17,8 +17,8 @@ use crate::{
 };
 
 /// What the marks of tables mean.
-const MARKS: &str = "✓ as published: to the printed digits where the instances are the same, else within 3 % or what is said. ≈ within what another draw \
-                     of the instances makes (two standard errors of the difference). ✗ differs: [deviations](deviations.md) says why. – not measured.";
+const MARKS: &str = "✓ as published: to the printed digits if the instances are the same, else within 3 % or the stated tolerance. ≈ within two standard errors \
+                     of the difference, as another draw of the instances could be. ✗ differs: [deviations](deviations.md) says why. – not measured.";
 
 /// Draws the pages of a folder from the records in it, and writes those that changed.
 ///
@@ -32,7 +32,7 @@ pub(super) fn write_all(out: &Path) -> Result<(), Error> {
     }
     let drawn = draw(&records)?;
     let figures = out.join(FIGURES);
-    // Figures of experiments that are gone, or go by another name.
+    // Figures of experiments that were removed or renamed.
     if figures.is_dir() {
         for entry in fs::read_dir(&figures).map_err(Error::at(&figures))? {
             let path = entry.map_err(Error::at(&figures))?.path();
@@ -55,14 +55,14 @@ pub(super) fn draw(records: &[(&'static Experiment, Record)]) -> Result<BTreeMap
             files.insert(Path::new(FIGURES).join(name), svg);
         }
         if record.provenance.bundled {
-            // What is published is of other maps.
+            // The published values are of other maps.
             section.claims.clear();
             for verdict in [Verdict::Matched, Verdict::Drawn, Verdict::Deviates] {
                 section.markdown = section.markdown.replace(verdict.mark(), "");
             }
         }
         let unexplained = |claim: &&Claim| claim.verdict() == Verdict::Deviates && claim.cause.is_empty();
-        // A sample, or other maps, may deviate from what is published without a reason that could be given.
+        // A sample or other maps may deviate for no reason that could be given.
         if let Some(claim) = section.claims.iter().find(unexplained)
             && !is_partial(&record.provenance)
         {
@@ -92,7 +92,7 @@ const fn is_partial(provenance: &Provenance) -> bool {
     provenance.quick || provenance.bundled
 }
 
-/// What a record's figures are over and where they come from.
+/// A paragraph on what a record's figures are over and where they come from.
 fn about(record: &Record) -> String {
     let Provenance { revision, machine, sets, maps, instances, drawn, seed, quick, bundled, passes } =
         &record.provenance;
@@ -127,10 +127,10 @@ fn about(record: &Record) -> String {
     text + &format!(" Revision {short}{dirty}. [All figures]({DATA}/{}.json).", record.id)
 }
 
-/// The page of what differs, and why.
+/// The page of the deviations and their causes.
 fn deviations(shown: &[(&Experiment, &Record, Section)]) -> String {
-    let mut text = "# Where our numbers differ from the published ones\n\n[All results](README.md). Each group is of one table column, figure or sentence of a \
-                    paper. The difference is ours over the published number, less 1.\n\n"
+    let mut text = "# Where our numbers differ from the published ones\n\n[All results](README.md). Each group belongs to one table column, figure or sentence of a \
+                    paper. The difference is our number over the published one, less 1.\n\n"
         .to_owned();
     for page in Page::ALL {
         let mut groups: Vec<(&str, &str, Vec<&Claim>)> = Vec::new();
@@ -153,7 +153,7 @@ fn deviations(shown: &[(&Experiment, &Record, Section)]) -> String {
             continue;
         }
         text += &format!("## [{}]({}.md)\n\n", page.title(), page.file());
-        // What several groups have in common is said once.
+        // A cause that several groups have in common is written once.
         let mut causes: Vec<&str> = Vec::new();
         for (source, cause, claims) in groups {
             let numbers: Vec<String> = cause
@@ -180,7 +180,7 @@ fn deviations(shown: &[(&Experiment, &Record, Section)]) -> String {
     text.trim_end().to_owned() + "\n"
 }
 
-/// Claims, one by one if there are few.
+/// A list of claims: one by one if there are few, else by their range.
 fn listed(claims: &[&Claim]) -> String {
     let by = |claim: &Claim| 100.0 * claim.difference().unwrap_or_default();
     if claims.len() <= 4 {
@@ -197,7 +197,7 @@ fn listed(claims: &[&Claim]) -> String {
     format!("{} numbers, by {least:+.1} to {most:+.1} %: {}.", claims.len(), names.join("; "))
 }
 
-/// The first page.
+/// The page `README.md`: a table of all experiments.
 fn index(shown: &[(&Experiment, &Record, Section)]) -> String {
     let mut text = "# Results\n\nEvery table and figure of the five papers, measured by `cargo xtask reproduce-tables`, beside the published values.\n\n"
         .to_owned();
@@ -230,8 +230,8 @@ fn index(shown: &[(&Experiment, &Record, Section)]) -> String {
     text += &table.markdown();
     text += &format!(
         "\n{MARKS}\n\n\
-         The pages are drawn from the records in [`{DATA}/`]({DATA}): JSON, a row a line, each column with its unit, with revision, machine, number of \
-         instances and seed. Lengths and numbers of nodes are the same on every machine; times are not, so that only their ratios compare.\n\n\
+         The pages are drawn from the records in [`{DATA}/`]({DATA}): JSON, one row on a line, each column with its unit, with revision, machine, number of \
+         instances and seed. Lengths and numbers of nodes are the same on every machine; times are not, so only their ratios can be compared.\n\n\
          ```sh\n\
          cargo xtask reproduce-tables                      # everything, {} experiments\n\
          cargo xtask reproduce-tables --quick              # an even sample, into docs/results/quick\n\

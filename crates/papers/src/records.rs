@@ -9,7 +9,7 @@ use crate::{Error, catalog::EXPERIMENTS, experiment::Experiment};
 /// The folder of the records, in that of the pages.
 pub(crate) const DATA: &str = "data";
 
-/// Writes a file, and the folder that it is in.
+/// Writes a file, and creates the folder that it is in.
 pub(crate) fn write(path: &Path, text: &str) -> Result<(), Error> {
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder).map_err(Error::at(folder))?;

@@ -1,11 +1,4 @@
-//! `cargo xtask reproduce-tables`: the papers' tables and figures, measured here, beside the published values.
-//!
-//! **The key decision: measuring and showing are two steps.** An `Experiment` measures into a
-//! [`Record`], which is written as JSON and is all that its pages and figures are drawn from. So pages are drawn again without measuring
-//! (`--render`), a test holds the committed pages against the committed records, and a later run is compared number by number
-//! (`--check`).
-//!
-//! To add an experiment: a module with an `Experiment`, and its line in `EXPERIMENTS`.
+//! `cargo xtask reproduce-tables`: measures, writes the records, and draws or checks.
 
 use std::{
     path::{Path, PathBuf},
@@ -38,13 +31,13 @@ pub struct Options {
     /// Only these benchmark sets
     #[arg(long, value_name = "NAME", num_args = 1..)]
     sets: Vec<String>,
-    /// How many maps are counted at once; times are always taken one by one [default: all cores]
+    /// How many maps are counted at once; times are always taken map by map [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
     /// A folder or an address that holds the archives of sets that were not downloaded
     #[arg(long, value_name = "DIR|URL", env = "MEDIANT_MIRROR")]
     mirror: Option<String>,
-    /// What instances are drawn by
+    /// The seed of what is drawn at random
     #[arg(long, value_name = "N", default_value = "2023")]
     seed: u64,
     /// Where the pages go [default: docs/results, or docs/results/quick of a quick run]
@@ -72,7 +65,8 @@ pub fn run(options: &Options) -> Result<(), Error> {
 /// [`run`] in the project at `root`.
 ///
 /// # Errors
-/// [`Error::Reproduce`] for an unknown experiment or set, and for counts that are not those of the last run; the errors of downloads and files.
+/// [`Error::Reproduce`] for an unknown experiment, and for counts that differ from the last run;
+/// [`Error::Set`] for an unknown set and for downloads; the errors of files.
 pub fn run_in(root: &Path, options: &Options) -> Result<(), Error> {
     let experiments = chosen(&options.only)?;
     let results = root.join("docs").join("results");

@@ -1,4 +1,4 @@
-//! Setups by their text, and what their runs come to.
+//! Setups by their text, and sums over their runs.
 
 use mediant_bench::{Run, Study};
 use mediant_engines::Setup;
@@ -12,21 +12,22 @@ pub(super) fn setup(text: &str) -> Result<Setup, Error> {
     text.parse().map_err(|wrong| Error::Reproduce(format!("{text}: {wrong}")))
 }
 
-/// What a setup, given as text, makes of the queries of a study.
+/// Runs the queries of a study by the setup of a text.
 pub(super) fn run(study: &mut Study<'_>, text: &str) -> Result<Run, Error> {
     study.run(setup(text)?).map_err(|wrong| Error::Reproduce(format!("{text}: {wrong}")))
 }
 
-/// Sums over the queries of runs, each query counting alike.
+/// Sums over the queries of runs; every query has the same weight.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Sums {
     pub(super) queries: u64,
-    /// Those that were answered by a path; the sums up to `worst` are over these.
+    /// The queries that were answered by a path; the following sums are over these.
     pub(super) found: u64,
     pub(super) cost: f64,
     pub(super) moves: f64,
     pub(super) smoothness: f64,
-    /// Those whose optimum is known and not 0, the sum of the lengths over the optima, and the largest of these ratios.
+    /// Of the queries whose optimum is known and not 0: their number, the sum of the ratios length / optimum,
+    /// and the largest ratio.
     pub(super) compared: u64,
     pub(super) ratios: f64,
     pub(super) worst: f64,
@@ -37,14 +38,15 @@ pub(super) struct Sums {
     /// The queries that were timed, and their times in microseconds.
     pub(super) timed: u64,
     pub(super) micros: f64,
-    /// Over maps: how many, what was prepared, in seconds and bytes.
+    /// Over maps: their number, and the seconds and bytes of what was prepared.
     pub(super) maps: u64,
     pub(super) seconds: f64,
     pub(super) bytes: f64,
 }
 
 impl Sums {
-    /// Those of a run, whose lengths are held against `optima`, if there are any: one for each query, 0 where none is known.
+    /// The sums of a run. `optima` is empty, or has the optimal length of each query, 0 where it is not
+    /// known.
     pub(super) fn of(run: &Run, optima: &[f64]) -> Self {
         let mut sums = Self { maps: 1, queries: run.answers.len() as u64, ..Self::default() };
         for (at, answer) in run.answers.iter().enumerate() {
@@ -71,7 +73,7 @@ impl Sums {
         sums
     }
 
-    /// Adds those of other queries.
+    /// Adds the sums of other queries.
     pub(super) fn add(&mut self, other: &Self) {
         self.queries += other.queries;
         self.found += other.found;
@@ -134,7 +136,7 @@ impl Sums {
     }
 }
 
-/// The lengths of a run's paths, 0 where there is none: the optima that others are held against.
+/// The lengths of a run's paths, 0 where there is no path: optima for [`Sums::of`], if the run is optimal.
 pub(super) fn costs(run: &Run) -> Vec<f64> {
     run.answers.iter().map(|answer| answer.map_or(0.0, |answer| answer.cost)).collect()
 }

@@ -1,6 +1,6 @@
 //! Teleiša & Čalnerytė 2023: CHPA* beside A*.
 //!
-//! The tables are pictures in the publication; what it says of them in words is here.
+//! The tables of the publication are pictures; what is compared here are the numbers that its text states.
 
 use std::collections::BTreeMap;
 
@@ -33,9 +33,9 @@ pub(super) const RUNS: Experiment = Experiment {
 
 /// The maps of Section 4, all of 768 × 768 tiles.
 const MAPS: [&str; 4] = ["ArcticStation", "BrokenSteppes", "Enigma", "Nightshade"];
-/// How many instances they draw of each scenario.
+/// How many instances the paper draws of each scenario.
 const DRAWN: usize = 200;
-/// A* by the Manhattan distance, which all are compared with.
+/// A* with the Manhattan distance, which all others are compared with; with the Euclidean; with its square.
 const MD: &str = "astar:2";
 const ED: &str = "astar:2,euclidean";
 const SED: &str = "astar:2,squared";
@@ -45,7 +45,7 @@ const STEPS: [&str; 4] =
 const BY_ED: &str = "chpa:2,euclidean,paper";
 const BY_ED_SED: &str = "chpa:2,euclidean,second=squared,paper";
 const BY_MD_ED: &str = "chpa:2,second=euclidean,paper";
-/// Their algorithms by their names, and ours.
+/// The paper's algorithms by their names, and our setups.
 const ALGORITHMS: [(&str, &str); 17] = [
     (MD, "A* + MD"),
     (ED, "A* + ED"),
@@ -66,7 +66,7 @@ const ALGORITHMS: [(&str, &str); 17] = [
     ("hpa:2,levels=1", "HPA*, one level"),
 ];
 
-/// The columns that say how much the draw makes of the ratio of nodes to those of another algorithm.
+/// The columns of standard errors, by the draw of the instances, of ratios of nodes to another algorithm's.
 const ERRORS: [(&str, &str); 3] = [("error_to_md", MD), ("error_to_sed", SED), ("error_to_chpa", STEPS[1])];
 
 /// The instances of a scenario by length, cut into equal parts, one drawn from each.
@@ -80,7 +80,7 @@ fn draw(mut instances: Vec<Instance>, parts: usize, rng: &mut Rng) -> Vec<Query>
     drawn.collect()
 }
 
-/// What came of one map: for each algorithm its sums, and of each query the nodes and the length.
+/// The results on one map: for each algorithm its sums, and of each query the nodes and the length.
 #[derive(Serialize, Deserialize)]
 struct Part {
     sums: Vec<Sums>,
@@ -93,7 +93,7 @@ fn measure(context: &Context<'_>) -> Result<Findings, Error> {
     let parts = context.quick_or(20, DRAWN);
     let measured = context.each("runs", How::Timed, &maps, |map| on_map(context, map, parts))?;
     let place = |setup: &str| ALGORITHMS.iter().position(|(text, _)| *text == setup).unwrap_or(0);
-    // Query by query: how much the draw makes of the ratio of the means to those of another algorithm.
+    // The standard error, by the draw of the instances, of the ratio of means to another algorithm's.
     let error = |values: fn(&Part) -> &Vec<Vec<f64>>, at: usize, base: usize| {
         let pairs = |part| values(part)[at].iter().copied().zip(values(part)[base].iter().copied());
         let pairs = measured.iter().flat_map(pairs).filter(|pair: &(f64, f64)| pair.0 > 0.0 && pair.1 > 0.0);
@@ -148,7 +148,7 @@ fn on_map(context: &Context<'_>, map: &Map, parts: usize) -> Result<Part, Error>
     Ok(part)
 }
 
-// Why their numbers are others here.
+// Why our numbers differ from theirs.
 
 const TIES: &str = "Our guess: how ties are broken. Ours takes, of nodes with equal f, the one nearest to the goal. Measured once, by code that is not kept here, on the same 800 \
     instances: an A* that takes the one that came first makes A* + MD expand 67.6 % of the tiles of A* + ED, and A* + SED 19.9 % of those of A* + MD: the published 67 and \

@@ -1,4 +1,5 @@
-//! A run as a whole, on the maps that come with the project; and the committed pages against the committed records.
+//! Whole runs on the maps that come with the project; and the committed pages compared with the committed
+//! records.
 
 use std::{
     collections::BTreeSet,
@@ -63,7 +64,7 @@ fn without_sets_the_bundled_maps_are_measured_and_it_is_said() {
         let text = fs::read_to_string(out.join(page)).unwrap();
         assert!(text.contains("Not the paper") && text.contains("A quick run"), "{page}: {text}");
     }
-    // Nothing is judged by what is published of other maps.
+    // Nothing is judged by published values of other maps.
     let text = fs::read_to_string(out.join("teleisa2023.md")).unwrap();
     let (_, section) = text.split_once("## ").unwrap();
     assert!(section.contains("| 119.0 % |") && !section.contains(['✓', '≈', '✗']), "{section}");
@@ -139,7 +140,8 @@ fn an_interrupted_run_goes_on_where_it_was() {
     assert_eq!(done.load(Ordering::Relaxed), 4);
 }
 
-/// The pages that are committed are those of the records that are committed, which are whole: of each experiment, of all its sets, timed.
+/// The committed pages are drawn from the committed records, which are complete: of each experiment, on all
+/// its sets, timed.
 #[test]
 fn committed_pages_are_drawn_from_the_committed_records() {
     let out = root().join("docs/results");

@@ -3,7 +3,8 @@
 /// The most characters of a line of prose.
 const COLUMNS: usize = 110;
 
-/// Breaks the paragraphs, quotes and list items of a page; tables, headings, figures and code stay as they are.
+/// Breaks the paragraphs, quotes and list items of a page; tables, headings, figures and code stay as they
+/// are.
 pub(crate) fn wrapped(page: &str) -> String {
     let mut text = String::new();
     let mut code = false;

@@ -1,4 +1,4 @@
-//! Where the files of the benchmark sets are.
+//! One map or scenario of a set, unpacked or zipped.
 
 use std::{
     fs::{self, File},
@@ -10,8 +10,8 @@ use mediant_formats::MAX_FILE_BYTES;
 
 /// Folders that hold benchmark sets, unpacked or as the archives that the sets are published in.
 ///
-/// In each folder, a file of the set SET is looked for in the folder `SET` and those in it, then in `SET-map.zip` or
-/// `SET-scen.zip`, wherever it lies in there.
+/// In each folder, a file of the set SET is looked for in the folder `SET` and those in it, then in
+/// `SET-map.zip` or `SET-scen.zip`, wherever it lies in there.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Archive {
     folders: Vec<PathBuf>,
@@ -26,7 +26,7 @@ pub struct ArchiveError {
 }
 
 impl Archive {
-    /// The first of these folders that has a file provides it. None of them need be there.
+    /// Looks for each file in these folders, in their order. None of the folders has to exist.
     #[must_use]
     pub fn new(folders: impl IntoIterator<Item = PathBuf>) -> Self {
         Self { folders: folders.into_iter().collect() }
@@ -90,7 +90,7 @@ fn find_below(folder: &Path, file: &str) -> io::Result<Option<PathBuf>> {
     Ok(None)
 }
 
-/// The content of the file of this name in a zip archive, in whatever folder.
+/// The content of the file of this name in a zip archive, in any folder of the archive.
 fn find_zipped(path: &Path, file: &str) -> io::Result<Option<Vec<u8>>> {
     let mut archive = zip::ZipArchive::new(io::BufReader::new(File::open(path)?))?;
     let is_it = |entry: &str| entry.rsplit('/').next() == Some(file);

@@ -18,7 +18,7 @@ pub struct Report {
     pub contents: Contents,
     /// Whether the manifest knows the digests, and all agree.
     pub verified: bool,
-    /// Whether it was unpacked now; otherwise all was there.
+    /// Whether it was unpacked now; otherwise all files were there.
     pub unpacked: bool,
 }
 
@@ -43,7 +43,8 @@ pub struct Cache {
 }
 
 impl Cache {
-    /// Makes sure that a set is there: nothing to do if its files agree with the manifest, else [`install`](Self::install).
+    /// Makes sure that a set is there. If its files agree with the manifest nothing is done, else
+    /// [`install`](Self::install).
     ///
     /// # Errors
     /// Those of [`install`](Self::install).
@@ -54,11 +55,12 @@ impl Cache {
         }
     }
 
-    /// Fetches the archives of a set (unless they are there), unpacks them beside its place, verifies the files, and only
-    /// then puts them in place of what was there.
+    /// Fetches the archives of a set (unless they are there), unpacks them beside its place, verifies the
+    /// files, and only then puts them in place of what was there.
     ///
     /// # Errors
-    /// Any [`Error`]; the set's place is then as it was, and archives that were downloaded and are bad are removed.
+    /// Any [`Error`]. The folder of the set is then unchanged, and bad archives that were downloaded are
+    /// removed.
     pub fn install(&self, set: &Set) -> Result<Report, Error> {
         let zips = self.folder.join("zips");
         let fetch =
@@ -101,7 +103,7 @@ fn examine(set: &Set, folder: &Path, unpacked: bool) -> Result<Report, Error> {
     Ok(Report { name: set.name.clone(), contents, verified, unpacked })
 }
 
-/// Renames a folder to a place, where an older one may be.
+/// Renames a folder to a place, and removes an older folder there.
 fn replace(folder: &Path, place: &Path) -> Result<(), Error> {
     remove_folder(place)?;
     fs::rename(folder, place).map_err(Error::at(place))

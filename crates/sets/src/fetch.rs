@@ -37,8 +37,8 @@ impl Source {
         }
     }
 
-    /// The archive of this name on disk; downloaded to `folder` unless the source is a folder itself. `url` is the public
-    /// address.
+    /// The archive of this name on disk; downloaded to `folder` unless the source is a folder itself. `url`
+    /// is the public address.
     pub(crate) fn fetch(&self, name: &str, url: &str, folder: &Path) -> Result<PathBuf, Error> {
         match self {
             Self::Folder(mirror) => {
@@ -55,11 +55,11 @@ impl Source {
     }
 }
 
-/// How often a connection that is cut is taken up again in one run.
+/// How many times a download is attempted in one run if the connection is cut.
 const ATTEMPTS: usize = 3;
 
-/// One file. While it is incomplete its bytes are in `NAME.part`; `NAME.part.of` says of which file they are the
-/// beginning, and is written before them.
+/// One file. While it is incomplete its bytes are in `NAME.part`; `NAME.part.of` says of which file they are
+/// the beginning, and is written before them.
 struct Download {
     url: String,
     target: PathBuf,
@@ -67,7 +67,7 @@ struct Download {
     part_of: PathBuf,
 }
 
-/// What tells one version of a file from another.
+/// A version of a file on the server.
 #[derive(Clone, PartialEq, Eq)]
 struct Version {
     length: u64,
@@ -109,7 +109,7 @@ impl Download {
         let resumed =
             response.status() == 206 && known.as_ref().is_some_and(|known| continues(&response, have, known));
         if !resumed && matches!(response.status().as_u16(), 206 | 416) {
-            // The rest of another file, or nothing to give after the bytes that are here.
+            // The rest of another version, or the server has nothing after the bytes on disk.
             response = self.request(agent, None)?;
         }
         match response.status().as_u16() {
@@ -123,7 +123,7 @@ impl Download {
         remove(&self.part_of)
     }
 
-    /// The bytes that are here, and of what.
+    /// The number of bytes on disk, and the version of the file that they belong to.
     fn state(&self) -> (u64, Option<Version>) {
         let text = fs::read_to_string(&self.part_of).unwrap_or_default();
         let version = text.split_once('\n').and_then(|(length, etag)| {
@@ -143,7 +143,7 @@ impl Download {
         request.call().map_err(|source| Error::Network { url: self.url.clone(), source: Box::new(source) })
     }
 
-    /// Forgets what is here and notes what is to come.
+    /// Discards the bytes on disk, and notes the version that is to come.
     fn begin(&self, response: &Response<Body>) -> Result<(), Error> {
         remove(&self.part_of)?;
         File::create(&self.part).map_err(Error::at(&self.part))?;
@@ -189,7 +189,8 @@ fn continues(response: &Response<Body>, have: u64, known: &Version) -> bool {
     from == Some(have) && length.parse() == Ok(known.length) && etag(response) == known.etag
 }
 
-/// The entity tag, if it is a strong one: only such a tag stands for the same bytes (RFC 9110, section 8.8.1).
+/// The entity tag, if it is a strong one: only such a tag stands for the same bytes (RFC 9110, section
+/// 8.8.1).
 fn etag(response: &Response<Body>) -> String {
     let tag = response.headers().get("etag").and_then(|value| value.to_str().ok());
     tag.filter(|tag| tag.starts_with('"')).unwrap_or_default().to_owned()
@@ -207,7 +208,7 @@ fn agent(url: &str) -> Agent {
         .timeout_connect(Some(Duration::from_secs(20)))
         .timeout_recv_response(patience)
         .timeout_per_read(patience);
-    // A proxy cannot reach this very machine.
+    // A proxy cannot reach this machine's own addresses.
     if is_loopback(url) {
         config = config.proxy(None);
     }

@@ -16,7 +16,7 @@ use crate::{Error, files};
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
-    /// What the digests are taken of, in words.
+    /// The form of the digests, in words.
     pub digest: String,
     /// The sets, in the order of their download.
     pub sets: Vec<Set>,
@@ -34,9 +34,9 @@ pub struct Set {
     pub maps_url: String,
     /// The public address of the scenarios.
     pub scenarios_url: String,
-    /// The number of instances of all scenarios; none where they were never at hand.
+    /// The number of instances of all scenarios; none if the set was never at hand.
     pub instances: Option<u64>,
-    /// The digest of each map, by file name; none where they were never at hand.
+    /// The digest of each map, by file name; none if the set was never at hand.
     pub maps: Option<BTreeMap<String, String>>,
 }
 
@@ -50,7 +50,7 @@ pub struct Contents {
 }
 
 impl Manifest {
-    /// Where the project keeps it.
+    /// Its path in the project at `root`.
     #[must_use]
     pub fn path(root: &Path) -> PathBuf {
         root.join("benchdata").join("manifest.json")
@@ -65,7 +65,7 @@ impl Manifest {
         serde_json::from_slice(&text).map_err(|source| Error::Manifest { path: path.to_owned(), source })
     }
 
-    /// Writes a manifest, a map a line.
+    /// Writes a manifest, one map on a line.
     ///
     /// # Errors
     /// [`Error::Io`].
@@ -122,7 +122,8 @@ impl Contents {
     /// Parses every map and scenario of a folder. `tick` is called after each file.
     ///
     /// # Errors
-    /// [`Error::Io`], [`Error::Format`], and [`Error::OtherMap`] for a scenario `M.scen` beside a map `M` of other sides.
+    /// [`Error::Io`], [`Error::Format`], and [`Error::OtherMap`] for a scenario `M.scen` beside a map `M` of
+    /// other sides.
     pub fn of(folder: &Path, tick: impl Fn()) -> Result<Self, Error> {
         let mut sides = BTreeMap::new();
         let mut contents = Self { maps: BTreeMap::new(), instances: 0 };
@@ -151,11 +152,12 @@ fn name(path: &Path) -> String {
     path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-/// What [`Manifest::digest`] says of [`map_digest`].
+/// The form of [`map_digest`], as [`Manifest::digest`] states it.
 pub const DIGEST: &str = "sha256 of: width and height, each as 4 bytes, lowest first; then a bit a cell, row by row without \
                           padding, 1 = blocked, the first cell in the lowest bit of the first byte, zeros after the last";
 
-/// The digest of what a map says, not of how its file is written: SHA-256, in hexadecimal, over the form [`DIGEST`].
+/// The digest of a map's cells, whatever the line ends and headers of its file: SHA-256, in hexadecimal, over
+/// the form [`DIGEST`].
 #[must_use]
 pub fn map_digest(map: &MapFile) -> String {
     let cells = map.width() as usize * map.height() as usize;

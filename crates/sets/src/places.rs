@@ -9,8 +9,9 @@ use crate::{Error, Manifest};
 
 /// The folder of the workspace.
 ///
-/// Under cargo, the workspace of the package that cargo runs: two clones that share a target folder also share the
-/// compiled program, so the folder where it was compiled may be another clone's. Without cargo, that folder.
+/// Under cargo, the workspace of the package that cargo runs: two clones that share a target folder also
+/// share the compiled program, so the folder where it was compiled may be another clone's. Without cargo,
+/// that folder.
 #[must_use]
 pub fn root() -> PathBuf {
     let package =
@@ -19,8 +20,8 @@ pub fn root() -> PathBuf {
     root.unwrap_or(&package).to_owned()
 }
 
-/// The folder of the downloaded sets in the project at `root`: it holds `SET/*.map`, `SET/*.map.scen`, and the archives
-/// in `zips/`.
+/// The folder of the downloaded sets in the project at `root`: it holds `SET/*.map`, `SET/*.map.scen`, and
+/// the archives in `zips/`.
 #[must_use]
 pub fn cache(root: &Path) -> PathBuf {
     root.join("benchdata").join("cache")

@@ -1,4 +1,4 @@
-//! Zip archives, unpacked flat.
+//! Zip archives, unpacked into one folder.
 
 use std::{
     fs::{self, File},
@@ -11,11 +11,11 @@ use zip::{ZipArchive, result::ZipError};
 
 use crate::Error;
 
-/// Writes the archive's files whose names end in `ending` into `folder`, without the archive's own folders; what a
-/// system or an editor left in it (`__MACOSX`, names that begin with a dot) is passed over.
+/// Writes the archive's files whose names end in `ending` into `folder`, without the archive's own folders.
+/// Files that a system or an editor left in it (`__MACOSX`, names that begin with a dot) are passed over.
 ///
-/// Refuses names that lead elsewhere, two files of one name with different content, an archive without any such file,
-/// and one that is not whole.
+/// Refuses names that lead out of the folder, two files of one name with different content, an archive
+/// without any such file, and a damaged archive.
 pub(crate) fn extract(zip: &Path, folder: &Path, ending: &str) -> Result<(), Error> {
     let name = zip.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let broken = |why: String| Error::Zip { name: name.clone(), why };
@@ -31,7 +31,7 @@ pub(crate) fn extract(zip: &Path, folder: &Path, ending: &str) -> Result<(), Err
         }
         let Some(file_name) = wanted(&path, ending).filter(|_| entry.is_file()) else { continue };
         let mut bytes = Vec::new();
-        // The end is where the checksum is compared.
+        // Read to the end, where the checksum is compared.
         entry
             .take(MAX_FILE_BYTES + 1)
             .read_to_end(&mut bytes)
@@ -50,7 +50,7 @@ pub(crate) fn extract(zip: &Path, folder: &Path, ending: &str) -> Result<(), Err
     if written == 0 { Err(refused(format!("it holds no `*{ending}` file"))) } else { Ok(()) }
 }
 
-/// A path that is absolute or climbs, on this system or another.
+/// Whether a path is absolute or has `..`, on this system or another.
 fn leads_elsewhere(path: &str) -> bool {
     path.starts_with(['/', '\\'])
         || path.contains([':', '\0'])

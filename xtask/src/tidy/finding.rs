@@ -1,8 +1,8 @@
-//! What a rule finds, and what it lets pass.
+//! Findings, and exceptions from the rules.
 
 use std::{fmt, path::PathBuf};
 
-/// A place that may be longer than the rule says.
+/// A file or function that may be longer than the rule allows.
 #[derive(Clone, Copy, Debug)]
 pub struct Exception {
     /// The file, from the root.

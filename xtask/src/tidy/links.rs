@@ -16,7 +16,7 @@ pub(super) fn check(tree: &Tree, findings: &mut Vec<Finding>) {
     }
 }
 
-/// The relative link targets with their lines, code apart, without their reference timings.
+/// The targets of relative links with their lines, without their fragments (`#…`). Code has no links.
 fn targets(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut code = false;
     let lines = (1..).zip(text.lines()).filter(move |(_, line)| {

@@ -42,7 +42,7 @@ pub(super) fn check(tree: &Tree, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Whether cargo compiles this file of a package on its own.
+/// Whether cargo takes this file of a package for the root of a crate.
 fn is_target(path: &Path) -> bool {
     let parts: Vec<_> = path.iter().map(|part| part.to_string_lossy()).collect();
     matches!(

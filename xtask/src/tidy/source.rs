@@ -66,7 +66,7 @@ fn too_long(function: Option<&str>, lines: usize, allowed: usize) -> String {
     }
 }
 
-/// The name, the first line and the number of lines of each function, documentation and attributes apart.
+/// The name, the first line and the number of lines of each function, without documentation and attributes.
 struct Lengths {
     found: Vec<(Option<String>, usize, usize)>,
 }
@@ -98,7 +98,7 @@ impl<'ast> Visit<'ast> for Lengths {
     }
 }
 
-/// Macros and attributes that say that something is not done; in the tokens, so that text about them is free to name them.
+/// Finds macros and attributes of unfinished code. It looks at tokens, so that comments and strings may name them.
 fn leftovers(path: &Path, tokens: TokenStream, findings: &mut Vec<Finding>) {
     let tokens: Vec<TokenTree> = tokens.into_iter().collect();
     for (at, token) in tokens.iter().enumerate() {

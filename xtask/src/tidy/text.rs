@@ -1,4 +1,4 @@
-//! Rules that need no understanding of a file.
+//! Rules about any file: sizes, spaces, marks of unfinished work, and paths of one machine.
 
 use super::{finding::Finding, tree::Tree};
 
@@ -49,7 +49,7 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split(|c: char| !c.is_alphanumeric() && c != '_')
 }
 
-/// Folders that only one machine has, where a path begins with them.
+/// The folders of one machine with which a path in this text begins.
 fn machine_folders(text: &str) -> impl Iterator<Item = &'static str> {
     const FOLDERS: [&str; 5] = [
         concat!("/ho", "me/"),

@@ -24,7 +24,8 @@ pub(super) struct Results<'a> {
     pub(super) comparisons: Vec<Vec<Comparison>>,
 }
 
-/// The tables: times, then for each setup its ratios to the programs that solve the same problem, and to the others.
+/// The tables: times, then for each setup its ratios to the programs that solve the same problem, and to the
+/// others.
 pub(super) fn text(results: &Results<'_>) -> String {
     let mut lines = vec![format!(
         "Mean time of a query in µs: one thread, warm, paths included; median of {} passes.",
@@ -90,13 +91,14 @@ fn times(results: &Results<'_>) -> Table {
     table
 }
 
-/// What the baselines take here by what they take there, of each map.
+/// For each map, the time of the baselines here over their time on the machine of the other programs.
 fn scales(results: &Results<'_>) -> Vec<f64> {
     results.comparisons.iter().filter_map(|all| Some(all.first()?.scale)).collect()
 }
 
-/// A warning when the baselines differ more from map to map than two machines do: on an idle one they stay within 1.15.
-/// Work beside the run slows them more than it slows engines that live in the caches, and so flatters those.
+/// A warning if the ratio of the machines varies more from map to map than it does between idle machines, where
+/// it stays within 1.15. Other work on the machine slows the baselines more than engines whose data fit into the
+/// caches, and so makes these look better.
 fn disturbance(scales: &[f64]) -> Option<String> {
     let (least, most) =
         scales.iter().fold((f64::MAX, 0.0_f64), |(a, b), &scale| (a.min(scale), b.max(scale)));
@@ -106,7 +108,7 @@ fn disturbance(scales: &[f64]) -> Option<String> {
     })
 }
 
-/// The ratios of the setup at place `setup` to some of the programs.
+/// The ratios of the setup with index `setup` to some of the programs.
 fn ratios(results: &Results<'_>, setup: usize, programs: &[(usize, &Comparand)]) -> Table {
     let mut heading = vec!["map".to_owned()];
     heading.extend(programs.iter().map(|(_, program)| program.name.clone()));
@@ -128,7 +130,7 @@ fn ratios(results: &Results<'_>, setup: usize, programs: &[(usize, &Comparand)])
     table
 }
 
-/// What the setup at place `setup` prepares, and its ratios to those of the programs that prepare something.
+/// The preparation of the setup with index `setup`, and its ratios to the programs that prepare something.
 fn preparation(results: &Results<'_>, setup: usize, programs: &[(usize, &Comparand)]) -> Table {
     let prepares =
         |name: &String| results.references.maps.iter().any(|row| row.preprocessing.contains_key(name));

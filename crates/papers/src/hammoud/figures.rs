@@ -15,7 +15,7 @@ use crate::{
     setups::{self, Sums},
 };
 
-/// The corner rules: of the scenarios and the paper's A*, and of its JPS.
+/// The corner rules: that of the scenarios and the paper's A*, and that of its JPS.
 const RULES: [&str; 2] = ["never", "one"];
 /// The engines, and what the page calls them.
 const ENGINES: [(&str, &str); 6] = [
@@ -26,12 +26,12 @@ const ENGINES: [(&str, &str); 6] = [
     ("dijkstra", "Dijkstra"),
     ("wavefront", "wavefront"),
 ];
-/// On a map of side 256, every so many instances are asked.
+/// Of the scenario of a map of side 256, one of so many instances is asked.
 const EVERY: u32 = 27;
-/// How many of a size's maps a quick run leaves out for each that it takes, and how many instances.
+/// A quick run takes one of so many maps of a size, and one of so many of the instances.
 const SPARSE: (usize, usize) = (10, 3);
 
-/// What the engines made of a map, in the order of [`RULES`] and [`ENGINES`].
+/// The sums on a map, in the order of [`RULES`] and [`ENGINES`].
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Part {
     side: u32,
@@ -68,7 +68,7 @@ pub(super) fn measure(ctx: &Context<'_>) -> Result<Findings, Error> {
     })
 }
 
-/// Of the maps of each size, every so many. The sizes are the ends of the names.
+/// An even sample of the maps of each size. A map's name ends in its size.
 fn sample(maps: Vec<Map>, every: usize) -> Vec<Map> {
     let size = |map: &Map| map.name.rsplit('_').next().unwrap_or_default().to_owned();
     let mut seen: Vec<(String, usize)> = Vec::new();
@@ -87,7 +87,8 @@ fn sample(maps: Vec<Map>, every: usize) -> Vec<Map> {
     sampled
 }
 
-/// Every how many instances are asked on a map of that side. The number of cells decides, so that each size takes about as long.
+/// The step between the instances that are asked on a map of that side. It grows with the number of cells, so
+/// that each size takes about as long.
 fn every(side: u32, sparse: usize) -> usize {
     let area = u64::from(side).pow(2) * u64::from(EVERY) / 256_u64.pow(2);
     usize::try_from(area).unwrap_or(usize::MAX).saturating_mul(sparse).max(1)

@@ -1,4 +1,5 @@
-//! Tables I and II as printed, but for the names of the maps: the captions are swapped, and so are the sizes in the names.
+//! Tables I and II as printed, but for the names of the maps: the captions are swapped, and so are the sizes
+//! in the names.
 
 /// A row of a table.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +25,7 @@ impl Published {
         self.astar_seconds / self.jps_seconds
     }
 
-    /// Whether its JPS time cannot be meant: more than its A* takes on any row.
+    /// Whether its JPS time must be a misprint: it is longer than that of A* on any row.
     pub(super) fn is_misprinted(&self) -> bool {
         self.jps_seconds > 100.0
     }
@@ -72,7 +73,7 @@ pub(super) fn rows() -> impl Iterator<Item = Published> {
     })
 }
 
-/// The sums of the columns, to hold what was typed above against the tables once more.
+/// The sums of the columns, added up apart: they find typing errors in the tables above.
 #[cfg(test)]
 mod tests {
     use super::*;

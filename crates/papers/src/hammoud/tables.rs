@@ -25,10 +25,11 @@ const RULES: [&str; 3] = ["never", "one", "always"];
 /// The engines, and what a row calls them.
 const ENGINES: [(&str, &str); 4] =
     [("astar", "A*"), ("jps", "JPS"), ("jps-block", "block JPS"), ("jps-plus", "JPS+")];
-/// Other options of JPS: heuristics, tried on the row that does not fit; and the jump points at which a path only turns, which the JPS of 2011 keeps.
+/// Other options of JPS: heuristics, tried on the row that does not fit; and the jump points at which a path
+/// only turns, which the JPS of 2011 keeps.
 const SUSPECTS: [&str; 3] = ["jps:3:one,euclidean", "jps:3:one,zero", KEPT];
 const KEPT: &str = "jps:3:one,intermediate";
-/// A* whose open list is a list, [`plain_astar`].
+/// A* whose open list is an unsorted list, [`plain_astar`].
 const LIST: &str = "A* in a list";
 
 /// A point as records and pages write it.
@@ -36,12 +37,12 @@ fn point((x, y): (i32, i32)) -> String {
     format!("({x}, {y})")
 }
 
-/// What one engine made of one query.
+/// The answer of one engine to one query.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Answered {
     start: (i32, i32),
     goal: (i32, i32),
-    /// Of the scenario's instance.
+    /// The index of the instance in the scenario.
     index: usize,
     optimum: f64,
     rule: String,
@@ -51,12 +52,12 @@ struct Answered {
     smoothness: f64,
     expanded: f64,
     scanned: f64,
-    /// Entries of the open list looked at, of an A* whose open list is a list.
+    /// The entries of the open list that [`LIST`] looks at.
     looked: Option<f64>,
     micros: Option<f64>,
 }
 
-/// Of a published row, how many instances of the map's scenario have its JPS length.
+/// How many instances of a map's scenario have the printed JPS length of a row.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Alike {
     start: (i32, i32),
@@ -64,7 +65,8 @@ struct Alike {
     one: u64,
 }
 
-/// Answers the queries, many times each; then the whole scenarios, once, to see which other instance a printed length could be of.
+/// Answers the queries, many times each; then the whole scenarios once, to see which other instance a printed
+/// length could belong to.
 pub(super) fn measure(ctx: &Context<'_>) -> Result<Findings, Error> {
     let maps = ctx.named("street", &MAPS)?;
     let (passes, repeats) = (ctx.passes(), ctx.quick_or(3, 20));
@@ -93,7 +95,7 @@ pub(super) fn measure(ctx: &Context<'_>) -> Result<Findings, Error> {
     })
 }
 
-/// The different queries of answers.
+/// The queries of the answers, each once.
 fn asked(answered: &[Answered]) -> Vec<usize> {
     let mut indices: Vec<usize> = answered.iter().map(|answer| answer.index).collect();
     indices.dedup();
@@ -163,7 +165,8 @@ fn published(map: &Map) -> Vec<Published> {
     rows().filter(|row| map.set == "street" && row.map == map.name).collect()
 }
 
-/// The instances of the tables' rows, with their indices; of a map that is in no table, the last two.
+/// The instances of the tables' rows, with their indices; for a map that is in no table, the last two
+/// instances.
 fn picked(map: &Map) -> Result<Vec<(usize, Instance)>, Error> {
     let instances = map.instances()?;
     let rows = published(map);
@@ -189,7 +192,7 @@ fn answers(map: &Map, passes: u32, repeats: usize) -> Result<Vec<Answered>, Erro
     let grid = map.grid()?;
     let mut answered = Vec::new();
     for (index, instance) in picked(map)? {
-        // The same query again and again: a single one takes less time than a clock is good for.
+        // The query is repeated, since a single one is too short for the clock.
         let queries = vec![query(&instance); if passes > 0 { repeats } else { 1 }];
         let mut study = Study::new(&grid, &queries, passes);
         let mut answer = |rule: &str, engine: &str, setup: &str| -> Result<(), Error> {
@@ -242,7 +245,7 @@ impl Answered {
     }
 }
 
-/// How many instances have the printed JPS length of each row, to four digits.
+/// For each row, how many instances have the printed JPS length, to four digits.
 fn alike(map: &Map) -> Result<Vec<Alike>, Error> {
     let rows = published(map);
     if rows.is_empty() {

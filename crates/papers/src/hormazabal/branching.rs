@@ -26,7 +26,7 @@ pub(crate) const BRANCHING: Experiment = Experiment {
     show,
 };
 
-/// What the paper gives: set, k, branching factor.
+/// The paper's numbers: set, k, branching factor.
 const PUBLISHED: [(&str, u32, f64); 4] =
     [("room", 3, 5.3), ("room", 9, 9.3), ("bg512", 3, 9.3), ("bg512", 9, 19.8)];
 
@@ -82,7 +82,7 @@ impl Graphs {
     }
 }
 
-/// What is divided by what.
+/// What is counted and what it is divided by.
 #[derive(Clone, Copy, Debug)]
 enum Sense {
     OneLevel,
@@ -149,7 +149,7 @@ fn measure(ctx: &Context<'_>) -> Result<Findings, Error> {
     })
 }
 
-/// The rows of the k at that place: over maps and over subgoals.
+/// The rows for the k with this index: over maps and over subgoals.
 fn pair(parts: &[&Vec<Graphs>], at: usize) -> [Row; 2] {
     let graphs: Vec<Graphs> = parts.iter().filter_map(|part| part.get(at)).copied().collect();
     [("maps", true), ("subgoals", false)].map(|(name, means)| {
@@ -188,7 +188,7 @@ fn overall(graphs: &[Graphs], sense: Sense) -> Option<f64> {
 fn show(record: &Record) -> Section {
     let mut section = Section::default();
     section.text(
-        "The paper gives an average branching factor of the 2-level graph and does not say over what. Four senses of it, each as the mean of the maps' factors and over \
+        "The paper gives an average branching factor of the 2-level graph and does not say over what. Here are four readings, each as the mean of the maps' factors and over \
          the subgoals of all maps together.",
     );
     let mut table = Table::new([
@@ -298,7 +298,7 @@ mod tests {
         assert_eq!((graphs.subgoals, graphs.factor(Sense::OneLevel)), (4, Some(2.0)));
         assert!(graphs.core <= 4 && graphs.upward >= graphs.core_arcs);
         assert_eq!(Graphs::default().factor(Sense::Core), None);
-        // Over the subgoals of both, not in the mean of maps.
+        // Over the subgoals of both maps, not the mean of the maps' factors.
         let larger = Graphs { subgoals: 12, arcs: 72, ..graphs };
         assert_eq!(overall(&[graphs, larger], Sense::OneLevel), Some(5.0));
         assert_eq!(mean(&[graphs, larger, Graphs::default()], Sense::OneLevel), Some(4.0));

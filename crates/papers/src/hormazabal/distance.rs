@@ -28,10 +28,10 @@ pub(crate) const DISTANCE: Experiment = Experiment {
 const FIRST_K: u32 = 3;
 const LAST_K: u32 = 12;
 const MAX_COORDINATE: i32 = 512;
-/// How often the distances of all vectors are taken, to take the median time; times the passes.
+/// How many times the distances of all vectors are taken in each pass; the median time counts.
 const REPEATS: u32 = 7;
 
-/// Any displacement up to the largest coordinate.
+/// Random displacements with coordinates up to the largest.
 fn displacement(rng: &mut Rng) -> Vector {
     let mut coordinate = || rng.below(2 * MAX_COORDINATE as u32 + 1) as i32 - MAX_COORDINATE;
     Vector::new(coordinate(), coordinate())
@@ -41,8 +41,8 @@ fn at_random(rng: &mut Rng, count: usize) -> Vec<Vector> {
     (0..count).map(|_| displacement(rng)).collect()
 }
 
-/// Walks of 32 steps over the 8-neighborhood, each from a random displacement, where all eight neighbors are asked for: as A* does. A processor
-/// foresees the branches of such searches.
+/// Walks of 32 steps over the 8-neighborhood, each from a random displacement. As in A*, the distances of all
+/// eight neighbors are asked for. A processor predicts the branches of such searches.
 fn walks(rng: &mut Rng, count: usize) -> Vec<Vector> {
     let eight = [(0, 1), (1, 1), (1, 0), (1, -1), (0, -1), (-1, -1), (-1, 0), (-1, 1)]
         .map(|(x, y)| Vector::new(x, y));
@@ -58,7 +58,8 @@ fn walks(rng: &mut Rng, count: usize) -> Vec<Vector> {
     vectors
 }
 
-/// The one place that calls `h`, so that the compiler inlines it; a sum would add the latency of its additions.
+/// The only place that calls `h`, so that the compiler inlines it; a sum would add the latency of its
+/// additions.
 #[inline(never)]
 fn fill(lengths: &mut [f64], vectors: &[Vector], h: &impl Fn(Vector) -> f64) {
     for (length, &vector) in lengths.iter_mut().zip(vectors) {
@@ -66,7 +67,8 @@ fn fill(lengths: &mut [f64], vectors: &[Vector], h: &impl Fn(Vector) -> f64) {
     }
 }
 
-/// The same by a call for each: one at a time, as a search asks for them, where the compiler cannot take several vectors at once.
+/// The same by one call for each distance, as a search asks for them: the compiler cannot take several
+/// vectors at once.
 #[inline(never)]
 fn fill_by_calls(lengths: &mut [f64], vectors: &[Vector], h: &dyn Fn(Vector) -> f64) {
     for (length, &vector) in lengths.iter_mut().zip(vectors) {
@@ -203,8 +205,8 @@ const WAYS: [(&str, &str); 6] = [
 fn show(record: &Record) -> Section {
     let mut section = Section::default();
     section.text(
-        "Nanoseconds for one distance. What decides is whether the processor foresees the branches of the searches: at random it cannot; along a walk, where each \
-         displacement is near the last, as a search asks for them, it can. Inlined into a loop, the compiler may also take several vectors at once; a search calls for one at a time.",
+        "Nanoseconds for one distance. What decides is whether the processor predicts the branches of the searches: for random displacements it cannot; along a walk, as in a search, \
+         where each displacement is near the last, it can. Inlined into a loop, the compiler may also take several vectors at once; a search calls for one at a time.",
     );
     let mut heading = vec!["order", "how", "k"];
     heading.extend(WAYS.map(|(_, name)| name));
@@ -273,7 +275,7 @@ fn claims(record: &Record) -> Vec<Claim> {
     };
     let cause = format!(
         "The ratio depends on what is asked for and on how the linear search is written, both of which the paper leaves open. Algorithm 2 as printed takes, at k = 5, 6, 7: {} of the time of \
-         a search over a table of moves on displacements at random, {} along walks, where branches are foreseen; {} and {} of that of the printed Algorithm 1, one `if` a move with all moves constants of the program. \
+         a search over a table of moves on displacements at random, {} along walks, where branches are predicted; {} and {} of that of the printed Algorithm 1, one `if` a move with all moves constants of the program. \
          The published range lies within what these four span.",
         told("random", "linear"),
         told("walk", "linear"),

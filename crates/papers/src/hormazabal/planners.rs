@@ -24,7 +24,7 @@ const ANYA: &str = "Anya";
 const ANYA_CLOSED: &str = "Anya, gaps closed";
 const CONTRACTED: &str = "subgoal";
 
-/// How a path is made shorter, if it is: the text of the setup, and the key of the row.
+/// The smoothings: their text in the setup, and the key of the row.
 const SMOOTHINGS: [(&str, &str); 3] = [("", "none"), (",smooth", "smooth"), (",taut", "taut")];
 
 /// One planner.
@@ -35,7 +35,8 @@ struct Planner {
     setup: String,
 }
 
-/// All of them, those that share an index one after the other. The first gives the optima that the others are held against.
+/// All planners; those that share an index follow each other. The first gives the optima that the others are
+/// compared with.
 fn planners() -> Vec<Planner> {
     let one =
         |engine, k: &str, smoothing, setup: String| Planner { engine, k: k.to_owned(), smoothing, setup };
@@ -59,12 +60,12 @@ fn planners() -> Vec<Planner> {
     planners
 }
 
-/// Whether the map is taken at all: 2-level graphs of noise with few cells blocked take minutes each, for any k.
+/// Whether the map is taken: 2-level graphs of noise with few blocked cells take minutes each, for any k.
 fn is_taken(map: &Map) -> bool {
     map.set != "random" || map.name.starts_with("random512-40-")
 }
 
-/// What the planners make of a map, in their order.
+/// The sums of the planners on a map, in their order.
 #[derive(Serialize, Deserialize)]
 struct Part {
     sums: Vec<Sums>,
@@ -79,7 +80,7 @@ fn part(map: &Map, every: usize, passes: u32) -> Result<Part, Error> {
         if optima.is_empty() {
             optima = costs(&run);
         }
-        // Against the optimum of open gaps a path that keeps out of them says nothing.
+        // A path that keeps out of gaps cannot be compared with the optimum through open gaps.
         let against = if planner.engine == ANYA_CLOSED { &[] } else { &*optima };
         sums.push(Sums::of(&run, against));
     }
@@ -151,7 +152,7 @@ mod tests {
             keys.push(key);
         }
         assert_eq!(planners.len(), 1 + 21 + 1 + 3 + 2);
-        // The first promises what the others are held against.
+        // The first promises the optima that the others are compared with.
         assert!(setup(&planners[0].setup).unwrap().optimal_over() == Some(mediant_moves::K::Any));
     }
 }

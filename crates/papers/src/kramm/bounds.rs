@@ -1,4 +1,5 @@
-//! The bounds Γ_k at corners and at centers, how tight they are, and the trees of decompositions behind their proof.
+//! The bounds Γ_k at corners and at centers, how tight they are, and the trees of decompositions behind their
+//! proof.
 
 use mediant_moves::{
     DecompositionTree, FiniteK, Vector, bound_at_centers, bound_at_corners, decompose, distance, level,
@@ -23,14 +24,15 @@ pub(crate) const BOUNDS: Experiment = Experiment {
 
 const FIRST_K: u32 = 2;
 const LAST_K: u32 = 12;
-/// The k at which the rate of Γ_k is read off: there the next term, of 1/k³, is some 4/k of it.
+/// The k at which the rate of Γ_k is read off: the next term, in 1/k³, is about 4/k of it there.
 const LARGE_K: u32 = 10_000;
 
 fn finite_k(k: u32) -> Result<FiniteK, Error> {
     FiniteK::new(k).map_err(|wrong| Error::Reproduce(wrong.to_string()))
 }
 
-/// The displacement within `side` cells each way whose length over N(k) exceeds the straight line most, the first of equals.
+/// The displacement within `side` cells each way whose length over N(k) exceeds the straight line most; the
+/// first, if there are several.
 fn tightest(k: FiniteK, side: i32) -> (f64, Vector) {
     let mut worst = (0.0, Vector::ZERO);
     for y in 1..=side {
@@ -45,7 +47,8 @@ fn tightest(k: FiniteK, side: i32) -> (f64, Vector) {
     worst
 }
 
-/// The paper's goal (n, ⌊n(s + m)⌋), m = k − 2, s = √(m² + 1), with the largest n of those within `side` cells.
+/// The paper's goal (n, ⌊n(s + m)⌋), m = k − 2, s = √(m² + 1), with the largest n of those within `side`
+/// cells.
 fn bisecting(k: FiniteK, side: i32) -> Vector {
     let m = f64::from(k.depth());
     let slope = (m * m + 1.0).sqrt() + m;
@@ -161,7 +164,7 @@ fn show(record: &Record) -> Section {
     section
 }
 
-/// The bound less the largest ratio: rounding leaves nothing to be said of the smallest.
+/// The text of the bound less the largest ratio: below 1e-12 it is only rounding.
 fn gap(row: &Row) -> String {
     match row.number("bound").zip(row.number("tight")) {
         Some((bound, tight)) if bound - tight >= 1e-12 => format!("{:.1e}", bound - tight),

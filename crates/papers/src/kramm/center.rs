@@ -1,4 +1,5 @@
-//! Figure 6: two cells that meet in a corner, and the one cell that joins them. No map is worse for paths between centers (Theorem 3).
+//! Figure 6: two cells that meet in a corner, and the one cell that joins them. No map is worse for paths
+//! between centers (Theorem 3).
 
 use std::sync::Arc;
 
@@ -10,8 +11,8 @@ use mediant_search::Query;
 
 use crate::{Error, setups::setup};
 
-/// A move may touch one obstacle, but not pass between two. So the path goes around through three free cells; an any-angle
-/// path keeps to the corners of the obstacles between them.
+/// A move may touch one obstacle, but not pass between two. So the path goes around through three free cells;
+/// an any-angle path keeps to the corners of the obstacles between them.
 const WORST: &str = "
     #s.
     g#.

@@ -1,4 +1,5 @@
-//! 'Empirical Evaluation', Figure 7: average and largest ratio of the optimum over N(k) to that at any angle, on benchmark maps.
+//! 'Empirical Evaluation', Figure 7: average and largest ratio of the optimum over N(k) to that at any angle,
+//! on benchmark maps.
 
 use mediant_bench::Study;
 use mediant_moves::{FiniteK, bound_at_corners};
@@ -33,7 +34,8 @@ const PUBLISHED: [(&str, f64); 3] = [("bg512", 6_282.0), ("random", 45_760.0), (
 /// The largest k that the text names, in 'neighborhood 128'.
 const LAST_PUBLISHED_K: u32 = 7;
 
-/// The paper does not say which maps it took. The last five of each kind, by name, have its number of instances, in all three sets.
+/// The paper does not say which maps it took. The last five of each kind, by name, have its number of
+/// instances, in all three sets.
 pub(crate) fn is_published(map: &Map) -> bool {
     let last_five = |prefix: &str| {
         map.name
@@ -51,12 +53,13 @@ pub(crate) fn is_published(map: &Map) -> bool {
     }
 }
 
-/// Whether the map is taken at all. Subgoal graphs of noise for ten k are what takes the time, so of it the paper's maps have to do.
+/// Whether the map is taken. Subgoal graphs of noise take most of the time, so that of random only the
+/// paper's maps are taken.
 fn is_taken(map: &Map) -> bool {
     map.set != "random" || is_published(map)
 }
 
-/// Of the paper's maps all instances are taken, of the others every so many-th.
+/// Of the paper's maps all instances are taken, of the other maps one of so many.
 const EVERY: usize = 4;
 
 /// Ratios to one reference, summed.
@@ -88,19 +91,19 @@ impl Ratios {
     }
 }
 
-/// What there is of one map.
+/// The results on one map.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Part {
-    /// In its scenario, those that were skipped too.
+    /// The instances of its scenario, with those that were skipped.
     instances: u64,
     ks: Vec<Ofk>,
 }
 
-/// Of one map and k, or summed over maps.
+/// The ratios on one map at one k, or summed over maps.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Ofk {
     open: Ratios,
-    /// To the any-angle optimum that does not pass between diagonally touching obstacles, where there is one.
+    /// To the any-angle optimum with gaps closed, where there is such a path.
     closed: Ratios,
     violations: u64,
 }
@@ -138,7 +141,7 @@ fn part(map: &Map, every: usize) -> Result<Part, Error> {
 fn measure(ctx: &Context<'_>) -> Result<Findings, Error> {
     let mut maps = Vec::new();
     for set in ctx.sets() {
-        // From the end, so that a sample has some of the paper's.
+        // From the end, so that a sample has some of the paper's maps.
         let all: Vec<Map> = ctx.maps(set, usize::MAX)?.into_iter().filter(is_taken).collect();
         let step = ctx.quick_or(all.len().div_ceil(2), 1).max(1);
         maps.extend(all.into_iter().rev().step_by(step));
@@ -197,7 +200,7 @@ fn columns() -> Vec<Column> {
     ]
 }
 
-/// The sums over parts, of the k at that place.
+/// The sums over parts for the k with this index.
 fn row(parts: &[&Part], at: usize) -> Row {
     let sums =
         parts.iter().filter_map(|part| part.ks.get(at)).fold(Ofk::default(), |sums, &ofk| sums.and(ofk));
@@ -235,7 +238,7 @@ fn show(record: &Record) -> Section {
     }
     section.text(
         "Averages and largest ratios are those of the optimum over N(k) to the any-angle optimum, gaps open in both. Against the any-angle optimum with gaps closed, which is what Anya finds \
-         (the last two columns), averages fall below 1 where paths through gaps are shorter: in noise by far. Like is to be held against like.",
+         (the last two columns), averages fall below 1 where paths through gaps are shorter: in noise by far. So both must be taken under the same rule.",
     );
     for set in record.distinct("set") {
         section.heading(set);
@@ -246,7 +249,8 @@ fn show(record: &Record) -> Section {
     section
 }
 
-/// The mean over the three sets and these k of how far the average ratio is below the bound, in percent of it; of the paper's maps.
+/// How far the average ratio is below the bound, in percent of the bound: the mean over the three sets and
+/// these k, on the paper's maps.
 fn below(record: &Record, ks: std::ops::RangeInclusive<u32>) -> Option<f64> {
     let one = |set: &str, k: u32| {
         let k = k.to_string();

@@ -1,7 +1,7 @@
 //! Why numbers differ from the published ones.
 //!
-//! What a run measures comes from its record. What was measured once, by code that is not in the repository, is said to be a
-//! guess.
+//! What a run measures comes from its record. What was measured once, by code that is not in the repository,
+//! is said to be a guess.
 
 use mediant_report::Record;
 
@@ -103,7 +103,8 @@ fn time(record: &Record, search: Search) -> String {
     )
 }
 
-/// A* with both heuristics at a k on StarCraft: nanoseconds an expansion and expansions, with h_k over Euclidean.
+/// A* with both heuristics at a k on StarCraft: nanoseconds an expansion and expansions, with h_k over
+/// Euclidean.
 fn heuristics(record: &Record, algorithm: Algorithm, k: u32) -> Option<[f64; 4]> {
     let ratio = |number: &dyn Fn(Search) -> Option<f64>| {
         let of = |heuristic| number(Search { algorithm, heuristic, k });

@@ -81,7 +81,7 @@ fn title(set: &str) -> &str {
     SETS.iter().find(|(name, _)| *name == set).map_or(set, |(_, title)| title)
 }
 
-/// What the chart is over; none if nothing was timed.
+/// The note on the chart's problems; none if nothing was timed.
 fn note(record: &Record, set: &str) -> Option<String> {
     let keys = [("set", set)];
     let first = record.select(&keys).find(|row| row.number("micros").is_some())?;

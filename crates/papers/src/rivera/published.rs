@@ -1,11 +1,12 @@
-//! What Rivera, Hernández & Baier 2017 print in Tables 1 and 2, and which of their numbers each is held against.
+//! Tables 1 and 2 of Rivera, Hernández & Baier 2017 as printed.
 
 use super::searches::{Algorithm, Heuristic, KS, Measure, Search};
 
-/// The sets, as here and as in the paper.
+/// The sets by their names here and in the paper.
 pub(super) const SETS: [(&str, &str); 3] = [("sc1", "StarCraft"), ("bg512", "BG"), ("wc3maps512", "WC3")];
 
-/// Table 1: for each set and k the cost, the moves, and of each heuristic expansions, percolations and milliseconds.
+/// Table 1: for each set and k the cost, the moves, and for each heuristic expansions, percolations and
+/// milliseconds.
 const TABLE_1: [[[f64; 8]; 6]; 3] = [
     [
         [804.2, 804.0, 55_501.0, 313_662.0, 10.59, 110_911.0, 918_104.0, 25.42],
@@ -33,7 +34,7 @@ const TABLE_1: [[[f64; 8]; 6]; 3] = [
     ],
 ];
 
-/// Table 2: for each set and k, of each heuristic expansions, percolations and milliseconds.
+/// Table 2: for each set and k, and each heuristic, expansions, percolations and milliseconds.
 const TABLE_2: [[[f64; 6]; 6]; 3] = [
     [
         [58_617.0, 195_956.0, 8.79, 110_941.0, 888_288.0, 23.67],
@@ -68,7 +69,7 @@ impl Search {
         let set = SETS.iter().position(|(name, _)| *name == set)?;
         let row = KS.iter().position(|&known| known == k)?;
         let column = match measure {
-            // The same for both heuristics, printed once.
+            // Printed once for both heuristics, which find paths of the same cost.
             Measure::Cost => return (algorithm == Algorithm::AStar).then(|| TABLE_1[set][row][0]),
             Measure::Moves => return (algorithm == Algorithm::AStar).then(|| TABLE_1[set][row][1]),
             Measure::Expanded => 0,

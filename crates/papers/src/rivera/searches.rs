@@ -14,7 +14,7 @@ pub(super) enum Algorithm {
     AStar,
     /// Canonical A* as published.
     Paper,
-    /// Canonical A* with the rule that keeps an optimal path.
+    /// Canonical A* with our rule, which keeps an optimal path.
     Exact,
 }
 
@@ -29,7 +29,7 @@ impl Algorithm {
         }
     }
 
-    /// As a sentence has it.
+    /// The name within a sentence.
     pub(super) const fn words(self) -> &'static str {
         match self {
             Self::AStar => "A*",
@@ -55,7 +55,7 @@ impl Heuristic {
         }
     }
 
-    /// As a sentence has it.
+    /// The name within a sentence.
     pub(super) const fn words(self) -> &'static str {
         match self {
             Self::Hk => "h_k",
@@ -89,7 +89,7 @@ impl Measure {
         }
     }
 
-    /// As the paper's heading has it, in full.
+    /// The heading in the paper, in full.
     pub(super) const fn words(self) -> &'static str {
         match self {
             Self::Cost => "cost",
@@ -126,8 +126,9 @@ impl Search {
         format!("{engine}:{}:never{variant}{heuristic}", self.k)
     }
 
-    /// The search whose numbers these are divided by, since the instances are not the paper's: that of k = 3 in the same column; of k = 3, that of
-    /// the other heuristic or of A*. None for one, whose numbers stand for themselves.
+    /// The search whose numbers this search's are divided by, since the instances are not the paper's: that
+    /// of k = 3 in the same column; for k = 3, that of the other heuristic, or that of A*. None for A* with
+    /// h_k at k = 3.
     pub(super) fn reference(self) -> Option<Self> {
         if self.k != BASE {
             Some(Self { k: BASE, ..self })
@@ -140,7 +141,7 @@ impl Search {
         }
     }
 
-    /// A number of its row.
+    /// A number of its row on a set.
     pub(super) fn number(self, record: &Record, set: &str, column: &str) -> Option<f64> {
         let k = self.k.to_string();
         let keys = [

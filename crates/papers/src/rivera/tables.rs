@@ -1,4 +1,4 @@
-//! Tables 1 and 2: what is measured.
+//! The measurements of Tables 1 and 2.
 
 pub(super) mod pages;
 
@@ -24,10 +24,10 @@ const COUNTS: [Measure; 4] = [Measure::Cost, Measure::Moves, Measure::Expanded, 
 /// The part of the problems of a map that are timed.
 const TIMED: usize = 10;
 
-/// Of each search, of each query: what [`COUNTS`] says.
+/// For each search and query, the numbers of [`COUNTS`].
 type Counted = Vec<Vec<[f64; 4]>>;
 
-/// Of each search, microseconds for all timed queries of a map, if it was timed.
+/// For each search, the microseconds of all timed queries of a map, if it was timed.
 type Timed = Vec<Option<f64>>;
 
 pub(super) fn measure(context: &Context<'_>) -> Result<Findings, Error> {
@@ -112,12 +112,12 @@ fn problems(context: &Context<'_>, set: &str) -> usize {
     }
 }
 
-/// How many of a map's problems are timed: the first ones, since they are in no order.
+/// How many of a map's problems are timed: the first ones, since their order is random.
 const fn timed_of(problems: usize) -> usize {
     problems.div_ceil(TIMED)
 }
 
-/// Problems at random.
+/// Random problems.
 fn queries(context: &Context<'_>, map: &Map) -> Result<Vec<Query>, Error> {
     let grid = map.grid()?;
     let setup = setup("astar:3:never")?;
@@ -161,7 +161,7 @@ fn times(context: &Context<'_>, map: &Map) -> Result<Timed, Error> {
     Search::all().map(one).collect()
 }
 
-/// The rows of a set, by what its maps gave.
+/// The rows of a set from the numbers of its maps.
 fn rows_of(set: &str, counted: &[&Counted], timed: &[&Timed]) -> Vec<Row> {
     let searches: Vec<Search> = Search::all().collect();
     let row = |(at, &search): (usize, &Search)| {
@@ -201,8 +201,9 @@ fn rows_of(set: &str, counted: &[&Counted], timed: &[&Timed]) -> Vec<Row> {
     searches.iter().enumerate().map(row).collect()
 }
 
-/// The relative standard error of the ratio of the means of pairs (a, b) that are drawn at random on each of several maps, by their
-/// residuals on their map: the maps are no draw. `None` where a map has but one pair, or the ratio is 0 or none.
+/// The relative standard error of the ratio of means of pairs (a, b) that are drawn at random on each of
+/// several fixed maps: by the residuals on each map. `None` if a map has only one pair, or if there is no
+/// ratio or it is 0.
 fn relative_error(maps: &[Vec<(f64, f64)>]) -> Option<f64> {
     let (a, b) = maps.iter().flatten().fold((0.0, 0.0), |(a, b), pair| (a + pair.0, b + pair.1));
     if a == 0.0 || b == 0.0 || maps.iter().any(|pairs| pairs.len() < 2) {

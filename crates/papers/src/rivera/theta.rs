@@ -13,14 +13,15 @@ use crate::{
     setups::{Sums, run},
 };
 
-/// Of so many instances one is timed.
+/// One of so many instances is timed.
 const TIMED: usize = 60;
 /// The setup of Theta* of the paper: the octile distance as its heuristic.
 const THETA: &str = "theta:3:open";
 /// What stands in the key column `search` for A* and for Theta*.
 const A_STAR: &str = "astar";
 const THETA_STAR: &str = "theta";
-/// From this k on A* finds shorter paths, says the paper, and there it is so many times as fast as Theta*.
+/// The paper says that from this k on A* finds shorter paths than Theta*, and that at this k it is so many
+/// times as fast.
 const BETTER_FROM: u32 = 5;
 const FASTER_BY: f64 = 1.37;
 
@@ -29,9 +30,9 @@ const FASTER_BY: f64 = 1.37;
 struct Lengths {
     instances: f64,
     cost: f64,
-    /// Of the lengths over the optima.
+    /// The sum of the ratios length / optimum.
     ratios: f64,
-    /// How many are shorter, and how many longer, than those of Theta*.
+    /// How many paths are shorter than those of Theta*, and how many longer.
     shorter: f64,
     longer: f64,
 }
@@ -94,7 +95,7 @@ fn columns() -> Vec<Column> {
     ]
 }
 
-/// The lengths of all searches. Those of A* are the optima over N(k), which subgoal graphs find sooner.
+/// The lengths of all searches. Those of A* are the optima over N(k), which subgoal graphs find in less time.
 fn lengths(map: &Map, every: usize) -> Result<Vec<Lengths>, Error> {
     let (grid, queries) = (map.grid()?, map.queries(every)?);
     let mut study = Study::new(&grid, &queries, 0);

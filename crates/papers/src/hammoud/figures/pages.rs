@@ -14,8 +14,8 @@ pub(in crate::hammoud) fn show(record: &Record) -> Section {
     let mut section = Section::default();
     let sizes = sizes(record);
     section.text(
-        "As in the paper, A* cuts no corners (`never`) and JPS may (`one`) in figures 8 to 13; the engines that are beyond the paper are drawn under the rule \
-         of the one that they are kin to. Dijkstra's paths are as long as those of A*, and those of block JPS and JPS+ as long as those of JPS. Wavefront \
+        "As in the paper, A* cuts no corners (`never`) and JPS may (`one`) in figures 8 to 13; the engines that the paper does not have are drawn under the rule \
+         of their kin. Dijkstra's paths are as long as those of A*, and those of block JPS and JPS+ as long as those of JPS. Wavefront \
          finds the fewest moves, not the shortest path. A point is the mean over the queries of one map; the maps of a size stand in the order of their \
          mean A* length.",
     );
@@ -71,7 +71,7 @@ impl<'a> Size<'a> {
         self.of(setup).iter().find(|row| row.text("map") == map)?.number(column)
     }
 
-    /// The mean over all queries of what a column holds the mean of, map by map.
+    /// The mean over all queries of a column that holds the mean of each map.
     fn mean(&self, setup: (&str, &str), column: &str) -> Option<f64> {
         let weight = if column == "micros" { "queries" } else { "found" };
         let mut sums = (0.0, 0.0);
@@ -83,12 +83,13 @@ impl<'a> Size<'a> {
         (sums.1 > 0.0).then(|| sums.0 / sums.1)
     }
 
-    /// The mean of the first setup over that of the second.
+    /// The mean of the first setup divided by that of the second.
     fn ratio(&self, first: (&str, &str), second: (&str, &str), column: &str) -> Option<f64> {
         Some(self.mean(first, column)? / self.mean(second, column)?)
     }
 
-    /// The maps on which JPS, of the paper or of another engine, takes less time than A*, and those on which it takes more; none if nothing was timed.
+    /// The maps on which a JPS takes less time than A*, and those on which it takes more; none if nothing was
+    /// timed.
     fn faster(&self, engine: &str) -> Option<(Vec<&'a str>, Vec<&'a str>)> {
         let mut maps = (Vec::new(), Vec::new());
         for &map in &self.maps {
@@ -98,13 +99,14 @@ impl<'a> Size<'a> {
         (!self.maps.is_empty()).then_some(maps)
     }
 
-    /// Over these maps, the vertices that the jumps of JPS look at for each node that A* expands.
+    /// The median over these maps of the vertices that the jumps of JPS look at for each node that A*
+    /// expands.
     fn steps_a_node(&self, maps: &[&str]) -> Option<f64> {
         let ratio = |map: &&str| Some(self.on(JPS, map, "scanned")? / self.on(ASTAR, map, "expanded")?);
         stats::median(&maps.iter().filter_map(ratio).collect::<Vec<f64>>())
     }
 
-    /// The mean of one column over that of another.
+    /// The mean of one column divided by that of another.
     fn ratio_within(&self, setup: (&str, &str), column: &str, other: &str) -> Option<f64> {
         Some(self.mean(setup, column)? / self.mean(setup, other)?)
     }
@@ -113,13 +115,13 @@ impl<'a> Size<'a> {
         self.of(ASTAR).iter().filter_map(|row| row.number("queries")).sum()
     }
 
-    /// A column over the maps.
+    /// The series of a column over the maps.
     fn series(&self, setup: (&str, &str), column: &str) -> Series {
         let points = self.maps.iter().enumerate();
         let points = points.filter_map(|(at, map)| Some((at as f64 + 1.0, self.on(setup, map, column)?)));
         let at = ENGINES.iter().position(|(engine, _)| *engine == setup.1).unwrap_or_default();
         let series = Series::new(format!("{} ({})", ENGINES[at].1, setup.0), Mark::Points, points).style(at);
-        // Where two lie on each other both are seen.
+        // Where two curves coincide, both are seen.
         if setup == ASTAR { series } else { series.hollow() }
     }
 
@@ -174,7 +176,7 @@ fn short(value: Option<f64>) -> String {
     value.map_or("–".to_owned(), number)
 }
 
-/// What the paper says of its figures, with numbers.
+/// What the paper says of its figures, with our numbers.
 fn summary(section: &mut Section, sizes: &[Size<'_>]) {
     let mut table = Table::new([
         "maps",
@@ -238,7 +240,7 @@ fn growth(section: &mut Section, sizes: &[Size<'_>]) {
     }
 }
 
-/// All means.
+/// A table of the means.
 fn table(section: &mut Section, sizes: &[Size<'_>]) {
     section.heading("Means by size, rule and engine");
     let mut table = Table::new([
@@ -286,7 +288,7 @@ fn table(section: &mut Section, sizes: &[Size<'_>]) {
     }
 }
 
-/// The paper's two sentences about all maps.
+/// The claims of the paper's two sentences about all maps.
 fn claims(sizes: &[Size<'_>]) -> Vec<Claim> {
     let mut claims = Vec::new();
     for side in [256, 512, 1024] {

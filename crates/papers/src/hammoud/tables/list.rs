@@ -1,4 +1,4 @@
-//! The A* that the published times fit: its open list is a list.
+//! The A* that the published times fit: its open list is an unsorted list.
 
 use std::{cmp::Reverse, collections::BinaryHeap, f64::consts::SQRT_2};
 
@@ -12,12 +12,14 @@ pub(super) struct Work {
     pub(super) cost: f64,
     /// Nodes expanded, without the goal.
     pub(super) expanded: u64,
-    /// The lengths of the open list, summed over the nodes that are taken from it: what a program looks at that searches an unsorted list for the least.
+    /// The lengths of the open list, summed over the nodes that are taken from it: the entries that a program
+    /// looks at if it searches an unsorted list for the least one.
     pub(super) looked: u64,
 }
 
-/// A* as one writes it down first: eight directions, no corner cut, sums of floating-point lengths, the octile distance as heuristic, and of equal nodes the
-/// one that is longer in the list. Engines of ours take the node nearer to the goal instead and expand fewer.
+/// A textbook A*: eight directions, no corner cut, sums of floating-point lengths, the octile distance as
+/// heuristic. Of nodes with equal f it takes the one that has been in the list longer; our engines take the
+/// one nearer to the goal, and expand fewer.
 ///
 /// `None` if there is no path. Both ends are free cells.
 pub(super) fn plain_astar(grid: &Grid, query: Query) -> Option<Work> {
@@ -29,7 +31,7 @@ pub(super) fn plain_astar(grid: &Grid, query: Query) -> Option<Work> {
     };
     let mut lengths = vec![f64::INFINITY; width * grid.height() as usize];
     let mut closed = vec![false; lengths.len()];
-    // Positive numbers are in the order of their bits.
+    // Positive floating-point numbers are ordered as their bits are.
     let mut open =
         BinaryHeap::from([Reverse((ahead(query.start).to_bits(), 0_u64, query.start.x, query.start.y))]);
     lengths[id(query.start)] = 0.0;

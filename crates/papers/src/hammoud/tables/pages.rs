@@ -24,7 +24,7 @@ impl<'a> Asked<'a> {
         Self { record, map: published.map.to_owned(), start, goal, published: Some(published) }
     }
 
-    /// What a row of the record is about.
+    /// The query of a row of the record.
     fn of(record: &'a Record, row: &Row) -> Self {
         let [map, start, goal] = ["map", "start", "goal"].map(|column| row.text(column).to_owned());
         let is = |published: &Published| {
@@ -45,13 +45,13 @@ impl<'a> Asked<'a> {
         format!("{} {} → {}", self.map, self.start, self.goal)
     }
 
-    /// Time of A*, which cuts no corners, over that of JPS, which cuts them.
+    /// The time of A*, which cuts no corners, over the time of JPS, which does.
     fn ratio(&self) -> Option<f64> {
         Some(self.get("never", "astar", "micros")? / self.get("one", "jps", "micros")?)
     }
 
-    /// Microseconds of the paper's A* for each entry of the open list that a search of an unsorted list looks at, and of its JPS for each vertex that
-    /// jumps look at.
+    /// The published times in microseconds: of A* for each entry that [`LIST`] looks at, of JPS for each
+    /// vertex that jumps look at.
     fn paces(&self) -> Option<(f64, f64)> {
         let published = self.published?;
         let (looked, scanned) = (self.get("never", LIST, "looked")?, self.get("one", KEPT, "scanned")?);
@@ -129,7 +129,7 @@ fn lengths(section: &mut Section, asked: &[Asked<'_>]) {
     ));
 }
 
-/// By how much the lengths of the engines differ under one rule, at most.
+/// The largest difference of the engines' lengths under one rule.
 fn widest(asked: &[Asked<'_>]) -> Option<f64> {
     let mut widest: Option<f64> = None;
     for (asked, rule) in asked.iter().flat_map(|asked| RULES.map(|rule| (asked, rule))) {
@@ -215,7 +215,7 @@ fn by_engine(section: &mut Section, asked: &[Asked<'_>]) {
     }
 }
 
-/// Each published number: lengths to the last digit, times as the ratio of the two columns.
+/// The published numbers as claims: lengths to the last digit, times as the ratio of the two columns.
 fn claims(record: &Record) -> Vec<Claim> {
     let asked: Vec<Asked<'_>> = rows().map(|row| Asked::published(record, row)).collect();
     let mut claims = Vec::new();
@@ -236,7 +236,7 @@ fn claims(record: &Record) -> Vec<Claim> {
     claims
 }
 
-/// Why one JPS length is not ours.
+/// Why one JPS length differs.
 fn repeated(asked: &[Asked<'_>]) -> String {
     let fits = |asked: &&Asked<'_>| {
         let (published, ours) = (asked.published.map(|row| row.jps), asked.get("one", "jps", "cost"));
@@ -257,7 +257,7 @@ fn repeated(asked: &[Asked<'_>]) -> String {
     )
 }
 
-/// Why the ratios of times are not ours.
+/// Why the ratios of times differ.
 fn slower(asked: &[Asked<'_>]) -> String {
     let sound = || asked.iter().filter(|asked| asked.published.is_some_and(|row| !row.is_misprinted()));
     let paces: Vec<(f64, f64)> = sound().filter_map(Asked::paces).collect();
@@ -288,7 +288,7 @@ fn slower(asked: &[Asked<'_>]) -> String {
     )
 }
 
-/// Why one ratio is far from the others.
+/// Why one ratio of times is far from the others.
 fn misprinted(asked: &[Asked<'_>]) -> String {
     let is_misprinted = |asked: &&Asked<'_>| asked.published.is_some_and(|row| row.is_misprinted());
     let paces =
@@ -328,7 +328,7 @@ fn spread(values: impl Iterator<Item = f64>) -> Option<Spread> {
 mod tests {
     use super::*;
 
-    /// The tables as if we had measured what is published, but for one JPS length.
+    /// A record of the published values, but for one JPS length.
     fn record() -> Record {
         let mut found = Vec::new();
         for published in rows() {

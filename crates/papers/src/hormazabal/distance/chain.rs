@@ -2,7 +2,8 @@
 
 use mediant_moves::Vector;
 
-/// Hormazábal 2017, Algorithm 2, with the two lines put right that it misprints: `k ← k − 1` belongs to each round, and the factor of l is x.
+/// Hormazábal 2017, Algorithm 2, with its two misprints corrected: `k ← k − 1` belongs to each round, and the
+/// factor of l is x.
 #[inline(always)]
 pub(super) fn algorithm_2(d: Vector, k: u32) -> f64 {
     let (mut x, mut y) = (d.x.abs(), d.y.abs());

@@ -10,7 +10,7 @@ fn of(record: &Record, set: &str, engine: &str, k: &str, smoothing: &str, column
     record.number(&[("set", set), ("engine", engine), ("k", k), ("smoothing", smoothing)], column)
 }
 
-/// That of Sub2-A*(k).
+/// A column of Sub2-A*(k) on a set.
 fn a_star(record: &Record, set: &str, k: u32, smoothing: &str, column: &str) -> Option<f64> {
     of(record, set, SUB2_A_STAR, &k.to_string(), smoothing, column)
 }
@@ -23,7 +23,7 @@ fn anya(record: &Record, set: &str, column: &str) -> Option<f64> {
     of(record, set, ANYA, "any", "none", column)
 }
 
-/// Sub2-Theta*'s over Sub2-A*(k)'s.
+/// A column of Sub2-Theta* divided by that of Sub2-A*(k).
 fn ratio(record: &Record, set: &str, k: u32, smoothing: &str, column: &str) -> Option<f64> {
     Some(theta(record, set, column)? / a_star(record, set, k, smoothing, column)?)
 }
@@ -112,7 +112,7 @@ fn scatter(record: &Record, set: &str) -> String {
             rows().map(|row| if engine == CONTRACTED { row.text("k").to_owned() } else { String::new() });
         chart.push(Series::new(name, Mark::Points, rows().filter_map(point)).labels(labels));
     }
-    // Both are optimal: they stand on the lower border.
+    // Both are optimal: their points stand on the lower border.
     for (engine, name) in [(ANYA, "Anya"), (CONTRACTED, "subgoal, any angle")] {
         if let Some(micros) = of(record, set, engine, "any", "none", "micros") {
             chart.push(Series::new(name, Mark::Points, [(micros, 0.0)]));
@@ -153,17 +153,18 @@ fn table(record: &Record) -> Table {
     table
 }
 
-/// The values of all sets; none where one is missing.
+/// The values of all sets; none if one is missing.
 fn of_sets(record: &Record, of_set: impl Fn(&str) -> Option<f64>) -> Option<Vec<f64>> {
     record.distinct("set").into_iter().map(of_set).collect()
 }
 
-/// A number of which there may be none.
+/// The text of a number; a dash for none.
 fn told(value: Option<f64>, digits: usize) -> String {
     value.map_or("–".to_owned(), |value| format!("{value:.digits$}"))
 }
 
-/// Our Anya takes so much of the time of Anya16: the geometric mean of 18 maps on the page `compared.md`, `anya:any:closed`.
+/// Our Anya takes so much of the time of Anya16: the geometric mean of 18 maps on the page `compared.md`,
+/// `anya:any:closed`.
 const OF_JAVA_ANYA: f64 = 0.23;
 
 const LAST_K: u32 = *KS.end();
@@ -200,7 +201,7 @@ fn claims(record: &Record) -> Vec<Claim> {
     claims
 }
 
-/// At how many k Sub2-A* is the faster one.
+/// The claim at how many k Sub2-A* is faster than Sub2-Theta*.
 fn faster(record: &Record, set: &str, smoothing: &str) -> Claim {
     let ratios: Option<Vec<f64>> = KS.map(|k| ratio(record, set, k, smoothing, "micros")).collect();
     let ours = ratios.map(|ratios| ratios.iter().filter(|&&ratio| ratio > 1.0).count() as f64);
@@ -217,7 +218,7 @@ fn faster(record: &Record, set: &str, smoothing: &str) -> Claim {
     ))
 }
 
-/// How many times as fast as Anya.
+/// The claim how many times as fast as Anya Sub2-A* is.
 fn beside_anya(record: &Record) -> Claim {
     let mean = |of_set: &dyn Fn(&str) -> Option<f64>| stats::geometric_mean(&of_sets(record, of_set)?);
     let over = |smoothing: &'static str, reference: fn(&Record, &str, &str) -> Option<f64>| {

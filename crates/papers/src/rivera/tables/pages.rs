@@ -1,4 +1,4 @@
-//! Tables 1 and 2: what is shown.
+//! The section of Tables 1 and 2, and Figure 3.
 
 use mediant_report::{Claim, Record, Table, thousands};
 
@@ -87,7 +87,7 @@ fn column((heuristic, measure): (Heuristic, Measure)) -> String {
     }
 }
 
-/// Ours of a published number, in its unit.
+/// Our value of a published number, in its unit.
 fn ours(record: &Record, set: &str, search: Search, measure: Measure) -> Option<f64> {
     let unit = if measure == Measure::Time { 1000.0 } else { 1.0 };
     Some(search.number(record, set, measure.column())? / unit)
@@ -142,7 +142,8 @@ fn table(record: &Record, set: &str, algorithm: Algorithm) -> Table {
     table
 }
 
-/// A number of the tables, as a claim: a ratio, if it has a reference. None of the times that have none.
+/// A number of the tables as a claim: a ratio, if the search has a reference. None for a time without a
+/// reference.
 fn claim(record: &Record, set: &str, search: Search, measure: Measure) -> Option<Claim> {
     let number = if search.algorithm == Algorithm::AStar { 1 } else { 2 };
     let source = format!("Table {number}, {}", column((search.heuristic, measure)));
@@ -185,13 +186,14 @@ fn claims(record: &Record, asked: impl Fn(Search) -> bool) -> Vec<Claim> {
     claims
 }
 
-/// In how many of the cases `holds` is true; none if one was not measured.
+/// In how many cases `holds` is true; none if a case was not measured.
 fn count(holds: impl Iterator<Item = Option<bool>>) -> Option<f64> {
     let all: Option<Vec<bool>> = holds.collect();
     Some(all?.into_iter().filter(|&holds| holds).count() as f64)
 }
 
-/// What the text says of the tables. Where that can be counted in the printed numbers, these are what is claimed.
+/// The claims of the paper's text about its tables. Where the printed numbers allow counting, the count is
+/// what is claimed.
 fn sentences(record: &Record) -> Vec<Claim> {
     let time = |set: &str, algorithm, heuristic, k| {
         ours(record, set, Search { algorithm, heuristic, k }, Measure::Time)
@@ -258,7 +260,7 @@ fn sentences(record: &Record) -> Vec<Claim> {
     claims
 }
 
-/// What the published rule saves and costs.
+/// A table of what the published pruning rule saves and what it costs.
 fn rules(record: &Record, sets: &[&str]) -> Table {
     let mut table = Table::new([
         "set",
