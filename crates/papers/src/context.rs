@@ -111,7 +111,7 @@ impl Setting {
                     return Ok(());
                 }
                 Err(error @ (SetError::Absent { .. } | SetError::Status { .. })) => {
-                    eprintln!("{name}: {error}")
+                    eprintln!("{name}: {error}");
                 }
                 Err(error) => return Err(error.into()),
             }

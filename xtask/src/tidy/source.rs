@@ -98,7 +98,8 @@ impl<'ast> Visit<'ast> for Lengths {
     }
 }
 
-/// Finds macros and attributes of unfinished code. It looks at tokens, so that comments and strings may name them.
+/// Finds macros and attributes of unfinished code. It looks at tokens, so that comments and strings may name
+/// them.
 fn leftovers(path: &Path, tokens: TokenStream, findings: &mut Vec<Finding>) {
     let tokens: Vec<TokenTree> = tokens.into_iter().collect();
     for (at, token) in tokens.iter().enumerate() {

@@ -96,9 +96,9 @@ fn scales(results: &Results<'_>) -> Vec<f64> {
     results.comparisons.iter().filter_map(|all| Some(all.first()?.scale)).collect()
 }
 
-/// A warning if the ratio of the machines varies more from map to map than it does between idle machines, where
-/// it stays within 1.15. Other work on the machine slows the baselines more than engines whose data fit into the
-/// caches, and so makes these look better.
+/// A warning if the ratio of the machines varies more from map to map than it does between idle machines,
+/// where it stays within 1.15. Other work on the machine slows the baselines more than engines whose data fit
+/// into the caches, and so makes these look better.
 fn disturbance(scales: &[f64]) -> Option<String> {
     let (least, most) =
         scales.iter().fold((f64::MAX, 0.0_f64), |(a, b), &scale| (a.min(scale), b.max(scale)));
