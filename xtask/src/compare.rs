@@ -23,7 +23,7 @@ use crate::project;
 #[derive(Args, Clone, Debug)]
 pub struct Options {
     /// Our engines: ENGINE[:K[:RULE]][,OPTION…], RULE one of never, one, always (centers), open, closed (corners),
-    /// OPTION one of euclidean, zero, squared, paper, limit=N, intermediate, levels=N, levels=all, side=N, refined, second=NAME,
+    /// OPTION one of euclidean, zero, squared, paper, limit=N, intermediate, levels=N, levels=all, side=N, unstraightened, second=NAME,
     /// step=N, detour=N, smooth, taut
     #[arg(long, value_name = "SETUP", num_args = 1.., default_value = "astar")]
     engines: Vec<Setup>,

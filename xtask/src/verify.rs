@@ -16,7 +16,7 @@ use std::{
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use mediant_engines::{Engine, Setup, SharedRules, Solver};
+use mediant_engines::{BoxedPlanner, EngineKind, Setup, SharedRules};
 use mediant_formats::{MapFile, Scenario, scenario_tolerance};
 use mediant_grid::{CornerRule, DiagonalGap, Rules};
 use mediant_moves::{FiniteK, K};
@@ -36,7 +36,7 @@ pub struct Options {
     every: NonZeroUsize,
     /// The engines that are to find the costs, one after the other
     #[arg(long, value_name = "NAME", num_args = 1.., default_value = "astar")]
-    engine: Vec<Engine>,
+    engine: Vec<EngineKind>,
     /// Compare with the reference costs in this folder, not with the scenarios' optima
     #[arg(long, value_name = "DIR")]
     oracle: Option<PathBuf>,
@@ -183,7 +183,7 @@ pub fn run_in(cache: &Path, options: &Options) -> Result<(), Error> {
 }
 
 /// The engine on k = 3 between centers, no corner cut: the problem of the scenario files.
-fn scenarios_for(engine: Engine) -> Result<(Setup, Demand), Error> {
+fn scenarios_for(engine: EngineKind) -> Result<(Setup, Demand), Error> {
     let setup = Setup::new(engine, FiniteK::N8, Rules::Center(CornerRule::Never));
     let unknown = || {
         Error::Verify(format!("{engine} finds no paths over the moves of k = 3: their costs are not known"))
@@ -191,7 +191,7 @@ fn scenarios_for(engine: Engine) -> Result<(Setup, Demand), Error> {
     Demand::of(setup).map(|demand| (setup, demand)).ok_or_else(unknown)
 }
 
-fn against_scenarios(cache: &Path, options: &Options, engine: Engine) -> Result<Tally, Error> {
+fn against_scenarios(cache: &Path, options: &Options, engine: EngineKind) -> Result<Tally, Error> {
     let (setup, demand) = scenarios_for(engine)?;
     let manifest = Manifest::read(&Manifest::path(&project::root()))?;
     let asked = |name: &String| options.set.is_empty() || options.set.contains(name);
@@ -271,13 +271,13 @@ fn scenario_of(
     let grid = Arc::new(MapFile::read(path)?.to_grid());
     let scenario = Scenario::read(path.with_extension("map.scen"))?;
     let mut tally = Tally::default();
-    let mut solver = Solver::new(setup, &grid, RULES.prebuilt(setup))
+    let mut planner = BoxedPlanner::new(setup, &grid, &RULES)
         .map_err(|wrong| Error::Verify(format!("{}: {wrong}", path.display())))?;
     for (index, instance) in scenario.instances().iter().enumerate().step_by(every) {
         let reachable = instance.optimal > 0.0 || instance.start == instance.goal;
         let optimal = reachable.then_some(instance.optimal);
         let what = || format!("{setup}, {} instance {index}", path.display());
-        match cost(&mut solver, Query::new(instance.start, instance.goal)) {
+        match cost(&mut planner, Query::new(instance.start, instance.goal)) {
             Err(_) if other_map => tally.blocked += 1,
             Ok(Some(cost))
                 if other_map
@@ -296,12 +296,12 @@ fn scenario_of(
 }
 
 /// The cost of a query's answer; `None` where there is no path.
-fn cost(solver: &mut Solver, query: Query) -> Result<Option<f64>, QueryError> {
-    solver.solve(query).map(|outcome| outcome.path().map(|path| path.cost()))
+fn cost(planner: &mut BoxedPlanner, query: Query) -> Result<Option<f64>, QueryError> {
+    planner.solve(query).map(|outcome| outcome.path().map(|path| path.cost()))
 }
 
 /// What the name of a reference file says.
-fn reference_setup(name: &str, engine: Engine) -> Option<(Setup, &str)> {
+fn reference_setup(name: &str, engine: EngineKind) -> Option<(Setup, &str)> {
     let (kind, rest) = name.strip_suffix(".csv")?.split_once('-')?;
     let (part, map) = rest.split_once('-')?;
     let k = || part.strip_prefix('k')?.parse::<K>().ok();
@@ -315,7 +315,7 @@ fn reference_setup(name: &str, engine: Engine) -> Option<(Setup, &str)> {
     Some((Setup::new(engine, k, rules), map))
 }
 
-fn against_references(cache: &Path, folder: &Path, engine: Engine) -> Result<Tally, Error> {
+fn against_references(cache: &Path, folder: &Path, engine: EngineKind) -> Result<Tally, Error> {
     let mut maps = BTreeMap::new();
     for set in fs::read_dir(cache).map_err(Error::at(cache))? {
         let set = set.map_err(Error::at(cache))?.path();
@@ -367,7 +367,7 @@ enum Compared {
     Unknown,
 }
 
-fn reference(file: &Path, engine: Engine, maps: &BTreeMap<String, PathBuf>) -> Result<Compared, Error> {
+fn reference(file: &Path, engine: EngineKind, maps: &BTreeMap<String, PathBuf>) -> Result<Compared, Error> {
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     let Some((setup, map)) = reference_setup(&name, engine) else { return Ok(Compared::Unknown) };
     let Some(demand) = Demand::of(setup) else { return Ok(Compared::Unsupported) };
@@ -388,12 +388,11 @@ fn reference(file: &Path, engine: Engine, maps: &BTreeMap<String, PathBuf>) -> R
     let grid = Arc::new(MapFile::read(path)?.to_grid());
     let scenario = Scenario::read(path.with_extension("map.scen"))?;
     let mut tally = Tally::default();
-    let mut solver =
-        Solver::new(setup, &grid, RULES.prebuilt(setup)).map_err(|error| wrong(error.to_string()))?;
+    let mut planner = BoxedPlanner::new(setup, &grid, &RULES).map_err(|error| wrong(error.to_string()))?;
     for &(index, known) in &rows {
         let instance = scenario.instances().get(index);
         let instance = instance.ok_or_else(|| wrong(format!("no instance {index}")))?;
-        let found = cost(&mut solver, Query::new(instance.start, instance.goal)).unwrap_or(None);
+        let found = cost(&mut planner, Query::new(instance.start, instance.goal)).unwrap_or(None);
         let what = || format!("{setup}, {name} instance {index}");
         // Those programs know no blocked ends: they say that there is no path.
         tally.compare(demand, what, found, (known >= 0.0).then_some(known), 1e-6 * known.max(1.0));

@@ -37,7 +37,7 @@ pub(super) fn text(results: &Results<'_>, options: &Options) -> String {
                 "\n{setup} by the scaled time of programs that solve the same problem{quality} (< 1: we are faster)"
             ));
             lines.extend(ratios(results, i, &same).lines());
-            if setup.engine.about().index.is_some() {
+            if setup.capabilities().index.is_some() {
                 lines.push(format!(
                     "\n{setup}: what comes before the first query, on all cores, by the scaled time and the index file of these programs"
                 ));

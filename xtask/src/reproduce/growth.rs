@@ -86,10 +86,10 @@ fn measure(context: &Context<'_>) -> Result<Findings, Error> {
 fn on_tiles(context: &Context<'_>, map: &Map, times: u32, count: usize) -> Result<(f64, Vec<Sums>), Error> {
     let grid = Arc::new(tiled(map.grid()?.as_ref(), times)?);
     let reference = setup(SETUPS[0])?;
-    let ground = mediant_engines::Ground::new(reference, &grid)
+    let space = mediant_engines::SearchSpace::new(reference, &grid)
         .map_err(|wrong| Error::Reproduce(wrong.to_string()))?;
     let rules: Rules = reference.rules;
-    let connected = |query: mediant_search::Query| ground.connected(query.start, query.goal);
+    let connected = |query: mediant_search::Query| space.connected(query.start, query.goal);
     let queries = random_queries(&mut context.rng(map), &grid, rules, count, connected);
     let mut study = Study::new(&grid, &queries, context.passes());
     let sums =
@@ -101,7 +101,7 @@ fn show(record: &Record) -> Section {
     let mut section = Section::default();
     section.text(
         "Queries are drawn over the whole map, so that paths grow with its sides. Memory is what an engine prepares beyond the map itself: search graph and index, without the \
-         scratch of a search, which for engines on the grid_graph is 16 to 24 bytes a vertex.",
+         scratch of a search, which for engines on the grid graph is 16 to 24 bytes a vertex.",
     );
     for (column, scale, label, title) in [
         ("micros", 1.0, "mean time of a query, µs", "Time of a query"),
