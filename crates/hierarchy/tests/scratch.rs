@@ -1,6 +1,7 @@
 //! What a planner did before does not matter to what it answers; warm, it allocates little; and bytes that say they are much allocate nothing.
 #![allow(unsafe_code, reason = "a counting allocator implements an unsafe trait")]
 
+#[path = "it/common.rs"]
 mod common;
 
 use std::{

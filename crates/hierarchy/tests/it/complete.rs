@@ -1,8 +1,6 @@
 //! HPA* and CHPA* find a legal path whenever there is one, never one shorter than the optimum, and seldom one much longer, on seeded random maps.
 
-mod common;
-
-use common::{
+use crate::common::{
     Answer, Bound, Setting, any_clustering, any_grid_graph, ask, check_path, chpa, clusters, describe_query,
     free_cells, grid_graph, hpa, k, map, number, random_queries, segments,
 };

@@ -1,9 +1,7 @@
 //! The edges of CHPA*'s graph are those of the definition: windows slid over the padded map, and a 4-connected path within (Teleiša & Čalnerytė 2023, Section 3).
 //! Diagonal edges, where there are eight neighbors, are not in the paper: such a path leads to the corner tile of the segment beyond.
 
-mod common;
-
-use common::{grid_graph, k, map, segments};
+use crate::common::{grid_graph, k, map, segments};
 use mediant_grid::{AsciiMap, CornerRule, Grid, Vertex};
 use mediant_hierarchy::{HierarchyError, SegmentGraph};
 use mediant_oracle::{Rng, describe, on_all_cores, seeds};

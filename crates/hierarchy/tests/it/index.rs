@@ -1,8 +1,6 @@
 //! Indexes as bytes: what was written is read, and what was not leads to no illegal path.
 
-mod common;
-
-use common::{
+use crate::common::{
     Setting, any_clustering, any_grid_graph, ask, check_path, chpa, clusters, describe_query, grid_graph,
     hpa, k, map, random_queries, segments,
 };
@@ -141,7 +139,7 @@ struct Answers {
 
 fn check_answers(
     grid_graph: &GridGraph<Centers>,
-    planner: &mut common::Solve<'_>,
+    planner: &mut crate::common::Solve<'_>,
     queries: &[Query],
     may_give_up: bool,
     case: &impl Fn() -> String,
@@ -321,7 +319,7 @@ fn an_index_of_another_map_makes_no_illegal_path() {
             // Few cells are others, so that as many transitions are there, some of the time.
             let at = Rectangle { x: rng.below(12), y: rng.below(8), width: 3, height: 3 };
             let grid = rooms.with_rectangle(at, |_, _| rng.chance(percent));
-            let other = common::grid_graph(&grid, grid_graph.k(), CornerRule::Never);
+            let other = crate::common::grid_graph(&grid, grid_graph.k(), CornerRule::Never);
             let queries = random_queries(&mut rng, &grid, 10);
             let case = || format!("seed {seed}");
             for graph in &of_clusters {
@@ -348,7 +346,7 @@ fn an_index_of_another_size_or_other_moves_is_refused() {
     for (grid_graph, of_clusters, of_segments) in indexes() {
         for (width, height) in sizes {
             let grid = Grid::from_fn(width, height, |_, _| false).expect("a valid size");
-            let other = common::grid_graph(&grid, grid_graph.k(), CornerRule::Never);
+            let other = crate::common::grid_graph(&grid, grid_graph.k(), CornerRule::Never);
             let error = HierarchyError::Size { expected: (12, 8), found: (width, height) };
             for graph in &of_clusters {
                 assert_eq!(ClusterGraph::from_bytes(&other, &graph.to_bytes()), Err(error.clone()));
@@ -358,7 +356,7 @@ fn an_index_of_another_size_or_other_moves_is_refused() {
             }
         }
         for (number, rule) in [(3, CornerRule::One), (3, CornerRule::Always), (4, CornerRule::Never)] {
-            let other = common::grid_graph(&rooms(), k(number), rule);
+            let other = crate::common::grid_graph(&rooms(), k(number), rule);
             let expected = Err(HierarchyError::Moves { k: k(number), rules: other.rules() });
             let bytes = of_clusters[0].to_bytes();
             assert_eq!(ClusterGraph::from_bytes(&other, &bytes).map(|_| ()), expected);
@@ -378,10 +376,10 @@ fn planners_refuse_an_index_of_another_size_or_other_moves() {
     let of_segments = segments(&grid_graph, 3);
     let smaller = Grid::from_fn(11, 8, |_, _| false).expect("a valid size");
     let others = [
-        (common::grid_graph(&smaller, k(2), CornerRule::Never), true),
-        (common::grid_graph(&rooms(), k(3), CornerRule::Never), false),
-        (common::grid_graph(&rooms(), k(3), CornerRule::One), false),
-        (common::grid_graph(&rooms(), k(4), CornerRule::Never), false),
+        (crate::common::grid_graph(&smaller, k(2), CornerRule::Never), true),
+        (crate::common::grid_graph(&rooms(), k(3), CornerRule::Never), false),
+        (crate::common::grid_graph(&rooms(), k(3), CornerRule::One), false),
+        (crate::common::grid_graph(&rooms(), k(4), CornerRule::Never), false),
     ];
     let is_right = |error: &HierarchyError, other: &GridGraph<Centers>, is_smaller: bool| match error {
         HierarchyError::Size { expected: (12, 8), found: (11, 8) } => is_smaller,
@@ -408,8 +406,8 @@ fn planners_refuse_an_index_of_another_size_or_other_moves() {
         assert_eq!((hpa.solve(query), chpa.solve(query)), before);
     }
     // With four neighbors corners are never cut, whatever the rule.
-    for rule in common::CORNER_RULES {
-        let same = common::grid_graph(&rooms(), k(2), rule);
+    for rule in crate::common::CORNER_RULES {
+        let same = crate::common::grid_graph(&rooms(), k(2), rule);
         assert!(HpaStar::new(&same, &of_clusters).is_ok());
         assert!(ChpaStar::new(&same, &of_segments, Zero, Zero).is_ok());
     }

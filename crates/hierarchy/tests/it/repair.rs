@@ -1,8 +1,6 @@
 //! A repaired index is the one that would be made anew; and one that was not repaired leads to no illegal path.
 
-mod common;
-
-use common::{
+use crate::common::{
     CORNER_RULES, Setting, any_clustering, any_grid_graph, ask, check_path, chpa, clusters, describe_query,
     grid_graph, hpa, k, map, random_queries, segments,
 };

@@ -1,10 +1,8 @@
 //! One index for any number of planners, in any number of threads.
 
-mod common;
-
 use std::{sync::Arc, thread};
 
-use common::{
+use crate::common::{
     Answer, Bound, Setting, ask, chpa, clusters, grid_graph, hpa, k, number, random_queries, segments,
 };
 use mediant_grid::{Centers, CornerRule, GridGraph};

@@ -1,10 +1,8 @@
 //! Paths of the hierarchical planners, drawn, so that a reader can check them by eye. Waypoints are 0, 1, 2, … in order.
 
-mod common;
-
 use std::fmt::Write;
 
-use common::{Bound, Setting, Solve, ask, chpa, clusters, grid_graph, hpa, k, number, segments};
+use crate::common::{Bound, Setting, Solve, ask, chpa, clusters, grid_graph, hpa, k, number, segments};
 use mediant_grid::{AsciiMap, CornerRule, PlacementKind, draw};
 use mediant_hierarchy::{Clustering, FallbackPolicy};
 use mediant_search::Query;
@@ -47,7 +45,7 @@ fn picture(number_of_k: u32) -> String {
     };
     let bound = Some(Bound::GridGraph);
     let setting = Setting { phases: [bound; 2], step: number(2), fallback: FallbackPolicy::default() };
-    add("HPA*, refined", hpa(&grid_graph, &graph, false));
+    add("HPA*, unstraightened", hpa(&grid_graph, &graph, false));
     add("HPA*", hpa(&grid_graph, &graph, true));
     add("CHPA*", chpa(&grid_graph, &segments, setting));
     let hasty =

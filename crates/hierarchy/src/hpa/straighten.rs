@@ -1,27 +1,31 @@
-//! Straightening: what a path over N(k) loses to detours, regained without leaving N(k).
+//! Straightening: HPA*'s smoothing, which shortens a path without leaving N(k).
 
 use mediant_grid::{Centers, GridGraph, Vector, Vertex};
 use mediant_moves::{Cost, decompose};
 
-/// How many turning points back a shortcut may begin. In the mean of 14 maps, k = 3: with 4 the paths of HPA* are 0.57 % longer than optimal, and a query takes 1.08 times as long as without
-/// straightening; with 8 it is 0.43 % and 1.25 times, with 16 0.42 % and 1.71 times.
+use crate::waypoints::waypoints;
+
+/// How many turning points back a shortcut may begin. In the mean of 14 maps, k = 3: with 4 the paths of HPA* are 0.57 % longer
+/// than optimal, and a query takes 1.08 times as long as without straightening; with 8 it is 0.43 % and 1.25 times, with 16
+/// 0.42 % and 1.71 times.
 const REACH: usize = 8;
 
 /// The scratch memory of straightening.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Straighten {
     turns: Vec<Vertex>,
-    /// For each turning point the cost of the best way to it, the turning point before it on that way, and where the path turns between the two.
+    /// For each turning point the cost of the best path to it, the index of the turning point before it on that path, and the
+    /// vertex at which the path turns between the two.
     best: Vec<(Cost, usize, Vertex)>,
     cells: Vec<Vertex>,
 }
 
 impl Straighten {
-    /// The waypoints of the path through these vertices, made shorter: the shortest way over its turning points, of which two that are at most [`REACH`] apart are joined if
-    /// a shortest path on an empty grid that turns once is free (Botea 2004, Section 3.3, joins those on one straight line).
-    pub(crate) fn path(&mut self, grid_graph: &GridGraph<Centers>, way: &[Vertex]) -> Vec<Vertex> {
+    /// The waypoints of a path, shortened: the shortest path over its turning points. Two that are at most [`REACH`] apart are
+    /// joined where [`free_elbow`] finds a free path between them. Botea 2004, Section 3.3, joins those on one straight line.
+    pub(crate) fn path(&mut self, grid_graph: &GridGraph<Centers>, path: &[Vertex]) -> Vec<Vertex> {
         let Self { turns, best, cells } = self;
-        waypoints(way, turns);
+        waypoints(path, turns);
         best.clear();
         for (to, &at) in turns.iter().enumerate() {
             let Some((&before, &(cost, ..))) =
@@ -34,7 +38,7 @@ impl Straighten {
             for from in to.saturating_sub(REACH)..to - 1 {
                 let cost = best[from].0 + grid_graph.costs().distance(turns[from].to(at));
                 if cost < found.0
-                    && let Some(elbow) = free(grid_graph, turns[from], at)
+                    && let Some(elbow) = free_elbow(grid_graph, turns[from], at)
                 {
                     found = (cost, from, elbow);
                 }
@@ -56,28 +60,12 @@ impl Straighten {
     }
 }
 
-/// Where a path that is optimal on an empty grid turns between two vertices, if one of the two that turn once is free.
-pub(crate) fn free(grid_graph: &GridGraph<Centers>, from: Vertex, to: Vertex) -> Option<Vertex> {
+/// The vertex at which a path between two vertices turns that costs h_k and turns only once. There are two such paths; `None`
+/// if neither is free.
+pub(crate) fn free_elbow(grid_graph: &GridGraph<Centers>, from: Vertex, to: Vertex) -> Option<Vertex> {
     let parts = decompose(from.to(to), grid_graph.k())?;
     [(parts.v, parts.alpha), (parts.w, parts.beta)]
         .map(|(v, times)| from + Vector::new(v.x * times as i32, v.y * times as i32))
         .into_iter()
         .find(|&elbow| grid_graph.sees(from, elbow) && grid_graph.sees(elbow, to))
-}
-
-/// Of the vertices on a path over N(k), those at which it turns, and its ends.
-pub(crate) fn waypoints(way: &[Vertex], path: &mut Vec<Vertex>) {
-    path.clear();
-    for &at in way {
-        if path.last() == Some(&at) {
-            continue;
-        }
-        if let [.., before, last] = path[..] {
-            let (came, goes) = (before.to(last), last.to(at));
-            if came.det(goes) == 0 && came.dot(goes) > 0 {
-                path.pop();
-            }
-        }
-        path.push(at);
-    }
 }
