@@ -35,8 +35,8 @@ pub(crate) fn grid_graph(
     }
 }
 
-/// Checks that so many nodes or segments can be addressed. On 64 bits every map's can, on 32 bits not those of small clusters
-/// on the largest maps.
+/// Checks that so many nodes or segments can be addressed. On 64 bits every map's can, on 32 bits not those
+/// of small clusters on the largest maps.
 pub(crate) fn address_space(count: u64) -> Result<(), HierarchyError> {
     fits(count, isize::MAX as u64)
 }

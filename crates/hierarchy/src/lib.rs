@@ -1,7 +1,8 @@
-//! Hierarchical path planning, HPA* and CHPA*: near-optimal paths, from small indexes that are repaired where the map changes.
+//! Hierarchical path planning, HPA* and CHPA*: near-optimal paths, from small indexes that are repaired where
+//! the map changes.
 //!
-//! Both cut the map into parts, store which parts are joined, and answer a query in two steps: A* over parts, then short searches
-//! within the parts on the way. HPA* also stores the cost of crossing each part.
+//! Both cut the map into parts, store which parts are joined, and answer a query in two steps: A* over parts,
+//! then short searches within the parts on the way. HPA* also stores the cost of crossing each part.
 //!
 //! | paper | index | planner |
 //! |---|---|---|
@@ -35,20 +36,22 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! **The key idea: an index is a function of the map, part by part.** What is stored of a part follows from its own cells and
-//! those along its border, or on an upper level of HPA* from the parts that it consists of. Node numbers, the order of work and
-//! earlier versions of the map do not enter. Two things follow. A change can affect only the parts that it touches, their
-//! neighbors, and the parts above them, so that a repair takes time with the size of the change, not of the map. And a repaired
-//! index is *equal* to a new one, value by value, so that nothing decays over many repairs, and one comparison tests it. The
-//! price is the length of paths: a path must pass through the transitions or checkpoints that its parts offer, chosen without
-//! knowing start and goal. [Straightening](HpaStar::with_straightening) regains most of that.
+//! **The key idea: an index is a function of the map, part by part.** What is stored of a part follows from
+//! its own cells and those along its border, or on an upper level of HPA* from the parts that it consists of.
+//! Node numbers, the order of work and earlier versions of the map do not enter. Two things follow. A change
+//! can affect only the parts that it touches, their neighbors, and the parts above them, so that a repair
+//! takes time with the size of the change, not of the map. And a repaired index is *equal* to a new one,
+//! value by value, so that nothing decays over many repairs, and one comparison tests it. The price is the
+//! length of paths: a path must pass through the transitions or checkpoints that its parts offer, chosen
+//! without knowing start and goal. [Straightening](HpaStar::with_straightening) regains most of that.
 //!
 //! How long the paths are, how fast the planners, and how the results compare with what the papers claim: see
-//! `docs/measurements.md`. In short, paths of HPA* are 0.2 to 0.4 % longer than optimal in the mean on maps of games.
+//! `docs/measurements.md`. In short, paths of HPA* are 0.2 to 0.4 % longer than optimal in the mean on maps
+//! of games.
 //!
-//! **What is not here.** No path is promised to be optimal; `mediant-search` and `mediant-subgoal` have the engines that promise
-//! it. There are no hierarchies for k above 3, for corners that may be cut at k = 3, or for corner placement. There are no
-//! files: an index is written to and read from bytes.
+//! **What is not here.** No path is promised to be optimal; `mediant-search` and `mediant-subgoal` have the
+//! engines that promise it. There are no hierarchies for k above 3, for corners that may be cut at k = 3, or
+//! for corner placement. There are no files: an index is written to and read from bytes.
 
 mod bytes;
 mod check;

@@ -2,7 +2,8 @@
 
 use mediant_grid::Vertex;
 
-/// Writes the waypoints of a path over N(k) to `waypoints`: its first and last vertex, and those at which it turns.
+/// Writes the waypoints of a path over N(k) to `waypoints`: its first and last vertex, and those at which it
+/// turns.
 pub(crate) fn waypoints(path: &[Vertex], waypoints: &mut Vec<Vertex>) {
     waypoints.clear();
     for &at in path {

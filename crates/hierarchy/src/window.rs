@@ -21,7 +21,8 @@ pub(crate) struct Window {
 }
 
 impl Window {
-    /// The window whose first cell is (`left`, `top`). All its cells must be on the map, and its sides at most 64 cells long.
+    /// The window whose first cell is (`left`, `top`). All its cells must be on the map, and its sides at
+    /// most 64 cells long.
     pub(crate) fn new(grid: &Grid, left: i32, top: i32, width: u32, height: u32) -> Self {
         let mut free = [0; MAX_SIDE as usize];
         let within = low_bits(width);

@@ -7,8 +7,8 @@ use mediant_grid::{Centers, GridGraph, Vertex};
 use super::segments::SegmentGraph;
 
 impl SegmentGraph {
-    /// Appends the checkpoints of a path over segments: for each `step`-th segment the tile at which the path enters it. There
-    /// is none in the goal's segment: the goal itself stands for it.
+    /// Appends the checkpoints of a path over segments: for each `step`-th segment the tile at which the path
+    /// enters it. There is none in the goal's segment: the goal itself stands for it.
     pub(crate) fn append_checkpoints(
         &self,
         grid_graph: &GridGraph<Centers>,
@@ -23,13 +23,15 @@ impl SegmentGraph {
         checkpoints.extend(edges.filter_map(|edge| self.checkpoint(grid_graph, edge[0], edge[1])));
     }
 
-    /// The tile at which a path enters the segment `target` from its neighbor `origin`: of the free tiles along the wall
-    /// between the two, the one nearest to the middle; of two equally near, the left or upper one. `None` if no tile is free.
+    /// The tile at which a path enters the segment `target` from its neighbor `origin`: of the free tiles
+    /// along the wall between the two, the one nearest to the middle; of two equally near, the left or upper
+    /// one. `None` if no tile is free.
     fn checkpoint(&self, grid_graph: &GridGraph<Centers>, origin: u32, target: u32) -> Option<Vertex> {
         let at = self.position(target);
         let d = self.position(origin).to(at);
         let side = self.side as i32;
-        // The coordinate along one axis, of the tiles at the wall, or of the tile that is `along` tiles from its beginning.
+        // The coordinate along one axis, of the tiles at the wall, or of the tile that is `along` tiles from
+        // its beginning.
         let tile = |first: i32, d: i32, along: i32, cells: u32| {
             let tile = match d {
                 1 => first,

@@ -1,5 +1,5 @@
-//! A [`SegmentGraph`] as bytes: the side of the segments, the width and height of the map, each as a little-endian `u32`; then
-//! one byte for each segment, row by row, with a bit for each of its edges.
+//! A [`SegmentGraph`] as bytes: the side of the segments, the width and height of the map, each as a
+//! little-endian `u32`; then one byte for each segment, row by row, with a bit for each of its edges.
 
 use mediant_grid::{Centers, GridGraph};
 
@@ -21,12 +21,13 @@ impl SegmentGraph {
 
     /// The index of a grid graph from its bytes. It gives the same answers as the index that was written.
     ///
-    /// The bytes do not say which map they belong to, and damage is not always found; a file that holds them must tell (see
-    /// `IndexFile` of `mediant-formats`). Whatever the bytes are, paths found with the index are legal, and a complete planner
-    /// finds one whenever there is one.
+    /// The bytes do not say which map they belong to, and damage is not always found; a file that holds them
+    /// must tell (see `IndexFile` of `mediant-formats`). Whatever the bytes are, paths found with the index
+    /// are legal, and a complete planner finds one whenever there is one.
     ///
     /// # Errors
-    /// [`HierarchyError`] for bytes that are no index of this grid graph, or moves that there is no index for.
+    /// [`HierarchyError`] for bytes that are no index of this grid graph, or moves that there is no index
+    /// for.
     pub fn from_bytes(grid_graph: &GridGraph<Centers>, bytes: &[u8]) -> Result<Self, HierarchyError> {
         let (header, edges) =
             bytes.split_at_checked(Self::HEADER).ok_or(HierarchyError::Bytes("they are too few"))?;

@@ -14,19 +14,20 @@ use mediant_search::{
 use super::{search::search, segments::SegmentGraph};
 use crate::{HierarchyError, check, waypoints::waypoints};
 
-/// CHPA* (Teleiša & Čalnerytė 2023): A* over segments finds checkpoints, A* over tiles finds a path from each to the next.
+/// CHPA* (Teleiša & Čalnerytė 2023): A* over segments finds checkpoints, A* over tiles finds a path from each
+/// to the next.
 ///
-/// There is a checkpoint in each [`step`](Self::with_step)-th segment of the path over segments: the tile at which this path
-/// enters it, the free one nearest to the middle of the wall. `H1` is the heuristic of the search over segments, whose costs are
-/// counted in segments, `H2` that of the searches over tiles. Where a checkpoint cannot be reached, the [`FallbackPolicy`] says
-/// what happens.
+/// There is a checkpoint in each [`step`](Self::with_step)-th segment of the path over segments: the tile at
+/// which this path enters it, the free one nearest to the middle of the wall. `H1` is the heuristic of the
+/// search over segments, whose costs are counted in segments, `H2` that of the searches over tiles. Where a
+/// checkpoint cannot be reached, the [`FallbackPolicy`] says what happens.
 ///
-/// `L` and `G` are how the planner holds the grid graph and its index: by reference or by `Arc`. A planner that holds its index
-/// in a `Box` can [repair](Self::repair) it.
+/// `L` and `G` are how the planner holds the grid graph and its index: by reference or by `Arc`. A planner
+/// that holds its index in a `Box` can [repair](Self::repair) it.
 ///
-/// **Ties** are decided by the order of the open lists: f, then h, then the number of the segment or vertex. An observer gets
-/// the events of both phases; an event of the first is at the middle of its segment. Scratch memory: 16 bytes a vertex, 24 a
-/// segment.
+/// **Ties** are decided by the order of the open lists: f, then h, then the number of the segment or vertex.
+/// An observer gets the events of both phases; an event of the first is at the middle of its segment. Scratch
+/// memory: 16 bytes a vertex, 24 a segment.
 #[derive(Clone, Debug)]
 pub struct ChpaStar<L, G, H1, H2> {
     grid_graph: L,
@@ -43,20 +44,21 @@ pub struct ChpaStar<L, G, H1, H2> {
     path: Vec<Vertex>,
 }
 
-/// What CHPA* does where a checkpoint cannot be reached, or only by a detour. Both happen, since segments do not tell whether
-/// paths lead through them ('preprocessing edge cases' in the paper, Section 6).
+/// What CHPA* does where a checkpoint cannot be reached, or only by a detour. Both happen, since segments do
+/// not tell whether paths lead through them ('preprocessing edge cases' in the paper, Section 6).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FallbackPolicy {
     /// As published: the planner takes the detour, and gives up where there is none ([`QueryError::GaveUp`]).
     Paper,
-    /// The planner finds a path whenever there is one. Where the next checkpoint cannot be reached without a detour, it skips
-    /// that one, then two more, then four and so on, until one can be reached, at the latest the goal. Where the segments of
-    /// start and goal are not connected, it searches for the goal at once. Each fallback is an event
-    /// ([`Observer::fell_back`]).
+    /// The planner finds a path whenever there is one. Where the next checkpoint cannot be reached without a
+    /// detour, it skips that one, then two more, then four and so on, until one can be reached, at the latest
+    /// the goal. Where the segments of start and goal are not connected, it searches for the goal at once.
+    /// Each fallback is an event ([`Observer::fell_back`]).
     ///
     /// The default, with detours of up to three times h_k.
     Complete {
-        /// The highest cost of the path to a checkpoint that is no detour: this many times h_k, its cost on an empty map.
+        /// The highest cost of the path to a checkpoint that is no detour: this many times h_k, its cost on
+        /// an empty map.
         detour: NonZeroU32,
     },
 }
@@ -74,12 +76,12 @@ where
     H1: Heuristic,
     H2: Heuristic,
 {
-    /// A planner on `graph`, which must be the index of `grid_graph`, with the heuristics of the two phases; with a step of 2
-    /// and the default [`FallbackPolicy`].
+    /// A planner on `graph`, which must be the index of `grid_graph`, with the heuristics of the two phases;
+    /// with a step of 2 and the default [`FallbackPolicy`].
     ///
     /// # Errors
-    /// [`HierarchyError`] for the index of a map of another size or of other moves. That the index is of this very map is not
-    /// checked: with another one's, paths are legal, but may be longer.
+    /// [`HierarchyError`] for the index of a map of another size or of other moves. That the index is of this
+    /// very map is not checked: with another one's, paths are legal, but may be longer.
     pub fn new(grid_graph: L, graph: G, first: H1, second: H2) -> Result<Self, HierarchyError> {
         check::grid_graph(graph.k, graph.size, &grid_graph)?;
         Ok(Self {
@@ -116,8 +118,8 @@ where
     H1: Heuristic,
     H2: Heuristic,
 {
-    /// Changes the map: `grid_graph` may differ from the one before only in the cells of a rectangle. Repairs the index, and
-    /// keeps the scratch memory.
+    /// Changes the map: `grid_graph` may differ from the one before only in the cells of a rectangle. Repairs
+    /// the index, and keeps the scratch memory.
     ///
     /// # Errors
     /// [`HierarchyError`] for a grid graph of another size or of other moves; nothing is changed then.
@@ -187,7 +189,8 @@ where
         Ok(Outcome::Found(path_along(path)))
     }
 
-    /// Phase 2, complete: finds a path to the next checkpoint that can be reached without a detour, until it is at the goal.
+    /// Phase 2, complete: finds a path to the next checkpoint that can be reached without a detour, until it
+    /// is at the goal.
     fn visit_some(
         &mut self,
         query: Query,

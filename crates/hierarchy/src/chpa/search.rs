@@ -8,8 +8,8 @@ use mediant_search::{Heuristic, NodeEvent, Observer, Query, SearchTree};
 
 use super::segments::SegmentGraph;
 
-/// Finds a path over segments from the start's to the goal's and writes it to `path`. Costs and the heuristic count in segments.
-/// Returns whether there is one.
+/// Finds a path over segments from the start's to the goal's and writes it to `path`. Costs and the heuristic
+/// count in segments. Returns whether there is one.
 pub(crate) fn search<H: Heuristic>(
     grid_graph: &GridGraph<Centers>,
     graph: &SegmentGraph,

@@ -14,20 +14,22 @@ pub(crate) const SOUTH: u8 = 2;
 pub(crate) const SOUTH_EAST: u8 = 4;
 pub(crate) const SOUTH_WEST: u8 = 8;
 
-/// The index of CHPA*: the map in segments, and which neighboring segments are joined (Teleiša & Čalnerytė 2023, Section 3).
+/// The index of CHPA*: the map in segments, and which neighboring segments are joined (Teleiša & Čalnerytė
+/// 2023, Section 3).
 ///
-/// A window that is one tile longer than a segment slides over the map. It joins two segments side by side if a 4-connected path
-/// within it leads from its first column to its last, which belongs to the second segment; likewise downward, with the window
-/// turned. The paper says 'any valid path along the window', but not between which of its tiles. A map whose sides are no
-/// multiples of the segment's is padded with copies of its last column and row.
+/// A window that is one tile longer than a segment slides over the map. It joins two segments side by side if
+/// a 4-connected path within it leads from its first column to its last, which belongs to the second segment;
+/// likewise downward, with the window turned. The paper says 'any valid path along the window', but not
+/// between which of its tiles. A map whose sides are no multiples of the segment's is padded with copies of
+/// its last column and row.
 ///
-/// For k = 3, which the paper leaves open, a window that is one tile longer both ways joins diagonal neighbors: if such a path
-/// leads from one of the segment's two far sides to the one tile of the neighbor.
+/// For k = 3, which the paper leaves open, a window that is one tile longer both ways joins diagonal
+/// neighbors: if such a path leads from one of the segment's two far sides to the one tile of the neighbor.
 ///
-/// The index does not tell which tiles *within* a segment are connected. So segments may be joined although no path leads
-/// through them, or not joined although one does; what a planner then does is its
-/// [`FallbackPolicy`](crate::FallbackPolicy). An index is changed only by [`repair`](Self::repair); any number of planners share
-/// it.
+/// The index does not tell which tiles *within* a segment are connected. So segments may be joined although
+/// no path leads through them, or not joined although one does; what a planner then does is its
+/// [`FallbackPolicy`](crate::FallbackPolicy). An index is changed only by [`repair`](Self::repair); any
+/// number of planners share it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SegmentGraph {
     pub(crate) k: FiniteK,
@@ -44,8 +46,8 @@ impl SegmentGraph {
     /// The longest side of segments. The window is one tile longer, and each of its rows is one word.
     pub const MAX_SIDE: u32 = MAX_SIDE - 1;
 
-    /// Makes the index of a map, with segments of `side` × `side` cells: 1 to [`MAX_SIDE`](Self::MAX_SIDE). On maps of 512 × 512
-    /// to 1024 × 1024 cells, with the paper's side of 3, that takes 6 to 42 ms.
+    /// Makes the index of a map, with segments of `side` × `side` cells: 1 to [`MAX_SIDE`](Self::MAX_SIDE).
+    /// On maps of 512 × 512 to 1024 × 1024 cells, with the paper's side of 3, that takes 6 to 42 ms.
     ///
     /// # Errors
     /// [`HierarchyError`] for k above 3, for k = 3 where corners may be cut, or a side that is out of range.
@@ -77,8 +79,9 @@ impl SegmentGraph {
         self.columns as usize * self.rows as usize
     }
 
-    /// Repairs the index after cells of a rectangle changed: `grid` may differ only there from the map before. The index is then
-    /// equal to a new one of `grid`. The edges whose windows touch the rectangle are made anew.
+    /// Repairs the index after cells of a rectangle changed: `grid` may differ only there from the map
+    /// before. The index is then equal to a new one of `grid`. The edges whose windows touch the rectangle
+    /// are made anew.
     ///
     /// # Errors
     /// [`HierarchyError::Size`] for a map of another size; nothing is changed then.

@@ -13,7 +13,8 @@ use super::{
 };
 use crate::window::{low_bits, rows_of};
 
-/// An entrance at least this wide has a transition at either end, a narrower one has one in the middle (Section 3.1).
+/// An entrance at least this wide has a transition at either end, a narrower one has one in the middle
+/// (Section 3.1).
 const WIDE: u32 = 6;
 
 impl ClusterGraph {
@@ -44,8 +45,9 @@ impl ClusterGraph {
         }
     }
 
-    /// Rebuilds the nodes of a level in the dirty clusters, and in their neighbors, whose entrances may have changed with them.
-    /// Returns the clusters whose costs must be found again: the dirty ones, and the neighbors whose nodes changed.
+    /// Rebuilds the nodes of a level in the dirty clusters, and in their neighbors, whose entrances may have
+    /// changed with them. Returns the clusters whose costs must be found again: the dirty ones, and the
+    /// neighbors whose nodes changed.
     fn rebuild_nodes(&mut self, grid: &Grid, number: usize, mut dirty: Vec<u32>) -> Vec<u32> {
         let (below, rest) = self.levels.split_at_mut(number);
         let level = &mut rest[0];
@@ -77,7 +79,8 @@ impl ClusterGraph {
         dirty
     }
 
-    /// Finds the costs between the nodes of clusters of the lowest level: Dijkstra's algorithm over the cells of each.
+    /// Finds the costs between the nodes of clusters of the lowest level: Dijkstra's algorithm over the cells
+    /// of each.
     fn find_lowest_costs(&mut self, grid: &Grid, clusters: &[u32]) {
         let mut cluster_search = ClusterSearch::new(self.k);
         let level = &mut self.levels[0];
@@ -99,7 +102,8 @@ impl ClusterGraph {
         }
     }
 
-    /// Finds the costs between the nodes of clusters of an upper level: Dijkstra's algorithm over the nodes of the level below.
+    /// Finds the costs between the nodes of clusters of an upper level: Dijkstra's algorithm over the nodes
+    /// of the level below.
     fn find_upper_costs(&mut self, grid: &Grid, number: usize, clusters: &[u32]) {
         let (below, rest) = self.levels.split_at_mut(number);
         let (Some(below), Some(level)) = (below.last(), rest.first_mut()) else { return };
@@ -124,7 +128,8 @@ fn parent(level: &Level, upper: &Level, id: u32) -> u32 {
     id / level.columns / factor * upper.columns + id % level.columns / factor
 }
 
-/// Writes to `cells` those cells of a cluster of the lowest level at which transitions end, row by row. They have no node below.
+/// Writes to `cells` those cells of a cluster of the lowest level at which transitions end, row by row. They
+/// have no node below.
 fn lowest_cells(level: &Level, grid: &Grid, id: u32, cells: &mut Vec<(Vertex, u32)>) {
     let Bounds { left, top, right, bottom } = level.bounds(id, grid);
     let (width, height) = ((right - left) as u32, (bottom - top) as u32);
@@ -164,8 +169,8 @@ fn upper_cells(level: &Level, below: &Level, grid: &Grid, id: u32, cells: &mut V
     }
 }
 
-/// The transitions across the border between two adjacent rows (or columns) of cells. `here` and `there` have a bit for each
-/// cell, set where it is blocked; the lowest `length` bits belong to the two clusters.
+/// The transitions across the border between two adjacent rows (or columns) of cells. `here` and `there` have
+/// a bit for each cell, set where it is blocked; the lowest `length` bits belong to the two clusters.
 fn transitions(here: u64, there: u64, length: u32) -> u64 {
     let mut open = !(here | there) & low_bits(length);
     let mut found = 0;

@@ -1,6 +1,7 @@
 //! Searches over the cells of one cluster: the costs between its nodes, and the paths of a refinement.
 //!
-//! An index takes tens of thousands of them, so that everything here fits a window of 64 × 64 cells, whose sets are words.
+//! An index takes tens of thousands of them, so that everything here fits a window of 64 × 64 cells, whose
+//! sets are words.
 
 use std::{cmp::Reverse, collections::BinaryHeap};
 
@@ -71,7 +72,8 @@ impl ClusterSearch {
         }
     }
 
-    /// Finds a shortest path from one cell to another, to be read by [`parent`](Self::parent). Returns whether there is one.
+    /// Finds a shortest path from one cell to another, to be read by [`parent`](Self::parent). Returns
+    /// whether there is one.
     pub(crate) fn path(
         &mut self,
         costs: &CostTable,
@@ -87,8 +89,8 @@ impl ClusterSearch {
         contains(&self.closed, to)
     }
 
-    /// Finds shortest paths from a cell until all targets are closed, or the open list is empty. `estimate` is a consistent
-    /// lower bound on the cost from a cell to the targets.
+    /// Finds shortest paths from a cell until all targets are closed, or the open list is empty. `estimate`
+    /// is a consistent lower bound on the cost from a cell to the targets.
     fn search(
         &mut self,
         window: &Window,

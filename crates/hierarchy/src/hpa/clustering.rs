@@ -9,8 +9,8 @@ use crate::{HierarchyError, window};
 pub struct Clustering {
     /// The side of the clusters of the lowest level, in cells: 2 to 64.
     pub side: u32,
-    /// The number of levels, at least 1. A cluster of an upper level consists of 2 × 2 clusters of the level below; its side
-    /// may not exceed [`MAX_SIDE`](Self::MAX_SIDE).
+    /// The number of levels, at least 1. A cluster of an upper level consists of 2 × 2 clusters of the level
+    /// below; its side may not exceed [`MAX_SIDE`](Self::MAX_SIDE).
     pub levels: u32,
 }
 

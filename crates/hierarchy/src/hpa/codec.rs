@@ -1,8 +1,9 @@
 //! A [`ClusterGraph`] as bytes.
 //!
-//! All numbers are `u32`, little endian: the side of the clusters of the lowest level, the number of levels, the width and
-//! height of the map. Then for each cluster, level by level and row by row: the number n of its nodes, and the n(n − 1)/2 costs
-//! from each node to those after it, in units of 2⁻¹⁶ cells. The nodes themselves are not stored: they follow from the map.
+//! All numbers are `u32`, little endian: the side of the clusters of the lowest level, the number of levels,
+//! the width and height of the map. Then for each cluster, level by level and row by row: the number n of its
+//! nodes, and the n(n − 1)/2 costs from each node to those after it, in units of 2⁻¹⁶ cells. The nodes
+//! themselves are not stored: they follow from the map.
 
 use mediant_grid::{Centers, GridGraph};
 
@@ -30,18 +31,20 @@ impl ClusterGraph {
 
     /// The index of a grid graph from its bytes. It gives the same answers as the index that was written.
     ///
-    /// The bytes do not say which map or k they belong to, and damage is not always found; a file that holds them must tell
-    /// (see `IndexFile` of `mediant-formats`). Whatever the bytes are, paths found with the index are legal, but with wrong
-    /// bytes they may be longer, or a planner may give up.
+    /// The bytes do not say which map or k they belong to, and damage is not always found; a file that holds
+    /// them must tell (see `IndexFile` of `mediant-formats`). Whatever the bytes are, paths found with the
+    /// index are legal, but with wrong bytes they may be longer, or a planner may give up.
     ///
     /// # Errors
-    /// [`HierarchyError`] for bytes that are no index of this grid graph, or moves that there is no index for.
+    /// [`HierarchyError`] for bytes that are no index of this grid graph, or moves that there is no index
+    /// for.
     pub fn from_bytes(grid_graph: &GridGraph<Centers>, bytes: &[u8]) -> Result<Self, HierarchyError> {
         let mut words = WordReader::new(bytes)?;
         let clustering = Clustering { side: words.next()?, levels: words.next()? };
         let size = (words.next()?, words.next()?);
         check::size(size, grid_graph.grid())?;
-        // Each cluster has at least its number of nodes: no header allocates more than the bytes behind it warrant.
+        // Each cluster has at least its number of nodes: no header allocates more than the bytes behind it
+        // warrant.
         let clusters = |side: u32| size.0.div_ceil(side) as usize * size.1.div_ceil(side) as usize;
         words.check_left(clustering.sides()?.into_iter().map(clusters).sum())?;
         let mut graph = Self::without_nodes(grid_graph, clustering)?;

@@ -2,8 +2,9 @@
 
 use mediant_moves::Cost;
 
-/// The cost of a path within a cluster, as a fixed-point number on 32 bits: in units of 2⁻¹⁶ cells, rounded up, so that h_k
-/// never exceeds it. A shortest path within a cluster of 256 × 256 cells is always shorter than 2¹⁶ cells.
+/// The cost of a path within a cluster, as a fixed-point number on 32 bits: in units of 2⁻¹⁶ cells, rounded
+/// up, so that h_k never exceeds it. A shortest path within a cluster of 256 × 256 cells is always shorter
+/// than 2¹⁶ cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct FixedCost(u32);
 

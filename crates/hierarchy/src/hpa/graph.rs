@@ -6,17 +6,18 @@ use mediant_moves::{CostTable, FiniteK};
 use super::{clustering::Clustering, level::Level};
 use crate::{HierarchyError, check, window::on_map};
 
-/// The index of HPA*: the map in clusters, the transitions between them, and the costs of crossing each cluster from one
-/// transition to another (Botea, Müller & Schaeffer 2004, Sections 3.1 and 3.2).
+/// The index of HPA*: the map in clusters, the transitions between them, and the costs of crossing each
+/// cluster from one transition to another (Botea, Müller & Schaeffer 2004, Sections 3.1 and 3.2).
 ///
-/// Along the border of two clusters, each run of cells that are free on both sides is an *entrance*: with one *transition* in
-/// its middle if it is narrower than six cells, else with one at either end. The two cells of a transition are nodes.
+/// Along the border of two clusters, each run of cells that are free on both sides is an *entrance*: with one
+/// *transition* in its middle if it is narrower than six cells, else with one at either end. The two cells of
+/// a transition are nodes.
 ///
-/// A cluster of an upper level has the transitions across its own borders; the costs of crossing it are computed on the level
-/// below.
+/// A cluster of an upper level has the transitions across its own borders; the costs of crossing it are
+/// computed on the level below.
 ///
-/// An index is changed only by [`repair`](Self::repair); any number of planners share it. Two that are equal give the same
-/// answers.
+/// An index is changed only by [`repair`](Self::repair); any number of planners share it. Two that are equal
+/// give the same answers.
 #[derive(Clone, Debug)]
 pub struct ClusterGraph {
     pub(crate) k: FiniteK,
@@ -37,10 +38,12 @@ impl PartialEq for ClusterGraph {
 impl Eq for ClusterGraph {}
 
 impl ClusterGraph {
-    /// Makes the index of a map. On fourteen benchmark maps of up to 1024 × 1024 cells that takes 2 to 97 ms, longest in noise.
+    /// Makes the index of a map. On fourteen benchmark maps of up to 1024 × 1024 cells that takes 2 to 97 ms,
+    /// longest in noise.
     ///
     /// # Errors
-    /// [`HierarchyError`] for k above 3, for k = 3 where corners may be cut, or a clustering that is out of range.
+    /// [`HierarchyError`] for k above 3, for k = 3 where corners may be cut, or a clustering that is out of
+    /// range.
     pub fn new(grid_graph: &GridGraph<Centers>, clustering: Clustering) -> Result<Self, HierarchyError> {
         let mut graph = Self::without_nodes(grid_graph, clustering)?;
         let all = (0..graph.clusters() as u32).collect();
@@ -65,11 +68,11 @@ impl ClusterGraph {
         })
     }
 
-    /// Repairs the index after cells of a rectangle changed: `grid` may differ only there from the map before. The index is
-    /// then equal to a new one of `grid`.
+    /// Repairs the index after cells of a rectangle changed: `grid` may differ only there from the map
+    /// before. The index is then equal to a new one of `grid`.
     ///
-    /// Rebuilt are the clusters that the rectangle touches, their neighbors whose entrances changed, and the clusters of upper
-    /// levels that contain them.
+    /// Rebuilt are the clusters that the rectangle touches, their neighbors whose entrances changed, and the
+    /// clusters of upper levels that contain them.
     ///
     /// # Errors
     /// [`HierarchyError::Size`] for a map of another size; nothing is changed then.

@@ -44,9 +44,11 @@ pub(crate) struct Cluster {
     pub(crate) costs: Box<[FixedCost]>,
 }
 
-/// A level: the map cut into clusters of `side` × `side` cells; those at the right and lower edge may be smaller.
+/// A level: the map cut into clusters of `side` × `side` cells; those at the right and lower edge may be
+/// smaller.
 ///
-/// Each cluster has `stride` node numbers, as many as it can need, so that no change elsewhere renumbers its nodes.
+/// Each cluster has `stride` node numbers, as many as it can need, so that no change elsewhere renumbers its
+/// nodes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Level {
     pub(crate) side: u32,
@@ -89,8 +91,9 @@ impl Level {
     /// [`HierarchyError::TooLarge`] for more nodes than can be addressed.
     pub(crate) fn new(grid: &Grid, side: u32, lowest_side: u32) -> Result<Self, HierarchyError> {
         let [columns, rows] = [grid.width(), grid.height()].map(|cells| cells.div_ceil(side));
-        // On each of the four borders every other cell may be an entrance. On upper levels the corner cells of clusters of the
-        // lowest level may be nodes as well: they are joined with nodes beside them that end another transition.
+        // On each of the four borders every other cell may be an entrance. On upper levels the corner cells
+        // of clusters of the lowest level may be nodes as well: they are joined with nodes beside them that
+        // end another transition.
         let half = lowest_side.div_ceil(2);
         let on_border = if side == lowest_side { half } else { lowest_side.min(half + 2) };
         let stride = 4 * (side / lowest_side) * on_border;
@@ -112,7 +115,8 @@ impl Level {
         at.y as u32 / self.side * self.columns + at.x as u32 / self.side
     }
 
-    /// Whether a vertex is in a cluster. Those at the right and lower edge count in full, also beyond the map.
+    /// Whether a vertex is in a cluster. Those at the right and lower edge count in full, also beyond the
+    /// map.
     const fn is_in_cluster(&self, at: Vertex) -> bool {
         at.x >= 0
             && at.y >= 0
@@ -170,8 +174,8 @@ impl Level {
         Some(self.first_node(cluster) + index as u32)
     }
 
-    /// Replaces the nodes of a cluster by nodes at these cells, each with its node on the level below. Returns whether that
-    /// changed them.
+    /// Replaces the nodes of a cluster by nodes at these cells, each with its node on the level below.
+    /// Returns whether that changed them.
     pub(crate) fn set_nodes(&mut self, cluster: u32, cells: &[(Vertex, u32)]) -> bool {
         let is_new = |node: &Node, &(at, below): &(Vertex, u32)| node.at() != at || node.below != below;
         let old = self.nodes_of(cluster);
@@ -189,8 +193,9 @@ impl Level {
         true
     }
 
-    /// Joins the nodes of a cluster with the nodes beside them across its borders: the two ends of a transition, and in the
-    /// corners of clusters also ends of different transitions, between which a step is legal as well.
+    /// Joins the nodes of a cluster with the nodes beside them across its borders: the two ends of a
+    /// transition, and in the corners of clusters also ends of different transitions, between which a step is
+    /// legal as well.
     pub(crate) fn join_across(&mut self, cluster: u32) {
         let first = self.first_node(cluster);
         for id in first..first + self.clusters[cluster as usize].count {

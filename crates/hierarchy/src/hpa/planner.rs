@@ -22,19 +22,20 @@ use crate::{
 
 /// HPA* (Botea, Müller & Schaeffer 2004, 'Near Optimal Hierarchical Path-Finding'), with one or more levels.
 ///
-/// A query goes through the steps of the paper's Sections 3.3 to 3.5. Start and goal are *inserted*: the costs from them to the
-/// nodes of their clusters are found. A* finds an abstract path on the highest level on which the two lie in different
-/// clusters. This path is *refined* level by level, down to cells. Last, it is *straightened*
-/// ([`with_straightening`](Self::with_straightening)): the paper's smoothing joins vertices on one straight line, this one
-/// joins vertices by a shortest path over N(k) on an empty grid, so that paths stay paths over N(k).
+/// A query goes through the steps of the paper's Sections 3.3 to 3.5. Start and goal are *inserted*: the
+/// costs from them to the nodes of their clusters are found. A* finds an abstract path on the highest level
+/// on which the two lie in different clusters. This path is *refined* level by level, down to cells. Last, it
+/// is *straightened* ([`with_straightening`](Self::with_straightening)): the paper's smoothing joins vertices
+/// on one straight line, this one joins vertices by a shortest path over N(k) on an empty grid, so that paths
+/// stay paths over N(k).
 ///
-/// `L` and `G` are how the planner holds the grid graph and its index: by reference or by `Arc`. A planner that holds its index
-/// in a `Box` can [repair](Self::repair) it.
+/// `L` and `G` are how the planner holds the grid graph and its index: by reference or by `Arc`. A planner
+/// that holds its index in a `Box` can [repair](Self::repair) it.
 ///
-/// **Ties** are decided by the order of the open lists: f, then h, then the number of the node or cell. Paths and counts are
-/// the same each time and on every platform. An observer gets the events of all searches, on every level and within clusters;
-/// percolations are counted only in the searches over levels. Scratch memory: 24 bytes for each number that a node may have (20
-/// in a cluster of 10 × 10 cells).
+/// **Ties** are decided by the order of the open lists: f, then h, then the number of the node or cell. Paths
+/// and counts are the same each time and on every platform. An observer gets the events of all searches, on
+/// every level and within clusters; percolations are counted only in the searches over levels. Scratch
+/// memory: 24 bytes for each number that a node may have (20 in a cluster of 10 × 10 cells).
 #[derive(Clone, Debug)]
 pub struct HpaStar<L, G> {
     grid_graph: L,
@@ -67,8 +68,9 @@ where
     /// A planner on `graph`, which must be the index of `grid_graph`; it straightens its paths.
     ///
     /// # Errors
-    /// [`HierarchyError`] for the index of a map of another size or of other moves. That the index is of this very map is not
-    /// checked: with another one's, a planner may give up ([`QueryError::GaveUp`]), but its paths are legal.
+    /// [`HierarchyError`] for the index of a map of another size or of other moves. That the index is of this
+    /// very map is not checked: with another one's, a planner may give up ([`QueryError::GaveUp`]), but its
+    /// paths are legal.
     pub fn new(grid_graph: L, graph: G) -> Result<Self, HierarchyError> {
         check::grid_graph(graph.k, graph.size, &grid_graph)?;
         let nodes = graph.levels.iter().map(|level| level.nodes.len()).max().unwrap_or(0);
@@ -99,8 +101,8 @@ where
     L: Deref<Target = GridGraph<Centers>>,
     G: DerefMut<Target = ClusterGraph>,
 {
-    /// Changes the map: `grid_graph` may differ from the one before only in the cells of a rectangle. Repairs the index, and
-    /// keeps the scratch memory.
+    /// Changes the map: `grid_graph` may differ from the one before only in the cells of a rectangle. Repairs
+    /// the index, and keeps the scratch memory.
     ///
     /// # Errors
     /// [`HierarchyError`] for a grid graph of another size or of other moves; nothing is changed then.
@@ -159,14 +161,15 @@ where
     }
 }
 
-/// Each step but the first returns `None` where there is no path although the map has one: then the index is of another map.
+/// Each step but the first returns `None` where there is no path although the map has one: then the index is
+/// of another map.
 impl<L, G> HpaStar<L, G>
 where
     L: Deref<Target = GridGraph<Centers>>,
     G: Deref<Target = ClusterGraph>,
 {
-    /// Finds the costs from start and goal to the nodes of their clusters, on the levels up to `top`. Returns the cost from one
-    /// to the other within a cluster of the lowest level.
+    /// Finds the costs from start and goal to the nodes of their clusters, on the levels up to `top`. Returns
+    /// the cost from one to the other within a cluster of the lowest level.
     fn insert(&mut self, query: Query, top: usize, observer: &mut impl Observer) -> FixedCost {
         let direct = self.insert_lowest(0, query.start, Some(query.goal), observer);
         self.insert_lowest(1, query.goal, None, observer);
@@ -187,8 +190,8 @@ where
         direct
     }
 
-    /// Finds the costs from the start (`which` = 0) or the goal (1), which is `at`, to the nodes of its cluster on the lowest
-    /// level. Returns the cost to `other` if that is in the same cluster.
+    /// Finds the costs from the start (`which` = 0) or the goal (1), which is `at`, to the nodes of its
+    /// cluster on the lowest level. Returns the cost to `other` if that is in the same cluster.
     fn insert_lowest(
         &mut self,
         which: usize,
@@ -242,11 +245,13 @@ where
             .then(|| append_path(level, tree, goal, abstract_path))
     }
 
-    /// Replaces the abstract path by one on the level below it, `number`: within each cluster that it crosses, by a shortest.
+    /// Replaces the abstract path by one on the level below it, `number`: within each cluster that it
+    /// crosses, by a shortest.
     fn refine(&mut self, number: usize, observer: &mut impl Observer) -> Option<()> {
         let Self { grid_graph, graph, tree, endpoint_costs, abstract_path, refined, .. } = self;
         let (below, level) = (&graph.levels[number], &graph.levels[number + 1]);
-        // A node of the path as an endpoint on the level below; and its index in its cluster there, if it is not start or goal.
+        // A node of the path as an endpoint on the level below; and its index in its cluster there, if it is
+        // not start or goal.
         let endpoint = |path_node: PathNode| {
             let cluster = below.cluster_at(path_node.at);
             let node = (path_node.id < level.start_id()).then(|| level.node(path_node.id).below);
@@ -289,8 +294,8 @@ where
         Some(())
     }
 
-    /// Refines the abstract path of the lowest level to cells: each edge to a path that turns once if that is free, else to a
-    /// shortest path within the cluster.
+    /// Refines the abstract path of the lowest level to cells: each edge to a path that turns once if that is
+    /// free, else to a shortest path within the cluster.
     fn refine_to_cells(&mut self, observer: &mut impl Observer) -> Option<()> {
         let Self { grid_graph, graph, cluster_search, abstract_path, cells, .. } = self;
         let (level, grid) = (&graph.levels[0], grid_graph.grid());

@@ -36,12 +36,12 @@ impl Level {
     }
 }
 
-/// Finds shortest paths through the abstract graph over nodes within `bounds`: to the goal, or to all nodes if there is none.
-/// Returns whether the goal was reached.
+/// Finds shortest paths through the abstract graph over nodes within `bounds`: to the goal, or to all nodes
+/// if there is none. Returns whether the goal was reached.
 ///
-/// One edge leads from a node to each other node of its cluster, so that no path needs two such edges in a row. The
-/// open list therefore holds only nodes entered from another cluster. The expansion of such a node gives the other nodes of its
-/// cluster their costs, and crosses the border from each of them at once.
+/// One edge leads from a node to each other node of its cluster, so that no path needs two such edges in a
+/// row. The open list therefore holds only nodes entered from another cluster. The expansion of such a node
+/// gives the other nodes of its cluster their costs, and crosses the border from each of them at once.
 pub(crate) fn search(
     level: &Level,
     bounds: Bounds,
@@ -90,7 +90,8 @@ struct Search<'s, E, O> {
 }
 
 impl<E: Fn(Vertex) -> Cost, O: Observer> Search<'_, E, O> {
-    /// Gives the other nodes of a node's cluster their costs, and crosses the border from each that became cheaper.
+    /// Gives the other nodes of a node's cluster their costs, and crosses the border from each that became
+    /// cheaper.
     #[inline]
     fn cross_cluster(&mut self, id: u32, from: Endpoint<'_>, g: Cost) {
         let level = self.level;

@@ -5,24 +5,25 @@ use mediant_moves::{Cost, decompose};
 
 use crate::waypoints::waypoints;
 
-/// How many turning points back a shortcut may begin. In the mean of 14 maps, k = 3: with 4 the paths of HPA* are 0.57 % longer
-/// than optimal, and a query takes 1.08 times as long as without straightening; with 8 it is 0.43 % and 1.25 times, with 16
-/// 0.42 % and 1.71 times.
+/// How many turning points back a shortcut may begin. In the mean of 14 maps, k = 3: with 4 the paths of HPA*
+/// are 0.57 % longer than optimal, and a query takes 1.08 times as long as without straightening; with 8 it
+/// is 0.43 % and 1.25 times, with 16 0.42 % and 1.71 times.
 const REACH: usize = 8;
 
 /// The scratch memory of straightening.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Straighten {
     turns: Vec<Vertex>,
-    /// For each turning point the cost of the best path to it, the index of the turning point before it on that path, and the
-    /// vertex at which the path turns between the two.
+    /// For each turning point the cost of the best path to it, the index of the turning point before it on
+    /// that path, and the vertex at which the path turns between the two.
     best: Vec<(Cost, usize, Vertex)>,
     cells: Vec<Vertex>,
 }
 
 impl Straighten {
-    /// The waypoints of a path, shortened: the shortest path over its turning points. Two that are at most [`REACH`] apart are
-    /// joined where [`free_elbow`] finds a free path between them. Botea 2004, Section 3.3, joins those on one straight line.
+    /// The waypoints of a path, shortened: the shortest path over its turning points. Two that are at most
+    /// [`REACH`] apart are joined where [`free_elbow`] finds a free path between them. Botea 2004, Section
+    /// 3.3, joins those on one straight line.
     pub(crate) fn path(&mut self, grid_graph: &GridGraph<Centers>, path: &[Vertex]) -> Vec<Vertex> {
         let Self { turns, best, cells } = self;
         waypoints(path, turns);
@@ -60,8 +61,8 @@ impl Straighten {
     }
 }
 
-/// The vertex at which a path between two vertices turns that costs h_k and turns only once. There are two such paths; `None`
-/// if neither is free.
+/// The vertex at which a path between two vertices turns that costs h_k and turns only once. There are two
+/// such paths; `None` if neither is free.
 pub(crate) fn free_elbow(grid_graph: &GridGraph<Centers>, from: Vertex, to: Vertex) -> Option<Vertex> {
     let parts = decompose(from.to(to), grid_graph.k())?;
     [(parts.v, parts.alpha), (parts.w, parts.beta)]

@@ -1,5 +1,6 @@
-//! The graph of HPA* is that of the definitions (Botea, Müller & Schaeffer 2004, Sections 3.1 and 3.2): transitions in the entrances between clusters, and between them the
-//! shortest ways within a cluster.
+//! The abstract graph of HPA* has the nodes and costs of the definitions (Botea, Müller & Schaeffer 2004,
+//! Sections 3.1 and 3.2): transitions in the entrances between clusters, and the costs of shortest paths
+//! between them within a cluster.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,7 +11,8 @@ use mediant_oracle::{Explicit, Rng, describe, on_all_cores, seeds};
 
 type Cells = BTreeSet<(i32, i32)>;
 
-/// The cells of the transitions across the border between two rows of `length` cells, of which cell i is `here(i)` and `there(i)`.
+/// Adds the cells of the transitions across the border between two rows of `length` cells: cells i are
+/// `here(i)` and `there(i)`.
 fn transitions(
     grid: &Grid,
     length: i32,
@@ -32,7 +34,7 @@ fn transitions(
     }
 }
 
-/// The cells at which transitions end, between clusters of this side.
+/// The cells of the transitions between clusters of this side.
 fn lowest_cells(grid: &Grid, side: i32) -> Cells {
     let (width, height) = (grid.width() as i32, grid.height() as i32);
     let mut cells = Cells::new();
@@ -50,7 +52,7 @@ fn lowest_cells(grid: &Grid, side: i32) -> Cells {
     cells
 }
 
-/// Of the cells of the level below those from which a step leads to another, in another cluster of this side.
+/// Those cells of the level below from which a step leads to another of them in another cluster of this side.
 fn upper_cells(below: &Cells, side: i32) -> Cells {
     let cluster = |(x, y): (i32, i32)| (x / side, y / side);
     let leads_out = |&&(x, y): &&(i32, i32)| {
@@ -60,7 +62,8 @@ fn upper_cells(below: &Cells, side: i32) -> Cells {
     below.iter().filter(leads_out).copied().collect()
 }
 
-/// The cells of each cluster of a level, row by row of clusters. Within those of the lowest level they are row by row, within others cluster by cluster of the level below.
+/// The cells of each cluster of a level, the clusters row by row. Within a cluster of the lowest level the
+/// cells are row by row, within others by clusters of the level below.
 fn by_cluster(grid: &Grid, cells: &Cells, lowest: i32, level: usize) -> Vec<Vec<(i32, i32)>> {
     let side = lowest << level;
     let [columns, rows] = [grid.width(), grid.height()].map(|cells| (cells as i32 + side - 1) / side);
@@ -77,24 +80,25 @@ fn by_cluster(grid: &Grid, cells: &Cells, lowest: i32, level: usize) -> Vec<Vec<
     clusters.into_values().collect()
 }
 
-/// The part of the map that is one cluster, with all else blocked.
+/// A map of one cluster alone.
 fn cluster_alone(grid: &Grid, at: (i32, i32), side: i32) -> Grid {
     let (left, top) = (at.0 / side * side, at.1 / side * side);
     let is_blocked = |x: u32, y: u32| grid.is_blocked(left + x as i32, top + y as i32);
     Grid::from_fn(side as u32, side as u32, is_blocked).expect("a valid size")
 }
 
-/// Reads the numbers of an index, which are in the order of clusters and nodes.
+/// The numbers of an index, in the order of clusters and nodes.
 struct Numbers(std::vec::IntoIter<u32>);
 
 impl Numbers {
     fn next(&mut self) -> u32 {
-        self.0.next().expect("the index says so many numbers")
+        self.0.next().expect("the index has a number for each cost")
     }
 }
 
-/// Compares a length in 2⁻¹⁶ cells, rounded up on each level, with what Dijkstra finds within the cluster. Over transitions it may be longer.
-fn check_length(found: u32, best: Option<f64>, level: usize, case: impl Fn() -> String) {
+/// Compares a stored cost, in units of 2⁻¹⁶ cells and rounded up on each level, with the cost that Dijkstra's
+/// algorithm finds within the cluster. On upper levels it may be higher, since paths lead over transitions.
+fn check_cost(found: u32, best: Option<f64>, level: usize, case: impl Fn() -> String) {
     let Some(best) = best else {
         assert_eq!(found, u32::MAX, "{}", case());
         return;
@@ -104,7 +108,7 @@ fn check_length(found: u32, best: Option<f64>, level: usize, case: impl Fn() -> 
     assert!(level > 0 || found < best + step + 1e-9 * best, "{found}, not {best}; {}", case());
 }
 
-/// How many nodes there are on all levels, and how many lengths were compared.
+/// Checks an index. Returns how many nodes it has on all levels, and how many costs were compared.
 fn check(grid_graph: &GridGraph<Centers>, clustering: Clustering, seed: u64) -> [usize; 2] {
     let grid = grid_graph.grid();
     let graph = clusters(grid_graph, clustering);
@@ -139,7 +143,7 @@ fn check(grid_graph: &GridGraph<Centers>, clustering: Clustering, seed: u64) -> 
                 let costs = explicit.costs_from(local(from));
                 for &to in &nodes[number + 1..] {
                     let case = || format!("from {from:?} to {to:?}, {}", case());
-                    check_length(numbers.next(), costs.to(local(to)), level, case);
+                    check_cost(numbers.next(), costs.to(local(to)), level, case);
                     counts[1] += 1;
                 }
             }
@@ -164,7 +168,7 @@ fn nodes_and_lengths_are_those_of_the_definition() {
     }
 }
 
-/// The nodes of a drawing in clusters of 8 × 8 cells.
+/// Checks the number of nodes of a drawing in clusters of 8 × 8 cells.
 #[track_caller]
 fn check_drawing(drawing: &str, expected: usize) {
     let grid = AsciiMap::parse(drawing).expect("the drawing is a map").grid;
@@ -187,7 +191,7 @@ fn known_entrances() {
     );
     // Free here and blocked there.
     check_drawing(&(rows(".......#........", 2) + &rows("........#.......", 2)), 0);
-    // Of entrances into two clusters, one cell that is an end of both.
+    // One cell ends the transitions into two clusters.
     check_drawing(&(rows("#######.........", 8) + &rows("#######.########", 1)), 5);
     check_drawing(&rows("........", 8), 0);
 }

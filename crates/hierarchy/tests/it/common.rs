@@ -1,4 +1,4 @@
-//! What several suites of hierarchies need.
+//! What several suites need: maps, indexes, planners, queries.
 #![allow(dead_code, reason = "each suite uses a part")]
 
 use std::{num::NonZeroU32, ops::Deref, sync::Arc};
@@ -25,7 +25,7 @@ pub(crate) fn grid_graph(grid: &Grid, k: FiniteK, rule: CornerRule) -> GridGraph
     GridGraph::new(Arc::new(grid.clone()), k, rule).expect("k is in range")
 }
 
-/// The grid graph of a map for one of the moves that there are hierarchies for.
+/// The grid graph of a map with one of the moves and rules that there are hierarchies for.
 pub(crate) fn any_grid_graph(rng: &mut Rng, grid: &Grid) -> GridGraph<Centers> {
     if rng.chance(50) {
         grid_graph(grid, k(3), CornerRule::Never)
@@ -34,7 +34,8 @@ pub(crate) fn any_grid_graph(rng: &mut Rng, grid: &Grid) -> GridGraph<Centers> {
     }
 }
 
-/// The map of a suite's seed: those of all suites, and for one in four one that has room for clusters of several levels.
+/// The map of a seed: three in four are small maps as in the other crates' tests, one in four has room for
+/// clusters of several levels.
 pub(crate) fn map(seed: u64) -> Grid {
     if seed % 4 != 3 {
         return suite_grid(seed).0;
@@ -52,7 +53,7 @@ pub(crate) fn map(seed: u64) -> Grid {
     }
 }
 
-/// Mostly small clusters, since the maps are small, in as many as four levels.
+/// A random clustering of up to four levels, with mostly small clusters, since the maps are small.
 pub(crate) fn any_clustering(rng: &mut Rng) -> Clustering {
     let side = match rng.below(12) {
         0 => 64,
@@ -71,7 +72,7 @@ pub(crate) fn segments(grid_graph: &GridGraph<Centers>, side: u32) -> SegmentGra
     SegmentGraph::new(grid_graph, side).expect("there is an index for these moves")
 }
 
-/// One of the lower bounds.
+/// The heuristics that are lower bounds, as one type.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Bound {
     GridGraph,
@@ -89,10 +90,10 @@ impl Heuristic for Bound {
     }
 }
 
-/// The heuristic of a phase of CHPA*: a lower bound, or none of them, `SquaredEuclidean`.
+/// The heuristic of a phase of CHPA*: a lower bound, or `None` for `SquaredEuclidean`, which is none.
 pub(crate) type Phase = Option<Bound>;
 
-/// How a CHPA* is to be made.
+/// The options of CHPA*.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Setting {
     pub(crate) phases: [Phase; 2],
@@ -108,13 +109,13 @@ impl Setting {
         Self { phases, step: number(1 + rng.below(4)), fallback: FallbackPolicy::Complete { detour } }
     }
 
-    /// The same as published.
+    /// The same options with the published fallback policy.
     pub(crate) fn of_the_paper(self) -> Self {
         Self { fallback: FallbackPolicy::Paper, ..self }
     }
 }
 
-/// A planner, whatever its type.
+/// A planner of any type.
 pub(crate) type Solve<'i> = Box<dyn FnMut(Query, &mut Counters) -> Result<Outcome, QueryError> + Send + 'i>;
 
 fn boxed<'i>(mut planner: impl Planner + Send + 'i) -> Solve<'i> {
@@ -153,7 +154,7 @@ where
     }
 }
 
-/// An answer, and what it took.
+/// An answer, and the counts of its search.
 pub(crate) type Answer = (Result<Outcome, QueryError>, Counters);
 
 pub(crate) fn ask(solve: &mut Solve<'_>, query: Query) -> Answer {
@@ -162,7 +163,7 @@ pub(crate) fn ask(solve: &mut Solve<'_>, query: Query) -> Answer {
     (answer, counters)
 }
 
-/// A map's random free cells.
+/// The free cells of a map.
 pub(crate) fn free_cells(grid: &Grid) -> Vec<Vertex> {
     let (width, height) = (grid.width() as i32, grid.height() as i32);
     let cells = (0..height).flat_map(|y| (0..width).map(move |x| Vertex::new(x, y)));
@@ -175,7 +176,7 @@ pub(crate) fn random_queries(rng: &mut Rng, grid: &Grid, count: usize) -> Vec<Qu
     (0..count).filter_map(|_| Some(Query::new(*rng.pick(&free)?, *rng.pick(&free)?))).collect()
 }
 
-/// Panics unless this is a legal path of the query, without a waypoint at which it goes straight on.
+/// Panics unless this is a legal path of the query that turns at each waypoint but its ends.
 pub(crate) fn check_path(
     grid_graph: &GridGraph<Centers>,
     query: Query,
@@ -192,7 +193,7 @@ pub(crate) fn check_path(
     assert!(way.windows(3).all(turns), "{way:?} goes straight on; {}", case());
 }
 
-/// What a failing query says.
+/// The map and query of a failure, to be pasted into a test.
 pub(crate) fn describe_query(grid_graph: &GridGraph<Centers>, query: Query, seed: u64) -> String {
     let map = describe(grid_graph.grid(), grid_graph.rules(), query.start, query.goal, seed);
     format!("k = {}; {map}", grid_graph.k())

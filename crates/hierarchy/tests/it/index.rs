@@ -1,4 +1,4 @@
-//! Indexes as bytes: what was written is read, and what was not leads to no illegal path.
+//! Indexes as bytes: an index that was written is read again, and no other bytes lead to an illegal path.
 
 use crate::common::{
     Setting, any_clustering, any_grid_graph, ask, check_path, chpa, clusters, describe_query, grid_graph,
@@ -54,7 +54,7 @@ fn a_loaded_index_is_the_one_that_was_written() {
     assert!(counts.iter().sum::<usize>() > 5 * counts.len(), "too few queries on {} maps", counts.len());
 }
 
-/// That of [`ClusterGraph`] and that of [`SegmentGraph`] as files tell them apart.
+/// A change of these bytes needs another version.
 #[test]
 fn the_versions_are_those_of_the_bytes_below() {
     let grid = AsciiMap::parse("..#\n...\n").expect("the drawing is a map").grid;
@@ -67,7 +67,7 @@ fn the_versions_are_those_of_the_bytes_below() {
     };
     assert_eq!((ClusterGraph::VERSION, SegmentGraph::VERSION), (1, 1));
     let one = clusters(&grid_graph, Clustering { side: 2, levels: 2 }).to_bytes();
-    // Side, levels, size; two clusters of a node each, and one that holds all.
+    // Side, levels, size; two clusters with one node each; on level 1 one cluster without nodes.
     assert_eq!(words(&one), [2, 2, 3, 2, 1, 1, 0]);
     let other = segments(&grid_graph, 1).to_bytes();
     assert_eq!(words(&other[..12]), [1, 3, 2]);
@@ -90,7 +90,7 @@ fn rooms() -> Grid {
     AsciiMap::parse(ROOMS).expect("the drawing is a map").grid
 }
 
-/// The moves, and indexes of the rooms for each, of several sizes.
+/// For k = 2 and 3: the grid graph of the rooms, and its indexes of several sizes.
 fn indexes() -> Vec<(GridGraph<Centers>, Vec<ClusterGraph>, Vec<SegmentGraph>)> {
     let of = |number: u32| {
         let grid_graph = grid_graph(&rooms(), k(number), CornerRule::Never);
@@ -130,7 +130,7 @@ fn an_edge_to_no_segment_is_refused() {
     }
 }
 
-/// What an index that may be another's says: legal paths, or that it gave up. How often each.
+/// How often planners on an index that may be wrong found a path, and how often they gave up.
 #[derive(Clone, Copy, Debug, Default)]
 struct Answers {
     found: usize,
@@ -257,7 +257,7 @@ fn no_flipped_bit_makes_an_illegal_path() {
     assert!(published.gave_up > 0, "{published:?}");
 }
 
-/// Words at random, or the edges of an index at random, behind a header that is right.
+/// Random bytes; and random costs or edges behind a header that is right.
 #[test]
 fn random_bytes_make_no_illegal_path() {
     let check = |seed: u64| {
@@ -273,7 +273,8 @@ fn random_bytes_make_no_illegal_path() {
         let of_clusters = clusters(&grid_graph, any_clustering(&mut rng));
         let mut bytes = of_clusters.to_bytes();
         for _ in 0..1 + rng.below(20) {
-            // Counts that are wrong are refused: short words are left alone, so that many are read.
+            // Wrong numbers of nodes are refused. Small words may be such and stay, so that many indexes are
+            // read.
             let words = (bytes.len() / 4) as u32;
             let at = 4 * (4 + rng.below(words - 4)) as usize;
             let word: [u8; 4] = bytes[at..at + 4].try_into().expect("four bytes");
@@ -308,7 +309,7 @@ fn random_bytes_make_no_illegal_path() {
     }
 }
 
-/// Files say of which map they are; without them, another map of the same size may be taken for it.
+/// The bytes do not say which map they belong to: those of another map of the same size may be read.
 #[test]
 fn an_index_of_another_map_makes_no_illegal_path() {
     let (mut read, mut answers) = ([0; 2], [Answers::default(); 3]);
@@ -316,7 +317,7 @@ fn an_index_of_another_map_makes_no_illegal_path() {
         for seed in 0..40 {
             let mut rng = Rng::new(seed ^ 0x0DD);
             let (percent, rooms) = (rng.below(40), rooms());
-            // Few cells are others, so that as many transitions are there, some of the time.
+            // Few cells differ, so that the clusters sometimes have as many nodes as before.
             let at = Rectangle { x: rng.below(12), y: rng.below(8), width: 3, height: 3 };
             let grid = rooms.with_rectangle(at, |_, _| rng.chance(percent));
             let other = crate::common::grid_graph(&grid, grid_graph.k(), CornerRule::Never);
@@ -368,7 +369,7 @@ fn an_index_of_another_size_or_other_moves_is_refused() {
     }
 }
 
-/// Neither a new planner takes such an index, nor one that repairs its own such a map.
+/// New planners refuse such an index, and planners that repair their own refuse such a map.
 #[test]
 fn planners_refuse_an_index_of_another_size_or_other_moves() {
     let grid_graph = grid_graph(&rooms(), k(2), CornerRule::Never);

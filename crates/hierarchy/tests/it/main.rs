@@ -1,4 +1,5 @@
-//! What the hierarchies promise, held against definitions, slow references and new indexes, on seeded random maps.
+//! What the hierarchies promise, held against definitions, slow references and new indexes, on seeded random
+//! maps.
 
 mod clusters;
 mod common;

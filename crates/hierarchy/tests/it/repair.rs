@@ -1,4 +1,4 @@
-//! A repaired index is the one that would be made anew; and one that was not repaired leads to no illegal path.
+//! A repaired index equals a new one; and an index that was not repaired leads to no illegal path.
 
 use crate::common::{
     CORNER_RULES, Setting, any_clustering, any_grid_graph, ask, check_path, chpa, clusters, describe_query,
@@ -9,13 +9,13 @@ use mediant_hierarchy::{Clustering, HierarchyError};
 use mediant_oracle::{Rng, describe, on_all_cores, seeds};
 use mediant_search::{Outcome, QueryError};
 
-/// What may happen to a map.
+/// How the cells of a rectangle change.
 #[derive(Clone, Copy, Debug)]
 enum Change {
     Blocked,
     Freed,
     Scattered(u32),
-    /// Nothing at all: the rectangle is as before.
+    /// Not at all.
     None,
 }
 
@@ -53,7 +53,7 @@ fn changed(rng: &mut Rng, grid: &Grid, at: Rectangle, change: Change) -> Grid {
     })
 }
 
-/// Whether what is there is other than before, of both indexes, each time.
+/// Changes a map four times and repairs both indexes. Returns how often each of them changed.
 fn check_sequence(seed: u64) -> [usize; 2] {
     let (mut grid, mut rng) = (map(seed), Rng::new(seed ^ 0x4E9A));
     let first = any_grid_graph(&mut rng, &grid);
@@ -112,7 +112,8 @@ fn a_repaired_index_is_the_one_made_anew() {
     }
 }
 
-/// Clusters of 2 × 2 cells, one of 4 × 4 of which has as many nodes as there can be: at cells in the corners of small clusters, steps join ends of different transitions.
+/// Flips one cell of a drawing in clusters of 2 × 2 cells, where a cluster of 4 × 4 cells has as many nodes
+/// as there can be: in the corners of small clusters, steps join ends of different transitions.
 #[track_caller]
 fn check_flip(drawing: &str, levels: u32, x: u32, y: u32) {
     let grid = AsciiMap::parse(drawing).expect("the drawing is a map").grid;
@@ -160,7 +161,8 @@ fn crowded_clusters_are_repaired() {
     }
 }
 
-/// What an index says that is not that of the map: legal paths, or that it gave up. How often each.
+/// Asks planners on an index of the map before a change. Returns how many paths they found, and how often
+/// they gave up.
 fn check_stale(seed: u64) -> [usize; 2] {
     let (grid, mut rng) = (map(seed), Rng::new(seed ^ 0x57A1E));
     let old = any_grid_graph(&mut rng, &grid);

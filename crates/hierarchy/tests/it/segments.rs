@@ -1,5 +1,7 @@
-//! The edges of CHPA*'s graph are those of the definition: windows slid over the padded map, and a 4-connected path within (Teleiša & Čalnerytė 2023, Section 3).
-//! Diagonal edges, where there are eight neighbors, are not in the paper: such a path leads to the corner tile of the segment beyond.
+//! The index of CHPA* has the edges of the definition: a window slides over the padded map, and joins
+//! segments where a 4-connected path leads through it (Teleiša & Čalnerytė 2023, Section 3). Diagonal edges,
+//! for eight neighbors, are not in the paper: there the path leads to the corner tile of the diagonal
+//! neighbor.
 
 use crate::common::{grid_graph, k, map, segments};
 use mediant_grid::{AsciiMap, CornerRule, Grid, Vertex};
@@ -12,14 +14,14 @@ const SOUTH_EAST: u8 = 4;
 const SOUTH_WEST: u8 = 8;
 const EDGES: [u8; 4] = [EAST, SOUTH, SOUTH_EAST, SOUTH_WEST];
 
-/// The tiles of a window, row by row; whether each is free.
+/// Whether each tile of a window is free, row by row.
 struct Window {
     width: usize,
     free: Vec<bool>,
 }
 
 impl Window {
-    /// Beyond the map a tile is as the nearest on it.
+    /// A tile beyond the map is free if the nearest tile on it is.
     fn new(grid: &Grid, left: i32, top: i32, width: usize, height: usize) -> Self {
         let is_free = |i: usize| {
             let (x, y) = (left + (i % width) as i32, top + (i / width) as i32);
@@ -28,7 +30,7 @@ impl Window {
         Self { width, free: (0..width * height).map(is_free).collect() }
     }
 
-    /// Whether steps in the four directions lead from a free tile of some to a free one of others.
+    /// Whether a 4-connected path leads from a free tile in `from` to a free tile in `to`.
     fn joins(&self, from: impl Fn(usize, usize) -> bool, to: impl Fn(usize, usize) -> bool) -> bool {
         let (width, height) = (self.width, self.free.len() / self.width);
         let tiles = || (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
@@ -39,14 +41,14 @@ impl Window {
             if !is_on || !self.free[y * width + x] || std::mem::replace(&mut seen[y * width + x], true) {
                 continue;
             }
-            // Beyond the left and upper edge numbers wrap round to ones that are not on it either.
+            // Left of and above the window, numbers wrap around to ones that are outside as well.
             trail.extend([(x + 1, y), (x.wrapping_sub(1), y), (x, y + 1), (x, y.wrapping_sub(1))]);
         }
         tiles().any(|(x, y)| to(x, y) && seen[y * width + x])
     }
 }
 
-/// Whether there is this edge from the segment in column `x` and row `y` of the segments.
+/// Whether there is this edge from the segment in column `x` and row `y`.
 fn is_edge(grid: &Grid, side: u32, diagonals: bool, (x, y): (u32, u32), edge: u8) -> bool {
     let (columns, rows) = (grid.width().div_ceil(side), grid.height().div_ceil(side));
     let (left, top, side) = ((x * side) as i32, (y * side) as i32, side as usize);
@@ -73,12 +75,12 @@ fn is_edge(grid: &Grid, side: u32, diagonals: bool, (x, y): (u32, u32), edge: u8
     }
 }
 
-/// The edges of each segment as the bytes have them, behind side, width and height.
+/// The edges of each segment: the bytes behind side, width and height.
 fn edges(graph: &SegmentGraph) -> Vec<u8> {
     graph.to_bytes().split_off(12)
 }
 
-/// How many windows had an edge, and how many none, of each kind.
+/// Checks an index. Returns how many windows of each kind had no edge, and how many had one.
 fn check(grid: &Grid, side: u32, number: u32, seed: u64) -> [[usize; 4]; 2] {
     let grid_graph = grid_graph(grid, k(number), CornerRule::Never);
     let graph = segments(&grid_graph, side);
@@ -126,7 +128,7 @@ fn edges_are_those_of_the_definition() {
     assert!(counts.iter().flatten().all(|&count| count > maps), "{counts:?} on {maps} maps");
 }
 
-/// Every map of 3 × 3 tiles, in segments of one tile, of two, and in one of three.
+/// Every map of 3 × 3 tiles, in segments of side 1, 2 and 3.
 #[test]
 fn edges_are_right_on_every_map_of_nine_tiles() {
     let check = |cells: u64| {
@@ -139,7 +141,7 @@ fn edges_are_right_on_every_map_of_nine_tiles() {
     assert!(counts.iter().flatten().all(|&count| count > 512), "{counts:?}");
 }
 
-/// The edges from the segment in the upper left corner of a drawing, in segments of three tiles.
+/// Checks the edges of the upper left segment of a drawing, in segments of side 3.
 #[track_caller]
 fn check_drawing(drawing: &str, expected: u8) {
     let grid = AsciiMap::parse(drawing).expect("the drawing is a map").grid;
@@ -153,9 +155,9 @@ fn known_windows() {
     // The wall is in the last column of the segment, or in the first of the next one.
     check_drawing("..#...\n..#...\n..#...\n......\n......\n......", SOUTH + SOUTH_EAST);
     check_drawing("...#..\n...#..\n...#..\n......\n......\n......", SOUTH + SOUTH_EAST);
-    // One behind that is not seen.
+    // The wall is one column further, outside the window.
     check_drawing("....#.\n....#.\n....#.\n....#.\n....#.\n....#.", EAST + SOUTH + SOUTH_EAST);
-    // A way round outside of the window is none, and diagonal steps are none.
+    // A path outside of the window does not count, nor do diagonal steps.
     check_drawing(".#....\n##....\n......\n......\n......\n......", EAST + SOUTH + SOUTH_EAST);
     check_drawing("..#...\n.#....\n#.....\n......\n......\n......", SOUTH_EAST);
     // Only the first column of the next segment is free.

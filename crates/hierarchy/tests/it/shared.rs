@@ -51,7 +51,7 @@ fn planners_in_many_threads_answer_as_one() {
             .filter(|(answer, _)| matches!(answer, Ok(found) if found.path().is_some()));
         let found = found.count();
         assert!(found > 200, "only {found} paths");
-        // Each begins elsewhere, so that none repeats what another does.
+        // Each thread begins at another query, so that their scratch memory differs.
         let from = |first: usize| {
             let mut turned = queries.clone();
             turned.rotate_left(first);

@@ -1,4 +1,5 @@
-//! Paths of the hierarchical planners, drawn, so that a reader can check them by eye. Waypoints are 0, 1, 2, … in order.
+//! Drawings of paths of the hierarchical planners, for a reader to check by eye. Waypoints are 0, 1, 2, … in
+//! order.
 
 use std::fmt::Write;
 
@@ -20,7 +21,7 @@ const HALL: &str = "
     ....................
 ";
 
-/// The sizes of the indexes, and the paths from `s` to `g`, under their costs.
+/// The sizes of the indexes, and drawings of the paths from `s` to `g`, each below its cost.
 fn picture(number_of_k: u32) -> String {
     let map = AsciiMap::parse(HALL).expect("the drawing is a map");
     let query = Query::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
