@@ -1,5 +1,6 @@
-//! The engines, and what A* is made of, on two generated maps: whole queries for every k that an engine takes up to 8, the generation of
-//! successors, and the open list. What these times are good for is the comparison of one revision with another.
+//! Benchmarks on two generated maps: whole queries of each engine for every k that it takes up to 8 and for
+//! any-angle paths, the generation of successors, and the open list. Use these times only to compare one
+//! revision with another.
 
 use std::{hint::black_box, sync::Arc};
 
@@ -62,7 +63,7 @@ fn grid_graph<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: u32) -> GridGrap
     GridGraph::new(Arc::clone(grid), k, rule).expect("k is at most 12")
 }
 
-/// The same queries for every k, all of them solvable.
+/// Random queries, the same for every k. All of them have a path.
 fn random_queries(grid: &Grid, space: &SearchSpace) -> Vec<Query> {
     let (mut rng, placement) = (Rng::new(SEED), space.rules().placement());
     let mut end = || random_free_vertex(&mut rng, grid, placement).expect("the map has free cells");
@@ -71,7 +72,7 @@ fn random_queries(grid: &Grid, space: &SearchSpace) -> Vec<Query> {
     connected.take(QUERIES).map(|(start, goal)| Query::new(start, goal)).collect()
 }
 
-/// The time of all queries, on a warm planner.
+/// Benchmarks all queries together, on a warm planner.
 fn queries(c: &mut Criterion, setup: Setup, map: &str, grid: &Arc<Grid>, rules: &SharedRules) {
     let space = SearchSpace::new(setup, grid).expect("the setup was checked");
     let queries = random_queries(grid, &space);
@@ -85,7 +86,7 @@ fn queries(c: &mut Criterion, setup: Setup, map: &str, grid: &Arc<Grid>, rules: 
     group.finish();
 }
 
-/// The time of finding all legal moves of all free vertices, row by row.
+/// Benchmarks the legal moves of all free vertices, row by row.
 fn successors<P: Placement>(c: &mut Criterion, map: &str, grid: &Arc<Grid>, rule: P::Rule, k: u32) {
     let grid_graph = grid_graph::<P>(grid, rule, k);
     let (width, height) = P::vertices(grid);
@@ -105,7 +106,7 @@ fn successors<P: Placement>(c: &mut Criterion, map: &str, grid: &Arc<Grid>, rule
     group.finish();
 }
 
-/// The time of pushing random entries, lowering every second one, and popping all.
+/// Benchmarks the open list: pushes random entries, decreases every second one, pops all.
 fn heap(c: &mut Criterion) {
     let mut rng = Rng::new(SEED);
     let mut cost = || Cost::from_bits(1 << 40 | rng.bits() >> 24);

@@ -1,4 +1,4 @@
-//! Whoever takes part in a measurement, behind one face.
+//! The competitors of a measurement, behind one interface.
 
 use std::{fmt, time::Instant};
 
@@ -15,7 +15,7 @@ use crate::{
 /// The pruning rules that the maps have in common.
 static RULES: SharedRules = SharedRules::new();
 
-/// Whoever takes part in a measurement.
+/// A competitor of a measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Competitor {
     /// One of our engines.
@@ -33,7 +33,8 @@ impl fmt::Display for Competitor {
     }
 }
 
-/// What answers queries. A baseline keeps no scratch memory here: it takes it anew for each query, or hides it.
+/// A competitor made ready for the queries of one map. Only ours keep scratch memory: a baseline allocates it
+/// for each query, or hides it.
 pub(crate) enum Runner {
     Ours(BoxedPlanner, Preparation),
     Bools(BoolMap),
@@ -64,7 +65,7 @@ impl Runner {
         })
     }
 
-    /// What was made before the first query; `None` of a baseline.
+    /// The preparation before the first query; `None` for a baseline.
     pub(crate) fn preparation(&self) -> Option<Preparation> {
         match self {
             Self::Ours(_, preparation) => Some(*preparation),

@@ -1,4 +1,4 @@
-//! One setup on the queries of one map: what it answers, what it counts, how long it takes.
+//! Studies: the answers, counts and times of setups on the queries of one map.
 
 use std::{hint::black_box, sync::Arc, time::Instant};
 
@@ -12,7 +12,7 @@ use crate::Preparation;
 /// The pruning rules that the maps have in common.
 static RULES: SharedRules = SharedRules::new();
 
-/// Queries on a map that several setups answer, one after the other.
+/// The queries of a map, to be answered by several setups one after the other.
 #[derive(Debug)]
 pub struct Study<'a> {
     grid: &'a Arc<Grid>,
@@ -24,27 +24,28 @@ pub struct Study<'a> {
     index: Option<(Index, f64)>,
 }
 
-/// What a setup made of the queries of a [`Study`].
+/// The answers of a setup to the queries of a [`Study`], and their time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
     /// The answers, in the order of the queries. `None` where there is no path, or none was found.
     pub answers: Vec<Option<Answer>>,
-    /// The mean time of a query in microseconds, paths included: the median of the timed passes. `None` if there were none.
+    /// The mean time of a query in microseconds, paths included: the median of the timed passes. `None` if no
+    /// pass was timed.
     pub micros: Option<f64>,
-    /// What came before the first query; its time was measured once.
+    /// The preparation before the first query; its time was measured once.
     pub preparation: Preparation,
 }
 
-/// One path and what it took to find it.
+/// One path, and the counts of the search that found it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
     /// Its Euclidean length in cells.
     pub cost: f64,
-    /// How many steps it takes: of a path over N(k), its moves.
+    /// The number of its moves, if it is a path over N(k).
     pub moves: u32,
-    /// How much it turns in all, in degrees: PS of Hammoud & Lupin 2023, Eq. 1.
+    /// The sum of its turning angles in degrees: PS of Hammoud & Lupin 2023, Eq. 1.
     pub smoothness: f64,
-    /// What the search did.
+    /// The counts of the search.
     pub counters: Counters,
 }
 
@@ -57,7 +58,7 @@ impl Answer {
 }
 
 impl<'a> Study<'a> {
-    /// A study whose runs are timed so many times; 0: not at all.
+    /// A study whose runs have so many timed passes, or none.
     #[must_use]
     pub const fn new(grid: &'a Arc<Grid>, queries: &'a [Query], passes: u32) -> Self {
         Self { grid, queries, passes, space: None, index: None }
@@ -71,7 +72,8 @@ impl<'a> Study<'a> {
 
     /// Answers all queries by a setup: once to count, which also warms its memory, then in the timed passes.
     ///
-    /// A setup of the same engine, k, rules and levels as the one before it, smoothed in another way, takes over its index.
+    /// A setup of the same engine, k, rules and levels as the one before it, smoothed in another way, takes
+    /// over its index.
     ///
     /// # Errors
     /// [`EngineError`] for a setup that does not exist.

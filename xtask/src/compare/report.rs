@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mediant_bench::{Comparand, Comparison, MapRecord};
+use mediant_bench::{Comparison, MapRecord, ReferenceProgram};
 use mediant_engines::Setup;
 use mediant_report::{Machine, Table, number, stats::geometric_mean};
 use serde::Serialize;
@@ -93,7 +93,7 @@ fn disturbance(scales: &[f64]) -> Option<String> {
 }
 
 /// The ratios of the setup at place `setup` to some of the programs.
-fn ratios(results: &Results<'_>, setup: usize, programs: &[(usize, &Comparand)]) -> Table {
+fn ratios(results: &Results<'_>, setup: usize, programs: &[(usize, &ReferenceProgram)]) -> Table {
     let mut heading = vec!["map".to_owned()];
     heading.extend(programs.iter().map(|(_, program)| program.name.clone()));
     let mut table = Table::new(heading);
@@ -115,7 +115,7 @@ fn ratios(results: &Results<'_>, setup: usize, programs: &[(usize, &Comparand)])
 }
 
 /// What the setup at place `setup` prepares, and its ratios to those of the programs that prepare something.
-fn preparation(results: &Results<'_>, setup: usize, programs: &[(usize, &Comparand)]) -> Table {
+fn preparation(results: &Results<'_>, setup: usize, programs: &[(usize, &ReferenceProgram)]) -> Table {
     let prepares =
         |name: &String| results.references.maps.iter().any(|row| row.preprocessing.contains_key(name));
     let programs: Vec<_> = programs.iter().filter(|(_, program)| prepares(&program.name)).collect();

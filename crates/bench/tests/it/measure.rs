@@ -1,4 +1,4 @@
-//! The harness on generated maps, with the oracle's costs as the scenario.
+//! Measurements on generated maps, with scenarios that the oracle's costs make.
 
 use mediant_bench::{Baseline, Competitor, MeasureError, Problem, ProblemError, measure};
 use mediant_formats::{Instance, Scenario};
@@ -22,11 +22,11 @@ fn scenario(rng: &mut Rng, grid: &Grid, count: usize) -> Scenario {
     Scenario::from_instances(instances).expect("lengths are finite")
 }
 
-/// After the baselines: they solve the scenarios' problem.
+/// The setups after the baselines: they solve the scenarios' problem.
 const EXACT: [&str; 6] =
     ["dijkstra", "canonical,euclidean", "jps,limit=4", "jps-block,intermediate", "jps-plus", "subgoal"];
 
-/// The last competitors: any-angle paths between corners, of which those in the middle are held to the first.
+/// The last competitors: any-angle paths between corners. The first three are optimal.
 const ANY_ANGLE: [&str; 5] =
     ["anya:any:open", "anya:any:open,taut", "subgoal:any:open", "theta:3:open", "astar:3:open,smooth"];
 
@@ -55,7 +55,7 @@ fn all_competitors_answer_all_queries() {
         assert_eq!((record.instances, record.timings.len()), (problem.len(), 19), "seed {seed}");
         for timing in &record.timings {
             assert_eq!(timing.passes.len(), 2, "seed {seed}");
-            // The baselines say nothing of what they prepare.
+            // What baselines prepare is not measured.
             let ours = Baseline::ALL.iter().all(|baseline| baseline.name() != timing.competitor);
             assert_eq!(timing.preparation.is_some_and(|made| made.bytes > 0 && made.seconds > 0.0), ours);
             assert!(timing.passes.iter().all(|&pass| pass > 0.0) && timing.micros > 0.0, "seed {seed}");
@@ -65,10 +65,11 @@ fn all_competitors_answer_all_queries() {
         let optimum = optimum / problem.len() as f64;
         assert!((cost(0) - optimum).abs() < 1e-6 && (cost(6) - optimum).abs() < 1e-6, "seed {seed}");
         assert!((8..14).all(|i| (cost(i) - cost(0)).abs() < 1e-9), "seed {seed}");
-        // k = 2 is no better, rule `One` with more moves no worse; a path that cuts corners is never below the best of them.
+        // Fewer moves are no better, more moves under `One` no worse, and no path that cuts corners is
+        // shorter than the shortest under `Always`.
         assert!(cost(1) >= cost(0) - 1e-6 && cost(2) <= cost(0) + 1e-6, "seed {seed}");
         assert!(cost(3) <= cost(0) + 1e-6 && cost(7) >= cost(3) - 1e-6, "seed {seed}");
-        // The rule of gaps at place 4 is that of the last five.
+        // Competitor 4 has the gap rule of the last five.
         let best = cost(14);
         assert!([15, 16].into_iter().all(|i| (cost(i) - best).abs() < 1e-9), "seed {seed}");
         assert!(cost(17) >= best - 1e-9, "seed {seed}");
@@ -81,7 +82,7 @@ fn all_competitors_answer_all_queries() {
     );
 }
 
-/// The queries of the test above.
+/// The number of queries of the test above.
 const PINNED: usize = 136;
 
 #[test]
@@ -111,7 +112,7 @@ fn wrong_lengths_are_found() {
             }
         }
     }
-    // This one solves another problem, and is not held to the scenario's lengths.
+    // This baseline solves another problem: its lengths need not be the scenario's.
     assert!(check(4.99, Competitor::Baseline(Baseline::GridPathfinding)).is_ok());
 }
 
