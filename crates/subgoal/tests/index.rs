@@ -228,6 +228,6 @@ fn ways_there_and_back_are_refused() {
     assert!(Graph::from_bytes(&space, K::Any, &bytes(2)).is_ok(), "shortcuts over the first");
     for depth in [12, 20, 30, count - 1] {
         let error = Graph::from_bytes(&space, K::Any, &bytes(depth)).expect_err("the ways are too long");
-        assert_eq!(error, SubgoalError::Bytes("a way is too long"), "{depth}");
+        assert_eq!(error, SubgoalError::Bytes("a shortcut is too long"), "{depth}");
     }
 }

@@ -1,14 +1,13 @@
-//! How far one gets along the rows, columns and diagonals of a map.
+//! Clearances at centers: how far one can go along a row, column or diagonal before a subgoal or an obstacle.
 
 use mediant_grid::{BitIndex, BitMatrix, Grid, Vertex, load};
 
-use crate::placement::Prepared;
+use crate::placement::EdgeTables;
 
-/// What ends a way from a center along a row, a column or a diagonal, as bits along that line, so that the first one ahead or behind is
-/// found by words.
+/// What stops a walk from a center along a row, a column or a diagonal, as bits along that line. So the first stop ahead or behind is found a word at
+/// a time.
 #[derive(Clone, Debug)]
-#[doc(hidden)]
-pub struct Lines {
+pub struct ClearanceBits {
     /// Blocked cells and subgoals, row by row.
     rows: BitMatrix,
     /// The same with rows and columns exchanged.
@@ -17,24 +16,24 @@ pub struct Lines {
     diagonals: [BitMatrix; 2],
 }
 
-/// The way from a cell along a diagonal.
+/// The clearance of a cell along a diagonal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Run {
-    /// How many cells can be passed before a subgoal or an illegal move.
+pub(crate) struct DiagonalClearance {
+    /// The number of cells that can be passed before a subgoal or an illegal move.
     pub(crate) free: i32,
-    /// Whether the cell after them can be reached and is a subgoal.
-    pub(crate) meets: bool,
+    /// Whether the next cell can be reached and is a subgoal.
+    pub(crate) meets_subgoal: bool,
 }
 
-impl Prepared for Lines {
+impl EdgeTables for ClearanceBits {
     fn memory_bytes(&self) -> usize {
         let Self { rows, columns, diagonals: [down, up] } = self;
         [rows, columns, down, up].into_iter().map(|bits| size_of_val(bits.words())).sum()
     }
 }
 
-impl Lines {
-    /// The subgoals of a map and its lines.
+impl ClearanceBits {
+    /// The subgoals of a map, and its clearance bits.
     pub(crate) fn new(grid: &Grid) -> (BitMatrix, Self) {
         let [(marks, rows), (_, columns)] = [grid.rows(), grid.columns()].map(|cells| {
             let marks = convex_corners(cells);
@@ -48,7 +47,7 @@ impl Lines {
         (marks, Self { rows, columns, diagonals })
     }
 
-    /// Blocked cells and subgoals along an axis, and where a cell stands there.
+    /// Blocked cells and subgoals along an axis, and the place of a cell there.
     pub(crate) const fn along(&self, is_row: bool, at: Vertex) -> (&BitMatrix, BitIndex) {
         if is_row {
             (&self.rows, self.rows.index(at.x, at.y))
@@ -57,19 +56,20 @@ impl Lines {
         }
     }
 
-    /// The way from a cell along the diagonal `(x, y)`, each of which is ±1.
-    pub(crate) fn diagonal(&self, from: Vertex, (x, y): (i32, i32)) -> Run {
+    /// The clearance of a cell along the diagonal `(x, y)`, each of which is ±1.
+    pub(crate) fn diagonal(&self, from: Vertex, (x, y): (i32, i32)) -> DiagonalClearance {
         let bits = &self.diagonals[usize::from(x != y)];
-        let row = diagonal(from, x * y, bits.height());
+        let row = diagonal_row(from, x * y, bits.height());
         let at = bits.index(2 * from.x, row as i32);
-        let passed = if x > 0 { ahead(bits.words(), at.offset(1)) } else { behind(bits.words(), at) };
-        Run { free: passed / 2, meets: passed % 2 == 1 }
+        let passed =
+            if x > 0 { zeros_after(bits.words(), at.offset(1)) } else { zeros_before(bits.words(), at) };
+        DiagonalClearance { free: passed / 2, meets_subgoal: passed % 2 == 1 }
     }
 }
 
 /// The number of zeros from `at` on.
 #[inline]
-pub(crate) fn ahead(words: &[u64], mut at: BitIndex) -> i32 {
+pub(crate) fn zeros_after(words: &[u64], mut at: BitIndex) -> i32 {
     let mut passed = 0;
     loop {
         let word = load(words, at);
@@ -83,7 +83,7 @@ pub(crate) fn ahead(words: &[u64], mut at: BitIndex) -> i32 {
 
 /// The number of zeros before `at`.
 #[inline]
-pub(crate) fn behind(words: &[u64], mut at: BitIndex) -> i32 {
+pub(crate) fn zeros_before(words: &[u64], mut at: BitIndex) -> i32 {
     let mut passed = 0;
     loop {
         at = at.offset(-64);
@@ -95,8 +95,8 @@ pub(crate) fn behind(words: &[u64], mut at: BitIndex) -> i32 {
     }
 }
 
-/// The free cells at convex corners of obstacles: a cell is blocked that touches them diagonally, and the two beside both are free. (Uras, Koenig
-/// & Hernández 2013.)
+/// The free cells at convex corners of obstacles (Uras, Koenig & Hernández 2013): a diagonal neighbor is blocked, and the two cells beside both
+/// are free.
 fn convex_corners(cells: &BitMatrix) -> BitMatrix {
     BitMatrix::from_words(cells.width(), cells.height(), false, |x, y| {
         let word = |dx, dy| load(cells.words(), cells.index(x + dx, y + dy));
@@ -110,17 +110,17 @@ fn convex_corners(cells: &BitMatrix) -> BitMatrix {
     })
 }
 
-/// The row in which a cell's diagonal is stored. Two diagonals that together are as long as the map is high share a row; at the
-/// edge of the map, where one gives way to the other, no move is legal.
-const fn diagonal(at: Vertex, slope: i32, height: u32) -> u32 {
+/// The row in which a cell's diagonal is stored. Two diagonals that together are as long as the map is high share a row. They meet at the edge of the
+/// map, where no move is legal.
+const fn diagonal_row(at: Vertex, slope: i32, height: u32) -> u32 {
     (at.y - slope * at.x).rem_euclid(height as i32) as u32
 }
 
-/// The diagonals down and up to the right. Each cell has two bits in its diagonal's row: whether it is a subgoal, and whether the move from there
-/// to the next cell on the right is illegal.
+/// The diagonals down and up to the right. Each cell has two bits in its diagonal's row: whether it is a subgoal, and whether the move to
+/// the next cell on the right is illegal.
 fn diagonals(cells: &BitMatrix, marks: &BitMatrix) -> [BitMatrix; 2] {
     let (width, height) = (cells.width(), cells.height());
-    // Of the four cells at the lower right corner of each, one is blocked.
+    // One of the four cells at its lower right corner is blocked.
     let illegal = BitMatrix::from_words(width, height, true, |x, y| {
         let word = |dx, dy| load(cells.words(), cells.index(x + dx, y + dy));
         word(0, 0) | word(1, 0) | word(0, 1) | word(1, 1)
