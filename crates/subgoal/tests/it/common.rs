@@ -1,5 +1,5 @@
-//! What several suites of subgoal graphs need.
-#![allow(dead_code, reason = "each suite uses a part")]
+//! Helpers of several suites.
+#![allow(dead_code, reason = "each test program uses a part")]
 
 use std::{num::NonZeroU32, sync::Arc};
 
@@ -9,7 +9,7 @@ use mediant_subgoal::{Hierarchy, SubgoalGraph, SubgoalPlacement};
 
 pub(crate) const GAPS: [DiagonalGap; 2] = [DiagonalGap::Open, DiagonalGap::Closed];
 
-/// Every hierarchy: contracted, of one level, two, three, all.
+/// Every hierarchy: contracted, and of one level, two, three and all.
 pub(crate) const HIERARCHIES: [Hierarchy; 5] =
     [Hierarchy::Contracted, levels(1), levels(2), levels(3), Hierarchy::AllLevels];
 
@@ -21,7 +21,7 @@ pub(crate) fn k(number: u32) -> K {
     FiniteK::new(number).expect("k is at least 2").into()
 }
 
-/// k = 2, …, 8, and every direction.
+/// k = 2, …, 8, and any angle.
 pub(crate) fn all_ks() -> impl Iterator<Item = K> {
     (2..=8).map(k).chain([K::Any])
 }

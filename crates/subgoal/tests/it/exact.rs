@@ -1,8 +1,6 @@
-//! Sub-A* costs what the references cost, and Sub-Theta* finds a path whenever there is one, on seeded random maps.
+//! Sub-A* costs what the references cost, and Sub-Theta* finds a path whenever there is one, on seeded random
+//! maps.
 
-mod common;
-
-use common::{GAPS, HIERARCHIES, all_ks, graph, k, space};
 use mediant_grid::{Centers, CornerRule, Corners, FreeSpace, Grid, PlacementKind, Rules, Vertex};
 use mediant_moves::{FiniteK, K};
 use mediant_oracle::{
@@ -12,7 +10,9 @@ use mediant_oracle::{
 use mediant_search::{Counters, Guarantee, Outcome, Path, Planner, Query};
 use mediant_subgoal::{Hierarchy, SubgoalAStar, SubgoalGraph, SubgoalPlacement, SubgoalTheta};
 
-/// What is known of a query.
+use crate::common::{GAPS, HIERARCHIES, all_ks, graph, k, space};
+
+/// A query, and what the references say of it.
 #[derive(Clone, Copy)]
 struct Expected {
     start: Vertex,
@@ -23,12 +23,12 @@ struct Expected {
     any_angle: Option<f64>,
 }
 
-/// How many answers there were of each kind.
+/// The number of answers of each kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Tally {
     found: usize,
     unreachable: usize,
-    /// Paths of Sub-Theta* that are the shortest, and others.
+    /// Paths of Sub-Theta* that are the shortest at any angle, and others.
     shortest: usize,
     longer: usize,
 }
@@ -42,7 +42,7 @@ impl Tally {
     }
 }
 
-/// A graph, with all that is said of a failure.
+/// A graph under test, with what the message of a failure needs.
 struct Suite<'t, P: SubgoalPlacement> {
     space: &'t FreeSpace<P>,
     graph: SubgoalGraph<P>,
@@ -54,7 +54,8 @@ impl<'t, P: SubgoalPlacement> Suite<'t, P> {
         Self { space, graph: graph(space, k, hierarchy), seed }
     }
 
-    /// Both planners on all queries of a map, so that each is answered on what the others left behind.
+    /// Runs both planners on all queries of a map. Each query meets the scratch memory that the queries
+    /// before it left.
     fn check(&self, queries: &[Expected]) -> Tally {
         let mut tally = Tally::default();
         let mut a_star = SubgoalAStar::new(self.space, &self.graph);
@@ -95,7 +96,8 @@ impl<'t, P: SubgoalPlacement> Suite<'t, P> {
         tally
     }
 
-    /// The cost of a path, if there is one, that was checked, and the counters.
+    /// Solves a query twice and checks the path. Returns its cost and the counters, or `None` if there is no
+    /// path.
     fn solve(&self, planner: &mut impl Planner, expected: &Expected, k: K) -> Option<(f64, Counters)> {
         let Expected { start, goal, .. } = *expected;
         let mut solve = || {
@@ -107,7 +109,7 @@ impl<'t, P: SubgoalPlacement> Suite<'t, P> {
         assert_eq!(solve(), (outcome.clone(), counters), "asked again; {}", self.case(expected));
         let cost = outcome.path().map(Path::cost);
         let Outcome::Found(path) = outcome else {
-            // Where there is no path at any angle the components say so without a search.
+            // If there is no path at any angle, the components tell so without a search.
             let searched = counters != Counters::default();
             assert!(!searched || expected.any_angle.is_some(), "{}", self.case(expected));
             return None;
@@ -127,7 +129,8 @@ impl<'t, P: SubgoalPlacement> Suite<'t, P> {
     }
 }
 
-/// Free vertices of a map, as ends of queries: some convex corners, some where two blocked cells meet, some of all.
+/// Free vertices of a map, as ends of queries: some convex corners, some where two blocked cells meet, some
+/// of all.
 fn ends(grid: &Grid, corners: &[Vertex], seed: u64) -> Vec<Vertex> {
     let mut rng = Rng::new(seed ^ 0x5AB6);
     let (width, height) = (grid.width() as i32, grid.height() as i32);
@@ -139,7 +142,7 @@ fn ends(grid: &Grid, corners: &[Vertex], seed: u64) -> Vec<Vertex> {
     special.into_iter().chain(any.collect::<Vec<_>>()).flatten().collect()
 }
 
-/// From each of some vertices to each.
+/// The queries from each of the vertices to each, with their optima.
 fn expected_at(visibility: &Visibility<'_>, ends: &[Vertex], k: K) -> Vec<Expected> {
     let (over_k, any) = (visibility.over(k.finite()), visibility.over(None));
     let mut expected = Vec::new();
@@ -163,7 +166,7 @@ fn check_corners(seed: u64) -> Tally {
         let ends = ends(&grid, visibility.corners(), seed);
         for (turn, k) in (0..).zip(all_ks()) {
             let expected = expected_at(&visibility, &ends, k);
-            // One of the hierarchies for each, all of them in turn.
+            // Each k has one of the hierarchies; all have their turn.
             let hierarchy = HIERARCHIES[(seed as usize + turn) % HIERARCHIES.len()];
             tally.add(Suite::new(&space, k, hierarchy, seed).check(&expected));
         }
@@ -188,7 +191,7 @@ fn sub_a_star_costs_what_the_visibility_graph_costs() {
     assert!(tally.shortest > 200 * maps && tally.longer > 2 * maps, "{tally:?} on {maps} maps");
 }
 
-/// The same against Dijkstra on the explicit graphs of N(k) and of all segments.
+/// Compares the planners with Dijkstra on the explicit graphs of N(k) and of all segments.
 fn check_explicitly<P: SubgoalPlacement>(
     grid: &Grid,
     rule: P::Rule,
@@ -219,7 +222,7 @@ fn check_rules_explicitly(grid: &Grid, rules: Rules, k: K, hierarchy: Hierarchy,
     }
 }
 
-/// Where there are subgoal graphs for this k.
+/// The rules under which there are subgoal graphs for this k.
 fn rules_of(k: K) -> impl Iterator<Item = Rules> {
     let at_centers = match k.finite().map(FiniteK::get) {
         Some(2) => &[CornerRule::Never, CornerRule::One, CornerRule::Always][..],
@@ -234,7 +237,7 @@ fn sub_a_star_costs_what_dijkstra_on_the_explicit_graph_costs() {
     let check = |seed: u64| {
         let mut tally = Tally::default();
         let (grid, k) = (suite_grid(seed).0, [k(2), k(3), k(4), K::Any][seed as usize % 4]);
-        // The graph of all segments takes long on the largest maps.
+        // On large maps the graph of all segments takes too long.
         if grid.width() * grid.height() > 200 {
             return tally;
         }

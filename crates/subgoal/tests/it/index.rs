@@ -1,17 +1,16 @@
-//! Graphs as bytes: what was written is read, and what was not is not.
+//! Graphs as bytes: what was written is read back; other bytes are refused, or make a graph of legal paths.
 
-mod common;
-
-use common::{GAPS, HIERARCHIES, graph, k, levels, space};
 use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace, Grid, PlacementKind, Vertex};
 use mediant_moves::K;
 use mediant_oracle::{Rng, on_all_cores, random_free_vertex, seeds, suite_grid, validate};
 use mediant_search::{Outcome, Planner, Query};
 use mediant_subgoal::{SubgoalAStar, SubgoalError, SubgoalGraph, SubgoalTheta};
 
+use crate::common::{GAPS, HIERARCHIES, graph, k, levels, space};
+
 type Graph = SubgoalGraph<Corners>;
 
-/// What both planners say.
+/// The answers of both planners.
 fn answers(space: &FreeSpace<Corners>, graph: &Graph, queries: &[Query]) -> Vec<[Outcome; 2]> {
     let mut a_star = SubgoalAStar::new(space, graph);
     let mut theta = SubgoalTheta::new(space, graph);
@@ -68,7 +67,7 @@ fn rooms() -> Grid {
     AsciiMap::parse(ROOMS).expect("the drawing is a map").grid
 }
 
-/// From each of some vertices to each.
+/// Queries from each of some free vertices to each.
 fn all_queries(space: &FreeSpace<Corners>) -> Vec<Query> {
     let vertices = (0..=8).flat_map(|y| (0..=12).map(move |x| Vertex::new(x, y)));
     let free: Vec<Vertex> = vertices.filter(|&at| space.is_free(at)).step_by(9).collect();
@@ -93,7 +92,7 @@ fn part_of_the_bytes_is_no_graph_and_neither_is_more() {
     }
 }
 
-/// What a graph that may be another's answers: legal paths, if any.
+/// Checks that a graph, whatever it was made for, answers with legal paths or none.
 fn check_answers(space: &FreeSpace<Corners>, graph: &Graph, queries: &[Query], case: &str) {
     for (&Query { start, goal }, outcomes) in queries.iter().zip(answers(space, graph, queries)) {
         for (outcome, k) in outcomes.into_iter().zip([graph.k().finite(), None]) {
@@ -131,7 +130,7 @@ fn bytes_of_another_map_or_k_make_no_illegal_path() {
     let (mut refused, mut read) = (0, 0);
     let rooms = rooms();
     let width = rooms.width() as i32;
-    // As many subgoals elsewhere.
+    // Has as many subgoals, at other places.
     let mirrored =
         Grid::from_fn(rooms.width(), rooms.height(), |x, y| rooms.is_blocked(width - 1 - x as i32, y as i32));
     let mirrored = mirrored.expect("a valid size");
@@ -158,7 +157,8 @@ fn bytes_of_another_map_or_k_make_no_illegal_path() {
     assert!(refused > 60 && read > 20, "{refused} refused, {read} read");
 }
 
-/// The bytes of a graph that was made up: the edges lead up or down in any order, with shortcuts wherever there are two arcs, and some errors.
+/// The bytes of a made-up graph: subgoals in a random order, shortcuts over any two arcs of a subgoal,
+/// sometimes an arc that is wrong.
 fn made_up(rng: &mut Rng, count: usize, edges: &[(u32, u32)]) -> Vec<u8> {
     let rank: Vec<u64> = (0..count).map(|_| rng.bits()).collect();
     let above = |a: u32, b: u32| if rank[a as usize] < rank[b as usize] { (a, b) } else { (b, a) };
@@ -210,7 +210,7 @@ fn a_made_up_graph_is_refused_or_one_of_legal_paths() {
     assert!(counts.iter().all(|&count| count > 300), "{counts:?} refused, and read");
 }
 
-/// Shortcuts over shortcuts, each twice as long as those that it is made of.
+/// Shortcuts over shortcuts, each twice as long as those that it consists of.
 #[test]
 fn ways_there_and_back_are_refused() {
     let grid = Grid::from_fn(40, 2, |x, y| y == 1 && x % 2 == 1).expect("a valid size");
@@ -227,7 +227,7 @@ fn ways_there_and_back_are_refused() {
     assert!(Graph::from_bytes(&space, K::Any, &bytes(1)).is_ok(), "edges from the first to all");
     assert!(Graph::from_bytes(&space, K::Any, &bytes(2)).is_ok(), "shortcuts over the first");
     for depth in [12, 20, 30, count - 1] {
-        let error = Graph::from_bytes(&space, K::Any, &bytes(depth)).expect_err("the ways are too long");
+        let error = Graph::from_bytes(&space, K::Any, &bytes(depth)).expect_err("the shortcuts are too long");
         assert_eq!(error, SubgoalError::Bytes("a shortcut is too long"), "{depth}");
     }
 }

@@ -1,16 +1,15 @@
 //! Paths over subgoal graphs, drawn, so that a reader can check them by eye.
 //!
-//! Waypoints are 0, 1, 2, … in order; cells stand at odd places and vertices at even ones.
-
-mod common;
+//! The waypoints are numbered 0, 1, 2, …; cells are drawn at odd columns and rows, vertices at even ones.
 
 use std::fmt::Write;
 
-use common::{graph, k, levels, space};
 use mediant_grid::{AsciiMap, Corners, DiagonalGap, PlacementKind, draw};
 use mediant_moves::K;
 use mediant_search::{Planner, Query};
 use mediant_subgoal::{SubgoalAStar, SubgoalTheta};
+
+use crate::common::{graph, k, levels, space};
 
 const HALL: &str = "
     ........#.......
@@ -23,7 +22,7 @@ const HALL: &str = "
     .......#......#g
 ";
 
-/// The subgoals and edges of the graph, and the paths from `s` to `g`, under their costs.
+/// The numbers of subgoals and edges, then the path of each planner from `s` to `g`, with its cost.
 fn picture(k: K, gap: DiagonalGap) -> String {
     let map = AsciiMap::parse(HALL).expect("the drawing is a map");
     let query = Query::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));

@@ -1,13 +1,12 @@
 //! Sub-Theta*, step by step.
 
-mod common;
-
-use common::{graph, k, levels, space};
 use mediant_grid::{AsciiMap, Corners, DiagonalGap, Vertex};
 use mediant_search::{Counters, NodeEvent, Observer, Outcome, Planner, Query};
 use mediant_subgoal::{Hierarchy, SubgoalTheta};
 
-/// Writes events down.
+use crate::common::{graph, k, levels, space};
+
+/// Records events as text.
 #[derive(Default)]
 struct Log(Vec<String>);
 
@@ -77,14 +76,14 @@ fn events_to_the_letter() {
         "expanded (4, 1) from (2, 1): g 4.236, f 10.561",
         "expanded (8, 4) from (6, 4): g 8.359, f 10.595",
         "generated (8, 2) from (8, 4): g 10.359, f 12.595",
-        // The goal, where the search ends.
+        // The goal; it is not expanded.
         "generated (10, 3) from (8, 4): g 10.595, f 10.595",
     ];
     assert_eq!(events, expected);
     assert_eq!(path, [(0, 2), (2, 3), (6, 4), (8, 4), (10, 3)].map(Vertex::from));
 }
 
-/// What is seen from the start needs no subgoal, and makes no event.
+/// A goal that the start sees needs no search, so there are no events.
 #[test]
 fn what_is_in_sight_is_reached_straight() {
     for hierarchy in [levels(1), levels(2), Hierarchy::AllLevels, Hierarchy::Contracted] {

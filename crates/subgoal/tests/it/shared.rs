@@ -1,18 +1,18 @@
-//! One graph for any number of planners, in any number of threads; and how its making is told.
-
-mod common;
+//! One graph for any number of planners, in any number of threads; and the progress reports while it is
+//! built.
 
 use std::{
     sync::{Arc, Mutex},
     thread,
 };
 
-use common::{GAPS, HIERARCHIES, graph, k, levels};
 use mediant_grid::{Centers, Corners, DiagonalGap, FreeSpace, Vertex};
 use mediant_moves::K;
 use mediant_oracle::{Rng, caves};
 use mediant_search::{Outcome, Planner, Query};
 use mediant_subgoal::{Hierarchy, Progress, Stage, SubgoalAStar, SubgoalGraph, SubgoalTheta};
+
+use crate::common::{GAPS, HIERARCHIES, graph, k, levels};
 
 fn cave(gap: DiagonalGap) -> FreeSpace<Corners> {
     FreeSpace::new(Arc::new(caves(&mut Rng::new(7), 60, 50)), gap)
@@ -45,7 +45,7 @@ fn planners_in_many_threads_answer_as_one() {
             let expected = solve_all(&shared, &queries);
             let found = expected.iter().filter(|[outcome, _]| outcome.path().is_some()).count();
             assert!(found > 50, "only {found} paths");
-            // Each begins elsewhere, so that none repeats what another does.
+            // Each thread begins with another query, so that they do not run in step.
             let from = |first: usize| {
                 let mut turned = queries.clone();
                 turned.rotate_left(first);
@@ -73,7 +73,7 @@ fn graphs_are_shared_and_planners_sent() {
     assert_send::<SubgoalTheta<Arc<FreeSpace<Centers>>, Arc<SubgoalGraph<Centers>>, Centers>>();
 }
 
-/// What was told, in the order in which it was.
+/// A graph, and the progress reports of building it, in order.
 fn told(space: &FreeSpace<Corners>, k: K, hierarchy: Hierarchy) -> (SubgoalGraph<Corners>, Vec<Progress>) {
     let told = Mutex::new(Vec::new());
     let tell = |progress| told.lock().expect("no one panicked").push(progress);
@@ -100,7 +100,7 @@ fn progress_is_told_to_the_end() {
     }
 }
 
-/// Without obstacles there are no subgoals, and without vertices nothing to ask.
+/// A map without obstacles has no subgoals; on a map without free cells every query is an error.
 #[test]
 fn maps_without_subgoals_have_graphs() {
     for cells in [false, true] {

@@ -1,13 +1,11 @@
-//! The graph is that of Hormazábal et al. 2017: its subgoals, its edges, and what its levels keep.
-
-mod common;
+//! The graph is that of Hormazábal et al. 2017: its subgoals, its edges, and the distances that its levels
+//! keep.
 
 use std::{
     cmp::Reverse,
     collections::{BTreeSet, BinaryHeap},
 };
 
-use common::{GAPS, HIERARCHIES, graph, k, levels, space};
 use mediant_grid::{Corners, DiagonalGap, Grid, Rules, Vector, Vertex};
 use mediant_moves::{FiniteK, K};
 use mediant_oracle::{
@@ -17,12 +15,14 @@ use mediant_oracle::{
 use mediant_search::{Path, Planner, Query};
 use mediant_subgoal::{Hierarchy, SubgoalAStar};
 
+use crate::common::{GAPS, HIERARCHIES, graph, k, levels, space};
+
 fn vertices(grid: &Grid) -> impl Iterator<Item = Vertex> {
     let (width, height) = (grid.width() as i32, grid.height() as i32);
     (0..=height).flat_map(move |y| (0..=width).map(move |x| Vertex::new(x, y)))
 }
 
-/// A corner of an obstacle past which a path may go along a diagonal.
+/// Whether a vertex is a corner of an obstacle that a path can pass along a diagonal.
 fn is_subgoal(grid: &Grid, gap: DiagonalGap, at: Vertex) -> bool {
     let is_blocked = |(x, y): (i32, i32)| {
         let is_inside = (0..grid.width() as i32).contains(&x) && (0..grid.height() as i32).contains(&y);
@@ -64,7 +64,8 @@ fn is_same(a: f64, b: f64) -> bool {
     a == b || a.max(b).is_finite() && (a - b).abs() <= 1e-9 * a.max(b)
 }
 
-/// Definitions 1 and 2: the pairs of subgoals between which h_k is what an optimal path costs, and no other subgoal is on one.
+/// The pairs of directly h_k-reachable subgoals (Definitions 1 and 2): h_k is the cost of an optimal path
+/// between them, and no other subgoal is on one.
 fn directly_reachable(graph: &Explicit, subgoals: &[Vertex], k: FiniteK) -> BTreeSet<(Vertex, Vertex)> {
     let costs: Vec<Costs<'_>> = subgoals.iter().map(|&at| graph.costs_from(at)).collect();
     let cost = |a: usize, b: usize| costs[a].to(subgoals[b]).unwrap_or(f64::INFINITY);
@@ -90,10 +91,14 @@ fn edges_join_what_is_directly_reachable() {
             let graph = graph(&space::<Corners>(&grid, gap), number.into(), levels(1));
             let found: Vec<_> = graph.edges().map(in_order).collect();
             let edges: BTreeSet<_> = found.iter().copied().collect();
-            assert_eq!(edges.len(), found.len(), "an edge is told twice: seed {seed}, {gap:?}, k = {number}");
+            assert_eq!(
+                edges.len(),
+                found.len(),
+                "an edge is visited twice: seed {seed}, {gap:?}, k = {number}"
+            );
             if let Some(&(a, b)) = edges.symmetric_difference(&expected).next() {
-                let which = if edges.contains(&(a, b)) { "too much" } else { "missing" };
-                panic!("{which}, k = {number}: {}", describe(&grid, Rules::Corner(gap), a, b, seed));
+                let fault = if edges.contains(&(a, b)) { "too much" } else { "missing" };
+                panic!("{fault}, k = {number}: {}", describe(&grid, Rules::Corner(gap), a, b, seed));
             }
             count += edges.len();
         }
@@ -103,7 +108,7 @@ fn edges_join_what_is_directly_reachable() {
     assert!(counts.iter().sum::<usize>() > 40 * counts.len(), "too few edges: {counts:?}");
 }
 
-/// Distances over edges with these lengths, from one of the ends.
+/// The distances from one subgoal over edges of these lengths, through subgoals that `is_in` allows.
 fn dijkstra(lengths: &[Vec<f64>], from: usize, is_in: impl Fn(usize) -> bool) -> Vec<f64> {
     let mut cost = vec![f64::INFINITY; lengths.len()];
     cost[from] = 0.0;
@@ -121,7 +126,7 @@ fn dijkstra(lengths: &[Vec<f64>], from: usize, is_in: impl Fn(usize) -> bool) ->
     cost
 }
 
-/// The subgoals, and between each two of them the length of the edge.
+/// The subgoals, and for each two of them the length of the edge between them, or infinity.
 fn lengths(grid: &Grid, gap: DiagonalGap, k: FiniteK) -> (Vec<Vertex>, Vec<Vec<f64>>) {
     let graph = graph(&space::<Corners>(grid, gap), k.into(), levels(1));
     let subgoals: Vec<Vertex> = graph.vertices().collect();
@@ -167,9 +172,10 @@ fn every_hierarchy_keeps_the_distances_of_the_edges() {
     assert!(counts.iter().sum::<usize>() > 15 * counts.len(), "too few distances: {counts:?}");
 }
 
-/// How many subgoals are on the level above `left`, of which those are: all that are taken out in order are needed by none of the others, or
-/// only by such as are h_k-reachable over them.
-fn take_out_a_level(subgoals: &[Vertex], lengths: &mut [Vec<f64>], left: &mut [bool], k: FiniteK) {
+/// Contracts a level of the reference graph: in order, each subgoal without which no distance between the
+/// others grows, or only distances between subgoals that are h_k-reachable over it. `left` says which
+/// subgoals are not contracted yet.
+fn contract_level(subgoals: &[Vertex], lengths: &mut [Vec<f64>], left: &mut [bool], k: FiniteK) {
     for id in 0..subgoals.len() {
         let around: Vec<usize> =
             (0..subgoals.len()).filter(|&at| left[at] && lengths[id][at].is_finite()).collect();
@@ -214,7 +220,7 @@ fn levels_leave_out_what_no_distance_needs() {
             *count = left.iter().filter(|left| **left).count();
             let case = || format!("level {level}, k = {number}, {gap:?}, seed {seed}");
             assert_eq!(core(levels(level)), *count, "{}", case());
-            take_out_a_level(&subgoals, &mut lengths, &mut left, number);
+            contract_level(&subgoals, &mut lengths, &mut left, number);
         }
         assert_eq!(core(levels(1000)), core(Hierarchy::AllLevels), "k = {number}, {gap:?}, seed {seed}");
         assert!(core(Hierarchy::AllLevels) <= cores[2]);
@@ -225,7 +231,8 @@ fn levels_leave_out_what_no_distance_needs() {
     assert!(0 < third && third < second && second < first, "{first}, {second}, {third} subgoals");
 }
 
-/// Whether a shortest path at any angle that comes from `from` may bend at a convex corner: beside its direction lies the obstacle.
+/// Whether a shortest path at any angle that comes from `from` may bend at a convex corner: the obstacle must
+/// lie beside its direction.
 fn may_bend(grid: &Grid, from: Vertex, at: Vertex) -> bool {
     let d = from.to(at);
     let is_beside = |&(x, y): &(i32, i32)| d.x * x <= 0 && d.y * y >= 0 || d.x * x >= 0 && d.y * y <= 0;
@@ -233,7 +240,7 @@ fn may_bend(grid: &Grid, from: Vertex, at: Vertex) -> bool {
     [(-1, -1), (1, -1), (-1, 1), (1, 1)].into_iter().filter(is_beside).any(is_blocked)
 }
 
-/// At any angle an edge is a piece of a shortest path, and all that go from one corner to the next are edges.
+/// At any angle an edge is part of a taut path, and every such line from one corner to the next is an edge.
 #[test]
 fn edges_at_any_angle_are_tangents() {
     let mut count = [0; 2];
@@ -250,7 +257,7 @@ fn edges_at_any_angle_are_tangents() {
                 };
                 let is_legal = segment_is_legal(&grid, Rules::Corner(gap), a, b);
                 let is_tangent = is_legal && may_bend(&grid, a, b) && may_bend(&grid, b, a);
-                // One over another corner is not needed, and may be there.
+                // A tangent over a third corner is not needed, but allowed.
                 let is_needed = is_tangent && !corners.iter().any(is_between);
                 let case = || describe(&grid, Rules::Corner(gap), a, b, seed);
                 let is_edge = edges.contains(&in_order((a, b)));
@@ -260,5 +267,5 @@ fn edges_at_any_angle_are_tangents() {
             }
         }
     }
-    assert!(count.iter().all(|&count| count > 1000), "{count:?} that need none, and do");
+    assert!(count.iter().all(|&count| count > 1000), "{count:?} pairs that need no edge, and that need one");
 }
