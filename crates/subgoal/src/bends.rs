@@ -1,4 +1,5 @@
-//! At which subgoals a shortest path may bend, and how: what lets a search skip arcs, and a contraction skip shortcuts.
+//! At which subgoals a shortest path may bend, and how: what lets a search skip arcs, and a contraction skip
+//! shortcuts.
 
 mod octile;
 mod taut;
@@ -67,8 +68,8 @@ impl Departures {
     pub(crate) fn allows(self, w: Vector) -> bool {
         match self {
             Self::Taut(departures) => departures.allows(w),
-            // Where no obstacle lies on the inner side of the bend, a path can cut the bend. The shortcut costs less over N(k) unless both directions
-            // are in one cone, in which h_k is linear.
+            // Where no obstacle lies on the inner side of the bend, a path can cut the bend. The shortcut
+            // costs less over N(k) unless both directions are in one cone, in which h_k is linear.
             Self::GridGraph(departures, depth) => {
                 departures.allows(w) || share_cone(departures.arrival(), w, depth)
             }

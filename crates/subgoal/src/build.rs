@@ -25,7 +25,8 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// The subgoal graph of a free space for paths over N(k), or at any angle.
     ///
     /// # Errors
-    /// [`SubgoalError`] if the placement has no subgoal graph for this k and rule, or if the graph would be too large.
+    /// [`SubgoalError`] if the placement has no subgoal graph for this k and rule, or if the graph would be
+    /// too large.
     pub fn new(space: &FreeSpace<P>, k: impl Into<K>, hierarchy: Hierarchy) -> Result<Self, SubgoalError> {
         Self::with_progress(space, k.into(), hierarchy, &|_| {})
     }

@@ -1,4 +1,5 @@
-//! Subgoals and edges at centers, for k = 2 and 3: the subgoal graphs of Uras, Koenig & Hernández 2013, where corners are never cut.
+//! Subgoals and edges at centers, for k = 2 and 3: the subgoal graphs of Uras, Koenig & Hernández 2013, where
+//! corners are never cut.
 
 use mediant_grid::{BitIndex, BitMatrix, Centers, CornerRule, FreeSpace, Grid, Vector, Vertex, load};
 use mediant_moves::{Cost, FiniteK, K};
@@ -66,9 +67,10 @@ struct EdgeSearch<'l, F> {
 
 /// The cells a·u + b·v, with a, b ≥ 1, between two adjacent moves u and v, of which u is an axis move.
 ///
-/// To find their directly reachable subgoals, go along v step by step. In each row, walk along u to the first subgoal or blocked cell, but stop short of
-/// where the walk in an earlier row ended. This is complete: if a subgoal is directly reachable, every optimal path to it on an empty grid is legal and
-/// meets no other subgoal, for where two neighboring paths part around a blocked cell, one of them passes a convex corner.
+/// To find their directly reachable subgoals, go along v step by step. In each row, walk along u to the first
+/// subgoal or blocked cell, but stop short of where the walk in an earlier row ended. This is complete: if a
+/// subgoal is directly reachable, every optimal path to it on an empty grid is legal and meets no other
+/// subgoal, for where two neighboring paths part around a blocked cell, one of them passes a convex corner.
 #[derive(Clone, Copy, Debug)]
 struct Cone {
     /// Whether u is horizontal.
@@ -152,7 +154,8 @@ impl<F: FnMut(Vector, Cost)> EdgeSearch<'_, F> {
     }
 }
 
-/// The number of zeros ahead of `at`, or behind it, but at most `most`. The first 64 bits are known to be zeros.
+/// The number of zeros ahead of `at`, or behind it, but at most `most`. The first 64 bits are known to be
+/// zeros.
 #[cold]
 fn free_beyond<const AHEAD: bool>(words: &[u64], at: BitIndex, most: i32) -> i32 {
     let mut free = 64;
@@ -191,8 +194,8 @@ mod tests {
             })
     }
 
-    /// Compares the edges with searches of the grid graph: they must lead to the subgoals to which an optimal path is as short as without obstacles
-    /// and passes no other subgoal.
+    /// Compares the edges with searches of the grid graph: they must lead to the subgoals to which an optimal
+    /// path is as short as without obstacles and passes no other subgoal.
     fn check(grid: &Grid, k: FiniteK, rule: CornerRule, every: usize, seed: u64) -> usize {
         let space = FreeSpace::<Centers>::new(Arc::new(grid.clone()), rule);
         let metric = Metric::new(K::Finite(k)).expect("a small k");

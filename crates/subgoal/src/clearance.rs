@@ -4,8 +4,8 @@ use mediant_grid::{BitIndex, BitMatrix, Grid, Vertex, load};
 
 use crate::placement::EdgeTables;
 
-/// What stops a walk from a center along a row, a column or a diagonal, as bits along that line. So the first stop ahead or behind is found a word at
-/// a time.
+/// What stops a walk from a center along a row, a column or a diagonal, as bits along that line. So the first
+/// stop ahead or behind is found a word at a time.
 #[derive(Clone, Debug)]
 pub struct ClearanceBits {
     /// Blocked cells and subgoals, row by row.
@@ -95,8 +95,8 @@ pub(crate) fn zeros_before(words: &[u64], mut at: BitIndex) -> i32 {
     }
 }
 
-/// The free cells at convex corners of obstacles (Uras, Koenig & Hernández 2013): a diagonal neighbor is blocked, and the two cells beside both
-/// are free.
+/// The free cells at convex corners of obstacles (Uras, Koenig & Hernández 2013): a diagonal neighbor is
+/// blocked, and the two cells beside both are free.
 fn convex_corners(cells: &BitMatrix) -> BitMatrix {
     BitMatrix::from_words(cells.width(), cells.height(), false, |x, y| {
         let word = |dx, dy| load(cells.words(), cells.index(x + dx, y + dy));
@@ -110,14 +110,14 @@ fn convex_corners(cells: &BitMatrix) -> BitMatrix {
     })
 }
 
-/// The row in which a cell's diagonal is stored. Two diagonals that together are as long as the map is high share a row. They meet at the edge of the
-/// map, where no move is legal.
+/// The row in which a cell's diagonal is stored. Two diagonals that together are as long as the map is high
+/// share a row. They meet at the edge of the map, where no move is legal.
 const fn diagonal_row(at: Vertex, slope: i32, height: u32) -> u32 {
     (at.y - slope * at.x).rem_euclid(height as i32) as u32
 }
 
-/// The diagonals down and up to the right. Each cell has two bits in its diagonal's row: whether it is a subgoal, and whether the move to
-/// the next cell on the right is illegal.
+/// The diagonals down and up to the right. Each cell has two bits in its diagonal's row: whether it is a
+/// subgoal, and whether the move to the next cell on the right is illegal.
 fn diagonals(cells: &BitMatrix, marks: &BitMatrix) -> [BitMatrix; 2] {
     let (width, height) = (cells.width(), cells.height());
     // One of the four cells at its lower right corner is blocked.

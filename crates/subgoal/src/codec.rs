@@ -1,7 +1,8 @@
 //! A subgoal graph as bytes.
 //!
-//! All numbers are `u32`, little endian. First the code of the hierarchy, the number of subgoals and the number of arcs; then, for each subgoal,
-//! twice the number of its arcs, plus 1 if it belongs to the core; then, for each arc, the subgoal that it leads to and its middle node (2³² − 1 for an edge). The subgoals
+//! All numbers are `u32`, little endian. First the code of the hierarchy, the number of subgoals and the
+//! number of arcs; then, for each subgoal, twice the number of its arcs, plus 1 if it belongs to the core;
+//! then, for each arc, the subgoal that it leads to and its middle node (2³² − 1 for an edge). The subgoals
 //! themselves follow from the map, and the costs from the subgoals.
 
 use std::num::NonZeroU32;
@@ -42,14 +43,16 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
         bytes
     }
 
-    /// The graph that [`to_bytes`](Self::to_bytes) wrote for the same free space and k. It answers exactly as the one that was written.
+    /// The graph that [`to_bytes`](Self::to_bytes) wrote for the same free space and k. It answers exactly as
+    /// the one that was written.
     ///
-    /// Whatever the bytes are, the paths of the graph are legal. But this function cannot tell whether the bytes were made for this map and k, or are damaged:
-    /// `IndexFile` of `mediant-formats` can, which holds them in a file.
+    /// Whatever the bytes are, the paths of the graph are legal. But this function cannot tell whether the
+    /// bytes were made for this map and k, or are damaged: `IndexFile` of `mediant-formats` can, which holds
+    /// them in a file.
     ///
     /// # Errors
-    /// [`SubgoalError`] if the bytes are no subgoal graph on this free space. The memory that reading allocates is that of the map's subgoals and a small multiple of
-    /// the length of `bytes`.
+    /// [`SubgoalError`] if the bytes are no subgoal graph on this free space. Besides the memory of the map's
+    /// subgoals, reading allocates a small multiple of the length of `bytes`.
     pub fn from_bytes(space: &FreeSpace<P>, k: impl Into<K>, bytes: &[u8]) -> Result<Self, SubgoalError> {
         let k = k.into();
         P::check(space, k)?;
@@ -94,7 +97,8 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
             };
             arc.middle != NONE || from != to && is_free()
         };
-        // Not by `edges`, which skips one direction of each edge of the core: in crafted bytes the other may be missing.
+        // Not by `edges`, which skips one direction of each edge of the core: in crafted bytes the other may
+        // be missing.
         (0..self.subgoals() as u32).all(|id| self.up(id).iter().all(|arc| is_free(id, arc)))
     }
 }

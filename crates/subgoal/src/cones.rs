@@ -2,8 +2,8 @@
 
 use mediant_grid::Vector;
 
-/// A displacement `a·v + b·w` in the cone between two adjacent moves v and w of N(k). The numbers a and b are integers, since det(v, w) = 1; for a multiple
-/// of a move b is 0.
+/// A displacement `a·v + b·w` in the cone between two adjacent moves v and w of N(k). The numbers a and b are
+/// integers, since det(v, w) = 1; for a multiple of a move b is 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ConeCoordinates {
     /// The number of the cone and of v, counted clockwise from (0, 1).
@@ -43,7 +43,8 @@ impl ConeCoordinates {
 /// Whether a cone of N(k) contains both displacements; `depth` is k − 2.
 #[inline]
 pub(crate) fn share_cone(v: Vector, w: Vector, depth: u32) -> bool {
-    // The widest cones are those beside the axes, between (1, 0) and (k − 2, 1). Wider angles are answered at once.
+    // The widest cones are those beside the axes, between (1, 0) and (k − 2, 1). Wider angles are answered at
+    // once.
     let (det, dot) = (
         i64::from(v.x) * i64::from(w.y) - i64::from(v.y) * i64::from(w.x),
         i64::from(v.x) * i64::from(w.x) + i64::from(v.y) * i64::from(w.y),

@@ -36,18 +36,20 @@ const WITNESS_LIMIT: u64 = 800;
 /// The most arcs that the contraction of a subgoal may add, less those that it removes.
 const MAX_GROWTH: i64 = 200;
 
-/// The most arcs that all witness searches scan together; the subgoals that remain then are the core. Only maps of noise reach it, and are
-/// prepared in 0.7 to 0.8 s.
+/// The most arcs that all witness searches scan together; the subgoals that remain then are the core. Only
+/// maps of noise reach it, and are prepared in 0.7 to 0.8 s.
 const WITNESS_BUDGET: u64 = 1 << 26;
 
-/// A graph whose subgoals are contracted one after another. The distances between those that remain do not change.
+/// A graph whose subgoals are contracted one after another. The distances between those that remain do not
+/// change.
 pub(crate) struct Contraction<G> {
     /// The arcs of a contracted subgoal are those that it had when it was contracted.
     arcs: Vec<Vec<OverlayArc>>,
     contracted: Vec<bool>,
     geometry: G,
     witness: WitnessSearch,
-    /// The shortcuts that the last [`find_shortcuts`](Self::find_shortcuts) found: pairs of arcs of one subgoal.
+    /// The shortcuts that the last [`find_shortcuts`](Self::find_shortcuts) found: pairs of arcs of one
+    /// subgoal.
     shortcuts: Vec<(OverlayArc, OverlayArc)>,
     /// Scratch memory: the displacements along the first edges of a subgoal's arcs.
     steps: Vec<Vector>,
@@ -55,7 +57,8 @@ pub(crate) struct Contraction<G> {
 
 /// The graph after contraction.
 pub(crate) struct ContractedGraph {
-    /// The arcs of a contracted subgoal to those that were contracted later or not at all; the arcs of each of the others to one another.
+    /// The arcs of a contracted subgoal to those that were contracted later or not at all; the arcs of each
+    /// of the others to one another.
     pub(crate) arcs: Vec<Vec<OverlayArc>>,
     /// Which subgoals were contracted.
     pub(crate) contracted: Vec<bool>,
@@ -83,8 +86,9 @@ impl<G: SubgoalGeometry> Contraction<G> {
         ContractedGraph { arcs: self.arcs, contracted: self.contracted }
     }
 
-    /// Makes the next level. In the order of their numbers, contracts all subgoals that need no shortcut, or only shortcuts between subgoals
-    /// that are h_k-reachable from one another. Returns whether there was one.
+    /// Makes the next level. In the order of their numbers, contracts all subgoals that need no shortcut, or
+    /// only shortcuts between subgoals that are h_k-reachable from one another. Returns whether there was
+    /// one.
     pub(crate) fn contract_level(&mut self, progress: &mut dyn FnMut(usize)) -> bool {
         let mut any = false;
         for id in 0..self.arcs.len() as u32 {
@@ -105,7 +109,8 @@ impl<G: SubgoalGeometry> Contraction<G> {
         self.shortcuts.iter().all(|(p, q)| p.cost + q.cost == self.geometry.distance(p.to, q.to))
     }
 
-    /// Contracts subgoals, lowest priority first, until the remaining graph is too dense or the budget is used up.
+    /// Contracts subgoals, lowest priority first, until the remaining graph is too dense or the budget is
+    /// used up.
     pub(crate) fn contract_by_priority(&mut self, progress: &mut dyn FnMut(usize)) {
         let count = self.arcs.len();
         let mut depth = vec![0_u32; count];
@@ -133,15 +138,16 @@ impl<G: SubgoalGeometry> Contraction<G> {
         }
     }
 
-    /// The priority of a subgoal: the lower, the earlier it is contracted. Leaves its shortcuts in `shortcuts`.
+    /// The priority of a subgoal: the lower, the earlier it is contracted. Leaves its shortcuts in
+    /// `shortcuts`.
     fn priority(&mut self, id: u32, depth: &[u32]) -> i64 {
         self.find_shortcuts(id, WITNESS_LIMIT);
         let (added, removed) = (self.shortcuts.len() as i64, self.arcs[id as usize].len() as i64);
         2 * added - removed + i64::from(depth[id as usize])
     }
 
-    /// Finds the pairs of neighbors between which every path is longer than the one over the subgoal, as far as witness searches that scan
-    /// `limit` arcs each can tell.
+    /// Finds the pairs of neighbors between which every path is longer than the one over the subgoal, as far
+    /// as witness searches that scan `limit` arcs each can tell.
     fn find_shortcuts(&mut self, id: u32, limit: u64) {
         let Self { arcs, geometry, witness, shortcuts, steps, .. } = self;
         shortcuts.clear();

@@ -24,7 +24,8 @@ pub struct CornerScratch {
 #[derive(Clone, Debug)]
 pub struct SightTables {
     row_summary: RowSummary,
-    /// The subgoals that taut paths pass in directions in which x and y have the same sign, and in directions in which they have opposite signs.
+    /// The subgoals that taut paths pass in directions in which x and y have the same sign, and in directions
+    /// in which they have opposite signs.
     tangents: [BitMatrix; 2],
 }
 
@@ -45,8 +46,9 @@ impl EdgeFinder for Corners {
         Ok(())
     }
 
-    /// The subgoals are the convex corners of obstacles: vertices that touch one blocked cell, or two that meet diagonally, if a path may
-    /// pass between them. (Hormazábal et al. 2017: a corner of an obstacle that a path can pass along a diagonal.)
+    /// The subgoals are the convex corners of obstacles: vertices that touch one blocked cell, or two that
+    /// meet diagonally, if a path may pass between them. (Hormazábal et al. 2017: a corner of an obstacle
+    /// that a path can pass along a diagonal.)
     fn prepare(space: &FreeSpace<Self>) -> (BitMatrix, SightTables) {
         let cells = space.grid().rows();
         let (width, height) = Self::vertices(space.grid());

@@ -1,4 +1,5 @@
-//! The costs of the arcs, which follow from the subgoals; and whether arcs that were read make a hierarchy at all.
+//! The costs of the arcs, which follow from the subgoals; and whether arcs that were read make a hierarchy at
+//! all.
 
 use mediant_grid::FreeSpace;
 use mediant_moves::Cost;
@@ -14,10 +15,12 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// The graph with the costs and steps of its arcs.
     ///
     /// # Errors
-    /// [`SubgoalError::Bytes`] if the arcs lead in circles, or a shortcut over no subgoal below it, or so far that no optimal path can be as long.
+    /// [`SubgoalError::Bytes`] if the arcs lead in circles, if a shortcut leads over no subgoal below it, or
+    /// if one is longer than any optimal path can be.
     pub(crate) fn with_costs(mut self, space: &FreeSpace<P>) -> Result<Self, SubgoalError> {
-        // An optimal path over N(2) visits each vertex at most once, and paths over other neighborhoods are shorter. Shortcuts are not always optimal, but
-        // nearly. Without a bound, crafted bytes in which each shortcut is twice as long as the one below it would make paths without end.
+        // An optimal path over N(2) visits each vertex at most once, and paths over other neighborhoods are
+        // shorter. Shortcuts are not always optimal, but nearly. Without a bound, crafted bytes in which each
+        // shortcut is twice as long as the one below it would make paths without end.
         let most = (space.vertex_count() as u64).saturating_mul(16 << Cost::FRACTION_BITS);
         let order = self.upward_order()?;
         // The halves of a shortcut belong to its middle node, which must come before.

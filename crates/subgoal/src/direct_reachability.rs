@@ -4,14 +4,17 @@ use mediant_grid::Vector;
 
 use crate::cones::ConeCoordinates;
 
-/// Selects from the subgoals that a vertex sees those that are directly h_k-reachable from it: the Pareto-minimal subgoals of each cone.
+/// Selects from the subgoals that a vertex sees those that are directly h_k-reachable from it: the
+/// Pareto-minimal subgoals of each cone.
 ///
-/// The 2^k moves of N(k), in angular order, bound 2^k cones. A displacement in the cone of v and w is a·v + b·w with integers a, b ≥ 0, and the vertices on
-/// optimal paths to it on an empty grid are the a'·v + b'·w with a' ≤ a and b' ≤ b. So a subgoal is directly reachable if no other subgoal of its
-/// cone has both coordinates at most as large. In a list sorted by a and then b, these are the subgoals with a smaller b than all before them.
+/// The 2^k moves of N(k), in angular order, bound 2^k cones. A displacement in the cone of v and w is a·v +
+/// b·w with integers a, b ≥ 0, and the vertices on optimal paths to it on an empty grid are the a'·v + b'·w
+/// with a' ≤ a and b' ≤ b. So a subgoal is directly reachable if no other subgoal of its cone has both
+/// coordinates at most as large. In a list sorted by a and then b, these are the subgoals with a smaller b
+/// than all before them.
 ///
-/// Knowing the visible subgoals is enough. If another subgoal lies in the parallelogram, hidden by an obstacle, then a corner of that
-/// obstacle lies in it too and is visible.
+/// Knowing the visible subgoals is enough. If another subgoal lies in the parallelogram, hidden by an
+/// obstacle, then a corner of that obstacle lies in it too and is visible.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct DirectFilter {
     /// Sort keys, each with the number of a subgoal.
@@ -55,7 +58,8 @@ impl DirectFilter {
     }
 }
 
-/// Cone, a and b in one number, which orders by them in this sequence. The lowest bit is free; a and b are at most 2¹⁵, the longest side of a map.
+/// Cone, a and b in one number, which orders by them in this sequence. The lowest bit is free; a and b are at
+/// most 2¹⁵, the longest side of a map.
 const fn key(cone: u32, a: u32, b: u32) -> u64 {
     (cone as u64) << 34 | (a as u64) << 17 | (b as u64) << 1
 }

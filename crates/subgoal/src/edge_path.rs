@@ -1,7 +1,8 @@
 //! How an edge becomes moves of N(k).
 //!
-//! On an empty grid an optimal path over N(k) needs at most two different moves. Sorted by move it is straight, or it bends once: at one of two *elbows*,
-//! depending on which move comes first. The first elbow is taken whose two legs are free. If neither's are, the path follows the line of sight.
+//! On an empty grid an optimal path over N(k) needs at most two different moves. Sorted by move it is
+//! straight, or it bends once: at one of two *elbows*, depending on which move comes first. The first elbow
+//! is taken whose two legs are free. If neither's are, the path follows the line of sight.
 
 use mediant_grid::{FreeSpace, Placement, PlacementKind, Vector, Vertex};
 use mediant_moves::{Decomposition, K, decompose};
@@ -12,7 +13,8 @@ use crate::{
     placement::{EdgeCriterion, SubgoalPlacement},
 };
 
-/// The path between two vertices if an optimal path of the empty grid is free: then no search is needed. `waypoints` is scratch memory.
+/// The path between two vertices if an optimal path of the empty grid is free: then no search is needed.
+/// `waypoints` is scratch memory.
 pub(crate) fn direct_path<P: Placement>(
     space: &FreeSpace<P>,
     k: K,
@@ -106,8 +108,9 @@ pub(crate) fn extend<P: SubgoalPlacement>(
     }
 }
 
-/// Follows a line of sight by moves that sweep no more cells than the line does (Kramm 2018, Lemma 13): the leaves of the decomposition tree. They are a Christoffel
-/// word in v and w, so the path keeps as close to the line as it can on one side.
+/// Follows a line of sight by moves that sweep no more cells than the line does (Kramm 2018, Lemma 13): the
+/// leaves of the decomposition tree. They are a Christoffel word in v and w, so the path keeps as close to
+/// the line as it can on one side.
 fn along_line(waypoints: &mut Vec<Vertex>, parts: Decomposition) {
     let (alpha, beta) = (u64::from(parts.alpha), u64::from(parts.beta));
     let (mut a, mut b) = (0, 0);

@@ -16,7 +16,8 @@ pub(crate) const MAX_ARCS: u32 = u32::MAX / 2;
 
 /// A subgoal graph: the index that planners search. It is immutable, and any number of planners can share it.
 ///
-/// Its vertices are subgoals. Subgoals outside of the core store their arcs to subgoals above them, those of the core their arcs to one another.
+/// Its vertices are subgoals. Subgoals outside of the core store their arcs to subgoals above them, those of
+/// the core their arcs to one another.
 #[derive(Clone, Debug)]
 pub struct SubgoalGraph<P: SubgoalPlacement> {
     pub(crate) subgoals: Subgoals,
@@ -52,7 +53,8 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
         })
     }
 
-    /// The number of stored arcs: from a subgoal of the core to others of the core, and from any other subgoal to those above it.
+    /// The number of stored arcs: from a subgoal of the core to others of the core, and from any other
+    /// subgoal to those above it.
     #[must_use]
     pub const fn arcs(&self) -> usize {
         self.arcs.len()
@@ -64,8 +66,8 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
         (0..self.subgoals() as u32).filter(|&id| self.is_core(id)).count()
     }
 
-    /// The number of arcs between subgoals of the core, each counted in both directions. Divided by [`core`](Self::core) it is the branching factor of
-    /// the highest level.
+    /// The number of arcs between subgoals of the core, each counted in both directions. Divided by
+    /// [`core`](Self::core) it is the branching factor of the highest level.
     #[must_use]
     pub fn core_arcs(&self) -> usize {
         (0..self.subgoals() as u32).filter(|&id| self.is_core(id)).map(|id| self.up(id).len()).sum()
@@ -120,7 +122,8 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
     ) {
         let Self { subgoals, tables, metric, k, criterion, .. } = self;
         edges.clear();
-        // A subgoal is in the graph already. But its taut edges are not enough: a path that begins or ends there need not be taut there.
+        // A subgoal is in the graph already. But its taut edges are not enough: a path that begins or ends
+        // there need not be taut there.
         match subgoals.id(at).filter(|_| *criterion == EdgeCriterion::Direct) {
             Some(id) => edges.push((id, Cost::ZERO)),
             None => {
@@ -131,7 +134,8 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
         }
     }
 
-    /// Visits the vertices of the subgoals that an arc passes, in order, except the first. `pending` is scratch memory.
+    /// Visits the vertices of the subgoals that an arc passes, in order, except the first. `pending` is
+    /// scratch memory.
     pub(crate) fn unpack(
         &self,
         arc: PackedArc,

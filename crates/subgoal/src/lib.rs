@@ -1,7 +1,8 @@
 //! Subgoal graphs: prepared maps on which optimal paths are found in microseconds.
 //!
-//! A shortest path goes around obstacles at their convex corners, the *subgoals*, and between them as on an empty grid. A [`SubgoalGraph`] joins subgoals by edges,
-//! once for each map. A planner joins the start and the goal of a query to the graph, searches it, and turns its edges into moves.
+//! A shortest path goes around obstacles at their convex corners, the *subgoals*, and between them as on an
+//! empty grid. A [`SubgoalGraph`] joins subgoals by edges, once for each map. A planner joins the start and
+//! the goal of a query to the graph, searches it, and turns its edges into moves.
 //!
 //! | paper | here |
 //! |---|---|
@@ -33,32 +34,41 @@
 //!
 //! # The key idea: one graph serves every k
 //!
-//! h_k is a norm, as is the Euclidean length. Take a path that is optimal over N(k), and pull it taut like a string. Each straight piece that replaces a
-//! detour costs no more, by the triangle inequality, in any norm. Where the path cannot be pulled further, it bends around a convex corner. So the taut path consists
-//! of lines of sight between subgoals. Moves of N(k) can follow each of these lines at the cost h_k (Kramm 2018, Lemma 13), so the taut path is optimal over N(k), too.
+//! h_k is a norm, as is the Euclidean length. Take a path that is optimal over N(k), and pull it taut like a
+//! string. Each straight piece that replaces a detour costs no more, by the triangle inequality, in any norm.
+//! Where the path cannot be pulled further, it bends around a convex corner. So the taut path consists of
+//! lines of sight between subgoals. Moves of N(k) can follow each of these lines at the cost h_k (Kramm 2018,
+//! Lemma 13), so the taut path is optimal over N(k), too.
 //!
-//! The graph therefore needs only *taut* edges: lines of sight along which a taut path can pass at both ends. They contain an optimal path for every k and
-//! at any angle. k changes only the lengths of the edges, and k = ∞ is no special case.
+//! The graph therefore needs only *taut* edges: lines of sight along which a taut path can pass at both ends.
+//! They contain an optimal path for every k and at any angle. k changes only the lengths of the edges, and k
+//! = ∞ is no special case.
 //!
-//! The papers join *directly h_k-reachable* subgoals instead: h_k is the cost of an optimal path, and no third subgoal is on one. Such graphs
-//! have more edges the larger k is. Here the graphs at centers have these edges, and those of [`Hierarchy::Levels`] for finite k, to reproduce the papers' figures.
+//! The papers join *directly h_k-reachable* subgoals instead: h_k is the cost of an optimal path, and no
+//! third subgoal is on one. Such graphs have more edges the larger k is. Here the graphs at centers have
+//! these edges, and those of [`Hierarchy::Levels`] for finite k, to reproduce the papers' figures.
 //!
 //! # Why paths are optimal
 //!
-//! Contracting a subgoal removes it from the graph, and adds a shortcut between two of its neighbors if the shortest path between them led over it. Paths are
-//! compared by the pair (h_k, Euclidean length), in exact integers. So the lexicographically shortest paths are taut, and two arcs that meet in a bend that is not
-//! taut need no shortcut. A query searches up the hierarchy from both ends and skips arcs at bends that no shortest path makes.
+//! Contracting a subgoal removes it from the graph, and adds a shortcut between two of its neighbors if the
+//! shortest path between them led over it. Paths are compared by the pair (h_k, Euclidean length), in exact
+//! integers. So the lexicographically shortest paths are taut, and two arcs that meet in a bend that is not
+//! taut need no shortcut. A query searches up the hierarchy from both ends and skips arcs at bends that no
+//! shortest path makes.
 //!
 //! # Why queries are fast
 //!
-//! The subgoals that a vertex sees are found row by row, by words of cells, and eight rows at once where all cells are free
-//! ([`VisibilitySweep`](mediant_grid::sight::VisibilitySweep)). At centers they are found by scanning the bits of rows, columns and diagonals. The work follows what is
-//! visible, not 2^k. Times, and what became of the claims of Hormazábal et al., are in `docs/measurements/subgoal.md`.
+//! The subgoals that a vertex sees are found row by row, by words of cells, and eight rows at once where all
+//! cells are free ([`VisibilitySweep`](mediant_grid::sight::VisibilitySweep)). At centers they are found by
+//! scanning the bits of rows, columns and diagonals. The work follows what is visible, not 2^k. Times, and
+//! what became of the claims of Hormazábal et al., are in `docs/measurements/subgoal.md`.
 //!
 //! # What this crate does not do
 //!
-//! It reads and writes no files: a graph is converted to bytes and back. It does not repair a graph when the map changes. It does not check that a graph belongs to the
-//! free space that it is given with: callers keep both together. It uses one thread, unless the feature `parallel` is on; then it finds edges in rayon's current pool.
+//! It reads and writes no files: a graph is converted to bytes and back. It does not repair a graph when the
+//! map changes. It does not check that a graph belongs to the free space that it is given with: callers keep
+//! both together. It uses one thread, unless the feature `parallel` is on; then it finds edges in rayon's
+//! current pool.
 
 mod arc;
 mod bends;

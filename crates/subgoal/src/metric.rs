@@ -27,18 +27,21 @@ impl Metric {
         }
     }
 
-    /// A lower bound on the cost of any path with this displacement, faster than [`distance`](Self::distance): the heuristic.
+    /// A lower bound on the cost of any path with this displacement, faster than
+    /// [`distance`](Self::distance): the heuristic.
     #[inline]
     pub(crate) fn estimate(&self, v: Vector) -> Cost {
         match self {
             Self::Hk(costs) => costs.distance(v),
-            // A displacement has at most 2¹⁵ · √2 cells, so truncation takes off more than the root's rounding can add.
+            // A displacement has at most 2¹⁵ · √2 cells, so truncation takes off more than the root's
+            // rounding can add.
             Self::Euclidean => Cost::from_bits((v.norm() * (1_u64 << Cost::FRACTION_BITS) as f64) as u64),
         }
     }
 
-    /// The pair (h_k, Euclidean length) as one number, ordered lexicographically; the Euclidean length alone for k = ∞, in more digits than
-    /// [`distance`](Self::distance). Of two paths with the same cost over N(k), the shorter line is less. So lexicographically shortest paths are taut.
+    /// The pair (h_k, Euclidean length) as one number, ordered lexicographically; the Euclidean length alone
+    /// for k = ∞, in more digits than [`distance`](Self::distance). Of two paths with the same cost over
+    /// N(k), the shorter line is less. So lexicographically shortest paths are taut.
     pub(crate) fn lexicographic_length(&self, v: Vector) -> u128 {
         match self {
             Self::Hk(costs) => {

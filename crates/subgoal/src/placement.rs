@@ -5,12 +5,14 @@ use mediant_moves::{Cost, K};
 
 use crate::{error::SubgoalError, hierarchy::Hierarchy, metric::Metric, subgoals::Subgoals};
 
-/// A placement that has subgoal graphs: [`Corners`](mediant_grid::Corners) has them for every k, [`Centers`](mediant_grid::Centers) for k = 2 and 3.
+/// A placement that has subgoal graphs: [`Corners`](mediant_grid::Corners) has them for every k,
+/// [`Centers`](mediant_grid::Centers) for k = 2 and 3.
 ///
 /// Sealed: it cannot be implemented for other types.
 pub trait SubgoalPlacement: EdgeFinder {}
 
-/// Finds subgoals and edges. Public as [`SubgoalPlacement`] builds on it, but it cannot be named outside of this crate.
+/// Finds subgoals and edges. Public as [`SubgoalPlacement`] builds on it, but it cannot be named outside of
+/// this crate.
 pub trait EdgeFinder: Placement {
     /// Scratch memory of [`edges_from`](Self::edges_from).
     type Scratch: Default + Send;
@@ -46,7 +48,8 @@ pub trait EdgeTables: Clone + std::fmt::Debug + Send + Sync {
 /// Which subgoals an edge joins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EdgeCriterion {
-    /// Subgoals that are directly h_k-reachable from one another: h_k is the cost of an optimal path, and no third subgoal is on one.
+    /// Subgoals that are directly h_k-reachable from one another: h_k is the cost of an optimal path, and no
+    /// third subgoal is on one.
     Direct,
     /// Subgoals that see one another along a line that a taut path can follow at both of them.
     Taut,
@@ -55,8 +58,8 @@ pub enum EdgeCriterion {
 /// Which edges of a vertex are wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EdgeKind {
-    /// Edges of the graph, each from one of its ends: those of a subgoal to subgoals with larger numbers, which lie below it, or to the right
-    /// in its own row.
+    /// Edges of the graph, each from one of its ends: those of a subgoal to subgoals with larger numbers,
+    /// which lie below it, or to the right in its own row.
     Graph,
     /// The edges that join the start or goal of a query to the graph: all of them.
     Query,

@@ -16,15 +16,19 @@ use crate::{
     placement::SubgoalPlacement,
 };
 
-/// Sub-A*(k) of Hormazábal, Díaz, Hernández & Baier 2017: optimal paths over N(k), or at any angle, on a subgoal graph.
+/// Sub-A*(k) of Hormazábal, Díaz, Hernández & Baier 2017: optimal paths over N(k), or at any angle, on a
+/// subgoal graph.
 ///
-/// If an optimal path of the empty grid is free, it is the answer, without a search. Otherwise start and goal are joined to subgoals by edges, and two
-/// A* searches go up the hierarchy: one from the start, which also goes through the core, and one from the goal. The one with the smaller f continues, until neither
-/// has an f below the cost of the best path found, over a subgoal that both have reached. Scratch memory: 64 bytes a subgoal.
+/// If an optimal path of the empty grid is free, it is the answer, without a search. Otherwise start and goal
+/// are joined to subgoals by edges, and two A* searches go up the hierarchy: one from the start, which also
+/// goes through the core, and one from the goal. The one with the smaller f continues, until neither has an f
+/// below the cost of the best path found, over a subgoal that both have reached. Scratch memory: 64 bytes a
+/// subgoal.
 ///
-/// **Ties.** The open lists order nodes by f, h and the subgoal's number. Between the two searches the one from the start goes first, and of equally good meeting points
-/// the first found is kept. So the path and the counts are the same each time and on every platform. An observer is told the events of both searches; a subgoal that
-/// both reach has events of each.
+/// **Ties.** The open lists order nodes by f, h and the subgoal's number. Between the two searches the one
+/// from the start goes first, and of equally good meeting points the first found is kept. So the path and the
+/// counts are the same each time and on every platform. An observer is told the events of both searches; a
+/// subgoal that both reach has events of each.
 #[derive(Debug)]
 pub struct SubgoalAStar<T, G, P: SubgoalPlacement> {
     space: T,
@@ -184,8 +188,8 @@ where
     }
 }
 
-/// Puts the subgoals that start and goal are joined to on the open lists. Returns the best of those that are joined to both, with the cost of
-/// the path over it.
+/// Puts the subgoals that start and goal are joined to on the open lists. Returns the best of those that are
+/// joined to both, with the cost of the path over it.
 fn begin<P: SubgoalPlacement>(
     graph: &SubgoalGraph<P>,
     searches: &mut [SearchTree<ParentEdge>; 2],

@@ -17,22 +17,25 @@ use self::{
 };
 use crate::{edge_path::push, graph::SubgoalGraph, placement::SubgoalPlacement};
 
-/// Sub-Theta* (Uras & Koenig 2015, 'Speeding-up any-angle path-planning on grids'): Theta* over a subgoal graph. On [`Levels`] of 2 it is the
-/// Sub2-Theta* with which Hormazábal et al. 2017 compare Sub2-A*(k).
+/// Sub-Theta* (Uras & Koenig 2015, 'Speeding-up any-angle path-planning on grids'): Theta* over a subgoal
+/// graph. On [`Levels`] of 2 it is the Sub2-Theta* with which Hormazábal et al. 2017 compare Sub2-A*(k).
 ///
-/// Rule variant: the search goes up from the subgoals joined to the start, through the core, and down to the subgoals joined to the goal. The parent of a
-/// successor is the parent of the expanded subgoal, if a straight segment from there keeps the rules of motion, and otherwise the expanded subgoal. Closed
-/// subgoals stay closed, as in Theta*. Segments cost their Euclidean length; the heuristic is the straight-line distance.
+/// Rule variant: the search goes up from the subgoals joined to the start, through the core, and down to the
+/// subgoals joined to the goal. The parent of a successor is the parent of the expanded subgoal, if a
+/// straight segment from there keeps the rules of motion, and otherwise the expanded subgoal. Closed subgoals
+/// stay closed, as in Theta*. Segments cost their Euclidean length; the heuristic is the straight-line
+/// distance.
 ///
-/// A shortcut need not be a legal segment. If its end does not see the parent, the path follows the subgoals that the shortcut passes. It bends at one of them if the
-/// next does not see the last bend.
+/// A shortcut need not be a legal segment. If its end does not see the parent, the path follows the subgoals
+/// that the shortcut passes. It bends at one of them if the next does not see the last bend.
 ///
-/// **Guarantees.** A path is found whenever N(k) has one: which subgoals are reached does not depend on parents, and an optimal path over the graph goes up
-/// from the start, through the core, and down. No path is shorter than the any-angle optimum; how much longer one can be is not known. Measured excess:
+/// **Guarantees.** A path is found whenever N(k) has one: which subgoals are reached does not depend on
+/// parents, and an optimal path over the graph goes up from the start, through the core, and down. No path is
+/// shorter than the any-angle optimum; how much longer one can be is not known. Measured excess:
 /// `docs/measurements/subgoal.md`.
 ///
-/// **Ties.** The open list has the order of all engines. Of equally cheap paths to a subgoal the first is kept; the arcs of a subgoal are followed
-/// upward first, in the order of the graph, then downward.
+/// **Ties.** The open list has the order of all engines. Of equally cheap paths to a subgoal the first is
+/// kept; the arcs of a subgoal are followed upward first, in the order of the graph, then downward.
 ///
 /// [`Levels`]: crate::Hierarchy::Levels
 /// [`Contracted`]: crate::Hierarchy::Contracted

@@ -24,11 +24,14 @@ impl OctileBends {
         OctileDepartures { allowed: (0..16).fold(0, |bits, to| bits | u32::from(self.allow(from, to)) << to) }
     }
 
-    /// Whether a shortest path can arrive in one direction and leave in another, if the subgoals at both ends are directly h_3-reachable.
+    /// Whether a shortest path can arrive in one direction and leave in another, if the subgoals at both ends
+    /// are directly h_3-reachable.
     ///
-    /// The moves of such an edge can be taken in any order, so any move of the first edge may come last, and any move of the second edge first. The widest
-    /// angle between two of them decides. Below 90° every bend is allowed. Above 90°, and at 90° between diagonal moves, none is: there is a shorter path, over cells that
-    /// are free because no corner is cut. At 90° between axial moves the shorter path leads over the cell between them; the bend is allowed if that cell is blocked.
+    /// The moves of such an edge can be taken in any order, so any move of the first edge may come last, and
+    /// any move of the second edge first. The widest angle between two of them decides. Below 90° every bend
+    /// is allowed. Above 90°, and at 90° between diagonal moves, none is: there is a shorter path, over cells
+    /// that are free because no corner is cut. At 90° between axial moves the shorter path leads over the
+    /// cell between them; the bend is allowed if that cell is blocked.
     const fn allow(self, from: i32, to: i32) -> bool {
         // Angles are in half octants; the bend is from −8 to 7.
         let bend = ((to - from + 8) & 15) - 8;
@@ -58,7 +61,8 @@ impl OctileDepartures {
     }
 }
 
-/// A direction in half octants, from the x axis towards the y axis, modulo 16: even along a move of N(3), odd between two moves.
+/// A direction in half octants, from the x axis towards the y axis, modulo 16: even along a move of N(3), odd
+/// between two moves.
 #[inline]
 fn direction(v: Vector) -> i32 {
     let (x, y) = v.abs();

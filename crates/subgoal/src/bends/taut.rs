@@ -27,7 +27,8 @@ impl ConvexCorner {
     }
 }
 
-/// The directions in which a taut path may leave a convex corner, at which it arrived with the blocked cell on one side.
+/// The directions in which a taut path may leave a convex corner, at which it arrived with the blocked cell
+/// on one side.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TautDepartures {
     arrival: Vector,
@@ -43,7 +44,8 @@ impl TautDepartures {
         self.arrival
     }
 
-    /// Whether a taut path may leave by `w`: with the cell on the same side, and straight on or towards the cell.
+    /// Whether a taut path may leave by `w`: with the cell on the same side, and straight on or towards the
+    /// cell.
     #[inline]
     pub(super) fn allows(self, w: Vector) -> bool {
         self.side * det(w, self.cell) > 0 && (self.is_gap || self.side * det(self.arrival, w) >= 0)

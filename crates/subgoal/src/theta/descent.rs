@@ -34,7 +34,8 @@ impl Descent {
         Self { heads, generation: 0, arcs: Vec::new(), pending: Vec::new() }
     }
 
-    /// Finds the arcs down to a goal, given the edges that join it to subgoals. The goal's number follows those of the subgoals.
+    /// Finds the arcs down to a goal, given the edges that join it to subgoals. The goal's number follows
+    /// those of the subgoals.
     pub(super) fn start_search<P: SubgoalPlacement>(
         &mut self,
         graph: &SubgoalGraph<P>,

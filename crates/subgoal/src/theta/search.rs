@@ -35,7 +35,8 @@ pub(super) struct Unpacking {
     vertices: Vec<Vertex>,
 }
 
-/// Whether a straight segment between two vertices keeps the rules of motion. Of the vertices of a path only the start and the goal can be closed gaps.
+/// Whether a straight segment between two vertices keeps the rules of motion. Of the vertices of a path only
+/// the start and the goal can be closed gaps.
 pub(super) fn may_join<P: SubgoalPlacement>(space: &FreeSpace<P>, from: Vertex, to: Vertex) -> bool {
     space.may_turn(None, from, Some(to)) && space.may_turn(Some(from), to, None) && space.sees(from, to)
 }
