@@ -68,25 +68,26 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
                 }
             }
         }
-        let (offsets, arcs) = pack(&contraction.finish())?;
+        let contracted = contraction.finish();
+        let count = contracted.arcs.iter().map(Vec::len).sum();
+        if count > MAX_ARCS as usize {
+            return Err(SubgoalError::Arcs { count, most: MAX_ARCS });
+        }
+        let (offsets, arcs) = pack(&contracted);
         let graph = Self { subgoals, tables, metric, k, criterion, hierarchy, offsets, arcs };
         graph.with_costs(space)
     }
 }
 
 /// The offsets and arcs of a graph, without costs.
-fn pack(graph: &ContractedGraph) -> Result<(Box<[u32]>, Box<[UpwardArc]>), SubgoalError> {
-    let total: usize = graph.arcs.iter().map(Vec::len).sum();
-    if total > MAX_ARCS as usize {
-        return Err(SubgoalError::Arcs { count: total, most: MAX_ARCS });
-    }
-    let (mut offsets, mut arcs) = (Vec::with_capacity(graph.arcs.len() + 1), Vec::with_capacity(total));
+fn pack(graph: &ContractedGraph) -> (Box<[u32]>, Box<[UpwardArc]>) {
+    let (mut offsets, mut arcs) = (Vec::with_capacity(graph.arcs.len() + 1), Vec::new());
     for (around, is_contracted) in graph.arcs.iter().zip(&graph.contracted) {
         offsets.push(2 * arcs.len() as u32 + u32::from(!is_contracted));
         arcs.extend(around.iter().map(|arc| UpwardArc::without_cost(arc.to, arc.middle)));
     }
     offsets.push(2 * arcs.len() as u32);
-    Ok((offsets.into_boxed_slice(), arcs.into_boxed_slice()))
+    (offsets.into_boxed_slice(), arcs.into_boxed_slice())
 }
 
 impl<P: EdgeFinder> SubgoalGeometry for BuildContext<'_, P> {
@@ -127,7 +128,7 @@ fn find_edges<P: EdgeFinder>(
         for id in ids.clone() {
             let from = id as u32;
             P::edges_from(context, scratch, context.subgoals.vertex(from), EdgeKind::Graph, |to, _| {
-                edges.push((from, to))
+                edges.push((from, to));
             });
         }
         let done = done.fetch_add(ids.len(), Ordering::Relaxed) + ids.len();
