@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_formats::{MapError, MapFile, Scenario, ScenarioError, ScenarioForOtherMap};
+use mediant_formats::{MapError, MapFile, MapMismatch, Scenario, ScenarioError};
 use mediant_grid::Grid;
 use mediant_search::Query;
 
@@ -53,7 +53,7 @@ pub enum ProblemError {
     },
     /// The scenario of another map.
     #[error(transparent)]
-    OtherMap(#[from] ScenarioForOtherMap),
+    OtherMap(#[from] MapMismatch),
     /// No instance is kept, or one starts or ends at a cell that is not free.
     #[error("scenario of map `{name}`: {wrong}")]
     Instances {
@@ -98,7 +98,7 @@ impl Problem {
         scenario: &Scenario,
         every: usize,
     ) -> Result<Self, ProblemError> {
-        scenario.for_map(&grid, name)?;
+        scenario.check_map(&grid, name)?;
         let wrong = |wrong: String| ProblemError::Instances { name: name.to_owned(), wrong };
         let instances = scenario.instances().iter().enumerate().step_by(every.max(1));
         let cases: Vec<Case> = instances

@@ -8,7 +8,7 @@ use std::{
 
 use anstyle::{AnsiColor, Style};
 use mediant_engines::{EngineError, EngineKind, SetupError};
-use mediant_formats::{IndexError, ReadError, ScenarioForOtherMap, WriteError};
+use mediant_formats::{IndexError, MapMismatch, ReadError, WriteError};
 use mediant_grid::{PlacementKind, Vertex};
 
 use crate::terminal::text::printable;
@@ -33,7 +33,7 @@ pub(crate) enum Failure {
     #[error(transparent)]
     Read(#[from] ReadError),
     #[error(transparent)]
-    OtherMap(#[from] ScenarioForOtherMap),
+    OtherMap(#[from] MapMismatch),
     #[error(
         "the scenario is for the map `{expected}` and does not fit `{found}`, where the {end} {at} of instance {index} is \
          blocked; give the map that it was made for, under that name"

@@ -36,7 +36,7 @@ impl Queries {
             (None, ..) => return Err(Failure::NoQueries),
         };
         let (name, scenario) = load_scenario(path)?;
-        scenario.for_map(&map.grid, &map.name)?;
+        scenario.check_map(&map.grid, &map.name)?;
         check_names(scenario.instances(), map)?;
         let every = args.every.map_or(1, usize::from);
         let limit = args.limit.map_or(usize::MAX, usize::from);

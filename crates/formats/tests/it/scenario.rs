@@ -87,7 +87,7 @@ fn instances_that_cannot_be_written() {
 
 #[test]
 fn versions_that_are_refused() {
-    let rest = "a MovingAI scenario begins with its version, with a line a query below";
+    let rest = "a MovingAI scenario begins with its version, followed by one line per query";
     let cases = [
         ("\n", "an empty line"),
         ("version\n", "`version`"),
@@ -163,13 +163,13 @@ fn a_scenario_for_another_map() {
     instances[1].height = 21;
     let scenario = Scenario::from_instances(instances).unwrap();
     let grid = |width, height| Grid::from_fn(width, height, |_, _| false).unwrap();
-    let error = scenario.for_map(&grid(10, 20), "c.map").unwrap_err();
+    let error = scenario.check_map(&grid(10, 20), "c.map").unwrap_err();
     assert_eq!(
         error.to_string(),
         "instance 1 of the scenario: expected the map `maps/b.map` of 10 × 21 cells, \
          found `c.map` of 10 × 20 cells; take the scenario that was made for this map"
     );
-    assert_eq!(scenario.for_map(&grid(20, 10), "c.map").unwrap_err().index, 0);
+    assert_eq!(scenario.check_map(&grid(20, 10), "c.map").unwrap_err().index, 0);
     let scenario = Scenario::from_instances(vec![instance("maps/a.map", 1.0)]).unwrap();
-    assert_eq!(scenario.for_map(&grid(10, 20), "renamed.map"), Ok(()));
+    assert_eq!(scenario.check_map(&grid(10, 20), "renamed.map"), Ok(()));
 }

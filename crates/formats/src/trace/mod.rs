@@ -1,62 +1,73 @@
 //! Search traces for the Posthoc visualizer, version 1.0.5 of its format.
 
+mod render;
+
 use std::io::{self, Write};
 
 use mediant_grid::{Grid, PlacementKind};
 use serde::Serialize;
-use serde_json::{Value, json};
 
-/// What is said of a search before its events.
+use render::render;
+
+/// What a trace says before its events.
+///
+/// Needs the feature `trace`.
 #[derive(Clone, Copy, Debug)]
 pub struct TraceHeader<'g> {
-    /// Where the vertices are: at centers they are drawn as their cells, at corners as small squares around them.
+    /// Where the vertices are. A vertex at a center is drawn as its cell, one at a corner as a small square around it.
     pub placement: PlacementKind,
-    /// The map, where the trace shall draw it. The visualizer can also show the `.map` file itself, as a layer of its own.
+    /// The map, if the trace is to draw it. Without it, the visualizer can show the `.map` file as a layer of its own.
     pub map: Option<&'g Grid>,
 }
 
-/// What became of a vertex.
+/// What happened to a vertex.
+///
+/// Needs the feature `trace`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum TraceEventKind {
     /// The search begins here.
     Source,
-    /// The search wants to come here.
+    /// The search is to end here.
     Destination,
     /// The vertex was reached for the first time.
     Generating,
     /// A cheaper path to the vertex was found.
     Updating,
-    /// The vertex was taken from the open list; its successors follow.
+    /// The vertex was taken from the open list; the events of its successors follow.
     Expanding,
-    /// All successors of the vertex were seen.
+    /// All successors of the vertex were generated.
     Closing,
     /// The search ends here.
     End,
 }
 
-/// One vertex at one moment.
+/// A vertex at one moment of the search.
+///
+/// Needs the feature `trace`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TraceEvent {
-    /// The number of the vertex, the same in all its events. (The path that the visualizer highlights stops short of a vertex
-    /// with the number 0; the lines to the parents do not.)
+    /// The number of the vertex, the same in all its events. Better not 0: the path that the visualizer highlights would
+    /// end before this vertex.
     pub id: u32,
     /// The number of the vertex from which it was reached.
     pub parent: Option<u32>,
-    /// To the right, in cells.
+    /// The column, in cells.
     pub x: i32,
-    /// Down, in cells.
+    /// The row, in cells, downward.
     pub y: i32,
-    /// The cost of the path that g and the heuristic promise, where the search knows it. Written as `null` if not finite.
+    /// The estimated cost of a path through the vertex, if the search has one. Written as `null` if not finite.
     pub f: Option<f64>,
-    /// The cost of the best known path to the vertex, where there is one. Written as `null` if not finite.
+    /// The cost of the best known path to the vertex, if there is one. Written as `null` if not finite.
     pub g: Option<f64>,
 }
 
-/// Writes a search trace: JSON, one event a line, which readers of YAML read as well.
+/// Writes a search trace as JSON, one event a line. Readers of YAML can read it too.
 ///
-/// Every event is written at once and none is kept, so that a trace may be of any length. Wrap a file in a
+/// Every event is written at once and none is kept, so that a trace can have any length. Wrap a file in a
 /// [`BufWriter`](io::BufWriter), and call [`finish`](Self::finish): without it the document has no end.
+///
+/// Needs the feature `trace`.
 ///
 /// ```
 /// use mediant_formats::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
@@ -74,7 +85,7 @@ pub struct TraceEvent {
 #[derive(Debug)]
 pub struct TraceWriter<'g, W: Write> {
     out: W,
-    /// The map until it is written, with the first event.
+    /// The map, until it is written with the first event.
     map: Option<&'g Grid>,
     events: u64,
 }
@@ -82,7 +93,7 @@ pub struct TraceWriter<'g, W: Write> {
 /// The version of the format.
 const VERSION: &str = "1.0.5";
 
-/// An event as the format has it.
+/// An event in the words of the format.
 #[derive(Serialize)]
 struct Line {
     #[serde(rename = "type")]
@@ -104,14 +115,14 @@ impl<'g, W: Write> TraceWriter<'g, W> {
     /// # Errors
     /// Those of the writer.
     pub fn new(mut out: W, header: &TraceHeader<'g>) -> io::Result<Self> {
-        write!(out, "{{\"version\":\"{VERSION}\",\n\"render\":{},\n\"events\":[", render(header))?;
+        write!(out, "{{\"version\":\"{VERSION}\",\n\"render\":{},\n\"events\":[", render(header.placement))?;
         Ok(Self { out, map: header.map, events: 0 })
     }
 
-    /// Writes what became of a vertex.
+    /// Writes an event.
     ///
     /// # Errors
-    /// Those of the writer. The trace is then broken off.
+    /// Those of the writer. The trace is then incomplete.
     pub fn event(&mut self, kind: TraceEventKind, event: &TraceEvent) -> io::Result<()> {
         let &TraceEvent { id, parent, x, y, f, g } = event;
         let line = Line { kind, id, parent, x, y, f, g };
@@ -120,7 +131,7 @@ impl<'g, W: Write> TraceWriter<'g, W> {
         match self.map.take() {
             None => serde_json::to_writer(&mut self.out, &line)?,
             Some(map) => {
-                // The map hangs on the first event, since a drawing of its own would be repeated at each.
+                // The first event carries the map. Were it part of the component that draws it, every event would draw it anew.
                 let mut text = serde_json::to_vec(&line)?;
                 text.pop();
                 self.out.write_all(&text)?;
@@ -132,7 +143,7 @@ impl<'g, W: Write> TraceWriter<'g, W> {
         Ok(())
     }
 
-    /// How many events were written.
+    /// The number of events that were written.
     #[must_use]
     pub const fn events(&self) -> u64 {
         self.events
@@ -148,8 +159,8 @@ impl<'g, W: Write> TraceWriter<'g, W> {
         Ok(self.out)
     }
 
-    /// The blocked cells as one polygon, whose runs hang on lines without area: each is visited from the origin, and the way
-    /// back is the way there.
+    /// Writes the blocked cells as one polygon. It goes from the origin to each run of blocked cells, around it, and back on the
+    /// same line, which thus has no area.
     fn outline(&mut self, map: &Grid) -> io::Result<()> {
         self.out.write_all(br#"{"x":0,"y":0}"#)?;
         for y in 0..map.height() as i32 {
@@ -172,49 +183,5 @@ fn blocked_runs(map: &Grid, y: i32) -> impl Iterator<Item = (i32, i32)> {
         let left = (next..width).find(|&x| map.is_blocked(x, y))?;
         next = (left..width).find(|&x| map.is_free(x, y)).unwrap_or(width);
         Some((left, next))
-    })
-}
-
-/// How the visualizer is to draw an event: `$.event` is the event, `$.parent` its parent's latest event up to then, and
-/// `$.color` the theme's colors of the event types. What is `persistent` stays, what is `transient` goes with the next event.
-fn render(header: &TraceHeader<'_>) -> Value {
-    // At centers the format's unit square at (x, y) is the cell itself.
-    let (middle, side) = match header.placement {
-        PlacementKind::Center => (0.5, 1.0),
-        PlacementKind::Corner => (0.0, 0.5),
-    };
-    let at = |of: &str, axis: &str, offset: f64| format!("{{{{$.{of}.{axis} + {offset}}}}}");
-    let corner = middle - side / 2.0;
-    let point = |of: &str| json!({ "x": at(of, "x", middle), "y": at(of, "y", middle) });
-    let from = |axis: &str| format!("{{{{($.parent || $.event).{axis} + {middle}}}}}");
-    json!({
-        "components": {
-            "vertex": [{
-                "$": "rect",
-                "x": at("event", "x", corner),
-                "y": at("event", "y", corner),
-                "width": side,
-                "height": side,
-                "fill": "{{$.color[$.event.type]}}",
-            }],
-            // A later event may give a vertex that is not expanded yet another parent: its line does not stay.
-            "line": [{
-                "$": "path",
-                "points": [{ "x": from("x"), "y": from("y") }, point("event")],
-                "lineWidth": 0.1,
-                "fill": "#263238",
-                "alpha": "{{$.parent ? 1 : 0}}",
-                "display":
-                    "{{['expanding', 'closing', 'end'].includes($.event.type) ? 'persistent' : 'transient'}}",
-            }],
-            "map": [{
-                "$": "polygon",
-                "points": "{{$.event.map || []}}",
-                "fill": "#546e7a",
-                "alpha": "{{$.event.map ? 1 : 0}}",
-            }],
-        },
-        "views": { "main": { "components": [{ "$": "map" }, { "$": "vertex" }, { "$": "line" }] } },
-        "path": { "pivot": point("event"), "scale": 0.3 },
     })
 }
