@@ -181,8 +181,9 @@ fn measure(setting: &Setting, experiment: &'static Experiment) -> Result<Record,
         seed: seeded.then_some(setting.seed),
         quick: setting.quick,
         bundled: context.is_bundled(),
-        passes: (setting.timed && columns.iter().any(|column| column.kind == mediant_report::Kind::Time))
-            .then_some(context.passes()),
+        passes: (setting.timed
+            && columns.iter().any(|column| column.kind == mediant_report::ColumnKind::Time))
+        .then_some(context.passes()),
     };
     let record = Record {
         id: experiment.id.to_owned(),

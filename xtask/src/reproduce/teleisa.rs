@@ -169,7 +169,7 @@ fn claims(record: &Record) -> Vec<Claim> {
     };
     let tiles = |what: &str, published: f64, of: &str, to: &str, error: Option<f64>| {
         claim(TABLE_1, &format!("tiles of {what}"), published, ratio("expanded", of, to))
-            .drawn(error)
+            .standard_error(error)
             .because(TIES)
     };
     // The excess is over the optimum of the same queries, so that those that gave up do not count.
@@ -184,7 +184,7 @@ fn claims(record: &Record) -> Vec<Claim> {
     let long = claim(TABLE_1, "length of A* + SED over A* + MD", 119.0, ratio("cost", SED, MD));
     let time = claim("Section 5, Table 2", "time of CHPA* over A* + MD", 3.0, ratio("micros", STEPS[1], MD));
     vec![
-        long.drawn(get(SED, "cost_error")),
+        long.standard_error(get(SED, "cost_error")),
         tiles("A* + SED over A* + MD", 20.0, SED, MD, get(SED, "error_to_md")),
         tiles("A* + MD over A* + ED", 67.0, MD, ED, get(ED, "error_to_md")),
         claim(TABLE_1, "length of CHPA* by ED over the optimum", 104.0, excess(BY_ED)),

@@ -159,7 +159,7 @@ fn claim(record: &Record, set: &str, cell: Cell, measure: Measure) -> Option<Cla
         }
     };
     let error = cell.number(record, set, &error_column(measure));
-    let claim = Claim::new(source, what, published, here).drawn(error).written(digits, "");
+    let claim = Claim::new(source, what, published, here).standard_error(error).written(digits, "");
     Some(claim.because(causes::of(record, cell, measure)))
 }
 

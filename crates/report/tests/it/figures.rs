@@ -1,10 +1,12 @@
-//! Figures: pictures of each kind, and what holds for all of them, on seeded random ones.
+//! Figures: a snapshot of each kind, and what holds for every figure, checked on random ones from fixed seeds.
 
 use mediant_grid::{AsciiMap, Grid};
 use mediant_moves::{DecompositionTree, FiniteK, Vector};
 use mediant_report::{Axis, Chart, GridDrawing, Mark, Scale, Series, TreeDrawing};
 
-/// SplitMix64.
+use crate::svg::{Element, check, points, texts};
+
+/// SplitMix64 (Steele, Lea and Flood 2014).
 struct Random(u64);
 
 impl Random {
@@ -23,7 +25,7 @@ impl Random {
         (self.next() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Mostly usual numbers, of any size and sign, now and then one that no axis can show.
+    /// Mostly usual numbers, sometimes one of any size and sign, sometimes one that no axis can show.
     fn value(&mut self) -> f64 {
         const ODD: [f64; 10] = [
             0.0,
@@ -45,151 +47,8 @@ impl Random {
     }
 }
 
-/// An element: its name, its attributes and the text right after its opening tag.
-#[derive(Debug)]
-struct Element {
-    name: String,
-    attributes: Vec<(String, String)>,
-    text: String,
-}
-
-impl Element {
-    fn attribute(&self, name: &str) -> Option<&str> {
-        self.attributes.iter().find(|(key, _)| key == name).map(|(_, value)| &**value)
-    }
-
-    fn number(&self, name: &str) -> f64 {
-        let value = self.attribute(name).unwrap_or_else(|| panic!("no {name} in {self:?}"));
-        value.parse().unwrap_or_else(|_| panic!("{name}=\"{value}\" is no number"))
-    }
-
-    fn is(&self, class: &str) -> bool {
-        self.attribute("class").is_some_and(|all| all.split(' ').any(|one| one == class))
-    }
-}
-
-/// Reads the XML that figures use; panics where it is not well-formed.
-fn elements(svg: &str) -> Vec<Element> {
-    let mut elements = Vec::new();
-    let mut open: Vec<String> = Vec::new();
-    let mut rest = svg;
-    while let Some(start) = rest.find('<') {
-        let (before, from) = rest.split_at(start);
-        check_text(before);
-        assert!(!open.is_empty() || before.trim().is_empty(), "text outside of the root: {before:?}");
-        let end = from.find('>').expect("a tag that ends");
-        let tag = &from[1..end];
-        rest = &from[end + 1..];
-        if let Some(name) = tag.strip_prefix('/') {
-            assert_eq!(open.pop().as_deref(), Some(name), "tags are balanced");
-            continue;
-        }
-        assert!(!open.is_empty() || elements.is_empty(), "a single root");
-        let empty = tag.ends_with('/');
-        let (name, attributes) = parts(tag.trim_end_matches('/'));
-        let text = rest[..rest.find('<').unwrap_or(0)].to_owned();
-        if !empty {
-            open.push(name.clone());
-        }
-        elements.push(Element { name, attributes, text });
-    }
-    assert!(open.is_empty() && rest.trim().is_empty(), "open at the end: {open:?} {rest:?}");
-    elements
-}
-
-fn parts(tag: &str) -> (String, Vec<(String, String)>) {
-    let (name, mut rest) = tag.split_once(' ').unwrap_or((tag, ""));
-    assert!(name.chars().all(char::is_alphanumeric), "<{tag}>");
-    let mut attributes: Vec<(String, String)> = Vec::new();
-    while !rest.is_empty() {
-        let (key, after) = rest.split_once("=\"").unwrap_or_else(|| panic!("<{tag}>"));
-        let (value, after) = after.split_once('"').unwrap_or_else(|| panic!("<{tag}>"));
-        check_text(value);
-        assert!(!attributes.iter().any(|(known, _)| known == key), "{key} twice in <{tag}>");
-        attributes.push((key.to_owned(), value.to_owned()));
-        rest = after.trim_start();
-    }
-    (name.to_owned(), attributes)
-}
-
-/// Each `&` is one of XML's own entities, and no character is one that XML forbids.
-fn check_text(text: &str) {
-    for after in text.split('&').skip(1) {
-        let known = ["amp;", "lt;", "gt;", "quot;", "#39;"];
-        assert!(known.iter().any(|entity| after.starts_with(entity)), "&{after:.10}");
-    }
-    assert!(text.chars().all(|c| c == '\n' || !c.is_control()), "{text:?}");
-}
-
-/// What a reader sees: the text elements, entities resolved.
-fn texts(elements: &[Element]) -> Vec<String> {
-    let texts = elements.iter().filter(|element| element.name == "text").map(|element| &element.text);
-    let resolved = |text: &String| {
-        let text = text.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"");
-        text.replace("&#39;", "'").replace("&amp;", "&")
-    };
-    texts.map(resolved).collect()
-}
-
-/// The points that an element marks or passes through.
-fn points(element: &Element) -> Vec<(f64, f64)> {
-    match &*element.name {
-        "circle" => vec![(element.number("cx"), element.number("cy"))],
-        "line" => {
-            ["1", "2"].map(|i| (element.number(&format!("x{i}")), element.number(&format!("y{i}")))).to_vec()
-        }
-        "rect" => {
-            let (x, y) = (element.number("x"), element.number("y"));
-            vec![(x, y), (x + element.number("width"), y + element.number("height"))]
-        }
-        "text" if element.attribute("x").is_some() => vec![(element.number("x"), element.number("y"))],
-        "path" if element.attribute("transform").is_none() => {
-            let d = element.attribute("d").expect("a path has points");
-            let pairs = d.trim_end_matches('Z').split(['M', 'L']).filter(|pair| !pair.is_empty());
-            let number = |text: &str| text.parse::<f64>().unwrap_or_else(|_| panic!("{text} in {d}"));
-            pairs
-                .map(|pair| pair.split_once(',').map(|(x, y)| (number(x), number(y))).expect("x,y"))
-                .collect()
-        }
-        _ => Vec::new(),
-    }
-}
-
-/// What holds for every figure: well-formed, no number that is none, everything inside the view box.
-#[track_caller]
-fn check(svg: &str, what: &str) -> Vec<Element> {
-    let elements = elements(svg);
-    let root = &elements[0];
-    assert_eq!((&*root.name, root.attribute("role")), ("svg", Some("img")), "{what}");
-    assert_eq!(root.number("width"), 760.0, "{what}");
-    assert_eq!((&*elements[1].name, &*elements[2].name), ("title", "desc"), "{what}");
-    let view: Vec<f64> = root
-        .attribute("viewBox")
-        .expect("a view box")
-        .split(' ')
-        .map(|part| part.parse().expect("a number"))
-        .collect();
-    for element in &elements {
-        for (key, value) in &element.attributes {
-            let lower = value.to_lowercase();
-            assert!(!lower.contains("nan") && !lower.contains("inf"), "{what}: {key}=\"{value}\"");
-        }
-        for (x, y) in points(element) {
-            assert!((0.0..=view[2]).contains(&x) && (0.0..=view[3]).contains(&y), "{what}: {element:?}");
-        }
-    }
-    for text in texts(&elements) {
-        assert!(!text.contains("NaN") && !text.contains("inf"), "{what}: {text}");
-    }
-    elements
-}
-
 fn marks(elements: &[Element]) -> usize {
     elements.iter().filter(|element| element.is("mark") || element.is("hollow")).count()
-}
-
-fn pairs(of: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    of.to_vec()
 }
 
 fn small_chart() -> Chart {
@@ -304,12 +163,12 @@ fn every_chart_is_whole() {
 
 #[test]
 fn charts_with_next_to_nothing_are_drawn() {
-    let one = pairs(&[(3.0, 4.0)]);
-    let equal = pairs(&[(1.0, 5.0), (1.0, 5.0), (1.0, 5.0)]);
-    let zero = pairs(&[(0.0, 0.0), (0.0, 0.0)]);
-    let none = pairs(&[(f64::NAN, 1.0), (1.0, f64::INFINITY)]);
-    let huge = pairs(&[(f64::MAX, f64::MAX), (f64::MIN, f64::MIN), (1e-310, 5e-324)]);
-    let close = pairs(&[(1.0, 1e15), (1.0 + 1e-15, 1e15 + 1.0)]);
+    let one = vec![(3.0, 4.0)];
+    let equal = vec![(1.0, 5.0), (1.0, 5.0), (1.0, 5.0)];
+    let zero = vec![(0.0, 0.0), (0.0, 0.0)];
+    let none = vec![(f64::NAN, 1.0), (1.0, f64::INFINITY)];
+    let huge = vec![(f64::MAX, f64::MAX), (f64::MIN, f64::MIN), (1e-310, 5e-324)];
+    let close = vec![(1.0, 1e15), (1.0 + 1e-15, 1e15 + 1.0)];
     for (points, count) in [(vec![], 0), (one, 1), (equal, 3), (zero, 2), (none, 0), (huge, 3), (close, 2)] {
         for mark in [Mark::Line, Mark::Points] {
             for log in [false, true] {
