@@ -10,7 +10,8 @@ use std::{
 use crate::index::error::IndexError;
 use crate::{map::error::MapError, scenario::error::ScenarioError};
 
-/// The size of the largest file that is read, in bytes: twice that of the largest map, of [`Grid::MAX_SIDE`] rows and columns.
+/// The size of the largest file that is read, in bytes: twice that of the largest map, of [`Grid::MAX_SIDE`]
+/// rows and columns.
 ///
 /// [`Grid::MAX_SIDE`]: mediant_grid::Grid::MAX_SIDE
 pub const MAX_FILE_BYTES: u64 = 2 << 30;
@@ -78,7 +79,8 @@ pub enum ReadError {
     },
 }
 
-/// The bytes of a regular file. A device or pipe is refused before it is opened, since opening a pipe may never return.
+/// The bytes of a regular file. A device or pipe is refused before it is opened, since opening a pipe may
+/// never return.
 pub(crate) fn read_regular(path: &Path) -> Result<Vec<u8>, ReadError> {
     let unreadable = |source: io::Error| match source.kind() {
         io::ErrorKind::NotFound => ReadError::Missing { path: path.to_owned() },

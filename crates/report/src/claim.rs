@@ -20,8 +20,8 @@ pub struct Claim {
     pub ours: Option<f64>,
     /// By how much ours may differ, as a fraction of the published number.
     pub tolerance: f64,
-    /// The standard error of ours from the random choice of its instances, as a fraction of ours; 0 if the instances are those of
-    /// the publication.
+    /// The standard error of ours from the random choice of its instances, as a fraction of ours; 0 if the
+    /// instances are those of the publication.
     pub standard_error: f64,
     /// Why the numbers differ, if they do: found out, not guessed. One cause a line.
     pub cause: String,
@@ -36,8 +36,8 @@ pub struct Claim {
 pub enum Verdict {
     /// Ours is within the tolerance.
     Matched,
-    /// Ours is not, but differs by no more than the random choice of instances explains: two standard errors of the difference
-    /// of two samples.
+    /// Ours is not, but differs by no more than the random choice of instances explains: two standard errors
+    /// of the difference of two samples.
     WithinSampling,
     /// Ours differs by more.
     Deviates,
@@ -74,8 +74,8 @@ impl Claim {
         self
     }
 
-    /// The same claim for a number that was measured on the same instances: ours has to agree in all printed `digits` after the
-    /// point.
+    /// The same claim for a number that was measured on the same instances: ours has to agree in all printed
+    /// `digits` after the point.
     #[must_use]
     pub fn exact(mut self, digits: usize) -> Self {
         // Half a unit of the last digit, since the publication rounded, and a little for the rounding of f64.

@@ -1,7 +1,7 @@
 //! Numbers as text.
 
-/// A number for a table: three significant digits, at most three of them after the point, or a whole number with a comma between
-/// thousands.
+/// A number for a table: three significant digits, at most three of them after the point, or a whole number
+/// with a comma between thousands.
 ///
 /// ```
 /// use mediant_report::number;
@@ -28,7 +28,7 @@ pub fn thousands(value: f64) -> String {
 pub(crate) fn grouped(digits: &str) -> String {
     let mut text = String::new();
     for (at, digit) in digits.chars().enumerate() {
-        if at > 0 && (digits.len() - at) % 3 == 0 {
+        if at > 0 && (digits.len() - at).is_multiple_of(3) {
             text.push(',');
         }
         text.push(digit);

@@ -22,10 +22,11 @@ pub fn median(values: &[f64]) -> Option<f64> {
     Some(f64::midpoint(sorted[low], sorted[high]))
 }
 
-/// The ratio of the means of pairs `(a, b)`, and its standard error, if the pairs are a random sample of many.
+/// The ratio of the means of pairs `(a, b)`, and its standard error, if the pairs are a random sample of
+/// many.
 ///
-/// The error is computed from the residuals of `a` against `ratio · b` (Cochran, *Sampling Techniques*, 1977, Section 2.11).
-/// `None` of fewer than two pairs, or if the `b` sum to 0.
+/// The error is computed from the residuals of `a` against `ratio · b` (Cochran, *Sampling Techniques*, 1977,
+/// Section 2.11). `None` of fewer than two pairs, or if the `b` sum to 0.
 #[must_use]
 pub fn ratio_of_means(pairs: &[(f64, f64)]) -> Option<(f64, f64)> {
     let (a, b) = pairs.iter().fold((0.0, 0.0), |(a, b), pair| (a + pair.0, b + pair.1));

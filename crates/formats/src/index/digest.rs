@@ -11,8 +11,9 @@ use super::layout::DIGEST_BYTES;
 ///
 /// Needs the feature `index`.
 ///
-/// The digest is over width and height as `u32`, then each row as ⌈width / 64⌉ words `u64`, all little endian; bit
-/// x mod 64 of word ⌊x / 64⌋ is 1 where cell x of the row is blocked, and bits beyond the row are 0.
+/// The digest is over width and height as `u32`, then each row as ⌈width / 64⌉ words `u64`, all little
+/// endian; bit x mod 64 of word ⌊x / 64⌋ is 1 where cell x of the row is blocked, and bits beyond the row are
+/// 0.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct MapDigest {
     pub(super) width: u32,

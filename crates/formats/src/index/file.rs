@@ -77,8 +77,8 @@ impl IndexFile {
         bytes
     }
 
-    /// Parses the bytes of a file, and keeps the payload in the same allocation. The length that the header states allocates
-    /// nothing.
+    /// Parses the bytes of a file, and keeps the payload in the same allocation. The length that the header
+    /// states allocates nothing.
     ///
     /// # Errors
     /// [`IndexError`] for bytes that are not an index of this format version, are cut short, or are damaged.
@@ -89,11 +89,12 @@ impl IndexFile {
         Ok(Self { key, payload: bytes })
     }
 
-    /// Saves the index at `path`. An older file there is replaced as a whole: the index is written to another file in the same
-    /// folder, which is then renamed. So there is never half an index at `path`.
+    /// Saves the index at `path`. An older file there is replaced as a whole: the index is written to another
+    /// file in the same folder, which is then renamed. So there is never half an index at `path`.
     ///
     /// # Errors
-    /// [`WriteError`] if the operating system refuses, or if `path` names something other than a regular file.
+    /// [`WriteError`] if the operating system refuses, or if there is something at `path` that is no regular
+    /// file.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), WriteError> {
         let header = header::encode(&self.key, self.payload.len());
         let digest = Sha256::new().chain_update(&header).chain_update(&self.payload).finalize();

@@ -5,7 +5,8 @@ use mediant_grid::{Grid, Rules};
 use super::{digest::MapDigest, error::IndexError, layout::is_engine_name};
 use crate::text::quote;
 
-/// What an index was built for: engine, version, rules of motion, k and map. All must be the same where it is used.
+/// What an index was built for: engine, version, rules of motion, k and map. All must be the same where it is
+/// used.
 ///
 /// Needs the feature `index`.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -20,7 +21,8 @@ pub struct IndexKey {
 impl IndexKey {
     /// The key of an index that `engine` built for `grid` under `rules` and N(k), `None` for any-angle.
     ///
-    /// `engine` is a name of 1 to 16 printable ASCII characters without blanks, `version` the version of its payload.
+    /// `engine` is a name of 1 to 16 printable ASCII characters without blanks, `version` the version of its
+    /// payload.
     ///
     /// # Errors
     /// [`IndexError::EngineName`] for a name that cannot be saved.

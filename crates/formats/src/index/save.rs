@@ -62,7 +62,8 @@ fn write_and_rename(path: &Path, parts: &[&[u8]]) -> io::Result<()> {
     Ok(())
 }
 
-/// A new file of a unique name with the usual permissions. By default, tempfile keeps other users from reading it.
+/// A new file of a unique name with the usual permissions. By default, tempfile keeps other users from
+/// reading it.
 fn temporary_in(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".mediant-").suffix(".part");

@@ -13,8 +13,8 @@ use crate::read::{ReadError, read_regular};
 
 /// A MovingAI map: a header with height and width, and one character per cell.
 ///
-/// The characters `.`, `G` and `S` are free cells, all others blocked cells. Lines end in LF or CRLF. The last row may lack its
-/// line end, and empty lines may follow it.
+/// The characters `.`, `G` and `S` are free cells, all others blocked cells. Lines end in LF or CRLF. The
+/// last row may lack its line end, and empty lines may follow it.
 ///
 /// ```
 /// use mediant_formats::MapFile;

@@ -9,7 +9,8 @@ use mediant_grid::Vertex;
 pub struct Instance {
     /// The bucket: queries of about the same optimal length share one.
     pub bucket: u32,
-    /// The map as the file names it. The name may begin with folders, and may contain spaces where tabs separate the fields.
+    /// The map as the file names it. The name may begin with folders, and may contain spaces where tabs
+    /// separate the fields.
     pub map: Arc<str>,
     /// The map's number of columns.
     pub width: u32,
@@ -19,8 +20,8 @@ pub struct Instance {
     pub start: Vertex,
     /// Where the path ends. It may lie outside the map.
     pub goal: Vertex,
-    /// The length of a shortest path in cells, as exactly as the file writes it: over the 8-neighborhood (k = 3) between cell
-    /// centers, without cutting corners (`CornerRule::Never`).
+    /// The length of a shortest path in cells, as exactly as the file writes it: over the 8-neighborhood (k =
+    /// 3) between cell centers, without cutting corners (`CornerRule::Never`).
     pub optimal: f64,
 }
 
@@ -32,11 +33,11 @@ impl Instance {
     }
 }
 
-/// How far the cost of a shortest path may be from the optimal length that a scenario states: 0.005, or 10⁻⁵ of the length if
-/// that is more.
+/// How far the cost of a shortest path may be from the optimal length that a scenario states: 0.005, or 10⁻⁵
+/// of the length if that is more.
 ///
-/// Scenario files round. The oldest sets (bg512, wc3maps512) carry two decimals, most of the others about six significant
-/// digits of sums in single precision, the street maps eight decimals.
+/// Scenario files round. The oldest sets (bg512, wc3maps512) carry two decimals, most of the others about six
+/// significant digits of sums in single precision, the street maps eight decimals.
 #[must_use]
 pub fn scenario_tolerance(optimal: f64) -> f64 {
     f64::max(0.005, 1e-5 * optimal)

@@ -18,9 +18,9 @@ use crate::read::{ReadError, read_regular};
 
 /// A list of queries, in the order of the file.
 ///
-/// The first line is `version 1` or `version 1.0`. Each further line is a query with nine fields: bucket, map, width, height,
-/// start x, start y, goal x, goal y, optimal length. The fields of a line are separated by tabs, or by spaces if the line has
-/// no tab. Empty lines are skipped.
+/// The first line is `version 1` or `version 1.0`. Each further line is a query with nine fields: bucket,
+/// map, width, height, start x, start y, goal x, goal y, optimal length. The fields of a line are separated
+/// by tabs, or by spaces if the line has no tab. Empty lines are skipped.
 ///
 /// ```
 /// use mediant_formats::Scenario;
@@ -64,8 +64,8 @@ impl Scenario {
             .map_err(|source| ReadError::Scenario { path: path.to_owned(), source })
     }
 
-    /// Makes the scenario of a list of queries: version 1, fields separated by tabs, lengths with as many digits as it takes to
-    /// read the same number back.
+    /// Makes the scenario of a list of queries: version 1, fields separated by tabs, lengths with as many
+    /// digits as it takes to read the same number back.
     ///
     /// # Errors
     /// [`ScenarioError::Unwritable`] for a map's name or a length that would not be read back as it is.
@@ -80,9 +80,11 @@ impl Scenario {
         &self.instances
     }
 
-    /// Checks that every query was made for a map of this grid's width and height. An error calls the grid `name`.
+    /// Checks that every query was made for a map of this grid's width and height. An error calls the grid
+    /// `name`.
     ///
-    /// Names are not compared, so that maps can be renamed; a caller can compare [`Instance::map_file_name`] and warn.
+    /// Names are not compared, so that maps can be renamed; a caller can compare [`Instance::map_file_name`]
+    /// and warn.
     ///
     /// # Errors
     /// [`MapMismatch`] for the first query of another width or height.

@@ -114,7 +114,8 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// The fields of a line that are separated by tabs, without the spaces around them, each with its column from 1.
+/// The fields of a line that are separated by tabs, without the spaces around them, each with its column from
+/// 1.
 fn tab_fields(text: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     let mut column = 1;
     text.split(|&byte| byte == b'\t').map(move |field| {

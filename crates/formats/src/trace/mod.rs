@@ -14,9 +14,11 @@ use render::render;
 /// Needs the feature `trace`.
 #[derive(Clone, Copy, Debug)]
 pub struct TraceHeader<'g> {
-    /// Where the vertices are. A vertex at a center is drawn as its cell, one at a corner as a small square around it.
+    /// Where the vertices are. A vertex at a center is drawn as its cell, one at a corner as a small square
+    /// around it.
     pub placement: PlacementKind,
-    /// The map, if the trace is to draw it. Without it, the visualizer can show the `.map` file as a layer of its own.
+    /// The map, if the trace is to draw it. Without it, the visualizer can show the `.map` file as a layer of
+    /// its own.
     pub map: Option<&'g Grid>,
 }
 
@@ -47,8 +49,8 @@ pub enum TraceEventKind {
 /// Needs the feature `trace`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TraceEvent {
-    /// The number of the vertex, the same in all its events. Better not 0: the path that the visualizer highlights would
-    /// end before this vertex.
+    /// The number of the vertex, the same in all its events. Better not 0: the path that the visualizer
+    /// highlights would end before this vertex.
     pub id: u32,
     /// The number of the vertex from which it was reached.
     pub parent: Option<u32>,
@@ -56,7 +58,8 @@ pub struct TraceEvent {
     pub x: i32,
     /// The row, in cells, downward.
     pub y: i32,
-    /// The estimated cost of a path through the vertex, if the search has one. Written as `null` if not finite.
+    /// The estimated cost of a path through the vertex, if the search has one. Written as `null` if not
+    /// finite.
     pub f: Option<f64>,
     /// The cost of the best known path to the vertex, if there is one. Written as `null` if not finite.
     pub g: Option<f64>,
@@ -131,7 +134,8 @@ impl<'g, W: Write> TraceWriter<'g, W> {
         match self.map.take() {
             None => serde_json::to_writer(&mut self.out, &line)?,
             Some(map) => {
-                // The first event carries the map. Were it part of the component that draws it, every event would draw it anew.
+                // The first event carries the map. Were it part of the component that draws it, every event
+                // would draw it anew.
                 let mut text = serde_json::to_vec(&line)?;
                 text.pop();
                 self.out.write_all(&text)?;
@@ -159,8 +163,8 @@ impl<'g, W: Write> TraceWriter<'g, W> {
         Ok(self.out)
     }
 
-    /// Writes the blocked cells as one polygon. It goes from the origin to each run of blocked cells, around it, and back on the
-    /// same line, which thus has no area.
+    /// Writes the blocked cells as one polygon. It goes from the origin to each run of blocked cells, around
+    /// it, and back on the same line, which thus has no area.
     fn outline(&mut self, map: &Grid) -> io::Result<()> {
         self.out.write_all(br#"{"x":0,"y":0}"#)?;
         for y in 0..map.height() as i32 {

@@ -3,9 +3,9 @@
 use mediant_grid::PlacementKind;
 use serde_json::{Value, json};
 
-/// The components that the visualizer draws with each event. In their expressions, `$.event` is the event, `$.parent` the latest
-/// event of its parent, and `$.color` the theme's colors of the event types. A `persistent` component stays, a `transient` one
-/// disappears with the next event.
+/// The components that the visualizer draws with each event. In their expressions, `$.event` is the event,
+/// `$.parent` the latest event of its parent, and `$.color` the theme's colors of the event types. A
+/// `persistent` component stays, a `transient` one disappears with the next event.
 pub(super) fn render(placement: PlacementKind) -> Value {
     // The middle and the side of a vertex's square. At centers, the unit square at (x, y) is the cell itself.
     let (middle, side) = match placement {

@@ -1,4 +1,4 @@
-//! Valid files mutated at random: nothing panics, and what is still a file comes back the same.
+//! Valid files mutated at random: parsing never panics, and what it accepts is written back byte for byte.
 
 use mediant_formats::{MapFile, Scenario};
 
@@ -22,7 +22,8 @@ impl Random {
     }
 }
 
-/// One to four edits: bytes changed, removed, doubled or brought in, or the end cut off.
+/// The text after one to four edits, each of which changes, removes, doubles or inserts bytes, or cuts off
+/// the end.
 fn mutated(random: &mut Random, text: &[u8]) -> Vec<u8> {
     const PIECES: [&[u8]; 16] = [
         b"\n",
@@ -68,7 +69,7 @@ fn rounds(texts: &[&str], mut check: impl FnMut(&[u8], &str) -> bool) {
         let context = format!("seed {SEED:#x}, round {round}: {:?}", text.escape_ascii().to_string());
         accepted += u64::from(check(&text, &context));
     }
-    // Neither all refused nor all accepted, or the rounds would show nothing.
+    // If nearly all were refused or accepted, the rounds would show nothing.
     assert!((ROUNDS / 50..ROUNDS / 2).contains(&accepted), "seed {SEED:#x}: {accepted} of {ROUNDS} accepted");
 }
 
@@ -119,7 +120,7 @@ fn mutated_scenarios() {
     });
 }
 
-/// A message begins with a place in the file, or the one right behind its last line.
+/// Checks that a message begins with a line and column of the file, or with those right behind its end.
 fn check_place(text: &[u8], message: &str, context: &str) {
     let numbers = message.strip_prefix("line ").and_then(|rest| rest.split_once(", column "));
     let (line, rest) = numbers.expect(context);

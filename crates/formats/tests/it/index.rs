@@ -1,4 +1,4 @@
-//! Saved indexes: what comes back, and every refusal.
+//! Saved indexes: what is saved comes back, and every other file is refused with the right error.
 
 use std::{fs, path::Path};
 
@@ -20,7 +20,7 @@ fn index() -> IndexFile {
     IndexFile::new(key(RULES, Some(3)), (0..50).collect())
 }
 
-/// The bytes with their checksum made right: what another program might have written.
+/// The bytes with a right checksum, as another program might have written them.
 fn sealed(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes.truncate(bytes.len() - 32);
     let digest = Sha256::digest(&bytes);
@@ -32,7 +32,7 @@ fn refused(bytes: &[u8]) -> IndexError {
     IndexFile::from_bytes(bytes.to_vec()).expect_err("to be refused")
 }
 
-/// The index of these tests with one field overwritten and the checksum made right.
+/// The error for the index of these tests with one field overwritten and a right checksum.
 fn forged(at: usize, field: &[u8]) -> IndexError {
     let mut bytes = index().to_bytes();
     bytes[at..at + field.len()].copy_from_slice(field);
@@ -67,12 +67,12 @@ fn what_is_saved_comes_back() {
     }
 }
 
-/// The layout is a contract with files on disk: it changes only together with the version.
+/// There are files of this layout on disk: it may change only together with its version.
 #[test]
 fn the_bytes_of_a_file() {
     let bytes = IndexFile::new(key(Rules::Corner(DiagonalGap::Closed), None), vec![0xaa, 0xbb]).to_bytes();
     let digest = {
-        // Width 3, height 2, then a word a row: cell (2, 0) is blocked.
+        // Width 3, height 2, then one word per row. Cell (2, 0) is blocked.
         let mut map = [3_u32.to_le_bytes(), 2_u32.to_le_bytes()].concat();
         map.extend([4_u64.to_le_bytes(), 0_u64.to_le_bytes()].concat());
         Sha256::digest(map)

@@ -1,4 +1,4 @@
-//! Maps: what is accepted, what is written, and every refusal word by word.
+//! Maps: what is accepted, what is written, and the message of every error.
 
 use mediant_formats::{MapError, MapFile};
 use mediant_grid::{AsciiMap, Grid};

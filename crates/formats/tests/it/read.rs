@@ -1,10 +1,10 @@
-//! Files: each way that reading can fail, by its message.
+//! Reading files: what can be read, and the message of every error.
 
 use std::{fs, path::Path};
 
 use mediant_formats::{MAX_FILE_BYTES, MapFile, ReadError, Scenario};
 
-/// The message with the folder of the test taken out of it.
+/// The message of an error without the folder of the test.
 fn message(error: &ReadError, folder: &Path) -> String {
     error.to_string().replace(&format!("{}/", folder.display()), "")
 }
@@ -27,7 +27,7 @@ fn files_that_cannot() {
     assert_eq!(read("no.map"), "no.map: no such file; check the path and the folder that you are in");
     fs::create_dir(at("folder")).unwrap();
     assert_eq!(read("folder"), "folder: expected a file, found a directory; name a file in it");
-    // A sparse file: long, but with no bytes on disk.
+    // A sparse file takes no room on the disk.
     fs::File::create(at("long")).unwrap().set_len(MAX_FILE_BYTES + 1).unwrap();
     assert_eq!(
         read("long"),

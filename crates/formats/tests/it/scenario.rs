@@ -1,4 +1,4 @@
-//! Scenarios: what is accepted, what is written, and every refusal word by word.
+//! Scenarios: what is accepted, what is written, and the message of every error.
 
 use std::sync::Arc;
 

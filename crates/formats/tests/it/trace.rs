@@ -1,4 +1,5 @@
-//! Search traces: what is written, read back as JSON, and when the writer fails.
+//! Search traces: what is written, whether it is the JSON of the format, and what happens when a writer
+//! fails.
 
 use std::io::{self, Write};
 
@@ -61,7 +62,7 @@ fn a_trace_is_json_with_its_events_in_order() {
         json!({ "type": "updating", "id": 2, "pId": 1, "x": 0, "y": 1, "f": 1.5, "g": 2.0_f64.sqrt() });
     assert_eq!(trace["events"][4], expected);
     assert_eq!(trace["events"][0], json!({ "type": "source", "id": 1, "pId": null, "x": 1, "y": 0 }));
-    // The digits of a cost are enough to give it back; what JSON cannot say is null.
+    // A cost is written with enough digits to be read back; one that JSON cannot hold is null.
     assert_eq!(trace["events"][3]["g"].as_f64(), Some(0.1 + 0.2));
     assert_eq!(trace["events"][3]["f"], Value::Null);
 }
@@ -84,13 +85,13 @@ fn squares_lie_on_cells_or_around_corners() {
     assert_eq!(square(&corner)["x"], "{{$.event.x + -0.25}}");
     assert_eq!(square(&corner)["width"], 0.5);
     assert_eq!(corner["path"]["pivot"]["x"], "{{$.event.x + 0}}");
-    // Every component that the view asks for is there.
+    // Every component that the view names exists.
     for part in center["views"]["main"]["components"].as_array().unwrap() {
         assert!(center["components"][part["$"].as_str().unwrap()].is_array(), "{part}");
     }
 }
 
-/// How often the closed polygon winds around a point: the rule by which a canvas fills.
+/// How often the closed polygon winds around a point. A canvas fills where this is not 0.
 fn winding(points: &[(f64, f64)], (x, y): (f64, f64)) -> i32 {
     let edges = points.iter().zip(points.iter().cycle().skip(1));
     let turns = edges.map(|(&(ax, ay), &(bx, by))| {
@@ -110,7 +111,7 @@ fn check_map(grid: &Grid) {
     let points: Vec<(f64, f64)> = outline.iter().map(|p| (number(&p["x"]), number(&p["y"]))).collect();
     for y in -1..=grid.height() as i32 {
         for x in -1..=grid.width() as i32 {
-            // Not the middle of the cell, which may lie on one of the lines without area.
+            // Not the middle of the cell: it may lie on a line without area.
             let wound = winding(&points, (f64::from(x) + 0.617, f64::from(y) + 0.382));
             let inside = (0..grid.width() as i32).contains(&x) && (0..grid.height() as i32).contains(&y);
             assert_eq!(wound, i32::from(inside && grid.is_blocked(x, y)), "cell ({x}, {y})");
@@ -126,7 +127,7 @@ fn the_outline_of_the_map_encloses_its_blocked_cells() {
     check_map(&Grid::from_fn(70, 9, |x, y| (x * x + 3 * y) % 7 < 3).unwrap());
 }
 
-/// Takes so many bytes, then fails.
+/// A writer that takes this many bytes, then fails.
 struct Full(usize);
 
 impl Write for Full {

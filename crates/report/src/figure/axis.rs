@@ -9,7 +9,8 @@ pub enum Scale {
     Log,
 }
 
-/// An axis of a [`Chart`](super::Chart). Its range is that of the points, unless [`range`](Self::range) sets it.
+/// An axis of a [`Chart`](super::Chart). Its range is that of the points, unless [`range`](Self::range) sets
+/// it.
 #[derive(Clone, Debug)]
 pub struct Axis {
     pub(super) label: String,
@@ -31,14 +32,15 @@ impl Axis {
         Self { scale: Scale::Log, ..self }
     }
 
-    /// The same axis from `low` to `high`. A range that the scale cannot show is ignored: one that is empty or not finite, or not
-    /// positive on a logarithmic scale.
+    /// The same axis from `low` to `high`. A range that the scale cannot show is ignored: one that is empty
+    /// or not finite, or not positive on a logarithmic scale.
     #[must_use]
     pub fn range(self, low: f64, high: f64) -> Self {
         Self { range: Some((low.min(high), low.max(high))), ..self }
     }
 
-    /// The same axis with these ticks (value and name) instead of round numbers. A range that is not set includes them.
+    /// The same axis with these ticks (value and name) instead of round numbers. A range that is not set
+    /// includes them.
     #[must_use]
     pub fn ticks(self, ticks: impl IntoIterator<Item = (f64, String)>) -> Self {
         Self { named: ticks.into_iter().collect(), ..self }

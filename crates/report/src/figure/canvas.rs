@@ -112,7 +112,8 @@ impl Canvas {
         y + 10.0
     }
 
-    /// The whole file, for a figure of this width and height. A screen reader reads `title` and `description` aloud.
+    /// The whole file, for a figure of this width and height. A screen reader reads `title` and `description`
+    /// aloud.
     pub(super) fn finish(self, title: &str, description: &str, width: f64, height: f64) -> String {
         let height = height.ceil();
         let shown = number(WIDTH * height / width);
@@ -137,8 +138,8 @@ fn attribute(class: &str) -> String {
     if class.is_empty() { String::new() } else { format!(r#" class="{class}""#) }
 }
 
-/// A number with at most two decimals. More would not be visible, and the last bits of a logarithm differ between machines, so
-/// that the files would too.
+/// A number with at most two decimals. More would not be visible, and the last bits of a logarithm differ
+/// between machines, so that the files would too.
 fn number(value: f64) -> String {
     debug_assert!(value.is_finite(), "{value} in a figure");
     let text = format!("{value:.2}");

@@ -4,8 +4,9 @@ use super::{axis::Axis, series::Series};
 
 /// A chart: series over two axes, with a legend.
 ///
-/// A point beyond the range of an axis, or at 0 or below on a logarithmic axis, is drawn as a hollow marker on the border, where
-/// the axis says '≤' or '≥'. So no point is lost, and none is taken for a point on the border.
+/// A point beyond the range of an axis, or at 0 or below on a logarithmic axis, is drawn as a hollow marker
+/// on the border, where the axis says '≤' or '≥'. So no point is lost, and none is taken for a point on the
+/// border.
 ///
 /// ```
 /// use mediant_report::{Axis, Chart, Mark, Series};

@@ -16,9 +16,11 @@ const LARGEST_CELL: f64 = 40.0;
 /// With smaller cells, neither the cells are outlined nor the points of the paths marked.
 const OUTLINED: f64 = 8.0;
 
-/// A drawing of a map with paths. Blocked cells are filled, free ones outlined. S and G mark where paths begin and end.
+/// A drawing of a map with paths. Blocked cells are filled, free ones outlined. S and G mark where paths
+/// begin and end.
 ///
-/// Paths that share a segment all stay visible: the first is the widest, and each is drawn over those before it.
+/// Paths that share a segment all stay visible: the first is the widest, and each is drawn over those before
+/// it.
 ///
 /// ```
 /// use mediant_grid::AsciiMap;
@@ -54,8 +56,9 @@ impl GridDrawing {
         Self { note: Some(note.into()), ..self }
     }
 
-    /// The same drawing with a path through these points, in cells: (0, 0) is the upper left corner of the map, (0.5, 0.5) the
-    /// center of its first cell. A point that is not finite is left out; a point outside the map is moved to its border.
+    /// The same drawing with a path through these points, in cells: (0, 0) is the upper left corner of the
+    /// map, (0.5, 0.5) the center of its first cell. A point that is not finite is left out; a point outside
+    /// the map is moved to its border.
     #[must_use]
     pub fn path(mut self, name: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let finite = points.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite());
@@ -179,7 +182,8 @@ impl GridDrawing {
     }
 }
 
-/// The blocked cells as an SVG path of rectangles, in cells. Equal runs of cells in consecutive rows make one rectangle.
+/// The blocked cells as an SVG path of rectangles, in cells. Equal runs of cells in consecutive rows make one
+/// rectangle.
 fn rectangles(grid: &Grid) -> String {
     let mut d = String::new();
     let mut open: BTreeMap<(i32, i32), i32> = BTreeMap::new();

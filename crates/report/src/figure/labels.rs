@@ -8,7 +8,8 @@ use super::{
 const HEIGHT: f64 = 11.0;
 /// The distances from the marker that are tried. From all but the first, a thin line leads to the point.
 const DISTANCES: [f64; 4] = [3.0, 12.0, 22.0, 34.0];
-/// The directions that are tried: right, left, above, below, and the diagonals, as a reader looks for a label.
+/// The directions that are tried: right, left, above, below, and the diagonals, as a reader looks for a
+/// label.
 const SIDES: [Point; 8] =
     [(1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (0.0, 1.0), (0.8, -0.8), (0.8, 0.8), (-0.8, -0.8), (-0.8, 0.8)];
 /// How often each label is placed; from the second time on, all others have places.
@@ -37,9 +38,11 @@ pub(super) struct Place {
     pub(super) far: bool,
 }
 
-/// Gives each label the cheapest of a few places, in the order of the labels, then again with all others in place.
+/// Gives each label the cheapest of a few places, in the order of the labels, then again with all others in
+/// place.
 ///
-/// To place as many labels as possible without overlaps is NP-hard; this heuristic is enough for the few labels of a figure.
+/// To place as many labels as possible without overlaps is NP-hard; this heuristic is enough for the few
+/// labels of a figure.
 #[derive(Clone, Debug)]
 pub(super) struct Placer {
     inside: Rect,

@@ -11,7 +11,8 @@ pub(super) fn decimal(value: f64, decimals: usize) -> String {
     format!("{sign}{}{rest}", grouped(whole))
 }
 
-/// A number in scientific notation, with at most this many decimals: 2.5×10⁹, or 10⁹ if the first factor is 1.
+/// A number in scientific notation, with at most this many decimals: 2.5×10⁹, or 10⁹ if the first factor is
+/// 1.
 pub(super) fn scientific(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$e}");
     let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
@@ -25,7 +26,8 @@ pub(super) fn scientific(value: f64, decimals: usize) -> String {
     }
 }
 
-/// A number rounded to three digits or to a whole number, in scientific notation if it is very small or large.
+/// A number rounded to three digits or to a whole number, in scientific notation if it is very small or
+/// large.
 pub(super) fn plain(value: f64) -> String {
     let exponent = exponent(value);
     if !(-4..7).contains(&exponent) {

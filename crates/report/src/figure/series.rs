@@ -34,14 +34,15 @@ impl Series {
         Self { name: name.into(), mark, points, labels: Vec::new(), style: None, hollow: false }
     }
 
-    /// The same series with a short text beside each point, in the order of the points. A point with an empty text has none.
+    /// The same series with a short text beside each point, in the order of the points. A point with an empty
+    /// text has none.
     #[must_use]
     pub fn labels(self, labels: impl IntoIterator<Item = String>) -> Self {
         Self { labels: labels.into_iter().collect(), ..self }
     }
 
-    /// The same series with the color, marker and dash of this number. Without it, the first series of a chart has number 0, the
-    /// next one number 1, and so on; references have numbers of their own.
+    /// The same series with the color, marker and dash of this number. Without it, the first series of a
+    /// chart has number 0, the next one number 1, and so on; references have numbers of their own.
     #[must_use]
     pub fn style(self, index: usize) -> Self {
         Self { style: Some(index), ..self }
@@ -91,7 +92,8 @@ impl Styled<'_> {
     }
 }
 
-/// The series of a chart with their styles. References are counted apart, so that the first series that is none has the first style.
+/// The series of a chart with their styles. References are counted apart, so that the first series that is
+/// none has the first style.
 pub(super) fn styled(series: &[Series]) -> Vec<Styled<'_>> {
     let mut counts = [0, 0];
     let styled = series.iter().map(|series| {

@@ -1,7 +1,7 @@
 //! The style sheet that all figures share.
 
-/// The colors s0 to s7 are those of Okabe and Ito, but yellow is darker on white, and blue and black are lighter on black, to be
-/// visible.
+/// The colors s0 to s7 are those of Okabe and Ito, but yellow is darker on white, and blue and black are
+/// lighter on black, to be visible.
 pub(super) const SHEET: &str = r#".page{fill:#fff}
 text{fill:#1f2328;font:12px system-ui,-apple-system,"Segoe UI",Roboto,Helvetica,Arial,sans-serif}
 .title{font-size:16px;font-weight:600}

@@ -6,8 +6,8 @@ use super::{
     text::{TEXT, text_width},
 };
 
-/// Larger values are drawn as this one, and smaller ones as 0 or, on a logarithmic scale, as the smallest: no measurement gets
-/// there, and spans stay finite.
+/// Larger values are drawn as this one, and smaller ones as 0 or, on a logarithmic scale, as the smallest: no
+/// measurement gets there, and spans stay finite.
 const HUGE: f64 = 1e200;
 const TINY: f64 = 1e-200;
 /// A span that is smaller than this fraction of its ends is taken for a single value.
@@ -22,8 +22,8 @@ pub(super) struct Span {
 }
 
 impl Span {
-    /// The span of an axis that is to show these values, apart from those that are not finite. With `from_zero`, a linear axis
-    /// begins at 0 if that is not far below the values.
+    /// The span of an axis that is to show these values, apart from those that are not finite. With
+    /// `from_zero`, a linear axis begins at 0 if that is not far below the values.
     pub(super) fn new(axis: &Axis, values: impl Iterator<Item = f64>, from_zero: bool) -> Self {
         let scale = axis.scale;
         let spans = |&(low, high): &(f64, f64)| {
@@ -45,7 +45,8 @@ impl Span {
         Self { scale, low, high }
     }
 
-    /// Where a value lies on the axis: 0 is the low end, 1 the high end. −∞ for values of 0 or less on a logarithmic scale.
+    /// Where a value lies on the axis: 0 is the low end, 1 the high end. −∞ for values of 0 or less on a
+    /// logarithmic scale.
     pub(super) fn fraction(&self, value: f64) -> f64 {
         let value = transformed(self.scale, value);
         if value == f64::NEG_INFINITY {
@@ -60,8 +61,8 @@ impl Span {
         plain(if self.scale == Scale::Log { 10_f64.powf(end) } else { end })
     }
 
-    /// The ticks with their places, from low to high, for an axis of that many pixels. Each name takes `size` pixels along the
-    /// axis, or the width of its text if `None`.
+    /// The ticks with their places, from low to high, for an axis of that many pixels. Each name takes `size`
+    /// pixels along the axis, or the width of its text if `None`.
     pub(super) fn ticks(&self, axis: &Axis, pixels: f64, size: Option<f64>) -> Vec<(f64, String)> {
         let mut ticks = if axis.has_round_ticks() {
             self.round_ticks(pixels, size)
@@ -108,8 +109,8 @@ fn transformed(scale: Scale, value: f64) -> f64 {
     }
 }
 
-/// The range from `low` to `high` with a border. With `from_zero` it begins at 0 if that is not far below: heights are compared
-/// from there.
+/// The range from `low` to `high` with a border. With `from_zero` it begins at 0 if that is not far below:
+/// heights are compared from there.
 fn linear_range(low: f64, high: f64, from_zero: bool) -> (f64, f64) {
     if low > high {
         return (0.0, 1.0);
@@ -126,8 +127,8 @@ fn linear_range(low: f64, high: f64, from_zero: bool) -> (f64, f64) {
     (low - border, high + border)
 }
 
-/// The range from `low` to `high` with a border, of logarithms. With `clamped` there are also values without a logarithm: they are
-/// drawn at the low end, which is then a round number below all others.
+/// The range from `low` to `high` with a border, of logarithms. With `clamped` there are also values without
+/// a logarithm: they are drawn at the low end, which is then a round number below all others.
 fn log_range(low: f64, high: f64, clamped: bool) -> (f64, f64) {
     if low > high {
         return (-1.0, 1.0);

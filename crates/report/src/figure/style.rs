@@ -5,8 +5,9 @@ use super::{canvas::Canvas, geometry::Point};
 const COLORS: usize = 8;
 const DASHES: usize = 5;
 
-/// The style of a series: color, marker and dash. There are 8, 9 and 5 of them. These numbers have no common factor, so there are
-/// 360 different styles, and any two of the first eight differ both in color and in marker.
+/// The style of a series: color, marker and dash. There are 8, 9 and 5 of them. These numbers have no common
+/// factor, so there are 360 different styles, and any two of the first eight differ both in color and in
+/// marker.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Style(pub(super) usize);
 

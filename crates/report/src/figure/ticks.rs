@@ -13,8 +13,8 @@ pub(super) fn widest_name(ticks: &Ticks) -> f64 {
     ticks.iter().map(|(_, name)| text_width(name, TEXT)).fold(0.0, f64::max)
 }
 
-/// The ticks of an axis of that many pixels, with '≤' or '≥' at its low and its high end where markers are clamped there. These
-/// replace the ticks nearby.
+/// The ticks of an axis of that many pixels, with '≤' or '≥' at its low and its high end where markers are
+/// clamped there. These replace the ticks nearby.
 pub(super) fn with_ends(mut ticks: Ticks, span: &Span, [low, high]: [bool; 2], pixels: f64) -> Ticks {
     let near = 12.0 / pixels.max(1.0);
     if low {
@@ -28,7 +28,8 @@ pub(super) fn with_ends(mut ticks: Ticks, span: &Span, [low, high]: [bool; 2], p
     ticks
 }
 
-/// Removes each name that would overlap the last one kept before it. `along` is the room that a name needs along the axis.
+/// Removes each name that would overlap the last one kept before it. `along` is the room that a name needs
+/// along the axis.
 pub(super) fn thinned(mut ticks: Ticks, pixels: f64, along: impl Fn(&str) -> f64) -> Ticks {
     let mut end = f64::NEG_INFINITY;
     for (fraction, name) in &mut ticks {

@@ -13,8 +13,8 @@ const LEVEL: f64 = 50.0;
 const BETWEEN_NODES: f64 = 8.0;
 const BETWEEN_TREES: f64 = 36.0;
 
-/// A drawing of decomposition trees side by side, as in Kramm et al. 2018, Figure 5. Nodes are moves, with their children below
-/// them; leaves are filled. A tree that does not fit into a row begins the next one.
+/// A drawing of decomposition trees side by side, as in Kramm et al. 2018, Figure 5. Nodes are moves, with
+/// their children below them; leaves are filled. A tree that does not fit into a row begins the next one.
 #[derive(Clone, Debug)]
 pub struct TreeDrawing {
     title: String,
@@ -110,7 +110,8 @@ struct Tree {
 }
 
 impl Tree {
-    /// Computes the layout: leaves are side by side, each at its own depth, and a parent is above the middle of its children.
+    /// Computes the layout: leaves are side by side, each at its own depth, and a parent is above the middle
+    /// of its children.
     fn new(caption: &str, tree: &DecompositionTree) -> Self {
         let mut nodes: Vec<Node> = tree
             .nodes()

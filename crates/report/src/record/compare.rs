@@ -20,8 +20,8 @@ impl fmt::Display for Difference {
 }
 
 impl Record {
-    /// The record without the columns of times, and without revision, machine and passes: what is the same on every run of the
-    /// experiment.
+    /// The record without the columns of times, and without revision, machine and passes: what is the same on
+    /// every run of the experiment.
     #[must_use]
     pub fn counts(&self) -> Self {
         let is_time = |name: &str| {
@@ -40,7 +40,8 @@ impl Record {
         }
     }
 
-    /// Where the [`counts`](Self::counts) of two records differ. Numbers may differ by `tolerance`, a fraction of the larger one.
+    /// Where the [`counts`](Self::counts) of two records differ. Numbers may differ by `tolerance`, a
+    /// fraction of the larger one.
     #[must_use]
     pub fn differences(&self, other: &Self, tolerance: f64) -> Vec<Difference> {
         let (ours, theirs) = (self.counts(), other.counts());

@@ -9,7 +9,8 @@ use super::{
     row::{Row, Value},
 };
 
-/// The results of one run of an experiment: a table whose columns say what they hold, and where the numbers come from.
+/// The results of one run of an experiment: a table whose columns say what they hold, and where the numbers
+/// come from.
 ///
 /// ```
 /// use mediant_report::{Column, Provenance, Record, Row};
@@ -59,12 +60,14 @@ impl Record {
         Ok(())
     }
 
-    /// The rows with these texts in these key columns, in their order. Each pair is a column's name and its text.
+    /// The rows with these texts in these key columns, in their order. Each pair is a column's name and its
+    /// text.
     pub fn select<'a>(&'a self, keys: &'a [(&str, &str)]) -> impl Iterator<Item = &'a Row> {
         self.rows.iter().filter(move |row| row.is(keys))
     }
 
-    /// The number in `column` of the first row with these texts in these key columns; `None` if there is no such row or number.
+    /// The number in `column` of the first row with these texts in these key columns; `None` if there is no
+    /// such row or number.
     #[must_use]
     pub fn number(&self, keys: &[(&str, &str)], column: &str) -> Option<f64> {
         self.rows.iter().find(|row| row.is(keys))?.number(column)

@@ -9,7 +9,8 @@ pub enum RecordError {
     /// The text is not JSON, or not that of a record.
     #[error("no record of results: {0}")]
     Form(#[from] serde_json::Error),
-    /// A row has a value without a column, text where its column holds numbers, or a number where it holds text.
+    /// A row has a value without a column, text where its column holds numbers, or a number where it holds
+    /// text.
     #[error("record `{id}`, row {row}: column `{column}` does not hold {value:?}")]
     Value {
         /// The name of the record.

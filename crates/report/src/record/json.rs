@@ -16,7 +16,8 @@ impl Record {
     /// The record as JSON, with one row a line, so that a changed number is one changed line.
     #[must_use]
     pub fn json(&self) -> String {
-        // Serialization cannot fail: the values are texts, finite numbers, lists, and maps whose keys are texts.
+        // Serialization cannot fail: the values are texts, finite numbers, lists, and maps whose keys are
+        // texts.
         let text = |value: serde_json::Result<String>| value.unwrap_or_default();
         let lines = |rows: Vec<String>| {
             if rows.is_empty() { "[]".to_owned() } else { format!("[\n    {}\n  ]", rows.join(",\n    ")) }

@@ -24,7 +24,8 @@ fn shortest<S: serde::Serializer>(number: &f64, serializer: S) -> Result<S::Ok, 
     }
 }
 
-/// One row of a [`Record`](super::Record): the values by the names of their columns. A value that could not be measured is absent.
+/// One row of a [`Record`](super::Record): the values by the names of their columns. A value that could not
+/// be measured is absent.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Row(BTreeMap<String, Value>);

@@ -1,4 +1,5 @@
-//! Figures: a snapshot of each kind, and what holds for every figure, checked on random ones from fixed seeds.
+//! Figures: a snapshot of each kind, and what holds for every figure, checked on random ones from fixed
+//! seeds.
 
 use mediant_grid::{AsciiMap, Grid};
 use mediant_moves::{DecompositionTree, FiniteK, Vector};

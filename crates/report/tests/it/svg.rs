@@ -110,7 +110,8 @@ pub(crate) fn points(element: &Element) -> Vec<(f64, f64)> {
     }
 }
 
-/// Checks what holds for every figure, and returns its elements: well-formed, all numbers finite, everything inside the view box.
+/// Checks what holds for every figure, and returns its elements: well-formed, all numbers finite, everything
+/// inside the view box.
 #[track_caller]
 pub(crate) fn check(svg: &str, what: &str) -> Vec<Element> {
     let elements = elements(svg);
