@@ -1,8 +1,12 @@
 //! Bit-packed matrices with a blocked frame, read a word at a time.
+//!
+//! A matrix keeps its bits as `u64` words, because all that reads it takes 64 cells at once, on every target. The `bitvec` crate writes
+//! them: a row is collected bit by bit in a [`BitVec`] of `usize` and then moved over word by word, because a `BitVec<u64>` exists
+//! on 64-bit targets only.
 
 use std::fmt;
 
-use bitvec::{prelude::Lsb0, vec::BitVec};
+use bitvec::{field::BitField, prelude::Lsb0, vec::BitVec};
 
 /// Where a cell's bit stands in a [`BitMatrix`], frame included. Not a cell id: rows are padded to whole words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +28,7 @@ impl BitIndex {
 /// below the last row lies a blocked row, and one blocked word lies before and behind it all.
 #[derive(Clone, PartialEq, Eq)]
 pub struct BitMatrix {
-    bits: BitVec<u64, Lsb0>,
+    words: Box<[u64]>,
     width: u32,
     height: u32,
     words_per_row: u32,
@@ -38,16 +42,29 @@ impl fmt::Debug for BitMatrix {
 }
 
 impl BitMatrix {
-    /// A matrix whose bits are all blocked.
-    pub(crate) fn blocked(width: u32, height: u32) -> Self {
-        Self::filled(width, height, true)
-    }
-
     /// A matrix whose bits, frame included, all have this value.
-    pub(crate) fn filled(width: u32, height: u32, value: bool) -> Self {
+    fn filled(width: u32, height: u32, value: bool) -> Self {
         let words_per_row = width / 64 + 1;
         let words = (height as usize + 2) * words_per_row as usize + 2;
-        Self { bits: BitVec::repeat(value, words * 64), width, height, words_per_row }
+        let word = if value { !0 } else { 0 };
+        Self { words: vec![word; words].into_boxed_slice(), width, height, words_per_row }
+    }
+
+    /// A matrix in a frame of blocked bits; `blocked(x, y)` is asked once for each bit within, row by row.
+    pub(crate) fn from_bits(width: u32, height: u32, mut blocked: impl FnMut(u32, u32) -> bool) -> Self {
+        let mut matrix = Self::filled(width, height, true);
+        // The bits beyond the last column stay those of the frame.
+        let mut row: BitVec<usize, Lsb0> = BitVec::repeat(true, matrix.words_per_row as usize * 64);
+        for y in 0..height {
+            for x in 0..width {
+                row.set(x as usize, blocked(x, y));
+            }
+            let start = matrix.index(0, y as i32).0 as usize / 64;
+            for (word, bits) in matrix.words[start..].iter_mut().zip(row.chunks_exact(64)) {
+                *word = bits.load_le();
+            }
+        }
+        matrix
     }
 
     /// A matrix within a frame of this value; `word(x, y)` gives the 64 bits of row y from column x on, lowest first, of which those beyond
@@ -59,7 +76,7 @@ impl BitMatrix {
             for x in (0..width).step_by(64) {
                 let within = !0_u64 >> (64 - (width - x).min(64));
                 let at = matrix.index(x as i32, y).0 as usize / 64;
-                let bits = &mut matrix.bits.as_raw_mut_slice()[at];
+                let bits = &mut matrix.words[at];
                 *bits = *bits & !within | word(x as i32, y) & within;
             }
         }
@@ -88,7 +105,7 @@ impl BitMatrix {
     #[must_use]
     #[inline]
     pub fn words(&self) -> &[u64] {
-        self.bits.as_raw_slice()
+        &self.words
     }
 
     /// The place of column x, row y, for −1 ≤ y ≤ height and −64 ≤ x ≤ [`bits_per_row`](Self::bits_per_row).
@@ -108,8 +125,9 @@ impl BitMatrix {
 
     /// Sets one bit of the interior.
     pub(crate) fn set(&mut self, x: u32, y: u32, blocked: bool) {
-        let index = self.index(x as i32, y as i32);
-        self.bits.set(index.0 as usize, blocked);
+        let BitIndex(at) = self.index(x as i32, y as i32);
+        let word = &mut self.words[at as usize / 64];
+        *word = *word & !(1 << (at % 64)) | u64::from(blocked) << (at % 64);
     }
 
     /// One bit; blocked beyond the edges, however far.
@@ -164,13 +182,7 @@ impl BitMatrix {
 
     /// The matrix with rows and columns exchanged, in a frame of blocked bits.
     pub(crate) fn transposed(&self) -> Self {
-        let mut result = Self::blocked(self.height, self.width);
-        for y in 0..self.height {
-            for x in (0..self.width).filter(|&x| !self.get(x as i32, y as i32)) {
-                result.set(y, x, false);
-            }
-        }
-        result
+        Self::from_bits(self.height, self.width, |y, x| self.get(x as i32, y as i32))
     }
 }
 

@@ -68,17 +68,10 @@ impl Grid {
     pub fn from_fn(
         width: u32,
         height: u32,
-        mut blocked: impl FnMut(u32, u32) -> bool,
+        blocked: impl FnMut(u32, u32) -> bool,
     ) -> Result<Self, GridError> {
         Self::check_size(u64::from(width), u64::from(height))?;
-        let mut rows = BitMatrix::blocked(width, height);
-        for y in 0..height {
-            for x in 0..width {
-                if !blocked(x, y) {
-                    rows.set(x, y, false);
-                }
-            }
-        }
+        let rows = BitMatrix::from_bits(width, height, blocked);
         Ok(Self { columns: rows.transposed(), rows })
     }
 

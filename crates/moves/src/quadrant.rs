@@ -268,7 +268,8 @@ impl Neighborhood {
 
     /// All moves in angular order.
     pub fn iter(self) -> impl Iterator<Item = Vector> {
-        let per_quadrant = self.quadrant.last() as usize;
-        (0..4).flat_map(move |turns| self.quadrant.iter().take(per_quadrant).map(move |v| v.turned_by(turns)))
+        // The last move of a quadrant is the first one of the next. Not by `take`: the number may exceed a 32-bit `usize`.
+        let moves = QuadrantMoves { len: self.quadrant.last(), ..self.quadrant.iter() };
+        (0..4).flat_map(move |turns| moves.clone().map(move |v| v.turned_by(turns)))
     }
 }

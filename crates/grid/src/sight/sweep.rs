@@ -64,8 +64,8 @@ impl<'m> From<&'m BitMatrix> for Targets<'m> {
 ///
 /// ```
 /// use std::sync::Arc;
-/// use crate::{AsciiMap, BitMatrix, Corners, DiagonalGap, FreeSpace, Vertex};
-/// use mediant_search::{RowSummary, VisibilitySweep, Quadrants};
+/// use mediant_grid::{AsciiMap, BitMatrix, Corners, DiagonalGap, FreeSpace, Vertex};
+/// use mediant_grid::sight::{Quadrants, RowSummary, VisibilitySweep};
 /// let map = AsciiMap::parse("
 ///     ....
 ///     .#..
@@ -79,7 +79,7 @@ impl<'m> From<&'m BitMatrix> for Targets<'m> {
 /// VisibilitySweep::default().seen(&space, &bands, &marks, Vertex::new(0, 1), Quadrants::ALL, |at| seen.push(at.y));
 /// seen.sort();
 /// assert_eq!(seen, [0, 1]);
-/// # Ok::<(), crate::GridError>(())
+/// # Ok::<(), mediant_grid::GridError>(())
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct VisibilitySweep {
