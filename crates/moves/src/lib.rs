@@ -14,7 +14,7 @@
 //!
 //! # Statements and their tests
 //!
-//! Each statement of the three papers, and the test in `tests/` that executes it against definitions written naively there, for
+//! Each statement of the three papers, and the test in `tests/it/` that executes it against definitions written naively there, for
 //! every k up to 14 or beyond.
 //!
 //! Rivera, Hernández, Baier 2017, 'Grid Pathfinding on the 2^k Neighborhoods':
@@ -89,7 +89,7 @@
 //! | Lemma 13: the leaves are an optimal path, for coordinates to 20 | `kramm2018_trees::lemma_13_the_leaves_are_an_optimal_path_within_the_cells_of_the_move` |
 //! | Figure 5: the trees of (7, 5) | `kramm2018_trees::figure_5_the_trees_of_7_5` |
 //!
-//! `tests/cost.rs` tests the claims of [`Cost`] and [`CostTable`], `tests/api.rs` the rest and the limits of all ranges.
+//! `tests/it/cost.rs` tests the claims of [`Cost`] and [`CostTable`], `tests/it/api.rs` the rest and the limits of all ranges.
 #![no_std]
 
 #[cfg(feature = "alloc")]

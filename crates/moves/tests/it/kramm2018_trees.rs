@@ -1,12 +1,8 @@
 //! Kramm 2018, 'Suboptimality Bound for Grids with Obstacles': which cells a move enters, levels and decomposition trees.
 
-#![cfg(feature = "alloc")]
-
-mod common;
-
 use std::collections::{BTreeMap, BTreeSet};
 
-use common::*;
+use crate::common::*;
 use mediant_moves::{DecompositionTree, Neighborhood, Vector, adjacent, distance, level, parents};
 
 /// A fraction with positive denominator.

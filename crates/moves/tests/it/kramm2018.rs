@@ -1,11 +1,7 @@
 //! Kramm, Rivera, Hernández, Baier 2018, 'A Suboptimality Bound for 2^k Grid Path Planning': each statement that can be executed
 //! without obstacles, but for the decomposition (Lemmas 11–13), which has a file of its own.
 
-#![cfg(feature = "alloc")]
-
-mod common;
-
-use common::*;
+use crate::common::*;
 use mediant_moves::{
     FiniteK, Neighborhood, Quadrant, Vector, bound_at_centers, bound_at_corners, decompose, distance, level,
     octile,

@@ -1,12 +1,8 @@
 //! The public items against naive definitions, at the limits of their ranges, and the properties of h_k that need no oracle.
 
-#![cfg(feature = "alloc")]
-
-mod common;
-
 use std::collections::BTreeSet;
 
-use common::*;
+use crate::common::*;
 use mediant_moves::{
     CostTable, FiniteK, KError, LinearSearch, Neighborhood, Quadrant, Vector, adjacent, bound_at_centers,
     bound_at_corners, containing, decompose, distance, distance_any_angle, level, parents,
@@ -334,7 +330,7 @@ fn crate_doc_table_names_the_tests() {
             bodies.map(move |body| format!("{file}::{}", body.split('(').next().unwrap_or_default()))
         })
         .collect();
-    let rows = include_str!("../src/lib.rs").lines().filter(|line| line.starts_with("//! |"));
+    let rows = include_str!("../../src/lib.rs").lines().filter(|line| line.starts_with("//! |"));
     let named: BTreeSet<String> =
         rows.flat_map(|row| row.split('`')).filter(|part| part.contains("::")).map(String::from).collect();
     assert_eq!(named, tests);

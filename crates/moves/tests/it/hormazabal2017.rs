@@ -1,11 +1,7 @@
 //! Hormazábal, Díaz, Hernández, Baier 2017, 'Fast and Almost Optimal Any-Angle Pathfinding Using the 2^k Neighborhoods':
 //! each statement that can be executed without obstacles.
 
-#![cfg(feature = "alloc")]
-
-mod common;
-
-use common::*;
+use crate::common::*;
 use mediant_moves::{
     CostTable, FiniteK, LinearSearch, Quadrant, Vector, decompose, distance, distance_32, distance_any_angle,
 };

@@ -1,7 +1,5 @@
 //! The 2^k neighborhoods as naively as the papers define them, and the plainest shortest-path search over a grid graph.
 
-#![allow(dead_code, reason = "each test file takes what it needs")]
-
 use std::{
     cmp::Reverse,
     collections::{BTreeSet, BinaryHeap},

@@ -2,13 +2,9 @@
 //!
 //! The paper's 𝒩^i is `naive_quadrant(i + 2)`.
 
-#![cfg(feature = "alloc")]
-
-mod common;
-
 use std::collections::BTreeSet;
 
-use common::*;
+use crate::common::*;
 use mediant_moves::{
     CostTable, FiniteK, LinearSearch, Neighborhood, Parity, Quadrant, Vector, decompose, distance,
     distance_16, distance_32, manhattan, octile,

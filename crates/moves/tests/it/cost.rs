@@ -1,10 +1,6 @@
 //! Fixed-point costs: their error, exactness and consistency, in integers throughout.
 
-#![cfg(feature = "alloc")]
-
-mod common;
-
-use common::*;
+use crate::common::*;
 use mediant_moves::{Cost, CostTable, FiniteK, Neighborhood, Quadrant, Vector};
 
 fn table(n: u32) -> CostTable {
