@@ -12,8 +12,9 @@ pub struct AsciiMap {
 }
 
 impl AsciiMap {
-    /// Reads a drawing: a line a row, `#` and `@` blocked, `.` and letters and digits free, each of the latter a mark that
-    /// [`mark`](Self::mark) finds. White space around the lines and empty lines are ignored.
+    /// Reads a drawing: a line a row, `#` and `@` blocked, `.` and letters and digits free, each of the
+    /// latter a mark that [`mark`](Self::mark) finds. White space around the lines and empty lines are
+    /// ignored.
     ///
     /// ```
     /// use mediant_grid::{AsciiMap, Vertex};
@@ -58,9 +59,9 @@ impl AsciiMap {
     }
 }
 
-/// Draws a grid with the waypoints of a path as 0, 1, … 9, a, b, … z (then `+`), a line a row: a cell is one character
-/// under center placement. Under corner placement a cell is a character at an odd place of a grid of twice the size, and
-/// vertices stand at the even places, so that cells and vertices can be told apart.
+/// Draws a grid with the waypoints of a path as 0, 1, … 9, a, b, … z (then `+`), a line a row: a cell is one
+/// character under center placement. Under corner placement a cell is a character at an odd place of a grid
+/// of twice the size, and vertices stand at the even places, so that cells and vertices can be told apart.
 #[must_use]
 pub fn draw(grid: &Grid, placement: PlacementKind, waypoints: &[Vertex]) -> String {
     let (width, height) = (grid.width() as usize, grid.height() as usize);

@@ -1,19 +1,21 @@
 //! Bit-packed matrices with a blocked frame, read a word at a time.
 //!
-//! A matrix keeps its bits as `u64` words, because all that reads it takes 64 cells at once, on every target. The `bitvec` crate writes
-//! them: a row is collected bit by bit in a [`BitVec`] of `usize` and then moved over word by word, because a `BitVec<u64>` exists
-//! on 64-bit targets only.
+//! A matrix keeps its bits as `u64` words, because all that reads it takes 64 cells at once, on every target.
+//! The `bitvec` crate writes them: a row is collected bit by bit in a [`BitVec`] of `usize` and then moved
+//! over word by word, because a `BitVec<u64>` exists on 64-bit targets only.
 
 use std::fmt;
 
 use bitvec::{field::BitField, prelude::Lsb0, vec::BitVec};
 
-/// Where a cell's bit stands in a [`BitMatrix`], frame included. Not a cell id: rows are padded to whole words.
+/// Where a cell's bit stands in a [`BitMatrix`], frame included. Not a cell id: rows are padded to whole
+/// words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BitIndex(pub u32);
 
 impl BitIndex {
-    /// The bit `offset` places further on; wraps where that would leave the matrix, which a read then reports as blocked.
+    /// The bit `offset` places further on; wraps where that would leave the matrix, which a read then reports
+    /// as blocked.
     #[must_use]
     #[inline]
     pub const fn offset(self, offset: i32) -> Self {
@@ -21,11 +23,11 @@ impl BitIndex {
     }
 }
 
-/// Rows of bits in 64-bit words, 1 = blocked, with a frame of blocked bits on all sides: reading beyond an edge needs
-/// no test.
+/// Rows of bits in 64-bit words, 1 = blocked, with a frame of blocked bits on all sides: reading beyond an
+/// edge needs no test.
 ///
-/// Each row is followed by at least one blocked bit, which is also the one before the next row; above the first and
-/// below the last row lies a blocked row, and one blocked word lies before and behind it all.
+/// Each row is followed by at least one blocked bit, which is also the one before the next row; above the
+/// first and below the last row lies a blocked row, and one blocked word lies before and behind it all.
 #[derive(Clone, PartialEq, Eq)]
 pub struct BitMatrix {
     words: Box<[u64]>,
@@ -67,8 +69,8 @@ impl BitMatrix {
         matrix
     }
 
-    /// A matrix within a frame of this value; `word(x, y)` gives the 64 bits of row y from column x on, lowest first, of which those beyond
-    /// the last column are ignored.
+    /// A matrix within a frame of this value; `word(x, y)` gives the 64 bits of row y from column x on,
+    /// lowest first, of which those beyond the last column are ignored.
     #[must_use]
     pub fn from_words(width: u32, height: u32, frame: bool, mut word: impl FnMut(i32, i32) -> u64) -> Self {
         let mut matrix = Self::filled(width, height, frame);
@@ -152,14 +154,15 @@ impl BitMatrix {
         self.any_of(first, last, |x| load(words, self.index(x, y - 1)) & load(words, self.index(x, y)))
     }
 
-    /// Whether two blocked bits meet diagonally, the two others being free, at one of the corner vertices `first` to `last`
-    /// above row y.
+    /// Whether two blocked bits meet diagonally, the two others being free, at one of the corner vertices
+    /// `first` to `last` above row y.
     #[must_use]
     pub(crate) fn any_gap(&self, y: i32, first: i32, last: i32) -> bool {
         self.any_of(first, last, |x| self.gaps(x, y))
     }
 
-    /// Of the 64 corner vertices from column x on above row y, those at which two blocked bits meet diagonally, the two others being free.
+    /// Of the 64 corner vertices from column x on above row y, those at which two blocked bits meet
+    /// diagonally, the two others being free.
     #[must_use]
     pub(crate) fn gaps(&self, x: i32, y: i32) -> u64 {
         let [nw, ne, sw, se] = [(-1, -1), (0, -1), (-1, 0), (0, 0)]
@@ -244,8 +247,8 @@ impl BitRow<'_> {
         to
     }
 
-    /// The first column of the run of free columns that ends before column `end`, as far as it reaches back to `to`: `end` itself
-    /// if the column before it is blocked.
+    /// The first column of the run of free columns that ends before column `end`, as far as it reaches back
+    /// to `to`: `end` itself if the column before it is blocked.
     #[must_use]
     #[inline]
     pub fn run_start(self, mut end: i32, to: i32) -> i32 {
@@ -297,7 +300,8 @@ mod tests {
         }
     }
 
-    /// Every run of every length at every offset within a word, with one blocked cell just inside or just outside it.
+    /// Every run of every length at every offset within a word, with one blocked cell just inside or just
+    /// outside it.
     #[test]
     fn runs_are_tested_to_their_ends_and_no_further() {
         for blocked in (0..260).step_by(13) {

@@ -13,7 +13,8 @@ pub enum Connectivity {
 
 /// The connected components of a grid's free cells.
 ///
-/// Found a run of cells at a time: the runs of each row are joined with those that they meet in the row above.
+/// Found a run of cells at a time: the runs of each row are joined with those that they meet in the row
+/// above.
 #[derive(Clone, Debug)]
 pub struct Components {
     width: u32,
@@ -75,8 +76,8 @@ impl Components {
         size_of_val(&*self.labels)
     }
 
-    /// The component of a cell, numbered from 0 in row-major order of their first cells; `None` for blocked cells and
-    /// outside the map.
+    /// The component of a cell, numbered from 0 in row-major order of their first cells; `None` for blocked
+    /// cells and outside the map.
     #[must_use]
     pub fn of(&self, cell: Vertex) -> Option<u32> {
         if cell.x as u32 >= self.width || cell.y < 0 {

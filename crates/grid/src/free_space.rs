@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use crate::{
-    BitMatrix, Components, Connectivity, Grid, Placement, Rules, Vertex, VertexId, sight::line_of_sight,
+    BitMatrix, Components, Connectivity, Grid, Placement, Rules, Vertex, VertexId,
+    line_of_sight::line_of_sight,
 };
 
-/// A grid under placement `P` and its rule of motion: all that any-angle search needs, and what the grid graphs of every k have in
-/// common. Immutable; planners share it.
+/// A grid under placement `P` and its rule of motion: all that any-angle search needs, and what the grid
+/// graphs of every k have in common. Immutable; planners share it.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -149,9 +150,9 @@ impl<P: Placement> FreeSpace<P> {
         self.gaps.is_some()
     }
 
-    /// Whether a path may come straight from `before` to the free vertex `at` and go on straight to `after`, as far as
-    /// [gaps](Self::is_closed_gap) are concerned: at a gap it stays in one free quadrant, and one that starts or ends there (`None`), in that
-    /// of the vertex's own cell.
+    /// Whether a path may come straight from `before` to the free vertex `at` and go on straight to `after`,
+    /// as far as [gaps](Self::is_closed_gap) are concerned: at a gap it stays in one free quadrant, and one
+    /// that starts or ends there (`None`), in that of the vertex's own cell.
     #[must_use]
     #[inline]
     pub fn may_turn(&self, before: Option<Vertex>, at: Vertex, after: Option<Vertex>) -> bool {

@@ -2,7 +2,8 @@
 
 use crate::{BitMatrix, Vertex};
 
-/// A bit-packed grid map with a transposed copy, so that runs along a row and along a column are both runs of bits.
+/// A bit-packed grid map with a transposed copy, so that runs along a row and along a column are both runs of
+/// bits.
 ///
 /// Everything outside the map is blocked. Immutable once made, and shareable between threads.
 ///
@@ -64,7 +65,8 @@ impl Grid {
     /// A map of `width` × `height` cells; `blocked(x, y)` is asked once for each, row by row.
     ///
     /// # Errors
-    /// [`GridError::Size`] when a side is 0 or exceeds [`MAX_SIDE`](Self::MAX_SIDE); nothing is allocated then.
+    /// [`GridError::Size`] when a side is 0 or exceeds [`MAX_SIDE`](Self::MAX_SIDE); nothing is allocated
+    /// then.
     pub fn from_fn(
         width: u32,
         height: u32,
@@ -75,7 +77,8 @@ impl Grid {
         Ok(Self { columns: rows.transposed(), rows })
     }
 
-    /// This map with other cells in a rectangle, as far as that lies on the map: `blocked(x, y)` is asked once for each, row by row.
+    /// This map with other cells in a rectangle, as far as that lies on the map: `blocked(x, y)` is asked
+    /// once for each, row by row.
     ///
     /// ```
     /// use mediant_grid::{Grid, Rectangle};
@@ -156,8 +159,8 @@ impl Grid {
         &self.columns
     }
 
-    /// Whether two blocked cells meet diagonally at corner vertex `at` and the two others are free: the vertices that
-    /// [`DiagonalGap::Closed`](crate::DiagonalGap::Closed) forbids to pass.
+    /// Whether two blocked cells meet diagonally at corner vertex `at` and the two others are free: the
+    /// vertices that [`DiagonalGap::Closed`](crate::DiagonalGap::Closed) forbids to pass.
     #[must_use]
     #[inline]
     pub fn is_gap(&self, at: Vertex) -> bool {

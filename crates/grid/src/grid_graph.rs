@@ -4,7 +4,7 @@ use std::{ops::Deref, sync::Arc};
 
 use mediant_moves::{Cost, CostTable, FiniteK, KError, Neighborhood, Vector};
 
-use crate::{Demand, FreeSpace, Grid, Placement, Vertex, VertexId, sight::Frame, tree::Octant};
+use crate::{FreeSpace, Grid, Placement, Vertex, VertexId, footprint::Footprint, tree::Octant};
 
 /// One move of N(k), with what a search wants of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,8 +49,8 @@ impl Step {
 
 /// The search graph of a grid: placement `P`, its rule of motion, N(k). Immutable; planners share it.
 ///
-/// No edge is stored. A vertex's legal moves are found when it is expanded: those of N(3) by a table over the pattern of
-/// cells around it, the others by the octants' trees of mediants (module `tree`).
+/// No edge is stored. A vertex's legal moves are found when it is expanded: those of N(3) by a table over the
+/// pattern of cells around it, the others by the octants' trees of mediants (module `tree`).
 ///
 /// ```
 /// use std::sync::Arc;
@@ -72,7 +72,7 @@ pub struct GridGraph<P: Placement> {
     steps: Box<[Step]>,
     costs: CostTable,
     /// For each pattern of cells around a vertex, the legal moves of N(min(k, 3)).
-    near: Box<[u8]>,
+    short: Box<[u8]>,
     octants: Box<[Octant]>,
 }
 
@@ -109,7 +109,7 @@ impl<P: Placement> GridGraph<P> {
         Ok(Self {
             steps: steps.collect(),
             costs: CostTable::new(k)?,
-            near: (0..P::PATTERNS).map(|pattern| near_moves::<P>(rule, k, &moves, pattern)).collect(),
+            short: (0..P::PATTERNS).map(|pattern| legal_in_pattern::<P>(rule, k, &moves, pattern)).collect(),
             octants: octants::<P>(rule, &moves, &grid),
             space: FreeSpace::with_connectivity(grid, rule, P::connectivity(rule, Some(k))),
             k,
@@ -145,11 +145,11 @@ impl<P: Placement> GridGraph<P> {
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
         let octants: usize = self.octants.iter().map(Octant::memory_bytes).sum();
-        size_of_val(&*self.steps) + size_of_val(&*self.near) + octants + self.space.memory_bytes()
+        size_of_val(&*self.steps) + size_of_val(&*self.short) + octants + self.space.memory_bytes()
     }
 
-    /// Whether `v` is a move of N(k) and legal at `at`. For a vertex of its own; for all moves of a vertex see
-    /// [`legal_moves`](Self::legal_moves).
+    /// Whether `v` is a move of N(k) and legal at `at`. For a vertex of its own; for all moves of a vertex
+    /// see [`legal_moves`](Self::legal_moves).
     #[must_use]
     pub fn is_legal(&self, at: Vertex, v: Vector) -> bool {
         let known = Neighborhood::new(self.k).is_ok_and(|moves| moves.contains(v));
@@ -166,8 +166,8 @@ impl<P: Placement> GridGraph<P> {
         set
     }
 
-    /// Calls `legal` with the index of each legal move at a free vertex: those of N(3), then octant by octant. Outside the
-    /// map there are none; at a blocked vertex it calls as if the vertex were free.
+    /// Calls `legal` with the index of each legal move at a free vertex: those of N(3), then octant by
+    /// octant. Outside the map there are none; at a blocked vertex it calls as if the vertex were free.
     #[inline]
     pub fn for_each_legal_move(&self, at: Vertex, mut legal: impl FnMut(usize)) {
         if self.id(at).is_none() {
@@ -175,11 +175,12 @@ impl<P: Placement> GridGraph<P> {
         }
         let rows = self.grid().rows();
         let (words, bit) = (rows.words(), rows.index(at.x, at.y));
-        let mut near = self.near[P::pattern(words, bit, rows.bits_per_row())];
-        let spread = self.k.get().saturating_sub(3);
-        while near != 0 {
-            legal((near.trailing_zeros() as usize) << spread);
-            near &= near - 1;
+        let mut short = self.short[P::pattern(words, bit, rows.bits_per_row())];
+        // Between two neighbors of N(3), N(k) has 2^(k − 3) − 1 moves more.
+        let shift = self.k.get().saturating_sub(3);
+        while short != 0 {
+            legal((short.trailing_zeros() as usize) << shift);
+            short &= short - 1;
         }
         for octant in &self.octants {
             if octant.transposed {
@@ -191,8 +192,9 @@ impl<P: Placement> GridGraph<P> {
         }
     }
 
-    /// Calls `step` with the index of each move that a path to `goal` may take from `from`: the legal ones, less those that
-    /// would break the gap rule. `arrived_by` is the move by which the path reached `from`, `None` at its start.
+    /// Calls `step` with the index of each move that a path to `goal` may take from `from`: the legal ones,
+    /// less those that would break the gap rule. `arrived_by` is the move by which the path reached `from`,
+    /// `None` at its start.
     #[inline]
     pub fn for_each_successor(
         &self,
@@ -211,8 +213,8 @@ impl<P: Placement> GridGraph<P> {
         });
     }
 
-    /// Whether a path to `goal` that arrived `from` by the one move may go on by the legal move `index`: false only where that would
-    /// pass a [gap](FreeSpace::is_closed_gap).
+    /// Whether a path to `goal` that arrived `from` by the one move may go on by the legal move `index`:
+    /// false only where that would pass a [gap](FreeSpace::is_closed_gap).
     #[must_use]
     #[inline]
     pub fn may_step(&self, from: Vertex, arrived_by: Option<usize>, index: usize, goal: Vertex) -> bool {
@@ -225,9 +227,10 @@ impl<P: Placement> GridGraph<P> {
         self.may_turn(before, from, Some(to)) && self.may_enter(from, to, goal)
     }
 
-    /// [`DiagonalGap::Closed`](crate::DiagonalGap::Closed): a gap is entered only where the path ends. At k = 2 also in
-    /// passing: with only axis moves, from one corner of a cell to the opposite one, there may be no other way than along its edges.
-    /// (With diagonal moves a path that stays in one quadrant of a gap is never shorter than one past it.)
+    /// [`DiagonalGap::Closed`](crate::DiagonalGap::Closed): a gap is entered only where the path ends. At k =
+    /// 2 also in passing: with only axis moves, from one corner of a cell to the opposite one, there may be
+    /// no other way than along its edges. (With diagonal moves a path that stays in one quadrant of a gap is
+    /// never shorter than one past it.)
     #[inline]
     fn may_enter(&self, from: Vertex, to: Vertex, goal: Vertex) -> bool {
         if !self.is_closed_gap(to) {
@@ -275,19 +278,11 @@ impl MoveSet {
 }
 
 /// The legal moves of N(min(k, 3)) at a vertex around which the cells form this pattern, one bit each.
-fn near_moves<P: Placement>(rule: P::Rule, k: FiniteK, moves: &[Vector], pattern: usize) -> u8 {
-    let near = moves.iter().step_by(1 << k.get().saturating_sub(3));
-    near.enumerate().fold(0, |set, (bit, &v)| {
-        let (frame, d) = Frame::of(v);
-        let blocked = |i, j| {
-            let (along, across) = frame.cell::<P>(i, j);
-            let (dx, dy) = if frame.transposed { (across, along) } else { (along, across) };
-            P::pattern_is_blocked(pattern, dx, dy)
-        };
-        let legal = P::sweep(rule, d, |demand| match demand {
-            Demand::Free { row, first, last } => (first..=last).all(|column| !blocked(column, row)),
-            Demand::EitherFree(cells) => cells.iter().any(|&(column, row)| !blocked(column, row)),
-        });
+fn legal_in_pattern<P: Placement>(rule: P::Rule, k: FiniteK, moves: &[Vector], pattern: usize) -> u8 {
+    let short = moves.iter().step_by(1 << k.get().saturating_sub(3));
+    short.enumerate().fold(0, |set, (bit, &v)| {
+        let footprint = Footprint::new::<P>(rule, v);
+        let legal = footprint.is_legal(|(dx, dy)| !P::pattern_is_blocked(pattern, dx, dy));
         set | u8::from(legal) << bit
     })
 }

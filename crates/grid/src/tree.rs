@@ -1,16 +1,17 @@
 //! The moves of one octant as a tree of mediants, with the words that each one tests.
 //!
-//! A node's move is the mediant of the two moves that bound its subtree, so a subtree holds the moves of one cone.
-//! *What all of them sweep* is tested first: when it is blocked, the whole subtree is skipped.
+//! A node's move is the mediant of the two moves that bound its subtree, so a subtree holds the moves of one
+//! cone. *What all of them sweep* is tested first: when it is blocked, the whole subtree is skipped.
 //!
-//! - At corners, that is all that the node's own move sweeps: by Kramm 2018, Lemma 11, a mediant sweeps every cell that its
-//!   parents sweep, hence so does everything below it. An illegal move ends its subtree, and the work is about that
-//!   for the legal moves alone.
-//! - At centers Lemma 11 fails. Of a mediant and its two parents exactly one has two odd coordinates, and that one passes through
-//!   a corner point at its middle. Where it is a parent, rule `Never` asks it for both cells beside that point and the mediant for one:
-//!   (2, 1) can be legal where (1, 1) is not. Where it is the mediant, rules `One` and `Always` ask it for fewer cells there than
-//!   a parent: (3, 1) can be legal where (2, 1) is not. What does hold needs no lemma: a cell that all moves of a cone sweep
-//!   must be free for each of them. Such cells prune subtrees as before; the rest of a move's cells decides on that move
+//! - At corners, that is all that the node's own move sweeps: by Kramm 2018, Lemma 11, a mediant sweeps every
+//!   cell that its parents sweep, hence so does everything below it. An illegal move ends its subtree, and
+//!   the work is about that for the legal moves alone.
+//! - At centers Lemma 11 fails. Of a mediant and its two parents exactly one has two odd coordinates, and
+//!   that one passes through a corner point at its middle. Where it is a parent, rule `Never` asks it for
+//!   both cells beside that point and the mediant for one: (2, 1) can be legal where (1, 1) is not. Where it
+//!   is the mediant, rules `One` and `Always` ask it for fewer cells there than a parent: (3, 1) can be legal
+//!   where (2, 1) is not. What does hold needs no lemma: a cell that all moves of a cone sweep must be free
+//!   for each of them. Such cells prune subtrees as before; the rest of a move's cells decides on that move
 //!   alone.
 
 use std::collections::BTreeSet;
@@ -18,7 +19,10 @@ use std::collections::BTreeSet;
 use mediant_moves::Vector;
 
 use crate::{
-    BitIndex, BitMatrix, CellMask, CellOffset, Footprint, Grid, Placement, footprint::BitMask, sight::Frame,
+    BitMatrix, Grid, Placement,
+    bits::BitIndex,
+    footprint::{CellMask, CellOffset, Footprint},
+    frame::Frame,
 };
 
 #[derive(Clone, Copy, Debug)]
@@ -40,16 +44,17 @@ pub(crate) struct Octant {
     /// Whether its masks are for the transposed map.
     pub(crate) transposed: bool,
     nodes: Vec<Node>,
-    masks: Vec<BitMask>,
-    /// All that any of its moves asks of the map: when that is free, all of them are legal. Open ground is common, and on it
-    /// this is a load a row instead of several a move.
-    all: Vec<BitMask>,
+    masks: Vec<CellMask>,
+    /// All that any of its moves asks of the map: when that is free, all of them are legal. Open ground is
+    /// common, and on it this is a load a row instead of several a move.
+    all: Vec<CellMask>,
     /// Two cells of which one must be free: corner rule `One`.
-    pairs: Vec<[BitMask; 2]>,
+    pairs: Vec<[CellMask; 2]>,
 }
 
 impl Octant {
-    /// The tree over `moves`, which has 2^n − 1 moves of one octant in angular order, the first of index `first` in N(k).
+    /// The tree over `moves`, which has 2^n − 1 moves of one octant in angular order, the first of index
+    /// `first` in N(k).
     pub(crate) fn new<P: Placement>(rule: P::Rule, moves: &[Vector], first: u16, grid: &Grid) -> Self {
         let frame = Frame::of(moves[moves.len() / 2]).0;
         let mut octant = Self {
@@ -64,7 +69,7 @@ impl Octant {
         let asked = |sweep: &Footprint| [&*sweep.free, sweep.either.as_flattened()].concat();
         let asked: BTreeSet<CellOffset> = sweeps.iter().flat_map(asked).collect();
         let matrix = if frame.transposed { grid.columns() } else { grid.rows() };
-        octant.all = masks(asked, matrix).collect();
+        octant.all = CellMask::holding(asked, matrix);
         octant.add(&sweeps, first, &[], matrix);
         octant
     }
@@ -86,13 +91,12 @@ impl Octant {
         let tested = [tested, &new].concat();
         let own = beyond(&sweeps[middle].free, &tested);
         let begin = self.masks.len() as u32;
-        self.masks.extend(masks(new, matrix));
+        self.masks.extend(CellMask::holding(new, matrix));
         let between = self.masks.len() as u32;
-        self.masks.extend(masks(own, matrix));
+        self.masks.extend(CellMask::holding(own, matrix));
         // A move has no common divisor, so it meets at most one corner point: its middle.
         let pair = sweeps[middle].either.first().map(|&cells| {
-            let bit = |(along, across)| CellMask { across, along, cells: 1 }.on(matrix);
-            self.pairs.push(cells.map(bit));
+            self.pairs.push(cells.map(|cell| CellMask::cell(cell, matrix)));
             self.pairs.len() as u16 - 1
         });
         let node = self.nodes.len();
@@ -114,12 +118,12 @@ impl Octant {
         size_of_val(&*self.nodes) + masks + size_of_val(&*self.pairs)
     }
 
-    /// Calls `legal` with the index of each legal move of the octant. `matrix` is the octant's, `at` the bit of the
-    /// vertex's own cell there.
+    /// Calls `legal` with the index of each legal move of the octant. `matrix` is the octant's, `at` the bit
+    /// of the vertex's own cell there.
     #[inline]
     pub(crate) fn for_each_legal(&self, matrix: &BitMatrix, at: BitIndex, mut legal: impl FnMut(usize)) {
         let words = matrix.words();
-        let all_free = |masks: &[BitMask]| masks.iter().all(|mask| mask.is_free(words, at));
+        let all_free = |masks: &[CellMask]| masks.iter().all(|mask| mask.is_free(words, at));
         if all_free(&self.all) {
             // In the order of the tree, so that open ground changes nothing but the time.
             return self.nodes.iter().for_each(|node| legal(usize::from(node.index)));
@@ -142,11 +146,6 @@ impl Octant {
     }
 }
 
-/// Masks that hold just these cells.
-fn masks(cells: impl IntoIterator<Item = CellOffset>, matrix: &BitMatrix) -> impl Iterator<Item = BitMask> {
-    CellMask::cover(cells).into_iter().map(|mask| mask.on(matrix))
-}
-
 /// The footprint of a move, as (along, across) in its octant's matrix.
 fn in_matrix<P: Placement>(rule: P::Rule, v: Vector, transposed: bool) -> Footprint {
     let mut footprint = Footprint::new::<P>(rule, v);
@@ -165,8 +164,8 @@ mod tests {
     use crate::{Centers, CornerRule, Corners, DiagonalGap, Grid};
     use mediant_moves::{FiniteK, Neighborhood};
 
-    /// How many moves of N(8) beyond N(3) are legal, how many nodes are visited to find them, and how many moves there
-    /// are, over all free vertices of a map with every n-th cell blocked at random.
+    /// How many moves of N(8) beyond N(3) are legal, how many nodes are visited to find them, and how many
+    /// moves there are, over all free vertices of a map with every n-th cell blocked at random.
     fn work<P: Placement>(rule: P::Rule, one_in: u64) -> [usize; 3] {
         let mut state = 1_u64;
         let grid = Grid::from_fn(100, 100, |_, _| {

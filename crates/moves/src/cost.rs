@@ -9,13 +9,14 @@ use crate::Vector;
 
 /// A path cost as an integer multiple of 2⁻³² cells.
 ///
-/// The length of each move is rounded once, to the nearest multiple; paths and heuristics are integer sums of such
-/// lengths. So sums are exact and do not depend on their order: two paths that take the same moves in another order
-/// compare equal, and ties fall the same way on every platform.
+/// The length of each move is rounded once, to the nearest multiple; paths and heuristics are integer sums of
+/// such lengths. So sums are exact and do not depend on their order: two paths that take the same moves in
+/// another order compare equal, and ties fall the same way on every platform.
 ///
-/// **Error.** A move is off by at most [`MAX_MOVE_ERROR`](Self::MAX_MOVE_ERROR) = 2⁻³³ (axis moves by nothing), so a path of n moves by at most
-/// n·2⁻³³, and, as no move is shorter than 1, by at most 2⁻³³ of its length. A path that is shortest in these costs
-/// is therefore shortest in real lengths up to a factor of 1 + 2⁻³¹.
+/// **Error.** A move is off by at most [`MAX_MOVE_ERROR`](Self::MAX_MOVE_ERROR) = 2⁻³³ (axis moves by
+/// nothing), so a path of n moves by at most n·2⁻³³, and, as no move is shorter than 1, by at most 2⁻³³ of
+/// its length. A path that is shortest in these costs is therefore shortest in real lengths up to a factor of
+/// 1 + 2⁻³¹.
 ///
 /// **Range.** Below 2³² cells: enough for every path whose length is below 2³².
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -106,12 +107,13 @@ mod table {
     use super::Cost;
     use crate::{FiniteK, KError, Quadrant, Vector};
 
-    /// The costs of the moves of Q(k − 2), and with them h_k in [`Cost`]s: the heuristic of the grid graph engines.
+    /// The costs of the moves of Q(k − 2), and with them h_k in [`Cost`]s: the heuristic of the grid graph
+    /// engines.
     ///
-    /// h_k is built from the same rounded move costs as every path, and each move costs less than any detour over its
-    /// neighbors by more than the rounding, up to [`CostTable::MAX_K`]. So it is exactly the cost of the
-    /// cheapest path on an empty grid, never more than that of a path among obstacles, and consistent: by integer
-    /// arithmetic, not up to an epsilon.
+    /// h_k is built from the same rounded move costs as every path, and each move costs less than any detour
+    /// over its neighbors by more than the rounding, up to [`CostTable::MAX_K`]. So it is exactly the cost of
+    /// the cheapest path on an empty grid, never more than that of a path among obstacles, and consistent: by
+    /// integer arithmetic, not up to an epsilon.
     ///
     /// ```
     /// use mediant_moves::{Cost, CostTable, FiniteK, Vector};
@@ -127,8 +129,8 @@ mod table {
     }
 
     impl CostTable {
-        /// The largest k for which the rounded costs keep every move cheaper than each detour over its neighbors
-        /// (a test checks both sides); its table takes 512 KiB.
+        /// The largest k for which the rounded costs keep every move cheaper than each detour over its
+        /// neighbors (a test checks both sides); its table takes 512 KiB.
         pub const MAX_K: u32 = 18;
 
         /// The table for N(k).
@@ -151,9 +153,10 @@ mod table {
 
         /// h_k(d), for d of any quadrant with coordinates below 2³¹ in magnitude.
         ///
-        /// By the rounds of Hormazábal 2017, Algorithm 2, but they carry the index of the pair of moves instead of the moves: at the end
-        /// the two costs are looked up. (Comparing with all moves of an octant at once, as [`distance`](crate::distance()) does for
-        /// small k, is faster in a loop of its own, but made no search faster by more than 1 %.)
+        /// By the rounds of Hormazábal 2017, Algorithm 2, but they carry the index of the pair of moves
+        /// instead of the moves: at the end the two costs are looked up. (Comparing with all moves of an
+        /// octant at once, as [`distance`](crate::distance()) does for small k, is faster in a loop of its
+        /// own, but made no search faster by more than 1 %.)
         #[must_use]
         #[inline]
         pub fn distance(&self, d: Vector) -> Cost {

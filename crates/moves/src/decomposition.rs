@@ -2,8 +2,8 @@
 
 use crate::{FiniteK, Parity, Vector};
 
-/// d = α·v + β·w: the two adjacent moves of N(k) that contain d, and how often an optimal path on an empty grid takes
-/// each (Rivera 2017, Theorems 2 and 3, Corollary 1; Kramm 2018, Theorem 1).
+/// d = α·v + β·w: the two adjacent moves of N(k) that contain d, and how often an optimal path on an empty
+/// grid takes each (Rivera 2017, Theorems 2 and 3, Corollary 1; Kramm 2018, Theorem 1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Decomposition {
     /// The move nearer to the axis on which the quadrant begins.
@@ -19,8 +19,8 @@ pub struct Decomposition {
 }
 
 impl Decomposition {
-    /// The canonical path: the odd-indexed move first, then the even-indexed one, each with its count, which may be 0
-    /// (Rivera 2017, 'Canonical Orderings').
+    /// The canonical path: the odd-indexed move first, then the even-indexed one, each with its count, which
+    /// may be 0 (Rivera 2017, 'Canonical Orderings').
     #[must_use]
     pub const fn canonical(self) -> [(Vector, u32); 2] {
         match self.parity {
@@ -36,13 +36,14 @@ impl Decomposition {
     }
 }
 
-/// The decomposition of d over N(k), for d of any quadrant; for the zero vector that of the first quadrant with α = β = 0.
-/// Hormazábal 2017, Algorithm 2, in about as many steps as Euclid's algorithm takes on d, or fewer.
+/// The decomposition of d over N(k), for d of any quadrant; for the zero vector that of the first quadrant
+/// with α = β = 0. Hormazábal 2017, Algorithm 2, in about as many steps as Euclid's algorithm takes on d, or
+/// fewer.
 ///
 /// Where d itself is a multiple of a move of N(k), that move is v or w and the other factor is 0.
 ///
-/// `None` when a coordinate is `i32::MIN`, or when a move that d needs has a coordinate beyond `i32` (its factor is then
-/// 0 and k is far beyond what d needs).
+/// `None` when a coordinate is `i32::MIN`, or when a move that d needs has a coordinate beyond `i32` (its
+/// factor is then 0 and k is far beyond what d needs).
 ///
 /// ```
 /// use mediant_moves::{decompose, FiniteK, Vector};
@@ -84,20 +85,21 @@ pub(crate) struct Factors {
     pub(crate) low: (u64, u64),
     pub(crate) times_high: u32,
     pub(crate) high: (u64, u64),
-    /// Whether the last round moved `low`, which then is the mediant that k itself inserts; `None` without any round.
+    /// Whether the last round moved `low`, which then is the mediant that k itself inserts; `None` without
+    /// any round.
     last_beyond: Option<bool>,
 }
 
 /// The factorization rounds of Hormazábal 2017, Algorithm 2, for |d| = (x, y).
 ///
-/// Rounds that fall to the same side are taken together by one division: whatever k, about as many steps as Euclid's
-/// algorithm takes on (x, y).
+/// Rounds that fall to the same side are taken together by one division: whatever k, about as many steps as
+/// Euclid's algorithm takes on (x, y).
 pub(crate) fn factorize(mut x: u32, mut y: u32, mut rounds: u32) -> Factors {
     let (mut low, mut high) = ((0_u64, 1_u64), (1_u64, 0_u64));
     let mut last_beyond = None;
     while rounds > 0 {
-        // A round subtracts the smaller factor from the larger one (y from x only where x > y). Once a factor is 0, all
-        // rounds left go to the other side.
+        // A round subtracts the smaller factor from the larger one (y from x only where x > y). Once a factor
+        // is 0, all rounds left go to the other side.
         let beyond = x > y;
         let n = if beyond { (x - 1).checked_div(y) } else { y.checked_div(x) }.unwrap_or(rounds).min(rounds);
         let times = u64::from(n);
@@ -132,11 +134,11 @@ mod tree {
         pub children: Option<(u32, u32)>,
     }
 
-    /// The decomposition tree of level k for a move (Kramm 2018, Algorithm 2): each node above level k has the two
-    /// adjacent moves for children that its label is the mediant of.
+    /// The decomposition tree of level k for a move (Kramm 2018, Algorithm 2): each node above level k has
+    /// the two adjacent moves for children that its label is the mediant of.
     ///
-    /// Its leaves, from left to right, spell a path over N(k) that enters no cell which the move itself does not enter
-    /// (Lemma 11) and that is as short as any over N(k) on an empty grid (Lemma 13).
+    /// Its leaves, from left to right, spell a path over N(k) that enters no cell which the move itself does
+    /// not enter (Lemma 11) and that is as short as any over N(k) on an empty grid (Lemma 13).
     ///
     /// ```
     /// use mediant_moves::{DecompositionTree, FiniteK, Vector};
@@ -151,7 +153,8 @@ mod tree {
     }
 
     impl DecompositionTree {
-        /// The tree of level k for `v`; `None` if v is no move or its level is below k (the paper's 'failure').
+        /// The tree of level k for `v`; `None` if v is no move or its level is below k (the paper's
+        /// 'failure').
         ///
         /// It has at most 2·(|x| + |y|) nodes.
         #[must_use]

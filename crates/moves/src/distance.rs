@@ -1,8 +1,8 @@
 //! The distance h_k: the length of a shortest path over N(k) on an empty grid, three ways, and h_∞.
 //!
-//! All take a displacement of any quadrant and return a length in cells. They agree up to rounding; which to take:
-//! [`distance`] for any k (Hormazábal 2017), the closed forms where k is known when you write the program,
-//! [`crate::CostTable::distance`] inside a search.
+//! All take a displacement of any quadrant and return a length in cells. They agree up to rounding; which to
+//! take: [`distance`] for any k (Hormazábal 2017), the closed forms where k is known when you write the
+//! program, [`crate::CostTable::distance`] inside a search.
 
 use core::hint::select_unpredictable;
 
@@ -13,24 +13,27 @@ use crate::{
     sqrt::{integer_sqrt, sqrt},
 };
 
-/// h_k(d) by the iterative algorithm, for any k and any d, to a few units in the last place (Hormazábal 2017, Algorithm 2, whose
-/// misprints Kramm 2018, Algorithm 1, corrects).
+/// h_k(d) by the iterative algorithm, for any k and any d, to a few units in the last place (Hormazábal 2017,
+/// Algorithm 2, whose misprints Kramm 2018, Algorithm 1, corrects).
 ///
-/// No branch depends on d up to k = 10, where the lengths of the moves are constants of the program: up to k = 6 all moves of an
-/// octant are compared with d at once and h_k is linear in the sector found, then the rounds of Algorithm 2 are unrolled. Beyond, rounds
-/// that fall to the same side are taken together: whatever k, about as many steps as Euclid's algorithm takes on d.
+/// No branch depends on d up to k = 10, where the lengths of the moves are constants of the program: up to k
+/// = 6 all moves of an octant are compared with d at once and h_k is linear in the sector found, then the
+/// rounds of Algorithm 2 are unrolled. Beyond, rounds that fall to the same side are taken together: whatever
+/// k, about as many steps as Euclid's algorithm takes on d.
 ///
-/// Time as a part of the linear search's, k = 5, 6, 7 (the paper: 0.65–0.75), inlined, by `cargo xtask reproduce-tables --only hormazabal2017-distance`, whose
-/// record is in `docs/results`; AMD EPYC, Rust 1.95, November 2026:
+/// Time as a part of the linear search's, k = 5, 6, 7 (the paper: 0.65–0.75), inlined, by `cargo xtask
+/// reproduce-tables --only hormazabal2017-distance`, whose record is in `docs/results`; AMD EPYC, Rust 1.95,
+/// November 2026:
 ///
 /// | displacements | of [`LinearSearch`]'s | of one `if` a move, compiled for that k |
 /// |---|---|---|
 /// | at random | 0.24, 0.26, 0.32 | 0.29, 0.32, 0.42 |
 /// | each near the last: the searches' branches are foreseen | 0.83, 0.84, 0.76 | 1.5, 1.3, 1.4 |
 ///
-/// So at random the paper's ratio is met by far. Where branches are foreseen it is nearly met at k = 7 alone, and against the chain of `if`s
-/// missed throughout. (Summed rather than stored, the same distances take 0.74, 0.73, 0.68 of [`LinearSearch`]'s time.) All this
-/// in a loop with the function inlined, hence `inline(always)`; a call costs more than h_5 itself.
+/// So at random the paper's ratio is met by far. Where branches are foreseen it is nearly met at k = 7 alone,
+/// and against the chain of `if`s missed throughout. (Summed rather than stored, the same distances take
+/// 0.74, 0.73, 0.68 of [`LinearSearch`]'s time.) All this in a loop with the function inlined, hence
+/// `inline(always)`; a call costs more than h_5 itself.
 ///
 /// ```
 /// use mediant_moves::{distance, FiniteK, Vector};
@@ -176,9 +179,10 @@ pub fn distance_32(d: Vector) -> f64 {
     }
 }
 
-/// h_k by a linear search over the moves of Q(k − 2) (Rivera 2017, 'The 2^k-Tile Heuristic', steps 1 and 2): find the
-/// two that contain d, then solve for their factors (Eq. 14). The moves of one octant and their lengths are kept, since
-/// the quadrant is symmetric; its cost grows with 2^k, and it is here as the papers' point of comparison.
+/// h_k by a linear search over the moves of Q(k − 2) (Rivera 2017, 'The 2^k-Tile Heuristic', steps 1 and 2):
+/// find the two that contain d, then solve for their factors (Eq. 14). The moves of one octant and their
+/// lengths are kept, since the quadrant is symmetric; its cost grows with 2^k, and it is here as the papers'
+/// point of comparison.
 #[cfg(feature = "alloc")]
 #[derive(Clone, Debug)]
 pub struct LinearSearch {

@@ -4,8 +4,8 @@ use core::fmt;
 
 /// The k of a 2^k neighborhood: 2 (4-connected), 3 (8-connected), 4 (16 moves), …
 ///
-/// Distances and bounds exist for every `FiniteK`. Sets of moves stop at [`FiniteK::MAX_MOVES`], where coordinates would no
-/// longer fit in an `i32`.
+/// Distances and bounds exist for every `FiniteK`. Sets of moves stop at [`FiniteK::MAX_MOVES`], where
+/// coordinates would no longer fit in an `i32`.
 ///
 /// ```
 /// use mediant_moves::FiniteK;
@@ -45,8 +45,8 @@ impl FiniteK {
         self.0
     }
 
-    /// How often a mediant was inserted everywhere to come here from the 4-connected quadrant: i = k − 2, the index
-    /// of Q(i) in Kramm 2018 and of 𝒩^i in Rivera 2017.
+    /// How often a mediant was inserted everywhere to come here from the 4-connected quadrant: i = k − 2, the
+    /// index of Q(i) in Kramm 2018 and of 𝒩^i in Rivera 2017.
     #[must_use]
     pub const fn depth(self) -> u32 {
         self.0 - 2
@@ -58,7 +58,8 @@ impl FiniteK {
         1_u64.checked_shl(self.0)
     }
 
-    /// The largest coordinate of the moves of N(k), without building them: Fib(k − 2) (Rivera 2017, Theorem 1).
+    /// The largest coordinate of the moves of N(k), without building them: Fib(k − 2) (Rivera 2017, Theorem
+    /// 1).
     ///
     /// # Errors
     /// [`KError::TooLarge`] above [`FiniteK::MAX_MOVES`].

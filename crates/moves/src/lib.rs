@@ -1,21 +1,24 @@
 //! The mathematics of the 2^k neighborhoods.
 //!
-//! N(2) is the 4-connected neighborhood, and N(k + 1) has, between each two adjacent moves of N(k), their sum: the
-//! *mediant*. That one rule gives the 8-connected grid at k = 3, sixteen moves at k = 4, and every direction in the limit.
+//! N(2) is the 4-connected neighborhood, and N(k + 1) has, between each two adjacent moves of N(k), their
+//! sum: the *mediant*. That one rule gives the 8-connected grid at k = 3, sixteen moves at k = 4, and every
+//! direction in the limit.
 //!
-//! **The key decision: nothing is enumerated that can be computed.** A quadrant is a level of the Stern–Brocot tree, so the
-//! j-th move, the index of a move, the pair of moves around a vector and the distance h_k all come from walking k − 2
-//! levels of mediants, in registers; a table is built only where a search wants to look costs up ([`CostTable`]).
+//! **The key decision: nothing is enumerated that can be computed.** A quadrant is a level of the
+//! Stern–Brocot tree, so the j-th move, the index of a move, the pair of moves around a vector and the
+//! distance h_k all come from walking k − 2 levels of mediants, in registers; a table is built only where a
+//! search wants to look costs up ([`CostTable`]).
 //!
 //! What is not here: obstacles. What a move sweeps on a map is the business of `mediant-grid`.
 //!
-//! The crate is `no_std` and has no dependency. Feature `std` (default) takes square roots in hardware; feature `alloc`
-//! (default, implied by `std`) adds what needs a heap: [`CostTable`], [`DecompositionTree`], [`LinearSearch`].
+//! The crate is `no_std` and has no dependency. Feature `std` (default) takes square roots in hardware;
+//! feature `alloc` (default, implied by `std`) adds what needs a heap: [`CostTable`], [`DecompositionTree`],
+//! [`LinearSearch`].
 //!
 //! # Statements and their tests
 //!
-//! Each statement of the three papers, and the test in `tests/it/` that executes it against definitions written naively there, for
-//! every k up to 14 or beyond.
+//! Each statement of the three papers, and the test in `tests/it/` that executes it against definitions
+//! written naively there, for every k up to 14 or beyond.
 //!
 //! Rivera, Hernández, Baier 2017, 'Grid Pathfinding on the 2^k Neighborhoods':
 //!
@@ -42,7 +45,8 @@
 //! | canonical successors: each cell once | `rivera2017::canonical_successors_generate_each_cell_once_and_at_optimal_cost` |
 //! | Theorem 4: canonical A* is complete | none here: it is about grids with obstacles, and 'complete' is not 'optimal' |
 //!
-//! Hormazábal, Díaz, Hernández, Baier 2017, 'Fast and Almost Optimal Any-Angle Pathfinding Using the 2^k Neighborhoods':
+//! Hormazábal, Díaz, Hernández, Baier 2017, 'Fast and Almost Optimal Any-Angle Pathfinding Using the 2^k
+//! Neighborhoods':
 //!
 //! | statement | test |
 //! |---|---|
@@ -89,7 +93,8 @@
 //! | Lemma 13: the leaves are an optimal path, for coordinates to 20 | `kramm2018_trees::lemma_13_the_leaves_are_an_optimal_path_within_the_cells_of_the_move` |
 //! | Figure 5: the trees of (7, 5) | `kramm2018_trees::figure_5_the_trees_of_7_5` |
 //!
-//! `tests/it/cost.rs` tests the claims of [`Cost`] and [`CostTable`], `tests/it/api.rs` the rest and the limits of all ranges.
+//! `tests/it/cost.rs` tests the claims of [`Cost`] and [`CostTable`], `tests/it/api.rs` the rest and the
+//! limits of all ranges.
 #![no_std]
 
 #[cfg(feature = "alloc")]

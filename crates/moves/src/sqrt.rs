@@ -12,8 +12,8 @@ pub(crate) fn sqrt(x: f64) -> f64 {
     integer_sqrt(x)
 }
 
-/// √x in integers: the significand, shifted until its root has 63 bits, by `u128::isqrt`; a last bit that says
-/// 'inexact' then makes the conversion back to `f64` round as the exact root would.
+/// √x in integers: the significand, shifted until its root has 63 bits, by `u128::isqrt`; a last bit that
+/// says 'inexact' then makes the conversion back to `f64` round as the exact root would.
 pub(crate) const fn integer_sqrt(x: f64) -> f64 {
     const FRACTION_BITS: i32 = 52;
     if !x.is_normal() || x.is_sign_negative() {

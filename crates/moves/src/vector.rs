@@ -6,8 +6,8 @@ use crate::sqrt::sqrt;
 
 /// An integer vector: a displacement between two vertices or, when [`is_move`](Self::is_move), a move.
 ///
-/// Its order is by `x`, then `y`: good for sorted containers, without geometric meaning. For the angular order
-/// see [`precedes`](Self::precedes).
+/// Its order is by `x`, then `y`: good for sorted containers, without geometric meaning. For the angular
+/// order see [`precedes`](Self::precedes).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Vector {
     /// To the right, in cells.
@@ -28,7 +28,8 @@ impl Vector {
 
     /// det(u, v) = `u.x·v.y − u.y·v.x` (Kramm 2018, Eq. 1), exact for all inputs.
     ///
-    /// Two moves of one quadrant with |det| = 1 are adjacent in some neighborhood (Kramm 2018, Proposition 4).
+    /// Two moves of one quadrant with |det| = 1 are adjacent in some neighborhood (Kramm 2018, Proposition
+    /// 4).
     #[must_use]
     pub const fn det(self, other: Self) -> i128 {
         self.x as i128 * other.y as i128 - self.y as i128 * other.x as i128
@@ -40,8 +41,8 @@ impl Vector {
         self.x as i128 * other.x as i128 + self.y as i128 * other.y as i128
     }
 
-    /// u ⪯ v for two vectors of the first quadrant: u is no further from the Y axis than v, clockwise in the papers'
-    /// drawing (Rivera 2017, 'Pathfinding in 4- and 8-neighbor Grids': `x·y' ≤ x'·y`).
+    /// u ⪯ v for two vectors of the first quadrant: u is no further from the Y axis than v, clockwise in the
+    /// papers' drawing (Rivera 2017, 'Pathfinding in 4- and 8-neighbor Grids': `x·y' ≤ x'·y`).
     #[must_use]
     pub const fn precedes(self, other: Self) -> bool {
         self.det(other) <= 0
@@ -100,8 +101,8 @@ impl Vector {
         }
     }
 
-    /// The quadrant 0…3 that this vector lies in, in the order of [`Neighborhood`](crate::Neighborhood), with the
-    /// axis on which the quadrant begins but not the one on which it ends; `None` for the zero vector.
+    /// The quadrant 0…3 that this vector lies in, in the order of [`Neighborhood`](crate::Neighborhood), with
+    /// the axis on which the quadrant begins but not the one on which it ends; `None` for the zero vector.
     #[must_use]
     pub const fn quadrant(self) -> Option<u32> {
         match (self.x, self.y) {

@@ -30,7 +30,8 @@ pub struct Case {
 }
 
 impl Case {
-    /// The map of [`random_grid`](crate::random_grid) for this seed, and two of its free vertices; `None` when it has no free vertex.
+    /// The map of [`random_grid`](crate::random_grid) for this seed, and two of its free vertices; `None`
+    /// when it has no free vertex.
     #[must_use]
     pub fn random(seed: u64, rules: Rules) -> Option<Self> {
         let mut rng = Rng::new(seed);
@@ -47,8 +48,8 @@ impl fmt::Display for Case {
     }
 }
 
-/// The seeds of a random suite: from 0, `default` of them, or as many as the variable `MEDIANT_GRIDS` of the environment asks
-/// for.
+/// The seeds of a random suite: from 0, `default` of them, or as many as the variable `MEDIANT_GRIDS` of the
+/// environment asks for.
 ///
 /// # Panics
 /// When `MEDIANT_GRIDS` is no number: a suite that ran on less than it was asked for would say nothing of it.
@@ -75,10 +76,11 @@ pub fn on_all_cores<R: Send>(seeds: Range<u64>, part: impl Fn(u64) -> R + Sync) 
     })
 }
 
-/// The rules, the query, the seed, and the map in a form that [`AsciiMap::parse`](mediant_grid::AsciiMap::parse) reads.
+/// The rules, the query, the seed, and the map in a form that
+/// [`AsciiMap::parse`](mediant_grid::AsciiMap::parse) reads.
 ///
-/// `s` and `g` mark the cells of start and goal: under corner placement the cells to the lower right of them, if those
-/// are free. The coordinates stand above the map in any case.
+/// `s` and `g` mark the cells of start and goal: under corner placement the cells to the lower right of them,
+/// if those are free. The coordinates stand above the map in any case.
 #[must_use]
 pub fn describe(grid: &Grid, rules: Rules, start: Vertex, goal: Vertex, seed: u64) -> String {
     let mut text = format!("seed {seed}; rules: {rules}; from {start} to {goal}; the map:\n");

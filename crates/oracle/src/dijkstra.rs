@@ -15,7 +15,8 @@ use crate::{
 /// Under [`DiagonalGap::Closed`] a gap is two states, one for each free quadrant, so that a path may
 /// touch the corner but not cross it. Nothing is assumed about optimal paths.
 ///
-/// Meant for maps up to about 40 × 40: a state keeps up to 2^k edges, and with any-angle moves every vertex in sight.
+/// Meant for maps up to about 40 × 40: a state keeps up to 2^k edges, and with any-angle moves every vertex
+/// in sight.
 #[derive(Clone, Debug)]
 pub struct Explicit {
     /// The numbers of columns and rows of vertices.
@@ -34,8 +35,8 @@ struct Edge {
 }
 
 impl Explicit {
-    /// The graph for N(k), or for k = `None` that of all moves with gcd 1, whose shortest paths are the shortest any-angle
-    /// paths: a straight legal segment is a repeated move.
+    /// The graph for N(k), or for k = `None` that of all moves with gcd 1, whose shortest paths are the
+    /// shortest any-angle paths: a straight legal segment is a repeated move.
     #[must_use]
     pub fn new(grid: &Grid, rules: Rules, k: Option<FiniteK>) -> Self {
         let placement = rules.placement();
@@ -69,7 +70,8 @@ impl Explicit {
         graph
     }
 
-    /// The optimal costs from `start` to every vertex. From a vertex that is blocked or outside the map nothing is reached.
+    /// The optimal costs from `start` to every vertex. From a vertex that is blocked or outside the map
+    /// nothing is reached.
     #[must_use]
     pub fn costs_from(&self, start: Vertex) -> Costs<'_> {
         let mut costs = Costs {
@@ -128,8 +130,8 @@ pub struct Costs<'a> {
 }
 
 impl Costs<'_> {
-    /// The cost of an optimal path to `goal`, 0 to the start itself; `None` when there is no path, or an end is blocked
-    /// or outside the map.
+    /// The cost of an optimal path to `goal`, 0 to the start itself; `None` when there is no path, or an end
+    /// is blocked or outside the map.
     #[must_use]
     pub fn to(&self, goal: Vertex) -> Option<f64> {
         let v = self.graph.vertex(goal).filter(|&v| self.graph.is_free[v])?;

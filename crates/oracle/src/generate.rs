@@ -64,8 +64,8 @@ pub fn rooms(rng: &mut Rng, width: u32, height: u32) -> Grid {
     canvas.into_grid()
 }
 
-/// A maze of corridors one cell wide, carved by depth-first search with backtracking; a few walls more are broken, so that
-/// there are loops.
+/// A maze of corridors one cell wide, carved by depth-first search with backtracking; a few walls more are
+/// broken, so that there are loops.
 pub fn maze(rng: &mut Rng, width: u32, height: u32) -> Grid {
     let mut canvas = Canvas::new(width, height, |_, _| true);
     let mut trail = vec![(0, 0)];
@@ -96,8 +96,8 @@ pub fn maze(rng: &mut Rng, width: u32, height: u32) -> Grid {
     canvas.into_grid()
 }
 
-/// Caves: noise of 35–50 %, smoothed by a cellular automaton in which the majority of a cell's 3 × 3 block decides (outside
-/// counts as blocked).
+/// Caves: noise of 35–50 %, smoothed by a cellular automaton in which the majority of a cell's 3 × 3 block
+/// decides (outside counts as blocked).
 pub fn caves(rng: &mut Rng, width: u32, height: u32) -> Grid {
     let percent = 35 + rng.below(16);
     let mut canvas = Canvas::new(width, height, |_, _| rng.chance(percent));
@@ -134,8 +134,8 @@ const PATTERNS: [Pattern; 11] = [
     ("rings", |x, y, a, b| (x.abs_diff(a % 8).max(y.abs_diff(b % 8))) % 2 == 1 && x != y),
 ];
 
-/// Small maps on which rules differ: diagonal gaps, corridors one cell wide, combs, checkerboards, all free, all blocked,
-/// each whole or with a few cells flipped.
+/// Small maps on which rules differ: diagonal gaps, corridors one cell wide, combs, checkerboards, all free,
+/// all blocked, each whole or with a few cells flipped.
 pub fn adversarial(rng: &mut Rng, width: u32, height: u32) -> Grid {
     adversarial_with_name(rng, width, height).0
 }
@@ -147,14 +147,15 @@ fn adversarial_with_name(rng: &mut Rng, width: u32, height: u32) -> (Grid, &'sta
     (Canvas::new(width, height, |x, y| pattern(x, y, a, b) != rng.chance(flips)).into_grid(), name)
 }
 
-/// A map of kind, size (sides 1 to 24, more small than large) and density drawn from `seed`, with words that say which.
+/// A map of kind, size (sides 1 to 24, more small than large) and density drawn from `seed`, with words that
+/// say which.
 #[must_use]
 pub fn random_grid(seed: u64) -> (Grid, String) {
     draw_grid(&mut Rng::new(seed))
 }
 
-/// A map wider than a machine word, 60 to 200 cells by 1 to 4, or as much higher: runs, rows and lines of sight cross word
-/// boundaries in it. Sparse, so that some of them are long.
+/// A map wider than a machine word, 60 to 200 cells by 1 to 4, or as much higher: runs, rows and lines of
+/// sight cross word boundaries in it. Sparse, so that some of them are long.
 #[must_use]
 pub fn wide_grid(seed: u64) -> (Grid, String) {
     let rng = &mut Rng::new(seed);

@@ -48,7 +48,8 @@ impl PartialEq for Fraction {
 
 impl Eq for Fraction {}
 
-/// The points `from + t · by` for 0 ≤ t ≤ 1. Coordinates are in half cells, so that centers and corners are integers.
+/// The points `from + t · by` for 0 ≤ t ≤ 1. Coordinates are in half cells, so that centers and corners are
+/// integers.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Segment {
     pub(crate) from: [i64; 2],
@@ -116,8 +117,8 @@ impl Segment {
             .map(|axis| i128::from(self.from[axis]) * t.denominator + i128::from(self.by[axis]) * t.numerator)
     }
 
-    /// The lattice corner point (in whole cells) that the segment passes through at t, neither end of it; `None` when
-    /// there is none at t.
+    /// The lattice corner point (in whole cells) that the segment passes through at t, neither end of it;
+    /// `None` when there is none at t.
     pub(crate) fn corner_at(&self, t: Fraction) -> Option<[i128; 2]> {
         let point = self.scaled_point(t);
         let is_corner = point.iter().all(|coordinate| coordinate % (2 * t.denominator) == 0);

@@ -12,7 +12,8 @@ use crate::geometry::{Contact, Rectangle, Segment};
 /// Legality depends on a map only through these, so a move's footprint serves at every vertex.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Footprint {
-    /// Center: the cells met in more than a lattice corner point. Corner: the cells whose open interior is met.
+    /// Center: the cells met in more than a lattice corner point. Corner: the cells whose open interior is
+    /// met.
     crossed: Vec<Vector>,
     /// Center only: at each lattice corner point on the way, the cells met in that point alone.
     touched: Vec<Vec<Vector>>,
@@ -134,7 +135,8 @@ pub(crate) fn is_in_quadrant(at: Vertex, other: Vertex, (sx, sy): (i64, i64)) ->
     dx * sx >= 0 && dy * sy >= 0
 }
 
-/// Whether `at` is a free vertex: at centers a free cell, at corners a vertex with a free cell among its four.
+/// Whether `at` is a free vertex: at centers a free cell, at corners a vertex with a free cell among its
+/// four.
 ///
 /// Vertices outside the map are not free.
 #[must_use]
@@ -152,13 +154,13 @@ pub fn is_gap(grid: &Grid, at: Vertex) -> bool {
     matches!(free[..], [(ax, ay), (bx, by)] if ax == -bx && ay == -by)
 }
 
-/// Whether the straight segment from `a` to `b` is legal under the rules of motion, by itself: what a path under
-/// [`DiagonalGap::Closed`] may do where segments meet is [`turn_is_legal`]'s business.
+/// Whether the straight segment from `a` to `b` is legal under the rules of motion, by itself: what a path
+/// under [`DiagonalGap::Closed`] may do where segments meet is [`turn_is_legal`]'s business.
 ///
-/// * Centers: all cells that the closed segment meets must be free, but for those that it only meets in a grid graph corner
-///   point on its way: of these all, at least one at each point, or none must be free.
-/// * Corners: no blocked cell's open interior may be met, and the segment may not run along the edge of two blocked
-///   cells (outside counts as blocked). With closed gaps no gap may lie strictly between its ends.
+/// * Centers: all cells that the closed segment meets must be free, but for those that it only meets in a
+///   grid graph corner point on its way: of these all, at least one at each point, or none must be free.
+/// * Corners: no blocked cell's open interior may be met, and the segment may not run along the edge of two
+///   blocked cells (outside counts as blocked). With closed gaps no gap may lie strictly between its ends.
 ///
 /// A segment of length 0 is legal at a free vertex. Time is proportional to the area of the bounding box.
 #[must_use]
@@ -169,11 +171,11 @@ pub fn segment_is_legal(grid: &Grid, rules: Rules, a: Vertex, b: Vertex) -> bool
         && (a == b || Footprint::new(placement, a.to(b)).is_legal(grid, rules, a))
 }
 
-/// Whether a path under [`DiagonalGap::Closed`] may come from `before` to corner vertex `at` and go on to `after`, both
-/// segments being legal. `None` stands for the path's start or end at `at`.
+/// Whether a path under [`DiagonalGap::Closed`] may come from `before` to corner vertex `at` and go on to
+/// `after`, both segments being legal. `None` stands for the path's start or end at `at`.
 ///
-/// At a gap a path stays in one closed free quadrant, and one that starts or ends there in that of
-/// the vertex's own cell (x, y), which must be free. Everywhere else, and for a path that is `at` alone, there is
+/// At a gap a path stays in one closed free quadrant, and one that starts or ends there in that of the
+/// vertex's own cell (x, y), which must be free. Everywhere else, and for a path that is `at` alone, there is
 /// nothing to observe.
 #[must_use]
 pub fn turn_is_legal(grid: &Grid, before: Option<Vertex>, at: Vertex, after: Option<Vertex>) -> bool {

@@ -1,17 +1,19 @@
 //! Slow, obvious references that every engine is tested against.
 //!
-//! **The key decision: nothing here is clever, and nothing is shared.** From `mediant-grid` come the map and the words
-//! for the rules, from `mediant-moves` the plain vector and the number k; legality, neighborhoods and searches are
-//! written again, from the definitions, so that an error in an engine is not repeated by its judge.
+//! **The key decision: nothing here is clever, and nothing is shared.** From `mediant-grid` come the map and
+//! the words for the rules, from `mediant-moves` the plain vector and the number k; legality, neighborhoods
+//! and searches are written again, from the definitions, so that an error in an engine is not repeated by its
+//! judge.
 //!
-//! * [`segment_is_legal`], [`vertex_is_free`], [`turn_is_legal`]: the rules of motion, by clipping a segment against
-//!   every cell around it, in exact fractions.
+//! * [`segment_is_legal`], [`vertex_is_free`], [`turn_is_legal`]: the rules of motion, by clipping a segment
+//!   against every cell around it, in exact fractions.
 //! * [`neighborhood`]: the moves of N(k), mediant by mediant.
 //! * [`Explicit`]: Dijkstra on the graph of all legal moves, for every k and for any-angle paths.
-//! * [`Visibility`]: the same costs at corners from the visibility graph of the obstacles' convex corners, one for all k.
+//! * [`Visibility`]: the same costs at corners from the visibility graph of the obstacles' convex corners,
+//!   one for all k.
 //! * [`validate`]: whether a path is what a planner promised.
-//! * [`random_grid`], [`wide_grid`], [`Case`] and the generators behind them: maps and queries from a seed, those of a suite
-//!   from its [`seeds`].
+//! * [`random_grid`], [`wide_grid`], [`Case`] and the generators behind them: maps and queries from a seed,
+//!   those of a suite from its [`seeds`].
 //! * [`describe`]: what a failing test should say.
 //!
 //! What is not here: speed. Use it on small maps.

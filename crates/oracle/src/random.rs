@@ -1,7 +1,7 @@
 //! Random numbers that are the same everywhere.
 
-/// SplitMix64 (Steele, Lea, Flood, 'Fast Splittable Pseudorandom Number Generators', OOPSLA 2014): 64 bits of state, which
-/// are the seed, and every seed is a good one.
+/// SplitMix64 (Steele, Lea, Flood, 'Fast Splittable Pseudorandom Number Generators', OOPSLA 2014): 64 bits of
+/// state, which are the seed, and every seed is a good one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rng {
     state: u64,

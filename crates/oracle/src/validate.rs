@@ -139,8 +139,9 @@ impl Error for Fault {}
 
 /// Whether `waypoints` is a legal path from `start` to `goal` whose length is `cost`, in cells.
 ///
-/// With k, two consecutive waypoints must be joined by one move of N(k), repeated, each repetition legal; without, by
-/// one legal segment. Start = goal takes the one waypoint and cost 0. Whether a shorter path exists is not asked.
+/// With k, two consecutive waypoints must be joined by one move of N(k), repeated, each repetition legal;
+/// without, by one legal segment. Start = goal takes the one waypoint and cost 0. Whether a shorter path
+/// exists is not asked.
 ///
 /// # Errors
 /// The first [`Fault`] that is found.

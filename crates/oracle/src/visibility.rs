@@ -1,16 +1,19 @@
 //! Shortest paths at corner placement from one visibility graph, for every k.
 //!
-//! **Why one graph serves every k.** Every norm of the plane is a sum of widths, Σ cᵢ·|⟨nᵢ, d⟩|, or a limit of such sums; h_k is
-//! one, its unit ball being a symmetric polygon. So the length of a path counts how often it crosses the lines with normals
-//! nᵢ. A *taut* path, one that bends around convex corners of obstacles only, crosses each piece of such a line in free space at
-//! most once, and then every path that passes the obstacles on the same sides crosses it too: the taut path is a shortest
-//! of these in all norms at once. Its straight pieces can be followed over N(k) at cost h_k (Kramm 2018, Lemma 13), and
-//! a path over N(k) measures the same in h_k as in cells. What remains is to choose the sides, and for that there is Dijkstra.
+//! **Why one graph serves every k.** Every norm of the plane is a sum of widths, Σ cᵢ·|⟨nᵢ, d⟩|, or a limit
+//! of such sums; h_k is one, its unit ball being a symmetric polygon. So the length of a path counts how
+//! often it crosses the lines with normals nᵢ. A *taut* path, one that bends around convex corners of
+//! obstacles only, crosses each piece of such a line in free space at most once, and then every path that
+//! passes the obstacles on the same sides crosses it too: the taut path is a shortest of these in all norms
+//! at once. Its straight pieces can be followed over N(k) at cost h_k (Kramm 2018, Lemma 13), and a path over
+//! N(k) measures the same in h_k as in cells. What remains is to choose the sides, and for that there is
+//! Dijkstra.
 //!
-//! **Closed gaps** are cuts through free space. Seen from either of its free quadrants a gap is concave, so no
-//! taut path bends there: it is a start or goal at most. That holds for k = 2 as well, though what follows a taut path over
-//! N(2) may have to touch such a corner: from one corner of a cell to the opposite one when both others are gaps. It
-//! bends there within one quadrant, which the rule allows, and so costs h_2 as anywhere.
+//! **Closed gaps** are cuts through free space. Seen from either of its free quadrants a gap is concave, so
+//! no taut path bends there: it is a start or goal at most. That holds for k = 2 as well, though what follows
+//! a taut path over N(2) may have to touch such a corner: from one corner of a cell to the opposite one when
+//! both others are gaps. It bends there within one quadrant, which the rule allows, and so costs h_2 as
+//! anywhere.
 
 use std::{cmp::Reverse, collections::BinaryHeap, sync::OnceLock};
 
@@ -25,7 +28,8 @@ use crate::{
 /// The convex corners of the obstacles of one grid, under corner placement, and which of them see each other.
 ///
 /// Convex is a vertex with one blocked cell of four and, with [`DiagonalGap::Open`], a gap. To see is
-/// [`segment_is_legal`](crate::segment_is_legal). The graph is the same for all k; [`over`](Self::over) gives it lengths.
+/// [`segment_is_legal`](crate::segment_is_legal). The graph is the same for all k; [`over`](Self::over) gives
+/// it lengths.
 ///
 /// Meant for maps up to about 40 × 40 or 1,000 × 4: it keeps what each displacement that was asked for meets.
 #[derive(Clone, Debug)]
@@ -91,7 +95,8 @@ impl<'g> Sight<'g> {
         Self { grid, gap, footprints: vec![OnceLock::new(); displacements] }
     }
 
-    /// [`segment_is_legal`](crate::segment_is_legal) between two free vertices of the map, with footprints kept.
+    /// [`segment_is_legal`](crate::segment_is_legal) between two free vertices of the map, with footprints
+    /// kept.
     fn is_legal(&self, a: Vertex, b: Vertex) -> bool {
         let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
         let (d, width) = (a.to(b), self.grid.width() as i32);
@@ -117,8 +122,8 @@ pub struct VisibilityGraph<'v> {
 }
 
 impl VisibilityGraph<'_> {
-    /// The optimal costs from `start` to every corner, and so to every vertex. From a vertex that is blocked or outside the
-    /// map nothing is reached.
+    /// The optimal costs from `start` to every corner, and so to every vertex. From a vertex that is blocked
+    /// or outside the map nothing is reached.
     #[must_use]
     pub fn costs_from(&self, start: Vertex) -> VisibilityCosts<'_> {
         let Visibility { sight, corners, seen } = self.visibility;
@@ -175,15 +180,15 @@ pub struct VisibilityCosts<'a> {
 }
 
 impl VisibilityCosts<'_> {
-    /// The cost of an optimal path to `goal`, 0 to the start itself; `None` when there is no path, or an end is blocked
-    /// or outside the map.
+    /// The cost of an optimal path to `goal`, 0 to the start itself; `None` when there is no path, or an end
+    /// is blocked or outside the map.
     #[must_use]
     pub fn to(&self, goal: Vertex) -> Option<f64> {
         self.last_step(goal).map(|(cost, _)| cost)
     }
 
-    /// The waypoints of an optimal path to `goal`, each in sight of the next: over N(k) a shortest path from one to the next
-    /// can be had beside the segment between them. `None` as for [`to`](Self::to).
+    /// The waypoints of an optimal path to `goal`, each in sight of the next: over N(k) a shortest path from
+    /// one to the next can be had beside the segment between them. `None` as for [`to`](Self::to).
     #[must_use]
     pub fn path_to(&self, goal: Vertex) -> Option<Vec<Vertex>> {
         let (_, mut last) = self.last_step(goal)?;
@@ -199,7 +204,8 @@ impl VisibilityCosts<'_> {
         Some(path)
     }
 
-    /// The cost to `goal`, and the corner from which it is reached, none when that is straight from the start.
+    /// The cost to `goal`, and the corner from which it is reached, none when that is straight from the
+    /// start.
     fn last_step(&self, goal: Vertex) -> Option<(f64, Option<u32>)> {
         let Visibility { sight, corners, .. } = self.graph.visibility;
         let is_free = |at| vertex_is_free(sight.grid, PlacementKind::Corner, at);
@@ -224,8 +230,8 @@ impl VisibilityCosts<'_> {
 
 /// h_k of each displacement (x, y) with 0 ≤ x ≤ `width` and 0 ≤ y ≤ `height`, both at least 1, row by row.
 ///
-/// From the definition: d is the one combination p·a + q·b with p, q ≥ 0 of two moves that are adjacent in angle, and its length is
-/// p·|a| + q·|b|. Moves beyond the rectangle combine to nothing in it.
+/// From the definition: d is the one combination p·a + q·b with p, q ≥ 0 of two moves that are adjacent in
+/// angle, and its length is p·|a| + q·|b|. Moves beyond the rectangle combine to nothing in it.
 fn lengths(k: Option<FiniteK>, width: i32, height: i32) -> Vec<f64> {
     let displacements = || (0..=height).flat_map(|y| (0..=width).map(move |x| Vector::new(x, y)));
     if k.is_none() {

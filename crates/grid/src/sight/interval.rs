@@ -1,15 +1,16 @@
 //! Interval ends: rays from a grid graph vertex through another.
 
-/// A ray that leaves a root: the vector from the root to a grid graph vertex on it. `dy` > 0 counts lines away from the root,
-/// up or down.
+/// A ray that leaves a root: the vector from the root to a grid graph vertex on it. `dy` > 0 counts lines
+/// away from the root, up or down.
 ///
-/// An end of an interval is never kept as a place but as the ray that bounds it: the vector from the root to the corner at which it was
-/// clipped, or, where a path turned at its root, the vector from the root before. So it is the difference of two vertices of the map.
+/// An end of an interval is never kept as a place but as the ray that bounds it: the vector from the root to
+/// the corner at which it was clipped, or, where a path turned at its root, the vector from the root before.
+/// So it is the difference of two vertices of the map.
 ///
-/// **No overflow.** With sides of at most 2¹⁵ cells ([`Grid::MAX_SIDE`](crate::Grid::MAX_SIDE)) |dx| ≤ 2¹⁵ and 1 ≤ dy ≤ 2¹⁵. Products
-/// are made only for a line on which the interval is, n lines from the root. It lies on the map there, so the ray is at most 2¹⁵ columns
-/// from the root, and |n · dx| ≤ 2¹⁵ · dy ≤ 2³⁰. Rays are never added to, multiplied by or intersected with each other, so nothing
-/// grows.
+/// **No overflow.** With sides of at most 2¹⁵ cells ([`Grid::MAX_SIDE`](crate::Grid::MAX_SIDE)) |dx| ≤ 2¹⁵
+/// and 1 ≤ dy ≤ 2¹⁵. Products are made only for a line on which the interval is, n lines from the root. It
+/// lies on the map there, so the ray is at most 2¹⁵ columns from the root, and |n · dx| ≤ 2¹⁵ · dy ≤ 2³⁰.
+/// Rays are never added to, multiplied by or intersected with each other, so nothing grows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ray {
     /// Columns to the right.
@@ -29,14 +30,16 @@ impl Ray {
     }
 }
 
-/// Where a ray meets a line, in columns: fixed point, with [`FRACTION`](Self::FRACTION) bits, and yet exact in what it decides.
+/// Where a ray meets a line, in columns: fixed point, with [`FRACTION`](Self::FRACTION) bits, and yet exact
+/// in what it decides.
 ///
-/// A ray meets a line in a rational whose denominator is at most 2¹⁵: either at a vertex, or at least 2⁻¹⁵ away from one. A place is that
-/// rational, less at most the n · 2⁻⁴⁴ < 2⁻²⁸ that n additions of a cut-off step lose, plus 2⁻¹⁷. So its fraction is between 0 and 2⁻¹⁷ at a
-/// vertex and above 2⁻¹⁶ and below 1 elsewhere: floor, ceiling and whether it is a vertex are those of the rational.
+/// A ray meets a line in a rational whose denominator is at most 2¹⁵: either at a vertex, or at least 2⁻¹⁵
+/// away from one. A place is that rational, less at most the n · 2⁻⁴⁴ < 2⁻²⁸ that n additions of a cut-off
+/// step lose, plus 2⁻¹⁷. So its fraction is between 0 and 2⁻¹⁷ at a vertex and above 2⁻¹⁶ and below 1
+/// elsewhere: floor, ceiling and whether it is a vertex are those of the rational.
 ///
-/// An interval lies on the map, so a place on its line is between 0 and 2¹⁵. On the next line it is at most 2¹⁵ columns further out, as
-/// far as a ray leads from line to line: below 2¹⁷, in bits below 2⁶¹.
+/// An interval lies on the map, so a place on its line is between 0 and 2¹⁵. On the next line it is at most
+/// 2¹⁵ columns further out, as far as a ray leads from line to line: below 2¹⁷, in bits below 2⁶¹.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossing(i64);
 

@@ -5,7 +5,7 @@ use crate::{BitMatrix, BitRow, Corners, FreeSpace, Vertex};
 use super::{
     interval::{IntervalEnd, Ray},
     row_summary::RowSummary,
-    strip::row_ahead,
+    runs::row_ahead,
 };
 
 /// The directions in which to look: some of the four closed quadrants.
@@ -37,8 +37,8 @@ impl Quadrants {
     }
 }
 
-/// The vertices to look for: those in directions in which x and y have the same sign, and those in which they have opposite ones. Along an axis,
-/// where one of them is 0, both are.
+/// The vertices to look for: those in directions in which x and y have the same sign, and those in which they
+/// have opposite ones. Along an axis, where one of them is 0, both are.
 ///
 /// Each has a bit for each vertex of the map and a frame of zeros.
 #[derive(Clone, Copy, Debug)]
@@ -58,9 +58,11 @@ impl<'m> From<&'m BitMatrix> for Targets<'m> {
 
 /// Finds the corners of obstacles that a vertex sees: scratch memory for [`seen`](Self::seen).
 ///
-/// The cells around a vertex are looked at row by row. What it sees of a horizontal line is a set of intervals, each bounded by two rays through
-/// corners of obstacles, which are followed by additions (`interval.rs` says why they decide exactly); of a row of cells between two lines,
-/// words of 64 cells tell where they narrow, split or end. So a vertex costs a few steps for each row that it sees, not one for each cell.
+/// The cells around a vertex are looked at row by row. What it sees of a horizontal line is a set of
+/// intervals, each bounded by two rays through corners of obstacles, which are followed by additions
+/// (`interval.rs` says why they decide exactly); of a row of cells between two lines, words of 64 cells tell
+/// where they narrow, split or end. So a vertex costs a few steps for each row that it sees, not one for each
+/// cell.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -135,10 +137,12 @@ struct Half<'t> {
 }
 
 impl VisibilitySweep {
-    /// Tells `found` the marks that the free vertex `from` sees in these quadrants, each once. Marks are convex corners of obstacles; others may be
-    /// left out, as may those behind another corner on the same ray. On the vertical between a quadrant that is asked for and one that is not,
-    /// what is seen is what the cells of the first let through. `bands` are those of the free space's grid. Under
-    /// [`DiagonalGap::Closed`](crate::DiagonalGap::Closed) no mark may be at a [gap](FreeSpace::is_closed_gap).
+    /// Tells `found` the marks that the free vertex `from` sees in these quadrants, each once. Marks are
+    /// convex corners of obstacles; others may be left out, as may those behind another corner on the same
+    /// ray. On the vertical between a quadrant that is asked for and one that is not, what is seen is what
+    /// the cells of the first let through. `bands` are those of the free space's grid. Under
+    /// [`DiagonalGap::Closed`](crate::DiagonalGap::Closed) no mark may be at a
+    /// [gap](FreeSpace::is_closed_gap).
     pub fn seen<'m>(
         &mut self,
         space: &'m FreeSpace<Corners>,
@@ -217,7 +221,8 @@ impl Half<'_> {
         row_ahead(self.space.grid(), line, self.down)
     }
 
-    /// Follows an interval from line to line until it ends; where it splits, all but the first part are left `pending`.
+    /// Follows an interval from line to line until it ends; where it splits, all but the first part are left
+    /// `pending`.
     fn follow(&self, mut piece: Piece, pending: &mut Vec<Piece>, found: &mut impl FnMut(Vertex)) {
         let mut ahead = self.ahead(piece.line);
         let mut marks = [self.marks.same, self.marks.opposite].map(|marks| marks.row(piece.line));
@@ -293,7 +298,8 @@ impl Half<'_> {
         }
     }
 
-    /// The interval a band of rows further on, if all its cells on the way are free, and the walls that it follows go on.
+    /// The interval a band of rows further on, if all its cells on the way are free, and the walls that it
+    /// follows go on.
     #[inline]
     fn leap(&self, piece: Piece) -> Option<Piece> {
         let band = piece.line / RowSummary::LINES + (self.down - 1) / 2;
@@ -323,8 +329,8 @@ impl Half<'_> {
     fn through(&self, piece: Piece, start: i32, end: i32) -> Option<Piece> {
         let (x, n) = (self.from.x, self.distance(piece.line));
         let [left, right] = [piece.left, piece.right].map(|edge| edge.after(1));
-        // An obstacle that stands in the way clips the interval by the corner that hides most: on its near side if it is away from the
-        // vertical through the root, and else on its far side.
+        // An obstacle that stands in the way clips the interval by the corner that hides most: on its near
+        // side if it is away from the vertical through the root, and else on its far side.
         let shaded = |end: i32| Edge::ray(IntervalEnd::new(Ray { dx: end - x, dy: n }, x, n + 1));
         let left = if start > piece.left.end.here.floor() {
             if start > x { shaded(start) } else { Edge::wall(start) }
@@ -346,8 +352,8 @@ impl Half<'_> {
         widens.then_some(Piece { line: piece.line + self.down, left, right })
     }
 
-    /// Tells the marked vertices of an interval beyond which all cells are free. Those on its near side are, so that only its ends can be
-    /// corners of obstacles.
+    /// Tells the marked vertices of an interval beyond which all cells are free. Those on its near side are,
+    /// so that only its ends can be corners of obstacles.
     #[inline]
     fn report_ends(&self, piece: Piece, marks: [BitRow<'_>; 2], found: &mut impl FnMut(Vertex)) {
         for edge in [piece.left, piece.right] {

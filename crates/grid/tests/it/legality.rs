@@ -51,7 +51,8 @@ fn legal_moves_are_those_of_brute_force() {
     let mut legal = 0;
     for seed in seeds() {
         let grid = Arc::new(suite_grid(seed).0);
-        // The moves of N(k) are among those of N(k + 1): few k suffice, and the large ones cost brute force dearly.
+        // The moves of N(k) are among those of N(k + 1): few k suffice, and the large ones cost brute force
+        // dearly.
         let ks: &[u32] = match () {
             () if is_wide(&grid) => &[3, 5],
             () if seed % 8 == 0 => &[2, 3, 8],
@@ -69,8 +70,8 @@ fn legal_moves_are_those_of_brute_force() {
     assert!(legal > 100_000, "only {legal} legal moves were seen");
 }
 
-/// A few blocked cells on a map wider than a word both ways, each second one with a diagonal neighbor: corners to cut, gaps to
-/// slip through.
+/// A few blocked cells on a map wider than a word both ways, each second one with a diagonal neighbor:
+/// corners to cut, gaps to slip through.
 fn sparse_grid(seed: u64) -> Grid {
     let (width, height) = (150, 140);
     let mut rng = mediant_oracle::Rng::new(seed);
@@ -120,7 +121,8 @@ fn long_moves_of_large_k_are_legal_as_brute_force_says() {
             }
         }
     }
-    // The rules of centers differ on these maps. Those of corners cannot: no move has a vertex between its ends.
+    // The rules of centers differ on these maps. Those of corners cannot: no move has a vertex between its
+    // ends.
     let [never, one, always, open, closed] = legal;
     assert!(never < one && one < always && open == closed && open > 10_000, "{legal:?}");
 }
@@ -129,7 +131,8 @@ fn long_moves_of_large_k_are_legal_as_brute_force_says() {
 #[test]
 fn the_corner_rules_hold_in_the_middle_of_long_moves() {
     let k = FiniteK::new(12).expect("k is at least 2");
-    // The corner point is (100, 100). A falling move touches the cells to its upper right and lower left, a rising one the others.
+    // The corner point is (100, 100). A falling move touches the cells to its upper right and lower left, a
+    // rising one the others.
     for (falling, cells) in [(true, [(100, 99), (99, 100)]), (false, [(99, 99), (100, 100)])] {
         for blocked in [&cells[..1], &cells[1..], &cells[..]] {
             let grid = Grid::from_fn(200, 200, |x, y| blocked.contains(&(x, y))).expect("a valid size");
@@ -162,7 +165,8 @@ fn line_of_sight_is_that_of_brute_force() {
     for seed in seeds() {
         let grid = suite_grid(seed).0;
         let all: Vec<Vertex> = vertices(&grid).collect();
-        // Every vertex with a seventh of the others, shifted so that all pairs come up over the seeds; fewer on wide maps.
+        // Every vertex with a seventh of the others, shifted so that all pairs come up over the seeds; fewer
+        // on wide maps.
         let step = if is_wide(&grid) { 61 } else { 7 };
         for rules in Rules::ALL {
             for (i, &from) in all.iter().enumerate() {

@@ -1,4 +1,5 @@
-//! The public items against naive definitions, at the limits of their ranges, and the properties of h_k that need no oracle.
+//! The public items against naive definitions, at the limits of their ranges, and the properties of h_k that
+//! need no oracle.
 
 use std::collections::BTreeSet;
 
@@ -138,8 +139,8 @@ fn canonical_order_is_a_permutation_odd_first() {
     }
 }
 
-/// Kramm's definition: no other move of N(k) is contained by the two. (By the letter two opposite moves, which contain
-/// nothing but themselves, would be adjacent; they are not meant.)
+/// Kramm's definition: no other move of N(k) is contained by the two. (By the letter two opposite moves,
+/// which contain nothing but themselves, would be adjacent; they are not meant.)
 #[test]
 fn adjacent_moves_have_no_move_between_them() {
     for n in 2..=6 {
@@ -337,8 +338,8 @@ fn crate_doc_table_names_the_tests() {
     assert!(tests.len() > 50, "{} tests", tests.len());
 }
 
-/// h_k is a norm with the symmetries of the square, it falls with k towards the Euclidean one, and meets it at multiples
-/// of moves.
+/// h_k is a norm with the symmetries of the square, it falls with k towards the Euclidean one, and meets it
+/// at multiples of moves.
 #[test]
 fn h_is_a_norm() {
     let mut random = Random::new();

@@ -1,4 +1,5 @@
-//! The 2^k neighborhoods as naively as the papers define them, and the plainest shortest-path search over a grid graph.
+//! The 2^k neighborhoods as naively as the papers define them, and the plainest shortest-path search over a
+//! grid graph.
 
 use std::{
     cmp::Reverse,
@@ -62,7 +63,8 @@ pub(crate) fn fibonacci(i: u32) -> i64 {
     this
 }
 
-/// Q(k − 2) by the papers' definition: start with (0, 1), (1, 0); insert the sum between each two, k − 2 times.
+/// Q(k − 2) by the papers' definition: start with (0, 1), (1, 0); insert the sum between each two, k − 2
+/// times.
 pub(crate) fn naive_quadrant(k: u32) -> Vec<Pair> {
     let mut quadrant = vec![(0, 1), (1, 0)];
     for _ in 2..k {
@@ -132,8 +134,8 @@ pub(crate) struct GridGraph {
 }
 
 impl GridGraph {
-    /// By Dijkstra's algorithm, for all vertices of cost at most `reach` times `unit`. No move may cost less than `unit`
-    /// times its larger coordinate: then no such path leaves the square −reach…reach.
+    /// By Dijkstra's algorithm, for all vertices of cost at most `reach` times `unit`. No move may cost less
+    /// than `unit` times its larger coordinate: then no such path leaves the square −reach…reach.
     ///
     /// Costs are lengths or, exactly as long as sums stay below 2⁵³, integers.
     pub(crate) fn new(moves: &BTreeSet<Pair>, reach: i64, unit: f64, cost: impl Fn(Pair) -> f64) -> Self {
@@ -174,7 +176,8 @@ impl GridGraph {
     }
 }
 
-/// SplitMix64 with a fixed seed, which `MEDIANT_SEED` replaces; every message of a test that draws from it names the seed.
+/// SplitMix64 with a fixed seed, which `MEDIANT_SEED` replaces; every message of a test that draws from it
+/// names the seed.
 pub(crate) struct Random {
     pub(crate) seed: u64,
     state: u64,
@@ -193,7 +196,8 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// A vector whose coordinates have up to `max_bits` bits, of all magnitudes, and any signs; at most 31 bits.
+    /// A vector whose coordinates have up to `max_bits` bits, of all magnitudes, and any signs; at most 31
+    /// bits.
     pub(crate) fn vector(&mut self, max_bits: u64) -> Vector {
         let mut coordinate = || {
             let bits = self.bits() % (max_bits + 1);

@@ -126,8 +126,8 @@ fn cost_table_distance_at_the_limits() {
     }
 }
 
-/// c(a) + c(c) − m·c(b) for every move b of the first quadrant but (1, 0), and its neighbors a and c, where m·b = a + c:
-/// by how much a detour over the neighbors costs more.
+/// c(a) + c(c) − m·c(b) for every move b of the first quadrant but (1, 0), and its neighbors a and c, where
+/// m·b = a + c: by how much a detour over the neighbors costs more.
 fn detours(n: u32) -> Vec<i128> {
     let quadrant = Quadrant::new(k(n)).expect("a small k");
     let moves: Vec<Vector> = quadrant.iter().collect();
@@ -145,8 +145,8 @@ fn detours(n: u32) -> Vec<i128> {
         .collect()
 }
 
-/// A function that is linear between neighboring moves and bends nowhere inwards is a norm, so that h_k in rounded costs
-/// is the cheapest path and consistent.
+/// A function that is linear between neighboring moves and bends nowhere inwards is a norm, so that h_k in
+/// rounded costs is the cheapest path and consistent.
 #[test]
 fn cost_table_max_k_is_the_last_that_keeps_the_costs_convex() {
     assert_eq!(CostTable::MAX_K, 18);

@@ -1,5 +1,5 @@
-//! Hormazábal, Díaz, Hernández, Baier 2017, 'Fast and Almost Optimal Any-Angle Pathfinding Using the 2^k Neighborhoods':
-//! each statement that can be executed without obstacles.
+//! Hormazábal, Díaz, Hernández, Baier 2017, 'Fast and Almost Optimal Any-Angle Pathfinding Using the 2^k
+//! Neighborhoods': each statement that can be executed without obstacles.
 
 use crate::common::*;
 use mediant_moves::{

@@ -1,5 +1,6 @@
-//! Kramm, Rivera, Hernández, Baier 2018, 'A Suboptimality Bound for 2^k Grid Path Planning': each statement that can be executed
-//! without obstacles, but for the decomposition (Lemmas 11–13), which has a file of its own.
+//! Kramm, Rivera, Hernández, Baier 2018, 'A Suboptimality Bound for 2^k Grid Path Planning': each statement
+//! that can be executed without obstacles, but for the decomposition (Lemmas 11–13), which has a file of its
+//! own.
 
 use crate::common::*;
 use mediant_moves::{
@@ -57,7 +58,8 @@ fn theorem_1_the_distance_by_the_adjacent_moves_that_contain_the_vertex() {
     }
 }
 
-/// The paper calls the neighborhood that holds (7, 9) the 512-neighborhood; the 256-neighborhood, k = 8, already does.
+/// The paper calls the neighborhood that holds (7, 9) the 512-neighborhood; the 256-neighborhood, k = 8,
+/// already does.
 #[test]
 fn example_factorization_of_7_9() {
     let expected: [[(u32, Pair); 2]; 8] = [
@@ -105,8 +107,8 @@ fn proposition_6_no_move_is_shorter_than_1() {
     }
 }
 
-/// The proof says that the larger factor falls in each round until the smaller one is 0; the exception is the last of
-/// them, from two equal factors (here 1 and 1) to 1 and 0.
+/// The proof says that the larger factor falls in each round until the smaller one is 0; the exception is the
+/// last of them, from two equal factors (here 1 and 1) to 1 and 0.
 #[test]
 fn proposition_7_relative_primes_are_a_move_of_some_neighborhood() {
     for d in first_quadrant(70).filter(|&(p, q)| gcd(p, q) == 1) {
@@ -236,8 +238,9 @@ fn theorem_2_the_bound_falls_quadratically() {
     }
 }
 
-/// The goal must lie on the bisector of (0, 1) and (1, k − 2): (n, ⌊n(s + (k − 2))⌋). The paper's formula has lost a
-/// parenthesis, and as ⌊n·s + (k − 2)⌋ it misses the bound from k = 3 on. Its count of moves (0, 1) lacks the factor k − 2.
+/// The goal must lie on the bisector of (0, 1) and (1, k − 2): (n, ⌊n(s + (k − 2))⌋). The paper's formula has
+/// lost a parenthesis, and as ⌊n·s + (k − 2)⌋ it misses the bound from k = 3 on. Its count of moves (0, 1)
+/// lacks the factor k − 2.
 #[test]
 fn theorem_2_the_bound_is_tight() {
     const N: i32 = 10_000_000;

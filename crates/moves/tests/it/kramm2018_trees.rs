@@ -1,4 +1,5 @@
-//! Kramm 2018, 'Suboptimality Bound for Grids with Obstacles': which cells a move enters, levels and decomposition trees.
+//! Kramm 2018, 'Suboptimality Bound for Grids with Obstacles': which cells a move enters, levels and
+//! decomposition trees.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,7 +13,8 @@ fn less(a: Fraction, b: Fraction) -> bool {
     a.0 * b.1 < b.0 * a.1
 }
 
-/// For which λ the coordinate p + λd lies strictly between c and c + 1: an open interval, none for d = 0 (p is an integer).
+/// For which λ the coordinate p + λd lies strictly between c and c + 1: an open interval, none for d = 0 (p
+/// is an integer).
 fn between(p: i64, d: i64, c: i64) -> Option<(Fraction, Fraction)> {
     match d {
         0 => None,
@@ -21,8 +23,8 @@ fn between(p: i64, d: i64, c: i64) -> Option<(Fraction, Fraction)> {
     }
 }
 
-/// Whether the segment from p to p + m meets the open interior of the cell whose corner nearest to −∞ is c: clip it
-/// against both strips of the cell.
+/// Whether the segment from p to p + m meets the open interior of the cell whose corner nearest to −∞ is c:
+/// clip it against both strips of the cell.
 fn enters(p: Pair, m: Pair, c: Pair) -> bool {
     let (Some(x), Some(y)) = (between(p.0, m.0, c.0), between(p.1, m.1, c.1)) else { return false };
     let lowest = [x.0, y.0, (0, 1)].into_iter().reduce(|a, b| if less(a, b) { b } else { a });
@@ -37,8 +39,8 @@ fn cells(p: Pair, m: Pair) -> BTreeSet<Pair> {
     x.flat_map(|i| y.clone().map(move |j| (i, j))).filter(|&c| enters(p, m, c)).collect()
 }
 
-/// Asserts that following the steps from (0, 0) enters no cell but those given, and runs along no edge that has none of
-/// them on either side (such an edge could lie between two blocked cells).
+/// Asserts that following the steps from (0, 0) enters no cell but those given, and runs along no edge that
+/// has none of them on either side (such an edge could lie between two blocked cells).
 fn assert_stays_in(allowed: &BTreeSet<Pair>, steps: &[Pair], what: &str) {
     let mut at = (0, 0);
     for &step in steps {
@@ -141,8 +143,9 @@ fn naive_splits() -> BTreeMap<Pair, [Pair; 2]> {
     (2..14).flat_map(two).collect()
 }
 
-/// Algorithm 2 as printed, but for the leaves alone, left to right: level by level, each leaf of the level becomes the
-/// two adjacent moves of the level before whose sum it is. The leaves of the trees of all levels, from the move's down to 2.
+/// Algorithm 2 as printed, but for the leaves alone, left to right: level by level, each leaf of the level
+/// becomes the two adjacent moves of the level before whose sum it is. The leaves of the trees of all levels,
+/// from the move's down to 2.
 fn naive_leaves(
     v: Pair,
     levels: &BTreeMap<Pair, u32>,

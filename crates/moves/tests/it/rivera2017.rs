@@ -1,4 +1,5 @@
-//! Rivera, Hernández, Baier 2017, 'Grid Pathfinding on the 2^k Neighborhoods': each statement that can be executed.
+//! Rivera, Hernández, Baier 2017, 'Grid Pathfinding on the 2^k Neighborhoods': each statement that can be
+//! executed.
 //!
 //! The paper's 𝒩^i is `naive_quadrant(i + 2)`.
 
@@ -146,7 +147,8 @@ fn lemma_2_the_index_that_attains_fibonacci() {
     }
 }
 
-/// The linear program has two equations, so some optimum uses two moves: look at all pairs of them (Eq. 11 and 12).
+/// The linear program has two equations, so some optimum uses two moves: look at all pairs of them (Eq. 11
+/// and 12).
 #[test]
 fn theorem_2_the_two_moves_around_a_vertex_are_the_linear_optimum() {
     for n in 2..=14 {
@@ -307,7 +309,8 @@ fn canonical_paths_take_the_odd_move_first() {
     assert_eq!(diagonal, Some((Vector::new(1, 1), 2)), "(1, 1) before (1, 0) on the 8-neighborhood");
 }
 
-/// The parity of a move is the same whether its quadrant is a reflection (the paper's) or a quarter turn (ours).
+/// The parity of a move is the same whether its quadrant is a reflection (the paper's) or a quarter turn
+/// (ours).
 #[test]
 fn canonical_parity_is_that_of_the_first_quadrant() {
     for n in 2..=12 {

@@ -15,8 +15,8 @@ fn k(k: u32) -> Option<FiniteK> {
     Some(FiniteK::new(k).expect("k in a test"))
 }
 
-/// Checks the cost from `s` to `g` on a drawing, both ways; under corner placement these are the upper left corners of the
-/// marked cells.
+/// Checks the cost from `s` to `g` on a drawing, both ways; under corner placement these are the upper left
+/// corners of the marked cells.
 fn check(drawing: &str, rules: Rules, k: Option<FiniteK>, expected: Option<f64>) {
     let map = AsciiMap::parse(drawing).expect("a drawing in a test");
     let (s, g) = map.mark('s').zip(map.mark('g')).expect("both are marked");
@@ -86,7 +86,8 @@ fn known_costs_at_corners() {
 
 #[test]
 fn closed_gaps_are_left_and_entered_through_the_own_quadrant() {
-    // The gap at (1, 1) has its own cell on the lower right; from (0, 0) it is reached only on the other side.
+    // The gap at (1, 1) has its own cell on the lower right; from (0, 0) it is reached only on the other
+    // side.
     let own_free = AsciiMap::parse(".#\n#.").unwrap().grid;
     let at = |x, y| Vertex::new(x, y);
     check_between(&own_free, CLOSED, k(2), (at(1, 1), at(2, 2)), Some(2.0));
@@ -127,8 +128,8 @@ fn blocked_and_outside_vertices_have_no_cost() {
     assert_eq!(graph.free_vertices().collect::<Vec<_>>(), [free]);
 }
 
-/// Every path is legal and as long as its cost says; more moves make no path longer; a goal in sight is straight ahead,
-/// and no path is shorter than a straight line.
+/// Every path is legal and as long as its cost says; more moves make no path longer; a goal in sight is
+/// straight ahead, and no path is shorter than a straight line.
 #[test]
 fn costs_agree_with_paths_with_each_other_and_with_sight() {
     let (mut found, mut in_sight) = (0, 0);
@@ -165,8 +166,8 @@ fn costs_agree_with_paths_with_each_other_and_with_sight() {
     assert_eq!((found > 5000, in_sight > 800), (true, true), "{found} paths, {in_sight} goals in sight");
 }
 
-/// The optimal cost under closed gaps from a search over pairs of consecutive vertices, with [`turn_is_legal`] between
-/// each two steps: no states of quadrants, and no order by cost.
+/// The optimal cost under closed gaps from a search over pairs of consecutive vertices, with
+/// [`turn_is_legal`] between each two steps: no states of quadrants, and no order by cost.
 fn cost_by_pairs(grid: &Grid, k: Option<FiniteK>, start: Vertex, goal: Vertex) -> Option<f64> {
     let mut cost: BTreeMap<(Option<Vertex>, Vertex), f64> = BTreeMap::from([((None, start), 0.0)]);
     let mut changed: VecDeque<_> = cost.keys().copied().collect();

@@ -1,4 +1,5 @@
-//! The generators: the same map for the same seed, the promised sizes, and every kind of trouble among the seeds.
+//! The generators: the same map for the same seed, the promised sizes, and every kind of trouble among the
+//! seeds.
 
 use std::collections::BTreeSet;
 

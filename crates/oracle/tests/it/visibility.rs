@@ -1,4 +1,5 @@
-//! The visibility graph against Dijkstra on the explicit graph of all legal moves, which assumes nothing about optimal paths.
+//! The visibility graph against Dijkstra on the explicit graph of all legal moves, which assumes nothing
+//! about optimal paths.
 
 use mediant_grid::{AsciiMap, DiagonalGap, Grid, PlacementKind, Rules, Vertex};
 use mediant_moves::FiniteK;
@@ -61,7 +62,8 @@ impl Tally {
         }
     }
 
-    /// A path is legal, as long as its cost when measured straight (k = ∞) or else no longer, and bends at corners only.
+    /// A path is legal, as long as its cost when measured straight (k = ∞) or else no longer, and bends at
+    /// corners only.
     fn check_path(
         &mut self,
         grid: &Grid,
@@ -112,7 +114,8 @@ fn exact_on_every_map_of_nine_cells() {
     assert!(tally.bent > 80_000 && tally.bent_at_gap > 30_000 && tally.closed_end > 4000, "{tally:?}");
 }
 
-/// The maps of the suites up to 256 cells, every second one of those that are larger replaced by an adversarial one.
+/// The maps of the suites up to 256 cells, every second one of those that are larger replaced by an
+/// adversarial one.
 #[test]
 fn exact_on_random_maps() {
     let (mut tally, mut maps) = (Tally::default(), 0);
@@ -233,13 +236,14 @@ fn known_costs_at_gaps() {
     check(".#\n#.", (at(1, 1), at(0, 0)), None, [root(2.0), None]);
     check("#.\n.#", (at(1, 1), at(0, 1)), None, [Some(1.0), None]);
     check("#.\n.#", (at(1, 1), at(1, 1)), None, [Some(0.0); 2]);
-    // Both ends at gaps, in one cell across: the upper left one is entered through that cell, the other is not.
+    // Both ends at gaps, in one cell across: the upper left one is entered through that cell, the other is
+    // not.
     check(".#.\n#.#\n.#.", (at(1, 1), at(2, 2)), None, [root(2.0), None]);
     check(".#.\n#.#\n.#.", (at(1, 1), at(2, 1)), None, [Some(1.0), None]);
 }
 
-/// From one corner of a cell to the opposite one, the others being gaps: N(2) has to touch one of these, though it is no
-/// vertex of the graph under closed gaps.
+/// From one corner of a cell to the opposite one, the others being gaps: N(2) has to touch one of these,
+/// though it is no vertex of the graph under closed gaps.
 #[test]
 fn four_connected_costs_lead_past_a_closed_gap() {
     let cell = "##.\n#.#\n.##";

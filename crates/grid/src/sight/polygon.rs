@@ -2,13 +2,14 @@
 
 use crate::{BitRow, Grid, Placement, PlacementKind, Vertex};
 
-/// The cells that a convex polygon between vertices meets: at corners those whose open interior its own meets, at centers those that it touches
-/// at all.
+/// The cells that a convex polygon between vertices meets: at corners those whose open interior its own
+/// meets, at centers those that it touches at all.
 ///
-/// Scan conversion, in half cells: what the polygon covers of a row of cells is what its edges cover there, and all between. Rows are columns of the
-/// map where the polygon is higher than wide, so that there are few of them, and runs of bits in each.
+/// Scan conversion, in half cells: what the polygon covers of a row of cells is what its edges cover there,
+/// and all between. Rows are columns of the map where the polygon is higher than wide, so that there are few
+/// of them, and runs of bits in each.
 #[derive(Clone, Debug, Default)]
-pub struct Cover {
+pub struct PolygonCells {
     transposed: bool,
     /// The first row.
     top: i32,
@@ -16,9 +17,9 @@ pub struct Cover {
     rows: Vec<(i32, i32)>,
 }
 
-impl Cover {
-    /// Covers the polygon, not a flat one, that has these edges and fills the box from `low` to `high`. Lines within the polygon may be
-    /// among the edges, and edges along an axis may be missing.
+impl PolygonCells {
+    /// PolygonCellss the polygon, not a flat one, that has these edges and fills the box from `low` to
+    /// `high`. Lines within the polygon may be among the edges, and edges along an axis may be missing.
     pub fn set<P: Placement>(&mut self, low: Vertex, high: Vertex, edges: &[[Vertex; 2]]) {
         self.transposed = high.y - low.y > high.x - low.x;
         let (first, last) = if self.transposed { (low.x, high.x) } else { (low.y, high.y) };
@@ -67,8 +68,8 @@ impl Cover {
         self.rows(grid).all(|(_, row, first, last)| row.first_blocked(first, last + 1) > last)
     }
 
-    /// Vertices around the first and the last blocked cell of each row: at corners the two outer corners of each, the hull of which is that of all
-    /// blocked cells; at centers the cells around both.
+    /// Vertices around the first and the last blocked cell of each row: at corners the two outer corners of
+    /// each, the hull of which is that of all blocked cells; at centers the cells around both.
     pub fn extremes<P: Placement>(&self, grid: &Grid) -> impl Iterator<Item = Vertex> {
         let ends = self.rows(grid).filter_map(|(y, row, first, last)| {
             let blocked = row.first_blocked(first, last + 1);

@@ -1,6 +1,6 @@
 //! The cells that a polygon meets, against separating lines.
 
-use mediant_grid::{Centers, Corners, Placement, PlacementKind, Vertex, sight::Cover};
+use mediant_grid::{Centers, Corners, Placement, PlacementKind, Vertex, sight::PolygonCells};
 use mediant_oracle::{Rng, random_grid};
 
 /// In half cells, how far a vertex is from the corner of its cell.
@@ -8,7 +8,8 @@ fn half<P: Placement>() -> i32 {
     i32::from(P::KIND == PlacementKind::Center)
 }
 
-/// Whether the triangle and cell (x, y) meet, by separating lines, in half cells: at corners their interiors, at centers both with their rims.
+/// Whether the triangle and cell (x, y) meet, by separating lines, in half cells: at corners their interiors,
+/// at centers both with their rims.
 fn meets<P: Placement>(triangle: [Vertex; 3], x: i32, y: i32) -> bool {
     let t = triangle.map(|at| (i64::from(2 * at.x + half::<P>()), i64::from(2 * at.y + half::<P>())));
     let (x, y) = (i64::from(2 * x), i64::from(2 * y));
@@ -39,7 +40,7 @@ fn check<P: Placement>(seed: u64) -> [usize; 2] {
         if a.to(b).det(a.to(c)) == 0 {
             continue;
         }
-        let mut cover = Cover::default();
+        let mut cover = PolygonCells::default();
         let low = Vertex::new(a.x.min(b.x).min(c.x), a.y.min(b.y).min(c.y));
         let high = Vertex::new(a.x.max(b.x).max(c.x), a.y.max(b.y).max(c.y));
         cover.set::<P>(low, high, &[[a, b], [b, c], [c, a]]);

@@ -17,8 +17,8 @@ pub trait Runs: Copy {
     fn run_start(self, end: i32, to: i32) -> i32;
 }
 
-/// The row of cells that a path enters when it leaves horizontal line `line` downwards (`down` = 1) or upwards (−1). There is one
-/// beyond the last lines, too: it is blocked.
+/// The row of cells that a path enters when it leaves horizontal line `line` downwards (`down` = 1) or
+/// upwards (−1). There is one beyond the last lines, too: it is blocked.
 #[inline]
 pub fn row_ahead(grid: &Grid, line: i32, down: i32) -> BitRow<'_> {
     grid.rows().row(line + (down - 1) / 2)
