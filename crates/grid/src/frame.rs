@@ -4,7 +4,8 @@ use mediant_moves::Vector;
 
 use crate::{Placement, footprint::CellOffset};
 
-/// How the first octant of [`Placement::sweep`] lies on the map: which axis is the long one, and the signs along both.
+/// How the first octant of [`Placement::sweep`] lies on the map: which axis is the long one, and the signs
+/// along both.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     /// Whether the segment is longer down than across, so that the transposed map has its runs of bits.
