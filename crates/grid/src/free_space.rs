@@ -143,10 +143,10 @@ impl<P: Placement> FreeSpace<P> {
         self.gaps.as_ref().is_some_and(|gaps| gaps.get(at.x, at.y))
     }
 
-    /// A set of vertices, as a bit for each in an empty frame: the targets of a
-    /// [`VisibilitySweep`](crate::sight::VisibilitySweep).
+    /// A set of vertices, as one bit each in an empty frame; `contains` is asked once for each vertex, row by
+    /// row. Sets are the targets of a [`VisibilitySweep`](crate::sight::VisibilitySweep).
     #[must_use]
-    pub fn vertex_set(&self, contains: impl Fn(Vertex) -> bool) -> BitMatrix {
+    pub fn vertex_set(&self, mut contains: impl FnMut(Vertex) -> bool) -> BitMatrix {
         BitMatrix::from_words(self.width, self.height, false, |x, y| {
             let vertices = (x..self.width as i32).take(64).map(|x| Vertex::new(x, y));
             vertices.zip(0..).fold(0, |word, (at, bit)| word | u64::from(contains(at)) << bit)

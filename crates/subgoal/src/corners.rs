@@ -97,9 +97,9 @@ impl EdgeFinder for Corners {
         let quadrants = match (kind, tangents) {
             (EdgeKind::Graph, Some([same, _])) => {
                 let tangent = if same.get(from.x, from.y) { 1 } else { -1 };
-                Quadrants::only(tangent, 1).and(Quadrants::LINE)
+                Quadrants::only(tangent, 1).union(Quadrants::LINE)
             }
-            (EdgeKind::Graph, None) => Quadrants::only(1, 1).and(Quadrants::only(-1, 1)),
+            (EdgeKind::Graph, None) => Quadrants::only(1, 1).union(Quadrants::only(-1, 1)),
             // A path leaves a closed gap through the quadrant of the vertex's own cell.
             (EdgeKind::Query, _) if space.is_closed_gap(from) => Quadrants::only(1, 1),
             (EdgeKind::Query, _) => Quadrants::ALL,

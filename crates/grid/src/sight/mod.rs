@@ -11,6 +11,7 @@ mod polygon;
 mod row_summary;
 mod runs;
 mod sweep;
+mod targets;
 
 pub use crate::line_of_sight::{line_of_sight, line_of_sight_under};
 #[doc(hidden)]
@@ -20,4 +21,5 @@ pub use polygon::PolygonCells;
 pub use row_summary::RowSummary;
 #[doc(hidden)]
 pub use runs::{Runs, Window, row_ahead};
-pub use sweep::{Quadrants, Targets, VisibilitySweep};
+pub use sweep::VisibilitySweep;
+pub use targets::{Quadrants, Targets};

@@ -2,24 +2,26 @@
 
 use crate::{BitRow, Grid, Placement, PlacementKind, Vertex};
 
-/// The cells that a convex polygon between vertices meets: at corners those whose open interior its own
-/// meets, at centers those that it touches at all.
+/// The cells that a convex polygon with corners at vertices meets. Under corner placement a cell is met if
+/// the open interiors of both intersect, under center placement if both touch at all.
 ///
-/// Scan conversion, in half cells: what the polygon covers of a row of cells is what its edges cover there,
-/// and all between. Rows are columns of the map where the polygon is higher than wide, so that there are few
-/// of them, and runs of bits in each.
+/// Scan conversion, in units of half a cell: in each row of cells the polygon meets the cells that its edges
+/// meet and all cells between. If the polygon is higher than wide, rows are columns of the map, so that there
+/// are few of them with long runs of bits.
+///
+/// Hidden: the caller must ensure that polygon and box fit together.
 #[derive(Clone, Debug, Default)]
 pub struct PolygonCells {
     transposed: bool,
     /// The first row.
     top: i32,
-    /// For each row the first and the last cell.
+    /// The first and the last cell of each row.
     rows: Vec<(i32, i32)>,
 }
 
 impl PolygonCells {
-    /// PolygonCellss the polygon, not a flat one, that has these edges and fills the box from `low` to
-    /// `high`. Lines within the polygon may be among the edges, and edges along an axis may be missing.
+    /// Takes the polygon with these edges, whose bounding box is from `low` to `high`. Its area must not be
+    /// 0. The edges may include segments within the polygon, and edges along an axis may be left out.
     pub fn set<P: Placement>(&mut self, low: Vertex, high: Vertex, edges: &[[Vertex; 2]]) {
         self.transposed = high.y - low.y > high.x - low.x;
         let (first, last) = if self.transposed { (low.x, high.x) } else { (low.y, high.y) };
@@ -39,7 +41,8 @@ impl PolygonCells {
     /// Adds the cells along the edge from a down to b.
     fn add_edge<P: Placement>(&mut self, a: (i32, i32), b: (i32, i32)) {
         let (dx, dy) = (2 * (b.0 - a.0), 2 * (b.1 - a.1));
-        // From a row to the next one it is two half cells, but at centers the edge begins and ends half way.
+        // From one row to the next it is two half cells, but at centers the edge begins and ends in the
+        // middle of a row.
         let [one, two] = [dx, 2 * dx].map(|dx| (dx.div_euclid(dy), dx.rem_euclid(dy)));
         let (mut y, end) = (2 * a.1 + half::<P>(), 2 * b.1 + half::<P>());
         // The edge is at x + rest / dy.
@@ -63,13 +66,14 @@ impl PolygonCells {
         }
     }
 
-    /// Whether no cell is blocked.
+    /// Whether all cells of the polygon are free.
     pub fn is_free(&self, grid: &Grid) -> bool {
         self.rows(grid).all(|(_, row, first, last)| row.first_blocked(first, last + 1) > last)
     }
 
-    /// Vertices around the first and the last blocked cell of each row: at corners the two outer corners of
-    /// each, the hull of which is that of all blocked cells; at centers the cells around both.
+    /// Vertices around the first and the last blocked cell of each row. At corners: the outer corners of
+    /// both, so that the convex hull of the result is that of all blocked cells. At centers: the cells around
+    /// both.
     pub fn extremes<P: Placement>(&self, grid: &Grid) -> impl Iterator<Item = Vertex> {
         let ends = self.rows(grid).filter_map(|(y, row, first, last)| {
             let blocked = row.first_blocked(first, last + 1);
@@ -91,7 +95,7 @@ impl PolygonCells {
     }
 }
 
-/// In half cells, how far a vertex is from the corner of its cell.
+/// The offset of a vertex from the top left corner of its cell, in half cells.
 const fn half<P: Placement>() -> i32 {
     match P::KIND {
         PlacementKind::Corner => 0,

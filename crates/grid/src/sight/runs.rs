@@ -1,4 +1,4 @@
-//! A row of cells, read by words of 64.
+//! Runs of free cells in a row, read 64 cells at a time.
 
 use crate::{BitRow, Grid};
 
@@ -18,7 +18,7 @@ pub trait Runs: Copy {
 }
 
 /// The row of cells that a path enters when it leaves horizontal line `line` downwards (`down` = 1) or
-/// upwards (−1). There is one beyond the last lines, too: it is blocked.
+/// upwards (−1). Beyond the first and the last line that is a row of the blocked frame.
 #[inline]
 pub fn row_ahead(grid: &Grid, line: i32, down: i32) -> BitRow<'_> {
     grid.rows().row(line + (down - 1) / 2)
@@ -46,7 +46,7 @@ impl Runs for BitRow<'_> {
     }
 }
 
-/// 64 cells of a row, loaded once. Only columns among them may be asked for.
+/// 64 cells of a row, loaded once. It answers for columns among them only.
 #[derive(Clone, Copy, Debug)]
 pub struct Window {
     blocked: u64,
@@ -54,7 +54,7 @@ pub struct Window {
 }
 
 impl Window {
-    /// How many columns it has.
+    /// The number of columns.
     pub const WIDTH: i32 = 64;
 
     /// The cells from column `first` on.
@@ -63,7 +63,7 @@ impl Window {
         Self { blocked: row.word(first), first }
     }
 
-    /// The cells from a column on, that first.
+    /// The cells from a column on, lowest bit first.
     #[inline]
     const fn from(self, column: i32) -> u64 {
         self.blocked >> (column - self.first)

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use mediant_grid::{
-    BitMatrix, Corners, DiagonalGap, FreeSpace, Grid, Rules, Vertex,
+    Corners, DiagonalGap, FreeSpace, Grid, Rules, Vertex,
     sight::{Quadrants, RowSummary, Targets, VisibilitySweep},
 };
 use mediant_oracle::{Rng, describe, noise, random_free_vertex, rooms, seeds, suite_grid};
 
-/// Wide rooms with few obstacles, which beams leap through, among the maps of the other suites.
+/// Wide rooms with few obstacles, which a sweep crosses eight rows at a time, among the maps of the other suites.
 fn draw(seed: u64) -> Grid {
     let mut rng = Rng::new(seed);
     let mut side = || 10 + rng.below(90);
@@ -39,28 +39,21 @@ fn is_corner(grid: &Grid, at: Vertex) -> bool {
     blocked == 1 || grid.is_gap(at)
 }
 
-fn marks(space: &FreeSpace<Corners>, mut marked: impl FnMut(Vertex) -> bool) -> BitMatrix {
-    let (width, height) = (space.grid().width() + 1, space.grid().height() + 1);
-    BitMatrix::from_words(width, height, false, |x, y| {
-        (0..64.min(width as i32 - x)).map(|i| u64::from(marked(Vertex::new(x + i, y))) << i).sum()
-    })
-}
-
-/// Looks from a vertex; how many targets there were, and how many of them are seen and found.
+/// Looks from some vertices. Returns the number of targets, and of those that are seen and found.
 fn check(space: &FreeSpace<Corners>, seed: u64, rng: &mut Rng) -> [u64; 2] {
     let grid = space.grid();
-    let bands = RowSummary::new(grid);
+    let summary = RowSummary::new(grid);
     let is_target = |at| is_corner(grid, at) && !space.is_closed_gap(at);
     let every = rng.below(3);
-    let [same, opposite] = [0, 1].map(|_| marks(space, |at| is_target(at) && rng.below(3) >= every));
+    let [same, opposite] = [0, 1].map(|_| space.vertex_set(|at| is_target(at) && rng.below(3) >= every));
     let rules = Rules::Corner(space.rule());
-    let mut fan = VisibilitySweep::default();
+    let mut sweep = VisibilitySweep::default();
     let mut counts = [0, 0];
     for _ in 0..12 {
         let Some(from) = random_free_vertex(rng, grid, rules.placement()) else { break };
         let pick = [(1, 1), (1, -1), (-1, 1), (-1, -1)].into_iter().filter(|_| rng.below(4) > 0);
         let chosen: Vec<_> = pick.collect();
-        let Some(quadrants) = chosen.iter().map(|&(x, y)| Quadrants::only(x, y)).reduce(Quadrants::and)
+        let Some(quadrants) = chosen.iter().map(|&(x, y)| Quadrants::only(x, y)).reduce(Quadrants::union)
         else {
             continue;
         };
@@ -69,10 +62,10 @@ fn check(space: &FreeSpace<Corners>, seed: u64, rng: &mut Rng) -> [u64; 2] {
         }
         let mut found = Vec::new();
         let targets = Targets { same: &same, opposite: &opposite };
-        fan.seen(space, &bands, targets, from, quadrants, |at| found.push(at));
+        sweep.seen(space, &summary, targets, from, quadrants, |at| found.push(at));
         found.sort_by_key(|at| (at.y, at.x));
         let case = |at| describe(grid, rules, from, at, seed);
-        assert!(found.windows(2).all(|two| two[0] != two[1]), "told twice: {}", case(from));
+        assert!(found.windows(2).all(|two| two[0] != two[1]), "reported twice: {}", case(from));
         for y in 0..=grid.height() as i32 {
             for at in (0..=grid.width() as i32).map(|x| Vertex::new(x, y)) {
                 let d = from.to(at);
@@ -91,7 +84,7 @@ fn check(space: &FreeSpace<Corners>, seed: u64, rng: &mut Rng) -> [u64; 2] {
                 let is_behind = (1..steps).any(|i| is_corner(grid, on_ray(i)));
                 let (is_seen, is_found) = (space.sees(from, at), found.contains(&at));
                 assert!(is_seen || !is_found, "{at} is not seen: {}", case(at));
-                // Along a border of what is asked for, only the cells on the inner side count.
+                // Along the border of the given quadrants, only the cells on the inner side count.
                 let is_border = d.x == 0 && chosen.iter().filter(|(_, y)| y * d.y > 0).count() < 2;
                 assert!(is_found || !is_seen || is_behind || is_border, "{at} is not found: {}", case(at));
                 counts[0] += 1;
