@@ -6,13 +6,22 @@ use crate::sqrt::sqrt;
 
 /// An integer vector: a displacement between two vertices or, when [`is_move`](Self::is_move), a move.
 ///
-/// Its order is by `x`, then `y`: good for sorted containers, without geometric meaning. For the angular
-/// order see [`precedes`](Self::precedes).
+/// Vectors are ordered by `x`, then `y`, for use in sorted containers. For the order by angle see
+/// [`precedes`](Self::precedes). Sums, products and turns overflow as those of `i32` do.
+///
+/// ```
+/// use mediant_moves::Vector;
+/// let (u, v) = (Vector::new(1, 2), Vector::new(1, 1));
+/// assert!(u.is_move() && u.precedes(v));
+/// assert_eq!(u + v, Vector::new(2, 3));
+/// assert_eq!(u.det(v), -1);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Vector {
-    /// To the right, in cells.
+    /// The component to the right, in cells.
     pub x: i32,
-    /// Down on a map (up in the papers, which changes nothing: every neighborhood is symmetric), in cells.
+    /// The component downwards, in cells. (Upwards in the papers, which makes no difference: every
+    /// neighborhood is symmetric.)
     pub y: i32,
 }
 
@@ -71,7 +80,7 @@ impl Vector {
         a
     }
 
-    /// Whether this is a move: no multiple of another integer vector (gcd 1).
+    /// Whether this is a move: a vector with gcd 1, which is no multiple of a shorter integer vector.
     #[must_use]
     pub const fn is_move(self) -> bool {
         self.gcd() == 1
