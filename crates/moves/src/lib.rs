@@ -78,7 +78,7 @@
 //! | Theorem 2: it returns h_k | `hormazabal2017::theorem_2_the_iterative_algorithm_is_the_distance` |
 //! | … for every `i32` displacement, to k = 100 and at k = 2³² − 1 | `hormazabal2017::theorem_2_holds_for_any_k_and_any_displacement` |
 //! | … as do table and linear search | `hormazabal2017::theorem_2_the_linear_search_finds_the_same_beyond_small_displacements` |
-//! | 65–75 % of the linear search's time | `cargo xtask reproduce-tables --only hormazabal2017-distance`; see [`distance()`] |
+//! | 65–75 % of the linear search's time | `cargo xtask reproduce-tables --only hormazabal2017-distance`; figures in `docs/measurements/moves.md` |
 //!
 //! Kramm, Rivera, Hernández, Baier 2018, 'A Suboptimality Bound for 2^k Grid Path Planning':
 //!

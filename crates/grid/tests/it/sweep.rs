@@ -8,7 +8,8 @@ use mediant_grid::{
 };
 use mediant_oracle::{Rng, describe, noise, random_free_vertex, rooms, seeds, suite_grid};
 
-/// Wide rooms with few obstacles, which a sweep crosses eight rows at a time, among the maps of the other suites.
+/// Wide rooms with few obstacles, which a sweep crosses eight rows at a time, among the maps of the other
+/// suites.
 fn draw(seed: u64) -> Grid {
     let mut rng = Rng::new(seed);
     let mut side = || 10 + rng.below(90);

@@ -61,6 +61,17 @@ fn quadrant_moves_recurrence_is_the_insertion() {
     }
 }
 
+/// Also where the moves of a quadrant are more than a 32-bit `usize` can count.
+#[test]
+fn neighborhoods_list_their_moves_by_index() {
+    for n in [2, 3, 8, 33, 34, 47] {
+        let moves = neighborhood(n);
+        let listed: Vec<Vector> = moves.iter().take(300).collect();
+        let expected: Vec<Vector> = (0..300).map_while(|index| moves.get(index)).collect();
+        assert_eq!(listed, expected, "k = {n}");
+    }
+}
+
 #[test]
 fn quadrant_index_and_move_are_inverse() {
     for n in 2..=12 {
