@@ -40,19 +40,19 @@ fn check<P: Placement>(seed: u64) -> [usize; 2] {
         if a.to(b).det(a.to(c)) == 0 {
             continue;
         }
-        let mut cover = PolygonCells::default();
+        let mut polygon = PolygonCells::default();
         let low = Vertex::new(a.x.min(b.x).min(c.x), a.y.min(b.y).min(c.y));
         let high = Vertex::new(a.x.max(b.x).max(c.x), a.y.max(b.y).max(c.y));
-        cover.set::<P>(low, high, &[[a, b], [b, c], [c, a]]);
-        // The rows of a cover are columns of the map where the polygon is higher than wide.
+        polygon.set::<P>(low, high, &[[a, b], [b, c], [c, a]]);
+        // Rows are columns of the map where the polygon is higher than wide.
         let transposed = high.y - low.y > high.x - low.x;
         let cells = (0..grid.height() as i32).flat_map(|y| (0..grid.width() as i32).map(move |x| (x, y)));
         let blocked: Vec<(i32, i32)> =
             cells.filter(|&(x, y)| grid.is_blocked(x, y) && meets::<P>([a, b, c], x, y)).collect();
         let case = format!("seed {seed}: {a} {b} {c}");
-        assert_eq!(cover.is_free(&grid), blocked.is_empty(), "{case}");
+        assert_eq!(polygon.is_free(&grid), blocked.is_empty(), "{case}");
         // Each extreme corner is one of a blocked cell, and in its row, or column, none lies beyond it.
-        let corners: Vec<Vertex> = cover.extremes::<Corners>(&grid).collect();
+        let corners: Vec<Vertex> = polygon.extremes::<Corners>(&grid).collect();
         let all = blocked.iter().flat_map(|&(x, y)| [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)]);
         let all: Vec<Vertex> = all.map(Vertex::from).collect();
         assert!(corners.iter().all(|at| all.contains(at)), "{case}");
