@@ -1,32 +1,33 @@
-//! The engines, and what A* is made of, on two generated maps: whole queries for every k that an engine takes up to 8, the generation of
-//! successors, and the open list. What these times are good for is the comparison of one revision with another.
+//! Benchmarks on two generated maps: whole queries of each engine for every k that it takes up to 8 and for
+//! any-angle paths, the generation of successors, and the open list. Use these times only to compare one
+//! revision with another.
 
 use std::{hint::black_box, sync::Arc};
 
 use criterion::{BenchmarkId, Criterion, Throughput};
-use mediant_engines::{Engine, Ground, Preprocessing, Setup, SharedRules, Visit, with_planner_on};
+use mediant_engines::{EngineKind, Index, SearchSpace, Setup, SharedRules};
 use mediant_grid::{
     Centers, CornerRule, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vertex, VertexId,
 };
 use mediant_moves::{Cost, FiniteK, K};
 use mediant_oracle::{Rng, caves, noise, random_free_vertex};
-use mediant_search::{Entry, OpenList, Planner, Query};
+use mediant_search::{Entry, OpenList, Query};
 
 const SEED: u64 = 1;
 const SIDE: u32 = 160;
 const QUERIES: usize = 10;
 const ENTRIES: u32 = 4096;
-const ENGINES: [Engine; 10] = [
-    Engine::AStar,
-    Engine::Canonical,
-    Engine::Jps,
-    Engine::JpsBlock,
-    Engine::JpsPlus,
-    Engine::Theta,
-    Engine::LazyTheta,
-    Engine::Anya,
-    Engine::Subgoal,
-    Engine::SubgoalTheta,
+const ENGINES: [EngineKind; 10] = [
+    EngineKind::AStar,
+    EngineKind::Canonical,
+    EngineKind::Jps,
+    EngineKind::JpsBlock,
+    EngineKind::JpsPlus,
+    EngineKind::Theta,
+    EngineKind::LazyTheta,
+    EngineKind::Anya,
+    EngineKind::Subgoal,
+    EngineKind::SubgoalTheta,
 ];
 const RULES: [Rules; 2] = [Rules::Center(CornerRule::Never), Rules::Corner(DiagonalGap::Open)];
 
@@ -62,46 +63,30 @@ fn grid_graph<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: u32) -> GridGrap
     GridGraph::new(Arc::clone(grid), k, rule).expect("k is at most 12")
 }
 
-/// The same queries for every k, all of them solvable.
-fn random_queries(grid: &Grid, ground: &Ground) -> Vec<Query> {
-    let (mut rng, placement) = (Rng::new(SEED), ground.rules().placement());
+/// Random queries, the same for every k. All of them have a path.
+fn random_queries(grid: &Grid, space: &SearchSpace) -> Vec<Query> {
+    let (mut rng, placement) = (Rng::new(SEED), space.rules().placement());
     let mut end = || random_free_vertex(&mut rng, grid, placement).expect("the map has free cells");
     let pairs = std::iter::repeat_with(|| (end(), end()));
-    let connected = pairs.filter(|&(start, goal)| ground.connected(start, goal));
+    let connected = pairs.filter(|&(start, goal)| space.connected(start, goal));
     connected.take(QUERIES).map(|(start, goal)| Query::new(start, goal)).collect()
 }
 
-/// The time of all queries, on a warm planner.
+/// Benchmarks all queries together, on a warm planner.
 fn queries(c: &mut Criterion, setup: Setup, map: &str, grid: &Arc<Grid>, rules: &SharedRules) {
-    let ground = Ground::new(setup, grid).expect("the setup was checked");
-    let queries = random_queries(grid, &ground);
-    let name = format!("{}/{}/{map}", setup.engine, setup.rules.placement());
-    let bench = Bench { c, name, k: setup.k, queries };
-    with_planner_on(setup, &ground, rules.prebuilt(setup), bench).expect("the setup was checked");
+    let space = SearchSpace::new(setup, grid).expect("the setup was checked");
+    let queries = random_queries(grid, &space);
+    let index = Index::new(setup, &space, rules).expect("the setup was checked");
+    let mut planner = index.planner().expect("the index is the engine's");
+    let mut group = c.benchmark_group(format!("{}/{}/{map}", setup.engine.kind(), setup.rules.placement()));
+    group.throughput(Throughput::Elements(queries.len() as u64));
+    group.bench_function(BenchmarkId::from_parameter(setup.k), |b| {
+        b.iter(|| queries.iter().for_each(|&query| _ = black_box(planner.solve(black_box(query)))));
+    });
+    group.finish();
 }
 
-struct Bench<'c> {
-    c: &'c mut Criterion,
-    name: String,
-    k: K,
-    queries: Vec<Query>,
-}
-
-impl Visit for Bench<'_> {
-    type Output = ();
-
-    fn visit<P: Planner>(self, mut planner: P, _: Preprocessing) {
-        let Self { c, name, k, queries } = self;
-        let mut group = c.benchmark_group(name);
-        group.throughput(Throughput::Elements(queries.len() as u64));
-        group.bench_function(BenchmarkId::from_parameter(k), |b| {
-            b.iter(|| queries.iter().for_each(|&query| _ = black_box(planner.solve(black_box(query)))));
-        });
-        group.finish();
-    }
-}
-
-/// The time of finding all legal moves of all free vertices, row by row.
+/// Benchmarks the legal moves of all free vertices, row by row.
 fn successors<P: Placement>(c: &mut Criterion, map: &str, grid: &Arc<Grid>, rule: P::Rule, k: u32) {
     let grid_graph = grid_graph::<P>(grid, rule, k);
     let (width, height) = P::vertices(grid);
@@ -121,7 +106,7 @@ fn successors<P: Placement>(c: &mut Criterion, map: &str, grid: &Arc<Grid>, rule
     group.finish();
 }
 
-/// The time of pushing random entries, lowering every second one, and popping all.
+/// Benchmarks the open list: pushes random entries, decreases every second one, pops all.
 fn heap(c: &mut Criterion) {
     let mut rng = Rng::new(SEED);
     let mut cost = || Cost::from_bits(1 << 40 | rng.bits() >> 24);

@@ -1,4 +1,5 @@
-//! Two crates that everyone can run, as the measure between this machine and the one of the reference timings.
+//! The baselines: two crates that everyone can run. They ran on the machine of the reference timings too, so
+//! that their times tell how much slower or faster this machine is.
 
 use std::{cmp::Ordering, ops::Add};
 
@@ -8,13 +9,14 @@ use mediant_grid::{Grid, Vertex};
 use mediant_search::Query;
 use pathfinding::{num_traits::Zero, prelude::astar};
 
-/// A crate that was measured together with the reference timings.
+/// A crate that was timed together with the programs of the reference timings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Baseline {
-    /// `pathfinding::astar` on nodes `(u16, u16)` with costs in f64 and the octile heuristic; no corner is cut, so it
-    /// solves k = 3 at centers under `Never`.
+    /// `pathfinding::astar` on nodes `(u16, u16)`, with costs in `f64` and the octile heuristic. It solves k
+    /// = 3 at centers under `Never`: no corner is cut.
     Pathfinding,
-    /// `grid_pathfinding::PathingGrid::get_path_single_goal`, which cuts corners: only its time compares.
+    /// `grid_pathfinding::PathingGrid::get_path_single_goal`. It cuts corners: only its time is compared, not
+    /// its paths.
     GridPathfinding,
 }
 
@@ -32,7 +34,7 @@ impl Baseline {
     }
 }
 
-/// A finite cost with the order that `pathfinding` asks for.
+/// The length of a path, finite, with the total order that `pathfinding` asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Length(pub(crate) f64);
 
@@ -67,7 +69,7 @@ impl Zero for Length {
     }
 }
 
-/// A map as a plain array, one `bool` a cell.
+/// A map as a plain array, one `bool` for each cell.
 pub(crate) struct BoolMap {
     width: i32,
     height: i32,
@@ -88,7 +90,8 @@ impl BoolMap {
         inside && !self.blocked[(y * self.width + x) as usize]
     }
 
-    /// The ways on from a cell: a diagonal one only where both cells beside it are free.
+    /// The successors of a cell and the lengths of the steps to them. A diagonal step needs both cells beside
+    /// it free.
     fn successors(&self, (x, y): Cell) -> Vec<(Cell, Length)> {
         let (x, y) = (i32::from(x), i32::from(y));
         let mut found = Vec::with_capacity(8);
@@ -103,7 +106,7 @@ impl BoolMap {
         found
     }
 
-    /// A shortest path cell by cell and its length. The ends must be on the map.
+    /// A shortest path cell by cell, and its length. Start and goal must be on the map.
     pub(crate) fn solve(&self, query: Query) -> Option<(Vec<Cell>, Length)> {
         let cell = |at: Vertex| (at.x as u16, at.y as u16);
         let goal = cell(query.goal);
@@ -115,7 +118,7 @@ impl BoolMap {
     }
 }
 
-/// The map as `grid_pathfinding` wants it.
+/// A map as `grid_pathfinding` takes it.
 pub(crate) fn pathing_grid(grid: &Grid) -> PathingGrid {
     let mut pathing = PathingGrid::new(grid.width() as usize, grid.height() as usize, false);
     for y in 0..grid.height() as i32 {
@@ -129,7 +132,7 @@ pub(crate) fn pathing_grid(grid: &Grid) -> PathingGrid {
     pathing
 }
 
-/// A path cell by cell.
+/// A path of `grid_pathfinding`, cell by cell.
 pub(crate) fn solve_on(pathing: &PathingGrid, query: Query) -> Option<Vec<Point>> {
     let point = |at: Vertex| Point::new(at.x, at.y);
     pathing.get_path_single_goal(point(query.start), point(query.goal), false)

@@ -1,4 +1,4 @@
-//! Our ratio to programs that were measured elsewhere.
+//! Ratios of the times here to the scaled times of programs that were measured elsewhere.
 
 use mediant_report::stats::geometric_mean;
 use serde::Serialize;
@@ -10,29 +10,33 @@ use crate::{Baseline, MapRecord, ReferenceTimings, Timing};
 pub struct Comparison {
     /// The map's name, without extension.
     pub map: String,
-    /// Who is compared.
+    /// The competitor's name.
     pub competitor: String,
-    /// How much slower this machine was than the reference machine's, on this map: the geometric mean over both baselines of the time here
-    /// by the time there.
+    /// How much slower this machine was than the reference machine on this map: the time here divided by the
+    /// time there, the geometric mean over both baselines.
     pub scale: f64,
-    /// The competitor's time by the scaled time of each program, in the order of [`ReferenceTimings::programs`]; below 1, the competitor
-    /// is faster. `None` where the program has no figure.
+    /// The competitor's time divided by the scaled time of each program, in the order of
+    /// [`ReferenceTimings::programs`]. Below 1, the competitor is faster. `None` where the program has no
+    /// figure.
     pub ratios: Vec<Option<f64>>,
-    /// The same of what comes before the first query. `None` where the program has no figure, or did not finish.
+    /// The same for the preparation before the first query. `None` where the program has no figure, or did
+    /// not finish.
     pub preparation: Vec<Option<PreparationRatio>>,
 }
 
-/// What a competitor takes before the first query by what another program takes.
+/// The time and memory of a competitor's preparation, divided by those of another program.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PreparationRatio {
-    /// Our time by its scaled time.
+    /// The competitor's time divided by the program's scaled time.
     pub time: f64,
-    /// Our memory by its file; `None` of an index that it keeps in memory.
+    /// The competitor's memory divided by the size of the program's index file; `None` if the program writes
+    /// none.
     pub bytes: Option<f64>,
 }
 
 impl Comparison {
-    /// Compares a timing with the reference timings of its map; `None` for a map without reference timings or a record without both baselines.
+    /// Compares a timing with the reference timings of its map. `None` for a map without them, or a record
+    /// without both baselines.
     #[must_use]
     pub fn new(references: &ReferenceTimings, record: &MapRecord, timing: &Timing) -> Option<Self> {
         let row = references.map(&record.map)?;
@@ -76,7 +80,8 @@ mod tests {
 
     #[test]
     fn references_are_scaled_by_both_baselines() {
-        // arena2: twice and eight times the reference machine's 1522 and 108 µs make a machine that is four times as slow.
+        // arena2: twice and eight times the reference machine's 1522 and 108 µs make a machine that is four
+        // times as slow.
         let timings =
             vec![timing("astar", 1464.0), timing("pathfinding", 3044.0), timing("grid_pathfinding", 864.0)];
         let mut record = MapRecord { map: "arena2".to_owned(), set: "dao".to_owned(), instances: 1, timings };

@@ -1,10 +1,10 @@
-//! Whoever takes part in a measurement, behind one face.
+//! The competitors of a measurement, behind one interface.
 
-use std::fmt;
+use std::{fmt, time::Instant};
 
 use grid_pathfinding::PathingGrid;
 use grid_util::point::Point;
-use mediant_engines::{EngineError, Setup, SharedRules, Solver};
+use mediant_engines::{BoxedPlanner, EngineError, Index, SearchSpace, Setup, SharedRules};
 use mediant_search::{Outcome, Query, QueryError};
 
 use crate::{
@@ -15,7 +15,7 @@ use crate::{
 /// The pruning rules that the maps have in common.
 static RULES: SharedRules = SharedRules::new();
 
-/// Whoever takes part in a measurement.
+/// A competitor of a measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Competitor {
     /// One of our engines.
@@ -33,9 +33,10 @@ impl fmt::Display for Competitor {
     }
 }
 
-/// What answers queries. A baseline keeps no scratch memory here: it takes it anew for each query, or hides it.
+/// A competitor made ready for the queries of one map. Only ours keep scratch memory: a baseline allocates it
+/// for each query, or hides it.
 pub(crate) enum Runner {
-    Ours(Solver),
+    Ours(BoxedPlanner, Preparation),
     Bools(BoolMap),
     Pathing(Box<PathingGrid>),
 }
@@ -51,22 +52,30 @@ impl Runner {
     pub(crate) fn new(competitor: Competitor, problem: &Problem) -> Result<Self, EngineError> {
         let grid = &problem.grid;
         Ok(match competitor {
-            Competitor::Ours(setup) => Self::Ours(Solver::new(setup, grid, RULES.prebuilt(setup))?),
+            Competitor::Ours(setup) => {
+                let begin = Instant::now();
+                let space = SearchSpace::new(setup, grid)?;
+                let index = Index::new(setup, &space, &RULES)?;
+                let seconds = begin.elapsed().as_secs_f64();
+                let bytes = space.memory_bytes() + index.memory_bytes();
+                Self::Ours(index.planner()?, Preparation { seconds, bytes })
+            }
             Competitor::Baseline(Baseline::Pathfinding) => Self::Bools(BoolMap::new(grid)),
             Competitor::Baseline(Baseline::GridPathfinding) => Self::Pathing(Box::new(pathing_grid(grid))),
         })
     }
 
-    /// What was made before the first query; `None` of a baseline.
+    /// The preparation before the first query; `None` for a baseline.
     pub(crate) fn preparation(&self) -> Option<Preparation> {
-        let Self::Ours(solver) = self else { return None };
-        let made = solver.preprocessing();
-        Some(Preparation { seconds: made.time.as_secs_f64(), bytes: made.index_bytes })
+        match self {
+            Self::Ours(_, preparation) => Some(*preparation),
+            Self::Bools(_) | Self::Pathing(_) => None,
+        }
     }
 
     pub(crate) fn solve(&mut self, query: Query) -> Result<Answer, QueryError> {
         Ok(match self {
-            Self::Ours(solver) => Answer::Outcome(solver.solve(query)?),
+            Self::Ours(planner, _) => Answer::Outcome(planner.solve(query)?),
             Self::Bools(map) => Answer::Cells(map.solve(query)),
             Self::Pathing(pathing) => Answer::Points(solve_on(pathing, query)),
         })

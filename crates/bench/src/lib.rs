@@ -1,22 +1,23 @@
-//! Our engines beside other programs: on the same instances, in the same process, and, by way of two crates that run
-//! there too, on the same scale as programs that do not.
+//! Benchmarks of our engines beside other programs, on the same instances. Two other crates run in the same
+//! process. They also ran beside the programs that we timed elsewhere, so that these can be compared as well.
 //!
-//! **The key decision: ratios, never times.** A machine is not the same from one day to the next. So [`measure`] takes
-//! the competitors in turn, pass by pass, and drift meets all of them alike; and the figures of `benchdata/reference_timings.json`,
-//! which other programs took on another machine, are scaled by what the two [`Baseline`]s take there and here before
-//! [`Comparison`] divides by them.
+//! **The key decision: ratios, never times.** A machine is not equally fast from one day to the next. So
+//! [`measure`] runs the competitors in turn, pass by pass, and a drift affects all of them alike. The times
+//! of programs on another machine, in `benchdata/reference_timings.json`, are scaled by the times of the two
+//! [`Baseline`]s there and here, before [`Comparison`] divides by them.
 //!
-//! Nothing is timed that was not checked: a path that is not as long as the scenario says is an error, not a result.
+//! Nothing is timed before it is checked: a path of the wrong length is an error, not a result.
 //!
-//! * [`Problem`]: a map of a benchmark set with the queries of its scenario, loaded.
+//! * [`Problem`]: a map of a benchmark set with the queries of its scenario.
 //! * [`Competitor`]: one of our engines in a [`Setup`](mediant_engines::Setup), or a baseline.
-//! * [`measure`]: the side by side. [`MapRecord`]: what it found.
-//! * [`Study`]: setups on the queries of one map, with all that their searches count. [`Run`]: what one of them made of these.
-//! * [`ReferenceTimings`], [`Comparison`]: the other programs, and our ratio to each.
-//! * [`compare`] and [`verify`]: the programs behind `cargo xtask compare` and `cargo xtask verify`. `verify` measures no time,
-//!   but needs the same: all engines, and the benchmark sets.
+//! * [`measure`]: checks and times competitors side by side; [`MapRecord`]: the times.
+//! * [`Study`]: runs setups on the queries of one map; [`Run`]: the answers of one of them, with all counts of its searches.
+//! * [`ReferenceTimings`]: the times of other programs; [`Comparison`]: our ratio to each.
+//! * [`compare`] and [`verify`]: the programs behind `cargo xtask compare` and `cargo xtask verify`. `verify`
+//!   measures no time, but needs the same: all engines, and the benchmark sets.
 //!
-//! What is not here: tables and files of results (`mediant-report`, `mediant-papers`), and the criterion benches, which are in `benches/`.
+//! What is not here: the benchmark sets (`mediant-sets`), and tables and files of results (`mediant-report`,
+//! `mediant-papers`). The criterion benches are in `benches/`.
 
 mod baseline;
 pub mod compare;
@@ -36,6 +37,7 @@ pub use competitor::Competitor;
 pub use measure::{MapRecord, MeasureError, Preparation, Timing, measure};
 pub use problem::{Problem, ProblemError};
 pub use reference_timings::{
-    Comparand, MapTimings, Preprocessing, Published, PublishedRow, ReferenceTimings, ReferenceTimingsError,
+    MapTimings, Preprocessing, Published, PublishedRow, ReferenceProgram, ReferenceTimings,
+    ReferenceTimingsError,
 };
 pub use study::{Answer, Run, Study};

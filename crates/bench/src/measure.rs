@@ -1,4 +1,4 @@
-//! The side by side: check, then time, all competitors in turn.
+//! Competitors side by side: all are checked, then timed in turn.
 
 use std::{hint::black_box, time::Instant};
 
@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use crate::{Baseline, Competitor, Problem, competitor::Runner};
 
-/// What all competitors took on one map.
+/// The times of all competitors on one map.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MapRecord {
     /// The map's name, without extension.
@@ -25,82 +25,83 @@ pub struct MapRecord {
     pub timings: Vec<Timing>,
 }
 
-/// What one competitor took.
+/// The times of one competitor.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Timing {
-    /// Who.
+    /// The competitor's name.
     pub competitor: String,
     /// The mean time of a query in microseconds, paths included: the median over the passes.
     pub micros: f64,
-    /// The mean of each pass.
+    /// The mean time of a query in each pass, in microseconds.
     pub passes: Vec<f64>,
     /// The mean length of the paths, in cells.
     pub mean_cost: f64,
-    /// What came before the first query; `None` of a baseline.
+    /// The preparation before the first query; `None` for a baseline.
     pub preparation: Option<Preparation>,
 }
 
-/// What one of our engines makes of a map before its first query: the search graph and its index.
+/// The preparation of one of our engines before its first query: its search space and index.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Preparation {
-    /// The time, measured once.
+    /// The time in seconds, measured once.
     pub seconds: f64,
-    /// The memory beyond the map.
+    /// The memory in bytes, without the map.
     pub bytes: u64,
 }
 
-/// A competitor that could not be measured, or answered wrong.
+/// A competitor that could not be measured, or gave a wrong answer.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeasureError {
     /// A planner that cannot be made.
     #[error("{competitor} on map `{map}`: {source}")]
     Engine {
-        /// Who.
+        /// The competitor.
         competitor: String,
-        /// Where.
+        /// The map.
         map: String,
-        /// Why.
+        /// The reason.
         source: EngineError,
     },
     /// A query that was refused.
     #[error("{competitor} on map `{map}`, instance {index}: {source}")]
     Query {
-        /// Who.
+        /// The competitor.
         competitor: String,
-        /// Where.
+        /// The map.
         map: String,
-        /// The instance.
+        /// The index of the instance in the scenario.
         index: usize,
-        /// Why.
+        /// The reason.
         source: QueryError,
     },
-    /// A path of another length than it must have, or none.
+    /// A path of the wrong length, or none.
     #[error(
         "{competitor} on map `{map}`, instance {index}: expected a path of length {expected} ({by}), found {found}"
     )]
     Answer {
-        /// Who.
+        /// The competitor.
         competitor: String,
-        /// Where.
+        /// The map.
         map: String,
-        /// The instance.
+        /// The index of the instance in the scenario.
         index: usize,
-        /// The length.
+        /// The length that it must have.
         expected: f64,
-        /// Who says so.
+        /// Who found that length.
         by: &'static str,
-        /// What was found.
+        /// The length that was found, or `none`.
         found: String,
     },
 }
 
-/// Times the competitors on a problem: a first pass of each, untimed, warms it and checks its answers; then `passes` rounds
-/// (at least one) in which each takes two passes after the other, the first untimed: it warms the caches.
+/// Times the competitors on a problem. In a first pass of each, untimed, its answers are checked. Then come
+/// `passes` rounds (at least one) in which each competitor makes two passes, of which the first, untimed,
+/// warms the caches.
 ///
-/// Those that promise the shortest paths of the same problem must find paths as long as each other's, at k = 3 between centers under
-/// `Never`, which [`Baseline::Pathfinding`] solves too, also as the scenario says. Any other must find a path, as it allows more
-/// moves or as many ways through.
+/// Competitors that promise shortest paths of the same problem (directions and rules) must find paths of
+/// equal length. At k = 3 between centers under `Never`, which [`Baseline::Pathfinding`] solves too, these
+/// must also have the scenario's length. All others must find a path.
 ///
 /// # Errors
 /// [`MeasureError`] for the first competitor that does not.
@@ -132,7 +133,8 @@ pub fn measure(
     }
     for _ in 0..passes.max(1) {
         for (runner, timing) in runners.iter_mut().zip(&mut timings) {
-            // Between two passes the others have filled the caches with their own; the programs of the table ran alone.
+            // The others have filled the caches since the last pass; the programs of the reference timings
+            // ran alone.
             pass(problem, runner);
             timing.passes.push(pass(problem, runner));
         }
@@ -143,13 +145,13 @@ pub fn measure(
     Ok(MapRecord { map: problem.name.clone(), set: problem.set.clone(), instances: problem.len(), timings })
 }
 
-/// A problem of which the shortest paths are promised: over which directions, under which rules.
+/// A problem whose shortest paths are promised: the directions and the rules.
 type Optimum = (K, Rules);
 
 /// The problem of the scenarios.
 const SCENARIOS: Optimum = (K::Finite(FiniteK::N8), Rules::Center(CornerRule::Never));
 
-/// The problem of which a competitor promises the shortest paths, if of any.
+/// The problem whose shortest paths a competitor promises, if any.
 fn promise(competitor: Competitor) -> Option<Optimum> {
     match competitor {
         Competitor::Ours(setup) => setup.optimal_over().map(|k| (k, setup.rules)),
@@ -158,7 +160,8 @@ fn promise(competitor: Competitor) -> Option<Optimum> {
     }
 }
 
-/// The lengths of all paths, checked. `optima` are those that another competitor found for the same problem, if any.
+/// Checks all paths and returns their lengths. `optima` are the lengths that another competitor found for the
+/// same problem; empty if there is none.
 fn check(
     problem: &Problem,
     competitor: Competitor,
@@ -175,11 +178,11 @@ fn check(
             source,
         })?;
         let cost = answer.cost();
-        // Whatever the problem, the scenario says that there is a path.
+        // Other problems have other lengths, but a path as well.
         let is_length = promise(competitor) == Some(SCENARIOS);
         let tolerance = if is_length { scenario_tolerance(case.optimum) } else { f64::INFINITY };
         let scenario = (case.optimum, tolerance, "the scenario");
-        // Two programs differ by the rounding of their sums alone.
+        // Lengths of two programs differ only by the rounding of their sums.
         let other = optima.get(i).map(|&cost| (cost, 1e-8 * (1.0 + cost), "another competitor"));
         let is_wrong = |&(expected, tolerance, _): &(f64, f64, _)| match cost {
             Some(cost) => (cost - expected).abs() > tolerance,
@@ -195,11 +198,11 @@ fn check(
     Ok(costs)
 }
 
-/// The mean time of a query in microseconds.
+/// Answers all queries once. Returns the mean time of a query in microseconds.
 fn pass(problem: &Problem, runner: &mut Runner) -> f64 {
     let begin = Instant::now();
     for case in &problem.cases {
-        // The check has seen every answer, so none is an error here.
+        // All answers were checked before, so that none is an error.
         let _ = black_box(runner.solve(black_box(case.query)));
     }
     begin.elapsed().as_secs_f64() * 1e6 / problem.len() as f64

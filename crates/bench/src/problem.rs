@@ -1,8 +1,8 @@
-//! A map with the queries that are measured on it.
+//! Maps with their queries, loaded and checked.
 
 use std::sync::Arc;
 
-use mediant_formats::{MapError, MapFile, Scenario, ScenarioError, ScenarioForOtherMap};
+use mediant_formats::{MapError, MapFile, MapMismatch, Scenario, ScenarioError};
 use mediant_grid::Grid;
 use mediant_search::Query;
 use mediant_sets::{Archive, ArchiveError};
@@ -19,18 +19,19 @@ pub struct Problem {
 /// One query.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Case {
-    /// Its number in the scenario.
+    /// Its index in the scenario, from 0.
     pub(crate) index: usize,
     pub(crate) query: Query,
-    /// The length of a shortest path at k = 3 between centers, no corner cut, as exact as the scenario says it.
+    /// The length of a shortest path at k = 3 between centers without cut corners, as exactly as the scenario
+    /// gives it.
     pub(crate) optimum: f64,
 }
 
-/// A map or scenario that cannot be measured on.
+/// A map or scenario that is not fit for a measurement.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProblemError {
-    /// A file that is there, but cannot be read.
+    /// A file that exists, but cannot be read.
     #[error(transparent)]
     Archive(#[from] ArchiveError),
     /// A file that is no map.
@@ -51,8 +52,8 @@ pub enum ProblemError {
     },
     /// The scenario of another map.
     #[error(transparent)]
-    OtherMap(#[from] ScenarioForOtherMap),
-    /// No instance that the rule keeps, or one with an end that is not a free cell.
+    OtherMap(#[from] MapMismatch),
+    /// No instance is kept, or one starts or ends at a cell that is not free.
     #[error("scenario of map `{name}`: {wrong}")]
     Instances {
         /// The map's name.
@@ -63,10 +64,11 @@ pub enum ProblemError {
 }
 
 impl Problem {
-    /// Loads a map and those instances of its scenario whose index `every` divides; `None` where the archive lacks either.
+    /// Loads a map and those instances of its scenario whose index `every` divides (0 counts as 1). `None` if
+    /// the archive lacks the map or the scenario.
     ///
     /// # Errors
-    /// [`ProblemError`] says which file is wrong and why.
+    /// [`ProblemError`] for a file that cannot be read or is wrong; it says which and why.
     pub fn load(
         archive: &Archive,
         set: &str,
@@ -83,10 +85,11 @@ impl Problem {
         Self::new(set, name, map.to_grid(), &scenario, every).map(Some)
     }
 
-    /// The problem of a map and those instances of a scenario whose index `every` divides (0 counts as 1).
+    /// The problem of a map and of those instances of a scenario whose index `every` divides (0 counts as 1).
     ///
     /// # Errors
-    /// [`ProblemError::OtherMap`] and [`ProblemError::Instances`].
+    /// [`ProblemError::OtherMap`] for a scenario of another map, [`ProblemError::Instances`] for none or
+    /// wrong instances.
     pub fn new(
         set: &str,
         name: &str,
@@ -94,7 +97,7 @@ impl Problem {
         scenario: &Scenario,
         every: usize,
     ) -> Result<Self, ProblemError> {
-        scenario.for_map(&grid, name)?;
+        scenario.check_map(&grid, name)?;
         let wrong = |wrong: String| ProblemError::Instances { name: name.to_owned(), wrong };
         let instances = scenario.instances().iter().enumerate().step_by(every.max(1));
         let cases: Vec<Case> = instances

@@ -1,4 +1,4 @@
-//! What other programs take: `benchdata/reference_timings.json`.
+//! Times of other programs: `benchdata/reference_timings.json`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,23 +7,23 @@ use serde::{Deserialize, Deserializer, de::Error as _};
 use mediant_engines::Setup;
 use mediant_moves::K;
 
-/// The figures of other programs on the instances of our comparison.
+/// The times of other programs on the instances of our comparison.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReferenceTimings {
-    /// What this is.
+    /// What the file is, in a sentence.
     pub about: String,
     /// Where, when and how the times were taken.
     pub measured: Measured,
     /// The rule that picks a map's instances.
     pub instances: Instances,
-    /// How the times are carried over to another machine.
+    /// How the times are scaled to another machine.
     pub scaling: String,
     /// The programs that are measured here as well, in the order of [`Baseline::ALL`](crate::Baseline::ALL).
-    pub baselines: Vec<Comparand>,
-    /// The others.
-    pub programs: Vec<Comparand>,
-    /// The figures.
+    pub baselines: Vec<ReferenceProgram>,
+    /// The programs that were measured only there.
+    pub programs: Vec<ReferenceProgram>,
+    /// The times, map by map.
     pub maps: Vec<MapTimings>,
     /// Figures on other instances, as their authors published them.
     pub published: Vec<Published>,
@@ -45,25 +45,25 @@ pub struct Measured {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Instances {
-    /// Those of a scenario whose index this divides.
+    /// An instance of a scenario is picked if this divides its index.
     pub every: usize,
-    /// How many that makes, over all maps.
+    /// The number of picked instances of all maps.
     pub count: usize,
 }
 
 /// Another program.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Comparand {
-    /// What the figures call it.
+pub struct ReferenceProgram {
+    /// Its name in the tables.
     pub name: String,
     /// The problem that it solves.
-    pub problem: ComparandProblem,
-    /// Whether it solves it optimally.
+    pub problem: SolvedProblem,
+    /// Whether its paths are shortest.
     pub optimal: bool,
     /// Its language, where not C++ or Rust.
     pub language: Option<String>,
-    /// What its paths list: `cells` or `turning points`.
+    /// What its paths consist of: `cells` or `turning points`.
     pub returns: Option<String>,
     /// Its version.
     pub version: Option<String>,
@@ -76,7 +76,7 @@ pub struct Comparand {
 /// The problem that a program solves, in the words of the `mediant` program.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ComparandProblem {
+pub struct SolvedProblem {
     /// The directions that its paths may take: a number or `any`.
     #[serde(deserialize_with = "number_or_any")]
     pub k: K,
@@ -110,20 +110,20 @@ pub struct MapTimings {
     pub set: String,
     /// Each program's mean time of a query in microseconds; `None` where it could not be measured.
     pub micros: BTreeMap<String, Option<f64>>,
-    /// What preprocessing took, for the programs that do any; `None` where it could not be measured.
+    /// The preprocessing of the programs that do any; `None` where it could not be measured.
     pub preprocessing: BTreeMap<String, Option<Preprocessing>>,
 }
 
-/// What preprocessing took.
+/// The preprocessing of a program on a map.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Preprocessing {
-    /// Its time.
+    /// Its time in seconds.
     pub seconds: f64,
     /// Whether it was broken off at that time.
     #[serde(default)]
     pub unfinished: bool,
-    /// The size of the index on disk, 10⁶ bytes; `None` for one that stays in memory.
+    /// The size of the index on disk in 10⁶ bytes; `None` if the index stays in memory.
     pub megabytes: Option<f64>,
 }
 
@@ -149,7 +149,7 @@ pub struct Published {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PublishedRow {
-    /// What it does.
+    /// How it differs from the others.
     pub variant: String,
     /// Its neighborhood.
     pub k: u32,
@@ -166,7 +166,7 @@ pub enum ReferenceTimingsError {
     /// Not JSON, or not of the form above.
     #[error("the reference timings cannot be read: {0}")]
     Form(#[from] serde_json::Error),
-    /// A map's figures and the list of programs do not match.
+    /// The programs of a map's times are not those of the list.
     #[error(
         "the reference timings of map `{map}`: each program of the list needs one entry, and no other may have one"
     )]
@@ -177,21 +177,21 @@ pub enum ReferenceTimingsError {
 }
 
 impl ReferenceTimings {
-    /// Those of `benchdata/reference_timings.json`.
+    /// The reference timings of `benchdata/reference_timings.json`, which are part of this crate.
     ///
     /// # Errors
-    /// [`ReferenceTimingsError`] when that file has been damaged.
+    /// [`ReferenceTimingsError`] if that file has been damaged.
     pub fn bundled() -> Result<Self, ReferenceTimingsError> {
         Self::parse(include_str!("../../../benchdata/reference_timings.json"))
     }
 
-    /// Those of a JSON text.
+    /// Reads reference timings from a JSON text.
     ///
     /// # Errors
     /// [`ReferenceTimingsError`] says what is wrong.
     pub fn parse(text: &str) -> Result<Self, ReferenceTimingsError> {
         let references: Self = serde_json::from_str(text)?;
-        let names: BTreeSet<&String> = references.comparands().map(|program| &program.name).collect();
+        let names: BTreeSet<&String> = references.all_programs().map(|program| &program.name).collect();
         match references.maps.iter().find(|row| !row.micros.keys().eq(names.iter().copied())) {
             Some(row) => Err(ReferenceTimingsError::Programs { map: row.map.clone() }),
             None => Ok(references),
@@ -199,24 +199,25 @@ impl ReferenceTimings {
     }
 
     /// The baselines and the other programs.
-    pub fn comparands(&self) -> impl Iterator<Item = &Comparand> {
+    pub fn all_programs(&self) -> impl Iterator<Item = &ReferenceProgram> {
         self.baselines.iter().chain(&self.programs)
     }
 
-    /// The figures on a map.
+    /// The times on a map, by its name without extension; `None` if there are none.
     #[must_use]
     pub fn map(&self, name: &str) -> Option<&MapTimings> {
         self.maps.iter().find(|row| row.map == name)
     }
 }
 
-impl Comparand {
-    /// Whether the program solves the very problem of a setup, so that the two may be compared without a remark: both find the shortest
-    /// paths over the same directions under the same rules, or both find paths over the same directions that may be longer.
-    /// The rule of such a program need not be known, as the lengths of its paths are not compared.
+impl ReferenceProgram {
+    /// Whether the program solves the very problem of a setup, so that their times may be compared without a
+    /// remark: both find shortest paths over the same directions under the same rules, or both find paths
+    /// over the same directions that may be longer. In the second case the program's rule need not be known,
+    /// since the lengths of its paths are not compared.
     #[must_use]
     pub fn solves(&self, setup: Setup) -> bool {
-        let ComparandProblem { k, placement, rule } = &self.problem;
+        let SolvedProblem { k, placement, rule } = &self.problem;
         let optimal = setup.optimal_over().is_some();
         self.optimal == optimal
             && *k == setup.paths()
@@ -299,7 +300,7 @@ mod tests {
         let comparable = |setup: &str| {
             let setup = setup.parse().unwrap();
             references
-                .comparands()
+                .all_programs()
                 .filter(|program| program.solves(setup))
                 .map(|program| &*program.name)
                 .collect()

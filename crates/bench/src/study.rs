@@ -1,8 +1,8 @@
-//! One setup on the queries of one map: what it answers, what it counts, how long it takes.
+//! Studies: the answers, counts and times of setups on the queries of one map.
 
 use std::{hint::black_box, sync::Arc, time::Instant};
 
-use mediant_engines::{EngineError, Ground, Options, Setup, SharedRules, Solver, build};
+use mediant_engines::{BoxedPlanner, EngineError, Index, SearchSpace, Setup, SharedRules};
 use mediant_grid::{Grid, Vertex};
 use mediant_report::stats::median;
 use mediant_search::{Counters, Outcome, Path, Query};
@@ -12,46 +12,40 @@ use crate::Preparation;
 /// The pruning rules that the maps have in common.
 static RULES: SharedRules = SharedRules::new();
 
-/// Queries on a map that several setups answer, one after the other.
+/// The queries of a map, to be answered by several setups one after the other.
 #[derive(Debug)]
 pub struct Study<'a> {
     grid: &'a Arc<Grid>,
     queries: &'a [Query],
     passes: u32,
-    /// The last ground, and what it took: setups of the same k and rules share it.
-    ground: Option<(Ground, f64)>,
-    index: Option<Index>,
+    /// The last search space, and the seconds that it took: setups of the same k and rules share it.
+    space: Option<(SearchSpace, f64)>,
+    /// The last index, and the seconds that it took.
+    index: Option<(Index, f64)>,
 }
 
-/// The last index.
-#[derive(Debug)]
-struct Index {
-    of: Setup,
-    bytes: Vec<u8>,
-    seconds: f64,
-}
-
-/// What a setup made of the queries of a [`Study`].
+/// The answers of a setup to the queries of a [`Study`], and their time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
     /// The answers, in the order of the queries. `None` where there is no path, or none was found.
     pub answers: Vec<Option<Answer>>,
-    /// The mean time of a query in microseconds, paths included: the median of the timed passes. `None` if there were none.
+    /// The mean time of a query in microseconds, paths included: the median of the timed passes. `None` if no
+    /// pass was timed.
     pub micros: Option<f64>,
-    /// What came before the first query; its time was measured once.
+    /// The preparation before the first query; its time was measured once.
     pub preparation: Preparation,
 }
 
-/// One path and what it took to find it.
+/// One path, and the counts of the search that found it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
     /// Its Euclidean length in cells.
     pub cost: f64,
-    /// How many steps it takes: of a path over N(k), its moves.
+    /// The number of its moves, if it is a path over N(k).
     pub moves: u32,
-    /// How much it turns in all, in degrees: PS of Hammoud & Lupin 2023, Eq. 1.
+    /// The sum of its turning angles in degrees: PS of Hammoud & Lupin 2023, Eq. 1.
     pub smoothness: f64,
-    /// What the search did.
+    /// The counts of the search.
     pub counters: Counters,
 }
 
@@ -64,10 +58,10 @@ impl Answer {
 }
 
 impl<'a> Study<'a> {
-    /// A study whose runs are timed so many times; 0: not at all.
+    /// A study whose runs have so many timed passes, or none.
     #[must_use]
     pub const fn new(grid: &'a Arc<Grid>, queries: &'a [Query], passes: u32) -> Self {
-        Self { grid, queries, passes, ground: None, index: None }
+        Self { grid, queries, passes, space: None, index: None }
     }
 
     /// The queries.
@@ -78,13 +72,14 @@ impl<'a> Study<'a> {
 
     /// Answers all queries by a setup: once to count, which also warms its memory, then in the timed passes.
     ///
-    /// A setup of the same engine, k, rules and levels as the one before it, smoothed in another way, takes over its index.
+    /// A setup of the same engine, k, rules and levels as the one before it, smoothed in another way, takes
+    /// over its index.
     ///
     /// # Errors
     /// [`EngineError`] for a setup that does not exist.
     pub fn run(&mut self, setup: Setup) -> Result<Run, EngineError> {
-        let (mut solver, preparation) = self.solver(setup)?;
-        let answer = |query: &Query| match solver.solve_counted(*query) {
+        let (mut planner, preparation) = self.planner(setup)?;
+        let answer = |query: &Query| match planner.solve_counted(*query) {
             Ok((Outcome::Found(path), counters)) => Some(Answer::new(&path, counters)),
             // A query with a blocked end, or one at which CHPA* as published gives up.
             Ok((Outcome::Unreachable, _)) | Err(_) => None,
@@ -93,7 +88,7 @@ impl<'a> Study<'a> {
         let mut pass = || {
             let begin = Instant::now();
             for query in self.queries {
-                let _ = black_box(solver.solve(black_box(*query)));
+                let _ = black_box(planner.solve(black_box(*query)));
             }
             begin.elapsed().as_secs_f64() * 1e6 / self.queries.len().max(1) as f64
         };
@@ -101,43 +96,32 @@ impl<'a> Study<'a> {
         Ok(Run { answers, micros: median(&passes), preparation })
     }
 
-    fn solver(&mut self, setup: Setup) -> Result<(Solver, Preparation), EngineError> {
+    fn planner(&mut self, setup: Setup) -> Result<(BoxedPlanner, Preparation), EngineError> {
         setup.check()?;
-        let ground = match self.ground.take() {
-            Some((ground, seconds)) if (ground.k(), ground.rules()) == (setup.k, setup.rules) => {
-                (ground, seconds)
+        let space = match self.space.take() {
+            Some((space, seconds)) if (space.k(), space.rules()) == (setup.k, setup.rules) => {
+                (space, seconds)
             }
             _ => {
+                // Whatever was prepared in another space is not for this one.
+                self.index = None;
                 let begin = Instant::now();
-                let ground = Ground::new(setup, self.grid)?;
-                (ground, begin.elapsed().as_secs_f64())
+                (SearchSpace::new(setup, self.grid)?, begin.elapsed().as_secs_f64())
             }
         };
-        let (ground, seconds) = self.ground.insert(ground);
-        let (bytes, mut preparation) =
-            (ground.memory_bytes(), Preparation { seconds: *seconds, bytes: ground.memory_bytes() });
-        let mut prebuilt = RULES.prebuilt(setup);
-        if setup.engine.about().index.is_some() {
-            let of = Setup { options: Options { smoothing: None, ..setup.options }, ..setup };
-            let index = match self.index.take() {
-                Some(index) if index.of == of => index,
-                _ => {
-                    let (bytes, made) = build(of, self.grid)?;
-                    Index { of, bytes, seconds: made.time.as_secs_f64() }
-                }
-            };
-            // What `build` took has the ground in it.
-            preparation.seconds = index.seconds;
-            prebuilt.index = Some(index.bytes.clone());
-            self.index = Some(index);
-        }
-        let solver = Solver::on(setup, ground, prebuilt)?;
-        let made = solver.preprocessing();
-        preparation.bytes = bytes + made.index_bytes;
-        if setup.engine.about().index.is_none() {
-            preparation.seconds += made.time.as_secs_f64();
-        }
-        Ok((solver, preparation))
+        let (space, space_seconds) = self.space.insert(space);
+        let unsmoothed = Setup { smoothing: None, ..setup };
+        let index = match self.index.take() {
+            Some((index, seconds)) if index.setup() == unsmoothed => (index, seconds),
+            _ => {
+                let begin = Instant::now();
+                (Index::new(unsmoothed, space, &RULES)?, begin.elapsed().as_secs_f64())
+            }
+        };
+        let (index, index_seconds) = self.index.insert(index);
+        let bytes = space.memory_bytes() + index.memory_bytes();
+        let preparation = Preparation { seconds: *space_seconds + *index_seconds, bytes };
+        Ok((index.clone().with_smoothing(setup.smoothing).planner()?, preparation))
     }
 }
 
@@ -157,13 +141,13 @@ mod tests {
     }
 
     #[test]
-    fn answers_are_those_of_a_solver_with_its_counts() {
+    fn answers_are_those_of_a_planner_with_its_counts() {
         let grid = grid();
         let queries =
             [((0, 0), (5, 0)), ((0, 0), (0, 3)), ((0, 0), (7, 0)), ((1, 1), (0, 0)), ((2, 0), (4, 2))];
         let queries = queries.map(|(start, goal)| Query::new(start, goal));
         let mut study = Study::new(&grid, &queries, 0);
-        // The second shares the first one's ground, the fourth the third one's index, the last neither.
+        // The second shares the first one's space, the fourth the third one's index, the last neither.
         for text in [
             "astar:4:never",
             "canonical:4:never",
@@ -172,9 +156,11 @@ mod tests {
             "jps-plus:3:never",
         ] {
             let run = study.run(setup(text)).expect("a run");
-            let mut solver = Solver::new(setup(text), &grid, RULES.prebuilt(setup(text))).expect("a solver");
+            let space = SearchSpace::new(setup(text), &grid).expect("a space");
+            let index = Index::new(setup(text), &space, &RULES).expect("an index");
+            let mut planner = index.planner().expect("a planner");
             for (query, answer) in queries.iter().zip(&run.answers) {
-                let Ok((Outcome::Found(path), counters)) = solver.solve_counted(*query) else {
+                let Ok((Outcome::Found(path), counters)) = planner.solve_counted(*query) else {
                     assert_eq!(*answer, None, "{text}");
                     continue;
                 };
@@ -182,8 +168,8 @@ mod tests {
                 assert_eq!((answer.cost, answer.counters), (path.cost(), counters), "{text}");
             }
             assert_eq!(run.micros, None);
-            let made = solver.preprocessing();
-            assert_eq!(run.preparation.bytes, made.index_bytes, "{text}");
+            let bytes = space.memory_bytes() + index.memory_bytes();
+            assert_eq!(run.preparation.bytes, bytes, "{text}");
             assert!(run.preparation.seconds > 0.0);
         }
     }

@@ -7,11 +7,11 @@ use std::{
 };
 
 use anstyle::{AnsiColor, Style};
-use mediant_engines::{Engine, EngineError, SetupError};
-use mediant_formats::{IndexError, ReadError, ScenarioForOtherMap, WriteError};
+use mediant_engines::{EngineError, EngineKind, SetupError};
+use mediant_formats::{IndexError, MapMismatch, ReadError, WriteError};
 use mediant_grid::{PlacementKind, Vertex};
 
-use crate::text::printable;
+use crate::terminal::text::printable;
 
 /// Exit status 1: some query was an error.
 const QUERY_ERROR: u8 = 1;
@@ -33,7 +33,7 @@ pub(crate) enum Failure {
     #[error(transparent)]
     Read(#[from] ReadError),
     #[error(transparent)]
-    OtherMap(#[from] ScenarioForOtherMap),
+    OtherMap(#[from] MapMismatch),
     #[error(
         "the scenario is for the map `{expected}` and does not fit `{found}`, where the {end} {at} of instance {index} is \
          blocked; give the map that it was made for, under that name"
@@ -52,7 +52,7 @@ pub(crate) enum Failure {
     #[error(
         "--reference {engine} finds no any-angle paths at --placement {placement}: leave it out, or choose --placement corner"
     )]
-    NoReference { engine: Engine, placement: PlacementKind },
+    NoReference { engine: EngineKind, placement: PlacementKind },
     #[error(transparent)]
     Setup(#[from] SetupError),
     #[error(transparent)]

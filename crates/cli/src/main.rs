@@ -11,31 +11,16 @@ use clap::Parser;
 use crate::{
     args::{Cli, Command},
     failure::{Ending, finish},
-    screen::Screen,
+    terminal::screen::Screen,
 };
 
 mod args;
-mod braille;
-mod build;
-mod demo;
-mod distances;
-mod engines;
+mod commands;
+mod draw;
 mod failure;
 mod map;
-mod moves;
-mod picture;
-mod progress;
-mod queries;
-mod record;
-mod report;
 mod run;
-mod screen;
-mod session;
-mod star;
-mod summary;
-mod text;
-mod theme;
-mod trace;
+mod terminal;
 
 fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
@@ -44,11 +29,11 @@ fn main() -> ExitCode {
     };
     let mut screen = Screen::stdout();
     let ending = match cli.command {
-        Command::Run(args) => run::run(&args, &mut screen),
-        Command::Build(args) => build::build(&args, &mut screen).map(|()| Ending::Answered),
-        Command::Demo(args) => demo::demo(&args, &mut screen).map(|()| Ending::Answered),
-        Command::Engines => engines::list(&mut screen).map(|()| Ending::Answered),
-        Command::Moves(args) => moves::moves(&args, &mut screen).map(|()| Ending::Answered),
+        Command::Run(args) => commands::run::run(&args, &mut screen),
+        Command::Build(args) => commands::build::build(&args, &mut screen).map(|()| Ending::Answered),
+        Command::Demo(args) => commands::demo::demo(&args, &mut screen).map(|()| Ending::Answered),
+        Command::Engines => commands::engines::list(&mut screen).map(|()| Ending::Answered),
+        Command::Moves(args) => commands::moves::moves(&args, &mut screen).map(|()| Ending::Answered),
     };
     // What was printed before a failure is shown before the failure is.
     let flushed = screen.flush();

@@ -8,7 +8,7 @@ use std::{
 use mediant_formats::{MapFile, ReadError, Scenario};
 use mediant_grid::{Grid, Vertex};
 
-use crate::{failure::Failure, theme::Theme};
+use crate::{draw::theme::Theme, failure::Failure};
 
 /// A map with the name that reports give it.
 pub(crate) struct Map {

@@ -4,9 +4,9 @@ use mediant_grid::{PlacementKind, Rules};
 use mediant_hierarchy::HierarchyError;
 use mediant_moves::{FiniteK, K, KError};
 use mediant_search::{JumpTableError, QueryError};
-use mediant_subgoal::{Hierarchy, SubgoalError};
+use mediant_subgoal::SubgoalError;
 
-use crate::{Engine, hierarchy_name};
+use crate::{EngineKind, Levels};
 
 /// A setup that does not exist.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -16,7 +16,7 @@ pub enum SetupError {
     #[error("{engine} takes no {option}: leave it out, or choose {others}")]
     Option {
         /// The engine.
-        engine: Engine,
+        engine: EngineKind,
         /// What the option is.
         option: &'static str,
         /// The engines that take it.
@@ -26,7 +26,7 @@ pub enum SetupError {
     #[error("{engine} needs a k from 2 to {max}, found {k}")]
     K {
         /// The engine.
-        engine: Engine,
+        engine: EngineKind,
         /// The largest k.
         max: u32,
         /// What was asked for.
@@ -36,7 +36,7 @@ pub enum SetupError {
     #[error("{engine} needs a k from 2 to {max}; for any choose {others}")]
     NeedsFiniteK {
         /// The engine.
-        engine: Engine,
+        engine: EngineKind,
         /// The largest k.
         max: u32,
         /// The engines that search every direction.
@@ -46,15 +46,15 @@ pub enum SetupError {
     #[error("{engine} searches every direction, not those of k = {k}: leave k out, or say any")]
     NeedsAny {
         /// The engine.
-        engine: Engine,
+        engine: EngineKind,
         /// What was asked for.
         k: FiniteK,
     },
     /// A placement that the engine does not take.
     #[error("{engine} needs placement {needed}; for {placement} choose {others}")]
-    PlacementKind {
+    Placement {
         /// The engine.
-        engine: Engine,
+        engine: EngineKind,
         /// What it takes.
         needed: PlacementKind,
         /// What was asked for.
@@ -66,11 +66,11 @@ pub enum SetupError {
     #[error(
         "at centers {engine} needs k = 2, or k = 3 under corners never, found k = {k} under {rules}: \
          choose one of these,{} or another engine",
-        if engine.about().placements.contains(&PlacementKind::Corner) { " placement corner," } else { "" }
+        if engine.capabilities().placements.contains(&PlacementKind::Corner) { " placement corner," } else { "" }
     )]
     Centers {
         /// The engine.
-        engine: Engine,
+        engine: EngineKind,
         /// The k that was asked for.
         k: K,
         /// The rules.
@@ -80,13 +80,13 @@ pub enum SetupError {
     #[error("{engine} as published knows no detours: leave out the detour, or the variant paper")]
     DetourAsPublished {
         /// The engine.
-        engine: Engine,
+        engine: EngineKind,
     },
     /// An index, or something that only some engines find, asked of another engine.
     #[error("{engine} has no {what}: choose {others}")]
     Without {
         /// The engine.
-        engine: Engine,
+        engine: EngineKind,
         /// What it has not.
         what: &'static str,
         /// The engines that have it.
@@ -104,9 +104,9 @@ pub enum EngineError {
     /// A neighborhood without a search graph.
     #[error(transparent)]
     K(#[from] KError),
-    /// What the planners share was made for another k or other rules.
-    #[error("needs the ground of k = {} under {}, found that of k = {} under {}", expected.0, expected.1, found.0, found.1)]
-    Ground {
+    /// A search space for another k or other rules.
+    #[error("needs the search space of k = {} under {}, found that of k = {} under {}", expected.0, expected.1, found.0, found.1)]
+    Space {
         /// What the setup asks for.
         expected: (K, Rules),
         /// What there is.
@@ -120,22 +120,22 @@ pub enum EngineError {
     Subgoal(#[from] SubgoalError),
     /// A graph of clusters or segments that cannot be made, or an index that is not that of the map.
     #[error(transparent)]
-    Squares(#[from] HierarchyError),
-    /// An index with another hierarchy than the setup has.
+    Hierarchy(#[from] HierarchyError),
+    /// An index with other levels than the setup has.
     #[error(
         "needs an index with {}, found one with {}; choose the levels that it has, or build it again",
-        hierarchy_name(*expected),
-        hierarchy_name(*found)
+        expected.in_words(),
+        found.in_words()
     )]
-    Hierarchy {
+    Levels {
         /// What the setup asks for.
-        expected: Hierarchy,
+        expected: Levels,
         /// What the index has.
-        found: Hierarchy,
+        found: Levels,
     },
     /// An index of clusters or segments of another size than the setup has.
     #[error(
-        "needs an index of squares of {expected} × {expected} cells, found one of {found} × {found}; \
+        "needs an index whose clusters or segments have {expected} × {expected} cells, found one with {found} × {found}; \
          choose the side that it has, or build it again"
     )]
     Side {

@@ -1,34 +1,36 @@
-//! The levels of a subgoal graph, as options and tables have them.
+//! The levels of a subgoal graph or of clusters, as options and tables have them.
 
 use std::{fmt, num::NonZeroU32, str::FromStr};
 
 use mediant_subgoal::Hierarchy;
 
-/// How many levels a subgoal graph is to have: a number, or `all`.
+/// How many levels a hierarchy has: a number, `all`, or `contracted`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Levels {
-    /// At most so many; 1 is the graph of all subgoals.
+    /// At most this number; 1 is the graph without a hierarchy.
     Number(NonZeroU32),
-    /// As many as there are.
+    /// As many as possible.
     All,
+    /// None: a contraction hierarchy in their place. Only of subgoal graphs.
+    Contracted,
 }
 
 /// A text that is no [`Levels`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("expected a number from 1 to {}, or all, found `{found}`", u32::MAX)]
+#[error("expected a whole number from 1 to {}, or all", u32::MAX)]
 pub struct UnknownLevels {
     /// What was found.
     pub found: String,
 }
 
 impl Levels {
-    /// Those of a hierarchy of levels; none of a contraction hierarchy.
+    /// In words: `a contraction hierarchy`, `1 level`, `2 levels`, `all levels`.
     #[must_use]
-    pub const fn of(hierarchy: Hierarchy) -> Option<Self> {
-        match hierarchy {
-            Hierarchy::Contracted => None,
-            Hierarchy::Levels(number) => Some(Self::Number(number)),
-            Hierarchy::AllLevels => Some(Self::All),
+    pub fn in_words(self) -> String {
+        match self {
+            Self::Contracted => "a contraction hierarchy".to_owned(),
+            Self::Number(NonZeroU32::MIN) => "1 level".to_owned(),
+            Self::Number(_) | Self::All => format!("{self} levels"),
         }
     }
 }
@@ -38,6 +40,17 @@ impl From<Levels> for Hierarchy {
         match levels {
             Levels::Number(number) => Self::Levels(number),
             Levels::All => Self::AllLevels,
+            Levels::Contracted => Self::Contracted,
+        }
+    }
+}
+
+impl From<Hierarchy> for Levels {
+    fn from(hierarchy: Hierarchy) -> Self {
+        match hierarchy {
+            Hierarchy::Contracted => Self::Contracted,
+            Hierarchy::Levels(number) => Self::Number(number),
+            Hierarchy::AllLevels => Self::All,
         }
     }
 }
@@ -47,6 +60,7 @@ impl fmt::Display for Levels {
         match self {
             Self::Number(number) => number.fmt(f),
             Self::All => f.pad("all"),
+            Self::Contracted => f.pad("contracted"),
         }
     }
 }
@@ -57,17 +71,8 @@ impl FromStr for Levels {
     fn from_str(text: &str) -> Result<Self, UnknownLevels> {
         match text {
             "all" => Ok(Self::All),
+            "contracted" => Ok(Self::Contracted),
             _ => text.parse().map(Self::Number).map_err(|_| UnknownLevels { found: text.to_owned() }),
         }
-    }
-}
-
-/// A hierarchy in words: `a contraction hierarchy`, `1 level`, `2 levels`, `all levels`.
-#[must_use]
-pub fn hierarchy_name(hierarchy: Hierarchy) -> String {
-    match Levels::of(hierarchy) {
-        None => "a contraction hierarchy".to_owned(),
-        Some(Levels::Number(NonZeroU32::MIN)) => "1 level".to_owned(),
-        Some(levels) => format!("{levels} levels"),
     }
 }

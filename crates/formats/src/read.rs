@@ -1,4 +1,4 @@
-//! Files from disk.
+//! Reads files from disk.
 
 use std::{
     fs::{self, File},
@@ -6,9 +6,14 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crate::{IndexError, MapError, ScenarioError};
+#[cfg(feature = "index")]
+use crate::index::error::IndexError;
+use crate::{map::error::MapError, scenario::error::ScenarioError};
 
-/// The largest file that is read, in bytes: twice what a map of the greatest size needs.
+/// The size of the largest file that is read, in bytes: twice that of the largest map, of [`Grid::MAX_SIDE`]
+/// rows and columns.
+///
+/// [`Grid::MAX_SIDE`]: mediant_grid::Grid::MAX_SIDE
 pub const MAX_FILE_BYTES: u64 = 2 << 30;
 
 /// A file that cannot be read or parsed.
@@ -39,12 +44,12 @@ pub enum ReadError {
         /// The file that was asked for.
         path: PathBuf,
     },
-    /// The system refuses to read the file.
+    /// The operating system refuses to read the file, or there is not enough memory for it.
     #[error("{}: cannot be read: {source}", path.display())]
     Unreadable {
         /// The file that was asked for.
         path: PathBuf,
-        /// What the system says.
+        /// The reason.
         source: io::Error,
     },
     /// The file is no map.
@@ -63,7 +68,8 @@ pub enum ReadError {
         /// What is wrong with it.
         source: ScenarioError,
     },
-    /// The file is no index.
+    /// The file is no index. Needs the feature `index`.
+    #[cfg(feature = "index")]
     #[error("{}: {source}", path.display())]
     Index {
         /// The file.
@@ -73,30 +79,31 @@ pub enum ReadError {
     },
 }
 
-/// The bytes of a regular file. A device or pipe is refused before it is opened, since opening a pipe can wait for ever.
+/// The bytes of a regular file. A device or pipe is refused before it is opened, since opening a pipe may
+/// never return.
 pub(crate) fn read_regular(path: &Path) -> Result<Vec<u8>, ReadError> {
-    let own = || path.to_owned();
     let unreadable = |source: io::Error| match source.kind() {
-        io::ErrorKind::NotFound => ReadError::Missing { path: own() },
-        _ => ReadError::Unreadable { path: own(), source },
+        io::ErrorKind::NotFound => ReadError::Missing { path: path.to_owned() },
+        _ => ReadError::Unreadable { path: path.to_owned(), source },
     };
-    let about = fs::metadata(path).map_err(unreadable)?;
-    if about.is_dir() {
-        return Err(ReadError::Directory { path: own() });
+    let metadata = fs::metadata(path).map_err(unreadable)?;
+    if metadata.is_dir() {
+        return Err(ReadError::Directory { path: path.to_owned() });
     }
-    if !about.is_file() {
-        return Err(ReadError::NotRegular { path: own() });
+    if !metadata.is_file() {
+        return Err(ReadError::NotRegular { path: path.to_owned() });
     }
-    if about.len() > MAX_FILE_BYTES {
-        return Err(ReadError::TooLarge { path: own() });
+    if metadata.len() > MAX_FILE_BYTES {
+        return Err(ReadError::TooLarge { path: path.to_owned() });
     }
-    let mut bytes = Vec::new();
-    // One byte more than its length, should the file grow meanwhile.
     let file = File::open(path).map_err(unreadable)?;
-    bytes.try_reserve_exact(about.len() as usize + 1).map_err(|error| unreadable(error.into()))?;
+    let mut bytes = Vec::new();
+    // MAX_FILE_BYTES + 1 fits in 32 bits. The extra byte is for the read that finds the end of the file.
+    bytes.try_reserve_exact(metadata.len() as usize + 1).map_err(|error| unreadable(error.into()))?;
+    // The file may have grown since: one byte too many tells.
     file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
     if bytes.len() as u64 > MAX_FILE_BYTES {
-        return Err(ReadError::TooLarge { path: own() });
+        return Err(ReadError::TooLarge { path: path.to_owned() });
     }
     Ok(bytes)
 }

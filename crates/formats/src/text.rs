@@ -1,13 +1,20 @@
-//! Lines with their numbers, and what an error message quotes of them.
+//! Splits a text into numbered lines and words, and quotes them in error messages.
 
 /// One line, without its line end.
 #[derive(Clone, Copy)]
 pub(crate) struct Line<'a> {
-    /// From 1.
+    /// The number of the line, from 1.
     pub(crate) number: usize,
-    /// Where the line begins in the file.
+    /// The offset in the file at which the line begins.
     pub(crate) start: usize,
     pub(crate) text: &'a [u8],
+}
+
+impl Line<'_> {
+    /// Whether the line has nothing but spaces and tabs.
+    pub(crate) fn is_blank(self) -> bool {
+        self.text.iter().all(|&byte| is_blank(byte))
+    }
 }
 
 /// The lines of a file that end in LF or CRLF; the last may end with the file.
@@ -22,7 +29,7 @@ impl<'a> Lines<'a> {
         Self { bytes, at: 0, number: 0 }
     }
 
-    /// The number of the line that was read last.
+    /// The number of the last line that was taken.
     pub(crate) const fn number(&self) -> usize {
         self.number
     }
@@ -53,11 +60,11 @@ pub(crate) fn words(text: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     })
 }
 
-pub(crate) const fn is_blank(byte: u8) -> bool {
+const fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t')
 }
 
-/// What an error message quotes: short, on one line and printable, whatever the bytes.
+/// Quotes bytes for an error message: shortened, on one line, printable.
 pub(crate) fn quote(bytes: &[u8]) -> String {
     const LONGEST: usize = 40;
     match bytes {
@@ -67,7 +74,7 @@ pub(crate) fn quote(bytes: &[u8]) -> String {
     }
 }
 
-/// The quotation of a line, or of the lack of one.
+/// Quotes a line for an error message, or tells that there is none.
 pub(crate) fn quote_line(line: Option<Line<'_>>) -> String {
     match line {
         None => "the end of the file".to_owned(),

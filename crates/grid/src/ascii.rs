@@ -2,7 +2,7 @@
 
 use crate::{Grid, GridError, PlacementKind, Vertex};
 
-/// A grid with the letters that were drawn on it.
+/// A grid with the letters and digits that were drawn on it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AsciiMap {
     /// The map.
@@ -12,8 +12,9 @@ pub struct AsciiMap {
 }
 
 impl AsciiMap {
-    /// Reads a drawing: a line a row, `#` and `@` blocked, `.` and letters and digits free, each of the latter a mark that
-    /// [`mark`](Self::mark) finds. White space around the lines and empty lines are ignored.
+    /// Reads a drawing with one line a row. `.`, letters and digits are free cells, all other characters are
+    /// blocked ones, usually `#` or `@`. [`mark`](Self::mark) finds letters and digits. White space around
+    /// the lines and empty lines are ignored.
     ///
     /// ```
     /// use mediant_grid::{AsciiMap, Vertex};
@@ -58,9 +59,23 @@ impl AsciiMap {
     }
 }
 
-/// Draws a grid with the waypoints of a path as 0, 1, … 9, a, b, … z (then `+`), a line a row: a cell is one character
-/// under center placement. Under corner placement a cell is a character at an odd place of a grid of twice the size, and
-/// vertices stand at the even places, so that cells and vertices can be told apart.
+/// Draws a grid with the waypoints of a path as 0, 1, … 9, a, b, … z (then `+`), one line a row.
+///
+/// Under center placement a cell is one character. Under corner placement the drawing is twice as large:
+/// vertices stand in the even lines and columns, cells in the odd ones. Waypoints outside the map are left
+/// out.
+///
+/// ```
+/// use mediant_grid::{AsciiMap, PlacementKind, draw};
+/// let map = AsciiMap::parse("
+///     s..
+///     .#.
+///     ..g
+/// ")?;
+/// let path = [(0, 0), (2, 0), (2, 2)].map(Into::into);
+/// assert_eq!(draw(&map.grid, PlacementKind::Center, &path), "0.1\n.#.\n..2\n");
+/// # Ok::<(), mediant_grid::GridError>(())
+/// ```
 #[must_use]
 pub fn draw(grid: &Grid, placement: PlacementKind, waypoints: &[Vertex]) -> String {
     let (width, height) = (grid.width() as usize, grid.height() as usize);

@@ -1,15 +1,21 @@
-//! Bit-packed matrices with a blocked frame, read a word at a time.
+//! Bit-packed matrices inside a frame, read a word at a time.
+//!
+//! A matrix keeps its bits as `u64` words on every target, because all its readers take 64 cells at once. The
+//! `bitvec` crate collects each row of a map bit by bit, in words of `usize`, from which the row is copied: a
+//! `BitVec<u64>` exists on 64-bit targets only.
 
 use std::fmt;
 
-use bitvec::{prelude::Lsb0, vec::BitVec};
+use bitvec::{field::BitField, prelude::Lsb0, vec::BitVec};
 
-/// Where a cell's bit stands in a [`BitMatrix`], frame included. Not a cell id: rows are padded to whole words.
+/// The position of a bit in a [`BitMatrix`], frame included. Not a cell id: rows are padded to whole words.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BitIndex(pub u32);
 
 impl BitIndex {
-    /// The bit `offset` places further on; wraps where that would leave the matrix, which a read then reports as blocked.
+    /// The bit `offset` positions further on. Wraps where that would leave the matrix; a read there reports
+    /// 'blocked'.
     #[must_use]
     #[inline]
     pub const fn offset(self, offset: i32) -> Self {
@@ -17,20 +23,21 @@ impl BitIndex {
     }
 }
 
-/// Rows of bits in 64-bit words, 1 = blocked, with a frame of blocked bits on all sides: reading beyond an edge needs
-/// no test.
+/// Rows of bits in 64-bit words, 1 = blocked (or marked), inside a frame that makes reading beyond an edge
+/// safe without a test.
 ///
-/// Each row is followed by at least one blocked bit, which is also the one before the next row; above the first and
-/// below the last row lies a blocked row, and one blocked word lies before and behind it all.
+/// The frame of a map is blocked, that of a set of vertices is empty. Each row is followed by at least one
+/// bit of the frame, which is also the bit before the next row. One row of the frame lies above the first row
+/// and one below the last, and one word before and one after all rows.
 #[derive(Clone, PartialEq, Eq)]
 pub struct BitMatrix {
-    bits: BitVec<u64, Lsb0>,
+    words: Box<[u64]>,
     width: u32,
     height: u32,
     words_per_row: u32,
 }
 
-/// The sides alone: the bits of a map would fill pages.
+/// Shows the sides alone: the bits of a map would fill pages.
 impl fmt::Debug for BitMatrix {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "BitMatrix({} × {})", self.width, self.height)
@@ -38,20 +45,36 @@ impl fmt::Debug for BitMatrix {
 }
 
 impl BitMatrix {
-    /// A matrix whose bits are all blocked.
-    pub(crate) fn blocked(width: u32, height: u32) -> Self {
-        Self::filled(width, height, true)
-    }
-
     /// A matrix whose bits, frame included, all have this value.
-    pub(crate) fn filled(width: u32, height: u32, value: bool) -> Self {
+    fn filled(width: u32, height: u32, value: bool) -> Self {
         let words_per_row = width / 64 + 1;
         let words = (height as usize + 2) * words_per_row as usize + 2;
-        Self { bits: BitVec::repeat(value, words * 64), width, height, words_per_row }
+        let word = if value { !0 } else { 0 };
+        Self { words: vec![word; words].into_boxed_slice(), width, height, words_per_row }
     }
 
-    /// A matrix within a frame of this value; `word(x, y)` gives the 64 bits of row y from column x on, lowest first, of which those beyond
-    /// the last column are ignored.
+    /// A matrix in a frame of blocked bits; `blocked(x, y)` is asked once for each bit within, row by row.
+    pub(crate) fn from_bits(width: u32, height: u32, mut blocked: impl FnMut(u32, u32) -> bool) -> Self {
+        let mut matrix = Self::filled(width, height, true);
+        // The bits beyond the last column stay those of the frame.
+        let mut row: BitVec<usize, Lsb0> = BitVec::repeat(true, matrix.words_per_row as usize * 64);
+        for y in 0..height {
+            for x in 0..width {
+                row.set(x as usize, blocked(x, y));
+            }
+            let start = matrix.index(0, y as i32).0 as usize / 64;
+            for (word, bits) in matrix.words[start..].iter_mut().zip(row.chunks_exact(64)) {
+                *word = bits.load_le();
+            }
+        }
+        matrix
+    }
+
+    /// A matrix in a frame of this value. `word(x, y)` returns the 64 bits of row y from column x on, lowest
+    /// first; those beyond the last column are ignored.
+    ///
+    /// Hidden: it is for matrices as large as a map, or twice as wide. All bits must fit in 32-bit positions.
+    #[doc(hidden)]
     #[must_use]
     pub fn from_words(width: u32, height: u32, frame: bool, mut word: impl FnMut(i32, i32) -> u64) -> Self {
         let mut matrix = Self::filled(width, height, frame);
@@ -59,7 +82,7 @@ impl BitMatrix {
             for x in (0..width).step_by(64) {
                 let within = !0_u64 >> (64 - (width - x).min(64));
                 let at = matrix.index(x as i32, y).0 as usize / 64;
-                let bits = &mut matrix.bits.as_raw_mut_slice()[at];
+                let bits = &mut matrix.words[at];
                 *bits = *bits & !within | word(x as i32, y) & within;
             }
         }
@@ -78,20 +101,24 @@ impl BitMatrix {
         self.height
     }
 
-    /// How far apart the bits of two vertical neighbors stand.
+    /// The distance between the bits of two vertical neighbors.
+    #[doc(hidden)]
     #[must_use]
     pub const fn bits_per_row(&self) -> i32 {
         self.words_per_row as i32 * 64
     }
 
     /// All words, frame included.
+    #[doc(hidden)]
     #[must_use]
     #[inline]
     pub fn words(&self) -> &[u64] {
-        self.bits.as_raw_slice()
+        &self.words
     }
 
-    /// The place of column x, row y, for −1 ≤ y ≤ height and −64 ≤ x ≤ [`bits_per_row`](Self::bits_per_row).
+    /// The position of column x, row y, for −1 ≤ y ≤ height and −64 ≤ x ≤
+    /// [`bits_per_row`](Self::bits_per_row).
+    #[doc(hidden)]
     #[must_use]
     #[inline]
     pub const fn index(&self, x: i32, y: i32) -> BitIndex {
@@ -99,20 +126,21 @@ impl BitMatrix {
         BitIndex((64 + (y as i64 + 1) * self.bits_per_row() as i64 + x as i64) as u32)
     }
 
-    /// Row y, for −1 ≤ y ≤ height.
+    /// Row y, for −1 ≤ y ≤ height. Other rows hold no meaningful bits.
     #[must_use]
     #[inline]
     pub fn row(&self, y: i32) -> BitRow<'_> {
         BitRow { words: self.words(), origin: self.index(0, y), bits_per_row: self.bits_per_row() }
     }
 
-    /// Sets one bit of the interior.
+    /// Sets one bit within the frame.
     pub(crate) fn set(&mut self, x: u32, y: u32, blocked: bool) {
-        let index = self.index(x as i32, y as i32);
-        self.bits.set(index.0 as usize, blocked);
+        let BitIndex(at) = self.index(x as i32, y as i32);
+        let word = &mut self.words[at as usize / 64];
+        *word = *word & !(1 << (at % 64)) | u64::from(blocked) << (at % 64);
     }
 
-    /// One bit; blocked beyond the edges, however far.
+    /// The bit of column x, row y; true everywhere beyond the edges.
     #[must_use]
     #[inline]
     pub fn get(&self, x: i32, y: i32) -> bool {
@@ -120,28 +148,29 @@ impl BitMatrix {
         !inside || load(self.words(), self.index(x, y)) & 1 == 1
     }
 
-    /// Whether any bit of row y from column `first` to column `last` is blocked, all within the frame.
+    /// Whether any bit of row y from column `first` to column `last` is blocked. All must lie within the
+    /// frame or on it.
     #[must_use]
     #[inline]
     pub(crate) fn any(&self, y: i32, first: i32, last: i32) -> bool {
         self.any_of(first, last, |x| load(self.words(), self.index(x, y)))
     }
 
-    /// Whether rows y − 1 and y are blocked in one and the same column from `first` to `last`.
+    /// Whether in some column from `first` to `last` both row y − 1 and row y are blocked.
     #[must_use]
     pub(crate) fn any_edge(&self, y: i32, first: i32, last: i32) -> bool {
         let words = self.words();
         self.any_of(first, last, |x| load(words, self.index(x, y - 1)) & load(words, self.index(x, y)))
     }
 
-    /// Whether two blocked bits meet diagonally, the two others being free, at one of the corner vertices `first` to `last`
-    /// above row y.
+    /// Whether there is a gap at one of the corner vertices from `first` to `last` above row y: two blocked
+    /// bits meet there diagonally, and the two others are free.
     #[must_use]
     pub(crate) fn any_gap(&self, y: i32, first: i32, last: i32) -> bool {
         self.any_of(first, last, |x| self.gaps(x, y))
     }
 
-    /// Of the 64 corner vertices from column x on above row y, those at which two blocked bits meet diagonally, the two others being free.
+    /// The [gaps](Self::any_gap) among the 64 corner vertices above row y from column x on.
     #[must_use]
     pub(crate) fn gaps(&self, x: i32, y: i32) -> u64 {
         let [nw, ne, sw, se] = [(-1, -1), (0, -1), (-1, 0), (0, 0)]
@@ -164,17 +193,24 @@ impl BitMatrix {
 
     /// The matrix with rows and columns exchanged, in a frame of blocked bits.
     pub(crate) fn transposed(&self) -> Self {
-        let mut result = Self::blocked(self.height, self.width);
-        for y in 0..self.height {
-            for x in (0..self.width).filter(|&x| !self.get(x as i32, y as i32)) {
-                result.set(y, x, false);
-            }
-        }
-        result
+        Self::from_bits(self.height, self.width, |y, x| self.get(x as i32, y as i32))
     }
 }
 
-/// A row of a [`BitMatrix`], scanned for runs by words of 64. Scans end at the frame at the latest.
+/// A row of a [`BitMatrix`], scanned for runs of bits 64 at a time.
+///
+/// Columns count from 0 and may lie on the frame, from −64 on. In a matrix with a blocked frame, a scan for
+/// blocked columns ends at the frame at the latest; bounds beyond it are only useful there.
+///
+/// ```
+/// use mediant_grid::Grid;
+/// let grid = Grid::from_fn(9, 1, |x, _| x == 5)?;
+/// let row = grid.rows().row(0);
+/// assert_eq!(row.first_blocked(0, 9), 5);
+/// assert_eq!(row.first_free(5, 9), 6);
+/// assert_eq!(row.run_start(9, 0), 6);
+/// # Ok::<(), mediant_grid::GridError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct BitRow<'m> {
     words: &'m [u64],
@@ -184,11 +220,11 @@ pub struct BitRow<'m> {
 }
 
 impl BitRow<'_> {
-    /// The row `down` rows further down. Rows beyond the frame are blocked.
+    /// The row `down` rows further down, or up if `down` is negative; within the frame or on it.
     #[must_use]
     #[inline]
     pub const fn below(self, down: i32) -> Self {
-        Self { origin: self.origin.offset(self.bits_per_row * down), ..self }
+        Self { origin: self.origin.offset(self.bits_per_row.wrapping_mul(down)), ..self }
     }
 
     /// The 64 bits from column `first` on, lowest first, for −64 ≤ `first`.
@@ -198,7 +234,7 @@ impl BitRow<'_> {
         load(self.words, self.origin.offset(first))
     }
 
-    /// Whether a column is blocked, within the frame.
+    /// Whether a column is blocked.
     #[must_use]
     #[inline]
     pub fn is_blocked(self, column: i32) -> bool {
@@ -206,14 +242,15 @@ impl BitRow<'_> {
         self.words.get(at as usize / 64).is_none_or(|word| word >> (at % 64) & 1 == 1)
     }
 
-    /// The first blocked column from `from` on; `to` if there is none before it.
+    /// The first blocked column from `from` on; `to` if there is none before `to`.
     #[must_use]
     #[inline]
     pub fn first_blocked(self, from: i32, to: i32) -> i32 {
         self.first_of(from, to, |word| word)
     }
 
-    /// The first free column from `from` on; `to` if there is none before it.
+    /// The first free column from `from` on; `to` if there is none before `to`. `to` must not lie beyond the
+    /// frame.
     #[must_use]
     #[inline]
     pub fn first_free(self, from: i32, to: i32) -> i32 {
@@ -232,8 +269,8 @@ impl BitRow<'_> {
         to
     }
 
-    /// The first column of the run of free columns that ends before column `end`, as far as it reaches back to `to`: `end` itself
-    /// if the column before it is blocked.
+    /// The first column of the run of free columns that ends just before column `end`, but no column before
+    /// `to`. If column `end` − 1 is blocked, `end` itself.
     #[must_use]
     #[inline]
     pub fn run_start(self, mut end: i32, to: i32) -> i32 {
@@ -248,7 +285,8 @@ impl BitRow<'_> {
     }
 }
 
-/// The 64 bits from `at` on, lowest first; blocked where they would leave the matrix.
+/// The 64 bits from `at` on, lowest first; all blocked if they are not all within the matrix.
+#[doc(hidden)]
 #[must_use]
 #[inline]
 pub fn load(words: &[u64], at: BitIndex) -> u64 {
@@ -264,7 +302,7 @@ pub fn load(words: &[u64], at: BitIndex) -> u64 {
 mod tests {
     use crate::Grid;
 
-    /// A row of which two columns are blocked, scanned between all columns.
+    /// Scans a row with two blocked columns between all pairs of columns.
     #[test]
     fn scans_stop_at_the_first_and_at_the_bounds() {
         for (a, b) in [(0, 199), (63, 64), (5, 128), (127, 190), (64, 66)] {
@@ -285,7 +323,7 @@ mod tests {
         }
     }
 
-    /// Every run of every length at every offset within a word, with one blocked cell just inside or just outside it.
+    /// Runs of many lengths at many offsets within a word, with one blocked cell just inside or just outside.
     #[test]
     fn runs_are_tested_to_their_ends_and_no_further() {
         for blocked in (0..260).step_by(13) {

@@ -2,18 +2,31 @@
 
 use crate::{Grid, Vertex};
 
-/// Which free cells are neighbors.
+/// Which free cells count as neighbors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Connectivity {
-    /// Those that share an edge.
+    /// Cells that share an edge.
     Four,
-    /// Those that share an edge or a corner.
+    /// Cells that share an edge or a corner.
     Eight,
 }
 
 /// The connected components of a grid's free cells.
 ///
-/// Found a run of cells at a time: the runs of each row are joined with those that they meet in the row above.
+/// They are found by runs of free cells: each run of a row is joined with the runs that it meets in the row
+/// above.
+///
+/// ```
+/// use mediant_grid::{AsciiMap, Components, Connectivity, Vertex};
+/// let map = AsciiMap::parse("
+///     .#
+///     #.
+/// ")?;
+/// assert_eq!(Components::new(&map.grid, Connectivity::Four).count(), 2);
+/// let eight = Components::new(&map.grid, Connectivity::Eight);
+/// assert_eq!((eight.count(), eight.of(Vertex::new(1, 1))), (1, Some(0)));
+/// # Ok::<(), mediant_grid::GridError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Components {
     width: u32,
@@ -22,7 +35,7 @@ pub struct Components {
     count: u32,
 }
 
-/// A run of free cells of one row: columns `first` to `last`.
+/// A run of free cells in one row: columns `first` to `last`.
 #[derive(Clone, Copy)]
 struct Run {
     first: u32,
@@ -45,7 +58,7 @@ impl Components {
             let mut met = 0;
             for run in &mut runs {
                 run.label = sets.add();
-                // Runs above that end before this one begins meet none of the later ones either.
+                // Runs above that end before this one begins do not meet the later ones either.
                 while above.get(met).is_some_and(|other| other.last + reach < run.first) {
                     met += 1;
                 }
@@ -75,8 +88,8 @@ impl Components {
         size_of_val(&*self.labels)
     }
 
-    /// The component of a cell, numbered from 0 in row-major order of their first cells; `None` for blocked cells and
-    /// outside the map.
+    /// The component of a cell, numbered from 0 in row-major order of their first cells; `None` for blocked
+    /// cells and outside the map.
     #[must_use]
     pub fn of(&self, cell: Vertex) -> Option<u32> {
         if cell.x as u32 >= self.width || cell.y < 0 {
@@ -136,12 +149,13 @@ impl Sets {
         self.parents[a.max(b) as usize] = a.min(b);
     }
 
-    /// The set of each number, the sets counted in order of their roots; and how many there are.
+    /// The number of each run's set, with the sets numbered in the order of their roots, and the number of
+    /// sets.
     fn names(mut self) -> (Vec<u32>, u32) {
         let mut names = Vec::with_capacity(self.parents.len());
         let mut count = 0;
         for i in 0..self.parents.len() as u32 {
-            // A root comes before all others of its set, so its name is there when they need it.
+            // A root comes before all others of its set, so its name is known when they need it.
             let root = self.root(i);
             names.push(if root == i { count } else { names[root as usize] });
             count += u32::from(root == i);

@@ -1,16 +1,27 @@
-//! What a move asks of the cells around its start, and sets of cells tested as words.
+//! The cells that a move sweeps, by their offsets from its start, and sets of cells that are tested as words.
 
 use mediant_moves::Vector;
 
-use crate::{BitIndex, BitMatrix, Demand, Placement, load, sight::Frame};
+use crate::{
+    BitMatrix, Placement,
+    bits::{BitIndex, load},
+    frame::Frame,
+    placement::SweptCells,
+};
 
-/// A cell by its offset from cell (x, y) of a vertex (x, y).
+/// A cell by its offset (columns, rows) from cell (x, y), for a vertex (x, y).
+#[doc(hidden)]
 pub type CellOffset = (i32, i32);
 
-/// What a straight segment asks of the map, by offsets from its start: [`Placement::sweep`] in all directions.
+/// The cells that a straight segment sweeps, by offsets from its start: [`Placement::sweep`] in all
+/// directions.
+///
+/// Hidden: the pruning rules of `mediant-search` are derived from it. A segment is tested by
+/// [`line_of_sight`](crate::sight::line_of_sight).
+#[doc(hidden)]
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Footprint {
-    /// Cells that must be free, sorted.
+    /// Cells that must all be free, sorted.
     pub free: Vec<CellOffset>,
     /// Pairs of cells of which one must be free.
     pub either: Vec<[CellOffset; 2]>,
@@ -21,80 +32,65 @@ impl Footprint {
     #[must_use]
     pub fn new<P: Placement>(rule: P::Rule, v: Vector) -> Self {
         let (frame, d) = Frame::of(v);
-        let cell = |(i, j)| {
-            let (along, across) = frame.cell::<P>(i, j);
-            if frame.transposed { (across, along) } else { (along, across) }
-        };
         let mut footprint = Self::default();
-        P::sweep(rule, d, |demand| {
-            match demand {
-                Demand::Free { row, first, last } => {
-                    footprint.free.extend((first..=last).map(|column| cell((column, row))));
+        P::sweep(rule, d, |cells| {
+            match cells {
+                SweptCells::AllFree { row, first, last } => {
+                    footprint.free.extend((first..=last).map(|column| frame.offset::<P>((column, row))));
                 }
-                Demand::EitherFree(cells) => footprint.either.push(cells.map(cell)),
+                SweptCells::EitherFree(cells) => {
+                    footprint.either.push(cells.map(|cell| frame.offset::<P>(cell)));
+                }
             }
             true
         });
         footprint.free.sort_unstable();
         footprint
     }
+
+    /// Whether a segment with this footprint obeys the rule, given which cells are free.
+    pub(crate) fn is_legal(&self, is_free: impl Fn(CellOffset) -> bool) -> bool {
+        let is_free = |&cell: &CellOffset| is_free(cell);
+        self.free.iter().all(is_free) && self.either.iter().all(|cells| cells.iter().any(is_free))
+    }
 }
 
-/// Up to 64 cells of one row of a matrix, by their offset from the bit of a vertex's own cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CellMask {
-    /// Rows down.
-    pub across: i32,
-    /// Columns to the right, to the first of the 64.
-    pub along: i32,
+/// Up to 64 cells of one row of a matrix, by the offset of their bits from that of a vertex's own cell. It
+/// holds for all matrices of one width: so testing it takes no multiplication, which is 4 % of the time of A*
+/// at k = 7.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CellMask {
+    /// From the bit of a vertex's own cell to the first of the 64.
+    offset: i32,
     /// Which of the 64.
-    pub cells: u64,
+    cells: u64,
 }
 
 impl CellMask {
+    /// The mask of one cell, given as (along, across).
+    pub(crate) const fn cell((along, across): CellOffset, matrix: &BitMatrix) -> Self {
+        Self { offset: across * matrix.bits_per_row() + along, cells: 1 }
+    }
+
     /// Masks that hold just these cells, given as (along, across); the nearest rows first.
     ///
-    /// What is swept is contiguous, so cells beyond the frame of a matrix come with cells of the frame: whatever is read there, the answer
-    /// is 'blocked'.
-    #[must_use]
-    pub fn cover(cells: impl IntoIterator<Item = CellOffset>) -> Vec<Self> {
+    /// The cells that a segment sweeps are contiguous. So if some lie beyond the frame of the matrix, others
+    /// lie on the frame, and whatever is read beyond it, the answer is 'blocked'.
+    pub(crate) fn holding(cells: impl IntoIterator<Item = CellOffset>, matrix: &BitMatrix) -> Vec<Self> {
         let mut cells: Vec<CellOffset> = cells.into_iter().collect();
         cells.sort_unstable_by_key(|&(along, across)| (across.abs(), across, along));
         let mut masks = Vec::new();
         for mut row in cells.chunk_by(|a, b| a.1 == b.1) {
-            while let Some(&(along, across)) = row.first() {
-                let here = row.partition_point(|&(other, _)| other < along + 64);
-                let cells = row[..here].iter().fold(0, |mask, &(other, _)| mask | 1 << (other - along));
-                masks.push(Self { across, along, cells });
+            while let Some(&first) = row.first() {
+                let here = row.partition_point(|&(along, _)| along < first.0 + 64);
+                let cells = row[..here].iter().fold(0, |mask, &(along, _)| mask | 1 << (along - first.0));
+                masks.push(Self { cells, ..Self::cell(first, matrix) });
                 row = &row[here..];
             }
         }
         masks
     }
 
-    /// Whether all cells of the mask are free around the bit `at` of `matrix`.
-    #[must_use]
-    #[inline]
-    pub fn is_free(&self, matrix: &BitMatrix, at: BitIndex) -> bool {
-        self.on(matrix).is_free(matrix.words(), at)
-    }
-
-    /// The mask for one matrix alone.
-    #[inline]
-    pub(crate) fn on(&self, matrix: &BitMatrix) -> BitMask {
-        BitMask { offset: self.across * matrix.bits_per_row() + self.along, cells: self.cells }
-    }
-}
-
-/// A [`CellMask`] for matrices of one width: testing it takes no multiplication, which is 4 % of the time of A* at k = 7.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct BitMask {
-    /// From the bit of a vertex's own cell to the first of the 64.
-    offset: i32,
-    cells: u64,
-}
-
-impl BitMask {
     /// Whether all cells of the mask are free around the bit `at`.
     #[inline]
     pub(crate) fn is_free(&self, words: &[u64], at: BitIndex) -> bool {

@@ -1,13 +1,14 @@
-//! What the rules of motion make of a map, whatever moves a search takes: vertices, sight, gaps, components.
+//! What does not depend on k: vertices, sight, gaps, components.
 
 use std::sync::Arc;
 
 use crate::{
-    BitMatrix, Components, Connectivity, Grid, Placement, Rules, Vertex, VertexId, sight::line_of_sight,
+    BitMatrix, Components, Connectivity, Grid, Placement, Rules, Vertex, VertexId,
+    line_of_sight::line_of_sight,
 };
 
-/// A grid under placement `P` and its rule of motion: all that any-angle search needs, and what the grid graphs of every k have in
-/// common. Immutable; planners share it.
+/// A grid with placement `P` and a rule of motion: what any-angle searches need, and what the grid graphs of
+/// all k have in common. It never changes, and planners share it.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -30,19 +31,19 @@ pub struct FreeSpace<P: Placement> {
     rule: P::Rule,
     width: u32,
     height: u32,
-    /// The vertices that no path may pass, if there are any.
+    /// The gaps that no path may pass through, if there are any.
     gaps: Option<BitMatrix>,
     components: Components,
 }
 
 impl<P: Placement> FreeSpace<P> {
-    /// A grid under a rule, for paths at any angle.
+    /// The free space of a grid under a rule of motion, for paths at any angle.
     #[must_use]
     pub fn new(grid: Arc<Grid>, rule: P::Rule) -> Self {
         Self::with_connectivity(grid, rule, P::connectivity(rule, None))
     }
 
-    /// A grid for paths that connect the cells in this way.
+    /// The free space of a grid for paths that connect the cells in this way.
     pub(crate) fn with_connectivity(grid: Arc<Grid>, rule: P::Rule, connectivity: Connectivity) -> Self {
         let (width, height) = P::vertices(&grid);
         Self {
@@ -68,13 +69,13 @@ impl<P: Placement> FreeSpace<P> {
         self.rule
     }
 
-    /// PlacementKind and rule as a value.
+    /// Placement and rule as a value.
     #[must_use]
     pub fn rules(&self) -> Rules {
         P::rules(self.rule)
     }
 
-    /// The number of vertices, free or not; ids are below it.
+    /// The number of vertices, free or not. All ids are below it.
     #[must_use]
     pub const fn vertex_count(&self) -> usize {
         self.width as usize * self.height as usize
@@ -115,26 +116,26 @@ impl<P: Placement> FreeSpace<P> {
         component(from).is_some_and(|label| component(to) == Some(label))
     }
 
-    /// The components of the cells that [`connected`](Self::connected) looks up.
+    /// The components of cells in which [`connected`](Self::connected) looks vertices up.
     #[must_use]
     pub const fn components(&self) -> &Components {
         &self.components
     }
 
-    /// The memory that this takes beyond the map, in bytes: mostly four a cell for the components.
+    /// The memory used beyond the map, in bytes: mostly four a cell for the components.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
         let gaps = self.gaps.as_ref().map_or(0, |gaps| size_of_val(gaps.words()));
         gaps + self.components.memory_bytes()
     }
 
-    /// Whether the straight segment between two vertices obeys the rules of motion; see [`line_of_sight`].
+    /// Whether the straight segment between two vertices obeys the rules of motion: see [`line_of_sight`].
     #[must_use]
     pub fn sees(&self, from: Vertex, to: Vertex) -> bool {
         line_of_sight::<P>(&self.grid, self.rule, from, to)
     }
 
-    /// Whether no path passes `at` because two blocked cells meet there diagonally, under
+    /// Whether `at` is a [gap](Grid::is_gap) that no path may pass through. Always false unless the rule is
     /// [`DiagonalGap::Closed`](crate::DiagonalGap::Closed).
     #[must_use]
     #[inline]
@@ -142,16 +143,28 @@ impl<P: Placement> FreeSpace<P> {
         self.gaps.as_ref().is_some_and(|gaps| gaps.get(at.x, at.y))
     }
 
-    /// Whether there is any [gap](Self::is_closed_gap).
+    /// A set of vertices, as one bit each in an empty frame; `contains` is asked once for each vertex, row by
+    /// row. Sets are the targets of a [`VisibilitySweep`](crate::sight::VisibilitySweep).
+    #[must_use]
+    pub fn vertex_set(&self, mut contains: impl FnMut(Vertex) -> bool) -> BitMatrix {
+        BitMatrix::from_words(self.width, self.height, false, |x, y| {
+            let vertices = (x..self.width as i32).take(64).map(|x| Vertex::new(x, y));
+            vertices.zip(0..).fold(0, |word, (at, bit)| word | u64::from(contains(at)) << bit)
+        })
+    }
+
+    /// Whether there is any [closed gap](Self::is_closed_gap).
     #[must_use]
     #[inline]
     pub const fn has_closed_gaps(&self) -> bool {
         self.gaps.is_some()
     }
 
-    /// Whether a path may come straight from `before` to the free vertex `at` and go on straight to `after`, as far as
-    /// [gaps](Self::is_closed_gap) are concerned: at a gap it stays in one free quadrant, and one that starts or ends there (`None`), in that
-    /// of the vertex's own cell.
+    /// Whether [closed gaps](Self::is_closed_gap) allow a path to come straight from `before` to the free
+    /// vertex `at` and to go straight on to `after`. `None` stands for the start or end of the path at `at`.
+    ///
+    /// At a closed gap a path must stay in one free quadrant; if it starts or ends there, in the quadrant of
+    /// the vertex's own cell. Whether the two segments are legal is not tested.
     #[must_use]
     #[inline]
     pub fn may_turn(&self, before: Option<Vertex>, at: Vertex, after: Option<Vertex>) -> bool {
@@ -169,7 +182,7 @@ impl<P: Placement> FreeSpace<P> {
     }
 }
 
-/// Which corner vertices are doubly blocked; `None` when there are none.
+/// The gaps of a map; `None` if there are none.
 fn gaps(grid: &Grid) -> Option<BitMatrix> {
     let (width, height) = (grid.width() + 1, grid.height() + 1);
     let gaps = BitMatrix::from_words(width, height, false, |x, y| grid.rows().gaps(x, y));

@@ -2,9 +2,11 @@
 
 use crate::{BitMatrix, Vertex};
 
-/// A bit-packed grid map with a transposed copy, so that runs along a row and along a column are both runs of bits.
+/// A bit-packed map: which cells are blocked. It keeps a transposed copy, so that runs along a row and along
+/// a column are both runs of bits.
 ///
-/// Everything outside the map is blocked. Immutable once made, and shareable between threads.
+/// Everything outside the map is blocked. A grid never changes; [`with_rectangle`](Self::with_rectangle)
+/// makes another one.
 ///
 /// ```
 /// use mediant_grid::Grid;
@@ -18,7 +20,7 @@ pub struct Grid {
     columns: BitMatrix,
 }
 
-/// A rectangle of cells; it may reach beyond a map, where there is nothing of it.
+/// A rectangle of cells. The part of it that lies beyond a map is ignored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Rectangle {
     /// Its first column.
@@ -31,7 +33,7 @@ pub struct Rectangle {
     pub height: u32,
 }
 
-/// A grid that cannot be made.
+/// Why a grid cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GridError {
@@ -58,31 +60,27 @@ pub enum GridError {
 }
 
 impl Grid {
-    /// The longest side, in cells. Vertex numbers of either placement and bit positions then fit in 31 bits.
+    /// The longest side, in cells. Up to here the vertex numbers of both placements and all bit positions fit
+    /// in 32 bits. (The largest maps need more memory than a 32-bit target has.)
     pub const MAX_SIDE: u32 = 32_768;
 
     /// A map of `width` × `height` cells; `blocked(x, y)` is asked once for each, row by row.
     ///
     /// # Errors
-    /// [`GridError::Size`] when a side is 0 or exceeds [`MAX_SIDE`](Self::MAX_SIDE); nothing is allocated then.
+    /// [`GridError::Size`] when a side is 0 or exceeds [`MAX_SIDE`](Self::MAX_SIDE); nothing is allocated
+    /// then.
     pub fn from_fn(
         width: u32,
         height: u32,
-        mut blocked: impl FnMut(u32, u32) -> bool,
+        blocked: impl FnMut(u32, u32) -> bool,
     ) -> Result<Self, GridError> {
         Self::check_size(u64::from(width), u64::from(height))?;
-        let mut rows = BitMatrix::blocked(width, height);
-        for y in 0..height {
-            for x in 0..width {
-                if !blocked(x, y) {
-                    rows.set(x, y, false);
-                }
-            }
-        }
+        let rows = BitMatrix::from_bits(width, height, blocked);
         Ok(Self { columns: rows.transposed(), rows })
     }
 
-    /// This map with other cells in a rectangle, as far as that lies on the map: `blocked(x, y)` is asked once for each, row by row.
+    /// A copy of this map with other cells in a rectangle: `blocked(x, y)` is asked once for each cell that
+    /// lies both in the rectangle and on the map, row by row.
     ///
     /// ```
     /// use mediant_grid::{Grid, Rectangle};
@@ -105,7 +103,7 @@ impl Grid {
         grid
     }
 
-    /// Whether a map may have these sides.
+    /// Checks that a map may have these sides.
     ///
     /// # Errors
     /// [`GridError::Size`] when a side is 0 or exceeds [`MAX_SIDE`](Self::MAX_SIDE).
@@ -163,8 +161,9 @@ impl Grid {
         &self.columns
     }
 
-    /// Whether two blocked cells meet diagonally at corner vertex `at` and the two others are free: the vertices that
-    /// [`DiagonalGap::Closed`](crate::DiagonalGap::Closed) forbids to pass.
+    /// Whether corner vertex `at` is a gap: two of its four cells are blocked and meet there diagonally, and
+    /// the two others are free. [`DiagonalGap::Closed`](crate::DiagonalGap::Closed) forbids to pass through
+    /// gaps.
     #[must_use]
     #[inline]
     pub fn is_gap(&self, at: Vertex) -> bool {

@@ -4,14 +4,14 @@ use std::{ops::Deref, sync::Arc};
 
 use mediant_moves::{Cost, CostTable, FiniteK, KError, Neighborhood, Vector};
 
-use crate::{Demand, FreeSpace, Grid, Placement, Vertex, VertexId, sight::Frame, tree::Octant};
+use crate::{FreeSpace, Grid, Placement, Vertex, VertexId, footprint::Footprint, tree::Octant};
 
-/// One move of N(k), with what a search wants of it.
+/// A move of N(k) with its cost and its effect on vertex ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Step {
     /// Its length.
     pub cost: Cost,
-    /// What it adds to the number of a vertex.
+    /// The difference between the ids of the vertices where it ends and starts.
     offset: i32,
     dx: i16,
     dy: i16,
@@ -25,21 +25,21 @@ impl Step {
         Vector::new(self.dx as i32, self.dy as i32)
     }
 
-    /// The vertex that the move leads to from `id`, where it is legal.
+    /// The vertex where the move leads from `id`, if it is legal.
     #[must_use]
     #[inline]
     pub const fn target(&self, id: VertexId) -> VertexId {
         VertexId(id.0.wrapping_add_signed(self.offset))
     }
 
-    /// The vertex that the move leads to from `id` when it is taken `times` times, where that is legal.
+    /// The vertex where `times` repetitions of the move lead from `id`, if they are legal.
     #[must_use]
     #[inline]
     pub const fn target_after(&self, id: VertexId, times: u32) -> VertexId {
         VertexId(id.0.wrapping_add_signed(self.offset.wrapping_mul(times as i32)))
     }
 
-    /// The vertex that the move came from when it led to `id`.
+    /// The vertex where the move started if it led to `id`.
     #[must_use]
     #[inline]
     pub const fn source(&self, id: VertexId) -> VertexId {
@@ -47,10 +47,11 @@ impl Step {
     }
 }
 
-/// The search graph of a grid: placement `P`, its rule of motion, N(k). Immutable; planners share it.
+/// The search graph of a grid: its vertices under placement `P` and a rule of motion, joined by the legal
+/// moves of N(k). It never changes, and planners share it.
 ///
-/// No edge is stored. A vertex's legal moves are found when it is expanded: those of N(3) by a table over the pattern of
-/// cells around it, the others by the octants' trees of mediants (module `tree`).
+/// No edge is stored. The legal moves of a vertex are found when it is expanded: those of N(3) in a table
+/// over the pattern of cells around it, the others by a tree of mediants for each octant (module `tree`).
 ///
 /// ```
 /// use std::sync::Arc;
@@ -72,11 +73,11 @@ pub struct GridGraph<P: Placement> {
     steps: Box<[Step]>,
     costs: CostTable,
     /// For each pattern of cells around a vertex, the legal moves of N(min(k, 3)).
-    near: Box<[u8]>,
+    short: Box<[u8]>,
     octants: Box<[Octant]>,
 }
 
-/// What does not depend on k: the map, the vertices, sight, components.
+/// What does not depend on k: the map, vertices, sight, gaps, components.
 impl<P: Placement> Deref for GridGraph<P> {
     type Target = FreeSpace<P>;
 
@@ -87,7 +88,7 @@ impl<P: Placement> Deref for GridGraph<P> {
 }
 
 impl<P: Placement> GridGraph<P> {
-    /// The largest k of a search graph: 4,096 moves, of up to 89 cells.
+    /// The largest k of a search graph: 4,096 moves, up to 89 cells long along an axis.
     pub const MAX_K: u32 = 12;
 
     /// The search graph of `grid` under `rule` and N(k).
@@ -109,7 +110,7 @@ impl<P: Placement> GridGraph<P> {
         Ok(Self {
             steps: steps.collect(),
             costs: CostTable::new(k)?,
-            near: (0..P::PATTERNS).map(|pattern| near_moves::<P>(rule, k, &moves, pattern)).collect(),
+            short: (0..P::PATTERNS).map(|pattern| legal_in_pattern::<P>(rule, k, &moves, pattern)).collect(),
             octants: octants::<P>(rule, &moves, &grid),
             space: FreeSpace::with_connectivity(grid, rule, P::connectivity(rule, Some(k))),
             k,
@@ -122,13 +123,16 @@ impl<P: Placement> GridGraph<P> {
         self.k
     }
 
-    /// The moves of N(k) in the order of [`Neighborhood`]: a move's index is its place here.
+    /// The moves of N(k), by index: in the order of [`Neighborhood`].
     #[must_use]
     pub const fn steps(&self) -> &[Step] {
         &self.steps
     }
 
-    /// The move at an index that this grid graph handed out.
+    /// The move with this index.
+    ///
+    /// # Panics
+    /// If there is none: indices are below 2^k.
     #[must_use]
     #[inline]
     pub fn step(&self, index: usize) -> &Step {
@@ -141,22 +145,22 @@ impl<P: Placement> GridGraph<P> {
         &self.costs
     }
 
-    /// The memory that this takes beyond the map, in bytes: mostly four a cell for the components.
+    /// The memory used beyond the map, in bytes: mostly four a cell for the components.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
         let octants: usize = self.octants.iter().map(Octant::memory_bytes).sum();
-        size_of_val(&*self.steps) + size_of_val(&*self.near) + octants + self.space.memory_bytes()
+        size_of_val(&*self.steps) + size_of_val(&*self.short) + octants + self.space.memory_bytes()
     }
 
-    /// Whether `v` is a move of N(k) and legal at `at`. For a vertex of its own; for all moves of a vertex see
-    /// [`legal_moves`](Self::legal_moves).
+    /// Whether `v` is a move of N(k) and legal at `at`. To test all moves of a vertex,
+    /// [`legal_moves`](Self::legal_moves) is faster.
     #[must_use]
     pub fn is_legal(&self, at: Vertex, v: Vector) -> bool {
         let known = Neighborhood::new(self.k).is_ok_and(|moves| moves.contains(v));
         known && self.id(at).is_some() && self.sees(at, at + v)
     }
 
-    /// All legal moves at a free vertex, as a bit set over their indices; empty for any other vertex.
+    /// The legal moves at a free vertex, as a set of their indices; the empty set for any other vertex.
     #[must_use]
     pub fn legal_moves(&self, at: Vertex) -> MoveSet {
         let mut set = MoveSet { words: [0; MoveSet::WORDS] };
@@ -166,8 +170,8 @@ impl<P: Placement> GridGraph<P> {
         set
     }
 
-    /// Calls `legal` with the index of each legal move at a free vertex: those of N(3), then octant by octant. Outside the
-    /// map there are none; at a blocked vertex it calls as if the vertex were free.
+    /// Calls `legal` with the index of each legal move at a free vertex: first those of N(3), then octant by
+    /// octant. Outside the map there are none. At a vertex that is blocked, the result has no meaning.
     #[inline]
     pub fn for_each_legal_move(&self, at: Vertex, mut legal: impl FnMut(usize)) {
         if self.id(at).is_none() {
@@ -175,11 +179,12 @@ impl<P: Placement> GridGraph<P> {
         }
         let rows = self.grid().rows();
         let (words, bit) = (rows.words(), rows.index(at.x, at.y));
-        let mut near = self.near[P::pattern(words, bit, rows.bits_per_row())];
-        let spread = self.k.get().saturating_sub(3);
-        while near != 0 {
-            legal((near.trailing_zeros() as usize) << spread);
-            near &= near - 1;
+        let mut short = self.short[P::pattern(words, bit, rows.bits_per_row())];
+        // Between two neighbors of N(3), N(k) has 2^(k − 3) − 1 moves more.
+        let shift = self.k.get().saturating_sub(3);
+        while short != 0 {
+            legal((short.trailing_zeros() as usize) << shift);
+            short &= short - 1;
         }
         for octant in &self.octants {
             if octant.transposed {
@@ -191,8 +196,9 @@ impl<P: Placement> GridGraph<P> {
         }
     }
 
-    /// Calls `step` with the index of each move that a path to `goal` may take from `from`: the legal ones, less those that
-    /// would break the gap rule. `arrived_by` is the move by which the path reached `from`, `None` at its start.
+    /// Calls `step` with the index of each move that a path to `goal` may take from `from`: the legal moves,
+    /// without those that [closed gaps](FreeSpace::is_closed_gap) forbid. `arrived_by` is the index of the
+    /// move by which the path reached `from`, `None` at its start.
     #[inline]
     pub fn for_each_successor(
         &self,
@@ -211,8 +217,9 @@ impl<P: Placement> GridGraph<P> {
         });
     }
 
-    /// Whether a path to `goal` that arrived `from` by the one move may go on by the legal move `index`: false only where that would
-    /// pass a [gap](FreeSpace::is_closed_gap).
+    /// Whether a path to `goal` that reached `from` by the move `arrived_by` may go on by the legal move
+    /// `index`: false only where it would pass through a [closed gap](FreeSpace::is_closed_gap). Both moves
+    /// are indices of this graph; `arrived_by` is `None` at the start of the path.
     #[must_use]
     #[inline]
     pub fn may_step(&self, from: Vertex, arrived_by: Option<usize>, index: usize, goal: Vertex) -> bool {
@@ -225,9 +232,10 @@ impl<P: Placement> GridGraph<P> {
         self.may_turn(before, from, Some(to)) && self.may_enter(from, to, goal)
     }
 
-    /// [`DiagonalGap::Closed`](crate::DiagonalGap::Closed): a gap is entered only where the path ends. At k = 2 also in
-    /// passing: with only axis moves, from one corner of a cell to the opposite one, there may be no other way than along its edges.
-    /// (With diagonal moves a path that stays in one quadrant of a gap is never shorter than one past it.)
+    /// A closed gap is entered only where the path ends. At k = 2 also in passing: with axis moves alone, the
+    /// way from one corner of a cell to the opposite one may have to lead along the edges of the cell and
+    /// past a gap. (With diagonal moves, a path that touches a gap and stays in one of its quadrants is never
+    /// shorter than one that avoids the gap.)
     #[inline]
     fn may_enter(&self, from: Vertex, to: Vertex, goal: Vertex) -> bool {
         if !self.is_closed_gap(to) {
@@ -237,7 +245,7 @@ impl<P: Placement> GridGraph<P> {
     }
 }
 
-/// A set of moves of one neighborhood, by index.
+/// A set of moves of one neighborhood, by their indices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MoveSet {
     words: [u64; Self::WORDS],
@@ -265,7 +273,7 @@ impl MoveSet {
         self.words.get(index / 64).is_some_and(|word| word >> (index % 64) & 1 == 1)
     }
 
-    /// The indices in the set, ascending.
+    /// The indices in the set, in ascending order.
     pub fn iter(&self) -> impl Iterator<Item = usize> {
         self.words.iter().zip((0..).step_by(64)).flat_map(|(&word, base)| {
             let bits = std::iter::successors(Some(word), |rest| Some(rest & rest.wrapping_sub(1)));
@@ -275,19 +283,11 @@ impl MoveSet {
 }
 
 /// The legal moves of N(min(k, 3)) at a vertex around which the cells form this pattern, one bit each.
-fn near_moves<P: Placement>(rule: P::Rule, k: FiniteK, moves: &[Vector], pattern: usize) -> u8 {
-    let near = moves.iter().step_by(1 << k.get().saturating_sub(3));
-    near.enumerate().fold(0, |set, (bit, &v)| {
-        let (frame, d) = Frame::of(v);
-        let blocked = |i, j| {
-            let (along, across) = frame.cell::<P>(i, j);
-            let (dx, dy) = if frame.transposed { (across, along) } else { (along, across) };
-            P::pattern_is_blocked(pattern, dx, dy)
-        };
-        let legal = P::sweep(rule, d, |demand| match demand {
-            Demand::Free { row, first, last } => (first..=last).all(|column| !blocked(column, row)),
-            Demand::EitherFree(cells) => cells.iter().any(|&(column, row)| !blocked(column, row)),
-        });
+fn legal_in_pattern<P: Placement>(rule: P::Rule, k: FiniteK, moves: &[Vector], pattern: usize) -> u8 {
+    let short = moves.iter().step_by(1 << k.get().saturating_sub(3));
+    short.enumerate().fold(0, |set, (bit, &v)| {
+        let footprint = Footprint::new::<P>(rule, v);
+        let legal = footprint.is_legal(|(dx, dy)| !P::pattern_is_blocked(pattern, dx, dy));
         set | u8::from(legal) << bit
     })
 }

@@ -1,24 +1,47 @@
 //! Bit-packed grid maps, and the rules of motion on them.
 //!
-//! A [`Grid`] says which cells are blocked; a [`FreeSpace`] is what a placement ([`Centers`] or [`Corners`]) and a rule of motion make
-//! of it: vertices, line of sight, components. With N(k) that is a [`GridGraph`], the search graph.
+//! A [`Grid`] says which cells are blocked. A placement of the vertices ([`Centers`] or [`Corners`]) and a
+//! rule of motion turn it into a [`FreeSpace`]: vertices, line of sight, gaps, connected components. With a
+//! neighborhood N(k), that becomes a [`GridGraph`], the search graph.
 //!
-//! **The key decision: no edge is stored, and no cell is asked for alone.** Which moves are legal at a vertex is found anew each
-//! time, from words of 64 cells: single steps by a table over the cells around the vertex, longer moves by masks over the rows
-//! that they sweep, arranged as the tree of mediants so that one blocked cell drops all moves beyond it. A map takes two bits a cell,
-//! its own and the transposed copy's; a grid graph adds the components, four bytes a cell, and the masks.
+//! **The key decision: no edge is stored, and cells are read 64 at a time.** The legal moves of a vertex are
+//! found anew each time that a search expands it. Single steps come from a table over the cells around the
+//! vertex. Longer moves come from masks over the rows of cells that they sweep; the masks are arranged as a
+//! tree of mediants, in which one blocked cell excludes a whole cone of moves. So a map takes two bits a
+//! cell, one of them in a transposed copy. A grid graph adds four bytes a cell for the components, and the
+//! masks.
 //!
-//! What a segment sweeps is written down once, in [`Placement::sweep`]; line of sight, the tables and the masks all come from it.
+//! [`Placement::sweep`] is the only definition of the cells that a segment sweeps. Line of sight, the table
+//! and the masks are all derived from it.
 //!
 //! What is not here: files (`mediant-formats`) and searches (`mediant-search`).
+//!
+//! ```
+//! use std::sync::Arc;
+//! use mediant_grid::{Corners, DiagonalGap, FreeSpace, Grid, GridGraph, Vector, Vertex};
+//! use mediant_moves::FiniteK;
+//!
+//! // A wall with a door in row 3.
+//! let grid = Arc::new(Grid::from_fn(8, 4, |x, y| x == 4 && y != 3)?);
+//! let [west, east] = [(0, 0), (8, 0)].map(Vertex::from);
+//!
+//! let space = FreeSpace::<Corners>::new(Arc::clone(&grid), DiagonalGap::Open);
+//! assert!(space.connected(west, east) && !space.sees(west, east));
+//!
+//! let graph = GridGraph::<Corners>::new(grid, FiniteK::N16, DiagonalGap::Open)?;
+//! assert!(graph.is_legal(west, Vector::new(1, 2)));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod ascii;
 mod bits;
 mod components;
 mod footprint;
+mod frame;
 mod free_space;
 mod grid;
 mod grid_graph;
+mod line_of_sight;
 mod placement;
 mod rules;
 pub mod sight;
@@ -26,13 +49,16 @@ mod tree;
 mod vertex;
 
 pub use ascii::{AsciiMap, draw};
-pub use bits::{BitIndex, BitMatrix, BitRow, load};
+#[doc(hidden)]
+pub use bits::{BitIndex, load};
+pub use bits::{BitMatrix, BitRow};
 pub use components::{Components, Connectivity};
-pub use footprint::{CellMask, CellOffset, Footprint};
+#[doc(hidden)]
+pub use footprint::{CellOffset, Footprint};
 pub use free_space::FreeSpace;
 pub use grid::{Grid, GridError, Rectangle};
 pub use grid_graph::{GridGraph, MoveSet, Step};
 pub use mediant_moves::Vector;
-pub use placement::{Centers, Corners, Demand, Placement};
+pub use placement::{Centers, Corners, Placement, SweptCells};
 pub use rules::{CornerRule, DiagonalGap, PlacementKind, Rules};
 pub use vertex::{Vertex, VertexId};

@@ -1,25 +1,30 @@
-//! The two placements as types: what a segment sweeps under each, and which rule of motion each has.
+//! The two placements as types: the cells that a segment sweeps under each, and the rule of motion that
+//! belongs to each.
 
 use std::fmt::Debug;
 
 use mediant_moves::{FiniteK, Vector};
 
 use crate::{
-    BitIndex, CornerRule, DiagonalGap, Grid, PlacementKind, Rules, Vertex, components::Connectivity, load,
+    CornerRule, DiagonalGap, Grid, PlacementKind, Rules, Vertex,
+    bits::{BitIndex, load},
+    components::Connectivity,
 };
 
-/// What a straight segment asks of the map, in the frame of the first octant: the segment starts at the origin and runs
-/// right and down, right at least as far as down. Cell (i, j) is the i-th column and j-th row of cells that it can meet,
-/// counted from its start; see [`Placement::cell`].
+/// Cells that a straight segment sweeps, with the condition under which it is legal.
+///
+/// Cells are given in the frame of the first octant: the segment starts at the origin and runs right and
+/// down, at least as far right as down. Cell (i, j) is in the i-th column and j-th row of cells that it can
+/// meet, counted from its start; see [`Placement::cell`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Demand {
+pub enum SweptCells {
     /// All cells of row `row` from column `first` to column `last` must be free.
-    Free {
+    AllFree {
         /// The row of cells.
         row: i32,
         /// The first column.
         first: i32,
-        /// The last column, itself included.
+        /// The last column, inclusive.
         last: i32,
     },
     /// At least one of two cells (column, row) must be free.
@@ -30,49 +35,54 @@ pub enum Demand {
 pub trait Placement: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static {
     /// The placement as a value.
     const KIND: PlacementKind;
-    /// How many obstacle patterns there are around a vertex, as far as single steps are concerned.
+    /// The number of obstacle patterns around a vertex that differ in which single steps are legal.
     #[doc(hidden)]
     const PATTERNS: usize;
-    /// The rule of motion that this placement leaves open.
+    /// The rule of motion that has to be chosen with this placement.
     type Rule: Copy + Debug + Default + PartialEq + Eq + Send + Sync;
 
-    /// The rule as a value of the closed enum.
+    /// Placement and rule as a value.
     fn rules(rule: Self::Rule) -> Rules;
 
-    /// How many vertices lie in a row and in a column of the grid.
+    /// The number of columns and of rows of vertices.
     fn vertices(grid: &Grid) -> (u32, u32);
 
     /// Whether a path may stand on this vertex; false outside the map.
     fn is_free(grid: &Grid, at: Vertex) -> bool;
 
-    /// The offset, along one axis, of the i-th cell in direction `sign` (±1).
+    /// The offset on the map, along one axis, of the i-th column or row of [`SweptCells`], for a segment that
+    /// runs in direction `sign` (±1) along this axis.
     fn cell(sign: i32, i: i32) -> i32;
 
-    /// Tells `demand` what the closed segment from the origin to `d` asks of the map (with 0 ≤ d.y ≤ d.x, 0 < d.x), from
-    /// its start to its end, until one answer is false. Whether all were true.
-    fn sweep(rule: Self::Rule, d: Vector, demand: impl FnMut(Demand) -> bool) -> bool;
+    /// Calls `holds` with the cells that the closed segment from the origin to `d` sweeps, where 0 ≤ d.y ≤
+    /// d.x and 0 < d.x: from its start to its end, until `holds` returns false. The result is whether it
+    /// always returned true: whether the segment is legal.
+    fn sweep(rule: Self::Rule, d: Vector, holds: impl FnMut(SweptCells) -> bool) -> bool;
 
-    /// The number of the obstacle pattern around a vertex, below [`PATTERNS`](Self::PATTERNS). `at` is the bit of cell
-    /// (x, y).
+    /// The number of the obstacle pattern around vertex (x, y), below [`PATTERNS`](Self::PATTERNS). `at` is
+    /// the bit of cell (x, y).
     #[doc(hidden)]
     fn pattern(words: &[u64], at: BitIndex, bits_per_row: i32) -> usize;
 
-    /// Whether a pattern holds the cell at this offset from cell (x, y).
+    /// Whether a pattern includes the cell at this offset from cell (x, y).
     #[doc(hidden)]
     fn pattern_holds(dx: i32, dy: i32) -> bool;
 
-    /// Whether the cell at this offset from cell (x, y) is blocked in a pattern; only for cells that the pattern holds.
+    /// Whether the cell at this offset from cell (x, y) is blocked in a pattern. The pattern must include
+    /// this cell.
     #[doc(hidden)]
     fn pattern_is_blocked(pattern: usize, dx: i32, dy: i32) -> bool;
 
-    /// Which cells belong together, when it comes to whether there is any path at all: over N(k), or without k at any angle.
+    /// Which cells count as neighbors for the question whether there is a path: over N(k), or at any angle
+    /// for `None`.
+    #[doc(hidden)]
     fn connectivity(rule: Self::Rule, k: Option<FiniteK>) -> Connectivity;
 
-    /// A cell whose component is that of this free vertex.
+    /// A cell in the same component as this free vertex.
     #[doc(hidden)]
     fn representative(grid: &Grid, rule: Self::Rule, at: Vertex) -> Vertex;
 
-    /// Whether paths may not pass the vertices where two blocked cells meet diagonally.
+    /// Whether paths may not pass through gaps, the vertices where two blocked cells meet diagonally.
     #[doc(hidden)]
     fn closes_gaps(rule: Self::Rule) -> bool;
 }
@@ -113,9 +123,10 @@ impl Placement for Centers {
         sign * i
     }
 
-    /// Row j of cells spans the heights j ± ½, where the segment runs over the columns around d.x/d.y · (j ± ½). It
-    /// passes through a corner point where it leaves the row exactly between two columns.
-    fn sweep(rule: CornerRule, d: Vector, mut demand: impl FnMut(Demand) -> bool) -> bool {
+    /// Row j of cells spans the heights j ± ½, between which the segment runs from d.x/d.y · (j − ½) to
+    /// d.x/d.y · (j + ½). It passes through a corner of cells where it leaves the row exactly between two
+    /// columns.
+    fn sweep(rule: CornerRule, d: Vector, mut holds: impl FnMut(SweptCells) -> bool) -> bool {
         let mut first = 0;
         let (x, y) = (i64::from(d.x), i64::from(d.y));
         // In half cells, the segment leaves row `row` at ((2·row + 1)·dx − dy) / dy.
@@ -124,9 +135,9 @@ impl Placement for Centers {
             let (last, corner) = if row == d.y { (d.x, false) } else { (leaves.ceil(), leaves.rest == 0) };
             let widened = corner && rule == CornerRule::Never;
             let next = last + i32::from(corner);
-            let free = Demand::Free { row, first, last: if widened { next } else { last } };
-            let touched = Demand::EitherFree([(next, row), (last, row + 1)]);
-            if !demand(free) || (corner && rule == CornerRule::One && !demand(touched)) {
+            let free = SweptCells::AllFree { row, first, last: if widened { next } else { last } };
+            let touched = SweptCells::EitherFree([(next, row), (last, row + 1)]);
+            if !holds(free) || (corner && rule == CornerRule::One && !holds(touched)) {
                 return false;
             }
             first = if corner && !widened { next } else { last };
@@ -149,8 +160,8 @@ impl Placement for Centers {
         pattern >> (4 + dx + 3 * dy) & 1 == 1
     }
 
-    /// A move's touched cells form a chain in which neighbors share an edge, except where it cuts a corner between two
-    /// blocked cells.
+    /// The cells that a legal move touches form a chain in which neighbors share an edge, except where the
+    /// move passes between two blocked cells that meet diagonally, which only [`CornerRule::Always`] allows.
     fn connectivity(rule: CornerRule, k: Option<FiniteK>) -> Connectivity {
         if rule == CornerRule::Always && k != Some(FiniteK::N4) {
             Connectivity::Eight
@@ -190,21 +201,22 @@ impl Placement for Corners {
         if sign > 0 { i } else { -1 - i }
     }
 
-    /// Row j of cells spans the heights j to j + 1. Along an axis, one of the two cells beside each edge must be free.
-    fn sweep(rule: DiagonalGap, d: Vector, mut demand: impl FnMut(Demand) -> bool) -> bool {
+    /// Row j of cells spans the heights j to j + 1. A segment along an axis needs one free cell beside each
+    /// of its edges.
+    fn sweep(rule: DiagonalGap, d: Vector, mut holds: impl FnMut(SweptCells) -> bool) -> bool {
         if d.y == 0 {
-            return (0..d.x).all(|i| demand(Demand::EitherFree([(i, 0), (i, -1)])));
+            return (0..d.x).all(|i| holds(SweptCells::EitherFree([(i, 0), (i, -1)])));
         }
         let mut first = 0;
         let (x, y) = (i64::from(d.x), i64::from(d.y));
         let mut end = Quotients::new(x, x, y);
         for row in 0..d.y {
             let (last, vertex) = (end.ceil() - 1, end.rest == 0 && row + 1 < d.y);
-            if !demand(Demand::Free { row, first, last }) {
+            if !holds(SweptCells::AllFree { row, first, last }) {
                 return false;
             }
-            let gap = Demand::EitherFree([(last + 1, row), (last, row + 1)]);
-            if vertex && rule == DiagonalGap::Closed && !demand(gap) {
+            let gap = SweptCells::EitherFree([(last + 1, row), (last, row + 1)]);
+            if vertex && rule == DiagonalGap::Closed && !holds(gap) {
                 return false;
             }
             first = end.floor as i32;
@@ -227,7 +239,8 @@ impl Placement for Corners {
         pattern >> (3 + dx + 2 * dy) & 1 == 1
     }
 
-    /// The corners of a free cell are joined along its edges; a shared corner joins two cells unless gaps are closed.
+    /// The corners of a free cell are joined along its edges. Two free cells that share only a corner are
+    /// joined there, unless gaps are closed.
     fn connectivity(rule: DiagonalGap, _: Option<FiniteK>) -> Connectivity {
         match rule {
             DiagonalGap::Open => Connectivity::Eight,
@@ -248,8 +261,8 @@ impl Placement for Corners {
     }
 }
 
-/// The four cells that meet at a corner vertex. Wrapping: a query's vertex may be anywhere, and what lies outside the map is
-/// blocked on both ends.
+/// The four cells that meet at a corner vertex. Coordinates wrap, since the vertex of a query can be
+/// anywhere: the cells at both ends of the range of `i32` are outside the map, and so blocked.
 fn around(at: Vertex) -> [Vertex; 4] {
     [(0, 0), (-1, 0), (0, -1), (-1, -1)]
         .map(|(dx, dy)| Vertex::new(at.x.wrapping_add(dx), at.y.wrapping_add(dy)))
@@ -264,7 +277,7 @@ struct Quotients {
 }
 
 impl Quotients {
-    /// With step ≥ 0 and by > 0.
+    /// For step ≥ 0 and by > 0.
     #[inline]
     const fn new(start: i64, step: i64, by: i64) -> Self {
         let by = if by > 0 { by } else { 1 };

@@ -1,4 +1,5 @@
-//! The rules of motion, as closed enums for the edge of a program.
+//! The rules of motion as values, for the edge of a program. Inside, a placement is a type
+//! ([`Placement`](crate::Placement)) with its rule.
 
 use std::fmt;
 
@@ -7,11 +8,14 @@ use std::fmt;
 pub enum PlacementKind {
     /// One vertex a cell, at its center: the setting of Rivera 2017 and of the MovingAI scenario files.
     Center,
-    /// One vertex a cell corner, (W + 1) × (H + 1) of them: the setting of Hormazábal 2017 and of any-angle search.
+    /// One vertex a cell corner, (W + 1) × (H + 1) of them: the setting of Hormazábal 2017 and of any-angle
+    /// search.
     Corner,
 }
 
-/// At centers: what becomes of the two cells that a move only touches, at a lattice corner point that it passes through.
+/// At centers: whether a move may cut corners. Where it passes exactly through a corner of cells, it only
+/// touches two of the four cells there. The rule says which of these two must be free; all other cells that
+/// the move touches must be.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum CornerRule {
     /// Both must be free: no corner is cut (Rivera 2017; the MovingAI scenarios).
@@ -23,18 +27,29 @@ pub enum CornerRule {
     Always,
 }
 
-/// At corners: whether a path may pass through a vertex where two blocked cells touch diagonally.
+/// At corners: whether a path may pass through a *gap*, a vertex where two blocked cells touch diagonally and
+/// the two others are free.
+///
+/// In any case a move may enter the open interior of no blocked cell, and may not run along an edge between
+/// two blocked cells. The outside of the map counts as blocked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum DiagonalGap {
-    /// It may (Uras & Koenig; Kramm 2018, (APP2)).
+    /// It may (Uras and Koenig; Kramm 2018, (APP2)).
     #[default]
     Open,
-    /// It may not, and one that starts or ends there stays in the quadrant of the vertex's own cell (Anya; the any-angle
-    /// track of the Grid-based Path Planning Competition).
+    /// It may not. A path that starts or ends at a gap stays in the quadrant of the vertex's own cell (Anya;
+    /// the any-angle track of the Grid-based Path Planning Competition).
     Closed,
 }
 
-/// A placement with the rule that belongs to it.
+/// A placement with its rule of motion.
+///
+/// ```
+/// use mediant_grid::{CornerRule, PlacementKind, Rules};
+/// let rules = Rules::Center(CornerRule::Never);
+/// assert_eq!(rules.placement(), PlacementKind::Center);
+/// assert_eq!(rules.to_string(), "center, corners never");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Rules {
     /// Vertices at cell centers.
@@ -44,7 +59,7 @@ pub enum Rules {
 }
 
 impl Rules {
-    /// All five.
+    /// All five combinations.
     pub const ALL: [Self; 5] = [
         Self::Center(CornerRule::Never),
         Self::Center(CornerRule::One),
@@ -63,7 +78,7 @@ impl Rules {
     }
 }
 
-/// Writes the names that the `mediant` program takes and prints.
+/// Displays a value by the name that the `mediant` program accepts and prints.
 macro_rules! names {
     ($type:ty: $($variant:path => $name:literal),+) => {
         impl fmt::Display for $type {

@@ -1,55 +1,63 @@
-//! The moves of one octant as a tree of mediants, with the words that each one tests.
+//! The moves of one octant as a tree of mediants, with the words of cells that each one tests.
 //!
-//! A node's move is the mediant of the two moves that bound its subtree, so a subtree holds the moves of one cone.
-//! *What all of them sweep* is tested first: when it is blocked, the whole subtree is skipped.
+//! The move of a node is the mediant of the two moves that bound its subtree, so a subtree holds the moves of
+//! one cone. The cells that *all of them* sweep are tested first: if one is blocked, the whole subtree is
+//! skipped.
 //!
-//! - At corners, that is all that the node's own move sweeps: by Kramm 2018, Lemma 11, a mediant sweeps every cell that its
-//!   parents sweep, hence so does everything below it. An illegal move ends its subtree, and the work is about that
-//!   for the legal moves alone.
-//! - At centers Lemma 11 fails. Of a mediant and its two parents exactly one has two odd coordinates, and that one passes through
-//!   a corner point at its middle. Where it is a parent, rule `Never` asks it for both cells beside that point and the mediant for one:
-//!   (2, 1) can be legal where (1, 1) is not. Where it is the mediant, rules `One` and `Always` ask it for fewer cells there than
-//!   a parent: (3, 1) can be legal where (2, 1) is not. What does hold needs no lemma: a cell that all moves of a cone sweep
-//!   must be free for each of them. Such cells prune subtrees as before; the rest of a move's cells decides on that move
-//!   alone.
+//! - At corners, these are all the cells that the node's own move sweeps: by Kramm 2018, Lemma 11, a mediant
+//!   sweeps every cell that its parents sweep, and so do all moves below it. An illegal move ends its
+//!   subtree, so that the work is about proportional to the number of legal moves.
+//! - At centers, Lemma 11 fails. Of a mediant and its two parents, exactly one has two odd coordinates, and
+//!   this one passes through a corner of cells at its middle. If it is a parent, rule `Never` requires both
+//!   cells beside that corner to be free for this parent, but only one of them for the mediant: (2, 1) can be
+//!   legal where (1, 1) is not. If it is the mediant, rules `One` and `Always` require fewer free cells there
+//!   than for a parent: (3, 1) can be legal where (2, 1) is not. One thing holds without any lemma: a cell
+//!   that all moves of a cone sweep must be free for each of them. Such cells prune subtrees as at corners;
+//!   the other cells of a move decide about that move alone.
 
 use std::collections::BTreeSet;
 
 use mediant_moves::Vector;
 
 use crate::{
-    BitIndex, BitMatrix, CellMask, CellOffset, Footprint, Grid, Placement, footprint::BitMask, sight::Frame,
+    BitMatrix, Grid, Placement,
+    bits::BitIndex,
+    footprint::{CellMask, CellOffset, Footprint},
+    frame::Frame,
 };
 
+/// A move with the masks of its cells. Nodes are stored in depth-first order.
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    /// The move's index in N(k).
+    /// The index of the move in N(k).
     index: u16,
-    /// The next node that is not below this one.
+    /// The next node that is not in this one's subtree.
     skip: u16,
-    /// The node's masks in [`Octant::masks`]: those shared by its subtree, then its own.
+    /// Where the masks of the cells that the whole subtree footprints begin and end in [`Octant::masks`].
     shared: (u32, u32),
+    /// Where the masks of the other cells that the move footprints end; they begin where the shared ones end.
     own: u32,
-    /// Its pair in [`Octant::pairs`], if any.
+    /// The index of its pair in [`Octant::pairs`], if it has one.
     pair: Option<u16>,
 }
 
 /// The moves strictly between two neighboring moves of N(3).
 #[derive(Clone, Debug)]
 pub(crate) struct Octant {
-    /// Whether its masks are for the transposed map.
+    /// Whether the masks are for the transposed map.
     pub(crate) transposed: bool,
     nodes: Vec<Node>,
-    masks: Vec<BitMask>,
-    /// All that any of its moves asks of the map: when that is free, all of them are legal. Open ground is common, and on it
-    /// this is a load a row instead of several a move.
-    all: Vec<BitMask>,
-    /// Two cells of which one must be free: corner rule `One`.
-    pairs: Vec<[BitMask; 2]>,
+    masks: Vec<CellMask>,
+    /// All cells that any of the moves footprints: if they are free, all moves are legal. Open ground is
+    /// common, and there this takes one load a row instead of several a move.
+    all: Vec<CellMask>,
+    /// Pairs of cells of which one must be free: corner rule `One`.
+    pairs: Vec<[CellMask; 2]>,
 }
 
 impl Octant {
-    /// The tree over `moves`, which has 2^n − 1 moves of one octant in angular order, the first of index `first` in N(k).
+    /// The tree over `moves`: 2^n − 1 moves of one octant in angular order, the first of which has index
+    /// `first` in N(k).
     pub(crate) fn new<P: Placement>(rule: P::Rule, moves: &[Vector], first: u16, grid: &Grid) -> Self {
         let frame = Frame::of(moves[moves.len() / 2]).0;
         let mut octant = Self {
@@ -59,40 +67,40 @@ impl Octant {
             all: Vec::new(),
             pairs: Vec::new(),
         };
-        let sweeps: Vec<Footprint> =
+        let footprints: Vec<Footprint> =
             moves.iter().map(|&v| in_matrix::<P>(rule, v, frame.transposed)).collect();
-        let asked = |sweep: &Footprint| [&*sweep.free, sweep.either.as_flattened()].concat();
-        let asked: BTreeSet<CellOffset> = sweeps.iter().flat_map(asked).collect();
+        let cells = |swept: &Footprint| [&*swept.free, swept.either.as_flattened()].concat();
+        let all: BTreeSet<CellOffset> = footprints.iter().flat_map(cells).collect();
         let matrix = if frame.transposed { grid.columns() } else { grid.rows() };
-        octant.all = masks(asked, matrix).collect();
-        octant.add(&sweeps, first, &[], matrix);
+        octant.all = CellMask::holding(all, matrix);
+        octant.add(&footprints, first, &[], matrix);
         octant
     }
 
-    /// Adds the subtree of these moves. `tested` are the cells that the nodes above have tested.
-    fn add(&mut self, sweeps: &[Footprint], first: u16, tested: &[CellOffset], matrix: &BitMatrix) {
-        if sweeps.is_empty() {
+    /// Adds the subtree over moves with these footprints. `tested` are the cells that the nodes above test.
+    fn add(&mut self, footprints: &[Footprint], first: u16, tested: &[CellOffset], matrix: &BitMatrix) {
+        if footprints.is_empty() {
             return;
         }
-        let middle = sweeps.len() / 2;
-        let mut shared = sweeps[middle].free.clone();
-        for sweep in sweeps {
-            shared.retain(|cell| sweep.free.binary_search(cell).is_ok());
+        let middle = footprints.len() / 2;
+        let mut shared = footprints[middle].free.clone();
+        for footprint in footprints {
+            shared.retain(|cell| footprint.free.binary_search(cell).is_ok());
         }
         let beyond = |cells: &[CellOffset], tested: &[CellOffset]| -> Vec<CellOffset> {
             cells.iter().filter(|cell| !tested.contains(cell)).copied().collect()
         };
         let new = beyond(&shared, tested);
         let tested = [tested, &new].concat();
-        let own = beyond(&sweeps[middle].free, &tested);
+        let own = beyond(&footprints[middle].free, &tested);
         let begin = self.masks.len() as u32;
-        self.masks.extend(masks(new, matrix));
+        self.masks.extend(CellMask::holding(new, matrix));
         let between = self.masks.len() as u32;
-        self.masks.extend(masks(own, matrix));
-        // A move has no common divisor, so it meets at most one corner point: its middle.
-        let pair = sweeps[middle].either.first().map(|&cells| {
-            let bit = |(along, across)| CellMask { across, along, cells: 1 }.on(matrix);
-            self.pairs.push(cells.map(bit));
+        self.masks.extend(CellMask::holding(own, matrix));
+        // The coordinates of a move have no common divisor, so it passes through at most one corner of cells:
+        // at its middle.
+        let pair = footprints[middle].either.first().map(|&cells| {
+            self.pairs.push(cells.map(|cell| CellMask::cell(cell, matrix)));
             self.pairs.len() as u16 - 1
         });
         let node = self.nodes.len();
@@ -104,8 +112,8 @@ impl Octant {
             own: self.masks.len() as u32,
             pair,
         });
-        self.add(&sweeps[..middle], first, &tested, matrix);
-        self.add(&sweeps[middle + 1..], index + 1, &tested, matrix);
+        self.add(&footprints[..middle], first, &tested, matrix);
+        self.add(&footprints[middle + 1..], index + 1, &tested, matrix);
         self.nodes[node].skip = self.nodes.len() as u16;
     }
 
@@ -114,14 +122,14 @@ impl Octant {
         size_of_val(&*self.nodes) + masks + size_of_val(&*self.pairs)
     }
 
-    /// Calls `legal` with the index of each legal move of the octant. `matrix` is the octant's, `at` the bit of the
-    /// vertex's own cell there.
+    /// Calls `legal` with the index of each legal move of the octant. `matrix` is the map, or the transposed
+    /// map if the octant says so, and `at` the bit of the vertex's own cell in it.
     #[inline]
     pub(crate) fn for_each_legal(&self, matrix: &BitMatrix, at: BitIndex, mut legal: impl FnMut(usize)) {
         let words = matrix.words();
-        let all_free = |masks: &[BitMask]| masks.iter().all(|mask| mask.is_free(words, at));
+        let all_free = |masks: &[CellMask]| masks.iter().all(|mask| mask.is_free(words, at));
         if all_free(&self.all) {
-            // In the order of the tree, so that open ground changes nothing but the time.
+            // In the order of the tree, so that open ground changes the time alone.
             return self.nodes.iter().for_each(|node| legal(usize::from(node.index)));
         }
         let free = |begin: u32, end: u32| all_free(&self.masks[begin as usize..end as usize]);
@@ -142,12 +150,7 @@ impl Octant {
     }
 }
 
-/// Masks that hold just these cells.
-fn masks(cells: impl IntoIterator<Item = CellOffset>, matrix: &BitMatrix) -> impl Iterator<Item = BitMask> {
-    CellMask::cover(cells).into_iter().map(|mask| mask.on(matrix))
-}
-
-/// The footprint of a move, as (along, across) in its octant's matrix.
+/// The footprint of a move, as (along, across) in the matrix of its octant.
 fn in_matrix<P: Placement>(rule: P::Rule, v: Vector, transposed: bool) -> Footprint {
     let mut footprint = Footprint::new::<P>(rule, v);
     if transposed {
@@ -165,8 +168,9 @@ mod tests {
     use crate::{Centers, CornerRule, Corners, DiagonalGap, Grid};
     use mediant_moves::{FiniteK, Neighborhood};
 
-    /// How many moves of N(8) beyond N(3) are legal, how many nodes are visited to find them, and how many moves there
-    /// are, over all free vertices of a map with every n-th cell blocked at random.
+    /// The number of moves of N(8) beyond N(3) that are legal, the number of nodes visited to find them, and
+    /// the number of all these moves, summed over the free vertices of a map on which one cell in n is
+    /// blocked at random.
     fn work<P: Placement>(rule: P::Rule, one_in: u64) -> [usize; 3] {
         let mut state = 1_u64;
         let grid = Grid::from_fn(100, 100, |_, _| {
@@ -198,7 +202,8 @@ mod tests {
         sums
     }
 
-    /// The work follows the legal moves rather than 2^k. `docs/architecture.md` quotes these numbers.
+    /// The work follows the number of legal moves rather than 2^k. `docs/architecture.md` quotes these
+    /// percentages.
     #[test]
     fn blocked_cones_are_skipped() {
         let share = |[legal, visited, all]: [usize; 3]| [100 * legal / all, 100 * visited / all];

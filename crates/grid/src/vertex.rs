@@ -1,16 +1,24 @@
-//! Places on a map, and the ids that engines keep instead of them.
+//! Vertices by their coordinates, and the ids that engines keep instead.
 
 use std::{fmt, ops::Add};
 
 use mediant_moves::Vector;
 
-/// A place of the search graph: cell (x, y) under center placement, the top-left corner of cell (x, y) under corner
-/// placement. x counts to the right and y down, from (0, 0).
+/// A vertex of the search graph: the center of cell (x, y) under center placement, its top left corner under
+/// corner placement. x counts to the right and y down, from (0, 0).
+///
+/// ```
+/// use mediant_grid::{Vector, Vertex};
+/// let (from, to) = (Vertex::new(1, 2), Vertex::new(4, 6));
+/// assert_eq!(from.to(to), Vector::new(3, 4));
+/// assert_eq!(from + Vector::new(3, 4), to);
+/// assert_eq!(from.distance(to), 5.0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Vertex {
-    /// To the right, in cells.
+    /// The column, counted to the right.
     pub x: i32,
-    /// Down, in cells.
+    /// The row, counted down.
     pub y: i32,
 }
 
@@ -21,14 +29,15 @@ impl Vertex {
         Self { x, y }
     }
 
-    /// The straight-line distance to `other`, in cells; for any two vertices, also such as lie on no map.
+    /// The straight-line distance to `other`, in cells. Neither vertex has to be on a map.
     #[must_use]
     pub fn distance(self, other: Self) -> f64 {
         let [x, y] = [(self.x, other.x), (self.y, other.y)].map(|(a, b)| f64::from(a.abs_diff(b)));
         (x * x + y * y).sqrt()
     }
 
-    /// The displacement from here to `other`, for vertices less than 2³¹ apart, as those of a map are.
+    /// The displacement from here to `other`, for vertices less than 2³¹ apart along each axis, as those of a
+    /// map are.
     #[must_use]
     #[inline]
     pub const fn to(self, other: Self) -> Vector {
@@ -56,12 +65,12 @@ impl fmt::Display for Vertex {
     }
 }
 
-/// The number of a vertex in row-major order, under one placement of one grid.
+/// The number of a vertex in row-major order, for one grid and one placement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct VertexId(pub u32);
 
 impl VertexId {
-    /// As an array index.
+    /// The number as an array index.
     #[must_use]
     #[inline]
     pub const fn index(self) -> usize {

@@ -1,14 +1,14 @@
-//! Reading numbers from bytes that may be anything.
+//! Reading numbers from bytes that need not be an index.
 
 use crate::HierarchyError;
 
-/// Little-endian `u32`, one after the other.
-pub(crate) struct Numbers<'b> {
+/// Reads one little-endian `u32` after the other.
+pub(crate) struct WordReader<'b> {
     words: std::slice::Iter<'b, [u8; 4]>,
 }
 
-impl<'b> Numbers<'b> {
-    pub(crate) fn of(bytes: &'b [u8]) -> Result<Self, HierarchyError> {
+impl<'b> WordReader<'b> {
+    pub(crate) fn new(bytes: &'b [u8]) -> Result<Self, HierarchyError> {
         match bytes.as_chunks::<4>() {
             (words, []) => Ok(Self { words: words.iter() }),
             _ => Err(HierarchyError::Bytes("their number is not a multiple of four")),
@@ -22,7 +22,13 @@ impl<'b> Numbers<'b> {
             .ok_or(HierarchyError::Bytes("they are too few"))
     }
 
-    pub(crate) fn end(mut self) -> Result<(), HierarchyError> {
-        if self.words.next().is_none() { Ok(()) } else { Err(HierarchyError::Bytes("they are too many")) }
+    /// Checks that at least `count` words are left: to be called before memory for so many is allocated.
+    pub(crate) fn check_left(&self, count: usize) -> Result<(), HierarchyError> {
+        if self.words.len() < count { Err(HierarchyError::Bytes("they are too few")) } else { Ok(()) }
+    }
+
+    /// Checks that all words were read.
+    pub(crate) fn end(self) -> Result<(), HierarchyError> {
+        if self.words.len() == 0 { Ok(()) } else { Err(HierarchyError::Bytes("they are too many")) }
     }
 }

@@ -1,13 +1,11 @@
-//! Whether a map and an index fit together.
-
-use std::ops::Range;
+//! Checks of what is handed in: moves, sizes, and whether a grid graph and an index belong together.
 
 use mediant_grid::{Centers, CornerRule, Grid, GridGraph};
 use mediant_moves::FiniteK;
 
 use crate::HierarchyError;
 
-/// Whether there is a hierarchy for these moves.
+/// Checks that there are hierarchies for the moves of a grid graph.
 pub(crate) fn moves(grid_graph: &GridGraph<Centers>) -> Result<(), HierarchyError> {
     match grid_graph.k() {
         FiniteK::N4 => Ok(()),
@@ -16,13 +14,13 @@ pub(crate) fn moves(grid_graph: &GridGraph<Centers>) -> Result<(), HierarchyErro
     }
 }
 
-/// Whether an index of a map of this size can be one of `grid`.
+/// Checks that a map has the size of an index's map.
 pub(crate) fn size(expected: (u32, u32), grid: &Grid) -> Result<(), HierarchyError> {
     let found = (grid.width(), grid.height());
     if found == expected { Ok(()) } else { Err(HierarchyError::Size { expected, found }) }
 }
 
-/// Whether an index for k and a map of this size can be used on a grid graph.
+/// Checks that an index for k, of a map of this size, can be used on a grid graph.
 pub(crate) fn grid_graph(
     k: FiniteK,
     size: (u32, u32),
@@ -37,7 +35,29 @@ pub(crate) fn grid_graph(
     }
 }
 
-/// What of a rectangle's side lies on the map.
-pub(crate) fn span(first: u32, length: u32, cells: u32) -> Range<u32> {
-    first..first.saturating_add(length).min(cells)
+/// Checks that so many nodes or segments can be addressed. On 64 bits every map's can, on 32 bits not those
+/// of small clusters on the largest maps.
+pub(crate) fn address_space(count: u64) -> Result<(), HierarchyError> {
+    fits(count, isize::MAX as u64)
+}
+
+/// Index and planner take at most so many bytes for each node or segment, in one allocation.
+const BYTES_EACH: u64 = 32;
+
+fn fits(count: u64, bytes: u64) -> Result<(), HierarchyError> {
+    if count <= bytes / BYTES_EACH { Ok(()) } else { Err(HierarchyError::TooLarge { count }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn on_32_bits_small_clusters_of_large_maps_do_not_fit() {
+        let max = i32::MAX as u64;
+        assert_eq!(fits(8192 * 4096, max), Ok(()));
+        let all = u64::from(Grid::MAX_SIDE).pow(2);
+        assert_eq!(fits(all, max), Err(HierarchyError::TooLarge { count: all }));
+        assert_eq!(fits(all, i64::MAX as u64), Ok(()));
+    }
 }

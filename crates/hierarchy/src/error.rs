@@ -1,43 +1,44 @@
-//! What there is no hierarchy for.
+//! Why there is no index, or no planner on it.
 
 use mediant_grid::Rules;
 use mediant_moves::{FiniteK, KError};
 
-/// An index that cannot be made, repaired or read.
+/// An index that cannot be made, repaired, read or used.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum HierarchyError {
-    /// Moves that the hierarchies are not made for.
+    /// Moves that there are no hierarchies for.
     #[error(
         "no hierarchy for k = {k} at centers under {rules}: k must be 2 or 3, and corners never cut at 3"
     )]
     Moves {
-        /// What was asked for.
+        /// The k that was asked for.
         k: FiniteK,
-        /// The rules.
+        /// The rules that were asked for.
         rules: Rules,
     },
     /// Clusters or segments that are too small or too large.
     #[error("a cluster or segment of {found} × {found} cells: the side must be {min} to {max}")]
     Side {
-        /// What was asked for.
+        /// The side that was asked for, in cells.
         found: u32,
-        /// The smallest.
+        /// The shortest.
         min: u32,
-        /// The largest.
+        /// The longest.
         max: u32,
     },
-    /// No level, or more than fit.
+    /// No level, or too many.
     #[error(
         "{found} levels of clusters, the lowest of {side} × {side} cells: there must be one, and the clusters of the highest \
-         at most {max} cells long",
-        max = crate::Clustering::MAX_SIDE
+         at most {max} cells long"
     )]
     Levels {
-        /// What was asked for.
+        /// The number of levels that was asked for.
         found: u32,
-        /// The side of the lowest level's clusters.
+        /// The side of the lowest level's clusters, in cells.
         side: u32,
+        /// The longest side of a cluster of any level, in cells.
+        max: u32,
     },
     /// A map of another size.
     #[error(
@@ -47,7 +48,7 @@ pub enum HierarchyError {
     Size {
         /// Width and height of the index's map.
         expected: (u32, u32),
-        /// Those of the other one.
+        /// Width and height of the other map.
         found: (u32, u32),
     },
     /// An index for other moves.
@@ -57,8 +58,16 @@ pub enum HierarchyError {
     OtherK {
         /// The index's k.
         expected: FiniteK,
-        /// The grid graph's.
+        /// The grid graph's k.
         found: FiniteK,
+    },
+    /// An index with more nodes or segments than this machine can address.
+    #[error(
+        "an index of {count} nodes or segments is more than this machine can address: choose a longer side"
+    )]
+    TooLarge {
+        /// The number of nodes or segments.
+        count: u64,
     },
     /// A neighborhood that is too large.
     #[error(transparent)]

@@ -1,12 +1,13 @@
-//! Hierarchical path planning, HPA* and CHPA*: paths that are nearly as short as the shortest, on maps that change.
+//! Hierarchical path planning, HPA* and CHPA*: near-optimal paths, from small indexes that are repaired where
+//! the map changes.
 //!
-//! An index tells what crossing a part of the map takes. A planner finds its way from part to part, and then through each. Nothing in an index depends on cells that are far away, so
-//! that it is *repaired* where the map changed, and then equal to a new one.
+//! Both cut the map into parts, store which parts are joined, and answer a query in two steps: A* over parts,
+//! then short searches within the parts on the way. HPA* also stores the cost of crossing each part.
 //!
 //! | paper | index | planner |
 //! |---|---|---|
-//! | Botea, Müller & Schaeffer 2004, HPA* | [`ClusterGraph`]: clusters, transitions, costs between them, on one or more levels | [`HpaStar`] |
-//! | Teleiša & Čalnerytė 2023, CHPA* | [`SegmentGraph`]: segments, and which neighbors a path through a sliding window joins | [`ChpaStar`], as published or [complete](FallbackPolicy) |
+//! | Botea, Müller & Schaeffer 2004, HPA* | [`ClusterGraph`]: clusters, transitions between them, and the costs between transitions, on one or more levels | [`HpaStar`] |
+//! | Teleiša & Čalnerytė 2023, CHPA* | [`SegmentGraph`]: segments, and which neighbors a path within a sliding window joins | [`ChpaStar`], as published or [complete](FallbackPolicy) |
 //!
 //! ```
 //! use std::sync::Arc;
@@ -35,45 +36,30 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! **The key decision: what is stored follows from the map alone, part by part.** No numbering, no order of work and no history enters an index. So 'a repaired index equals a rebuilt one'
-//! is a comparison of values, and repairing is making anew what the changed cells can have touched.
+//! **The key idea: an index is a function of the map, part by part.** What is stored of a part follows from
+//! its own cells and those along its border, or on an upper level of HPA* from the parts that it consists of.
+//! Node numbers, the order of work and earlier versions of the map do not enter. Two things follow. A change
+//! can affect only the parts that it touches, their neighbors, and the parts above them, so that a repair
+//! computes these anew and nothing else. And a repaired index is *equal* to a new one, value by value, so that
+//! nothing decays over many repairs, and one comparison tests it. The price is the length of paths: a path
+//! must pass through given cells on the borders of its parts, transitions that were chosen before the query
+//! or checkpoints near the middle of a border. In HPA*, [straightening](HpaStar::with_straightening) regains
+//! most of that.
 //!
-//! **How good, how fast.** `cargo xtask reproduce-tables --only hpa-games teleisa2023` measures it; lengths and counts are the same on every machine. HPA* with its default clustering on all maps of four sets
-//! of games, each 100th instance, means over the maps:
+//! How long the paths are, how fast the planners, and how the results compare with what the papers claim: see
+//! `docs/measurements.md`. In short, paths of HPA* are 0.2 to 0.4 % longer than optimal in the mean on maps
+//! of games.
 //!
-//! | k | set | as refined, longer than optimal | smoothed | worst map | fewer nodes than A* | less time |
-//! |--:|---|--:|--:|--:|--:|--:|
-//! | 2 | bg512 | 0.94 % | 0.27 % | 1.42 % | 51 × | 16 × |
-//! | 2 | dao | 4.69 % | 0.37 % | 4.44 % | 17 × | 8.6 × |
-//! | 2 | sc1 | 1.45 % | 0.22 % | 0.77 % | 71 × | 25 × |
-//! | 2 | wc3maps512 | 1.09 % | 0.25 % | 0.61 % | 44 × | 14 × |
-//! | 3 | bg512 | 4.12 % | 0.23 % | 1.09 % | 47 × | 13 × |
-//! | 3 | dao | 6.69 % | 0.36 % | 4.96 % | 12 × | 7.0 × |
-//! | 3 | sc1 | 3.88 % | 0.25 % | 0.63 % | 56 × | 24 × |
-//! | 3 | wc3maps512 | 3.81 % | 0.26 % | 0.67 % | 36 × | 13 × |
-//!
-//! (Its authors: within 1 % of optimal after smoothing, up to ten times faster than A*. In noise, on random512-10-0, it is 1.5 % longer and 3.7 times as fast.)
-//!
-//! On Moscow_2_1024, 1024 × 1024 cells, k = 3, one core, an index takes 31 ms to make (CHPA*: 41 ms). Repairing it after a square of 10 × 10 cells changed takes 0.2 ms in the mean of 300,
-//! 0.4 ms at most (CHPA*: 0.01 ms); on random512-10-0 0.3 and 0.6 ms. (The first in a process, whose memory is new, took 2 ms.) The new grid takes 0.02 ms (0.1 where its memory is new), the new grid graph 0.4 ms, on other maps of this size up to 0.9 ms.
-//!
-//! **What Teleiša & Čalnerytė 2023 claim** stands beside what is found in `docs/results/teleisa2023.md`, and where it differs, with the causes, in `docs/results/deviations.md`. In short, on
-//! their four maps of 768 × 768 tiles, 200 instances of each drawn as they say, k = 2: CHPA*'s paths are 1.6 % longer than optimal (theirs: 2 to 4 %), with 87 % fewer nodes than A* by the
-//! Manhattan distance (over 80 %) and 88 % less time (97 %: the time follows the nodes here, theirs does not). A* by the squared Euclidean distance is theirs only if closed nodes stay
-//! closed; reopened, it would be 11 % longer and expand twice as many. With one end of a wall first, in the place of its middle, paths are 1.8 to 1.9 % longer than optimal.
-//!
-//! As published, CHPA* finds no path for 6 of the 800 instances. Complete, it finds all, at the price of 7 % more nodes. How much longer than optimal complete CHPA*'s paths are
-//! depends on the map more than all else: at k = 3, on each 40th instance, 0.8 % on set street, 1.8 % on bg512, 3.5 % on sc1, 4.4 % on dao, 8 % on wc3maps512, 18 % on random and 31 % on
-//! room; those of HPA* 0.1 to 0.5 %, on random 1.1 % (`cargo xtask verify --every 40 --engine hpa chpa`).
-//!
-//! What is not here: files. An index comes and goes as bytes.
+//! **What is not here.** No path is promised to be optimal; `mediant-search` and `mediant-subgoal` have the
+//! engines that promise it. There are no hierarchies for k above 3, for corners that may be cut at k = 3, or
+//! for corner placement. There are no files: an index is written to and read from bytes.
 
 mod bytes;
 mod check;
 mod chpa;
 mod error;
 mod hpa;
-mod straighten;
+mod waypoints;
 mod window;
 
 pub use chpa::{ChpaStar, FallbackPolicy, SegmentGraph};

@@ -1,6 +1,8 @@
-//! What a planner did before does not matter to what it answers; warm, it allocates little; and bytes that say they are much allocate nothing.
+//! Scratch memory: earlier queries do not change answers, a warm planner allocates only the path that it
+//! returns, and crafted bytes allocate no more than an index of the map.
 #![allow(unsafe_code, reason = "a counting allocator implements an unsafe trait")]
 
+#[path = "it/common.rs"]
 mod common;
 
 use std::{
@@ -109,7 +111,7 @@ fn a_planner_that_repaired_its_index_answers_as_a_new_one() {
         let mut asked = 0;
         for (grid_graph, at) in grid_graphs[1..].iter().zip(places) {
             for query in random_queries(&mut rng, grid_graph.grid(), 2) {
-                // What is refused or stale must leave no trace either.
+                // Answers on the index before its repair must leave no trace either.
                 _ = (boxed.0.solve(query), boxed.1.solve(query));
             }
             boxed.0.repair(grid_graph, at).expect("it fits");
@@ -138,7 +140,7 @@ fn cave() -> Grid {
     caves(&mut Rng::new(7), 60, 50)
 }
 
-/// How many allocations each answer takes on a warm planner beyond its path, at most.
+/// The most allocations of a query on a warm planner, without that of its path.
 fn most_allocations(planner: &mut Solve<'_>, queries: &[Query], case: &str) -> usize {
     for _ in 0..2 {
         for &query in queries {
@@ -185,13 +187,15 @@ fn a_warm_query_allocates_its_path_and_nothing_else() {
     }
 }
 
-/// Whether bytes were read, and how many bytes that took.
+/// Whether bytes were read, and how many bytes of memory were allocated.
 fn allocated<T, E>(read: impl FnOnce() -> Result<T, E>) -> (bool, usize) {
     let before = BYTES.get();
     let result = read();
     (result.is_ok(), BYTES.get() - before)
 }
 
+/// Reads an index with wrong words among its first ones: all must be refused, without allocating more than
+/// `may_take` bytes.
 fn check_headers<T, E>(words: usize, bytes: &[u8], read: impl Fn(&[u8]) -> Result<T, E>, may_take: usize) {
     let (is_ok, most) = allocated(|| read(bytes));
     assert!(is_ok && most > bytes.len() / 2, "{most} bytes for {}", bytes.len());
@@ -209,19 +213,29 @@ fn check_headers<T, E>(words: usize, bytes: &[u8], read: impl Fn(&[u8]) -> Resul
     }
 }
 
-/// The first words say how the map is cut; and behind those of clusters is how many nodes the first one has.
+/// The first words say how the map is cut. In an index of clusters the number of the first one's nodes comes
+/// next.
 #[test]
 fn no_header_allocates_more_than_an_index_of_the_map() {
     let grid = cave();
     let grid_graph: GridGraph<Centers> = grid_graph(&grid, k(3), CornerRule::Never);
-    // As many as the smallest clusters have in all levels that fit, and the lists that are made of them.
+    // An index of the smallest clusters in all levels that fit is the largest.
     let most = allocated(|| Ok::<_, ()>(clusters(&grid_graph, Clustering { side: 2, levels: 8 }))).1;
     assert!(most < 10_000_000, "{most} bytes for a map of 60 × 50 cells");
     let bytes = clusters(&grid_graph, Clustering { side: 6, levels: 2 }).to_bytes();
     check_headers(5, &bytes, |bytes| ClusterGraph::from_bytes(&grid_graph, bytes), most);
     let bytes = segments(&grid_graph, 3).to_bytes();
     check_headers(3, &bytes, |bytes| SegmentGraph::from_bytes(&grid_graph, bytes), 60 * 50 + 100);
-    // One cell, and all that the header may say.
+    // A header alone, of the largest indexes, allocates nothing.
+    for header in [[2_u32, 8, 60, 50], [2, 1, 60, 50], [64, 3, 60, 50]] {
+        let bytes = header.map(u32::to_le_bytes).concat();
+        let (is_ok, taken) = allocated(|| ClusterGraph::from_bytes(&grid_graph, &bytes));
+        assert!(!is_ok && taken < 200, "{header:?}: {taken} bytes");
+    }
+    let header = [1_u32, 60, 50].map(u32::to_le_bytes).concat();
+    let (is_ok, taken) = allocated(|| SegmentGraph::from_bytes(&grid_graph, &header));
+    assert!(!is_ok && taken == 0, "{taken} bytes");
+    // One cell, and the largest clusters.
     let one = Grid::from_fn(1, 1, |_, _| false).expect("a valid size");
     let grid_graph = common::grid_graph(&one, k(3), CornerRule::Never);
     let numbers: Vec<u8> = [64_u32, 3, 1, 1, 0, 0, 0].into_iter().flat_map(u32::to_le_bytes).collect();

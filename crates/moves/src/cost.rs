@@ -9,15 +9,16 @@ use crate::Vector;
 
 /// A path cost as an integer multiple of 2⁻³² cells.
 ///
-/// The length of each move is rounded once, to the nearest multiple; paths and heuristics are integer sums of such
-/// lengths. So sums are exact and do not depend on their order: two paths that take the same moves in another order
-/// compare equal, and ties fall the same way on every platform.
+/// The length of each move is rounded once, to the nearest multiple; paths and heuristics are integer sums of
+/// such lengths. So sums are exact and do not depend on their order: two paths that take the same moves in
+/// another order compare equal, and ties fall the same way on every platform.
 ///
-/// **Error.** A move is off by at most [`MAX_MOVE_ERROR`](Self::MAX_MOVE_ERROR) = 2⁻³³ (axis moves by nothing), so a path of n moves by at most
-/// n·2⁻³³, and, as no move is shorter than 1, by at most 2⁻³³ of its length. A path that is shortest in these costs
-/// is therefore shortest in real lengths up to a factor of 1 + 2⁻³¹.
+/// **Error.** The cost of a move differs from its length by at most [`MAX_MOVE_ERROR`](Self::MAX_MOVE_ERROR)
+/// = 2⁻³³; axis moves are exact. No move is shorter than 1, so the relative error of a path's cost is also at
+/// most 2⁻³³. A path that is shortest in these costs is therefore at most 1 + 2⁻³¹ times as long as the
+/// shortest one.
 ///
-/// **Range.** Below 2³² cells: enough for every path whose length is below 2³².
+/// **Range.** Below 2³² cells. Sums beyond overflow as those of `u64` do.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Cost(u64);
 
@@ -28,7 +29,7 @@ impl Cost {
     pub const MAX_MOVE_ERROR: f64 = 1.0 / (1_u64 << (Self::FRACTION_BITS + 1)) as f64;
     /// Cost 0.
     pub const ZERO: Self = Self(0);
-    /// More than any path costs.
+    /// More than the cost of any path.
     pub const MAX: Self = Self(u64::MAX);
 
     /// The cost of one move: its length, rounded to the nearest multiple of 2⁻³² (computed in integers).
@@ -40,19 +41,19 @@ impl Cost {
         Self((root + (square - root * root > root) as u128) as u64)
     }
 
-    /// The cost with these bits: a number of 2⁻³² cells.
+    /// The cost of `bits` · 2⁻³² cells.
     #[must_use]
     pub const fn from_bits(bits: u64) -> Self {
         Self(bits)
     }
 
-    /// The number of 2⁻³² cells.
+    /// The cost in units of 2⁻³² cells.
     #[must_use]
     pub const fn to_bits(self) -> u64 {
         self.0
     }
 
-    /// In cells, rounded to `f64`.
+    /// The cost in cells, rounded to `f64`.
     #[must_use]
     pub const fn to_f64(self) -> f64 {
         self.0 as f64 / (1_u64 << Self::FRACTION_BITS) as f64
@@ -106,12 +107,13 @@ mod table {
     use super::Cost;
     use crate::{FiniteK, KError, Quadrant, Vector};
 
-    /// The costs of the moves of Q(k − 2), and with them h_k in [`Cost`]s: the heuristic of the grid graph engines.
+    /// The costs of the moves of Q(k − 2), and h_k computed from them: the heuristic of the searches over
+    /// N(k).
     ///
-    /// h_k is built from the same rounded move costs as every path, and each move costs less than any detour over its
-    /// neighbors by more than the rounding, up to [`CostTable::MAX_K`]. So it is exactly the cost of the
-    /// cheapest path on an empty grid, never more than that of a path among obstacles, and consistent: by integer
-    /// arithmetic, not up to an epsilon.
+    /// h_k is a sum of the same rounded costs as every path. Up to [`CostTable::MAX_K`], the rounding is
+    /// smaller than the difference between a move and any detour over its neighbors. So h_k is exactly the
+    /// cost of the cheapest path on an empty grid, and therefore admissible and consistent, in integers and
+    /// without any tolerance.
     ///
     /// ```
     /// use mediant_moves::{Cost, CostTable, FiniteK, Vector};
@@ -127,8 +129,8 @@ mod table {
     }
 
     impl CostTable {
-        /// The largest k for which the rounded costs keep every move cheaper than each detour over its neighbors
-        /// (a test checks both sides); its table takes 512 KiB.
+        /// The largest k for which, in rounded costs, every move is cheaper than each detour over its
+        /// neighbors (a test checks that it fails at the next k). Its table takes 512 KiB.
         pub const MAX_K: u32 = 18;
 
         /// The table for N(k).
@@ -151,9 +153,9 @@ mod table {
 
         /// h_k(d), for d of any quadrant with coordinates below 2³¹ in magnitude.
         ///
-        /// By the rounds of Hormazábal 2017, Algorithm 2, but they carry the index of the pair of moves instead of the moves: at the end
-        /// the two costs are looked up. (Comparing with all moves of an octant at once, as [`distance`](crate::distance()) does for
-        /// small k, is faster in a loop of its own, but made no search faster by more than 1 %.)
+        /// By the rounds of Hormazábal 2017, Algorithm 2, which keep the index of the pair of moves instead
+        /// of the moves; the two costs are looked up at the end. (The comparison with all moves at once,
+        /// which [`distance`](crate::distance()) uses for small k, made no search faster by more than 1 %.)
         #[must_use]
         #[inline]
         pub fn distance(&self, d: Vector) -> Cost {

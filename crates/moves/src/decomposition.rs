@@ -1,26 +1,27 @@
-//! A vector as α·v + β·w of two adjacent moves, and the trees that decompose a move down to lower levels.
+//! Decompositions: of a vector into two adjacent moves, α·v + β·w, and of a move into a tree of moves of
+//! lower levels.
 
 use crate::{FiniteK, Parity, Vector};
 
-/// d = α·v + β·w: the two adjacent moves of N(k) that contain d, and how often an optimal path on an empty grid takes
-/// each (Rivera 2017, Theorems 2 and 3, Corollary 1; Kramm 2018, Theorem 1).
+/// d = α·v + β·w: the two adjacent moves of N(k) that contain d, and how often an optimal path on an empty
+/// grid takes each of them (Rivera 2017, Theorems 2 and 3, Corollary 1; Kramm 2018, Theorem 1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Decomposition {
     /// The move nearer to the axis on which the quadrant begins.
     pub v: Vector,
-    /// How often v is taken.
+    /// The number of times that v is taken.
     pub alpha: u32,
     /// The next move in angular order.
     pub w: Vector,
-    /// How often w is taken.
+    /// The number of times that w is taken.
     pub beta: u32,
-    /// The parity of v's index; w has the other one.
+    /// The parity of the index of v; that of w is the other one.
     parity: Parity,
 }
 
 impl Decomposition {
-    /// The canonical path: the odd-indexed move first, then the even-indexed one, each with its count, which may be 0
-    /// (Rivera 2017, 'Canonical Orderings').
+    /// The canonical path: the odd-indexed move first, then the even-indexed one, each with its count, which
+    /// may be 0 (Rivera 2017, 'Canonical Orderings').
     #[must_use]
     pub const fn canonical(self) -> [(Vector, u32); 2] {
         match self.parity {
@@ -36,13 +37,14 @@ impl Decomposition {
     }
 }
 
-/// The decomposition of d over N(k), for d of any quadrant; for the zero vector that of the first quadrant with α = β = 0.
-/// Hormazábal 2017, Algorithm 2, in about as many steps as Euclid's algorithm takes on d, or fewer.
+/// The decomposition of d over N(k), for d of any quadrant (Hormazábal 2017, Algorithm 2). Takes about as
+/// many steps as Euclid's algorithm takes on d, or fewer. The zero vector gets two moves of the first
+/// quadrant and α = β = 0.
 ///
-/// Where d itself is a multiple of a move of N(k), that move is v or w and the other factor is 0.
+/// If d is a multiple of a move of N(k), this move is v or w, and the other factor is 0.
 ///
-/// `None` when a coordinate is `i32::MIN`, or when a move that d needs has a coordinate beyond `i32` (its factor is then
-/// 0 and k is far beyond what d needs).
+/// `None` if a coordinate of d is `i32::MIN`, or if one of the two moves has a coordinate beyond `i32`. (The
+/// factor of that move is then 0, and a much smaller k gives the same path.)
 ///
 /// ```
 /// use mediant_moves::{decompose, FiniteK, Vector};
@@ -77,27 +79,27 @@ pub fn containing(d: Vector, k: FiniteK) -> Option<(Vector, Vector)> {
     decompose(d, k).map(|parts| (parts.v, parts.w))
 }
 
-/// |d| = times_low·low + times_high·high, two adjacent first-quadrant moves as (x, y). `u64` holds the move with factor 0
-/// however large k is.
+/// |d| = times_low·low + times_high·high, for two adjacent moves of the first quadrant as (x, y). In `u64` the move with factor 0 fits as well, however large k is.
 pub(crate) struct Factors {
     pub(crate) times_low: u32,
     pub(crate) low: (u64, u64),
     pub(crate) times_high: u32,
     pub(crate) high: (u64, u64),
-    /// Whether the last round moved `low`, which then is the mediant that k itself inserts; `None` without any round.
+    /// Whether the last round replaced `low`, which is then the mediant that N(k) inserts; `None` if there
+    /// was no round.
     last_beyond: Option<bool>,
 }
 
 /// The factorization rounds of Hormazábal 2017, Algorithm 2, for |d| = (x, y).
 ///
-/// Rounds that fall to the same side are taken together by one division: whatever k, about as many steps as Euclid's
-/// algorithm takes on (x, y).
+/// Consecutive rounds on the same side are taken together by one division, which makes about as many steps as
+/// Euclid's algorithm takes on (x, y), whatever k is.
 pub(crate) fn factorize(mut x: u32, mut y: u32, mut rounds: u32) -> Factors {
     let (mut low, mut high) = ((0_u64, 1_u64), (1_u64, 0_u64));
     let mut last_beyond = None;
     while rounds > 0 {
-        // A round subtracts the smaller factor from the larger one (y from x only where x > y). Once a factor is 0, all
-        // rounds left go to the other side.
+        // A round subtracts the smaller factor from the larger one (y from x only if x > y). Once a factor is
+        // 0, all remaining rounds are on the same side.
         let beyond = x > y;
         let n = if beyond { (x - 1).checked_div(y) } else { y.checked_div(x) }.unwrap_or(rounds).min(rounds);
         let times = u64::from(n);
@@ -132,11 +134,11 @@ mod tree {
         pub children: Option<(u32, u32)>,
     }
 
-    /// The decomposition tree of level k for a move (Kramm 2018, Algorithm 2): each node above level k has the two
-    /// adjacent moves for children that its label is the mediant of.
+    /// The decomposition tree of level k for a move (Kramm 2018, Algorithm 2): the children of each node
+    /// above level k are the two adjacent moves whose mediant is its label.
     ///
-    /// Its leaves, from left to right, spell a path over N(k) that enters no cell which the move itself does not enter
-    /// (Lemma 11) and that is as short as any over N(k) on an empty grid (Lemma 13).
+    /// Its leaves, from left to right, are the moves of a path over N(k). This path enters only cells that
+    /// the move itself enters (Lemma 11), and on an empty grid no path over N(k) is shorter (Lemma 13).
     ///
     /// ```
     /// use mediant_moves::{DecompositionTree, FiniteK, Vector};
@@ -151,9 +153,10 @@ mod tree {
     }
 
     impl DecompositionTree {
-        /// The tree of level k for `v`; `None` if v is no move or its level is below k (the paper's 'failure').
+        /// The tree of level k for `v`; `None` if v is not a move or its level is below k (the paper's
+        /// 'failure').
         ///
-        /// It has at most 2·(|x| + |y|) nodes.
+        /// It has at most 2·(|x| + |y|) nodes, of 20 bytes each.
         #[must_use]
         pub fn new(v: Vector, k: FiniteK) -> Option<Self> {
             if level(v)? < k.get() {
@@ -194,7 +197,7 @@ mod tree {
             })
         }
 
-        /// The path that the leaves spell: all its vertices from (0, 0) on (Kramm 2018, Lemma 13).
+        /// The vertices of the path that the leaves form, from (0, 0) on (Kramm 2018, Lemma 13).
         pub fn path(&self) -> impl Iterator<Item = Vector> {
             let mut at = Vector::ZERO;
             core::iter::once(at).chain(self.leaves().map(move |step| {

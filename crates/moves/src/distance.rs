@@ -1,7 +1,8 @@
-//! The distance h_k: the length of a shortest path over N(k) on an empty grid, three ways, and h_∞.
+//! The distance h_k, the length of a shortest path over N(k) on an empty grid, computed in three ways; and
+//! h_∞.
 //!
-//! All take a displacement of any quadrant and return a length in cells. They agree up to rounding; which to take:
-//! [`distance`] for any k (Hormazábal 2017), the closed forms where k is known when you write the program,
+//! All functions take a displacement of any quadrant and return a length in cells. They agree up to rounding.
+//! Use [`distance`] for any k (Hormazábal 2017), a closed form if k is known when the program is written, and
 //! [`crate::CostTable::distance`] inside a search.
 
 use core::hint::select_unpredictable;
@@ -13,24 +14,17 @@ use crate::{
     sqrt::{integer_sqrt, sqrt},
 };
 
-/// h_k(d) by the iterative algorithm, for any k and any d, to a few units in the last place (Hormazábal 2017, Algorithm 2, whose
-/// misprints Kramm 2018, Algorithm 1, corrects).
+/// h_k(d) for any k and any d, by the iterative algorithm of Hormazábal 2017 (Algorithm 2, whose misprints
+/// Kramm 2018, Algorithm 1, corrects). The result is exact to a few units in the last place.
 ///
-/// No branch depends on d up to k = 10, where the lengths of the moves are constants of the program: up to k = 6 all moves of an
-/// octant are compared with d at once and h_k is linear in the sector found, then the rounds of Algorithm 2 are unrolled. Beyond, rounds
-/// that fall to the same side are taken together: whatever k, about as many steps as Euclid's algorithm takes on d.
+/// Up to k = 10 the lengths of the moves are constants, and no branch depends on d: up to k = 6 all moves of
+/// an octant are compared with d at once, and h_k is linear in the sector found; from k = 7 the rounds of
+/// Algorithm 2 are unrolled. Above k = 10, consecutive rounds on the same side are taken together, which
+/// makes about as many steps as Euclid's algorithm takes on d, whatever k is.
 ///
-/// Time as a part of the linear search's, k = 5, 6, 7 (the paper: 0.65–0.75), inlined, by `cargo xtask reproduce-tables --only hormazabal2017-distance`, whose
-/// record is in `docs/results`; AMD EPYC, Rust 1.95, November 2026:
-///
-/// | displacements | of [`LinearSearch`]'s | of one `if` a move, compiled for that k |
-/// |---|---|---|
-/// | at random | 0.24, 0.26, 0.32 | 0.29, 0.32, 0.42 |
-/// | each near the last: the searches' branches are foreseen | 0.83, 0.84, 0.76 | 1.5, 1.3, 1.4 |
-///
-/// So at random the paper's ratio is met by far. Where branches are foreseen it is nearly met at k = 7 alone, and against the chain of `if`s
-/// missed throughout. (Summed rather than stored, the same distances take 0.74, 0.73, 0.68 of [`LinearSearch`]'s time.) All this
-/// in a loop with the function inlined, hence `inline(always)`; a call costs more than h_5 itself.
+/// On random displacements it takes about a quarter to a third of the time of [`LinearSearch`], for k = 5, 6,
+/// 7; `docs/measurements/moves.md` has the figures. It is always inlined, since a call costs more than h_5
+/// itself.
 ///
 /// ```
 /// use mediant_moves::{distance, FiniteK, Vector};
@@ -56,7 +50,7 @@ pub fn distance(d: Vector, k: FiniteK) -> f64 {
     }
 }
 
-/// h_k(x, y), 0 ≤ x ≤ y, for N = 2^(k − 3) sectors.
+/// h_k(d) for N = 2^(k − 3) sectors an octant.
 #[inline(always)]
 fn by_sector<const N: usize>(d: Vector) -> f64 {
     let (x, y) = sorted(d);
@@ -65,11 +59,11 @@ fn by_sector<const N: usize>(d: Vector) -> f64 {
     factors_x[j] * f64::from(x) + factors_y[j] * f64::from(y)
 }
 
-/// h_k(x, y), 0 ≤ x ≤ y, for k − 2 = N ≤ [`ROUNDS`] rounds, which the compiler then unrolls.
+/// h_k(d) for k − 2 = N ≤ [`ROUNDS`] rounds, which the compiler unrolls.
 #[inline(always)]
 fn by_rounds<const N: u32>(d: Vector) -> f64 {
     let (mut x, mut y) = sorted(d);
-    // The first round, then the others. The index of the pair of moves takes the place of the moves.
+    // The first round always falls to this side. Instead of the two moves, the index of the pair is kept.
     y -= x;
     let mut index = 0;
     for _ in 1..N {
@@ -81,10 +75,10 @@ fn by_rounds<const N: u32>(d: Vector) -> f64 {
     f64::from(y) * LENGTHS[index * stride] + f64::from(x) * LENGTHS[(index + 1) * stride]
 }
 
-/// The number of rounds for which the lengths of all moves are constants of the program: those of k = 10.
+/// The largest number of rounds for which the lengths of all moves are constants: that of k = 10.
 const ROUNDS: u32 = 8;
 
-/// The lengths of the moves of Q(8) from (0, 1) to (1, 1). Those of Q(i) are every 2^(8 − i)-th of them.
+/// The lengths of the moves of Q(8) from (0, 1) to (1, 1). Every 2^(8 − i)-th of them belongs to Q(i).
 static LENGTHS: [f64; (1 << (ROUNDS - 1)) + 1] = {
     let Ok(k) = FiniteK::new(ROUNDS + 2) else { panic!("a constant k") };
     let Ok(quadrant) = Quadrant::new(k) else { panic!("a constant k") };
@@ -98,7 +92,7 @@ static LENGTHS: [f64; (1 << (ROUNDS - 1)) + 1] = {
     lengths
 };
 
-/// h_k of (x, y) in as many steps as Euclid's algorithm takes, if k does not end it before.
+/// h_k(d) in about as many steps as Euclid's algorithm takes on d, or fewer.
 #[inline(never)]
 fn distance_at_large_k(d: Vector, rounds: u32) -> f64 {
     let (x, y) = sorted(d);
@@ -137,7 +131,7 @@ fn sorted(d: Vector) -> (u32, u32) {
     (x.min(y), x.max(y))
 }
 
-/// The same as `f64`.
+/// [`sorted`] as `f64`.
 #[inline]
 fn sorted_f64(d: Vector) -> (f64, f64) {
     let (x, y) = sorted(d);
@@ -176,9 +170,11 @@ pub fn distance_32(d: Vector) -> f64 {
     }
 }
 
-/// h_k by a linear search over the moves of Q(k − 2) (Rivera 2017, 'The 2^k-Tile Heuristic', steps 1 and 2): find the
-/// two that contain d, then solve for their factors (Eq. 14). The moves of one octant and their lengths are kept, since
-/// the quadrant is symmetric; its cost grows with 2^k, and it is here as the papers' point of comparison.
+/// h_k by a linear search over the moves of Q(k − 2) (Rivera 2017, 'The 2^k-Tile Heuristic', steps 1 and 2):
+/// find the two moves that contain d, then solve for their factors (Eq. 14).
+///
+/// It stores the moves of one octant with their lengths, since the quadrant is symmetric. Its time grows with
+/// 2^k. It is here because the papers compare with it; [`distance`] is faster.
 #[cfg(feature = "alloc")]
 #[derive(Clone, Debug)]
 pub struct LinearSearch {
@@ -207,7 +203,8 @@ impl LinearSearch {
         let (x, y) = (i64::from(x.min(y)), i64::from(x.max(y)));
         let det = |v: Vector| x * i64::from(v.y) - y * i64::from(v.x);
         let mut pairs = self.octant.iter().zip(&self.octant[1..]);
-        // The first pair whose second move is at or beyond d; the last move, (1, 1) or (1, 0), always is.
+        // The first pair whose second move is at or beyond d. There is one: the last move, (1, 1) or (1, 0),
+        // always is.
         let Some((&(u, norm_u), &(v, norm_v))) = pairs.find(|&(_, &(v, _))| det(v) <= 0) else { return 0.0 };
         (-det(v)) as f64 * norm_u + det(u) as f64 * norm_v
     }

@@ -4,8 +4,8 @@ use core::fmt;
 
 /// The k of a 2^k neighborhood: 2 (4-connected), 3 (8-connected), 4 (16 moves), …
 ///
-/// Distances and bounds exist for every `FiniteK`. Sets of moves stop at [`FiniteK::MAX_MOVES`], where coordinates would no
-/// longer fit in an `i32`.
+/// Distances and bounds exist for every `FiniteK`. Sets of moves exist up to [`FiniteK::MAX_MOVES`]; beyond,
+/// coordinates do not fit in an `i32`.
 ///
 /// ```
 /// use mediant_moves::FiniteK;
@@ -31,7 +31,7 @@ impl FiniteK {
     /// Fib(46) exceeds `i32::MAX` (Rivera 2017, Theorem 1, with Fib(0) = Fib(1) = 1).
     pub const MAX_MOVES: Self = Self(47);
 
-    /// The given k.
+    /// The neighborhood with this k.
     ///
     /// # Errors
     /// [`KError::TooSmall`] for k < 2.
@@ -45,8 +45,8 @@ impl FiniteK {
         self.0
     }
 
-    /// How often a mediant was inserted everywhere to come here from the 4-connected quadrant: i = k − 2, the index
-    /// of Q(i) in Kramm 2018 and of 𝒩^i in Rivera 2017.
+    /// The number of rounds of inserting mediants that lead from the 4-connected quadrant to this one: i = k
+    /// − 2, the index of Q(i) in Kramm 2018 and of 𝒩^i in Rivera 2017.
     #[must_use]
     pub const fn depth(self) -> u32 {
         self.0 - 2
@@ -58,7 +58,7 @@ impl FiniteK {
         1_u64.checked_shl(self.0)
     }
 
-    /// The largest coordinate of the moves of N(k), without building them: Fib(k − 2) (Rivera 2017, Theorem 1).
+    /// The largest coordinate of a move of N(k): Fib(k − 2) (Rivera 2017, Theorem 1).
     ///
     /// # Errors
     /// [`KError::TooLarge`] above [`FiniteK::MAX_MOVES`].
@@ -86,7 +86,7 @@ impl fmt::Display for FiniteK {
     }
 }
 
-/// A k that does not serve.
+/// Why a k cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum KError {
@@ -95,11 +95,11 @@ pub enum KError {
         /// The k that was asked for.
         k: u32,
     },
-    /// The integer types (or the tables) at hand do not hold this neighborhood.
+    /// The moves of this neighborhood do not fit in the integers or tables that would hold them.
     TooLarge {
         /// The k that was asked for.
         k: u32,
-        /// The largest k that would do.
+        /// The largest k that fits.
         max: u32,
     },
 }

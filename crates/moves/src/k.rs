@@ -4,9 +4,9 @@ use core::{fmt, num::ParseIntError, str::FromStr};
 
 use crate::{FiniteK, KError};
 
-/// The neighborhood N(k) that a path is over: the 2^k moves of a finite k, or every direction at k = ∞.
+/// The neighborhood N(k) of a path's moves: 2^k moves for a finite k, every direction for k = ∞.
 ///
-/// As text it is the number, or `any`.
+/// Its text form is the number, or `any` for k = ∞.
 ///
 /// ```
 /// use mediant_moves::{FiniteK, K};
@@ -74,13 +74,13 @@ impl FromStr for K {
     }
 }
 
-/// A text that is no [`K`].
+/// Why a text is not a [`K`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ParseKError {
     /// Neither a number nor `any`.
     Form,
-    /// A number that is no k.
+    /// A number that is not a valid k.
     K(KError),
 }
 

@@ -1,12 +1,12 @@
-//! Levels of moves and the two moves that each one is the mediant of.
+//! Levels of moves, and the two parents whose mediant a move is.
 
 use crate::{FiniteK, Vector};
 
-/// level(v): the smallest k with v ∈ N(k) (Kramm 2018, before Lemma 12), for a move of any quadrant; `None` for a
-/// vector that is no move (gcd ≠ 1).
+/// level(v): the smallest k with v ∈ N(k) (Kramm 2018, before Lemma 12), for a move of any quadrant; `None`
+/// for a vector that is not a move (gcd ≠ 1).
 ///
-/// A mediant's level is 1 + the larger of its parents' levels (the paper prints a sum there). It equals 2 plus the sum
-/// of the continued fraction terms of |x| / |y|, which is how it is computed: in steps of Euclid's algorithm.
+/// The level of a mediant is 1 + the larger one of its parents' levels (misprinted as their sum). It is
+/// computed by Euclid's algorithm, as 2 plus the sum of the terms of the continued fraction of |x| / |y|.
 ///
 /// ```
 /// use mediant_moves::{level, Vector};
@@ -29,8 +29,8 @@ pub const fn level(v: Vector) -> Option<u32> {
     Some(level)
 }
 
-/// The two adjacent moves v₁, v₂ with v = v₁ + v₂ that v is the mediant of (Kramm 2018, Algorithm 2, line 9), v₁ nearer
-/// to the axis on which v's quadrant begins; `None` for axis moves and for vectors that are no moves.
+/// The two adjacent moves v₁, v₂ whose mediant is v = v₁ + v₂ (Kramm 2018, Algorithm 2, line 9). v₁ is nearer
+/// to the axis on which the quadrant of v begins. `None` for axis moves and for vectors that are not moves.
 ///
 /// ```
 /// use mediant_moves::{parents, Vector};
@@ -44,8 +44,9 @@ pub const fn parents(v: Vector) -> Option<(Vector, Vector)> {
     }
     let Some(turns) = v.quadrant() else { return None };
     let u = v.turned_by(4 - turns);
-    // The continued fraction of u.x / u.y, taken back by one step at a time, ends on the two parents: they are the
-    // pair that contains u just before the mediant that is u itself is inserted.
+    // Follow the pair of adjacent moves that contains u from level to level. Just before u itself is inserted
+    // as their mediant, the two are its parents. Steps on the same side are taken together, as in the
+    // continued fraction of u.x / u.y.
     let (mut low, mut high) = (Vector::new(0, 1), Vector::new(1, 0));
     let (mut x, mut y) = (u.x, u.y);
     while x != y {
@@ -62,9 +63,9 @@ pub const fn parents(v: Vector) -> Option<(Vector, Vector)> {
     Some((low.turned_by(turns), high.turned_by(turns)))
 }
 
-/// Whether u and v are adjacent moves of N(k): different, and no move of N(k) lies between them (Kramm 2018, 'The 2^k
-/// Neighborhood'). Equivalent: both in N(k), in one closed quadrant, |det(u, v)| = 1 (Proposition 4) and u + v not
-/// in N(k).
+/// Whether u and v are adjacent moves of N(k): different moves with no move of N(k) between them (Kramm 2018,
+/// 'The 2^k Neighborhood'). Equivalently, both are in N(k) and in one closed quadrant, |det(u, v)| = 1
+/// (Proposition 4), and u + v is not in N(k).
 ///
 /// ```
 /// use mediant_moves::{adjacent, FiniteK, Vector};

@@ -1,21 +1,42 @@
 //! The mathematics of the 2^k neighborhoods.
 //!
-//! N(2) is the 4-connected neighborhood, and N(k + 1) has, between each two adjacent moves of N(k), their sum: the
-//! *mediant*. That one rule gives the 8-connected grid at k = 3, sixteen moves at k = 4, and every direction in the limit.
+//! N(2) is the 4-connected neighborhood. N(k + 1) inserts the *mediant*, the vector sum, between every two
+//! adjacent moves of N(k). So k = 3 is the 8-connected grid, k = 4 has sixteen moves, and in the limit there
+//! is every direction.
 //!
-//! **The key decision: nothing is enumerated that can be computed.** A quadrant is a level of the Stern–Brocot tree, so the
-//! j-th move, the index of a move, the pair of moves around a vector and the distance h_k all come from walking k − 2
-//! levels of mediants, in registers; a table is built only where a search wants to look costs up ([`CostTable`]).
+//! **The key decision: moves are computed, not enumerated.** A quadrant is a level of the Stern–Brocot tree.
+//! The j-th move, the index of a move, the two moves around a vector and the distance h_k all result from a
+//! walk over k − 2 levels of mediants, in registers. The only table is [`CostTable`], for searches that look
+//! costs up.
 //!
-//! What is not here: obstacles. What a move sweeps on a map is the business of `mediant-grid`.
+//! What is not here: obstacles. Which cells a move sweeps on a map is defined in `mediant-grid`. Measurements
+//! are in `docs/measurements/moves.md`.
 //!
-//! The crate is `no_std` and has no dependency. Feature `std` (default) takes square roots in hardware; feature `alloc`
-//! (default, implied by `std`) adds what needs a heap: [`CostTable`], [`DecompositionTree`], [`LinearSearch`].
+//! The crate is `no_std` and has no dependencies. Feature `std` (default) uses the hardware's square roots.
+//! Feature `alloc` (default, implied by `std`) adds what needs a heap: [`CostTable`], [`DecompositionTree`],
+//! [`LinearSearch`].
+//!
+//! ```
+//! use mediant_moves::{FiniteK, Neighborhood, Vector, bound_at_corners, decompose, distance};
+//!
+//! let moves = Neighborhood::new(FiniteK::N16)?;
+//! assert_eq!((moves.len(), moves.contains(Vector::new(1, 2))), (16, true));
+//!
+//! // On an empty grid, the shortest path to (7, 9) takes (1, 2) twice and (1, 1) five times.
+//! let d = Vector::new(7, 9);
+//! let parts = decompose(d, FiniteK::N16).unwrap();
+//! assert_eq!((parts.alpha, parts.v, parts.beta, parts.w), (2, Vector::new(1, 2), 5, Vector::new(1, 1)));
+//! assert!((parts.length() - distance(d, FiniteK::N16)).abs() < 1e-12);
+//!
+//! // Among obstacles it is at most 2.75 % longer than the shortest any-angle path.
+//! assert!(bound_at_corners(FiniteK::N16) < 1.0275);
+//! # Ok::<(), mediant_moves::KError>(())
+//! ```
 //!
 //! # Statements and their tests
 //!
-//! Each statement of the three papers, and the test in `tests/` that executes it against definitions written naively there, for
-//! every k up to 14 or beyond.
+//! Each statement of the three papers, with the test in `tests/it/` that checks it for every k up to 14 or
+//! beyond, against naive definitions of its own.
 //!
 //! Rivera, Hernández, Baier 2017, 'Grid Pathfinding on the 2^k Neighborhoods':
 //!
@@ -42,7 +63,8 @@
 //! | canonical successors: each cell once | `rivera2017::canonical_successors_generate_each_cell_once_and_at_optimal_cost` |
 //! | Theorem 4: canonical A* is complete | none here: it is about grids with obstacles, and 'complete' is not 'optimal' |
 //!
-//! Hormazábal, Díaz, Hernández, Baier 2017, 'Fast and Almost Optimal Any-Angle Pathfinding Using the 2^k Neighborhoods':
+//! Hormazábal, Díaz, Hernández, Baier 2017, 'Fast and Almost Optimal Any-Angle Pathfinding Using the 2^k
+//! Neighborhoods':
 //!
 //! | statement | test |
 //! |---|---|
@@ -56,7 +78,7 @@
 //! | Theorem 2: it returns h_k | `hormazabal2017::theorem_2_the_iterative_algorithm_is_the_distance` |
 //! | … for every `i32` displacement, to k = 100 and at k = 2³² − 1 | `hormazabal2017::theorem_2_holds_for_any_k_and_any_displacement` |
 //! | … as do table and linear search | `hormazabal2017::theorem_2_the_linear_search_finds_the_same_beyond_small_displacements` |
-//! | 65–75 % of the linear search's time | `cargo xtask reproduce-tables --only hormazabal2017-distance`; see [`distance()`] |
+//! | 65–75 % of the linear search's time | `cargo xtask reproduce-tables --only hormazabal2017-distance`; figures in `docs/measurements/moves.md` |
 //!
 //! Kramm, Rivera, Hernández, Baier 2018, 'A Suboptimality Bound for 2^k Grid Path Planning':
 //!
@@ -89,7 +111,8 @@
 //! | Lemma 13: the leaves are an optimal path, for coordinates to 20 | `kramm2018_trees::lemma_13_the_leaves_are_an_optimal_path_within_the_cells_of_the_move` |
 //! | Figure 5: the trees of (7, 5) | `kramm2018_trees::figure_5_the_trees_of_7_5` |
 //!
-//! `tests/cost.rs` tests the claims of [`Cost`] and [`CostTable`], `tests/api.rs` the rest and the limits of all ranges.
+//! `tests/it/cost.rs` tests the claims of [`Cost`] and [`CostTable`], `tests/it/api.rs` the rest and the
+//! limits of all ranges.
 #![no_std]
 
 #[cfg(feature = "alloc")]

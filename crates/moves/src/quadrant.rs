@@ -1,13 +1,13 @@
 //! The moves of one quadrant and of the whole neighborhood, in angular order.
 //!
-//! Nothing is stored: the j-th move of Q(i) is (s(j), s(2^i − j)) with Stern's diatomic sequence s, and the next one
-//! follows from the last two in constant time.
+//! Moves are computed, not stored: the j-th move of Q(i) is (s(j), s(2^i − j)) with Stern's diatomic sequence
+//! s, and each move follows from the two before in constant time.
 
 use crate::{FiniteK, KError, Vector};
 
 /// Whether a move stands at an even or an odd index of its quadrant (Rivera 2017, 'Canonical Orderings').
 ///
-/// For k ≥ 3 the odd-indexed moves of N(k) are the mediants that k itself inserts: those of level k.
+/// For k ≥ 3 the odd-indexed moves of N(k) are those that N(k − 1) lacks, the moves of level k.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Parity {
     /// Odd index: taken first by a canonical path.
@@ -54,7 +54,8 @@ impl Quadrant {
         1 << self.k.depth()
     }
 
-    /// The number of moves: |Q(i)| = 2^i + 1 (Rivera 2017, Proposition 2, whose proof misprints it as 2^(i+1)).
+    /// The number of moves: |Q(i)| = 2^i + 1 (Rivera 2017, Proposition 2, whose proof misprints it as
+    /// 2^(i+1)).
     #[must_use]
     #[expect(clippy::len_without_is_empty, reason = "a quadrant is never empty")]
     pub const fn len(self) -> u64 {
@@ -73,8 +74,8 @@ impl Quadrant {
         Some(self.pair(index).0)
     }
 
-    /// The moves at `index` and `index + 1`, for `index` below [`last`](Self::last): the bits of the index say at
-    /// each insertion on which side of the mediant the pair lies.
+    /// The moves at `index` and `index + 1`, for `index` below [`last`](Self::last). Each bit of the index
+    /// says on which side of a mediant the pair lies.
     const fn pair(self, index: u64) -> (Vector, Vector) {
         let (mut low, mut high) = (Vector::new(0, 1), Vector::new(1, 0));
         let mut level = self.k.depth();
@@ -128,8 +129,8 @@ impl Quadrant {
         QuadrantMoves { index: 0, len: self.len(), current: previous, next }
     }
 
-    /// The indices in canonical order: odd ones first, each half ascending (Rivera 2017, 'Canonical Orderings';
-    /// within a half the paper leaves the order open, and we take the index).
+    /// The indices in canonical order: first the odd ones, then the even ones, each in ascending order
+    /// (Rivera 2017, 'Canonical Orderings', which leaves the order among odd and among even indices open).
     pub fn canonical_order(self) -> impl Iterator<Item = u64> {
         (1..self.len()).step_by(2).chain((0..self.len()).step_by(2))
     }
@@ -146,8 +147,9 @@ impl IntoIterator for Quadrant {
 
 /// The moves of a [`Quadrant`] in angular order.
 ///
-/// From two neighbors u, v the next move is (2t + 1)·v − u, where t counts the trailing zeros of v's index: v was
-/// inserted t levels before the last, and each level since put one more v between it and what then followed it.
+/// After two neighbors u, v the next move is (2t + 1)·v − u, where t is the number of trailing zeros of the
+/// index of v. For v was inserted t levels before the last one, and each level since has added v once to both
+/// of its neighbors.
 #[derive(Clone, Debug)]
 pub struct QuadrantMoves {
     index: u64,
@@ -166,10 +168,11 @@ impl Iterator for QuadrantMoves {
         self.index += 1;
         let result = self.current;
         self.current = self.next;
-        // Past the last move nothing is computed: there the recurrence leaves the quadrant.
+        // After the last move the recurrence would leave the quadrant.
         if self.index + 1 < self.len {
             let times = 2 * self.index.trailing_zeros() as i32 + 1;
-            // The product can leave the i32 range near the middle of the largest quadrants; the difference never does.
+            // The product can leave the i32 range near the middle of the largest quadrants; the difference
+            // never does.
             let next = |v: i32, u: i32| v.wrapping_mul(times).wrapping_sub(u);
             self.next = Vector::new(next(self.current.x, result.x), next(self.current.y, result.y));
         }
@@ -177,17 +180,18 @@ impl Iterator for QuadrantMoves {
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
-        // From k = 34 on the number of moves exceeds a 32-bit `usize`, so that this is no `ExactSizeIterator`.
+        // This is not an `ExactSizeIterator`, because from k = 34 on the number of moves does not fit in a
+        // 32-bit `usize`.
         let left = usize::try_from(self.len - self.index);
         (left.unwrap_or(usize::MAX), left.ok())
     }
 }
 
-/// N(k): all 2^k moves (Rivera 2017, Eq. 6), in angular order around the circle from (0, 1) over (1, 0), (0, −1) and
-/// (−1, 0). Neighbors in this cyclic order are the adjacent moves.
+/// N(k): all 2^k moves (Rivera 2017, Eq. 6), in angular order around the circle from (0, 1) over (1, 0), (0,
+/// −1) and (−1, 0). Neighbors in this cyclic order are adjacent moves.
 ///
-/// The quadrants are quarter turns of the first one rather than the papers' reflections: the set is the same, and the
-/// index of a move keeps the parity of its index in the quadrant of the papers.
+/// The quadrants are quarter turns of the first one, while the papers reflect it. The set is the same, and
+/// the index of a move has the same parity as its index in the papers' quadrant.
 ///
 /// ```
 /// use mediant_moves::{FiniteK, Neighborhood, Vector};
@@ -221,7 +225,7 @@ impl Neighborhood {
         self.quadrant.k
     }
 
-    /// Its first quadrant.
+    /// The first quadrant.
     #[must_use]
     pub const fn quadrant(self) -> Quadrant {
         self.quadrant
@@ -268,7 +272,9 @@ impl Neighborhood {
 
     /// All moves in angular order.
     pub fn iter(self) -> impl Iterator<Item = Vector> {
-        let per_quadrant = self.quadrant.last() as usize;
-        (0..4).flat_map(move |turns| self.quadrant.iter().take(per_quadrant).map(move |v| v.turned_by(turns)))
+        // The last move of a quadrant is the first one of the next. Not by `take`: the number may exceed a
+        // 32-bit `usize`.
+        let moves = QuadrantMoves { len: self.quadrant.last(), ..self.quadrant.iter() };
+        (0..4).flat_map(move |turns| moves.clone().map(move |v| v.turned_by(turns)))
     }
 }

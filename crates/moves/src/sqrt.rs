@@ -1,4 +1,4 @@
-//! Square roots with and without the standard library, equal to the bit.
+//! Square roots with and without the standard library, with the same result to the bit.
 
 /// √x for x ≥ 0, correctly rounded.
 #[cfg(feature = "std")]
@@ -12,8 +12,8 @@ pub(crate) fn sqrt(x: f64) -> f64 {
     integer_sqrt(x)
 }
 
-/// √x in integers: the significand, shifted until its root has 63 bits, by `u128::isqrt`; a last bit that says
-/// 'inexact' then makes the conversion back to `f64` round as the exact root would.
+/// √x in integers: `u128::isqrt` of the significand, which is shifted so that the root has 63 bits. If the
+/// root is inexact, its last bit is set, so that the conversion back to `f64` rounds as the exact root would.
 pub(crate) const fn integer_sqrt(x: f64) -> f64 {
     const FRACTION_BITS: i32 = 52;
     if !x.is_normal() || x.is_sign_negative() {

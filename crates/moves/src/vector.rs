@@ -6,13 +6,22 @@ use crate::sqrt::sqrt;
 
 /// An integer vector: a displacement between two vertices or, when [`is_move`](Self::is_move), a move.
 ///
-/// Its order is by `x`, then `y`: good for sorted containers, without geometric meaning. For the angular order
-/// see [`precedes`](Self::precedes).
+/// Vectors are ordered by `x`, then `y`, for use in sorted containers. For the order by angle see
+/// [`precedes`](Self::precedes). Sums, products and turns overflow as those of `i32` do.
+///
+/// ```
+/// use mediant_moves::Vector;
+/// let (u, v) = (Vector::new(1, 2), Vector::new(1, 1));
+/// assert!(u.is_move() && u.precedes(v));
+/// assert_eq!(u + v, Vector::new(2, 3));
+/// assert_eq!(u.det(v), -1);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Vector {
-    /// To the right, in cells.
+    /// The component to the right, in cells.
     pub x: i32,
-    /// Down on a map (up in the papers, which changes nothing: every neighborhood is symmetric), in cells.
+    /// The component downwards, in cells. (Upwards in the papers, which makes no difference: every
+    /// neighborhood is symmetric.)
     pub y: i32,
 }
 
@@ -28,7 +37,8 @@ impl Vector {
 
     /// det(u, v) = `u.x·v.y − u.y·v.x` (Kramm 2018, Eq. 1), exact for all inputs.
     ///
-    /// Two moves of one quadrant with |det| = 1 are adjacent in some neighborhood (Kramm 2018, Proposition 4).
+    /// Two moves of one quadrant with |det| = 1 are adjacent in some neighborhood (Kramm 2018, Proposition
+    /// 4).
     #[must_use]
     pub const fn det(self, other: Self) -> i128 {
         self.x as i128 * other.y as i128 - self.y as i128 * other.x as i128
@@ -40,8 +50,8 @@ impl Vector {
         self.x as i128 * other.x as i128 + self.y as i128 * other.y as i128
     }
 
-    /// u ⪯ v for two vectors of the first quadrant: u is no further from the Y axis than v, clockwise in the papers'
-    /// drawing (Rivera 2017, 'Pathfinding in 4- and 8-neighbor Grids': `x·y' ≤ x'·y`).
+    /// u ⪯ v for two vectors of the first quadrant: u is no further from the Y axis than v, clockwise in the
+    /// papers' drawing (Rivera 2017, 'Pathfinding in 4- and 8-neighbor Grids': `x·y' ≤ x'·y`).
     #[must_use]
     pub const fn precedes(self, other: Self) -> bool {
         self.det(other) <= 0
@@ -70,7 +80,7 @@ impl Vector {
         a
     }
 
-    /// Whether this is a move: no multiple of another integer vector (gcd 1).
+    /// Whether this is a move: a vector with gcd 1, which is no multiple of a shorter integer vector.
     #[must_use]
     pub const fn is_move(self) -> bool {
         self.gcd() == 1
@@ -100,8 +110,8 @@ impl Vector {
         }
     }
 
-    /// The quadrant 0…3 that this vector lies in, in the order of [`Neighborhood`](crate::Neighborhood), with the
-    /// axis on which the quadrant begins but not the one on which it ends; `None` for the zero vector.
+    /// The quadrant 0…3 that this vector lies in, in the order of [`Neighborhood`](crate::Neighborhood), with
+    /// the axis on which the quadrant begins but not the one on which it ends; `None` for the zero vector.
     #[must_use]
     pub const fn quadrant(self) -> Option<u32> {
         match (self.x, self.y) {

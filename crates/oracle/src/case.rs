@@ -1,4 +1,4 @@
-//! What a failing test should say.
+//! Cases of random tests, and the messages of failing ones.
 
 use std::{
     fmt,
@@ -12,7 +12,7 @@ use mediant_grid::{Grid, Rules, Vertex};
 
 use crate::{Rng, generate::draw_grid, random_free_vertex};
 
-/// A query on a map, with where it came from. Displayed, it is what [`describe`] writes.
+/// A query on a map, and its origin. Its text form is that of [`describe`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Case {
     /// The map.
@@ -25,12 +25,13 @@ pub struct Case {
     pub start: Vertex,
     /// The goal, a free vertex.
     pub goal: Vertex,
-    /// What all this was drawn from.
+    /// The seed from which all this was drawn.
     pub seed: u64,
 }
 
 impl Case {
-    /// The map of [`random_grid`](crate::random_grid) for this seed, and two of its free vertices; `None` when it has no free vertex.
+    /// The map of [`random_grid`](crate::random_grid) for this seed, and two of its free vertices; `None` if
+    /// it has no free vertex.
     #[must_use]
     pub fn random(seed: u64, rules: Rules) -> Option<Self> {
         let mut rng = Rng::new(seed);
@@ -47,11 +48,12 @@ impl fmt::Display for Case {
     }
 }
 
-/// The seeds of a random suite: from 0, `default` of them, or as many as the variable `MEDIANT_GRIDS` of the environment asks
-/// for.
+/// The seeds of a random suite, counted from 0. There are `default` of them, or as many as the environment
+/// variable `MEDIANT_GRIDS` says.
 ///
 /// # Panics
-/// When `MEDIANT_GRIDS` is no number: a suite that ran on less than it was asked for would say nothing of it.
+/// If `MEDIANT_GRIDS` is not a number: otherwise the suite would silently run on fewer maps than it was asked
+/// for.
 #[must_use]
 pub fn seeds(default: u64) -> Range<u64> {
     let asked = std::env::var_os("MEDIANT_GRIDS").map(|text| {
@@ -61,10 +63,10 @@ pub fn seeds(default: u64) -> Range<u64> {
     0..asked.unwrap_or(default)
 }
 
-/// What `part` says of each seed, on all cores. In the order of the cores.
+/// Calls `part` with each seed, on all cores, and returns the results, in no particular order.
 ///
 /// # Panics
-/// When `part` does.
+/// If `part` does.
 pub fn on_all_cores<R: Send>(seeds: Range<u64>, part: impl Fn(u64) -> R + Sync) -> Vec<R> {
     let threads = thread::available_parallelism().map_or(1, NonZero::get);
     let part = |first: usize| seeds.clone().skip(first).step_by(threads).map(&part).collect::<Vec<R>>();
@@ -75,10 +77,11 @@ pub fn on_all_cores<R: Send>(seeds: Range<u64>, part: impl Fn(u64) -> R + Sync) 
     })
 }
 
-/// The rules, the query, the seed, and the map in a form that [`AsciiMap::parse`](mediant_grid::AsciiMap::parse) reads.
+/// The rules, the query, the seed, and the map in a form that
+/// [`AsciiMap::parse`](mediant_grid::AsciiMap::parse) reads.
 ///
-/// `s` and `g` mark the cells of start and goal: under corner placement the cells to the lower right of them, if those
-/// are free. The coordinates stand above the map in any case.
+/// `s` and `g` mark the cells of start and goal; under corner placement, the cells to the lower right of
+/// these vertices. A blocked cell is not marked. The coordinates of both stand above the map.
 #[must_use]
 pub fn describe(grid: &Grid, rules: Rules, start: Vertex, goal: Vertex, seed: u64) -> String {
     let mut text = format!("seed {seed}; rules: {rules}; from {start} to {goal}; the map:\n");

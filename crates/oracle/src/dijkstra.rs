@@ -10,20 +10,21 @@ use crate::{
     neighborhood,
 };
 
-/// The graph of all legal moves of a neighborhood on one grid: every free vertex, every move.
+/// The graph of all legal moves of a neighborhood on a grid, with every free vertex and every move.
 ///
-/// Under [`DiagonalGap::Closed`] a gap is two states, one for each free quadrant, so that a path may
-/// touch the corner but not cross it. Nothing is assumed about optimal paths.
+/// Under [`DiagonalGap::Closed`] a gap has two states, one for each free quadrant, so that a path can touch
+/// the gap but not pass through it. Nothing is assumed about optimal paths.
 ///
-/// Meant for maps up to about 40 × 40: a state keeps up to 2^k edges, and with any-angle moves every vertex in sight.
+/// Meant for maps up to about 40 × 40: a state has up to 2^k edges, and with any-angle moves one to every
+/// vertex that it sees.
 #[derive(Clone, Debug)]
 pub struct Explicit {
-    /// The numbers of columns and rows of vertices.
+    /// The number of columns and of rows of vertices.
     size: (usize, usize),
-    /// For each vertex, the state in which a path starts or ends there, if it may.
+    /// For each vertex, the state in which a path may start or end there, if there is one.
     ends: Vec<Option<u32>>,
     is_free: Vec<bool>,
-    /// For each state its edges. State 2v + slot belongs to vertex v.
+    /// The edges of each state. State 2v + slot belongs to vertex v.
     edges: Vec<Vec<Edge>>,
 }
 
@@ -34,8 +35,8 @@ struct Edge {
 }
 
 impl Explicit {
-    /// The graph for N(k), or for k = `None` that of all moves with gcd 1, whose shortest paths are the shortest any-angle
-    /// paths: a straight legal segment is a repeated move.
+    /// The graph for N(k). For k = `None`, the graph of all moves with gcd 1. Its shortest paths are the
+    /// shortest any-angle paths, since a straight legal segment is a repeated move.
     #[must_use]
     pub fn new(grid: &Grid, rules: Rules, k: Option<FiniteK>) -> Self {
         let placement = rules.placement();
@@ -52,7 +53,7 @@ impl Explicit {
             edges: vec![Vec::new(); 2 * vertices],
             is_free,
         };
-        // A move longer than the map leaves it everywhere.
+        // Longer moves leave the map from every vertex.
         for d in neighborhood(k, columns - 1, rows - 1) {
             let footprint = Footprint::new(placement, d);
             for v in 0..vertices {
@@ -69,7 +70,8 @@ impl Explicit {
         graph
     }
 
-    /// The optimal costs from `start` to every vertex. From a vertex that is blocked or outside the map nothing is reached.
+    /// The optimal costs from `start` to every vertex. If `start` is blocked or outside the map, no vertex is
+    /// reached.
     #[must_use]
     pub fn costs_from(&self, start: Vertex) -> Costs<'_> {
         let mut costs = Costs {
@@ -79,7 +81,7 @@ impl Explicit {
             previous: vec![None; self.edges.len()],
         };
         let first = self.vertex(start).and_then(|v| self.ends[v]);
-        // The bits of floats that are not negative are ordered as the floats.
+        // Floats that are not negative have the same order as their bits.
         let mut open = BinaryHeap::new();
         if let Some(first) = first {
             costs.cost[first as usize] = 0.0;
@@ -104,7 +106,7 @@ impl Explicit {
 
     /// All free vertices, row by row.
     pub fn free_vertices(&self) -> impl Iterator<Item = Vertex> {
-        (0..self.is_free.len()).filter(|&v| self.is_free[v]).map(|v| self.place(v))
+        (0..self.is_free.len()).filter(|&v| self.is_free[v]).map(|v| self.vertex_at(v))
     }
 
     /// The number of a vertex of the map.
@@ -113,7 +115,7 @@ impl Explicit {
         (x < self.size.0 && y < self.size.1).then_some(y * self.size.0 + x)
     }
 
-    fn place(&self, v: usize) -> Vertex {
+    fn vertex_at(&self, v: usize) -> Vertex {
         Vertex::new((v % self.size.0) as i32, (v / self.size.0) as i32)
     }
 }
@@ -128,8 +130,8 @@ pub struct Costs<'a> {
 }
 
 impl Costs<'_> {
-    /// The cost of an optimal path to `goal`, 0 to the start itself; `None` when there is no path, or an end is blocked
-    /// or outside the map.
+    /// The cost of an optimal path to `goal`, 0 for the start itself; `None` if there is no path, or if start
+    /// or goal is blocked or outside the map.
     #[must_use]
     pub fn to(&self, goal: Vertex) -> Option<f64> {
         let v = self.graph.vertex(goal).filter(|&v| self.graph.is_free[v])?;
@@ -139,7 +141,7 @@ impl Costs<'_> {
         self.graph.ends[v].map(|end| self.cost[end as usize]).filter(|cost| cost.is_finite())
     }
 
-    /// An optimal path to `goal`, one waypoint a move; `None` as for [`to`](Self::to).
+    /// An optimal path to `goal`, with one waypoint a move; `None` as for [`to`](Self::to).
     #[must_use]
     pub fn path_to(&self, goal: Vertex) -> Option<Vec<Vertex>> {
         self.to(goal)?;
@@ -147,7 +149,7 @@ impl Costs<'_> {
         if goal != self.start {
             let mut state = self.graph.ends[self.graph.vertex(goal)?];
             while let Some(previous) = state.and_then(|state| self.previous[state as usize]) {
-                path.push(self.graph.place(previous as usize / 2));
+                path.push(self.graph.vertex_at(previous as usize / 2));
                 state = Some(previous);
             }
         }
@@ -156,7 +158,7 @@ impl Costs<'_> {
     }
 }
 
-/// The largest map has 32,769² vertices: twice that fits in a `u32`.
+/// Fits in a `u32`: the largest map has 32,769² vertices.
 const fn state(vertex: usize, slot: usize) -> u32 {
     (2 * vertex + slot) as u32
 }
@@ -165,11 +167,11 @@ fn length(d: Vector) -> f64 {
     f64::from(d.x).hypot(f64::from(d.y))
 }
 
-/// How a vertex is divided into states.
+/// The states of a vertex.
 enum Slots {
     /// One state, slot 0.
     Whole,
-    /// A gap under the closed rule: slots 0 and 1 are these free quadrants.
+    /// A closed gap: slots 0 and 1 are these free quadrants.
     Quadrants([(i64, i64); 2]),
 }
 
@@ -184,7 +186,7 @@ impl Slots {
         }
     }
 
-    /// The slot that a move from `at` to `other`, or back, belongs to.
+    /// The slot of a move from `at` to `other`, or back.
     fn toward(&self, at: Vertex, other: Vertex) -> Option<usize> {
         match self {
             Self::Whole => Some(0),

@@ -18,17 +18,17 @@ impl Canvas {
         Self { width, height, blocked: cells.map(|(x, y)| blocked(x, y)).collect() }
     }
 
-    /// The place of a cell, `None` outside.
+    /// The index of a cell, `None` outside.
     fn index(&self, x: u32, y: u32) -> Option<usize> {
         (x < self.width && y < self.height).then(|| y as usize * self.width as usize + x as usize)
     }
 
-    /// Outside is blocked.
+    /// Whether a cell is blocked; the outside is.
     fn is_blocked(&self, x: u32, y: u32) -> bool {
         self.index(x, y).is_none_or(|i| self.blocked[i])
     }
 
-    /// Nothing happens outside.
+    /// Frees a cell; has no effect outside.
     fn free(&mut self, x: u32, y: u32) {
         if let Some(i) = self.index(x, y) {
             self.blocked[i] = false;
@@ -40,12 +40,12 @@ impl Canvas {
     }
 }
 
-/// Each cell blocked in `percent` of 100 cases, by itself.
+/// Noise: each cell is blocked with a probability of `percent` / 100, independently.
 pub fn noise(rng: &mut Rng, width: u32, height: u32, percent: u32) -> Grid {
     Canvas::new(width, height, |_, _| rng.chance(percent)).into_grid()
 }
 
-/// Rooms of 1 × 1 to 5 × 5 cells (one size a map) with walls one cell thick, most of which have a door.
+/// Rooms of 1 × 1 to 5 × 5 cells, all of one size, with walls one cell thick, most of which have a door.
 pub fn rooms(rng: &mut Rng, width: u32, height: u32) -> Grid {
     let side = 1 + rng.below(5);
     let pitch = side + 1;
@@ -64,7 +64,7 @@ pub fn rooms(rng: &mut Rng, width: u32, height: u32) -> Grid {
     canvas.into_grid()
 }
 
-/// A maze of corridors one cell wide, carved by depth-first search with backtracking; a few walls more are broken, so that
+/// A maze of corridors one cell wide, carved by depth-first search. A few more walls are removed, so that
 /// there are loops.
 pub fn maze(rng: &mut Rng, width: u32, height: u32) -> Grid {
     let mut canvas = Canvas::new(width, height, |_, _| true);
@@ -96,8 +96,8 @@ pub fn maze(rng: &mut Rng, width: u32, height: u32) -> Grid {
     canvas.into_grid()
 }
 
-/// Caves: noise of 35–50 %, smoothed by a cellular automaton in which the majority of a cell's 3 × 3 block decides (outside
-/// counts as blocked).
+/// Caves: noise of 35–50 %, smoothed by a cellular automaton in which the majority of a cell's 3 × 3 block
+/// decides (outside counts as blocked).
 pub fn caves(rng: &mut Rng, width: u32, height: u32) -> Grid {
     let percent = 35 + rng.below(16);
     let mut canvas = Canvas::new(width, height, |_, _| rng.chance(percent));
@@ -117,7 +117,7 @@ pub fn caves(rng: &mut Rng, width: u32, height: u32) -> Grid {
 /// The patterns of [`adversarial`]: a name, and whether cell (x, y) is blocked, given two random parameters.
 type Pattern = (&'static str, fn(u32, u32, u32, u32) -> bool);
 
-/// Where the subtle cases are.
+/// Patterns with the subtle cases.
 const PATTERNS: [Pattern; 11] = [
     ("all free", |_, _, _, _| false),
     ("all blocked", |_, _, _, _| true),
@@ -134,8 +134,8 @@ const PATTERNS: [Pattern; 11] = [
     ("rings", |x, y, a, b| (x.abs_diff(a % 8).max(y.abs_diff(b % 8))) % 2 == 1 && x != y),
 ];
 
-/// Small maps on which rules differ: diagonal gaps, corridors one cell wide, combs, checkerboards, all free, all blocked,
-/// each whole or with a few cells flipped.
+/// Maps on which the rules of motion differ: diagonal gaps, corridors one cell wide, combs, checkerboards,
+/// all free, all blocked. Each pattern is pure or has a few cells flipped.
 pub fn adversarial(rng: &mut Rng, width: u32, height: u32) -> Grid {
     adversarial_with_name(rng, width, height).0
 }
@@ -147,14 +147,15 @@ fn adversarial_with_name(rng: &mut Rng, width: u32, height: u32) -> (Grid, &'sta
     (Canvas::new(width, height, |x, y| pattern(x, y, a, b) != rng.chance(flips)).into_grid(), name)
 }
 
-/// A map of kind, size (sides 1 to 24, more small than large) and density drawn from `seed`, with words that say which.
+/// A map whose kind, size (sides from 1 to 24, small ones more often) and density are drawn from `seed`, with
+/// a description of them.
 #[must_use]
 pub fn random_grid(seed: u64) -> (Grid, String) {
     draw_grid(&mut Rng::new(seed))
 }
 
-/// A map wider than a machine word, 60 to 200 cells by 1 to 4, or as much higher: runs, rows and lines of sight cross word
-/// boundaries in it. Sparse, so that some of them are long.
+/// A map of 60 to 200 by 1 to 4 cells, or the reverse, so that runs, rows and lines of sight cross the
+/// boundaries of machine words. It is sparse, so that some of them are long.
 #[must_use]
 pub fn wide_grid(seed: u64) -> (Grid, String) {
     let rng = &mut Rng::new(seed);
@@ -165,13 +166,13 @@ pub fn wide_grid(seed: u64) -> (Grid, String) {
     (grid, format!("noise of {percent} %, {width} × {height} cells"))
 }
 
-/// The map of a suite's seed: [`wide_grid`] for one in 20, else [`random_grid`].
+/// The map of a suite for this seed: one in 20 is a [`wide_grid`], the others are a [`random_grid`].
 #[must_use]
 pub fn suite_grid(seed: u64) -> (Grid, String) {
     if seed % 20 == 7 { wide_grid(seed) } else { random_grid(seed) }
 }
 
-/// [`random_grid`] that leaves the generator for further draws.
+/// [`random_grid`] from a generator that can then be used for further draws.
 pub(crate) fn draw_grid(rng: &mut Rng) -> (Grid, String) {
     let mut side = || {
         let longest = [3, 6, 12, 24][rng.below(4) as usize];
@@ -201,7 +202,7 @@ pub fn random_vertex(rng: &mut Rng, grid: &Grid, placement: PlacementKind) -> Ve
     Vertex::new(x as i32, y as i32)
 }
 
-/// A free vertex, each as likely as the others; `None` when there is none.
+/// A free vertex, each with the same probability; `None` if there is none.
 pub fn random_free_vertex(rng: &mut Rng, grid: &Grid, placement: PlacementKind) -> Option<Vertex> {
     let extra = i32::from(placement == PlacementKind::Corner);
     let (columns, rows) = (grid.width() as i32 + extra, grid.height() as i32 + extra);

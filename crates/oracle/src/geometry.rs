@@ -1,4 +1,4 @@
-//! A straight segment and what it meets, in exact fractions.
+//! Straight segments and the rectangles that they meet, in exact fractions.
 
 use std::cmp::Ordering;
 
@@ -48,7 +48,8 @@ impl PartialEq for Fraction {
 
 impl Eq for Fraction {}
 
-/// The points `from + t · by` for 0 ≤ t ≤ 1. Coordinates are in half cells, so that centers and corners are integers.
+/// The points `from + t · by` for 0 ≤ t ≤ 1. Coordinates are in half cells, so that centers and corners are
+/// integers.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Segment {
     pub(crate) from: [i64; 2],
@@ -62,7 +63,7 @@ pub(crate) struct Rectangle {
     pub(crate) high: [i64; 2],
 }
 
-/// What a segment has in common with a closed rectangle.
+/// The intersection of a segment with a closed rectangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Contact {
     /// Nothing.
@@ -95,7 +96,7 @@ impl Segment {
         match enter.cmp(&leave) {
             Ordering::Greater => Contact::Nothing,
             Ordering::Equal => Contact::Point(enter),
-            // A chord of a convex figure lies on its rim altogether or not at all, but for its ends.
+            // Apart from its ends, a chord of a convex figure lies on the rim altogether or not at all.
             Ordering::Less if self.is_inside(enter.middle(leave), rectangle) => Contact::Inside,
             Ordering::Less => Contact::Rim,
         }
@@ -116,8 +117,8 @@ impl Segment {
             .map(|axis| i128::from(self.from[axis]) * t.denominator + i128::from(self.by[axis]) * t.numerator)
     }
 
-    /// The lattice corner point (in whole cells) that the segment passes through at t, neither end of it; `None` when
-    /// there is none at t.
+    /// The corner of cells, in whole cells, through which the segment passes at t; `None` if there is none at
+    /// t, or if it is an end of the segment.
     pub(crate) fn corner_at(&self, t: Fraction) -> Option<[i128; 2]> {
         let point = self.scaled_point(t);
         let is_corner = point.iter().all(|coordinate| coordinate % (2 * t.denominator) == 0);

@@ -7,16 +7,19 @@ use mediant_moves::Vector;
 
 use crate::geometry::{Contact, Rectangle, Segment};
 
-/// What a segment with a given displacement meets, with cells and vertices relative to its first vertex.
+/// The cells, edges and vertices that a segment with a given displacement meets, relative to its first
+/// vertex.
 ///
-/// Legality depends on a map only through these, so a move's footprint serves at every vertex.
+/// Legality depends on nothing else of a map, so the footprint of a move can be used at every vertex.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Footprint {
-    /// Center: the cells met in more than a lattice corner point. Corner: the cells whose open interior is met.
+    /// Center: the cells that the segment meets in more than a corner of cells. Corner: the cells whose open
+    /// interior it meets.
     crossed: Vec<Vector>,
-    /// Center only: at each lattice corner point on the way, the cells met in that point alone.
+    /// Center only: for each corner of cells on the way, the cells that the segment meets in this point
+    /// alone.
     touched: Vec<Vec<Vector>>,
-    /// Corner only: the two cells beside each edge that the segment runs along.
+    /// Corner only: the two cells beside each edge along which the segment runs.
     edges: Vec<[Vector; 2]>,
     /// Corner only: the vertices strictly between the ends.
     between: Vec<Vector>,
@@ -128,13 +131,14 @@ pub(crate) fn free_quadrants(grid: &Grid, at: Vertex) -> impl Iterator<Item = (i
     QUADRANTS.into_iter().filter(move |&signs| !quadrant_is_blocked(grid, at, signs))
 }
 
-/// Whether the way from `at` to `other` sets out into the closed quadrant.
+/// Whether the segment from `at` to `other` lies in this closed quadrant of `at`.
 pub(crate) fn is_in_quadrant(at: Vertex, other: Vertex, (sx, sy): (i64, i64)) -> bool {
     let (dx, dy) = (i64::from(other.x) - i64::from(at.x), i64::from(other.y) - i64::from(at.y));
     dx * sx >= 0 && dy * sy >= 0
 }
 
-/// Whether `at` is a free vertex: at centers a free cell, at corners a vertex with a free cell among its four.
+/// Whether `at` is a free vertex: at centers a free cell, at corners a vertex with a free cell among its
+/// four.
 ///
 /// Vertices outside the map are not free.
 #[must_use]
@@ -152,13 +156,15 @@ pub fn is_gap(grid: &Grid, at: Vertex) -> bool {
     matches!(free[..], [(ax, ay), (bx, by)] if ax == -bx && ay == -by)
 }
 
-/// Whether the straight segment from `a` to `b` is legal under the rules of motion, by itself: what a path under
-/// [`DiagonalGap::Closed`] may do where segments meet is [`turn_is_legal`]'s business.
+/// Whether the straight segment from `a` to `b`, by itself, is legal under the rules of motion. Where
+/// segments meet at a gap, [`turn_is_legal`] decides.
 ///
-/// * Centers: all cells that the closed segment meets must be free, but for those that it only meets in a grid graph corner
-///   point on its way: of these all, at least one at each point, or none must be free.
-/// * Corners: no blocked cell's open interior may be met, and the segment may not run along the edge of two blocked
-///   cells (outside counts as blocked). With closed gaps no gap may lie strictly between its ends.
+/// * Centers: all cells that the closed segment meets must be free, except those that it only meets in a
+///   corner of cells. Of the latter, all must be free, or at least one at each corner, or none, depending on
+///   the [`CornerRule`].
+/// * Corners: the segment may not meet the open interior of a blocked cell, and may not run along the edge
+///   between two blocked cells (outside counts as blocked). With closed gaps, no gap may lie strictly between
+///   its ends.
 ///
 /// A segment of length 0 is legal at a free vertex. Time is proportional to the area of the bounding box.
 #[must_use]
@@ -169,12 +175,12 @@ pub fn segment_is_legal(grid: &Grid, rules: Rules, a: Vertex, b: Vertex) -> bool
         && (a == b || Footprint::new(placement, a.to(b)).is_legal(grid, rules, a))
 }
 
-/// Whether a path under [`DiagonalGap::Closed`] may come from `before` to corner vertex `at` and go on to `after`, both
-/// segments being legal. `None` stands for the path's start or end at `at`.
+/// Whether a path under [`DiagonalGap::Closed`] may come from `before` to corner vertex `at` and go on to
+/// `after`, given that both segments are legal. `None` stands for the start or end of the path at `at`.
 ///
-/// At a gap a path stays in one closed free quadrant, and one that starts or ends there in that of
-/// the vertex's own cell (x, y), which must be free. Everywhere else, and for a path that is `at` alone, there is
-/// nothing to observe.
+/// At a gap a path must stay in one closed free quadrant. A path that starts or ends there must stay in the
+/// quadrant of the vertex's own cell (x, y), which must be free. There is no restriction elsewhere, nor for a
+/// path that consists of `at` alone.
 #[must_use]
 pub fn turn_is_legal(grid: &Grid, before: Option<Vertex>, at: Vertex, after: Option<Vertex>) -> bool {
     if !is_gap(grid, at) || (before.is_none() && after.is_none()) {

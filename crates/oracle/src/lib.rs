@@ -1,20 +1,22 @@
-//! Slow, obvious references that every engine is tested against.
+//! Slow, obvious references against which every engine is tested.
 //!
-//! **The key decision: nothing here is clever, and nothing is shared.** From `mediant-grid` come the map and the words
-//! for the rules, from `mediant-moves` the plain vector and the number k; legality, neighborhoods and searches are
-//! written again, from the definitions, so that an error in an engine is not repeated by its judge.
+//! **The key decision: nothing here is clever, and no code is shared with what is tested.** The map and the
+//! names of the rules come from `mediant-grid`, plain vectors and the number k from `mediant-moves`.
+//! Legality, neighborhoods and searches are written anew from their definitions, so that the reference does
+//! not repeat the errors of an engine.
 //!
-//! * [`segment_is_legal`], [`vertex_is_free`], [`turn_is_legal`]: the rules of motion, by clipping a segment against
-//!   every cell around it, in exact fractions.
-//! * [`neighborhood`]: the moves of N(k), mediant by mediant.
-//! * [`Explicit`]: Dijkstra on the graph of all legal moves, for every k and for any-angle paths.
-//! * [`Visibility`]: the same costs at corners from the visibility graph of the obstacles' convex corners, one for all k.
-//! * [`validate`]: whether a path is what a planner promised.
-//! * [`random_grid`], [`wide_grid`], [`Case`] and the generators behind them: maps and queries from a seed, those of a suite
-//!   from its [`seeds`].
-//! * [`describe`]: what a failing test should say.
+//! * [`segment_is_legal`], [`vertex_is_free`], [`turn_is_legal`]: the rules of motion. A segment is clipped
+//!   against every cell around it, in exact fractions.
+//! * [`neighborhood`]: the moves of N(k), by inserting mediants.
+//! * [`Explicit`]: Dijkstra's algorithm on the graph of all legal moves, for every k and for any-angle paths.
+//! * [`Visibility`]: the same costs under corner placement from the visibility graph of the obstacles' convex
+//!   corners, one graph for all k.
+//! * [`validate`]: checks that a path is legal and has the stated cost.
+//! * [`random_grid`], [`wide_grid`], [`Case`] and the generators behind them: maps and queries from a seed.
+//!   [`seeds`] are those of a suite.
+//! * [`describe`]: the query and its map, for the message of a failing test.
 //!
-//! What is not here: speed. Use it on small maps.
+//! What is not here: speed. It is meant for small maps.
 //!
 //! ```
 //! use mediant_grid::{AsciiMap, CornerRule, Rules};

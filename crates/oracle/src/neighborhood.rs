@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 
 use mediant_moves::{FiniteK, Vector};
 
-/// The moves (x, y) of N(k) with |x| ≤ `width` and |y| ≤ `height`, in the order of [`Vector`]; `None` stands for k = ∞,
-/// every vector with gcd 1.
+/// The moves (x, y) of N(k) with |x| ≤ `width` and |y| ≤ `height`, in the order of [`Vector`]. k = `None`
+/// stands for k = ∞: every vector with gcd 1.
 ///
-/// Between each two adjacent moves their sum is inserted, k − 2 times, and the quadrant is reflected (Rivera 2017).
-/// Sums only grow, so those that leave the rectangle end the insertion there.
+/// The sum of every two adjacent moves is inserted between them, in k − 2 rounds, and the quadrant is
+/// reflected (Rivera 2017). Sums only grow, so the insertion ends where a sum leaves the rectangle.
 #[must_use]
 pub fn neighborhood(k: Option<FiniteK>, width: u32, height: u32) -> Vec<Vector> {
     let limit = Vector::new(saturated(width), saturated(height));

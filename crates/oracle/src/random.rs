@@ -1,7 +1,13 @@
 //! Random numbers that are the same everywhere.
 
-/// SplitMix64 (Steele, Lea, Flood, 'Fast Splittable Pseudorandom Number Generators', OOPSLA 2014): 64 bits of state, which
-/// are the seed, and every seed is a good one.
+/// SplitMix64 (Steele, Lea, Flood, 'Fast Splittable Pseudorandom Number Generators', OOPSLA 2014). The state
+/// is 64 bits, initially the seed; every seed is good.
+///
+/// ```
+/// use mediant_oracle::Rng;
+/// let (mut a, mut b) = (Rng::new(7), Rng::new(7));
+/// assert_eq!(a.below(6), b.below(6));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rng {
     state: u64,
@@ -28,12 +34,12 @@ impl Rng {
         (((self.bits() >> 32) * n as u64) >> 32) as u32
     }
 
-    /// True in `percent` of 100 cases.
+    /// True with a probability of `percent` / 100.
     pub const fn chance(&mut self, percent: u32) -> bool {
         self.below(100) < percent
     }
 
-    /// One of the items, `None` of none.
+    /// One of the items; `None` if there are none.
     pub fn pick<'a, T>(&mut self, items: &'a [T]) -> Option<&'a T> {
         items.get(self.below(u32::try_from(items.len()).unwrap_or(u32::MAX)) as usize)
     }
@@ -45,7 +51,7 @@ mod tests {
 
     #[test]
     fn first_outputs_of_seed_0() {
-        // As the published reference implementation gives them.
+        // From the published reference implementation.
         let mut rng = Rng::new(0);
         let first = [rng.bits(), rng.bits(), rng.bits()];
         assert_eq!(first, [0xE220_A839_7B1D_CDAF, 0x6E78_9E6A_A1B9_65F4, 0x06C4_5D18_8009_454F]);

@@ -1,4 +1,4 @@
-//! Whether a path is what a planner promised.
+//! Whether a path is legal and has the stated cost.
 
 use std::{error::Error, fmt};
 
@@ -38,7 +38,7 @@ pub enum Fault {
         /// The last waypoint.
         found: Vertex,
     },
-    /// Start and goal are the same, and yet there is more than one waypoint.
+    /// Start and goal are the same, but there is more than one waypoint.
     Detour {
         /// Start and goal.
         at: Vertex,
@@ -47,19 +47,19 @@ pub enum Fault {
     },
     /// A waypoint is blocked or outside the map.
     NotFree {
-        /// The waypoint's place in the path, from 0.
+        /// The index of the waypoint, from 0.
         index: usize,
         /// The waypoint.
         at: Vertex,
     },
     /// Two consecutive waypoints are the same.
     Still {
-        /// The place of the second in the path, from 0.
+        /// The index of the second one, from 0.
         index: usize,
         /// The waypoint.
         at: Vertex,
     },
-    /// Two waypoints are not joined by a repeated move of N(k).
+    /// Two consecutive waypoints are not joined by a repeated move of N(k).
     NotAMove {
         /// The first waypoint.
         from: Vertex,
@@ -77,13 +77,13 @@ pub enum Fault {
         /// The rules.
         rules: Rules,
     },
-    /// The path crosses, or starts or ends in a forbidden quadrant of, a gap.
+    /// The path passes through a closed gap, or starts or ends in a forbidden quadrant of one.
     Turn {
-        /// The vertex before the corner, `None` at the start.
+        /// The vertex before the gap, `None` at the start.
         before: Option<Vertex>,
-        /// The corner.
+        /// The gap.
         at: Vertex,
-        /// The vertex after the corner, `None` at the goal.
+        /// The vertex after the gap, `None` at the goal.
         after: Option<Vertex>,
     },
     /// The stated cost is not the length of the path.
@@ -139,8 +139,9 @@ impl Error for Fault {}
 
 /// Whether `waypoints` is a legal path from `start` to `goal` whose length is `cost`, in cells.
 ///
-/// With k, two consecutive waypoints must be joined by one move of N(k), repeated, each repetition legal; without, by
-/// one legal segment. Start = goal takes the one waypoint and cost 0. Whether a shorter path exists is not asked.
+/// With k, two consecutive waypoints must be joined by repetitions of one move of N(k), each of them legal;
+/// for k = `None`, by one legal segment. If start and goal are the same, the path is this one waypoint, with
+/// cost 0. Whether a shorter path exists is not checked.
 ///
 /// # Errors
 /// The first [`Fault`] that is found.

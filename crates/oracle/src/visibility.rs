@@ -1,16 +1,19 @@
-//! Shortest paths at corner placement from one visibility graph, for every k.
+//! Shortest paths under corner placement for every k, from one visibility graph.
 //!
-//! **Why one graph serves every k.** Every norm of the plane is a sum of widths, Σ cᵢ·|⟨nᵢ, d⟩|, or a limit of such sums; h_k is
-//! one, its unit ball being a symmetric polygon. So the length of a path counts how often it crosses the lines with normals
-//! nᵢ. A *taut* path, one that bends around convex corners of obstacles only, crosses each piece of such a line in free space at
-//! most once, and then every path that passes the obstacles on the same sides crosses it too: the taut path is a shortest
-//! of these in all norms at once. Its straight pieces can be followed over N(k) at cost h_k (Kramm 2018, Lemma 13), and
-//! a path over N(k) measures the same in h_k as in cells. What remains is to choose the sides, and for that there is Dijkstra.
+//! **Why one graph is enough for every k.** h_k is a norm: its unit ball is a symmetric polygon. Every norm
+//! of the plane is a sum Σ cᵢ·|⟨nᵢ, d⟩|, or a limit of such sums. So the length of a path is a weighted count
+//! of how often it crosses the lines with normals nᵢ. A *taut* path bends only around convex corners of
+//! obstacles. It crosses each piece of such a line in free space at most once, and then every path that
+//! passes the obstacles on the same sides crosses it too. Therefore the taut path is shortest among these
+//! paths, in all norms at once. Its straight pieces can be followed over N(k) at cost h_k (Kramm 2018, Lemma
+//! 13), and the h_k-length of a path over N(k) is its length. It remains to choose the sides, which
+//! Dijkstra's algorithm does.
 //!
-//! **Closed gaps** are cuts through free space. Seen from either of its free quadrants a gap is concave, so no
-//! taut path bends there: it is a start or goal at most. That holds for k = 2 as well, though what follows a taut path over
-//! N(2) may have to touch such a corner: from one corner of a cell to the opposite one when both others are gaps. It
-//! bends there within one quadrant, which the rule allows, and so costs h_2 as anywhere.
+//! **Closed gaps** are cuts through free space. Seen from either of its free quadrants a gap is concave, so a
+//! taut path does not bend there; at most it starts or ends there. This also holds for k = 2. But the path
+//! over N(2) that follows a taut path may have to touch a gap: from one corner of a cell to the opposite one,
+//! if both other corners are gaps. It bends there within one quadrant, which the rule allows, so its cost is
+//! still h_2.
 
 use std::{cmp::Reverse, collections::BinaryHeap, sync::OnceLock};
 
@@ -22,22 +25,25 @@ use crate::{
     neighborhood,
 };
 
-/// The convex corners of the obstacles of one grid, under corner placement, and which of them see each other.
+/// The convex corners of the obstacles of a grid, and which of them see each other.
 ///
-/// Convex is a vertex with one blocked cell of four and, with [`DiagonalGap::Open`], a gap. To see is
-/// [`segment_is_legal`](crate::segment_is_legal). The graph is the same for all k; [`over`](Self::over) gives it lengths.
+/// A vertex is a convex corner if one of its four cells is blocked or, under [`DiagonalGap::Open`], if it is
+/// a gap. Two vertices see each other if the segment between them is legal
+/// ([`segment_is_legal`](crate::segment_is_legal)). The graph is the same for all k; [`over`](Self::over)
+/// adds lengths.
 ///
-/// Meant for maps up to about 40 × 40 or 1,000 × 4: it keeps what each displacement that was asked for meets.
+/// Meant for maps up to about 40 × 40 or 1,000 × 4: it stores the cells that each requested displacement
+/// meets.
 #[derive(Clone, Debug)]
 pub struct Visibility<'g> {
     sight: Sight<'g>,
     corners: Vec<Vertex>,
-    /// For each corner the corners in its sight, by their places in `corners`.
+    /// For each corner the corners that it sees, by their indices in `corners`.
     seen: Vec<Vec<u32>>,
 }
 
 impl<'g> Visibility<'g> {
-    /// Looks from each convex corner to each other.
+    /// Tests the segments between all pairs of convex corners.
     #[must_use]
     pub fn new(grid: &'g Grid, gap: DiagonalGap) -> Self {
         let (width, height) = (grid.width() as i32, grid.height() as i32);
@@ -62,7 +68,7 @@ impl<'g> Visibility<'g> {
         &self.corners
     }
 
-    /// The graph with edges as long as h_k says or, for k = `None`, as they are.
+    /// The graph with edges of length h_k or, for k = `None`, of Euclidean length.
     #[must_use]
     pub fn over(&self, k: Option<FiniteK>) -> VisibilityGraph<'_> {
         let grid = self.sight.grid;
@@ -71,7 +77,7 @@ impl<'g> Visibility<'g> {
     }
 }
 
-/// Whether an optimal path may bend at a vertex.
+/// Whether a vertex is a convex corner: an optimal path may bend there.
 fn is_convex(grid: &Grid, gap: DiagonalGap, at: Vertex) -> bool {
     free_quadrants(grid, at).count() == 3 || (gap == DiagonalGap::Open && is_gap(grid, at))
 }
@@ -81,7 +87,8 @@ fn is_convex(grid: &Grid, gap: DiagonalGap, at: Vertex) -> bool {
 struct Sight<'g> {
     grid: &'g Grid,
     gap: DiagonalGap,
-    /// For each displacement (x, y) of the map with y ≥ 0, row by row, its footprint once it was asked for.
+    /// The footprint of each displacement (x, y) of the map with y ≥ 0, row by row, computed when first
+    /// needed.
     footprints: Vec<OnceLock<Footprint>>,
 }
 
@@ -91,7 +98,8 @@ impl<'g> Sight<'g> {
         Self { grid, gap, footprints: vec![OnceLock::new(); displacements] }
     }
 
-    /// [`segment_is_legal`](crate::segment_is_legal) between two free vertices of the map, with footprints kept.
+    /// [`segment_is_legal`](crate::segment_is_legal) between two free vertices of the map, with stored
+    /// footprints.
     fn is_legal(&self, a: Vertex, b: Vertex) -> bool {
         let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
         let (d, width) = (a.to(b), self.grid.width() as i32);
@@ -100,25 +108,25 @@ impl<'g> Sight<'g> {
         a == b || footprint().is_legal(self.grid, Rules::Corner(self.gap), a)
     }
 
-    /// Whether a path may start or end at `end`, `other` being the next vertex or the one before.
+    /// Whether a path may start or end at `end`, where `other` is the next or the previous vertex.
     fn may_end(&self, end: Vertex, other: Vertex) -> bool {
         self.gap == DiagonalGap::Open || turn_is_legal(self.grid, None, end, Some(other))
     }
 }
 
-/// A [`Visibility`] with lengths.
+/// A [`Visibility`] with lengths of edges.
 #[derive(Clone, Debug)]
 pub struct VisibilityGraph<'v> {
     visibility: &'v Visibility<'v>,
     /// The number of columns of vertices.
     columns: usize,
-    /// For each displacement (x, y) of the map with x, y ≥ 0, row by row, its length.
+    /// The length of each displacement (x, y) of the map with x, y ≥ 0, row by row.
     lengths: Vec<f64>,
 }
 
 impl VisibilityGraph<'_> {
-    /// The optimal costs from `start` to every corner, and so to every vertex. From a vertex that is blocked or outside the
-    /// map nothing is reached.
+    /// The optimal costs from `start` to every corner, and thereby to every vertex. If `start` is blocked or
+    /// outside the map, no vertex is reached.
     #[must_use]
     pub fn costs_from(&self, start: Vertex) -> VisibilityCosts<'_> {
         let Visibility { sight, corners, seen } = self.visibility;
@@ -131,7 +139,7 @@ impl VisibilityGraph<'_> {
         if !vertex_is_free(sight.grid, PlacementKind::Corner, start) {
             return costs;
         }
-        // The bits of floats that are not negative are ordered as the floats.
+        // Floats that are not negative have the same order as their bits.
         let mut open = BinaryHeap::new();
         for (i, &corner) in corners.iter().enumerate() {
             if sight.may_end(start, corner) && sight.is_legal(start, corner) {
@@ -156,34 +164,34 @@ impl VisibilityGraph<'_> {
         costs
     }
 
-    /// How far it is from one vertex of the map straight to another.
+    /// The length of the straight segment between two vertices of the map.
     fn length(&self, a: Vertex, b: Vertex) -> f64 {
         let d = a.to(b);
         self.lengths[d.y.unsigned_abs() as usize * self.columns + d.x.unsigned_abs() as usize]
     }
 }
 
-/// The optimal costs from one start, by way of the corners.
+/// The optimal costs from one start, over the convex corners.
 #[derive(Clone, Debug)]
 pub struct VisibilityCosts<'a> {
     graph: &'a VisibilityGraph<'a>,
     start: Vertex,
-    /// For each corner.
+    /// The cost of each corner.
     cost: Vec<f64>,
-    /// For each corner the one before it, none where the start is in sight.
+    /// For each corner the corner before it; `None` if that is the start.
     previous: Vec<Option<u32>>,
 }
 
 impl VisibilityCosts<'_> {
-    /// The cost of an optimal path to `goal`, 0 to the start itself; `None` when there is no path, or an end is blocked
-    /// or outside the map.
+    /// The cost of an optimal path to `goal`, 0 for the start itself; `None` if there is no path, or if start
+    /// or goal is blocked or outside the map.
     #[must_use]
     pub fn to(&self, goal: Vertex) -> Option<f64> {
         self.last_step(goal).map(|(cost, _)| cost)
     }
 
-    /// The waypoints of an optimal path to `goal`, each in sight of the next: over N(k) a shortest path from one to the next
-    /// can be had beside the segment between them. `None` as for [`to`](Self::to).
+    /// The waypoints of an optimal path to `goal`, each in sight of the next. Over N(k) there is a shortest
+    /// path from one to the next along the segment between them. `None` as for [`to`](Self::to).
     #[must_use]
     pub fn path_to(&self, goal: Vertex) -> Option<Vec<Vertex>> {
         let (_, mut last) = self.last_step(goal)?;
@@ -193,13 +201,14 @@ impl VisibilityCosts<'_> {
             last = self.previous[corner as usize];
         }
         path.push(self.start);
-        // An end may be a corner itself.
+        // Start or goal may be a corner itself.
         path.dedup();
         path.reverse();
         Some(path)
     }
 
-    /// The cost to `goal`, and the corner from which it is reached, none when that is straight from the start.
+    /// The cost to `goal`, and the corner from which it is reached; `None` for the corner if it is reached
+    /// straight from the start.
     fn last_step(&self, goal: Vertex) -> Option<(f64, Option<u32>)> {
         let Visibility { sight, corners, .. } = self.graph.visibility;
         let is_free = |at| vertex_is_free(sight.grid, PlacementKind::Corner, at);
@@ -224,8 +233,8 @@ impl VisibilityCosts<'_> {
 
 /// h_k of each displacement (x, y) with 0 ≤ x ≤ `width` and 0 ≤ y ≤ `height`, both at least 1, row by row.
 ///
-/// From the definition: d is the one combination p·a + q·b with p, q ≥ 0 of two moves that are adjacent in angle, and its length is
-/// p·|a| + q·|b|. Moves beyond the rectangle combine to nothing in it.
+/// From the definition: d = p·a + q·b with p, q ≥ 0 for two moves a, b that are adjacent in angle, and its
+/// length is p·|a| + q·|b|. Moves beyond the rectangle are not needed for displacements in it.
 fn lengths(k: Option<FiniteK>, width: i32, height: i32) -> Vec<f64> {
     let displacements = || (0..=height).flat_map(|y| (0..=width).map(move |x| Vector::new(x, y)));
     if k.is_none() {
@@ -244,7 +253,7 @@ fn lengths(k: Option<FiniteK>, width: i32, height: i32) -> Vec<f64> {
     displacements().map(length).collect()
 }
 
-/// Positive when v lies beyond u in the order of angles from (1, 0) to (0, 1).
+/// Positive if v comes after u in the order of angles from (1, 0) to (0, 1).
 fn det(u: Vector, v: Vector) -> i64 {
     i64::from(u.x) * i64::from(v.y) - i64::from(u.y) * i64::from(v.x)
 }
@@ -270,7 +279,7 @@ mod tests {
                     let mut free = || random_free_vertex(&mut rng, &grid, PlacementKind::Corner);
                     let Some((a, b)) = free().zip(free()) else { continue };
                     let expected = segment_is_legal(&grid, rules, a, b);
-                    // Asked again, from what was kept.
+                    // The second and third time, from the stored footprint.
                     for (a, b) in [(a, b), (b, a), (a, b)] {
                         assert_eq!(sight.is_legal(a, b), expected, "{}", describe(&grid, rules, a, b, seed));
                     }
@@ -281,7 +290,7 @@ mod tests {
         assert!(legal > 2000 && illegal > 2000, "{legal} legal, {illegal} illegal");
     }
 
-    /// Adjacency and the two factors do not matter where all combinations of all pairs of moves are tried.
+    /// Tries all combinations of all pairs of moves, so that neither adjacency nor the two factors matter.
     #[test]
     fn lengths_are_the_least_over_all_pairs_of_moves() {
         let (width, height) = (9, 6);

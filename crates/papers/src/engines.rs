@@ -92,8 +92,8 @@ const CENTERS: (&str, &[&str]) = (
         "subgoal:3:never",
         "hpa:2:never",
         "hpa:3:never",
-        "hpa:2:never,refined",
-        "hpa:3:never,refined",
+        "hpa:2:never,unstraightened",
+        "hpa:3:never,unstraightened",
         "chpa:2:never",
         "chpa:3:never",
     ],
@@ -164,7 +164,7 @@ fn series_of(setup: &str) -> (String, String) {
         "any" => "∞".to_owned(),
         k => k.to_owned(),
     };
-    (format!("{}{options}", parsed.engine), k)
+    (format!("{}{options}", parsed.engine.kind()), k)
 }
 
 fn chart(record: &Record, set: &str, placement: &str) -> Chart {
@@ -246,7 +246,7 @@ fn show(record: &Record) -> Section {
 
 #[cfg(test)]
 mod tests {
-    use mediant_engines::Engine;
+    use mediant_engines::EngineKind;
 
     use super::*;
 
@@ -254,8 +254,8 @@ mod tests {
     fn every_engine_takes_part() {
         let parsed: Vec<Setup> = setups().map(|(_, setup)| setup.parse().unwrap()).collect();
         assert!(parsed.iter().all(|setup| setup.check().is_ok()));
-        for engine in Engine::ALL {
-            assert!(parsed.iter().any(|setup| setup.engine == engine), "{engine}");
+        for engine in EngineKind::ALL {
+            assert!(parsed.iter().any(|setup| setup.engine.kind() == engine), "{engine}");
         }
         for ((placement, setup), parsed) in setups().zip(&parsed) {
             assert_eq!(placement, format!("{}s", parsed.rules.placement()), "{setup}");

@@ -94,7 +94,8 @@ fn on_map(context: &Context<'_>, map: &Map, k: &str, every: usize) -> Result<Opt
     }
     let mut study = Study::new(&grid, &queries, context.passes().min(1));
     let astar = Sums::of(&run(&mut study, &format!("astar:{k}"))?, &optima);
-    let refined = Sums::of(&run(&mut Study::new(&grid, &queries, 0), &format!("hpa:{k},refined"))?, &optima);
+    let refined =
+        Sums::of(&run(&mut Study::new(&grid, &queries, 0), &format!("hpa:{k},unstraightened"))?, &optima);
     let mut study = Study::new(&grid, &queries, context.passes());
     let hpa = Sums::of(&run(&mut study, &format!("hpa:{k}"))?, &optima);
     let excess = |sums: Sums| 100.0 * (sums.ratios / sums.compared.max(1) as f64 - 1.0);

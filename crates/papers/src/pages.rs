@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use mediant_report::{Claim, Kind, Provenance, Record, Table, Verdict, thousands, verdicts};
+use mediant_report::{Claim, ColumnKind, Provenance, Record, Table, Verdict, thousands, verdicts};
 
 use crate::{
     Error,
@@ -57,7 +57,7 @@ pub(super) fn draw(records: &[(&'static Experiment, Record)]) -> Result<BTreeMap
         if record.provenance.bundled {
             // The published values are of other maps.
             section.claims.clear();
-            for verdict in [Verdict::Matched, Verdict::Drawn, Verdict::Deviates] {
+            for verdict in [Verdict::Matched, Verdict::WithinSampling, Verdict::Deviates] {
                 section.markdown = section.markdown.replace(verdict.mark(), "");
             }
         }
@@ -119,7 +119,7 @@ fn about(record: &Record) -> String {
         text += &format!(
             " Times: one thread, warm, paths included, reading and preprocessing excluded, median of {passes} passes, on {cpu}."
         );
-    } else if record.columns.iter().any(|column| column.kind == Kind::Time) {
+    } else if record.columns.iter().any(|column| column.kind == ColumnKind::Time) {
         text += " No times were taken.";
     }
     let short = revision.get(..12).unwrap_or(revision);

@@ -6,7 +6,7 @@ use std::{
 };
 
 use clap::Args;
-use mediant_report::{Kind, Machine, Provenance, Record, revision};
+use mediant_report::{ColumnKind, Machine, Provenance, Record, revision};
 use mediant_sets::root;
 
 use crate::{
@@ -123,7 +123,7 @@ fn measure(setting: &Setting, experiment: &'static Experiment) -> Result<Record,
         seed: seeded.then_some(setting.request.seed),
         quick: setting.request.quick,
         bundled: context.is_bundled(),
-        passes: (setting.request.timed && columns.iter().any(|column| column.kind == Kind::Time))
+        passes: (setting.request.timed && columns.iter().any(|column| column.kind == ColumnKind::Time))
             .then_some(context.passes()),
     };
     let record = Record {

@@ -62,7 +62,7 @@ const ALGORITHMS: [(&str, &str); 17] = [
     ("chpa:2,side=5", "ours, segments of 5 × 5"),
     ("chpa:2,side=8", "ours, segments of 8 × 8"),
     ("hpa:2", "HPA*"),
-    ("hpa:2,refined", "HPA*, as refined"),
+    ("hpa:2,unstraightened", "HPA*, as refined"),
     ("hpa:2,levels=1", "HPA*, one level"),
 ];
 
@@ -173,7 +173,7 @@ fn claims(record: &Record) -> Vec<Claim> {
     };
     let tiles = |what: &str, published: f64, of: &str, to: &str, error: Option<f64>| {
         claim(TABLE_1, &format!("tiles of {what}"), published, ratio("expanded", of, to))
-            .drawn(error)
+            .standard_error(error)
             .because(TIES)
     };
     // The excess is over the optimum of the same queries, so that those that gave up do not count.
@@ -188,7 +188,7 @@ fn claims(record: &Record) -> Vec<Claim> {
     let long = claim(TABLE_1, "length of A* + SED over A* + MD", 119.0, ratio("cost", SED, MD));
     let time = claim("Section 5, Table 2", "time of CHPA* over A* + MD", 3.0, ratio("micros", STEPS[1], MD));
     vec![
-        long.drawn(get(SED, "cost_error")),
+        long.standard_error(get(SED, "cost_error")),
         tiles("A* + SED over A* + MD", 20.0, SED, MD, get(SED, "error_to_md")),
         tiles("A* + MD over A* + ED", 67.0, MD, ED, get(ED, "error_to_md")),
         claim(TABLE_1, "length of CHPA* by ED over the optimum", 104.0, excess(BY_ED)),

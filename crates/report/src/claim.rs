@@ -1,43 +1,52 @@
-//! Published numbers beside ours.
+//! Published numbers, compared with ours.
 
-/// A group of published numbers, all of one table column or one sentence, beside ours.
+/// A published number, compared with ours.
+///
+/// ```
+/// use mediant_report::{Claim, Verdict};
+/// let claim = Claim::new("Table 1", "mean cost", 2.0, Some(2.05));
+/// assert_eq!(claim.verdict(), Verdict::Matched);
+/// assert_eq!(claim.within(0.01).verdict(), Verdict::Deviates);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Claim {
     /// Where it is published: a table and column, a figure, a section.
     pub source: String,
-    /// What is said.
+    /// What the number is.
     pub what: String,
     /// The number as published.
     pub published: f64,
-    /// Ours; `None` where it was not measured.
+    /// Our number; `None` if it was not measured.
     pub ours: Option<f64>,
-    /// By how much ours may differ: a part of the published number.
+    /// By how much ours may differ, as a fraction of the published number.
     pub tolerance: f64,
-    /// The standard error of ours by the draw of its instances, a part of ours; 0 where the instances are the same.
-    pub error: f64,
-    /// Why they differ, where they do: found, not guessed. A line a cause.
+    /// The standard error of ours from the random choice of its instances, as a fraction of ours; 0 if the
+    /// instances are those of the publication.
+    pub standard_error: f64,
+    /// Why the numbers differ, if they do: found out, not guessed. One cause a line.
     pub cause: String,
-    /// How the numbers are written: digits after the point, and what follows.
+    /// How many digits after the point the numbers are written with.
     pub digits: usize,
-    /// The unit, with its space: ` %`, ` ×`.
+    /// The unit that follows the numbers, with its space: ` %`, ` ×`.
     pub unit: String,
 }
 
-/// What becomes of a claim.
+/// Whether our number agrees with a published one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// Ours is within the tolerance.
     Matched,
-    /// Ours is not, but within what another draw of the instances makes: two standard errors of the difference of two draws.
-    Drawn,
-    /// It differs.
+    /// Ours is not, but differs by no more than the random choice of instances explains: two standard errors
+    /// of the difference of two samples.
+    WithinSampling,
+    /// Ours differs by more.
     Deviates,
     /// Ours was not measured.
     Missing,
 }
 
 impl Claim {
-    /// A ratio or another number that was measured on instances that were drawn anew: within 3 %.
+    /// A number that was measured on other instances than the publication's: ours may differ by 3 %.
     #[must_use]
     pub fn new(
         source: impl Into<String>,
@@ -51,64 +60,67 @@ impl Claim {
             published,
             ours,
             tolerance: 0.03,
-            error: 0.0,
+            standard_error: 0.0,
             cause: String::new(),
             digits: 2,
             unit: String::new(),
         }
     }
 
-    /// With the standard error of ours, a part of it.
+    /// The same claim with the standard error of ours, as a fraction of ours.
     #[must_use]
-    pub fn drawn(mut self, error: Option<f64>) -> Self {
-        self.error = error.unwrap_or(0.0);
+    pub fn standard_error(mut self, error: Option<f64>) -> Self {
+        self.standard_error = error.unwrap_or(0.0);
         self
     }
 
-    /// On the same instances: to the printed digits.
+    /// The same claim for a number that was measured on the same instances: ours has to agree in all printed
+    /// `digits` after the point.
     #[must_use]
     pub fn exact(mut self, digits: usize) -> Self {
-        // Half a unit of the last digit, and as much again for how the publication may have rounded.
+        // Half a unit of the last digit, since the publication rounded, and a little for the rounding of f64.
         self.tolerance =
             0.5000001 * 10_f64.powi(-(digits as i32)) / self.published.abs().max(f64::MIN_POSITIVE);
         self.digits = digits;
         self
     }
 
-    /// Within another part of the published number.
+    /// The same claim with another tolerance, as a fraction of the published number.
     #[must_use]
     pub fn within(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
         self
     }
 
-    /// How the numbers are written.
+    /// The same claim with its numbers written with this many digits after the point, followed by `unit`.
     #[must_use]
     pub fn written(mut self, digits: usize, unit: &str) -> Self {
         (self.digits, self.unit) = (digits, unit.to_owned());
         self
     }
 
-    /// Why they differ, should they.
+    /// The same claim with the cause of a difference.
     #[must_use]
     pub fn because(mut self, cause: impl Into<String>) -> Self {
         self.cause = cause.into();
         self
     }
 
-    /// By how much ours differs, a part of the published number.
+    /// By how much ours differs, as a fraction of the published number.
     #[must_use]
     pub fn difference(&self) -> Option<f64> {
         Some(self.ours? / self.published - 1.0)
     }
 
-    /// What becomes of it.
+    /// Whether ours agrees with the published number.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         match self.difference().map(f64::abs) {
             None => Verdict::Missing,
             Some(difference) if difference <= self.tolerance => Verdict::Matched,
-            Some(difference) if difference <= 2.0 * std::f64::consts::SQRT_2 * self.error => Verdict::Drawn,
+            Some(difference) if difference <= 2.0 * std::f64::consts::SQRT_2 * self.standard_error => {
+                Verdict::WithinSampling
+            }
             Some(_) => Verdict::Deviates,
         }
     }
@@ -126,18 +138,18 @@ impl Verdict {
     pub const fn mark(self) -> &'static str {
         match self {
             Self::Matched => "✓",
-            Self::Drawn => "≈",
+            Self::WithinSampling => "≈",
             Self::Deviates => "✗",
             Self::Missing => "–",
         }
     }
 }
 
-/// How many of the claims are matched, within the draw, deviating and missing.
+/// The number of claims of each [`Verdict`]: matched, within sampling, deviating, missing.
 #[must_use]
 pub fn verdicts(claims: &[Claim]) -> [usize; 4] {
     let count = |verdict| claims.iter().filter(|claim| claim.verdict() == verdict).count();
-    [Verdict::Matched, Verdict::Drawn, Verdict::Deviates, Verdict::Missing].map(count)
+    [Verdict::Matched, Verdict::WithinSampling, Verdict::Deviates, Verdict::Missing].map(count)
 }
 
 #[cfg(test)]
@@ -149,8 +161,8 @@ mod tests {
         let claim = |ours| Claim::new("Table 1", "cost", 2.0, ours);
         let claims = [
             claim(Some(2.05)),
-            claim(Some(2.1)).drawn(Some(0.02)),
-            claim(Some(2.1)).drawn(Some(0.01)),
+            claim(Some(2.1)).standard_error(Some(0.02)),
+            claim(Some(2.1)).standard_error(Some(0.01)),
             claim(None),
         ];
         let verdict: Vec<&str> = claims.iter().map(|claim| claim.verdict().mark()).collect();

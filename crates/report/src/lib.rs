@@ -1,20 +1,25 @@
-//! What a run of an experiment found, and how it is shown: records, tables, statistics, figures, claims.
+//! The results of experiments and how they are shown: records, tables, statistics, figures, claims.
 //!
-//! **The key decision: a [`Record`] is a table of numbers that says what it is.** Each column names its unit and whether it is a count, the same on every
-//! machine, or a time. So one form serves every experiment: it is the file that a reader's script loads, the text that a
-//! later run is compared with (without its times), and all that pages and figures are drawn from, again and again, without measuring anew.
+//! **The key decision: a [`Record`] is a table that describes itself.** Each column names its unit and
+//! whether its numbers are counts, the same on every machine, or times. So one form serves every experiment,
+//! in three ways: it is the file that a reader's script loads; a later run is compared with it, without the
+//! times; and all pages and figures are drawn from it, as often as their form changes, without measuring
+//! again.
 //!
-//! * [`Record`], [`Column`], [`Row`], [`Provenance`]: what was found, on which revision, machine and maps.
-//! * [`Claim`], [`Verdict`]: a published number beside ours, and what becomes of it.
-//! * [`Table`]: as Markdown, and as plain text.
+//! * [`Record`], [`Column`], [`Row`], [`Provenance`]: results, and the revision, machine and maps that they
+//!   come from.
+//! * [`Claim`], [`Verdict`]: a published number beside ours, and whether they agree.
+//! * [`Table`]: tables as Markdown and as plain text.
 //! * [`stats`]: means, medians, ratios of means with their standard errors.
-//! * [`Chart`], [`GridDrawing`], [`TreeDrawing`]: SVG figures.
+//! * [`Chart`], [`GridDrawing`], [`TreeDrawing`]: figures as SVG.
 //!
-//! What is not here: engines and measurements (`mediant-bench`), and which tables and figures there are (`mediant-papers`).
+//! What is not here: engines, measurements (`mediant-bench`), and the choice of tables and figures, which is
+//! part of each experiment.
 
 mod claim;
 mod figure;
 mod here;
+mod number;
 mod record;
 pub mod stats;
 mod table;
@@ -22,5 +27,6 @@ mod table;
 pub use claim::{Claim, Verdict, verdicts};
 pub use figure::{Axis, Chart, GridDrawing, Mark, Scale, Series, TreeDrawing};
 pub use here::revision;
-pub use record::{Column, Difference, Kind, Machine, Provenance, Record, RecordError, Row, Value};
-pub use table::{Align, Table, number, thousands};
+pub use number::{number, thousands};
+pub use record::{Column, ColumnKind, Difference, Machine, Provenance, Record, RecordError, Row, Value};
+pub use table::Table;

@@ -1,15 +1,22 @@
 //! Tables, as Markdown and as plain text.
 
-/// Where the cells of a column stand.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Align {
-    /// To the left: names.
+/// How the cells of a column are aligned.
+#[derive(Clone, Copy, Debug)]
+enum Align {
+    /// To the left, for names.
     Left,
-    /// To the right: numbers.
+    /// To the right, for numbers.
     Right,
 }
 
-/// A table in the making. Rows that are shorter than the heading are filled with empty cells.
+/// A table with a heading. Shorter rows are filled with empty cells.
+///
+/// ```
+/// use mediant_report::Table;
+/// let mut table = Table::new(["map", "µs"]);
+/// table.row(["arena", "1.5"]);
+/// assert_eq!(table.markdown(), "| map | µs |\n|---|--:|\n| arena | 1.5 |\n");
+/// ```
 #[derive(Clone, Debug)]
 pub struct Table {
     align: Vec<Align>,
@@ -17,13 +24,13 @@ pub struct Table {
 }
 
 impl Table {
-    /// With a column of names, then columns of numbers.
+    /// A table without rows. The first column holds names, the others numbers.
     #[must_use]
     pub fn new<T: Into<String>>(heading: impl IntoIterator<Item = T>) -> Self {
         Self { align: vec![Align::Left], rows: vec![heading.into_iter().map(Into::into).collect()] }
     }
 
-    /// With so many columns of names at the left.
+    /// The same table with this many columns of names at the left.
     #[must_use]
     pub fn names(mut self, columns: usize) -> Self {
         self.align = vec![Align::Left; columns];
@@ -35,7 +42,7 @@ impl Table {
         self.rows.push(cells.into_iter().map(Into::into).collect());
     }
 
-    /// Whether there is no row but the heading.
+    /// Whether there is no row below the heading.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.rows.len() < 2
@@ -49,7 +56,7 @@ impl Table {
         self.rows.iter().map(Vec::len).max().unwrap_or(0)
     }
 
-    /// The lines of the table as plain text: the heading underlined, cells as wide as their columns.
+    /// The lines of the table as plain text: aligned columns under an underlined heading.
     #[must_use]
     pub fn lines(&self) -> Vec<String> {
         let cell = |row: &Vec<String>, column: usize| row.get(column).cloned().unwrap_or_default();
@@ -87,31 +94,6 @@ impl Table {
     }
 }
 
-/// Three significant digits, no more than three after the point, thousands apart.
-#[must_use]
-pub fn number(value: f64) -> String {
-    match value.abs() {
-        size if size < 0.9995 => format!("{value:.3}"),
-        size if size < 9.995 => format!("{value:.2}"),
-        size if size < 99.95 => format!("{value:.1}"),
-        _ => thousands(value),
-    }
-}
-
-/// A whole number, rounded, thousands apart.
-#[must_use]
-pub fn thousands(value: f64) -> String {
-    let digits = format!("{:.0}", value.abs());
-    let mut text = String::new();
-    for (at, digit) in digits.chars().enumerate() {
-        if at > 0 && (digits.len() - at) % 3 == 0 {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    if value <= -0.5 { format!("-{text}") } else { text }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -132,13 +114,5 @@ mod tests {
             ["map        µs", "─────────────", "a|b       1.5", "longer  12345", "short"]
         );
         assert!(table.names(2).markdown().starts_with("| map | µs |\n|---|---|\n"));
-    }
-
-    #[test]
-    fn numbers_are_short() {
-        let numbers = [0.0, 0.12345, 0.9999, 1.005, 9.999, 42.123, 999.6, 1_234_567.0, -2.36];
-        let texts = numbers.map(number);
-        assert_eq!(texts, ["0.000", "0.123", "1.00", "1.00", "10.0", "42.1", "1,000", "1,234,567", "-2.36"]);
-        assert_eq!([0.4, -0.4, -1234.0].map(thousands), ["0", "0", "-1,234"]);
     }
 }

@@ -56,7 +56,7 @@ pub trait Observer {
 /// The observer that does nothing.
 impl Observer for () {}
 
-impl<O: Observer> Observer for &mut O {
+impl<O: Observer + ?Sized> Observer for &mut O {
     #[inline]
     fn expanded(&mut self, node: NodeEvent) {
         (**self).expanded(node);

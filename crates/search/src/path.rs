@@ -196,6 +196,15 @@ impl Guarantee {
         }
     }
 
+    /// The guarantee of the same paths once they are smoothed.
+    #[must_use]
+    pub const fn smoothed(self) -> Self {
+        match self {
+            Self::Optimal(k) => Self::AtMost(k),
+            Self::AtMost(_) | Self::OptimalAnyAngle | Self::Suboptimal => self,
+        }
+    }
+
     /// What every path between two vertices costs at least, given that one with this guarantee costs `cost` and that the straight line
     /// between them measures `straight`: the larger of that and `cost` over the [bound](Self::bound). All in cells, and up to the
     /// rounding that the guarantee allows.

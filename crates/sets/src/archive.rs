@@ -1,4 +1,4 @@
-//! One map or scenario of a set, unpacked or zipped.
+//! Finding the files of the benchmark sets.
 
 use std::{
     fs::{self, File},
@@ -8,16 +8,16 @@ use std::{
 
 use mediant_formats::MAX_FILE_BYTES;
 
-/// Folders that hold benchmark sets, unpacked or as the archives that the sets are published in.
+/// Folders that hold benchmark sets, unpacked or as the zip archives in which the sets are published.
 ///
-/// In each folder, a file of the set SET is looked for in the folder `SET` and those in it, then in
-/// `SET-map.zip` or `SET-scen.zip`, wherever it lies in there.
+/// In each of them, a file of the set SET is looked for in the folder `SET` and all folders below it, then
+/// anywhere in `SET-map.zip` or `SET-scen.zip`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Archive {
     folders: Vec<PathBuf>,
 }
 
-/// A file of a set that is there, but cannot be read.
+/// A file or folder of a set that exists, but cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {source}", path.display())]
 pub struct ArchiveError {
@@ -26,13 +26,13 @@ pub struct ArchiveError {
 }
 
 impl Archive {
-    /// Looks for each file in these folders, in their order. None of the folders has to exist.
+    /// An archive of these folders, which need not exist. A file is taken from the first that has it.
     #[must_use]
     pub fn new(folders: impl IntoIterator<Item = PathBuf>) -> Self {
         Self { folders: folders.into_iter().collect() }
     }
 
-    /// The text of map NAME of a set, `NAME.map`; `None` where no folder has it.
+    /// The content of `NAME.map`, a map of a set; `None` if no folder has it.
     ///
     /// # Errors
     /// [`ArchiveError`] when a folder or file cannot be read.
@@ -40,7 +40,7 @@ impl Archive {
         self.find(set, "map", &format!("{name}.map"))
     }
 
-    /// The text of that map's scenario, `NAME.map.scen`.
+    /// The content of `NAME.map.scen`, a map's scenario; `None` if no folder has it.
     ///
     /// # Errors
     /// [`ArchiveError`] when a folder or file cannot be read.
@@ -68,7 +68,7 @@ impl Archive {
     }
 }
 
-/// The file of this name in a folder or those in it; `None` also when there is no such folder.
+/// The path of the file of this name in a folder or below it; `None` also if there is no such folder.
 fn find_below(folder: &Path, file: &str) -> io::Result<Option<PathBuf>> {
     let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {
@@ -90,7 +90,7 @@ fn find_below(folder: &Path, file: &str) -> io::Result<Option<PathBuf>> {
     Ok(None)
 }
 
-/// The content of the file of this name in a zip archive, in any folder of the archive.
+/// The content of the file of this name anywhere in a zip archive.
 fn find_zipped(path: &Path, file: &str) -> io::Result<Option<Vec<u8>>> {
     let mut archive = zip::ZipArchive::new(io::BufReader::new(File::open(path)?))?;
     let is_it = |entry: &str| entry.rsplit('/').next() == Some(file);

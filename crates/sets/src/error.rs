@@ -87,7 +87,7 @@ pub enum Error {
         /// The scenario.
         file: String,
         /// How they differ.
-        source: mediant_formats::ScenarioForOtherMap,
+        source: mediant_formats::MapMismatch,
     },
     /// A manifest that cannot be read.
     #[error("{}: {source}; write it anew by `cargo xtask download --write-manifest`", path.display())]

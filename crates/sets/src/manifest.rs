@@ -139,7 +139,7 @@ impl Contents {
             let scenario = Scenario::read(path)?;
             let map = file.trim_end_matches(".scen");
             if let Some(&sides) = sides.get(map) {
-                scenario.for_sides(sides, map).map_err(|source| Error::OtherMap { file, source })?;
+                scenario.check_size(sides, map).map_err(|source| Error::OtherMap { file, source })?;
             }
             contents.instances += scenario.instances().len() as u64;
             tick();

@@ -1,17 +1,21 @@
-//! Subgoal graphs at centers, over N(2) and N(3): those of Uras, Koenig & Hernández 2013, in which corners are never cut.
+//! Subgoals and edges at centers, for k = 2 and 3: the subgoal graphs of Uras, Koenig & Hernández 2013, where
+//! corners are never cut.
 
 use mediant_grid::{BitIndex, BitMatrix, Centers, CornerRule, FreeSpace, Grid, Vector, Vertex, load};
 use mediant_moves::{Cost, FiniteK, K};
 
 use crate::{
-    Hierarchy, SubgoalError, SubgoalPlacement,
-    lines::{Lines, Run, ahead, behind},
-    placement::{BuildContext, EdgeKind, Edges},
+    clearance::{ClearanceBits, DiagonalClearance, zeros_after, zeros_before},
+    error::SubgoalError,
+    hierarchy::Hierarchy,
+    placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, SubgoalPlacement},
 };
 
-impl SubgoalPlacement for Centers {
+impl SubgoalPlacement for Centers {}
+
+impl EdgeFinder for Centers {
     type Scratch = ();
-    type Prepared = Lines;
+    type Tables = ClearanceBits;
 
     fn check(space: &FreeSpace<Self>, k: K) -> Result<(), SubgoalError> {
         match k {
@@ -21,82 +25,82 @@ impl SubgoalPlacement for Centers {
         }
     }
 
-    fn prepare(space: &FreeSpace<Self>) -> (BitMatrix, Lines) {
-        Lines::new(space.grid())
+    fn prepare(space: &FreeSpace<Self>) -> (BitMatrix, ClearanceBits) {
+        ClearanceBits::new(space.grid())
     }
 
-    fn edges(_: K, _: Hierarchy) -> Edges {
-        Edges::Direct
+    fn edge_criterion(_: K, _: Hierarchy) -> EdgeCriterion {
+        EdgeCriterion::Direct
     }
 
-    fn links(
-        map: BuildContext<'_, Self>,
+    fn edges_from(
+        context: BuildContext<'_, Self>,
         (): &mut (),
         from: Vertex,
-        which: EdgeKind,
-        mut tell: impl FnMut(u32, Cost),
+        kind: EdgeKind,
+        mut visit: impl FnMut(u32, Cost),
     ) {
-        let BuildContext { space, subgoals, norm, k, .. } = map;
-        let lines = subgoals.prepared();
-        let tell = |to: Vector, cost: Cost| {
+        let BuildContext { space, subgoals, tables, metric, k, .. } = context;
+        let visit = |to: Vector, cost: Cost| {
             if let Some(id) = subgoals.id(from + to) {
-                tell(id, cost);
+                visit(id, cost);
             }
         };
         let diagonally = k == K::Finite(FiniteK::N8);
-        let [straight, other] =
-            [Vector::new(1, 0), Vector::new(1, i32::from(diagonally))].map(|v| norm.length(v));
-        Links { grid: space.grid(), lines, from, which, costs: (straight, other), tell }.find(diagonally);
+        let costs =
+            (metric.distance(Vector::new(1, 0)), metric.distance(Vector::new(1, i32::from(diagonally))));
+        EdgeSearch { grid: space.grid(), clearance: tables, from, kind, costs, visit }.run(diagonally);
     }
 }
 
 /// The search for the subgoals that are directly reachable from a cell.
-struct Links<'l, F> {
+struct EdgeSearch<'l, F> {
     grid: &'l Grid,
-    lines: &'l Lines,
+    clearance: &'l ClearanceBits,
     from: Vertex,
-    which: EdgeKind,
-    /// Of u and v.
+    kind: EdgeKind,
+    /// The costs of an axis move, and of a diagonal one (over N(2), of the other axis move).
     costs: (Cost, Cost),
-    /// Is told where a subgoal is, or a blocked cell, and what the way there costs.
-    tell: F,
+    /// Called with the displacement and the cost of each subgoal found, and of some blocked cells.
+    visit: F,
 }
 
-/// The cells a·u + b·v, with a, b ≥ 1, between two adjacent moves u and v, of which u is straight.
+/// The cells a·u + b·v, with a, b ≥ 1, between two adjacent moves u and v, of which u is an axis move.
 ///
-/// Which of their subgoals are directly reachable: go along v step by step, and in each row from there along u up to the first subgoal or
-/// blocked cell, but never as far as where a row before ended. For of a subgoal that is directly reachable, every optimal path on an empty grid is legal
-/// and meets no other subgoal: where two in a row part around a blocked cell, one has a convex corner there.
+/// To find their directly reachable subgoals, go along v step by step. In each row, walk along u to the first
+/// subgoal or blocked cell, but stop short of where the walk in an earlier row ended. This is complete: if a
+/// subgoal is directly reachable, every optimal path to it on an empty grid is legal and meets no other
+/// subgoal, for where two neighboring paths part around a blocked cell, one of them passes a convex corner.
 #[derive(Clone, Copy, Debug)]
 struct Cone {
-    /// Whether u lies in a row.
+    /// Whether u is horizontal.
     is_row: bool,
-    /// 1 or −1: u.
+    /// The direction of u, 1 or −1.
     u: i32,
-    /// v along u's line (1, −1 or 0), and across (1 or −1).
+    /// The components of v along the axis of u (1, −1 or 0), and across it (1 or −1).
     v: (i32, i32),
-    /// How far along u.
+    /// The number of cells to search along u.
     a: i32,
-    /// How far along v.
+    /// The number of steps along v.
     b: i32,
 }
 
-impl<F: FnMut(Vector, Cost)> Links<'_, F> {
-    fn find(mut self, diagonally: bool) {
+impl<F: FnMut(Vector, Cost)> EdgeSearch<'_, F> {
+    fn run(mut self, diagonally: bool) {
         let [right, left] = [1, -1].map(|x| self.axis(true, x));
         let [down, up] = [1, -1].map(|y| self.axis(false, y));
         for (x, across) in [(1, right), (-1, left)] {
             for (y, along) in [(1, down), (-1, up)] {
-                if y < 0 && self.which == EdgeKind::Edges {
+                if y < 0 && self.kind == EdgeKind::Graph {
                     continue;
                 }
                 if !diagonally {
                     self.cone(Cone { is_row: true, u: x, v: (0, y), a: across, b: along });
                     continue;
                 }
-                let Run { free: b, meets } = self.lines.diagonal(self.from, (x, y));
-                if meets {
-                    (self.tell)(Vector::new(x * (b + 1), y * (b + 1)), self.costs.1 * (b + 1) as u32);
+                let DiagonalClearance { free: b, meets_subgoal } = self.clearance.diagonal(self.from, (x, y));
+                if meets_subgoal {
+                    (self.visit)(Vector::new(x * (b + 1), y * (b + 1)), self.costs.1 * (b + 1) as u32);
                 }
                 self.cone(Cone { is_row: true, u: x, v: (x, y), a: across, b });
                 self.cone(Cone { is_row: false, u: y, v: (y, x), a: along, b });
@@ -104,14 +108,15 @@ impl<F: FnMut(Vector, Cost)> Links<'_, F> {
         }
     }
 
-    /// Tells what ends the way along an axis. How many cells are before it.
+    /// Visits the first stop along an axis. Returns the number of cells before it.
     fn axis(&mut self, is_row: bool, u: i32) -> i32 {
-        let (bits, at) = self.lines.along(is_row, self.from);
-        let free = if u > 0 { ahead(bits.words(), at.offset(1)) } else { behind(bits.words(), at) };
+        let (bits, at) = self.clearance.along(is_row, self.from);
+        let free =
+            if u > 0 { zeros_after(bits.words(), at.offset(1)) } else { zeros_before(bits.words(), at) };
         let (x, y) = if is_row { (u * (free + 1), 0) } else { (0, u * (free + 1)) };
         let to = Vector::new(x, y);
-        if self.which.holds(to) {
-            (self.tell)(to, self.costs.0 * (free + 1) as u32);
+        if self.kind.includes(to) {
+            (self.visit)(to, self.costs.0 * (free + 1) as u32);
         }
         free
     }
@@ -121,7 +126,7 @@ impl<F: FnMut(Vector, Cost)> Links<'_, F> {
     }
 
     fn sweep<const AHEAD: bool>(&mut self, Cone { is_row, u, v, mut a, b }: Cone) {
-        let (stops, mut at) = self.lines.along(is_row, self.from);
+        let (stops, mut at) = self.clearance.along(is_row, self.from);
         let blocked = if is_row { self.grid.rows() } else { self.grid.columns() };
         let (stops, blocked, step) = (stops.words(), blocked.words(), v.1 * stops.bits_per_row() + v.0);
         for row in 1..=b {
@@ -143,13 +148,14 @@ impl<F: FnMut(Vector, Cost)> Links<'_, F> {
             if blocked.get(stop as usize / 64).is_some_and(|word| word >> (stop % 64) & 1 == 0) {
                 let (along, across) = (v.0 * row + u * (a + 1), v.1 * row);
                 let to = if is_row { Vector::new(along, across) } else { Vector::new(across, along) };
-                (self.tell)(to, self.costs.0 * (a + 1) as u32 + self.costs.1 * row as u32);
+                (self.visit)(to, self.costs.0 * (a + 1) as u32 + self.costs.1 * row as u32);
             }
         }
     }
 }
 
-/// How many zeros there are ahead of, or behind, `at`, of which 64 are known; `most` if there are as many.
+/// The number of zeros ahead of `at`, or behind it, but at most `most`. The first 64 bits are known to be
+/// zeros.
 #[cold]
 fn free_beyond<const AHEAD: bool>(words: &[u64], at: BitIndex, most: i32) -> i32 {
     let mut free = 64;
@@ -173,9 +179,8 @@ mod tests {
     use mediant_oracle::{Explicit, random_grid, wide_grid};
 
     use crate::{
-        SubgoalPlacement,
-        norm::Norm,
-        placement::{BuildContext, EdgeKind, Edges},
+        metric::Metric,
+        placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind},
         subgoals::Subgoals,
     };
 
@@ -189,14 +194,21 @@ mod tests {
             })
     }
 
-    /// Of all subgoals those to which an optimal path among obstacles is as short as without any, and does not lead over another one: by
-    /// searches of the grid graph.
+    /// Compares the edges with searches of the grid graph: they must lead to the subgoals to which an optimal
+    /// path is as short as without obstacles and passes no other subgoal.
     fn check(grid: &Grid, k: FiniteK, rule: CornerRule, every: usize, seed: u64) -> usize {
         let space = FreeSpace::<Centers>::new(Arc::new(grid.clone()), rule);
-        let norm = Norm::new(K::Finite(k)).expect("a small k");
-        let subgoals = Subgoals::new(Centers::prepare(&space));
-        let edges = Edges::Direct;
-        let map = BuildContext { space: &space, subgoals: &subgoals, norm: &norm, k: K::Finite(k), edges };
+        let metric = Metric::new(K::Finite(k)).expect("a small k");
+        let (marks, tables) = Centers::prepare(&space);
+        let subgoals = Subgoals::new(marks);
+        let context = BuildContext {
+            space: &space,
+            subgoals: &subgoals,
+            tables: &tables,
+            metric: &metric,
+            k: K::Finite(k),
+            criterion: EdgeCriterion::Direct,
+        };
         let explicit = Explicit::new(grid, Centers::rules(rule), Some(k));
         let all: Vec<Vertex> = explicit.free_vertices().filter(|&at| is_subgoal(grid, at)).collect();
         assert_eq!(
@@ -204,7 +216,7 @@ mod tests {
             (0..subgoals.len() as u32).map(|id| subgoals.vertex(id)).collect::<Vec<_>>(),
             "seed {seed}"
         );
-        let h = |a: Vertex, b: Vertex| norm.length(a.to(b));
+        let h = |a: Vertex, b: Vertex| metric.distance(a.to(b));
         // The oracle sums in f64.
         let is_direct =
             |cost: Option<f64>, h: Cost| cost.is_some_and(|cost| (cost - h.to_f64()).abs() < 1e-6);
@@ -215,7 +227,7 @@ mod tests {
                 all.iter().map(|&b| is_direct(costs.to(b), h(a, b))).collect()
             })
             .collect();
-        let mut told = 0;
+        let mut found = 0;
         for from in explicit.free_vertices().step_by(every) {
             let costs = explicit.costs_from(from);
             let near: Vec<usize> = (0..all.len())
@@ -225,23 +237,23 @@ mod tests {
                 i != j && direct[j][i] && h(from, all[j]) + h(all[j], all[i]) == h(from, all[i])
             };
             let joined = |i: &usize| !near.iter().any(|&j| over(*i, j));
-            for which in [EdgeKind::All, EdgeKind::Edges] {
+            for kind in [EdgeKind::Query, EdgeKind::Graph] {
                 let below = |to: Vector| to.y > 0 || to.y == 0 && to.x > 0;
                 let expected: Vec<(u32, Cost)> = near
                     .iter()
                     .copied()
                     .filter(joined)
-                    .filter(|&i| which == EdgeKind::All || below(from.to(all[i])))
+                    .filter(|&i| kind == EdgeKind::Query || below(from.to(all[i])))
                     .map(|i| (i as u32, h(from, all[i])))
                     .collect();
-                let mut links = Vec::new();
-                Centers::links(map, &mut (), from, which, |id, cost| links.push((id, cost)));
-                links.sort_unstable();
-                assert_eq!(links, expected, "seed {seed}, k = {k}, {rule:?}, {which:?}, from {from:?}");
-                told += links.len();
+                let mut edges = Vec::new();
+                Centers::edges_from(context, &mut (), from, kind, |id, cost| edges.push((id, cost)));
+                edges.sort_unstable();
+                assert_eq!(edges, expected, "seed {seed}, k = {k}, {rule:?}, {kind:?}, from {from:?}");
+                found += edges.len();
             }
         }
-        told
+        found
     }
 
     /// k, rule.
@@ -253,17 +265,17 @@ mod tests {
 
     #[test]
     fn links_are_what_is_directly_reachable() {
-        let mut told = 0;
+        let mut found = 0;
         for seed in 0..60 {
             let (grid, _) = random_grid(seed);
             for (k, rule) in CASES {
-                told += check(&grid, k, rule, 1, seed);
+                found += check(&grid, k, rule, 1, seed);
             }
         }
-        assert!(told > 10_000, "{told}");
+        assert!(found > 10_000, "{found}");
     }
 
-    /// Wider than a word.
+    /// On maps wider than a word.
     #[test]
     fn links_reach_far() {
         let (mut far, widths) = (0, [150, 65, 3]);

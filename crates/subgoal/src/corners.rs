@@ -1,4 +1,4 @@
-//! Subgoal graphs at corners, over N(k) and at any angle.
+//! Subgoals and edges at corners, for N(k) and at any angle.
 
 use mediant_grid::{
     BitMatrix, Corners, FreeSpace, Placement, Vertex, load,
@@ -7,46 +7,49 @@ use mediant_grid::{
 use mediant_moves::{Cost, K};
 
 use crate::{
-    Hierarchy, SubgoalError, SubgoalPlacement,
-    direct::DirectFilter,
-    placement::{BuildContext, EdgeKind, Edges, Prepared},
+    direct_reachability::DirectFilter,
+    error::SubgoalError,
+    hierarchy::Hierarchy,
+    placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, EdgeTables, SubgoalPlacement},
 };
 
-/// Scratch memory at corners.
+/// Scratch memory for finding edges at corners.
 #[derive(Debug, Default)]
-#[doc(hidden)]
-pub struct Seen {
-    fan: VisibilitySweep,
+pub struct CornerScratch {
+    sweep: VisibilitySweep,
     direct: DirectFilter,
 }
 
-/// What fans need.
+/// What makes visibility sweeps fast.
 #[derive(Clone, Debug)]
-#[doc(hidden)]
-pub struct Views {
-    bands: RowSummary,
-    /// The subgoals that taut paths pass in directions in which x and y have the same sign, and in which they have opposite ones.
+pub struct SightTables {
+    row_summary: RowSummary,
+    /// The subgoals that taut paths pass in directions in which x and y have the same sign, and in directions
+    /// in which they have opposite signs.
     tangents: [BitMatrix; 2],
 }
 
-impl Prepared for Views {
+impl EdgeTables for SightTables {
     fn memory_bytes(&self) -> usize {
-        self.bands.memory_bytes()
+        self.row_summary.memory_bytes()
             + self.tangents.iter().map(|marks| size_of_val(marks.words())).sum::<usize>()
     }
 }
 
-impl SubgoalPlacement for Corners {
-    type Scratch = Seen;
-    type Prepared = Views;
+impl SubgoalPlacement for Corners {}
+
+impl EdgeFinder for Corners {
+    type Scratch = CornerScratch;
+    type Tables = SightTables;
 
     fn check(_: &FreeSpace<Self>, _: K) -> Result<(), SubgoalError> {
         Ok(())
     }
 
-    /// The convex corners of obstacles: of the four cells around one is blocked, or, where a path may pass between them, two that meet
-    /// diagonally. (Hormazábal 2017: a corner of an obstacle at which both ways along a diagonal are legal.)
-    fn prepare(space: &FreeSpace<Self>) -> (BitMatrix, Views) {
+    /// The subgoals are the convex corners of obstacles: vertices that touch one blocked cell, or two that
+    /// meet diagonally, if a path may pass between them. (Hormazábal et al. 2017: a corner of an obstacle
+    /// that a path can pass along a diagonal.)
+    fn prepare(space: &FreeSpace<Self>) -> (BitMatrix, SightTables) {
         let cells = space.grid().rows();
         let (width, height) = Self::vertices(space.grid());
         let gaps_open = !Self::closes_gaps(space.rule());
@@ -63,63 +66,70 @@ impl SubgoalPlacement for Corners {
         let made = |marks: &dyn Fn([u64; 4]) -> u64| {
             BitMatrix::from_words(width, height, false, |x, y| marks(around(x, y)))
         };
-        // A taut path comes and goes through the quadrants beside the blocked cell's.
+        // A taut path arrives and leaves through the quadrants beside that of the blocked cell.
         let same = |cells: [u64; 4]| convex(cells) & (cells[1] | cells[2]);
         let opposite = |cells: [u64; 4]| convex(cells) & (cells[0] | cells[3]);
-        let views = Views { bands: RowSummary::new(space.grid()), tangents: [made(&same), made(&opposite)] };
-        (made(&convex), views)
+        let tables = SightTables {
+            row_summary: RowSummary::new(space.grid()),
+            tangents: [made(&same), made(&opposite)],
+        };
+        (made(&convex), tables)
     }
 
-    fn links(
-        map: BuildContext<'_, Self>,
-        scratch: &mut Seen,
+    fn edge_criterion(k: K, hierarchy: Hierarchy) -> EdgeCriterion {
+        if k == K::Any || hierarchy == Hierarchy::Contracted {
+            EdgeCriterion::Taut
+        } else {
+            EdgeCriterion::Direct
+        }
+    }
+
+    fn edges_from(
+        context: BuildContext<'_, Self>,
+        scratch: &mut CornerScratch,
         from: Vertex,
-        which: EdgeKind,
-        mut tell: impl FnMut(u32, Cost),
+        kind: EdgeKind,
+        mut visit: impl FnMut(u32, Cost),
     ) {
-        let BuildContext { space, subgoals, norm, k, edges } = map;
-        let Views { bands, tangents } = subgoals.prepared();
-        let tangents = (edges == Edges::Taut).then_some(tangents);
-        let quadrants = match (which, tangents) {
-            (EdgeKind::Edges, Some([same, _])) => {
+        let BuildContext { space, subgoals, tables, metric, k, criterion } = context;
+        let SightTables { row_summary, tangents } = tables;
+        let tangents = (criterion == EdgeCriterion::Taut).then_some(tangents);
+        let quadrants = match (kind, tangents) {
+            (EdgeKind::Graph, Some([same, _])) => {
                 let tangent = if same.get(from.x, from.y) { 1 } else { -1 };
-                Quadrants::only(tangent, 1).and(Quadrants::LINE)
+                Quadrants::only(tangent, 1).union(Quadrants::LINE)
             }
-            (EdgeKind::Edges, None) => Quadrants::only(1, 1).and(Quadrants::only(-1, 1)),
-            // From a gap a path sets out into the quadrant of its own cell.
-            (EdgeKind::All, _) if space.is_closed_gap(from) => Quadrants::only(1, 1),
-            (EdgeKind::All, _) => Quadrants::ALL,
+            (EdgeKind::Graph, None) => Quadrants::only(1, 1).union(Quadrants::only(-1, 1)),
+            // A path leaves a closed gap through the quadrant of the vertex's own cell.
+            (EdgeKind::Query, _) if space.is_closed_gap(from) => Quadrants::only(1, 1),
+            (EdgeKind::Query, _) => Quadrants::ALL,
         };
-        let Seen { fan, direct } = scratch;
+        let CornerScratch { sweep, direct } = scratch;
         match (k, tangents) {
             (_, Some([same, opposite])) => {
-                fan.seen(space, bands, Targets { same, opposite }, from, quadrants, |at| {
+                sweep.seen(space, row_summary, Targets { same, opposite }, from, quadrants, |at| {
                     let to = from.to(at);
-                    if let Some(id) = subgoals.id(at).filter(|_| which.holds(to)) {
-                        tell(id, norm.length(to));
+                    if let Some(id) = subgoals.id(at).filter(|_| kind.includes(to)) {
+                        visit(id, metric.distance(to));
                     }
                 });
             }
             (K::Finite(k), None) => {
                 direct.clear();
-                fan.seen(space, bands, subgoals.marks(), from, quadrants, |at| {
+                sweep.seen(space, row_summary, subgoals.marks(), from, quadrants, |at| {
                     if let Some(id) = subgoals.id(at) {
                         direct.push(from.to(at), k.depth(), id);
                     }
                 });
-                direct.direct(|id| {
+                direct.for_each_direct(|id| {
                     let to = from.to(subgoals.vertex(id));
-                    if which.holds(to) {
-                        tell(id, norm.length(to));
+                    if kind.includes(to) {
+                        visit(id, metric.distance(to));
                     }
                 });
             }
-            // Every subgoal that is seen is directly reachable at any angle; the taut ones are enough.
+            // Does not occur: at any angle the edges are taut.
             (K::Any, None) => {}
         }
-    }
-
-    fn edges(k: K, hierarchy: Hierarchy) -> Edges {
-        if k == K::Any || hierarchy == Hierarchy::Contracted { Edges::Taut } else { Edges::Direct }
     }
 }

@@ -1,26 +1,34 @@
-//! What there is no subgoal graph for.
+//! Errors of building and reading subgoal graphs.
 
 use mediant_grid::Rules;
 use mediant_moves::{K, KError};
 
-/// A subgoal graph that cannot be made or read.
+/// A subgoal graph that cannot be built or read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SubgoalError {
-    /// Subgoal graphs at centers are for small k, and for corners that are never cut.
+    /// At centers there are subgoal graphs for k = 2, and for k = 3 if corners are never cut.
     #[error(
         "no subgoal graph for k = {k} at centers under {rules}: k must be 2 or 3, and corners never cut at 3"
     )]
     Centers {
-        /// What was asked for.
+        /// The k that was asked for.
         k: K,
-        /// The rules.
+        /// The rules of the free space.
         rules: Rules,
     },
-    /// A neighborhood that is too large.
+    /// The neighborhood is too large.
     #[error(transparent)]
     K(#[from] KError),
-    /// Bytes that are no subgoal graph of this map.
+    /// The graph has more arcs than 32-bit numbers can count.
+    #[error("the subgoal graph has {count} arcs, and must have at most {most}: choose a smaller map")]
+    Arcs {
+        /// The number of arcs.
+        count: usize,
+        /// The most that a graph can have.
+        most: u32,
+    },
+    /// The bytes are no subgoal graph of this map.
     #[error("these bytes are no subgoal graph of this map: {0}")]
     Bytes(&'static str),
 }

@@ -1,7 +1,8 @@
-//! Subgoal graphs: what can be prepared of a map so that optimal paths are found in microseconds.
+//! Subgoal graphs: prepared maps on which optimal paths are found in microseconds.
 //!
-//! Paths turn at the convex corners of obstacles, the *subgoals*. A [`SubgoalGraph`] joins them, once for a map; a planner then joins start and goal to it,
-//! searches it, and tells the path move by move.
+//! A shortest path goes around obstacles at their convex corners, the *subgoals*, and between them as on an
+//! empty grid. A [`SubgoalGraph`] joins subgoals by edges, once for each map. A planner joins the start and
+//! the goal of a query to the graph, searches it, and turns its edges into moves.
 //!
 //! | paper | here |
 //! |---|---|
@@ -31,65 +32,70 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! **The key decision: one graph serves every k.** h_k is a norm. Pull a path that is optimal over N(k) taut: each straight piece that takes the place of a
-//! detour costs no more, in any norm, and what cannot be pulled further bends at convex corners, around them. And a line of sight is followed
-//! by moves of N(k) at the cost h_k (Kramm 2018, Lemma 13). So the *taut* lines of sight between subgoals, those that can be part of such a path at
-//! both ends, hold a path that is optimal for every k, and at any angle; only the lengths differ. k = ∞ is no special case.
-//! (Hormazábal's graph, of directly h_k-reachable subgoals, has at k = 9 one and a half to three times as many edges. It is what
-//! [`Hierarchy::Levels`] makes, for the papers' figures.)
+//! # The key idea: one graph serves every k
 //!
-//! **How it is exact.** A hierarchy takes subgoals out of the graph and adds shortcuts where a lightest way led over them. Ways are weighed by
-//! (h_k, Euclidean length), so that the lightest are taut, and pairs of arcs that make no taut bend need no shortcut. A query goes up from both ends
-//! (`planner.rs`), at any angle along taut bends only.
+//! h_k is a norm, as is the Euclidean length. Take a path that is optimal over N(k), and pull it taut like a
+//! string. Each straight piece that replaces a detour costs no more, by the triangle inequality, in any norm.
+//! Where the path cannot be pulled further, it bends around a convex corner. So the taut path consists of
+//! lines of sight between subgoals. Moves of N(k) can follow each of these lines at the cost h_k (Kramm 2018,
+//! Lemma 13), so the taut path is optimal over N(k), too.
 //!
-//! **How it is fast.** What a vertex sees is found row by row, by words of cells and eight rows at once where nothing is in the way
-//! ([`VisibilitySweep`](mediant_search::VisibilitySweep)); at centers, along the straight lines of cells (`lines.rs`). On AR0011SR, at any angle, that
-//! is half of a query; it builds the edges of the maps of 1024 × 1024 cells in 30 to 40 ms. Measured on the way, in µs a query at any angle (from several runs, all
-//! but the last with other work beside them):
+//! The graph therefore needs only *taut* edges: lines of sight along which a taut path can pass at both ends.
+//! They contain an optimal path for every k and at any angle. k changes only the lengths of the edges, and k
+//! = ∞ is no special case.
 //!
-//! | | AR0011SR | Moscow_2_1024 | ArcticStation |
-//! |---|--:|--:|--:|
-//! | contracted, one-sided A*, all arcs | 33 | 321 | 159 |
-//! | both sides A*, each bounded by the other | 22 | 202 | 149 |
-//! | the first look along the line from start to goal without divisions | 22 | 91 | 109 |
-//! | only subgoals that taut paths pass; fans by eight rows, along walls without divisions | 17 | 79 | 106 |
-//! | arcs only along taut bends | 14 | 52 | 47 |
+//! The papers join *directly h_k-reachable* subgoals instead: h_k is the cost of an optimal path, and no
+//! third subgoal is on one. Such graphs have more edges the larger k is. Here the graphs at centers have
+//! these edges, and those of [`Hierarchy::Levels`] for finite k, to reproduce the papers' figures.
 //!
-//! Contraction takes most of the preparation, which takes 7 to 162 ms on these maps. At k = 9, with directly reachable edges in the place of taut ones, it took 10 s
-//! on ArcticStation and 37 s on Moscow_2_1024, and left 59 and 82 % of the subgoals. A budget of work bounds it, in noise above all.
+//! # Why paths are optimal
 //!
-//! **What Hormazábal et al. 2017 claim, and what is found** (each 20th instance of eleven maps of games and two of rooms, corners, gaps open; against the Anya and
-//! the Sub2-Theta* of this workspace, in one run):
+//! Contracting a subgoal removes it from the graph, and adds a shortcut between two of its neighbors if the
+//! shortest path between them led over it. Paths are compared by the pair (h_k, Euclidean length), in exact
+//! integers. So the lexicographically shortest paths are taut, and two arcs that meet in a bend that is not
+//! taut need no shortcut. A query searches up the hierarchy from both ends and skips arcs at bends that no
+//! shortest path makes.
 //!
-//! | claim | found |
-//! |---|---|
-//! | Sub2-A*(k) is faster than Sub2-Theta*, for every k | on every map, k = 3, 5, 7, 9: by 2.1 to 13, in the mean by 5 (k = 3) and 4 |
-//! | an order of magnitude faster than ANYA, at most 0.0005 % longer with smoothing | k = 9: 0.00006 % longer, pulled taut, on the game maps. Faster by 5.1 in the mean (up to 14; smoothed 3.4, pulled taut 1.7) than our Anya, which itself takes 0.23 of the time of the Java one. At any angle, with nothing longer, by 5.9 (2 to 17). Against the Java Anya: by 24 |
-//! | branching factor of rooms 5.3 at k = 3, 9.3 at k = 9 | all 40 maps, gaps open, highest of 2 levels: 5.3 and 8.6 in the mean of maps, 5.6 and 9.2 over all subgoals |
-//! | of Baldur's Gate II 9.3 and 19.8 | all 75 maps of bg512: 5.6 and 12.6 in the mean, 6.7 and 16.5 over all subgoals; with one level 12.7 and 33.6. Which subgoals and maps the paper averages over it does not say |
+//! # Why queries are fast
 //!
-//! With the feature `parallel` edges are found on all cores.
+//! The subgoals that a vertex sees are found row by row, by words of cells, and eight rows at once where all
+//! cells are free ([`VisibilitySweep`](mediant_grid::sight::VisibilitySweep)). At centers they are found by
+//! scanning the bits of rows, columns and diagonals. The work follows what is visible, not 2^k. Times, and
+//! what became of the claims of Hormazábal et al., are in `docs/measurements/subgoal.md`.
 //!
-//! What is not here: files. A graph comes and goes as bytes.
+//! # What this crate does not do
+//!
+//! It reads and writes no files: a graph is converted to bytes and back. It does not repair a graph when the
+//! map changes. It does not check that a graph belongs to the free space that it is given with: callers keep
+//! both together. It uses one thread, unless the feature `parallel` is on; then it finds edges in rayon's
+//! current pool.
 
+mod arc;
+mod bends;
+mod build;
 mod centers;
+mod clearance;
 mod codec;
+mod cones;
 mod contract;
 mod corners;
-mod direct;
+mod costs;
+mod direct_reachability;
+mod edge_path;
 mod error;
 mod graph;
-mod lines;
-mod norm;
+mod hierarchy;
+mod metric;
 mod placement;
 mod planner;
+mod progress;
 mod subgoals;
-mod taut;
 mod theta;
-mod turns;
 
 pub use error::SubgoalError;
-pub use graph::{Hierarchy, Progress, Stage, SubgoalGraph};
+pub use graph::SubgoalGraph;
+pub use hierarchy::Hierarchy;
 pub use placement::SubgoalPlacement;
 pub use planner::SubgoalAStar;
+pub use progress::{Progress, Stage};
 pub use theta::SubgoalTheta;

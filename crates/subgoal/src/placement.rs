@@ -1,93 +1,93 @@
-//! Which subgoals a vertex is joined to.
+//! What a placement of the vertices decides: which vertices are subgoals, and which edges join them.
 
 use mediant_grid::{BitMatrix, FreeSpace, Placement, Vector, Vertex};
 use mediant_moves::{Cost, K};
 
-use crate::{Hierarchy, SubgoalError, norm::Norm, subgoals::Subgoals};
+use crate::{error::SubgoalError, hierarchy::Hierarchy, metric::Metric, subgoals::Subgoals};
 
-/// A placement on which there are subgoal graphs.
-pub trait SubgoalPlacement: Placement {
-    /// What [`SubgoalPlacement::links`] works with.
-    #[doc(hidden)]
+/// A placement that has subgoal graphs: [`Corners`](mediant_grid::Corners) has them for every k,
+/// [`Centers`](mediant_grid::Centers) for k = 2 and 3.
+///
+/// Sealed: it cannot be implemented for other types.
+pub trait SubgoalPlacement: EdgeFinder {}
+
+/// Finds subgoals and edges. Public as [`SubgoalPlacement`] builds on it, but it cannot be named outside of
+/// this crate.
+pub trait EdgeFinder: Placement {
+    /// Scratch memory of [`edges_from`](Self::edges_from).
     type Scratch: Default + Send;
 
-    /// Whether there are subgoal graphs of this free space for these directions.
-    #[doc(hidden)]
+    /// What follows from the map alone and makes finding edges fast.
+    type Tables: EdgeTables;
+
+    /// Whether this free space has subgoal graphs for this k.
     fn check(space: &FreeSpace<Self>, k: K) -> Result<(), SubgoalError>;
 
-    /// What makes finding links fast.
-    #[doc(hidden)]
-    type Prepared: Prepared;
+    /// The subgoals, a bit for each vertex in a frame of zeros, and the tables.
+    fn prepare(space: &FreeSpace<Self>) -> (BitMatrix, Self::Tables);
 
-    /// The vertices that are subgoals, a bit for each vertex in a frame of zeros, and what makes finding links fast.
-    #[doc(hidden)]
-    fn prepare(space: &FreeSpace<Self>) -> (BitMatrix, Self::Prepared);
+    /// Which subgoals an edge joins.
+    fn edge_criterion(k: K, hierarchy: Hierarchy) -> EdgeCriterion;
 
-    /// Which edges a graph has.
-    #[doc(hidden)]
-    fn edges(k: K, hierarchy: Hierarchy) -> Edges;
-
-    /// Tells the subgoals that a vertex is joined to, and what the ways there cost.
-    #[doc(hidden)]
-    fn links(
-        map: BuildContext<'_, Self>,
+    /// Calls `visit` with the subgoal that each edge of a vertex leads to, and its cost.
+    fn edges_from(
+        context: BuildContext<'_, Self>,
         scratch: &mut Self::Scratch,
         from: Vertex,
-        which: EdgeKind,
-        tell: impl FnMut(u32, Cost),
+        kind: EdgeKind,
+        visit: impl FnMut(u32, Cost),
     );
 }
 
-/// What follows from a map and makes finding links fast.
-#[doc(hidden)]
-pub trait Prepared: Clone + std::fmt::Debug + Send + Sync {
-    /// The memory that it takes.
+/// What follows from a map alone and makes finding edges fast.
+pub trait EdgeTables: Clone + std::fmt::Debug + Send + Sync {
+    /// The memory used, in bytes.
     fn memory_bytes(&self) -> usize;
 }
 
-/// Which edges a graph has.
+/// Which subgoals an edge joins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[doc(hidden)]
-pub enum Edges {
-    /// Between subgoals that are directly h_k-reachable from one another.
+pub enum EdgeCriterion {
+    /// Subgoals that are directly h_k-reachable from one another: h_k is the cost of an optimal path, and no
+    /// third subgoal is on one.
     Direct,
-    /// Between subgoals that see one another along a line that a taut path can take at both of them.
+    /// Subgoals that see one another along a line that a taut path can follow at both of them.
     Taut,
 }
 
-/// Which links of a vertex are asked for.
+/// Which edges of a vertex are wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[doc(hidden)]
 pub enum EdgeKind {
-    /// Those of a subgoal to the subgoals below it, or to the right on its own line: each edge of the graph from one of its ends.
-    Edges,
-    /// Those of a start or goal.
-    All,
+    /// Edges of the graph, each from one of its ends: those of a subgoal to subgoals with larger numbers,
+    /// which lie below it, or to the right in its own row.
+    Graph,
+    /// The edges that join the start or goal of a query to the graph: all of them.
+    Query,
 }
 
 impl EdgeKind {
-    /// Whether a link by this displacement is told.
+    /// Whether an edge with this displacement is wanted.
     #[inline]
-    pub(crate) const fn holds(self, to: Vector) -> bool {
-        matches!(self, Self::All) || to.y > 0 || to.y == 0 && to.x > 0
+    pub(crate) const fn includes(self, to: Vector) -> bool {
+        matches!(self, Self::Query) || to.y > 0 || to.y == 0 && to.x > 0
     }
 }
 
-/// What links are found on.
+/// What finding edges depends on.
 #[derive(Debug)]
-#[doc(hidden)]
-pub struct BuildContext<'m, P: SubgoalPlacement> {
+pub struct BuildContext<'m, P: EdgeFinder> {
     pub(crate) space: &'m FreeSpace<P>,
-    pub(crate) subgoals: &'m Subgoals<P::Prepared>,
-    pub(crate) norm: &'m Norm,
+    pub(crate) subgoals: &'m Subgoals,
+    pub(crate) tables: &'m P::Tables,
+    pub(crate) metric: &'m Metric,
     pub(crate) k: K,
-    pub(crate) edges: Edges,
+    pub(crate) criterion: EdgeCriterion,
 }
 
-impl<P: SubgoalPlacement> Clone for BuildContext<'_, P> {
+impl<P: EdgeFinder> Clone for BuildContext<'_, P> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<P: SubgoalPlacement> Copy for BuildContext<'_, P> {}
+impl<P: EdgeFinder> Copy for BuildContext<'_, P> {}

@@ -2,26 +2,24 @@
 
 use mediant_grid::{BitMatrix, Vertex};
 
-use crate::placement::Prepared;
-
 /// The subgoals of a map, numbered row by row.
 #[derive(Clone, Debug)]
-pub(crate) struct Subgoals<T> {
+pub(crate) struct Subgoals {
     marks: BitMatrix,
-    /// How many subgoals there are before each word of the marks.
+    /// The number of subgoals before each word of the marks.
     before: Box<[u32]>,
     vertices: Box<[Vertex]>,
-    prepared: T,
 }
 
-impl<T: Prepared> Subgoals<T> {
-    pub(crate) fn new((marks, prepared): (BitMatrix, T)) -> Self {
+impl Subgoals {
+    /// The subgoals that are marked by a bit for each vertex, in a frame of zeros.
+    pub(crate) fn new(marks: BitMatrix) -> Self {
         let mut vertices = Vec::new();
         for y in 0..marks.height() as i32 {
             let row = marks.row(y);
             for x in (0..marks.width() as i32).step_by(64) {
                 let mut bits = row.word(x);
-                // What is read beyond the row's end is the next row's frame, or its beginning.
+                // Bits beyond the row's end belong to the frame or to the next row.
                 bits &= !0 >> (64 - (marks.width() as i32 - x).min(64));
                 while bits != 0 {
                     vertices.push(Vertex::new(x + bits.trailing_zeros() as i32, y));
@@ -36,31 +34,26 @@ impl<T: Prepared> Subgoals<T> {
             before
         };
         let before = marks.words().iter().map(counted).collect();
-        Self { marks, before, vertices: vertices.into_boxed_slice(), prepared }
+        Self { marks, before, vertices: vertices.into_boxed_slice() }
     }
 
-    /// How many there are.
+    /// The number of subgoals.
     pub(crate) const fn len(&self) -> usize {
         self.vertices.len()
     }
 
-    /// Where they are: a bit for each vertex, in a frame of zeros.
+    /// A bit for each vertex, in a frame of zeros.
     pub(crate) const fn marks(&self) -> &BitMatrix {
         &self.marks
     }
 
-    /// What makes finding links fast.
-    pub(crate) const fn prepared(&self) -> &T {
-        &self.prepared
-    }
-
-    /// Where subgoal `id` is.
+    /// The vertex of subgoal `id`.
     #[inline]
     pub(crate) fn vertex(&self, id: u32) -> Vertex {
         self.vertices[id as usize]
     }
 
-    /// The number of the subgoal at a vertex.
+    /// The number of the subgoal at a vertex, if there is one.
     #[inline]
     pub(crate) fn id(&self, at: Vertex) -> Option<u32> {
         if at.x as u32 >= self.marks.width() || at.y as u32 >= self.marks.height() {
@@ -72,12 +65,9 @@ impl<T: Prepared> Subgoals<T> {
         (word & one != 0).then(|| self.before[number] + (word & (one - 1)).count_ones())
     }
 
-    /// The memory that this takes.
+    /// The memory used, in bytes.
     pub(crate) fn memory_bytes(&self) -> usize {
-        let Self { marks, before, vertices, prepared } = self;
-        size_of_val(marks.words())
-            + size_of_val(&**before)
-            + size_of_val(&**vertices)
-            + prepared.memory_bytes()
+        let Self { marks, before, vertices } = self;
+        size_of_val(marks.words()) + size_of_val(&**before) + size_of_val(&**vertices)
     }
 }

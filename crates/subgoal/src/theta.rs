@@ -13,28 +13,29 @@ use mediant_search::{
 
 use self::{
     descent::Descent,
-    search::{Bend, Middles, Search, may_join},
+    search::{Search, Unpacking, Waypoint, may_join},
 };
-use crate::{SubgoalGraph, SubgoalPlacement, planner::push};
+use crate::{edge_path::push, graph::SubgoalGraph, placement::SubgoalPlacement};
 
-/// Sub-Theta* (Uras & Koenig 2015, 'Speeding-up any-angle path-planning on grids'): Theta* over a subgoal graph. On [`Levels`] of 2 it is the
-/// Sub2-Theta* with which Hormazábal et al. 2017 compare Sub2-A*(k).
+/// Sub-Theta* (Uras & Koenig 2015, 'Speeding-up any-angle path-planning on grids'): Theta* over a subgoal
+/// graph. On [`Levels`] of 2 it is the Sub2-Theta* with which Hormazábal et al. 2017 compare Sub2-A*(k).
 ///
-/// Rule variant: the search goes from the links of the start up, through the core, and down by what lies above the links of the goal. A
-/// successor hangs on what the expanded subgoal hangs on, if a straight segment to it keeps the rules of motion, and else on that subgoal.
-/// Closed subgoals stay closed, as in Theta*. Segments cost their Euclidean length; the heuristic is the straight distance.
+/// Rule variant: the search goes up from the subgoals joined to the start, through the core, and down to the
+/// subgoals joined to the goal. The parent of a successor is the parent of the expanded subgoal, if a
+/// straight segment from there keeps the rules of motion, and otherwise the expanded subgoal. Closed subgoals
+/// stay closed, as in Theta*. Segments cost their Euclidean length; the heuristic is the straight-line
+/// distance.
 ///
-/// A shortcut need not be a legal segment. Where its end does not see what it would hang on, the way goes over the subgoals in the middle, one
-/// after another, and bends at those after which the next one does not see the last bend.
+/// A shortcut need not be a legal segment. If its end does not see the parent, the path follows the subgoals
+/// that the shortcut passes. It bends at one of them if the next does not see the last bend.
 ///
-/// **What holds of the paths.** There is one whenever N(k) has one, since what is reached does not depend on what hangs where, and an optimal
-/// path over the graph goes up from the start, through the core, and down. None is shorter than the any-angle optimum; how much longer
-/// one may be is not known. On ArcticStation, arena2, brc202d, AR0011SR and 8room_000 (each 20th instance, gaps open) they were longer on the mean
-/// by 0.02 to 0.36 % at k = 3 and by 0.003 to 0.02 % at k = 5 on two levels, and by 0.012 % at most on [`Contracted`] graphs, which hold the
-/// edges of taut paths.
+/// **Guarantees.** A path is found whenever N(k) has one: which subgoals are reached does not depend on
+/// parents, and an optimal path over the graph goes up from the start, through the core, and down. No path is
+/// shorter than the any-angle optimum; how much longer one can be is not known. Measured excess:
+/// `docs/measurements/subgoal.md`.
 ///
-/// **Ties.** The open list's order is that of all engines. Of equally cheap ways to a subgoal the first is kept; the arcs of a subgoal come
-/// upward first, in the order of the graph, then downward.
+/// **Ties.** The open list has the order of all engines. Of equally cheap paths to a subgoal the first is
+/// kept; the arcs of a subgoal are followed upward first, in the order of the graph, then downward.
 ///
 /// [`Levels`]: crate::Hierarchy::Levels
 /// [`Contracted`]: crate::Hierarchy::Contracted
@@ -65,12 +66,12 @@ pub struct SubgoalTheta<T, G, P: SubgoalPlacement> {
     space: T,
     graph: G,
     scratch: P::Scratch,
-    /// Of the subgoals and, after the last of them, of the goal.
-    labels: SearchTree,
+    /// Its nodes are the subgoals and, after the last of them, the goal.
+    tree: SearchTree,
     descent: Descent,
-    links: Vec<(u32, Cost)>,
-    bends: Vec<Bend>,
-    middles: Middles,
+    query_edges: Vec<(u32, Cost)>,
+    bends: Vec<Waypoint>,
+    unpacking: Unpacking,
 }
 
 impl<T, G, P> SubgoalTheta<T, G, P>
@@ -87,11 +88,11 @@ where
             space,
             graph,
             scratch: P::Scratch::default(),
-            labels: SearchTree::new(count + 1),
+            tree: SearchTree::new(count + 1),
             descent: Descent::new(count),
-            links: Vec::new(),
+            query_edges: Vec::new(),
             bends: Vec::new(),
-            middles: Middles::default(),
+            unpacking: Unpacking::default(),
         }
     }
 }
@@ -103,7 +104,7 @@ where
     G: Deref<Target = SubgoalGraph<P>>,
 {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        let Self { space, graph, scratch, labels, descent, links, bends, middles } = self;
+        let Self { space, graph, scratch, tree, descent, query_edges, bends, unpacking } = self;
         let (space, graph) = (space.free_space(), &**graph);
         if query.ends(space)?.is_none() {
             return Ok(Outcome::Unreachable);
@@ -115,11 +116,11 @@ where
         if may_join(space, start, goal) {
             return Ok(Outcome::Found(Path::new(vec![start, goal])));
         }
-        graph.links_of(space, scratch, goal, links);
-        descent.start_search(graph, links);
-        graph.links_of(space, scratch, start, links);
-        let mut search = Search { space, graph, labels, descent, bends, middles, observer, goal };
-        let last = search.run(start, links);
+        graph.query_edges(space, scratch, goal, query_edges);
+        descent.start_search(graph, query_edges);
+        graph.query_edges(space, scratch, start, query_edges);
+        let mut search = Search { space, graph, tree, descent, bends, unpacking, observer, goal };
+        let last = search.run(start, query_edges);
         Ok(last.map_or(Outcome::Unreachable, |last| Outcome::Found(path(bends, last, goal))))
     }
 
@@ -128,9 +129,9 @@ where
     }
 }
 
-/// The path to the goal that bends last at `last`, without waypoints on a straight line between their neighbors.
-fn path(bends: &[Bend], last: u32, goal: Vertex) -> Path {
-    let back = || Bend::back(bends, last).map(|bend| bend.at);
+/// The path to the goal whose last bend is `last`, without waypoints at which it goes straight on.
+fn path(bends: &[Waypoint], last: u32, goal: Vertex) -> Path {
+    let back = || Waypoint::back(bends, last).map(|waypoint| waypoint.at);
     let mut waypoints = Vec::with_capacity(back().count() + 1);
     waypoints.push(goal);
     back().for_each(|at| push(&mut waypoints, at));

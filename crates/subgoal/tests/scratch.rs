@@ -1,6 +1,8 @@
-//! A warm planner allocates nothing but the path that it returns, and a graph that is loaded little more than its bytes.
+//! A warm planner allocates nothing but the path that it returns, and reading a graph little more than its
+//! bytes.
 #![allow(unsafe_code, reason = "a counting allocator implements an unsafe trait")]
 
+#[path = "it/common.rs"]
 mod common;
 
 use std::{
@@ -46,7 +48,7 @@ fn queries<P: SubgoalPlacement>(space: &FreeSpace<P>) -> Vec<Query> {
     free.iter().flat_map(|&a| free.iter().map(move |&b| Query::new(a, b))).collect()
 }
 
-/// How many allocations each answer takes on a warm planner beyond its path, at most.
+/// The most allocations of a query on a warm planner, without that of the path.
 fn most_allocations(case: &str, mut planner: impl Planner, queries: &[Query]) -> usize {
     for &query in queries {
         planner.solve(query).expect("both ends are free");
@@ -83,7 +85,7 @@ fn a_warm_query_allocates_its_path_and_nothing_else() {
     }
 }
 
-/// The first three numbers say how much is to come.
+/// Counts in crafted bytes are checked before memory is allocated for them.
 #[test]
 fn huge_counts_allocate_nothing_huge() {
     let space = space::<Corners>(&caves(&mut Rng::new(7), 60, 50), DiagonalGap::Open);

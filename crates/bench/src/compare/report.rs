@@ -6,7 +6,7 @@ use mediant_engines::Setup;
 use mediant_report::{Machine, Table, number, revision, stats::geometric_mean};
 use serde::Serialize;
 
-use crate::{Comparand, Comparison, MapRecord, ReferenceTimings};
+use crate::{Comparison, MapRecord, ReferenceProgram, ReferenceTimings};
 
 /// All figures of a run.
 pub(super) struct Results<'a> {
@@ -52,7 +52,7 @@ pub(super) fn text(results: &Results<'_>) -> String {
                 "\n{setup} by the scaled time of programs that solve the same problem{quality} (< 1: we are faster)"
             ));
             lines.extend(ratios(results, i, &same).lines());
-            if setup.engine.about().index.is_some() {
+            if setup.capabilities().index.is_some() {
                 lines.push(format!(
                     "\n{setup}: what comes before the first query, on all cores, by the scaled time and the index file of these programs"
                 ));
@@ -109,7 +109,7 @@ fn disturbance(scales: &[f64]) -> Option<String> {
 }
 
 /// The ratios of the setup with index `setup` to some of the programs.
-fn ratios(results: &Results<'_>, setup: usize, programs: &[(usize, &Comparand)]) -> Table {
+fn ratios(results: &Results<'_>, setup: usize, programs: &[(usize, &ReferenceProgram)]) -> Table {
     let mut heading = vec!["map".to_owned()];
     heading.extend(programs.iter().map(|(_, program)| program.name.clone()));
     let mut table = Table::new(heading);
@@ -131,7 +131,7 @@ fn ratios(results: &Results<'_>, setup: usize, programs: &[(usize, &Comparand)])
 }
 
 /// The preparation of the setup with index `setup`, and its ratios to the programs that prepare something.
-fn preparation(results: &Results<'_>, setup: usize, programs: &[(usize, &Comparand)]) -> Table {
+fn preparation(results: &Results<'_>, setup: usize, programs: &[(usize, &ReferenceProgram)]) -> Table {
     let prepares =
         |name: &String| results.references.maps.iter().any(|row| row.preprocessing.contains_key(name));
     let programs: Vec<_> = programs.iter().filter(|(_, program)| prepares(&program.name)).collect();

@@ -1,53 +1,49 @@
-//! Why an index is refused, or not saved.
-
-use std::{io, path::PathBuf};
+//! Why an index is refused.
 
 use mediant_grid::Rules;
 
-use crate::MAX_FILE_BYTES;
-
 use super::{
-    MapDigest,
-    header::{FORMAT_VERSION, NAME_FORM},
+    digest::MapDigest,
+    layout::{FORMAT_VERSION, NAME_FORM},
 };
 
-/// Bytes that are no index, or an index for something else.
+/// Why an index is refused: the bytes are none, or the index was built for something else.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum IndexError {
-    /// The bytes do not begin as an index does.
+    /// The bytes do not begin like an index.
     #[error(
         "expected an index as `mediant build` makes it, found {found} at its start; is this the file that you meant?"
     )]
     NotAnIndex {
-        /// Its first bytes.
+        /// The first bytes, quoted.
         found: String,
     },
-    /// The container has another version.
+    /// The file has another version of the format.
     #[error("expected an index of format version {FORMAT_VERSION}, found version {found}; {BUILD_AGAIN}")]
     Format {
         /// The version.
         found: u32,
     },
-    /// There are fewer or more bytes than the header says.
+    /// The file has fewer or more bytes than its header states.
     #[error("expected an index of {expected} bytes, found {found}; copy the file again, or {BUILD_AGAIN}")]
     Length {
-        /// The length by the header; at least that of an empty index.
+        /// The length that the header states, or that of an empty index if the header is cut short.
         expected: u64,
         /// The number of bytes.
         found: u64,
     },
-    /// The bytes are not those that were saved.
+    /// The checksum is wrong: the bytes are not those that were saved.
     #[error(
         "expected the checksum that was saved with the index, found another: the file is damaged; copy it again, or {BUILD_AGAIN}"
     )]
     Damaged,
-    /// The checksum is right, but a field of the header has a value that it never has.
+    /// The checksum is right, but a field of the header has a value that it cannot have.
     #[error("expected {expected}, found {found}: another program wrote this index; {BUILD_AGAIN}")]
     Field {
-        /// What the field may hold.
+        /// What the field can hold.
         expected: &'static str,
-        /// What it holds.
+        /// What it holds, quoted.
         found: String,
     },
     /// An engine's name that cannot be saved.
@@ -56,17 +52,17 @@ pub enum IndexError {
         /// The name.
         found: String,
     },
-    /// The index of another engine.
+    /// The index was built by another engine.
     #[error(
         "expected an index of the engine {expected}, found one of {found}; choose that engine, or {BUILD_AGAIN}"
     )]
     Engine {
         /// The engine that is to use the index.
         expected: String,
-        /// The engine that made it.
+        /// The engine that built it.
         found: String,
     },
-    /// The same engine made it in another version.
+    /// The index was built by another version of the engine.
     #[error("expected version {expected} of the {engine} index, found version {found}; {BUILD_AGAIN}")]
     EngineVersion {
         /// The engine.
@@ -110,37 +106,9 @@ pub enum IndexError {
     },
 }
 
-/// An index that cannot be saved.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum WriteError {
-    /// The path names something that is no regular file, which must not be replaced by one.
-    #[error("{}: expected a regular file or none, found a directory or device; name a file to be made", path.display())]
-    NotRegular {
-        /// The file that was asked for.
-        path: PathBuf,
-    },
-    /// The index is longer than what can be read.
-    #[error("{}: expected an index of at most {MAX_FILE_BYTES} bytes, found {found}; split the map", path.display())]
-    TooLarge {
-        /// The file that was asked for.
-        path: PathBuf,
-        /// The number of bytes.
-        found: u64,
-    },
-    /// The system refuses to write the file.
-    #[error("{}: cannot be written: {source}", path.display())]
-    Unwritable {
-        /// The file that was asked for.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
-}
-
 const BUILD_AGAIN: &str = "build it again with `mediant build`";
 
-/// The k as the program's option has it.
+/// The k as `mediant` takes it.
 fn k_name(k: Option<u32>) -> String {
     k.map_or_else(|| "any".to_owned(), |k| k.to_string())
 }

@@ -1,21 +1,17 @@
-//! The header of an index file, to bytes and back.
+//! Encodes and decodes the header of an index file.
 
 use std::ops::Range;
 
 use mediant_grid::{CornerRule, DiagonalGap, Rules};
 use sha2::{Digest, Sha256};
 
+use super::{
+    digest::MapDigest,
+    error::IndexError,
+    key::IndexKey,
+    layout::{DIGEST_BYTES, FORMAT_VERSION, HEADER_BYTES, MAGIC, NAME_BYTES, NAME_FORM, is_engine_name},
+};
 use crate::text::quote;
-
-use super::{DIGEST_BYTES, IndexError, IndexKey, MapDigest};
-
-/// The first byte is in no text file, and the last is lost where line ends are converted.
-const MAGIC: [u8; 8] = *b"\x89MEDIDX\n";
-pub(super) const FORMAT_VERSION: u32 = 1;
-const NAME_BYTES: usize = 16;
-pub(super) const NAME_FORM: &str = "an engine's name of 1 to 16 printable ASCII characters without blanks";
-/// All before the payload.
-pub(super) const HEADER_BYTES: usize = 88;
 
 /// The rules of motion by the two bytes that stand for them.
 const RULES: [([u8; 2], Rules); 5] = [
@@ -29,7 +25,7 @@ const RULES: [([u8; 2], Rules); 5] = [
 /// The header of an index with a payload of this many bytes.
 pub(super) fn encode(key: &IndexKey, payload: usize) -> Vec<u8> {
     let mut name = [0; NAME_BYTES];
-    // A key has no longer name.
+    // A key's name has at most NAME_BYTES.
     name[..key.engine.len()].copy_from_slice(key.engine.as_bytes());
     let code = RULES.iter().find(|(_, rules)| *rules == key.rules).map_or([u8::MAX; 2], |&(code, _)| code);
     [
@@ -48,7 +44,7 @@ pub(super) fn encode(key: &IndexKey, payload: usize) -> Vec<u8> {
     .concat()
 }
 
-/// The key in the header of a whole and undamaged file, and where its payload is.
+/// The key in the header, and where the payload is. Checks length and checksum of the whole file.
 pub(super) fn decode(bytes: &[u8]) -> Result<(IndexKey, Range<usize>), IndexError> {
     let found = bytes.len() as u64;
     let shortest = (HEADER_BYTES + DIGEST_BYTES) as u64;
@@ -72,7 +68,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(IndexKey, Range<usize>), IndexErro
     Ok((header.key()?, HEADER_BYTES..content.len()))
 }
 
-/// Fields that are taken from the front.
+/// The bytes that were not yet decoded.
 struct Fields<'a>(&'a [u8]);
 
 impl Fields<'_> {
@@ -87,7 +83,7 @@ impl Fields<'_> {
     }
 }
 
-/// The fields behind the format version, as they stand there.
+/// The fields behind the format version, not yet checked.
 struct Header {
     name: [u8; NAME_BYTES],
     version: u32,
@@ -126,8 +122,4 @@ impl Header {
         };
         Ok(IndexKey { engine, version: self.version, rules, k, map: self.map })
     }
-}
-
-pub(super) fn is_engine_name(name: &[u8]) -> bool {
-    (1..=NAME_BYTES).contains(&name.len()) && name.iter().all(u8::is_ascii_graphic)
 }

@@ -1,15 +1,16 @@
-//! Interval ends: rays from a grid graph vertex through another.
+//! Ends of intervals of a grid line: where rays from a vertex through another vertex cross it.
 
-/// A ray that leaves a root: the vector from the root to a grid graph vertex on it. `dy` > 0 counts lines away from the root,
-/// up or down.
+/// A ray from a vertex, its root, given by the vector from the root to another vertex on it. `dy` > 0 counts
+/// horizontal lines away from the root, whether up or down.
 ///
-/// An end of an interval is never kept as a place but as the ray that bounds it: the vector from the root to the corner at which it was
-/// clipped, or, where a path turned at its root, the vector from the root before. So it is the difference of two vertices of the map.
+/// The end of an interval is never kept as a point, but as the ray that bounds it: the vector from the root
+/// to the corner at which the interval was clipped or, if a path turned at the root, the vector from the
+/// previous root. So it is always the difference of two vertices of the map.
 ///
-/// **No overflow.** With sides of at most 2¹⁵ cells ([`Grid::MAX_SIDE`](crate::Grid::MAX_SIDE)) |dx| ≤ 2¹⁵ and 1 ≤ dy ≤ 2¹⁵. Products
-/// are made only for a line on which the interval is, n lines from the root. It lies on the map there, so the ray is at most 2¹⁵ columns
-/// from the root, and |n · dx| ≤ 2¹⁵ · dy ≤ 2³⁰. Rays are never added to, multiplied by or intersected with each other, so nothing
-/// grows.
+/// **No overflow.** With sides of at most 2¹⁵ cells ([`Grid::MAX_SIDE`](crate::Grid::MAX_SIDE)), |dx| ≤ 2¹⁵
+/// and 1 ≤ dy ≤ 2¹⁵. Products are taken only for a line that has the interval on it, n lines from the root.
+/// The interval lies on the map, so the ray is at most 2¹⁵ columns from the root there, and |n · dx| ≤ 2¹⁵ ·
+/// dy ≤ 2³⁰. Rays are never added, multiplied or intersected with each other, so numbers do not grow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ray {
     /// Columns to the right.
@@ -22,21 +23,23 @@ impl Ray {
     /// Straight away from the root.
     pub const VERTICAL: Self = Self { dx: 0, dy: 1 };
 
-    /// Where it meets a line, `n` lines from a root in column `root`, rounded.
+    /// The column where the ray crosses a line, `n` lines from a root in column `root`, rounded to `f64`.
     #[inline]
-    pub fn place(self, root: i32, n: i32) -> f64 {
+    pub fn column(self, root: i32, n: i32) -> f64 {
         f64::from(root) + f64::from(n * self.dx) / f64::from(self.dy)
     }
 }
 
-/// Where a ray meets a line, in columns: fixed point, with [`FRACTION`](Self::FRACTION) bits, and yet exact in what it decides.
+/// Where a ray crosses a line, in columns: a fixed-point number with 44 binary places whose floor, ceiling
+/// and 'is it a vertex?' are exact.
 ///
-/// A ray meets a line in a rational whose denominator is at most 2¹⁵: either at a vertex, or at least 2⁻¹⁵ away from one. A place is that
-/// rational, less at most the n · 2⁻⁴⁴ < 2⁻²⁸ that n additions of a cut-off step lose, plus 2⁻¹⁷. So its fraction is between 0 and 2⁻¹⁷ at a
-/// vertex and above 2⁻¹⁶ and below 1 elsewhere: floor, ceiling and whether it is a vertex are those of the rational.
+/// A ray crosses a line at a rational with denominator at most 2¹⁵: either at a vertex, or at least 2⁻¹⁵ away
+/// from every vertex. A crossing is that rational plus 2⁻¹⁷, minus the error of n additions of a truncated
+/// step, which is at most n · 2⁻⁴⁴ < 2⁻²⁸. So its fractional part is between 0 and 2⁻¹⁷ at a vertex, and
+/// between 2⁻¹⁶ and 1 elsewhere.
 ///
-/// An interval lies on the map, so a place on its line is between 0 and 2¹⁵. On the next line it is at most 2¹⁵ columns further out, as
-/// far as a ray leads from line to line: below 2¹⁷, in bits below 2⁶¹.
+/// An interval lies on the map, so a crossing on its line is between 0 and 2¹⁵. From one line to the next a
+/// ray moves by at most 2¹⁵ columns. So all crossings are below 2¹⁷, and their fixed-point values below 2⁶¹.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossing(i64);
 
@@ -46,25 +49,25 @@ impl Crossing {
     const BIAS: i64 = Self::ONE >> 17;
     const VERTEX: i64 = Self::ONE >> 16;
 
-    /// A vertex.
+    /// The crossing at a vertex in column x.
     #[inline]
     pub const fn vertex(x: i32) -> Self {
         Self(((x as i64) << Self::FRACTION) + Self::BIAS)
     }
 
-    /// The column boundary at or to the left of it.
+    /// The nearest column of vertices at or to the left of it.
     #[inline]
     pub const fn floor(self) -> i32 {
         (self.0 >> Self::FRACTION) as i32
     }
 
-    /// The column boundary at or to the right of it.
+    /// The nearest column of vertices at or to the right of it.
     #[inline]
     pub const fn ceil(self) -> i32 {
         ((self.0 + (Self::ONE - Self::VERTEX)) >> Self::FRACTION) as i32
     }
 
-    /// Whether it is a vertex.
+    /// Whether it is at a vertex.
     #[inline]
     pub const fn is_vertex(self) -> bool {
         self.0 & (Self::ONE - 1) < Self::VERTEX
@@ -76,18 +79,19 @@ impl Crossing {
 pub struct IntervalEnd {
     /// The ray that bounds the interval.
     pub ray: Ray,
-    /// Where it is on the line.
+    /// Where the ray crosses the line.
     pub here: Crossing,
-    /// What it moves by from line to line.
+    /// How far it moves from one line to the next.
     step: i64,
 }
 
 impl IntervalEnd {
-    /// The end where a ray from a root in column `root` is after `n` lines.
+    /// The end on the line that is `n` lines from the root, for a ray from a root in column `root`.
     #[inline]
     pub const fn new(ray: Ray, root: i32, n: i32) -> Self {
         let step = ((ray.dx as i64) << Crossing::FRACTION).div_euclid(ray.dy as i64);
-        // The corner at which it was clipped, exactly, so that at most n lines add their error.
+        // At the corner that defines the ray the crossing is exact, so that from there the error adds up
+        // anew.
         let here = if n == ray.dy {
             Crossing::vertex(root + ray.dx)
         } else {
@@ -96,31 +100,31 @@ impl IntervalEnd {
         Self { ray, here, step }
     }
 
-    /// The end at a vertex in column `x`, `n` lines from a root in column `root`.
+    /// The end at a vertex in column `x`, `n` lines from a root in column `root`, and the ray through it.
     #[inline]
     pub const fn corner(x: i32, root: i32, n: i32) -> Self {
         Self::new(Ray { dx: x - root, dy: n }, root, n)
     }
 
-    /// The end on the next line, where it is at [`next`](Self::next).
+    /// The same end on the line that its ray crosses at `next`.
     #[inline]
     pub const fn moved_to(self, next: Crossing) -> Self {
         Self { here: next, ..self }
     }
 
-    /// An end that stays in its column.
+    /// An end that stays in column `x` on every line.
     #[inline]
     pub const fn standing(x: i32) -> Self {
         Self { ray: Ray::VERTICAL, here: Crossing::vertex(x), step: 0 }
     }
 
-    /// Where the ray is on the next line.
+    /// Where the ray crosses the next line.
     #[inline]
     pub const fn next(&self) -> Crossing {
         self.after(1)
     }
 
-    /// Where it is some lines further on.
+    /// Where the ray crosses the line that is `lines` lines further on.
     #[inline]
     pub const fn after(&self, lines: i32) -> Crossing {
         Crossing(self.here.0 + lines as i64 * self.step)
@@ -145,7 +149,7 @@ impl Side {
         }
     }
 
-    /// The columns beside vertex x, the outer one first.
+    /// The columns of cells beside a vertex in column x, the outer one first.
     pub const fn columns(self, x: i32) -> (i32, i32) {
         match self {
             Self::Left => (x - 1, x),
@@ -153,21 +157,21 @@ impl Side {
         }
     }
 
-    /// Whether a place is strictly on the inner side of column boundary x.
+    /// Whether a crossing is strictly on the inner side of column x of vertices.
     #[inline]
-    pub const fn is_inside(self, place: Crossing, x: i32) -> bool {
+    pub const fn is_inside(self, at: Crossing, x: i32) -> bool {
         match self {
-            Self::Left => place.ceil() > x,
-            Self::Right => place.floor() < x,
+            Self::Left => at.ceil() > x,
+            Self::Right => at.floor() < x,
         }
     }
 
-    /// Whether a place is strictly on the outer side of column boundary x.
+    /// Whether a crossing is strictly on the outer side of column x of vertices.
     #[inline]
-    pub const fn is_outside(self, place: Crossing, x: i32) -> bool {
+    pub const fn is_outside(self, at: Crossing, x: i32) -> bool {
         match self {
-            Self::Left => place.floor() < x,
-            Self::Right => place.ceil() > x,
+            Self::Left => at.floor() < x,
+            Self::Right => at.ceil() > x,
         }
     }
 }
@@ -176,7 +180,7 @@ impl Side {
 mod tests {
     use super::*;
 
-    /// The place of a ray from column `root` after `n` lines, by division.
+    /// Floor, ceiling and 'is it a vertex?' of a ray from column `root` after `n` lines, by division.
     fn rational(Ray { dx, dy }: Ray, root: i32, n: i32) -> (i32, i32, bool) {
         let product = i64::from(n) * i64::from(dx);
         let floor = root + product.div_euclid(i64::from(dy)) as i32;
@@ -184,11 +188,11 @@ mod tests {
         (floor, floor + i32::from(!is_vertex), is_vertex)
     }
 
-    fn seen(place: Crossing) -> (i32, i32, bool) {
-        (place.floor(), place.ceil(), place.is_vertex())
+    fn seen(at: Crossing) -> (i32, i32, bool) {
+        (at.floor(), at.ceil(), at.is_vertex())
     }
 
-    /// Follows a ray over all lines on which its place is on the largest map, and one line further.
+    /// Follows a ray over all lines on which it is on the largest map, and one line further.
     #[track_caller]
     fn follow(ray: Ray, root: i32) {
         const SIDE: i32 = crate::Grid::MAX_SIDE as i32;
@@ -209,16 +213,16 @@ mod tests {
     }
 
     #[test]
-    fn places_decide_as_rationals_do() {
+    fn crossings_decide_as_rationals_do() {
         const SIDE: i32 = crate::Grid::MAX_SIDE as i32;
-        // The steepest, the flattest, and those that come closest to a vertex without meeting it.
+        // The steepest rays, the flattest ones, and those that come closest to a vertex without meeting it.
         for (dx, dy) in
             [(0, 1), (1, 1), (1, SIDE), (SIDE, 1), (SIDE, SIDE - 1), (SIDE - 1, SIDE), (1, SIDE - 1)]
         {
             follow(Ray { dx, dy }, 0);
             follow(Ray { dx: -dx, dy }, SIDE);
         }
-        // A multiplicative congruence spreads the vectors over the square.
+        // Vectors spread over the square by a linear congruential generator.
         let mut state = 1_u32;
         let mut below = |n: i32| {
             state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);

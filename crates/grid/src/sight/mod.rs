@@ -1,20 +1,25 @@
-//! The geometry of sight: what a straight segment crosses, and what a vertex sees, by words of cells and in exact arithmetic.
+//! Sight in integers: whether a segment is free, and all that a vertex sees.
 //!
-//! [`line_of_sight`] tests one segment. A [`VisibilitySweep`] finds all that a vertex sees. The rest are its parts, from which
-//! any-angle searches are made as well: a [`Ray`] bounds an interval of a grid line, a [`Crossing`] is where it meets that line, and
-//! a [`Cover`] is the set of cells that a polygon meets.
+//! [`line_of_sight`] tests one segment. A [`VisibilitySweep`] finds everything that a vertex sees among the
+//! vertices of a set.
+//!
+//! The module also has the parts of both that the searches of this workspace are made of; they are hidden
+//! from the documentation, because their arguments must fit together in ways that only their callers ensure.
 
-mod cover;
 mod interval;
-mod line;
+mod polygon;
 mod row_summary;
-mod strip;
+mod runs;
 mod sweep;
+mod targets;
 
-pub use cover::Cover;
+pub use crate::line_of_sight::{line_of_sight, line_of_sight_under};
+#[doc(hidden)]
 pub use interval::{Crossing, IntervalEnd, Ray, Side};
-pub(crate) use line::Frame;
-pub use line::{line_of_sight, line_of_sight_under};
+#[doc(hidden)]
+pub use polygon::PolygonCells;
 pub use row_summary::RowSummary;
-pub use strip::{Runs, Window, row_ahead};
-pub use sweep::{Quadrants, Targets, VisibilitySweep};
+#[doc(hidden)]
+pub use runs::{Runs, Window, row_ahead};
+pub use sweep::VisibilitySweep;
+pub use targets::{Quadrants, Targets};

@@ -1,92 +1,50 @@
-//! All that a vertex sees.
+//! Everything that a vertex sees.
 
-use crate::{BitMatrix, BitRow, Corners, FreeSpace, Vertex};
+use crate::{BitRow, Corners, FreeSpace, Vertex};
 
 use super::{
     interval::{IntervalEnd, Ray},
     row_summary::RowSummary,
-    strip::row_ahead,
+    runs::row_ahead,
+    targets::{Quadrants, Targets},
 };
 
-/// The directions in which to look: some of the four closed quadrants.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Quadrants(u8);
-
-impl Quadrants {
-    /// Every direction.
-    pub const ALL: Self = Self(0b1_1111);
-    /// Both ways along the horizontal line alone.
-    pub const LINE: Self = Self(0b1_0000);
-
-    /// The quadrant whose vectors have no x of the sign opposite to `x`, and no such y; signs are ±1.
-    #[must_use]
-    pub const fn only(x: i32, y: i32) -> Self {
-        Self(1 << ((x > 0) as u8 + 2 * (y > 0) as u8))
-    }
-
-    /// These and others.
-    #[must_use]
-    pub const fn and(self, others: Self) -> Self {
-        Self(self.0 | others.0)
-    }
-
-    /// Whether the quadrant of these signs is among them.
-    #[must_use]
-    pub const fn has(self, x: i32, y: i32) -> bool {
-        self.0 & Self::only(x, y).0 != 0
-    }
-}
-
-/// The vertices to look for: those in directions in which x and y have the same sign, and those in which they have opposite ones. Along an axis,
-/// where one of them is 0, both are.
+/// Finds the corners of obstacles that a vertex sees. It holds the scratch memory of [`seen`](Self::seen).
 ///
-/// Each has a bit for each vertex of the map and a frame of zeros.
-#[derive(Clone, Copy, Debug)]
-pub struct Targets<'m> {
-    /// Where x and y have the same sign.
-    pub same: &'m BitMatrix,
-    /// Where they have opposite signs.
-    pub opposite: &'m BitMatrix,
-}
-
-/// The same in all directions.
-impl<'m> From<&'m BitMatrix> for Targets<'m> {
-    fn from(marks: &'m BitMatrix) -> Self {
-        Self { same: marks, opposite: marks }
-    }
-}
-
-/// Finds the corners of obstacles that a vertex sees: scratch memory for [`seen`](Self::seen).
-///
-/// The cells around a vertex are looked at row by row. What it sees of a horizontal line is a set of intervals, each bounded by two rays through
-/// corners of obstacles, which are followed by additions (`interval.rs` says why they decide exactly); of a row of cells between two lines,
-/// words of 64 cells tell where they narrow, split or end. So a vertex costs a few steps for each row that it sees, not one for each cell.
+/// The sweep goes over the map row by row, up and down from the vertex. The part of a horizontal line that
+/// the vertex sees is a set of intervals. Each is bounded by two rays through corners of obstacles, whose
+/// crossings with the next line are found by additions, and yet exactly (`interval.rs` says why). Words of 64
+/// cells tell where the intervals narrow, split or end. So a vertex costs a few steps for each row that it
+/// sees, not one for each cell.
 ///
 /// ```
 /// use std::sync::Arc;
-/// use crate::{AsciiMap, BitMatrix, Corners, DiagonalGap, FreeSpace, Vertex};
-/// use mediant_search::{RowSummary, VisibilitySweep, Quadrants};
+/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace, Vertex};
+/// use mediant_grid::sight::{Quadrants, RowSummary, VisibilitySweep};
+///
 /// let map = AsciiMap::parse("
 ///     ....
 ///     .#..
 ///     ....
 /// ")?;
 /// let space = FreeSpace::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
-/// // Column 4 is marked.
-/// let marks = BitMatrix::from_words(5, 4, false, |_, _| 1 << 4);
-/// let mut seen = Vec::new();
-/// let bands = RowSummary::new(space.grid());
-/// VisibilitySweep::default().seen(&space, &bands, &marks, Vertex::new(0, 1), Quadrants::ALL, |at| seen.push(at.y));
+/// // Look for the corners of the obstacle.
+/// let corners = space.vertex_set(|at| (1..=2).contains(&at.x) && (1..=2).contains(&at.y));
+///
+/// let (summary, mut seen) = (RowSummary::new(space.grid()), Vec::new());
+/// let from = Vertex::new(0, 0);
+/// VisibilitySweep::default().seen(&space, &summary, &corners, from, Quadrants::ALL, |at| seen.push(at));
 /// seen.sort();
-/// assert_eq!(seen, [0, 1]);
-/// # Ok::<(), crate::GridError>(())
+/// // The obstacle hides its corner (2, 2).
+/// assert_eq!(seen, [(1, 1), (1, 2), (2, 1)].map(Vertex::from));
+/// # Ok::<(), mediant_grid::GridError>(())
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct VisibilitySweep {
     pending: Vec<Piece>,
 }
 
-/// What is seen of a line between two rays: an interval whose ends differ.
+/// An interval of a line that is seen. Its ends differ.
 #[derive(Clone, Copy, Debug)]
 struct Piece {
     line: i32,
@@ -98,7 +56,8 @@ struct Piece {
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     end: IntervalEnd,
-    /// Whether it follows a wall: then it stays in its column, and becomes a ray where the wall ends.
+    /// Whether the end follows a vertical wall. Then it stays in its column, and becomes a ray where the wall
+    /// ends.
     is_wall: bool,
 }
 
@@ -111,48 +70,57 @@ impl Edge {
         Self { end: IntervalEnd::standing(x), is_wall: true }
     }
 
-    /// Where it is some lines further on, if nothing is in the way.
+    /// The end on the line that is `lines` lines further on, if nothing is in the way.
     #[inline]
     const fn after(&self, lines: i32) -> Self {
         Self { end: self.end.moved_to(self.end.after(lines)), ..*self }
     }
 
-    /// The ray through it, from a root in column `x`, `n` lines away.
+    /// The ray through the end, from a root in column `x`, `n` lines away.
     #[inline]
     fn as_ray(&self, x: i32, n: i32) -> Ray {
         if self.is_wall { Ray { dx: self.end.here.floor() - x, dy: n } } else { self.end.ray }
     }
 }
 
-/// One half of what there is to be seen, above or below.
+/// A sweep over one half of the map: above or below the vertex.
 struct Half<'t> {
     space: &'t FreeSpace<Corners>,
-    bands: &'t RowSummary,
+    summary: &'t RowSummary,
     marks: Targets<'t>,
     from: Vertex,
-    /// 1 below, −1 above.
+    /// 1 for the half below, −1 for the one above.
     down: i32,
 }
 
 impl VisibilitySweep {
-    /// Tells `found` the marks that the free vertex `from` sees in these quadrants, each once. Marks are convex corners of obstacles; others may be
-    /// left out, as may those behind another corner on the same ray. On the vertical between a quadrant that is asked for and one that is not,
-    /// what is seen is what the cells of the first let through. `bands` are those of the free space's grid. Under
-    /// [`DiagonalGap::Closed`](crate::DiagonalGap::Closed) no mark may be at a [gap](FreeSpace::is_closed_gap).
+    /// Calls `found` once with each target that the vertex `from` sees in these quadrants. A vertex that is
+    /// not free sees nothing.
+    ///
+    /// Targets should be convex corners of obstacles. Others may be missed, and so may a target behind
+    /// another corner on the same ray. No target may be at a [closed gap](FreeSpace::is_closed_gap). Where
+    /// only one of the two quadrants beside a vertical is given, sight along this vertical depends on the
+    /// cells of this quadrant alone.
+    ///
+    /// `summary` must be that of the same map, and the sets of the targets must be of this free space; else
+    /// the result has no meaning.
     pub fn seen<'m>(
         &mut self,
         space: &'m FreeSpace<Corners>,
-        bands: &'m RowSummary,
+        summary: &'m RowSummary,
         marks: impl Into<Targets<'m>>,
         from: Vertex,
         quadrants: Quadrants,
         mut found: impl FnMut(Vertex),
     ) {
+        if !space.is_free(from) {
+            return;
+        }
         let marks = marks.into();
         for down in [1, -1] {
-            let (left, right) = (quadrants.has(-1, down), quadrants.has(1, down));
+            let (left, right) = (quadrants.contains(-1, down), quadrants.contains(1, down));
             if left || right {
-                let half = Half { space, bands, marks, from, down };
+                let half = Half { space, summary, marks, from, down };
                 self.pending.clear();
                 self.pending.extend(half.first(left, right));
                 while let Some(piece) = self.pending.pop() {
@@ -161,7 +129,7 @@ impl VisibilitySweep {
             }
         }
         for right in [1, -1] {
-            if quadrants.has(right, 1) || quadrants.has(right, -1) || quadrants.0 & Quadrants::LINE.0 != 0 {
+            if quadrants.contains_horizontal(right) {
                 let mark = along_line(space, marks, from, right);
                 if let Some(at) = mark.filter(|&at| !space.has_closed_gaps() || space.sees(from, at)) {
                     found(at);
@@ -171,13 +139,14 @@ impl VisibilitySweep {
     }
 }
 
-/// The nearest marked vertex that can be reached along the horizontal line.
+/// The nearest target to the right (`right` = 1) or to the left (−1) that is seen along the horizontal line.
 fn along_line(space: &FreeSpace<Corners>, marks: Targets<'_>, from: Vertex, right: i32) -> Option<Vertex> {
     let [above, below] = [1, -1].map(|down| row_ahead(space.grid(), from.y, -down));
     let [same, opposite] = [marks.same, marks.opposite].map(|marks| marks.row(from.y));
     let mut x = from.x;
     loop {
-        // Bit i of each: the edge and the vertex i and i + 1 steps on.
+        // Bit i of `closed` is the edge from i to i + 1 steps ahead, bit i of `marked` the vertex i + 1 steps
+        // ahead.
         let (closed, marked) = if right > 0 {
             (above.word(x) & below.word(x), same.word(x + 1) | opposite.word(x + 1))
         } else {
@@ -201,12 +170,13 @@ fn along_line(space: &FreeSpace<Corners>, marks: Targets<'_>, from: Vertex, righ
 }
 
 impl Half<'_> {
-    /// What is seen of the first line, as far as it is to the left or right.
+    /// The interval of the first line that is seen, to the left, to the right or both.
     fn first(&self, left: bool, right: bool) -> Option<Piece> {
         let (x, ahead) = (self.from.x, self.ahead(self.from.y));
         let start = if left { ahead.run_start(x, 0) } else { x };
         let end = if right { ahead.first_blocked(x, i32::MAX) } else { x };
-        // Where nothing is in the way but the quadrant ends, the edge is the vertical through the root.
+        // Where the quadrant ends and no obstacle is in the way, the interval ends at the vertical through
+        // the root.
         let edge = |end| if end == x { Edge::ray(IntervalEnd::standing(x)) } else { Edge::wall(end) };
         let piece = Piece { line: self.from.y + self.down, left: edge(start), right: edge(end) };
         (start < end).then_some(piece)
@@ -217,7 +187,8 @@ impl Half<'_> {
         row_ahead(self.space.grid(), line, self.down)
     }
 
-    /// Follows an interval from line to line until it ends; where it splits, all but the first part are left `pending`.
+    /// Follows an interval from line to line until it ends. Where it splits, all parts but the first are
+    /// added to `pending`.
     fn follow(&self, mut piece: Piece, pending: &mut Vec<Piece>, found: &mut impl FnMut(Vertex)) {
         let mut ahead = self.ahead(piece.line);
         let mut marks = [self.marks.same, self.marks.opposite].map(|marks| marks.row(piece.line));
@@ -275,13 +246,13 @@ impl Half<'_> {
         }
     }
 
-    /// How far a line is from the root.
+    /// The distance of a line from the root.
     #[inline]
     const fn distance(&self, line: i32) -> i32 {
         (line - self.from.y) * self.down
     }
 
-    /// Makes rays of the edges whose walls end on the piece's line.
+    /// Turns ends that follow a wall into rays if the wall ends on this line.
     #[inline]
     fn end_walls(&self, piece: &mut Piece, ahead: BitRow<'_>) {
         let n = self.distance(piece.line);
@@ -293,17 +264,19 @@ impl Half<'_> {
         }
     }
 
-    /// The interval a band of rows further on, if all its cells on the way are free, and the walls that it follows go on.
+    /// The interval one band of rows further on, if all cells on the way are free and the walls that it
+    /// follows go on. `None` otherwise.
     #[inline]
     fn leap(&self, piece: Piece) -> Option<Piece> {
         let band = piece.line / RowSummary::LINES + (self.down - 1) / 2;
-        let (blocked, solid) = (self.bands.blocked.row(band), self.bands.solid.row(band));
+        let (blocked, solid) = (self.summary.blocked.row(band), self.summary.solid.row(band));
         let [left, right] = [piece.left, piece.right].map(|edge| edge.after(RowSummary::LINES));
         let (mut low, mut high) = (
             piece.left.end.here.floor().min(left.end.here.floor()),
             piece.right.end.here.ceil().max(right.end.here.ceil()),
         );
-        // Where there is no wall, there is no corner beside the interval either.
+        // Without a wall, the column beside the interval must be free too, so that there is no corner of an
+        // obstacle on its rim.
         if !left.is_wall {
             low -= 1;
         } else if !solid.is_blocked(low - 1) {
@@ -319,12 +292,15 @@ impl Half<'_> {
         is_free.then_some(Piece { line, left, right })
     }
 
-    /// What of an interval comes through the free cells from column `start` to `end`, on the next line.
+    /// The part of an interval that continues to the next line through the free cells from column `start` to
+    /// `end`.
     fn through(&self, piece: Piece, start: i32, end: i32) -> Option<Piece> {
         let (x, n) = (self.from.x, self.distance(piece.line));
         let [left, right] = [piece.left, piece.right].map(|edge| edge.after(1));
-        // An obstacle that stands in the way clips the interval by the corner that hides most: on its near side if it is away from the
-        // vertical through the root, and else on its far side.
+        // An obstacle that stands in the way clips the interval at the corner that hides most. If the
+        // obstacle is between the vertical through the root and the interval, this is its corner on this
+        // line. Otherwise it is its corner on the next line, up to which the interval follows the obstacle as
+        // a wall.
         let shaded = |end: i32| Edge::ray(IntervalEnd::new(Ray { dx: end - x, dy: n }, x, n + 1));
         let left = if start > piece.left.end.here.floor() {
             if start > x { shaded(start) } else { Edge::wall(start) }
@@ -340,14 +316,15 @@ impl Half<'_> {
         } else {
             right
         };
-        // A single ray touches obstacles on both sides, at vertices that it does not lead beyond.
+        // An interval that has shrunk to a single ray touches obstacles on both sides, and ends at the
+        // vertex.
         let (l, r) = (left.as_ray(x, n + 1), right.as_ray(x, n + 1));
         let widens = i64::from(l.dx) * i64::from(r.dy) < i64::from(r.dx) * i64::from(l.dy);
         widens.then_some(Piece { line: piece.line + self.down, left, right })
     }
 
-    /// Tells the marked vertices of an interval beyond which all cells are free. Those on its near side are, so that only its ends can be
-    /// corners of obstacles.
+    /// Reports the targets of an interval whose cells beyond the line are all free. The cells before the line
+    /// are free too, so that only the ends of the interval can be corners of obstacles.
     #[inline]
     fn report_ends(&self, piece: Piece, marks: [BitRow<'_>; 2], found: &mut impl FnMut(Vertex)) {
         for edge in [piece.left, piece.right] {
@@ -358,7 +335,7 @@ impl Half<'_> {
         }
     }
 
-    /// Whether a vertex of the line of these marks is one to look for.
+    /// Whether the vertex in column x is a target, given the rows of targets of its line.
     #[inline]
     fn is_marked(&self, x: i32, [same, opposite]: [BitRow<'_>; 2]) -> bool {
         match (x - self.from.x) * self.down {
@@ -368,7 +345,7 @@ impl Half<'_> {
         }
     }
 
-    /// Tells the marked vertices of an interval.
+    /// Reports the targets of an interval.
     fn report(&self, piece: Piece, marks: [BitRow<'_>; 2], found: &mut impl FnMut(Vertex)) {
         let (x, line) = (self.from.x, piece.line);
         let (first, last) = (piece.left.end.here.ceil(), piece.right.end.here.floor());
@@ -385,13 +362,13 @@ impl Half<'_> {
     }
 }
 
-/// Whether an interval of which an edge may follow a wall still is one: a ray may meet the wall.
+/// Whether the interval still has a length: a ray at one end may have met the wall at the other.
 #[inline]
 const fn widens([left, right]: [Edge; 2]) -> bool {
     left.end.here.floor() < right.end.here.ceil()
 }
 
-/// Tells the marks of a row from column `first` to column `last`.
+/// Reports the targets of a row from column `first` to column `last`.
 #[inline]
 fn report(marks: BitRow<'_>, line: i32, first: i32, last: i32, found: &mut impl FnMut(Vertex)) {
     let mut from = first;

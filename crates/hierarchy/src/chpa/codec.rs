@@ -1,46 +1,48 @@
-//! A [`SegmentGraph`] as bytes: the side of the segments, the width and height of the map, each as `u32`, little endian; then the edges of each segment, row by row, one byte
-//! each.
+//! A [`SegmentGraph`] as bytes: the side of the segments, the width and height of the map, each as a
+//! little-endian `u32`; then one byte for each segment, row by row, with a bit for each of its edges.
 
 use mediant_grid::{Centers, GridGraph};
 
 use super::segments::SegmentGraph;
-use crate::{HierarchyError, bytes::Numbers, check};
+use crate::{HierarchyError, bytes::WordReader, check};
 
 impl SegmentGraph {
-    /// The version of what [`to_bytes`](Self::to_bytes) writes.
+    /// The version of the format of [`to_bytes`](Self::to_bytes).
     pub const VERSION: u32 = 1;
-    /// Side, width and height.
+    /// The length of side, width and height in bytes.
     const HEADER: usize = 12;
 
-    /// The index, for [`from_bytes`](Self::from_bytes).
+    /// The index as bytes. [`from_bytes`](Self::from_bytes) reads them.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let header = [self.side, self.size.0, self.size.1].map(u32::to_le_bytes);
         header.as_flattened().iter().chain(&self.edges).copied().collect()
     }
 
-    /// The index that gave these bytes for the same grid graph. It answers exactly as that one.
+    /// The index of a grid graph from its bytes. It gives the same answers as the index that was written.
     ///
-    /// Whatever the bytes are, the paths found with what is read are legal, and a complete planner finds one whenever there is one. But whether they were made of this map, and are
-    /// not damaged, only the file knows that holds them: see `IndexFile` of `mediant-formats`.
+    /// The bytes do not say which map they belong to, and damage is not always found; a file that holds them
+    /// must tell (see `IndexFile` of `mediant-formats`). Whatever the bytes are, paths found with the index
+    /// are legal, and a complete planner finds one whenever there is one.
     ///
     /// # Errors
-    /// [`HierarchyError`] for bytes that are no index on this grid graph, or a grid graph of moves that there is no index for.
+    /// [`HierarchyError`] for bytes that are no index of this grid graph, or moves that there is no index
+    /// for.
     pub fn from_bytes(grid_graph: &GridGraph<Centers>, bytes: &[u8]) -> Result<Self, HierarchyError> {
         let (header, edges) =
             bytes.split_at_checked(Self::HEADER).ok_or(HierarchyError::Bytes("they are too few"))?;
-        let mut header = Numbers::of(header)?;
+        let mut header = WordReader::new(header)?;
         let side = header.next()?;
         check::size((header.next()?, header.next()?), grid_graph.grid())?;
         let mut graph = Self::without_edges(grid_graph, side)?;
-        if edges.len() != graph.edges.len() {
+        if edges.len() != graph.segments_of_map() {
             return Err(HierarchyError::Bytes("they are for another number of segments"));
         }
-        let places = (0..graph.rows).flat_map(|y| (0..graph.columns).map(move |x| (x, y)));
-        if edges.iter().zip(places).any(|(edges, (x, y))| edges & !graph.possible_edges(x, y) != 0) {
+        let positions = (0..graph.rows).flat_map(|y| (0..graph.columns).map(move |x| (x, y)));
+        if edges.iter().zip(positions).any(|(edges, (x, y))| edges & !graph.possible_edges(x, y) != 0) {
             return Err(HierarchyError::Bytes("an edge leads to no segment"));
         }
-        graph.edges.copy_from_slice(edges);
+        graph.edges = edges.into();
         Ok(graph)
     }
 }

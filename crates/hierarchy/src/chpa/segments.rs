@@ -1,30 +1,35 @@
-//! The abstraction graph of CHPA*: made by sliding windows over the map, and mended where the map changed.
+//! The index of CHPA*: made by sliding windows over the map, and repaired where the map changed.
 
 use mediant_grid::{Centers, Grid, GridGraph, Rectangle, Vector, Vertex};
 use mediant_moves::FiniteK;
 
 use crate::{
     HierarchyError, check,
-    window::{MAX_SIDE, Rows, Window, low_bits},
+    window::{MAX_SIDE, Rows, Window, low_bits, on_map},
 };
 
-/// A segment's edges, to the right and downward, from where the others follow.
+/// The edges that a segment stores; those to the left and upward are stored by its neighbors.
 pub(crate) const EAST: u8 = 1;
 pub(crate) const SOUTH: u8 = 2;
 pub(crate) const SOUTH_EAST: u8 = 4;
 pub(crate) const SOUTH_WEST: u8 = 8;
 
-/// The index of CHPA*: the map in segments, and between which of them a path leads (Teleiša & Čalnerytė 2023, Section 3).
+/// The index of CHPA*: the map in segments, and which neighboring segments are joined (Teleiša & Čalnerytė
+/// 2023, Section 3).
 ///
-/// A window that is one tile longer than a segment slides over the map. Where a 4-connected path leads through it, from its first column to the one that belongs to the next segment, these two
-/// segments are joined; likewise downward, with the window turned. The paper says 'any valid path along the window'; between which of its tiles, it does not. A map whose sides are no
-/// multiples of the segment's is padded with its last row and column.
+/// A window that is one tile longer than a segment slides over the map. It joins two segments side by side if
+/// a 4-connected path within it leads from its first column to its last, which belongs to the second segment;
+/// likewise downward, with the window turned. The paper says 'any valid path along the window', but not
+/// between which of its tiles. A map whose sides are no multiples of the segment's is padded with copies of
+/// its last column and row.
 ///
-/// For k = 3, which the paper leaves open, a window that is one tile longer both ways joins diagonal neighbors: a path from one of the segment's two far sides to the one tile of
-/// the neighbor.
+/// For k = 3, which the paper leaves open, a window that is one tile longer both ways joins diagonal
+/// neighbors: if such a path leads from one of the segment's two far sides to the one tile of the neighbor.
 ///
-/// What becomes of paths *within* a segment is not asked, so that segments may seem connected that are not, and the other way round: what the planner does then is its
-/// [`FallbackPolicy`](crate::FallbackPolicy). Immutable but for [`repair`](Self::repair); planners share it.
+/// The index does not tell which tiles *within* a segment are connected. So segments may be joined although
+/// no path leads through them, or not joined although one does; what a planner then does is its
+/// [`FallbackPolicy`](crate::FallbackPolicy). An index is changed only by [`repair`](Self::repair); any
+/// number of planners share it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SegmentGraph {
     pub(crate) k: FiniteK,
@@ -38,15 +43,17 @@ pub struct SegmentGraph {
 impl SegmentGraph {
     /// The side of the paper's segments.
     pub const PAPER_SIDE: u32 = 3;
-    /// The longest side: the window, which is one tile longer, has rows of one word.
+    /// The longest side of segments. The window is one tile longer, and each of its rows is one word.
     pub const MAX_SIDE: u32 = MAX_SIDE - 1;
 
-    /// The index of a map, with segments of `side` × `side` cells: 1 to [`MAX_SIDE`](Self::MAX_SIDE). On maps of 512 × 512 to 1024 × 1024 cells, with the paper's side of 3, it takes 6 to 42 ms.
+    /// Makes the index of a map, with segments of `side` × `side` cells: 1 to [`MAX_SIDE`](Self::MAX_SIDE).
+    /// On maps of 512 × 512 to 1024 × 1024 cells, with the paper's side of 3, that takes 6 to 42 ms.
     ///
     /// # Errors
-    /// [`HierarchyError`] for k above 3, for corners that may be cut, or a side that is out of range.
+    /// [`HierarchyError`] for k above 3, for k = 3 where corners may be cut, or a side that is out of range.
     pub fn new(grid_graph: &GridGraph<Centers>, side: u32) -> Result<Self, HierarchyError> {
         let mut graph = Self::without_edges(grid_graph, side)?;
+        graph.edges = vec![0; graph.segments_of_map()].into_boxed_slice();
         for y in 0..graph.rows {
             for x in 0..graph.columns {
                 graph.edges[(y * graph.columns + x) as usize] = graph.edges_of(grid_graph.grid(), x, y);
@@ -55,7 +62,7 @@ impl SegmentGraph {
         Ok(graph)
     }
 
-    /// The index of a map without edges.
+    /// An index without edges, for which there is no memory yet.
     pub(crate) fn without_edges(grid_graph: &GridGraph<Centers>, side: u32) -> Result<Self, HierarchyError> {
         check::moves(grid_graph)?;
         if !(1..=Self::MAX_SIDE).contains(&side) {
@@ -63,25 +70,25 @@ impl SegmentGraph {
         }
         let size = (grid_graph.grid().width(), grid_graph.grid().height());
         let (columns, rows) = (size.0.div_ceil(side), size.1.div_ceil(side));
-        let edges = vec![0; (columns * rows) as usize].into_boxed_slice();
-        Ok(Self { k: grid_graph.k(), side, size, columns, rows, edges })
+        check::address_space(u64::from(columns) * u64::from(rows))?;
+        Ok(Self { k: grid_graph.k(), side, size, columns, rows, edges: Box::default() })
     }
 
-    /// Makes the edges anew whose windows touch the cells of a rectangle, in which alone `grid` may differ from the map that this is the index of. It is then equal to a new index
-    /// of `grid`.
+    /// The number of segments that the map is cut into.
+    pub(crate) const fn segments_of_map(&self) -> usize {
+        self.columns as usize * self.rows as usize
+    }
+
+    /// Repairs the index after cells of a rectangle changed: `grid` may differ only there from the map
+    /// before. The index is then equal to a new one of `grid`. The edges whose windows touch the rectangle
+    /// are made anew.
     ///
     /// # Errors
     /// [`HierarchyError::Size`] for a map of another size; nothing is changed then.
     pub fn repair(&mut self, grid: &Grid, changed: Rectangle) -> Result<(), HierarchyError> {
         check::size(self.size, grid)?;
+        let Some([columns, rows]) = on_map(changed, self.size) else { return Ok(()) };
         // The windows of a segment reach one tile beyond it to the left, to the right, and downward.
-        let (columns, rows) = (
-            check::span(changed.x, changed.width, self.size.0),
-            check::span(changed.y, changed.height, self.size.1),
-        );
-        if columns.is_empty() || rows.is_empty() {
-            return Ok(());
-        }
         let first = |cell: u32| cell.saturating_sub(1) / self.side;
         for y in first(rows.start)..rows.end.div_ceil(self.side) {
             for x in first(columns.start)..((columns.end + 1).div_ceil(self.side)).min(self.columns) {
@@ -103,13 +110,13 @@ impl SegmentGraph {
         self.edges.len()
     }
 
-    /// The number of pairs of segments that are joined.
+    /// The number of edges: pairs of segments that are joined.
     #[must_use]
     pub fn edges(&self) -> usize {
         self.edges.iter().map(|edges| edges.count_ones() as usize).sum()
     }
 
-    /// The memory that it takes, in bytes: one a segment.
+    /// The memory that the index uses, in bytes: one a segment.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
         size_of_val(&*self.edges)
@@ -120,22 +127,22 @@ impl SegmentGraph {
         at.y as u32 / self.side * self.columns + at.x as u32 / self.side
     }
 
-    /// Where a segment is among the segments.
-    pub(crate) const fn place(&self, segment: u32) -> Vertex {
+    /// The column and row of a segment.
+    pub(crate) const fn position(&self, segment: u32) -> Vertex {
         Vertex::new((segment % self.columns) as i32, (segment / self.columns) as i32)
     }
 
-    /// The tile in the middle of a segment, as far as that is on the map.
+    /// The tile in the middle of a segment; beyond the map, the nearest tile on it.
     pub(crate) const fn center(&self, segment: u32) -> Vertex {
-        let (at, side) = (self.place(segment), self.side as i32);
+        let (at, side) = (self.position(segment), self.side as i32);
         let (x, y) = (at.x * side + side / 2, at.y * side + side / 2);
         let (last_x, last_y) = (self.size.0 as i32 - 1, self.size.1 as i32 - 1);
         Vertex::new(if x < last_x { x } else { last_x }, if y < last_y { y } else { last_y })
     }
 
-    /// Calls `visit` with each segment that an edge leads to, and the way there.
+    /// Calls `visit` with each segment that an edge leads to, and the step there in columns and rows.
     pub(crate) fn for_each_neighbor(&self, segment: u32, mut visit: impl FnMut(u32, Vector)) {
-        let at = self.place(segment);
+        let at = self.position(segment);
         let own = self.edges[segment as usize];
         let other = |dx: i32, dy: i32| {
             let at = Vertex::new(at.x + dx, at.y + dy);
@@ -156,7 +163,7 @@ impl SegmentGraph {
         }
     }
 
-    /// The edges that lead to a segment.
+    /// The edges of the segment in column `x` and row `y` that would lead to a segment of the map.
     pub(crate) fn possible_edges(&self, x: u32, y: u32) -> u8 {
         let (has_right, has_left, has_below) = (x + 1 < self.columns, x > 0, y + 1 < self.rows);
         let diagonals = self.k != FiniteK::N4 && has_below;
@@ -167,7 +174,7 @@ impl SegmentGraph {
             | edge(diagonals && has_left, SOUTH_WEST)
     }
 
-    /// Slides the windows over a segment.
+    /// The edges of the segment in column `x` and row `y`: slides the windows over it.
     fn edges_of(&self, grid: &Grid, x: u32, y: u32) -> u8 {
         let side = self.side;
         let (left, top) = ((x * side) as i32, (y * side) as i32);
@@ -203,7 +210,7 @@ impl SegmentGraph {
     }
 }
 
-/// The cells of a rectangle, of which those beyond the map are as the nearest on it.
+/// The window of a rectangle of the padded map: a cell beyond the map is free if the nearest cell on it is.
 fn padded(grid: &Grid, left: i32, top: i32, width: u32, height: u32) -> Window {
     let mut free = [0; MAX_SIDE as usize];
     let known = width.min((grid.width() as i32 - left) as u32);

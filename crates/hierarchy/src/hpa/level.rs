@@ -1,44 +1,12 @@
-//! One level of the abstract graph: what the transitions between clusters are, and what lies between them within a cluster.
+//! One level of the abstract graph: clusters, their nodes, and the costs between these.
 
 use mediant_grid::{Grid, Vertex};
-use mediant_moves::Cost;
 
-use crate::window::low_bits;
+use super::fixed_cost::FixedCost;
+use crate::{HierarchyError, check, window::Window};
 
 /// No node.
 pub(crate) const NONE: u32 = u32::MAX;
-
-/// Entrances as wide as this have a transition at either end, narrower ones one in the middle (Botea 2004, Section 3.1).
-const WIDE: u32 = 6;
-
-/// What a way within a cluster costs, in 2⁻¹⁶ cells, rounded up, so that no heuristic exceeds it. A path within a cluster of 256 × 256 cells is always shorter than 2¹⁶ cells.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Length(u32);
-
-impl Length {
-    /// That of a way that does not exist.
-    pub(crate) const NONE: Self = Self(u32::MAX);
-    pub(crate) const ZERO: Self = Self(0);
-    const SHIFT: u32 = Cost::FRACTION_BITS - 16;
-
-    pub(crate) fn of(cost: Option<Cost>) -> Self {
-        let rounded = |cost: Cost| u32::try_from(cost.to_bits().div_ceil(1 << Self::SHIFT)).ok();
-        cost.and_then(rounded).map_or(Self::NONE, Self)
-    }
-
-    #[inline]
-    pub(crate) fn cost(self) -> Option<Cost> {
-        (self != Self::NONE).then(|| Cost::from_bits(u64::from(self.0) << Self::SHIFT))
-    }
-
-    pub(crate) const fn from_bits(bits: u32) -> Self {
-        Self(bits)
-    }
-
-    pub(crate) const fn to_bits(self) -> u32 {
-        self.0
-    }
-}
 
 /// A cell at which a transition ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,16 +14,16 @@ pub(crate) struct Node {
     x: u16,
     y: u16,
     pub(crate) cluster: u32,
-    /// The nodes across the border; a cell in the corner of a cluster may have two.
-    pub(crate) across: [u32; 2],
+    /// The nodes across the border. A cell in the corner of a cluster may have two.
+    across: [u32; 2],
     /// The same cell's node on the level below.
     pub(crate) below: u32,
 }
 
 impl Node {
-    pub(crate) const UNUSED: Self = Self { x: 0, y: 0, cluster: NONE, across: [NONE; 2], below: NONE };
+    const UNUSED: Self = Self { x: 0, y: 0, cluster: NONE, across: [NONE; 2], below: NONE };
 
-    pub(crate) const fn new(at: Vertex, cluster: u32, below: u32) -> Self {
+    const fn new(at: Vertex, cluster: u32, below: u32) -> Self {
         Self { x: at.x as u16, y: at.y as u16, cluster, across: [NONE; 2], below }
     }
 
@@ -69,27 +37,29 @@ impl Node {
     }
 }
 
-/// What is known of a cluster: how many nodes it has, and what it costs from each to each, row by row.
+/// A cluster: the number of its nodes, and the costs from each to each within it, row by row.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Cluster {
     pub(crate) count: u32,
-    pub(crate) lengths: Box<[Length]>,
+    pub(crate) costs: Box<[FixedCost]>,
 }
 
-/// A level: the map cut into clusters of `side` × `side` cells, those at the right and lower edge smaller.
+/// A level: the map cut into clusters of `side` × `side` cells; those at the right and lower edge may be
+/// smaller.
 ///
-/// Node numbers do not move when another cluster changes: each cluster has `stride` of them, as many as it can need.
+/// Each cluster has `stride` node numbers, as many as it can need, so that no change elsewhere renumbers its
+/// nodes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Level {
     pub(crate) side: u32,
     pub(crate) columns: u32,
     pub(crate) rows: u32,
-    pub(crate) stride: u32,
+    stride: u32,
     pub(crate) nodes: Box<[Node]>,
     pub(crate) clusters: Box<[Cluster]>,
 }
 
-/// A rectangle of cells: from the first column and row to those that are beyond it.
+/// A rectangle of cells, without column `right` and row `bottom`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Bounds {
     pub(crate) left: i32,
@@ -99,32 +69,45 @@ pub(crate) struct Bounds {
 }
 
 impl Bounds {
-    /// Everything.
+    /// The whole map, whatever its size.
     pub(crate) const ALL: Self = Self { left: 0, top: 0, right: i32::MAX, bottom: i32::MAX };
 
     #[inline]
     pub(crate) const fn contains(&self, at: Vertex) -> bool {
         at.x >= self.left && at.x < self.right && at.y >= self.top && at.y < self.bottom
     }
+
+    /// The window of these cells, which must be those of a cluster of the lowest level.
+    pub(crate) fn window(self, grid: &Grid) -> Window {
+        let Self { left, top, right, bottom } = self;
+        Window::new(grid, left, top, (right - left) as u32, (bottom - top) as u32)
+    }
 }
 
 impl Level {
-    /// A level without nodes. `unit` is the side of the clusters of the lowest level.
-    pub(crate) fn new(grid: &Grid, side: u32, unit: u32) -> Self {
+    /// A level without nodes. `lowest_side` is the side of the clusters of the lowest level.
+    ///
+    /// # Errors
+    /// [`HierarchyError::TooLarge`] for more nodes than can be addressed.
+    pub(crate) fn new(grid: &Grid, side: u32, lowest_side: u32) -> Result<Self, HierarchyError> {
         let [columns, rows] = [grid.width(), grid.height()].map(|cells| cells.div_ceil(side));
-        // On each of the four borders every other cell may be an entrance. On upper levels the corners of the clusters below may be nodes as well, which are joined with
-        // those beside them.
-        let on_border = if side == unit { unit.div_ceil(2) } else { unit.min(unit.div_ceil(2) + 2) };
-        let stride = 4 * (side / unit) * on_border;
-        let count = (columns * rows) as usize;
-        Self {
+        // On each of the four borders every other cell may be an entrance. On upper levels the corner cells
+        // of clusters of the lowest level may be nodes as well: they are joined with nodes beside them that
+        // end another transition.
+        let half = lowest_side.div_ceil(2);
+        let on_border = if side == lowest_side { half } else { lowest_side.min(half + 2) };
+        let stride = 4 * (side / lowest_side) * on_border;
+        let count = columns * rows;
+        let nodes = u64::from(count) * u64::from(stride);
+        check::address_space(nodes)?;
+        Ok(Self {
             side,
             columns,
             rows,
             stride,
-            nodes: vec![Node::UNUSED; count * stride as usize].into_boxed_slice(),
-            clusters: vec![Cluster::default(); count].into_boxed_slice(),
-        }
+            nodes: vec![Node::UNUSED; nodes as usize].into_boxed_slice(),
+            clusters: vec![Cluster::default(); count as usize].into_boxed_slice(),
+        })
     }
 
     /// The cluster of a vertex.
@@ -132,15 +115,16 @@ impl Level {
         at.y as u32 / self.side * self.columns + at.x as u32 / self.side
     }
 
-    /// Whether there is a cluster around a vertex.
-    const fn is_on(&self, at: Vertex) -> bool {
+    /// Whether a vertex is in a cluster. Those at the right and lower edge count in full, also beyond the
+    /// map.
+    const fn is_in_cluster(&self, at: Vertex) -> bool {
         at.x >= 0
             && at.y >= 0
             && at.x as u32 / self.side < self.columns
             && at.y as u32 / self.side < self.rows
     }
 
-    /// The cells of a cluster, as far as the map goes.
+    /// The cells of a cluster that are on the map.
     pub(crate) fn bounds(&self, cluster: u32, grid: &Grid) -> Bounds {
         let [left, top] = [cluster % self.columns, cluster / self.columns].map(|i| i * self.side);
         let right = (left + self.side).min(grid.width()) as i32;
@@ -148,7 +132,7 @@ impl Level {
         Bounds { left: left as i32, top: top as i32, right, bottom }
     }
 
-    /// The clusters beside one: left, right, above, below.
+    /// The neighbors of a cluster: left, right, above, below.
     pub(crate) fn neighbors(&self, cluster: u32) -> impl Iterator<Item = u32> + use<> {
         let (x, y) = (cluster % self.columns, cluster / self.columns);
         let beside = [(x > 0, cluster.wrapping_sub(1)), (x + 1 < self.columns, cluster + 1)];
@@ -159,14 +143,14 @@ impl Level {
 
     /// The number of the first node of a cluster.
     #[inline]
-    pub(crate) const fn first(&self, cluster: u32) -> u32 {
+    pub(crate) const fn first_node(&self, cluster: u32) -> u32 {
         cluster * self.stride
     }
 
     /// The nodes of a cluster, in the order of their numbers.
     #[inline]
     pub(crate) fn nodes_of(&self, cluster: u32) -> &[Node] {
-        let first = self.first(cluster) as usize;
+        let first = self.first_node(cluster) as usize;
         &self.nodes[first..first + self.clusters[cluster as usize].count as usize]
     }
 
@@ -175,22 +159,23 @@ impl Level {
         &self.nodes[id as usize]
     }
 
-    /// What it costs from a node to each of its cluster.
+    /// The costs from a node to each node of its cluster.
     #[inline]
-    pub(crate) fn row(&self, id: u32) -> &[Length] {
-        let Cluster { count, lengths } = &self.clusters[self.node(id).cluster as usize];
-        let (count, local) = (*count as usize, (id - self.first(self.node(id).cluster)) as usize);
-        &lengths[local * count..(local + 1) * count]
+    pub(crate) fn costs_from(&self, id: u32) -> &[FixedCost] {
+        let Cluster { count, costs } = &self.clusters[self.node(id).cluster as usize];
+        let (count, index) = (*count as usize, (id - self.first_node(self.node(id).cluster)) as usize);
+        &costs[index * count..(index + 1) * count]
     }
 
-    /// The number of a cell's node within its cluster.
-    pub(crate) fn find(&self, at: Vertex) -> Option<u32> {
+    /// The number of the node at a vertex, if there is one.
+    fn node_at(&self, at: Vertex) -> Option<u32> {
         let cluster = self.cluster_at(at);
-        let local = self.nodes_of(cluster).iter().position(|node| node.at() == at)?;
-        Some(self.first(cluster) + local as u32)
+        let index = self.nodes_of(cluster).iter().position(|node| node.at() == at)?;
+        Some(self.first_node(cluster) + index as u32)
     }
 
-    /// Replaces the nodes of a cluster. Whether they are others than before.
+    /// Replaces the nodes of a cluster by nodes at these cells, each with its node on the level below.
+    /// Returns whether that changed them.
     pub(crate) fn set_nodes(&mut self, cluster: u32, cells: &[(Vertex, u32)]) -> bool {
         let is_new = |node: &Node, &(at, below): &(Vertex, u32)| node.at() != at || node.below != below;
         let old = self.nodes_of(cluster);
@@ -198,7 +183,7 @@ impl Level {
             return false;
         }
         debug_assert!(cells.len() <= self.stride as usize, "cluster {cluster} has {} nodes", cells.len());
-        let first = self.first(cluster) as usize;
+        let first = self.first_node(cluster) as usize;
         let slots = &mut self.nodes[first..first + self.stride as usize];
         slots.fill(Node::UNUSED);
         for (slot, &(at, below)) in slots.iter_mut().zip(cells) {
@@ -208,33 +193,19 @@ impl Level {
         true
     }
 
-    /// Joins the nodes of a cluster with those beside them across its borders. These are the two ends of a transition, or in the corners of clusters ends of
-    /// different ones, between which there is a step as well.
-    pub(crate) fn link(&mut self, cluster: u32) {
-        let first = self.first(cluster);
+    /// Joins the nodes of a cluster with the nodes beside them across its borders: the two ends of a
+    /// transition, and in the corners of clusters also ends of different transitions, between which a step is
+    /// legal as well.
+    pub(crate) fn join_across(&mut self, cluster: u32) {
+        let first = self.first_node(cluster);
         for id in first..first + self.clusters[cluster as usize].count {
             let at = self.node(id).at();
             let mut across = [(-1, 0), (1, 0), (0, -1), (0, 1)]
                 .into_iter()
                 .map(|d| at + d.into())
-                .filter(|&other| self.is_on(other) && self.cluster_at(other) != cluster)
-                .filter_map(|other| self.find(other));
+                .filter(|&other| self.is_in_cluster(other) && self.cluster_at(other) != cluster)
+                .filter_map(|other| self.node_at(other));
             self.nodes[id as usize].across = [across.next(), across.next()].map(|id| id.unwrap_or(NONE));
         }
     }
-}
-
-/// The transitions across the border between a row (or column) of cells and the next one, of which `length` cells from `first` on belong to the clusters: a bit
-/// for each.
-pub(crate) fn transitions(here: u64, there: u64, length: u32) -> u64 {
-    let mut open = !(here | there) & low_bits(length);
-    let mut found = 0;
-    while open != 0 {
-        let first = open.trailing_zeros();
-        let width = (open >> first).trailing_ones();
-        let last = first + width - 1;
-        found |= if width < WIDE { 1 << ((first + last) / 2) } else { 1 << first | 1 << last };
-        open &= !(low_bits(width) << first);
-    }
-    found
 }

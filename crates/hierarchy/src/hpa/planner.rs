@@ -7,47 +7,56 @@ use mediant_moves::Cost;
 use mediant_search::{Guarantee, Observer, Outcome, Path, Planner, Query, QueryError, SearchTree};
 
 use super::{
-    graph::{ClusterGraph, window_of},
-    level::{Bounds, Length, Level, Node},
-    search::{End, Goal, search},
+    cluster_search::ClusterSearch,
+    fixed_cost::FixedCost,
+    graph::ClusterGraph,
+    level::{Bounds, Level, Node},
+    search::{Endpoint, Goal, search},
+    straighten::{Straighten, free_elbow},
 };
 use crate::{
     HierarchyError, check,
-    straighten::{Straighten, free, waypoints},
-    window::{Local, MAX_SIDE, insert},
+    waypoints::waypoints,
+    window::{MAX_SIDE, insert},
 };
 
 /// HPA* (Botea, Müller & Schaeffer 2004, 'Near Optimal Hierarchical Path-Finding'), with one or more levels.
 ///
-/// A query goes through what the paper has as Sections 3.3 to 3.5: start and goal are *inserted*, by what it costs from them to the nodes of their clusters; A* finds a way through
-/// the highest level on which they lie in different clusters; it is *refined* level by level, down to cells; and *smoothed* ([`with_straightening`](Self::with_straightening)).
-/// Where the paper's smoothing joins vertices on one straight line, this one joins them by what is shortest over N(k) on an empty grid, so that paths stay paths over N(k).
+/// A query goes through the steps of the paper's Sections 3.3 to 3.5. Start and goal are *inserted*: the
+/// costs from them to the nodes of their clusters are found. A* finds an abstract path on the highest level
+/// on which the two lie in different clusters. This path is *refined* level by level, down to cells. Last, it
+/// is *straightened* ([`with_straightening`](Self::with_straightening)): the paper's smoothing joins vertices
+/// on one straight line, this one joins vertices by a shortest path over N(k) on an empty grid, so that paths
+/// stay paths over N(k).
 ///
-/// `L` and `G` are how the planner holds the grid graph and its index: by reference or `Arc`; a planner that holds its index in a `Box` can [repair](Self::repair) it.
+/// `L` and `G` are how the planner holds the grid graph and its index: by reference or by `Arc`. A planner
+/// that holds its index in a `Box` can [repair](Self::repair) it.
 ///
-/// **Ties** are decided by the open lists' order (f, h, the number of node or cell); the same path and counts each time, on every platform. Events are those of all searches, on
-/// every level and within clusters; percolations those of the former. Scratch memory: 24 bytes for each number that a node may have (20 a cluster of 10 × 10 cells).
+/// **Ties** are decided by the order of the open lists: f, then h, then the number of the node or cell. Paths
+/// and counts are the same each time and on every platform. An observer gets the events of all searches, on
+/// every level and within clusters; percolations are counted only in the searches over levels. Scratch
+/// memory: 24 bytes for each number that a node may have (20 in a cluster of 10 × 10 cells).
 #[derive(Clone, Debug)]
 pub struct HpaStar<L, G> {
     grid_graph: L,
     graph: G,
     straightens: bool,
-    labels: SearchTree,
-    local: Local,
-    /// What it costs from the start, and to the goal, from each node of its cluster, level by level.
-    rows: [Vec<Vec<Length>>; 2],
-    /// The way through the graph: where it goes, and the nodes there.
-    chain: Vec<Stop>,
-    finer: Vec<Stop>,
+    tree: SearchTree,
+    cluster_search: ClusterSearch,
+    /// For the start and the goal: the costs between it and the nodes of its cluster, level by level.
+    endpoint_costs: [Vec<Vec<FixedCost>>; 2],
+    abstract_path: Vec<PathNode>,
+    /// The abstract path on the level below, while it is made.
+    refined: Vec<PathNode>,
     cells: Vec<Vertex>,
     straighten: Straighten,
 }
 
-/// A place on the way through a level.
+/// A node of an abstract path.
 #[derive(Clone, Copy, Debug)]
-struct Stop {
+struct PathNode {
     at: Vertex,
-    /// The node, or what stands for the start or the goal.
+    /// The number of the node, or that of the start or the goal.
     id: u32,
 }
 
@@ -56,22 +65,23 @@ where
     L: Deref<Target = GridGraph<Centers>>,
     G: Deref<Target = ClusterGraph>,
 {
-    /// A planner with scratch memory for `graph`, which must be the index of `grid_graph`.
+    /// A planner on `graph`, which must be the index of `grid_graph`; it straightens its paths.
     ///
     /// # Errors
-    /// [`HierarchyError`] when it is that of a map of another size or of other moves. That it is of this very map is not checked: with the index of another one a planner may give
-    /// up ([`QueryError::GaveUp`]), but its paths are legal.
+    /// [`HierarchyError`] for the index of a map of another size or of other moves. That the index is of this
+    /// very map is not checked: with another one's, a planner may give up ([`QueryError::GaveUp`]), but its
+    /// paths are legal.
     pub fn new(grid_graph: L, graph: G) -> Result<Self, HierarchyError> {
         check::grid_graph(graph.k, graph.size, &grid_graph)?;
         let nodes = graph.levels.iter().map(|level| level.nodes.len()).max().unwrap_or(0);
-        let rows = vec![Vec::new(); graph.levels.len()];
+        let costs = vec![Vec::new(); graph.levels.len()];
         Ok(Self {
             straightens: true,
-            labels: SearchTree::new(nodes + 2),
-            local: Local::new(graph.k),
-            rows: [rows.clone(), rows],
-            chain: Vec::new(),
-            finer: Vec::new(),
+            tree: SearchTree::new(nodes + 2),
+            cluster_search: ClusterSearch::new(graph.k),
+            endpoint_costs: [costs.clone(), costs],
+            abstract_path: Vec::new(),
+            refined: Vec::new(),
             cells: Vec::new(),
             straighten: Straighten::default(),
             grid_graph,
@@ -79,7 +89,7 @@ where
         })
     }
 
-    /// Whether paths are smoothed, as they are without this; else they are as refinement leaves them.
+    /// Whether the planner straightens its paths, or returns them unstraightened, as refinement leaves them.
     #[must_use]
     pub fn with_straightening(self, straightens: bool) -> Self {
         Self { straightens, ..self }
@@ -91,10 +101,11 @@ where
     L: Deref<Target = GridGraph<Centers>>,
     G: DerefMut<Target = ClusterGraph>,
 {
-    /// Goes on on a changed map: `grid_graph` differs from the one before only in the cells of a rectangle. Repairs the index, and keeps the scratch memory.
+    /// Changes the map: `grid_graph` may differ from the one before only in the cells of a rectangle. Repairs
+    /// the index, and keeps the scratch memory.
     ///
     /// # Errors
-    /// [`HierarchyError`] for a grid graph of another size or other moves; nothing is changed then.
+    /// [`HierarchyError`] for a grid graph of another size or of other moves; nothing is changed then.
     pub fn repair(&mut self, grid_graph: L, changed: Rectangle) -> Result<(), HierarchyError> {
         check::grid_graph(self.graph.k, self.graph.size, &grid_graph)?;
         self.graph.repair(grid_graph.grid(), changed)?;
@@ -119,22 +130,22 @@ where
         if start == goal {
             return Ok(Outcome::Found(Path::new(vec![start])));
         }
-        // The furthest that smoothing can reach, looked at first.
+        // A free path that costs h_k is the best that straightening can find: no search is needed.
         if self.straightens
-            && let Some(elbow) = free(&self.grid_graph, start, goal)
+            && let Some(elbow) = free_elbow(&self.grid_graph, start, goal)
         {
             let mut path = Vec::with_capacity(3);
             waypoints(&[start, elbow, goal], &mut path);
             return Ok(Outcome::Found(Path::new(path)));
         }
-        let apart = |level: &Level| level.cluster_at(start) != level.cluster_at(goal);
-        let top = self.graph.levels.iter().rposition(apart).unwrap_or(0);
+        let separates = |level: &Level| level.cluster_at(start) != level.cluster_at(goal);
+        let top = self.graph.levels.iter().rposition(separates).unwrap_or(0);
         let direct = self.insert(query, top, observer);
-        self.search(query, top, direct, observer).ok_or(STALE)?;
+        self.find_abstract_path(query, top, direct, observer).ok_or(STALE)?;
         for number in (0..top).rev() {
             self.refine(number, observer).ok_or(STALE)?;
         }
-        self.walk(observer).ok_or(STALE)?;
+        self.refine_to_cells(observer).ok_or(STALE)?;
         let path = if self.straightens {
             self.straighten.path(&self.grid_graph, &self.cells)
         } else {
@@ -150,138 +161,148 @@ where
     }
 }
 
+/// Each step but the first returns `None` where there is no path although the map has one: then the index is
+/// of another map.
 impl<L, G> HpaStar<L, G>
 where
     L: Deref<Target = GridGraph<Centers>>,
     G: Deref<Target = ClusterGraph>,
 {
-    /// Finds what it costs from start and goal to the nodes of their clusters, on the levels up to `top`, and from the one to the other within a cluster of the lowest.
-    fn insert(&mut self, query: Query, top: usize, observer: &mut impl Observer) -> Length {
+    /// Finds the costs from start and goal to the nodes of their clusters, on the levels up to `top`. Returns
+    /// the cost from one to the other within a cluster of the lowest level.
+    fn insert(&mut self, query: Query, top: usize, observer: &mut impl Observer) -> FixedCost {
         let direct = self.insert_lowest(0, query.start, Some(query.goal), observer);
         self.insert_lowest(1, query.goal, None, observer);
-        let Self { grid_graph, graph, labels, rows, .. } = self;
+        let Self { grid_graph, graph, tree, endpoint_costs, .. } = self;
         for number in 1..=top {
             let (below, level) = (&graph.levels[number - 1], &graph.levels[number]);
-            for (rows, at) in rows.iter_mut().zip([query.start, query.goal]) {
-                let (lower, upper) = rows.split_at_mut(number);
+            for (costs, at) in endpoint_costs.iter_mut().zip([query.start, query.goal]) {
+                let (lower, upper) = costs.split_at_mut(number);
                 let cluster = level.cluster_at(at);
                 let bounds = level.bounds(cluster, grid_graph.grid());
-                let end = End { cluster: below.cluster_at(at), row: &lower[number - 1] };
-                search(below, bounds, labels, |_| Cost::ZERO, end, None, observer);
-                let lengths = level.nodes_of(cluster).iter().map(|node| Length::of(labels.cost(node.below)));
+                let endpoint = Endpoint { cluster: below.cluster_at(at), costs: &lower[number - 1] };
+                search(below, bounds, tree, |_| Cost::ZERO, endpoint, None, observer);
+                let costs = level.nodes_of(cluster).iter().map(|node| FixedCost::new(tree.cost(node.below)));
                 upper[0].clear();
-                upper[0].extend(lengths);
+                upper[0].extend(costs);
             }
         }
         direct
     }
 
-    /// Finds what it costs from an end to the nodes of its cluster on the lowest level, and to `other` if that is there too.
+    /// Finds the costs from the start (`which` = 0) or the goal (1), which is `at`, to the nodes of its
+    /// cluster on the lowest level. Returns the cost to `other` if that is in the same cluster.
     fn insert_lowest(
         &mut self,
-        side: usize,
+        which: usize,
         at: Vertex,
         other: Option<Vertex>,
         observer: &mut impl Observer,
-    ) -> Length {
-        let Self { grid_graph, graph, local, rows, .. } = self;
+    ) -> FixedCost {
+        let Self { grid_graph, graph, cluster_search, endpoint_costs, .. } = self;
         let level = &graph.levels[0];
         let cluster = level.cluster_at(at);
         let bounds = level.bounds(cluster, grid_graph.grid());
         let other = other.filter(|&other| bounds.contains(other));
-        let ends = level.nodes_of(cluster).iter().map(Node::at).chain(other);
-        let row = &mut rows[side][0];
-        row.clear();
-        // Where nothing is in the way to any of them, there is nothing to search.
-        let clear = |to: Vertex| free(grid_graph, at, to).map(|_| graph.costs.distance(at.to(to)));
-        row.extend(ends.clone().map_while(clear).map(|cost| Length::of(Some(cost))));
-        if row.len() < ends.clone().count() {
-            let window = window_of(grid_graph.grid(), bounds);
-            let cells = ends.map(|end| window.cell(end));
-            let mut targets = [0; MAX_SIDE as usize];
-            cells.clone().for_each(|cell| insert(&mut targets, cell));
-            local.spread(&graph.costs, &window, window.cell(at), &targets, observer);
-            row.clear();
-            row.extend(cells.map(|cell| Length::of(local.cost(cell))));
+        let targets = level.nodes_of(cluster).iter().map(Node::at).chain(other);
+        let costs = &mut endpoint_costs[which][0];
+        costs.clear();
+        // Where a path of cost h_k is free to each of them, there is nothing to search.
+        let cost = |to: Vertex| free_elbow(grid_graph, at, to).map(|_| graph.costs.distance(at.to(to)));
+        costs.extend(targets.clone().map_while(cost).map(|cost| FixedCost::new(Some(cost))));
+        if costs.len() < targets.clone().count() {
+            let window = bounds.window(grid_graph.grid());
+            let cells = targets.map(|target| window.cell(target));
+            let mut set = [0; MAX_SIDE as usize];
+            cells.clone().for_each(|cell| insert(&mut set, cell));
+            cluster_search.flood(&graph.costs, &window, window.cell(at), &set, observer);
+            costs.clear();
+            costs.extend(cells.map(|cell| FixedCost::new(cluster_search.cost(cell))));
         }
-        other.and_then(|_| row.pop()).unwrap_or(Length::NONE)
+        other.and_then(|_| costs.pop()).unwrap_or(FixedCost::NONE)
     }
 
-    /// Finds the way through the graph on level `top`.
-    fn search(
+    /// Finds the abstract path on level `top`.
+    fn find_abstract_path(
         &mut self,
         query: Query,
         top: usize,
-        direct: Length,
+        direct: FixedCost,
         observer: &mut impl Observer,
     ) -> Option<()> {
-        let Self { graph, labels, rows, chain, .. } = self;
+        let Self { graph, tree, endpoint_costs, abstract_path, .. } = self;
         let Query { start, goal } = query;
         let level = &graph.levels[top];
-        let end = |side: usize, at: Vertex| End { cluster: level.cluster_at(at), row: &rows[side][top] };
-        let to = Goal { end: end(1, goal), direct };
+        let [from, to] = [(start, 0), (goal, 1)].map(|(at, which)| Endpoint {
+            cluster: level.cluster_at(at),
+            costs: &endpoint_costs[which][top],
+        });
+        let to = Goal { endpoint: to, direct };
         let estimate = |at: Vertex| graph.costs.distance(at.to(goal));
-        chain.clear();
-        chain.push(Stop { at: start, id: level.start_id() });
-        search(level, Bounds::ALL, labels, estimate, end(0, start), Some(to), observer)
-            .then(|| trace(level, labels, goal, chain))
+        abstract_path.clear();
+        abstract_path.push(PathNode { at: start, id: level.start_id() });
+        search(level, Bounds::ALL, tree, estimate, from, Some(to), observer)
+            .then(|| append_path(level, tree, goal, abstract_path))
     }
 
-    /// Replaces the way through a level by one through the level below it, `number`.
+    /// Replaces the abstract path by one on the level below it, `number`: within each cluster that it
+    /// crosses, by a shortest.
     fn refine(&mut self, number: usize, observer: &mut impl Observer) -> Option<()> {
-        let Self { grid_graph, graph, labels, rows, chain, finer, .. } = self;
+        let Self { grid_graph, graph, tree, endpoint_costs, abstract_path, refined, .. } = self;
         let (below, level) = (&graph.levels[number], &graph.levels[number + 1]);
-        // Where a stop is on the level below: what it costs from there to the nodes of its cluster, and which of these it is, if it is one.
-        let end = |stop: Stop| {
-            let cluster = below.cluster_at(stop.at);
-            let node = (stop.id < level.start_id()).then(|| level.node(stop.id).below);
-            let row = match node {
-                Some(id) => below.row(id),
-                None => &rows[usize::from(stop.id == level.goal_id())][number],
+        // A node of the path as an endpoint on the level below; and its index in its cluster there, if it is
+        // not start or goal.
+        let endpoint = |path_node: PathNode| {
+            let cluster = below.cluster_at(path_node.at);
+            let node = (path_node.id < level.start_id()).then(|| level.node(path_node.id).below);
+            let costs = match node {
+                Some(id) => below.costs_from(id),
+                None => &endpoint_costs[usize::from(path_node.id == level.goal_id())][number],
             };
-            (End { cluster, row }, node.map(|id| (id - below.first(cluster)) as usize))
+            (Endpoint { cluster, costs }, node.map(|id| (id - below.first_node(cluster)) as usize))
         };
-        let finer_stop = |stop: Stop| match stop.id {
-            id if id == level.start_id() => Stop { id: below.start_id(), ..stop },
-            id if id == level.goal_id() => Stop { id: below.goal_id(), ..stop },
-            id => Stop { id: level.node(id).below, ..stop },
+        let on_level_below = |node: PathNode| match node.id {
+            id if id == level.start_id() => PathNode { id: below.start_id(), ..node },
+            id if id == level.goal_id() => PathNode { id: below.goal_id(), ..node },
+            id => PathNode { id: level.node(id).below, ..node },
         };
-        finer.clear();
-        finer.extend(chain.first().map(|&stop| finer_stop(stop)));
-        for stops in chain.windows(2) {
-            let [from, to] = [stops[0], stops[1]];
+        refined.clear();
+        refined.extend(abstract_path.first().map(|&node| on_level_below(node)));
+        for edge in abstract_path.windows(2) {
+            let [from, to] = [edge[0], edge[1]];
             let cluster = level.cluster_at(from.at);
             if cluster == level.cluster_at(to.at) {
-                let ((start, start_node), (goal, goal_node)) = (end(from), end(to));
-                // One of the two is a node, and what is known of the other holds both ways.
-                let direct = match (start.cluster == goal.cluster, start_node, goal_node) {
-                    (true, _, Some(node)) => start.row[node],
-                    (true, Some(node), None) => goal.row[node],
-                    _ => Length::NONE,
+                let ((start, start_index), (goal, goal_index)) = (endpoint(from), endpoint(to));
+                // At least one of the two is a node; costs hold in both directions.
+                let direct = match (start.cluster == goal.cluster, start_index, goal_index) {
+                    (true, _, Some(index)) => start.costs[index],
+                    (true, Some(index), None) => goal.costs[index],
+                    _ => FixedCost::NONE,
                 };
                 let bounds = level.bounds(cluster, grid_graph.grid());
                 let estimate = |at: Vertex| graph.costs.distance(at.to(to.at));
-                let goal = Goal { end: goal, direct };
-                if !search(below, bounds, labels, estimate, start, Some(goal), observer) {
+                let goal = Goal { endpoint: goal, direct };
+                if !search(below, bounds, tree, estimate, start, Some(goal), observer) {
                     return None;
                 }
-                trace(below, labels, to.at, finer);
-                finer.pop();
+                append_path(below, tree, to.at, refined);
+                refined.pop();
             }
-            finer.push(finer_stop(to));
+            refined.push(on_level_below(to));
         }
-        std::mem::swap(chain, finer);
+        std::mem::swap(abstract_path, refined);
         Some(())
     }
 
-    /// Walks the way through the lowest level: straight where that is free, else cell by cell.
-    fn walk(&mut self, observer: &mut impl Observer) -> Option<()> {
-        let Self { grid_graph, graph, local, chain, cells, .. } = self;
+    /// Refines the abstract path of the lowest level to cells: each edge to a path that turns once if that is
+    /// free, else to a shortest path within the cluster.
+    fn refine_to_cells(&mut self, observer: &mut impl Observer) -> Option<()> {
+        let Self { grid_graph, graph, cluster_search, abstract_path, cells, .. } = self;
         let (level, grid) = (&graph.levels[0], grid_graph.grid());
         cells.clear();
-        cells.extend(chain.first().map(|stop| stop.at));
-        for legs in chain.windows(2) {
-            let [from, to] = [legs[0].at, legs[1].at];
+        cells.extend(abstract_path.first().map(|node| node.at));
+        for edge in abstract_path.windows(2) {
+            let [from, to] = [edge[0].at, edge[1].at];
             let cluster = level.cluster_at(from);
             if !grid_graph.is_free(to) {
                 return None;
@@ -290,19 +311,19 @@ where
                 cells.push(to);
                 continue;
             }
-            if let Some(elbow) = free(grid_graph, from, to) {
+            if let Some(elbow) = free_elbow(grid_graph, from, to) {
                 cells.extend([elbow, to]);
                 continue;
             }
-            // From the end, so that the parents lead there.
-            let window = window_of(grid, level.bounds(cluster, grid));
+            // Searched backward, so that the parents lead forward.
+            let window = level.bounds(cluster, grid).window(grid);
             let [first, last] = [from, to].map(|at| window.cell(at));
-            if !local.path(&graph.costs, &window, last, first, observer) {
+            if !cluster_search.path(&graph.costs, &window, last, first, observer) {
                 return None;
             }
             let mut cell = first;
             while cell != last {
-                cell = local.parent(cell);
+                cell = cluster_search.parent(cell);
                 cells.push(window.vertex(cell));
             }
         }
@@ -310,14 +331,14 @@ where
     }
 }
 
-/// Adds the stops after the start of the last search, up to its goal.
-fn trace(level: &Level, labels: &SearchTree, goal: Vertex, stops: &mut Vec<Stop>) {
-    let first = stops.len();
-    stops.push(Stop { at: goal, id: level.goal_id() });
+/// Appends the path of the last search: what comes after its start, up to its goal.
+fn append_path(level: &Level, tree: &SearchTree, goal: Vertex, path: &mut Vec<PathNode>) {
+    let first = path.len();
+    path.push(PathNode { at: goal, id: level.goal_id() });
     let mut id = level.goal_id();
-    while let Some((parent, ())) = labels.parent(id).filter(|&(parent, ())| parent != level.start_id()) {
-        stops.push(Stop { at: level.node(parent).at(), id: parent });
+    while let Some((parent, ())) = tree.parent(id).filter(|&(parent, ())| parent != level.start_id()) {
+        path.push(PathNode { at: level.node(parent).at(), id: parent });
         id = parent;
     }
-    stops[first..].reverse();
+    path[first..].reverse();
 }

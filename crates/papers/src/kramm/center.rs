@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use mediant_engines::{Prebuilt, Solver};
+use mediant_engines::{BoxedPlanner, SharedRules};
 use mediant_grid::{AsciiMap, DiagonalGap, Grid, Vertex};
 use mediant_oracle::Visibility;
 use mediant_report::GridDrawing;
@@ -37,9 +37,10 @@ impl Worst {
     /// An optimal path over N(k), as A* finds it, in cells: the center of the first cell is (0.5, 0.5).
     pub(super) fn path(&self, k: u32) -> Result<Vec<(f64, f64)>, Error> {
         let wrong = |wrong: &dyn std::fmt::Display| Error::Reproduce(format!("Figure 6, k = {k}: {wrong}"));
-        let mut solver = Solver::new(setup(&format!("astar:{k}:one"))?, &self.grid, Prebuilt::default())
-            .map_err(|error| wrong(&error))?;
-        let outcome = solver.solve(Query::new(self.start, self.goal)).map_err(|error| wrong(&error))?;
+        let setup = setup(&format!("astar:{k}:one"))?;
+        let mut planner =
+            BoxedPlanner::new(setup, &self.grid, &SharedRules::new()).map_err(|error| wrong(&error))?;
+        let outcome = planner.solve(Query::new(self.start, self.goal)).map_err(|error| wrong(&error))?;
         let path = outcome.path().ok_or_else(|| wrong(&"no path"))?;
         Ok(path.waypoints().iter().map(|at| (f64::from(at.x) + 0.5, f64::from(at.y) + 0.5)).collect())
     }

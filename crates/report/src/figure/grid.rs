@@ -1,23 +1,26 @@
-//! Small maps with paths.
+//! Drawings of small maps with paths.
 
 use std::{collections::BTreeMap, fmt::Write};
 
 use mediant_grid::Grid;
 
 use super::{
-    canvas::{Canvas, MARGIN, Point, Rect, WIDTH},
+    canvas::{Canvas, MARGIN, WIDTH},
+    geometry::{Point, Rect},
     legend::{Legend, Sample, badge},
     style::Style,
 };
 
 const TALLEST: f64 = 560.0;
 const LARGEST_CELL: f64 = 40.0;
-/// Smaller cells are not outlined, and waypoints not marked.
+/// With smaller cells, neither the cells are outlined nor the points of the paths marked.
 const OUTLINED: f64 = 8.0;
 
-/// A map with paths: blocked cells filled, free ones outlined, where paths begin and end marked S and G.
+/// A drawing of a map with paths. Blocked cells are filled, free ones outlined. S and G mark where paths
+/// begin and end.
 ///
-/// Paths that share a segment stay visible: the first is the widest, and each lies on those before it.
+/// Paths that share a segment all stay visible: the first is the widest, and each is drawn over those before
+/// it.
 ///
 /// ```
 /// use mediant_grid::AsciiMap;
@@ -47,14 +50,15 @@ impl GridDrawing {
         Self { title: title.into(), note: None, width, height, blocked: rectangles(grid), paths: Vec::new() }
     }
 
-    /// The same with a line under the title.
+    /// The same drawing with a line under the title.
     #[must_use]
     pub fn note(self, note: impl Into<String>) -> Self {
         Self { note: Some(note.into()), ..self }
     }
 
-    /// The same with a path through these points, in cells: (0, 0) is the upper left corner of the map, (0.5, 0.5) the center
-    /// of its first cell. A point that is not finite is left out, one beyond the map is moved to its border.
+    /// The same drawing with a path through these points, in cells: (0, 0) is the upper left corner of the
+    /// map, (0.5, 0.5) the center of its first cell. A point that is not finite is left out; a point outside
+    /// the map is moved to its border.
     #[must_use]
     pub fn path(mut self, name: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let finite = points.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite());
@@ -96,7 +100,7 @@ impl GridDrawing {
         canvas.finish(&self.title, &self.description(), page, top + height + MARGIN)
     }
 
-    /// Pixels a cell: whole ones where that is possible, so that lines are sharp.
+    /// The side of a cell in pixels: a whole number if it is at least 1, so that lines are sharp.
     fn cell(&self) -> f64 {
         let most = ((WIDTH - 2.0 * MARGIN) / self.width).min(TALLEST / self.height).min(LARGEST_CELL);
         if most >= 1.0 { most.floor() } else { ((most * 100.0).floor() / 100.0).max(0.01) }
@@ -129,7 +133,7 @@ impl GridDrawing {
         (2.0 + 1.75 * (self.paths.len() - 1 - index) as f64).min(6.0)
     }
 
-    /// The radius of the markers: they show on their line.
+    /// The radius of the markers, which are wider than their line.
     fn marker(&self, index: usize, cell: f64) -> f64 {
         (cell / 6.0).clamp(2.5, 4.0).max(0.7 * self.line_width(index) + 1.0)
     }
@@ -147,7 +151,7 @@ impl GridDrawing {
         }
     }
 
-    /// The ends of the paths, each place once; where a goal is a start as well, the start is seen.
+    /// The ends of the paths, each place once. A place that is both start and goal is marked as a start.
     fn ends(&self) -> Vec<(&'static str, Point)> {
         let starts = self.paths.iter().filter_map(|(_, points)| Some(("S", *points.first()?)));
         let goals = self.paths.iter().filter_map(|(_, points)| Some(("G", *points.last()?)));
@@ -178,7 +182,8 @@ impl GridDrawing {
     }
 }
 
-/// The blocked cells as a path of rectangles in cells: runs of a row, joined with equal runs above.
+/// The blocked cells as an SVG path of rectangles, in cells. Equal runs of cells in consecutive rows make one
+/// rectangle.
 fn rectangles(grid: &Grid) -> String {
     let mut d = String::new();
     let mut open: BTreeMap<(i32, i32), i32> = BTreeMap::new();
@@ -198,7 +203,7 @@ fn rectangles(grid: &Grid) -> String {
     d
 }
 
-/// The blocked cells of a row, as half-open intervals from left to right.
+/// The runs of blocked cells in a row, as half-open intervals from left to right.
 fn runs(grid: &Grid, y: i32, width: i32) -> Vec<(i32, i32)> {
     let mut runs = Vec::new();
     let mut x = 0;

@@ -1,17 +1,21 @@
-//! Where the text beside points goes.
+//! Places texts beside points.
 
-use super::canvas::{Point, Rect, SMALL, text_width};
+use super::{
+    geometry::{Point, Rect},
+    text::{SMALL, text_width},
+};
 
 const HEIGHT: f64 = 11.0;
-/// The distances from the marker that are tried; beyond the first a thin line leads back to the point.
+/// The distances from the marker that are tried. From all but the first, a thin line leads to the point.
 const DISTANCES: [f64; 4] = [3.0, 12.0, 22.0, 34.0];
-/// Right, left, above, below, and the diagonals: what a reader looks at first.
+/// The directions that are tried: right, left, above, below, and the diagonals, as a reader looks for a
+/// label.
 const SIDES: [Point; 8] =
     [(1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (0.0, 1.0), (0.8, -0.8), (0.8, 0.8), (-0.8, -0.8), (-0.8, 0.8)];
-/// How often each label may move again, once it is known where the others are.
+/// How often each label is placed; from the second time on, all others have places.
 const ROUNDS: usize = 3;
 
-// What is bad about a place. A hidden marker is worst; a crossed line can still be followed.
+// The costs of a place. A hidden marker is worse than a crossed line, which can still be followed.
 const ON_MARKER: f64 = 20.0;
 const ON_LABEL: f64 = 8.0;
 const ON_LINE: f64 = 1.0;
@@ -19,7 +23,7 @@ const OUTSIDE: f64 = 1000.0;
 const LEADER_ON_BOX: f64 = 10.0;
 const FAR: f64 = 4.0;
 
-/// A text to place beside a marker.
+/// A text that is to be placed beside a marker.
 #[derive(Clone, Debug)]
 pub(super) struct Label<'a> {
     pub(super) at: Point,
@@ -27,16 +31,18 @@ pub(super) struct Label<'a> {
     pub(super) text: &'a str,
 }
 
-/// Where a text is, and whether a line has to lead to it.
+/// The place of a text, and whether it is so far that a line has to lead to it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub(super) rect: Rect,
     pub(super) far: bool,
 }
 
-/// Gives each label the best of a few places, in the order of the labels, and again with all others in place.
+/// Gives each label the cheapest of a few places, in the order of the labels, then again with all others in
+/// place.
 ///
-/// To place as many labels as possible without an overlap is NP-hard; a figure has few.
+/// To place as many labels as possible without overlaps is NP-hard; this heuristic is enough for the few
+/// labels of a figure.
 #[derive(Clone, Debug)]
 pub(super) struct Placer {
     inside: Rect,
@@ -49,19 +55,19 @@ impl Placer {
         Self { inside, boxes: Vec::new(), lines: Vec::new() }
     }
 
-    /// SearchTree should not cover this marker.
+    /// Labels should not cover this marker.
     pub(super) fn avoid_marker(&mut self, at: Point, radius: f64) {
         self.boxes.push((Rect::around(at, radius + 1.0), ON_MARKER));
     }
 
-    /// SearchTree should not cover this line.
+    /// Labels should not cover this line.
     pub(super) fn avoid_line(&mut self, points: &[Point]) {
         self.lines.extend(points.windows(2).map(|ends| [ends[0], ends[1]]));
     }
 
     pub(super) fn place(&self, labels: &[Label<'_>]) -> Vec<Place> {
         let mut places: Vec<Option<Place>> = vec![None; labels.len()];
-        // Fonts differ: a little more than the text.
+        // A little wider than the text, since fonts differ.
         let widths: Vec<f64> = labels.iter().map(|label| text_width(label.text, SMALL) + 3.0).collect();
         let nearby: Vec<Self> = labels
             .iter()
@@ -89,7 +95,7 @@ impl Placer {
             if ring > 0 && cost < best.0 {
                 cost += self.leader_cost(label, rect);
             }
-            // By more than rounding: of equal places the first.
+            // Cheaper by more than rounding errors: of equal places, the first one wins.
             if cost < best.0 - 1e-6 {
                 best = (cost, Place { rect, far: ring > 0 });
             }
@@ -97,7 +103,7 @@ impl Placer {
         best.1
     }
 
-    /// The same with only what is in that area.
+    /// The same placer with only the boxes and lines in that area.
     fn within(&self, area: Rect) -> Self {
         let boxes = self.boxes.iter().filter(|(rect, _)| rect.overlap(area) > 0.0).copied().collect();
         let lines = self.lines.iter().filter(|line| area.clip(**line).is_some()).copied().collect();
@@ -111,11 +117,11 @@ impl Placer {
         boxes.sum::<f64>() + lines.sum::<f64>() + OUTSIDE * outside
     }
 
-    /// What the line from the marker to a far text crosses.
+    /// The cost of what the line from the marker to a far text crosses.
     fn leader_cost(&self, label: &Label<'_>, rect: Rect) -> f64 {
         let (x, y) = label.at;
         let (to_x, to_y) = rect.nearest(label.at);
-        // Beyond the marker's own box.
+        // The line starts outside the marker's own box.
         let start = (label.radius + 4.0) / (to_x - x).hypot(to_y - y).max(label.radius + 4.0);
         let leader = [(x + start * (to_x - x), y + start * (to_y - y)), (to_x, to_y)];
         self.boxes.iter().map(|(taken, _)| LEADER_ON_BOX * length_in(*taken, leader)).sum()

@@ -1,8 +1,10 @@
-//! Legends: what each color, marker and dash stands for.
+//! Legends, which say what each color, marker and dash stands for.
 
 use super::{
-    canvas::{Anchor, Canvas, LINE, Point, TEXT, text_width, wrap},
+    canvas::{Anchor, Canvas},
+    geometry::Point,
     style::Marker,
+    text::{LINE, TEXT, text_width, wrap},
 };
 
 const LINE_SAMPLE: f64 = 30.0;
@@ -11,10 +13,10 @@ const GAP: f64 = 8.0;
 const BETWEEN_ENTRIES: f64 = 5.0;
 const BETWEEN_COLUMNS: f64 = 24.0;
 
-/// What stands before a name.
+/// The sample before the name of an entry.
 #[derive(Clone, Debug)]
 pub(super) enum Sample {
-    /// The classes of a line, its width where the class does not say it, and the classes of a marker.
+    /// The classes of a line, its width if not that of the class, and a marker with its classes.
     Curve { line: Option<String>, width: Option<f64>, marker: Option<(Marker, String)> },
     /// A letter in a disk.
     Badge(&'static str),
@@ -25,7 +27,7 @@ impl Sample {
         if matches!(self, Self::Curve { line: Some(_), .. }) { LINE_SAMPLE } else { MARK_SAMPLE }
     }
 
-    /// Draws it in that width from `(x, y)` on.
+    /// Draws the sample at the right of `(x, y)`, in a room of width `whole`.
     fn draw(&self, canvas: &mut Canvas, (x, y): Point, whole: f64) {
         let middle = (x + whole / 2.0, y);
         match self {
@@ -43,7 +45,7 @@ impl Sample {
     }
 }
 
-/// A letter in a disk.
+/// Draws a letter in a disk.
 pub(super) fn badge(canvas: &mut Canvas, at: Point, letter: &str) {
     canvas.circle("badge", at, 8.0);
     canvas.text("onbadge", Anchor::Middle, (at.0, at.1 + 4.0), letter);
@@ -54,12 +56,12 @@ pub(super) fn badge(canvas: &mut Canvas, at: Point, letter: &str) {
 pub(super) struct Legend {
     entries: Vec<(Sample, Vec<String>)>,
     sample: f64,
-    /// Of the widest entry.
+    /// The width of the widest entry.
     pub(super) width: f64,
 }
 
 impl Legend {
-    /// A legend whose entries are at most that wide. Those without a name are left out.
+    /// A legend with entries of at most this width. Entries without a name are left out.
     pub(super) fn new(entries: impl Iterator<Item = (String, Sample)>, width: f64) -> Self {
         let entries: Vec<(String, Sample)> = entries.collect();
         let sample = entries.iter().map(|(_, sample)| sample.width()).fold(0.0, f64::max);
@@ -72,7 +74,7 @@ impl Legend {
         Self { entries, sample, width }
     }
 
-    /// How many columns fit in that width.
+    /// The number of columns that fit into this width.
     pub(super) fn columns(&self, width: f64) -> usize {
         let columns = (width + BETWEEN_COLUMNS) / (self.width + BETWEEN_COLUMNS);
         (columns as usize).clamp(1, self.entries.len().max(1))
@@ -82,7 +84,7 @@ impl Legend {
         self.entries.chunks(columns).map(row_height).sum()
     }
 
-    /// Draws it row by row, `at` its upper left corner.
+    /// Draws the legend row by row. `at` is its upper left corner.
     pub(super) fn draw(&self, canvas: &mut Canvas, at: Point, columns: usize) {
         let mut y = at.1;
         for row in self.entries.chunks(columns) {

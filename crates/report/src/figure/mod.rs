@@ -1,26 +1,35 @@
 //! Figures as SVG text: charts, maps with paths, decomposition trees.
 //!
-//! **The key decision: we write the SVG ourselves and use no plotting library.** A figure is one file in the repository next to
-//! the numbers that it shows. It follows the page's light or dark scheme, which takes a style sheet inside the file; a new run
-//! that finds the same numbers writes the same bytes, so that a changed figure is a changed result; it carries no raster and no
-//! font; and what the reproductions draw (points, lines, bounds, small maps, trees) takes a few hundred lines.
+//! **The key decision: we write the SVG ourselves and use no plotting library.** A figure is one file in the
+//! repository, next to the numbers that it shows, and must be fit for that. It follows the page's light or
+//! dark scheme, by a style sheet inside the file. The same numbers give the same bytes, so that a changed
+//! figure is a changed result. It has no raster image and no font. What the reproductions draw (points,
+//! lines, bounds, small maps, trees) needs no more than this module.
 //!
-//! Series differ in color (Okabe and Ito's eight, which color-blind readers tell apart), in marker and in dash.
+//! Series differ in color (the eight of Okabe and Ito, which color-blind readers can tell apart), in marker
+//! and in dash.
 //!
 //! What is not here: interaction, error bars, surfaces.
 
 mod axis;
 mod canvas;
 mod chart;
+mod geometry;
 mod grid;
 mod labels;
 mod legend;
 mod number;
 mod plot;
+mod series;
+mod sheet;
+mod span;
 mod style;
+mod text;
+mod ticks;
 mod tree;
 
 pub use axis::{Axis, Scale};
-pub use chart::{Chart, Mark, Series};
+pub use chart::Chart;
 pub use grid::GridDrawing;
+pub use series::{Mark, Series};
 pub use tree::TreeDrawing;

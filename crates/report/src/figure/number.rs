@@ -1,21 +1,18 @@
 //! Numbers as text on axes.
 
-/// With this many decimals and a comma at each third digit before the point: −1,234.50.
+use crate::number::grouped;
+
+/// A number with this many decimals, and a comma between thousands: −1,234.50.
 pub(super) fn decimal(value: f64, decimals: usize) -> String {
     let text = format!("{:.decimals$}", value.abs());
     let (whole, rest) = text.split_at(text.find('.').unwrap_or(text.len()));
-    let mut grouped = String::new();
-    for (i, digit) in whole.chars().enumerate() {
-        if i > 0 && (whole.len() - i) % 3 == 0 {
-            grouped.push(',');
-        }
-        grouped.push(digit);
-    }
     let is_zero = text.chars().all(|c| matches!(c, '0' | '.'));
-    format!("{}{grouped}{rest}", if value < 0.0 && !is_zero { "−" } else { "" })
+    let sign = if value < 0.0 && !is_zero { "−" } else { "" };
+    format!("{sign}{}{rest}", grouped(whole))
 }
 
-/// 2.5×10⁹; 10⁹ where the first factor is 1.
+/// A number in scientific notation, with at most this many decimals: 2.5×10⁹, or 10⁹ if the first factor is
+/// 1.
 pub(super) fn scientific(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$e}");
     let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
@@ -29,7 +26,8 @@ pub(super) fn scientific(value: f64, decimals: usize) -> String {
     }
 }
 
-/// A number by itself, rounded to three digits or to a whole number.
+/// A number rounded to three digits or to a whole number, in scientific notation if it is very small or
+/// large.
 pub(super) fn plain(value: f64) -> String {
     let exponent = exponent(value);
     if !(-4..7).contains(&exponent) {

@@ -1,32 +1,43 @@
-//! Draws a chart: lays out its frame, then axes, lines, markers, labels and legend, in this order.
+//! Draws a chart: computes its layout, then draws axes, lines, markers, labels and legend, in this order.
 
 use super::{
-    axis::{Axis, Span},
-    canvas::{Anchor, Canvas, LINE, MARGIN, Point, Rect, SMALL, TEXT, WIDTH, text_width, wrap},
-    chart::{Chart, Styled},
+    axis::Axis,
+    canvas::{Anchor, Canvas, MARGIN, WIDTH},
+    chart::Chart,
+    geometry::{Point, Rect},
     labels::{Label, Placer},
     legend::Legend,
+    series::{Styled, styled},
+    span::Span,
+    text::{LINE, SMALL, TEXT, text_width, wrap},
+    ticks::{Ticks, cut, thinned, widest_name, with_ends},
 };
 
 const HEIGHT: f64 = 390.0;
-/// With more entries the legend is below the plot.
+/// A legend with more entries is below the plot, not beside it.
 const MOST_BESIDE: usize = 14;
 const WIDEST_BESIDE: f64 = 210.0;
 const TICK: f64 = 5.0;
-/// Of a tick: more is cut.
+/// The widest name of a tick: a wider one is cut.
 const LONGEST_NAME: f64 = 180.0;
 
-type Ticks = Vec<(f64, String)>;
+impl Chart {
+    /// The chart as a whole SVG file.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        Plot::new(self, &styled(&self.series)).svg()
+    }
+}
 
-/// A point that is drawn.
+/// A point of a series in the figure.
 #[derive(Clone, Copy, Debug)]
 struct Placed {
     at: Point,
     clamped: bool,
 }
 
-/// A chart with the places of all its parts.
-pub(super) struct Plot<'a> {
+/// A chart with its layout.
+struct Plot<'a> {
     chart: &'a Chart,
     series: &'a [Styled<'a>],
     canvas: Canvas,
@@ -43,12 +54,12 @@ pub(super) struct Plot<'a> {
 }
 
 impl<'a> Plot<'a> {
-    pub(super) fn new(chart: &'a Chart, series: &'a [Styled<'a>]) -> Self {
+    fn new(chart: &'a Chart, series: &'a [Styled<'a>]) -> Self {
         let mut canvas = Canvas::default();
         let top = canvas.header(&chart.title, chart.note.as_deref(), WIDTH) + 4.0;
         let beside = series.len() <= MOST_BESIDE;
         let widest = if beside { WIDEST_BESIDE } else { WIDTH - 2.0 * MARGIN };
-        let legend = Legend::new(Chart::entries(series), widest);
+        let legend = Legend::new(series.iter().map(Styled::entry), widest);
         let points = || series.iter().flat_map(|styled| &styled.series.points);
         let finite = || points().filter(|(x, y)| x.is_finite() && y.is_finite());
         let x = Span::new(&chart.x, finite().map(|(x, _)| *x), false);
@@ -77,7 +88,7 @@ impl<'a> Plot<'a> {
             + 9.0
             + TICK
             + 3.0
-            + widest_of(&plot.y_ticks).min(LONGEST_NAME);
+            + widest_name(&plot.y_ticks).min(LONGEST_NAME);
         plot.frame.x = left;
         plot.frame.width = (WIDTH - left - right).max(100.0);
         plot.x_label = wrap(&chart.x.label, TEXT, plot.frame.width);
@@ -85,7 +96,7 @@ impl<'a> Plot<'a> {
         plot
     }
 
-    /// Names that do not fit side by side stand upright.
+    /// Places the ticks of the x axis. Given names that do not fit side by side are turned upright.
     fn lay_x_ticks(&mut self, axis: &Axis) {
         let width = self.frame.width;
         let ticks = with_ends(self.x.ticks(axis, width, None), &self.x, self.clamps(false), width);
@@ -97,7 +108,7 @@ impl<'a> Plot<'a> {
         self.x_ticks = if self.turned { thinned(ticks, width, |_| 13.0) } else { flat };
     }
 
-    /// Whether markers are drawn at the low and at the high end that do not belong there.
+    /// Whether markers are clamped to the low and to the high end.
     fn clamps(&self, vertical: bool) -> [bool; 2] {
         let span = if vertical { &self.y } else { &self.x };
         let points = self.series.iter().filter(|styled| !styled.is_reference());
@@ -107,7 +118,7 @@ impl<'a> Plot<'a> {
         fractions.fold([false; 2], |[low, high], at| [low || is_below(at), high || is_above(at)])
     }
 
-    pub(super) fn svg(mut self) -> String {
+    fn svg(mut self) -> String {
         self.axes();
         self.axis_labels();
         let placed: Vec<Vec<Option<Placed>>> = self.series.iter().map(|styled| self.placed(styled)).collect();
@@ -133,9 +144,9 @@ impl<'a> Plot<'a> {
         self.canvas.finish(&self.chart.title, &self.chart.description(), WIDTH, height + MARGIN / 2.0)
     }
 
-    /// The y below the label of the x axis.
+    /// The y coordinate below the label of the x axis.
     fn below(&self) -> f64 {
-        let names = if self.turned { widest_of(&self.x_ticks).min(LONGEST_NAME) } else { TEXT };
+        let names = if self.turned { widest_name(&self.x_ticks).min(LONGEST_NAME) } else { TEXT };
         self.frame.bottom() + TICK + 4.0 + names + 8.0 + LINE * self.x_label.len() as f64
     }
 
@@ -187,14 +198,15 @@ impl<'a> Plot<'a> {
         (self.frame.x + x * self.frame.width, self.frame.bottom() - y * self.frame.height)
     }
 
-    /// The places of a series' points, none for those that are not finite.
+    /// The places of a series' points; `None` for those that are not finite.
     fn placed(&self, styled: &Styled<'_>) -> Vec<Option<Placed>> {
         let place = |&(x, y): &(f64, f64)| {
             let (x, y) = Some((x, y)).filter(|(x, y)| x.is_finite() && y.is_finite())?;
             let (x, y) = (self.x.fraction(x), self.y.fraction(y));
             let clamped = [x, y].into_iter().any(|at| is_below(at) || is_above(at));
             if styled.is_reference() {
-                // Not clamped but cut later: a bound keeps its slope. Below a logarithm is the low end.
+                // A reference is not clamped, but cut later, so that it keeps its slope. What has no
+                // logarithm is at the low end.
                 let at = [x, y].map(|at| if at == f64::NEG_INFINITY { 0.0 } else { at });
                 return Some(Placed { at: self.at((at[0], at[1])), clamped });
             }
@@ -233,7 +245,7 @@ impl<'a> Plot<'a> {
                 }
             }
             let texts = points.iter().zip(&styled.series.labels).filter(|(_, text)| !text.is_empty());
-            // The end of a bound that is cut off has no place in the plot.
+            // The end of a reference that is cut off is not in the plot.
             let seen = texts.filter_map(|(point, text)| Some((point.as_ref()?, text)));
             let seen = seen.filter(|(point, _)| !(styled.is_reference() && point.clamped));
             labels.extend(seen.map(|(point, text)| Label { at: point.at, radius, text }));
@@ -248,12 +260,12 @@ impl<'a> Plot<'a> {
     }
 }
 
-/// The lines that the points make: they break where one is missing.
+/// The lines through the points, which break where a point is missing.
 fn runs(points: &[Option<Placed>]) -> impl Iterator<Item = Vec<Point>> {
     points.split(Option::is_none).map(|run| run.iter().flatten().map(|point| point.at).collect())
 }
 
-/// The radius of markers: many get small.
+/// The radius of the markers of a series: the more points, the smaller.
 fn radius(points: usize) -> f64 {
     match points {
         0..=40 => 4.0,
@@ -268,53 +280,6 @@ fn is_below(fraction: f64) -> bool {
 
 fn is_above(fraction: f64) -> bool {
     fraction > 1.0 + 1e-9
-}
-
-fn widest_of(ticks: &Ticks) -> f64 {
-    ticks.iter().map(|(_, name)| text_width(name, TEXT)).fold(0.0, f64::max)
-}
-
-/// Ticks with '≤' or '≥' at the ends where markers are clamped, instead of those nearby.
-fn with_ends(mut ticks: Ticks, span: &Span, [low, high]: [bool; 2], pixels: f64) -> Ticks {
-    let near = 12.0 / pixels.max(1.0);
-    if low {
-        ticks.retain(|(fraction, _)| *fraction > near);
-        ticks.insert(0, (0.0, format!("≤ {}", span.end(false))));
-    }
-    if high {
-        ticks.retain(|(fraction, _)| *fraction < 1.0 - near);
-        ticks.push((1.0, format!("≥ {}", span.end(true))));
-    }
-    ticks
-}
-
-/// Takes the names from ticks that the name before would run into.
-fn thinned(mut ticks: Ticks, pixels: f64, along: impl Fn(&str) -> f64) -> Ticks {
-    let mut end = f64::NEG_INFINITY;
-    for (fraction, name) in &mut ticks {
-        let (at, half) = (*fraction * pixels, along(name) / 2.0);
-        if at - half < end - 1e-6 {
-            name.clear();
-        } else {
-            end = at + half;
-        }
-    }
-    ticks
-}
-
-/// A name that is too wide, with an ellipsis for its end.
-fn cut(name: &str, width: f64) -> String {
-    if text_width(name, TEXT) <= width {
-        return name.to_owned();
-    }
-    let mut short = String::new();
-    for c in name.chars() {
-        short.push(c);
-        if text_width(&short, TEXT) + TEXT > width {
-            break;
-        }
-    }
-    short + "…"
 }
 
 /// The pieces of a line inside a rectangle.

@@ -1,12 +1,13 @@
 //! Colors, markers and dashes of series.
 
-use super::canvas::{Canvas, Point};
+use super::{canvas::Canvas, geometry::Point};
 
 const COLORS: usize = 8;
 const DASHES: usize = 5;
 
-/// The look of a series: color, marker and dash. Their numbers (8, 9 and 5) have no common factor, so that 360 styles pass
-/// before one returns, and each two of the first eight differ in color and in marker.
+/// The style of a series: color, marker and dash. There are 8, 9 and 5 of them. These numbers have no common
+/// factor, so there are 360 different styles, and any two of the first eight differ both in color and in
+/// marker.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Style(pub(super) usize);
 
@@ -20,7 +21,7 @@ impl Style {
         with_dash(self.solid_line(), self.0 % DASHES)
     }
 
-    /// The classes of its line where the marker alone has to tell it apart.
+    /// The classes of its line without a dash.
     pub(super) fn solid_line(self) -> String {
         format!("curve {}", self.color())
     }
@@ -35,7 +36,7 @@ impl Style {
     }
 }
 
-/// The classes of the reference line of this number: never solid.
+/// The classes of the reference line of this number. References are never solid.
 pub(super) fn reference(index: usize) -> String {
     with_dash("curve thin r".to_owned(), 1 + index % (DASHES - 1))
 }
@@ -71,7 +72,7 @@ const MARKERS: [Marker; 9] = [
 ];
 
 impl Marker {
-    /// Draws the marker with about the area of a circle of that radius, never beyond 1.5 radii.
+    /// Draws the marker with about the area of a circle of this radius, and within 1.5 radii.
     pub(super) fn draw(self, canvas: &mut Canvas, class: &str, at: Point, radius: f64) {
         let Some(outline) = self.outline() else {
             canvas.circle(class, at, radius);
@@ -82,7 +83,7 @@ impl Marker {
         canvas.path(class, &points, true, None);
     }
 
-    /// The corners for radius 1; none for a circle.
+    /// The corners for radius 1; `None` for a circle.
     fn outline(self) -> Option<Vec<Point>> {
         const ARM: (f64, f64) = (1.25, 0.4);
         let plus = || {
@@ -106,7 +107,7 @@ impl Marker {
     }
 }
 
-/// Clockwise on a page.
+/// The point turned clockwise about (0, 0), as seen on the page.
 fn turned((x, y): Point, degrees: f64) -> Point {
     let (sin, cos) = degrees.to_radians().sin_cos();
     (x * cos - y * sin, x * sin + y * cos)

@@ -1,16 +1,20 @@
-//! Decomposition trees of moves.
+//! Drawings of the decomposition trees of moves.
 
 use mediant_moves::{DecompositionTree, Vector};
 
-use super::canvas::{Anchor, Canvas, LINE, MARGIN, Point, Rect, TEXT, WIDTH, text_width, wrap};
+use super::{
+    canvas::{Anchor, Canvas, MARGIN, WIDTH},
+    geometry::{Point, Rect},
+    text::{LINE, TEXT, text_width, wrap},
+};
 
 const NODE_HEIGHT: f64 = 22.0;
 const LEVEL: f64 = 50.0;
 const BETWEEN_NODES: f64 = 8.0;
 const BETWEEN_TREES: f64 = 36.0;
 
-/// Decomposition trees side by side, as in Kramm et al. 2018, Figure 5: nodes are moves, their children stand below, leaves are
-/// filled. Trees that do not fit into a row begin the next one.
+/// A drawing of decomposition trees side by side, as in Kramm et al. 2018, Figure 5. Nodes are moves, with
+/// their children below them; leaves are filled. A tree that does not fit into a row begins the next one.
 #[derive(Clone, Debug)]
 pub struct TreeDrawing {
     title: String,
@@ -24,13 +28,13 @@ impl TreeDrawing {
         Self { title: title.into(), note: None, trees: Vec::new() }
     }
 
-    /// The same with a line under the title.
+    /// The same drawing with a line under the title.
     #[must_use]
     pub fn note(self, note: impl Into<String>) -> Self {
         Self { note: Some(note.into()), ..self }
     }
 
-    /// The same with one more tree.
+    /// The same drawing with one more tree, and a caption above it.
     #[must_use]
     pub fn tree(mut self, caption: impl Into<String>, tree: &DecompositionTree) -> Self {
         self.trees.push(Tree::new(&caption.into(), tree));
@@ -41,14 +45,14 @@ impl TreeDrawing {
     #[must_use]
     pub fn svg(&self) -> String {
         let widest = self.trees.iter().map(|tree| tree.width).fold(0.0, f64::max);
-        // The whole figure is scaled down for a tree that is wider than the page.
+        // If a tree is wider than the page, the whole figure is scaled down.
         let page = WIDTH.max(widest + 2.0 * MARGIN);
         let mut canvas = Canvas::default();
         let mut y = canvas.header(&self.title, self.note.as_deref(), page) + 6.0;
         for row in self.rows(page - 2.0 * MARGIN) {
             let width: f64 = row.iter().map(|tree| tree.width).sum::<f64>();
             let spare = page - 2.0 * MARGIN - width;
-            // As far apart as there is room, but not torn apart; the row is in the middle.
+            // The trees share the spare room as gaps, up to a limit; the row is centered.
             let gap = (spare / row.len() as f64).clamp(0.0, 2.5 * BETWEEN_TREES);
             let mut x = MARGIN + (spare - gap * (row.len() - 1) as f64) / 2.0;
             let captions = row.iter().map(|tree| tree.caption.len()).max().unwrap_or(0) as f64 * LINE;
@@ -94,7 +98,7 @@ struct Node {
     children: Option<[usize; 2]>,
 }
 
-/// A tree with its layout: (0, 0) is the middle of the upper border.
+/// A tree with its layout. Its origin (0, 0) is the middle of the upper border.
 #[derive(Clone, Debug)]
 struct Tree {
     caption: Vec<String>,
@@ -106,7 +110,8 @@ struct Tree {
 }
 
 impl Tree {
-    /// Leaves stand side by side, each at its own depth, and a parent is over the middle of its children.
+    /// Computes the layout: leaves are side by side, each at its own depth, and a parent is above the middle
+    /// of its children.
     fn new(caption: &str, tree: &DecompositionTree) -> Self {
         let mut nodes: Vec<Node> = tree
             .nodes()
@@ -134,7 +139,7 @@ impl Tree {
                 }
             }
         }
-        // Breadth first: children come after their parents.
+        // Nodes are in breadth-first order, so children come after their parents.
         for at in (0..nodes.len()).rev() {
             if let Some([left, right]) = nodes[at].children {
                 nodes[at].center.0 = (nodes[left].center.0 + nodes[right].center.0) / 2.0;

@@ -96,7 +96,7 @@ impl<O: Observer> Search<'_, O> {
     fn push(&mut self, node: Node) {
         let root = self.frontier.root(node.root);
         let n = (node.line - root.at.y).abs();
-        let [left, right] = [node.left, node.right].map(|ray| ray.place(root.at.x, n));
+        let [left, right] = [node.left, node.right].map(|ray| ray.column(root.at.x, n));
         let h = self.estimate(root.at, node.line, left, right);
         self.add(node, root.g + h, h);
     }

@@ -125,9 +125,7 @@ where
     }
 
     fn guarantee(&self) -> Guarantee {
-        match (self.planner.guarantee(), self.smoothing) {
-            (Guarantee::Optimal(k), Some(_)) => Guarantee::AtMost(k),
-            (guarantee, _) => guarantee,
-        }
+        let guarantee = self.planner.guarantee();
+        if self.smoothing.is_some() { guarantee.smoothed() } else { guarantee }
     }
 }

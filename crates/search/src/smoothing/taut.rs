@@ -6,7 +6,7 @@ use mediant_grid::{FreeSpace, Placement, Vector, Vertex};
 use mediant_moves::Cost;
 
 use super::linear::{between, is_legal, smooth_legal, without_stops};
-use mediant_grid::sight::Cover;
+use mediant_grid::sight::PolygonCells;
 
 /// Pulls a path taut, like a string: [`smooth`](super::smooth) first, and then waypoint by waypoint until none can be skipped or moved.
 ///
@@ -47,7 +47,7 @@ pub fn pull_taut<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Ve
     if !is_legal(space, &corners) {
         return waypoints.to_vec();
     }
-    let mut string = Taut { space, path: smooth_legal(space, &corners), cover: Cover::default() };
+    let mut string = Taut { space, path: smooth_legal(space, &corners), cover: PolygonCells::default() };
     let mut index = 1;
     while index + 1 < string.path.len() {
         if string.pull(index) {
@@ -64,7 +64,7 @@ pub fn pull_taut<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Ve
 struct Taut<'t, P: Placement> {
     space: &'t FreeSpace<P>,
     path: Vec<Vertex>,
-    cover: Cover,
+    cover: PolygonCells,
 }
 
 impl<P: Placement> Taut<'_, P> {

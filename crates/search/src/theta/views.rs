@@ -6,7 +6,7 @@
 
 use mediant_grid::{FreeSpace, Placement, Vertex, VertexId};
 
-use mediant_grid::sight::Cover;
+use mediant_grid::sight::PolygonCells;
 
 /// What some vertices see: a cache, that holds for a map whatever is searched on it.
 #[derive(Clone, Debug)]
@@ -16,7 +16,7 @@ pub(super) struct Views {
     blocks_per_row: usize,
     /// The last vertex of the map.
     last: Vertex,
-    cover: Cover,
+    cover: PolygonCells,
 }
 
 /// The id of a vertex, shifted left by one, and in the last bit whether it sees all of a block.
@@ -46,7 +46,7 @@ impl Views {
             blocks: vec![[View::UNKNOWN; 2]; columns * rows].into_boxed_slice(),
             blocks_per_row: columns,
             last: Vertex::new(width as i32 - 1, height as i32 - 1),
-            cover: Cover::default(),
+            cover: PolygonCells::default(),
         }
     }
 

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use mediant_engines::{Engine as Catalog, Ground, Setup, SharedRules, Solver, Variant};
+use mediant_engines::{BoxedPlanner, EngineKind, Index, SearchSpace, Setup, SharedRules, Variant};
 use mediant_grid::{DiagonalGap, Grid, Rules};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{Counters, Guarantee, Outcome, Query, QueryError};
@@ -14,7 +14,7 @@ static RULES: SharedRules = SharedRules::new();
 /// What an engine said to a query.
 pub(crate) type Answer = Result<(Outcome, Counters), QueryError>;
 
-/// An engine on one ground, ready for any number of queries. Its planner is made for the first: most suites run few engines.
+/// An engine on one search space, ready for any number of queries. Its planner is made for the first: most suites run few engines.
 pub(crate) struct Engine<'g> {
     pub(crate) name: String,
     pub(crate) guarantee: Guarantee,
@@ -24,29 +24,30 @@ pub(crate) struct Engine<'g> {
     pub(crate) may_give_up: bool,
     /// Whether it plans on a hierarchy, which has long suites of its own.
     pub(crate) is_hierarchical: bool,
-    solver: Option<Solver>,
+    planner: Option<BoxedPlanner>,
     setup: Setup,
-    ground: &'g Ground,
+    space: &'g SearchSpace,
 }
 
 impl<'g> Engine<'g> {
-    fn new(setup: Setup, ground: &'g Ground) -> Self {
+    fn new(setup: Setup, space: &'g SearchSpace) -> Self {
         let (guarantee, paths) = (setup.guarantee(), setup.paths());
-        let may_give_up = (setup.engine, setup.variant()) == (Catalog::Chpa, Some(Variant::Paper));
-        let is_hierarchical = matches!(setup.engine, Catalog::Hpa | Catalog::Chpa);
+        let may_give_up =
+            (setup.engine.kind(), setup.engine.variant()) == (EngineKind::Chpa, Some(Variant::Paper));
+        let is_hierarchical = matches!(setup.engine.kind(), EngineKind::Hpa | EngineKind::Chpa);
         let name = setup.to_string();
-        Self { name, guarantee, paths, may_give_up, is_hierarchical, solver: None, setup, ground }
+        Self { name, guarantee, paths, may_give_up, is_hierarchical, planner: None, setup, space }
     }
 
     pub(crate) fn solve(&mut self, query: Query) -> Answer {
-        let Self { setup, ground, .. } = *self;
+        let Self { setup, space, .. } = *self;
         let make = || {
-            let solver = Solver::on(setup, ground, RULES.prebuilt(setup));
-            let solver = solver.unwrap_or_else(|error| panic!("{setup}: {error}"));
-            assert_eq!(solver.guarantee(), setup.guarantee(), "{setup}");
-            solver
+            let planner = Index::new(setup, space, &RULES).and_then(|index| index.planner());
+            let planner = planner.unwrap_or_else(|error| panic!("{setup}: {error}"));
+            assert_eq!(planner.guarantee(), setup.guarantee(), "{setup}");
+            planner
         };
-        self.solver.get_or_insert_with(make).solve_counted(query)
+        self.planner.get_or_insert_with(make).solve_counted(query)
     }
 }
 
@@ -72,6 +73,6 @@ pub(crate) fn with_any_angle_engines<R>(
 
 fn on<R>(grid: &Arc<Grid>, rules: Rules, k: K, suite: impl FnOnce(Vec<Engine<'_>>) -> R) -> R {
     let setups: Vec<Setup> = Setup::all(k, rules).collect();
-    let ground = Ground::new(setups[0], grid).expect("k is in range");
-    suite(setups.into_iter().map(|setup| Engine::new(setup, &ground)).collect())
+    let space = SearchSpace::new(setups[0], grid).expect("k is in range");
+    suite(setups.into_iter().map(|setup| Engine::new(setup, &space)).collect())
 }

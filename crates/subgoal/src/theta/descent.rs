@@ -2,9 +2,9 @@
 
 use mediant_moves::Cost;
 
-use crate::{SubgoalGraph, SubgoalPlacement, contract::NONE};
+use crate::{arc::NONE, graph::SubgoalGraph, placement::SubgoalPlacement};
 
-/// For each subgoal above the links of a goal the arcs down from it on ways there. Forgotten in constant time.
+/// The arcs on paths down to a goal, by the subgoals that they come from. Cleared in constant time.
 #[derive(Clone, Debug)]
 pub(super) struct Descent {
     heads: Box<[Head]>,
@@ -20,11 +20,11 @@ struct Head {
     generation: u32,
 }
 
-/// An arc down, and the next from the same subgoal.
+/// An arc down, in a linked list of those from the same subgoal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Down {
     pub(super) to: u32,
-    pub(super) mid: u32,
+    pub(super) middle: u32,
     next: u32,
 }
 
@@ -34,11 +34,12 @@ impl Descent {
         Self { heads, generation: 0, arcs: Vec::new(), pending: Vec::new() }
     }
 
-    /// Finds the arcs down to a goal, whose number follows those of the subgoals, from its links.
+    /// Finds the arcs down to a goal, given the edges that join it to subgoals. The goal's number follows
+    /// those of the subgoals.
     pub(super) fn start_search<P: SubgoalPlacement>(
         &mut self,
         graph: &SubgoalGraph<P>,
-        links: &[(u32, Cost)],
+        query_edges: &[(u32, Cost)],
     ) {
         self.arcs.clear();
         self.generation = self.generation.wrapping_add(1);
@@ -46,22 +47,22 @@ impl Descent {
             self.heads.fill(Head::default());
             self.generation = 1;
         }
-        for &(id, _) in links {
+        for &(id, _) in query_edges {
             self.add(id, self.heads.len() as u32, NONE);
         }
         while let Some(id) = self.pending.pop() {
-            // The arcs of the core lead both ways already.
+            // The core stores its arcs in both directions.
             let up = if graph.is_core(id) { &[] } else { graph.up(id) };
-            up.iter().for_each(|arc| self.add(arc.to, id, arc.mid));
+            up.iter().for_each(|arc| self.add(arc.to, id, arc.middle));
         }
     }
 
-    fn add(&mut self, from: u32, to: u32, mid: u32) {
+    fn add(&mut self, from: u32, to: u32, middle: u32) {
         let head = &mut self.heads[from as usize];
         let is_new = head.generation != self.generation;
         let next = if is_new { NONE } else { head.first };
         *head = Head { first: self.arcs.len() as u32, generation: self.generation };
-        self.arcs.push(Down { to, mid, next });
+        self.arcs.push(Down { to, middle, next });
         if is_new {
             self.pending.push(from);
         }

@@ -1,22 +1,26 @@
-//! The search itself.
+//! The search of Sub-Theta*.
 
 use mediant_grid::{FreeSpace, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{NodeEvent, Observer, SearchTree, segment_cost};
 
 use super::descent::Descent;
-use crate::{SubgoalGraph, SubgoalPlacement, contract::NONE};
+use crate::{
+    arc::{NONE, PackedArc},
+    graph::SubgoalGraph,
+    placement::SubgoalPlacement,
+};
 
-/// Where paths bend, or begin.
+/// A vertex at which paths bend, or begin.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bend {
+pub(super) struct Waypoint {
     pub(super) at: Vertex,
     g: Cost,
-    /// The bend before it; [`NONE`] at the start.
+    /// The number of the bend before it; [`NONE`] at the start.
     before: u32,
 }
 
-impl Bend {
+impl Waypoint {
     /// A bend, and those before it.
     pub(super) fn back(bends: &[Self], last: u32) -> impl Iterator<Item = Self> {
         let bend = |number: u32| bends.get(number as usize).copied();
@@ -24,14 +28,15 @@ impl Bend {
     }
 }
 
-/// Scratch memory for the subgoals that a shortcut leads over.
+/// Scratch memory for unpacking shortcuts.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Middles {
-    pending: Vec<(u32, u32, u32)>,
+pub(super) struct Unpacking {
+    pending: Vec<PackedArc>,
     vertices: Vec<Vertex>,
 }
 
-/// Whether a straight segment between two vertices keeps the rules of motion. Of them only the start and the goal of a path are gaps.
+/// Whether a straight segment between two vertices keeps the rules of motion. Of the vertices of a path only
+/// the start and the goal can be closed gaps.
 pub(super) fn may_join<P: SubgoalPlacement>(space: &FreeSpace<P>, from: Vertex, to: Vertex) -> bool {
     space.may_turn(None, from, Some(to)) && space.may_turn(Some(from), to, None) && space.sees(from, to)
 }
@@ -40,11 +45,11 @@ pub(super) fn may_join<P: SubgoalPlacement>(space: &FreeSpace<P>, from: Vertex, 
 pub(super) struct Search<'s, P: SubgoalPlacement, O> {
     pub(super) space: &'s FreeSpace<P>,
     pub(super) graph: &'s SubgoalGraph<P>,
-    /// A parent is the number of the bend that a subgoal hangs on.
-    pub(super) labels: &'s mut SearchTree,
+    /// The parent of a subgoal is the number of the last bend before it.
+    pub(super) tree: &'s mut SearchTree,
     pub(super) descent: &'s Descent,
-    pub(super) bends: &'s mut Vec<Bend>,
-    pub(super) middles: &'s mut Middles,
+    pub(super) bends: &'s mut Vec<Waypoint>,
+    pub(super) unpacking: &'s mut Unpacking,
     pub(super) observer: &'s mut O,
     pub(super) goal: Vertex,
 }
@@ -55,110 +60,112 @@ struct Node {
     id: u32,
     at: Vertex,
     g: Cost,
-    /// The bend that it hangs on.
-    hook: u32,
-    /// The bend at it, once something hangs there.
-    own: Option<u32>,
+    /// The last bend before it.
+    parent: u32,
+    /// The bend at the subgoal itself, once a path bends there.
+    own_bend: Option<u32>,
 }
 
 impl<P: SubgoalPlacement, O: Observer> Search<'_, P, O> {
-    /// Expands subgoals until the goal is the best of them. The last bend before it.
-    pub(super) fn run(&mut self, start: Vertex, links: &[(u32, Cost)]) -> Option<u32> {
-        self.labels.start_search();
+    /// Expands subgoals until the goal has the least f. Returns the last bend before the goal.
+    pub(super) fn run(&mut self, start: Vertex, query_edges: &[(u32, Cost)]) -> Option<u32> {
+        self.tree.start_search();
         self.bends.clear();
         let first = self.bend(start, Cost::ZERO, NONE);
-        for &(id, _) in links {
+        for &(id, _) in query_edges {
             let at = self.vertex(id);
             self.reach(id, at, segment_cost(start.to(at)), first);
         }
         loop {
-            let (f, id, g, swaps) = self.labels.pop()?;
+            let (f, id, g, swaps) = self.tree.pop()?;
             self.observer.percolated(swaps);
-            let (hook, ()) = self.labels.parent(id)?;
+            let (bend, ()) = self.tree.parent(id)?;
             let at = self.vertex(id);
             if id == self.goal_id() {
-                return Some(hook);
+                return Some(bend);
             }
-            let parent = Some(self.bends[hook as usize].at).filter(|&parent| parent != at);
+            let parent = Some(self.bends[bend as usize].at).filter(|&parent| parent != at);
             self.observer.expanded(NodeEvent { at, parent, g, f });
-            self.expand(Node { id, at, g, hook, own: None });
+            self.expand(Node { id, at, g, parent: bend, own_bend: None });
         }
     }
 
     fn expand(&mut self, mut node: Node) {
         let (graph, descent) = (self.graph, self.descent);
         for arc in graph.up(node.id) {
-            self.generate(&mut node, arc.to, arc.mid);
+            self.generate(&mut node, arc.to, arc.middle);
         }
         for arc in descent.below(node.id) {
-            self.generate(&mut node, arc.to, arc.mid);
+            self.generate(&mut node, arc.to, arc.middle);
         }
     }
 
-    /// Goes on from a subgoal by an arc.
-    fn generate(&mut self, node: &mut Node, to: u32, mid: u32) {
-        if self.labels.is_closed(to) {
+    /// Follows an arc from the expanded subgoal.
+    fn generate(&mut self, node: &mut Node, to: u32, middle: u32) {
+        if self.tree.is_closed(to) {
             return;
         }
-        let (at, hook) = (self.vertex(to), self.bends[node.hook as usize]);
-        let known = self.labels.cost(to).unwrap_or(Cost::MAX);
-        // The way over the subgoal is, by the triangle inequality, no cheaper.
-        let straight = hook.g + segment_cost(hook.at.to(at));
+        let (at, parent) = (self.vertex(to), self.bends[node.parent as usize]);
+        let known = self.tree.cost(to).unwrap_or(Cost::MAX);
+        // By the triangle inequality the path over the subgoal is no cheaper.
+        let straight = parent.g + segment_cost(parent.at.to(at));
         if straight >= known {
             return;
         }
-        let (g, hook) = if may_join(self.space, hook.at, at) {
-            (straight, node.hook)
-        } else if mid == NONE {
+        let (g, bend) = if may_join(self.space, parent.at, at) {
+            (straight, node.parent)
+        } else if middle == NONE {
             debug_assert!(may_join(self.space, node.at, at), "{} – {at} is no edge", node.at);
-            (node.g + segment_cost(node.at.to(at)), self.own(node))
+            (node.g + segment_cost(node.at.to(at)), self.own_bend(node))
         } else {
-            self.over_middles(node, to, mid)
+            self.along_shortcut(node, to, middle)
         };
         if g < known {
-            self.reach(to, at, g, hook);
+            self.reach(to, at, g, bend);
         }
     }
 
-    /// Goes on by a shortcut, over the subgoals in the middle: what the way costs in the end, and the last bend.
-    fn over_middles(&mut self, node: &mut Node, to: u32, mid: u32) -> (Cost, u32) {
-        let Middles { mut pending, mut vertices } = std::mem::take(self.middles);
+    /// Follows the subgoals that a shortcut passes. Returns the cost at its end, and the last bend before.
+    fn along_shortcut(&mut self, node: &mut Node, to: u32, middle: u32) -> (Cost, u32) {
+        let Unpacking { mut pending, mut vertices } = std::mem::take(self.unpacking);
         vertices.clear();
-        self.graph.unpack((node.id, to, mid), &mut pending, &mut |at| vertices.push(at));
-        let (mut hook, mut at, mut g) = (node.hook, node.at, node.g);
+        let arc = PackedArc { from: node.id, to, middle };
+        self.graph.unpack(arc, &mut pending, &mut |at| vertices.push(at));
+        let (mut bend, mut at, mut g) = (node.parent, node.at, node.g);
         for &next in &vertices {
-            if !may_join(self.space, self.bends[hook as usize].at, next) {
-                hook = if at == node.at { self.own(node) } else { self.bend(at, g, hook) };
+            if !may_join(self.space, self.bends[bend as usize].at, next) {
+                bend = if at == node.at { self.own_bend(node) } else { self.bend(at, g, bend) };
             }
-            let bend = self.bends[hook as usize];
-            (at, g) = (next, bend.g + segment_cost(bend.at.to(next)));
+            let last = self.bends[bend as usize];
+            (at, g) = (next, last.g + segment_cost(last.at.to(next)));
         }
-        *self.middles = Middles { pending, vertices };
-        (g, hook)
+        *self.unpacking = Unpacking { pending, vertices };
+        (g, bend)
     }
 
-    /// The bend at a subgoal that is being expanded.
-    fn own(&mut self, node: &mut Node) -> u32 {
-        let own = node.own.unwrap_or_else(|| self.bend(node.at, node.g, node.hook));
-        *node.own.insert(own)
+    /// The bend at the expanded subgoal.
+    fn own_bend(&mut self, node: &mut Node) -> u32 {
+        let own = node.own_bend.unwrap_or_else(|| self.bend(node.at, node.g, node.parent));
+        *node.own_bend.insert(own)
     }
 
+    /// Adds a bend.
     fn bend(&mut self, at: Vertex, g: Cost, before: u32) -> u32 {
-        self.bends.push(Bend { at, g, before });
+        self.bends.push(Waypoint { at, g, before });
         self.bends.len() as u32 - 1
     }
 
-    /// Makes a cheaper way to a subgoal, which is not closed, or to the goal known.
-    fn reach(&mut self, id: u32, at: Vertex, g: Cost, hook: u32) {
+    /// Records a cheaper path to a subgoal that is not closed, or to the goal.
+    fn reach(&mut self, id: u32, at: Vertex, g: Cost, bend: u32) {
         let h = segment_cost(at.to(self.goal));
-        let parent = Some(self.bends[hook as usize].at).filter(|&parent| parent != at);
+        let parent = Some(self.bends[bend as usize].at).filter(|&parent| parent != at);
         let event = NodeEvent { at, parent, g, f: g + h };
-        if self.labels.cost(id).is_some() {
+        if self.tree.cost(id).is_some() {
             self.observer.updated(event);
         } else {
             self.observer.generated(event);
         }
-        let (_, swaps) = self.labels.reach(id, g, h, hook, ());
+        let (_, swaps) = self.tree.reach(id, g, h, bend, ());
         self.observer.percolated(swaps);
     }
 

@@ -165,7 +165,7 @@ fn claim(record: &Record, set: &str, search: Search, measure: Measure) -> Option
         }
     };
     let error = search.number(record, set, &error_column(measure));
-    let claim = Claim::new(source, what, published, here).drawn(error).written(digits, "");
+    let claim = Claim::new(source, what, published, here).standard_error(error).written(digits, "");
     Some(claim.because(causes::of(record, search, measure)))
 }
 

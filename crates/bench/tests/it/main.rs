@@ -1,0 +1,5 @@
+//! Problems from the files of benchmark sets, the side by side on generated maps, and `verify`.
+
+mod measure;
+mod problem;
+mod verify;

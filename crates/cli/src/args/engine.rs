@@ -1,0 +1,80 @@
+//! The flags of the engines' options, made from the catalog: an option that it gets is a flag here.
+
+use clap::{
+    Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches,
+    builder::{PossibleValuesParser, ValueParser},
+    error::ErrorKind,
+};
+use mediant_engines::{Engine, EngineOption, OptionValue, SetupError, ValueKind};
+
+/// Options of engines that were given, of those that a command takes.
+#[derive(Debug)]
+pub(crate) struct Options<const OF_INDEX: bool>(Vec<(&'static EngineOption, OptionValue)>);
+
+/// All options.
+pub(crate) type AllOptions = Options<false>;
+
+/// The options that decide what an index holds.
+pub(crate) type IndexOptions = Options<true>;
+
+impl<const OF_INDEX: bool> Options<OF_INDEX> {
+    fn taken() -> impl Iterator<Item = &'static EngineOption> {
+        EngineOption::ALL.into_iter().filter(|option| !OF_INDEX || option.is_of_index)
+    }
+
+    /// Chooses what was given.
+    pub(super) fn choose(&self, engine: &mut Engine) -> Result<(), SetupError> {
+        self.0.iter().try_for_each(|&(option, value)| engine.set(option, value))
+    }
+}
+
+impl<const OF_INDEX: bool> Args for Options<OF_INDEX> {
+    fn augment_args(command: Command) -> Command {
+        command.args(Self::taken().map(flag))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl<const OF_INDEX: bool> FromArgMatches for Options<OF_INDEX> {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let mut given = Vec::new();
+        for option in Self::taken() {
+            let text = match option.kind {
+                ValueKind::Flag => matches.get_flag(option.name).then_some(""),
+                _ => matches.get_one::<String>(option.name).map(String::as_str),
+            };
+            if let Some(text) = text {
+                // The flag's own parser has let it through.
+                let value = option.parse(text);
+                given.push((
+                    option,
+                    value.map_err(|wrong| clap::Error::raw(ErrorKind::ValueValidation, wrong))?,
+                ));
+            }
+        }
+        Ok(Self(given))
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+/// The flag of an option.
+fn flag(option: &'static EngineOption) -> Arg {
+    let arg = Arg::new(option.name).long(option.name).help(option.help);
+    let checked = ValueParser::new(move |text: &str| option.parse(text).map(|_| text.to_owned()));
+    match option.kind {
+        ValueKind::Flag => arg.action(ArgAction::SetTrue),
+        ValueKind::Number => arg.value_name("N").allow_negative_numbers(true).value_parser(checked),
+        ValueKind::Levels => arg.value_name("N|all").allow_negative_numbers(true).value_parser(checked),
+        ValueKind::Heuristic | ValueKind::Variant => {
+            let name = if option.kind == ValueKind::Variant { "VARIANT" } else { "HEURISTIC" };
+            arg.value_name(name).value_parser(PossibleValuesParser::new(option.names()))
+        }
+    }
+}

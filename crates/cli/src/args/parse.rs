@@ -1,0 +1,94 @@
+//! Values of arguments.
+
+use std::{
+    fmt::Display,
+    num::{IntErrorKind, ParseIntError},
+    str::FromStr,
+};
+
+use mediant_grid::Vertex;
+use mediant_moves::{FiniteK, K, ParseKError};
+
+use super::MAX_K;
+
+pub(super) fn parse_vertex(text: &str) -> Result<Vertex, String> {
+    const EXPECTED: &str = "expected two whole numbers, such as 3,14";
+    let parts: Vec<&str> = text.split(',').collect();
+    match parts[..] {
+        [x, y] => Ok(Vertex::new(parse_coordinate(x)?, parse_coordinate(y)?)),
+        [_] => Err(EXPECTED.to_owned()),
+        _ => Err(format!("{EXPECTED}, found {} parts", parts.len())),
+    }
+}
+
+pub(super) fn parse_coordinate(text: &str) -> Result<i32, String> {
+    text.trim().parse().map_err(|error: ParseIntError| match error.kind() {
+        IntErrorKind::PosOverflow => format!("`{text}` is too large: coordinates go up to {}", i32::MAX),
+        IntErrorKind::NegOverflow => format!("`{text}` is too small: coordinates go down to {}", i32::MIN),
+        _ => format!("`{text}` is no whole number; write X,Y such as 3,14"),
+    })
+}
+
+pub(super) fn parse_count<N: FromStr<Err = ParseIntError> + Display>(
+    text: &str,
+    max: &N,
+) -> Result<N, String> {
+    text.parse().map_err(|error: ParseIntError| match error.kind() {
+        IntErrorKind::PosOverflow => format!("expected a whole number from 1 to {max}"),
+        _ => "expected a whole number from 1 up".to_owned(),
+    })
+}
+
+/// A k that some engine may take.
+pub(super) fn parse_k(text: &str) -> Result<K, String> {
+    let form = format!("choose a number from 2 to {MAX_K}, or any");
+    match text.parse() {
+        Err(ParseKError::K(error)) => Err(format!("{error}; {form}")),
+        Ok(K::Finite(k)) if k.get() > MAX_K => Err(format!("k = {k} is too large; {form}")),
+        Ok(k) => Ok(k),
+        Err(_) => Err(form),
+    }
+}
+
+/// A k of which the moves can be computed, though no grid graph may take it.
+pub(super) fn parse_any_k(text: &str) -> Result<FiniteK, String> {
+    let max = FiniteK::MAX_MOVES;
+    let form = format!("choose a number from 2 to {max}");
+    let k =
+        FiniteK::new(text.parse().map_err(|_| form.clone())?).map_err(|error| format!("{error}; {form}"))?;
+    match k.radius() {
+        Ok(_) => Ok(k),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+pub(super) fn parse_ratio(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(ratio) if ratio >= 1.0 && ratio.is_finite() => Ok(ratio),
+        _ => {
+            Err("expected a number from 1 up, such as 1.01: no path is shorter than an any-angle path"
+                .to_owned())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn coordinates_may_be_negative_and_spaced() {
+        assert_eq!(parse_vertex("-1, 3"), Ok(Vertex::new(-1, 3)));
+        assert!(parse_vertex("3").is_err() && parse_vertex("3,").is_err() && parse_vertex("1,2,3").is_err());
+        assert!(parse_vertex("99999999999,0").is_err());
+    }
+
+    #[test]
+    fn k_is_a_number_or_any() {
+        assert_eq!(parse_k("any"), Ok(K::Any));
+        assert_eq!(parse_k("2"), Ok(K::Finite(FiniteK::N4)));
+        for wrong in ["1", "13", "-3", "three", ""] {
+            assert!(parse_k(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! `mediant demo`: one query, many k, a picture.
+
+use std::io::{self, Write};
+
+use anstyle::RgbColor;
+use mediant_engines::{BoxedPlanner, EngineKind, Setup, SharedRules};
+use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Rules, Vertex};
+use mediant_moves::{FiniteK, K};
+use mediant_search::{Outcome, Query};
+
+use crate::{
+    args::DemoArgs,
+    draw::{
+        braille::Stroke,
+        picture::{Canvas, GOAL_MARK, START_MARK},
+        theme::INKS,
+    },
+    failure::Failure,
+    map::{Builtin, Map},
+    run::measure::Measured,
+    terminal::{
+        screen::{BOLD, DIM, Screen},
+        text::{Align, Table, grouped, percent_over, time, wrap},
+    },
+};
+
+/// The finite k that the table compares.
+const KS: [u32; 8] = [2, 3, 4, 5, 6, 7, 9, 12];
+/// Of so many timed runs the best counts.
+const REPEAT: u32 = 20;
+
+/// A line of the table.
+struct Row {
+    rules: Rules,
+    k: K,
+    /// How much longer than an any-angle path it can be at most, where that is known.
+    bound: Option<f64>,
+    cost: f64,
+    waypoints: Vec<Vertex>,
+    expanded: u64,
+    nanos: u64,
+}
+
+/// Solves the demo's query under one setup; `None` when there is no path.
+fn solve(setup: Setup, map: &Map, query: Query, pruning: &SharedRules) -> Result<Option<Row>, Failure> {
+    let Setup { rules, k, .. } = setup;
+    let mut planner = BoxedPlanner::new(setup, &map.grid, pruning)?;
+    // Of paths between centers no bound over those between corners, the best here, is known.
+    let at_corners = rules.placement() == PlacementKind::Corner;
+    let bound = planner.guarantee().bound(rules).filter(|_| at_corners);
+    let Measured { outcome, counters, nanos } = Measured::new(&mut planner, query, REPEAT);
+    let Ok(Outcome::Found(path)) = outcome else { return Ok(None) };
+    let (cost, expanded) = (path.cost(), counters.expanded);
+    Ok(Some(Row { rules, k, bound, cost, waypoints: path.into_waypoints(), expanded, nanos }))
+}
+
+/// Runs the command.
+pub(crate) fn demo(args: &DemoArgs, screen: &mut Screen) -> Result<(), Failure> {
+    let builtin = Builtin::named(args.name.strip_prefix("builtin:").unwrap_or(&args.name))?;
+    let map = builtin.map()?;
+    let query = Query::new(builtin.start, builtin.goal);
+    let corners = Rules::Corner(DiagonalGap::Open);
+    let centers = Rules::Center(CornerRule::Never);
+    let mut setups = Vec::new();
+    for k in KS {
+        setups.push(Setup::new(EngineKind::AStar, FiniteK::new(k)?, corners));
+    }
+    setups.push(Setup::new(EngineKind::Anya, K::Any, corners));
+    setups.push(Setup::new(EngineKind::AStar, FiniteK::N8, centers));
+    let (pruning, mut rows) = (SharedRules::new(), Vec::new());
+    for setup in setups {
+        rows.extend(solve(setup, &map, query, &pruning)?);
+    }
+    title(builtin, &map, query, screen)?;
+    picture(&map, query, &rows, screen)?;
+    table(&map, &rows, screen)?;
+    Ok(explanation(builtin, screen)?)
+}
+
+fn title(builtin: &Builtin, map: &Map, query: Query, screen: &mut Screen) -> io::Result<()> {
+    let name = screen.paint(BOLD, builtin.name);
+    let (width, height) = (map.grid.width(), map.grid.height());
+    let Query { start, goal } = query;
+    writeln!(screen, "\n  {name} · {width} × {height} · {}, {start} to {goal}\n", builtin.caption)
+}
+
+/// How a row of the table is drawn on the map, if it is.
+fn stroke(row: &Row) -> Option<(Stroke, RgbColor)> {
+    match (row.rules.placement(), row.k) {
+        (PlacementKind::Corner, K::Finite(FiniteK::N4)) => Some((Stroke::Dotted, INKS.four)),
+        (PlacementKind::Corner, K::Finite(FiniteK::N8)) => Some((Stroke::Dashed, INKS.eight)),
+        (PlacementKind::Corner, K::Any) => Some((Stroke::Solid, INKS.best)),
+        _ => None,
+    }
+}
+
+/// A k, ∞ by its sign.
+fn k_sign(k: K) -> String {
+    k.finite().map_or_else(|| "∞".to_owned(), |k| k.to_string())
+}
+
+fn picture(map: &Map, query: Query, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
+    let mut canvas = Canvas::fit(map, PlacementKind::Corner, screen);
+    for row in rows {
+        if let Some((stroke, ink)) = stroke(row) {
+            canvas.path(&row.waypoints, stroke, ink);
+        }
+    }
+    canvas.ends(query);
+    canvas.write(screen)?;
+    let ground = map.theme.ground();
+    let mut legend = String::new();
+    for (mark, color, name) in [(START_MARK, INKS.start, "start"), (GOAL_MARK, INKS.goal, "goal")] {
+        legend += &format!("{} {name}   ", screen.paint(screen.ink_on(color, ground), format!(" {mark} ")));
+    }
+    for row in rows {
+        if let Some((stroke, color)) = stroke(row) {
+            let line = screen.paint(screen.ink_on(color, ground), stroke.sample().repeat(2));
+            legend += &format!("{line} k = {}   ", k_sign(row.k));
+        }
+    }
+    writeln!(screen, "\n  {}\n", legend.trim_end())
+}
+
+fn table(map: &Map, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
+    let best = rows.iter().filter(|row| row.rules.placement() == PlacementKind::Corner).map(|row| row.cost);
+    let best = best.fold(f64::INFINITY, f64::min);
+    let names = ["k", "at", "moves", "cost", "over best", "bound", "turns", "expanded", "time"];
+    let mut table =
+        Table::new(names.map(|name| (name, if name == "at" { Align::Left } else { Align::Right })));
+    for row in rows {
+        let placement = row.rules.placement();
+        let cells = [
+            // A column wider than its numbers keeps them off the sample of the line.
+            format!("{:>3}", k_sign(row.k)),
+            format!("{placement}s"),
+            row.k.finite().and_then(FiniteK::moves).map_or_else(|| "∞".to_owned(), grouped),
+            format!("{:.4}", row.cost),
+            percent_over(row.cost / best, 2),
+            row.bound.map_or_else(|| "–".to_owned(), |bound| percent_over(bound, 2)),
+            row.waypoints.len().saturating_sub(2).to_string(),
+            grouped(row.expanded),
+            time(row.nanos as f64),
+        ];
+        match stroke(row) {
+            None => table.row(cells),
+            Some((stroke, color)) => {
+                let sample = screen.paint(screen.ink_on(color, map.theme.ground()), stroke.sample());
+                table.row_with(sample.to_string(), BOLD, cells);
+            }
+        }
+    }
+    table.write(screen)
+}
+
+fn explanation(builtin: &Builtin, screen: &mut Screen) -> io::Result<()> {
+    let words = "Each path is the shortest that its moves allow: k = 2 steps along the axes, k = 3 adds the diagonals, and \
+                 each k after it puts a new move between every two, and k = ∞ goes in any direction. `bound` is the most that \
+                 any map can cost them over such any-angle paths.";
+    let text = wrap("  ", words.split(' ').map(str::to_owned), screen.columns().min(80) - 2);
+    writeln!(screen, "\n{text}")?;
+    let Builtin { name, start, goal, .. } = builtin;
+    let (from, to) = (format!("{},{}", start.x, start.y), format!("{},{}", goal.x, goal.y));
+    let next = [
+        format!("mediant demo {}", builtin.next()),
+        format!("mediant run builtin:{name} --from {from} --to {to} --k 4 --draw"),
+        "mediant moves --k 5".to_owned(),
+    ];
+    for (command, lead) in next.into_iter().zip(["Next:", "", ""]) {
+        writeln!(screen, "  {}", screen.paint(DIM, format!("{lead:<6} {command}")))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,36 @@
+//! `mediant engines`: the catalog as a table.
+
+use std::io::Write;
+
+use mediant_engines::{Capabilities, EngineKind};
+use mediant_moves::K;
+
+use crate::{
+    failure::Failure,
+    terminal::{
+        screen::Screen,
+        text::{Align, Table},
+    },
+};
+
+const NOTES: &str = "\
+Both is center and corner. optimal(k) with k = any: the shortest of all paths.
+At centers subgoal, hpa and chpa take k = 2, and k = 3 under corners never.";
+
+/// Runs the command.
+pub(crate) fn list(screen: &mut Screen) -> Result<(), Failure> {
+    let heads = ["engine", "placement", "k", "guarantee", "paper"].map(|head| (head, Align::Left));
+    let mut table = Table::new(heads);
+    for engine in EngineKind::ALL {
+        let Capabilities { placements, max_k, any, guarantee, paper, .. } = engine.capabilities();
+        let placement = match placements {
+            [one] => one.to_string(),
+            _ => "both".to_owned(),
+        };
+        let ks = [max_k.map(|max| format!("2–{max}")), any.then(|| K::Any.to_string())];
+        let ks: Vec<String> = ks.into_iter().flatten().collect();
+        table.row([engine.name(), &placement, &ks.join(", "), guarantee, paper].map(str::to_owned));
+    }
+    table.write(screen)?;
+    Ok(writeln!(screen, "\n{NOTES}")?)
+}

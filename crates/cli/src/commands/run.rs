@@ -1,0 +1,134 @@
+//! `mediant run`: queries on a map.
+
+use std::{
+    fs::File,
+    io::{self, BufWriter, IsTerminal, Write},
+    time::Instant,
+};
+
+use mediant_engines::{BoxedPlanner, EngineOption, Index, SearchSpace, Setup, SharedRules};
+
+use super::{build, distances};
+use crate::{
+    args::{Format, RunArgs},
+    draw::{braille::Stroke, picture::Canvas, theme::INKS},
+    failure::{Ending, Failure},
+    map::Map,
+    run::{
+        answer::Run,
+        queries::Queries,
+        report::{Jsonl, Report, TableReport},
+        session::{Finished, Session, TraceFile},
+    },
+    terminal::{progress::Progress, screen::Screen, text::count},
+};
+
+/// Runs the command.
+pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure> {
+    let setup = args.setup()?;
+    let reference = args.reference(setup.rules)?;
+    if args.draw && args.format == Format::Jsonl {
+        return Err(Failure::DrawJsonl);
+    }
+    if args.index.is_some() {
+        setup.index_version()?;
+    }
+    let map = Map::load(&args.map)?;
+    if let (Some(path), Some(from)) = (&args.distances, args.from) {
+        return distances::write(setup, &map, from, path, screen);
+    }
+    let queries = Queries::load(args, &map)?;
+    if args.draw && queries.len() > 1 {
+        return Err(Failure::DrawMany);
+    }
+    if args.trace.is_some() && queries.len() > 1 {
+        return Err(Failure::TraceMany);
+    }
+    let rules = SharedRules::new();
+    let begin = Instant::now();
+    let (space, index) = prepare(args, setup, &map, &rules)?;
+    let preparation = begin.elapsed();
+    let trace = args.trace.as_deref().map(|path| {
+        let file = File::create(path).map_err(Failure::writing(path))?;
+        Ok::<_, Failure>(TraceFile { path, out: BufWriter::new(file) })
+    });
+    let trace = trace.transpose()?;
+    let mut planner = index.planner()?;
+    let run = Run {
+        map: &map,
+        scenario: queries.scenario_name(),
+        queries: queries.len(),
+        setup,
+        options: EngineOption::ALL.map(|option| (option, index.value(option))).to_vec(),
+        guarantee: planner.guarantee(),
+        reference: args.reference,
+        repeat: args.repeat.get(),
+        preparation,
+        memory_bytes: space.memory_bytes() + index.memory_bytes(),
+    };
+    // Lines of JSON on the screen are progress enough, and a bar would break them.
+    let lines_on_screen = args.format == Format::Jsonl && io::stdout().is_terminal();
+    let mut report: Box<dyn Report> = match args.format {
+        Format::Jsonl => Box::new(Jsonl::new(screen, lines_on_screen)),
+        Format::Table => Box::new(TableReport::new(screen)),
+    };
+    let session = Session {
+        queries: &queries,
+        any_angle: reference.map(|setup| BoxedPlanner::new(setup, &map.grid, &rules)).transpose()?,
+        report: &mut *report,
+        progress: Progress::new(queries.len(), !lines_on_screen),
+        trace,
+    };
+    let finished = session.answer_all(&mut planner, &run)?;
+    drop(report);
+    if args.draw {
+        draw(setup, &map, &queries, &finished, screen)?;
+    }
+    Ok(ending(&queries, finished))
+}
+
+/// The search space of a map, and the index that is made, or loaded from the file that the arguments name.
+fn prepare(
+    args: &RunArgs,
+    setup: Setup,
+    map: &Map,
+    rules: &SharedRules,
+) -> Result<(SearchSpace, Index), Failure> {
+    let bytes = args.index.as_deref().map(|path| build::load(path, setup, &map.grid)).transpose()?;
+    let space = SearchSpace::new(setup, &map.grid)?;
+    let index = match bytes {
+        None => Index::new(setup, &space, rules)?,
+        Some(bytes) => Index::from_bytes(setup, &space, rules, &bytes)?,
+    };
+    Ok((space, index))
+}
+
+/// The picture of a single query.
+fn draw(
+    setup: Setup,
+    map: &Map,
+    queries: &Queries,
+    finished: &Finished,
+    screen: &mut Screen,
+) -> io::Result<()> {
+    let Some(item) = queries.iter().next() else { return Ok(()) };
+    let mut canvas = Canvas::fit(map, setup.rules.placement(), screen);
+    canvas.path(&finished.path, Stroke::Solid, INKS.best);
+    canvas.ends(item.query);
+    writeln!(screen)?;
+    canvas.write(screen)
+}
+
+fn ending(queries: &Queries, finished: Finished) -> Ending {
+    match (finished.first_error, queries) {
+        (None, _) => Ending::Answered,
+        (Some((_, error)), Queries::Single(_)) => Ending::QueryErrors(error),
+        (Some((index, error)), _) => {
+            let errors = count(finished.summary.errors, "query", "queries");
+            let all = finished.summary.queries;
+            Ending::QueryErrors(format!(
+                "{errors} of {all} cannot be answered; the first, index {index}: {error}"
+            ))
+        }
+    }
+}

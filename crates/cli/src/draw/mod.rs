@@ -1,0 +1,6 @@
+//! Pictures of maps, paths and moves in characters.
+
+pub(crate) mod braille;
+pub(crate) mod picture;
+pub(crate) mod star;
+pub(crate) mod theme;

@@ -1,0 +1,289 @@
+//! `--format table`: for people.
+
+use std::io::{self, Write};
+
+use mediant_engines::{EngineKind, OptionValue};
+use mediant_grid::{PlacementKind, Vertex};
+
+use super::{Report, guarantee_name, jsonl::smoothing_name};
+use crate::{
+    run::{
+        answer::{Answer, Found, Run},
+        summary::{Ratios, References, Summary},
+    },
+    terminal::{
+        screen::{BOLD, Screen},
+        text::{Align, Table, count, excess, grouped, percent_over, printable, time, wrap},
+    },
+};
+
+/// Keeps the rows, since columns are as wide as their widest cell: all of a few queries, of many only the errors.
+pub(crate) struct TableReport<'s> {
+    screen: &'s mut Screen,
+    queries: usize,
+    from_scenario: bool,
+    /// Whether the scenario's lengths are for these rules and this k.
+    is_reference: bool,
+    /// The engine that finds the shortest any-angle paths.
+    any_angle: &'static str,
+    /// Whether searches may leave their plans.
+    may_fall_back: bool,
+    rows: Vec<Answer>,
+    /// Errors beyond those in the rows.
+    more_errors: u64,
+}
+
+impl<'s> TableReport<'s> {
+    /// The most rows.
+    const ROWS: usize = 20;
+
+    pub(crate) const fn new(screen: &'s mut Screen) -> Self {
+        Self {
+            screen,
+            queries: 0,
+            from_scenario: false,
+            is_reference: false,
+            any_angle: "",
+            may_fall_back: false,
+            rows: Vec::new(),
+            more_errors: 0,
+        }
+    }
+
+    fn rows(&mut self) -> io::Result<()> {
+        let few = self.queries <= Self::ROWS;
+        let mut heads = vec![("index", Align::Right), ("start", Align::Left), ("goal", Align::Left)];
+        heads.push(("cost", Align::Right));
+        if self.from_scenario {
+            heads.push(("reference", Align::Right));
+        }
+        heads.extend([("waypoints", Align::Right), ("expanded", Align::Right), ("time", Align::Right)]);
+        let mut table =
+            Table::new(if few { heads } else { vec![heads[0], heads[1], heads[2], ("error", Align::Left)] });
+        for row in &self.rows {
+            table.row(if few { answer_cells(row, self.from_scenario) } else { error_cells(row) });
+        }
+        table.write(self.screen)?;
+        let mut gap = "\n";
+        // What is wrong with the only query is said on stderr.
+        for row in self.rows.iter().filter(|_| few && self.queries > 1) {
+            if let Err(error) = &row.found {
+                writeln!(self.screen, "{gap}  {}: {error}", row.item.index)?;
+                gap = "";
+            }
+        }
+        if self.more_errors > 0 {
+            writeln!(
+                self.screen,
+                "  … and {}; --format jsonl shows all",
+                count(self.more_errors, "more error", "more errors")
+            )?;
+        }
+        Ok(())
+    }
+
+    /// The waypoints of a single query.
+    fn path(&mut self) -> io::Result<()> {
+        let Some((row, found)) = self.rows.first().and_then(|row| Some((row, row.path()?))) else {
+            return Ok(());
+        };
+        let waypoints = found.path.waypoints();
+        let last = waypoints.len().saturating_sub(1);
+        let words = waypoints.iter().enumerate();
+        let words = words.map(|(i, at)| format!("{}{}", vertex(*at), if i < last { " →" } else { "" }));
+        let text = wrap("  path  ", words, self.screen.columns().min(100));
+        writeln!(self.screen, "\n{text}")?;
+        if self.may_fall_back {
+            writeln!(self.screen, "  plan  {}", left(row.counters.fallbacks))?;
+        }
+        writeln!(self.screen, "  turns {:.1}° in all", found.path.smoothness())?;
+        let bound = found.bound();
+        let certificate = if bound > NO_LONGER {
+            format!("at most {} longer than the shortest path at any angle", excess(bound))
+        } else {
+            "no path at any angle is shorter".to_owned()
+        };
+        writeln!(self.screen, "  {certificate} (certificate)")?;
+        let Some((ratio, best)) = found.ratio().zip(found.any_angle) else { return Ok(()) };
+        let than =
+            if ratio > NO_LONGER { format!("{} longer than", excess(ratio)) } else { "as short as".into() };
+        writeln!(self.screen, "  {than} the one that {} finds, of length {best:.4}", self.any_angle)
+    }
+
+    /// How much longer than the shortest any-angle paths the paths are, or are at most.
+    fn ratios(&mut self, name: &str, ratios: Option<Ratios>, at_most: &str, source: &str) -> io::Result<()> {
+        let Some(Ratios { mean, worst, worst_index }) = ratios else { return Ok(()) };
+        let text = if worst > NO_LONGER {
+            let [mean, worst] = [mean, worst].map(excess);
+            format!("{at_most}+{mean} on average, +{worst} at index {worst_index} ({source})")
+        } else {
+            format!("every path is a shortest one at any angle ({source})")
+        };
+        self.fact(name, &text)
+    }
+
+    fn references(&mut self, references: &References) -> io::Result<()> {
+        let &References { compared, equal, worst_deviation, worst_index, cost_ratio } = references;
+        let (equal, compared) = (grouped(equal), grouped(compared));
+        // A deviation that the printed digits do not show has no sign either.
+        let worst = if worst_deviation.abs() < 0.000_05 { 0.0 } else { worst_deviation };
+        self.fact("reference", &format!("{equal} of {compared} equal (within 0.005 or 0.001 %)"))?;
+        self.fact("", &format!("furthest off {worst:+.4} at index {worst_index}"))?;
+        if self.is_reference {
+            return Ok(());
+        }
+        let over = percent_over(cost_ratio, 3);
+        self.fact("", &format!("costs {over} in all (references: k = 3, center, corners never)"))
+    }
+
+    fn fact(&mut self, name: &str, text: &str) -> io::Result<()> {
+        writeln!(self.screen, "  {}  {text}", self.screen.paint(BOLD, format_args!("{name:<9}")))
+    }
+}
+
+impl Report for TableReport<'_> {
+    fn begin(&mut self, run: &Run<'_>) -> io::Result<()> {
+        let setup = run.setup;
+        self.queries = run.queries;
+        self.from_scenario = run.scenario.is_some();
+        self.is_reference = setup.solves_scenarios();
+        self.any_angle = run.reference.map_or("", EngineKind::name);
+        self.may_fall_back = setup.engine.detour().is_some();
+        let rule = match setup.rules.placement() {
+            PlacementKind::Center => format!("corners {}", setup.rule_name()),
+            PlacementKind::Corner => format!("gap {}", setup.rule_name()),
+        };
+        let grid = &run.map.grid;
+        let size = format!("{} × {} cells, {} free", grid.width(), grid.height(), grouped(grid.free_cells()));
+        writeln!(self.screen, "{} · {size}", self.screen.paint(BOLD, printable(&run.map.name)))?;
+        let name = setup.engine.kind().name();
+        let mut parts = vec![name.to_owned()];
+        parts.extend(options(run));
+        parts.extend(setup.smoothing.map(|smoothing| format!("smoothing {}", smoothing_name(smoothing))));
+        let last = parts.len() - 1;
+        let words = parts.iter().enumerate();
+        let words = words.map(|(i, part)| format!("{part}{}", if i < last { "," } else { " ·" }));
+        let problem = [format!("k = {} ·", setup.k), format!("{}, {rule}", setup.rules.placement())];
+        let text = wrap("", words.chain(problem), self.screen.columns());
+        let rest = text.strip_prefix(name).unwrap_or_default();
+        writeln!(self.screen, "{}{rest}", self.screen.paint(BOLD, name))?;
+        let preparation = time(run.preparation.as_nanos() as f64);
+        writeln!(self.screen, "{} · prepared in {preparation}\n", guarantee_name(run.guarantee))
+    }
+
+    fn query(&mut self, answer: Answer) -> io::Result<()> {
+        let is_error = answer.found.is_err();
+        if self.rows.len() < Self::ROWS && (is_error || self.queries <= Self::ROWS) {
+            self.rows.push(answer);
+        } else if is_error {
+            self.more_errors += 1;
+        }
+        Ok(())
+    }
+
+    fn end(&mut self, summary: &Summary) -> io::Result<()> {
+        if !self.rows.is_empty() {
+            self.rows()?;
+        }
+        if !self.from_scenario {
+            return self.path();
+        }
+        if !self.rows.is_empty() {
+            writeln!(self.screen)?;
+        }
+        let Summary { queries, found, unreachable, errors, .. } = summary;
+        let errors = count(*errors, "error", "errors");
+        let counts = format!(
+            "{}: {} found, {} unreachable, {errors}",
+            grouped(*queries),
+            grouped(*found),
+            grouped(*unreachable)
+        );
+        self.fact("queries", &counts)?;
+        if found + unreachable == 0 {
+            return Ok(());
+        }
+        let [median, mean, max] =
+            [summary.median_nanos as f64, summary.mean_nanos, summary.max_nanos as f64].map(time);
+        self.fact("time", &format!("median {median}, mean {mean}, max {max}"))?;
+        let [expanded, generated] = [summary.mean_expanded, summary.mean_generated].map(mean_count);
+        let updated = mean_count(summary.mean_updated);
+        self.fact("nodes", &format!("mean {expanded} expanded, {generated} generated, {updated} updated"))?;
+        if summary.mean_scanned > 0.0 {
+            self.fact("runs", &format!("mean {} vertices scanned", mean_count(summary.mean_scanned)))?;
+        }
+        if self.may_fall_back {
+            self.fact("plans", &left(summary.fallbacks))?;
+        }
+        if let (Some(cost), Some(smoothness)) = (summary.mean_cost, summary.mean_smoothness) {
+            self.fact("paths", &format!("mean cost {cost:.4}, smoothness {smoothness:.1}°"))?;
+        }
+        self.ratios("any angle", summary.bound, "at most ", "certified")?;
+        let found = format!("found by {}", self.any_angle);
+        self.ratios("", summary.ratio, "", &found)?;
+        match &summary.reference {
+            Some(references) => self.references(references),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A path whose ratio to the shortest is no larger is as short, but for rounding.
+const NO_LONGER: f64 = 1.0 + 1e-9;
+
+/// How often plans were left.
+fn left(times: u64) -> String {
+    match times {
+        0 => "never left".to_owned(),
+        1 => "left once".to_owned(),
+        _ => format!("left {} times", grouped(times)),
+    }
+}
+
+fn mean_count(mean: f64) -> String {
+    if mean < 1_000.0 { format!("{mean:.1}") } else { grouped(mean.round() as u64) }
+}
+
+/// The engine's options in words, with the second heuristic only where it is not the first.
+fn options(run: &Run<'_>) -> impl Iterator<Item = String> {
+    let mut heuristics = Vec::new();
+    run.options.iter().filter_map(move |&(option, value)| {
+        let value = value?;
+        if let OptionValue::Heuristic(_) = value {
+            if heuristics.contains(&value) {
+                return None;
+            }
+            heuristics.push(value);
+        }
+        Some(option.describe(value))
+    })
+}
+
+fn vertex(at: Vertex) -> String {
+    format!("({}, {})", at.x, at.y)
+}
+
+fn error_cells(row: &Answer) -> Vec<String> {
+    let error = row.found.as_ref().err().cloned().unwrap_or_default();
+    vec![row.item.index.to_string(), vertex(row.item.query.start), vertex(row.item.query.goal), error]
+}
+
+fn answer_cells(row: &Answer, with_reference: bool) -> Vec<String> {
+    let item = row.item;
+    let mut cells = vec![item.index.to_string(), vertex(item.query.start), vertex(item.query.goal)];
+    cells.push(match &row.found {
+        Err(_) => "error".to_owned(),
+        Ok(None) => "unreachable".to_owned(),
+        Ok(Some(Found { path, .. })) => format!("{:.4}", path.cost()),
+    });
+    if with_reference {
+        cells.push(item.reference.map_or_else(String::new, |reference| format!("{reference:.4}")));
+    }
+    if row.found.is_err() {
+        return cells;
+    }
+    cells.push(row.path().map_or_else(String::new, |found| found.path.waypoints().len().to_string()));
+    cells.push(grouped(row.counters.expanded));
+    cells.push(time(row.nanos as f64));
+    cells
+}

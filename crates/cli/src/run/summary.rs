@@ -1,0 +1,268 @@
+//! The figures that sum up a run.
+
+use mediant_formats::scenario_tolerance;
+use serde::Serialize;
+
+use super::answer::{Answer, Found};
+
+/// What a run came to. Times and counts are over the answered queries, costs over the found ones.
+#[derive(Clone, Debug, Serialize)]
+#[serde(tag = "type", rename = "summary")]
+pub(crate) struct Summary {
+    pub(crate) queries: u64,
+    pub(crate) found: u64,
+    pub(crate) unreachable: u64,
+    pub(crate) errors: u64,
+    pub(crate) total_nanos: u64,
+    pub(crate) mean_nanos: f64,
+    pub(crate) median_nanos: u64,
+    pub(crate) max_nanos: u64,
+    pub(crate) mean_expanded: f64,
+    pub(crate) mean_generated: f64,
+    pub(crate) mean_percolations: f64,
+    pub(crate) mean_updated: f64,
+    pub(crate) mean_scanned: f64,
+    /// How often searches in two phases left their plans, in all.
+    pub(crate) fallbacks: u64,
+    /// `null` where no path was found.
+    pub(crate) mean_cost: Option<f64>,
+    /// `null` where no path was found.
+    pub(crate) mean_smoothness: Option<f64>,
+    /// Of how much longer than the shortest any-angle paths the paths can be; `null` where no path was found.
+    pub(crate) bound: Option<Ratios>,
+    /// Of how much longer they are; `null` where that is not known of any.
+    pub(crate) ratio: Option<Ratios>,
+    /// `null` where no answered query has a reference.
+    pub(crate) reference: Option<References>,
+}
+
+/// Ratios to the lengths of the shortest any-angle paths.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub(crate) struct Ratios {
+    pub(crate) mean: f64,
+    pub(crate) worst: f64,
+    /// The index of the first query with the worst.
+    pub(crate) worst_index: usize,
+}
+
+/// How the costs compare with the lengths in the scenario. No path counts as length 0, which is what scenarios give for it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct References {
+    /// The answered queries that have a reference.
+    pub(crate) compared: u64,
+    /// Those as near to it as [`scenario_tolerance`] asks.
+    pub(crate) equal: u64,
+    /// The cost less the reference, where they are furthest apart.
+    pub(crate) worst_deviation: f64,
+    /// The index of that query.
+    pub(crate) worst_index: usize,
+    /// All costs over all references.
+    pub(crate) cost_ratio: f64,
+}
+
+/// Takes the records one by one; keeps eight bytes of each.
+#[derive(Debug, Default)]
+pub(crate) struct Tally {
+    nanos: Vec<u64>,
+    found: u64,
+    unreachable: u64,
+    errors: u64,
+    expanded: u64,
+    generated: u64,
+    percolations: u64,
+    updated: u64,
+    scanned: u64,
+    fallbacks: u64,
+    cost: f64,
+    smoothness: f64,
+    bound: RatioTally,
+    ratio: RatioTally,
+    compared: u64,
+    equal: u64,
+    worst: (f64, usize),
+    compared_cost: f64,
+    reference: f64,
+}
+
+impl Tally {
+    pub(crate) fn add(&mut self, answer: &Answer) {
+        let found = match &answer.found {
+            Ok(found) => found.as_ref(),
+            Err(_) => {
+                self.errors += 1;
+                return;
+            }
+        };
+        *(if found.is_some() { &mut self.found } else { &mut self.unreachable }) += 1;
+        let (index, counters) = (answer.item.index, &answer.counters);
+        self.nanos.push(answer.nanos);
+        self.expanded += counters.expanded;
+        self.generated += counters.generated;
+        self.percolations += counters.percolations;
+        self.updated += counters.updated;
+        self.scanned += counters.scanned;
+        self.fallbacks += counters.fallbacks;
+        self.smoothness += found.map_or(0.0, |found| found.path.smoothness());
+        let cost = found.map_or(0.0, |found| found.path.cost());
+        self.cost += cost;
+        self.bound.add(index, found.map(Found::bound));
+        self.ratio.add(index, found.and_then(Found::ratio));
+        if let Some(reference) = answer.item.reference {
+            self.compare(index, cost, reference);
+        }
+    }
+
+    fn compare(&mut self, index: usize, cost: f64, reference: f64) {
+        let deviation = cost - reference;
+        if self.compared == 0 || deviation.abs() > self.worst.0.abs() {
+            self.worst = (deviation, index);
+        }
+        self.compared += 1;
+        self.equal += u64::from(deviation.abs() <= scenario_tolerance(reference));
+        self.compared_cost += cost;
+        self.reference += reference;
+    }
+
+    pub(crate) fn finish(mut self) -> Summary {
+        self.nanos.sort_unstable();
+        let total: u64 = self.nanos.iter().sum();
+        let mean = |sum: f64, count: u64| if count == 0 { 0.0 } else { sum / count as f64 };
+        let answered = self.nanos.len() as u64;
+        let (worst_deviation, worst_index) = self.worst;
+        let references = References {
+            compared: self.compared,
+            equal: self.equal,
+            worst_deviation,
+            worst_index,
+            cost_ratio: if self.reference > 0.0 { self.compared_cost / self.reference } else { 1.0 },
+        };
+        Summary {
+            queries: answered + self.errors,
+            found: self.found,
+            unreachable: self.unreachable,
+            errors: self.errors,
+            total_nanos: total,
+            mean_nanos: mean(total as f64, answered),
+            median_nanos: median(&self.nanos),
+            max_nanos: self.nanos.last().copied().unwrap_or(0),
+            mean_expanded: mean(self.expanded as f64, answered),
+            mean_generated: mean(self.generated as f64, answered),
+            mean_percolations: mean(self.percolations as f64, answered),
+            mean_updated: mean(self.updated as f64, answered),
+            mean_scanned: mean(self.scanned as f64, answered),
+            fallbacks: self.fallbacks,
+            mean_cost: (self.found > 0).then(|| mean(self.cost, self.found)),
+            mean_smoothness: (self.found > 0).then(|| mean(self.smoothness, self.found)),
+            bound: self.bound.finish(),
+            ratio: self.ratio.finish(),
+            reference: (self.compared > 0).then_some(references),
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct RatioTally {
+    sum: f64,
+    count: u64,
+    worst: Option<(f64, usize)>,
+}
+
+impl RatioTally {
+    fn add(&mut self, index: usize, ratio: Option<f64>) {
+        let Some(ratio) = ratio else { return };
+        self.sum += ratio;
+        self.count += 1;
+        if self.worst.is_none_or(|(worst, _)| ratio > worst) {
+            self.worst = Some((ratio, index));
+        }
+    }
+
+    fn finish(self) -> Option<Ratios> {
+        let (worst, worst_index) = self.worst?;
+        Some(Ratios { mean: self.sum / self.count as f64, worst, worst_index })
+    }
+}
+
+/// Of sorted numbers; the mean of the two in the middle, cut off, where their count is even; 0 of none.
+fn median(sorted: &[u64]) -> u64 {
+    let upper = sorted.get(sorted.len() / 2).copied().unwrap_or(0);
+    if sorted.len() % 2 == 1 {
+        upper
+    } else {
+        sorted.get((sorted.len() / 2).wrapping_sub(1)).copied().unwrap_or(0).midpoint(upper)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use mediant_grid::Vertex;
+    use mediant_search::{Counters, Path, Query};
+
+    use super::*;
+    use crate::run::queries::Item;
+
+    /// The answer with a path of this length, right and then down; without one for `None`.
+    fn answer(index: usize, cost: Option<i32>, reference: f64, nanos: u64) -> Answer {
+        let found = cost.map(|cost| {
+            let path = Path::new([(0, 0), (cost - 1, 0), (cost - 1, 1)].map(Vertex::from).to_vec());
+            Found { lower_bound: path.cost(), path, any_angle: None }
+        });
+        let counters = Counters {
+            expanded: 10,
+            generated: 20,
+            percolations: 30,
+            updated: 40,
+            scanned: 50,
+            fallbacks: 60,
+        };
+        let item = Item { index, query: Query::new((0, 0), (0, 0)), reference: Some(reference) };
+        Answer { item, found: Ok(found), counters, nanos }
+    }
+
+    #[test]
+    fn figures_are_over_the_queries_that_they_are_about() {
+        let mut tally = Tally::default();
+        tally.add(&answer(0, Some(10), 10.004, 4));
+        tally.add(&answer(1, Some(9), 10.0, 1));
+        tally.add(&answer(2, None, 0.0, 3));
+        tally.add(&answer(3, Some(30_000), 30_000.2, 100));
+        tally.add(&Answer { found: Err("an end is blocked".to_owned()), ..answer(4, None, 1.0, 0) });
+        let summary = tally.finish();
+        assert_eq!((summary.queries, summary.found, summary.unreachable, summary.errors), (5, 3, 1, 1));
+        assert_eq!((summary.median_nanos, summary.max_nanos, summary.total_nanos), (3, 100, 108));
+        assert_eq!((summary.mean_nanos, summary.mean_expanded), (27.0, 10.0));
+        assert_eq!((summary.mean_updated, summary.mean_scanned, summary.fallbacks), (40.0, 50.0, 240));
+        assert_eq!(summary.mean_smoothness, Some(90.0));
+        let reference = summary.reference.unwrap();
+        assert_eq!((reference.compared, reference.equal), (4, 3));
+        assert_eq!((reference.worst_deviation, reference.worst_index), (-1.0, 1));
+    }
+
+    #[test]
+    fn of_ratios_there_are_the_mean_and_the_first_of_the_worst() {
+        let mut tally = Tally::default();
+        assert_eq!((tally.bound.finish(), tally.ratio.finish()), (None, None));
+        let with = |index, lower_bound, any_angle| {
+            let mut answer = answer(index, Some(3), 3.0, 1);
+            if let Ok(Some(found)) = &mut answer.found {
+                (found.lower_bound, found.any_angle) = (lower_bound, any_angle);
+            }
+            answer
+        };
+        for (index, lower_bound) in [(0, 3.0), (2, 2.0), (4, 2.0), (6, 2.5)] {
+            tally.add(&with(index, lower_bound, None));
+        }
+        tally.add(&with(8, 3.0, Some(2.4)));
+        tally.add(&answer(10, None, 0.0, 1));
+        let summary = tally.finish();
+        let bound = summary.bound.unwrap();
+        assert!((bound.mean - 6.2 / 5.0).abs() < 1e-12, "{bound:?}");
+        assert_eq!((bound.worst, bound.worst_index), (1.5, 2));
+        assert_eq!(summary.ratio, Some(Ratios { mean: 1.25, worst: 1.25, worst_index: 8 }));
+    }
+
+    #[test]
+    fn medians() {
+        assert_eq!([&[][..], &[7], &[1, 4], &[1, 2, 9]].map(median), [0, 7, 2, 2]);
+    }
+}

@@ -1,0 +1,109 @@
+//! `mediant run --trace`: an observer that writes down what a search does.
+
+use std::io::{self, Write};
+
+use mediant_engines::BoxedPlanner;
+use mediant_formats::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
+use mediant_grid::{Grid, PlacementKind, Vertex};
+use mediant_search::{NodeEvent, Observer, Outcome, Path, Query, QueryError};
+
+/// Writes the events of one search.
+pub(crate) struct Tracer<'g, W: Write> {
+    trace: TraceWriter<'g, W>,
+    /// Vertices in a row.
+    width: u32,
+    /// The vertex that is being expanded.
+    open: Option<TraceEvent>,
+    /// What the writer said first; nothing is written after an error.
+    written: io::Result<()>,
+}
+
+impl<'g, W: Write> Tracer<'g, W> {
+    pub(crate) fn new(out: W, grid: &'g Grid, placement: PlacementKind) -> io::Result<Self> {
+        let width = grid.width() + u32::from(placement == PlacementKind::Corner);
+        let trace = TraceWriter::new(out, &TraceHeader { placement, map: Some(grid) })?;
+        Ok(Self { trace, width, open: None, written: Ok(()) })
+    }
+
+    /// Writes down the search that gives this answer. A query that is an error makes a trace without events.
+    pub(crate) fn run(
+        mut self,
+        planner: &mut BoxedPlanner,
+        query: Query,
+        answer: &Result<Outcome, QueryError>,
+    ) -> io::Result<()> {
+        if let Ok(outcome) = answer {
+            self.begin(query);
+            // The same query gives the same answer.
+            _ = planner.solve_observed(query, &mut self);
+            self.end(outcome);
+        }
+        self.written?;
+        self.trace.finish().map(|_| ())
+    }
+
+    /// Says between which vertices the search is.
+    fn begin(&mut self, query: Query) {
+        let (source, destination) = (self.at(query.start), self.at(query.goal));
+        self.write(TraceEventKind::Source, &TraceEvent { g: Some(0.0), ..source });
+        self.write(TraceEventKind::Destination, &destination);
+    }
+
+    /// Ends the trace by the waypoints of the path: so the visualizer shows the path as it is, also where it turns at a vertex that is
+    /// no node of the search.
+    fn end(&mut self, outcome: &Outcome) {
+        self.close();
+        let mut last: Option<(TraceEvent, Vertex)> = None;
+        for &at in outcome.path().map_or(&[][..], Path::waypoints) {
+            let (parent, g) = last.map_or((None, 0.0), |(event, from)| {
+                (Some(event.id), event.g.unwrap_or(0.0) + from.distance(at))
+            });
+            let event = TraceEvent { parent, g: Some(g), ..self.at(at) };
+            self.write(TraceEventKind::End, &event);
+            last = Some((event, at));
+        }
+    }
+
+    /// An event of which nothing but the place is known. Numbers begin with 1, since the visualizer's path stops short of 0.
+    fn at(&self, at: Vertex) -> TraceEvent {
+        let id = at.y as u32 * self.width + at.x as u32 + 1;
+        TraceEvent { id, parent: None, x: at.x, y: at.y, f: None, g: None }
+    }
+
+    fn node(&self, node: NodeEvent) -> TraceEvent {
+        let parent = node.parent.map(|parent| self.at(parent).id);
+        TraceEvent { parent, f: Some(node.f.to_f64()), g: Some(node.g.to_f64()), ..self.at(node.at) }
+    }
+
+    fn write(&mut self, kind: TraceEventKind, event: &TraceEvent) {
+        if self.written.is_ok() {
+            self.written = self.trace.event(kind, event);
+        }
+    }
+
+    /// The vertex that was being expanded has no more successors.
+    fn close(&mut self) {
+        if let Some(event) = self.open.take() {
+            self.write(TraceEventKind::Closing, &event);
+        }
+    }
+}
+
+impl<W: Write> Observer for Tracer<'_, W> {
+    fn expanded(&mut self, node: NodeEvent) {
+        self.close();
+        let event = self.node(node);
+        self.write(TraceEventKind::Expanding, &event);
+        self.open = Some(event);
+    }
+
+    fn generated(&mut self, node: NodeEvent) {
+        let event = self.node(node);
+        self.write(TraceEventKind::Generating, &event);
+    }
+
+    fn updated(&mut self, node: NodeEvent) {
+        let event = self.node(node);
+        self.write(TraceEventKind::Updating, &event);
+    }
+}

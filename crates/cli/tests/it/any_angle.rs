@@ -1,0 +1,256 @@
+//! Any-angle engines, smoothing, certificates.
+
+use serde_json::Value;
+
+use crate::common::{Files, Ran, mediant, redact_times, run, told};
+
+fn number(record: &Value, name: &str) -> f64 {
+    record[name].as_f64().unwrap_or_else(|| panic!("a number `{name}` in {record}"))
+}
+
+fn straight(query: &Value) -> f64 {
+    let [x, y] =
+        [0, 1].map(|i| query["goal"][i].as_f64().zip(query["start"][i].as_f64()).map(|(a, b)| a - b));
+    x.zip(y).map(|(x, y)| x.hypot(y)).expect("coordinates")
+}
+
+const SLACK: f64 = 1.0 + 1e-9;
+
+#[test]
+fn anya_needs_no_more_than_its_name() {
+    let (run, queries, summary) = told("run builtin:town --engine anya");
+    let expected = serde_json::json!({
+        "k": "any", "placement": "corner", "gap": "open", "heuristic": null, "guarantee": "optimal(any)", "smooth": false,
+        "smoothing": null, "any_angle": null,
+    });
+    for (key, value) in expected.as_object().expect("an object") {
+        assert_eq!(&run[key], value, "{key}");
+    }
+    let (_, same, _) = told("run builtin:town --engine anya --k any --placement corner --gap open");
+    let (_, fine, _) = told("run builtin:town --k 12 --placement corner");
+    assert_eq!((queries.len(), same.len(), fine.len()), (22, 22, 22));
+    for ((query, same), fine) in queries.iter().zip(&same).zip(&fine) {
+        assert_eq!((&query["path"], &query["expanded"]), (&same["path"], &same["expanded"]));
+        let (cost, fine) = (number(query, "cost"), number(fine, "cost"));
+        // Of N(12) no path is longer by more than 0.12 %.
+        assert!(straight(query) <= cost * SLACK && cost <= fine * SLACK && fine <= 1.0013 * cost, "{query}");
+        assert_eq!((number(query, "bound"), number(query, "lower_bound")), (1.0, cost), "{query}");
+    }
+    assert_eq!(summary["bound"], serde_json::json!({ "mean": 1.0, "worst": 1.0, "worst_index": 0 }));
+    assert_eq!(told("run builtin:town --engine anya --gap closed").0["gap"], "closed");
+    // The default placement follows the engine, a named one does not.
+    assert_eq!(told("run builtin:town --engine theta").0["placement"], "center");
+}
+
+/// What a certificate says is true: of each engine, against the any-angle optimum under the same rules.
+#[test]
+fn certificates_hold() {
+    let mut inexact = 0;
+    for (options, worst) in [
+        ("--k 2", Some(2.0_f64.sqrt())),
+        ("--k 3", Some(1.0824)),
+        ("--k 5 --engine jps --gap closed", Some(1.0132)),
+        ("--k 3 --smooth", Some(1.0824)),
+        ("--k 4 --smooth=taut --gap closed", Some(1.0276)),
+        ("--engine theta", None),
+        ("--engine lazy-theta --k 4 --gap closed", None),
+        ("--engine theta --smooth=taut", None),
+        ("--engine anya", Some(1.0)),
+    ] {
+        let (run, queries, summary) =
+            told(&format!("run builtin:town --placement corner --reference anya {options}"));
+        assert_eq!((&run["any_angle"], queries.len()), (&"anya".into(), 22));
+        for query in &queries {
+            let [cost, lower, bound] = ["cost", "lower_bound", "bound"].map(|name| number(query, name));
+            let [best, ratio] = ["any_angle", "ratio"].map(|name| number(query, name));
+            assert!((cost / lower - bound).abs() < 1e-12 && (cost / best - ratio).abs() < 1e-12, "{query}");
+            assert!(
+                straight(query) <= lower * SLACK && lower <= best * SLACK && best <= cost * SLACK,
+                "{query}"
+            );
+            assert!(1.0 <= bound && ratio <= bound * SLACK, "{options}: {query}");
+            match worst {
+                Some(worst) => assert!(bound <= worst * SLACK, "{options}: {query}"),
+                // Nothing is known but the straight line.
+                None => assert!((lower - straight(query)).abs() < 1e-9 * lower, "{options}: {query}"),
+            }
+            inexact += u32::from(ratio > SLACK);
+        }
+        for (name, key) in [("bound", "bound"), ("ratio", "ratio")] {
+            let of = |query: &Value| number(query, key);
+            let mean = queries.iter().map(of).sum::<f64>() / 22.0;
+            let worst = queries.iter().map(of).fold(0.0, f64::max);
+            let at = queries.iter().position(|query| of(query) == worst);
+            assert!((number(&summary[name], "mean") - mean).abs() < 1e-9, "{options}: {summary}");
+            assert!((number(&summary[name], "worst") - worst).abs() < 1e-12, "{options}: {summary}");
+            assert_eq!(summary[name]["worst_index"].as_u64(), at.map(|at| at as u64), "{options}");
+        }
+    }
+    assert!(inexact > 100, "only {inexact} paths are longer than the shortest");
+}
+
+#[test]
+fn centers_have_certificates_too() {
+    for (options, worst) in [("", 2.0_f64.sqrt()), (" --corners one --k 4", 1.2427)] {
+        let (_, queries, summary) = told(&format!("run builtin:cave{options}"));
+        let bounds = queries.iter().map(|query| number(query, "bound"));
+        assert!(bounds.clone().all(|bound| (1.0..=worst * SLACK).contains(&bound)) && bounds.count() == 32);
+        assert!(queries.iter().all(|query| query["any_angle"].is_null() && query["ratio"].is_null()));
+        assert!(summary["ratio"].is_null() && !summary["bound"].is_null());
+    }
+}
+
+#[test]
+fn no_path_and_no_way_have_certificates_of_their_own() {
+    let files = Files::new();
+    let map = files.add("walls.map", "type octile\nheight 1\nwidth 5\nmap\n.@@..\n");
+    let line = |x: i32, goal: i32| format!("0\twalls.map\t5\t1\t{x}\t0\t{goal}\t0\t1\n");
+    let scenario = files.add("walls.scen", format!("version 1\n{}{}", line(4, 4), line(0, 4)));
+    let line = format!("run {map} --scen {scenario} --placement corner --reference anya");
+    let (_, queries, summary) = told(&line);
+    let figures =
+        |query: &Value| ["lower_bound", "bound", "any_angle", "ratio"].map(|name| query[name].as_f64());
+    assert_eq!(figures(&queries[0]), [0.0, 1.0, 0.0, 1.0].map(Some));
+    assert_eq!((&queries[1]["status"], figures(&queries[1])), (&"unreachable".into(), [None; 4]));
+    assert_eq!(number(&summary["ratio"], "mean"), 1.0);
+    let (_, _, nothing) = told(&format!("run {map} --from 0,0 --to 4,0"));
+    assert_eq!((&nothing["bound"], &nothing["ratio"]), (&Value::Null, &Value::Null));
+}
+
+#[test]
+fn smoothing_makes_paths_no_longer() {
+    let sum = |queries: &[Value]| queries.iter().map(|query| number(query, "cost")).sum::<f64>();
+    for placement in ["center", "corner"] {
+        let smoothed =
+            |options: &str| told(&format!("run builtin:cave --k 4 --placement {placement}{options}"));
+        let (plain, bare) = (smoothed(""), smoothed(" --smooth"));
+        for (option, name) in [("", "linear"), ("=linear", "linear"), ("=taut", "taut")] {
+            let (run, queries, _) = smoothed(&format!(" --smooth{option}"));
+            assert_eq!((&run["smooth"], &run["smoothing"]), (&true.into(), &name.into()));
+            assert_eq!(run["guarantee"], "at most optimal(4)");
+            assert!(sum(&queries) < sum(&plain.1), "{placement}{option}");
+            for (query, before) in queries.iter().zip(&plain.1) {
+                assert!(number(query, "cost") <= number(before, "cost") * SLACK, "{query}");
+                assert_eq!(query["expanded"], before["expanded"]);
+            }
+            let paths =
+                |queries: &[Value]| queries.iter().map(|query| query["path"].clone()).collect::<Vec<_>>();
+            assert_eq!(paths(&queries) == paths(&bare.1), name == "linear", "{placement}{option}");
+        }
+    }
+}
+
+#[track_caller]
+fn shown(line: &str) -> String {
+    let Ran { status, stdout, stderr } = run(line);
+    assert_eq!((stderr.as_str(), status), ("", Some(0)), "{line}");
+    let text = redact_times(&stdout);
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
+    text
+}
+
+#[test]
+fn a_single_path_is_certified_and_compared() {
+    let query = "run builtin:archipelago --from 1,20 --to 70,20 --placement corner";
+    insta::assert_snapshot!("a_path_and_its_certificate", shown(&format!("{query} --k 4 --reference anya")));
+    insta::assert_snapshot!("an_any_angle_path", shown(&format!("{query} --engine anya --draw")));
+    let best = shown(&format!("{query} --engine anya --reference anya"));
+    assert!(best.contains("\n  no path at any angle is shorter (certificate)\n"), "{best}");
+    assert!(best.contains("\n  as short as the one that anya finds, of length 71."), "{best}");
+    let plain = shown(query);
+    assert!(
+        plain.contains(" longer than the shortest path at any angle (certificate)\n")
+            && !plain.contains("anya")
+    );
+}
+
+#[test]
+fn many_paths_are_summed_up() {
+    let theta = "run builtin:archipelago --engine theta --placement corner --smooth=taut --reference anya";
+    insta::assert_snapshot!("many_paths_and_their_certificates", shown(theta));
+    let anya = shown("run builtin:archipelago --engine anya");
+    assert!(
+        anya.contains("\n  any angle  every path is a shortest one at any angle (certified)\n"),
+        "{anya}"
+    );
+}
+
+#[track_caller]
+fn refused(line: &str, message: &str) {
+    let Ran { status, stdout, stderr } = run(line);
+    let said = (stderr.as_str(), stdout.as_str(), status);
+    assert_eq!(said, (&*format!("error: {message}\n"), "", Some(2)), "{line}");
+}
+
+#[test]
+fn what_does_not_go_together_is_refused() {
+    let centers = "astar, dijkstra, wavefront, canonical, jps, jps-block, jps-plus, theta, lazy-theta, subgoal, hpa, chpa";
+    for (options, message) in [
+        ("--engine anya --k 5", "anya searches every direction, not those of k = 5: leave k out, or say any"),
+        (
+            "--engine anya --placement center",
+            &format!("anya needs placement corner; for center choose {centers}"),
+        ),
+        ("--engine theta --k any", "theta needs a k from 2 to 12; for any choose anya, subgoal"),
+        (
+            "--engine anya --corners one",
+            "--corners does not apply to --placement corner: leave it out, or choose --placement center",
+        ),
+        (
+            "--reference anya",
+            "--reference anya finds no any-angle paths at --placement center: leave it out, or choose --placement corner",
+        ),
+        (
+            "--reference astar",
+            "invalid value 'astar' for '--reference <ENGINE>' [possible values: anya, subgoal]; see --help",
+        ),
+        (
+            "--smooth=hard",
+            "invalid value 'hard' for '--smooth[=<linear|taut>]' [possible values: linear, taut]; see --help",
+        ),
+        ("--smooth taut", "unexpected argument 'taut' found; see --help"),
+        (
+            "--from 1,2 --distances - --engine dijkstra --smooth",
+            "the argument '--distances <FILE>' cannot be used with '--smooth[=<linear|taut>]'; see --help",
+        ),
+        (
+            "--from 1,2 --distances - --engine dijkstra --reference anya",
+            "the argument '--distances <FILE>' cannot be used with '--reference <ENGINE>'; see --help",
+        ),
+        (
+            "--from 1,2 --distances - --engine anya",
+            "anya has no distances to all vertices: choose dijkstra, wavefront",
+        ),
+        (
+            "--engine anya --index x.idx",
+            "anya has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa",
+        ),
+        (
+            "--engine anya --heuristic zero",
+            "anya takes no heuristic: leave it out, or choose astar, canonical, jps, jps-block, jps-plus, theta, lazy-theta, chpa",
+        ),
+    ] {
+        refused(&format!("run builtin:cave {options}"), message);
+    }
+    refused(
+        "build builtin:cave --engine anya -o x.idx",
+        "anya has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa",
+    );
+    refused(
+        "build builtin:cave --engine jps-plus --smooth -o x.idx",
+        "unexpected argument '--smooth' found; see --help",
+    );
+}
+
+#[test]
+fn an_index_serves_smoothed_runs() {
+    let files = Files::new();
+    let index = files.path("cave.idx");
+    let built = mediant(&["build", "builtin:cave", "--engine", "jps-plus", "-o", &index]);
+    assert_eq!((built.status, built.stderr.as_str()), (Some(0), ""));
+    let paths = |options: &str| {
+        let (_, queries, _) = told(&format!("run builtin:cave --engine jps-plus --smooth{options}"));
+        queries.iter().map(|query| query["path"].clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(paths(&format!(" --index {index}")), paths(""));
+}

@@ -1,0 +1,131 @@
+//! Runs the built program.
+use std::{
+    path::PathBuf,
+    process::{Command, Stdio},
+};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// What a run of the program left.
+#[derive(Debug)]
+pub(crate) struct Ran {
+    pub(crate) status: Option<i32>,
+    pub(crate) stdout: String,
+    pub(crate) stderr: String,
+}
+
+/// Runs `mediant` with these arguments, without a terminal.
+pub(crate) fn mediant<S: AsRef<str>>(args: &[S]) -> Ran {
+    mediant_with(args, &[])
+}
+
+/// Runs `mediant` with these arguments and environment variables, without a terminal.
+pub(crate) fn mediant_with<S: AsRef<str>>(args: &[S], variables: &[(&str, &str)]) -> Ran {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mediant"));
+    for name in ["NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE", "COLORTERM", "COLUMNS"] {
+        command.env_remove(name);
+    }
+    command.envs(variables.iter().copied());
+    let output = command.args(args.iter().map(AsRef::as_ref)).stdin(Stdio::null()).output();
+    let output = output.expect("the program starts");
+    Ran {
+        status: output.status.code(),
+        stdout: String::from_utf8(output.stdout).expect("stdout is UTF-8"),
+        stderr: String::from_utf8(output.stderr).expect("stderr is UTF-8"),
+    }
+}
+
+/// [`mediant`] for a command line of words without spaces.
+pub(crate) fn run(line: &str) -> Ran {
+    mediant(&line.split(' ').collect::<Vec<_>>())
+}
+
+/// A folder of files for one test.
+pub(crate) struct Files(TempDir);
+
+impl Files {
+    pub(crate) fn new() -> Self {
+        Self(TempDir::new().expect("a temporary folder"))
+    }
+
+    /// Writes a file and returns its path.
+    pub(crate) fn add(&self, name: &str, content: impl AsRef<[u8]>) -> String {
+        let path = self.path(name);
+        std::fs::write(&path, content).expect("a file in the temporary folder");
+        path
+    }
+
+    /// The path of a file in the folder, there or not.
+    pub(crate) fn path(&self, name: &str) -> String {
+        self.0.path().join(name).to_str().expect("a UTF-8 path").to_owned()
+    }
+
+    /// Text without the folder's name.
+    pub(crate) fn strip(&self, text: &str) -> String {
+        let folder = self.path("");
+        text.replace(&folder, "")
+    }
+}
+
+/// Answers a bundled map's queries: what a run tells, line by line, of itself, of each query, and of all.
+#[track_caller]
+pub(crate) fn told(line: &str) -> (Value, Vec<Value>, Value) {
+    let Ran { status, stdout, stderr } = run(&format!("{line} --format jsonl"));
+    assert_eq!((stderr.as_str(), status), ("", Some(0)), "{line}");
+    let mut records: Vec<Value> =
+        stdout.lines().map(|line| serde_json::from_str(line).expect("each line is JSON")).collect();
+    let summary = records.pop().expect("a summary");
+    (records.remove(0), records, summary)
+}
+
+/// Builds an index of a bundled map, and returns its path.
+#[track_caller]
+pub(crate) fn built(files: &Files, name: &str, options: &str) -> String {
+    let path = files.path(name);
+    let Ran { status, stderr, .. } = run(&format!("build {options} -o {path}"));
+    assert_eq!((stderr.as_str(), status), ("", Some(0)), "{options}");
+    path
+}
+
+/// Runs a command line that fails before there is any output.
+#[track_caller]
+pub(crate) fn refused(files: &Files, line: &str) -> String {
+    let Ran { status, stdout, stderr } = run(line);
+    assert_eq!((stdout.as_str(), status), ("", Some(2)), "{line}: {stderr}");
+    assert_eq!((stderr.lines().count(), stderr.starts_with("error: ")), (1, true), "{line}: {stderr}");
+    files.strip(&stderr)
+}
+
+/// A file of the repository's `benchdata/maps`.
+pub(crate) fn bundled(name: &str) -> String {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../benchdata/maps");
+    folder.join(name).to_str().expect("a UTF-8 path").to_owned()
+}
+
+/// The text with each time, and the spaces before it, replaced by ` TIME`: they differ from run to run.
+pub(crate) fn redact_times(text: &str) -> String {
+    let redact_line = |line: &str| {
+        let mut words: Vec<&str> = Vec::new();
+        for word in line.split(' ') {
+            let unit = word.trim_end_matches(',');
+            let is_number = |text: &&str| text.parse::<f64>().is_ok();
+            if ["ns", "µs", "ms", "s"].contains(&unit) && words.last().is_some_and(is_number) {
+                words.pop();
+                while words.last().is_some_and(|word| word.is_empty()) {
+                    words.pop();
+                }
+                words.push(if unit.len() < word.len() { "TIME," } else { "TIME" });
+            } else {
+                words.push(word);
+            }
+        }
+        let line = words.join(" ");
+        // The head of a column of times stands as far right as they are wide.
+        match line.strip_suffix("time") {
+            Some(rest) => format!("{} TIME", rest.trim_end()),
+            None => line,
+        }
+    };
+    text.lines().map(|line| redact_line(line) + "\n").collect()
+}

@@ -1,0 +1,9 @@
+//! The program, run as a user would.
+
+mod any_angle;
+mod common;
+mod errors;
+mod hierarchy;
+mod jsonl;
+mod subgoal;
+mod table;

@@ -1,0 +1,126 @@
+//! What is to be known of each engine.
+
+use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, GridGraph, PlacementKind, Rules};
+use mediant_hierarchy::{ClusterGraph, SegmentGraph};
+use mediant_moves::{FiniteK, K};
+use mediant_search::JumpTable;
+use mediant_subgoal::SubgoalGraph;
+
+use super::EngineKind;
+use crate::Variant;
+
+/// What an engine can do, whatever its options. Under the placements that it takes it works with every rule of motion,
+/// except for subgoal graphs and hierarchies at centers ([`Setup::check`](crate::Setup::check)).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Capabilities {
+    /// The placements that it takes.
+    pub placements: &'static [PlacementKind],
+    /// The largest finite k that it takes, the smallest being 2; `None` for an engine that searches only at any angle.
+    pub max_k: Option<u32>,
+    /// Whether it takes k = ∞.
+    pub any: bool,
+    /// Its guarantee, for a table; `optimal(k)` with k = any is over all paths.
+    pub guarantee: &'static str,
+    /// Who published it.
+    pub paper: &'static str,
+    /// Whether it takes a heuristic that overestimates: its paths get longer, and nothing else goes wrong.
+    pub overestimates: bool,
+    /// Its variants, the default first; empty for an engine that has no choice.
+    pub variants: &'static [Variant],
+    /// Whether it finds the distances to all vertices.
+    pub distances: bool,
+    /// The version of its index; `None` if nothing that it prepares can be saved.
+    pub index: Option<u32>,
+}
+
+impl Capabilities {
+    /// Those of a search that is optimal over N(k) and prepares nothing.
+    const SEARCH: Self = Self {
+        placements: &[PlacementKind::Center, PlacementKind::Corner],
+        max_k: Some(GridGraph::<Centers>::MAX_K),
+        any: false,
+        guarantee: "optimal(k)",
+        paper: "",
+        overestimates: false,
+        variants: &[],
+        distances: false,
+        index: None,
+    };
+
+    /// The default k: 3, or ∞ for an engine that takes no finite k.
+    #[must_use]
+    pub const fn default_k(self) -> K {
+        if self.max_k.is_some() { K::Finite(FiniteK::N8) } else { K::Any }
+    }
+
+    /// The default rules: `never` at centers; `open` at corners for an engine that takes only corners, and for k = ∞.
+    #[must_use]
+    pub fn default_rules(self, k: K) -> Rules {
+        if self.placements.contains(&PlacementKind::Center) && k != K::Any {
+            Rules::Center(CornerRule::default())
+        } else {
+            Rules::Corner(DiagonalGap::default())
+        }
+    }
+}
+
+impl EngineKind {
+    /// What the engine can do.
+    #[must_use]
+    pub const fn capabilities(self) -> Capabilities {
+        let search = Capabilities::SEARCH;
+        let theta = Capabilities { guarantee: "suboptimal", ..search };
+        let subgoals = Capabilities { index: Some(SubgoalGraph::<Corners>::VERSION), ..search };
+        let hierarchy = Capabilities {
+            placements: &[PlacementKind::Center],
+            max_k: Some(3),
+            guarantee: "suboptimal",
+            ..search
+        };
+        match self {
+            Self::AStar => Capabilities { paper: "Hart 1968, Rivera 2017", overestimates: true, ..search },
+            Self::Dijkstra => Capabilities { paper: "Dijkstra 1959", distances: true, ..search },
+            Self::Wavefront => {
+                Capabilities { guarantee: "optimal(2)", paper: "Hammoud 2023", distances: true, ..search }
+            }
+            Self::Canonical => {
+                Capabilities { paper: "Rivera 2017", variants: &[Variant::Exact, Variant::Paper], ..search }
+            }
+            Self::Jps => Capabilities { paper: "Harabor 2011, Hammoud 2023", ..search },
+            Self::JpsBlock => Capabilities { paper: "Harabor 2014", max_k: Some(3), ..search },
+            Self::JpsPlus => Capabilities {
+                paper: "Harabor 2014",
+                max_k: Some(JumpTable::MAX_K),
+                index: Some(1),
+                ..search
+            },
+            Self::Theta => Capabilities { paper: "Daniel 2010", ..theta },
+            Self::LazyTheta => Capabilities { paper: "Nash 2010", ..theta },
+            Self::Anya => Capabilities {
+                placements: &[PlacementKind::Corner],
+                max_k: None,
+                any: true,
+                guarantee: "optimal(any)",
+                paper: "Harabor 2016",
+                ..search
+            },
+            Self::Subgoal => Capabilities { any: true, paper: "Hormazábal 2017", ..subgoals },
+            Self::SubgoalTheta => Capabilities {
+                placements: &[PlacementKind::Corner],
+                guarantee: "suboptimal",
+                paper: "Uras 2015",
+                ..subgoals
+            },
+            Self::Hpa => {
+                Capabilities { paper: "Botea 2004", index: Some(ClusterGraph::VERSION), ..hierarchy }
+            }
+            Self::Chpa => Capabilities {
+                paper: "Teleiša 2023",
+                overestimates: true,
+                variants: &[Variant::Complete, Variant::Paper],
+                index: Some(SegmentGraph::VERSION),
+                ..hierarchy
+            },
+        }
+    }
+}

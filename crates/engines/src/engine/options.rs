@@ -1,0 +1,369 @@
+//! The engines with their options.
+//!
+//! Each engine's options are a struct of its own, and `slots` lists its fields. What setups as text, the program's flags
+//! and its records know of an option, they know from that list and from the option's description (`option.rs`).
+
+use std::num::NonZeroU32;
+
+use mediant_hierarchy::{Clustering, FallbackPolicy, SegmentGraph};
+
+use super::{
+    EngineKind,
+    option::{
+        DETOUR, EngineOption, HEURISTIC, JUMP_LIMIT, KEEP_INTERMEDIATE, LEVELS, OptionValue, SECOND, SIDE,
+        STEP, Slot, UNSTRAIGHTENED, VARIANT,
+    },
+};
+use crate::{HeuristicName, Levels, SetupError, Variant};
+
+/// An engine with its options. An option that is `None` (or false) has its default.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[expect(missing_docs, reason = "each variant is documented as an `EngineKind`")]
+pub enum Engine {
+    AStar(GuidedOptions),
+    Dijkstra,
+    Wavefront,
+    Canonical(CanonicalOptions),
+    Jps(JumpOptions),
+    JpsBlock(JumpOptions),
+    JpsPlus(JpsPlusOptions),
+    Theta(GuidedOptions),
+    LazyTheta(GuidedOptions),
+    Anya,
+    Subgoal(SubgoalOptions),
+    SubgoalTheta(SubgoalOptions),
+    Hpa(HpaOptions),
+    Chpa(ChpaOptions),
+}
+
+/// Options of a search that takes a heuristic and nothing else.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct GuidedOptions {
+    /// The heuristic; h_k by default.
+    pub heuristic: Option<HeuristicName>,
+}
+
+/// Options of canonical A*.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct CanonicalOptions {
+    /// The heuristic; h_k by default.
+    pub heuristic: Option<HeuristicName>,
+    /// [`Variant::Exact`] (the default) or [`Variant::Paper`].
+    pub variant: Option<Variant>,
+}
+
+/// Options of the jump point searches that scan.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct JumpOptions {
+    /// The heuristic; h_k by default.
+    pub heuristic: Option<HeuristicName>,
+    /// The largest number of steps of a jump; unbounded by default.
+    pub jump_limit: Option<NonZeroU32>,
+    /// Whether to keep the jump points at which a path only turns on its way to another.
+    pub keep_intermediate: bool,
+}
+
+/// Options of JPS+.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct JpsPlusOptions {
+    /// The heuristic; h_k by default.
+    pub heuristic: Option<HeuristicName>,
+    /// Whether to keep the jump points at which a path only turns on its way to another.
+    pub keep_intermediate: bool,
+}
+
+/// Options of searches on subgoal graphs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct SubgoalOptions {
+    /// The levels of the graph; by default a contraction hierarchy, or 2 levels for Sub-Theta*, which needs levels.
+    pub levels: Option<Levels>,
+}
+
+/// Options of HPA*.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct HpaOptions {
+    /// The number of levels of clusters; that of [`Clustering::default`] by default.
+    pub levels: Option<Levels>,
+    /// The side of the lowest clusters, in cells; that of [`Clustering::default`] by default.
+    pub side: Option<NonZeroU32>,
+    /// Whether to leave the paths as they are refined, without straightening them.
+    pub unstraightened: bool,
+}
+
+/// Options of CHPA*.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct ChpaOptions {
+    /// The heuristic of the first phase; h_k by default.
+    pub heuristic: Option<HeuristicName>,
+    /// [`Variant::Complete`] (the default) or [`Variant::Paper`].
+    pub variant: Option<Variant>,
+    /// The side of the segments, in cells; 3, as in the paper, by default.
+    pub side: Option<NonZeroU32>,
+    /// The heuristic of the second phase; that of the first by default.
+    pub second: Option<HeuristicName>,
+    /// Every how many segments there is a checkpoint (Pstep of Teleiša & Čalnerytė 2023); 2 by default.
+    pub step: Option<NonZeroU32>,
+    /// How many times h_k the way to a checkpoint may cost before the search leaves its plan; that of
+    /// [`FallbackPolicy::default`] by default.
+    pub detour: Option<NonZeroU32>,
+}
+
+impl Default for Engine {
+    fn default() -> Self {
+        EngineKind::default().into()
+    }
+}
+
+/// The engine with its default options.
+impl From<EngineKind> for Engine {
+    fn from(kind: EngineKind) -> Self {
+        match kind {
+            EngineKind::AStar => Self::AStar(GuidedOptions::default()),
+            EngineKind::Dijkstra => Self::Dijkstra,
+            EngineKind::Wavefront => Self::Wavefront,
+            EngineKind::Canonical => Self::Canonical(CanonicalOptions::default()),
+            EngineKind::Jps => Self::Jps(JumpOptions::default()),
+            EngineKind::JpsBlock => Self::JpsBlock(JumpOptions::default()),
+            EngineKind::JpsPlus => Self::JpsPlus(JpsPlusOptions::default()),
+            EngineKind::Theta => Self::Theta(GuidedOptions::default()),
+            EngineKind::LazyTheta => Self::LazyTheta(GuidedOptions::default()),
+            EngineKind::Anya => Self::Anya,
+            EngineKind::Subgoal => Self::Subgoal(SubgoalOptions::default()),
+            EngineKind::SubgoalTheta => Self::SubgoalTheta(SubgoalOptions::default()),
+            EngineKind::Hpa => Self::Hpa(HpaOptions::default()),
+            EngineKind::Chpa => Self::Chpa(ChpaOptions::default()),
+        }
+    }
+}
+
+impl Engine {
+    /// Which engine it is.
+    #[must_use]
+    pub const fn kind(self) -> EngineKind {
+        match self {
+            Self::AStar(_) => EngineKind::AStar,
+            Self::Dijkstra => EngineKind::Dijkstra,
+            Self::Wavefront => EngineKind::Wavefront,
+            Self::Canonical(_) => EngineKind::Canonical,
+            Self::Jps(_) => EngineKind::Jps,
+            Self::JpsBlock(_) => EngineKind::JpsBlock,
+            Self::JpsPlus(_) => EngineKind::JpsPlus,
+            Self::Theta(_) => EngineKind::Theta,
+            Self::LazyTheta(_) => EngineKind::LazyTheta,
+            Self::Anya => EngineKind::Anya,
+            Self::Subgoal(_) => EngineKind::Subgoal,
+            Self::SubgoalTheta(_) => EngineKind::SubgoalTheta,
+            Self::Hpa(_) => EngineKind::Hpa,
+            Self::Chpa(_) => EngineKind::Chpa,
+        }
+    }
+
+    /// The options that the engine takes, in the order in which they are written, each with the field that holds it.
+    fn slots(&mut self) -> Vec<(&'static EngineOption, Slot<'_>)> {
+        match self {
+            Self::Dijkstra | Self::Wavefront | Self::Anya => Vec::new(),
+            Self::AStar(own) | Self::Theta(own) | Self::LazyTheta(own) => {
+                vec![(&HEURISTIC, Slot::Heuristic(&mut own.heuristic))]
+            }
+            Self::Canonical(own) => vec![
+                (&HEURISTIC, Slot::Heuristic(&mut own.heuristic)),
+                (&VARIANT, Slot::Variant(&mut own.variant)),
+            ],
+            Self::Jps(own) | Self::JpsBlock(own) => vec![
+                (&HEURISTIC, Slot::Heuristic(&mut own.heuristic)),
+                (&JUMP_LIMIT, Slot::Number(&mut own.jump_limit)),
+                (&KEEP_INTERMEDIATE, Slot::Flag(&mut own.keep_intermediate)),
+            ],
+            Self::JpsPlus(own) => vec![
+                (&HEURISTIC, Slot::Heuristic(&mut own.heuristic)),
+                (&KEEP_INTERMEDIATE, Slot::Flag(&mut own.keep_intermediate)),
+            ],
+            Self::Subgoal(own) | Self::SubgoalTheta(own) => vec![(&LEVELS, Slot::Levels(&mut own.levels))],
+            Self::Hpa(own) => vec![
+                (&LEVELS, Slot::Levels(&mut own.levels)),
+                (&SIDE, Slot::Number(&mut own.side)),
+                (&UNSTRAIGHTENED, Slot::Flag(&mut own.unstraightened)),
+            ],
+            Self::Chpa(own) => vec![
+                (&HEURISTIC, Slot::Heuristic(&mut own.heuristic)),
+                (&VARIANT, Slot::Variant(&mut own.variant)),
+                (&SIDE, Slot::Number(&mut own.side)),
+                (&SECOND, Slot::Heuristic(&mut own.second)),
+                (&STEP, Slot::Number(&mut own.step)),
+                (&DETOUR, Slot::Number(&mut own.detour)),
+            ],
+        }
+    }
+
+    /// The options that the engine takes.
+    #[must_use]
+    pub fn options(mut self) -> Vec<&'static EngineOption> {
+        self.slots().into_iter().map(|(option, _)| option).collect()
+    }
+
+    /// The options that were chosen, with their values, in the order in which they are written.
+    #[must_use]
+    pub fn chosen(mut self) -> Vec<(&'static EngineOption, OptionValue)> {
+        self.slots().into_iter().filter_map(|(option, slot)| Some((option, slot.get()?))).collect()
+    }
+
+    /// Chooses an option.
+    ///
+    /// # Errors
+    /// [`SetupError::Option`] for an option that the engine does not take.
+    pub fn set(&mut self, option: &EngineOption, value: OptionValue) -> Result<(), SetupError> {
+        let engine = self.kind();
+        let slot = self.slots().into_iter().find(|(known, _)| known.name == option.name);
+        let is_set = slot.is_some_and(|(_, slot)| slot.set(value));
+        if is_set { Ok(()) } else { Err(option.refused_by(engine)) }
+    }
+
+    /// The value that an option has, be it chosen or by default; `None` of one that has none, or is not the engine's.
+    #[must_use]
+    pub fn value(self, option: &EngineOption) -> Option<OptionValue> {
+        let name = option.name;
+        match () {
+            () if name == HEURISTIC.name => self.heuristic().map(OptionValue::Heuristic),
+            () if name == VARIANT.name => self.variant().map(OptionValue::Variant),
+            () if name == LEVELS.name => self.levels().map(OptionValue::Levels),
+            () if name == SIDE.name => self.side().map(OptionValue::Number),
+            () if name == SECOND.name => self.second().map(OptionValue::Heuristic),
+            () if name == STEP.name => self.step().map(OptionValue::Number),
+            () if name == DETOUR.name => self.detour().map(OptionValue::Number),
+            () => self.chosen().into_iter().find(|(chosen, _)| chosen.name == name).map(|(_, value)| value),
+        }
+    }
+
+    /// Whether the options go together.
+    pub(crate) fn check(self) -> Result<(), SetupError> {
+        let (kind, chosen) = (self.kind(), self.chosen());
+        let refused = |option: &EngineOption, what, takes: &dyn Fn(EngineKind) -> bool| {
+            Err(SetupError::Option { engine: kind, option: what, others: option.takers(takes) })
+        };
+        for &(option, value) in &chosen {
+            match value {
+                OptionValue::Heuristic(HeuristicName::SquaredEuclidean)
+                    if !kind.capabilities().overestimates =>
+                {
+                    let takes = |kind: EngineKind| kind.capabilities().overestimates;
+                    return refused(option, "heuristic that overestimates", &takes);
+                }
+                OptionValue::Variant(variant) if !kind.capabilities().variants.contains(&variant) => {
+                    let takes = |kind: EngineKind| kind.capabilities().variants.contains(&variant);
+                    let what = match variant {
+                        Variant::Exact => "variant exact",
+                        Variant::Complete => "variant complete",
+                        Variant::Paper => "variant paper",
+                    };
+                    return refused(option, what, &takes);
+                }
+                OptionValue::Levels(Levels::Contracted) if kind != EngineKind::Subgoal => {
+                    return refused(option, "contraction hierarchy", &|kind| kind == EngineKind::Subgoal);
+                }
+                _ => {}
+            }
+        }
+        match self {
+            Self::Chpa(ChpaOptions { variant: Some(Variant::Paper), detour: Some(_), .. }) => {
+                Err(SetupError::DetourAsPublished { engine: kind })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The heuristic that guides the search over N(k); `None` for an engine that has one of its own.
+    #[must_use]
+    pub fn heuristic(self) -> Option<HeuristicName> {
+        let chosen = match self {
+            Self::Dijkstra | Self::Wavefront => Some(HeuristicName::Zero),
+            Self::Anya | Self::Subgoal(_) | Self::SubgoalTheta(_) | Self::Hpa(_) => return None,
+            Self::AStar(own) | Self::Theta(own) | Self::LazyTheta(own) => own.heuristic,
+            Self::Canonical(own) => own.heuristic,
+            Self::Jps(own) | Self::JpsBlock(own) => own.heuristic,
+            Self::JpsPlus(own) => own.heuristic,
+            Self::Chpa(own) => own.heuristic,
+        };
+        Some(chosen.unwrap_or_default())
+    }
+
+    /// The variant, of an engine that has several.
+    #[must_use]
+    pub fn variant(self) -> Option<Variant> {
+        match self {
+            Self::Canonical(own) => Some(own.variant.unwrap_or(Variant::Exact)),
+            Self::Chpa(own) => Some(own.variant.unwrap_or(Variant::Complete)),
+            _ => None,
+        }
+    }
+
+    /// The levels of the subgoal graph or of the clusters, of an engine that searches such a graph.
+    #[must_use]
+    pub fn levels(self) -> Option<Levels> {
+        match self {
+            Self::Subgoal(own) => Some(own.levels.unwrap_or(Levels::Contracted)),
+            Self::SubgoalTheta(own) => Some(own.levels.unwrap_or(Levels::Number(TWO))),
+            Self::Hpa(HpaOptions { levels: Some(levels @ Levels::Number(_)), .. }) => Some(levels),
+            Self::Hpa(HpaOptions { levels, side, .. }) => {
+                let default = Clustering::default();
+                let number = match levels {
+                    // Each level's clusters are twice as long as those of the one below.
+                    Some(Levels::All) => {
+                        let side = side.map_or(default.side, NonZeroU32::get);
+                        (Clustering::MAX_SIDE / side).checked_ilog2().unwrap_or(0) + 1
+                    }
+                    _ => default.levels,
+                };
+                NonZeroU32::new(number).map(Levels::Number)
+            }
+            _ => None,
+        }
+    }
+
+    /// The side of the lowest clusters or of the segments, in cells, of an engine that cuts the map into them.
+    #[must_use]
+    pub fn side(self) -> Option<NonZeroU32> {
+        match self {
+            Self::Hpa(own) => own.side.or(NonZeroU32::new(Clustering::default().side)),
+            Self::Chpa(own) => own.side.or(NonZeroU32::new(SegmentGraph::PAPER_SIDE)),
+            _ => None,
+        }
+    }
+
+    /// The heuristic of the second phase, of an engine that has two.
+    #[must_use]
+    pub fn second(self) -> Option<HeuristicName> {
+        match self {
+            Self::Chpa(own) => own.second.or_else(|| self.heuristic()),
+            _ => None,
+        }
+    }
+
+    /// Every how many segments there is a checkpoint, of an engine that plans checkpoints.
+    #[must_use]
+    pub fn step(self) -> Option<NonZeroU32> {
+        match self {
+            Self::Chpa(own) => Some(own.step.unwrap_or(TWO)),
+            _ => None,
+        }
+    }
+
+    /// How many times h_k the way to a checkpoint may cost, of an engine that otherwise leaves its plan.
+    #[must_use]
+    pub fn detour(self) -> Option<NonZeroU32> {
+        match self.fallback_policy()? {
+            FallbackPolicy::Complete { detour } => Some(detour),
+            FallbackPolicy::Paper => None,
+        }
+    }
+
+    pub(crate) fn fallback_policy(self) -> Option<FallbackPolicy> {
+        let Self::Chpa(own) = self else { return None };
+        Some(match own.detour {
+            _ if own.variant == Some(Variant::Paper) => FallbackPolicy::Paper,
+            Some(detour) => FallbackPolicy::Complete { detour },
+            None => FallbackPolicy::default(),
+        })
+    }
+}
+
+const TWO: NonZeroU32 = NonZeroU32::MIN.saturating_add(1);

@@ -1,0 +1,175 @@
+//! From an index to a planner that is compiled for its types.
+//!
+//! A line for each engine. How often a search is compiled decides how long the crate takes to build, so that only A* has every
+//! heuristic as a type; the other engines have h_k, and one type for the rest.
+
+use std::{num::NonZeroU32, sync::Arc};
+
+use mediant_grid::{Centers, Corners, FreeSpace, GridGraph, Placement};
+use mediant_hierarchy::{ChpaStar, HpaStar, SegmentGraph};
+use mediant_search::{
+    AStar, Anya, BlockJps, Canonical, Euclidean, HasFreeSpace, Heuristic, Hk, Jps, JpsPlus, JumpFinder,
+    Jumping, LazyThetaStar, PaperCanonical, Planner, SquaredEuclidean, ThetaStar, Walk, Wavefront, Zero,
+};
+use mediant_subgoal::{SubgoalAStar, SubgoalGraph, SubgoalPlacement, SubgoalTheta};
+
+use crate::{
+    BoxedPlanner, ChpaOptions, Engine, EngineError, HeuristicName, Index, Setup,
+    heuristic::Admissible,
+    index::{Parts, Prepared},
+    space::no_space,
+};
+
+impl Index {
+    /// A planner on this index, with scratch memory of its own.
+    ///
+    /// # Errors
+    /// [`EngineError`] where the index does not hold what its engine needs, which no constructor allows.
+    pub fn planner(&self) -> Result<BoxedPlanner, EngineError> {
+        let setup = self.setup();
+        let planner = match &self.prepared {
+            Prepared::Centers(graph, Parts::Clusters(clusters)) => {
+                let planner = HpaStar::new(Arc::clone(graph), Arc::clone(clusters))?;
+                let unstraightened = matches!(setup.engine, Engine::Hpa(own) if own.unstraightened);
+                Some(BoxedPlanner::of(planner.with_straightening(!unstraightened)))
+            }
+            Prepared::Centers(graph, Parts::Segments(segments)) => Some(chpa(setup, graph, segments)?),
+            Prepared::Centers(graph, parts) => on_graph(setup, graph, parts),
+            Prepared::Corners(graph, parts) => on_graph(setup, graph, parts),
+            Prepared::AnyAngle(space, Parts::Subgoals(graph)) => Some(subgoal(setup, space, graph)),
+            Prepared::AnyAngle(space, _) => any_angle(setup, space),
+        };
+        let planner = planner.ok_or_else(|| no_space(setup))?;
+        let Some(smoothing) = setup.smoothing else { return Ok(planner) };
+        Ok(match &self.prepared {
+            Prepared::Centers(graph, _) => planner.smoothed(Arc::clone(graph), smoothing),
+            Prepared::Corners(graph, _) => planner.smoothed(Arc::clone(graph), smoothing),
+            Prepared::AnyAngle(space, _) => planner.smoothed(Arc::clone(space), smoothing),
+        })
+    }
+}
+
+fn any_angle(setup: Setup, space: &Arc<FreeSpace<Corners>>) -> Option<BoxedPlanner> {
+    matches!(setup.engine, Engine::Anya).then(|| BoxedPlanner::of(Anya::new(Arc::clone(space))))
+}
+
+/// A planner on a subgoal graph.
+fn subgoal<S, P>(setup: Setup, space: &Arc<S>, graph: &Arc<SubgoalGraph<P>>) -> BoxedPlanner
+where
+    S: HasFreeSpace<Placement = P> + Send + Sync + 'static,
+    P: SubgoalPlacement,
+{
+    let (space, graph) = (Arc::clone(space), Arc::clone(graph));
+    match setup.engine {
+        Engine::SubgoalTheta(_) => BoxedPlanner::of(SubgoalTheta::new(space, graph)),
+        _ => BoxedPlanner::of(SubgoalAStar::new(space, graph)),
+    }
+}
+
+/// A planner over N(k); `None` where the parts are not the engine's.
+fn on_graph<P: SubgoalPlacement>(
+    setup: Setup,
+    graph: &Arc<GridGraph<P>>,
+    parts: &Parts<P>,
+) -> Option<BoxedPlanner> {
+    if let Parts::Subgoals(subgoals) = parts {
+        return Some(subgoal(setup, graph, subgoals));
+    }
+    let graph = Arc::clone(graph);
+    match (setup.engine, setup.engine.heuristic()?) {
+        (Engine::Dijkstra, _) | (Engine::AStar(_), HeuristicName::Zero) => {
+            Some(BoxedPlanner::of(AStar::new(graph, Zero)))
+        }
+        (Engine::AStar(_), HeuristicName::Hk) => Some(BoxedPlanner::of(AStar::new(graph, Hk))),
+        (Engine::AStar(_), HeuristicName::Euclidean) => Some(BoxedPlanner::of(AStar::new(graph, Euclidean))),
+        (Engine::AStar(_), HeuristicName::SquaredEuclidean) => {
+            Some(BoxedPlanner::of(AStar::new(graph, SquaredEuclidean)))
+        }
+        (Engine::Wavefront, _) => Some(BoxedPlanner::of(Wavefront::new(graph))),
+        (_, HeuristicName::Hk) => guided(setup.engine, graph, parts, Hk),
+        (_, HeuristicName::Euclidean) => guided(setup.engine, graph, parts, Admissible::Euclidean),
+        (_, HeuristicName::Zero) => guided(setup.engine, graph, parts, Admissible::Zero),
+        // No other search on a grid graph takes it.
+        (_, HeuristicName::SquaredEuclidean) => None,
+    }
+}
+
+/// A planner of an engine that takes the heuristics that never overestimate.
+fn guided<P: SubgoalPlacement>(
+    engine: Engine,
+    graph: Arc<GridGraph<P>>,
+    parts: &Parts<P>,
+    heuristic: impl Heuristic + Send + 'static,
+) -> Option<BoxedPlanner> {
+    Some(match (engine, parts) {
+        (Engine::Theta(_), _) => BoxedPlanner::of(ThetaStar::new(graph, heuristic)),
+        (Engine::LazyTheta(_), _) => BoxedPlanner::of(LazyThetaStar::new(graph, heuristic)),
+        (Engine::Canonical(_), Parts::Nothing) => BoxedPlanner::of(PaperCanonical::new(graph, heuristic)),
+        (Engine::Canonical(_), Parts::Pruning(pruning)) => {
+            BoxedPlanner::of(Canonical::with_pruning(graph, Arc::clone(pruning), heuristic))
+        }
+        (Engine::Jps(own), Parts::Pruning(pruning)) => {
+            let planner = Jps::with_finder(graph, Arc::clone(pruning), Walk, heuristic);
+            jumping(planner, own.jump_limit, own.keep_intermediate)
+        }
+        (Engine::JpsBlock(own), Parts::Blocks(pruning, blocks)) => {
+            let planner = BlockJps::with_finder(graph, Arc::clone(pruning), blocks.clone(), heuristic);
+            jumping(planner, own.jump_limit, own.keep_intermediate)
+        }
+        (Engine::JpsPlus(own), Parts::Table(pruning, table)) => {
+            let planner = JpsPlus::with_finder(graph, Arc::clone(pruning), Arc::clone(table), heuristic);
+            jumping(planner, None, own.keep_intermediate)
+        }
+        _ => return None,
+    })
+}
+
+fn jumping<P: Placement, H: Heuristic + Send + 'static, J: JumpFinder<P> + Send + 'static>(
+    planner: Jumping<Arc<GridGraph<P>>, H, P, J>,
+    limit: Option<NonZeroU32>,
+    keep_intermediate: bool,
+) -> BoxedPlanner
+where
+    Jumping<Arc<GridGraph<P>>, H, P, J>: Planner + Send + 'static,
+{
+    let planner = planner.with_jump_limit(limit.map(NonZeroU32::get));
+    BoxedPlanner::of(planner.with_intermediate(keep_intermediate))
+}
+
+/// CHPA*, compiled for each phase with and without a heuristic that overestimates.
+fn chpa(
+    setup: Setup,
+    graph: &Arc<GridGraph<Centers>>,
+    segments: &Arc<SegmentGraph>,
+) -> Result<BoxedPlanner, EngineError> {
+    let Engine::Chpa(own) = setup.engine else { return Err(no_space(setup)) };
+    let admissible = |name| match name {
+        Some(HeuristicName::SquaredEuclidean) => None,
+        Some(HeuristicName::Hk) => Some(Admissible::Hk),
+        Some(HeuristicName::Euclidean) => Some(Admissible::Euclidean),
+        Some(HeuristicName::Zero) | None => Some(Admissible::Zero),
+    };
+    let squared = SquaredEuclidean;
+    match (admissible(setup.engine.heuristic()), admissible(setup.engine.second())) {
+        (Some(first), Some(second)) => chpa_by(own, graph, segments, first, second),
+        (Some(first), None) => chpa_by(own, graph, segments, first, squared),
+        (None, Some(second)) => chpa_by(own, graph, segments, squared, second),
+        (None, None) => chpa_by(own, graph, segments, squared, squared),
+    }
+}
+
+fn chpa_by(
+    own: ChpaOptions,
+    graph: &Arc<GridGraph<Centers>>,
+    segments: &Arc<SegmentGraph>,
+    first: impl Heuristic + Send + 'static,
+    second: impl Heuristic + Send + 'static,
+) -> Result<BoxedPlanner, EngineError> {
+    let engine = Engine::Chpa(own);
+    let planner = ChpaStar::new(Arc::clone(graph), Arc::clone(segments), first, second)?;
+    let planner = planner.with_fallback_policy(engine.fallback_policy().unwrap_or_default());
+    Ok(BoxedPlanner::of(match engine.step() {
+        Some(step) => planner.with_step(step),
+        None => planner,
+    }))
+}

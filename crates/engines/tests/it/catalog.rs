@@ -1,0 +1,443 @@
+//! The catalog keeps what it says of each engine.
+
+use std::num::NonZeroU32;
+
+use mediant_engines::{
+    BoxedPlanner, Engine, EngineError, EngineKind, GuidedOptions, HeuristicName, Index, JumpOptions, Levels,
+    SearchSpace, Setup, SetupError, SharedRules, Variant, distances,
+};
+use mediant_grid::{DiagonalGap, PlacementKind, Rules, Vertex};
+use mediant_moves::{FiniteK, K};
+use mediant_search::{Guarantee, Query, QueryError, Smoothing};
+
+use super::{NEVER, OPEN, RULES, build, grid, index, k, planner, planner_on, setup};
+
+/// The engine on the problem that is meant where none is said.
+fn plain(engine: EngineKind) -> Setup {
+    let k = engine.capabilities().default_k();
+    Setup::new(engine, k, engine.capabilities().default_rules(k))
+}
+
+#[test]
+fn every_setup_makes_the_planner_that_it_promises() {
+    let query = Query::new((0, 0), (8, 4));
+    let mut setups = 0;
+    for rules in Rules::ALL {
+        let anya = Setup::new(EngineKind::Anya, K::Any, rules);
+        let any_angle = BoxedPlanner::new(anya, &grid(), &RULES).and_then(|mut anya| Ok(anya.solve(query)?));
+        let shortest = match any_angle {
+            Ok(outcome) => outcome.path().expect("there is a way").cost(),
+            Err(_) => query.start.distance(query.goal),
+        };
+        for k in (2..=5).map(|n| K::Finite(k(n))).chain([K::Any]) {
+            let all: Vec<Setup> = Setup::all(k, rules).collect();
+            let Some(&first) = all.first() else {
+                assert_eq!((k, rules.placement()), (K::Any, PlacementKind::Center), "only this is left out");
+                continue;
+            };
+            let engine = if k == K::Any { EngineKind::Anya } else { EngineKind::AStar };
+            assert_eq!(first, Setup::new(engine, k, rules));
+            let best = planner(first).solve(query).expect("both ends are free");
+            let best = best.path().expect("there is a way").cost();
+            for setup in all {
+                let index = index(setup, &grid(), None).unwrap_or_else(|error| panic!("{setup}: {error}"));
+                let mut planner = planner_on(&index);
+                assert_eq!(planner.guarantee(), setup.guarantee(), "{setup}");
+                let answer = planner.solve_counted(query);
+                setups += 1;
+                let as_published =
+                    (setup.engine.kind(), setup.engine.variant()) == (EngineKind::Chpa, Some(Variant::Paper));
+                if as_published && k == K::Finite(FiniteK::N4) {
+                    // The windows of its segments join only what is joined within them.
+                    assert!(matches!(answer, Err(QueryError::GaveUp { .. })), "{setup}: {answer:?}");
+                    continue;
+                }
+                let (outcome, counters) = answer.expect("both ends are free");
+                let cost = outcome.path().expect("there is a way").cost();
+                match setup.guarantee() {
+                    Guarantee::Suboptimal => {
+                        let least = if setup.paths() == K::Any { shortest } else { best };
+                        assert!(cost >= least - 1e-9, "{setup}: {cost}, {least}");
+                    }
+                    Guarantee::AtMost(_) => {
+                        assert!((shortest - 1e-9..=best + 1e-9).contains(&cost), "{setup}: {cost}, {best}");
+                    }
+                    _ => assert!((cost - best).abs() < 1e-9, "{setup}: {cost}, {best}"),
+                }
+                assert!(counters.generated > 0 && counters.expanded > 0, "{setup}");
+                assert_eq!(planner.solve(query), Ok(outcome), "{setup}: the same again");
+                let nothing = matches!(
+                    setup.engine,
+                    Engine::AStar(_)
+                        | Engine::Dijkstra
+                        | Engine::Wavefront
+                        | Engine::Theta(_)
+                        | Engine::LazyTheta(_)
+                        | Engine::Anya
+                );
+                let nothing = nothing
+                    || (setup.engine.kind(), setup.engine.variant())
+                        == (EngineKind::Canonical, Some(Variant::Paper));
+                assert_eq!(index.memory_bytes() == 0, nothing, "{setup}");
+            }
+        }
+    }
+    // 4 of A*, Dijkstra, wavefront, 4 of canonical, 5 of jps, 3 each of theta and lazy-theta; for k ≤ 3 also 5 of jps-block and 4 of
+    // jps-plus; 3 that are smoothed. Of each gap rule anya, and once smoothed.
+    let grids = 5 * (4 * (4 + 1 + 1 + 4 + 5 + 3 + 3 + 3) + 2 * (5 + 4)) + 2 * 2;
+    // 4 of subgoal, and once smoothed: at corners for each k and for any, at centers for k = 2 under 3 rules and for k = 3 under one. 4 of
+    // subgoal-theta at corners.
+    let subgoals = 5 * (2 * (4 + 1) + 3 + 1) + 4 * 2 * 4;
+    // 8 of hpa and 10 of chpa, each once smoothed, for the same k at centers.
+    assert_eq!(setups, grids + subgoals + (3 + 1) * (8 + 1 + 10 + 1));
+}
+
+#[test]
+fn every_engine_is_in_its_own_range_of_k() {
+    for engine in EngineKind::ALL {
+        // Under one of these rules an engine takes every k that it takes at all.
+        let capabilities = engine.capabilities();
+        let rules = if capabilities.placements.contains(&PlacementKind::Corner) { OPEN } else { NEVER };
+        let setup = |k: K| Setup::new(engine, k, rules);
+        let refused = |k: K, error: SetupError| {
+            assert_eq!(setup(k).check(), Err(error.clone()));
+            let planner = BoxedPlanner::new(setup(k), &grid(), &RULES).map(|_| ());
+            assert_eq!(planner, Err(EngineError::Setup(error)));
+        };
+        if let Some(max) = capabilities.max_k {
+            let [least, most, beyond] = [2, max, max + 1].map(k);
+            assert_eq!(
+                (setup(least.into()).check(), setup(most.into()).check()),
+                (Ok(()), Ok(())),
+                "{engine}"
+            );
+            refused(beyond.into(), SetupError::K { engine, max, k: beyond });
+            let others = "anya, subgoal".to_owned();
+            if capabilities.any {
+                assert_eq!((engine, setup(K::Any).check()), (EngineKind::Subgoal, Ok(())));
+            } else {
+                refused(K::Any, SetupError::NeedsFiniteK { engine, max, others });
+            }
+        } else {
+            assert_eq!((engine, setup(K::Any).check()), (EngineKind::Anya, Ok(())));
+            refused(k(2).into(), SetupError::NeedsAny { engine, k: k(2) });
+        }
+    }
+}
+
+#[test]
+fn every_engine_takes_the_placements_that_it_says() {
+    for engine in EngineKind::ALL {
+        for rules in Rules::ALL {
+            let (capabilities, placement) = (engine.capabilities(), rules.placement());
+            // Some engines take centers only for the smallest k under every rule.
+            let k = capabilities.max_k.map_or(K::Any, |_| K::Finite(k(2)));
+            let said = Setup { rules, k, ..plain(engine) }.check();
+            if capabilities.placements.contains(&placement) {
+                assert_eq!(said, Ok(()), "{engine}, {rules}");
+            } else {
+                let said = said.expect_err("it does not take it").to_string();
+                let needs = match placement {
+                    PlacementKind::Center => "placement corner; for center choose astar, dijkstra,",
+                    PlacementKind::Corner => "placement center; for corner choose astar, dijkstra,",
+                };
+                let others = match placement {
+                    PlacementKind::Center => " lazy-theta, subgoal, hpa, chpa",
+                    PlacementKind::Corner => " lazy-theta, anya, subgoal, subgoal-theta",
+                };
+                assert!(
+                    said.starts_with(&format!("{engine} needs {needs}")) && said.ends_with(others),
+                    "{said}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_search_space_is_for_its_own_k_and_rules() {
+    let space = |text: &str| SearchSpace::new(setup(text), &grid()).expect("a setup that was checked");
+    let index = |ours: &str, others: &str| Index::new(setup(ours), &space(others), &RULES);
+    for (ours, others) in [
+        ("astar:3:open", "theta:3:open,taut"),
+        ("anya", "anya:any:open,smooth"),
+        ("jps:4:one", "astar:4:one"),
+    ] {
+        let index =
+            index(ours, others).unwrap_or_else(|error| panic!("{ours} in the space of {others}: {error}"));
+        let query = Query::new((0, 0), (8, 4));
+        let alone = planner(setup(ours)).solve_counted(query);
+        assert_eq!(planner_on(&index).solve_counted(query), alone, "{ours}");
+    }
+    for (ours, others) in [
+        ("astar:3:open", "astar:4:open"),
+        ("astar:3:open", "astar:3:closed"),
+        ("anya", "astar:3:open"),
+        ("astar:3:open", "anya"),
+    ] {
+        let refused = index(ours, others).map(|_| ());
+        assert!(
+            matches!(refused, Err(EngineError::Space { .. })),
+            "{ours} in the space of {others}: {refused:?}"
+        );
+    }
+    assert!(matches!(
+        SearchSpace::new(Setup::new(EngineKind::Anya, K::Any, NEVER), &grid()),
+        Err(EngineError::Setup(_))
+    ));
+    let said = index("anya", "astar:3:open").map(|_| ()).map_err(|error| error.to_string());
+    let expected = "needs the search space of k = any under corner, gap open, found that of k = 3 under corner, gap open";
+    assert_eq!(said, Err(expected.to_owned()));
+}
+
+#[test]
+fn options_are_refused_where_they_mean_nothing() {
+    let chosen = |options: &str| {
+        let setup = |engine: EngineKind| format!("{engine}{options}").parse::<Setup>();
+        let takers = EngineKind::ALL.into_iter().filter(|&engine| setup(engine).is_ok());
+        takers.map(EngineKind::name).collect::<Vec<_>>()
+    };
+    assert_eq!(chosen("").len(), EngineKind::ALL.len());
+    let guided = ["astar", "canonical", "jps", "jps-block", "jps-plus", "theta", "lazy-theta"];
+    assert_eq!(chosen(",euclidean"), [&guided[..], &["chpa"]].concat());
+    assert_eq!(chosen(",squared"), ["astar", "chpa"]);
+    assert_eq!(
+        (chosen(",smooth").len(), chosen(",taut").len()),
+        (EngineKind::ALL.len(), EngineKind::ALL.len())
+    );
+    assert_eq!(chosen(",paper"), ["canonical", "chpa"]);
+    assert_eq!((chosen(",exact"), chosen(",complete")), (vec!["canonical"], vec!["chpa"]));
+    assert_eq!((chosen(",side=3"), chosen(",unstraightened")), (vec!["hpa", "chpa"], vec!["hpa"]));
+    for option in ["second=zero", "step=3", "detour=2"] {
+        assert_eq!(chosen(&format!(",{option}")), ["chpa"], "{option}");
+    }
+    assert_eq!(chosen(",limit=4"), ["jps", "jps-block"]);
+    assert_eq!(chosen(",intermediate"), ["jps", "jps-block", "jps-plus"]);
+    for levels in ["1", "4", "all"] {
+        assert_eq!(chosen(&format!(",levels={levels}")), ["subgoal", "subgoal-theta", "hpa"]);
+    }
+    let error = "astar,limit=4".parse::<Setup>().expect_err("no jumps").to_string();
+    assert_eq!(
+        error,
+        "expected ENGINE[:K[:RULE]][,OPTION…], found `astar,limit=4`: astar takes no jump limit: leave it out, or choose jps, jps-block"
+    );
+}
+
+#[test]
+fn what_is_left_out_has_its_default() {
+    assert_eq!(setup("astar").engine.heuristic(), Some(HeuristicName::Hk));
+    assert_eq!(setup("dijkstra").engine.heuristic(), Some(HeuristicName::Zero));
+    assert_eq!((setup("anya").engine.heuristic(), setup("anya")), (None, setup("anya:any:open")));
+    assert_eq!((setup("theta").to_string(), setup("anya:any").rules), ("theta:3:never".to_owned(), OPEN));
+    assert_eq!(
+        (setup("subgoal"), setup("subgoal-theta")),
+        (setup("subgoal:3:never"), setup("subgoal-theta:3:open"))
+    );
+    assert_eq!(
+        (setup("subgoal").engine.heuristic(), setup("subgoal-theta").engine.heuristic()),
+        (None, None)
+    );
+    let levels = |n| NonZeroU32::new(n).map(Levels::Number);
+    assert_eq!(
+        (setup("astar").engine.levels(), setup("subgoal").engine.levels()),
+        (None, Some(Levels::Contracted))
+    );
+    assert_eq!(
+        ["subgoal,levels=1", "subgoal-theta"].map(|text| setup(text).engine.levels()),
+        [levels(1), levels(2)]
+    );
+    assert_eq!(setup("subgoal-theta,levels=all").engine.levels(), Some(Levels::All));
+    let paths = [
+        "astar:4",
+        "subgoal:4:open",
+        "theta",
+        "lazy-theta",
+        "astar,smooth",
+        "jps,taut",
+        "anya",
+        "subgoal-theta",
+    ]
+    .map(|text| setup(text).paths());
+    assert_eq!(paths[..2], [K::Finite(k(4)); 2]);
+    assert_eq!(paths[2..], [K::Any; 6]);
+    let promised = ["astar:4:one,smooth", "theta,taut", "anya,taut", "wavefront:2,taut", "wavefront,taut"];
+    assert_eq!(
+        promised.map(|text| setup(text).guarantee()),
+        [
+            Guarantee::AtMost(k(4)),
+            Guarantee::Suboptimal,
+            Guarantee::OptimalAnyAngle,
+            Guarantee::AtMost(k(2)),
+            Guarantee::Suboptimal,
+        ]
+    );
+    assert_eq!(
+        (setup("canonical").engine.variant(), setup("jps").engine.variant()),
+        (Some(Variant::Exact), None)
+    );
+    let over = ["jps:4", "subgoal:9:closed", "wavefront:2", "anya,taut", "subgoal:any"]
+        .map(|text| setup(text).optimal_over());
+    let ks = [4, 9, 2].map(|n| Some(K::Finite(k(n))));
+    assert_eq!((&over[..3], &over[3..]), (&ks[..], &[Some(K::Any); 2][..]));
+    for text in ["astar,taut", "theta", "canonical,paper", "subgoal,taut", "subgoal-theta"] {
+        assert_eq!(setup(text).optimal_over(), None, "{text}");
+    }
+    let solves = |text: &str| setup(text).solves_scenarios();
+    assert!(solves("subgoal") && !solves("subgoal:2:never") && !solves("subgoal-theta"));
+    assert!(solves("jps-plus") && solves("canonical") && !solves("canonical,paper") && !solves("wavefront"));
+    assert!(
+        !solves("jps:3:one")
+            && !solves("jps:4")
+            && !solves("astar,smooth")
+            && !solves("theta")
+            && !solves("anya")
+    );
+}
+
+#[test]
+fn setups_are_read_as_they_are_written() {
+    let mut setups = 0;
+    for rules in Rules::ALL {
+        for k in (2..=12).map(|n| K::Finite(k(n))).chain([K::Any]) {
+            for setup in Setup::all(k, rules) {
+                assert_eq!(setup.to_string().parse(), Ok(setup));
+                setups += 1;
+            }
+        }
+    }
+    assert!(setups > 1_300, "{setups}");
+    let many = "chpa:2:one,euclidean,side=4,second=squared,step=5,detour=7,taut";
+    assert_eq!(many.parse::<Setup>().map(|setup| setup.to_string()), Ok(many.to_owned()));
+    let many = "hpa:3:never,levels=2,side=4,unstraightened";
+    assert_eq!(many.parse::<Setup>().map(|setup| setup.to_string()), Ok(many.to_owned()));
+    let zero = Engine::LazyTheta(GuidedOptions { heuristic: Some(HeuristicName::Zero) });
+    let both = Setup { smoothing: Some(Smoothing::Taut), ..Setup::new(zero, k(5), OPEN) };
+    let limited = Engine::Jps(JumpOptions { jump_limit: NonZeroU32::new(16), ..JumpOptions::default() });
+    assert_eq!(Setup::new(limited, k(4), NEVER), setup("jps:4:never,limit=16"));
+    assert_eq!(
+        (both.to_string().as_str(), "lazy-theta:5:open,taut,zero".parse()),
+        ("lazy-theta:5:open,zero,taut", Ok(both))
+    );
+    assert_eq!("astar".parse(), "astar:3:never".parse::<Setup>());
+    assert_eq!(format!("{:>16}|", "jps:4:open".parse::<Setup>().expect("a setup")), "      jps:4:open|");
+}
+
+#[test]
+fn each_wrong_part_is_named() {
+    let wrong = |text: &str| text.parse::<Setup>().expect_err("no setup").to_string();
+    let names = "astar, dijkstra, wavefront, canonical, jps, jps-block, jps-plus, theta, lazy-theta, anya, \
+                 subgoal, subgoal-theta, hpa, chpa";
+    let form = "expected ENGINE[:K[:RULE]][,OPTION…], found `warp`";
+    assert_eq!(wrong("warp"), format!("{form}: the engines are {names}"));
+    for k in ["", "x", "1", "-3"] {
+        assert!(wrong(&format!("astar:{k}")).ends_with("K is a number from 2 to 12"));
+    }
+    assert!(
+        wrong("jps-block:x").ends_with("K is a number from 2 to 3") && wrong("anya:x").ends_with("K is any")
+    );
+    assert!(wrong("jps-block:4").ends_with("jps-block needs a k from 2 to 3, found 4"));
+    assert!(wrong("theta:any").ends_with("theta needs a k from 2 to 12; for any choose anya, subgoal"));
+    assert!(wrong("subgoal:x").ends_with("K is a number from 2 to 12, or any"));
+    assert!(
+        wrong("subgoal-theta:any")
+            .ends_with("subgoal-theta needs a k from 2 to 12; for any choose anya, subgoal")
+    );
+    assert!(wrong("subgoal:13:open").ends_with("subgoal needs a k from 2 to 12, found 13"));
+    assert!(
+        wrong("astar,levels=2")
+            .ends_with("astar takes no levels: leave it out, or choose subgoal, subgoal-theta, hpa")
+    );
+    for levels in ["levels", "levels=", "levels=0", "levels=-1", "levels=some"] {
+        assert!(
+            wrong(&format!("subgoal,{levels}")).contains("the options are hk, euclidean, zero,"),
+            "{levels}"
+        );
+    }
+
+    assert!(
+        wrong("anya:3")
+            .ends_with("anya searches every direction, not those of k = 3: leave k out, or say any")
+    );
+    assert!(wrong("anya:any:one").contains("anya needs placement corner; for center choose astar, "));
+    assert!(wrong("astar:3:sometimes").ends_with("the rules are never, one, always, open, closed"));
+    assert!(wrong("astar:3:one:two").ends_with("nothing but options may follow the rule"));
+    for option in ["", "limit=0", "limit=x", "limit", "fast"] {
+        assert!(wrong(&format!("jps,{option}")).contains("the options are hk, euclidean, zero,"), "{option}");
+    }
+    assert!(wrong("jps,best").ends_with(
+        "squared, exact, complete, paper, limit=N, intermediate, levels=N, levels=all, side=N, unstraightened, second=HEURISTIC, \
+         step=N, detour=N, smooth, taut"
+    ));
+    assert!(wrong("anya,zero").contains("anya takes no heuristic: leave it out, or choose astar, "));
+    assert!(wrong("jps,paper").ends_with("jps takes no variant: leave it out, or choose canonical, chpa"));
+}
+
+#[test]
+fn a_saved_index_is_as_good_as_a_new_one() {
+    for rules in Rules::ALL {
+        for k in [2, 3].map(k) {
+            let setup = Setup::new(EngineKind::JpsPlus, k, rules);
+            let bytes = build(setup, &grid()).expect("an index");
+            let saved = index(setup, &grid(), Some(&bytes)).expect("these are its bytes");
+            let query = Query::new((0, 0), (8, 4));
+            assert_eq!(planner_on(&saved).solve_counted(query), planner(setup).solve_counted(query));
+            let mut damaged = bytes;
+            damaged[0] ^= 1;
+            let refused = index(setup, &grid(), Some(&damaged)).map(|_| ());
+            assert!(matches!(refused, Err(EngineError::JumpTable(_))), "{refused:?}");
+        }
+    }
+}
+
+#[test]
+fn only_some_engines_have_an_index_or_distances() {
+    for engine in EngineKind::ALL.into_iter().filter(|&engine| engine.capabilities().index.is_none()) {
+        let setup = plain(engine);
+        let error = format!("{engine} has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa");
+        let said = [build(setup, &grid()).map(|_| ()), index(setup, &grid(), Some(&[])).map(|_| ())];
+        assert_eq!(
+            said.map(|said| said.map_err(|error| error.to_string())),
+            [Err(error.clone()), Err(error)]
+        );
+    }
+    for engine in EngineKind::ALL {
+        let found = distances(plain(engine), &grid(), Vertex::new(0, 0));
+        match found {
+            // The wall parts nothing: every free cell is reached.
+            Ok(found) => {
+                assert!(matches!(engine, EngineKind::Dijkstra | EngineKind::Wavefront));
+                assert_eq!(found.len() as u64, grid().free_cells());
+                assert_eq!((found[0], found[1]), ((Vertex::new(0, 0), 0.0), (Vertex::new(1, 0), 1.0)));
+            }
+            Err(error) => assert_eq!(
+                error.to_string(),
+                format!("{engine} has no distances to all vertices: choose dijkstra, wavefront")
+            ),
+        }
+    }
+    let blocked = distances(Setup::new(EngineKind::Dijkstra, k(3), NEVER), &grid(), Vertex::new(6, 0));
+    assert!(matches!(blocked, Err(EngineError::Query(_))), "{blocked:?}");
+    let corner = Setup::new(EngineKind::Dijkstra, k(4), Rules::Corner(DiagonalGap::Closed));
+    let found = distances(corner, &grid(), Vertex::new(0, 0)).expect("a free start");
+    let (_, distance) = found.iter().find(|(at, _)| *at == Vertex::new(2, 1)).expect("it is reached");
+    assert!((distance - 5.0_f64.sqrt()).abs() < 1e-9, "{distance}");
+}
+
+#[test]
+fn a_shared_rule_changes_nothing() {
+    let query = Query::new((0, 0), (8, 4));
+    let shared = SharedRules::new();
+    for rules in Rules::ALL {
+        // Also after those of another k.
+        for number in [4, 5] {
+            for engine in [EngineKind::Canonical, EngineKind::Jps] {
+                let setup = Setup::new(engine, k(number), rules);
+                let answer = |rules: &SharedRules| {
+                    let planner = BoxedPlanner::new(setup, &grid(), rules);
+                    planner.unwrap_or_else(|error| panic!("{setup}: {error}")).solve_counted(query)
+                };
+                assert_eq!(answer(&shared), answer(&SharedRules::new()), "{setup}");
+            }
+        }
+    }
+}

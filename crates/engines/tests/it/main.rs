@@ -1,0 +1,59 @@
+//! The catalog of engines.
+
+mod catalog;
+mod hierarchies;
+mod options;
+mod subgoals;
+
+use std::sync::Arc;
+
+use mediant_engines::{BoxedPlanner, EngineError, Index, SearchSpace, Setup, SharedRules};
+use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Rules};
+use mediant_moves::FiniteK;
+
+const NEVER: Rules = Rules::Center(CornerRule::Never);
+const OPEN: Rules = Rules::Corner(DiagonalGap::Open);
+
+/// Pruning rules depend on no map: each is made once.
+static RULES: SharedRules = SharedRules::new();
+
+fn k(k: u32) -> FiniteK {
+    FiniteK::new(k).expect("k is at least 2")
+}
+
+fn setup(text: &str) -> Setup {
+    text.parse().unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn grid() -> Arc<Grid> {
+    let drawing = "
+        ......#..
+        .##...#..
+        .#....#..
+        ...#.....
+        ...#..#..
+    ";
+    Arc::new(AsciiMap::parse(drawing).expect("the drawing is a map").grid)
+}
+
+/// The index of a setup on a map: a new one, or the one that these bytes hold.
+fn index(setup: Setup, grid: &Arc<Grid>, bytes: Option<&[u8]>) -> Result<Index, EngineError> {
+    let space = SearchSpace::new(setup, grid)?;
+    match bytes {
+        None => Index::new(setup, &space, &RULES),
+        Some(bytes) => Index::from_bytes(setup, &space, &RULES, bytes),
+    }
+}
+
+/// The bytes of a new index.
+fn build(setup: Setup, grid: &Arc<Grid>) -> Result<Vec<u8>, EngineError> {
+    index(setup, grid, None)?.to_bytes()
+}
+
+fn planner(setup: Setup) -> BoxedPlanner {
+    BoxedPlanner::new(setup, &grid(), &RULES).unwrap_or_else(|error| panic!("{setup}: {error}"))
+}
+
+fn planner_on(index: &Index) -> BoxedPlanner {
+    index.planner().unwrap_or_else(|error| panic!("{}: {error}", index.setup()))
+}

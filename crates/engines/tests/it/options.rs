@@ -1,0 +1,96 @@
+//! Options: what each engine takes, what is written and read, and what is meant where nothing is chosen.
+
+use mediant_engines::{Engine, EngineKind, EngineOption, OptionValue, SetupError, ValueKind};
+
+use super::{NEVER, k, setup};
+
+#[test]
+fn an_option_is_chosen_written_and_told_by_its_description_alone() {
+    let mut pairs = 0;
+    for kind in EngineKind::ALL {
+        let plain = Engine::from(kind);
+        assert_eq!((plain.kind(), plain.chosen()), (kind, Vec::new()));
+        for option in EngineOption::ALL {
+            let text = match option.kind {
+                ValueKind::Flag => "",
+                ValueKind::Number | ValueKind::Levels => "7",
+                ValueKind::Heuristic => "zero",
+                ValueKind::Variant => "paper",
+            };
+            let value = option.parse(text).expect("a value of its kind");
+            let mut engine = plain;
+            let takes = plain.options().iter().any(|taken| taken.name == option.name);
+            match engine.set(option, value) {
+                Ok(()) => {
+                    assert!(takes, "{kind}, {}", option.name);
+                    assert_eq!(engine.chosen(), [(option, value)]);
+                    assert_eq!(engine.value(option), Some(value), "{kind}, {}", option.name);
+                    pairs += 1;
+                }
+                Err(error) => {
+                    assert!(!takes && engine == plain, "{kind}, {}", option.name);
+                    assert!(matches!(error, SetupError::Option { engine, .. } if engine == kind), "{error}");
+                }
+            }
+        }
+    }
+    // 8 heuristics, 2 variants, 2 limits, 3 intermediate, 3 levels, 2 sides, 1 unstraightened, second, step and detour.
+    assert_eq!(pairs, 8 + 2 + 2 + 3 + 3 + 2 + 1 + 3);
+}
+
+#[test]
+fn a_value_of_another_kind_is_refused() {
+    let step = EngineOption::ALL.into_iter().find(|option| option.name == "step").expect("an option");
+    let mut engine = Engine::from(EngineKind::Chpa);
+    assert!(engine.set(step, OptionValue::Flag).is_err());
+    assert_eq!(engine, Engine::from(EngineKind::Chpa));
+}
+
+#[test]
+fn wrong_values_are_refused_in_words() {
+    let option =
+        |name: &str| EngineOption::ALL.into_iter().find(|option| option.name == name).expect("an option");
+    for (name, text, expected) in [
+        ("step", "0", "expected a whole number from 1 up"),
+        ("step", "x", "expected a whole number from 1 up"),
+        ("side", "5000000000", "expected a whole number from 1 to 4294967295"),
+        ("levels", "none", "expected a whole number from 1 to 4294967295, or all"),
+        ("heuristic", "best", "expected one of hk, euclidean, zero, squared, found `best`"),
+        ("unstraightened", "yes", "expected no value"),
+    ] {
+        assert_eq!(option(name).parse(text), Err(expected.to_owned()), "{name}");
+    }
+}
+
+#[test]
+fn reports_say_what_was_chosen() {
+    let told = |text: &str| {
+        let engine = setup(text).engine;
+        let all =
+            EngineOption::ALL.into_iter().filter_map(|option| Some(option.describe(engine.value(option)?)));
+        all.collect::<Vec<_>>().join(", ")
+    };
+    assert_eq!(told("astar"), "heuristic hk");
+    assert_eq!(told("anya"), "");
+    assert_eq!(
+        told("jps,limit=16,intermediate"),
+        "heuristic hk, jumps up to 16, intermediate jump points kept"
+    );
+    assert_eq!(told("subgoal"), "a contraction hierarchy");
+    assert_eq!(told("hpa,levels=1,unstraightened"), "1 level, side 10, paths not straightened");
+    assert_eq!(
+        told("chpa,squared"),
+        "heuristic squared, variant complete, side 3, second heuristic squared, step 2, detours up to 3"
+    );
+    assert_eq!(told("chpa,paper"), "heuristic hk, variant paper, side 3, second heuristic hk, step 2");
+}
+
+#[test]
+fn a_contraction_hierarchy_is_of_subgoal_graphs_alone() {
+    assert_eq!(setup("subgoal,levels=contracted").engine.levels(), setup("subgoal").engine.levels());
+    let said = "hpa,levels=contracted".parse::<mediant_engines::Setup>().expect_err("clusters have levels");
+    assert!(
+        said.to_string().ends_with("hpa takes no contraction hierarchy: leave it out, or choose subgoal")
+    );
+    assert!(mediant_engines::Setup::new(EngineKind::Hpa, k(3), NEVER).check().is_ok());
+}

@@ -1,0 +1,143 @@
+//! An index file: its key, its payload and its checksum.
+
+use std::{fmt, path::Path};
+
+use sha2::{Digest, Sha256};
+
+use super::{
+    error::IndexError,
+    header,
+    key::IndexKey,
+    layout::DIGEST_BYTES,
+    save::{self, WriteError},
+};
+use crate::read::{ReadError, read_regular};
+
+/// A saved index: the key that says what it was built for, and a payload that only its engine understands.
+///
+/// Needs the feature `index`.
+///
+/// ```
+/// use mediant_formats::{IndexFile, IndexKey};
+/// use mediant_grid::{AsciiMap, CornerRule, Rules};
+/// let grid = AsciiMap::parse("..#\n...")?.grid;
+/// let key = IndexKey::new("jps-plus", 1, Rules::Center(CornerRule::Never), Some(3), &grid)?;
+/// let saved = IndexFile::new(key.clone(), vec![1, 2, 3]).to_bytes();
+/// let index = IndexFile::from_bytes(saved)?;
+/// index.check(&key)?;
+/// assert_eq!(index.payload(), [1, 2, 3]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, PartialEq, Eq)]
+pub struct IndexFile {
+    key: IndexKey,
+    payload: Vec<u8>,
+}
+
+/// Without the bytes of the payload.
+impl fmt::Debug for IndexFile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("IndexFile").field("key", &self.key).field("bytes", &self.payload.len()).finish()
+    }
+}
+
+impl IndexFile {
+    /// The index with this payload.
+    #[must_use]
+    pub const fn new(key: IndexKey, payload: Vec<u8>) -> Self {
+        Self { key, payload }
+    }
+
+    /// What the index was built for.
+    #[must_use]
+    pub const fn key(&self) -> &IndexKey {
+        &self.key
+    }
+
+    /// The bytes that the engine saved.
+    #[must_use]
+    pub fn payload(&self) -> &[u8] {
+        &self.payload
+    }
+
+    /// The bytes that the engine saved, without a copy.
+    #[must_use]
+    pub fn into_payload(self) -> Vec<u8> {
+        self.payload
+    }
+
+    /// The bytes of the file.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = header::encode(&self.key, self.payload.len());
+        bytes.reserve_exact(self.payload.len() + DIGEST_BYTES);
+        bytes.extend_from_slice(&self.payload);
+        let digest = Sha256::digest(&bytes);
+        bytes.extend_from_slice(&digest);
+        bytes
+    }
+
+    /// Parses the bytes of a file, and keeps the payload in the same allocation. The length that the header
+    /// states allocates nothing.
+    ///
+    /// # Errors
+    /// [`IndexError`] for bytes that are not an index of this format version, are cut short, or are damaged.
+    pub fn from_bytes(mut bytes: Vec<u8>) -> Result<Self, IndexError> {
+        let (key, payload) = header::decode(&bytes)?;
+        bytes.truncate(payload.end);
+        bytes.drain(..payload.start);
+        Ok(Self { key, payload: bytes })
+    }
+
+    /// Saves the index at `path`. An older file there is replaced as a whole: the index is written to another
+    /// file in the same folder, which is then renamed. So there is never half an index at `path`.
+    ///
+    /// # Errors
+    /// [`WriteError`] if the operating system refuses, or if there is something at `path` that is no regular
+    /// file.
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), WriteError> {
+        let header = header::encode(&self.key, self.payload.len());
+        let digest = Sha256::new().chain_update(&header).chain_update(&self.payload).finalize();
+        save::replace(path.as_ref(), &[&header, &self.payload, &digest])
+    }
+
+    /// Reads and parses a file.
+    ///
+    /// # Errors
+    /// [`ReadError`] for a file that is missing, cannot be read, or is no whole index.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
+        let path = path.as_ref();
+        Self::from_bytes(read_regular(path)?)
+            .map_err(|source| ReadError::Index { path: path.to_owned(), source })
+    }
+
+    /// Checks that the index was built for this engine, version, rules, k and map.
+    ///
+    /// # Errors
+    /// The [`IndexError`] of the first difference, in this order.
+    pub fn check(&self, expected: &IndexKey) -> Result<(), IndexError> {
+        let found = &self.key;
+        if found.engine != expected.engine {
+            let (expected, found) = (expected.engine.clone(), found.engine.clone());
+            return Err(IndexError::Engine { expected, found });
+        }
+        if found.version != expected.version {
+            let engine = expected.engine.clone();
+            return Err(IndexError::EngineVersion {
+                engine,
+                expected: expected.version,
+                found: found.version,
+            });
+        }
+        if found.rules != expected.rules {
+            return Err(IndexError::Rules { expected: expected.rules, found: found.rules });
+        }
+        if found.k != expected.k {
+            return Err(IndexError::K { expected: expected.k, found: found.k });
+        }
+        if found.map != expected.map {
+            return Err(IndexError::Map { expected: expected.map, found: found.map });
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,127 @@
+//! MovingAI maps, `.map`.
+
+pub(crate) mod error;
+mod parse;
+
+use std::{io, path::Path};
+
+use mediant_grid::Grid;
+
+pub use error::MapError;
+
+use crate::read::{ReadError, read_regular};
+
+/// A MovingAI map: a header with height and width, and one character per cell.
+///
+/// The characters `.`, `G` and `S` are free cells, all others blocked cells. Lines end in LF or CRLF. The
+/// last row may lack its line end, and empty lines may follow it.
+///
+/// ```
+/// use mediant_formats::MapFile;
+/// let text = b"type octile\nheight 2\nwidth 3\nmap\n..T\n@.G\n";
+/// let map = MapFile::parse(text)?;
+/// assert!(map.to_grid().is_blocked(2, 0) && map.to_grid().is_free(2, 1));
+/// assert_eq!(map.as_bytes(), text);
+/// # Ok::<(), mediant_formats::MapError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MapFile {
+    text: Vec<u8>,
+    width: u32,
+    /// Where each row begins in the text. Line ends may differ from row to row, so this cannot be computed.
+    rows: Vec<usize>,
+}
+
+impl MapFile {
+    /// Parses a map.
+    ///
+    /// # Errors
+    /// [`MapError`] says what is wrong and where.
+    pub fn parse(bytes: &[u8]) -> Result<Self, MapError> {
+        Self::from_bytes(bytes.to_vec())
+    }
+
+    /// Parses a map and keeps the bytes without copying them.
+    ///
+    /// # Errors
+    /// [`MapError`] says what is wrong and where.
+    pub fn from_bytes(text: Vec<u8>) -> Result<Self, MapError> {
+        let (width, rows) = parse::map(&text)?;
+        Ok(Self { text, width, rows })
+    }
+
+    /// Reads and parses a file.
+    ///
+    /// # Errors
+    /// [`ReadError`] for a file that is missing, cannot be read, or is no map.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
+        let path = path.as_ref();
+        Self::from_bytes(read_regular(path)?)
+            .map_err(|source| ReadError::Map { path: path.to_owned(), source })
+    }
+
+    /// Makes the map of a grid: `.` for free and `@` for blocked cells, lines that end in LF.
+    #[must_use]
+    pub fn from_grid(grid: &Grid) -> Self {
+        let (width, height) = (grid.width(), grid.height());
+        let mut text = format!("type octile\nheight {height}\nwidth {width}\nmap\n").into_bytes();
+        let mut rows = Vec::with_capacity(height as usize);
+        for y in 0..height as i32 {
+            rows.push(text.len());
+            text.extend((0..width as i32).map(|x| if grid.is_free(x, y) { b'.' } else { b'@' }));
+            text.push(b'\n');
+        }
+        Self { text, width, rows }
+    }
+
+    /// The grid of the map. Cells are blocked, but for `.`, `G` and `S`.
+    #[must_use]
+    pub fn to_grid(&self) -> Grid {
+        Grid::from_fn(self.width, self.height(), |x, y| {
+            !is_free(self.text[self.rows[y as usize] + x as usize])
+        })
+        .expect("the parser checks width and height")
+    }
+
+    /// The number of columns, 1 to [`Grid::MAX_SIDE`].
+    #[must_use]
+    pub const fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// The number of rows, 1 to [`Grid::MAX_SIDE`].
+    #[must_use]
+    pub const fn height(&self) -> u32 {
+        // No loss: the parser and the grid allow at most MAX_SIDE rows.
+        self.rows.len() as u32
+    }
+
+    /// The rows from top to bottom, each of [`width`](Self::width) characters.
+    pub fn rows(&self) -> impl ExactSizeIterator<Item = &[u8]> {
+        self.rows.iter().map(|&start| &self.text[start..start + self.width as usize])
+    }
+
+    /// Whether a cell with this character is free.
+    #[must_use]
+    pub const fn is_free_tile(tile: u8) -> bool {
+        is_free(tile)
+    }
+
+    /// The text of the file, byte for byte.
+    #[must_use]
+    pub fn as_bytes(&self) -> &[u8] {
+        &self.text
+    }
+
+    /// Writes the text of the file, byte for byte.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write(&self, mut out: impl io::Write) -> io::Result<()> {
+        out.write_all(&self.text)
+    }
+}
+
+const fn is_free(tile: u8) -> bool {
+    matches!(tile, b'.' | b'G' | b'S')
+}

@@ -1,0 +1,106 @@
+//! Parses the text of a map.
+
+use mediant_grid::Grid;
+
+use super::error::MapError;
+use crate::text::{Line, Lines, quote, quote_line, words};
+
+/// The width of a map, and where each of its rows begins in the text.
+pub(super) fn map(text: &[u8]) -> Result<(u32, Vec<usize>), MapError> {
+    if text.is_empty() {
+        return Err(MapError::Empty);
+    }
+    let mut lines = Lines::new(text);
+    let (width, height) = parse_header(&mut lines)?;
+    Ok((width, parse_rows(&mut lines, width, height)?))
+}
+
+/// The width and the height that the header states.
+fn parse_header(lines: &mut Lines<'_>) -> Result<(u32, u32), MapError> {
+    check_line(lines, &[b"type", b"octile"], "`type octile`")?;
+    let (mut width, mut height) = (None, None);
+    let sides = loop {
+        let expected = match (width, height) {
+            (Some(width), Some(height)) => break (width, height),
+            (None, None) => "`height N` or `width N`",
+            (Some(_), None) => "`height N`",
+            (None, Some(_)) => "`width N`",
+        };
+        let line = lines.next();
+        let text = line.map_or(&b""[..], |line| line.text);
+        let (side, value) = match words(text).next() {
+            Some((_, b"height")) if height.is_none() => ("height", &mut height),
+            Some((_, b"width")) if width.is_none() => ("width", &mut width),
+            _ => return Err(header_error(lines, line, expected)),
+        };
+        *value = Some(parse_side(lines.number(), text, side)?);
+    };
+    check_line(lines, &[b"map"], "`map`")?;
+    Ok(sides)
+}
+
+/// Takes a line of exactly the `expected` words, which an error message calls `name`.
+fn check_line(lines: &mut Lines<'_>, expected: &[&[u8]], name: &'static str) -> Result<(), MapError> {
+    let line = lines.next();
+    let found = words(line.map_or(b"", |line| line.text)).map(|(_, word)| word);
+    if found.eq(expected.iter().copied()) { Ok(()) } else { Err(header_error(lines, line, name)) }
+}
+
+fn header_error(lines: &Lines<'_>, line: Option<Line<'_>>, expected: &'static str) -> MapError {
+    let number = line.map_or(lines.number() + 1, |line| line.number);
+    MapError::Header { line: number, expected, found: quote_line(line) }
+}
+
+/// The number in a line `height N` or `width N`.
+fn parse_side(line: usize, text: &[u8], side: &'static str) -> Result<u32, MapError> {
+    let mut words = words(text).skip(1);
+    let (column, word) = words.next().unwrap_or((text.len() + 1, b""));
+    let cells = std::str::from_utf8(word).ok().and_then(|word| word.parse::<u32>().ok());
+    let Some(cells) = cells.filter(|&cells| Grid::check_size(u64::from(cells), 1).is_ok()) else {
+        return Err(MapError::Side { line, column, side, found: quote(word) });
+    };
+    match words.next() {
+        None => Ok(cells),
+        Some((column, word)) => {
+            Err(MapError::Side { line, column, side, found: format!("also {}", quote(word)) })
+        }
+    }
+}
+
+/// Where each row begins. The list grows with the rows that the file has, not with the height that it states.
+fn parse_rows(lines: &mut Lines<'_>, width: u32, height: u32) -> Result<Vec<usize>, MapError> {
+    let mut rows = Vec::new();
+    while rows.len() < height as usize {
+        let Some(line) = lines.next() else {
+            let line = lines.number() + 1;
+            return Err(MapError::FewRows { line, row: rows.len() + 1, height });
+        };
+        check_row(line, width)?;
+        rows.push(line.start);
+    }
+    match lines.find(|line| !line.is_blank()) {
+        None => Ok(rows),
+        Some(line) => Err(MapError::ManyRows { line: line.number, height, found: quote(line.text) }),
+    }
+}
+
+/// Checks that a row has `width` tiles; an error names the first column that is wrong.
+fn check_row(line: Line<'_>, width: u32) -> Result<(), MapError> {
+    let (found, expected) = (line.text.len(), width as usize);
+    let tiles = &line.text[..found.min(expected)];
+    if let Some(at) = tiles.iter().position(|tile| !tile.is_ascii_graphic()) {
+        return Err(MapError::Tile { line: line.number, column: at + 1, found: quote(&tiles[at..=at]) });
+    }
+    match found {
+        _ if found < expected => {
+            Err(MapError::ShortRow { line: line.number, column: found + 1, expected: width, found })
+        }
+        _ if found > expected => Err(MapError::LongRow {
+            line: line.number,
+            column: expected + 1,
+            expected: width,
+            found: found - expected,
+        }),
+        _ => Ok(()),
+    }
+}

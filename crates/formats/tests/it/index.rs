@@ -1,0 +1,332 @@
+//! Saved indexes: what is saved comes back, and every other file is refused with the right error.
+
+use std::{fs, path::Path};
+
+use mediant_formats::{IndexError, IndexFile, IndexKey, MapDigest, ReadError, WriteError};
+use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Rules};
+use sha2::{Digest, Sha256};
+
+const RULES: Rules = Rules::Center(CornerRule::Never);
+
+fn grid(drawing: &str) -> Grid {
+    AsciiMap::parse(drawing).expect("a well-formed drawing").grid
+}
+
+fn key(rules: Rules, k: Option<u32>) -> IndexKey {
+    IndexKey::new("jps-plus", 7, rules, k, &grid("..#\n...")).expect("a plain name")
+}
+
+fn index() -> IndexFile {
+    IndexFile::new(key(RULES, Some(3)), (0..50).collect())
+}
+
+/// The bytes with a right checksum, as another program might have written them.
+fn sealed(mut bytes: Vec<u8>) -> Vec<u8> {
+    bytes.truncate(bytes.len() - 32);
+    let digest = Sha256::digest(&bytes);
+    bytes.extend_from_slice(&digest);
+    bytes
+}
+
+fn refused(bytes: &[u8]) -> IndexError {
+    IndexFile::from_bytes(bytes.to_vec()).expect_err("to be refused")
+}
+
+/// The error for the index of these tests with one field overwritten and a right checksum.
+fn forged(at: usize, field: &[u8]) -> IndexError {
+    let mut bytes = index().to_bytes();
+    bytes[at..at + field.len()].copy_from_slice(field);
+    refused(&sealed(bytes))
+}
+
+fn files(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("a folder");
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn what_is_saved_comes_back() {
+    for rules in Rules::ALL {
+        for k in [None, Some(0), Some(2), Some(12), Some(u32::MAX)] {
+            for payload in [vec![], vec![9], (0..=255).collect()] {
+                let saved = IndexFile::new(key(rules, k), payload.clone());
+                let read = IndexFile::from_bytes(saved.to_bytes()).unwrap();
+                assert_eq!(read, saved);
+                assert_eq!(read.payload(), payload);
+                assert_eq!(
+                    (read.key().engine(), read.key().version(), read.key().rules(), read.key().k()),
+                    ("jps-plus", 7, rules, k)
+                );
+                read.check(&key(rules, k)).unwrap();
+                assert_eq!(read.into_payload(), payload);
+            }
+        }
+    }
+}
+
+/// There are files of this layout on disk: it may change only together with its version.
+#[test]
+fn the_bytes_of_a_file() {
+    let bytes = IndexFile::new(key(Rules::Corner(DiagonalGap::Closed), None), vec![0xaa, 0xbb]).to_bytes();
+    let digest = {
+        // Width 3, height 2, then one word per row. Cell (2, 0) is blocked.
+        let mut map = [3_u32.to_le_bytes(), 2_u32.to_le_bytes()].concat();
+        map.extend([4_u64.to_le_bytes(), 0_u64.to_le_bytes()].concat());
+        Sha256::digest(map)
+    };
+    let expected = [
+        b"\x89MEDIDX\n\x01\0\0\0jps-plus\0\0\0\0\0\0\0\0\x07\0\0\0\x01\x01\x01\0\0\0\0\0\x03\0\0\0\x02\0\0\0",
+        &digest[..],
+        b"\x02\0\0\0\0\0\0\0\xaa\xbb",
+    ]
+    .concat();
+    let (content, checksum) = bytes.split_at(bytes.len() - 32);
+    assert_eq!(content, expected);
+    assert_eq!(checksum, &Sha256::digest(&expected)[..]);
+}
+
+#[test]
+fn the_digest_tells_maps_apart() {
+    let mut seen = std::collections::HashMap::new();
+    for (width, height) in
+        [(1, 1), (1, 6), (6, 1), (2, 3), (3, 2), (63, 2), (64, 2), (65, 2), (128, 1), (130, 1)]
+    {
+        let of = |blocked: Option<(u32, u32)>| {
+            MapDigest::of(&Grid::from_fn(width, height, |x, y| Some((x, y)) == blocked).unwrap())
+        };
+        let cells = (0..height).flat_map(|y| (0..width).map(move |x| Some((x, y))));
+        for blocked in cells.chain([None]) {
+            let digest = of(blocked);
+            assert_eq!((digest.width(), digest.height()), (width, height));
+            assert_eq!(digest, of(blocked), "the same map again");
+            let other = seen.insert(*digest.as_bytes(), (width, height, blocked));
+            assert_eq!(other, None, "{width} × {height}, {blocked:?}");
+        }
+    }
+}
+
+#[test]
+fn every_truncation_is_refused() {
+    let bytes = index().to_bytes();
+    let whole = bytes.len() as u64;
+    for length in 0..bytes.len() {
+        let expected = match length {
+            0..8 => IndexError::NotAnIndex {
+                found: match length {
+                    0 => "nothing".to_owned(),
+                    _ => format!("`{}`", bytes[..length].escape_ascii()),
+                },
+            },
+            8..88 => IndexError::Length { expected: 120, found: length as u64 },
+            _ => IndexError::Length { expected: whole, found: length as u64 },
+        };
+        assert_eq!(refused(&bytes[..length]), expected);
+    }
+    let longer = [&bytes[..], &[0]].concat();
+    assert_eq!(refused(&longer), IndexError::Length { expected: whole, found: whole + 1 });
+}
+
+#[test]
+fn every_flipped_bit_is_refused() {
+    let bytes = index().to_bytes();
+    for bit in 0..bytes.len() * 8 {
+        let mut flipped = bytes.clone();
+        flipped[bit / 8] ^= 1 << (bit % 8);
+        let error = refused(&flipped);
+        let right = match bit / 8 {
+            0..8 => matches!(error, IndexError::NotAnIndex { .. }),
+            8..12 => matches!(error, IndexError::Format { .. }),
+            80..88 => matches!(error, IndexError::Length { .. }),
+            _ => error == IndexError::Damaged,
+        };
+        assert!(right, "bit {bit}: {error}");
+    }
+}
+
+#[test]
+fn a_claimed_length_allocates_nothing() {
+    for claimed in [51, 1 << 32, u64::MAX - 120, u64::MAX] {
+        let mut bytes = index().to_bytes();
+        bytes[80..88].copy_from_slice(&claimed.to_le_bytes());
+        let found = bytes.len() as u64;
+        let expected = claimed.saturating_add(120);
+        assert_eq!(refused(&sealed(bytes)), IndexError::Length { expected, found });
+    }
+}
+
+#[test]
+fn what_is_no_index_word_by_word() {
+    let cases = [
+        (
+            refused(b"type octile\nheight 1"),
+            "expected an index as `mediant build` makes it, found `type oct` at its start; \
+             is this the file that you meant?",
+        ),
+        (
+            refused(b""),
+            "expected an index as `mediant build` makes it, found nothing at its start; \
+             is this the file that you meant?",
+        ),
+        (
+            forged(8, &[2]),
+            "expected an index of format version 1, found version 2; build it again with `mediant build`",
+        ),
+        (
+            refused(&index().to_bytes()[..100]),
+            "expected an index of 170 bytes, found 100; copy the file again, or build it again with `mediant build`",
+        ),
+        (
+            IndexError::Damaged,
+            "expected the checksum that was saved with the index, found another: the file is damaged; \
+             copy it again, or build it again with `mediant build`",
+        ),
+        (
+            forged(12, b"jps\0plus"),
+            "expected an engine's name of 1 to 16 printable ASCII characters without blanks, \
+             found `jps\\x00plus\\x00\\x00\\x00\\x00\\x00\\x00\\x00\\x00`: \
+             another program wrote this index; build it again with `mediant build`",
+        ),
+        (
+            forged(32, &[1, 2]),
+            "expected the codes of a placement and its rule, found `\\x01\\x02`: \
+             another program wrote this index; build it again with `mediant build`",
+        ),
+        (
+            forged(34, &[1]),
+            "expected a number k or the mark of any-angle, found `\\x01\\x00`: \
+             another program wrote this index; build it again with `mediant build`",
+        ),
+    ];
+    for (error, message) in cases {
+        assert_eq!(error.to_string(), message);
+    }
+    assert!(matches!(forged(12, &[0; 16]), IndexError::Field { .. }), "no name");
+    assert!(matches!(forged(12, "jps-plüs".as_bytes()), IndexError::Field { .. }), "not ASCII");
+    assert!(matches!(forged(34, &[2]), IndexError::Field { .. }), "neither any-angle nor not");
+    assert!(matches!(forged(35, &[1]), IndexError::Field { .. }), "not zero");
+}
+
+#[test]
+fn names_that_cannot_be_saved() {
+    let make = |name: &str| IndexKey::new(name, 1, RULES, None, &grid("."));
+    for name in ["", "jps plus", "jps\n", "übersicht", "a-name-of-17-long"] {
+        assert!(matches!(make(name), Err(IndexError::EngineName { .. })), "{name:?}");
+    }
+    assert_eq!(make("a-name-of-16-abc").unwrap().engine(), "a-name-of-16-abc");
+    assert_eq!(
+        make("").unwrap_err().to_string(),
+        "expected an engine's name of 1 to 16 printable ASCII characters without blanks, found nothing; \
+         give the engine a shorter or plainer name"
+    );
+}
+
+#[test]
+fn an_index_for_something_else_word_by_word() {
+    let index = index();
+    let other = |engine: &str, version, rules, k, drawing: &str| {
+        let expected = IndexKey::new(engine, version, rules, k, &grid(drawing)).unwrap();
+        index.check(&expected).unwrap_err().to_string()
+    };
+    let map = "..#\n...";
+    assert_eq!(
+        other("subgoal", 8, Rules::Corner(DiagonalGap::Open), None, "."),
+        "expected an index of the engine subgoal, found one of jps-plus; \
+         choose that engine, or build it again with `mediant build`"
+    );
+    assert_eq!(
+        other("jps-plus", 8, Rules::Corner(DiagonalGap::Open), None, "."),
+        "expected version 8 of the jps-plus index, found version 7; build it again with `mediant build`"
+    );
+    assert_eq!(
+        other("jps-plus", 7, Rules::Center(CornerRule::One), Some(3), map),
+        "expected an index for the rules `center, corners one`, found one for `center, corners never`; \
+         choose those rules, or build it again with `mediant build`"
+    );
+    assert_eq!(
+        other("jps-plus", 7, RULES, None, map),
+        "expected an index for k = any, found one for k = 3; choose that k, or build it again with `mediant build`"
+    );
+    assert_eq!(
+        other("jps-plus", 7, RULES, Some(4), map),
+        "expected an index for k = 4, found one for k = 3; choose that k, or build it again with `mediant build`"
+    );
+    let digests = [MapDigest::of(&grid("..#\n..#")), MapDigest::of(&grid(map))]
+        .map(|map| map.as_bytes()[..6].iter().map(|byte| format!("{byte:02x}")).collect::<String>());
+    assert_eq!(
+        other("jps-plus", 7, RULES, Some(3), "..#\n..#"),
+        format!(
+            "expected an index for this map (3 × 2 cells, digest {}…), \
+             found one for another (3 × 2 cells, digest {}…); name that map, or build it again with `mediant build`",
+            digests[0], digests[1]
+        )
+    );
+}
+
+#[test]
+fn a_file_is_replaced_as_a_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("map.idx");
+    fs::write(&path, "an older index").unwrap();
+    index().write(&path).unwrap();
+    assert_eq!(fs::read(&path).unwrap(), index().to_bytes());
+    assert_eq!(IndexFile::read(&path).unwrap(), index());
+    assert_eq!(files(folder.path()), ["map.idx"], "nothing else is left");
+}
+
+#[test]
+fn what_cannot_be_written_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let message =
+        |error: &WriteError| error.to_string().replace(&format!("{}/", folder.path().display()), "");
+    let nowhere = folder.path().join("missing/map.idx");
+    let error = index().write(&nowhere).unwrap_err();
+    assert!(matches!(error, WriteError::Unwritable { .. }));
+    assert!(message(&error).starts_with("missing/map.idx: cannot be written: "), "{error}");
+    fs::create_dir(folder.path().join("folder")).unwrap();
+    let error = index().write(folder.path().join("folder")).unwrap_err();
+    assert_eq!(
+        message(&error),
+        "folder: expected a regular file or none, found a directory or device; name a file to be made"
+    );
+    assert_eq!(files(folder.path()), ["folder"]);
+    assert!(files(&folder.path().join("folder")).is_empty());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_new_index_can_be_read_by_those_who_read_new_files() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let [plain, saved] = ["plain", "saved"].map(|name| folder.path().join(name));
+    fs::write(&plain, "").unwrap();
+    index().write(&saved).unwrap();
+    let mode = |path| fs::metadata(path).unwrap().permissions().mode();
+    assert_eq!(mode(&saved), mode(&plain));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_device_is_not_replaced() {
+    let error = index().write("/dev/null").unwrap_err();
+    assert!(matches!(error, WriteError::NotRegular { .. }), "{error}");
+}
+
+#[test]
+fn files_that_cannot_be_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("map.idx");
+    assert!(matches!(IndexFile::read(&path), Err(ReadError::Missing { .. })));
+    fs::write(&path, &index().to_bytes()[..150]).unwrap();
+    let error = IndexFile::read(&path).unwrap_err();
+    assert!(matches!(error, ReadError::Index { source: IndexError::Length { .. }, .. }));
+    assert_eq!(
+        error.to_string(),
+        format!(
+            "{}: expected an index of 170 bytes, found 150; copy the file again, or build it again with `mediant build`",
+            path.display()
+        )
+    );
+}

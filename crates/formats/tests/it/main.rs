@@ -1,0 +1,8 @@
+//! The tests of all formats, with every feature of the crate.
+
+mod fuzz;
+mod index;
+mod map;
+mod read;
+mod scenario;
+mod trace;

@@ -1,0 +1,6 @@
+//! The tests of the crate, in one binary: each binary is linked separately.
+
+mod legality;
+mod polygon;
+mod rectangle;
+mod sweep;

@@ -1,0 +1,11 @@
+//! What the hierarchies promise, held against definitions, slow references and new indexes, on seeded random
+//! maps.
+
+mod clusters;
+mod common;
+mod complete;
+mod index;
+mod repair;
+mod segments;
+mod shared;
+mod snapshots;

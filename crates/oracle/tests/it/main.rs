@@ -1,0 +1,7 @@
+//! The tests of the crate, in one binary: each binary is linked separately.
+
+mod costs;
+mod maps;
+mod paths;
+mod rules;
+mod visibility;

@@ -1,0 +1,5 @@
+//! The tests of records and figures.
+
+mod figures;
+mod record;
+mod svg;

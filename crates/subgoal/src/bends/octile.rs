@@ -1,0 +1,133 @@
+//! How a shortest path over N(3) bends at centers, where corners are never cut.
+
+use mediant_grid::{Grid, Vector, Vertex};
+
+/// The bends at a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct OctileBends {
+    /// Which of the cells that touch it diagonally are blocked: down right, down left, up left, up right.
+    blocked: u32,
+}
+
+impl OctileBends {
+    /// The bends at a cell of a map.
+    pub(super) fn at(grid: &Grid, at: Vertex) -> Self {
+        let cells = [(1, 1), (-1, 1), (-1, -1), (1, -1)];
+        let blocked = |(x, y): (i32, i32)| u32::from(grid.is_blocked(at.x + x, at.y + y));
+        Self { blocked: cells.into_iter().rev().fold(0, |bits, cell| 2 * bits + blocked(cell)) }
+    }
+
+    /// How a shortest path may leave that arrives by `v`, along which the cell is directly h_3-reachable.
+    #[inline]
+    pub(super) fn after(self, v: Vector) -> OctileDepartures {
+        let from = direction(v);
+        OctileDepartures { allowed: (0..16).fold(0, |bits, to| bits | u32::from(self.allow(from, to)) << to) }
+    }
+
+    /// Whether a shortest path can arrive in one direction and leave in another, if the subgoals at both ends
+    /// are directly h_3-reachable.
+    ///
+    /// The moves of such an edge can be taken in any order, so any move of the first edge may come last, and
+    /// any move of the second edge first. The widest angle between two of them decides. Below 90° every bend
+    /// is allowed. Above 90°, and at 90° between diagonal moves, none is: there is a shorter path, over cells
+    /// that are free because no corner is cut. At 90° between axial moves the shorter path leads over the
+    /// cell between them; the bend is allowed if that cell is blocked.
+    const fn allow(self, from: i32, to: i32) -> bool {
+        // Angles are in half octants; the bend is from −8 to 7.
+        let bend = ((to - from + 8) & 15) - 8;
+        let widest = bend.abs() + (from & 1) + (to & 1);
+        if widest != 4 {
+            return widest < 4;
+        }
+        // The outermost move of the first edge, and the direction of the cell between the two moves.
+        let first = from - bend.signum() * (from & 1);
+        let inside = first + bend.signum() * 6;
+        first & 3 == 0 && self.blocked >> ((inside & 15) / 4) & 1 == 1
+    }
+}
+
+/// The directions in which a path may leave.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OctileDepartures {
+    /// A bit for each half octant.
+    allowed: u32,
+}
+
+impl OctileDepartures {
+    /// Whether the path may leave by `w`, along which a subgoal is directly h_3-reachable.
+    #[inline]
+    pub(super) fn allows(self, w: Vector) -> bool {
+        self.allowed >> (direction(w) & 15) & 1 == 1
+    }
+}
+
+/// A direction in half octants, from the x axis towards the y axis, modulo 16: even along a move of N(3), odd
+/// between two moves.
+#[inline]
+fn direction(v: Vector) -> i32 {
+    let (x, y) = v.abs();
+    let within = i32::from(y > 0) + i32::from(y >= x) + i32::from(y > x) + i32::from(x == 0);
+    // Without branches: a processor cannot predict the quadrant.
+    let (left, up) = (i32::from(v.x < 0), i32::from(v.y < 0));
+    let base = 8 * left + 16 * (up & !left);
+    base + (1 - 2 * (left ^ up)) * within
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use mediant_grid::{Centers, CornerRule, FreeSpace, Placement};
+    use mediant_moves::{FiniteK, K};
+    use mediant_oracle::{Explicit, random_grid};
+
+    use super::OctileBends;
+    use crate::{
+        metric::Metric,
+        placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind},
+        subgoals::Subgoals,
+    };
+
+    /// For every bend that is refused there is a shorter path.
+    #[test]
+    fn refused_turns_are_on_no_shortest_path() {
+        let (mut refused, mut passed) = (0, 0);
+        for seed in 0..60 {
+            let (grid, _) = random_grid(seed);
+            let k = K::Finite(FiniteK::N8);
+            let space = FreeSpace::<Centers>::new(Arc::new(grid.clone()), CornerRule::Never);
+            let metric = Metric::new(k).expect("a small k");
+            let (marks, tables) = Centers::prepare(&space);
+            let subgoals = Subgoals::new(marks);
+            let context = BuildContext {
+                space: &space,
+                subgoals: &subgoals,
+                tables: &tables,
+                metric: &metric,
+                k,
+                criterion: EdgeCriterion::Direct,
+            };
+            let explicit = Explicit::new(&grid, Centers::rules(CornerRule::Never), k.finite());
+            for id in 0..subgoals.len() as u32 {
+                let at = subgoals.vertex(id);
+                let bends = OctileBends::at(&grid, at);
+                let mut edges = Vec::new();
+                Centers::edges_from(context, &mut (), at, EdgeKind::Query, |id, cost| {
+                    edges.push((subgoals.vertex(id), cost));
+                });
+                for &(before, first) in &edges {
+                    let costs = explicit.costs_from(before);
+                    for &(after, second) in &edges {
+                        let shortest = costs.to(after).expect("there is a path over the subgoal");
+                        let is_shortest = shortest > (first + second).to_f64() - 1e-6;
+                        let may_pass = bends.after(before.to(at)).allows(at.to(after));
+                        assert!(may_pass || !is_shortest, "seed {seed}: {before:?}, {at:?}, {after:?}");
+                        refused += u32::from(!may_pass);
+                        passed += u32::from(is_shortest);
+                    }
+                }
+            }
+        }
+        assert!(refused > 1000 && passed > 1000, "{refused} refused, {passed} passed");
+    }
+}

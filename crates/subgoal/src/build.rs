@@ -1,0 +1,150 @@
+//! Building a graph: its edges, then its hierarchy.
+
+use std::{
+    num::NonZeroU32,
+    sync::atomic::{AtomicUsize, Ordering},
+};
+
+use mediant_grid::{FreeSpace, Vertex};
+use mediant_moves::K;
+
+use crate::{
+    arc::UpwardArc,
+    bends::BendRule,
+    contract::{ContractedGraph, Contraction, SubgoalGeometry},
+    error::SubgoalError,
+    graph::{MAX_ARCS, SubgoalGraph},
+    hierarchy::Hierarchy,
+    metric::Metric,
+    placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, SubgoalPlacement},
+    progress::{Progress, Stage},
+    subgoals::Subgoals,
+};
+
+impl<P: SubgoalPlacement> SubgoalGraph<P> {
+    /// The subgoal graph of a free space for paths over N(k), or at any angle.
+    ///
+    /// # Errors
+    /// [`SubgoalError`] if the placement has no subgoal graph for this k and rule, or if the graph would be
+    /// too large.
+    pub fn new(space: &FreeSpace<P>, k: impl Into<K>, hierarchy: Hierarchy) -> Result<Self, SubgoalError> {
+        Self::with_progress(space, k.into(), hierarchy, &|_| {})
+    }
+
+    /// [`new`](Self::new) with reports to `progress`, which is called from any thread.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_progress(
+        space: &FreeSpace<P>,
+        k: K,
+        hierarchy: Hierarchy,
+        progress: &(impl Fn(Progress) + Sync),
+    ) -> Result<Self, SubgoalError> {
+        P::check(space, k)?;
+        let hierarchy = match hierarchy {
+            // The bytes of a graph have the same code for both.
+            Hierarchy::Levels(NonZeroU32::MAX) => Hierarchy::AllLevels,
+            other => other,
+        };
+        let metric = Metric::new(k)?;
+        let (marks, tables) = P::prepare(space);
+        let subgoals = Subgoals::new(marks);
+        let total = subgoals.len();
+        let criterion = P::edge_criterion(k, hierarchy);
+        let context =
+            BuildContext { space, subgoals: &subgoals, tables: &tables, metric: &metric, k, criterion };
+        let edges = find_edges(context, &|done| progress(Progress { stage: Stage::Edges, done, total }));
+        let mut contraction = Contraction::new(total, &edges, context);
+        let mut report = |done| progress(Progress { stage: Stage::Hierarchy, done, total });
+        match hierarchy {
+            Hierarchy::Contracted => contraction.contract_by_priority(&mut report),
+            Hierarchy::AllLevels => while contraction.contract_level(&mut report) {},
+            Hierarchy::Levels(levels) => {
+                for _ in 1..levels.get() {
+                    if !contraction.contract_level(&mut report) {
+                        break;
+                    }
+                }
+            }
+        }
+        let contracted = contraction.finish();
+        let count = contracted.arcs.iter().map(Vec::len).sum();
+        if count > MAX_ARCS as usize {
+            return Err(SubgoalError::Arcs { count, most: MAX_ARCS });
+        }
+        let (offsets, arcs) = pack(&contracted);
+        let graph = Self { subgoals, tables, metric, k, criterion, hierarchy, offsets, arcs };
+        graph.with_costs(space)
+    }
+}
+
+/// The offsets and arcs of a graph, without costs.
+fn pack(graph: &ContractedGraph) -> (Box<[u32]>, Box<[UpwardArc]>) {
+    let (mut offsets, mut arcs) = (Vec::with_capacity(graph.arcs.len() + 1), Vec::new());
+    for (around, is_contracted) in graph.arcs.iter().zip(&graph.contracted) {
+        offsets.push(2 * arcs.len() as u32 + u32::from(!is_contracted));
+        arcs.extend(around.iter().map(|arc| UpwardArc::without_cost(arc.to, arc.middle)));
+    }
+    offsets.push(2 * arcs.len() as u32);
+    (offsets.into_boxed_slice(), arcs.into_boxed_slice())
+}
+
+impl<P: EdgeFinder> SubgoalGeometry for BuildContext<'_, P> {
+    fn vertex(&self, id: u32) -> Vertex {
+        self.subgoals.vertex(id)
+    }
+
+    fn bends(&self, id: u32) -> Option<BendRule> {
+        let at = self.subgoals.vertex(id);
+        match self.criterion {
+            EdgeCriterion::Direct => BendRule::of_shortest(self.space, self.k, at),
+            EdgeCriterion::Taut => Some(BendRule::taut(self.space.grid(), at)),
+        }
+    }
+
+    fn distance(&self, from: u32, to: u32) -> u128 {
+        let v = self.subgoals.vertex(from).to(self.subgoals.vertex(to));
+        match self.criterion {
+            // The levels of the papers keep distances by h_k alone.
+            EdgeCriterion::Direct => self.metric.distance(v).to_bits().into(),
+            EdgeCriterion::Taut => self.metric.lexicographic_length(v),
+        }
+    }
+}
+
+/// Every edge of the graph, from one of its ends.
+fn find_edges<P: EdgeFinder>(
+    context: BuildContext<'_, P>,
+    progress: &(impl Fn(usize) + Sync),
+) -> Vec<(u32, u32)> {
+    /// Subgoals that one thread handles at a time.
+    const CHUNK: usize = 64;
+    let count = context.subgoals.len();
+    let done = AtomicUsize::new(0);
+    let chunk = |scratch: &mut P::Scratch, chunk: usize| {
+        let ids = chunk * CHUNK..count.min((chunk + 1) * CHUNK);
+        let mut edges = Vec::new();
+        for id in ids.clone() {
+            let from = id as u32;
+            P::edges_from(context, scratch, context.subgoals.vertex(from), EdgeKind::Graph, |to, _| {
+                edges.push((from, to));
+            });
+        }
+        let done = done.fetch_add(ids.len(), Ordering::Relaxed) + ids.len();
+        progress(done);
+        edges
+    };
+    let chunks = 0..count.div_ceil(CHUNK);
+    #[cfg(feature = "parallel")]
+    let edges: Vec<_> = {
+        use rayon::prelude::*;
+        chunks.into_par_iter().map_init(P::Scratch::default, chunk).collect()
+    };
+    #[cfg(not(feature = "parallel"))]
+    let edges: Vec<_> = {
+        let mut scratch = P::Scratch::default();
+        chunks.map(|number| chunk(&mut scratch, number)).collect()
+    };
+    edges.concat()
+}

@@ -1,0 +1,53 @@
+//! The length of a displacement where no obstacle is in the way.
+
+use mediant_grid::Vector;
+use mediant_moves::{Cost, CostTable, K, KError};
+use mediant_search::segment_cost;
+
+/// h_k, or the Euclidean length for k = ∞. Both are norms; values are in fixed point.
+#[derive(Clone, Debug)]
+pub(crate) enum Metric {
+    Hk(CostTable),
+    Euclidean,
+}
+
+impl Metric {
+    pub(crate) fn new(k: K) -> Result<Self, KError> {
+        Ok(match k {
+            K::Finite(k) => Self::Hk(CostTable::new(k)?),
+            K::Any => Self::Euclidean,
+        })
+    }
+
+    #[inline]
+    pub(crate) fn distance(&self, v: Vector) -> Cost {
+        match self {
+            Self::Hk(costs) => costs.distance(v),
+            Self::Euclidean => segment_cost(v),
+        }
+    }
+
+    /// A lower bound on the cost of any path with this displacement, faster than
+    /// [`distance`](Self::distance): the heuristic.
+    #[inline]
+    pub(crate) fn estimate(&self, v: Vector) -> Cost {
+        match self {
+            Self::Hk(costs) => costs.distance(v),
+            // A displacement has at most 2¹⁵ · √2 cells, so truncation takes off more than the root's
+            // rounding can add.
+            Self::Euclidean => Cost::from_bits((v.norm() * (1_u64 << Cost::FRACTION_BITS) as f64) as u64),
+        }
+    }
+
+    /// The pair (h_k, Euclidean length) as one number, ordered lexicographically; the Euclidean length alone
+    /// for k = ∞, in more digits than [`distance`](Self::distance). Of two paths with the same cost over
+    /// N(k), the shorter line is less. So lexicographically shortest paths are taut.
+    pub(crate) fn lexicographic_length(&self, v: Vector) -> u128 {
+        match self {
+            Self::Hk(costs) => {
+                u128::from(costs.distance(v).to_bits()) << 64 | u128::from(segment_cost(v).to_bits())
+            }
+            Self::Euclidean => (v.norm() * 2_f64.powi(64)) as u128,
+        }
+    }
+}
