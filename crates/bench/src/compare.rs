@@ -23,9 +23,9 @@ use crate::{
 /// The options of `cargo xtask compare`.
 #[derive(Args, Clone, Debug)]
 pub struct Options {
-    /// Our engines: ENGINE[:K[:RULE]][,OPTION…], RULE one of never, one, always (centers), open, closed (corners),
-    /// OPTION one of euclidean, zero, squared, paper, limit=N, intermediate, levels=N, levels=all, side=N, unstraightened, second=NAME,
-    /// step=N, detour=N, smooth, taut
+    /// Our engines: ENGINE[:K[:RULE]][,OPTION…], RULE one of never, one, always (centers), open, closed
+    /// (corners), OPTION one of euclidean, zero, squared, paper, limit=N, intermediate, levels=N, levels=all,
+    /// side=N, unstraightened, second=NAME, step=N, detour=N, smooth, taut
     #[arg(long, value_name = "SETUP", num_args = 1.., default_value = "astar")]
     engines: Vec<Setup>,
     /// Only these maps
