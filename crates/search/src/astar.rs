@@ -119,7 +119,7 @@ pub struct AllMoves;
 impl<P: Placement> Successors<P> for AllMoves {
     type ParentPointer = ();
 
-    const FREE: bool = true;
+    const DEPEND_ON_ARRIVAL: bool = false;
 
     #[inline]
     fn for_each(

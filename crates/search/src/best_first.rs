@@ -67,7 +67,7 @@ where
         self.begin(start, goal_at, observer);
         let Self { graph, heuristic, successors, nodes, open } = self;
         let (graph, heuristic, successors): (&GridGraph<P>, &H, &S) = (graph, heuristic, successors);
-        let reopens = H::ADMISSIBLE || !S::FREE || graph.has_closed_gaps();
+        let reopens = H::ADMISSIBLE || S::DEPEND_ON_ARRIVAL || graph.has_closed_gaps();
 
         while let Some((entry, swaps)) = open.pop(|id, slot| nodes.set_slot(id, slot)) {
             observer.percolated(swaps);
@@ -82,7 +82,7 @@ where
                 continue;
             }
             let by = (id != start).then(|| node.arrived_by());
-            let parent = by.map(|by| node.link.parent(graph, graph.step(by), id, at).1);
+            let parent = by.map(|by| node.pointer.parent(graph, graph.step(by), id, at).1);
             observer.expanded(NodeEvent { at, parent, g: node.g, f: entry.f() });
 
             let (nodes, open, watcher) = (&mut *nodes, &mut *open, &mut *observer);
@@ -161,9 +161,9 @@ where
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
         let Some((start, goal)) = query.ends(&self.graph)? else { return Ok(Outcome::Unreachable) };
         let mut found = self.search(start, Some(goal), Cost::MAX, observer);
-        if !found && self.successors.widen(true) {
+        if !found && self.successors.begin_unpruned_retry() {
             found = self.search(start, Some(goal), Cost::MAX, observer);
-            self.successors.widen(false);
+            self.successors.end_unpruned_retry();
         }
         if !found {
             return Ok(Outcome::Unreachable);

@@ -41,8 +41,8 @@ pub use canonical::{
 pub use distances::Distances;
 pub use heuristic::{Euclidean, Heuristic, Hk, SquaredEuclidean, Zero};
 pub use jps::{
-    BlockJps, Blocks, Jps, JpsPlus, JumpContext, JumpFinder, JumpMoves, JumpTable, JumpTableError, Jumping,
-    Walk,
+    BlockFinder, BlockJps, Jps, JpsPlus, JumpContext, JumpFinder, JumpMoves, JumpPointSearch, JumpTable,
+    JumpTableError, StepwiseFinder,
 };
 pub use nodes::{Node, NodeStore};
 pub use observer::{Counters, NodeEvent, Observer};
@@ -54,5 +54,5 @@ pub use search_tree::SearchTree;
 pub use segment::segment_cost;
 pub use smoothing::{HasFreeSpace, Smoothed, Smoothing, pull_taut, smooth};
 pub use successors::{ExpandedNode, ParentPointer, Successor, Successors};
-pub use theta::{AtOnce, Lazily, LazyThetaStar, SightCheck, Theta, ThetaStar};
+pub use theta::{Eager, Lazy, LazyThetaStar, SightCheck, Theta, ThetaStar};
 pub use wavefront::Wavefront;

@@ -15,7 +15,7 @@ pub struct Node<N = ()> {
     /// The generation in the high bits, the index of the move that led here in the low ones.
     mark: u32,
     /// What leads to the parent.
-    pub link: N,
+    pub pointer: N,
 }
 
 const _: () = assert!(size_of::<Node>() == 16);
@@ -48,7 +48,7 @@ impl<N: ParentPointer> NodeStore<N> {
     /// A store for vertex ids below `len`, in which no node is known.
     #[must_use]
     pub fn new(len: usize) -> Self {
-        let unknown = Node { g: Cost::ZERO, slot: Node::<N>::CLOSED, mark: 0, link: N::NONE };
+        let unknown = Node { g: Cost::ZERO, slot: Node::<N>::CLOSED, mark: 0, pointer: N::NONE };
         Self { nodes: vec![unknown; len].into_boxed_slice(), generation: 1 }
     }
 
@@ -71,14 +71,14 @@ impl<N: ParentPointer> NodeStore<N> {
 
     /// Makes a path of cost `g` that arrives by the move `arrived_by` the best known one to a vertex.
     #[inline]
-    pub fn set_path(&mut self, id: VertexId, g: Cost, arrived_by: usize, link: N) {
+    pub fn set_path(&mut self, id: VertexId, g: Cost, arrived_by: usize, pointer: N) {
         debug_assert!(
             arrived_by < 1 << Node::<N>::MOVE_BITS,
             "no move of any graph has the index {arrived_by}"
         );
         let node = &mut self.nodes[id.index()];
         node.g = g;
-        node.link = link;
+        node.pointer = pointer;
         node.mark = self.generation << Node::<N>::MOVE_BITS | arrived_by as u32;
     }
 

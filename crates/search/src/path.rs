@@ -98,12 +98,12 @@ struct LegsBack<'s, P: Placement, N> {
     nodes: &'s NodeStore<N>,
     start: VertexId,
     node: (VertexId, Vertex),
-    elbow: Option<(Vertex, Vector)>,
+    corner: Option<(Vertex, Vector)>,
 }
 
 impl<'s, P: Placement, N: ParentPointer> LegsBack<'s, P, N> {
     fn new(graph: &'s GridGraph<P>, nodes: &'s NodeStore<N>, start: VertexId, goal: VertexId) -> Self {
-        Self { graph, nodes, start, node: (goal, graph.vertex(goal)), elbow: None }
+        Self { graph, nodes, start, node: (goal, graph.vertex(goal)), corner: None }
     }
 
     /// Where the legs end after which the direction changes.
@@ -117,20 +117,20 @@ impl<P: Placement, N: ParentPointer> Iterator for LegsBack<'_, P, N> {
     type Item = (Vertex, Vector);
 
     fn next(&mut self) -> Option<Self::Item> {
-        if let Some(leg) = self.elbow.take() {
+        if let Some(leg) = self.corner.take() {
             return Some(leg);
         }
         let (id, at) = self.node;
         let node = self.nodes.get(id).filter(|_| id != self.start)?;
         let step = self.graph.step(node.arrived_by());
-        self.node = node.link.parent(self.graph, step, id, at);
+        self.node = node.pointer.parent(self.graph, step, id, at);
         let (from, v) = (self.node.1, step.vector());
         let d = from.to(at);
         if i64::from(d.x) * i64::from(v.y) != i64::from(d.y) * i64::from(v.x) {
             // Two legs in canonical order, the first by the odd move: an intermediate vertex that became no node.
             let [(first, times), _] = decompose(d, self.graph.k())?.canonical();
             let times = times as i32;
-            self.elbow = Some((from + Vector::new(first.x * times, first.y * times), first));
+            self.corner = Some((from + Vector::new(first.x * times, first.y * times), first));
         }
         Some((at, v))
     }

@@ -8,24 +8,24 @@ use crate::{Entry, OpenList};
 /// SearchTree of the nodes of an abstract graph, with the open list; forgotten in constant time. [`NodeStore`](crate::NodeStore) is their counterpart for the vertices of a
 /// grid graph, whose parents are found by the move.
 ///
-/// `W` is what a label keeps of the way from the parent.
+/// `E` is what a node keeps of the way from the parent.
 #[derive(Clone, Debug)]
-pub struct SearchTree<W = ()> {
-    labels: Box<[Label<W>]>,
+pub struct SearchTree<E = ()> {
+    nodes: Box<[TreeNode<E>]>,
     generation: u32,
     open: OpenList,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
-struct Label<W> {
+struct TreeNode<E> {
     cost: Cost,
     generation: u32,
     slot: u32,
     parent: u32,
-    way: W,
+    edge: E,
 }
 
-impl<W: Copy + Default> SearchTree<W> {
+impl<E: Copy + Default> SearchTree<E> {
     /// The parent of a first node.
     pub const NONE: u32 = u32::MAX;
     /// The slot of what is not on the open list any more.
@@ -35,7 +35,7 @@ impl<W: Copy + Default> SearchTree<W> {
     #[must_use]
     pub fn new(count: usize) -> Self {
         Self {
-            labels: vec![Label::default(); count].into_boxed_slice(),
+            nodes: vec![TreeNode::default(); count].into_boxed_slice(),
             generation: 0,
             open: OpenList::default(),
         }
@@ -46,7 +46,7 @@ impl<W: Copy + Default> SearchTree<W> {
         self.open.clear();
         self.generation = self.generation.wrapping_add(1);
         if self.generation == 0 {
-            self.labels.fill(Label::default());
+            self.nodes.fill(TreeNode::default());
             self.generation = 1;
         }
     }
@@ -55,59 +55,59 @@ impl<W: Copy + Default> SearchTree<W> {
     #[must_use]
     #[inline]
     pub fn cost(&self, id: u32) -> Option<Cost> {
-        let label = &self.labels[id as usize];
-        (label.generation == self.generation).then_some(label.cost)
+        let node = &self.nodes[id as usize];
+        (node.generation == self.generation).then_some(node.cost)
     }
 
     /// Whether it is known and not on the open list.
     #[must_use]
     #[inline]
     pub fn is_closed(&self, id: u32) -> bool {
-        let label = &self.labels[id as usize];
-        label.generation == self.generation && label.slot == Self::CLOSED
+        let node = &self.nodes[id as usize];
+        node.generation == self.generation && node.slot == Self::CLOSED
     }
 
     /// The node before a known one, and the way from it; `None` at a first one.
     #[must_use]
     #[inline]
-    pub fn parent(&self, id: u32) -> Option<(u32, W)> {
-        let label = &self.labels[id as usize];
-        (label.parent != Self::NONE).then_some((label.parent, label.way))
+    pub fn parent(&self, id: u32) -> Option<(u32, E)> {
+        let node = &self.nodes[id as usize];
+        (node.parent != Self::NONE).then_some((node.parent, node.edge))
     }
 
     /// What is kept of the best known way to a known node.
     #[must_use]
     #[inline]
-    pub fn way(&self, id: u32) -> W {
-        self.labels[id as usize].way
+    pub fn parent_edge(&self, id: u32) -> E {
+        self.nodes[id as usize].edge
     }
 
     /// f of the best open node.
     #[must_use]
     #[inline]
-    pub fn least(&self) -> Option<Cost> {
+    pub fn least_f(&self) -> Option<Cost> {
         self.open.get(0).map(Entry::f)
     }
 
     /// Takes the best open node off the list: f, its number, the cost of the way to it, and how many swaps that took.
     #[inline]
     pub fn pop(&mut self) -> Option<(Cost, u32, Cost, u32)> {
-        let Self { labels, open, .. } = self;
-        let (entry, swaps) = open.pop(|id, slot| labels[id.index()].slot = slot)?;
-        let label = &mut labels[entry.id().index()];
-        label.slot = Self::CLOSED;
-        Some((entry.f(), entry.id().0, label.cost, swaps))
+        let Self { nodes, open, .. } = self;
+        let (entry, swaps) = open.pop(|id, slot| nodes[id.index()].slot = slot)?;
+        let node = &mut nodes[entry.id().index()];
+        node.slot = Self::CLOSED;
+        Some((entry.f(), entry.id().0, node.cost, swaps))
     }
 
     /// Makes a way to a node known, which is cheaper than any before, and the node open. Whether it is the first, and how many swaps of the open list it took.
     #[inline]
-    pub fn reach(&mut self, id: u32, cost: Cost, h: Cost, parent: u32, way: W) -> (bool, u32) {
-        let Self { labels, open, generation } = self;
-        let label = &mut labels[id as usize];
-        let is_first = label.generation != *generation;
-        let (is_open, known, slot) = (!is_first && label.slot != Self::CLOSED, label.cost, label.slot);
-        *label = Label { cost, generation: *generation, slot, parent, way };
-        let moved = |id: VertexId, slot| labels[id.index()].slot = slot;
+    pub fn set_path_and_open(&mut self, id: u32, cost: Cost, h: Cost, parent: u32, edge: E) -> (bool, u32) {
+        let Self { nodes, open, generation } = self;
+        let node = &mut nodes[id as usize];
+        let is_first = node.generation != *generation;
+        let (is_open, known, slot) = (!is_first && node.slot != Self::CLOSED, node.cost, node.slot);
+        *node = TreeNode { cost, generation: *generation, slot, parent, edge };
+        let moved = |id: VertexId, slot| nodes[id.index()].slot = slot;
         let swaps = if is_open {
             open.decrease(slot, known - cost, moved)
         } else {
@@ -118,9 +118,9 @@ impl<W: Copy + Default> SearchTree<W> {
 
     /// Makes a way to a node known, which is cheaper than any before, without making the node open. One that is open stays where it was on the list.
     #[inline]
-    pub fn note(&mut self, id: u32, cost: Cost, parent: u32, way: W) {
-        let label = &mut self.labels[id as usize];
-        let slot = if label.generation == self.generation { label.slot } else { Self::CLOSED };
-        *label = Label { cost, generation: self.generation, slot, parent, way };
+    pub fn set_path(&mut self, id: u32, cost: Cost, parent: u32, edge: E) {
+        let node = &mut self.nodes[id as usize];
+        let slot = if node.generation == self.generation { node.slot } else { Self::CLOSED };
+        *node = TreeNode { cost, generation: self.generation, slot, parent, edge };
     }
 }

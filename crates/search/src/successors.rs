@@ -46,8 +46,8 @@ pub trait Successors<P: Placement>: Debug {
     /// What a node keeps to know its parent.
     type ParentPointer: ParentPointer;
 
-    /// Whether a node leads to the same successors however it was reached; under a gap rule it never does.
-    const FREE: bool = false;
+    /// Whether the successors of a node depend on the move by which it was reached. (Under closed gaps they always do.)
+    const DEPEND_ON_ARRIVAL: bool = true;
 
     /// Calls `visit` with each successor of a node. How many vertices it looked at while it scanned runs.
     fn for_each(
@@ -66,12 +66,15 @@ pub trait Successors<P: Placement>: Debug {
         false
     }
 
-    /// Called with true when no path was found though there is one. Whether the search is to be tried again, with more successors; then it is
-    /// called with false. Only a rule that is not complete has any.
-    fn widen(&mut self, wide: bool) -> bool {
-        let _ = wide;
+    /// Called when a search found no path although there is one. Turns the pruning off and returns true if the search is to be
+    /// repeated without it; [`end_unpruned_retry`](Self::end_unpruned_retry) is called afterwards. Only a pruning rule that is not
+    /// complete needs this.
+    fn begin_unpruned_retry(&mut self) -> bool {
         false
     }
+
+    /// Turns the pruning on again.
+    fn end_unpruned_retry(&mut self) {}
 
     /// What is promised of the paths.
     fn guarantee(&self, graph: &GridGraph<P>) -> Guarantee {

@@ -18,8 +18,8 @@ use mediant_grid::{
 use mediant_moves::{Cost, FiniteK};
 use mediant_oracle::describe;
 use mediant_search::{
-    BlockJps, Blocks, Canonical, CanonicalRule, Dijkstra, Distances, Guarantee, Hk, Jps, JpsPlus, JumpTable,
-    Outcome, Path, Planner, Pruning, Query, Walk, Zero,
+    BlockFinder, BlockJps, Canonical, CanonicalRule, Dijkstra, Distances, Guarantee, Hk, Jps, JpsPlus,
+    JumpTable, Outcome, Path, Planner, Pruning, Query, StepwiseFinder, Zero,
 };
 
 const SIDE: u32 = 4;
@@ -105,13 +105,15 @@ fn compare<P: Placement>(map: u64, k: FiniteK, rule: P::Rule, canonical: &Arc<Ca
     let mut judge = Judge::new(grid_graph, map);
     let (h, pruning) = (Hk, || Arc::clone(pruning));
     judge.judge("canonical", Canonical::with_pruning(grid_graph, pruning(), h));
-    let jps = || Jps::with_finder(grid_graph, pruning(), Walk, h);
+    let jps = || Jps::with_finder(grid_graph, pruning(), StepwiseFinder, h);
     judge.judge("jps", jps());
     judge.judge("jps, jumps of at most 2", jps().with_jump_limit(Some(2)));
     judge.judge("jps, with intermediate nodes", jps().with_intermediate(true));
     if k == FiniteK::N8 {
-        let (blocks, table) =
-            (Blocks::new(grid_graph, &pruning()).unwrap(), Arc::new(JumpTable::new(grid_graph).unwrap()));
+        let (blocks, table) = (
+            BlockFinder::new(grid_graph, &pruning()).unwrap(),
+            Arc::new(JumpTable::new(grid_graph).unwrap()),
+        );
         judge.judge("jps-block", BlockJps::with_finder(grid_graph, pruning(), blocks, h));
         judge.judge("jps-plus", JpsPlus::with_finder(grid_graph, pruning(), table, h));
     }

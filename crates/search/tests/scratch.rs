@@ -11,7 +11,7 @@ use mediant_grid::{Centers, Corners, DiagonalGap, FreeSpace, GridGraph, Placemen
 use mediant_moves::FiniteK;
 use mediant_search::{
     AStar, Anya, BlockJps, Canonical, Dijkstra, Hk, Jps, JpsPlus, JumpTable, LazyThetaStar, Outcome,
-    PaperCanonical, Planner, Pruning, Query, ThetaStar, Walk, Wavefront, Zero,
+    PaperCanonical, Planner, Pruning, Query, StepwiseFinder, ThetaStar, Wavefront, Zero,
 };
 
 thread_local! {
@@ -72,7 +72,7 @@ fn allocations_of<P: Placement>(k: u32) {
     check(&case("wavefront"), Wavefront::new(grid_graph), &queries);
     let pruning = Arc::new(Pruning::new(grid_graph));
     let pruning = || Arc::clone(&pruning);
-    let jps = || Jps::with_finder(grid_graph, pruning(), Walk, h);
+    let jps = || Jps::with_finder(grid_graph, pruning(), StepwiseFinder, h);
     check(&case("canonical"), Canonical::with_pruning(grid_graph, pruning(), h), &queries);
     check(&case("canonical as published"), PaperCanonical::new(grid_graph, h), &queries);
     check(&case("jps"), jps(), &queries);

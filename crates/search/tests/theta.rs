@@ -8,8 +8,8 @@ use mediant_grid::{
 use mediant_moves::FiniteK;
 use mediant_oracle::{Costs, Explicit, Rng, describe, random_free_vertex, seeds, suite_grid, validate};
 use mediant_search::{
-    AtOnce, Counters, Euclidean, Guarantee, Heuristic, Hk, Lazily, LazyThetaStar, NodeEvent, Observer,
-    Outcome, Path, Planner, Query, SightCheck, Theta, ThetaStar, Zero,
+    Counters, Eager, Euclidean, Guarantee, Heuristic, Hk, Lazy, LazyThetaStar, NodeEvent, Observer, Outcome,
+    Path, Planner, Query, SightCheck, Theta, ThetaStar, Zero,
 };
 
 /// What is known of a query, and where it came from.
@@ -38,7 +38,7 @@ fn check<P: Placement, H: Heuristic + Debug, S: SightCheck>(
         let case = || {
             format!(
                 "at once: {}, {h:?}, k = {k}; {}",
-                S::AT_ONCE,
+                S::EAGER,
                 describe(grid, rules, start, goal, expected.seed)
             )
         };
@@ -64,7 +64,7 @@ fn check<P: Placement, H: Heuristic + Debug, S: SightCheck>(
         let (best, slack) = (expected.any_angle.unwrap_or(0.0), 1.0 + 1e-9);
         assert!(cost * slack >= best, "{cost} < {best}; {}", case());
         // The heuristics are consistent: see `Theta`.
-        let limit = expected.grid_graph.filter(|_| S::AT_ONCE).unwrap_or(f64::INFINITY);
+        let limit = expected.grid_graph.filter(|_| S::EAGER).unwrap_or(f64::INFINITY);
         assert!(cost <= limit * slack, "{cost} > {limit}; {}", case());
         optimal[usize::from(cost > best * slack)] += 1;
     }
@@ -80,12 +80,12 @@ fn check_all<P: Placement>(
     let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
     let queries = queries(grid_graph.rules());
     let optimal = [
-        check::<P, _, AtOnce>(&grid_graph, Hk, &queries),
-        check::<P, _, Lazily>(&grid_graph, Hk, &queries),
-        check::<P, _, AtOnce>(&grid_graph, Euclidean, &queries),
-        check::<P, _, Lazily>(&grid_graph, Euclidean, &queries),
-        check::<P, _, AtOnce>(&grid_graph, Zero, &queries),
-        check::<P, _, Lazily>(&grid_graph, Zero, &queries),
+        check::<P, _, Eager>(&grid_graph, Hk, &queries),
+        check::<P, _, Lazy>(&grid_graph, Hk, &queries),
+        check::<P, _, Eager>(&grid_graph, Euclidean, &queries),
+        check::<P, _, Lazy>(&grid_graph, Euclidean, &queries),
+        check::<P, _, Eager>(&grid_graph, Zero, &queries),
+        check::<P, _, Lazy>(&grid_graph, Zero, &queries),
     ];
     [0, 1].map(|i| optimal.iter().map(|counts| counts[i]).sum())
 }
@@ -395,7 +395,7 @@ fn events_to_the_letter() {
         "generated (3, 2) from (2, 0): g 4.236, f 5.236",
         "generated (3, 1) from (2, 1): g 4.000, f 4.000",
     ];
-    assert_eq!(events::<AtOnce>(), [&begin[..], &at_once].concat());
+    assert_eq!(events::<Eager>(), [&begin[..], &at_once].concat());
     let lazily = [
         // That is found out when it is expanded.
         "generated (2, 1) from (0, 0): g 2.236, f 3.236",
@@ -405,5 +405,5 @@ fn events_to_the_letter() {
         // And so here, where the search ends.
         "generated (3, 1) from (2, 0): g 3.414, f 3.414",
     ];
-    assert_eq!(events::<Lazily>(), [&begin[..], &lazily].concat());
+    assert_eq!(events::<Lazy>(), [&begin[..], &lazily].concat());
 }

@@ -10,7 +10,7 @@ pub(crate) const fn rank(index: usize) -> usize {
 }
 
 /// The moves of N(k), what they cost, and what they ask of the map.
-pub(crate) struct Moves<P: Placement> {
+pub(crate) struct MoveTable<P: Placement> {
     pub(crate) vectors: Vec<Vector>,
     pub(crate) footprints: Vec<Footprint>,
     costs: Vec<Cost>,
@@ -20,14 +20,14 @@ pub(crate) struct Moves<P: Placement> {
 
 /// What a path asks of the map, by offsets from one vertex.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Asked {
+pub(crate) struct Requirements {
     pub(crate) free: Vec<CellOffset>,
     pub(crate) either: Vec<[CellOffset; 2]>,
     /// The vertices that it passes, where no path may pass a gap.
     pub(crate) passed: Vec<Vector>,
 }
 
-impl<P: Placement> Moves<P> {
+impl<P: Placement> MoveTable<P> {
     pub(crate) fn new(rule: P::Rule, neighborhood: Neighborhood) -> Self {
         let vectors: Vec<Vector> = neighborhood.iter().collect();
         let footprints = vectors.iter().map(|&v| Footprint::new::<P>(rule, v)).collect();
@@ -82,23 +82,23 @@ impl<P: Placement> Moves<P> {
     }
 
     /// What a sequence of moves asks of the map when it begins at `start`.
-    pub(crate) fn asked(&self, start: Vector, sequence: &[usize]) -> Asked {
-        let mut asked = Asked::default();
+    pub(crate) fn requirements(&self, start: Vector, sequence: &[usize]) -> Requirements {
+        let mut required = Requirements::default();
         let mut at = start;
         for (i, &index) in sequence.iter().enumerate() {
             if i > 0 && P::closes_gaps(self.rule) {
-                asked.passed.push(at);
+                required.passed.push(at);
             }
             let cell = |(x, y): CellOffset| (x + at.x, y + at.y);
-            asked.free.extend(self.footprints[index].free.iter().map(|&offset| cell(offset)));
-            asked.either.extend(self.footprints[index].either.iter().map(|pair| pair.map(cell)));
+            required.free.extend(self.footprints[index].free.iter().map(|&offset| cell(offset)));
+            required.either.extend(self.footprints[index].either.iter().map(|pair| pair.map(cell)));
             at = at + self.vectors[index];
         }
-        asked
+        required
     }
 }
 
-impl Asked {
+impl Requirements {
     /// The pairs of cells beside one another around a vertex at `at`. With one of them free, two blocked cells do not meet
     /// there diagonally.
     pub(crate) fn beside(at: Vector) -> [[CellOffset; 2]; 4] {

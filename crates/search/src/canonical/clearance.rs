@@ -18,7 +18,7 @@ pub(crate) struct Clearance {
 
 /// The surroundings of one vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Around {
+pub(crate) struct VertexClearance {
     /// The side of the free square: the largest c such that no cell with an offset of at most c − 1 (at centers), or
     /// from −c to c − 1 (at corners), along either axis is blocked.
     pub(crate) free: u32,
@@ -62,9 +62,9 @@ impl Clearance {
     }
 
     #[inline]
-    pub(crate) fn of(&self, id: VertexId) -> Around {
+    pub(crate) fn of(&self, id: VertexId) -> VertexClearance {
         let [free, corner] = self.values.get(id.index()).copied().unwrap_or_default().map(u32::from);
-        Around { free, corner }
+        VertexClearance { free, corner }
     }
 
     pub(crate) fn memory_bytes(&self) -> usize {

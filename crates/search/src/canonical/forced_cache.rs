@@ -41,9 +41,9 @@ impl ForcedCache {
 
     /// Notes whether a turn follows.
     #[inline]
-    pub(crate) fn note(&self, id: VertexId, by: usize, turns: bool) {
+    pub(crate) fn record(&self, id: VertexId, by: usize, forced: bool) {
         if let (Some(word), shift) = self.place(id, by) {
-            word.fetch_or(1 << (shift + u32::from(turns)), Ordering::Relaxed);
+            word.fetch_or(1 << (shift + u32::from(forced)), Ordering::Relaxed);
         }
     }
 

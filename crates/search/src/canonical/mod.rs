@@ -55,11 +55,11 @@ mod alternatives;
 mod cells;
 mod clearance;
 mod forced_cache;
-mod near;
+mod forced_trees;
 mod paper;
+mod pattern_table;
 #[cfg(test)]
 mod tests;
-mod tree;
 
 use std::{ops::Deref, sync::Arc};
 
@@ -68,17 +68,17 @@ use mediant_moves::{FiniteK, Neighborhood};
 
 use crate::{BestFirst, ExpandedNode, Heuristic, Successor, Successors};
 
-pub(crate) use alternatives::{Asked, Moves, rank};
-use clearance::{Around, Clearance};
+pub(crate) use alternatives::{MoveTable, Requirements, rank};
+use clearance::{Clearance, VertexClearance};
 use forced_cache::ForcedCache;
-use near::NearTable;
+use forced_trees::ForcedTrees;
 pub use paper::{PaperCanonical, PaperMoves};
-use tree::TurnTrees;
+use pattern_table::PatternTable;
 
 /// The moves that follow move `a` on open ground, of `count` moves.
 pub(crate) fn natural(a: usize, count: usize) -> impl Iterator<Item = usize> {
-    let reach = a & 1;
-    (count - reach..=count + reach).map(move |turn| (a + turn) % count)
+    let spread = a & 1;
+    (count - spread..=count + spread).map(move |offset| (a + offset) % count)
 }
 
 /// Whether anything is pruned on a grid graph. If nothing is, ties need no rule; where paths may pass gaps they must not have one, since how
@@ -97,40 +97,42 @@ pub struct CanonicalRule<P: Placement> {
     radius: i32,
     /// The distance from corners at which turns end.
     corners: u32,
-    turns: Turns,
+    lookup: ForcedLookup,
 }
 
 #[derive(Clone, Debug)]
-enum Turns {
-    Near(NearTable),
-    Trees(TurnTrees),
+enum ForcedLookup {
+    Table(PatternTable),
+    Trees(ForcedTrees),
     /// Near corners nothing is pruned.
-    Everywhere,
+    Unknown,
 }
 
 impl<P: Placement> CanonicalRule<P> {
     /// The largest k whose turns are tabulated.
-    pub const MAX_TREES: u32 = 8;
+    pub const MAX_TABULATED_K: u32 = 8;
 
     /// The rule for these, in time and memory that grow with 4^k: see [`bytes`](Self::memory_bytes).
     #[must_use]
     pub fn new(k: FiniteK, rule: P::Rule) -> Self {
         let radius = k.radius().unwrap_or(1 << 16).min(1 << 16);
-        let turns = match Neighborhood::new(k).ok().filter(|_| k.get() <= Self::MAX_TREES) {
-            None => Turns::Everywhere,
-            Some(all) if k <= FiniteK::N8 => Turns::Near(NearTable::new(&Moves::<P>::new(rule, all))),
-            Some(all) => Turns::Trees(TurnTrees::new(&Moves::<P>::new(rule, all))),
+        let lookup = match Neighborhood::new(k).ok().filter(|_| k.get() <= Self::MAX_TABULATED_K) {
+            None => ForcedLookup::Unknown,
+            Some(all) if k <= FiniteK::N8 => {
+                ForcedLookup::Table(PatternTable::new(&MoveTable::<P>::new(rule, all)))
+            }
+            Some(all) => ForcedLookup::Trees(ForcedTrees::new(&MoveTable::<P>::new(rule, all))),
         };
-        Self { k, rule, radius, corners: Clearance::needed_from_corners::<P>(radius), turns }
+        Self { k, rule, radius, corners: Clearance::needed_from_corners::<P>(radius), lookup }
     }
 
     /// Its size.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
-        match &self.turns {
-            Turns::Near(table) => table.memory_bytes(),
-            Turns::Trees(trees) => trees.memory_bytes(),
-            Turns::Everywhere => 0,
+        match &self.lookup {
+            ForcedLookup::Table(table) => table.memory_bytes(),
+            ForcedLookup::Trees(trees) => trees.memory_bytes(),
+            ForcedLookup::Unknown => 0,
         }
     }
 }
@@ -141,14 +143,14 @@ pub struct Pruning<P: Placement> {
     grid: Arc<Grid>,
     rule: Arc<CanonicalRule<P>>,
     clearance: Option<Clearance>,
-    settled: Option<ForcedCache>,
+    forced_cache: Option<ForcedCache>,
 }
 
 /// What a vertex allows to a path that arrives there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LocalRule {
     /// Whether there is any turn.
-    pub(crate) turns: bool,
+    pub(crate) forced: bool,
     /// Whether the incoming move may be repeated.
     pub(crate) ahead: bool,
     /// For how many steps of the incoming move this is known to hold.
@@ -171,14 +173,14 @@ impl<P: Placement> Pruning<P> {
             return Self::new(graph);
         }
         let clearance = (graph.k() > FiniteK::N8).then(|| Clearance::new(graph));
-        let has_trees = matches!(rule.turns, Turns::Trees(_));
-        let settled = has_trees.then(|| ForcedCache::new(graph.vertex_count(), graph.k().get()));
-        Self { grid: Arc::clone(graph.grid()), rule, clearance, settled }
+        let has_trees = matches!(rule.lookup, ForcedLookup::Trees(_));
+        let forced_cache = has_trees.then(|| ForcedCache::new(graph.vertex_count(), graph.k().get()));
+        Self { grid: Arc::clone(graph.grid()), rule, clearance, forced_cache }
     }
 
     /// This, if it was made for the grid graph, or what is: what holds on one map must not be believed on another.
     #[must_use]
-    pub(crate) fn fitting(self: Arc<Self>, graph: &GridGraph<P>) -> Arc<Self> {
+    pub(crate) fn matching(self: Arc<Self>, graph: &GridGraph<P>) -> Arc<Self> {
         let same_rule = (self.rule.k, self.rule.rule) == (graph.k(), graph.rule());
         if same_rule && Arc::ptr_eq(&self.grid, graph.grid()) {
             return self;
@@ -189,8 +191,8 @@ impl<P: Placement> Pruning<P> {
     /// Its size.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
-        let settled = self.settled.as_ref().map_or(0, ForcedCache::memory_bytes);
-        self.rule.memory_bytes() + self.clearance.as_ref().map_or(0, Clearance::memory_bytes) + settled
+        let cache = self.forced_cache.as_ref().map_or(0, ForcedCache::memory_bytes);
+        self.rule.memory_bytes() + self.clearance.as_ref().map_or(0, Clearance::memory_bytes) + cache
     }
 
     /// Whether a path that arrives at `at` by move `by` is subject to no pruning there, because of closed gaps.
@@ -217,15 +219,15 @@ impl<P: Placement> Pruning<P> {
         mut take: impl FnMut(usize),
     ) {
         let at = node.at;
-        match &self.rule.turns {
-            Turns::Near(table) => {
+        match &self.rule.lookup {
+            ForcedLookup::Table(table) => {
                 let mut left = table.successors(by, pattern(graph, at));
                 while left != 0 {
                     take(left.trailing_zeros() as usize);
                     left &= left - 1;
                 }
             }
-            Turns::Trees(trees) => {
+            ForcedLookup::Trees(trees) => {
                 let around = self.around(node);
                 let is_open = around.free >= trees.needed[by];
                 for b in natural(by, graph.steps().len()) {
@@ -236,20 +238,20 @@ impl<P: Placement> Pruning<P> {
                 if around.corner >= self.rule.corners {
                     return;
                 }
-                let known = self.settled(node, by);
+                let known = self.known_forced(node, by);
                 if known != Some(false) {
                     let mut any = false;
-                    trees.for_each_turn(by, graph.grid(), at, |turn| {
+                    trees.for_each_forced(by, graph.grid(), at, |next| {
                         any = true;
-                        take(turn);
+                        take(next);
                         true
                     });
                     if known.is_none() {
-                        self.settle(node, by, any);
+                        self.record_forced(node, by, any);
                     }
                 }
             }
-            Turns::Everywhere => {
+            ForcedLookup::Unknown => {
                 if self.around(node).corner < self.rule.corners {
                     return graph.for_each_legal_move(at, take);
                 }
@@ -264,33 +266,33 @@ impl<P: Placement> Pruning<P> {
 
     /// Whether a slanted run may come to a turn anywhere. (At k = 3 only where moves may cut corners.)
     #[inline]
-    pub(crate) fn slanted_runs_turn(&self) -> bool {
-        match &self.rule.turns {
-            Turns::Near(table) => table.slanted_runs_turn(),
-            Turns::Trees(_) | Turns::Everywhere => true,
+    pub(crate) fn diagonals_may_force(&self) -> bool {
+        match &self.rule.lookup {
+            ForcedLookup::Table(table) => table.diagonals_may_force(),
+            ForcedLookup::Trees(_) | ForcedLookup::Unknown => true,
         }
     }
 
     /// Whether turns are known everywhere; else all vertices near corners count as having some.
     #[inline]
-    pub(crate) const fn knows_turns(&self) -> bool {
-        self.clearance.is_none() || self.settled.is_some()
+    pub(crate) const fn knows_forced(&self) -> bool {
+        self.clearance.is_none() || self.forced_cache.is_some()
     }
 
     /// Whether `turn` is ever a turn after move `by`; for k ≤ 3.
-    pub(crate) fn may_turn(&self, by: usize, turn: usize) -> bool {
-        match &self.rule.turns {
-            Turns::Near(table) => (0..P::PATTERNS)
-                .any(|pattern| table.turns(by, table.successors(by, pattern)) >> turn & 1 == 1),
-            Turns::Trees(_) | Turns::Everywhere => true,
+    pub(crate) fn may_be_forced(&self, by: usize, next: usize) -> bool {
+        match &self.rule.lookup {
+            ForcedLookup::Table(table) => (0..P::PATTERNS)
+                .any(|pattern| table.forced(by, table.successors(by, pattern)) >> next & 1 == 1),
+            ForcedLookup::Trees(_) | ForcedLookup::Unknown => true,
         }
     }
 
     /// Whether a path that comes by move `by` to a vertex with this pattern of cells finds a turn; for k ≤ 3.
-    pub(crate) fn turns_at(&self, pattern: usize, by: usize) -> bool {
-        match &self.rule.turns {
-            Turns::Near(table) => table.turns(by, table.successors(by, pattern)) != 0,
-            Turns::Trees(_) | Turns::Everywhere => true,
+    pub(crate) fn has_forced_at(&self, pattern: usize, by: usize) -> bool {
+        match &self.rule.lookup {
+            ForcedLookup::Table(table) => table.forced(by, table.successors(by, pattern)) != 0,
+            ForcedLookup::Trees(_) | ForcedLookup::Unknown => true,
         }
     }
 
@@ -298,54 +300,54 @@ impl<P: Placement> Pruning<P> {
     /// turn. Canonical A* at k = 7 then takes 0.57 of the time on random512-10-0, 0.55 on 8room_000, 0.78 on brc202d and 1.0 on ArcticStation,
     /// at k = 8 0.4, 0.4, 0.46 and 0.7. At k = 6 it would be about even, at k = 5 a loss.
     #[inline]
-    pub(crate) fn takes_all(&self, graph: &GridGraph<P>, node: &ExpandedNode, by: usize) -> bool {
-        let Turns::Trees(trees) = &self.rule.turns else { return false };
+    pub(crate) fn takes_all_moves(&self, graph: &GridGraph<P>, node: &ExpandedNode, by: usize) -> bool {
+        let ForcedLookup::Trees(trees) = &self.rule.lookup else { return false };
         graph.k().get() >= 7
             && self.around(node).corner < self.rule.corners
-            && self.has_turn(trees, graph, node, by)
+            && self.has_forced(trees, graph, node, by)
     }
 
     /// Whether a path that arrives by move `by` at a vertex near a corner finds a turn there.
     #[inline]
-    fn has_turn(&self, trees: &TurnTrees, graph: &GridGraph<P>, node: &ExpandedNode, by: usize) -> bool {
-        self.settled(node, by).unwrap_or_else(|| {
-            let turns = !trees.for_each_turn(by, graph.grid(), node.at, |_| false);
-            self.settle(node, by, turns);
-            turns
+    fn has_forced(&self, trees: &ForcedTrees, graph: &GridGraph<P>, node: &ExpandedNode, by: usize) -> bool {
+        self.known_forced(node, by).unwrap_or_else(|| {
+            let forced = !trees.for_each_forced(by, graph.grid(), node.at, |_| false);
+            self.record_forced(node, by, forced);
+            forced
         })
     }
 
     #[inline]
-    fn settled(&self, node: &ExpandedNode, by: usize) -> Option<bool> {
-        self.settled.as_ref()?.get(node.id, by)
+    fn known_forced(&self, node: &ExpandedNode, by: usize) -> Option<bool> {
+        self.forced_cache.as_ref()?.get(node.id, by)
     }
 
     #[inline]
-    fn settle(&self, node: &ExpandedNode, by: usize, turns: bool) {
-        if let Some(settled) = &self.settled {
-            settled.note(node.id, by, turns);
+    fn record_forced(&self, node: &ExpandedNode, by: usize, forced: bool) {
+        if let Some(cache) = &self.forced_cache {
+            cache.record(node.id, by, forced);
         }
     }
 
     #[inline]
-    fn around(&self, node: &ExpandedNode) -> Around {
-        let nothing_known = Around { free: 0, corner: 0 };
+    fn around(&self, node: &ExpandedNode) -> VertexClearance {
+        let nothing_known = VertexClearance { free: 0, corner: 0 };
         self.clearance.as_ref().map_or(nothing_known, |clearance| clearance.of(node.id))
     }
 
     /// What a vertex allows to a path that arrives there by move `by`.
     #[inline]
-    pub(crate) fn view(&self, graph: &GridGraph<P>, node: &ExpandedNode, by: usize) -> LocalRule {
-        let all = LocalRule { turns: false, ahead: true, steps: 0, beside: true };
-        let Turns::Near(table) = &self.rule.turns else {
+    pub(crate) fn local_rule(&self, graph: &GridGraph<P>, node: &ExpandedNode, by: usize) -> LocalRule {
+        let all = LocalRule { forced: false, ahead: true, steps: 0, beside: true };
+        let ForcedLookup::Table(table) = &self.rule.lookup else {
             let (around, needed) = (self.around(node), self.rule.corners);
             if around.corner < needed {
-                return match &self.rule.turns {
-                    Turns::Trees(trees) => {
-                        let turns = self.has_turn(trees, graph, node, by);
-                        LocalRule { turns, ahead: trees.is_legal(by, graph.grid(), node.at), ..all }
+                return match &self.rule.lookup {
+                    ForcedLookup::Trees(trees) => {
+                        let forced = self.has_forced(trees, graph, node, by);
+                        LocalRule { forced, ahead: trees.is_legal(by, graph.grid(), node.at), ..all }
                     }
-                    _ => LocalRule { turns: true, ..all },
+                    _ => LocalRule { forced: true, ..all },
                 };
             }
             // No move leads further than this.
@@ -355,16 +357,16 @@ impl<P: Placement> Pruning<P> {
             return LocalRule { steps: open_steps(graph, by, spare.min(around.corner - needed)), ..all };
         };
         let set = table.successors(by, pattern(graph, node.at));
-        LocalRule { turns: table.turns(by, set) != 0, ahead: set >> by & 1 == 1, ..all }
+        LocalRule { forced: table.forced(by, set) != 0, ahead: set >> by & 1 == 1, ..all }
     }
 
     /// Whether a natural successor is legal.
     #[inline]
     pub(crate) fn is_legal(&self, graph: &GridGraph<P>, node: &ExpandedNode, index: usize) -> bool {
-        match &self.rule.turns {
-            Turns::Near(table) => table.successors(index, pattern(graph, node.at)) >> index & 1 == 1,
-            Turns::Trees(trees) => trees.is_legal(index, graph.grid(), node.at),
-            Turns::Everywhere => graph.sees(node.at, node.at + graph.step(index).vector()),
+        match &self.rule.lookup {
+            ForcedLookup::Table(table) => table.successors(index, pattern(graph, node.at)) >> index & 1 == 1,
+            ForcedLookup::Trees(trees) => trees.is_legal(index, graph.grid(), node.at),
+            ForcedLookup::Unknown => graph.sees(node.at, node.at + graph.step(index).vector()),
         }
     }
 }
@@ -419,7 +421,7 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> Canonical<L, H
     /// A planner that shares its pruning rule with others. One that was made for another map, k or rule of motion is not used.
     #[must_use]
     pub fn with_pruning(graph: L, pruning: Arc<Pruning<P>>, heuristic: H) -> Self {
-        let pruning = pruning.fitting(&graph);
+        let pruning = pruning.matching(&graph);
         Self::with(graph, heuristic, CanonicalMoves { pruning })
     }
 }
@@ -436,7 +438,8 @@ impl<P: Placement> Successors<P> for CanonicalMoves<P> {
         mut visit: impl FnMut(Successor),
     ) -> u32 {
         let is_pruned = |by: &usize| {
-            !self.pruning.is_exempt(graph, node.at, *by, goal) && !self.pruning.takes_all(graph, &node, *by)
+            !self.pruning.is_exempt(graph, node.at, *by, goal)
+                && !self.pruning.takes_all_moves(graph, &node, *by)
         };
         match node.by.filter(is_pruned) {
             None => graph.for_each_successor(node.at, node.by, goal, |by| visit(node.step(graph, by))),

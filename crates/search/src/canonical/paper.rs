@@ -26,7 +26,7 @@ pub struct PaperMoves {
     /// For each pattern of cells around a vertex, whether it is a jump point of the 8-neighborhood.
     jump_points: Box<[bool]>,
     /// Whether every vertex gets all legal moves.
-    wide: bool,
+    is_unpruned: bool,
 }
 
 impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> PaperCanonical<L, H> {
@@ -42,7 +42,7 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> PaperCanonical
             })
         };
         let jump_points = (0..P::PATTERNS).map(is_jump_point).collect();
-        Self::with(graph, heuristic, PaperMoves { jump_points, wide: false })
+        Self::with(graph, heuristic, PaperMoves { jump_points, is_unpruned: false })
     }
 }
 
@@ -57,7 +57,8 @@ impl<P: Placement> Successors<P> for PaperMoves {
         goal: Vertex,
         mut visit: impl FnMut(Successor),
     ) -> u32 {
-        let is_jump_point = self.wide || self.jump_points.get(pattern(graph, node.at)).is_none_or(|&is| is);
+        let is_jump_point =
+            self.is_unpruned || self.jump_points.get(pattern(graph, node.at)).is_none_or(|&is| is);
         let is_legal = |by: usize| graph.sees(node.at, node.at + graph.step(by).vector());
         match node.by.filter(|&by| !is_jump_point && !graph.has_closed_gaps() && is_legal(by)) {
             None => graph.for_each_successor(node.at, node.by, goal, |by| visit(node.step(graph, by))),
@@ -68,9 +69,13 @@ impl<P: Placement> Successors<P> for PaperMoves {
         0
     }
 
-    fn widen(&mut self, wide: bool) -> bool {
-        self.wide = wide;
+    fn begin_unpruned_retry(&mut self) -> bool {
+        self.is_unpruned = true;
         true
+    }
+
+    fn end_unpruned_retry(&mut self) {
+        self.is_unpruned = false;
     }
 
     fn guarantee(&self, _: &GridGraph<P>) -> Guarantee {

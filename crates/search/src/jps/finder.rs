@@ -5,7 +5,7 @@ use std::{fmt::Debug, sync::Arc};
 use mediant_grid::{Grid, GridGraph, Placement, Rules, Step, Vector, Vertex};
 use mediant_moves::{Cost, FiniteK, KError};
 
-use super::{JumpTable, planes::StopPlanes, slants::SlantPlanes};
+use super::{JumpTable, axial::AxialStops, diagonals::DiagonalBits};
 use crate::{
     ExpandedNode, Successor,
     canonical::{LocalRule, Pruning},
@@ -17,7 +17,7 @@ pub struct JumpContext<'c, P: Placement> {
     pub(crate) pruning: &'c Pruning<P>,
     pub(crate) goal: Vertex,
     /// Whether all runs are walked: closed gaps make some hard to foresee, and a finder may know another map.
-    pub(crate) walks: bool,
+    pub(crate) stepwise: bool,
     /// The longest run.
     pub(crate) limit: u32,
     /// Whether a slanted run ends at the first vertex that has anything to either side.
@@ -26,7 +26,7 @@ pub struct JumpContext<'c, P: Placement> {
 
 /// Finds the jump points of runs.
 ///
-/// A *straight* run repeats an even move until its first vertex with a turn; a *slanted* one repeats an odd move, and from each of its
+/// A *axial* run repeats an even move until its first vertex with a turn; a *diagonal* one repeats an odd move, and from each of its
 /// vertices sends out the straight runs of the two even moves beside it. Neither leads to anything else on open ground.
 pub trait JumpFinder<P: Placement>: Debug {
     /// Whether it was made for this grid graph.
@@ -34,9 +34,9 @@ pub trait JumpFinder<P: Placement>: Debug {
 
     /// After how many steps the straight run of move `index` from a vertex comes to a jump point or to the goal; `None` if to
     /// neither. The goal is `goal_steps` ahead, if it lies ahead at all. Adds to `scanned` the vertices that it looks at.
-    fn straight(
+    fn axial(
         &self,
-        course: &JumpContext<'_, P>,
+        context: &JumpContext<'_, P>,
         from: &ExpandedNode,
         index: usize,
         goal_steps: Option<u32>,
@@ -45,21 +45,21 @@ pub trait JumpFinder<P: Placement>: Debug {
 
     /// What the vertex `here` allows to a slanted run of move `index`.
     #[inline]
-    fn look(&self, course: &JumpContext<'_, P>, here: &ExpandedNode, index: usize) -> LocalRule {
-        course.pruning.view(course.graph, here, index)
+    fn local_rule(&self, context: &JumpContext<'_, P>, here: &ExpandedNode, index: usize) -> LocalRule {
+        context.pruning.local_rule(context.graph, here, index)
     }
 
     /// Calls `visit` with all that the slanted run of move `index` from a vertex leads to.
     #[inline]
-    fn slanted(
+    fn diagonal(
         &self,
-        course: &JumpContext<'_, P>,
+        context: &JumpContext<'_, P>,
         from: &ExpandedNode,
         index: usize,
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor),
     ) {
-        course.walk_slanted(self, from, index, scanned, visit);
+        context.step_diagonal(self, from, index, scanned, visit);
     }
 }
 
@@ -103,7 +103,7 @@ impl<P: Placement> JumpContext<'_, P> {
 
     /// A straight run, vertex by vertex, but where the nearest obstacle is so far that several have no turn.
     #[inline]
-    fn walk_straight(
+    fn step_axial(
         &self,
         from: &ExpandedNode,
         index: usize,
@@ -123,16 +123,16 @@ impl<P: Placement> JumpContext<'_, P> {
             if n >= goal_steps || self.is_exempt(here.at, index) {
                 return Some(n.min(goal_steps));
             }
-            let view = self.pruning.view(self.graph, &here, index);
-            if view.turns {
+            let rule = self.pruning.local_rule(self.graph, &here, index);
+            if rule.forced {
                 return Some(n);
             }
-            if view.steps > 0 {
-                n += view.steps;
+            if rule.steps > 0 {
+                n += rule.steps;
                 if n >= goal_steps {
                     return Some(goal_steps);
                 }
-            } else if !view.ahead || !self.may_step(&here, index) {
+            } else if !rule.ahead || !self.may_step(&here, index) {
                 return None;
             }
         }
@@ -140,7 +140,7 @@ impl<P: Placement> JumpContext<'_, P> {
 
     /// A slanted run, vertex by vertex.
     #[inline]
-    fn walk_slanted<J: JumpFinder<P> + ?Sized>(
+    fn step_diagonal<J: JumpFinder<P> + ?Sized>(
         &self,
         finder: &J,
         from: &ExpandedNode,
@@ -152,21 +152,22 @@ impl<P: Placement> JumpContext<'_, P> {
             return;
         }
         let step = self.graph.step(index);
-        let to_goal = GoalWay::new(self, from.at, index);
+        let to_goal = GoalLegs::new(self, from.at, index);
         let mut here = self.after(from, step, index, 1);
         let mut cost = step.cost;
         for n in 1.. {
             *scanned += 1;
-            let way = to_goal.filter(|way| way.slanted == n);
-            let is_goal = way.is_some_and(|way| way.straight == 0);
-            let view = finder.look(self, &here, index);
-            if is_goal || n >= self.limit || view.turns || self.is_exempt(here.at, index) {
+            let legs = to_goal.filter(|legs| legs.diagonal == n);
+            let is_goal = legs.is_some_and(|legs| legs.axial == 0);
+            let rule = finder.local_rule(self, &here, index);
+            if is_goal || n >= self.limit || rule.forced || self.is_exempt(here.at, index) {
                 return visit(here.reached(cost, index));
             }
-            if (view.beside || way.is_some()) && self.send_out(finder, &here, cost, way, scanned, visit) {
+            if (rule.beside || legs.is_some()) && self.jump_beside(finder, &here, cost, legs, scanned, visit)
+            {
                 return visit(here.reached(cost, index));
             }
-            if !view.ahead || !self.may_step(&here, index) {
+            if !rule.ahead || !self.may_step(&here, index) {
                 return;
             }
             here = self.after(&here, step, index, 1);
@@ -176,19 +177,19 @@ impl<P: Placement> JumpContext<'_, P> {
 
     /// The two straight runs from a vertex of a slanted run. Whether the slanted run must end there for their sake.
     #[inline]
-    fn send_out<J: JumpFinder<P> + ?Sized>(
+    fn jump_beside<J: JumpFinder<P> + ?Sized>(
         &self,
         finder: &J,
         from: &ExpandedNode,
         cost: Cost,
-        to_goal: Option<GoalWay>,
+        to_goal: Option<GoalLegs>,
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor),
     ) -> bool {
         let mut ends = false;
         for index in self.beside(from.by.unwrap_or(0)) {
-            let goal_steps = to_goal.filter(|way| way.index == index).map(|way| way.straight);
-            if let Some(n) = finder.straight(self, from, index, goal_steps, scanned) {
+            let goal_steps = to_goal.filter(|legs| legs.index == index).map(|legs| legs.axial);
+            if let Some(n) = finder.axial(self, from, index, goal_steps, scanned) {
                 ends |= self.keeps_intermediate;
                 if !ends {
                     let step = self.graph.step(index);
@@ -214,37 +215,37 @@ fn cross(v: Vector, d: Vector) -> i64 {
 
 /// Vertex by vertex, for every k.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Walk;
+pub struct StepwiseFinder;
 
-impl<P: Placement> JumpFinder<P> for Walk {
+impl<P: Placement> JumpFinder<P> for StepwiseFinder {
     fn fits(&self, _: &GridGraph<P>) -> bool {
         true
     }
 
     #[inline]
-    fn straight(
+    fn axial(
         &self,
-        course: &JumpContext<'_, P>,
+        context: &JumpContext<'_, P>,
         from: &ExpandedNode,
         index: usize,
         goal_steps: Option<u32>,
         scanned: &mut u32,
     ) -> Option<u32> {
-        course.walk_straight(from, index, goal_steps, scanned)
+        context.step_axial(from, index, goal_steps, scanned)
     }
 }
 
 /// Straight runs by words of 64 vertices, for k ≤ 3.
 #[derive(Clone, Debug)]
-pub struct Blocks {
+pub struct BlockFinder {
     grid: Arc<Grid>,
     k: FiniteK,
     rules: Rules,
-    planes: StopPlanes,
-    slants: SlantPlanes,
+    axial: AxialStops,
+    diagonals: DiagonalBits,
 }
 
-impl Blocks {
+impl BlockFinder {
     /// The finder of a grid graph.
     ///
     /// # Errors
@@ -255,50 +256,56 @@ impl Blocks {
             return Err(KError::TooLarge { k, max });
         }
         let (grid, k, rules) = (Arc::clone(graph.grid()), graph.k(), graph.rules());
-        Ok(Self { grid, k, rules, planes: StopPlanes::new(graph), slants: SlantPlanes::new(graph, pruning) })
+        Ok(Self {
+            grid,
+            k,
+            rules,
+            axial: AxialStops::new(graph),
+            diagonals: DiagonalBits::new(graph, pruning),
+        })
     }
 
     /// Its size.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
-        self.planes.memory_bytes() + self.slants.memory_bytes()
+        self.axial.memory_bytes() + self.diagonals.memory_bytes()
     }
 }
 
-impl<P: Placement> JumpFinder<P> for Blocks {
+impl<P: Placement> JumpFinder<P> for BlockFinder {
     fn fits(&self, graph: &GridGraph<P>) -> bool {
         (self.k, self.rules) == (graph.k(), graph.rules()) && Arc::ptr_eq(&self.grid, graph.grid())
     }
 
     #[inline]
-    fn straight(
+    fn axial(
         &self,
-        course: &JumpContext<'_, P>,
+        context: &JumpContext<'_, P>,
         from: &ExpandedNode,
         index: usize,
         goal_steps: Option<u32>,
         scanned: &mut u32,
     ) -> Option<u32> {
-        if course.walks {
-            return course.walk_straight(from, index, goal_steps, scanned);
+        if context.stepwise {
+            return context.step_axial(from, index, goal_steps, scanned);
         }
-        let quarter = index >> (course.graph.k().get() - 2);
-        let scan = self.planes.scan(from.at, quarter, goal_steps);
+        let quarter = index >> (context.graph.k().get() - 2);
+        let scan = self.axial.scan(from.at, quarter, goal_steps);
         *scanned += scan.scanned;
         scan.found.then_some(scan.steps)
     }
 
     #[inline]
-    fn look(&self, course: &JumpContext<'_, P>, here: &ExpandedNode, index: usize) -> LocalRule {
-        if course.walks {
-            return course.pruning.view(course.graph, here, index);
+    fn local_rule(&self, context: &JumpContext<'_, P>, here: &ExpandedNode, index: usize) -> LocalRule {
+        if context.stepwise {
+            return context.pruning.local_rule(context.graph, here, index);
         }
-        if course.pruning.slanted_runs_turn() {
-            let view = course.pruning.view(course.graph, here, index);
-            return LocalRule { beside: self.slants.at(here.at, index).1, ..view };
+        if context.pruning.diagonals_may_force() {
+            let rule = context.pruning.local_rule(context.graph, here, index);
+            return LocalRule { beside: self.diagonals.at(here.at, index).1, ..rule };
         }
-        let (ahead, beside) = self.slants.at(here.at, index);
-        LocalRule { turns: false, ahead, steps: 0, beside }
+        let (ahead, beside) = self.diagonals.at(here.at, index);
+        LocalRule { forced: false, ahead, steps: 0, beside }
     }
 }
 
@@ -309,18 +316,18 @@ impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
     }
 
     #[inline]
-    fn straight(
+    fn axial(
         &self,
-        course: &JumpContext<'_, P>,
+        context: &JumpContext<'_, P>,
         from: &ExpandedNode,
         index: usize,
         goal_steps: Option<u32>,
         scanned: &mut u32,
     ) -> Option<u32> {
-        if course.walks {
-            return course.walk_straight(from, index, goal_steps, scanned);
+        if context.stepwise {
+            return context.step_axial(from, index, goal_steps, scanned);
         }
-        let (steps, found) = self.run(from.id, course.graph.step(index), index);
+        let (steps, found) = self.run(from.id, context.graph.step(index), index);
         match goal_steps {
             Some(goal_steps) if goal_steps <= steps => Some(goal_steps),
             _ => found.then_some(steps),
@@ -328,70 +335,70 @@ impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
     }
 
     #[inline]
-    fn slanted(
+    fn diagonal(
         &self,
-        course: &JumpContext<'_, P>,
+        context: &JumpContext<'_, P>,
         from: &ExpandedNode,
         index: usize,
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor),
     ) {
-        if course.walks {
-            return course.walk_slanted(self, from, index, scanned, visit);
+        if context.stepwise {
+            return context.step_diagonal(self, from, index, scanned, visit);
         }
-        let step = course.graph.step(index);
-        let to_goal = GoalWay::new(course, from.at, index);
+        let step = context.graph.step(index);
+        let to_goal = GoalLegs::new(context, from.at, index);
         let (mut here, mut gone) = (*from, 0);
         loop {
             let (steps, found) = self.run(here.id, step, index);
-            if let Some(way) = to_goal.filter(|way| (gone + 1..=gone + steps).contains(&way.slanted)) {
-                let elbow = course.after(from, step, index, way.slanted);
-                let beside = course.graph.step(way.index);
-                if way.straight == 0 || self.run(elbow.id, beside, way.index).0 >= way.straight {
-                    // Nothing can be nearer to the goal by way of this node.
-                    let goal = course.after(&elbow, beside, way.index, way.straight);
-                    let cost = step.cost * way.slanted + beside.cost * way.straight;
-                    return visit(goal.reached(cost, if way.straight == 0 { index } else { way.index }));
+            if let Some(legs) = to_goal.filter(|legs| (gone + 1..=gone + steps).contains(&legs.diagonal)) {
+                let elbow = context.after(from, step, index, legs.diagonal);
+                let beside = context.graph.step(legs.index);
+                if legs.axial == 0 || self.run(elbow.id, beside, legs.index).0 >= legs.axial {
+                    // Nothing can be nearer to the goal by legs of this node.
+                    let goal = context.after(&elbow, beside, legs.index, legs.axial);
+                    let cost = step.cost * legs.diagonal + beside.cost * legs.axial;
+                    return visit(goal.reached(cost, if legs.axial == 0 { index } else { legs.index }));
                 }
             }
             if !found {
                 return;
             }
             gone += steps;
-            here = course.after(&here, step, index, steps);
+            here = context.after(&here, step, index, steps);
             let cost = step.cost * gone;
-            let turns =
-                course.pruning.slanted_runs_turn() && course.pruning.view(course.graph, &here, index).turns;
-            if turns || course.keeps_intermediate {
+            let forced = context.pruning.diagonals_may_force()
+                && context.pruning.local_rule(context.graph, &here, index).forced;
+            if forced || context.keeps_intermediate {
                 return visit(here.reached(cost, index));
             }
-            course.send_out(self, &here, cost, None, scanned, visit);
+            context.jump_beside(self, &here, cost, None, scanned, visit);
         }
     }
 }
 
-/// The one way to the goal, on an empty grid, that begins with a given odd move.
+/// The one legs to the goal, on an empty grid, that begins with a given odd move.
 #[derive(Clone, Copy)]
-struct GoalWay {
-    slanted: u32,
+struct GoalLegs {
+    diagonal: u32,
     /// The even move that follows.
     index: usize,
-    straight: u32,
+    axial: u32,
 }
 
-impl GoalWay {
+impl GoalLegs {
     #[inline]
-    fn new<P: Placement>(course: &JumpContext<'_, P>, from: Vertex, index: usize) -> Option<Self> {
-        let (d, u) = (from.to(course.goal), course.graph.step(index).vector());
-        course.beside(index).into_iter().find_map(|beside| {
-            let v = course.graph.step(beside).vector();
+    fn new<P: Placement>(context: &JumpContext<'_, P>, from: Vertex, index: usize) -> Option<Self> {
+        let (d, u) = (from.to(context.goal), context.graph.step(index).vector());
+        context.beside(index).into_iter().find_map(|beside| {
+            let v = context.graph.step(beside).vector();
             // Adjacent moves span a square of area 1, so this is Cramer's rule without its denominator.
             let sign = cross(u, v);
-            let (slanted, straight) = (cross(d, v) * sign, cross(u, d) * sign);
-            (slanted > 0 && straight >= 0).then_some(Self {
-                slanted: slanted as u32,
+            let (diagonal, axial) = (cross(d, v) * sign, cross(u, d) * sign);
+            (diagonal > 0 && axial >= 0).then_some(Self {
+                diagonal: diagonal as u32,
                 index: beside,
-                straight: straight as u32,
+                axial: axial as u32,
             })
         })
     }

@@ -36,9 +36,9 @@
 //! A jump limit changes times by some percent either way: 32 gave 0.92 to 1.03 at k = 3 and 5 (arena2,
 //! AR0011SR), 4 took 1.3 to 1.7 times as long.
 
+mod axial;
+mod diagonals;
 mod finder;
-mod planes;
-mod slants;
 mod table;
 
 #[cfg(test)]
@@ -53,20 +53,20 @@ use crate::{
     BestFirst, ExpandedNode, Heuristic, Pruning, Successor, Successors,
     canonical::{prunes, rank},
 };
-pub use finder::{Blocks, JumpContext, JumpFinder, Walk};
+pub use finder::{BlockFinder, JumpContext, JumpFinder, StepwiseFinder};
 pub use table::{JumpTable, JumpTableError};
 
 /// A planner of the jump point family: 24 bytes a vertex.
-pub type Jumping<L, H, P, J> = BestFirst<L, H, JumpMoves<P, J>, VertexId>;
+pub type JumpPointSearch<L, H, P, J> = BestFirst<L, H, JumpMoves<P, J>, VertexId>;
 
 /// Jump point search for every k, vertex by vertex.
-pub type Jps<L, H, P> = Jumping<L, H, P, Walk>;
+pub type Jps<L, H, P> = JumpPointSearch<L, H, P, StepwiseFinder>;
 
 /// Block-based jump point search (Harabor & Grastien 2014).
-pub type BlockJps<L, H, P> = Jumping<L, H, P, Blocks>;
+pub type BlockJps<L, H, P> = JumpPointSearch<L, H, P, BlockFinder>;
 
 /// JPS+ (Harabor & Grastien 2014): jump point search on a table.
-pub type JpsPlus<L, H, P> = Jumping<L, H, P, Arc<JumpTable>>;
+pub type JpsPlus<L, H, P> = JumpPointSearch<L, H, P, Arc<JumpTable>>;
 
 /// The jump points that a node leads to.
 #[derive(Clone, Debug)]
@@ -74,19 +74,21 @@ pub struct JumpMoves<P: Placement, J> {
     pruning: Arc<Pruning<P>>,
     finder: J,
     /// Whether the finder is one of another grid graph.
-    walks: bool,
+    stepwise: bool,
     limit: u32,
     keeps_intermediate: bool,
 }
 
-impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic, J: JumpFinder<P>> Jumping<L, H, P, J> {
+impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic, J: JumpFinder<P>>
+    JumpPointSearch<L, H, P, J>
+{
     /// A planner with a finder that was made for this grid graph, and a pruning rule that it may share with other planners. Where either was
     /// made for another map, k or rule of motion, it is not used, and runs are walked. (Of a [`JumpTable`] only the size is held against
     /// the grid graph.)
     #[must_use]
     pub fn with_finder(graph: L, pruning: Arc<Pruning<P>>, finder: J, heuristic: H) -> Self {
-        let (pruning, walks) = (pruning.fitting(&graph), !finder.fits(&graph));
-        let successors = JumpMoves { pruning, finder, walks, limit: u32::MAX, keeps_intermediate: false };
+        let (pruning, stepwise) = (pruning.matching(&graph), !finder.fits(&graph));
+        let successors = JumpMoves { pruning, finder, stepwise, limit: u32::MAX, keeps_intermediate: false };
         Self::with(graph, heuristic, successors)
     }
 
@@ -110,7 +112,7 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> Jps<L, H, P> {
     #[must_use]
     pub fn new(graph: L, heuristic: H) -> Self {
         let pruning = Arc::new(Pruning::new(&*graph));
-        Self::with_finder(graph, pruning, Walk, heuristic)
+        Self::with_finder(graph, pruning, StepwiseFinder, heuristic)
     }
 }
 
@@ -121,7 +123,7 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> BlockJps<L, H,
     /// [`KError::TooLarge`] above k = 3.
     pub fn new(graph: L, heuristic: H) -> Result<Self, KError> {
         let pruning = Arc::new(Pruning::new(&*graph));
-        let blocks = Blocks::new(&*graph, &pruning)?;
+        let blocks = BlockFinder::new(&*graph, &pruning)?;
         Ok(Self::with_finder(graph, pruning, blocks, heuristic))
     }
 }
@@ -149,28 +151,28 @@ impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
         goal: Vertex,
         mut visit: impl FnMut(Successor),
     ) -> u32 {
-        let course = JumpContext {
+        let context = JumpContext {
             graph,
             pruning: &self.pruning,
             goal,
             // Once a node: a run never goes on from a gap, so only the node itself and the goal may be one.
-            walks: self.walks
+            stepwise: self.stepwise
                 || !prunes(graph)
                 || graph.has_closed_gaps() && (graph.is_closed_gap(goal) || graph.is_closed_gap(node.at)),
             // Without knowing the turns, a scan would end almost everywhere, and find little that is new.
-            limit: if self.pruning.knows_turns() { self.limit } else { 1 },
+            limit: if self.pruning.knows_forced() { self.limit } else { 1 },
             keeps_intermediate: self.keeps_intermediate,
         };
         let mut scanned = 0;
         let mut follow = |index: usize| {
             if index & 1 == 1 {
-                self.finder.slanted(&course, &node, index, &mut scanned, &mut visit);
+                self.finder.diagonal(&context, &node, index, &mut scanned, &mut visit);
                 return;
             }
             let step = graph.step(index);
-            let goal_steps = course.steps_to_goal(node.at, step.vector());
-            if let Some(n) = self.finder.straight(&course, &node, index, goal_steps, &mut scanned) {
-                visit(course.after(&node, step, index, n).reached(step.cost * n, index));
+            let goal_steps = context.steps_to_goal(node.at, step.vector());
+            if let Some(n) = self.finder.axial(&context, &node, index, goal_steps, &mut scanned) {
+                visit(context.after(&node, step, index, n).reached(step.cost * n, index));
             }
         };
         match node.by.filter(|&by| !self.pruning.is_exempt(graph, node.at, by, goal)) {

@@ -193,16 +193,16 @@ struct Surroundings {
     /// By vertex: the obstacle pattern around it.
     patterns: Vec<u16>,
     /// By pattern.
-    local: Vec<Local>,
+    local: Vec<PatternRule>,
 }
 
 /// What the pattern around a vertex decides, one bit a move.
 #[derive(Clone, Copy, Debug, Default)]
-struct Local {
+struct PatternRule {
     /// The moves that are legal there.
     legal: u8,
     /// The moves that find a turn when they lead there.
-    turns: u8,
+    forced: u8,
     /// Whether it is a corner that closed gaps forbid to pass.
     gap: bool,
 }
@@ -212,15 +212,15 @@ impl Surroundings {
         let pruning = Pruning::new(graph);
         let (k, rows) = (graph.k().get(), graph.grid().rows());
         let (words, bits_per_row) = (rows.words(), rows.bits_per_row());
-        let mut local: Vec<Option<Local>> = vec![None; P::PATTERNS];
+        let mut local: Vec<Option<PatternRule>> = vec![None; P::PATTERNS];
         let patterns = (0..graph.vertex_count()).map(|id| {
             let at = graph.vertex(VertexId(id as u32));
             let pattern = P::pattern(words, rows.index(at.x, at.y), bits_per_row);
             // The rules of motion are asked once for each pattern that occurs.
-            local[pattern].get_or_insert_with(|| Local {
+            local[pattern].get_or_insert_with(|| PatternRule {
                 legal: graph.legal_moves(at).iter().fold(0, |set, index| set | 1 << index),
-                turns: (0..1 << k)
-                    .filter(|&index| pruning.turns_at(pattern, index))
+                forced: (0..1 << k)
+                    .filter(|&index| pruning.has_forced_at(pattern, index))
                     .fold(0, |set, index| set | 1 << index),
                 gap: graph.is_closed_gap(at),
             });
@@ -259,7 +259,7 @@ impl Surroundings {
         let ahead = &entries[to << self.k..(to + 1) << self.k];
         let last = ahead.len() - 1;
         let beside = (ahead[(index + 1) & last] | ahead[(index + last) & last]) & FOUND != 0;
-        if there.turns >> index & 1 == 1 || (index % 2 == 1 && beside) {
+        if there.forced >> index & 1 == 1 || (index % 2 == 1 && beside) {
             return FOUND | 1;
         }
         extended(ahead[index])

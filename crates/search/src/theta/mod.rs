@@ -27,7 +27,7 @@
 //! come in the order of [`GridGraph::for_each_legal_move`].
 
 mod search;
-mod views;
+mod sight_cache;
 
 use std::{fmt::Debug, marker::PhantomData, ops::Deref};
 
@@ -35,7 +35,7 @@ use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
 
 use self::{
     search::{Parents, Search},
-    views::Views,
+    sight_cache::SightCache,
 };
 use crate::{Guarantee, Heuristic, NodeStore, Observer, OpenList, Outcome, Path, Planner, Query, QueryError};
 
@@ -59,11 +59,11 @@ use crate::{Guarantee, Heuristic, NodeStore, Observer, OpenList, Outcome, Path, 
 /// assert_eq!(outcome.path().map(|path| path.waypoints()), Some(&expected[..]));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub type ThetaStar<L, H> = Theta<L, H, AtOnce>;
+pub type ThetaStar<L, H> = Theta<L, H, Eager>;
 
 /// Lazy Theta*: Theta* that takes sight for granted until the node is expanded. One that does not see what it hangs on then hangs on the
 /// closed neighbor through which it is cheapest, at a higher cost, and is expanded all the same.
-pub type LazyThetaStar<L, H> = Theta<L, H, Lazily>;
+pub type LazyThetaStar<L, H> = Theta<L, H, Lazy>;
 
 /// The search that [`ThetaStar`] and [`LazyThetaStar`] share; `S` says when lines of sight are checked.
 ///
@@ -75,36 +75,36 @@ pub struct Theta<L, H, S> {
     heuristic: H,
     nodes: NodeStore<Parents>,
     open: OpenList,
-    views: Views,
+    sight: SightCache,
     check: PhantomData<S>,
 }
 
 /// When a search checks that a node sees its parent.
 pub trait SightCheck: sealed::Sealed + Copy + Debug {
     /// Whether that is when the node is generated; otherwise, when it is expanded.
-    const AT_ONCE: bool;
+    const EAGER: bool;
 }
 
 mod sealed {
     pub trait Sealed {}
-    impl Sealed for super::AtOnce {}
-    impl Sealed for super::Lazily {}
+    impl Sealed for super::Eager {}
+    impl Sealed for super::Lazy {}
 }
 
 /// When the node is generated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct AtOnce;
+pub struct Eager;
 
-impl SightCheck for AtOnce {
-    const AT_ONCE: bool = true;
+impl SightCheck for Eager {
+    const EAGER: bool = true;
 }
 
 /// When the node is expanded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Lazily;
+pub struct Lazy;
 
-impl SightCheck for Lazily {
-    const AT_ONCE: bool = false;
+impl SightCheck for Lazy {
+    const EAGER: bool = false;
 }
 
 impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic, S: SightCheck> Theta<L, H, S> {
@@ -112,8 +112,8 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic, S: SightCheck>
     #[must_use]
     pub fn new(graph: L, heuristic: H) -> Self {
         let nodes = NodeStore::new(graph.vertex_count());
-        let views = Views::new::<P>(&graph);
-        Self { graph, heuristic, nodes, open: OpenList::default(), views, check: PhantomData }
+        let sight = SightCache::new::<P>(&graph);
+        Self { graph, heuristic, nodes, open: OpenList::default(), sight, check: PhantomData }
     }
 }
 
@@ -126,13 +126,13 @@ where
 {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
         let Some((start, goal)) = query.ends(&self.graph)? else { return Ok(Outcome::Unreachable) };
-        let Self { graph, heuristic, nodes, open, views, check } = self;
+        let Self { graph, heuristic, nodes, open, sight, check } = self;
         let found = Search {
             graph: &**graph,
             heuristic: *heuristic,
             nodes,
             open,
-            views,
+            sight,
             observer,
             start,
             goal,
@@ -151,7 +151,7 @@ where
 impl<P: Placement, L: Deref<Target = GridGraph<P>>, H, S> Theta<L, H, S> {
     /// The path that a search found, without waypoints on a straight line between their neighbors.
     fn path(&self, start: VertexId, goal: VertexId) -> Path {
-        let up = |&id: &VertexId| self.nodes.get(id).filter(|_| id != start).map(|node| node.link.parent);
+        let up = |&id: &VertexId| self.nodes.get(id).filter(|_| id != start).map(|node| node.pointer.parent);
         let mut waypoints: Vec<Vertex> = Vec::with_capacity(std::iter::successors(Some(goal), up).count());
         for id in std::iter::successors(Some(goal), up) {
             let at = self.graph.vertex(id);

@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 use mediant_grid::{GridGraph, Placement, Step, Vertex, VertexId};
 use mediant_moves::Cost;
 
-use super::{SightCheck, views::Views};
+use super::{SightCheck, sight_cache::SightCache};
 use crate::{
     Entry, Heuristic, Node, NodeEvent, NodeStore, Observer, OpenList, ParentPointer, segment::is_at_least,
     segment_cost,
@@ -47,7 +47,7 @@ pub(super) struct Search<'s, P: Placement, H, S, O> {
     pub(super) heuristic: H,
     pub(super) nodes: &'s mut NodeStore<Parents>,
     pub(super) open: &'s mut OpenList,
-    pub(super) views: &'s mut Views,
+    pub(super) sight: &'s mut SightCache,
     pub(super) observer: &'s mut O,
     pub(super) start: VertexId,
     pub(super) goal: VertexId,
@@ -57,7 +57,7 @@ pub(super) struct Search<'s, P: Placement, H, S, O> {
 
 /// A node that others may hang on.
 #[derive(Clone, Copy)]
-struct Hook {
+struct PathEnd {
     id: VertexId,
     at: Vertex,
     g: Cost,
@@ -79,10 +79,10 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
             let id = entry.id();
             self.nodes.set_slot(id, Node::<Parents>::CLOSED);
             let Some(&(mut node)) = self.nodes.get(id) else { continue };
-            let here = Hook { id, at: self.graph.vertex(id), g: node.g };
+            let here = PathEnd { id, at: self.graph.vertex(id), g: node.g };
             let mut f = entry.f();
-            if !S::AT_ONCE && !self.sees_parent(here, &node) {
-                self.hang_on_neighbor(here);
+            if !S::EAGER && !self.sees_parent(here, &node) {
+                self.set_parent_to_neighbor(here);
                 let Some(&settled) = self.nodes.get(id) else { continue };
                 f = settled.g + (f - node.g);
                 node = settled;
@@ -90,22 +90,22 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
             if id == self.goal {
                 return true;
             }
-            let parent = (id != self.start).then(|| self.graph.vertex(node.link.parent));
+            let parent = (id != self.start).then(|| self.graph.vertex(node.pointer.parent));
             self.observer.expanded(NodeEvent { at: here.at, parent, g: node.g, f });
-            self.expand(Hook { g: node.g, ..here }, &node);
+            self.expand(PathEnd { g: node.g, ..here }, &node);
         }
         false
     }
 
     /// Generates the successors of a node. Each hangs on the node's parent if that sees it, or is taken to, and otherwise on the node.
     #[inline]
-    fn expand(&mut self, here: Hook, node: &Node<Parents>) {
+    fn expand(&mut self, here: PathEnd, node: &Node<Parents>) {
         let graph = self.graph;
         let by = (here.id != self.start).then(|| node.arrived_by());
         // The start hangs on itself.
-        let parent = self.nodes.get(node.link.parent).map_or(here, |known| Hook {
-            id: node.link.parent,
-            at: graph.vertex(node.link.parent),
+        let parent = self.nodes.get(node.pointer.parent).map_or(here, |known| PathEnd {
+            id: node.pointer.parent,
+            at: graph.vertex(node.pointer.parent),
             g: known.g,
         });
         let grandparent = self.parent_of(parent.id);
@@ -122,20 +122,19 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
             if known.is_some_and(|known| known.g <= parent.g || is_at_least(straight, known.g - parent.g)) {
                 return;
             }
-            let hidden_from = known.map_or(Parents::NONE, |known| known.link).hidden_from;
-            if (!has_closed_gaps || self.may_hang(grandparent, parent.at, at))
-                && (!S::AT_ONCE
-                    || hidden_from != parent.id && self.views.sees(graph, parent.id, parent.at, at))
+            let hidden_from = known.map_or(Parents::NONE, |known| known.pointer).hidden_from;
+            if (!has_closed_gaps || self.may_be_parent(grandparent, parent.at, at))
+                && (!S::EAGER || hidden_from != parent.id && self.sight.sees(graph, parent.id, parent.at, at))
             {
-                let to = Hook { id, at, g: parent.g + segment_cost(straight) };
+                let to = PathEnd { id, at, g: parent.g + segment_cost(straight) };
                 return self.relax(to, index, known, parent.at, Parents { parent: parent.id, hidden_from });
             }
             let hidden = Parents { parent: here.id, hidden_from: parent.id };
-            let to = Hook { id, at, g: here.g + step.cost };
+            let to = PathEnd { id, at, g: here.g + step.cost };
             match known {
                 Some(known) if known.g <= to.g => {
-                    let link = Parents { parent: known.link.parent, ..hidden };
-                    self.nodes.set_path(id, known.g, known.arrived_by(), link);
+                    let parents = Parents { parent: known.pointer.parent, ..hidden };
+                    self.nodes.set_path(id, known.g, known.arrived_by(), parents);
                 }
                 _ => self.relax(to, index, known, here.at, hidden),
             }
@@ -144,9 +143,16 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
 
     /// Makes a cheaper way to a vertex, which is not closed, the best known one.
     #[inline]
-    fn relax(&mut self, to: Hook, by: usize, known: Option<Node<Parents>>, parent: Vertex, link: Parents) {
-        let Hook { id, at, g } = to;
-        self.nodes.set_path(id, g, by, link);
+    fn relax(
+        &mut self,
+        to: PathEnd,
+        by: usize,
+        known: Option<Node<Parents>>,
+        parent: Vertex,
+        parents: Parents,
+    ) {
+        let PathEnd { id, at, g } = to;
+        self.nodes.set_path(id, g, by, parents);
         let event = |f| NodeEvent { at, parent: Some(parent), g, f };
         let moved = |id, slot| self.nodes.set_slot(id, slot);
         let swaps = if let Some(known) = known {
@@ -164,23 +170,23 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
 
     /// Whether the path that comes from `before` to `parent` may go on straight to `at`, as far as gaps are concerned. Gaps that are
     /// passed hang on the node before them, so that its last move tells the quadrant.
-    fn may_hang(&self, before: Option<Vertex>, parent: Vertex, at: Vertex) -> bool {
+    fn may_be_parent(&self, before: Option<Vertex>, parent: Vertex, at: Vertex) -> bool {
         let graph = self.graph;
         graph.may_turn(before, parent, Some(at))
             && (!graph.is_closed_gap(at) || at == self.goal_at && graph.may_turn(Some(parent), at, None))
     }
 
     /// Whether a node sees what it hangs on, as was taken for granted.
-    fn sees_parent(&mut self, here: Hook, node: &Node<Parents>) -> bool {
-        let parent = node.link.parent;
+    fn sees_parent(&mut self, here: PathEnd, node: &Node<Parents>) -> bool {
+        let parent = node.pointer.parent;
         here.id == self.start
             || self.graph.step(node.arrived_by()).source(here.id) == parent
-            || self.views.sees(self.graph, parent, self.graph.vertex(parent), here.at)
+            || self.sight.sees(self.graph, parent, self.graph.vertex(parent), here.at)
     }
 
     /// Hangs a node on that of its closed neighbors through which it is cheapest, the first of these in the order of the moves. There is one:
     /// that by which it was generated.
-    fn hang_on_neighbor(&mut self, here: Hook) {
+    fn set_parent_to_neighbor(&mut self, here: PathEnd) {
         let graph = self.graph;
         let opposite = graph.steps().len() / 2;
         let mut best: Option<(Cost, usize, VertexId)> = None;
@@ -207,6 +213,6 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
     /// What a node hangs on; `None` for the start.
     fn parent_of(&self, id: VertexId) -> Option<Vertex> {
         let node = self.nodes.get(id).filter(|_| id != self.start)?;
-        Some(self.graph.vertex(node.link.parent))
+        Some(self.graph.vertex(node.pointer.parent))
     }
 }

@@ -165,7 +165,7 @@ impl<P: SubgoalPlacement, O: Observer> Search<'_, P, O> {
         } else {
             self.observer.generated(event);
         }
-        let (_, swaps) = self.tree.reach(id, g, h, bend, ());
+        let (_, swaps) = self.tree.set_path_and_open(id, g, h, bend, ());
         self.observer.percolated(swaps);
     }
 

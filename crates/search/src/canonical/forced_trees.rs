@@ -3,27 +3,27 @@
 //! A node of the tree stands for the turns of one cone. It is tested on a window of the map around the vertex, a word a row, and its cone
 //! is dropped when
 //! - a cell that *all* its moves sweep is blocked: none of them is legal; or
-//! - every cell that the ways around *any* of its turns ask for is free: each of them is pruned.
+//! - every cell that the alternatives around *any* of its turns ask for is free: each of them is pruned.
 //!
 //! So walls end the cones that run into them, open ground the cones beside it, and what is left is the neighborhood of an obstacle's corner.
-//! A leaf is one turn, with the cells of its move and up to [`WAYS`] ways around it. Cells that the two moves themselves
+//! A leaf is one turn, with the cells of its move and up to [`MAX_ALTERNATIVES`] alternatives around it. Cells that the two moves themselves
 //! have swept are known to be free and not asked for again.
 
 use mediant_grid::{CellOffset, Grid, Placement, Vertex, load};
 
 use super::{
-    alternatives::{Asked, Moves},
+    alternatives::{MoveTable, Requirements},
     cells::Cells,
     clearance::Clearance,
 };
 
-/// How many ways around a turn are kept.
-const WAYS: usize = 3;
+/// How many alternatives around a turn are kept.
+const MAX_ALTERNATIVES: usize = 3;
 
 /// Cells in consecutive rows of a [`Window`].
 #[derive(Clone, Copy, Debug, Default)]
 struct Zone {
-    /// The first row's word in [`TurnTrees::masks`].
+    /// The first row's word in [`ForcedTrees::masks`].
     begin: u32,
     first: u8,
     rows: u8,
@@ -37,14 +37,14 @@ struct Node {
     shared: Zone,
     /// Cells that the best way around each turn asks for.
     around: Zone,
-    /// Further ways, at a leaf.
-    ways: (u32, u32),
+    /// Further alternatives, at a leaf.
+    alternatives: (u32, u32),
     /// Two cells of which the move of a leaf needs one.
     either: Option<[CellOffset; 2]>,
     /// The next node that is not below this one.
     skip: u32,
     /// The turn of a leaf.
-    turn: Option<u16>,
+    candidate: Option<u16>,
 }
 
 /// The cells around a vertex, as in [`Cells`].
@@ -79,11 +79,11 @@ struct StepTest {
 
 /// The trees of all incoming moves.
 #[derive(Clone, Debug)]
-pub(crate) struct TurnTrees {
+pub(crate) struct ForcedTrees {
     /// Where each incoming move's tree begins in `nodes`, and one end more.
     begins: Vec<u32>,
     nodes: Vec<Node>,
-    ways: Vec<Zone>,
+    alternatives: Vec<Zone>,
     masks: Vec<u64>,
     steps: Vec<StepTest>,
     /// The side of the free square in which all natural successors of an incoming move are legal.
@@ -92,19 +92,19 @@ pub(crate) struct TurnTrees {
     reach: i32,
 }
 
-/// A turn with the ways around it, the best one first.
-struct Turn {
+/// A turn with the alternatives around it, the best one first.
+struct Candidate {
     index: usize,
-    ways: Vec<Cells>,
+    alternatives: Vec<Cells>,
 }
 
-impl TurnTrees {
-    pub(crate) fn new<P: Placement>(moves: &Moves<P>) -> Self {
+impl ForcedTrees {
+    pub(crate) fn new<P: Placement>(moves: &MoveTable<P>) -> Self {
         let count = moves.len();
         let mut trees = Self {
             begins: vec![0],
             nodes: Vec::new(),
-            ways: Vec::new(),
+            alternatives: Vec::new(),
             masks: Vec::new(),
             steps: Vec::new(),
             needed: Vec::new(),
@@ -121,18 +121,18 @@ impl TurnTrees {
                 moves.footprints[b].free.iter().for_each(|&cell| need(cell));
                 moves.footprints[b].either.iter().for_each(|pair| need(pair[0]));
             }
-            let mut turns = Vec::with_capacity(count);
-            for b in (1..count).map(|turn| (a + turn) % count) {
+            let mut candidates = Vec::with_capacity(count);
+            for b in (1..count).map(|offset| (a + offset) % count) {
                 if super::natural(a, count).any(|natural| natural == b) {
                     continue;
                 }
-                let turn = Turn::new(moves, a, b);
+                let candidate = Candidate::new(moves, a, b);
                 // A turn that nothing needs to be free for is never taken.
-                if turn.ways.first().is_none_or(|way| !way.is_empty()) {
-                    turns.push(turn);
+                if candidate.alternatives.first().is_none_or(|first| !first.is_empty()) {
+                    candidates.push(candidate);
                 }
             }
-            trees.add(moves, &turns, &Cells::default());
+            trees.add(moves, &candidates, &Cells::default());
             trees.begins.push(trees.nodes.len() as u32);
             trees.needed.push(needed);
         }
@@ -140,35 +140,36 @@ impl TurnTrees {
     }
 
     /// Adds the subtree of these turns. `tested` are the cells that the nodes above know to be swept by all.
-    fn add<P: Placement>(&mut self, moves: &Moves<P>, turns: &[Turn], tested: &Cells) {
-        let [first, ..] = turns else { return };
-        let swept = |turn: &Turn| moves.footprints[turn.index].free.iter().copied().collect::<Cells>();
-        let shared = turns.iter().map(swept).fold(swept(first), |all, cells| all.common(&cells));
+    fn add<P: Placement>(&mut self, moves: &MoveTable<P>, candidates: &[Candidate], tested: &Cells) {
+        let [first, ..] = candidates else { return };
+        let swept =
+            |candidate: &Candidate| moves.footprints[candidate.index].free.iter().copied().collect::<Cells>();
+        let shared = candidates.iter().map(swept).fold(swept(first), |all, cells| all.common(&cells));
         let new = shared.without(tested);
-        let around = turns
+        let around = candidates
             .iter()
-            .filter_map(|turn| turn.ways.first())
-            .fold(Cells::default(), |all, way| all.with(way));
-        // Without a way around one of the turns, the cone is never dropped for the ways around all.
-        let has_ways = turns.iter().all(|turn| !turn.ways.is_empty());
-        let leaf = (turns.len() == 1).then_some(first);
-        let begin = self.ways.len() as u32;
-        for way in leaf.into_iter().flat_map(|turn| turn.ways.iter().skip(1)) {
-            let zone = self.zone(way);
-            self.ways.push(zone);
+            .filter_map(|candidate| candidate.alternatives.first())
+            .fold(Cells::default(), |all, cells| all.with(cells));
+        // Without a way around one of the turns, the cone is never dropped for the alternatives around all.
+        let has_alternatives = candidates.iter().all(|candidate| !candidate.alternatives.is_empty());
+        let leaf = (candidates.len() == 1).then_some(first);
+        let begin = self.alternatives.len() as u32;
+        for alternative in leaf.into_iter().flat_map(|candidate| candidate.alternatives.iter().skip(1)) {
+            let zone = self.zone(alternative);
+            self.alternatives.push(zone);
         }
         let node = Node {
             shared: self.zone(&new),
-            around: Zone { never: !has_ways, ..self.zone(&around) },
-            ways: (begin, self.ways.len() as u32),
-            either: leaf.and_then(|turn| moves.footprints[turn.index].either.first().copied()),
+            around: Zone { never: !has_alternatives, ..self.zone(&around) },
+            alternatives: (begin, self.alternatives.len() as u32),
+            either: leaf.and_then(|candidate| moves.footprints[candidate.index].either.first().copied()),
             skip: 0,
-            turn: leaf.map(|turn| turn.index as u16),
+            candidate: leaf.map(|candidate| candidate.index as u16),
         };
         let place = self.nodes.len();
         self.nodes.push(node);
         if leaf.is_none() {
-            let (left, right) = turns.split_at(turns.len() / 2);
+            let (left, right) = candidates.split_at(candidates.len() / 2);
             self.add(moves, left, &shared);
             self.add(moves, right, &shared);
         }
@@ -208,7 +209,7 @@ impl TurnTrees {
 
     /// Calls `take` with each turn that a path may take after move `by`, until that returns false. Whether all were taken.
     #[inline]
-    pub(crate) fn for_each_turn(
+    pub(crate) fn for_each_forced(
         &self,
         by: usize,
         grid: &Grid,
@@ -224,10 +225,12 @@ impl TurnTrees {
                 continue;
             }
             i += 1;
-            let Some(turn) = node.turn else { continue };
+            let Some(candidate) = node.candidate else { continue };
             let legal = is_either_free(node.either, grid, at);
-            let mut ways = self.ways[node.ways.0 as usize..node.ways.1 as usize].iter();
-            if legal && !ways.any(|&way| self.is_free(way, window)) && !take(usize::from(turn)) {
+            let mut alternatives =
+                self.alternatives[node.alternatives.0 as usize..node.alternatives.1 as usize].iter();
+            if legal && !alternatives.any(|&zone| self.is_free(zone, window)) && !take(usize::from(candidate))
+            {
                 return false;
             }
         }
@@ -235,7 +238,7 @@ impl TurnTrees {
     }
 
     pub(crate) fn memory_bytes(&self) -> usize {
-        let nodes = size_of_val(&*self.nodes) + size_of_val(&*self.ways) + size_of_val(&*self.masks);
+        let nodes = size_of_val(&*self.nodes) + size_of_val(&*self.alternatives) + size_of_val(&*self.masks);
         nodes + size_of_val(&*self.steps) + size_of_val(&*self.begins) + size_of_val(&*self.needed)
     }
 }
@@ -245,40 +248,44 @@ fn is_either_free(cells: Option<[CellOffset; 2]>, grid: &Grid, at: Vertex) -> bo
     cells.is_none_or(|cells| cells.iter().any(|&(x, y)| grid.is_free(at.x + x, at.y + y)))
 }
 
-impl Turn {
-    fn new<P: Placement>(moves: &Moves<P>, a: usize, b: usize) -> Self {
+impl Candidate {
+    fn new<P: Placement>(moves: &MoveTable<P>, a: usize, b: usize) -> Self {
         let before = -moves.vectors[a];
         let mut known: Cells = moves.footprints[b].free.iter().copied().collect();
         known.extend(moves.footprints[a].free.iter().map(|&(x, y)| (x + before.x, y + before.y)));
-        let mut ways: Vec<Cells> = Vec::new();
-        moves.alternatives(a, b, |sequence| ways.push(beyond(&known, &moves.asked(before, sequence))));
-        // Stable: of ways that ask for as much, the first found.
-        ways.sort_by_key(Cells::count);
-        let mut kept: Vec<Cells> = Vec::with_capacity(WAYS);
-        for way in ways {
+        let mut alternatives: Vec<Cells> = Vec::new();
+        moves.alternatives(a, b, |sequence| {
+            alternatives.push(beyond(&known, &moves.requirements(before, sequence)))
+        });
+        // Stable: of alternatives that ask for as much, the first found.
+        alternatives.sort_by_key(Cells::count);
+        let mut kept: Vec<Cells> = Vec::with_capacity(MAX_ALTERNATIVES);
+        for alternative in alternatives {
             // A way that asks for more than a kept one does is of no use.
-            if kept.len() < WAYS && !kept.iter().any(|other| other.without(&way).is_empty()) {
-                kept.push(way);
+            if kept.len() < MAX_ALTERNATIVES
+                && !kept.iter().any(|other| other.without(&alternative).is_empty())
+            {
+                kept.push(alternative);
             }
         }
-        Self { index: b, ways: kept }
+        Self { index: b, alternatives: kept }
     }
 }
 
 /// The cells that a way asks for and that are not known to be free. Of a pair of which one must be free, it asks for the one that is nearer to
 /// the vertex, and so further inside the turn, unless one is asked for anyway: never too little.
-fn beyond(known: &Cells, asked: &Asked) -> Cells {
-    let mut cells: Cells = asked.free.iter().copied().collect();
+fn beyond(known: &Cells, required: &Requirements) -> Cells {
+    let mut cells: Cells = required.free.iter().copied().collect();
     let has = |cells: &Cells, cell: CellOffset| cells.contains(cell) || known.contains(cell);
     let distance = |(x, y): CellOffset| (2 * x + 1).pow(2) + (2 * y + 1).pow(2);
-    for pair in &asked.either {
+    for pair in &required.either {
         if !pair.iter().any(|&cell| has(&cells, cell)) {
             cells.extend(pair.iter().copied().min_by_key(|&cell| distance(cell)));
         }
     }
-    for &at in &asked.passed {
+    for &at in &required.passed {
         let missing = |pair: &[CellOffset; 2]| pair.iter().filter(|&&cell| !has(&cells, cell)).count();
-        if let Some(pair) = Asked::beside(at).into_iter().min_by_key(|pair| missing(pair)) {
+        if let Some(pair) = Requirements::beside(at).into_iter().min_by_key(|pair| missing(pair)) {
             cells.extend(pair);
         }
     }

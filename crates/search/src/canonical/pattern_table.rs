@@ -7,51 +7,52 @@ use std::ops::{BitAnd, BitOr, Not};
 use mediant_grid::{CellOffset, Centers, Corners, Placement};
 use mediant_moves::Vector;
 
-use super::alternatives::{Asked, Moves};
+use super::alternatives::{MoveTable, Requirements};
 
 const _: () = assert!(Centers::PATTERNS == 512 && Corners::PATTERNS <= 512);
 
 /// For each incoming move and each pattern, the moves that a path goes on by, a bit each.
 #[derive(Clone, Debug)]
-pub(crate) struct NearTable {
+pub(crate) struct PatternTable {
     successors: Box<[u8]>,
     patterns: usize,
     /// For each incoming move, those that follow it on open ground.
     natural: [u8; 8],
-    slanted_runs_turn: bool,
+    diagonals_may_force: bool,
 }
 
-impl NearTable {
-    pub(crate) fn new<P: Placement>(moves: &Moves<P>) -> Self {
-        let (around, count) = (Around::new::<P>(), moves.len());
-        let legal: Vec<Patterns> =
-            (0..count).map(|b| around.holds(&moves.asked(Vector::default(), &[b]), Patterns::NONE)).collect();
+impl PatternTable {
+    pub(crate) fn new<P: Placement>(moves: &MoveTable<P>) -> Self {
+        let (cells, count) = (CellPatterns::new::<P>(), moves.len());
+        let legal: Vec<Patterns> = (0..count)
+            .map(|b| cells.satisfied(&moves.requirements(Vector::default(), &[b]), Patterns::NONE))
+            .collect();
         let mut table = Self {
             successors: vec![0; count * P::PATTERNS].into_boxed_slice(),
             patterns: P::PATTERNS,
             natural: [0; 8],
-            slanted_runs_turn: false,
+            diagonals_may_force: false,
         };
         for (a, successors) in table.successors.chunks_exact_mut(P::PATTERNS).enumerate() {
             for b in super::natural(a, count) {
                 table.natural[a] |= 1 << b;
             }
             // Where no path arrives by move a, there are no turns.
-            let arrives = around.holds(&moves.asked(-moves.vectors[a], &[a]), Patterns::ALL);
+            let arrives = cells.satisfied(&moves.requirements(-moves.vectors[a], &[a]), Patterns::ALL);
             for (b, &legal) in legal.iter().enumerate() {
                 let mut kept = legal;
                 if table.natural[a] >> b & 1 == 0 {
                     kept = kept & arrives;
                     moves.alternatives(a, b, |sequence| {
-                        let mut way = moves.asked(-moves.vectors[a], sequence);
+                        let mut alternative = moves.requirements(-moves.vectors[a], sequence);
                         if count == 4 {
                             // At k = 2 nothing is pruned on a map with gaps: this is for maps without.
-                            way.passed.clear();
+                            alternative.passed.clear();
                         }
                         // Of cells farther away nothing is known, so nothing is pruned for their sake.
-                        kept = kept & !around.holds(&way, Patterns::NONE);
+                        kept = kept & !cells.satisfied(&alternative, Patterns::NONE);
                     });
-                    table.slanted_runs_turn |= a % 2 == 1 && kept != Patterns::NONE;
+                    table.diagonals_may_force |= a % 2 == 1 && kept != Patterns::NONE;
                 }
                 kept.for_each(|pattern| successors[pattern] |= 1 << b);
             }
@@ -67,13 +68,13 @@ impl NearTable {
 
     /// Those of them that are turns.
     #[inline]
-    pub(crate) fn turns(&self, by: usize, successors: u8) -> u8 {
+    pub(crate) fn forced(&self, by: usize, successors: u8) -> u8 {
         successors & !self.natural[by & 7]
     }
 
     #[inline]
-    pub(crate) const fn slanted_runs_turn(&self) -> bool {
-        self.slanted_runs_turn
+    pub(crate) const fn diagonals_may_force(&self) -> bool {
+        self.diagonals_may_force
     }
 
     pub(crate) fn memory_bytes(&self) -> usize {
@@ -121,9 +122,9 @@ impl Not for Patterns {
 }
 
 /// For each cell of the 3 × 3 around a vertex, the patterns in which it is free; `None` for those that patterns do not hold.
-struct Around([[Option<Patterns>; 3]; 3]);
+struct CellPatterns([[Option<Patterns>; 3]; 3]);
 
-impl Around {
+impl CellPatterns {
     fn new<P: Placement>() -> Self {
         let free = |(x, y): CellOffset| {
             P::pattern_holds(x, y).then(|| {
@@ -138,15 +139,15 @@ impl Around {
     }
 
     /// The patterns in which there is what was asked for, if the cells that they do not hold are free in those of `unknown`.
-    fn holds(&self, asked: &Asked, unknown: Patterns) -> Patterns {
+    fn satisfied(&self, required: &Requirements, unknown: Patterns) -> Patterns {
         let free = |(x, y): CellOffset| {
             let row = self.0.get((y + 1) as usize).and_then(|row| row.get((x + 1) as usize));
             row.copied().flatten().unwrap_or(unknown)
         };
-        let all = asked.free.iter().fold(Patterns::ALL, |all, &cell| all & free(cell));
-        let all = asked.either.iter().fold(all, |all, &[a, b]| all & (free(a) | free(b)));
-        asked.passed.iter().fold(all, |all, &at| {
-            let beside = Asked::beside(at).map(|[a, b]| free(a) & free(b));
+        let all = required.free.iter().fold(Patterns::ALL, |all, &cell| all & free(cell));
+        let all = required.either.iter().fold(all, |all, &[a, b]| all & (free(a) | free(b)));
+        required.passed.iter().fold(all, |all, &at| {
+            let beside = Requirements::beside(at).map(|[a, b]| free(a) & free(b));
             all & beside.into_iter().fold(Patterns::NONE, BitOr::bitor)
         })
     }

@@ -3,33 +3,33 @@
 //!
 //! So a step of a slanted run loads one word, and scans only where there is something to find. (Where the goal lies beside the run is
 //! known from the geometry.) All is found by words of 64 vertices: which vertices are jump points straight from the definition, the
-//! turns' moves and the ways around them; which straight runs come to one from row to row, or within a row by carries.
+//! turns' moves and the alternatives around them; which straight runs come to one from row to row, or within a row by carries.
 //!
-//! A byte a vertex, on top of the 1 byte of [`StopPlanes`](super::planes::StopPlanes).
+//! A byte a vertex, on top of the 1 byte of [`AxialStops`](super::axial::AxialStops).
 
 use mediant_grid::{BitMatrix, CellOffset, Footprint, GridGraph, Placement, Vector, Vertex, load};
 use mediant_moves::Neighborhood;
 
 use crate::{
     Pruning,
-    canonical::{Asked, Moves, natural},
+    canonical::{MoveTable, Requirements, natural},
 };
 
 /// What slanted runs meet on a grid graph with k ≤ 3.
 #[derive(Clone, Debug)]
-pub(crate) struct SlantPlanes {
+pub(crate) struct DiagonalBits {
     /// For 64 vertices of a row: where each odd move is legal; where a straight run beside each comes to a jump point.
     words: Vec<[[u64; 4]; 2]>,
     per_row: usize,
 }
 
-impl SlantPlanes {
+impl DiagonalBits {
     pub(crate) fn new<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>) -> Self {
         let (width, height) = P::vertices(graph.grid());
         let per_row = width.div_ceil(64) as usize;
         let mut words = vec![[[0; 4]; 2]; per_row * height as usize];
         let Ok(all) = Neighborhood::new(graph.k()) else { return Self { words, per_row } };
-        let moves = Moves::<P>::new(graph.rule(), all);
+        let moves = MoveTable::<P>::new(graph.rule(), all);
         let count = moves.len();
         let rows = graph.grid().rows();
         let place = |word: usize| ((word % per_row) as i32 * 64, (word / per_row) as i32);
@@ -44,12 +44,12 @@ impl SlantPlanes {
         if graph.has_closed_gaps() {
             return Self { words, per_row };
         }
-        for straight in (0..count).step_by(2) {
-            let run = Run::new(&moves, pruning, straight);
-            let ends = |word: usize| run.ends(rows, place(word));
-            let leads = run.leads(&ends, per_row, height as usize);
+        for axial in (0..count).step_by(2) {
+            let jump = AxialJump::new(&moves, pruning, axial);
+            let ends = |word: usize| jump.ends(rows, place(word));
+            let leads = jump.leads(&ends, per_row, height as usize);
             for (odd, index) in (1..count).step_by(2).enumerate() {
-                if natural(index, count).any(|beside| beside == straight) {
+                if natural(index, count).any(|beside| beside == axial) {
                     words.iter_mut().zip(&leads).for_each(|(word, leads)| word[1][odd] |= leads);
                 }
             }
@@ -72,37 +72,38 @@ impl SlantPlanes {
 }
 
 /// A straight run's move, and what makes a vertex one of its jump points.
-struct Run {
+struct AxialJump {
     v: Vector,
     step: Footprint,
-    /// The turns that a vertex may have, each with the ways around it that the cells around the vertex decide.
-    turns: Vec<(Footprint, Vec<Asked>)>,
+    /// The turns that a vertex may have, each with the alternatives around it that the cells around the vertex decide.
+    forced: Vec<(Footprint, Vec<Requirements>)>,
 }
 
-impl Run {
-    fn new<P: Placement>(moves: &Moves<P>, pruning: &Pruning<P>, index: usize) -> Self {
+impl AxialJump {
+    fn new<P: Placement>(moves: &MoveTable<P>, pruning: &Pruning<P>, index: usize) -> Self {
         let v = moves.vectors[index];
-        let turns = (0..moves.len()).filter(|&turn| turn != index && pruning.may_turn(index, turn));
-        let turns = turns.map(|turn| {
-            let mut ways = Vec::new();
-            moves.alternatives(index, turn, |sequence| {
-                let way = moves.asked(-v, sequence);
-                let cells = way.free.iter().chain(way.either.as_flattened());
+        let forced = (0..moves.len()).filter(|&next| next != index && pruning.may_be_forced(index, next));
+        let forced = forced.map(|next| {
+            let mut alternatives = Vec::new();
+            moves.alternatives(index, next, |sequence| {
+                let required = moves.requirements(-v, sequence);
+                let cells = required.free.iter().chain(required.either.as_flattened());
                 if cells.copied().all(|(x, y)| P::pattern_holds(x, y)) {
-                    ways.push(way);
+                    alternatives.push(required);
                 }
             });
-            (moves.footprints[turn].clone(), ways)
+            (moves.footprints[next].clone(), alternatives)
         });
-        Self { v, step: moves.footprints[index].clone(), turns: turns.collect() }
+        Self { v, step: moves.footprints[index].clone(), forced: forced.collect() }
     }
 
     /// Of 64 vertices, those that are jump points when the run enters them, and those that it can enter.
     fn ends(&self, rows: &BitMatrix, (x, y): (i32, i32)) -> [u64; 2] {
-        let jump = self.turns.iter().fold(0, |jump, (turn, ways)| {
-            let around = |way: &Asked| holds(rows, (x, y), &way.free, &way.either);
-            let pruned = ways.iter().fold(0, |pruned, way| pruned | around(way));
-            jump | holds(rows, (x, y), &turn.free, &turn.either) & !pruned
+        let jump = self.forced.iter().fold(0, |jump, (next, alternatives)| {
+            let holds_around =
+                |required: &Requirements| holds(rows, (x, y), &required.free, &required.either);
+            let pruned = alternatives.iter().fold(0, |pruned, required| pruned | holds_around(required));
+            jump | holds(rows, (x, y), &next.free, &next.either) & !pruned
         });
         [jump, holds(rows, (x - self.v.x, y - self.v.y), &self.step.free, &self.step.either)]
     }

@@ -1,7 +1,7 @@
 //! Straight runs by words: 64 vertices a step (block-based jumps: Harabor & Grastien 2014, 'Improving Jump Point Search').
 //!
 //! A straight run repeats an even move until its first *jump point*, a vertex with a legal turn that no other path makes as
-//! cheaply (see [`Turns`]), or until the move is illegal. Both depend on the map alone, on the two or three rows of cells along
+//! cheaply (see [`JumpPointRule`]), or until the move is illegal. Both depend on the map alone, on the two or three rows of cells along
 //! the run: so they are found once, by operations on words of those rows, and kept. For each direction there is a matrix of the
 //! vertices that end a run which enters them; those of the backward directions are mirrored. So a scan loads one row,
 //! and all directions are one code without a branch on the direction, which is what most of a scan's time is where directions
@@ -41,7 +41,7 @@ impl Scan {
 
 /// Which vertices of a straight run are jump points. *Beside* is in the row on either side of the run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Turns {
+enum JumpPointRule {
     /// The cell beside the vertex is free, the one beside its predecessor blocked. Centers where no diagonal move passes a
     /// blocked cell: `Never`, and k = 2.
     Behind,
@@ -61,7 +61,7 @@ struct Ends {
     dead: u64,
 }
 
-impl Turns {
+impl JumpPointRule {
     fn of<P: Placement>(graph: &GridGraph<P>) -> Self {
         match graph.rules() {
             Rules::Corner(gap) => Self::Edges { closed: gap == DiagonalGap::Closed },
@@ -106,7 +106,7 @@ impl Turns {
 
 /// Where the straight runs of all four directions end, for k ≤ 3.
 #[derive(Clone, Debug)]
-pub(crate) struct StopPlanes {
+pub(crate) struct AxialStops {
     planes: [Plane; 4],
     /// For 64 vertices of a line: which of them end a run, and which of those do because it cannot enter them.
     words: Vec<[u64; 2]>,
@@ -120,12 +120,12 @@ struct Plane {
     per_y: isize,
 }
 
-impl StopPlanes {
+impl AxialStops {
     /// The planes of a grid graph.
     pub(crate) fn new<P: Placement>(graph: &GridGraph<P>) -> Self {
         let grid = graph.grid();
         let (width, height) = P::vertices(grid);
-        let turns = Turns::of(graph);
+        let rule = JumpPointRule::of(graph);
         let mut words = Vec::new();
         let planes = [0, 1, 2, 3].map(|quarter| {
             let (vertical, forward) = (quarter % 2 == 0, quarter < 2);
@@ -136,7 +136,7 @@ impl StopPlanes {
             for line in 0..lines as i32 {
                 words.extend((0..per_line as i32).map(|word| {
                     let u = if forward { 64 * word } else { length as i32 - 1 - 64 * word };
-                    let Ends { jump, dead } = turns.ends_from::<P>(matrix, (u, line), forward);
+                    let Ends { jump, dead } = rule.ends_from::<P>(matrix, (u, line), forward);
                     [jump | dead, dead]
                 }));
             }

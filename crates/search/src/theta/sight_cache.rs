@@ -10,9 +10,9 @@ use mediant_grid::sight::PolygonCells;
 
 /// What some vertices see: a cache, that holds for a map whatever is searched on it.
 #[derive(Clone, Debug)]
-pub(super) struct Views {
-    /// For each block of vertices the two views that were asked for last.
-    blocks: Box<[[View; 2]]>,
+pub(super) struct SightCache {
+    /// For each block of vertices the two sight that were asked for last.
+    blocks: Box<[[BlockSight; 2]]>,
     blocks_per_row: usize,
     /// The last vertex of the map.
     last: Vertex,
@@ -21,9 +21,9 @@ pub(super) struct Views {
 
 /// The id of a vertex, shifted left by one, and in the last bit whether it sees all of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct View(u32);
+struct BlockSight(u32);
 
-impl View {
+impl BlockSight {
     /// Nothing was asked yet. No map has so many vertices.
     const UNKNOWN: Self = Self(u32::MAX - 1);
     /// An obstacle stands in the block: no vertex sees all of it.
@@ -38,12 +38,12 @@ impl View {
 /// random maps.
 const SHIFT: u32 = 2;
 
-impl Views {
+impl SightCache {
     pub(super) fn new<P: Placement>(space: &FreeSpace<P>) -> Self {
         let (width, height) = P::vertices(space.grid());
         let [columns, rows] = [width, height].map(|side| side.div_ceil(1 << SHIFT) as usize);
         Self {
-            blocks: vec![[View::UNKNOWN; 2]; columns * rows].into_boxed_slice(),
+            blocks: vec![[BlockSight::UNKNOWN; 2]; columns * rows].into_boxed_slice(),
             blocks_per_row: columns,
             last: Vertex::new(width as i32 - 1, height as i32 - 1),
             cover: PolygonCells::default(),
@@ -61,10 +61,10 @@ impl Views {
     ) -> bool {
         let block = (to.y >> SHIFT) as usize * self.blocks_per_row + (to.x >> SHIFT) as usize;
         let [first, second] = self.blocks[block];
-        let [clear, hidden] = [true, false].map(|clear| View::new(id, clear));
+        let [clear, hidden] = [true, false].map(|clear| BlockSight::new(id, clear));
         let is_clear = if first == clear || second == clear {
             true
-        } else if first == hidden || second == hidden || first == View::NEVER {
+        } else if first == hidden || second == hidden || first == BlockSight::NEVER {
             false
         } else {
             self.look(space, id, from, to, block)
@@ -94,10 +94,10 @@ impl Views {
             // The hull has no interior, and may run between two obstacles.
             return false;
         }
-        if self.blocks[block][0] == View::UNKNOWN {
+        if self.blocks[block][0] == BlockSight::UNKNOWN {
             self.cover.set::<P>(low, high, &edges);
             if !self.cover.is_free(space.grid()) {
-                self.blocks[block] = [View::NEVER; 2];
+                self.blocks[block] = [BlockSight::NEVER; 2];
                 return false;
             }
         }
@@ -115,8 +115,8 @@ impl Views {
         let greatest = Vertex::new(high.x.max(from.x), high.y.max(from.y));
         self.cover.set::<P>(least, greatest, &edges);
         let clear = self.cover.is_free(space.grid());
-        let views = &mut self.blocks[block];
-        *views = [View::new(id, clear), views[0]];
+        let sight = &mut self.blocks[block];
+        *sight = [BlockSight::new(id, clear), sight[0]];
         clear
     }
 }
@@ -134,7 +134,7 @@ mod tests {
     fn check<P: Placement>(rule: P::Rule, seed: u64) -> usize {
         let space = FreeSpace::<P>::new(Arc::new(suite_grid(seed).0), rule);
         let mut rng = Rng::new(seed ^ 0x51);
-        let mut views = Views::new(&space);
+        let mut sight = SightCache::new(&space);
         let mut free = |_| random_free_vertex(&mut rng, space.grid(), P::KIND);
         // Few vertices that look, so that answers are remembered, and remembered ones driven out.
         let lookouts: Vec<Vertex> = (0..5).filter_map(&mut free).collect();
@@ -142,10 +142,10 @@ mod tests {
         for to in (0..400).filter_map(free) {
             let from = lookouts[(to.x + to.y) as usize % lookouts.len()];
             let id = space.id(from).expect("a vertex of the map");
-            let seen = views.sees(&space, id, from, to);
+            let seen = sight.sees(&space, id, from, to);
             assert_eq!(seen, space.sees(from, to), "seed {seed}, {}: {from} to {to}", space.rules());
-            let block = (to.y >> SHIFT) as usize * views.blocks_per_row + (to.x >> SHIFT) as usize;
-            clear += usize::from(views.blocks[block].contains(&View::new(id, true)));
+            let block = (to.y >> SHIFT) as usize * sight.blocks_per_row + (to.x >> SHIFT) as usize;
+            clear += usize::from(sight.blocks[block].contains(&BlockSight::new(id, true)));
         }
         clear
     }
