@@ -4,15 +4,14 @@
 //! The reference is a grid with each cell divided into four: the centers of the old cells are corner vertices of the new ones,
 //! as are the old corners.
 
-mod common;
-
 use std::sync::Arc;
 
-use common::with_engines;
 use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Rules, Vertex};
 use mediant_moves::{BOUND_WITHOUT_CORNER_CUTTING, FiniteK, bound_at_centers};
 use mediant_oracle::{Explicit, Rng, describe, noise};
 use mediant_search::Query;
+
+use crate::common::with_engines;
 
 const SLACK: f64 = 1.0 + 1e-9;
 

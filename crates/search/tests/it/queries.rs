@@ -5,9 +5,7 @@ use std::sync::Arc;
 use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Rules, Vertex};
 use mediant_search::{End, Query, QueryError};
 
-mod common;
-
-use common::with_engines;
+use crate::common::with_engines;
 
 const CENTERS: Rules = Rules::Center(CornerRule::Never);
 const CORNERS: Rules = Rules::Corner(DiagonalGap::Open);

@@ -1,14 +1,13 @@
 //! Every engine against Dijkstra on the explicit graph, that of N(k) and that of all segments, on seeded random maps.
 
-mod common;
-
 use std::sync::Arc;
 
-use common::{Engine, with_any_angle_engines, with_engines};
 use mediant_grid::{CornerRule, Grid, Rules, Vertex};
 use mediant_moves::{FiniteK, K};
 use mediant_oracle::{Explicit, Rng, describe, on_all_cores, random_free_vertex, suite_grid, validate};
 use mediant_search::{Counters, Guarantee, Outcome, Path, Query, QueryError};
+
+use crate::common::{Engine, with_any_angle_engines, with_engines};
 
 fn seeds() -> std::ops::Range<u64> {
     mediant_oracle::seeds(120)

@@ -1,5 +1,4 @@
 //! One way to run any engine under any rules, for all suites.
-#![allow(dead_code, reason = "each suite uses a part")]
 
 use std::sync::Arc;
 
