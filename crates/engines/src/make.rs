@@ -8,9 +8,9 @@ use std::{num::NonZeroU32, sync::Arc};
 use mediant_grid::{Centers, Corners, FreeSpace, GridGraph, Placement};
 use mediant_hierarchy::{ChpaStar, HpaStar, SegmentGraph};
 use mediant_search::{
-    AStar, Anya, BlockJps, Canonical, Euclidean, HasFreeSpace, Heuristic, Hk, Jps, JpsPlus, JumpFinder,
-    JumpPointSearch, LazyThetaStar, PaperCanonical, Planner, SquaredEuclidean, StepwiseFinder, ThetaStar,
-    Wavefront, Zero,
+    AStar, Anya, BlockJps, Canonical, Euclidean, Heuristic, Hk, Jps, JpsPlus, LazyThetaStar, PaperCanonical,
+    Planner, SquaredEuclidean, ThetaStar, Wavefront, Zero,
+    parts::{HasFreeSpace, JumpFinder, JumpPointSearch, StepwiseFinder},
 };
 use mediant_subgoal::{SubgoalAStar, SubgoalGraph, SubgoalPlacement, SubgoalTheta};
 

@@ -11,7 +11,7 @@ use mediant_grid::{Centers, Corners, DiagonalGap, FreeSpace, GridGraph, Placemen
 use mediant_moves::FiniteK;
 use mediant_search::{
     AStar, Anya, BlockJps, Canonical, Dijkstra, Hk, Jps, JpsPlus, JumpTable, LazyThetaStar, Outcome,
-    PaperCanonical, Planner, Pruning, Query, StepwiseFinder, ThetaStar, Wavefront, Zero,
+    PaperCanonical, Planner, Pruning, Query, ThetaStar, Wavefront, Zero, parts::StepwiseFinder,
 };
 
 thread_local! {

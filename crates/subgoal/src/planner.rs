@@ -5,7 +5,8 @@ use std::ops::Deref;
 use mediant_grid::Vertex;
 use mediant_moves::{Cost, K};
 use mediant_search::{
-    Guarantee, HasFreeSpace, NodeEvent, Observer, Outcome, Path, Planner, Query, QueryError, SearchTree,
+    Guarantee, NodeEvent, Observer, Outcome, Path, Planner, Query, QueryError,
+    parts::{HasFreeSpace, SearchTree},
 };
 
 use crate::{

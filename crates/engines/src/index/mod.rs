@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use mediant_grid::{Centers, Corners, FreeSpace, GridGraph};
 use mediant_hierarchy::{ClusterGraph, Clustering, SegmentGraph};
-use mediant_search::{BlockFinder, JumpTable, Pruning, Smoothing};
+use mediant_search::{JumpTable, Pruning, Smoothing, parts::BlockFinder};
 use mediant_subgoal::{Progress, SubgoalGraph, SubgoalPlacement};
 
 use crate::{

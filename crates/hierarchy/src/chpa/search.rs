@@ -4,7 +4,7 @@ use std::iter::successors;
 
 use mediant_grid::{Centers, GridGraph, Vertex};
 use mediant_moves::Cost;
-use mediant_search::{Heuristic, NodeEvent, Observer, Query, SearchTree};
+use mediant_search::{Heuristic, NodeEvent, Observer, Query, parts::SearchTree};
 
 use super::segments::SegmentGraph;
 

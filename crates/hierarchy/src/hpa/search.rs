@@ -2,7 +2,7 @@
 
 use mediant_grid::Vertex;
 use mediant_moves::Cost;
-use mediant_search::{NodeEvent, Observer, SearchTree};
+use mediant_search::{NodeEvent, Observer, parts::SearchTree};
 
 use super::{
     fixed_cost::FixedCost,

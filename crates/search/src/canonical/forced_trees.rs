@@ -1,13 +1,13 @@
-//! The rule for 4 ≤ k ≤ 8: for each incoming move a tree over all turns, by angle.
+//! The rule for 4 ≤ k ≤ 8: for each incoming move a binary tree over the candidates for forced successors, ordered by angle.
 //!
-//! A node of the tree stands for the turns of one cone. It is tested on a window of the map around the vertex, a word a row, and its cone
-//! is dropped when
-//! - a cell that *all* its moves sweep is blocked: none of them is legal; or
-//! - every cell that the alternatives around *any* of its turns ask for is free: each of them is pruned.
+//! A node of the tree stands for the candidates of one sector of directions. It is tested on a window of the map around the vertex, a
+//! word a row. The sector is dropped when
+//! - a cell that *all* its moves sweep is blocked, so that none of them is legal; or
+//! - every cell is free that the best alternatives to *all* of its candidates require, so that each of them is pruned.
 //!
-//! So walls end the cones that run into them, open ground the cones beside it, and what is left is the neighborhood of an obstacle's corner.
-//! A leaf is one turn, with the cells of its move and up to [`MAX_ALTERNATIVES`] alternatives around it. Cells that the two moves themselves
-//! have swept are known to be free and not asked for again.
+//! So walls end the sectors that run into them, open ground ends the sectors beside it, and what remains is the neighborhood of an
+//! obstacle's corner. A leaf is one candidate, with the cells of its move and up to [`MAX_ALTERNATIVES`] alternatives. The cells
+//! that the incoming move and the candidate itself sweep are known to be free and not tested again.
 
 use mediant_grid::{CellOffset, Grid, Placement, Vertex, load};
 
@@ -15,35 +15,36 @@ use super::{
     alternatives::{MoveTable, Requirements},
     cells::Cells,
     clearance::Clearance,
+    order::natural,
 };
 
-/// How many alternatives around a turn are kept.
+/// How many alternatives to a candidate are kept.
 const MAX_ALTERNATIVES: usize = 3;
 
-/// Cells in consecutive rows of a [`Window`].
+/// A set of cells in consecutive rows of a [`Window`].
 #[derive(Clone, Copy, Debug, Default)]
 struct Zone {
     /// The first row's word in [`ForcedTrees::masks`].
     begin: u32,
     first: u8,
     rows: u8,
-    /// Whether it counts as blocked, whatever is there.
+    /// Whether it counts as blocked whatever is there.
     never: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    /// Cells that all moves of the cone sweep, beyond those of the nodes above.
+    /// Cells that all moves of the sector sweep, without those that the nodes above have tested.
     shared: Zone,
-    /// Cells that the best way around each turn asks for.
-    around: Zone,
-    /// Further alternatives, at a leaf.
+    /// The cells that the best alternatives to all candidates of the sector require.
+    best_alternatives: Zone,
+    /// At a leaf, the range of its further alternatives in [`ForcedTrees::alternatives`].
     alternatives: (u32, u32),
-    /// Two cells of which the move of a leaf needs one.
+    /// Two cells of which the move of a leaf requires one.
     either: Option<[CellOffset; 2]>,
-    /// The next node that is not below this one.
+    /// The first node after this one that is not below it.
     skip: u32,
-    /// The turn of a leaf.
+    /// The candidate of a leaf.
     candidate: Option<u16>,
 }
 
@@ -52,7 +53,7 @@ struct Node {
 pub(crate) struct Window([u64; Cells::SIDE]);
 
 impl Window {
-    /// The rows up to `reach` away; the others are left free.
+    /// Loads the rows up to `reach` away; the others are left free.
     #[inline]
     fn new(grid: &Grid, at: Vertex, reach: i32) -> Self {
         let mut window = Self([0; Cells::SIDE]);
@@ -70,7 +71,7 @@ fn row_of(grid: &Grid, at: Vertex, row: i32) -> u64 {
     load(rows.words(), rows.index(at.x - Cells::HALF, at.y + row - Cells::HALF))
 }
 
-/// What a move asks of the map.
+/// What makes a move legal.
 #[derive(Clone, Copy, Debug)]
 struct StepTest {
     free: Zone,
@@ -80,19 +81,19 @@ struct StepTest {
 /// The trees of all incoming moves.
 #[derive(Clone, Debug)]
 pub(crate) struct ForcedTrees {
-    /// Where each incoming move's tree begins in `nodes`, and one end more.
+    /// Where the tree of each incoming move begins in `nodes`, and where the last one ends.
     begins: Vec<u32>,
     nodes: Vec<Node>,
     alternatives: Vec<Zone>,
     masks: Vec<u64>,
     steps: Vec<StepTest>,
-    /// The side of the free square in which all natural successors of an incoming move are legal.
+    /// For each incoming move, the least side of a free square in which all its natural successors are legal.
     pub(crate) needed: Vec<u32>,
-    /// How many rows away a tree looks.
+    /// How many rows up and down from the vertex the trees look.
     reach: i32,
 }
 
-/// A turn with the alternatives around it, the best one first.
+/// A move that may be a forced successor, with the alternatives to it, the best one first.
 struct Candidate {
     index: usize,
     alternatives: Vec<Cells>,
@@ -117,17 +118,17 @@ impl ForcedTrees {
         for a in 0..count {
             let mut needed = 0;
             let mut need = |cell: CellOffset| needed = needed.max(Clearance::needed::<P>(cell));
-            for b in super::natural(a, count) {
+            for b in natural(a, count) {
                 moves.footprints[b].free.iter().for_each(|&cell| need(cell));
                 moves.footprints[b].either.iter().for_each(|pair| need(pair[0]));
             }
             let mut candidates = Vec::with_capacity(count);
             for b in (1..count).map(|offset| (a + offset) % count) {
-                if super::natural(a, count).any(|natural| natural == b) {
+                if natural(a, count).any(|natural| natural == b) {
                     continue;
                 }
                 let candidate = Candidate::new(moves, a, b);
-                // A turn that nothing needs to be free for is never taken.
+                // A candidate with an alternative that requires nothing is never forced.
                 if candidate.alternatives.first().is_none_or(|first| !first.is_empty()) {
                     candidates.push(candidate);
                 }
@@ -139,18 +140,18 @@ impl ForcedTrees {
         trees
     }
 
-    /// Adds the subtree of these turns. `tested` are the cells that the nodes above know to be swept by all.
+    /// Adds the subtree of these candidates. `tested` are the cells that the nodes above test because all their moves sweep them.
     fn add<P: Placement>(&mut self, moves: &MoveTable<P>, candidates: &[Candidate], tested: &Cells) {
         let [first, ..] = candidates else { return };
         let swept =
             |candidate: &Candidate| moves.footprints[candidate.index].free.iter().copied().collect::<Cells>();
         let shared = candidates.iter().map(swept).fold(swept(first), |all, cells| all.common(&cells));
         let new = shared.without(tested);
-        let around = candidates
+        let best_alternatives = candidates
             .iter()
             .filter_map(|candidate| candidate.alternatives.first())
             .fold(Cells::default(), |all, cells| all.with(cells));
-        // Without a way around one of the turns, the cone is never dropped for the alternatives around all.
+        // If one of the candidates has no alternative, the sector is never dropped because of the alternatives.
         let has_alternatives = candidates.iter().all(|candidate| !candidate.alternatives.is_empty());
         let leaf = (candidates.len() == 1).then_some(first);
         let begin = self.alternatives.len() as u32;
@@ -160,7 +161,7 @@ impl ForcedTrees {
         }
         let node = Node {
             shared: self.zone(&new),
-            around: Zone { never: !has_alternatives, ..self.zone(&around) },
+            best_alternatives: Zone { never: !has_alternatives, ..self.zone(&best_alternatives) },
             alternatives: (begin, self.alternatives.len() as u32),
             either: leaf.and_then(|candidate| moves.footprints[candidate.index].either.first().copied()),
             skip: 0,
@@ -207,7 +208,8 @@ impl ForcedTrees {
             && is_either_free(step.either, grid, at)
     }
 
-    /// Calls `take` with each turn that a path may take after move `by`, until that returns false. Whether all were taken.
+    /// Calls `take` with each forced successor of a path that arrives by move `by`, until that returns false. Whether it always
+    /// returned true.
     #[inline]
     pub(crate) fn for_each_forced(
         &self,
@@ -220,7 +222,7 @@ impl ForcedTrees {
         let (mut i, end) = (self.begins[by] as usize, self.begins[by + 1] as usize);
         while i < end {
             let node = &self.nodes[i];
-            if !self.is_free(node.shared, window) || self.is_free(node.around, window) {
+            if !self.is_free(node.shared, window) || self.is_free(node.best_alternatives, window) {
                 i = node.skip as usize;
                 continue;
             }
@@ -257,11 +259,11 @@ impl Candidate {
         moves.alternatives(a, b, |sequence| {
             alternatives.push(beyond(&known, &moves.requirements(before, sequence)))
         });
-        // Stable: of alternatives that ask for as much, the first found.
+        // A stable sort: of alternatives that require as many cells, the one found first comes first.
         alternatives.sort_by_key(Cells::count);
         let mut kept: Vec<Cells> = Vec::with_capacity(MAX_ALTERNATIVES);
         for alternative in alternatives {
-            // A way that asks for more than a kept one does is of no use.
+            // An alternative that requires all that a kept one requires adds nothing.
             if kept.len() < MAX_ALTERNATIVES
                 && !kept.iter().any(|other| other.without(&alternative).is_empty())
             {
@@ -272,8 +274,9 @@ impl Candidate {
     }
 }
 
-/// The cells that a way asks for and that are not known to be free. Of a pair of which one must be free, it asks for the one that is nearer to
-/// the vertex, and so further inside the turn, unless one is asked for anyway: never too little.
+/// A set of cells that, if free, satisfies the requirements, without those that are known to be free. Of a pair of which one must be
+/// free it takes the cell nearer to the vertex, and so further inside the bend of the path, unless the set has one of them anyway. So
+/// the set may require too much, never too little.
 fn beyond(known: &Cells, required: &Requirements) -> Cells {
     let mut cells: Cells = required.free.iter().copied().collect();
     let has = |cells: &Cells, cell: CellOffset| cells.contains(cell) || known.contains(cell);

@@ -1,17 +1,21 @@
 //! The rule for k ≤ 3 as a table: incoming move × pattern of cells around the vertex → successors.
 //!
-//! Made by set operations: a way around, or a move, holds in a set of patterns, the common one of those of the cells that it asks for.
+//! The table is computed by operations on sets of patterns: a move or an alternative is legal in the patterns in which all cells
+//! that it requires are free.
 
 use std::ops::{BitAnd, BitOr, Not};
 
-use mediant_grid::{CellOffset, Centers, Corners, Placement};
+use mediant_grid::{CellOffset, Centers, Corners, GridGraph, Placement, Vertex};
 use mediant_moves::Vector;
 
-use super::alternatives::{MoveTable, Requirements};
+use super::{
+    alternatives::{MoveTable, Requirements},
+    order::natural,
+};
 
 const _: () = assert!(Centers::PATTERNS == 512 && Corners::PATTERNS <= 512);
 
-/// For each incoming move and each pattern, the moves that a path goes on by, a bit each.
+/// For each incoming move and each pattern, the moves by which a path goes on, a bit each.
 #[derive(Clone, Debug)]
 pub(crate) struct PatternTable {
     successors: Box<[u8]>,
@@ -34,10 +38,10 @@ impl PatternTable {
             diagonals_may_force: false,
         };
         for (a, successors) in table.successors.chunks_exact_mut(P::PATTERNS).enumerate() {
-            for b in super::natural(a, count) {
+            for b in natural(a, count) {
                 table.natural[a] |= 1 << b;
             }
-            // Where no path arrives by move a, there are no turns.
+            // Where no path arrives by move a, there are no forced successors.
             let arrives = cells.satisfied(&moves.requirements(-moves.vectors[a], &[a]), Patterns::ALL);
             for (b, &legal) in legal.iter().enumerate() {
                 let mut kept = legal;
@@ -49,7 +53,7 @@ impl PatternTable {
                             // At k = 2 nothing is pruned on a map with gaps: this is for maps without.
                             alternative.passed.clear();
                         }
-                        // Of cells farther away nothing is known, so nothing is pruned for their sake.
+                        // Cells outside the pattern are unknown: no alternative may rely on them.
                         kept = kept & !cells.satisfied(&alternative, Patterns::NONE);
                     });
                     table.diagonals_may_force |= a % 2 == 1 && kept != Patterns::NONE;
@@ -66,7 +70,7 @@ impl PatternTable {
         self.successors.get(by * self.patterns + pattern).copied().unwrap_or(0)
     }
 
-    /// Those of them that are turns.
+    /// Those of these successors that are forced.
     #[inline]
     pub(crate) fn forced(&self, by: usize, successors: u8) -> u8 {
         successors & !self.natural[by & 7]
@@ -80,6 +84,13 @@ impl PatternTable {
     pub(crate) fn memory_bytes(&self) -> usize {
         size_of_val(&*self.successors)
     }
+}
+
+/// The pattern of cells around a vertex of the map.
+#[inline]
+pub(super) fn pattern_at<P: Placement>(graph: &GridGraph<P>, at: Vertex) -> usize {
+    let rows = graph.grid().rows();
+    P::pattern(rows.words(), rows.index(at.x, at.y), rows.bits_per_row())
 }
 
 /// A set of patterns, a bit each.
@@ -121,7 +132,7 @@ impl Not for Patterns {
     }
 }
 
-/// For each cell of the 3 × 3 around a vertex, the patterns in which it is free; `None` for those that patterns do not hold.
+/// For each of the 3 × 3 cells around a vertex, the patterns in which it is free; `None` for a cell that patterns do not hold.
 struct CellPatterns([[Option<Patterns>; 3]; 3]);
 
 impl CellPatterns {
@@ -138,7 +149,8 @@ impl CellPatterns {
         Self([-1, 0, 1].map(|y| [-1, 0, 1].map(|x| free((x, y)))))
     }
 
-    /// The patterns in which there is what was asked for, if the cells that they do not hold are free in those of `unknown`.
+    /// The patterns in which the requirements are satisfied, when each cell that patterns do not hold counts as free in the patterns
+    /// `unknown`.
     fn satisfied(&self, required: &Requirements, unknown: Patterns) -> Patterns {
         let free = |(x, y): CellOffset| {
             let row = self.0.get((y + 1) as usize).and_then(|row| row.get((x + 1) as usize));

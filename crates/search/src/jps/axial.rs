@@ -1,35 +1,32 @@
-//! Straight runs by words: 64 vertices a step (block-based jumps: Harabor & Grastien 2014, 'Improving Jump Point Search').
+//! Scans along the axes by words: 64 vertices a step (block-based jumps: Harabor & Grastien 2014, 'Improving Jump Point Search').
 //!
-//! A straight run repeats an even move until its first *jump point*, a vertex with a legal turn that no other path makes as
-//! cheaply (see [`JumpPointRule`]), or until the move is illegal. Both depend on the map alone, on the two or three rows of cells along
-//! the run: so they are found once, by operations on words of those rows, and kept. For each direction there is a matrix of the
-//! vertices that end a run which enters them; those of the backward directions are mirrored. So a scan loads one row,
-//! and all directions are one code without a branch on the direction, which is what most of a scan's time is where directions
-//! vary.
+//! An axial jump ends at its first *jump point*, a vertex with a forced successor (see [`JumpPointRule`]), or where its move is not
+//! legal. Both depend on the map alone, on the two or three rows of cells along the jump. So they are computed once, by operations on
+//! words of these rows, and stored: for each of the four directions a bit plane of the vertices that end a jump which enters them.
+//! The planes of the backward directions are mirrored. So a scan loads one row, and one code serves all directions without a branch
+//! on the direction. (Where directions vary, mispredicted branches would be most of a scan's time.)
 //!
-//! Rule variants: all five, k = 2 and k = 3. Under closed gaps a run ends before a gap.
+//! Rule variants: all five, k = 2 and k = 3. Under closed gaps a jump ends before a gap.
 //!
-//! A byte a vertex (two bits a direction), made in 0.14 ms for 512 × 512 cells. A scan takes 3.0 to 4.0 ns (seven maps of the
-//! benchmark sets, the two scans of each step of diagonal runs; dao, sc1, random), and 3.0 to 7.9 ns where directions follow one
-//! another at random and their branches are mispredicted. Tried and left out: combining the rows anew at every scan, 63 vertices
-//! a step, takes 5.0 to 7.5 ns, and 9 to 15 ns.
+//! The planes take one byte a vertex (two bits a direction). A scan takes 3 to 4 ns; combining the rows anew at every scan takes 5 to
+//! 7.5 ns (`docs/measurements/search.md`).
 
 use mediant_grid::{BitMatrix, CornerRule, DiagonalGap, GridGraph, Placement, Rules, Vertex, load};
 use mediant_moves::FiniteK;
 
-/// Where a straight run ends.
+/// Where an axial jump ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Scan {
-    /// The steps to the jump point or the goal, else all legal ones.
+    /// The number of steps to the jump point or the goal; for a dead jump that of all legal steps.
     pub(crate) steps: u32,
-    /// Whether the run ends at a jump point or at the goal; else it is dead.
+    /// Whether the jump ends at a jump point or at the goal; otherwise it is dead.
     pub(crate) found: bool,
-    /// How many vertices were looked at, the one that a dead run cannot enter included.
+    /// The number of vertices looked at, with the one that a dead jump cannot enter.
     pub(crate) scanned: u32,
 }
 
 impl Scan {
-    /// The end after `steps` legal steps, or the goal if the run comes to it before that.
+    /// The end after `steps` legal steps, or at the goal if that comes first.
     #[inline]
     fn new(steps: u32, found: bool, goal_steps: Option<u32>) -> Self {
         match goal_steps {
@@ -39,25 +36,25 @@ impl Scan {
     }
 }
 
-/// Which vertices of a straight run are jump points. *Beside* is in the row on either side of the run.
+/// Which vertices of an axial jump are jump points. *Beside* means in the row on either side of the jump.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum JumpPointRule {
-    /// The cell beside the vertex is free, the one beside its predecessor blocked. Centers where no diagonal move passes a
+    /// The cell beside the vertex is free and the one beside its predecessor is blocked. For centers where no diagonal move passes a
     /// blocked cell: `Never`, and k = 2.
     Behind,
-    /// The cell beside the vertex is blocked, the next one beside the run free: a diagonal move leads past the blocked
-    /// cell. With `one` (corner rule `One`) the next cell of the run must be free as well.
+    /// The cell beside the vertex is blocked and the one beside its successor is free: a diagonal move leads past the blocked cell.
+    /// With `one` (corner rule `One`) the next cell of the jump must be free as well.
     Ahead { one: bool },
-    /// Corners: as [`Behind`](Self::Behind), the run being between the two rows of cells.
+    /// For corners: as [`Behind`](Self::Behind), with the jump between the two rows of cells.
     Edges { closed: bool },
 }
 
-/// What is at 64 vertices of a run, one bit each, the first one's the lowest.
+/// Which of 64 vertices end a jump, one bit each, the lowest for the first vertex.
 #[derive(Clone, Copy, Debug)]
 struct Ends {
-    /// Jump points, if the run comes so far.
+    /// Jump points, if the jump reaches them.
     jump: u64,
-    /// Vertices that the run cannot enter.
+    /// Vertices that the jump cannot enter.
     dead: u64,
 }
 
@@ -70,8 +67,8 @@ impl JumpPointRule {
         }
     }
 
-    /// The ends at 64 vertices. `cells(ahead, row)` tells which of their cells are blocked, those `ahead` steps further on and `row`
-    /// rows beside. At corners a vertex's cells are the two beside the run's next step, in rows −1 and 0.
+    /// The ends among 64 vertices. `cells(ahead, row)` says which of the cells are blocked that lie `ahead` steps further on and `row`
+    /// rows beside. At corners the cells of a vertex are the two beside the next step of the jump, in rows −1 and 0.
     fn ends(self, cells: impl Fn(i32, i32) -> u64) -> Ends {
         match self {
             Self::Behind => {
@@ -92,11 +89,11 @@ impl JumpPointRule {
         }
     }
 
-    /// The ends at vertex `u` of line `v` of a matrix and at the 63 next ones of the run.
+    /// The ends at vertex `u` of line `v` of a matrix and at the next 63 vertices of the jump.
     fn ends_from<P: Placement>(self, matrix: &BitMatrix, (u, v): (i32, i32), forward: bool) -> Ends {
         let (at, row) = (matrix.index(u, v), matrix.bits_per_row());
         self.ends(|ahead, beside| {
-            // Backward, the cell of the first vertex is the last of the 64, at corners the one before it.
+            // Backward, the cell of the first vertex is the last of the 64; at corners it is the one before.
             let first = if forward { ahead } else { P::cell(-1, 0) - ahead - 63 };
             let word = load(matrix.words(), at.offset(first + beside * row));
             if forward { word } else { word.reverse_bits() }
@@ -104,24 +101,25 @@ impl JumpPointRule {
     }
 }
 
-/// Where the straight runs of all four directions end, for k ≤ 3.
+/// The vertices where axial jumps in the four directions end, for k ≤ 3.
 #[derive(Clone, Debug)]
 pub(crate) struct AxialStops {
-    planes: [Plane; 4],
-    /// For 64 vertices of a line: which of them end a run, and which of those do because it cannot enter them.
+    planes: [BitPlane; 4],
+    /// For 64 vertices of a line: which of them end a jump, and which of these because the jump cannot enter them.
     words: Vec<[u64; 2]>,
 }
 
-/// Where one direction's bits are: that of vertex (x, y) at `origin` + `per_x` · x + `per_y` · y, and the next one on the run follows.
+/// Where the bits of one direction are: the bit of vertex (x, y) is at `origin` + `per_x` · x + `per_y` · y, and the bit of the next
+/// vertex of a jump follows it. (In 64 bits on every target: the number of bits is eight times that of bytes.)
 #[derive(Clone, Copy, Debug)]
-struct Plane {
-    origin: isize,
-    per_x: isize,
-    per_y: isize,
+struct BitPlane {
+    origin: i64,
+    per_x: i64,
+    per_y: i64,
 }
 
 impl AxialStops {
-    /// The planes of a grid graph.
+    /// Computes the planes of a grid graph.
     pub(crate) fn new<P: Placement>(graph: &GridGraph<P>) -> Self {
         let grid = graph.grid();
         let (width, height) = P::vertices(grid);
@@ -131,7 +129,7 @@ impl AxialStops {
             let (vertical, forward) = (quarter % 2 == 0, quarter < 2);
             let (matrix, length, lines) =
                 if vertical { (grid.columns(), height, width) } else { (grid.rows(), width, height) };
-            let first = 64 * words.len() as isize;
+            let first = 64 * words.len() as i64;
             let per_line = length / 64 + 1;
             for line in 0..lines as i32 {
                 words.extend((0..per_line as i32).map(|word| {
@@ -141,32 +139,31 @@ impl AxialStops {
                 }));
             }
             let along = if forward { 1 } else { -1 };
-            let across = 64 * per_line as isize;
-            let origin = if forward { first } else { first + length as isize - 1 };
+            let across = 64 * i64::from(per_line);
+            let origin = if forward { first } else { first + i64::from(length) - 1 };
             let (per_x, per_y) = if vertical { (across, along) } else { (along, across) };
-            Plane { origin, per_x, per_y }
+            BitPlane { origin, per_x, per_y }
         });
         // A scan reads two words.
         words.push([!0; 2]);
         Self { planes, words }
     }
 
-    /// The straight run from a vertex of the map in direction (0, 1), turned by `quarter` < 4 quarter turns: (0, 1), (1, 0),
-    /// (0, −1), (−1, 0).
+    /// The axial jump from a vertex of the map in direction number `quarter` < 4: (0, 1), (1, 0), (0, −1), (−1, 0).
     ///
-    /// `goal_steps`: after how many steps, at least 1, the run would come to the goal, if that lies ahead of it.
+    /// `goal_steps` is the number of steps to the goal, at least 1, if that lies ahead.
     #[inline]
     pub(crate) fn scan(&self, from: Vertex, quarter: usize, goal_steps: Option<u32>) -> Scan {
         let plane = self.planes[quarter & 3];
         let mut at =
-            (plane.origin + plane.per_x * from.x as isize + plane.per_y * from.y as isize + 1) as usize;
+            (plane.origin + plane.per_x * i64::from(from.x) + plane.per_y * i64::from(from.y) + 1) as u64;
         let mut steps = 0;
         loop {
-            let (word, shift) = (at >> 6, at & 63);
+            let (word, shift) = ((at >> 6) as usize, at & 63);
             let Some(&[[low, low_dead], [high, high_dead]]) = self.words.get(word..word + 2) else {
                 return Scan::new(steps, false, goal_steps);
             };
-            // The two-step shift keeps a shift of 64 out of the case shift = 0.
+            // Shifting in two steps avoids a shift by 64 where `shift` is 0.
             let stop = low >> shift | high << 1 << (63 - shift);
             if stop != 0 {
                 let n = stop.trailing_zeros();
@@ -179,7 +176,7 @@ impl AxialStops {
         }
     }
 
-    /// The memory that the planes take, in bytes.
+    /// The memory used, in bytes.
     pub(crate) fn memory_bytes(&self) -> usize {
         size_of_val(&*self.words)
     }

@@ -1,24 +1,22 @@
-//! What the vertices of a slanted run offer, a bit each: whether the run's move is legal there, and whether either straight run beside it
-//! comes to a jump point.
+//! What is known of each vertex for a diagonal jump, a bit each: whether the jump's move is legal there, and whether either axial jump
+//! beside it comes to a jump point.
 //!
-//! So a step of a slanted run loads one word, and scans only where there is something to find. (Where the goal lies beside the run is
-//! known from the geometry.) All is found by words of 64 vertices: which vertices are jump points straight from the definition, the
-//! turns' moves and the alternatives around them; which straight runs come to one from row to row, or within a row by carries.
+//! So a step of a diagonal jump loads one word, and scans along an axis only where there is something to find. (Where the goal lies
+//! beside the jump is known from its coordinates.) The bits are computed 64 vertices at a time. Which vertices are jump points follows
+//! from the definition: the moves that may be forced, and the alternatives to them. Which axial jumps come to one is carried from row
+//! to row, or along a row from bit to bit.
 //!
-//! A byte a vertex, on top of the 1 byte of [`AxialStops`](super::axial::AxialStops).
+//! The bits take one byte a vertex, on top of the byte of [`AxialStops`](super::axial::AxialStops).
 
 use mediant_grid::{BitMatrix, CellOffset, Footprint, GridGraph, Placement, Vector, Vertex, load};
 use mediant_moves::Neighborhood;
 
-use crate::{
-    Pruning,
-    canonical::{MoveTable, Requirements, natural},
-};
+use crate::canonical::{MoveTable, Pruning, Requirements, natural};
 
-/// What slanted runs meet on a grid graph with k ≤ 3.
+/// What is known of each vertex of a grid graph with k ≤ 3 for diagonal jumps.
 #[derive(Clone, Debug)]
 pub(crate) struct DiagonalBits {
-    /// For 64 vertices of a row: where each odd move is legal; where a straight run beside each comes to a jump point.
+    /// For 64 vertices of a row and each odd move: where the move is legal, and where an axial jump beside it comes to a jump point.
     words: Vec<[[u64; 4]; 2]>,
     per_row: usize,
 }
@@ -38,7 +36,7 @@ impl DiagonalBits {
             for (legal, asked) in legal.iter_mut().zip(moves.footprints.iter().skip(1).step_by(2)) {
                 *legal = holds(rows, (x, y), &asked.free, &asked.either);
             }
-            // With closed gaps, every vertex is worth a scan.
+            // With closed gaps, scan from every vertex.
             *found = if graph.has_closed_gaps() { [!0; 4] } else { [0; 4] };
         }
         if graph.has_closed_gaps() {
@@ -57,7 +55,7 @@ impl DiagonalBits {
         Self { words, per_row }
     }
 
-    /// Whether the odd move `index` is legal at a free vertex, and whether a straight run beside it comes to a jump point.
+    /// Whether the odd move `index` is legal at a free vertex, and whether an axial jump beside it comes to a jump point.
     #[inline]
     pub(crate) fn at(&self, at: Vertex, index: usize) -> (bool, bool) {
         let (x, y) = (at.x as usize, at.y as usize);
@@ -71,11 +69,11 @@ impl DiagonalBits {
     }
 }
 
-/// A straight run's move, and what makes a vertex one of its jump points.
+/// The move of an axial jump, and what makes a vertex one of its jump points.
 struct AxialJump {
     v: Vector,
     step: Footprint,
-    /// The turns that a vertex may have, each with the alternatives around it that the cells around the vertex decide.
+    /// The moves that may be forced, each with those alternatives that depend on the pattern of cells around the vertex alone.
     forced: Vec<(Footprint, Vec<Requirements>)>,
 }
 
@@ -97,7 +95,7 @@ impl AxialJump {
         Self { v, step: moves.footprints[index].clone(), forced: forced.collect() }
     }
 
-    /// Of 64 vertices, those that are jump points when the run enters them, and those that it can enter.
+    /// Of 64 vertices, those that are jump points when the jump enters them, and those that it can enter.
     fn ends(&self, rows: &BitMatrix, (x, y): (i32, i32)) -> [u64; 2] {
         let jump = self.forced.iter().fold(0, |jump, (next, alternatives)| {
             let holds_around =
@@ -108,11 +106,11 @@ impl AxialJump {
         [jump, holds(rows, (x - self.v.x, y - self.v.y), &self.step.free, &self.step.either)]
     }
 
-    /// Of all vertices, those from which the run comes to a jump point.
+    /// Of all vertices, those from which the jump comes to a jump point.
     fn leads(&self, ends: &impl Fn(usize) -> [u64; 2], per_row: usize, height: usize) -> Vec<u64> {
         let mut leads = vec![0; per_row * height];
         let ascending = self.v.x + self.v.y > 0;
-        // Each word after the one that the run enters next.
+        // Each word after the one that the jump enters next.
         for i in 0..leads.len() {
             let word = if ascending { leads.len() - 1 - i } else { i };
             leads[word] = if self.v.x == 0 {
@@ -123,7 +121,7 @@ impl AxialJump {
                 let [jump, enters] = ends(next as usize);
                 enters & (jump | beyond)
             } else {
-                // Vertex x leads on if x + 1 is entered and is a jump point or leads on itself.
+                // The jump from vertex x comes to a jump point if it can enter x + 1, and that is one or leads to one.
                 let next = (word % per_row) as isize + self.v.x as isize;
                 let inside = (0..per_row as isize).contains(&next);
                 let next = word.wrapping_add_signed(self.v.x as isize);
@@ -146,7 +144,7 @@ impl AxialJump {
     }
 }
 
-/// `start`, carried on over the bits `through`, from high to low bits if `DOWN`.
+/// The bits `start`, and those of the bits `through` that follow them without a break, from high to low bits if `DOWN`.
 fn carried<const DOWN: bool>(start: u64, through: u64) -> u64 {
     let (mut start, mut through) = (start, through);
     for by in [1, 2, 4, 8, 16, 32] {
@@ -157,7 +155,7 @@ fn carried<const DOWN: bool>(start: u64, through: u64) -> u64 {
     start
 }
 
-/// Of 64 vertices from (x, y) on, those where all this is free.
+/// Of 64 vertices from (x, y) on, those where the cells `free`, and one of each pair `either`, are free.
 fn holds(rows: &BitMatrix, (x, y): (i32, i32), free: &[CellOffset], either: &[[CellOffset; 2]]) -> u64 {
     let at = rows.index(x, y);
     let cell = |&(dx, dy): &CellOffset| !load(rows.words(), at.offset(dy * rows.bits_per_row() + dx));

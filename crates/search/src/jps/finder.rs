@@ -1,39 +1,40 @@
-//! How runs are followed: the point in which the engines of the jump point family differ.
+//! How jumps are made: the point in which the engines of the jump point family differ.
 
-use std::{fmt::Debug, sync::Arc};
+use std::fmt::Debug;
 
-use mediant_grid::{Grid, GridGraph, Placement, Rules, Step, Vector, Vertex};
-use mediant_moves::{Cost, FiniteK, KError};
+use mediant_grid::{GridGraph, Placement, Step, Vector, Vertex};
+use mediant_moves::Cost;
 
-use super::{JumpTable, axial::AxialStops, diagonals::DiagonalBits};
 use crate::{
-    ExpandedNode, Successor,
     canonical::{LocalRule, Pruning},
+    successors::{ExpandedNode, Successor},
 };
 
-/// What a run is followed on, and where to.
+/// What the jumps from one node depend on.
 pub struct JumpContext<'c, P: Placement> {
     pub(crate) graph: &'c GridGraph<P>,
     pub(crate) pruning: &'c Pruning<P>,
     pub(crate) goal: Vertex,
-    /// Whether all runs are walked: closed gaps make some hard to foresee, and a finder may know another map.
+    /// Whether all jumps are made step by step: near closed gaps finders may be wrong, and a finder may belong to another map.
     pub(crate) stepwise: bool,
-    /// The longest run.
+    /// The most steps of a jump.
     pub(crate) limit: u32,
-    /// Whether a slanted run ends at the first vertex that has anything to either side.
+    /// Whether a diagonal jump ends at the first intermediate jump point.
     pub(crate) keeps_intermediate: bool,
 }
 
-/// Finds the jump points of runs.
+/// Finds the jump points to which axial and diagonal jumps lead: [`StepwiseFinder`], [`BlockFinder`](crate::parts::BlockFinder), or a
+/// shared [`JumpTable`](crate::JumpTable).
 ///
-/// A *axial* run repeats an even move until its first vertex with a turn; a *diagonal* one repeats an odd move, and from each of its
-/// vertices sends out the straight runs of the two even moves beside it. Neither leads to anything else on open ground.
+/// Axial jumps repeat an even-indexed move, diagonal jumps an odd-indexed one. The methods are for this crate alone.
 pub trait JumpFinder<P: Placement>: Debug {
     /// Whether it was made for this grid graph.
+    #[doc(hidden)]
     fn fits(&self, graph: &GridGraph<P>) -> bool;
 
-    /// After how many steps the straight run of move `index` from a vertex comes to a jump point or to the goal; `None` if to
-    /// neither. The goal is `goal_steps` ahead, if it lies ahead at all. Adds to `scanned` the vertices that it looks at.
+    /// The number of steps of the axial jump by move `index` from a vertex to a jump point or to the goal; `None` if it comes to
+    /// neither. The goal is `goal_steps` ahead, if it lies ahead at all. Adds to `scanned` the number of vertices looked at.
+    #[doc(hidden)]
     fn axial(
         &self,
         context: &JumpContext<'_, P>,
@@ -43,13 +44,15 @@ pub trait JumpFinder<P: Placement>: Debug {
         scanned: &mut u32,
     ) -> Option<u32>;
 
-    /// What the vertex `here` allows to a slanted run of move `index`.
+    /// What is known of the vertex `here` for a diagonal jump by move `index`.
+    #[doc(hidden)]
     #[inline]
     fn local_rule(&self, context: &JumpContext<'_, P>, here: &ExpandedNode, index: usize) -> LocalRule {
         context.pruning.local_rule(context.graph, here, index)
     }
 
-    /// Calls `visit` with all that the slanted run of move `index` from a vertex leads to.
+    /// Calls `visit` with all successors to which the diagonal jump by move `index` from a vertex leads.
+    #[doc(hidden)]
     #[inline]
     fn diagonal(
         &self,
@@ -72,7 +75,7 @@ impl<P: Placement> JumpContext<'_, P> {
         [index.wrapping_sub(1) & last, (index + 1) & last]
     }
 
-    /// Whether a path that came to `from` may step on by move `index`.
+    /// Whether a path that came to `from` may go on by move `index`.
     #[inline]
     fn may_step(&self, from: &ExpandedNode, index: usize) -> bool {
         self.graph.may_step(from.at, from.by, index, self.goal)
@@ -83,7 +86,7 @@ impl<P: Placement> JumpContext<'_, P> {
         self.pruning.is_exempt(self.graph, at, by, self.goal)
     }
 
-    /// After how many steps of move `v` from a vertex the goal comes, if it lies ahead.
+    /// The number of steps of move `v` from a vertex to the goal, if the goal lies in that direction.
     #[inline]
     pub(crate) fn steps_to_goal(&self, from: Vertex, v: Vector) -> Option<u32> {
         let d = from.to(self.goal);
@@ -101,9 +104,9 @@ impl<P: Placement> JumpContext<'_, P> {
         ExpandedNode { id: step.target_after(from.id, n), at, by: Some(index) }
     }
 
-    /// A straight run, vertex by vertex, but where the nearest obstacle is so far that several have no turn.
+    /// An axial jump, step by step; several steps at once where obstacles are so far that none of these vertices is a jump point.
     #[inline]
-    fn step_axial(
+    pub(super) fn step_axial(
         &self,
         from: &ExpandedNode,
         index: usize,
@@ -138,9 +141,9 @@ impl<P: Placement> JumpContext<'_, P> {
         }
     }
 
-    /// A slanted run, vertex by vertex.
+    /// A diagonal jump, step by step.
     #[inline]
-    fn step_diagonal<J: JumpFinder<P> + ?Sized>(
+    pub(super) fn step_diagonal<J: JumpFinder<P> + ?Sized>(
         &self,
         finder: &J,
         from: &ExpandedNode,
@@ -175,9 +178,10 @@ impl<P: Placement> JumpContext<'_, P> {
         }
     }
 
-    /// The two straight runs from a vertex of a slanted run. Whether the slanted run must end there for their sake.
+    /// The two axial jumps from a vertex of a diagonal jump. Returns whether the diagonal jump must end there, because the vertex is an
+    /// intermediate jump point that becomes a node.
     #[inline]
-    fn jump_beside<J: JumpFinder<P> + ?Sized>(
+    pub(super) fn jump_beside<J: JumpFinder<P> + ?Sized>(
         &self,
         finder: &J,
         from: &ExpandedNode,
@@ -213,7 +217,7 @@ fn cross(v: Vector, d: Vector) -> i64 {
     i64::from(v.x) * i64::from(d.y) - i64::from(v.y) * i64::from(d.x)
 }
 
-/// Vertex by vertex, for every k.
+/// Makes jumps vertex by vertex, for every k.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StepwiseFinder;
 
@@ -235,164 +239,29 @@ impl<P: Placement> JumpFinder<P> for StepwiseFinder {
     }
 }
 
-/// Straight runs by words of 64 vertices, for k ≤ 3.
-#[derive(Clone, Debug)]
-pub struct BlockFinder {
-    grid: Arc<Grid>,
-    k: FiniteK,
-    rules: Rules,
-    axial: AxialStops,
-    diagonals: DiagonalBits,
-}
-
-impl BlockFinder {
-    /// The finder of a grid graph.
-    ///
-    /// # Errors
-    /// [`KError::TooLarge`] above k = 3.
-    pub fn new<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>) -> Result<Self, KError> {
-        let (k, max) = (graph.k().get(), JumpTable::MAX_K);
-        if k > max {
-            return Err(KError::TooLarge { k, max });
-        }
-        let (grid, k, rules) = (Arc::clone(graph.grid()), graph.k(), graph.rules());
-        Ok(Self {
-            grid,
-            k,
-            rules,
-            axial: AxialStops::new(graph),
-            diagonals: DiagonalBits::new(graph, pruning),
-        })
-    }
-
-    /// Its size.
-    #[must_use]
-    pub fn memory_bytes(&self) -> usize {
-        self.axial.memory_bytes() + self.diagonals.memory_bytes()
-    }
-}
-
-impl<P: Placement> JumpFinder<P> for BlockFinder {
-    fn fits(&self, graph: &GridGraph<P>) -> bool {
-        (self.k, self.rules) == (graph.k(), graph.rules()) && Arc::ptr_eq(&self.grid, graph.grid())
-    }
-
-    #[inline]
-    fn axial(
-        &self,
-        context: &JumpContext<'_, P>,
-        from: &ExpandedNode,
-        index: usize,
-        goal_steps: Option<u32>,
-        scanned: &mut u32,
-    ) -> Option<u32> {
-        if context.stepwise {
-            return context.step_axial(from, index, goal_steps, scanned);
-        }
-        let quarter = index >> (context.graph.k().get() - 2);
-        let scan = self.axial.scan(from.at, quarter, goal_steps);
-        *scanned += scan.scanned;
-        scan.found.then_some(scan.steps)
-    }
-
-    #[inline]
-    fn local_rule(&self, context: &JumpContext<'_, P>, here: &ExpandedNode, index: usize) -> LocalRule {
-        if context.stepwise {
-            return context.pruning.local_rule(context.graph, here, index);
-        }
-        if context.pruning.diagonals_may_force() {
-            let rule = context.pruning.local_rule(context.graph, here, index);
-            return LocalRule { beside: self.diagonals.at(here.at, index).1, ..rule };
-        }
-        let (ahead, beside) = self.diagonals.at(here.at, index);
-        LocalRule { forced: false, ahead, steps: 0, beside }
-    }
-}
-
-/// All runs from a table.
-impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
-    fn fits(&self, graph: &GridGraph<P>) -> bool {
-        self.check(graph).is_ok()
-    }
-
-    #[inline]
-    fn axial(
-        &self,
-        context: &JumpContext<'_, P>,
-        from: &ExpandedNode,
-        index: usize,
-        goal_steps: Option<u32>,
-        scanned: &mut u32,
-    ) -> Option<u32> {
-        if context.stepwise {
-            return context.step_axial(from, index, goal_steps, scanned);
-        }
-        let (steps, found) = self.run(from.id, context.graph.step(index), index);
-        match goal_steps {
-            Some(goal_steps) if goal_steps <= steps => Some(goal_steps),
-            _ => found.then_some(steps),
-        }
-    }
-
-    #[inline]
-    fn diagonal(
-        &self,
-        context: &JumpContext<'_, P>,
-        from: &ExpandedNode,
-        index: usize,
-        scanned: &mut u32,
-        visit: &mut impl FnMut(Successor),
-    ) {
-        if context.stepwise {
-            return context.step_diagonal(self, from, index, scanned, visit);
-        }
-        let step = context.graph.step(index);
-        let to_goal = GoalLegs::new(context, from.at, index);
-        let (mut here, mut gone) = (*from, 0);
-        loop {
-            let (steps, found) = self.run(here.id, step, index);
-            if let Some(legs) = to_goal.filter(|legs| (gone + 1..=gone + steps).contains(&legs.diagonal)) {
-                let elbow = context.after(from, step, index, legs.diagonal);
-                let beside = context.graph.step(legs.index);
-                if legs.axial == 0 || self.run(elbow.id, beside, legs.index).0 >= legs.axial {
-                    // Nothing can be nearer to the goal by legs of this node.
-                    let goal = context.after(&elbow, beside, legs.index, legs.axial);
-                    let cost = step.cost * legs.diagonal + beside.cost * legs.axial;
-                    return visit(goal.reached(cost, if legs.axial == 0 { index } else { legs.index }));
-                }
-            }
-            if !found {
-                return;
-            }
-            gone += steps;
-            here = context.after(&here, step, index, steps);
-            let cost = step.cost * gone;
-            let forced = context.pruning.diagonals_may_force()
-                && context.pruning.local_rule(context.graph, &here, index).forced;
-            if forced || context.keeps_intermediate {
-                return visit(here.reached(cost, index));
-            }
-            context.jump_beside(self, &here, cost, None, scanned, visit);
-        }
-    }
-}
-
-/// The one legs to the goal, on an empty grid, that begins with a given odd move.
+/// The canonical path to the goal on an empty grid that begins with a given odd move: its two straight legs.
 #[derive(Clone, Copy)]
-struct GoalLegs {
-    diagonal: u32,
+pub(super) struct GoalLegs {
+    /// How often the odd move is taken.
+    pub(super) diagonal: u32,
     /// The even move that follows.
-    index: usize,
-    axial: u32,
+    pub(super) index: usize,
+    /// How often that is taken.
+    pub(super) axial: u32,
 }
 
 impl GoalLegs {
+    /// The legs from a vertex, if the goal lies between the odd move and one of the even moves beside it.
     #[inline]
-    fn new<P: Placement>(context: &JumpContext<'_, P>, from: Vertex, index: usize) -> Option<Self> {
+    pub(super) fn new<P: Placement>(
+        context: &JumpContext<'_, P>,
+        from: Vertex,
+        index: usize,
+    ) -> Option<Self> {
         let (d, u) = (from.to(context.goal), context.graph.step(index).vector());
         context.beside(index).into_iter().find_map(|beside| {
             let v = context.graph.step(beside).vector();
-            // Adjacent moves span a square of area 1, so this is Cramer's rule without its denominator.
+            // Adjacent moves span a parallelogram of area 1, so this is Cramer's rule without its denominator.
             let sign = cross(u, v);
             let (diagonal, axial) = (cross(d, v) * sign, cross(u, d) * sign);
             (diagonal > 0 && axial >= 0).then_some(Self {

@@ -1,23 +1,27 @@
-//! The search itself.
+//! A search of Theta* or Lazy Theta*.
 
 use std::marker::PhantomData;
 
 use mediant_grid::{GridGraph, Placement, Step, Vertex, VertexId};
 use mediant_moves::Cost;
 
-use super::{SightCheck, sight_cache::SightCache};
+use super::{sight_cache::SightCache, sight_check::SightCheck};
 use crate::{
-    Entry, Heuristic, Node, NodeEvent, NodeStore, Observer, OpenList, ParentPointer, segment::is_at_least,
-    segment_cost,
+    heuristic::Heuristic,
+    nodes::{Node, NodeStore},
+    observer::{NodeEvent, Observer},
+    open_list::{Entry, OpenList},
+    parent::ParentPointer,
+    segment::{is_at_least, segment_cost},
 };
 
-/// What a node keeps of others.
+/// The other vertices that a node stores.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Parents {
-    /// The vertex that it hangs on.
+    /// The parent on the best known path.
     pub(super) parent: VertexId,
-    /// A vertex that it was found not to see, so that it is not looked at again: the next neighbor to be expanded often hangs on
-    /// the same one.
+    /// A vertex that it was found not to see. The neighbor that is expanded next often has the same parent, so this saves a second
+    /// check.
     hidden_from: VertexId,
 }
 
@@ -55,7 +59,7 @@ pub(super) struct Search<'s, P: Placement, H, S, O> {
     pub(super) check: PhantomData<S>,
 }
 
-/// A node that others may hang on.
+/// A vertex and the cost of a path to it.
 #[derive(Clone, Copy)]
 struct PathEnd {
     id: VertexId,
@@ -64,7 +68,7 @@ struct PathEnd {
 }
 
 impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S, O> {
-    /// Expands nodes until the goal is the best of them. Whether it was found.
+    /// Expands nodes until the goal is the best open node, or none is open. Returns whether the goal was found.
     pub(super) fn run(&mut self) -> bool {
         let at = self.graph.vertex(self.start);
         let h = self.heuristic.estimate(self.graph, at.to(self.goal_at));
@@ -97,12 +101,13 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
         false
     }
 
-    /// Generates the successors of a node. Each hangs on the node's parent if that sees it, or is taken to, and otherwise on the node.
+    /// Generates the successors of a node. The parent of each is the node's parent, if that sees it or is assumed to, and otherwise the
+    /// node.
     #[inline]
     fn expand(&mut self, here: PathEnd, node: &Node<Parents>) {
         let graph = self.graph;
         let by = (here.id != self.start).then(|| node.arrived_by());
-        // The start hangs on itself.
+        // The start is its own parent.
         let parent = self.nodes.get(node.pointer.parent).map_or(here, |known| PathEnd {
             id: node.pointer.parent,
             at: graph.vertex(node.pointer.parent),
@@ -118,7 +123,7 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
                 return;
             }
             let straight = parent.at.to(at);
-            // The way through the node is, by the triangle inequality, no cheaper.
+            // By the triangle inequality the path through the node is no cheaper.
             if known.is_some_and(|known| known.g <= parent.g || is_at_least(straight, known.g - parent.g)) {
                 return;
             }
@@ -141,7 +146,7 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
         });
     }
 
-    /// Makes a cheaper way to a vertex, which is not closed, the best known one.
+    /// Makes a cheaper path to a vertex, which is not closed, the best known one.
     #[inline]
     fn relax(
         &mut self,
@@ -168,15 +173,15 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
         self.observer.percolated(swaps);
     }
 
-    /// Whether the path that comes from `before` to `parent` may go on straight to `at`, as far as gaps are concerned. Gaps that are
-    /// passed hang on the node before them, so that its last move tells the quadrant.
+    /// Whether closed gaps allow the path that comes from `before` to `parent` to go on straight to `at`. The parent of a gap is always
+    /// the node that generated it (except at the goal), so that the last move tells through which quadrant the path came.
     fn may_be_parent(&self, before: Option<Vertex>, parent: Vertex, at: Vertex) -> bool {
         let graph = self.graph;
         graph.may_turn(before, parent, Some(at))
             && (!graph.is_closed_gap(at) || at == self.goal_at && graph.may_turn(Some(parent), at, None))
     }
 
-    /// Whether a node sees what it hangs on, as was taken for granted.
+    /// Whether a node sees its parent, as was assumed.
     fn sees_parent(&mut self, here: PathEnd, node: &Node<Parents>) -> bool {
         let parent = node.pointer.parent;
         here.id == self.start
@@ -184,8 +189,8 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
             || self.sight.sees(self.graph, parent, self.graph.vertex(parent), here.at)
     }
 
-    /// Hangs a node on that of its closed neighbors through which it is cheapest, the first of these in the order of the moves. There is one:
-    /// that by which it was generated.
+    /// Makes the closed neighbor through which a node is cheapest its parent, the first of these in the order of the moves. There is at
+    /// least one, that by which the node was generated.
     fn set_parent_to_neighbor(&mut self, here: PathEnd) {
         let graph = self.graph;
         let opposite = graph.steps().len() / 2;
@@ -210,7 +215,7 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
         }
     }
 
-    /// What a node hangs on; `None` for the start.
+    /// The parent of a node; `None` for the start.
     fn parent_of(&self, id: VertexId) -> Option<Vertex> {
         let node = self.nodes.get(id).filter(|_| id != self.start)?;
         Some(self.graph.vertex(node.pointer.parent))

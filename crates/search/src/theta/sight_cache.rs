@@ -1,17 +1,15 @@
-//! Lines of sight from one vertex to many: whole blocks of the map are looked at once.
+//! A cache of lines of sight, by whole blocks of vertices.
 //!
-//! Many nodes that are expanded one after the other hang on the same vertex, and ask whether that sees their successors. If no obstacle
-//! meets the hull of a vertex and a block, it sees all of the block: one look for 16 lines. On the maps ArcticStation and
-//! AR0011SR this answers 80 % of the questions.
+//! Many nodes that are expanded one after another have the same parent, and it is asked whether that sees their successors. If no
+//! obstacle meets the convex hull of a vertex and a block, the vertex sees the whole block: one check for 16 lines of sight. On the
+//! maps ArcticStation and AR0011SR this answers 80 % of the questions.
 
-use mediant_grid::{FreeSpace, Placement, Vertex, VertexId};
+use mediant_grid::{FreeSpace, Placement, Vertex, VertexId, sight::PolygonCells};
 
-use mediant_grid::sight::PolygonCells;
-
-/// What some vertices see: a cache, that holds for a map whatever is searched on it.
+/// Which vertices see which blocks. It depends on the map alone, so it is kept from search to search.
 #[derive(Clone, Debug)]
 pub(super) struct SightCache {
-    /// For each block of vertices the two sight that were asked for last.
+    /// For each block of vertices the two answers that were asked for last.
     blocks: Box<[[BlockSight; 2]]>,
     blocks_per_row: usize,
     /// The last vertex of the map.
@@ -19,14 +17,14 @@ pub(super) struct SightCache {
     cover: PolygonCells,
 }
 
-/// The id of a vertex, shifted left by one, and in the last bit whether it sees all of a block.
+/// The id of a vertex, shifted left by one, and in the last bit whether it sees the whole block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct BlockSight(u32);
 
 impl BlockSight {
-    /// Nothing was asked yet. No map has so many vertices.
+    /// Nothing has been asked yet. No map has so many vertices.
     const UNKNOWN: Self = Self(u32::MAX - 1);
-    /// An obstacle stands in the block: no vertex sees all of it.
+    /// An obstacle stands in the block: no vertex sees the whole block.
     const NEVER: Self = Self(u32::MAX);
 
     const fn new(from: VertexId, clear: bool) -> Self {
@@ -34,8 +32,8 @@ impl BlockSight {
     }
 }
 
-/// Blocks have 4 × 4 vertices. With 8 × 8, Theta* takes 1.2 times as long on ArcticStation and AR0011SR, and 0.9 to 1.0 times on rooms and
-/// random maps.
+/// The binary logarithm of a block's side: blocks have 4 × 4 vertices. With 8 × 8, Theta* takes 1.2 times as long on ArcticStation and
+/// AR0011SR, and 0.9 to 1.0 times as long on rooms and random maps.
 const SHIFT: u32 = 2;
 
 impl SightCache {
@@ -73,7 +71,7 @@ impl SightCache {
         is_clear || space.sees(from, to)
     }
 
-    /// Whether a vertex sees all of the block of `to`.
+    /// Whether a vertex sees the whole block of `to`; stores the answer.
     #[inline(never)]
     fn look<P: Placement>(
         &mut self,
@@ -91,7 +89,7 @@ impl SightCache {
         let is_flat = [low, high, from].iter().all(|at| at.x == low.x)
             || [low, high, from].iter().all(|at| at.y == low.y);
         if is_flat {
-            // The hull has no interior, and may run between two obstacles.
+            // A hull without interior may run between two obstacles.
             return false;
         }
         if self.blocks[block][0] == BlockSight::UNKNOWN {
@@ -115,8 +113,8 @@ impl SightCache {
         let greatest = Vertex::new(high.x.max(from.x), high.y.max(from.y));
         self.cover.set::<P>(least, greatest, &edges);
         let clear = self.cover.is_free(space.grid());
-        let sight = &mut self.blocks[block];
-        *sight = [BlockSight::new(id, clear), sight[0]];
+        let answers = &mut self.blocks[block];
+        *answers = [BlockSight::new(id, clear), answers[0]];
         clear
     }
 }
@@ -130,7 +128,7 @@ mod tests {
 
     use super::*;
 
-    /// How many of the answers came from a block that is seen whole.
+    /// Compares answers. Returns how many came from a block that is seen as a whole.
     fn check<P: Placement>(rule: P::Rule, seed: u64) -> usize {
         let space = FreeSpace::<P>::new(Arc::new(suite_grid(seed).0), rule);
         let mut rng = Rng::new(seed ^ 0x51);

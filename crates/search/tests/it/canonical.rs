@@ -12,8 +12,9 @@ use mediant_oracle::{
     Case, Explicit, Rng, adversarial, describe, is_gap, noise, seeds, suite_grid, validate,
 };
 use mediant_search::{
-    AStar, BlockFinder, BlockJps, Canonical, CanonicalRule, Counters, Hk, Jps, JpsPlus, JumpTable,
-    JumpTableError, NodeEvent, Observer, Outcome, PaperCanonical, Planner, Pruning, Query, QueryError, Zero,
+    AStar, BlockJps, Canonical, CanonicalRule, Counters, Hk, Jps, JpsPlus, JumpTable, JumpTableError,
+    NodeEvent, Observer, Outcome, PaperCanonical, Planner, Pruning, Query, QueryError, Zero,
+    parts::BlockFinder,
 };
 
 fn grid_graph<P: Placement>(grid: &Arc<Grid>, k: u32, rule: P::Rule) -> GridGraph<P> {
@@ -338,7 +339,7 @@ fn closed_gaps(k: u32, seeds: std::ops::Range<u64>) -> HashMap<[bool; 2], u32> {
         let graph = Explicit::new(&grid, rules, Some(number));
         let free: Vec<Vertex> = graph.free_vertices().collect();
         let mut canonical = Canonical::with_pruning(grid_graph, pruning(), Hk);
-        let mut jps = Jps::with_finder(grid_graph, pruning(), mediant_search::StepwiseFinder, Hk);
+        let mut jps = Jps::with_finder(grid_graph, pruning(), mediant_search::parts::StepwiseFinder, Hk);
         let mut blocks = (k <= 3).then(|| BlockJps::new(grid_graph, Hk).unwrap());
         let table = (k <= 3).then(|| Arc::new(JumpTable::new(grid_graph).unwrap()));
         let mut plus = table.map(|table| JpsPlus::new(grid_graph, table, Hk).unwrap());

@@ -7,7 +7,10 @@ use mediant_grid::{
 };
 use mediant_moves::{Cost, FiniteK, Neighborhood};
 use mediant_oracle::{Rng, describe, random_free_vertex, seeds, segment_is_legal, suite_grid};
-use mediant_search::{AStar, Counters, Entry, Hk, NodeEvent, Observer, OpenList, Outcome, Planner, Query};
+use mediant_search::{
+    AStar, Counters, Hk, NodeEvent, Observer, Outcome, Planner, Query,
+    parts::{Entry, OpenList},
+};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Event {
@@ -83,6 +86,22 @@ fn events_on_a_small_map() {
             "generated (3, 2) from (2, 2): g 4.236, f 4.236",
         ]
     );
+}
+
+/// An observer whose type is not known, behind a reference.
+#[test]
+fn a_trait_object_watches_a_search() {
+    let map = AsciiMap::parse("s..\n.#.\n..g").expect("the drawing is a map");
+    let query = Query::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
+    let grid_graph = GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::N8, CornerRule::Never);
+    let grid_graph = grid_graph.expect("k is in range");
+    let (mut expected, mut found) = (Counters::default(), Counters::default());
+    let mut planner = AStar::new(&grid_graph, Hk);
+    let outcome = planner.solve_observed(query, &mut expected).expect("both ends are free");
+    let mut observer: &mut dyn Observer = &mut found;
+    assert_eq!(planner.solve_observed(query, &mut observer), Ok(outcome));
+    assert_eq!(found, expected);
+    assert!(expected.expanded > 0 && expected.generated > 0);
 }
 
 /// What became of a search, told by its events alone.

@@ -18,8 +18,9 @@ use mediant_grid::{
 use mediant_moves::{Cost, FiniteK};
 use mediant_oracle::describe;
 use mediant_search::{
-    BlockFinder, BlockJps, Canonical, CanonicalRule, Dijkstra, Distances, Guarantee, Hk, Jps, JpsPlus,
-    JumpTable, Outcome, Path, Planner, Pruning, Query, StepwiseFinder, Zero,
+    BlockJps, Canonical, CanonicalRule, Dijkstra, Distances, Guarantee, Hk, Jps, JpsPlus, JumpTable, Outcome,
+    Path, Planner, Pruning, Query, Zero,
+    parts::{BlockFinder, StepwiseFinder},
 };
 
 const SIDE: u32 = 4;

@@ -5,7 +5,7 @@ use std::collections::{BTreeSet, HashMap};
 use mediant_grid::VertexId;
 use mediant_moves::Cost;
 use mediant_oracle::Rng;
-use mediant_search::{Entry, OpenList};
+use mediant_search::parts::{Entry, OpenList};
 
 #[test]
 fn entries_are_ordered_by_f_then_h_then_id() {

@@ -8,8 +8,9 @@ use mediant_grid::{
 use mediant_moves::FiniteK;
 use mediant_oracle::{Costs, Explicit, Rng, describe, random_free_vertex, seeds, suite_grid, validate};
 use mediant_search::{
-    Counters, Eager, Euclidean, Guarantee, Heuristic, Hk, Lazy, LazyThetaStar, NodeEvent, Observer, Outcome,
-    Path, Planner, Query, SightCheck, Theta, ThetaStar, Zero,
+    Counters, Euclidean, Guarantee, Heuristic, Hk, LazyThetaStar, NodeEvent, Observer, Outcome, Path,
+    Planner, Query, ThetaStar, Zero,
+    parts::{Eager, Lazy, SightCheck, Theta},
 };
 
 /// What is known of a query, and where it came from.

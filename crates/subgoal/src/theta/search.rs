@@ -2,7 +2,10 @@
 
 use mediant_grid::{FreeSpace, Vertex};
 use mediant_moves::Cost;
-use mediant_search::{NodeEvent, Observer, SearchTree, segment_cost};
+use mediant_search::{
+    NodeEvent, Observer,
+    parts::{SearchTree, segment_cost},
+};
 
 use super::descent::Descent;
 use crate::{
