@@ -92,7 +92,7 @@ fn allocations_of<P: Placement>(k: u32) {
 
 #[test]
 fn a_warm_query_allocates_its_path_and_nothing_else() {
-    // Each way in which a canonical search looks up its rule.
+    // One k for each way in which a canonical search finds its successors.
     for k in [2, 3, 5, 9] {
         allocations_of::<Centers>(k);
         allocations_of::<Corners>(k);

@@ -1,5 +1,5 @@
-//! Jump point search (Harabor & Grastien 2011, 2014; Hammoud & Lupin 2023), for every k: canonical A*(k) in which vertices with a
-//! single way on are scanned rather than queued.
+//! Jump point search (Harabor & Grastien 2011, 2014; Hammoud & Lupin 2023), for every k: canonical A*(k) that scans vertices without
+//! forced successors instead of queueing them.
 //!
 //! The successors of a node, and which vertices have forced ones, follow the rule of [`canonical`](crate::canonical), and so does the
 //! proof. Only *jump points*, which are the vertices with a forced successor, and the goal become nodes. At any other vertex a path

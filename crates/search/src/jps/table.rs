@@ -17,6 +17,27 @@ use mediant_moves::{FiniteK, KError};
 use crate::canonical::Pruning;
 
 /// The jump distances of a grid graph with k ≤ 3: 2^k bytes a vertex. Immutable; share it between planners.
+///
+/// ```
+/// use std::sync::Arc;
+/// use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph};
+/// use mediant_moves::FiniteK;
+/// use mediant_search::{Hk, JpsPlus, JumpTable, Planner, Query};
+///
+/// let map = AsciiMap::parse("
+///     ....
+///     .##.
+///     ....
+/// ")?;
+/// let graph = GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::new(3)?, CornerRule::Never)?;
+/// let table = JumpTable::new(&graph)?;
+/// // The bytes can be saved; they are checked when they come back.
+/// let table = JumpTable::from_bytes(&graph, table.as_bytes().to_vec())?;
+/// let mut planner = JpsPlus::new(&graph, Arc::new(table), Hk)?;
+/// let outcome = planner.solve(Query::new((0, 1), (3, 1)))?;
+/// assert_eq!(outcome.path().map(|path| path.cost()), Some(5.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct JumpTable {
     /// By vertex and move: the entry of a move is at `id · 2^k + index`.

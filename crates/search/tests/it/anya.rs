@@ -1,4 +1,4 @@
-//! Anya against the visibility graph, on seeded random maps, on all small ones, and where it is odd.
+//! Anya against the visibility graph, on seeded random maps, on all small ones, and on odd cases.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use mediant_search::{Anya, Counters, Guarantee, Outcome, Planner, Query, QueryEr
 
 const GAPS: [DiagonalGap; 2] = [DiagonalGap::Open, DiagonalGap::Closed];
 
-/// What an optimal path must also be: it bends around obstacle corners only, and towards the obstacle.
+/// Whether a path bends only around corners of obstacles, and towards the obstacle, as every optimal path does.
 fn is_taut(grid: &Grid, waypoints: &[Vertex]) -> bool {
     waypoints.windows(3).all(|bend| {
         let (u, v) = (bend[0].to(bend[1]), bend[1].to(bend[2]));
@@ -42,7 +42,7 @@ fn check(grid: &Grid, rules: Rules, query: Query, outcome: &Outcome, expected: O
     }
 }
 
-/// Every start with its goals: how many paths there were, and how many there were not.
+/// Checks every start with its goals. Returns how many queries had a path, and how many had none.
 fn check_all(grid: &Arc<Grid>, gap: DiagonalGap, queries: &[(Vertex, Vec<Vertex>)], seed: u64) -> [u64; 2] {
     let visibility = Visibility::new(grid, gap);
     let graph = visibility.over(None);
@@ -147,7 +147,7 @@ fn odd_starts_and_goals() {
         ...#...
     ";
     for gap in GAPS {
-        // Down a wall, around its corner, and straight on along three obstacles on alternate sides, to the border.
+        // Down a wall, around its corner, and straight on past three obstacles on alternate sides, to the border.
         assert_eq!(solve(CORRIDOR, gap, (1, 0), (7, 2)), Some(8.0));
         // On a vertex with one free cell, and on the same one.
         assert_eq!(solve(CORRIDOR, gap, (1, 0), (1, 2)), Some(2.0));
@@ -172,7 +172,7 @@ fn ends_that_no_path_may_stand_on_are_errors() {
     assert!(matches!(solve((0, 0), (2, 0)), Err(QueryError::Blocked { .. })));
     assert!(matches!(solve((2, 0), (4, 0)), Err(QueryError::Outside { .. })));
     assert!(matches!(solve((i32::MIN, 0), (i32::MAX, 9)), Err(QueryError::Outside { .. })));
-    // No path: the components know without a search.
+    // No path: the components tell this without a search.
     let grid = Arc::new(AsciiMap::parse(".#.").expect("the drawing is a map").grid);
     let space = FreeSpace::<Corners>::new(grid, DiagonalGap::Open);
     let mut counters = Counters::default();
@@ -184,7 +184,7 @@ fn ends_that_no_path_may_stand_on_are_errors() {
     assert!(Anya::new(&space).solve(Query::new((0, 0), (1, 1))).is_err());
 }
 
-/// From corner to corner of a large map, free and with a comb of walls, whose gaps are in turn at the top and at the bottom.
+/// From corner to corner of a large map, without obstacles, and with a comb of walls that are open at the top and at the bottom in turn.
 #[test]
 fn large_maps() {
     let side = 4096;

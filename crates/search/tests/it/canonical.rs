@@ -1,5 +1,5 @@
-//! What is particular to canonical search: the paper's rule and the exact one, what either prunes, and shared objects that do not
-//! fit.
+//! Canonical search: the rule of the paper and the exact one, what each of them prunes, and shared rules and tables that belong to
+//! another map.
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use std::{collections::HashMap, sync::Arc};
@@ -40,7 +40,7 @@ fn center_costs(drawing: &str, k: u32, corners: CornerRule) -> [Option<f64>; 2] 
 
 #[test]
 fn the_published_rule_misses_what_the_exact_one_finds() {
-    // The move (2, 1) is not legal at s, but is one to its right, where no path on the 8-neighborhood turns.
+    // The move (2, 1) is not legal at s, but it is one cell to the right, where no path on the 8-neighborhood turns.
     let (grid, query) = drawn(
         "
         s....
@@ -66,7 +66,8 @@ fn the_published_rule_misses_what_the_exact_one_finds() {
     assert!((paper - (1.0 + 8.0_f64.sqrt())).abs() < 1e-12, "{paper}");
 }
 
-/// A long move is the cheapest way to a vertex, and of those by which it leads on none is legal; on the 8-neighborhood no path turns there.
+/// A vertex is reached most cheaply by a long move, none of whose natural successors is legal there; and no path on the 8-neighborhood
+/// turns there.
 #[test]
 fn the_published_rule_finds_a_path_where_long_moves_lead_nowhere() {
     let drawings = [
@@ -87,7 +88,7 @@ fn the_published_rule_finds_a_path_where_long_moves_lead_nowhere() {
     }
 }
 
-/// Who generated whom.
+/// Which vertex generated which.
 #[derive(Default)]
 struct Births {
     /// How often each vertex was generated.
@@ -116,7 +117,7 @@ impl Observer for Births {
     }
 }
 
-/// Searches open ground from its middle for a vertex in its last corner, without a heuristic: so all that is nearer is expanded.
+/// Searches open ground from its middle for a vertex in its last corner, without a heuristic, so that all nearer vertices are expanded.
 fn births<P: Placement>(k: u32, rule: P::Rule) -> (Births, i32, GridGraph<P>) {
     let radius = FiniteK::new(k).unwrap().radius().unwrap();
     // So large that for some vertices around the middle nothing but the border is within reach of two moves.
@@ -170,7 +171,7 @@ fn on_open_ground_each_vertex_is_generated_once() {
     }
 }
 
-/// Hands out random cases under all rules, with each k.
+/// Calls `each` with random cases under all rules, for each k.
 fn on_random_maps(maps: u64, ks: &[u32], mut each: impl FnMut(&Arc<Grid>, u32, &Case)) {
     for seed in seeds(maps) {
         for rules in Rules::ALL {
@@ -181,7 +182,7 @@ fn on_random_maps(maps: u64, ks: &[u32], mut each: impl FnMut(&Arc<Grid>, u32, &
     }
 }
 
-/// One of each rule for all maps: to make one takes longer than a search on a small map.
+/// The pruning rules, shared by all maps: to compute one takes longer than a search on a small map.
 struct Shared<P: Placement>(HashMap<(u32, Rules), Arc<CanonicalRule<P>>>);
 
 impl<P: Placement> Shared<P> {
@@ -202,7 +203,7 @@ fn solve(mut planner: impl Planner, case: &Case) -> Found {
     (cost(&outcome), counters)
 }
 
-/// What A*, the exact and the published variant find.
+/// The answers of A*, of the exact variant and of the published one.
 fn three<P: Placement>(
     shared: &mut Shared<P>,
     grid: &Arc<Grid>,
@@ -294,7 +295,7 @@ fn tables_of_other_graphs_are_refused() {
     let length = |found| Err(JumpTableError::Length { expected: 12 * 10 * 8, found });
     assert_eq!(planner(table(&of(12, 11, 3))), length(12 * 11 * 8));
     assert_eq!(planner(table(&of(12, 10, 2))), length(12 * 10 * 4));
-    // As many entries, in other rows or of other moves.
+    // As many entries, but in rows of another length, or for other moves.
     assert_eq!(planner(table(&of(10, 12, 3))), Err(JumpTableError::Width { expected: 12, found: 10 }));
     assert_eq!(planner(table(&of(12, 20, 2))), length(12 * 20 * 4));
     let k4 = of(12, 10, 4);
@@ -388,8 +389,8 @@ fn paths_begin_and_end_at_closed_gaps_and_pass_none() {
     }
 }
 
-/// At k = 2 a path may pass a gap, and how it goes on there depends on how it came: a way that is as cheap must not replace another. Found
-/// by the random suite.
+/// At k = 2 a path may pass a gap, and how it may go on there depends on how it came. So a path of the same cost must not replace another.
+/// Found by the random suite.
 #[test]
 fn as_cheap_a_way_to_a_gap_replaces_no_other() {
     let (grid, query) = drawn(
@@ -423,7 +424,7 @@ fn as_cheap_a_way_to_a_gap_replaces_no_other() {
     check(BlockJps::new(&grid_graph, Hk).unwrap().solve(query));
 }
 
-/// What was made for another map, k or rule of motion changes no answer, and no planner walks off the map by it.
+/// Rules and finders that were made for another map, k or rule of motion change no answer, and lead no planner off the map.
 #[test]
 fn what_was_made_for_other_graphs_is_not_believed() {
     let mut rng = Rng::new(3);

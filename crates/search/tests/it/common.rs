@@ -1,4 +1,4 @@
-//! One way to run any engine under any rules, for all suites.
+//! Runs any engine under any rules, for all suites.
 
 use std::sync::Arc;
 
@@ -7,21 +7,21 @@ use mediant_grid::{DiagonalGap, Grid, Rules};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{Counters, Guarantee, Outcome, Query, QueryError};
 
-/// Pruning rules depend on no map: each is made once.
+/// Pruning rules do not depend on the map: each is computed once.
 static RULES: SharedRules = SharedRules::new();
 
-/// What an engine said to a query.
+/// The answer of an engine to a query.
 pub(crate) type Answer = Result<(Outcome, Counters), QueryError>;
 
-/// An engine on one search space, ready for any number of queries. Its planner is made for the first: most suites run few engines.
+/// An engine on one search space, for any number of queries. Its planner is made at the first one, since most suites run few engines.
 pub(crate) struct Engine<'g> {
     pub(crate) name: String,
     pub(crate) guarantee: Guarantee,
     /// The directions that its paths may take.
     pub(crate) paths: K,
-    /// Whether it may find no path where there is one.
+    /// Whether it may fail to find a path where there is one.
     pub(crate) may_give_up: bool,
-    /// Whether it plans on a hierarchy, which has long suites of its own.
+    /// Whether it plans on a hierarchy. Those engines have long suites of their own.
     pub(crate) is_hierarchical: bool,
     planner: Option<BoxedPlanner>,
     setup: Setup,
@@ -61,7 +61,7 @@ pub(crate) fn with_engines<R>(
     on(grid, rules, K::Finite(FiniteK::new(k).expect("k is at least 2")), suite)
 }
 
-/// Runs `suite` on every engine of the catalog that searches every direction under these rules. There is one at least.
+/// Runs `suite` on every engine of the catalog that searches at any angle under these rules. There is at least one.
 pub(crate) fn with_any_angle_engines<R>(
     grid: &Arc<Grid>,
     gap: DiagonalGap,

@@ -1,4 +1,4 @@
-//! What observers are told: on one map to the letter, on random maps by replay.
+//! The events that observers are told: on one map literally, on random maps by replay.
 
 use std::{collections::HashMap, sync::Arc};
 
@@ -20,7 +20,7 @@ enum Event {
     Percolated(u32),
 }
 
-/// Writes all down.
+/// Records all events.
 #[derive(Default)]
 struct Log(Vec<Event>);
 
@@ -42,7 +42,7 @@ impl Observer for Log {
     }
 }
 
-/// An event in a line, without the swaps.
+/// An event as a line of text; `None` for swaps.
 fn line(event: &Event) -> Option<String> {
     let (word, node) = match event {
         Event::Expanded(node) => ("expanded", node),
@@ -104,7 +104,7 @@ fn a_trait_object_watches_a_search() {
     assert!(expected.expanded > 0 && expected.generated > 0);
 }
 
-/// What became of a search, told by its events alone.
+/// The state of a search, from its events alone.
 #[derive(Default)]
 struct Replay {
     open: OpenList,
@@ -165,7 +165,7 @@ impl Replay {
     }
 }
 
-/// The swaps by decreases.
+/// Replays searches on one map. Returns the number of swaps by decreases.
 fn replay<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> u32 {
     let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
     let mut planner = AStar::new(&grid_graph, Hk);

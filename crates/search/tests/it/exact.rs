@@ -1,4 +1,4 @@
-//! Every engine against Dijkstra on the explicit graph, that of N(k) and that of all segments, on seeded random maps.
+//! Every engine against Dijkstra on explicit graphs, that of N(k) and that of all legal segments, on seeded random maps.
 
 use std::sync::Arc;
 
@@ -13,30 +13,30 @@ fn seeds() -> std::ops::Range<u64> {
     mediant_oracle::seeds(120)
 }
 
-/// Six queries of a map: one long chain of goals from each of two starts.
+/// Six queries on a map: three goals for each of two starts.
 fn queries(grid: &Grid, rules: Rules, seed: u64) -> Vec<(Vertex, Vec<Vertex>)> {
     let mut rng = Rng::new(seed ^ 0x5EED);
     let mut free = || random_free_vertex(&mut rng, grid, rules.placement());
     (0..2).filter_map(|_| Some((free()?, (0..3).filter_map(|_| free()).collect()))).collect()
 }
 
-/// The hierarchical engines take one map in so many.
+/// The hierarchical engines are checked on one map in so many.
 const HIERARCHIES: u64 = 5;
 
-/// What came of a query that has an answer.
+/// How a query with a path was answered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Found {
-    /// A path.
+    /// By a path.
     Path,
-    /// A path, of a search that left its plan.
+    /// By a path, after the search left its plan.
     OffPlan,
-    /// A path between two places, of a search that might have given up.
+    /// By a path between two different vertices, of an engine that may give up.
     AsPublished,
-    /// None.
+    /// By giving up.
     GaveUp,
 }
 
-/// How many queries of a kind there were.
+/// The number of queries of each kind.
 #[derive(Clone, Copy, Debug, Default)]
 struct Tally {
     found: usize,
@@ -58,21 +58,21 @@ impl Tally {
     }
 }
 
-/// A query on a map, with what its paths cost at least.
+/// A query on a map, with the costs of its optimal paths.
 struct Case<'g> {
     grid: &'g Grid,
     rules: Rules,
     start: Vertex,
     goal: Vertex,
     seed: u64,
-    /// Over the moves of the engines; `None` where there is no path.
+    /// The optimum over the moves of the engines; `None` where there is no path.
     optimum: Option<f64>,
-    /// At any angle.
+    /// The any-angle optimum.
     any_angle: Option<f64>,
 }
 
 impl Case<'_> {
-    /// What an engine says, held to what it promises. Whether it found a path; nothing where it gave up, or there is none.
+    /// Checks the answer of an engine against its guarantee. Returns how it was answered; `None` where there is no path.
     fn check(&self, engine: &mut Engine<'_>) -> Option<Found> {
         let Self { grid, rules, start, goal, seed, .. } = *self;
         let answer = engine.solve(Query::new(start, goal));
@@ -110,7 +110,7 @@ impl Case<'_> {
         };
         let (cost, slack) = (path.cost(), 1.0 + 1e-9);
         assert!(least <= cost * slack && cost <= most * slack, "{least} ≤ {cost} ≤ {most}: {}", case());
-        // What is certified of all paths, from this one alone.
+        // The lower bound of all paths that follows from this one.
         let certain = engine.guarantee.lower_bound(rules, cost, start.distance(goal));
         assert!(certain <= any_angle * slack, "certified {certain}, any-angle {any_angle}: {}", case());
         Some(match engine.may_give_up {
@@ -167,7 +167,7 @@ fn engines_cost_what_dijkstra_on_the_explicit_graph_costs() {
     let maps = seeds().end as usize;
     assert_eq!(parts.len(), maps);
     assert!(found > 100 * maps && unreachable > 10 * maps, "{found} found, {unreachable} unreachable");
-    // Some plans must fail, those of CHPA* as published too, and most must not.
+    // Some plans must fail, also those of CHPA* as published, but most must not.
     let maps = maps.div_ceil(HIERARCHIES as usize);
     assert!(
         off_plan > 5 * maps && as_published > 5 * maps,
@@ -209,12 +209,12 @@ fn engines_are_exact_on_every_map_of_nine_cells() {
     assert_eq!(queries, QUERIES);
 }
 
-/// What the test above asks.
+/// The number of queries of the test above.
 const QUERIES: usize = 698_240;
 
-/// What a path over N(k) may cost at most, as a multiple of the any-angle optimum under the same rules: Kramm 2018, Theorem 2
-/// at corners, Theorem 3 at centers. Theorem 3 lets moves touch corners: it fails under `Never`, where (2, 1) can be legal and
-/// (1, 1) not, and at k = 2 under `Always`, since no axis moves lead between two blocked cells.
+/// The suboptimality bound of paths over N(k), as a multiple of the any-angle optimum under the same rules: Kramm 2018, Theorem 2 at
+/// corners, Theorem 3 at centers. In Theorem 3 moves may touch corners: it fails under `Never`, where (2, 1) can be legal and (1, 1)
+/// not, and at k = 2 under `Always`, since no axis moves lead between two blocked cells that touch diagonally.
 fn bound(rules: Rules, k: u32) -> f64 {
     let number = FiniteK::new(k).expect("k is at least 2");
     match rules {

@@ -28,14 +28,14 @@ const MAPS: u64 = 1 << (SIDE * SIDE);
 /// Prime, so that the sample's maps differ in all cells.
 const SAMPLE: u64 = 61;
 
-/// One map under one rule and k, with all that its engines are held to.
+/// One map under one rule and k, with what the answers of its engines are checked against.
 struct Judge<'l, P: Placement> {
     grid_graph: &'l GridGraph<P>,
     map: u64,
     vertices: Vec<Vertex>,
     /// By vertex number.
     legal: Vec<MoveSet>,
-    /// By place in `vertices`.
+    /// By index in `vertices`.
     distances: Vec<Distances<Cost>>,
     compared: u64,
 }
@@ -50,7 +50,7 @@ impl<'l, P: Placement> Judge<'l, P> {
         Self { grid_graph, map, vertices, legal, distances, compared: 0 }
     }
 
-    /// Compares all answers of an engine.
+    /// Compares all answers of an engine with the distances.
     fn judge(&mut self, name: &str, mut planner: impl Planner) {
         let k = self.grid_graph.k();
         assert_eq!(planner.guarantee(), Guarantee::Optimal(k), "{name}");
@@ -98,7 +98,7 @@ impl<'l, P: Placement> Judge<'l, P> {
     }
 }
 
-/// Holds all engines to the distances on one map. How many answers were compared.
+/// Checks all engines against the distances on one map. Returns how many answers were compared.
 fn compare<P: Placement>(map: u64, k: FiniteK, rule: P::Rule, canonical: &Arc<CanonicalRule<P>>) -> u64 {
     let grid = Grid::from_fn(SIDE, SIDE, |x, y| map >> (SIDE * y + x) & 1 == 1).unwrap();
     let grid_graph = &GridGraph::<P>::new(Arc::new(grid), k, rule).unwrap();
@@ -121,7 +121,7 @@ fn compare<P: Placement>(map: u64, k: FiniteK, rule: P::Rule, canonical: &Arc<Ca
     judge.compared
 }
 
-/// Compares on all maps, or on the sample. `sample` and `all` pin how many answers that are, for each k.
+/// Compares on all maps, or on the sample. `sample` and `all` are the expected numbers of answers for each k.
 fn check<P: Placement>(rule: P::Rule, sample: [u64; 3], all: [u64; 3]) {
     let is_exhaustive = std::env::var_os("MEDIANT_EXHAUSTIVE").is_some_and(|value| value == "1");
     let (every, expected) = if is_exhaustive { (1, all) } else { (SAMPLE, sample) };
@@ -142,7 +142,7 @@ fn check<P: Placement>(rule: P::Rule, sample: [u64; 3], all: [u64; 3]) {
     }
 }
 
-// As many for each rule of a placement: which vertices are free does not depend on it.
+// The same for each rule of a placement: which vertices are free does not depend on the rule.
 const CENTERS: [[u64; 3]; 2] = [[438_444, 292_296, 292_296], [26_738_688, 17_825_792, 17_825_792]];
 const CORNERS: [[u64; 3]; 2] = [[2_498_166, 1_665_444, 1_665_444], [152_297_472, 101_531_648, 101_531_648]];
 

@@ -1,4 +1,5 @@
-//! Heuristics: lower bounds, close ones, and what A* does with one that is not consistent or no bound; and searches within a bound.
+//! Heuristics: that they are lower bounds, and close ones; A* with one that is inconsistent, and with one that is inadmissible; and
+//! searches within a limit.
 
 use std::{collections::HashMap, sync::Arc};
 
@@ -10,8 +11,8 @@ use mediant_search::{
     Query, SquaredEuclidean, Zero,
 };
 
-/// h_k at every other vertex, as on a checkerboard, and half of it between: a lower bound, and inconsistent. (With nothing
-/// between, only nodes of estimate 0 would be reopened.)
+/// h_k at every other vertex, as on a checkerboard, and half of it at the others: a lower bound, but inconsistent. (With 0 at the others,
+/// only these would be reopened.)
 #[derive(Clone, Copy)]
 struct Checkered;
 
@@ -22,7 +23,7 @@ impl Heuristic for Checkered {
     }
 }
 
-/// How often each vertex was expanded and the g of its last expansion; g, f and place of every event.
+/// How often each vertex was expanded, with the g of its last expansion; and all events.
 #[derive(Default)]
 struct Log {
     expansions: HashMap<Vertex, (u32, Cost)>,
@@ -53,7 +54,7 @@ fn queries(grid: &Grid, rules: Rules, seed: u64) -> Vec<(Vertex, Vertex)> {
     (0..6).filter_map(|_| Some((free()?, free()?))).collect()
 }
 
-/// The number of vertices expanded more than once, after comparison with Dijkstra.
+/// Compares with Dijkstra. Returns the number of vertices that were expanded more than once.
 fn reopened<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> usize {
     let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
     let graph = Explicit::new(grid, grid_graph.rules(), Some(k));
@@ -100,7 +101,7 @@ fn a_star_reopens_nodes_and_is_optimal_with_an_inconsistent_heuristic() {
     }
 }
 
-/// Every vertex of a path, the ends of all its moves.
+/// Every vertex of a path: the ends of all its moves.
 fn vertices<P: Placement>(grid_graph: &GridGraph<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
     let mut all = vec![waypoints[0]];
     for ends in waypoints.windows(2) {
@@ -115,7 +116,7 @@ fn vertices<P: Placement>(grid_graph: &GridGraph<P>, waypoints: &[Vertex]) -> Ve
     all
 }
 
-/// The number of vertices on the paths found.
+/// Compares the estimates along paths with the costs. Returns the number of vertices on the paths found.
 fn check_bounds<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> usize {
     let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
     let (mut guided, mut blind) = (AStar::new(&grid_graph, Hk), AStar::new(&grid_graph, Zero));
@@ -125,7 +126,7 @@ fn check_bounds<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed:
         let (query, mut few, mut many) = (Query::new(start, goal), Counters::default(), Counters::default());
         let outcome = guided.solve_observed(query, &mut few).expect("both ends are free");
         blind.solve_observed(query, &mut many).expect("both ends are free");
-        // A vertex with f ≤ the optimum, not the goal itself, has g below the optimum.
+        // Every vertex with f ≤ the optimum, except the goal, has a g below the optimum.
         assert!(few.expanded <= many.expanded, "{few:?}, {many:?}; {}", case());
         let Outcome::Found(path) = outcome else { continue };
         let mut rest = Cost::ZERO;
@@ -158,7 +159,7 @@ fn no_estimate_exceeds_the_cost_along_a_path() {
     assert!(seen > 30_000, "only {seen} vertices");
 }
 
-/// A move taken many times is where rounding adds up.
+/// When a move is repeated, its rounding adds up.
 #[test]
 fn the_straight_line_is_a_bound_and_a_close_one() {
     let grid = Arc::new(Grid::from_fn(1, 1, |_, _| false).expect("a valid size"));
@@ -185,7 +186,7 @@ fn the_straight_line_is_a_bound_and_a_close_one() {
     }
 }
 
-/// The queries with a path, those whose path is longer than the shortest, and the vertices expanded again.
+/// Returns the number of queries with a path, of those whose path is not optimal, and of the vertices expanded again.
 fn check_squared<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> [usize; 3] {
     let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
     let (rules, graph) = (grid_graph.rules(), Explicit::new(grid, grid_graph.rules(), Some(k)));
@@ -233,13 +234,13 @@ fn a_star_finds_a_path_by_a_heuristic_that_overestimates_whenever_there_is_one()
             found > 2_000 && longer > found / 20 && longer < found,
             "{rules}: {longer} of {found} longer"
         );
-        // At closed gaps how a vertex was reached decides where it leads, so that closed ones are reopened there.
+        // At closed gaps successors depend on the arrival move, so closed nodes are reopened there.
         let reopens = rules == Rules::Corner(DiagonalGap::Closed);
         assert_eq!(again > 0, reopens, "{rules}: {again} vertices were expanded again");
     }
 }
 
-/// Searches within bounds around the optimum: those that found a path, and those that found none where there is one.
+/// Searches within limits around the optimum. Returns how many found a path, and how many found none although there is one.
 fn check_within<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> [usize; 2] {
     let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
     let (mut rng, mut seen) = (Rng::new(seed ^ 0x11111), [0; 2]);

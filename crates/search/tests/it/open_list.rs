@@ -19,7 +19,7 @@ fn entries_are_ordered_by_f_then_h_then_id() {
         // h is compared in steps of 2^-16 cells: below that the id decides.
         entry(2, step + 1, 1),
         entry(2, step, 2),
-        // From 2^16 cells on, all h are one: the largest, not what is left of them after 32 bits are cut off.
+        // From 2^16 cells on, all h are equal: they saturate, rather than being cut to 32 bits.
         entry(2, (1 << 48) - 2 * step, 9),
         entry(2, (1 << 48) - step, 0),
         entry(2, 1 << 48, 1),

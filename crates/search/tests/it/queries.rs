@@ -1,4 +1,4 @@
-//! What is wrong with a query, said exactly.
+//! Invalid queries: the errors, and their texts.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use crate::common::with_engines;
 const CENTERS: Rules = Rules::Center(CornerRule::Never);
 const CORNERS: Rules = Rules::Corner(DiagonalGap::Open);
 
-/// What every engine says to the query.
+/// The error of a query, the same for every engine.
 fn error(grid: &Arc<Grid>, rules: Rules, start: (i32, i32), goal: (i32, i32)) -> Option<QueryError> {
     with_engines(grid, rules, 3, |mut engines| {
         let query = Query::new(start, goal);
@@ -52,7 +52,7 @@ fn ends_outside_the_map_are_reported_with_its_last_vertex() {
             let said = |end| Some(QueryError::Outside { end, at: outside.into(), last });
             assert_eq!(error(&grid, rules, outside, free), said(End::Start), "{rules}");
             assert_eq!(error(&grid, rules, free, outside), said(End::Goal), "{rules}");
-            // The start is looked at first, whatever is wrong with the goal; also when both are the same.
+            // The start is checked first, whatever is wrong with the goal; also when both are the same.
             assert_eq!(error(&grid, rules, outside, (-7, -7)), said(End::Start), "{rules}");
             assert_eq!(error(&grid, rules, outside, outside), said(End::Start), "{rules}");
         }
@@ -72,7 +72,7 @@ fn blocked_ends_are_reported() {
             assert_eq!(error(&grid, rules, blocked, (i32::MAX, 0)), said(End::Start), "{rules}");
         }
     }
-    // A corner of a blocked cell is a free vertex while a free cell touches it.
+    // A corner of a blocked cell is a free vertex if a free cell touches it.
     assert_eq!(error(&grid, CORNERS, (1, 1), (2, 2)), None);
 }
 

@@ -1,4 +1,4 @@
-//! Smoothed paths: legal, never longer, and as taut as is promised, by a slow check of its own.
+//! Smoothed paths are legal, never longer, and as taut as the documentation says, by a slow check of its own.
 
 use std::sync::Arc;
 
@@ -15,14 +15,14 @@ use mediant_search::{
     smooth,
 };
 
-/// A path on a map. What the oracle says of paths like it.
+/// Judges paths on a map by the legality tests of the oracle.
 struct Judge<'g> {
     grid: &'g Grid,
     rules: Rules,
 }
 
 impl Judge<'_> {
-    /// Whether these are consecutive waypoints of a legal path; `None` before its start and after its goal.
+    /// Whether these are consecutive waypoints of a legal path, with `None` before its start and after its goal.
     fn is_legal(&self, way: &[Option<Vertex>]) -> bool {
         let sees = |ends: &[Option<Vertex>]| match *ends {
             [Some(a), Some(b)] => a != b && segment_is_legal(self.grid, self.rules, a, b),
@@ -35,12 +35,12 @@ impl Judge<'_> {
         way.windows(2).all(sees) && way.windows(3).all(turns)
     }
 
-    /// Whether `instead` can stand in the place of a waypoint.
+    /// Whether `instead` can replace a waypoint.
     fn fits(&self, path: &[Vertex], index: usize, instead: &[Vertex]) -> bool {
         self.fits_for(1, path, index, instead)
     }
 
-    /// Whether `instead` can stand in the place of some waypoints.
+    /// Whether `instead` can replace `count` waypoints.
     fn fits_for(&self, count: usize, path: &[Vertex], index: usize, instead: &[Vertex]) -> bool {
         let at = |index: Option<usize>| index.and_then(|index| path.get(index).copied());
         let mut way = vec![at(index.checked_sub(2)), at(index.checked_sub(1))];
@@ -49,7 +49,7 @@ impl Judge<'_> {
         self.is_legal(&way)
     }
 
-    /// What is promised of each waypoint of a path that was pulled taut; the first promise that is broken.
+    /// Checks all that is documented of the waypoints of a taut path. Returns the first violation.
     fn slack(&self, path: &[Vertex]) -> Option<String> {
         (1..path.len().saturating_sub(1)).find_map(|index| {
             let [a, b, c] = [path[index - 1], path[index], path[index + 1]];
@@ -89,7 +89,7 @@ impl Judge<'_> {
             let side = u.det(v).signum();
             u.det(w) * side > 0 && w.det(v) * side > 0
         };
-        // A direction just beside the first one, towards the second.
+        // The direction u, turned a little towards v.
         let beside = |u: Vector, v: Vector| u * 1_000 + v;
         [(0, 0), (-1, 0), (0, -1), (-1, -1)].into_iter().any(|(x, y)| {
             let (ba, bc) = (b.to(a), b.to(c));
@@ -108,7 +108,7 @@ fn between(a: Vertex, b: Vertex) -> Vec<Vertex> {
     (1..n).map(|i| a + Vector::new(d.x / n * i, d.y / n * i)).collect()
 }
 
-/// Checks what [`smooth`] promises: it looks at one vertex of the path after the other.
+/// Checks that [`smooth`] follows the path as long as it is in sight.
 fn check_smooth(judge: &Judge<'_>, before: &[Vertex], after: &[Vertex], case: &dyn Fn() -> String) {
     let mut way = vec![before[0]];
     way.extend(before.windows(2).flat_map(|ends| [between(ends[0], ends[1]), vec![ends[1]]].concat()));
@@ -118,7 +118,7 @@ fn check_smooth(judge: &Judge<'_>, before: &[Vertex], after: &[Vertex], case: &d
         let next = last + 1 + offset.unwrap_or_else(|| panic!("{at} is not on the way; {}", case()));
         if let Some(&beyond) = way.get(next + 1) {
             let further = [index.checked_sub(2).map(|i| after[i]), Some(way[last]), Some(beyond)];
-            // Gaps apart, where it may have seen further.
+            // With closed gaps it may have seen farther, to a vertex at which the path may not turn.
             let is_closed_gap = judge.rules == Rules::Corner(DiagonalGap::Closed);
             assert!(is_closed_gap || !judge.is_legal(&further), "{} sees {beyond}; {}", way[last], case());
         }
@@ -127,7 +127,7 @@ fn check_smooth(judge: &Judge<'_>, before: &[Vertex], after: &[Vertex], case: &d
     assert_eq!(last + 1, way.len(), "{}", case());
 }
 
-/// How many paths became shorter by each kind of smoothing.
+/// Checks both kinds of smoothing on a path. Returns 1 for each that made it shorter.
 fn check<P: Placement>(space: &FreeSpace<P>, path: &Path, case: &dyn Fn() -> String) -> [usize; 2] {
     let judge = Judge { grid: space.grid(), rules: space.rules() };
     let (way, slack) = (path.waypoints(), 1.0 + 1e-12);
@@ -188,7 +188,7 @@ fn smoothed_paths_keep_all_promises() {
     assert!(shorter.iter().all(|&count| count > 4 * maps), "{shorter:?}");
 }
 
-/// The map without those obstacles around which there is a way.
+/// The map without the obstacles that a path can surround.
 fn without_islands(grid: &Grid) -> Grid {
     let (width, height) = (grid.width() as i32, grid.height() as i32);
     let mut fixed = vec![false; (width * height) as usize];
@@ -207,7 +207,7 @@ fn without_islands(grid: &Grid) -> Grid {
         .expect("a valid size")
 }
 
-/// Where obstacles can be passed on one side only, a path that is locally a shortest one is a shortest one.
+/// Where every obstacle can be passed on one side only, a locally shortest path is a shortest path.
 #[test]
 fn without_islands_a_taut_path_at_corners_is_optimal() {
     let mut bends = 0;
@@ -243,7 +243,7 @@ fn without_islands_a_taut_path_at_corners_is_optimal() {
     assert!(bends > 4 * seeds(150).end as usize, "only {bends} bends");
 }
 
-/// What `smooth` and `pull_taut` make of a path.
+/// Checks the results of `smooth` and `pull_taut` for a path.
 #[track_caller]
 fn check_paths(drawing: &str, rules: Rules, path: &[(i32, i32)], expected: [&[(i32, i32)]; 2]) {
     let grid = Arc::new(AsciiMap::parse(drawing).expect("the drawing is a map").grid);
@@ -278,7 +278,7 @@ const ROUND: &str = "
 #[test]
 fn a_string_lies_around_obstacles() {
     let path = [(2, 6), (2, 0), (8, 0), (8, 6)];
-    // Waypoints stand where sight ends, not where the path turned.
+    // `smooth` places waypoints where sight ends, not where the path turned.
     check_paths(
         ROUND,
         OPEN,
@@ -356,7 +356,7 @@ fn closed_gaps_stay_closed() {
         [&[(1, 1), (1, 2), (1, 1)], &[(1, 1)]],
     );
 
-    // What is in sight may lie in the other quadrant: of the start, and of a gap on the way.
+    // A vertex in sight may lie in the other quadrant: of the start, or of a gap on the path.
     let gap = "
         .....
         .#...
@@ -394,13 +394,13 @@ fn planners_smooth_their_paths() {
     assert_eq!(counters[0], counters[1]);
     assert!(counters[0].expanded > 0);
 
-    // Errors and unreachable goals pass.
+    // Errors and unreachable goals are passed on.
     assert_eq!(taut.solve(Query::new((0, 0), (5, 4))), planner().solve(Query::new((0, 0), (5, 4))));
     let smoothed = Smoothed::new(ThetaStar::new(&*grid_graph, Hk), &*grid_graph, Some(Smoothing::Linear));
     assert_eq!(smoothed.guarantee(), Guarantee::Suboptimal);
 }
 
-/// What a guarantee says of the any-angle optimum, held against it.
+/// Compares the bounds of a guarantee with the any-angle optimum. Returns how many lower bounds exceeded the straight line.
 fn check_bounds<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> usize {
     let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
     let (rules, any_angle) = (grid_graph.rules(), Explicit::new(grid, grid_graph.rules(), None));
@@ -445,7 +445,7 @@ fn guarantees_bound_the_any_angle_optimum() {
     }
     let [never, one, always, open, closed] = closer;
     assert!(always == 0 && [never, one, open, closed].iter().all(|&count| count > 10), "{closer:?}");
-    // What promises nothing bounds nothing.
+    // An engine without a guarantee has no bound.
     for rules in Rules::ALL {
         let (best, none) = (Guarantee::OptimalAnyAngle, Guarantee::Suboptimal);
         assert_eq!((best.bound(rules), none.bound(rules)), (Some(1.0), None));

@@ -1,6 +1,6 @@
-//! Paths, drawn: a dozen that a reader can check by eye, across k, placements and rules.
+//! Drawings of paths that a reader can check by eye, across k, placements and rules.
 //!
-//! Waypoints are 0, 1, 2, … in order; under corner placement cells stand at odd places and vertices at even ones.
+//! Waypoints are 0, 1, 2, … in order. Under corner placement vertices are at even rows and columns of the drawing, cells at odd ones.
 
 use std::sync::Arc;
 
@@ -101,7 +101,7 @@ pictures! {
     gap_corner_closed: GAP, CLOSED, 4;
 }
 
-/// Of the paths of one cost the family takes the canonical one: odd moves first, turns only where an obstacle makes them.
+/// Of the paths of one cost, jump point search finds the canonical one: odd moves first, other turns only where an obstacle forces them.
 #[test]
 fn slalom_center_k4_canonical() {
     let [a_star, jumps] =
@@ -109,7 +109,7 @@ fn slalom_center_k4_canonical() {
     insta::assert_snapshot!(format!("A*, {a_star}\nJPS, {jumps}"));
 }
 
-/// At any angle: the best path, the one that Theta* finds, and smoothed ones.
+/// At any angle: the optimal path, the one that Theta* finds, and smoothed ones.
 #[test]
 fn slalom_any_angle() {
     let by = |engine, smoothing| picture_by(engine, SLALOM, OPEN, 3, smoothing);

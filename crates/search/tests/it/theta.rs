@@ -13,18 +13,19 @@ use mediant_search::{
     parts::{Eager, Lazy, SightCheck, Theta},
 };
 
-/// What is known of a query, and where it came from.
+/// A query, what is known of its answer, and the seed of its map.
 struct Expected {
     start: Vertex,
     goal: Vertex,
     /// The optimum over N(k).
-    grid_graph: Option<f64>,
-    /// The any-angle optimum, where it was asked for.
+    over_k: Option<f64>,
+    /// The any-angle optimum, where it was computed.
     any_angle: Option<f64>,
     seed: u64,
 }
 
-/// A planner for all queries of a map, so that each is answered on what the others left behind. How many paths were optimal, and not.
+/// Checks one planner on all queries of a map, so that each is answered with the scratch memory of the others. Returns how many paths
+/// were optimal, and how many not.
 fn check<P: Placement, H: Heuristic + Debug, S: SightCheck>(
     grid_graph: &GridGraph<P>,
     h: H,
@@ -38,7 +39,7 @@ fn check<P: Placement, H: Heuristic + Debug, S: SightCheck>(
         let Expected { start, goal, .. } = *expected;
         let case = || {
             format!(
-                "at once: {}, {h:?}, k = {k}; {}",
+                "eager: {}, {h:?}, k = {k}; {}",
                 S::EAGER,
                 describe(grid, rules, start, goal, expected.seed)
             )
@@ -52,7 +53,7 @@ fn check<P: Placement, H: Heuristic + Debug, S: SightCheck>(
         let (outcome, counters) = solve(&mut planner);
         assert_eq!((&outcome, counters), (&solve(&mut Theta::new(grid_graph, h)).0, counters), "{}", case());
         assert_eq!((&outcome, counters), (&solve(&mut planner).0, counters), "{}", case());
-        assert_eq!(outcome.path().is_some(), expected.grid_graph.is_some(), "{}", case());
+        assert_eq!(outcome.path().is_some(), expected.over_k.is_some(), "{}", case());
         let Outcome::Found(path) = outcome else {
             assert_eq!(counters, Counters::default(), "{}", case());
             continue;
@@ -65,7 +66,7 @@ fn check<P: Placement, H: Heuristic + Debug, S: SightCheck>(
         let (best, slack) = (expected.any_angle.unwrap_or(0.0), 1.0 + 1e-9);
         assert!(cost * slack >= best, "{cost} < {best}; {}", case());
         // The heuristics are consistent: see `Theta`.
-        let limit = expected.grid_graph.filter(|_| S::EAGER).unwrap_or(f64::INFINITY);
+        let limit = expected.over_k.filter(|_| S::EAGER).unwrap_or(f64::INFINITY);
         assert!(cost <= limit * slack, "{cost} > {limit}; {}", case());
         optimal[usize::from(cost > best * slack)] += 1;
     }
@@ -118,8 +119,8 @@ fn a_path_is_found_whenever_there_is_one_and_is_no_shorter_than_any_path() {
                 let graph = Explicit::new(&grid, rules, Some(k));
                 let counts = check_under(&grid, rules, k, |_| {
                     let expected = pairs.iter().zip(&any).map(|(&(start, goal), any)| {
-                        let grid_graph = graph.costs_from(start).to(goal);
-                        Expected { start, goal, grid_graph, any_angle: any.to(goal), seed }
+                        let over_k = graph.costs_from(start).to(goal);
+                        Expected { start, goal, over_k, any_angle: any.to(goal), seed }
                     });
                     expected.collect()
                 });
@@ -145,13 +146,8 @@ fn a_path_is_found_on_every_map_of_nine_cells() {
             let all_pairs = |_| {
                 let from = |&start: &Vertex| {
                     let costs = graph.costs_from(start);
-                    let to = |&goal| Expected {
-                        start,
-                        goal,
-                        grid_graph: costs.to(goal),
-                        any_angle: None,
-                        seed: 0,
-                    };
+                    let to =
+                        |&goal| Expected { start, goal, over_k: costs.to(goal), any_angle: None, seed: 0 };
                     vertices.iter().map(to).collect::<Vec<_>>()
                 };
                 vertices.iter().flat_map(from).collect()
@@ -184,9 +180,9 @@ fn check_paths(
 
 fn paths<P: Placement>(grid: Arc<Grid>, k: FiniteK, rule: P::Rule, query: Query) -> [Vec<Vertex>; 2] {
     let grid_graph = GridGraph::<P>::new(grid, k, rule).expect("k is in range");
-    let at_once = ThetaStar::new(&grid_graph, Hk).solve(query);
-    let lazily = LazyThetaStar::new(&grid_graph, Hk).solve(query);
-    [at_once, lazily].map(|outcome| match outcome.expect("both ends are free") {
+    let eager = ThetaStar::new(&grid_graph, Hk).solve(query);
+    let lazy = LazyThetaStar::new(&grid_graph, Hk).solve(query);
+    [eager, lazy].map(|outcome| match outcome.expect("both ends are free") {
         Outcome::Found(path) => path.into_waypoints(),
         Outcome::Unreachable => Vec::new(),
     })
@@ -211,10 +207,10 @@ fn one_bend_around_a_wall() {
         for k in 3..=6 {
             check_paths(WALL, rules, k, ends, [&[(0, 1), (6, 1), (8, 2)]; 2]);
         }
-        // With four moves Theta* makes use of fewer vertices, and is not optimal.
+        // With four moves Theta* considers fewer vertices, and is not optimal.
         check_paths(WALL, rules, 2, ends, [&[(0, 1), (8, 1), (8, 2)], &[(0, 1), (6, 1), (8, 2)]]);
     }
-    // At centers it is no corner that it bends at. The optimum bends at (5, 0), to which k = 3 does not lead it.
+    // At centers the path does not bend at a corner. The optimum bends at (5, 0), which Theta* with k = 3 does not find.
     check_paths(WALL, NEVER, 3, ends, [&[(0, 1), (6, 0), (8, 2)]; 2]);
     check_paths(WALL, NEVER, 4, ends, [&[(0, 1), (5, 0), (8, 2)]; 2]);
 }
@@ -269,7 +265,7 @@ fn gaps_are_passed_where_they_are_open() {
     // The end of a path lies in the cell to the lower right.
     check_paths(gap, CLOSED, 4, [(3, 3), (6, 5)], [&[(3, 3), (6, 5)]; 2]);
     check_paths(gap, CLOSED, 4, [(0, 0), (3, 3)], [&[]; 2]);
-    // Three corners of a cell alone are gaps. With four moves the search has to come by one of them, where it may not leave the cell.
+    // A free cell of which three corners are gaps. With four moves the path passes one of them, where it may not leave the cell.
     let cell = "
         .#..
         #.#.
@@ -283,7 +279,8 @@ fn gaps_are_passed_where_they_are_open() {
     }
 }
 
-/// What a vertex sees through the other quadrant of a gap it may not hang on. Without a heuristic the search comes to look.
+/// A vertex must not become the parent of another that it sees through the other quadrant of a gap. Without a heuristic the search meets
+/// such pairs.
 #[test]
 fn nothing_hangs_through_a_closed_gap() {
     let both = |drawing: &str, k: u32, [start, goal]: [(i32, i32); 2], expected: &[(i32, i32)]| {
@@ -295,7 +292,7 @@ fn nothing_hangs_through_a_closed_gap() {
         assert_eq!(ThetaStar::new(&grid_graph, Zero).solve(query), expected);
         assert_eq!(LazyThetaStar::new(&grid_graph, Zero).solve(query), expected);
     };
-    // From the start: (4, 2), which hangs on it, leads to (1, 0) by (−3, −2).
+    // From the start: (4, 2), whose parent it is, leads to (1, 0) by (−3, −2).
     let start = "
         .....
         .#...
@@ -303,7 +300,7 @@ fn nothing_hangs_through_a_closed_gap() {
         .....
     ";
     both(start, 5, [(1, 2), (1, 0)], &[(1, 2), (2, 2), (2, 1), (1, 0)]);
-    // To the goal: (5, 6), which hangs on the start, leads to it by (−4, −1).
+    // To the goal: (5, 6), whose parent is the start, leads to it by (−4, −1).
     let goal = "
         ......
         ......
@@ -314,7 +311,7 @@ fn nothing_hangs_through_a_closed_gap() {
         ......
     ";
     both(goal, 6, [(1, 0), (1, 5)], &[(1, 0), (3, 3), (3, 5), (1, 5)]);
-    // To the goal, instead of what does not see it: (3, 3) does not, and (1, 1) is a closed neighbor.
+    // To the goal, when its parent does not see it: (3, 3) does not, and (1, 1) is a closed neighbor.
     let neighbor = "
         .....
         .##..
@@ -324,7 +321,7 @@ fn nothing_hangs_through_a_closed_gap() {
     both(neighbor, 3, [(0, 0), (1, 2)], &[(0, 0), (3, 1), (3, 3), (2, 3), (1, 2)]);
 }
 
-/// Writes events down, without swaps.
+/// Records events as text, without swaps.
 #[derive(Default)]
 struct Log(Vec<String>);
 
@@ -354,7 +351,7 @@ impl Observer for Log {
     }
 }
 
-/// What is said of the nodes but the start.
+/// The events of a search on a small map.
 fn events<S: SightCheck>() -> Vec<String> {
     let drawing = "
         ...#
@@ -388,7 +385,7 @@ fn events_to_the_letter() {
         "generated (2, 0) from (0, 0): g 2.000, f 3.414",
         "expanded (2, 0) from (0, 0): g 2.000, f 3.414",
     ];
-    let at_once = [
+    let eager = [
         // (0, 0) does not see it.
         "generated (2, 1) from (2, 0): g 3.000, f 4.000",
         "expanded (2, 1) from (2, 0): g 3.000, f 4.000",
@@ -396,15 +393,15 @@ fn events_to_the_letter() {
         "generated (3, 2) from (2, 0): g 4.236, f 5.236",
         "generated (3, 1) from (2, 1): g 4.000, f 4.000",
     ];
-    assert_eq!(events::<Eager>(), [&begin[..], &at_once].concat());
-    let lazily = [
-        // That is found out when it is expanded.
+    assert_eq!(events::<Eager>(), [&begin[..], &eager].concat());
+    let lazy = [
+        // Its parent does not see it, which is found out when it is expanded.
         "generated (2, 1) from (0, 0): g 2.236, f 3.236",
         "expanded (2, 1) from (2, 0): g 3.000, f 4.000",
         "generated (2, 2) from (2, 0): g 4.000, f 5.414",
         "generated (3, 2) from (2, 0): g 4.236, f 5.236",
-        // And so here, where the search ends.
+        // So it is here, where the search ends.
         "generated (3, 1) from (2, 0): g 3.414, f 3.414",
     ];
-    assert_eq!(events::<Lazy>(), [&begin[..], &lazily].concat());
+    assert_eq!(events::<Lazy>(), [&begin[..], &lazy].concat());
 }

@@ -1,4 +1,4 @@
-//! The wavefront algorithm against breadth-first search on the explicit graph, and against Dijkstra where moves are alike.
+//! The wavefront algorithm against breadth-first search on the explicit graph, and against Dijkstra where all moves have the same length.
 
 use std::{collections::VecDeque, sync::Arc};
 
@@ -12,7 +12,7 @@ use mediant_search::{
     Counters, Distances, End, Guarantee, Outcome, Path, Planner, Query, QueryError, Wavefront,
 };
 
-/// All legal moves of a map, for a breadth-first search that is as plain as can be.
+/// All legal moves of a map, for a plain breadth-first search.
 struct Graph<'g> {
     grid: &'g Grid,
     rules: Rules,
@@ -42,8 +42,8 @@ impl<'g> Graph<'g> {
         self.rules == Rules::Corner(DiagonalGap::Closed) && is_gap(self.grid, at)
     }
 
-    /// The fewest moves from `start` to every vertex, row by row: for k > 2 on paths that touch closed gaps at their ends only,
-    /// for k = 2 by Dijkstra on a graph that knows both quadrants of a gap.
+    /// The least number of moves from `start` to every vertex, row by row. For k > 2 on paths that touch closed gaps only at their
+    /// ends; for k = 2 by Dijkstra on a graph with a vertex for each quadrant of a gap.
     fn moves_from(&self, start: Vertex) -> Vec<Option<u32>> {
         if self.k == FiniteK::N4 {
             let graph = Explicit::new(self.grid, self.rules, Some(self.k));
@@ -74,14 +74,14 @@ impl<'g> Graph<'g> {
     }
 }
 
-/// What the algorithm says on a map: the moves to every vertex, and the answer to a query, on one and the same planner.
+/// The algorithm on a map, whatever the placement: the moves to every vertex, and the answer to a query, by the same planner.
 trait Waves {
     fn distances(&mut self, start: Vertex) -> Result<Distances<u32>, QueryError>;
     fn answer(&mut self, query: Query) -> Result<(Outcome, Counters), QueryError>;
     fn promise(&self) -> Guarantee;
 }
 
-impl<P: Placement> Waves for Wavefront<Lattice2<P>> {
+impl<P: Placement> Waves for Wavefront<SharedGraph<P>> {
     fn distances(&mut self, start: Vertex) -> Result<Distances<u32>, QueryError> {
         Wavefront::distances(self, start)
     }
@@ -96,7 +96,7 @@ impl<P: Placement> Waves for Wavefront<Lattice2<P>> {
     }
 }
 
-type Lattice2<P> = Arc<GridGraph<P>>;
+type SharedGraph<P> = Arc<GridGraph<P>>;
 
 fn waves(grid: &Arc<Grid>, rules: Rules, k: FiniteK) -> Box<dyn Waves> {
     fn on<P: Placement>(grid: &Arc<Grid>, k: FiniteK, rule: P::Rule) -> Box<dyn Waves> {
@@ -109,7 +109,7 @@ fn waves(grid: &Arc<Grid>, rules: Rules, k: FiniteK) -> Box<dyn Waves> {
     }
 }
 
-/// How many moves a path has: its waypoints stand where the move changes.
+/// The number of moves of a path, whose waypoints stand where the move changes.
 fn moves_of(path: &Path) -> u32 {
     let gcd = |mut a: u32, mut b: u32| {
         while b > 0 {
@@ -123,7 +123,7 @@ fn moves_of(path: &Path) -> u32 {
         .sum()
 }
 
-/// The moves to every vertex, from one start. How many vertices are reached.
+/// Checks the moves to every vertex from one start. Returns the number of vertices reached.
 fn check_distances(
     waves: &mut dyn Waves,
     graph: &Graph<'_>,
@@ -218,9 +218,9 @@ fn ties_go_to_the_vertex_reached_first() {
         let (outcome, _) = waves.answer(Query::new((0, 0), goal)).unwrap();
         outcome.path().unwrap().waypoints().iter().map(|at| (at.x, at.y)).collect::<Vec<_>>()
     };
-    // The first move of all is (0, 1): what it leads to is expanded first.
+    // The first move is (0, 1), so the vertex to which it leads is expanded first.
     assert_eq!(path(2, (3, 2)), [(0, 0), (0, 2), (3, 2)]);
-    // Three moves, as [(0, 0), (2, 0), (3, 1)], which is shorter, but (2, 2) is reached before (2, 1) and (2, 0).
+    // Three moves. So has [(0, 0), (2, 0), (3, 1)], which is shorter, but (2, 2) is reached before (2, 1) and (2, 0).
     assert_eq!(path(3, (3, 1)), [(0, 0), (2, 2), (3, 1)]);
     assert_eq!(path(3, (2, 2)), [(0, 0), (2, 2)]);
 }
@@ -236,7 +236,7 @@ fn starts_that_are_no_vertices_are_errors() {
     }
     let at = Vertex::new(1, 1);
     assert_eq!(waves.distances(at), Err(QueryError::Blocked { end, at }));
-    // Nothing is said of vertices that are not on the map.
+    // There are no distances to vertices outside the map.
     let distances = waves.distances(Vertex::new(0, 1)).unwrap();
     assert_eq!(distances.get(Vertex::new(0, 0)), Some(1));
     for at in [(3, 0), (-1, 1), (0, 2), (0, -1), (i32::MAX, i32::MAX), (i32::MIN, i32::MIN)] {
