@@ -1,6 +1,7 @@
 //! A* over N(k) (Hart, Nilsson & Raphael 1968), for every k, both placements and all rules of motion.
 //!
-//! Rule variant: a vertex is expanded with all its legal moves; nothing is pruned. Without a heuristic this is Dijkstra's algorithm.
+//! Rule variant: a vertex is expanded with all its legal moves; nothing is pruned. Without a heuristic this
+//! is Dijkstra's algorithm.
 
 use std::ops::Deref;
 
@@ -37,8 +38,8 @@ use crate::{
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// `L` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`. Its scratch memory is 16
-/// bytes a vertex.
+/// `L` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`.
+/// Its scratch memory is 16 bytes a vertex.
 pub type AStar<L, H> = BestFirst<L, H, AllMoves>;
 
 /// Dijkstra's algorithm (1959): A* without a heuristic.
@@ -60,9 +61,9 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> AStar<L, H> {
         }
     }
 
-    /// Extends a path from its last waypoint to `goal`, if that costs at most `limit`; vertices through which every path costs more are
-    /// not expanded. Returns whether there is such a path (with an inadmissible heuristic one may be missed). If not, or if `path` is
-    /// empty, it is left as it is.
+    /// Extends a path from its last waypoint to `goal`, if that costs at most `limit`; vertices through which
+    /// every path costs more are not expanded. Returns whether there is such a path (with an inadmissible
+    /// heuristic one may be missed). If not, or if `path` is empty, it is left as it is.
     ///
     /// # Errors
     /// [`QueryError`] when the last waypoint or the goal is blocked or outside the map.

@@ -18,14 +18,16 @@ use crate::{
     trace::{extend_back, trace_back},
 };
 
-/// Best-first search on a grid graph: takes the node of least f = g + h from the open list until that is the goal.
+/// Best-first search on a grid graph: takes the node of least f = g + h from the open list until that is the
+/// goal.
 ///
-/// `S` says what the [`Successors`] of a node are. A cheaper path to a closed node reopens it. So a search with all legal moves is
-/// optimal with every admissible heuristic, consistent or not. Inadmissible heuristics do not reopen nodes, which would be costly and
-/// would guarantee nothing, except where successors depend on the arrival move: there a path might be missed.
+/// `S` says what the [`Successors`] of a node are. A cheaper path to a closed node reopens it. So a search
+/// with all legal moves is optimal with every admissible heuristic, consistent or not. Inadmissible
+/// heuristics do not reopen nodes, which would be costly and would guarantee nothing, except where successors
+/// depend on the arrival move: there a path might be missed.
 ///
-/// `L` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`. `N` is the
-/// [`ParentPointer`] of a node.
+/// `L` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`.
+/// `N` is the [`ParentPointer`] of a node.
 #[derive(Clone, Debug)]
 pub struct BestFirst<L, H, S, N = ()> {
     pub(crate) graph: L,
@@ -109,8 +111,8 @@ where
         open.push(Entry::new(h, h, start), |id, slot| nodes.set_slot(id, slot));
     }
 
-    /// Expands nodes until the goal is the best open node, or, without a goal, until none is open. Returns whether the goal was
-    /// found. A node is not expanded when every path through it costs more than `limit`.
+    /// Expands nodes until the goal is the best open node, or, without a goal, until none is open. Returns
+    /// whether the goal was found. A node is not expanded when every path through it costs more than `limit`.
     pub(crate) fn search(
         &mut self,
         start: VertexId,
@@ -142,7 +144,8 @@ where
             observer.expanded(NodeEvent { at, parent, g: node.g, f: entry.f() });
 
             let (nodes, open, watcher) = (&mut *nodes, &mut *open, &mut *observer);
-            // The closure owns what it needs: following one reference less for each successor saves a tenth of the time of A*.
+            // The closure owns what it needs: following one reference less for each successor saves a tenth
+            // of the time of A*.
             let relax = move |next: Successor| {
                 let g = node.g + next.cost;
                 let event = |f| NodeEvent { at: next.at, parent: Some(at), g, f };

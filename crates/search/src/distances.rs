@@ -17,7 +17,8 @@ impl<T: Copy> Distances<T> {
         Self { width, values: values.into_boxed_slice() }
     }
 
-    /// The distance to a vertex, 0 for the start; `None` when no path leads there, or when it is blocked or outside the map.
+    /// The distance to a vertex, 0 for the start; `None` when no path leads there, or when it is blocked or
+    /// outside the map.
     #[must_use]
     pub fn get(&self, at: Vertex) -> Option<T> {
         let (x, y) = (u32::try_from(at.x).ok()?, usize::try_from(at.y).ok()?);
@@ -48,9 +49,10 @@ impl<T: Copy> Distances<T> {
 
 /// Under [`DiagonalGap::Closed`], corrects the distances to gaps: makes them those of paths that end there.
 ///
-/// A search without a goal knows at most how to pass a gap. A path that ends at one comes through the quadrant of the vertex's own
-/// cell, and its last move from a vertex that the search knows. `values` are the distances of the search by vertex number,
-/// `arrived_by` is the move by which it reached a vertex other than the start, and `extended` makes a distance longer by one move.
+/// A search without a goal knows at most how to pass a gap. A path that ends at one comes through the
+/// quadrant of the vertex's own cell, and its last move from a vertex that the search knows. `values` are the
+/// distances of the search by vertex number, `arrived_by` is the move by which it reached a vertex other than
+/// the start, and `extended` makes a distance longer by one move.
 pub(crate) fn end_at_gaps<P: Placement, T: Copy + Ord>(
     graph: &GridGraph<P>,
     start: Vertex,

@@ -1,7 +1,8 @@
 //! Search engines on the 2^k neighborhoods of a grid.
 //!
-//! Every engine is a [`Planner`]: it borrows an immutable [`GridGraph`](mediant_grid::GridGraph), owns its scratch memory, and
-//! answers one [`Query`] after another with an [`Outcome`], whose quality it states as a [`Guarantee`].
+//! Every engine is a [`Planner`]: it borrows an immutable [`GridGraph`](mediant_grid::GridGraph), owns its
+//! scratch memory, and answers one [`Query`] after another with an [`Outcome`], whose quality it states as a
+//! [`Guarantee`].
 //!
 //! | engine | paths | k |
 //! |---|---|---|
@@ -16,15 +17,16 @@
 //!
 //! [`Smoothed`] makes the paths of any planner shorter, at any angle.
 //!
-//! **The key decision: costs are integers.** Open lists compare fixed-point sums ([`Cost`](mediant_moves::Cost)). So paths of equal
-//! length compare as equal, the heuristic [`Hk`] is consistent to the last bit, and the same query gives the same path and the same
-//! counts on every platform. The cost of a [`Path`] is recomputed in floating point from its waypoints.
+//! **The key decision: costs are integers.** Open lists compare fixed-point sums
+//! ([`Cost`](mediant_moves::Cost)). So paths of equal length compare as equal, the heuristic [`Hk`] is
+//! consistent to the last bit, and the same query gives the same path and the same counts on every platform.
+//! The cost of a [`Path`] is recomputed in floating point from its waypoints.
 //!
-//! Placement, heuristic and observer are type parameters, so that what is not used costs nothing: a search without counters is
-//! compiled without them.
+//! Placement, heuristic and observer are type parameters, so that what is not used costs nothing: a search
+//! without counters is compiled without them.
 //!
-//! This crate does not preprocess maps beyond jump tables (`mediant-subgoal` and `mediant-hierarchy` do), starts no threads, reads
-//! no clock, and writes no files.
+//! This crate does not preprocess maps beyond jump tables (`mediant-subgoal` and `mediant-hierarchy` do),
+//! starts no threads, reads no clock, and writes no files.
 
 mod anya;
 mod astar;

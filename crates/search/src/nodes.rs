@@ -26,7 +26,8 @@ impl<N> Node<N> {
     pub const CLOSED: u32 = u32::MAX;
     /// The bits of a move's index: enough for the 4,096 moves of k = 12.
     const MOVE_BITS: u32 = 12;
-    /// The last generation. After it, once in a million searches, the store is cleared and the count begins anew.
+    /// The last generation. After it, once in a million searches, the store is cleared and the count begins
+    /// anew.
     const LAST_GENERATION: u32 = u32::MAX >> Self::MOVE_BITS;
 
     /// The index of the move by which the best known path arrives; 0 for the start.
@@ -37,7 +38,8 @@ impl<N> Node<N> {
     }
 }
 
-/// One [`Node`] for each vertex. A node that a search knows carries the generation of that search, so earlier ones need not be cleared.
+/// One [`Node`] for each vertex. A node that a search knows carries the generation of that search, so earlier
+/// ones need not be cleared.
 #[derive(Clone, Debug)]
 pub struct NodeStore<N = ()> {
     nodes: Box<[Node<N>]>,

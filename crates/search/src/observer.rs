@@ -53,7 +53,8 @@ pub trait Observer {
         let _ = node;
     }
 
-    /// The open list's heap swapped this many pairs while sifting an entry up or down ('Perc' of Rivera 2017).
+    /// The open list's heap swapped this many pairs while sifting an entry up or down ('Perc' of Rivera
+    /// 2017).
     #[inline]
     fn percolated(&mut self, swaps: u32) {
         let _ = swaps;

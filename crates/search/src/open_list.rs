@@ -7,8 +7,9 @@ use mediant_moves::Cost;
 
 /// An entry of the open list, ordered by f, then by h (nearer to the goal first), then by vertex id.
 ///
-/// An entry takes 16 bytes. For that h is compared in steps of 2⁻¹⁶ cells, and all values from 2¹⁶ cells on are equal. Vertices
-/// that still tie are ordered by id, so the order is total, and the same on every platform.
+/// An entry takes 16 bytes. For that h is compared in steps of 2⁻¹⁶ cells, and all values from 2¹⁶ cells on
+/// are equal. Vertices that still tie are ordered by id, so the order is total, and the same on every
+/// platform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Entry(u128);
 
@@ -49,8 +50,9 @@ impl Entry {
 
 /// An indexed binary heap, least entry first.
 ///
-/// The caller stores the slot of each vertex: every operation takes a function that it calls with `(id, slot)` for each entry that
-/// moves to another slot. It returns the number of swaps ('percolations' in Rivera 2017).
+/// The caller stores the slot of each vertex: every operation takes a function that it calls with
+/// `(id, slot)` for each entry that moves to another slot. It returns the number of swaps ('percolations' in
+/// Rivera 2017).
 #[derive(Clone, Debug, Default)]
 pub struct OpenList {
     heap: Vec<Entry>,
@@ -87,7 +89,8 @@ impl OpenList {
         self.sift_up(self.heap.len() - 1, entry, &mut moved)
     }
 
-    /// Lowers the f of the entry in a slot by `gain`, at most to 0. Does nothing for a slot that is not in use.
+    /// Lowers the f of the entry in a slot by `gain`, at most to 0. Does nothing for a slot that is not in
+    /// use.
     #[inline]
     pub fn decrease(&mut self, slot: u32, gain: Cost, mut moved: impl FnMut(VertexId, u32)) -> u32 {
         let Some(entry) = self.heap.get(slot as usize) else { return 0 };

@@ -25,12 +25,12 @@ impl Outcome {
     }
 }
 
-/// What an engine guarantees of the length of its paths. Every engine finds a path whenever there is one; one that may fail says so
-/// by [`QueryError::GaveUp`](crate::QueryError::GaveUp).
+/// What an engine guarantees of the length of its paths. Every engine finds a path whenever there is one; one
+/// that may fail says so by [`QueryError::GaveUp`](crate::QueryError::GaveUp).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Guarantee {
-    /// The path is over N(k), and no path over N(k) is shorter: in fixed-point costs exactly, in real lengths up to a factor of
-    /// 1 + 2⁻³¹ (see [`Cost`](mediant_moves::Cost)).
+    /// The path is over N(k), and no path over N(k) is shorter: in fixed-point costs exactly, in real lengths
+    /// up to a factor of 1 + 2⁻³¹ (see [`Cost`](mediant_moves::Cost)).
     Optimal(FiniteK),
     /// No path over N(k) is shorter, in the same sense; the path itself has segments at any angle.
     AtMost(FiniteK),
@@ -41,16 +41,17 @@ pub enum Guarantee {
 }
 
 impl Guarantee {
-    /// The suboptimality bound: the greatest cost of a path, as a multiple of the any-angle optimum between the same two vertices under
-    /// the same rules. For N(k) by Kramm 2018, Theorems 2 and 3, see [`bound_at_corners`] and [`bound_at_centers`]. `None` where no
-    /// bound is proven.
+    /// The suboptimality bound: the greatest cost of a path, as a multiple of the any-angle optimum between
+    /// the same two vertices under the same rules. For N(k) by Kramm 2018, Theorems 2 and 3, see
+    /// [`bound_at_corners`] and [`bound_at_centers`]. `None` where no bound is proven.
     ///
     /// ```
     /// use mediant_grid::{CornerRule, DiagonalGap, Rules};
     /// use mediant_moves::FiniteK;
     /// use mediant_search::Guarantee;
     /// let promised = Guarantee::Optimal(FiniteK::new(3)?);
-    /// assert!(promised.bound(Rules::Corner(DiagonalGap::Open)).is_some_and(|bound| (bound - 1.0824).abs() < 1e-4));
+    /// let bound = promised.bound(Rules::Corner(DiagonalGap::Open));
+    /// assert!(bound.is_some_and(|bound| (bound - 1.0824).abs() < 1e-4));
     /// assert_eq!(promised.bound(Rules::Center(CornerRule::Always)), None);
     /// # Ok::<(), mediant_moves::KError>(())
     /// ```
@@ -74,9 +75,9 @@ impl Guarantee {
         }
     }
 
-    /// A lower bound of the cost of every path between two vertices, when a path with this guarantee costs `cost` and the straight line
-    /// between them measures `straight`: the larger of `straight` and `cost` divided by the [bound](Self::bound). In cells, up to the
-    /// rounding that the guarantee allows.
+    /// A lower bound of the cost of every path between two vertices, when a path with this guarantee costs
+    /// `cost` and the straight line between them measures `straight`: the larger of `straight` and `cost`
+    /// divided by the [bound](Self::bound). In cells, up to the rounding that the guarantee allows.
     #[must_use]
     pub fn lower_bound(self, rules: Rules, cost: f64, straight: f64) -> f64 {
         self.bound(rules).map_or(straight, |bound| straight.max(cost / bound))

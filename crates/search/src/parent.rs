@@ -4,7 +4,8 @@ use std::fmt::Debug;
 
 use mediant_grid::{GridGraph, Placement, Step, Vertex, VertexId};
 
-/// How a node knows its parent. Engines that take one move at a time need to store nothing, `()`: the parent is found by the move.
+/// How a node knows its parent. Engines that take one move at a time need to store nothing, `()`: the parent
+/// is found by the move.
 pub trait ParentPointer: Copy + Debug {
     /// That of a node that was never reached.
     const NONE: Self;

@@ -4,8 +4,9 @@ use mediant_grid::Vertex;
 
 /// A path: its waypoints and its length.
 ///
-/// Two consecutive waypoints are joined by one move of N(k), taken once or several times in a row, or in any-angle paths by
-/// a straight legal segment. A path from a vertex to itself has that vertex as its only waypoint.
+/// Two consecutive waypoints are joined by one move of N(k), taken once or several times in a row, or in
+/// any-angle paths by a straight legal segment. A path from a vertex to itself has that vertex as its only
+/// waypoint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     waypoints: Vec<Vertex>,
@@ -33,15 +34,16 @@ impl Path {
         self.waypoints
     }
 
-    /// The Euclidean length in cells, recomputed from the waypoints rather than taken from the search's fixed-point sum.
+    /// The Euclidean length in cells, recomputed from the waypoints rather than taken from the search's
+    /// fixed-point sum.
     #[must_use]
     pub const fn cost(&self) -> f64 {
         self.cost
     }
 
-    /// The path smoothness PS of Hammoud & Lupin 2023, Eq. 1, in degrees: the sum of 180° − φ over the waypoints between start and
-    /// goal, where φ is the angle between the two segments that meet there. 0 for a straight path; the more the path turns, the
-    /// greater.
+    /// The path smoothness PS of Hammoud & Lupin 2023, Eq. 1, in degrees: the sum of 180° − φ over the
+    /// waypoints between start and goal, where φ is the angle between the two segments that meet there. 0 for
+    /// a straight path; the more the path turns, the greater.
     ///
     /// ```
     /// use mediant_search::Path;

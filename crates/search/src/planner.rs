@@ -8,8 +8,9 @@ use crate::{
 
 /// Answers queries, one after another, on scratch memory of its own: make one for each thread.
 ///
-/// The map and whatever was preprocessed from it are immutable, and shared between planners. A warm planner allocates nothing but the
-/// path that it returns. The same query always gives the same path and the same counts.
+/// The map and whatever was preprocessed from it are immutable, and shared between planners. A warm planner
+/// allocates nothing but the path that it returns. The same query always gives the same path and the same
+/// counts.
 pub trait Planner {
     /// Answers a query, watched by an observer.
     ///

@@ -39,8 +39,8 @@ impl Query {
         Ok(())
     }
 
-    /// The ids of start and goal; `None` when there is no path. The connected components tell this in constant time, where a search
-    /// would expand all vertices that it can reach.
+    /// The ids of start and goal; `None` when there is no path. The connected components tell this in
+    /// constant time, where a search would expand all vertices that it can reach.
     ///
     /// # Errors
     /// Those of [`check`](Self::check).

@@ -5,11 +5,11 @@ use mediant_moves::Cost;
 
 use crate::open_list::{Entry, OpenList};
 
-/// The search tree of a search on an abstract graph, with its open list: the cost and the parent of each node that is known. It is
-/// cleared in constant time.
+/// The search tree of a search on an abstract graph, with its open list: the cost and the parent of each node
+/// that is known. It is cleared in constant time.
 ///
-/// [`NodeStore`](crate::parts::NodeStore) is the counterpart for grid graphs, where the parent is found by the move. `E` is what a
-/// node stores of the edge from its parent.
+/// [`NodeStore`](crate::parts::NodeStore) is the counterpart for grid graphs, where the parent is found by
+/// the move. `E` is what a node stores of the edge from its parent.
 #[derive(Clone, Debug)]
 pub struct SearchTree<E = ()> {
     nodes: Box<[TreeNode<E>]>,
@@ -90,8 +90,8 @@ impl<E: Copy + Default> SearchTree<E> {
         self.open.get(0).map(Entry::f)
     }
 
-    /// Takes the best node from the open list. Returns its f, its number, the cost of the best known path to it, and the number of
-    /// swaps in the open list.
+    /// Takes the best node from the open list. Returns its f, its number, the cost of the best known path to
+    /// it, and the number of swaps in the open list.
     #[inline]
     pub fn pop(&mut self) -> Option<(Cost, u32, Cost, u32)> {
         let Self { nodes, open, .. } = self;
@@ -101,8 +101,9 @@ impl<E: Copy + Default> SearchTree<E> {
         Some((entry.f(), entry.id().0, node.cost, swaps))
     }
 
-    /// Makes a path, cheaper than all before, the best known one to a node, and puts the node on the open list or moves it there.
-    /// Returns whether it is the first path to the node, and the number of swaps in the open list.
+    /// Makes a path, cheaper than all before, the best known one to a node, and puts the node on the open
+    /// list or moves it there. Returns whether it is the first path to the node, and the number of swaps in
+    /// the open list.
     #[inline]
     pub fn set_path_and_open(&mut self, id: u32, cost: Cost, h: Cost, parent: u32, edge: E) -> (bool, u32) {
         let Self { nodes, open, generation } = self;
@@ -119,7 +120,8 @@ impl<E: Copy + Default> SearchTree<E> {
         (is_first, swaps)
     }
 
-    /// Makes a path, cheaper than all before, the best known one to a node, but leaves the open list as it is.
+    /// Makes a path, cheaper than all before, the best known one to a node, but leaves the open list as it
+    /// is.
     #[inline]
     pub fn set_path(&mut self, id: u32, cost: Cost, parent: u32, edge: E) {
         let node = &mut self.nodes[id as usize];

@@ -43,16 +43,19 @@ pub struct Successor {
 
 /// How a search expands its nodes. `P` is the placement.
 ///
-/// A search with successors of one's own: see [`BestFirst::with_successors`](crate::parts::BestFirst::with_successors).
+/// A search with successors of one's own: see
+/// [`BestFirst::with_successors`](crate::parts::BestFirst::with_successors).
 pub trait Successors<P: Placement>: Debug {
     /// What a node stores to know its parent.
     type ParentPointer: ParentPointer;
 
-    /// Whether the successors of a node depend on the move by which it was reached. (Under closed gaps they always do.)
+    /// Whether the successors of a node depend on the move by which it was reached. (Under closed gaps they
+    /// always do.)
     const DEPEND_ON_ARRIVAL: bool = true;
 
-    /// Calls `visit` with each successor of a node; `goal` is outside the map when the search has no goal. Returns the number of
-    /// vertices scanned, for [`Observer::scanned`](crate::Observer::scanned); 0 unless it jumps.
+    /// Calls `visit` with each successor of a node; `goal` is outside the map when the search has no goal.
+    /// Returns the number of vertices scanned, for [`Observer::scanned`](crate::Observer::scanned); 0 unless
+    /// it jumps.
     fn for_each(
         &self,
         graph: &GridGraph<P>,
@@ -61,17 +64,17 @@ pub trait Successors<P: Placement>: Debug {
         visit: impl FnMut(Successor),
     ) -> u32;
 
-    /// Whether a path to a vertex whose last move is `new` replaces the known path, of the same cost, whose last move is `known`. A
-    /// closed node is then expanded again.
+    /// Whether a path to a vertex whose last move is `new` replaces the known path, of the same cost, whose
+    /// last move is `known`. A closed node is then expanded again.
     #[inline]
     fn prefers(&self, graph: &GridGraph<P>, new: usize, known: usize) -> bool {
         let _ = (graph, new, known);
         false
     }
 
-    /// Called when a search has found no path although there is one. Turns the pruning off and returns true if the search is to be
-    /// repeated without it; [`end_unpruned_retry`](Self::end_unpruned_retry) is called afterwards. Only a pruning rule that is not
-    /// complete needs this.
+    /// Called when a search has found no path although there is one. Turns the pruning off and returns true
+    /// if the search is to be repeated without it; [`end_unpruned_retry`](Self::end_unpruned_retry) is called
+    /// afterwards. Only a pruning rule that is not complete needs this.
     fn begin_unpruned_retry(&mut self) -> bool {
         false
     }

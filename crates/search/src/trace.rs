@@ -19,7 +19,8 @@ pub(crate) fn trace_back<P: Placement, N: ParentPointer>(
     Path::new(waypoints)
 }
 
-/// Adds the waypoints of the path that a search found, without its start. Waypoints stand where the direction changes.
+/// Adds the waypoints of the path that a search found, without its start. Waypoints stand where the direction
+/// changes.
 pub(crate) fn extend_back<P: Placement, N: ParentPointer>(
     graph: &GridGraph<P>,
     nodes: &NodeStore<N>,
@@ -68,7 +69,8 @@ impl<P: Placement, N: ParentPointer> Iterator for LegsBack<'_, P, N> {
         let (from, v) = (self.node.1, step.vector());
         let d = from.to(at);
         if i64::from(d.x) * i64::from(v.y) != i64::from(d.y) * i64::from(v.x) {
-            // Two legs in canonical order, the first by the odd move. The intermediate jump point between them is no node.
+            // Two legs in canonical order, the first by the odd move. The intermediate jump point between
+            // them is no node.
             let [(first, times), _] = decompose(d, self.graph.k())?.canonical();
             let times = times as i32;
             self.pending = Some((from + Vector::new(first.x * times, first.y * times), first));

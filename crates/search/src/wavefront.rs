@@ -1,16 +1,18 @@
-//! The wavefront algorithm: breadth-first search, one move a step (the 'Wave-front' among the classical algorithms of
-//! Hammoud & Lupin 2023, there on 4 and 8 neighbors; here for every k, both placements and all rules of motion).
+//! The wavefront algorithm: breadth-first search, one move a step (the 'Wave-front' among the classical
+//! algorithms of Hammoud & Lupin 2023, there on 4 and 8 neighbors; here for every k, both placements and all
+//! rules of motion).
 //!
-//! Rule variant: a vertex is expanded with all its legal moves, nothing is pruned, and the search ends as soon as the goal is
-//! reached. No path has fewer moves. With four neighbors it is a shortest path; for larger k moves differ in length, and it may be
-//! longer. (Where gaps are closed and k > 2, only paths that touch no gap but at their ends are considered, as in all engines. A
-//! shortest path never needs to touch one; a path of fewest moves may, from k = 5 on.)
+//! Rule variant: a vertex is expanded with all its legal moves, nothing is pruned, and the search ends as
+//! soon as the goal is reached. No path has fewer moves. With four neighbors it is a shortest path; for
+//! larger k moves differ in length, and it may be longer. (Where gaps are closed and k > 2, only paths that
+//! touch no gap but at their ends are considered, as in all engines. A shortest path never needs to touch
+//! one; a path of fewest moves may, from k = 5 on.)
 //!
-//! Ties: the vertices of a layer are expanded in the order in which they were reached, their moves in the order of
-//! [`GridGraph::for_each_legal_move`], and the first move that reaches a vertex is kept.
+//! Ties: the vertices of a layer are expanded in the order in which they were reached, their moves in the
+//! order of [`GridGraph::for_each_legal_move`], and the first move that reaches a vertex is kept.
 //!
-//! Layers as bits, 64 vertices a word operation, were tried and left out: they need a second implementation of the rules of motion
-//! and save half of the time (`docs/measurements/search.md`).
+//! Layers as bits, 64 vertices a word operation, were tried and left out: they need a second implementation
+//! of the rules of motion and save half of the time (`docs/measurements/search.md`).
 
 use std::ops::Deref;
 
@@ -59,7 +61,8 @@ pub struct Wavefront<L> {
 }
 
 impl<P: Placement, L: Deref<Target = GridGraph<P>>> Wavefront<L> {
-    /// A planner with scratch memory for `graph`: 16 bytes a vertex, and up to 4 more for each that a search reaches.
+    /// A planner with scratch memory for `graph`: 16 bytes a vertex, and up to 4 more for each that a search
+    /// reaches.
     #[must_use]
     pub fn new(graph: L) -> Self {
         let nodes = NodeStore::new(graph.vertex_count());
@@ -87,7 +90,8 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>> Wavefront<L> {
         Ok(Distances::new(P::vertices(graph.grid()).0, moves))
     }
 
-    /// Reaches vertices layer by layer, until the goal is reached or no vertex is left. Returns whether the goal was reached.
+    /// Reaches vertices layer by layer, until the goal is reached or no vertex is left. Returns whether the
+    /// goal was reached.
     fn search(&mut self, start: VertexId, goal: Option<VertexId>, observer: &mut impl Observer) -> bool {
         let Self { graph, nodes, reached } = self;
         let graph: &GridGraph<P> = graph;

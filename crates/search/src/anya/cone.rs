@@ -25,8 +25,9 @@ pub(super) struct Cone<'g> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Edge {
     end: IntervalEnd,
-    /// Whether it is at the end of the run of free cells behind, so that the ray through it leads into an obstacle or along it. As long as
-    /// it stays there it is treated as a vertical; only then it becomes a ray of its own.
+    /// Whether it is at the end of the run of free cells behind, so that the ray through it leads into an
+    /// obstacle or along it. As long as it stays there it is treated as a vertical; only then it becomes a
+    /// ray of its own.
     is_wall: bool,
 }
 
@@ -114,8 +115,8 @@ impl<'g> Cone<'g> {
         self.line == at.y && self.left.here().ceil() <= at.x && at.x <= self.right.here().floor()
     }
 
-    /// Advances from line to line while the cone crosses one run of free cells and no corner appears at which a path may bend. Returns
-    /// whether the interval holds the goal.
+    /// Advances from line to line while the cone crosses one run of free cells and no corner appears at which
+    /// a path may bend. Returns whether the interval holds the goal.
     #[inline]
     pub(super) fn advance(&mut self, goal: Vertex) -> bool {
         loop {
@@ -138,9 +139,9 @@ impl<'g> Cone<'g> {
         }
     }
 
-    /// Where walls cut the interval off on its left and right before the next line; `None` if it splits, ends, or if an obstacle hides
-    /// something. `left` and `right` are its ends on the next line if no obstacle is in the way, `low` to `high` the columns that are
-    /// crossed.
+    /// Where walls cut the interval off on its left and right before the next line; `None` if it splits,
+    /// ends, or if an obstacle hides something. `left` and `right` are its ends on the next line if no
+    /// obstacle is in the way, `low` to `high` the columns that are crossed.
     #[inline(always)]
     fn walls(
         &self,
@@ -163,7 +164,8 @@ impl<'g> Cone<'g> {
         let start = if inside > first { inside } else { ahead.run_start(first, low) };
         let end = ahead.first_blocked(inside, high);
         let splits = end < last && ahead.first_free(end, last) < last;
-        // A left obstacle that ends right of the vertical through the root hides something, and so does a right one that ends left.
+        // A left obstacle that ends right of the vertical through the root hides something, and so does a
+        // right one that ends left.
         let shades = inside > first && inside > self.root.x || end < last && end < self.root.x;
         let empties = left.floor() >= end || right.ceil() <= start;
         if splits || shades || empties {
@@ -174,7 +176,8 @@ impl<'g> Cone<'g> {
         Some((left_wall.then_some(start), right_wall.then_some(end)))
     }
 
-    /// Whether the obstacle beside an edge, in column `outer`, begins or ends on this line: then a path may bend around its corner.
+    /// Whether the obstacle beside an edge, in column `outer`, begins or ends on this line: then a path may
+    /// bend around its corner.
     #[inline]
     fn is_at_corner(&self, edge: &Edge, outer: i32, ahead: impl Runs) -> bool {
         let behind = || edge.is_wall || self.behind().is_blocked(outer);

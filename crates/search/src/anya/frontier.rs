@@ -19,8 +19,8 @@ pub(super) struct Root {
 
 /// A search node: the part of a line that a root sees.
 ///
-/// A *cone node* is the interval between two rays on a line other than the root's. A *flat node* is a vertex at which a path may turn on
-/// the root's own line; `left.dx` is its distance to the right.
+/// A *cone node* is the interval between two rays on a line other than the root's. A *flat node* is a vertex
+/// at which a path may turn on the root's own line; `left.dx` is its distance to the right.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) root: u32,
@@ -36,7 +36,8 @@ struct RootEntry {
     root: u32,
 }
 
-/// The roots and nodes of a search, with its open list. The next [`start`](Self::start) clears it and keeps the memory.
+/// The roots and nodes of a search, with its open list. The next [`start`](Self::start) clears it and keeps
+/// the memory.
 #[derive(Clone, Debug)]
 pub(super) struct Frontier {
     roots: Vec<Root>,
@@ -47,10 +48,11 @@ pub(super) struct Frontier {
     open: BinaryHeap<Reverse<Entry>>,
 }
 
-/// An entry of the open list, ordered by f, then by h (nearer to the goal first), then by the age of the node.
+/// An entry of the open list, ordered by f, then by h (nearer to the goal first), then by the age of the
+/// node.
 ///
-/// The bits of non-negative floats are ordered like the floats; h has the precision of an `f32`. The order is total, and the same on
-/// every platform, since IEEE 754 defines sums, products, quotients and roots exactly.
+/// The bits of non-negative floats are ordered like the floats; h has the precision of an `f32`. The order is
+/// total, and the same on every platform, since IEEE 754 defines sums, products, quotients and roots exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Entry(u128);
 
@@ -90,7 +92,8 @@ impl Frontier {
         }
     }
 
-    /// Forgets the last search, in constant time (but for one call in 2³²), and makes a vertex the first root, number 0.
+    /// Forgets the last search, in constant time (but for one call in 2³²), and makes a vertex the first
+    /// root, number 0.
     pub(super) fn start(&mut self, space: &FreeSpace<Corners>, at: Vertex) {
         self.roots.clear();
         self.nodes.clear();
@@ -117,8 +120,9 @@ impl Frontier {
         (number != 0).then(|| self.root(self.root(number).parent).at)
     }
 
-    /// Makes a vertex that another root sees a root, and returns its number; `None` if another path to it is as short. (Paths that go on
-    /// from there are no shorter than by that other path. If they are as short, they are taut by it too, and so among its nodes.)
+    /// Makes a vertex that another root sees a root, and returns its number; `None` if another path to it is
+    /// as short. (Paths that go on from there are no shorter than by that other path. If they are as short,
+    /// they are taut by it too, and so among its nodes.)
     #[inline]
     pub(super) fn add_root(&mut self, space: &FreeSpace<Corners>, parent: u32, at: Vertex) -> Option<u32> {
         let id = space.id(at)?;

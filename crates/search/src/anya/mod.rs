@@ -1,41 +1,49 @@
-//! Anya (Harabor, Grastien, Öz & Aksakalli 2016, 'Optimal Any-Angle Pathfinding In Practice'): optimal any-angle paths between
-//! corner vertices, found online, with nothing preprocessed.
+//! Anya (Harabor, Grastien, Öz & Aksakalli 2016, 'Optimal Any-Angle Pathfinding In Practice'): optimal
+//! any-angle paths between corner vertices, found online, with nothing preprocessed.
 //!
-//! **Nodes.** A *root* is the start or a vertex at which paths turn. A *cone node* is what a root sees of another horizontal line: an
-//! interval between two rays from the root, its ends included. A *flat node* is a vertex of the root's own line at which a path may
-//! turn.
+//! **Nodes.** A *root* is the start or a vertex at which paths turn. A *cone node* is what a root sees of
+//! another horizontal line: an interval between two rays from the root, its ends included. A *flat node* is a
+//! vertex of the root's own line at which a path may turn.
 //!
-//! f is the length of the path to the root plus that of the shortest path from there through the interval to the goal, or to the mirror
-//! image of the goal where that lies on the near side of the line (Section 4.3). It never falls from a node to its successors, and it
-//! is exact where the interval holds the goal. So the first such node taken from the open list is optimal.
+//! f is the length of the path to the root plus that of the shortest path from there through the interval to
+//! the goal, or to the mirror image of the goal where that lies on the near side of the line (Section 4.3).
+//! It never falls from a node to its successors, and it is exact where the interval holds the goal. So the
+//! first such node taken from the open list is optimal.
 //!
-//! **Successors.** A cone crosses the row of cells ahead of its line through the runs of free cells that it enters:
+//! **Successors.** A cone crosses the row of cells ahead of its line through the runs of free cells that it
+//! enters:
 //! - what the root sees of the next line through a run is an *observable* successor;
-//! - what the corner of an obstacle hides of a run is a *non-observable* successor, whose root is that corner. The corner is an end of
-//!   the interval with the obstacle on the near side of the line, or an end of the run that the ray passes inwards;
-//! - around a corner on the near side the path may also turn onto the line itself: to a flat node at the next corner there.
+//! - what the corner of an obstacle hides of a run is a *non-observable* successor, whose root is that
+//!   corner. The corner is an end of the interval with the obstacle on the near side of the line, or an end
+//!   of the run that the ray passes inwards;
+//! - around a corner on the near side the path may also turn onto the line itself: to a flat node at the next
+//!   corner there.
 //!
-//! Every successor is *taut*: the path bends only around a corner of an obstacle, and towards it. Each optimal path is a chain of such
-//! successors. The intervals of a root are closed, so a path that touches a corner and goes straight on also 'turns' there by an angle
-//! of 0. Therefore intervals of width 0 need not be kept.
+//! Every successor is *taut*: the path bends only around a corner of an obstacle, and towards it. Each
+//! optimal path is a chain of such successors. The intervals of a root are closed, so a path that touches a
+//! corner and goes straight on also 'turns' there by an angle of 0. Therefore intervals of width 0 need not
+//! be kept.
 //!
-//! **Pruning.** A vertex that another root has reached as cheaply does not become a root again, and the nodes of a root to which a
-//! shorter path was found are dropped (*root history*). Successors with nothing behind them are not queued (*cul-de-sac*). While a node has
-//! just one successor, the search goes on with that without queueing it (*intermediate*). Most lines have one successor and hide
-//! nothing: those are crossed by additions and one word of cells (module `cone`).
+//! **Pruning.** A vertex that another root has reached as cheaply does not become a root again, and the nodes
+//! of a root to which a shorter path was found are dropped (*root history*). Successors with nothing behind
+//! them are not queued (*cul-de-sac*). While a node has just one successor, the search goes on with that
+//! without queueing it (*intermediate*). Most lines have one successor and hide nothing: those are crossed by
+//! additions and one word of cells (module `cone`).
 //!
-//! **Gap rules.** Under [`DiagonalGap::Open`](mediant_grid::DiagonalGap::Open) a gap is a corner that hides all of the run beyond it.
-//! Under [`DiagonalGap::Closed`](mediant_grid::DiagonalGap::Closed), the rule of the paper, no path turns at one, and flat nodes end
-//! there. A start or goal that is a gap is left or entered through the quadrant of its own cell.
+//! **Gap rules.** Under [`DiagonalGap::Open`](mediant_grid::DiagonalGap::Open) a gap is a corner that hides
+//! all of the run beyond it. Under [`DiagonalGap::Closed`](mediant_grid::DiagonalGap::Closed), the rule of
+//! the paper, no path turns at one, and flat nodes end there. A start or goal that is a gap is left or
+//! entered through the quadrant of its own cell.
 //!
-//! **Exactness.** An interval end is the rational where a ray, stored as the vector between two vertices of the map, meets a line. Its
-//! floor, its ceiling, and whether it is a vertex are computed exactly; no two ends are ever compared within a tolerance. The proof, also
-//! that nothing overflows on the largest map, is in [`mediant_grid::sight`]. Lengths are sums of square roots, in `f64`.
+//! **Exactness.** An interval end is the rational where a ray, stored as the vector between two vertices of
+//! the map, meets a line. Its floor, its ceiling, and whether it is a vertex are computed exactly; no two
+//! ends are ever compared within a tolerance. The proof, also that nothing overflows on the largest map, is
+//! in [`mediant_grid::sight`]. Lengths are sums of square roots, in `f64`.
 //!
 //! **Ties.** The open list orders by f, then h, then the age of the node; see module `frontier`.
 //!
-//! On eighteen benchmark maps it takes 0.13 to 0.31 of the time of Anya16 (Java) and 0.94 of that of Polyanya, in the geometric mean;
-//! this, and what was tried on the way, is in `docs/measurements/search.md`.
+//! On eighteen benchmark maps it takes 0.13 to 0.31 of the time of Anya16 (Java) and 0.94 of that of
+//! Polyanya, in the geometric mean; this, and what was tried on the way, is in `docs/measurements/search.md`.
 
 mod cone;
 mod frontier;

@@ -37,9 +37,9 @@ use crate::{
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// `T` is how the planner holds its map: by reference, or, where both belong in one struct, by `Arc`. Its scratch memory is 8 bytes a
-/// vertex, and 40 for each node and 24 for each root of the largest search. The events of its search name the roots of nodes, so the
-/// expansions of one root differ in f alone.
+/// `T` is how the planner holds its map: by reference, or, where both belong in one struct, by `Arc`. Its
+/// scratch memory is 8 bytes a vertex, and 40 for each node and 24 for each root of the largest search. The
+/// events of its search name the roots of nodes, so the expansions of one root differ in f alone.
 #[derive(Clone, Debug)]
 pub struct Anya<T> {
     space: T,

@@ -109,8 +109,8 @@ impl<O: Observer> Search<'_, O> {
         self.observer.generated(NodeEvent { at: root.at, parent, g: fixed(root.g), f: fixed(f) });
     }
 
-    /// The length of a shortest path from the root through the interval to the goal, or to its mirror image where the goal lies on this
-    /// side of the line (Harabor et al. 2016, Section 4.3).
+    /// The length of a shortest path from the root through the interval to the goal, or to its mirror image
+    /// where the goal lies on this side of the line (Harabor et al. 2016, Section 4.3).
     #[inline]
     fn estimate(&self, root: Vertex, line: i32, left: f64, right: f64) -> f64 {
         let (x, y) = (f64::from(root.x), f64::from(root.y));
@@ -127,7 +127,8 @@ impl<O: Observer> Search<'_, O> {
         }
     }
 
-    /// Queues the flat node at the next vertex beyond `from`, on the line of a root, at which a path may turn or end.
+    /// Queues the flat node at the next vertex beyond `from`, on the line of a root, at which a path may turn
+    /// or end.
     fn push_flat(&mut self, root: u32, from: Vertex, right: i32) {
         let grid = self.space.grid();
         let [above, below] = [-1, 1].map(|down| row_ahead(grid, from.y, down));
@@ -168,7 +169,8 @@ impl<O: Observer> Search<'_, O> {
         self.add(Node { root, line: from.y, left, right: left }, start.g + h, h);
     }
 
-    /// Queues the successors of a flat node: paths that turn up or down at its vertex, and the next flat node on the line.
+    /// Queues the successors of a flat node: paths that turn up or down at its vertex, and the next flat node
+    /// on the line.
     fn expand_flat(&mut self, node: Node, root: Vertex) {
         let grid = self.space.grid();
         let right = node.left.dx.signum();
@@ -221,8 +223,8 @@ impl<O: Observer> Search<'_, O> {
         }
     }
 
-    /// Where an end of the interval is the corner of an obstacle on the near side of the line: adds the paths that bend around it into what
-    /// the obstacle hides.
+    /// Where an end of the interval is the corner of an obstacle on the near side of the line: adds the paths
+    /// that bend around it into what the obstacle hides.
     fn turn_at_end(&mut self, cone: &Cone<'_>, end: IntervalEnd, side: Side) {
         let (ahead, behind) = (cone.ahead, cone.behind());
         let x = end.here.floor();
@@ -248,8 +250,8 @@ impl<O: Observer> Search<'_, O> {
         }
     }
 
-    /// For a run of free cells that the cone enters: adds the interval behind it that the root sees, and those that the obstacles at the
-    /// ends of the run hide.
+    /// For a run of free cells that the cone enters: adds the interval behind it that the root sees, and
+    /// those that the obstacles at the ends of the run hide.
     #[inline]
     fn add_visible(
         &mut self,
@@ -277,8 +279,8 @@ impl<O: Observer> Search<'_, O> {
         }
     }
 
-    /// Adds what the corner of an obstacle in column `x` hides of a run: on the next line the interval from `far` to where the ray past the
-    /// corner meets it, at most to `limit`.
+    /// Adds what the corner of an obstacle in column `x` hides of a run: on the next line the interval from
+    /// `far` to where the ray past the corner meets it, at most to `limit`.
     fn add_hidden(
         &mut self,
         cone: &Cone<'_>,

@@ -45,9 +45,10 @@ impl<P: Placement> MoveTable<P> {
         self.neighborhood.index_of(v).map(|index| index as usize)
     }
 
-    /// Calls `each` with the sequences of moves that have the displacement of move `a` followed by move `b` and are cheaper, or as
-    /// cheap and earlier: single moves, pairs, and the cheapest path on an empty grid in its plainest orders. The alternative to two
-    /// opposite moves is the empty sequence. There is none for a = b.
+    /// Calls `each` with the sequences of moves that have the displacement of move `a` followed by move `b`
+    /// and are cheaper, or as cheap and earlier: single moves, pairs, and the cheapest path on an empty grid
+    /// in its plainest orders. The alternative to two opposite moves is the empty sequence. There is none for
+    /// a = b.
     pub(crate) fn alternatives(&self, a: usize, b: usize, mut each: impl FnMut(&[usize])) {
         let d = self.vectors[a] + self.vectors[b];
         let cost = self.costs[a] + self.costs[b];
@@ -97,7 +98,8 @@ impl<P: Placement> MoveTable<P> {
 }
 
 impl Requirements {
-    /// The four pairs of adjacent cells around the vertex `at`. If both cells of one pair are free, the vertex is no gap.
+    /// The four pairs of adjacent cells around the vertex `at`. If both cells of one pair are free, the
+    /// vertex is no gap.
     pub(crate) fn beside(at: Vector) -> [[CellOffset; 2]; 4] {
         let [nw, ne, sw, se] = [(-1, -1), (0, -1), (-1, 0), (0, 0)].map(|(x, y)| (at.x + x, at.y + y));
         [[nw, ne], [sw, se], [nw, sw], [ne, se]]

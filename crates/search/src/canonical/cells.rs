@@ -2,7 +2,8 @@
 
 use mediant_grid::CellOffset;
 
-/// A set of cells with offsets from −32 to 31, enough for all that two moves of N(8) can reach: a bit a cell, a word a row.
+/// A set of cells with offsets from −32 to 31, enough for all that two moves of N(8) can reach: a bit a cell,
+/// a word a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Cells([u64; 64]);
 

@@ -1,16 +1,18 @@
 //! How far the nearest obstacle is, and the nearest corner of one.
 //!
-//! **Far from corners there are no forced successors.** Take the box of cells around vertex v that holds all cells that any move from
-//! or to v sweeps; its radius is R(k) cells. Suppose no convex corner of an obstacle lies inside the box: no grid point with exactly
-//! one blocked cell around it, or with two that touch diagonally.
+//! **Far from corners there are no forced successors.** Take the box of cells around vertex v that holds all
+//! cells that any move from or to v sweeps; its radius is R(k) cells. Suppose no convex corner of an obstacle
+//! lies inside the box: no grid point with exactly one blocked cell around it, or with two that touch
+//! diagonally.
 //!
-//! 1. Then every edge-connected component of free cells in the box is a rectangle, as a polyomino without reflex vertices and
-//!    without pinches.
-//! 2. The move a from u into v and the move b from v to w lie in one such rectangle. With u and w, their whole bounding box lies in it.
+//! 1. Then every edge-connected component of free cells in the box is a rectangle, as a polyomino without
+//!    reflex vertices and without pinches.
+//! 2. The move a from u into v and the move b from v to w lie in one such rectangle. With u and w, their
+//!    whole bounding box lies in it.
 //! 3. Every cheapest path of displacement a + b on an empty grid stays in that bounding box, so it is legal.
 //!
-//! So every successor that is not natural is pruned, under either placement and every rule of motion. (At corners the box is taken
-//! one wider, so that no vertex of the path is a gap.)
+//! So every successor that is not natural is pruned, under either placement and every rule of motion. (At
+//! corners the box is taken one wider, so that no vertex of the path is a gap.)
 
 use mediant_grid::{CellOffset, GridGraph, Placement, PlacementKind, VertexId};
 
@@ -23,10 +25,11 @@ pub(crate) struct Clearance {
 /// The clearance of one vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct VertexClearance {
-    /// The side of the free square: the largest c such that no cell with an offset of at most c − 1 (at centers), or
-    /// from −c to c − 1 (at corners), along either axis is blocked.
+    /// The side of the free square: the largest c such that no cell with an offset of at most c − 1 (at
+    /// centers), or from −c to c − 1 (at corners), along either axis is blocked.
     pub(crate) free: u32,
-    /// The Chebyshev distance to the nearest convex corner of an obstacle; at centers from the nearest corner of the vertex's cell.
+    /// The Chebyshev distance to the nearest convex corner of an obstacle; at centers from the nearest corner
+    /// of the vertex's cell.
     pub(crate) corner: u32,
 }
 
@@ -84,13 +87,15 @@ impl Clearance {
         along(x).max(along(y))
     }
 
-    /// The distance to corners from which on there are no forced successors, where moves have coordinates up to `radius`.
+    /// The distance to corners from which on there are no forced successors, where moves have coordinates up
+    /// to `radius`.
     pub(crate) fn needed_from_corners<P: Placement>(radius: i32) -> u32 {
         radius.unsigned_abs() + u32::from(P::KIND == PlacementKind::Corner)
     }
 }
 
-/// Whether of the four cells around a grid point, row by row, exactly one is blocked, or two that touch diagonally.
+/// Whether of the four cells around a grid point, row by row, exactly one is blocked, or two that touch
+/// diagonally.
 pub(crate) fn is_convex_corner([nw, ne, sw, se]: [bool; 4]) -> bool {
     match [nw, ne, sw, se].into_iter().filter(|&blocked| blocked).count() {
         1 => true,
@@ -99,8 +104,8 @@ pub(crate) fn is_convex_corner([nw, ne, sw, se]: [bool; 4]) -> bool {
     }
 }
 
-/// The Chebyshev distance of each position to the nearest marked one, in two passes; `outside` is the distance of the positions
-/// beyond the edges.
+/// The Chebyshev distance of each position to the nearest marked one, in two passes; `outside` is the
+/// distance of the positions beyond the edges.
 fn distances(width: usize, height: usize, outside: u8, marked: impl Fn(usize, usize) -> bool) -> Vec<u8> {
     // With a frame around them, positions at the edges need no case of their own.
     let stride = width + 2;

@@ -4,10 +4,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use mediant_grid::VertexId;
 
-/// For each vertex and incoming move, whether there is a forced successor: two bits, of which the lower says 'none', the higher
-/// 'some', and neither 'unknown'.
+/// For each vertex and incoming move, whether there is a forced successor: two bits, of which the lower says
+/// 'none', the higher 'some', and neither 'unknown'.
 ///
-/// Any number of planners fill it as they ask. Each bit is a fact of the map, so their answers do not depend on what is filled in.
+/// Any number of planners fill it as they ask. Each bit is a fact of the map, so their answers do not depend
+/// on what is filled in.
 #[derive(Debug)]
 pub(crate) struct ForcedCache {
     words: Box<[AtomicU64]>,

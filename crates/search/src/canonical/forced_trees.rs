@@ -1,13 +1,16 @@
-//! The rule for 4 ≤ k ≤ 8: for each incoming move a binary tree over the candidates for forced successors, ordered by angle.
+//! The rule for 4 ≤ k ≤ 8: for each incoming move a binary tree over the candidates for forced successors,
+//! ordered by angle.
 //!
-//! A node of the tree stands for the candidates of one sector of directions. It is tested on a window of the map around the vertex, a
-//! word a row. The sector is dropped when
+//! A node of the tree stands for the candidates of one sector of directions. It is tested on a window of the
+//! map around the vertex, a word a row. The sector is dropped when
 //! - a cell that *all* its moves sweep is blocked, so that none of them is legal; or
-//! - every cell is free that the best alternatives to *all* of its candidates require, so that each of them is pruned.
+//! - every cell is free that the best alternatives to *all* of its candidates require, so that each of them
+//!   is pruned.
 //!
-//! So walls end the sectors that run into them, open ground ends the sectors beside it, and what remains is the neighborhood of an
-//! obstacle's corner. A leaf is one candidate, with the cells of its move and up to [`MAX_ALTERNATIVES`] alternatives. The cells
-//! that the incoming move and the candidate itself sweep are known to be free and not tested again.
+//! So walls end the sectors that run into them, open ground ends the sectors beside it, and what remains is
+//! the neighborhood of an obstacle's corner. A leaf is one candidate, with the cells of its move and up to
+//! [`MAX_ALTERNATIVES`] alternatives. The cells that the incoming move and the candidate itself sweep are
+//! known to be free and not tested again.
 
 use mediant_grid::{CellOffset, Grid, Placement, Vertex, load};
 
@@ -140,7 +143,8 @@ impl ForcedTrees {
         trees
     }
 
-    /// Adds the subtree of these candidates. `tested` are the cells that the nodes above test because all their moves sweep them.
+    /// Adds the subtree of these candidates. `tested` are the cells that the nodes above test because all
+    /// their moves sweep them.
     fn add<P: Placement>(&mut self, moves: &MoveTable<P>, candidates: &[Candidate], tested: &Cells) {
         let [first, ..] = candidates else { return };
         let swept =
@@ -151,7 +155,8 @@ impl ForcedTrees {
             .iter()
             .filter_map(|candidate| candidate.alternatives.first())
             .fold(Cells::default(), |all, cells| all.with(cells));
-        // If one of the candidates has no alternative, the sector is never dropped because of the alternatives.
+        // If one of the candidates has no alternative, the sector is never dropped because of the
+        // alternatives.
         let has_alternatives = candidates.iter().all(|candidate| !candidate.alternatives.is_empty());
         let leaf = (candidates.len() == 1).then_some(first);
         let begin = self.alternatives.len() as u32;
@@ -208,8 +213,8 @@ impl ForcedTrees {
             && is_either_free(step.either, grid, at)
     }
 
-    /// Calls `take` with each forced successor of a path that arrives by move `by`, until that returns false. Whether it always
-    /// returned true.
+    /// Calls `take` with each forced successor of a path that arrives by move `by`, until that returns false.
+    /// Whether it always returned true.
     #[inline]
     pub(crate) fn for_each_forced(
         &self,
@@ -257,7 +262,7 @@ impl Candidate {
         known.extend(moves.footprints[a].free.iter().map(|&(x, y)| (x + before.x, y + before.y)));
         let mut alternatives: Vec<Cells> = Vec::new();
         moves.alternatives(a, b, |sequence| {
-            alternatives.push(beyond(&known, &moves.requirements(before, sequence)))
+            alternatives.push(beyond(&known, &moves.requirements(before, sequence)));
         });
         // A stable sort: of alternatives that require as many cells, the one found first comes first.
         alternatives.sort_by_key(Cells::count);
@@ -274,9 +279,9 @@ impl Candidate {
     }
 }
 
-/// A set of cells that, if free, satisfies the requirements, without those that are known to be free. Of a pair of which one must be
-/// free it takes the cell nearer to the vertex, and so further inside the bend of the path, unless the set has one of them anyway. So
-/// the set may require too much, never too little.
+/// A set of cells that, if free, satisfies the requirements, without those that are known to be free. Of a
+/// pair of which one must be free it takes the cell nearer to the vertex, and so further inside the bend of
+/// the path, unless the set has one of them anyway. So the set may require too much, never too little.
 fn beyond(known: &Cells, required: &Requirements) -> Cells {
     let mut cells: Cells = required.free.iter().copied().collect();
     let has = |cells: &Cells, cell: CellOffset| cells.contains(cell) || known.contains(cell);

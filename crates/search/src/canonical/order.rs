@@ -1,7 +1,7 @@
 //! The order of the moves, and which of them follow one another on open ground.
 
-/// The rank of a move as the last one of a path: even indices first, then by index. Of two equally cheap paths to a vertex, the
-/// one whose last move has the lower rank is the earlier one.
+/// The rank of a move as the last one of a path: even indices first, then by index. Of two equally cheap
+/// paths to a vertex, the one whose last move has the lower rank is the earlier one.
 pub(crate) const fn rank(index: usize) -> usize {
     (index & 1) << 16 | index
 }

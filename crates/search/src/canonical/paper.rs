@@ -1,19 +1,21 @@
 //! Canonical A* as Rivera 2017 states it: complete, but not optimal for k ≥ 4.
 //!
-//! Rule variant: a node that was reached by an odd-indexed move is bidimensional (its successors are that move and its two neighbors),
-//! one that was reached by an even-indexed move is unidimensional (that move alone). 'A cell is a jump point if it is one on the
-//! 8-neighborhood'. The paper does not say what the successors of a jump point are, beyond 'forced successors are required to preserve
-//! completeness'; here they are all legal moves, as at the start.
+//! Rule variant: a node that was reached by an odd-indexed move is bidimensional (its successors are that
+//! move and its two neighbors), one that was reached by an even-indexed move is unidimensional (that move
+//! alone). 'A cell is a jump point if it is one on the 8-neighborhood'. The paper does not say what the
+//! successors of a jump point are, beyond 'forced successors are required to preserve completeness'; here
+//! they are all legal moves, as at the start.
 //!
-//! With no other jump points than those at which an arrival on the 8-neighborhood has a forced successor, the search is not complete,
-//! contrary to Theorem 4: on random maps, k = 5 to 7, it missed 3 of 1,000 paths. The reason: a vertex on the way along an axis may
-//! be reached more cheaply by a move that leads into the wall beside it. The vertex keeps that move, and the way along the axis ends
-//! there. So all legal moves are also taken
+//! With no other jump points than those at which an arrival on the 8-neighborhood has a forced successor, the
+//! search is not complete, contrary to Theorem 4: on random maps, k = 5 to 7, it missed 3 of 1,000 paths. The
+//! reason: a vertex on the way along an axis may be reached more cheaply by a move that leads into the wall
+//! beside it. The vertex keeps that move, and the way along the axis ends there. So all legal moves are also
+//! taken
 //! - at every vertex that touches a convex corner of an obstacle, and
 //! - at every vertex where the incoming move cannot be repeated.
 //!
-//! Even so, 7 of 3,600 queries of four benchmark sets found no path at k = 7 (none at k = 4 and 5). For these the search is repeated
-//! with all moves everywhere.
+//! Even so, 7 of 3,600 queries of four benchmark sets found no path at k = 7 (none at k = 4 and 5). For these
+//! the search is repeated with all moves everywhere.
 
 use std::ops::Deref;
 

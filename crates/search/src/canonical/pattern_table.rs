@@ -1,7 +1,7 @@
 //! The rule for k ≤ 3 as a table: incoming move × pattern of cells around the vertex → successors.
 //!
-//! The table is computed by operations on sets of patterns: a move or an alternative is legal in the patterns in which all cells
-//! that it requires are free.
+//! The table is computed by operations on sets of patterns: a move or an alternative is legal in the patterns
+//! in which all cells that it requires are free.
 
 use std::ops::{BitAnd, BitOr, Not};
 
@@ -132,7 +132,8 @@ impl Not for Patterns {
     }
 }
 
-/// For each of the 3 × 3 cells around a vertex, the patterns in which it is free; `None` for a cell that patterns do not hold.
+/// For each of the 3 × 3 cells around a vertex, the patterns in which it is free; `None` for a cell that
+/// patterns do not hold.
 struct CellPatterns([[Option<Patterns>; 3]; 3]);
 
 impl CellPatterns {
@@ -149,8 +150,8 @@ impl CellPatterns {
         Self([-1, 0, 1].map(|y| [-1, 0, 1].map(|x| free((x, y)))))
     }
 
-    /// The patterns in which the requirements are satisfied, when each cell that patterns do not hold counts as free in the patterns
-    /// `unknown`.
+    /// The patterns in which the requirements are satisfied, when each cell that patterns do not hold counts
+    /// as free in the patterns `unknown`.
     fn satisfied(&self, required: &Requirements, unknown: Patterns) -> Patterns {
         let free = |(x, y): CellOffset| {
             let row = self.0.get((y + 1) as usize).and_then(|row| row.get((x + 1) as usize));

@@ -47,8 +47,8 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> Canonical<L, H
         Self::with_pruning(graph, pruning, heuristic)
     }
 
-    /// A planner that shares its pruning rule with others. A rule that was made for another map, k or rule of motion is not used; the
-    /// right one is computed instead.
+    /// A planner that shares its pruning rule with others. A rule that was made for another map, k or rule of
+    /// motion is not used; the right one is computed instead.
     #[must_use]
     pub fn with_pruning(graph: L, pruning: Arc<Pruning<P>>, heuristic: H) -> Self {
         let pruning = pruning.matching(&graph);

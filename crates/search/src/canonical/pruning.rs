@@ -15,8 +15,8 @@ use super::{
 };
 use crate::successors::ExpandedNode;
 
-/// Whether anything is pruned on a grid graph. If nothing is, ties need no rule. Where paths may pass gaps there must be none: how
-/// a path may leave a gap depends on how it came there.
+/// Whether anything is pruned on a grid graph. If nothing is, ties need no rule. Where paths may pass gaps
+/// there must be none: how a path may leave a gap depends on how it came there.
 #[inline]
 pub(crate) fn prunes<P: Placement>(graph: &GridGraph<P>) -> bool {
     !graph.has_closed_gaps() || graph.k() != FiniteK::N4
@@ -51,8 +51,8 @@ impl<P: Placement> Pruning<P> {
         Self::with_rule(graph, Arc::new(CanonicalRule::new(graph.k(), graph.rule())))
     }
 
-    /// The same with a rule that is shared with other maps. A rule for another k or rule of motion is not used; the right one is
-    /// computed instead.
+    /// The same with a rule that is shared with other maps. A rule for another k or rule of motion is not
+    /// used; the right one is computed instead.
     #[must_use]
     pub fn with_rule(graph: &GridGraph<P>, rule: Arc<CanonicalRule<P>>) -> Self {
         if (rule.k, rule.rule) != (graph.k(), graph.rule()) {
@@ -64,7 +64,8 @@ impl<P: Placement> Pruning<P> {
         Self { grid: Arc::clone(graph.grid()), rule, clearance, forced_cache }
     }
 
-    /// This, if it was made for the grid graph; otherwise a new one that is, since what holds on one map may be wrong on another.
+    /// This, if it was made for the grid graph; otherwise a new one that is, since what holds on one map may
+    /// be wrong on another.
     #[must_use]
     pub(crate) fn matching(self: Arc<Self>, graph: &GridGraph<P>) -> Arc<Self> {
         let same_rule = (self.rule.k, self.rule.rule) == (graph.k(), graph.rule());
@@ -159,7 +160,8 @@ impl<P: Placement> Pruning<P> {
         }
     }
 
-    /// Whether forced successors are known everywhere; if not, all vertices near corners count as having some.
+    /// Whether forced successors are known everywhere; if not, all vertices near corners count as having
+    /// some.
     #[inline]
     pub(crate) const fn knows_forced(&self) -> bool {
         self.clearance.is_none() || self.forced_cache.is_some()
@@ -174,7 +176,8 @@ impl<P: Placement> Pruning<P> {
         }
     }
 
-    /// Whether a path that arrives by move `by` has a forced successor where the cells form `pattern`; for k ≤ 3.
+    /// Whether a path that arrives by move `by` has a forced successor where the cells form `pattern`; for k
+    /// ≤ 3.
     pub(crate) fn has_forced_at(&self, pattern: usize, by: usize) -> bool {
         match &self.rule.lookup {
             ForcedLookup::Table(table) => table.forced(by, table.successors(by, pattern)) != 0,
@@ -182,9 +185,9 @@ impl<P: Placement> Pruning<P> {
         }
     }
 
-    /// Whether all legal moves are taken because it would cost more to find out which of them are forced: from k = 7 on, wherever there
-    /// is a forced successor. Canonical A* then takes 0.55 to 1.0 of the time at k = 7; at k = 6 it would be about even
-    /// (`docs/measurements/search.md`).
+    /// Whether all legal moves are taken because it would cost more to find out which of them are forced:
+    /// from k = 7 on, wherever there is a forced successor. Canonical A* then takes 0.55 to 1.0 of the time
+    /// at k = 7; at k = 6 it would be about even (`docs/measurements/search.md`).
     #[inline]
     pub(crate) fn takes_all_moves(&self, graph: &GridGraph<P>, node: &ExpandedNode, by: usize) -> bool {
         let ForcedLookup::Trees(trees) = &self.rule.lookup else { return false };

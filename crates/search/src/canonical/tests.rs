@@ -8,7 +8,8 @@ use mediant_moves::FiniteK;
 use super::{order::natural, planner::CanonicalMoves, pruning::Pruning};
 use crate::successors::{ExpandedNode, Successors};
 
-/// Up to k = 6 those that the rule leaves, everywhere; from k = 7 on all legal ones at vertices with a forced successor.
+/// Up to k = 6 those that the rule leaves, everywhere; from k = 7 on all legal ones at vertices with a forced
+/// successor.
 #[test]
 fn where_there_is_a_turn_all_legal_moves_are_taken_from_k_7_on() {
     let row = |y| (0..40).map(|x| if (x, y) == (20, 20) { '#' } else { '.' }).collect::<String>();

@@ -1,15 +1,17 @@
-//! Scans along the axes by words: 64 vertices a step (block-based jumps: Harabor & Grastien 2014, 'Improving Jump Point Search').
+//! Scans along the axes by words: 64 vertices a step (block-based jumps: Harabor & Grastien 2014, 'Improving
+//! Jump Point Search').
 //!
-//! An axial jump ends at its first *jump point*, a vertex with a forced successor (see [`JumpPointRule`]), or where its move is not
-//! legal. Both depend on the map alone, on the two or three rows of cells along the jump. So they are computed once, by operations on
-//! words of these rows, and stored: for each of the four directions a bit plane of the vertices that end a jump which enters them.
-//! The planes of the backward directions are mirrored. So a scan loads one row, and one code serves all directions without a branch
-//! on the direction. (Where directions vary, mispredicted branches would be most of a scan's time.)
+//! An axial jump ends at its first *jump point*, a vertex with a forced successor (see [`JumpPointRule`]), or
+//! where its move is not legal. Both depend on the map alone, on the two or three rows of cells along the
+//! jump. So they are computed once, by operations on words of these rows, and stored: for each of the four
+//! directions a bit plane of the vertices that end a jump which enters them. The planes of the backward
+//! directions are mirrored. So a scan loads one row, and one code serves all directions without a branch on
+//! the direction. (Where directions vary, mispredicted branches would be most of a scan's time.)
 //!
 //! Rule variants: all five, k = 2 and k = 3. Under closed gaps a jump ends before a gap.
 //!
-//! The planes take one byte a vertex (two bits a direction). A scan takes 3 to 4 ns; combining the rows anew at every scan takes 5 to
-//! 7.5 ns (`docs/measurements/search.md`).
+//! The planes take one byte a vertex (two bits a direction). A scan takes 3 to 4 ns; combining the rows anew
+//! at every scan takes 5 to 7.5 ns (`docs/measurements/search.md`).
 
 use mediant_grid::{BitMatrix, CornerRule, DiagonalGap, GridGraph, Placement, Rules, Vertex, load};
 use mediant_moves::FiniteK;
@@ -39,11 +41,11 @@ impl Scan {
 /// Which vertices of an axial jump are jump points. *Beside* means in the row on either side of the jump.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum JumpPointRule {
-    /// The cell beside the vertex is free and the one beside its predecessor is blocked. For centers where no diagonal move passes a
-    /// blocked cell: `Never`, and k = 2.
+    /// The cell beside the vertex is free and the one beside its predecessor is blocked. For centers where no
+    /// diagonal move passes a blocked cell: `Never`, and k = 2.
     Behind,
-    /// The cell beside the vertex is blocked and the one beside its successor is free: a diagonal move leads past the blocked cell.
-    /// With `one` (corner rule `One`) the next cell of the jump must be free as well.
+    /// The cell beside the vertex is blocked and the one beside its successor is free: a diagonal move leads
+    /// past the blocked cell. With `one` (corner rule `One`) the next cell of the jump must be free as well.
     Ahead { one: bool },
     /// For corners: as [`Behind`](Self::Behind), with the jump between the two rows of cells.
     Edges { closed: bool },
@@ -67,8 +69,9 @@ impl JumpPointRule {
         }
     }
 
-    /// The ends among 64 vertices. `cells(ahead, row)` says which of the cells are blocked that lie `ahead` steps further on and `row`
-    /// rows beside. At corners the cells of a vertex are the two beside the next step of the jump, in rows −1 and 0.
+    /// The ends among 64 vertices. `cells(ahead, row)` says which of the cells are blocked that lie `ahead`
+    /// steps further on and `row` rows beside. At corners the cells of a vertex are the two beside the next
+    /// step of the jump, in rows −1 and 0.
     fn ends(self, cells: impl Fn(i32, i32) -> u64) -> Ends {
         match self {
             Self::Behind => {
@@ -105,12 +108,14 @@ impl JumpPointRule {
 #[derive(Clone, Debug)]
 pub(crate) struct AxialStops {
     planes: [BitPlane; 4],
-    /// For 64 vertices of a line: which of them end a jump, and which of these because the jump cannot enter them.
+    /// For 64 vertices of a line: which of them end a jump, and which of these because the jump cannot enter
+    /// them.
     words: Vec<[u64; 2]>,
 }
 
-/// Where the bits of one direction are: the bit of vertex (x, y) is at `origin` + `per_x` · x + `per_y` · y, and the bit of the next
-/// vertex of a jump follows it. (In 64 bits on every target: the number of bits is eight times that of bytes.)
+/// Where the bits of one direction are: the bit of vertex (x, y) is at `origin` + `per_x` · x + `per_y` · y,
+/// and the bit of the next vertex of a jump follows it. (In 64 bits on every target: the number of bits is
+/// eight times that of bytes.)
 #[derive(Clone, Copy, Debug)]
 struct BitPlane {
     origin: i64,
@@ -149,7 +154,8 @@ impl AxialStops {
         Self { planes, words }
     }
 
-    /// The axial jump from a vertex of the map in direction number `quarter` < 4: (0, 1), (1, 0), (0, −1), (−1, 0).
+    /// The axial jump from a vertex of the map in direction number `quarter` < 4: (0, 1), (1, 0), (0, −1),
+    /// (−1, 0).
     ///
     /// `goal_steps` is the number of steps to the goal, at least 1, if that lies ahead.
     #[inline]

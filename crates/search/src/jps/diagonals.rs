@@ -1,10 +1,11 @@
-//! What is known of each vertex for a diagonal jump, a bit each: whether the jump's move is legal there, and whether either axial jump
-//! beside it comes to a jump point.
+//! What is known of each vertex for a diagonal jump, a bit each: whether the jump's move is legal there, and
+//! whether either axial jump beside it comes to a jump point.
 //!
-//! So a step of a diagonal jump loads one word, and scans along an axis only where there is something to find. (Where the goal lies
-//! beside the jump is known from its coordinates.) The bits are computed 64 vertices at a time. Which vertices are jump points follows
-//! from the definition: the moves that may be forced, and the alternatives to them. Which axial jumps come to one is carried from row
-//! to row, or along a row from bit to bit.
+//! So a step of a diagonal jump loads one word, and scans along an axis only where there is something to
+//! find. (Where the goal lies beside the jump is known from its coordinates.) The bits are computed 64
+//! vertices at a time. Which vertices are jump points follows from the definition: the moves that may be
+//! forced, and the alternatives to them. Which axial jumps come to one is carried from row to row, or along a
+//! row from bit to bit.
 //!
 //! The bits take one byte a vertex, on top of the byte of [`AxialStops`](super::axial::AxialStops).
 
@@ -16,7 +17,8 @@ use crate::canonical::{MoveTable, Pruning, Requirements, natural};
 /// What is known of each vertex of a grid graph with k ≤ 3 for diagonal jumps.
 #[derive(Clone, Debug)]
 pub(crate) struct DiagonalBits {
-    /// For 64 vertices of a row and each odd move: where the move is legal, and where an axial jump beside it comes to a jump point.
+    /// For 64 vertices of a row and each odd move: where the move is legal, and where an axial jump beside it
+    /// comes to a jump point.
     words: Vec<[[u64; 4]; 2]>,
     per_row: usize,
 }
@@ -55,7 +57,8 @@ impl DiagonalBits {
         Self { words, per_row }
     }
 
-    /// Whether the odd move `index` is legal at a free vertex, and whether an axial jump beside it comes to a jump point.
+    /// Whether the odd move `index` is legal at a free vertex, and whether an axial jump beside it comes to a
+    /// jump point.
     #[inline]
     pub(crate) fn at(&self, at: Vertex, index: usize) -> (bool, bool) {
         let (x, y) = (at.x as usize, at.y as usize);
@@ -73,7 +76,8 @@ impl DiagonalBits {
 struct AxialJump {
     v: Vector,
     step: Footprint,
-    /// The moves that may be forced, each with those alternatives that depend on the pattern of cells around the vertex alone.
+    /// The moves that may be forced, each with those alternatives that depend on the pattern of cells around
+    /// the vertex alone.
     forced: Vec<(Footprint, Vec<Requirements>)>,
 }
 
@@ -121,7 +125,8 @@ impl AxialJump {
                 let [jump, enters] = ends(next as usize);
                 enters & (jump | beyond)
             } else {
-                // The jump from vertex x comes to a jump point if it can enter x + 1, and that is one or leads to one.
+                // The jump from vertex x comes to a jump point if it can enter x + 1, and that is one or
+                // leads to one.
                 let next = (word % per_row) as isize + self.v.x as isize;
                 let inside = (0..per_row as isize).contains(&next);
                 let next = word.wrapping_add_signed(self.v.x as isize);
@@ -144,7 +149,8 @@ impl AxialJump {
     }
 }
 
-/// The bits `start`, and those of the bits `through` that follow them without a break, from high to low bits if `DOWN`.
+/// The bits `start`, and those of the bits `through` that follow them without a break, from high to low bits
+/// if `DOWN`.
 fn carried<const DOWN: bool>(start: u64, through: u64) -> u64 {
     let (mut start, mut through) = (start, through);
     for by in [1, 2, 4, 8, 16, 32] {

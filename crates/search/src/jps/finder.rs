@@ -15,7 +15,8 @@ pub struct JumpContext<'c, P: Placement> {
     pub(crate) graph: &'c GridGraph<P>,
     pub(crate) pruning: &'c Pruning<P>,
     pub(crate) goal: Vertex,
-    /// Whether all jumps are made step by step: near closed gaps finders may be wrong, and a finder may belong to another map.
+    /// Whether all jumps are made step by step: near closed gaps finders may be wrong, and a finder may
+    /// belong to another map.
     pub(crate) stepwise: bool,
     /// The most steps of a jump.
     pub(crate) limit: u32,
@@ -23,17 +24,19 @@ pub struct JumpContext<'c, P: Placement> {
     pub(crate) keeps_intermediate: bool,
 }
 
-/// Finds the jump points to which axial and diagonal jumps lead: [`StepwiseFinder`], [`BlockFinder`](crate::parts::BlockFinder), or a
-/// shared [`JumpTable`](crate::JumpTable).
+/// Finds the jump points to which axial and diagonal jumps lead: [`StepwiseFinder`],
+/// [`BlockFinder`](crate::parts::BlockFinder), or a shared [`JumpTable`](crate::JumpTable).
 ///
-/// Axial jumps repeat an even-indexed move, diagonal jumps an odd-indexed one. The methods are for this crate alone.
+/// Axial jumps repeat an even-indexed move, diagonal jumps an odd-indexed one. The methods are for this crate
+/// alone.
 pub trait JumpFinder<P: Placement>: Debug {
     /// Whether it was made for this grid graph.
     #[doc(hidden)]
     fn fits(&self, graph: &GridGraph<P>) -> bool;
 
-    /// The number of steps of the axial jump by move `index` from a vertex to a jump point or to the goal; `None` if it comes to
-    /// neither. The goal is `goal_steps` ahead, if it lies ahead at all. Adds to `scanned` the number of vertices looked at.
+    /// The number of steps of the axial jump by move `index` from a vertex to a jump point or to the goal;
+    /// `None` if it comes to neither. The goal is `goal_steps` ahead, if it lies ahead at all. Adds to
+    /// `scanned` the number of vertices looked at.
     #[doc(hidden)]
     fn axial(
         &self,
@@ -104,7 +107,8 @@ impl<P: Placement> JumpContext<'_, P> {
         ExpandedNode { id: step.target_after(from.id, n), at, by: Some(index) }
     }
 
-    /// An axial jump, step by step; several steps at once where obstacles are so far that none of these vertices is a jump point.
+    /// An axial jump, step by step; several steps at once where obstacles are so far that none of these
+    /// vertices is a jump point.
     #[inline]
     pub(super) fn step_axial(
         &self,
@@ -178,8 +182,8 @@ impl<P: Placement> JumpContext<'_, P> {
         }
     }
 
-    /// The two axial jumps from a vertex of a diagonal jump. Returns whether the diagonal jump must end there, because the vertex is an
-    /// intermediate jump point that becomes a node.
+    /// The two axial jumps from a vertex of a diagonal jump. Returns whether the diagonal jump must end
+    /// there, because the vertex is an intermediate jump point that becomes a node.
     #[inline]
     pub(super) fn jump_beside<J: JumpFinder<P> + ?Sized>(
         &self,
@@ -261,7 +265,8 @@ impl GoalLegs {
         let (d, u) = (from.to(context.goal), context.graph.step(index).vector());
         context.beside(index).into_iter().find_map(|beside| {
             let v = context.graph.step(beside).vector();
-            // Adjacent moves span a parallelogram of area 1, so this is Cramer's rule without its denominator.
+            // Adjacent moves span a parallelogram of area 1, so this is Cramer's rule without its
+            // denominator.
             let sign = cross(u, v);
             let (diagonal, axial) = (cross(d, v) * sign, cross(u, d) * sign);
             (diagonal > 0 && axial >= 0).then_some(Self {

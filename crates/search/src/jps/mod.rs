@@ -1,15 +1,16 @@
-//! Jump point search (Harabor & Grastien 2011, 2014; Hammoud & Lupin 2023), for every k: canonical A*(k) that scans vertices without
-//! forced successors instead of queueing them.
+//! Jump point search (Harabor & Grastien 2011, 2014; Hammoud & Lupin 2023), for every k: canonical A*(k) that
+//! scans vertices without forced successors instead of queueing them.
 //!
-//! The successors of a node, and which vertices have forced ones, follow the rule of [`canonical`](crate::canonical), and so does the
-//! proof. Only *jump points*, which are the vertices with a forced successor, and the goal become nodes. At any other vertex a path
-//! has only its natural successors: one after an even move, three after an odd one. These are followed at once, by *jumps*.
+//! The successors of a node, and which vertices have forced ones, follow the rule of
+//! [`canonical`](crate::canonical), and so does the proof. Only *jump points*, which are the vertices with a
+//! forced successor, and the goal become nodes. At any other vertex a path has only its natural successors:
+//! one after an even move, three after an odd one. These are followed at once, by *jumps*.
 //!
-//! An *axial* jump repeats an even-indexed move until its first jump point. A *diagonal* jump repeats an odd-indexed move; from each of
-//! its vertices it makes the axial jumps of the two even moves beside it, and where one of these finds a jump point, the vertex is an
-//! *intermediate* jump point. (At k = 3 these are the jumps along axes and diagonals of the original, and under `Never` its jump
-//! points. Nothing here is special about k = 3 or about any rule of motion; for other k 'axial' and 'diagonal' just mean even and
-//! odd.)
+//! An *axial* jump repeats an even-indexed move until its first jump point. A *diagonal* jump repeats an
+//! odd-indexed move; from each of its vertices it makes the axial jumps of the two even moves beside it, and
+//! where one of these finds a jump point, the vertex is an *intermediate* jump point. (At k = 3 these are the
+//! jumps along axes and diagonals of the original, and under `Never` its jump points. Nothing here is special
+//! about k = 3 or about any rule of motion; for other k 'axial' and 'diagonal' just mean even and odd.)
 //!
 //! The engines differ in the [`JumpFinder`]:
 //!
@@ -19,16 +20,19 @@
 //! | [`BlockJps`] | 64 vertices a word operation (module `axial`) | vertex by vertex, two axial jumps each | 2, 3 |
 //! | [`JpsPlus`] | looked up ([`JumpTable`]) | looked up | 2, 3 |
 //!
-//! **Intermediate jump points** (Harabor & Grastien 2014) are pruned by default: what an axial jump beside a diagonal one finds becomes
-//! the successor, and the vertex between becomes no node. The path is put together again from its two legs.
+//! **Intermediate jump points** (Harabor & Grastien 2014) are pruned by default: what an axial jump beside a
+//! diagonal one finds becomes the successor, and the vertex between becomes no node. The path is put together
+//! again from its two legs.
 //!
-//! **Bounded jumps** (Sturtevant & Rabin 2016): a jump of more steps than the jump limit ends in a node, from which the search goes on.
-//! From k = 9 on, where forced successors are not tabulated, every jump ends so after one step.
+//! **Bounded jumps** (Sturtevant & Rabin 2016): a jump of more steps than the jump limit ends in a node, from
+//! which the search goes on. From k = 9 on, where forced successors are not tabulated, every jump ends so
+//! after one step.
 //!
-//! What made it fast: bit planes that combine the three rows of cells along an axial jump, so that a scan loads one row; one bit for
-//! each step of a diagonal jump that says whether an axial jump beside it finds anything; and a table of one byte a vertex and move,
-//! so that the entries of a vertex are one word. For k ≥ 4 there are no such tables, but a vertex is tested for forced successors only
-//! once. From k = 6 on canonical A* is faster: scanning costs more than the saved nodes. Figures: `docs/measurements/search.md`.
+//! What made it fast: bit planes that combine the three rows of cells along an axial jump, so that a scan
+//! loads one row; one bit for each step of a diagonal jump that says whether an axial jump beside it finds
+//! anything; and a table of one byte a vertex and move, so that the entries of a vertex are one word. For k ≥
+//! 4 there are no such tables, but a vertex is tested for forced successors only once. From k = 6 on
+//! canonical A* is faster: scanning costs more than the saved nodes. Figures: `docs/measurements/search.md`.
 
 mod axial;
 mod block_finder;

@@ -45,9 +45,10 @@ pub struct JumpMoves<P: Placement, J> {
 impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic, J: JumpFinder<P>>
     JumpPointSearch<L, H, P, J>
 {
-    /// A planner with a finder that was made for this grid graph, and a pruning rule that may be shared with other planners. If either was
-    /// made for another map, k or rule of motion, it is not used: the right rule is computed, and jumps are made step by step. (Of a
-    /// [`JumpTable`] only the size is compared with the grid graph.)
+    /// A planner with a finder that was made for this grid graph, and a pruning rule that may be shared with
+    /// other planners. If either was made for another map, k or rule of motion, it is not used: the right
+    /// rule is computed, and jumps are made step by step. (Of a [`JumpTable`] only the size is compared with
+    /// the grid graph.)
     #[must_use]
     pub fn with_finder(graph: L, pruning: Arc<Pruning<P>>, finder: J, heuristic: H) -> Self {
         let (pruning, stepwise) = (pruning.matching(&graph), !finder.fits(&graph));
@@ -55,15 +56,16 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic, J: JumpFinder<
         Self::with_successors(graph, heuristic, successors)
     }
 
-    /// The same planner with jumps of at most `limit` steps, at least 1; `None` for no limit. (Jumps from a [`JumpTable`] are not
-    /// limited.)
+    /// The same planner with jumps of at most `limit` steps, at least 1; `None` for no limit. (Jumps from a
+    /// [`JumpTable`] are not limited.)
     #[must_use]
     pub fn with_jump_limit(mut self, limit: Option<u32>) -> Self {
         self.successors.limit = limit.unwrap_or(u32::MAX).max(1);
         self
     }
 
-    /// The same planner with (`true`) or without nodes for intermediate jump points. By default they are pruned.
+    /// The same planner with (`true`) or without nodes for intermediate jump points. By default they are
+    /// pruned.
     #[must_use]
     pub fn with_intermediate(mut self, keep: bool) -> Self {
         self.successors.keeps_intermediate = keep;
@@ -119,7 +121,8 @@ impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
             graph,
             pruning: &self.pruning,
             goal,
-            // Asked once for the whole node: a jump never goes on from a gap, so only the node itself and the goal may be one.
+            // Asked once for the whole node: a jump never goes on from a gap, so only the node itself and the
+            // goal may be one.
             stepwise: self.stepwise
                 || !prunes(graph)
                 || graph.has_closed_gaps() && (graph.is_closed_gap(goal) || graph.is_closed_gap(node.at)),

@@ -1,15 +1,16 @@
 //! Precomputed jump distances (JPS+: Harabor & Grastien 2014, 'Improving Jump Point Search'), for k ≤ 3.
 //!
-//! **One byte for each vertex and move**, so that the entries of a vertex are one word of 8 bytes at k = 3 (4 bytes at k = 2). Bit 7
-//! says whether the jump ends at a jump point or dead; the other bits say after how many steps. 127 stands for more than 126: the
-//! jump goes on after 126 steps, where the entry gives the rest.
+//! **One byte for each vertex and move**, so that the entries of a vertex are one word of 8 bytes at k = 3 (4
+//! bytes at k = 2). Bit 7 says whether the jump ends at a jump point or dead; the other bits say after how
+//! many steps. 127 stands for more than 126: the jump goes on after 126 steps, where the entry gives the
+//! rest.
 //!
 //! - Even moves (axial jumps) end at a vertex with a forced successor.
-//! - Odd moves (diagonal jumps) end at a vertex with a forced successor, or at an intermediate jump point, from which one of the two
-//!   axial jumps beside it finds a jump point.
+//! - Odd moves (diagonal jumps) end at a vertex with a forced successor, or at an intermediate jump point,
+//!   from which one of the two axial jumps beside it finds a jump point.
 //!
-//! Rule variants: all five. Under closed gaps a jump ends before a gap. The table does not say what paths do at gaps: where they
-//! begin or end at one, and at k = 2 where they pass one.
+//! Rule variants: all five. Under closed gaps a jump ends before a gap. The table does not say what paths do
+//! at gaps: where they begin or end at one, and at k = 2 where they pass one.
 
 use mediant_grid::{GridGraph, Placement, Step, Vector, Vertex, VertexId};
 use mediant_moves::{FiniteK, KError};
@@ -94,8 +95,8 @@ pub enum JumpTableError {
 const FOUND: u8 = 0x80;
 /// The bits for the number of steps.
 const STEPS: u8 = 0x7f;
-/// The steps that are taken at once for an entry with [`STEPS`], of whose jump at least that many are left: one less, so that its end is
-/// not passed.
+/// The steps that are taken at once for an entry with [`STEPS`], of whose jump at least that many are left:
+/// one less, so that its end is not passed.
 const LEAP: u8 = STEPS - 1;
 
 /// The entry of a vertex, if the next vertex of the jump is no jump point and has the entry `next`.
@@ -122,15 +123,16 @@ impl JumpTable {
             let steps = (parity..1 << k).step_by(2);
             steps.filter(|&index| (around.offsets[index] > 0) == adds).collect::<Vec<usize>>()
         };
-        // An odd move depends on the two even ones beside it, of which one may decrease ids where the odd one increases them.
+        // An odd move depends on the two even ones beside it, of which one may decrease ids where the odd one
+        // increases them.
         around.pass(&mut entries, ids.clone().rev(), &moves(0, true));
         around.pass(&mut entries, ids.clone(), &[moves(0, false), moves(1, false)].concat());
         around.pass(&mut entries, ids.rev(), &moves(1, true));
         Ok(Self { entries, k, width: P::vertices(graph.grid()).0 })
     }
 
-    /// The table from its bytes; see [`as_bytes`](Self::as_bytes). Every entry is checked against the map and the entry one step
-    /// ahead, so an accepted table is the one that [`new`](Self::new) computes.
+    /// The table from its bytes; see [`as_bytes`](Self::as_bytes). Every entry is checked against the map and
+    /// the entry one step ahead, so an accepted table is the one that [`new`](Self::new) computes.
     ///
     /// # Errors
     /// A [`JumpTableError`] for bytes that are not the table of this grid graph.
@@ -170,8 +172,8 @@ impl JumpTable {
         Ok(())
     }
 
-    /// After how many steps the jump by a move ends, and whether that is at a jump point. `step` is the move `index` of the grid
-    /// graph.
+    /// After how many steps the jump by a move ends, and whether that is at a jump point. `step` is the move
+    /// `index` of the grid graph.
     #[inline]
     pub(crate) fn jump(&self, id: VertexId, step: &Step, index: usize) -> (u32, bool) {
         let mut at = id.index() << self.k | index;
@@ -188,7 +190,8 @@ impl JumpTable {
         (steps + u32::from(entry & STEPS), entry & FOUND != 0)
     }
 
-    /// The entries, one byte each, by vertex id and then by move, as [`from_bytes`](Self::from_bytes) takes them.
+    /// The entries, one byte each, by vertex id and then by move, as [`from_bytes`](Self::from_bytes) takes
+    /// them.
     #[must_use]
     pub fn as_bytes(&self) -> &[u8] {
         &self.entries
@@ -261,8 +264,8 @@ impl Surroundings {
         }
     }
 
-    /// Computes the entries of these moves at every vertex. `ids` are ordered so that each vertex comes after those to which the moves
-    /// lead.
+    /// Computes the entries of these moves at every vertex. `ids` are ordered so that each vertex comes after
+    /// those to which the moves lead.
     fn pass(&self, entries: &mut [u8], ids: impl Iterator<Item = usize>, moves: &[usize]) {
         for id in ids {
             for &index in moves {

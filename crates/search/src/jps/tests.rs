@@ -1,4 +1,5 @@
-//! Scans of bit planes and jumps from tables against jumps that are made step by step, with forced successors by their definition.
+//! Scans of bit planes and jumps from tables against jumps that are made step by step, with forced successors
+//! by their definition.
 
 use std::sync::Arc;
 
@@ -39,10 +40,10 @@ fn pattern_at<P: Placement>(grid: &Grid, at: Vertex) -> usize {
     bits.enumerate().map(|(i, (x, y))| usize::from(grid.is_blocked(x, y)) << i).sum()
 }
 
-/// Which moves a have a forced successor where the cells around a vertex form `pattern`, by the definition: a move b that is not natural
-/// is legal, and no path of displacement a + b from the start of a is shorter, or as long with a last move of lower rank. All cells
-/// beyond the pattern are blocked, so that only those paths count that the pattern alone makes legal. (Gaps depend on more than that,
-/// so they are open here.)
+/// Which moves a have a forced successor where the cells around a vertex form `pattern`, by the definition: a
+/// move b that is not natural is legal, and no path of displacement a + b from the start of a is shorter, or
+/// as long with a last move of lower rank. All cells beyond the pattern are blocked, so that only those paths
+/// count that the pattern alone makes legal. (Gaps depend on more than that, so they are open here.)
 fn forced_of<P: Placement>(rule: P::Rule, k: FiniteK, pattern: usize) -> u8 {
     let side = pattern_side::<P>();
     let grid = Grid::from_fn(side, side, |x, y| pattern >> (x + y * side) & 1 == 1).unwrap();
@@ -256,7 +257,8 @@ fn tables_lead_where_steps_lead() {
 #[test]
 fn runs_longer_than_an_entry_can_say_are_followed_to_their_end() {
     for length in [1, 125, 126, 127, 128, 251, 252, 253, 254, 378, 379, 400_u32] {
-        // All cells beside the jump are blocked. If the one beside its last cell is free, that is a jump point.
+        // All cells beside the jump are blocked. If the one beside its last cell is free, that is a jump
+        // point.
         for with_forced in [false, true] {
             let grid = Grid::from_fn(length + 1, 2, |x, y| y == 1 && (x != length || !with_forced)).unwrap();
             for k in [2, 3] {

@@ -2,13 +2,15 @@
 
 use mediant_grid::{FreeSpace, Placement, Vertex};
 
-/// Replaces parts of a path by straight segments between vertices that see each other (Botea, Müller & Schaeffer 2004, 'Near Optimal
-/// Hierarchical Path-Finding', Section 3.3). From the start it follows the path as long as that is in sight, places a waypoint at the
-/// last vertex in sight, and continues from there. It checks sight once for each segment of the path, then once for each vertex on it.
+/// Replaces parts of a path by straight segments between vertices that see each other (Botea, Müller &
+/// Schaeffer 2004, 'Near Optimal Hierarchical Path-Finding', Section 3.3). From the start it follows the path
+/// as long as that is in sight, places a waypoint at the last vertex in sight, and continues from there. It
+/// checks sight once for each segment of the path, then once for each vertex on it.
 ///
-/// As in the paper, all vertices on the path are considered, not only its waypoints: on a path over N(k) there is one after each
-/// move, and new waypoints may be placed there. The new path is legal, not longer than the old one, and has the same ends. A path that
-/// is not legal on this free space is returned unchanged.
+/// As in the paper, all vertices on the path are considered, not only its waypoints: on a path over N(k)
+/// there is one after each move, and new waypoints may be placed there. The new path is legal, not longer
+/// than the old one, and has the same ends. A path that is not legal on this free space is returned
+/// unchanged.
 ///
 /// ```
 /// use std::sync::Arc;

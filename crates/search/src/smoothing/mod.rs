@@ -1,7 +1,8 @@
 //! Smoothing: makes a path shorter after the search. Its segments then run at any angle.
 //!
-//! At corners, k = 3, paths are 2.3 % longer than the any-angle optimum on average, after [`smooth`] 0.2 %, after [`pull_taut`] 0.02 %.
-//! Except in noise this costs up to 2 % and 10 % of the time of A* (`docs/measurements/search.md`).
+//! At corners, k = 3, paths are 2.3 % longer than the any-angle optimum on average, after [`smooth`] 0.2 %,
+//! after [`pull_taut`] 0.02 %. Except in noise this costs up to 2 % and 10 % of the time of A*
+//! (`docs/measurements/search.md`).
 
 mod linear;
 mod taut;
@@ -65,11 +66,11 @@ impl<P: Placement> HasFreeSpace for GridGraph<P> {
     }
 }
 
-/// A planner whose paths are smoothed. Its [`guarantee`](Planner::guarantee) is [`Guarantee::AtMost`] if the paths were optimal over
-/// N(k).
+/// A planner whose paths are smoothed. Its [`guarantee`](Planner::guarantee) is [`Guarantee::AtMost`] if the
+/// paths were optimal over N(k).
 ///
-/// `L` is how the free space is held: by reference or `Arc`, as a [`FreeSpace`] or a [`GridGraph`]. Smoothing, unlike searching,
-/// allocates.
+/// `L` is how the free space is held: by reference or `Arc`, as a [`FreeSpace`] or a [`GridGraph`].
+/// Smoothing, unlike searching, allocates.
 ///
 /// ```
 /// use std::sync::Arc;

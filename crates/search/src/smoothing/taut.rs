@@ -7,25 +7,28 @@ use mediant_moves::Cost;
 
 use super::linear::{between, is_legal, smooth_legal, without_repetitions};
 
-/// Pulls a path taut, like a string: first [`smooth`](super::smooth), then waypoint by waypoint, until none can be left out or moved.
+/// Pulls a path taut, like a string: first [`smooth`](super::smooth), then waypoint by waypoint, until none
+/// can be left out or moved.
 ///
 /// For each waypoint b of the new path, between a and c:
 /// - a and c do not see each other, nor do a and the waypoint after c.
-/// - No vertex on one of the two segments at b sees the far end of the other one, and the two vertices next to b on the segments do not
-///   see each other.
-/// - Replacing b by one of the eight vertices around it makes no legal path that is shorter by 2⁻²⁹ cells or more.
-/// - At corners: b is the corner of an obstacle that lies within the turn. So the path is locally shortest: no path that passes the
-///   obstacles on the same sides is shorter.
+/// - No vertex on one of the two segments at b sees the far end of the other one, and the two vertices next
+///   to b on the segments do not see each other.
+/// - Replacing b by one of the eight vertices around it makes no legal path that is shorter by 2⁻²⁹ cells or
+///   more.
+/// - At corners: b is the corner of an obstacle that lies within the turn. So the path is locally shortest:
+///   no path that passes the obstacles on the same sides is shorter.
 ///
-/// (At centers a path keeps its distance from obstacles. There the string is drawn around vertices beside obstacles, if sight allows.
-/// Such a string need not exist, and it need not be the shortest.)
+/// (At centers a path keeps its distance from obstacles. There the string is drawn around vertices beside
+/// obstacles, if sight allows. Such a string need not exist, and it need not be the shortest.)
 ///
-/// The new path is legal, not longer than the smoothed one, and has the same ends. Pulled again, it does not change. A path that is
-/// not legal on this free space is returned unchanged.
+/// The new path is legal, not longer than the smoothed one, and has the same ends. Pulled again, it does not
+/// change. A path that is not legal on this free space is returned unchanged.
 ///
-/// **Pulling ends**, because each step makes the path shorter or leaves out a waypoint on a straight line, and there are finitely many
-/// paths up to a given length. Rounding does not spoil this: a string within a triangle is convex and lies inside the old path, so it
-/// is shorter; and where lengths are compared, in integers, the difference must exceed the rounding.
+/// **Pulling ends**, because each step makes the path shorter or leaves out a waypoint on a straight line,
+/// and there are finitely many paths up to a given length. Rounding does not spoil this: a string within a
+/// triangle is convex and lies inside the old path, so it is shorter; and where lengths are compared, in
+/// integers, the difference must exceed the rounding.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -75,7 +78,8 @@ impl<P: Placement> Taut<'_, P> {
             self.path.drain(index..index + 2);
             return true;
         }
-        // Where corners are not cut, there may be sight past a staircase of which no single step can be left out.
+        // Where corners are not cut, there may be sight past a staircase of which no single step can be left
+        // out.
         for after in index + 1..self.path.len().min(index + 3) {
             if self.turns_well(index..after, &[]) && self.space.sees(a, self.path[after]) {
                 self.path.drain(index..after);
@@ -112,11 +116,13 @@ impl<P: Placement> Taut<'_, P> {
         self.best_neighbor(index, a, b, c).map(|at| vec![at])
     }
 
-    /// The string from a to c, without its ends, that results when a–b–c is pulled until obstacles in the triangle stop it: the convex
-    /// hull, on the side of b, of these obstacles, or at centers of the vertices around them.
+    /// The string from a to c, without its ends, that results when a–b–c is pulled until obstacles in the
+    /// triangle stop it: the convex hull, on the side of b, of these obstacles, or at centers of the vertices
+    /// around them.
     ///
-    /// At corners no segment of it meets an obstacle, since all obstacles that it could meet are among these. Nor does it pass a gap or
-    /// bend at one: more than a quarter of the plane around such a vertex would have to be free on one side.
+    /// At corners no segment of it meets an obstacle, since all obstacles that it could meet are among these.
+    /// Nor does it pass a gap or bend at one: more than a quarter of the plane around such a vertex would
+    /// have to be free on one side.
     fn string(&mut self, a: Vertex, b: Vertex, c: Vertex, side: i128) -> Vec<Vertex> {
         let low = Vertex::new(a.x.min(b.x).min(c.x), a.y.min(b.y).min(c.y));
         let high = Vertex::new(a.x.max(b.x).max(c.x), a.y.max(b.y).max(c.y));

@@ -42,14 +42,16 @@ use crate::{
 /// ```
 pub type ThetaStar<L, H> = Theta<L, H, Eager>;
 
-/// Lazy Theta*: Theta* that assumes a line of sight until the node is expanded. If the node then does not see its parent, its parent
-/// becomes the closed neighbor through which the path is cheapest. The node is expanded all the same, at that higher cost.
+/// Lazy Theta*: Theta* that assumes a line of sight until the node is expanded. If the node then does not see
+/// its parent, its parent becomes the closed neighbor through which the path is cheapest. The node is
+/// expanded all the same, at that higher cost.
 pub type LazyThetaStar<L, H> = Theta<L, H, Lazy>;
 
 /// The planner that [`ThetaStar`] and [`LazyThetaStar`] share; `S` says when lines of sight are checked.
 ///
-/// `L` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`. Its scratch memory is 24½
-/// bytes a vertex. The cost of a segment is that of a move of its displacement, [`Cost::of_move`](mediant_moves::Cost::of_move).
+/// `L` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`.
+/// Its scratch memory is 24½ bytes a vertex. The cost of a segment is that of a move of its displacement,
+/// [`Cost::of_move`](mediant_moves::Cost::of_move).
 #[derive(Clone, Debug)]
 pub struct Theta<L, H, S> {
     graph: L,

@@ -20,8 +20,8 @@ use crate::{
 pub(super) struct Parents {
     /// The parent on the best known path.
     pub(super) parent: VertexId,
-    /// A vertex that it was found not to see. The neighbor that is expanded next often has the same parent, so this saves a second
-    /// check.
+    /// A vertex that it was found not to see. The neighbor that is expanded next often has the same parent,
+    /// so this saves a second check.
     hidden_from: VertexId,
 }
 
@@ -68,7 +68,8 @@ struct PathEnd {
 }
 
 impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S, O> {
-    /// Expands nodes until the goal is the best open node, or none is open. Returns whether the goal was found.
+    /// Expands nodes until the goal is the best open node, or none is open. Returns whether the goal was
+    /// found.
     pub(super) fn run(&mut self) -> bool {
         let at = self.graph.vertex(self.start);
         let h = self.heuristic.estimate(self.graph, at.to(self.goal_at));
@@ -101,8 +102,8 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
         false
     }
 
-    /// Generates the successors of a node. The parent of each is the node's parent, if that sees it or is assumed to, and otherwise the
-    /// node.
+    /// Generates the successors of a node. The parent of each is the node's parent, if that sees it or is
+    /// assumed to, and otherwise the node.
     #[inline]
     fn expand(&mut self, here: PathEnd, node: &Node<Parents>) {
         let graph = self.graph;
@@ -173,8 +174,9 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
         self.observer.percolated(swaps);
     }
 
-    /// Whether closed gaps allow the path that comes from `before` to `parent` to go on straight to `at`. The parent of a gap is always
-    /// the node that generated it (except at the goal), so that the last move tells through which quadrant the path came.
+    /// Whether closed gaps allow the path that comes from `before` to `parent` to go on straight to `at`. The
+    /// parent of a gap is always the node that generated it (except at the goal), so that the last move tells
+    /// through which quadrant the path came.
     fn may_be_parent(&self, before: Option<Vertex>, parent: Vertex, at: Vertex) -> bool {
         let graph = self.graph;
         graph.may_turn(before, parent, Some(at))
@@ -189,8 +191,8 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
             || self.sight.sees(self.graph, parent, self.graph.vertex(parent), here.at)
     }
 
-    /// Makes the closed neighbor through which a node is cheapest its parent, the first of these in the order of the moves. There is at
-    /// least one, that by which the node was generated.
+    /// Makes the closed neighbor through which a node is cheapest its parent, the first of these in the order
+    /// of the moves. There is at least one, that by which the node was generated.
     fn set_parent_to_neighbor(&mut self, here: PathEnd) {
         let graph = self.graph;
         let opposite = graph.steps().len() / 2;

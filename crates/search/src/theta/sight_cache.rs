@@ -1,8 +1,9 @@
 //! A cache of lines of sight, by whole blocks of vertices.
 //!
-//! Many nodes that are expanded one after another have the same parent, and it is asked whether that sees their successors. If no
-//! obstacle meets the convex hull of a vertex and a block, the vertex sees the whole block: one check for 16 lines of sight. On the
-//! maps ArcticStation and AR0011SR this answers 80 % of the questions.
+//! Many nodes that are expanded one after another have the same parent, and it is asked whether that sees
+//! their successors. If no obstacle meets the convex hull of a vertex and a block, the vertex sees the whole
+//! block: one check for 16 lines of sight. On the maps ArcticStation and AR0011SR this answers 80 % of the
+//! questions.
 
 use mediant_grid::{FreeSpace, Placement, Vertex, VertexId, sight::PolygonCells};
 
@@ -32,8 +33,8 @@ impl BlockSight {
     }
 }
 
-/// The binary logarithm of a block's side: blocks have 4 × 4 vertices. With 8 × 8, Theta* takes 1.2 times as long on ArcticStation and
-/// AR0011SR, and 0.9 to 1.0 times as long on rooms and random maps.
+/// The binary logarithm of a block's side: blocks have 4 × 4 vertices. With 8 × 8, Theta* takes 1.2 times as
+/// long on ArcticStation and AR0011SR, and 0.9 to 1.0 times as long on rooms and random maps.
 const SHIFT: u32 = 2;
 
 impl SightCache {

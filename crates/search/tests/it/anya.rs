@@ -8,7 +8,8 @@ use mediant_search::{Anya, Counters, Guarantee, Outcome, Planner, Query, QueryEr
 
 const GAPS: [DiagonalGap; 2] = [DiagonalGap::Open, DiagonalGap::Closed];
 
-/// Whether a path bends only around corners of obstacles, and towards the obstacle, as every optimal path does.
+/// Whether a path bends only around corners of obstacles, and towards the obstacle, as every optimal path
+/// does.
 fn is_taut(grid: &Grid, waypoints: &[Vertex]) -> bool {
     waypoints.windows(3).all(|bend| {
         let (u, v) = (bend[0].to(bend[1]), bend[1].to(bend[2]));
@@ -17,7 +18,8 @@ fn is_taut(grid: &Grid, waypoints: &[Vertex]) -> bool {
         let mut around = quadrants.iter().filter(|(dx, dy)| grid.is_blocked(bend[1].x + dx, bend[1].y + dy));
         turn != 0
             && around.any(|&(dx, dy)| {
-                // The middle of the blocked cell, seen from the bend, in half cells: on the inner side of both segments.
+                // The middle of the blocked cell, seen from the bend, in half cells: on the inner side of
+                // both segments.
                 let (x, y) = (i64::from(2 * dx + 1), i64::from(2 * dy + 1));
                 let side = |w: mediant_grid::Vector| (i64::from(w.x) * y - i64::from(w.y) * x).signum();
                 side(u) == turn.signum() && side(v) == turn.signum()
@@ -79,7 +81,8 @@ fn anya_costs_what_the_visibility_graph_says() {
     assert!(found > 15 * maps && unreachable > maps, "{found} found, {unreachable} unreachable");
 }
 
-/// Every map of 3 × 3 cells, and of 4 × 3 in a sample, from every vertex to every other, under both gap rules.
+/// Every map of 3 × 3 cells, and of 4 × 3 in a sample, from every vertex to every other, under both gap
+/// rules.
 #[test]
 fn anya_is_exact_on_every_map_of_nine_cells() {
     let mut queries = 0;
@@ -147,7 +150,8 @@ fn odd_starts_and_goals() {
         ...#...
     ";
     for gap in GAPS {
-        // Down a wall, around its corner, and straight on past three obstacles on alternate sides, to the border.
+        // Down a wall, around its corner, and straight on past three obstacles on alternate sides, to the
+        // border.
         assert_eq!(solve(CORRIDOR, gap, (1, 0), (7, 2)), Some(8.0));
         // On a vertex with one free cell, and on the same one.
         assert_eq!(solve(CORRIDOR, gap, (1, 0), (1, 2)), Some(2.0));
@@ -184,7 +188,8 @@ fn ends_that_no_path_may_stand_on_are_errors() {
     assert!(Anya::new(&space).solve(Query::new((0, 0), (1, 1))).is_err());
 }
 
-/// From corner to corner of a large map, without obstacles, and with a comb of walls that are open at the top and at the bottom in turn.
+/// From corner to corner of a large map, without obstacles, and with a comb of walls that are open at the top
+/// and at the bottom in turn.
 #[test]
 fn large_maps() {
     let side = 4096;

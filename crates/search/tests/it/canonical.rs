@@ -1,5 +1,5 @@
-//! Canonical search: the rule of the paper and the exact one, what each of them prunes, and shared rules and tables that belong to
-//! another map.
+//! Canonical search: the rule of the paper and the exact one, what each of them prunes, and shared rules and
+//! tables that belong to another map.
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use std::{collections::HashMap, sync::Arc};
@@ -40,7 +40,8 @@ fn center_costs(drawing: &str, k: u32, corners: CornerRule) -> [Option<f64>; 2] 
 
 #[test]
 fn the_published_rule_misses_what_the_exact_one_finds() {
-    // The move (2, 1) is not legal at s, but it is one cell to the right, where no path on the 8-neighborhood turns.
+    // The move (2, 1) is not legal at s, but it is one cell to the right, where no path on the 8-neighborhood
+    // turns.
     let (grid, query) = drawn(
         "
         s....
@@ -66,8 +67,8 @@ fn the_published_rule_misses_what_the_exact_one_finds() {
     assert!((paper - (1.0 + 8.0_f64.sqrt())).abs() < 1e-12, "{paper}");
 }
 
-/// A vertex is reached most cheaply by a long move, none of whose natural successors is legal there; and no path on the 8-neighborhood
-/// turns there.
+/// A vertex is reached most cheaply by a long move, none of whose natural successors is legal there; and no
+/// path on the 8-neighborhood turns there.
 #[test]
 fn the_published_rule_finds_a_path_where_long_moves_lead_nowhere() {
     let drawings = [
@@ -117,7 +118,8 @@ impl Observer for Births {
     }
 }
 
-/// Searches open ground from its middle for a vertex in its last corner, without a heuristic, so that all nearer vertices are expanded.
+/// Searches open ground from its middle for a vertex in its last corner, without a heuristic, so that all
+/// nearer vertices are expanded.
 fn births<P: Placement>(k: u32, rule: P::Rule) -> (Births, i32, GridGraph<P>) {
     let radius = FiniteK::new(k).unwrap().radius().unwrap();
     // So large that for some vertices around the middle nothing but the border is within reach of two moves.
@@ -389,8 +391,8 @@ fn paths_begin_and_end_at_closed_gaps_and_pass_none() {
     }
 }
 
-/// At k = 2 a path may pass a gap, and how it may go on there depends on how it came. So a path of the same cost must not replace another.
-/// Found by the random suite.
+/// At k = 2 a path may pass a gap, and how it may go on there depends on how it came. So a path of the same
+/// cost must not replace another. Found by the random suite.
 #[test]
 fn as_cheap_a_way_to_a_gap_replaces_no_other() {
     let (grid, query) = drawn(
@@ -424,7 +426,8 @@ fn as_cheap_a_way_to_a_gap_replaces_no_other() {
     check(BlockJps::new(&grid_graph, Hk).unwrap().solve(query));
 }
 
-/// Rules and finders that were made for another map, k or rule of motion change no answer, and lead no planner off the map.
+/// Rules and finders that were made for another map, k or rule of motion change no answer, and lead no
+/// planner off the map.
 #[test]
 fn what_was_made_for_other_graphs_is_not_believed() {
     let mut rng = Rng::new(3);

@@ -13,7 +13,8 @@ static RULES: SharedRules = SharedRules::new();
 /// The answer of an engine to a query.
 pub(crate) type Answer = Result<(Outcome, Counters), QueryError>;
 
-/// An engine on one search space, for any number of queries. Its planner is made at the first one, since most suites run few engines.
+/// An engine on one search space, for any number of queries. Its planner is made at the first one, since most
+/// suites run few engines.
 pub(crate) struct Engine<'g> {
     pub(crate) name: String,
     pub(crate) guarantee: Guarantee,
@@ -50,8 +51,8 @@ impl<'g> Engine<'g> {
     }
 }
 
-/// Runs `suite` on every engine of the catalog that searches N(k), in each of its variants, under these rules. The first is A* with
-/// h_k.
+/// Runs `suite` on every engine of the catalog that searches N(k), in each of its variants, under these
+/// rules. The first is A* with h_k.
 pub(crate) fn with_engines<R>(
     grid: &Arc<Grid>,
     rules: Rules,
@@ -61,7 +62,8 @@ pub(crate) fn with_engines<R>(
     on(grid, rules, K::Finite(FiniteK::new(k).expect("k is at least 2")), suite)
 }
 
-/// Runs `suite` on every engine of the catalog that searches at any angle under these rules. There is at least one.
+/// Runs `suite` on every engine of the catalog that searches at any angle under these rules. There is at
+/// least one.
 pub(crate) fn with_any_angle_engines<R>(
     grid: &Arc<Grid>,
     gap: DiagonalGap,

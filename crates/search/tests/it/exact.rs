@@ -1,4 +1,5 @@
-//! Every engine against Dijkstra on explicit graphs, that of N(k) and that of all legal segments, on seeded random maps.
+//! Every engine against Dijkstra on explicit graphs, that of N(k) and that of all legal segments, on seeded
+//! random maps.
 
 use std::sync::Arc;
 
@@ -72,7 +73,8 @@ struct Case<'g> {
 }
 
 impl Case<'_> {
-    /// Checks the answer of an engine against its guarantee. Returns how it was answered; `None` where there is no path.
+    /// Checks the answer of an engine against its guarantee. Returns how it was answered; `None` where there
+    /// is no path.
     fn check(&self, engine: &mut Engine<'_>) -> Option<Found> {
         let Self { grid, rules, start, goal, seed, .. } = *self;
         let answer = engine.solve(Query::new(start, goal));
@@ -212,9 +214,10 @@ fn engines_are_exact_on_every_map_of_nine_cells() {
 /// The number of queries of the test above.
 const QUERIES: usize = 698_240;
 
-/// The suboptimality bound of paths over N(k), as a multiple of the any-angle optimum under the same rules: Kramm 2018, Theorem 2 at
-/// corners, Theorem 3 at centers. In Theorem 3 moves may touch corners: it fails under `Never`, where (2, 1) can be legal and (1, 1)
-/// not, and at k = 2 under `Always`, since no axis moves lead between two blocked cells that touch diagonally.
+/// The suboptimality bound of paths over N(k), as a multiple of the any-angle optimum under the same rules:
+/// Kramm 2018, Theorem 2 at corners, Theorem 3 at centers. In Theorem 3 moves may touch corners: it fails
+/// under `Never`, where (2, 1) can be legal and (1, 1) not, and at k = 2 under `Always`, since no axis moves
+/// lead between two blocked cells that touch diagonally.
 fn bound(rules: Rules, k: u32) -> f64 {
     let number = FiniteK::new(k).expect("k is at least 2");
     match rules {
@@ -225,8 +228,8 @@ fn bound(rules: Rules, k: u32) -> f64 {
     }
 }
 
-/// Any-angle ≤ k + 1 ≤ k ≤ bound · any-angle, among obstacles. (At centers the papers' any-angle paths may also bend at cell
-/// corners; the reference here bends at centers only.)
+/// Any-angle ≤ k + 1 ≤ k ≤ bound · any-angle, among obstacles. (At centers the papers' any-angle paths may
+/// also bend at cell corners; the reference here bends at centers only.)
 #[test]
 fn costs_fall_with_k_and_stay_within_the_bound() {
     let mut tight = [0, 0];

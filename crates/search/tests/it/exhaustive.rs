@@ -1,5 +1,5 @@
-//! Every map of 4 × 4 cells, from every vertex to every other, k = 3, 4, 5, all five rules: the canonical and jump point family against
-//! Dijkstra, exactly, in integer costs.
+//! Every map of 4 × 4 cells, from every vertex to every other, k = 3, 4, 5, all five rules: the canonical and
+//! jump point family against Dijkstra, exactly, in integer costs.
 //!
 //! By default on every [`SAMPLE`]-th map; with `MEDIANT_EXHAUSTIVE=1` on all 65,536.
 #![allow(clippy::unwrap_used, reason = "a test may fail")]

@@ -1,5 +1,5 @@
-//! Heuristics: that they are lower bounds, and close ones; A* with one that is inconsistent, and with one that is inadmissible; and
-//! searches within a limit.
+//! Heuristics: that they are lower bounds, and close ones; A* with one that is inconsistent, and with one
+//! that is inadmissible; and searches within a limit.
 
 use std::{collections::HashMap, sync::Arc};
 
@@ -11,8 +11,8 @@ use mediant_search::{
     Query, SquaredEuclidean, Zero,
 };
 
-/// h_k at every other vertex, as on a checkerboard, and half of it at the others: a lower bound, but inconsistent. (With 0 at the others,
-/// only these would be reopened.)
+/// h_k at every other vertex, as on a checkerboard, and half of it at the others: a lower bound, but
+/// inconsistent. (With 0 at the others, only these would be reopened.)
 #[derive(Clone, Copy)]
 struct Checkered;
 
@@ -186,7 +186,8 @@ fn the_straight_line_is_a_bound_and_a_close_one() {
     }
 }
 
-/// Returns the number of queries with a path, of those whose path is not optimal, and of the vertices expanded again.
+/// Returns the number of queries with a path, of those whose path is not optimal, and of the vertices
+/// expanded again.
 fn check_squared<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> [usize; 3] {
     let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
     let (rules, graph) = (grid_graph.rules(), Explicit::new(grid, grid_graph.rules(), Some(k)));
@@ -240,7 +241,8 @@ fn a_star_finds_a_path_by_a_heuristic_that_overestimates_whenever_there_is_one()
     }
 }
 
-/// Searches within limits around the optimum. Returns how many found a path, and how many found none although there is one.
+/// Searches within limits around the optimum. Returns how many found a path, and how many found none although
+/// there is one.
 fn check_within<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> [usize; 2] {
     let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
     let (mut rng, mut seen) = (Rng::new(seed ^ 0x11111), [0; 2]);

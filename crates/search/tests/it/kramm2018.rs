@@ -1,8 +1,8 @@
-//! Kramm, Rivera, Hernández & Baier 2018, 'A Suboptimality Bound for 2^k Grid Path Planning', Theorem 3: paths over N(k) between centers
-//! against any-angle paths that may bend at cell corners.
+//! Kramm, Rivera, Hernández & Baier 2018, 'A Suboptimality Bound for 2^k Grid Path Planning', Theorem 3:
+//! paths over N(k) between centers against any-angle paths that may bend at cell corners.
 //!
-//! The reference is a grid with each cell divided into four: the centers and the corners of the old cells are corner vertices of the
-//! new grid.
+//! The reference is a grid with each cell divided into four: the centers and the corners of the old cells are
+//! corner vertices of the new grid.
 
 use std::sync::Arc;
 
@@ -27,8 +27,8 @@ struct Instance {
 type Ratio = (f64, Vertex, Vertex);
 
 impl Instance {
-    /// The reference has the rule of corners that treats diagonal gaps like `corners`. Under `Never` it may still touch corners and slide
-    /// along walls, as in the paper.
+    /// The reference has the rule of corners that treats diagonal gaps like `corners`. Under `Never` it may
+    /// still touch corners and slide along walls, as in the paper.
     fn new(grid: Grid, corners: CornerRule) -> Self {
         let quarters = Grid::from_fn(2 * grid.width(), 2 * grid.height(), |x, y| {
             grid.is_blocked(x as i32 / 2, y as i32 / 2)
@@ -46,8 +46,8 @@ impl Instance {
         Self { best: best.collect(), grid: Arc::new(grid), corners, free }
     }
 
-    /// The ratios of all pairs of cells that an any-angle path joins. Checks that no path over N(k) is shorter, and that there is none
-    /// where there is no any-angle path.
+    /// The ratios of all pairs of cells that an any-angle path joins. Checks that no path over N(k) is
+    /// shorter, and that there is none where there is no any-angle path.
     fn ratios(&self, k: u32) -> Vec<Ratio> {
         let (mut ratios, rules) = (Vec::new(), Rules::Center(self.corners));
         with_engines(&self.grid, rules, k, |mut engines| {
@@ -138,7 +138,8 @@ fn figure_6_is_the_worst_case_for_every_k() {
     }
 }
 
-/// Where moves may pass gaps, an any-angle path runs straight between the rows, while moves between centers zigzag.
+/// Where moves may pass gaps, an any-angle path runs straight between the rows, while moves between centers
+/// zigzag.
 #[test]
 fn theorem_3_fails_with_rule_always() {
     const CHECKERBOARD: &str = "

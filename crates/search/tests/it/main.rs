@@ -1,5 +1,5 @@
-//! The tests of the search crate that see it from outside. One binary, so that it is linked once; what needs an allocator of its
-//! own is in `../scratch.rs`.
+//! The tests of the search crate that see it from outside. One binary, so that it is linked once; what needs
+//! an allocator of its own is in `../scratch.rs`.
 
 mod anya;
 mod canonical;

@@ -22,7 +22,8 @@ struct Judge<'g> {
 }
 
 impl Judge<'_> {
-    /// Whether these are consecutive waypoints of a legal path, with `None` before its start and after its goal.
+    /// Whether these are consecutive waypoints of a legal path, with `None` before its start and after its
+    /// goal.
     fn is_legal(&self, way: &[Option<Vertex>]) -> bool {
         let sees = |ends: &[Option<Vertex>]| match *ends {
             [Some(a), Some(b)] => a != b && segment_is_legal(self.grid, self.rules, a, b),
@@ -400,7 +401,8 @@ fn planners_smooth_their_paths() {
     assert_eq!(smoothed.guarantee(), Guarantee::Suboptimal);
 }
 
-/// Compares the bounds of a guarantee with the any-angle optimum. Returns how many lower bounds exceeded the straight line.
+/// Compares the bounds of a guarantee with the any-angle optimum. Returns how many lower bounds exceeded the
+/// straight line.
 fn check_bounds<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> usize {
     let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
     let (rules, any_angle) = (grid_graph.rules(), Explicit::new(grid, grid_graph.rules(), None));

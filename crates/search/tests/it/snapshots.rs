@@ -1,6 +1,7 @@
 //! Drawings of paths that a reader can check by eye, across k, placements and rules.
 //!
-//! Waypoints are 0, 1, 2, … in order. Under corner placement vertices are at even rows and columns of the drawing, cells at odd ones.
+//! Waypoints are 0, 1, 2, … in order. Under corner placement vertices are at even rows and columns of the
+//! drawing, cells at odd ones.
 
 use std::sync::Arc;
 
@@ -101,7 +102,8 @@ pictures! {
     gap_corner_closed: GAP, CLOSED, 4;
 }
 
-/// Of the paths of one cost, jump point search finds the canonical one: odd moves first, other turns only where an obstacle forces them.
+/// Of the paths of one cost, jump point search finds the canonical one: odd moves first, other turns only
+/// where an obstacle forces them.
 #[test]
 fn slalom_center_k4_canonical() {
     let [a_star, jumps] =

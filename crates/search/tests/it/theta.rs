@@ -1,4 +1,5 @@
-//! Theta* and Lazy Theta*: they find a path whenever there is one, a legal one, and what is known of its length.
+//! Theta* and Lazy Theta*: they find a path whenever there is one, a legal one, and what is known of its
+//! length.
 
 use std::{fmt::Debug, sync::Arc};
 
@@ -24,8 +25,8 @@ struct Expected {
     seed: u64,
 }
 
-/// Checks one planner on all queries of a map, so that each is answered with the scratch memory of the others. Returns how many paths
-/// were optimal, and how many not.
+/// Checks one planner on all queries of a map, so that each is answered with the scratch memory of the
+/// others. Returns how many paths were optimal, and how many not.
 fn check<P: Placement, H: Heuristic + Debug, S: SightCheck>(
     grid_graph: &GridGraph<P>,
     h: H,
@@ -210,7 +211,8 @@ fn one_bend_around_a_wall() {
         // With four moves Theta* considers fewer vertices, and is not optimal.
         check_paths(WALL, rules, 2, ends, [&[(0, 1), (8, 1), (8, 2)], &[(0, 1), (6, 1), (8, 2)]]);
     }
-    // At centers the path does not bend at a corner. The optimum bends at (5, 0), which Theta* with k = 3 does not find.
+    // At centers the path does not bend at a corner. The optimum bends at (5, 0), which Theta* with k = 3
+    // does not find.
     check_paths(WALL, NEVER, 3, ends, [&[(0, 1), (6, 0), (8, 2)]; 2]);
     check_paths(WALL, NEVER, 4, ends, [&[(0, 1), (5, 0), (8, 2)]; 2]);
 }
@@ -265,7 +267,8 @@ fn gaps_are_passed_where_they_are_open() {
     // The end of a path lies in the cell to the lower right.
     check_paths(gap, CLOSED, 4, [(3, 3), (6, 5)], [&[(3, 3), (6, 5)]; 2]);
     check_paths(gap, CLOSED, 4, [(0, 0), (3, 3)], [&[]; 2]);
-    // A free cell of which three corners are gaps. With four moves the path passes one of them, where it may not leave the cell.
+    // A free cell of which three corners are gaps. With four moves the path passes one of them, where it may
+    // not leave the cell.
     let cell = "
         .#..
         #.#.
@@ -279,8 +282,8 @@ fn gaps_are_passed_where_they_are_open() {
     }
 }
 
-/// A vertex must not become the parent of another that it sees through the other quadrant of a gap. Without a heuristic the search meets
-/// such pairs.
+/// A vertex must not become the parent of another that it sees through the other quadrant of a gap. Without a
+/// heuristic the search meets such pairs.
 #[test]
 fn nothing_hangs_through_a_closed_gap() {
     let both = |drawing: &str, k: u32, [start, goal]: [(i32, i32); 2], expected: &[(i32, i32)]| {

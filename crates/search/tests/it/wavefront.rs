@@ -1,4 +1,5 @@
-//! The wavefront algorithm against breadth-first search on the explicit graph, and against Dijkstra where all moves have the same length.
+//! The wavefront algorithm against breadth-first search on the explicit graph, and against Dijkstra where all
+//! moves have the same length.
 
 use std::{collections::VecDeque, sync::Arc};
 
@@ -42,8 +43,9 @@ impl<'g> Graph<'g> {
         self.rules == Rules::Corner(DiagonalGap::Closed) && is_gap(self.grid, at)
     }
 
-    /// The least number of moves from `start` to every vertex, row by row. For k > 2 on paths that touch closed gaps only at their
-    /// ends; for k = 2 by Dijkstra on a graph with a vertex for each quadrant of a gap.
+    /// The least number of moves from `start` to every vertex, row by row. For k > 2 on paths that touch
+    /// closed gaps only at their ends; for k = 2 by Dijkstra on a graph with a vertex for each quadrant of a
+    /// gap.
     fn moves_from(&self, start: Vertex) -> Vec<Option<u32>> {
         if self.k == FiniteK::N4 {
             let graph = Explicit::new(self.grid, self.rules, Some(self.k));
@@ -74,7 +76,8 @@ impl<'g> Graph<'g> {
     }
 }
 
-/// The algorithm on a map, whatever the placement: the moves to every vertex, and the answer to a query, by the same planner.
+/// The algorithm on a map, whatever the placement: the moves to every vertex, and the answer to a query, by
+/// the same planner.
 trait Waves {
     fn distances(&mut self, start: Vertex) -> Result<Distances<u32>, QueryError>;
     fn answer(&mut self, query: Query) -> Result<(Outcome, Counters), QueryError>;
@@ -220,7 +223,8 @@ fn ties_go_to_the_vertex_reached_first() {
     };
     // The first move is (0, 1), so the vertex to which it leads is expanded first.
     assert_eq!(path(2, (3, 2)), [(0, 0), (0, 2), (3, 2)]);
-    // Three moves. So has [(0, 0), (2, 0), (3, 1)], which is shorter, but (2, 2) is reached before (2, 1) and (2, 0).
+    // Three moves. So has [(0, 0), (2, 0), (3, 1)], which is shorter, but (2, 2) is reached before (2, 1) and
+    // (2, 0).
     assert_eq!(path(3, (3, 1)), [(0, 0), (2, 2), (3, 1)]);
     assert_eq!(path(3, (2, 2)), [(0, 0), (2, 2)]);
 }
