@@ -11,7 +11,10 @@ use mediant_grid::{
 };
 use mediant_moves::{Cost, FiniteK, K};
 use mediant_oracle::{Rng, caves, noise, random_free_vertex};
-use mediant_search::{Entry, OpenList, Query};
+use mediant_search::{
+    Query,
+    parts::{Entry, OpenList},
+};
 
 const SEED: u64 = 1;
 const SIDE: u32 = 160;

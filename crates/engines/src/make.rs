@@ -8,8 +8,9 @@ use std::{num::NonZeroU32, sync::Arc};
 use mediant_grid::{Centers, Corners, FreeSpace, GridGraph, Placement};
 use mediant_hierarchy::{ChpaStar, HpaStar, SegmentGraph};
 use mediant_search::{
-    AStar, Anya, BlockJps, Canonical, Euclidean, HasFreeSpace, Heuristic, Hk, Jps, JpsPlus, JumpFinder,
-    Jumping, LazyThetaStar, PaperCanonical, Planner, SquaredEuclidean, ThetaStar, Walk, Wavefront, Zero,
+    AStar, Anya, BlockJps, Canonical, Euclidean, Heuristic, Hk, Jps, JpsPlus, LazyThetaStar, PaperCanonical,
+    Planner, SquaredEuclidean, ThetaStar, Wavefront, Zero,
+    parts::{HasFreeSpace, JumpFinder, JumpPointSearch, StepwiseFinder},
 };
 use mediant_subgoal::{SubgoalAStar, SubgoalGraph, SubgoalPlacement, SubgoalTheta};
 
@@ -109,7 +110,7 @@ fn guided<P: SubgoalPlacement>(
             BoxedPlanner::of(Canonical::with_pruning(graph, Arc::clone(pruning), heuristic))
         }
         (Engine::Jps(own), Parts::Pruning(pruning)) => {
-            let planner = Jps::with_finder(graph, Arc::clone(pruning), Walk, heuristic);
+            let planner = Jps::with_finder(graph, Arc::clone(pruning), StepwiseFinder, heuristic);
             jumping(planner, own.jump_limit, own.keep_intermediate)
         }
         (Engine::JpsBlock(own), Parts::Blocks(pruning, blocks)) => {
@@ -125,12 +126,12 @@ fn guided<P: SubgoalPlacement>(
 }
 
 fn jumping<P: Placement, H: Heuristic + Send + 'static, J: JumpFinder<P> + Send + 'static>(
-    planner: Jumping<Arc<GridGraph<P>>, H, P, J>,
+    planner: JumpPointSearch<Arc<GridGraph<P>>, H, P, J>,
     limit: Option<NonZeroU32>,
     keep_intermediate: bool,
 ) -> BoxedPlanner
 where
-    Jumping<Arc<GridGraph<P>>, H, P, J>: Planner + Send + 'static,
+    JumpPointSearch<Arc<GridGraph<P>>, H, P, J>: Planner + Send + 'static,
 {
     let planner = planner.with_jump_limit(limit.map(NonZeroU32::get));
     BoxedPlanner::of(planner.with_intermediate(keep_intermediate))

@@ -4,7 +4,7 @@ use std::{fmt, sync::Arc};
 
 use mediant_grid::Grid;
 use mediant_search::{
-    Counters, Guarantee, HasFreeSpace, Observer, Outcome, Planner, Query, QueryError, Smoothing,
+    Counters, Guarantee, Observer, Outcome, Planner, Query, QueryError, Smoothing, parts::HasFreeSpace,
 };
 
 use crate::{EngineError, Index, SearchSpace, Setup, SharedRules};

@@ -28,7 +28,7 @@ pub fn bound_at_corners(k: FiniteK) -> f64 {
 /// 3, Eq. 2). It is tight: more moves do not improve the worst case here.
 ///
 /// The theorem compares with any-angle paths that may bend at cell corners. With the corner rules of
-/// `mediant-grid` for the moves, `crates/search/tests/kramm2018.rs` tests:
+/// `mediant-grid` for the moves, `crates/search/tests/it/kramm2018.rs` tests:
 /// - `One`, against corner paths with closed gaps: it holds, and is attained.
 /// - `Always`: it fails. An any-angle path may run straight through the gaps between diagonally touching
 ///   obstacles; k = 2 then has no bound at all, and one map gives 4√2 / (3 + √2) ≈ 1.2815 for every k from 3

@@ -101,8 +101,8 @@
 //! | Theorem 2: tight, at (n, ⌊n(s + k − 2)⌋) (misprint: a lost parenthesis) | `kramm2018::theorem_2_the_bound_is_tight` |
 //! | Theorem 3, Eq. 2: the values at centers | `kramm2018::theorem_3_the_values_of_the_bound_at_centers` |
 //! | Theorem 3, its induction | `kramm2018::theorem_3_more_moves_never_lengthen_a_path` |
-//! | Theorem 2 with obstacles | none here: `crates/search/tests/exact.rs` |
-//! | Theorem 3 with obstacles, Figure 6: where it holds and where not | none here: `crates/search/tests/kramm2018.rs` |
+//! | Theorem 2 with obstacles | none here: `crates/search/tests/it/exact.rs` |
+//! | Theorem 3 with obstacles, Figure 6: where it holds and where not | none here: `crates/search/tests/it/kramm2018.rs` |
 //! | Lemma 11: the cells of two adjacent moves | `kramm2018_trees::lemma_11_two_adjacent_moves_enter_only_cells_of_their_sum`, `kramm2018_trees::the_cells_that_a_move_enters` |
 //! | level, and a mediant's: 1 + the larger (misprint: their sum) | `kramm2018_trees::level_is_the_first_k_that_has_the_move`, `kramm2018_trees::level_is_1_more_than_the_larger_of_the_parents` |
 //! | of two adjacent moves one has level k | `kramm2018_trees::of_two_adjacent_moves_one_is_new_and_one_is_old` |

@@ -1,6 +1,6 @@
 //! A* over N(k) (Hart, Nilsson & Raphael 1968), for every k, both placements and all rules of motion.
 //!
-//! Rule variant: a vertex is expanded with all its legal moves, nothing is pruned. Without a heuristic it
+//! Rule variant: a vertex is expanded with all its legal moves; nothing is pruned. Without a heuristic this
 //! is Dijkstra's algorithm.
 
 use std::ops::Deref;
@@ -9,8 +9,13 @@ use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
 use mediant_moves::Cost;
 
 use crate::{
-    BestFirst, Distances, ExpandedNode, Heuristic, Observer, Path, Query, QueryError, Successor, Successors,
-    Zero, distances::end_at_gaps,
+    best_first::BestFirst,
+    distances::{Distances, end_at_gaps},
+    heuristic::{Heuristic, Zero},
+    observer::Observer,
+    path::Path,
+    query::{Query, QueryError},
+    successors::{ExpandedNode, Successor, Successors},
 };
 
 /// A* on a grid graph.
@@ -33,8 +38,8 @@ use crate::{
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// `L` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`. Its scratch memory takes 16
-/// bytes a vertex.
+/// `L` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`.
+/// Its scratch memory is 16 bytes a vertex.
 pub type AStar<L, H> = BestFirst<L, H, AllMoves>;
 
 /// Dijkstra's algorithm (1959): A* without a heuristic.
@@ -44,10 +49,10 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> AStar<L, H> {
     /// A planner with scratch memory for `graph`.
     #[must_use]
     pub fn new(graph: L, heuristic: H) -> Self {
-        Self::with(graph, heuristic, AllMoves)
+        Self::with_successors(graph, heuristic, AllMoves)
     }
 
-    /// Goes on on another map, with the scratch memory if that has as many vertices.
+    /// Continues with another grid graph. The scratch memory is kept if that has as many vertices.
     pub fn set_graph(&mut self, graph: L) {
         if graph.vertex_count() == self.graph.vertex_count() {
             self.graph = graph;
@@ -56,8 +61,9 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> AStar<L, H> {
         }
     }
 
-    /// Continues a path from its last waypoint to `goal`, but gives up where no path there costs at most `limit`: vertices through which every path is longer are
-    /// not expanded. Whether it found one; with a heuristic that overestimates it may miss one. The path remains as it is if not, or if it is empty.
+    /// Extends a path from its last waypoint to `goal`, if that costs at most `limit`; vertices through which
+    /// every path costs more are not expanded. Returns whether there is such a path (with an inadmissible
+    /// heuristic one may be missed). If not, or if `path` is empty, it is left as it is.
     ///
     /// # Errors
     /// [`QueryError`] when the last waypoint or the goal is blocked or outside the map.
@@ -70,7 +76,7 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> AStar<L, H> {
     ) -> Result<bool, QueryError> {
         let Some(&start) = path.last() else { return Ok(false) };
         let Some((start, goal)) = Query::new(start, goal).ends(&self.graph)? else { return Ok(false) };
-        // The last move costs what h_k says of it, so that no path beyond the limit comes as far as the goal.
+        // h_k of a single move is its cost, so that no path beyond the limit reaches the goal.
         let found = self.search(start, Some(goal), limit, observer);
         if found {
             self.extend_back(start, goal, path);
@@ -78,7 +84,7 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> AStar<L, H> {
         Ok(found)
     }
 
-    /// Answers a query by a path that costs at most `limit`, as [`extend`](Self::extend) does.
+    /// Finds a path that costs at most `limit`, as [`extend`](Self::extend) does.
     ///
     /// # Errors
     /// [`QueryError`] when an end of the query is blocked or outside the map.
@@ -95,7 +101,7 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> AStar<L, H> {
 }
 
 impl<P: Placement, L: Deref<Target = GridGraph<P>>> Dijkstra<L> {
-    /// What it costs to come from `start` to every vertex.
+    /// The cost of an optimal path from `start` to every vertex.
     ///
     /// # Errors
     /// [`QueryError`] when the start is blocked or outside the map.
@@ -119,7 +125,7 @@ pub struct AllMoves;
 impl<P: Placement> Successors<P> for AllMoves {
     type ParentPointer = ();
 
-    const FREE: bool = true;
+    const DEPEND_ON_ARRIVAL: bool = false;
 
     #[inline]
     fn for_each(

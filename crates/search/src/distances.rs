@@ -1,8 +1,8 @@
-//! How far it is from one vertex to all others.
+//! The distances from one vertex to all others.
 
 use mediant_grid::{DiagonalGap, GridGraph, Placement, Rules, Step, Vertex, VertexId};
 
-/// A distance for every vertex that can be reached from a start: a cost or a number of moves.
+/// The distances from a start to all vertices that can be reached: costs or numbers of moves.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Distances<T> {
     width: u32,
@@ -17,7 +17,8 @@ impl<T: Copy> Distances<T> {
         Self { width, values: values.into_boxed_slice() }
     }
 
-    /// The distance to a vertex, 0 to the start; `None` when no path leads there, or when it is blocked or outside the map.
+    /// The distance to a vertex, 0 for the start; `None` when no path leads there, or when it is blocked or
+    /// outside the map.
     #[must_use]
     pub fn get(&self, at: Vertex) -> Option<T> {
         let (x, y) = (u32::try_from(at.x).ok()?, usize::try_from(at.y).ok()?);
@@ -46,11 +47,12 @@ impl<T: Copy> Distances<T> {
     }
 }
 
-/// Under [`DiagonalGap::Closed`], makes the distances to the gaps those of paths that end there.
+/// Under [`DiagonalGap::Closed`], corrects the distances to gaps: makes them those of paths that end there.
 ///
-/// Of such a vertex a search without a goal knows at most how to pass it. A path ends there through the quadrant of the
-/// vertex's own cell; its last move comes from a vertex that the search knows. `values` are the search's distances by
-/// vertex number, `arrived_by` the move by which it reached a vertex other than the start, `extended` a distance longer by one move.
+/// A search without a goal knows at most how to pass a gap. A path that ends at one comes through the
+/// quadrant of the vertex's own cell, and its last move from a vertex that the search knows. `values` are the
+/// distances of the search by vertex number, `arrived_by` is the move by which it reached a vertex other than
+/// the start, and `extended` makes a distance longer by one move.
 pub(crate) fn end_at_gaps<P: Placement, T: Copy + Ord>(
     graph: &GridGraph<P>,
     start: Vertex,
@@ -83,7 +85,7 @@ pub(crate) fn end_at_gaps<P: Placement, T: Copy + Ord>(
     };
     let gaps = (0..values.len() as u32).map(VertexId).map(|id| (graph.vertex(id), id));
     let gaps = gaps.filter(|&(at, _)| at != start && grid.is_gap(at));
-    // Not one by one in place: a gap may be passed on the way to the next.
+    // Not one by one in place: the path to a gap may pass another one.
     let ends: Vec<_> = gaps.map(|(at, id)| (id, last_move(at, id))).collect();
     for (id, value) in ends {
         values[id.index()] = value;

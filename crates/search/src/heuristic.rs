@@ -1,19 +1,20 @@
-//! Estimates of the cost to the goal: lower bounds, and one that is none.
+//! Heuristics: estimates of the cost to the goal.
 
 use mediant_grid::{GridGraph, Placement, Vector};
 use mediant_moves::Cost;
 
-/// An estimate of what a path over N(k) costs, in the grid graph's fixed-point costs, from the displacement to the goal alone.
+/// An estimate of the cost of a path over N(k) from the displacement to the goal alone, in the grid graph's
+/// fixed-point costs.
 pub trait Heuristic: Copy {
-    /// Whether it is a lower bound, so that A* with it is optimal.
+    /// Whether it never exceeds the cost of a path, so that A* with it is optimal.
     const ADMISSIBLE: bool = true;
 
     /// The estimate for a displacement.
     fn estimate<P: Placement>(self, graph: &GridGraph<P>, to_goal: Vector) -> Cost;
 }
 
-/// h_k, the cost on an empty grid (Rivera 2017, 'The 2^k-Tile Heuristic'): the best bound that knows no obstacle, and
-/// consistent.
+/// h_k, the cost of a path over N(k) on an empty grid (Rivera 2017, 'The 2^k-Tile Heuristic'): consistent,
+/// and the best lower bound that does not depend on obstacles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Hk;
 
@@ -26,8 +27,9 @@ impl Heuristic for Hk {
 
 /// The straight-line distance.
 ///
-/// Rounded so that it stays a lower bound: a move's cost may be 2⁻³³ below its length, so the distance is shortened by 2⁻³²
-/// of itself, and cut off. What consistency is lost by that last bit, A* makes good by reopening nodes.
+/// Rounded so that it stays a lower bound: the cost of a move may be 2⁻³³ less than its length, so the
+/// distance is shortened by 2⁻³² of itself and rounded down. In the last bit it may be inconsistent; A*
+/// reopens nodes where that matters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Euclidean;
 
@@ -35,15 +37,17 @@ impl Heuristic for Euclidean {
     #[inline]
     fn estimate<P: Placement>(self, _: &GridGraph<P>, to_goal: Vector) -> Cost {
         const ONE: f64 = (1_u64 << Cost::FRACTION_BITS) as f64;
-        // Exact up to the root, which IEEE 754 rounds alike everywhere; the product loses at most one part in 2⁵².
+        // Everything is exact up to the root, which IEEE 754 rounds alike everywhere; the product loses at
+        // most one part in 2⁵².
         Cost::from_bits((to_goal.norm() * (ONE - 1.0)) as u64)
     }
 }
 
-/// The square of the straight-line distance, in cells: no lower bound but where it is at most 1, so that paths are no longer optimal.
+/// The square of the straight-line distance in cells (SED of Teleiša & Čalnerytė 2023, Section 2.3). It is
+/// inadmissible, except where it is at most 1, so paths are not optimal.
 ///
-/// The farther from the goal, the more it outweighs the cost of the path, and the more the search runs straight ahead (SED of Teleiša &
-/// Čalnerytė 2023, Section 2.3).
+/// The farther from the goal, the more it outweighs the cost of the path, and the more the search runs
+/// straight ahead.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SquaredEuclidean;
 
@@ -52,12 +56,13 @@ impl Heuristic for SquaredEuclidean {
 
     #[inline]
     fn estimate<P: Placement>(self, _: &GridGraph<P>, to_goal: Vector) -> Cost {
-        // On the largest map 2³¹ cells, to which a path adds less than 2³¹: their sum does not overflow.
+        // At most 2³¹ cells on the largest map; a path costs less than 2³¹ cells, so their sum does not
+        // overflow.
         Cost::from_bits(to_goal.norm_squared() << Cost::FRACTION_BITS)
     }
 }
 
-/// No bound: A* becomes Dijkstra's algorithm.
+/// Always 0: A* becomes Dijkstra's algorithm.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Zero;
 

@@ -1,16 +1,32 @@
 //! Search engines on the 2^k neighborhoods of a grid.
 //!
-//! Every engine is a [`Planner`]: it borrows an immutable [`GridGraph`](mediant_grid::GridGraph), owns its scratch memory, and answers
-//! [`Query`] after [`Query`] with an [`Outcome`] that it stands behind by a [`Guarantee`].
+//! Every engine is a [`Planner`]: it borrows an immutable [`GridGraph`](mediant_grid::GridGraph), owns its
+//! scratch memory, and answers one [`Query`] after another with an [`Outcome`], whose quality it states as a
+//! [`Guarantee`].
 //!
-//! **The key decision: costs are integers.** Open lists compare fixed-point sums ([`Cost`](mediant_moves::Cost)), so equal paths are
-//! equal, the heuristic is exactly consistent, and the same query gives the same path and the same counts on every
-//! platform. The cost of a [`Path`] is recomputed in floating point from its waypoints.
+//! | engine | paths | k |
+//! |---|---|---|
+//! | [`AStar`], [`Dijkstra`] | optimal over N(k) | all |
+//! | [`Wavefront`] | of the fewest moves | all |
+//! | [`Canonical`] | optimal over N(k) | all |
+//! | [`PaperCanonical`], as published | over N(k) | all |
+//! | [`Jps`] | optimal over N(k) | all |
+//! | [`BlockJps`], [`JpsPlus`] | optimal over N(k) | 2, 3 |
+//! | [`ThetaStar`], [`LazyThetaStar`] | any-angle | all |
+//! | [`Anya`] | optimal any-angle, at corners | ∞ |
 //!
-//! What varies, placement, heuristic and observer, is a type parameter, and the unused costs nothing: a search without
-//! counters is compiled without them.
+//! [`Smoothed`] makes the paths of any planner shorter, at any angle.
 //!
-//! What is not here: preprocessing (`mediant-subgoal`, `mediant-hierarchy`), threads, serialization.
+//! **The key decision: costs are integers.** Open lists compare fixed-point sums
+//! ([`Cost`](mediant_moves::Cost)). So paths of equal length compare as equal, the heuristic [`Hk`] is
+//! consistent to the last bit, and the same query gives the same path and the same counts on every platform.
+//! The cost of a [`Path`] is recomputed in floating point from its waypoints.
+//!
+//! Placement, heuristic and observer are type parameters, so that what is not used costs nothing: a search
+//! without counters is compiled without them.
+//!
+//! This crate does not preprocess maps beyond jump tables (`mediant-subgoal` and `mediant-hierarchy` do),
+//! starts no threads, reads no clock, and writes no files.
 
 mod anya;
 mod astar;
@@ -22,6 +38,9 @@ mod jps;
 mod nodes;
 mod observer;
 mod open_list;
+mod outcome;
+mod parent;
+pub mod parts;
 mod path;
 mod planner;
 mod query;
@@ -30,29 +49,20 @@ mod segment;
 mod smoothing;
 mod successors;
 mod theta;
+mod trace;
 mod wavefront;
 
 pub use anya::Anya;
-pub use astar::{AStar, AllMoves, Dijkstra};
-pub use best_first::BestFirst;
-pub use canonical::{
-    Canonical, CanonicalMoves, CanonicalRule, LocalRule, PaperCanonical, PaperMoves, Pruning,
-};
+pub use astar::{AStar, Dijkstra};
+pub use canonical::{Canonical, CanonicalRule, PaperCanonical, Pruning};
 pub use distances::Distances;
 pub use heuristic::{Euclidean, Heuristic, Hk, SquaredEuclidean, Zero};
-pub use jps::{
-    BlockJps, Blocks, Jps, JpsPlus, JumpContext, JumpFinder, JumpMoves, JumpTable, JumpTableError, Jumping,
-    Walk,
-};
-pub use nodes::{Node, NodeStore};
+pub use jps::{BlockJps, Jps, JpsPlus, JumpTable, JumpTableError};
 pub use observer::{Counters, NodeEvent, Observer};
-pub use open_list::{Entry, OpenList};
-pub use path::{Guarantee, Outcome, Path};
+pub use outcome::{Guarantee, Outcome};
+pub use path::Path;
 pub use planner::Planner;
 pub use query::{End, Query, QueryError};
-pub use search_tree::SearchTree;
-pub use segment::segment_cost;
-pub use smoothing::{HasFreeSpace, Smoothed, Smoothing, pull_taut, smooth};
-pub use successors::{ExpandedNode, ParentPointer, Successor, Successors};
-pub use theta::{AtOnce, Lazily, LazyThetaStar, SightCheck, Theta, ThetaStar};
+pub use smoothing::{Smoothed, Smoothing, pull_taut, smooth};
+pub use theta::{LazyThetaStar, ThetaStar};
 pub use wavefront::Wavefront;

@@ -3,19 +3,19 @@
 use mediant_grid::{Centers, GridGraph, VertexId};
 use mediant_moves::Cost;
 
-use crate::ParentPointer;
+use crate::parent::ParentPointer;
 
-/// A search node: 16 bytes, so that four share a cache line, and what it keeps of its parent, `N`.
+/// A search node: 16 bytes, so that four share a cache line, and its [`ParentPointer`], `N`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node<N = ()> {
     /// The cost of the best known path from the start.
     pub g: Cost,
     /// The node's slot in the open list, or [`CLOSED`](Self::CLOSED).
     pub slot: u32,
-    /// The generation in the high bits, the index of the move that led here in the low ones.
+    /// The generation in the high bits, the index of the last move of the best known path in the low ones.
     mark: u32,
-    /// What leads to the parent.
-    pub link: N,
+    /// Leads to the parent.
+    pub pointer: N,
 }
 
 const _: () = assert!(size_of::<Node>() == 16);
@@ -24,9 +24,10 @@ const _: () = assert!(Node::<()>::MOVE_BITS >= GridGraph::<Centers>::MAX_K);
 impl<N> Node<N> {
     /// The slot of a node that is in no open list.
     pub const CLOSED: u32 = u32::MAX;
-    /// Enough for the 4,096 moves of k = 12.
+    /// The bits of a move's index: enough for the 4,096 moves of k = 12.
     const MOVE_BITS: u32 = 12;
-    /// Generations end here; the store is cleared once, every million searches, and begins anew.
+    /// The last generation. After it, once in a million searches, the store is cleared and the count begins
+    /// anew.
     const LAST_GENERATION: u32 = u32::MAX >> Self::MOVE_BITS;
 
     /// The index of the move by which the best known path arrives; 0 for the start.
@@ -37,7 +38,8 @@ impl<N> Node<N> {
     }
 }
 
-/// One [`Node`] for each vertex; those of earlier searches are told by their generation.
+/// One [`Node`] for each vertex. A node that a search knows carries the generation of that search, so earlier
+/// ones need not be cleared.
 #[derive(Clone, Debug)]
 pub struct NodeStore<N = ()> {
     nodes: Box<[Node<N>]>,
@@ -48,11 +50,11 @@ impl<N: ParentPointer> NodeStore<N> {
     /// A store for vertex ids below `len`, in which no node is known.
     #[must_use]
     pub fn new(len: usize) -> Self {
-        let unknown = Node { g: Cost::ZERO, slot: Node::<N>::CLOSED, mark: 0, link: N::NONE };
+        let unknown = Node { g: Cost::ZERO, slot: Node::<N>::CLOSED, mark: 0, pointer: N::NONE };
         Self { nodes: vec![unknown; len].into_boxed_slice(), generation: 1 }
     }
 
-    /// Forgets all nodes, in constant time but for once in a million calls.
+    /// Forgets all nodes, in constant time (but for one call in a million).
     pub fn start_search(&mut self) {
         if self.generation == Node::<N>::LAST_GENERATION {
             self.nodes.iter_mut().for_each(|node| node.mark = 0);
@@ -71,18 +73,18 @@ impl<N: ParentPointer> NodeStore<N> {
 
     /// Makes a path of cost `g` that arrives by the move `arrived_by` the best known one to a vertex.
     #[inline]
-    pub fn set_path(&mut self, id: VertexId, g: Cost, arrived_by: usize, link: N) {
+    pub fn set_path(&mut self, id: VertexId, g: Cost, arrived_by: usize, pointer: N) {
         debug_assert!(
             arrived_by < 1 << Node::<N>::MOVE_BITS,
             "no move of any graph has the index {arrived_by}"
         );
         let node = &mut self.nodes[id.index()];
         node.g = g;
-        node.link = link;
+        node.pointer = pointer;
         node.mark = self.generation << Node::<N>::MOVE_BITS | arrived_by as u32;
     }
 
-    /// Notes where in the open list a vertex now stands.
+    /// Records the slot of a vertex in the open list.
     #[inline]
     pub fn set_slot(&mut self, id: VertexId, slot: u32) {
         self.nodes[id.index()].slot = slot;

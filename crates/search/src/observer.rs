@@ -1,22 +1,39 @@
-//! Watching a search: counters and traces are observers, and one that does nothing costs nothing.
+//! Watching a search: counters and traces are observers. The observer that does nothing costs nothing.
 
 use mediant_grid::Vertex;
 use mediant_moves::Cost;
 
-/// A search node at one moment.
+/// A search node at the time of an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NodeEvent {
-    /// Where it is.
+    /// Its vertex.
     pub at: Vertex,
-    /// From where it was reached; `None` for the start.
+    /// The vertex of its parent; `None` for the start.
     pub parent: Option<Vertex>,
     /// The cost of the best known path to it.
     pub g: Cost,
-    /// That cost plus the heuristic.
+    /// That cost plus the estimate of the heuristic.
     pub f: Cost,
 }
 
-/// Sees what a search does. Every method does nothing unless it is written.
+/// Is told what a search does. All methods default to no-ops.
+///
+/// Its type is known at compile time; where it must not be, `&mut dyn Observer` is an observer too:
+///
+/// ```
+/// # use std::sync::Arc;
+/// # use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph};
+/// # use mediant_moves::FiniteK;
+/// use mediant_search::{AStar, Counters, Hk, Observer, Planner, Query};
+///
+/// # let map = AsciiMap::parse("...\n...\n")?;
+/// # let graph = GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::new(3)?, CornerRule::Never)?;
+/// let mut counters = Counters::default();
+/// let mut observer: &mut dyn Observer = &mut counters;
+/// AStar::new(&graph, Hk).solve_observed(Query::new((0, 0), (2, 1)), &mut observer)?;
+/// assert_eq!(counters.expanded, 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Observer {
     /// A node was taken from the open list, and its successors are about to be generated.
     #[inline]
@@ -36,17 +53,18 @@ pub trait Observer {
         let _ = node;
     }
 
-    /// The open list's heap swapped this many pairs while sifting an entry up or down ('Perc' of Rivera 2017).
+    /// The open list's heap swapped this many pairs while sifting an entry up or down ('Perc' of Rivera
+    /// 2017).
     #[inline]
     fn percolated(&mut self, swaps: u32) {
         let _ = swaps;
     }
 
-    /// A hierarchical search left its plan where that led to nowhere, or only by a detour.
+    /// A hierarchical search left its plan, which led nowhere or only by a detour.
     #[inline]
     fn fell_back(&mut self) {}
 
-    /// While a jump point search expanded a node, it looked at this many vertices of the runs that it scanned.
+    /// While a jump point search expanded a node, it looked at this many vertices in its jumps.
     #[inline]
     fn scanned(&mut self, vertices: u32) {
         let _ = vertices;
@@ -88,18 +106,18 @@ impl<O: Observer + ?Sized> Observer for &mut O {
     }
 }
 
-/// Counts what the papers' tables report.
+/// Counts the events that the tables of the papers report.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
-    /// Nodes taken from the open list and expanded; the goal, at which a search stops, is not.
+    /// Nodes taken from the open list and expanded; the goal, at which a search stops, is not counted.
     pub expanded: u64,
     /// Nodes that entered the open list for the first time.
     pub generated: u64,
-    /// Cheaper paths found to nodes that were known.
+    /// Cheaper paths found to known nodes.
     pub updated: u64,
     /// Swaps in the open list's heap.
     pub percolations: u64,
-    /// Vertices that jump point searches looked at while they scanned runs.
+    /// Vertices that jump point searches looked at in their jumps.
     pub scanned: u64,
     /// How often hierarchical searches left their plan.
     pub fallbacks: u64,

@@ -1,14 +1,15 @@
-//! The open list: a binary heap whose entries can be found again.
+//! The open list: an indexed binary heap.
 
 use std::hint::select_unpredictable;
 
 use mediant_grid::VertexId;
 use mediant_moves::Cost;
 
-/// What the open list orders: f, then h (nearer to the goal first), then the vertex id.
+/// An entry of the open list, ordered by f, then by h (nearer to the goal first), then by vertex id.
 ///
-/// h is compared in steps of 2⁻¹⁶ cells, all from 2¹⁶ cells on as one, so that an entry takes 16 bytes; vertices that still tie are taken by id, so the
-/// order is total, and the same on every platform.
+/// An entry takes 16 bytes. For that h is compared in steps of 2⁻¹⁶ cells, and all values from 2¹⁶ cells on
+/// are equal. Vertices that still tie are ordered by id, so the order is total, and the same on every
+/// platform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Entry(u128);
 
@@ -24,21 +25,21 @@ impl Entry {
         Self((f.to_bits() as u128) << 64 | (coarse as u128) << 32 | id.0 as u128)
     }
 
-    /// f.
+    /// Its f.
     #[must_use]
     #[inline]
     pub const fn f(self) -> Cost {
         Cost::from_bits((self.0 >> 64) as u64)
     }
 
-    /// The vertex.
+    /// Its vertex.
     #[must_use]
     #[inline]
     pub const fn id(self) -> VertexId {
         VertexId(self.0 as u32)
     }
 
-    /// The same entry after its path became cheaper by `gain`.
+    /// The same entry with a path that is cheaper by `gain`.
     #[must_use]
     #[inline]
     const fn cheaper_by(self, gain: Cost) -> Self {
@@ -49,8 +50,9 @@ impl Entry {
 
 /// An indexed binary heap, least entry first.
 ///
-/// Whoever owns the vertices keeps their slots: each operation takes a function that it calls as `(id, slot)` for every
-/// entry that comes to stand elsewhere, and returns how many swaps it took ('percolations' in Rivera 2017).
+/// The caller stores the slot of each vertex: every operation takes a function that it calls with
+/// `(id, slot)` for each entry that moves to another slot. It returns the number of swaps ('percolations' in
+/// Rivera 2017).
 #[derive(Clone, Debug, Default)]
 pub struct OpenList {
     heap: Vec<Entry>,
@@ -87,7 +89,8 @@ impl OpenList {
         self.sift_up(self.heap.len() - 1, entry, &mut moved)
     }
 
-    /// Lowers f of the entry in a slot by `gain`, at most to 0; nothing happens for a slot that is not in use.
+    /// Lowers the f of the entry in a slot by `gain`, at most to 0. Does nothing for a slot that is not in
+    /// use.
     #[inline]
     pub fn decrease(&mut self, slot: u32, gain: Cost, mut moved: impl FnMut(VertexId, u32)) -> u32 {
         let Some(entry) = self.heap.get(slot as usize) else { return 0 };
@@ -129,7 +132,7 @@ impl OpenList {
         let heap = self.heap.as_mut_slice();
         let (mut slot, mut swaps) = (0, 0);
         while let Some(&left) = heap.get(2 * slot + 1) {
-            // Which child is less cannot be foreseen: it is added, not branched on.
+            // Which child is less is not predictable, so the code must not branch on it.
             let right = heap.get(2 * slot + 2).copied().unwrap_or(left);
             let beyond = right < left;
             let other = select_unpredictable(beyond, right, left);

@@ -1,19 +1,24 @@
 //! The contract of every engine.
 
-use crate::{Guarantee, Observer, Outcome, Query, QueryError};
+use crate::{
+    observer::Observer,
+    outcome::{Guarantee, Outcome},
+    query::{Query, QueryError},
+};
 
-/// Answers queries, one after the other, on scratch memory that it keeps: make one for each thread.
+/// Answers queries, one after another, on scratch memory of its own: make one for each thread.
 ///
-/// The map and whatever was preprocessed from it are shared and immutable; a planner borrows them. Once it is warm, a
-/// query allocates nothing but the path that it returns. The same query always gives the same path and the same counts.
+/// The map and whatever was preprocessed from it are immutable, and shared between planners. A warm planner
+/// allocates nothing but the path that it returns. The same query always gives the same path and the same
+/// counts.
 pub trait Planner {
-    /// Answers a query and tells the observer what it does.
+    /// Answers a query, watched by an observer.
     ///
     /// # Errors
     /// [`QueryError`] when an end of the query is blocked or outside the map.
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError>;
 
-    /// What is promised of the paths.
+    /// What is guaranteed of the paths.
     fn guarantee(&self) -> Guarantee;
 
     /// Answers a query.

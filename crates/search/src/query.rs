@@ -1,13 +1,13 @@
-//! Questions to a planner.
+//! Queries, and what can be wrong with them.
 
 use mediant_grid::{FreeSpace, Placement, Vertex, VertexId};
 
-/// From where to where.
+/// The start and the goal of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Query {
-    /// Where the path begins.
+    /// The vertex where the path begins.
     pub start: Vertex,
-    /// Where it ends.
+    /// The vertex where it ends.
     pub goal: Vertex,
 }
 
@@ -18,10 +18,10 @@ impl Query {
         Self { start: start.into(), goal: goal.into() }
     }
 
-    /// Whether both ends are vertices that a path may stand on.
+    /// Checks that both ends are free vertices of the map.
     ///
     /// # Errors
-    /// A [`QueryError`] for the first end that is not.
+    /// A [`QueryError`] for the first end that is not; the start is checked first.
     pub fn check<P: Placement>(self, space: &FreeSpace<P>) -> Result<(), QueryError> {
         for (end, at) in [(End::Start, self.start), (End::Goal, self.goal)] {
             if space.id(at).is_none() {
@@ -39,8 +39,8 @@ impl Query {
         Ok(())
     }
 
-    /// The ids of start and goal; `None` when there is no path, which the components know in constant time, and a search would find
-    /// out by expanding all that it can reach.
+    /// The ids of start and goal; `None` when there is no path. The connected components tell this in
+    /// constant time, where a search would expand all vertices that it can reach.
     ///
     /// # Errors
     /// Those of [`check`](Self::check).
@@ -54,7 +54,7 @@ impl Query {
     }
 }
 
-/// Which end of a query.
+/// One of the two ends of a query.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum End {
     /// Its start.
@@ -72,7 +72,7 @@ impl std::fmt::Display for End {
     }
 }
 
-/// A query that has no answer, not even 'no path'.
+/// An invalid query, or a planner that failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 #[non_exhaustive]
 pub enum QueryError {
@@ -81,15 +81,15 @@ pub enum QueryError {
     Outside {
         /// Which end.
         end: End,
-        /// Where it is.
+        /// The vertex of the query.
         at: Vertex,
         /// The map's last vertex.
         last: Vertex,
     },
-    /// The planner found no path, although there is one.
+    /// The planner found no path although there is one.
     #[error("no path was found, though there is one: {why}")]
     GaveUp {
-        /// Why that can be.
+        /// Why the planner may fail.
         why: &'static str,
     },
     /// An end is on a blocked cell (at corners: between four of them).
@@ -97,7 +97,7 @@ pub enum QueryError {
     Blocked {
         /// Which end.
         end: End,
-        /// Where it is.
+        /// The vertex of the query.
         at: Vertex,
     },
 }

@@ -1,113 +1,117 @@
-//! What a search on a graph of numbered nodes knows of each.
+//! The memory of a search on an abstract graph, whose nodes are numbered.
 
 use mediant_grid::VertexId;
 use mediant_moves::Cost;
 
-use crate::{Entry, OpenList};
+use crate::open_list::{Entry, OpenList};
 
-/// SearchTree of the nodes of an abstract graph, with the open list; forgotten in constant time. [`NodeStore`](crate::NodeStore) is their counterpart for the vertices of a
-/// grid graph, whose parents are found by the move.
+/// The search tree of a search on an abstract graph, with its open list: the cost and the parent of each node
+/// that is known. It is cleared in constant time.
 ///
-/// `W` is what a label keeps of the way from the parent.
+/// [`NodeStore`](crate::parts::NodeStore) is the counterpart for grid graphs, where the parent is found by
+/// the move. `E` is what a node stores of the edge from its parent.
 #[derive(Clone, Debug)]
-pub struct SearchTree<W = ()> {
-    labels: Box<[Label<W>]>,
+pub struct SearchTree<E = ()> {
+    nodes: Box<[TreeNode<E>]>,
     generation: u32,
     open: OpenList,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
-struct Label<W> {
+struct TreeNode<E> {
     cost: Cost,
     generation: u32,
     slot: u32,
     parent: u32,
-    way: W,
+    edge: E,
 }
 
-impl<W: Copy + Default> SearchTree<W> {
-    /// The parent of a first node.
+impl<E: Copy + Default> SearchTree<E> {
+    /// The parent of a node at which the search begins.
     pub const NONE: u32 = u32::MAX;
-    /// The slot of what is not on the open list any more.
+    /// The slot of a node that is not on the open list.
     const CLOSED: u32 = u32::MAX;
 
-    /// SearchTree for nodes below `count`, of which none is known.
+    /// A tree for node numbers below `count`, in which no node is known.
     #[must_use]
     pub fn new(count: usize) -> Self {
         Self {
-            labels: vec![Label::default(); count].into_boxed_slice(),
+            nodes: vec![TreeNode::default(); count].into_boxed_slice(),
             generation: 0,
             open: OpenList::default(),
         }
     }
 
-    /// Forgets all, in constant time but for once in 2³² calls.
+    /// Forgets all nodes, in constant time (but for one call in 2³²).
     pub fn start_search(&mut self) {
         self.open.clear();
         self.generation = self.generation.wrapping_add(1);
         if self.generation == 0 {
-            self.labels.fill(Label::default());
+            self.nodes.fill(TreeNode::default());
             self.generation = 1;
         }
     }
 
-    /// The cost of the best known way.
+    /// The cost of the best known path to a node; `None` for a node that is not known.
     #[must_use]
     #[inline]
     pub fn cost(&self, id: u32) -> Option<Cost> {
-        let label = &self.labels[id as usize];
-        (label.generation == self.generation).then_some(label.cost)
+        let node = &self.nodes[id as usize];
+        (node.generation == self.generation).then_some(node.cost)
     }
 
     /// Whether it is known and not on the open list.
     #[must_use]
     #[inline]
     pub fn is_closed(&self, id: u32) -> bool {
-        let label = &self.labels[id as usize];
-        label.generation == self.generation && label.slot == Self::CLOSED
+        let node = &self.nodes[id as usize];
+        node.generation == self.generation && node.slot == Self::CLOSED
     }
 
-    /// The node before a known one, and the way from it; `None` at a first one.
+    /// The parent of a known node, and the edge from it; `None` at a node where the search began.
     #[must_use]
     #[inline]
-    pub fn parent(&self, id: u32) -> Option<(u32, W)> {
-        let label = &self.labels[id as usize];
-        (label.parent != Self::NONE).then_some((label.parent, label.way))
+    pub fn parent(&self, id: u32) -> Option<(u32, E)> {
+        let node = &self.nodes[id as usize];
+        (node.parent != Self::NONE).then_some((node.parent, node.edge))
     }
 
-    /// What is kept of the best known way to a known node.
+    /// The edge from the parent to a known node.
     #[must_use]
     #[inline]
-    pub fn way(&self, id: u32) -> W {
-        self.labels[id as usize].way
+    pub fn parent_edge(&self, id: u32) -> E {
+        self.nodes[id as usize].edge
     }
 
-    /// f of the best open node.
+    /// The least f of the open nodes.
     #[must_use]
     #[inline]
-    pub fn least(&self) -> Option<Cost> {
+    pub fn least_f(&self) -> Option<Cost> {
         self.open.get(0).map(Entry::f)
     }
 
-    /// Takes the best open node off the list: f, its number, the cost of the way to it, and how many swaps that took.
+    /// Takes the best node from the open list. Returns its f, its number, the cost of the best known path to
+    /// it, and the number of swaps in the open list.
     #[inline]
     pub fn pop(&mut self) -> Option<(Cost, u32, Cost, u32)> {
-        let Self { labels, open, .. } = self;
-        let (entry, swaps) = open.pop(|id, slot| labels[id.index()].slot = slot)?;
-        let label = &mut labels[entry.id().index()];
-        label.slot = Self::CLOSED;
-        Some((entry.f(), entry.id().0, label.cost, swaps))
+        let Self { nodes, open, .. } = self;
+        let (entry, swaps) = open.pop(|id, slot| nodes[id.index()].slot = slot)?;
+        let node = &mut nodes[entry.id().index()];
+        node.slot = Self::CLOSED;
+        Some((entry.f(), entry.id().0, node.cost, swaps))
     }
 
-    /// Makes a way to a node known, which is cheaper than any before, and the node open. Whether it is the first, and how many swaps of the open list it took.
+    /// Makes a path, cheaper than all before, the best known one to a node, and puts the node on the open
+    /// list or moves it there. Returns whether it is the first path to the node, and the number of swaps in
+    /// the open list.
     #[inline]
-    pub fn reach(&mut self, id: u32, cost: Cost, h: Cost, parent: u32, way: W) -> (bool, u32) {
-        let Self { labels, open, generation } = self;
-        let label = &mut labels[id as usize];
-        let is_first = label.generation != *generation;
-        let (is_open, known, slot) = (!is_first && label.slot != Self::CLOSED, label.cost, label.slot);
-        *label = Label { cost, generation: *generation, slot, parent, way };
-        let moved = |id: VertexId, slot| labels[id.index()].slot = slot;
+    pub fn set_path_and_open(&mut self, id: u32, cost: Cost, h: Cost, parent: u32, edge: E) -> (bool, u32) {
+        let Self { nodes, open, generation } = self;
+        let node = &mut nodes[id as usize];
+        let is_first = node.generation != *generation;
+        let (is_open, known, slot) = (!is_first && node.slot != Self::CLOSED, node.cost, node.slot);
+        *node = TreeNode { cost, generation: *generation, slot, parent, edge };
+        let moved = |id: VertexId, slot| nodes[id.index()].slot = slot;
         let swaps = if is_open {
             open.decrease(slot, known - cost, moved)
         } else {
@@ -116,11 +120,12 @@ impl<W: Copy + Default> SearchTree<W> {
         (is_first, swaps)
     }
 
-    /// Makes a way to a node known, which is cheaper than any before, without making the node open. One that is open stays where it was on the list.
+    /// Makes a path, cheaper than all before, the best known one to a node, but leaves the open list as it
+    /// is.
     #[inline]
-    pub fn note(&mut self, id: u32, cost: Cost, parent: u32, way: W) {
-        let label = &mut self.labels[id as usize];
-        let slot = if label.generation == self.generation { label.slot } else { Self::CLOSED };
-        *label = Label { cost, generation: self.generation, slot, parent, way };
+    pub fn set_path(&mut self, id: u32, cost: Cost, parent: u32, edge: E) {
+        let node = &mut self.nodes[id as usize];
+        let slot = if node.generation == self.generation { node.slot } else { Self::CLOSED };
+        *node = TreeNode { cost, generation: self.generation, slot, parent, edge };
     }
 }

@@ -1,13 +1,15 @@
-//! What straight segments cost.
+//! The cost of straight segments.
 
 use mediant_grid::Vector;
 use mediant_moves::Cost;
 
-/// [`Cost::of_move`] for the segments of a map, whose sides have at most 2¹⁵ cells, without its integer root.
+/// The cost of a straight segment: [`Cost::of_move`], computed without an integer root, for segments as long
+/// as maps can be (sides of at most 2¹⁵ cells).
 #[must_use]
 #[inline]
 pub fn segment_cost(v: Vector) -> Cost {
-    // IEEE 754 rounds the root correctly, to 53 bits. At most 49 of these stand before the point, so that this is off by 1 at most.
+    // IEEE 754 rounds the root correctly, to 53 bits. At most 49 of these are needed for the integer, so it
+    // is off by 1 at most.
     let root = ((v.norm_squared() as f64).sqrt() * (1_u64 << Cost::FRACTION_BITS) as f64 + 0.5) as u64;
     debug_assert!(v.norm_squared() <= 1 << 32, "{v:?} is longer than any map");
     let above = !is_at_least(v, Cost::from_bits(root));

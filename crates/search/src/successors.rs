@@ -1,25 +1,25 @@
-//! Which successors a search gives a node: the point in which the grid graph engines differ.
+//! The successors of a node: the point in which the grid graph engines differ.
 
 use std::fmt::Debug;
 
-use mediant_grid::{GridGraph, Placement, Step, Vertex, VertexId};
+use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
 use mediant_moves::Cost;
 
-use crate::Guarantee;
+use crate::{outcome::Guarantee, parent::ParentPointer};
 
 /// A node that is about to be expanded.
 #[derive(Clone, Copy, Debug)]
 pub struct ExpandedNode {
-    /// The vertex.
+    /// The id of its vertex.
     pub id: VertexId,
-    /// Where it is.
+    /// Its vertex.
     pub at: Vertex,
     /// The index of the move with which the best known path arrives; `None` at the start.
     pub by: Option<usize>,
 }
 
 impl ExpandedNode {
-    /// The successor by one move.
+    /// The successor by one move of the grid graph.
     #[must_use]
     #[inline]
     pub fn step<P: Placement>(&self, graph: &GridGraph<P>, by: usize) -> Successor {
@@ -28,28 +28,34 @@ impl ExpandedNode {
     }
 }
 
-/// A vertex that a node leads to.
+/// A vertex to which an expanded node leads.
 #[derive(Clone, Copy, Debug)]
 pub struct Successor {
-    /// The vertex.
+    /// The id of the vertex.
     pub id: VertexId,
-    /// Where it is.
+    /// The vertex.
     pub at: Vertex,
-    /// What the way from the node to it costs.
+    /// The cost of the path from the node to it.
     pub cost: Cost,
-    /// The index of the last move on that way.
+    /// The index of the last move on that path.
     pub by: usize,
 }
 
 /// How a search expands its nodes. `P` is the placement.
+///
+/// A search with successors of one's own: see
+/// [`BestFirst::with_successors`](crate::parts::BestFirst::with_successors).
 pub trait Successors<P: Placement>: Debug {
-    /// What a node keeps to know its parent.
+    /// What a node stores to know its parent.
     type ParentPointer: ParentPointer;
 
-    /// Whether a node leads to the same successors however it was reached; under a gap rule it never does.
-    const FREE: bool = false;
+    /// Whether the successors of a node depend on the move by which it was reached. (Under closed gaps they
+    /// always do.)
+    const DEPEND_ON_ARRIVAL: bool = true;
 
-    /// Calls `visit` with each successor of a node. How many vertices it looked at while it scanned runs.
+    /// Calls `visit` with each successor of a node; `goal` is outside the map when the search has no goal.
+    /// Returns the number of vertices scanned, for [`Observer::scanned`](crate::Observer::scanned); 0 unless
+    /// it jumps.
     fn for_each(
         &self,
         graph: &GridGraph<P>,
@@ -58,81 +64,26 @@ pub trait Successors<P: Placement>: Debug {
         visit: impl FnMut(Successor),
     ) -> u32;
 
-    /// Whether of two equally cheap ways to a vertex the one whose last move is `new` replaces the one with `known`. A closed node
-    /// is then expanded again.
+    /// Whether a path to a vertex whose last move is `new` replaces the known path, of the same cost, whose
+    /// last move is `known`. A closed node is then expanded again.
     #[inline]
     fn prefers(&self, graph: &GridGraph<P>, new: usize, known: usize) -> bool {
         let _ = (graph, new, known);
         false
     }
 
-    /// Called with true when no path was found though there is one. Whether the search is to be tried again, with more successors; then it is
-    /// called with false. Only a rule that is not complete has any.
-    fn widen(&mut self, wide: bool) -> bool {
-        let _ = wide;
+    /// Called when a search has found no path although there is one. Turns the pruning off and returns true
+    /// if the search is to be repeated without it; [`end_unpruned_retry`](Self::end_unpruned_retry) is called
+    /// afterwards. Only a pruning rule that is not complete needs this.
+    fn begin_unpruned_retry(&mut self) -> bool {
         false
     }
 
-    /// What is promised of the paths.
+    /// Turns the pruning on again.
+    fn end_unpruned_retry(&mut self) {}
+
+    /// What is guaranteed of the paths, when the heuristic is admissible.
     fn guarantee(&self, graph: &GridGraph<P>) -> Guarantee {
         Guarantee::Optimal(graph.k())
-    }
-}
-
-/// How a node knows its parent: engines that take one move at a time need to keep nothing.
-pub trait ParentPointer: Copy + Debug {
-    /// For nodes that were never reached.
-    const NONE: Self;
-
-    /// What to keep of a parent.
-    fn to(parent: VertexId) -> Self;
-
-    /// The parent of the node (`id`, `at`) that was reached by the move `step`.
-    fn parent<P: Placement>(
-        self,
-        graph: &GridGraph<P>,
-        step: &Step,
-        id: VertexId,
-        at: Vertex,
-    ) -> (VertexId, Vertex);
-}
-
-/// The parent is one move away.
-impl ParentPointer for () {
-    const NONE: Self = ();
-
-    #[inline]
-    fn to(_: VertexId) -> Self {}
-
-    #[inline]
-    fn parent<P: Placement>(
-        self,
-        _: &GridGraph<P>,
-        step: &Step,
-        id: VertexId,
-        at: Vertex,
-    ) -> (VertexId, Vertex) {
-        (step.source(id), at + -step.vector())
-    }
-}
-
-/// The parent itself.
-impl ParentPointer for VertexId {
-    const NONE: Self = Self(0);
-
-    #[inline]
-    fn to(parent: VertexId) -> Self {
-        parent
-    }
-
-    #[inline]
-    fn parent<P: Placement>(
-        self,
-        graph: &GridGraph<P>,
-        _: &Step,
-        _: VertexId,
-        _: Vertex,
-    ) -> (VertexId, Vertex) {
-        (self, graph.vertex(self))
     }
 }

@@ -1,18 +1,18 @@
-//! The wavefront algorithm: breadth-first search, one move a step (the 'Wave-front' among the classical algorithms of
-//! Hammoud & Lupin 2023, there on 4 and 8 neighbors; here for every k, both placements and all rules of motion).
+//! The wavefront algorithm: breadth-first search, one move a step (the 'Wave-front' among the classical
+//! algorithms of Hammoud & Lupin 2023, there on 4 and 8 neighbors; here for every k, both placements and all
+//! rules of motion).
 //!
-//! Rule variant: a vertex is expanded with all its legal moves, nothing is pruned, and the search ends as soon as the goal is
-//! reached. A path has as few moves as any. With four neighbors it is a shortest one; for larger k moves differ in length,
-//! and it may be longer. (Where gaps are closed and k > 2, only paths that touch no gap but at their ends are
-//! considered, as in all engines: a shortest path never needs another, one of fewest moves may, from k = 5 on.)
+//! Rule variant: a vertex is expanded with all its legal moves, nothing is pruned, and the search ends as
+//! soon as the goal is reached. No path has fewer moves. With four neighbors it is a shortest path; for
+//! larger k moves differ in length, and it may be longer. (Where gaps are closed and k > 2, only paths that
+//! touch no gap but at their ends are considered, as in all engines. A shortest path never needs to touch
+//! one; a path of fewest moves may, from k = 5 on.)
 //!
-//! Ties: the vertices of a layer are expanded in the order in which they were reached, the moves of a vertex in that of
-//! [`GridGraph::for_each_legal_move`], and the first move that reaches a vertex keeps it.
+//! Ties: the vertices of a layer are expanded in the order in which they were reached, their moves in the
+//! order of [`GridGraph::for_each_legal_move`], and the first move that reaches a vertex is kept.
 //!
-//! Tried and left out: layers as bits, 64 vertices a word operation, for [`Wavefront::distances`]. At centers, corners never
-//! cut, it took 0.35 to 0.65 of the queue's time at k = 2 and 0.25 to 0.5 at k = 3 (12 maps of the benchmark sets, 24,000 to
-//! 800,000 vertices, 1 to 20 ms a start): layers are thin, and each vertex's number is written alone all the same. That is
-//! too little for a second account of the rules of motion.
+//! Layers as bits, 64 vertices a word operation, were tried and left out: they need a second implementation
+//! of the rules of motion and save half of the time (`docs/measurements/search.md`).
 
 use std::ops::Deref;
 
@@ -20,8 +20,13 @@ use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
 use mediant_moves::{Cost, FiniteK};
 
 use crate::{
-    Distances, Guarantee, NodeEvent, NodeStore, Observer, Outcome, Path, Planner, Query, QueryError,
-    distances::end_at_gaps,
+    distances::{Distances, end_at_gaps},
+    nodes::NodeStore,
+    observer::{NodeEvent, Observer},
+    outcome::{Guarantee, Outcome},
+    planner::Planner,
+    query::{Query, QueryError},
+    trace::trace_back,
 };
 
 /// The wavefront algorithm on a grid graph.
@@ -51,19 +56,20 @@ use crate::{
 pub struct Wavefront<L> {
     graph: L,
     nodes: NodeStore,
-    /// The vertices that were reached, in this order.
+    /// The vertices that were reached, in the order in which they were.
     reached: Vec<VertexId>,
 }
 
 impl<P: Placement, L: Deref<Target = GridGraph<P>>> Wavefront<L> {
-    /// A planner with scratch memory for `graph`: 16 bytes a vertex, and up to 4 more for each that a search reaches.
+    /// A planner with scratch memory for `graph`: 16 bytes a vertex, and up to 4 more for each that a search
+    /// reaches.
     #[must_use]
     pub fn new(graph: L) -> Self {
         let nodes = NodeStore::new(graph.vertex_count());
         Self { graph, nodes, reached: Vec::new() }
     }
 
-    /// The fewest moves from `start` to every vertex.
+    /// The least number of moves from `start` to every vertex.
     ///
     /// # Errors
     /// [`QueryError`] when the start is blocked or outside the map.
@@ -84,7 +90,8 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>> Wavefront<L> {
         Ok(Distances::new(P::vertices(graph.grid()).0, moves))
     }
 
-    /// Reaches vertices layer by layer until the goal is among them. Whether it was.
+    /// Reaches vertices layer by layer, until the goal is reached or no vertex is left. Returns whether the
+    /// goal was reached.
     fn search(&mut self, start: VertexId, goal: Option<VertexId>, observer: &mut impl Observer) -> bool {
         let Self { graph, nodes, reached } = self;
         let graph: &GridGraph<P> = graph;
@@ -128,7 +135,7 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>> Planner for Wavefront<L> {
         if !self.search(start, Some(goal), observer) {
             return Ok(Outcome::Unreachable);
         }
-        Ok(Outcome::Found(Path::trace_back(&self.graph, &self.nodes, start, goal)))
+        Ok(Outcome::Found(trace_back(&self.graph, &self.nodes, start, goal)))
     }
 
     fn guarantee(&self) -> Guarantee {

@@ -11,7 +11,7 @@ use mediant_grid::{Centers, Corners, DiagonalGap, FreeSpace, GridGraph, Placemen
 use mediant_moves::FiniteK;
 use mediant_search::{
     AStar, Anya, BlockJps, Canonical, Dijkstra, Hk, Jps, JpsPlus, JumpTable, LazyThetaStar, Outcome,
-    PaperCanonical, Planner, Pruning, Query, ThetaStar, Walk, Wavefront, Zero,
+    PaperCanonical, Planner, Pruning, Query, ThetaStar, Wavefront, Zero, parts::StepwiseFinder,
 };
 
 thread_local! {
@@ -72,7 +72,7 @@ fn allocations_of<P: Placement>(k: u32) {
     check(&case("wavefront"), Wavefront::new(grid_graph), &queries);
     let pruning = Arc::new(Pruning::new(grid_graph));
     let pruning = || Arc::clone(&pruning);
-    let jps = || Jps::with_finder(grid_graph, pruning(), Walk, h);
+    let jps = || Jps::with_finder(grid_graph, pruning(), StepwiseFinder, h);
     check(&case("canonical"), Canonical::with_pruning(grid_graph, pruning(), h), &queries);
     check(&case("canonical as published"), PaperCanonical::new(grid_graph, h), &queries);
     check(&case("jps"), jps(), &queries);
@@ -92,7 +92,7 @@ fn allocations_of<P: Placement>(k: u32) {
 
 #[test]
 fn a_warm_query_allocates_its_path_and_nothing_else() {
-    // Each way in which a canonical search looks up its rule.
+    // One k for each way in which a canonical search finds its successors.
     for k in [2, 3, 5, 9] {
         allocations_of::<Centers>(k);
         allocations_of::<Corners>(k);

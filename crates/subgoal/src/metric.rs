@@ -2,7 +2,7 @@
 
 use mediant_grid::Vector;
 use mediant_moves::{Cost, CostTable, K, KError};
-use mediant_search::segment_cost;
+use mediant_search::parts::segment_cost;
 
 /// h_k, or the Euclidean length for k = ∞. Both are norms; values are in fixed point.
 #[derive(Clone, Debug)]

@@ -5,7 +5,8 @@ use std::ops::Deref;
 use mediant_grid::Vertex;
 use mediant_moves::{Cost, K};
 use mediant_search::{
-    Guarantee, HasFreeSpace, NodeEvent, Observer, Outcome, Path, Planner, Query, QueryError, SearchTree,
+    Guarantee, NodeEvent, Observer, Outcome, Path, Planner, Query, QueryError,
+    parts::{HasFreeSpace, SearchTree},
 };
 
 use crate::{
@@ -114,7 +115,7 @@ where
         let (graph, space) = (&**graph, space.free_space());
         let mut best = begin(graph, searches, query_edges, ends, observer);
         loop {
-            let [forward, backward] = [0, 1].map(|side| searches[side].least().unwrap_or(Cost::MAX));
+            let [forward, backward] = [0, 1].map(|side| searches[side].least_f().unwrap_or(Cost::MAX));
             if forward.min(backward) >= best.0 {
                 return best.1;
             }
@@ -130,7 +131,7 @@ where
             }
             let [forward, backward] = &mut *searches;
             let (this, other) = if side == 0 { (forward, backward) } else { (backward, forward) };
-            let arrival = this.way(id).last.vector();
+            let arrival = this.parent_edge(id).last.vector();
             let departures = arrival.and_then(|v| Some(BendRule::of_shortest(space, graph.k, at)?.after(v)));
             for arc in graph.up(id) {
                 if let Some((departures, first)) = departures.zip(arc.first.vector())
@@ -145,7 +146,7 @@ where
                 let h = graph.metric.estimate(graph.subgoals.vertex(arc.to).to(ends[1 - side]));
                 if g + h < best.0 {
                     let edge = ParentEdge { middle: arc.middle, last: arc.last };
-                    let (is_first, swaps) = this.reach(arc.to, g, h, id, edge);
+                    let (is_first, swaps) = this.set_path_and_open(arc.to, g, h, id, edge);
                     observer.percolated(swaps);
                     let event =
                         NodeEvent { at: graph.subgoals.vertex(arc.to), parent: Some(at), g, f: g + h };
@@ -204,7 +205,7 @@ fn begin<P: SubgoalPlacement>(
             let at = graph.subgoals.vertex(id);
             let h = graph.metric.estimate(at.to(ends[1 - side]));
             let edge = ParentEdge { middle: NONE, last: Step::of(ends[side].to(at)) };
-            let (_, swaps) = searches[side].reach(id, g, h, NONE, edge);
+            let (_, swaps) = searches[side].set_path_and_open(id, g, h, NONE, edge);
             observer.percolated(swaps);
             observer.generated(NodeEvent { at, parent: Some(ends[side]), g, f: g + h });
             if let Some(rest) = (side == 1).then(|| searches[0].cost(id)).flatten() {

@@ -8,7 +8,8 @@ use std::ops::Deref;
 use mediant_grid::Vertex;
 use mediant_moves::Cost;
 use mediant_search::{
-    Guarantee, HasFreeSpace, Observer, Outcome, Path, Planner, Query, QueryError, SearchTree,
+    Guarantee, Observer, Outcome, Path, Planner, Query, QueryError,
+    parts::{HasFreeSpace, SearchTree},
 };
 
 use self::{

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use mediant_grid::{Centers, Corners, FreeSpace, GridGraph};
 use mediant_hierarchy::{ClusterGraph, Clustering, SegmentGraph};
-use mediant_search::{Blocks, JumpTable, Pruning, Smoothing};
+use mediant_search::{JumpTable, Pruning, Smoothing, parts::BlockFinder};
 use mediant_subgoal::{Progress, SubgoalGraph, SubgoalPlacement};
 
 use crate::{
@@ -54,7 +54,7 @@ pub(crate) enum Prepared {
 pub(crate) enum Parts<P: SubgoalPlacement> {
     Nothing,
     Pruning(Arc<Pruning<P>>),
-    Blocks(Arc<Pruning<P>>, Blocks),
+    Blocks(Arc<Pruning<P>>, BlockFinder),
     Table(Arc<Pruning<P>>, Arc<JumpTable>),
     Subgoals(Arc<SubgoalGraph<P>>),
     /// Only at centers.
@@ -236,7 +236,7 @@ fn on_graph<P: SubgoalPlacement + Shared>(
         Engine::Canonical(_) | Engine::Jps(_) => Parts::Pruning(pruning()),
         Engine::JpsBlock(_) => {
             let pruning = pruning();
-            let blocks = Blocks::new(graph, &pruning)?;
+            let blocks = BlockFinder::new(graph, &pruning)?;
             Parts::Blocks(pruning, blocks)
         }
         Engine::JpsPlus(_) => {

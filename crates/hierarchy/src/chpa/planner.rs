@@ -8,7 +8,7 @@ use std::{
 use mediant_grid::{Centers, GridGraph, Rectangle, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{
-    AStar, Guarantee, Heuristic, Observer, Outcome, Path, Planner, Query, QueryError, SearchTree,
+    AStar, Guarantee, Heuristic, Observer, Outcome, Path, Planner, Query, QueryError, parts::SearchTree,
 };
 
 use super::{search::search, segments::SegmentGraph};

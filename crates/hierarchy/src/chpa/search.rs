@@ -4,7 +4,7 @@ use std::iter::successors;
 
 use mediant_grid::{Centers, GridGraph, Vertex};
 use mediant_moves::Cost;
-use mediant_search::{Heuristic, NodeEvent, Observer, Query, SearchTree};
+use mediant_search::{Heuristic, NodeEvent, Observer, Query, parts::SearchTree};
 
 use super::segments::SegmentGraph;
 
@@ -24,7 +24,7 @@ pub(crate) fn search<H: Heuristic>(
     let estimate = |at: Vertex| heuristic.estimate(grid_graph, at.to(goal_at));
     let h = estimate(graph.position(start));
     tree.start_search();
-    tree.reach(start, Cost::ZERO, h, SearchTree::<()>::NONE, ());
+    tree.set_path_and_open(start, Cost::ZERO, h, SearchTree::<()>::NONE, ());
     observer.generated(NodeEvent { at: graph.center(start), parent: None, g: Cost::ZERO, f: h });
     while let Some((f, id, g, swaps)) = tree.pop() {
         observer.percolated(swaps);
@@ -45,7 +45,7 @@ pub(crate) fn search<H: Heuristic>(
                 return;
             }
             let h = estimate(graph.position(to));
-            let (is_first, swaps) = tree.reach(to, g, h, id, ());
+            let (is_first, swaps) = tree.set_path_and_open(to, g, h, id, ());
             observer.percolated(swaps);
             let event = NodeEvent { at: graph.center(to), parent: Some(graph.center(id)), g, f: g + h };
             if is_first { observer.generated(event) } else { observer.updated(event) }

@@ -2,7 +2,7 @@
 
 use mediant_grid::{BitMatrix, Grid, Vertex};
 use mediant_moves::Cost;
-use mediant_search::SearchTree;
+use mediant_search::parts::SearchTree;
 
 use super::{
     cluster_search::ClusterSearch,

@@ -7,7 +7,7 @@ use std::{cmp::Reverse, collections::BinaryHeap};
 
 use mediant_grid::VertexId;
 use mediant_moves::{Cost, CostTable, FiniteK, Vector};
-use mediant_search::{Entry, NodeEvent, Observer};
+use mediant_search::{NodeEvent, Observer, parts::Entry};
 
 use crate::window::{MAX_SIDE, Rows, Window, contains, insert};
 

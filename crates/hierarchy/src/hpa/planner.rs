@@ -4,7 +4,7 @@ use std::ops::{Deref, DerefMut};
 
 use mediant_grid::{Centers, GridGraph, Rectangle, Vertex};
 use mediant_moves::Cost;
-use mediant_search::{Guarantee, Observer, Outcome, Path, Planner, Query, QueryError, SearchTree};
+use mediant_search::{Guarantee, Observer, Outcome, Path, Planner, Query, QueryError, parts::SearchTree};
 
 use super::{
     cluster_search::ClusterSearch,

@@ -2,7 +2,7 @@
 
 use mediant_grid::Vertex;
 use mediant_moves::Cost;
-use mediant_search::{NodeEvent, Observer, SearchTree};
+use mediant_search::{NodeEvent, Observer, parts::SearchTree};
 
 use super::{
     fixed_cost::FixedCost,
@@ -53,10 +53,10 @@ pub(crate) fn search(
 ) -> bool {
     tree.start_search();
     let mut search = Search { level, bounds, tree, estimate, observer };
-    search.tree.note(level.start_id(), Cost::ZERO, SearchTree::<()>::NONE, ());
+    search.tree.set_path(level.start_id(), Cost::ZERO, SearchTree::<()>::NONE, ());
     search.cross_cluster(level.start_id(), start, Cost::ZERO);
     if let Some(cost) = goal.and_then(|goal| goal.direct.cost()) {
-        search.tree.reach(level.goal_id(), cost, Cost::ZERO, level.start_id(), ());
+        search.tree.set_path_and_open(level.goal_id(), cost, Cost::ZERO, level.start_id(), ());
     }
     while let Some((f, id, g, swaps)) = search.tree.pop() {
         search.observer.percolated(swaps);
@@ -73,7 +73,7 @@ pub(crate) fn search(
             if let Some(rest) = endpoint.costs[index].cost()
                 && search.tree.cost(level.goal_id()).is_none_or(|known| g + rest < known)
             {
-                let (_, swaps) = search.tree.reach(level.goal_id(), g + rest, Cost::ZERO, id, ());
+                let (_, swaps) = search.tree.set_path_and_open(level.goal_id(), g + rest, Cost::ZERO, id, ());
                 search.observer.percolated(swaps);
             }
         }
@@ -101,7 +101,7 @@ impl<E: Fn(Vertex) -> Cost, O: Observer> Search<'_, E, O> {
             let Some(cost) = cost.cost() else { continue };
             let g = g + cost;
             if self.tree.cost(other).is_none_or(|known| g < known) {
-                self.tree.note(other, g, id, ());
+                self.tree.set_path(other, g, id, ());
                 self.cross_border(other, node.at(), g);
             }
         }
@@ -119,7 +119,7 @@ impl<E: Fn(Vertex) -> Cost, O: Observer> Search<'_, E, O> {
                 continue;
             }
             let h = (self.estimate)(at);
-            let (is_first, swaps) = self.tree.reach(other, g, h, id, ());
+            let (is_first, swaps) = self.tree.set_path_and_open(other, g, h, id, ());
             self.observer.percolated(swaps);
             let event = NodeEvent { at, parent: Some(from), g, f: g + h };
             if is_first {

@@ -1,32 +1,33 @@
-//! A cone on its way over the lines: the most frequent step of a search, by additions and words.
+//! A cone that advances from line to line: the most frequent step of a search, by additions and words.
 
 use mediant_grid::{
     BitRow, Grid, Vertex,
     sight::{Crossing, IntervalEnd, Runs, Side, Window, row_ahead},
 };
 
-use super::{frontier::Node, search::Successor};
+use super::frontier::Node;
 
-/// What a root sees through an interval of a line, before it crosses the row of cells ahead.
+/// The cone between a root and an interval of a line, before it crosses the row of cells ahead.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cone<'g> {
     pub(super) root: Vertex,
     /// The root's number.
     pub(super) number: u32,
     pub(super) line: i32,
-    /// 1 where the way leads downwards, −1 upwards.
+    /// 1 if the cone leads downwards, −1 if upwards.
     pub(super) down: i32,
     pub(super) left: Edge,
     pub(super) right: Edge,
     pub(super) ahead: BitRow<'g>,
 }
 
-/// An end of a beam.
+/// An edge of a cone: the end of its interval.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Edge {
     end: IntervalEnd,
-    /// Whether it is at the end of the run of free cells behind: the ray through it leads into the obstacle, or along it. For as
-    /// long as it stays there it is followed as a vertical, and only afterwards becomes a ray of its own.
+    /// Whether it is at the end of the run of free cells behind, so that the ray through it leads into an
+    /// obstacle or along it. As long as it stays there it is treated as a vertical; only then it becomes a
+    /// ray of its own.
     is_wall: bool,
 }
 
@@ -53,7 +54,7 @@ impl Edge {
         }
     }
 
-    /// Where it is.
+    /// Where it meets the line.
     #[inline]
     pub(super) const fn here(&self) -> Crossing {
         self.end.here
@@ -70,7 +71,7 @@ impl<'g> Cone<'g> {
         Self { root, number, line, down, left: edge(left), right: edge(right), ahead }
     }
 
-    /// The beam on the next line, from a root that sees it there.
+    /// The cone of a successor on the next line, from a root that sees it.
     #[inline]
     pub(super) fn next(&self, root: Vertex, successor: Successor) -> Self {
         let Successor { root: number, left, right } = successor;
@@ -78,31 +79,31 @@ impl<'g> Cone<'g> {
         Self { root, number, line, left: Edge::on(left), right: Edge::on(right), ahead, ..*self }
     }
 
-    /// The row of cells that it crossed last.
+    /// The row of cells that the cone crossed last.
     #[inline]
     pub(super) const fn behind(&self) -> BitRow<'g> {
         self.ahead.below(-self.down)
     }
 
-    /// The beam's interval as a node.
+    /// The interval of the cone as a node.
     pub(super) fn node(&self) -> Node {
         let [left, right] = [self.left, self.right].map(|edge| self.end(edge).ray);
         Node { root: self.number, line: self.line, left, right }
     }
 
-    /// How far the line is from the root.
+    /// The distance of the line from the root.
     #[inline]
     pub(super) const fn distance(&self) -> i32 {
         (self.line - self.root.y) * self.down
     }
 
-    /// The ray at an edge.
+    /// The interval end at an edge, with its ray.
     #[inline]
     pub(super) const fn end(&self, edge: Edge) -> IntervalEnd {
         if edge.is_wall { self.corner(edge.end.here.floor()) } else { edge.end }
     }
 
-    /// The end at a vertex of the line.
+    /// The interval end at a vertex of the line.
     #[inline]
     pub(super) const fn corner(&self, x: i32) -> IntervalEnd {
         IntervalEnd::corner(x, self.root.x, self.distance())
@@ -114,10 +115,10 @@ impl<'g> Cone<'g> {
         self.line == at.y && self.left.here().ceil() <= at.x && at.x <= self.right.here().floor()
     }
 
-    /// Moves on while the way ahead of the interval is one run of free cells and no corner shows at which a path may bend. Whether it came
-    /// to the goal.
+    /// Advances from line to line while the cone crosses one run of free cells and no corner appears at which
+    /// a path may bend. Returns whether the interval holds the goal.
     #[inline]
-    pub(super) fn glide(&mut self, goal: Vertex) -> bool {
+    pub(super) fn advance(&mut self, goal: Vertex) -> bool {
         loop {
             let (left, right) = (self.left.end.next(), self.right.end.next());
             let low = self.left.here().floor().min(left.floor());
@@ -138,9 +139,9 @@ impl<'g> Cone<'g> {
         }
     }
 
-    /// Where walls cut the interval off on its left and right before the next line; `None` where it splits, ends, or leaves something in
-    /// the shade of an obstacle. `left` and `right` are its ends on the next line if no obstacle is in the way, `low` to `high` the
-    /// columns that are crossed.
+    /// Where walls cut the interval off on its left and right before the next line; `None` if it splits,
+    /// ends, or if an obstacle hides something. `left` and `right` are its ends on the next line if no
+    /// obstacle is in the way, `low` to `high` the columns that are crossed.
     #[inline(always)]
     fn walls(
         &self,
@@ -153,7 +154,7 @@ impl<'g> Cone<'g> {
             return None;
         }
         if ahead.first_blocked(low, high) == high {
-            // Along a wall the interval may end at a point.
+            // Along a wall the interval may shrink to a point.
             return (left.floor() < right.ceil()).then_some((None, None));
         }
         let inside = ahead.first_free(first, last);
@@ -163,7 +164,8 @@ impl<'g> Cone<'g> {
         let start = if inside > first { inside } else { ahead.run_start(first, low) };
         let end = ahead.first_blocked(inside, high);
         let splits = end < last && ahead.first_free(end, last) < last;
-        // An obstacle on the near side of the vertical through the root hides something.
+        // A left obstacle that ends right of the vertical through the root hides something, and so does a
+        // right one that ends left.
         let shades = inside > first && inside > self.root.x || end < last && end < self.root.x;
         let empties = left.floor() >= end || right.ceil() <= start;
         if splits || shades || empties {
@@ -174,10 +176,36 @@ impl<'g> Cone<'g> {
         Some((left_wall.then_some(start), right_wall.then_some(end)))
     }
 
-    /// Whether the obstacle beside an edge, in column `outer`, begins or ends on this line: then a path may bend around its corner.
+    /// Whether the obstacle beside an edge, in column `outer`, begins or ends on this line: then a path may
+    /// bend around its corner.
     #[inline]
     fn is_at_corner(&self, edge: &Edge, outer: i32, ahead: impl Runs) -> bool {
         let behind = || edge.is_wall || self.behind().is_blocked(outer);
         edge.here().is_vertex() && ahead.is_blocked(outer) != behind()
+    }
+}
+
+/// A successor of a cone node: an interval of the next line.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Successor {
+    /// The number of the root that sees it.
+    pub(super) root: u32,
+    pub(super) left: IntervalEnd,
+    pub(super) right: IntervalEnd,
+}
+
+impl Successor {
+    /// Whether nothing lies behind the interval, and the goal does not lie in it.
+    #[inline]
+    pub(super) fn is_cul_de_sac(self, cone: &Cone<'_>, goal: Vertex) -> bool {
+        let (left, right) = (self.left.here, self.right.here);
+        let (behind, ahead) = (cone.ahead, cone.ahead.below(cone.down));
+        let turns =
+            |at: Crossing, outer: i32| at.is_vertex() && behind.is_blocked(outer) && !ahead.is_blocked(outer);
+        let holds_goal = cone.line + cone.down == goal.y && left.ceil() <= goal.x && goal.x <= right.floor();
+        ahead.first_free(left.floor(), right.ceil()) == right.ceil()
+            && !turns(left, left.floor() - 1)
+            && !turns(right, right.floor())
+            && !holds_goal
     }
 }

@@ -1,26 +1,26 @@
-//! What a search has found and not yet expanded: roots, nodes, the open list.
+//! The memory of a search: roots, nodes, the open list.
 
 use std::{cmp::Reverse, collections::BinaryHeap};
 
 use mediant_grid::{Corners, FreeSpace, Vertex, sight::Ray};
 use mediant_moves::Cost;
 
-use crate::Path;
+use crate::path::Path;
 
-/// A vertex at which paths turn, or the start.
+/// The start, or a vertex at which paths turn.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Root {
     pub(super) at: Vertex,
     /// The length of the best known path to it.
     pub(super) g: f64,
-    /// The root before it; itself at the start.
+    /// The number of the root before it; its own for the start.
     parent: u32,
 }
 
-/// A search node: part of a line that is seen from a root.
+/// A search node: the part of a line that a root sees.
 ///
-/// A *cone node* is the interval between two rays on another line than the root's. A *flat node* is a vertex on the root's own
-/// line, to the right or left, at which a path may turn; `left.dx` is how far.
+/// A *cone node* is the interval between two rays on a line other than the root's. A *flat node* is a vertex
+/// at which a path may turn on the root's own line; `left.dx` is its distance to the right.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) root: u32,
@@ -29,28 +29,30 @@ pub(super) struct Node {
     pub(super) right: Ray,
 }
 
-/// When a vertex became a root.
+/// The best root at a vertex, and the search in which it became one.
 #[derive(Clone, Copy, Debug, Default)]
-struct Seen {
+struct RootEntry {
     generation: u32,
     root: u32,
 }
 
-/// The roots and nodes of a search, with its open list. Forgotten by the next [`start`](Self::start), but for the memory.
+/// The roots and nodes of a search, with its open list. The next [`start`](Self::start) clears it and keeps
+/// the memory.
 #[derive(Clone, Debug)]
 pub(super) struct Frontier {
     roots: Vec<Root>,
     /// The root history: for each vertex its best root.
-    seen: Box<[Seen]>,
+    best_roots: Box<[RootEntry]>,
     generation: u32,
     nodes: Vec<Node>,
     open: BinaryHeap<Reverse<Entry>>,
 }
 
-/// What the open list orders: f, then h (nearer to the goal first), then the age of the node.
+/// An entry of the open list, ordered by f, then by h (nearer to the goal first), then by the age of the
+/// node.
 ///
-/// The bits of floats that are not negative are ordered as the floats; h has the precision of an `f32`. A total order, and, since IEEE 754
-/// says what sums, products, quotients and roots are, the same on every platform.
+/// The bits of non-negative floats are ordered like the floats; h has the precision of an `f32`. The order is
+/// total, and the same on every platform, since IEEE 754 defines sums, products, quotients and roots exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Entry(u128);
 
@@ -72,7 +74,7 @@ impl Entry {
     }
 }
 
-/// A length in fixed point, cut off.
+/// A length in fixed point, rounded down.
 pub(super) fn fixed(length: f64) -> Cost {
     const ONE: f64 = (1_u64 << Cost::FRACTION_BITS) as f64;
     Cost::from_bits((length * ONE) as u64)
@@ -83,26 +85,27 @@ impl Frontier {
     pub(super) fn new(vertices: usize) -> Self {
         Self {
             roots: Vec::new(),
-            seen: vec![Seen::default(); vertices].into_boxed_slice(),
+            best_roots: vec![RootEntry::default(); vertices].into_boxed_slice(),
             generation: 0,
             nodes: Vec::new(),
             open: BinaryHeap::new(),
         }
     }
 
-    /// Forgets all, in constant time but for once in 2³² calls, and makes a vertex the first root, number 0.
+    /// Forgets the last search, in constant time (but for one call in 2³²), and makes a vertex the first
+    /// root, number 0.
     pub(super) fn start(&mut self, space: &FreeSpace<Corners>, at: Vertex) {
         self.roots.clear();
         self.nodes.clear();
         self.open.clear();
         self.generation = self.generation.wrapping_add(1);
         if self.generation == 0 {
-            self.seen.fill(Seen::default());
+            self.best_roots.fill(RootEntry::default());
             self.generation = 1;
         }
         self.roots.push(Root { at, g: 0.0, parent: 0 });
         if let Some(id) = space.id(at) {
-            self.seen[id.index()] = Seen { generation: self.generation, root: 0 };
+            self.best_roots[id.index()] = RootEntry { generation: self.generation, root: 0 };
         }
     }
 
@@ -112,27 +115,28 @@ impl Frontier {
         self.roots[number as usize]
     }
 
-    /// Where the root before it is; `None` at the start.
+    /// The vertex of the root before it; `None` for the start.
     pub(super) fn parent(&self, number: u32) -> Option<Vertex> {
         (number != 0).then(|| self.root(self.root(number).parent).at)
     }
 
-    /// The number of the root at a vertex that another root sees; `None` when there is another way to it that is as short. (Paths that go on
-    /// from there are no shorter than by that other way; if they are as short, they are taut by it too, and so among its nodes.)
+    /// Makes a vertex that another root sees a root, and returns its number; `None` if another path to it is
+    /// as short. (Paths that go on from there are no shorter than by that other path. If they are as short,
+    /// they are taut by it too, and so among its nodes.)
     #[inline]
-    pub(super) fn reach(&mut self, space: &FreeSpace<Corners>, parent: u32, at: Vertex) -> Option<u32> {
+    pub(super) fn add_root(&mut self, space: &FreeSpace<Corners>, parent: u32, at: Vertex) -> Option<u32> {
         let id = space.id(at)?;
         let from = self.root(parent);
         let g = from.g + from.at.distance(at);
-        let seen = &mut self.seen[id.index()];
-        if seen.generation == self.generation {
-            let known = self.roots[seen.root as usize];
+        let best = &mut self.best_roots[id.index()];
+        if best.generation == self.generation {
+            let known = self.roots[best.root as usize];
             if known.g <= g {
-                return (known.g == g && known.parent == parent).then_some(seen.root);
+                return (known.g == g && known.parent == parent).then_some(best.root);
             }
         }
         let number = self.roots.len() as u32;
-        *seen = Seen { generation: self.generation, root: number };
+        *best = RootEntry { generation: self.generation, root: number };
         self.roots.push(Root { at, g, parent });
         Some(number)
     }
@@ -151,12 +155,12 @@ impl Frontier {
         Some((entry.f(), self.nodes[entry.number() as usize]))
     }
 
-    /// Whether there is no shorter way to the root's vertex than to the root.
+    /// Whether no shorter path to the root's vertex was found since it became a root.
     pub(super) fn is_current(&self, space: &FreeSpace<Corners>, number: u32) -> bool {
-        space.id(self.root(number).at).is_some_and(|id| self.seen[id.index()].root == number)
+        space.id(self.root(number).at).is_some_and(|id| self.best_roots[id.index()].root == number)
     }
 
-    /// The path to the goal by a root that sees it. Allocates nothing else.
+    /// The path to the goal by a root that sees it. Allocates nothing but its waypoints.
     pub(super) fn path(&self, last: u32, goal: Vertex) -> Path {
         let roots =
             std::iter::successors(Some(last), |&number| (number != 0).then(|| self.root(number).parent));

@@ -1,17 +1,17 @@
-//! A search under way: what the expansion of a node leads to.
+//! A search: the successors of a node.
 
 use mediant_grid::{
     Corners, FreeSpace, Vertex,
-    sight::{Crossing, IntervalEnd, Ray, Side, row_ahead},
+    sight::{IntervalEnd, Ray, Side, row_ahead},
 };
 
 use super::{
-    cone::Cone,
+    cone::{Cone, Successor},
     frontier::{Frontier, Node, fixed},
 };
-use crate::{NodeEvent, Observer};
+use crate::observer::{NodeEvent, Observer};
 
-/// A search under way.
+/// A search.
 pub(super) struct Search<'s, O> {
     pub(super) space: &'s FreeSpace<Corners>,
     pub(super) frontier: &'s mut Frontier,
@@ -22,11 +22,11 @@ pub(super) struct Search<'s, O> {
 }
 
 impl<O: Observer> Search<'_, O> {
-    /// Forgets the last search and finds the nodes that the start sees.
+    /// Forgets the last search and queues the nodes that the start sees.
     pub(super) fn start(&mut self, at: Vertex) {
         self.frontier.start(self.space, at);
         let grid = self.space.grid();
-        // From a gap a path sets out into the quadrant of its own cell.
+        // From a closed gap a path leaves into the quadrant of the vertex's own cell.
         let gap = self.space.is_closed_gap(at);
         for down in [1, -1] {
             if gap && down < 0 {
@@ -42,12 +42,12 @@ impl<O: Observer> Search<'_, O> {
         }
         for right in [1, -1] {
             if !gap || right > 0 {
-                self.flat(0, at, right);
+                self.push_flat(0, at, right);
             }
         }
     }
 
-    /// Whether a path by the node's root leads to the goal in the node.
+    /// Whether the node holds the goal, and a path from its root may end there.
     pub(super) fn reaches_goal(&self, node: Node) -> bool {
         let root = self.frontier.root(node.root).at;
         let found = if node.line == root.y {
@@ -63,30 +63,30 @@ impl<O: Observer> Search<'_, O> {
         let space = self.space;
         let root = self.frontier.root(node.root).at;
         if node.line == root.y {
-            return self.turn_flat(node, root);
+            return self.expand_flat(node, root);
         }
-        let mut beam = Cone::new(space.grid(), root, node);
+        let mut cone = Cone::new(space.grid(), root, node);
         loop {
             self.next.clear();
-            if beam.glide(self.goal) {
-                self.push(beam.node());
+            if cone.advance(self.goal) {
+                self.push(cone.node());
                 break;
             }
-            self.cross(&beam);
+            self.cross_row(&cone);
             if self.next.len() > 1 {
-                self.next.retain(|next| !next.is_cul_de_sac(&beam, self.goal));
+                self.next.retain(|next| !next.is_cul_de_sac(&cone, self.goal));
             }
             if let [only] = self.next[..] {
-                beam = beam.next(self.frontier.root(only.root).at, only);
-                if !beam.holds(self.goal) {
+                cone = cone.next(self.frontier.root(only.root).at, only);
+                if !cone.holds(self.goal) {
                     continue;
                 }
-                self.push(beam.node());
+                self.push(cone.node());
                 break;
             }
             for i in 0..self.next.len() {
                 let Successor { root, left, right } = self.next[i];
-                self.push(Node { root, line: beam.line + beam.down, left: left.ray, right: right.ray });
+                self.push(Node { root, line: cone.line + cone.down, left: left.ray, right: right.ray });
             }
             break;
         }
@@ -109,8 +109,8 @@ impl<O: Observer> Search<'_, O> {
         self.observer.generated(NodeEvent { at: root.at, parent, g: fixed(root.g), f: fixed(f) });
     }
 
-    /// The length of a shortest way from the root through the interval to the goal, or to its mirror image where that is on this
-    /// side of the line (Harabor et al. 2016, Section 4.3).
+    /// The length of a shortest path from the root through the interval to the goal, or to its mirror image
+    /// where the goal lies on this side of the line (Harabor et al. 2016, Section 4.3).
     #[inline]
     fn estimate(&self, root: Vertex, line: i32, left: f64, right: f64) -> f64 {
         let (x, y) = (f64::from(root.x), f64::from(root.y));
@@ -127,8 +127,9 @@ impl<O: Observer> Search<'_, O> {
         }
     }
 
-    /// Looks from a root along its own line for the next vertex at which a path may turn, beyond `from`.
-    fn flat(&mut self, root: u32, from: Vertex, right: i32) {
+    /// Queues the flat node at the next vertex beyond `from`, on the line of a root, at which a path may turn
+    /// or end.
+    fn push_flat(&mut self, root: u32, from: Vertex, right: i32) {
         let grid = self.space.grid();
         let [above, below] = [-1, 1].map(|down| row_ahead(grid, from.y, down));
         let closed = self.space.has_closed_gaps();
@@ -168,13 +169,14 @@ impl<O: Observer> Search<'_, O> {
         self.add(Node { root, line: from.y, left, right: left }, start.g + h, h);
     }
 
-    /// Turns off a line at a vertex, up or down, and goes on along it.
-    fn turn_flat(&mut self, node: Node, root: Vertex) {
+    /// Queues the successors of a flat node: paths that turn up or down at its vertex, and the next flat node
+    /// on the line.
+    fn expand_flat(&mut self, node: Node, root: Vertex) {
         let grid = self.space.grid();
         let right = node.left.dx.signum();
         let at = Vertex::new(root.x + node.left.dx, root.y);
         let (passed, entered) = if right > 0 { (at.x - 1, at.x) } else { (at.x, at.x - 1) };
-        // A goal that is a gap, and that this path may not end at, is a vertex like any other; nothing may pass it.
+        // The goal, at which this path may not end. No path passes a closed gap.
         if self.space.is_closed_gap(at) {
             return;
         }
@@ -183,54 +185,54 @@ impl<O: Observer> Search<'_, O> {
             if !strip.is_blocked(passed) || strip.is_blocked(entered) {
                 continue;
             }
-            let Some(number) = self.frontier.reach(self.space, node.root, at) else { continue };
+            let Some(number) = self.frontier.add_root(self.space, node.root, at) else { continue };
             let far = if right > 0 { strip.first_blocked(at.x, i32::MAX) } else { strip.run_start(at.x, 0) };
             let far = Ray { dx: far - at.x, dy: 1 };
             let (left, right) = if right > 0 { (Ray::VERTICAL, far) } else { (far, Ray::VERTICAL) };
             self.push(Node { root: number, line: at.y + down, left, right });
         }
-        self.flat(node.root, at, right);
+        self.push_flat(node.root, at, right);
     }
 
-    /// Finds the nodes on the next line.
-    fn cross(&mut self, beam: &Cone<'_>) {
-        let (left, right) = (beam.end(beam.left), beam.end(beam.right));
+    /// Finds the successors on the next line.
+    fn cross_row(&mut self, cone: &Cone<'_>) {
+        let (left, right) = (cone.end(cone.left), cone.end(cone.right));
         if left.here.is_vertex() {
-            self.turn(beam, left, Side::Left);
+            self.turn_at_end(cone, left, Side::Left);
         }
         if right.here.is_vertex() {
-            self.turn(beam, right, Side::Right);
+            self.turn_at_end(cone, right, Side::Right);
         }
         let (next_left, next_right) = (left.next(), right.next());
         let (first, last) = (left.here.floor(), right.here.ceil());
         let mut column = first;
         loop {
-            column = beam.ahead.first_free(column, last);
+            column = cone.ahead.first_free(column, last);
             if column >= last {
                 break;
             }
-            // A run matters as far as the cone reaches.
+            // Only the part of a run that the cone reaches matters.
             let start = if column == first {
-                beam.ahead.run_start(column, next_left.floor().min(column))
+                cone.ahead.run_start(column, next_left.floor().min(column))
             } else {
                 column
             };
-            let stop = beam.ahead.first_blocked(column, last.max(next_right.ceil()));
-            self.pass(beam, (left, right), (start, stop));
+            let stop = cone.ahead.first_blocked(column, last.max(next_right.ceil()));
+            self.add_visible(cone, (left, right), (start, stop));
             column = stop + 1;
         }
     }
 
-    /// An end of the interval that is a corner of an obstacle on the near side of the line: a path may bend around it, into what the
-    /// obstacle hides.
-    fn turn(&mut self, beam: &Cone<'_>, end: IntervalEnd, side: Side) {
-        let (ahead, behind) = (beam.ahead, beam.behind());
+    /// Where an end of the interval is the corner of an obstacle on the near side of the line: adds the paths
+    /// that bend around it into what the obstacle hides.
+    fn turn_at_end(&mut self, cone: &Cone<'_>, end: IntervalEnd, side: Side) {
+        let (ahead, behind) = (cone.ahead, cone.behind());
         let x = end.here.floor();
         let (outer, inner) = side.columns(x);
         if !behind.is_blocked(outer) || ahead.is_blocked(outer) {
             return;
         }
-        let at = Vertex::new(x, beam.line);
+        let at = Vertex::new(x, cone.line);
         let is_closed_gap = ahead.is_blocked(inner);
         if is_closed_gap && self.space.is_closed_gap(at) {
             return;
@@ -242,49 +244,57 @@ impl<O: Observer> Search<'_, O> {
         };
         // Between two obstacles everything is hidden.
         let end = if is_closed_gap { IntervalEnd::standing(x) } else { end };
-        self.shade(beam, x, side, (far, limit), end);
-        if let Some(number) = self.frontier.reach(self.space, beam.number, at) {
-            self.flat(number, at, side.sign());
+        self.add_hidden(cone, x, side, (far, limit), end);
+        if let Some(number) = self.frontier.add_root(self.space, cone.number, at) {
+            self.push_flat(number, at, side.sign());
         }
     }
 
-    /// The interval behind a run of free cells that the cone enters: what is seen, and what the obstacles at the ends of the run hide.
+    /// For a run of free cells that the cone enters: adds the interval behind it that the root sees, and
+    /// those that the obstacles at the ends of the run hide.
     #[inline]
-    fn pass(
+    fn add_visible(
         &mut self,
-        beam: &Cone<'_>,
+        cone: &Cone<'_>,
         (left, right): (IntervalEnd, IntervalEnd),
         (start, stop): (i32, i32),
     ) {
-        let left = if start > left.here.floor() { beam.corner(start) } else { left };
-        let right = if stop < right.here.ceil() { beam.corner(stop) } else { right };
+        let left = if start > left.here.floor() { cone.corner(start) } else { left };
+        let right = if stop < right.here.ceil() { cone.corner(stop) } else { right };
         let (next_left, next_right) = (left.next(), right.next());
         let is_corner = |end: IntervalEnd, x: i32| end.here.is_vertex() && end.here.floor() == x;
-        if is_corner(left, start) && beam.ahead.is_blocked(start - 1) {
-            self.shade(beam, start, Side::Left, (start, stop), left);
+        if is_corner(left, start) && cone.ahead.is_blocked(start - 1) {
+            self.add_hidden(cone, start, Side::Left, (start, stop), left);
         }
-        if is_corner(right, stop) && beam.ahead.is_blocked(stop) {
-            self.shade(beam, stop, Side::Right, (stop, start), right);
+        if is_corner(right, stop) && cone.ahead.is_blocked(stop) {
+            self.add_hidden(cone, stop, Side::Right, (stop, start), right);
         }
         if next_left.floor() < stop && next_right.ceil() > start {
-            let clipped = |x: i32| IntervalEnd::corner(x, beam.root.x, beam.distance() + 1);
+            let clipped = |x: i32| IntervalEnd::corner(x, cone.root.x, cone.distance() + 1);
             let is_wall = Side::Left.is_outside(next_left, start);
             let left = if is_wall { clipped(start) } else { left.moved_to(next_left) };
             let is_wall = Side::Right.is_outside(next_right, stop);
             let right = if is_wall { clipped(stop) } else { right.moved_to(next_right) };
-            self.next.push(Successor { root: beam.number, left, right });
+            self.next.push(Successor { root: cone.number, left, right });
         }
     }
 
-    /// What an obstacle corner in column `x` hides of a run: on the next line, from `far` to `next`, where the ray past the corner goes, at
-    /// most to `limit`.
-    fn shade(&mut self, beam: &Cone<'_>, x: i32, side: Side, (far, limit): (i32, i32), end: IntervalEnd) {
+    /// Adds what the corner of an obstacle in column `x` hides of a run: on the next line the interval from
+    /// `far` to where the ray past the corner meets it, at most to `limit`.
+    fn add_hidden(
+        &mut self,
+        cone: &Cone<'_>,
+        x: i32,
+        side: Side,
+        (far, limit): (i32, i32),
+        end: IntervalEnd,
+    ) {
         let next = end.next();
         if !side.is_inside(next, far) {
             return;
         }
-        let at = Vertex::new(x, beam.line);
-        let Some(root) = self.frontier.reach(self.space, beam.number, at) else { return };
+        let at = Vertex::new(x, cone.line);
+        let Some(root) = self.frontier.add_root(self.space, cone.number, at) else { return };
         let to = |column: i32| IntervalEnd::corner(column, x, 1);
         let near = if side.is_inside(next, limit) { to(limit) } else { end.moved_to(next) };
         let (left, right) = match side {
@@ -292,29 +302,5 @@ impl<O: Observer> Search<'_, O> {
             Side::Right => (near, to(far)),
         };
         self.next.push(Successor { root, left, right });
-    }
-}
-
-/// An interval of the next line.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Successor {
-    pub(super) root: u32,
-    pub(super) left: IntervalEnd,
-    pub(super) right: IntervalEnd,
-}
-
-impl Successor {
-    /// Whether nothing lies behind the interval, and the goal not in it.
-    #[inline]
-    fn is_cul_de_sac(self, beam: &Cone<'_>, goal: Vertex) -> bool {
-        let (left, right) = (self.left.here, self.right.here);
-        let (behind, ahead) = (beam.ahead, beam.ahead.below(beam.down));
-        let turns =
-            |at: Crossing, outer: i32| at.is_vertex() && behind.is_blocked(outer) && !ahead.is_blocked(outer);
-        let holds_goal = beam.line + beam.down == goal.y && left.ceil() <= goal.x && goal.x <= right.floor();
-        ahead.first_free(left.floor(), right.ceil()) == right.ceil()
-            && !turns(left, left.floor() - 1)
-            && !turns(right, right.floor())
-            && !holds_goal
     }
 }

@@ -1,16 +1,12 @@
-//! The ways around a pair of moves: legal in its stead, they make it superfluous.
+//! The alternatives to a pair of moves: paths that, where they are legal, make the pair superfluous.
 
 use mediant_grid::{CellOffset, Footprint, Placement};
 use mediant_moves::{Cost, FiniteK, Neighborhood, Vector, decompose};
 
-/// The order among last moves: even ones first, then by index. Of two equally cheap ways to a vertex, the one whose last move comes first
-/// is the earlier; of two with the same last move, the one whose way to that move is.
-pub(crate) const fn rank(index: usize) -> usize {
-    (index & 1) << 16 | index
-}
+use super::order::rank;
 
-/// The moves of N(k), what they cost, and what they ask of the map.
-pub(crate) struct Moves<P: Placement> {
+/// The moves of N(k), their costs, and the cells that they require to be free.
+pub(crate) struct MoveTable<P: Placement> {
     pub(crate) vectors: Vec<Vector>,
     pub(crate) footprints: Vec<Footprint>,
     costs: Vec<Cost>,
@@ -18,16 +14,18 @@ pub(crate) struct Moves<P: Placement> {
     rule: P::Rule,
 }
 
-/// What a path asks of the map, by offsets from one vertex.
+/// What makes a path legal, by offsets from one vertex.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Asked {
+pub(crate) struct Requirements {
+    /// The cells that must be free.
     pub(crate) free: Vec<CellOffset>,
+    /// Pairs of cells of which one must be free.
     pub(crate) either: Vec<[CellOffset; 2]>,
-    /// The vertices that it passes, where no path may pass a gap.
+    /// The vertices that it passes and that must not be gaps; empty where paths may pass gaps.
     pub(crate) passed: Vec<Vector>,
 }
 
-impl<P: Placement> Moves<P> {
+impl<P: Placement> MoveTable<P> {
     pub(crate) fn new(rule: P::Rule, neighborhood: Neighborhood) -> Self {
         let vectors: Vec<Vector> = neighborhood.iter().collect();
         let footprints = vectors.iter().map(|&v| Footprint::new::<P>(rule, v)).collect();
@@ -47,9 +45,10 @@ impl<P: Placement> Moves<P> {
         self.neighborhood.index_of(v).map(|index| index as usize)
     }
 
-    /// Calls `each` with sequences of moves of the same displacement as move `a` and then move `b`, that are cheaper, or as cheap and
-    /// earlier: single moves, pairs, and the cheapest path on an empty grid in its plainest orders. Opposite moves have the empty
-    /// sequence. None for a = b.
+    /// Calls `each` with the sequences of moves that have the displacement of move `a` followed by move `b`
+    /// and are cheaper, or as cheap and earlier: single moves, pairs, and the cheapest path on an empty grid
+    /// in its plainest orders. The alternative to two opposite moves is the empty sequence. There is none for
+    /// a = b.
     pub(crate) fn alternatives(&self, a: usize, b: usize, mut each: impl FnMut(&[usize])) {
         let d = self.vectors[a] + self.vectors[b];
         let cost = self.costs[a] + self.costs[b];
@@ -81,26 +80,26 @@ impl<P: Placement> Moves<P> {
         each(&[vec![v; n / 2], vec![u; m], vec![v; n - n / 2]].concat());
     }
 
-    /// What a sequence of moves asks of the map when it begins at `start`.
-    pub(crate) fn asked(&self, start: Vector, sequence: &[usize]) -> Asked {
-        let mut asked = Asked::default();
+    /// What makes a sequence of moves legal that begins at `start`.
+    pub(crate) fn requirements(&self, start: Vector, sequence: &[usize]) -> Requirements {
+        let mut required = Requirements::default();
         let mut at = start;
         for (i, &index) in sequence.iter().enumerate() {
             if i > 0 && P::closes_gaps(self.rule) {
-                asked.passed.push(at);
+                required.passed.push(at);
             }
             let cell = |(x, y): CellOffset| (x + at.x, y + at.y);
-            asked.free.extend(self.footprints[index].free.iter().map(|&offset| cell(offset)));
-            asked.either.extend(self.footprints[index].either.iter().map(|pair| pair.map(cell)));
+            required.free.extend(self.footprints[index].free.iter().map(|&offset| cell(offset)));
+            required.either.extend(self.footprints[index].either.iter().map(|pair| pair.map(cell)));
             at = at + self.vectors[index];
         }
-        asked
+        required
     }
 }
 
-impl Asked {
-    /// The pairs of cells beside one another around a vertex at `at`. With one of them free, two blocked cells do not meet
-    /// there diagonally.
+impl Requirements {
+    /// The four pairs of adjacent cells around the vertex `at`. If both cells of one pair are free, the
+    /// vertex is no gap.
     pub(crate) fn beside(at: Vector) -> [[CellOffset; 2]; 4] {
         let [nw, ne, sw, se] = [(-1, -1), (0, -1), (-1, 0), (0, 0)].map(|(x, y)| (at.x + x, at.y + y));
         [[nw, ne], [sw, se], [nw, sw], [ne, se]]

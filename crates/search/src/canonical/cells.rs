@@ -2,7 +2,8 @@
 
 use mediant_grid::CellOffset;
 
-/// Cells with offsets from −32 to 31, which hold all that two moves of N(8) can reach: a bit each, a word a row.
+/// A set of cells with offsets from −32 to 31, enough for all that two moves of N(8) can reach: a bit a cell,
+/// a word a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Cells([u64; 64]);
 
@@ -15,10 +16,10 @@ impl Default for Cells {
 impl Cells {
     /// The number of rows, and of cells in a row.
     pub(crate) const SIDE: usize = 64;
-    /// The row, and the bit, of the vertex's own cell.
+    /// The row and the bit of the vertex's own cell.
     pub(crate) const HALF: i32 = 32;
 
-    /// The rows that hold all cells, and the first one's number.
+    /// The number of the first row that is not empty, and the rows from there to the last such row.
     pub(crate) fn rows(&self) -> (usize, &[u64]) {
         let first = self.0.iter().position(|&row| row != 0).unwrap_or(0);
         let end = self.0.iter().rposition(|&row| row != 0).map_or(first, |last| last + 1);

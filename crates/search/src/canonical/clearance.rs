@@ -1,28 +1,35 @@
 //! How far the nearest obstacle is, and the nearest corner of one.
 //!
-//! **Far from corners nothing turns.** Take the box of cells around vertex v that holds all that any move from or to v sweeps: radius R(k)
-//! cells. If no convex corner of an obstacle (a grid point with exactly one blocked cell of four around it, or with two that touch
-//! diagonally) lies inside the box, then every edge-connected component of free cells in it is a rectangle: a polyomino without reflex vertices
-//! and without pinches. The moves a into v and b out of v, and so their ends u and w, lie in one such rectangle. With them the whole
-//! bounding box of u and w does, and every cheapest path of displacement a + b on an empty grid stays in that. So all turns
-//! are pruned, under either placement and every rule of motion. (At corners the box is taken one wider, so that no vertex of the
-//! path is a gap.)
+//! **Far from corners there are no forced successors.** Take the box of cells around vertex v that holds all
+//! cells that any move from or to v sweeps; its radius is R(k) cells. Suppose no convex corner of an obstacle
+//! lies inside the box: no grid point with exactly one blocked cell around it, or with two that touch
+//! diagonally.
+//!
+//! 1. Then every edge-connected component of free cells in the box is a rectangle, as a polyomino without
+//!    reflex vertices and without pinches.
+//! 2. The move a from u into v and the move b from v to w lie in one such rectangle. With u and w, their
+//!    whole bounding box lies in it.
+//! 3. Every cheapest path of displacement a + b on an empty grid stays in that bounding box, so it is legal.
+//!
+//! So every successor that is not natural is pruned, under either placement and every rule of motion. (At
+//! corners the box is taken one wider, so that no vertex of the path is a gap.)
 
 use mediant_grid::{CellOffset, GridGraph, Placement, PlacementKind, VertexId};
 
-/// What is known of the surroundings of each vertex, two bytes each; 255 stands for all above.
+/// The clearance of each vertex, two bytes each; 255 also stands for all larger distances.
 #[derive(Clone, Debug)]
 pub(crate) struct Clearance {
     values: Box<[[u8; 2]]>,
 }
 
-/// The surroundings of one vertex.
+/// The clearance of one vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Around {
-    /// The side of the free square: the largest c such that no cell with an offset of at most c − 1 (at centers), or
-    /// from −c to c − 1 (at corners), along either axis is blocked.
+pub(crate) struct VertexClearance {
+    /// The side of the free square: the largest c such that no cell with an offset of at most c − 1 (at
+    /// centers), or from −c to c − 1 (at corners), along either axis is blocked.
     pub(crate) free: u32,
-    /// The Chebyshev distance to the nearest convex corner of an obstacle; at centers from the nearest corner of the vertex's cell.
+    /// The Chebyshev distance to the nearest convex corner of an obstacle; at centers from the nearest corner
+    /// of the vertex's cell.
     pub(crate) corner: u32,
 }
 
@@ -62,16 +69,16 @@ impl Clearance {
     }
 
     #[inline]
-    pub(crate) fn of(&self, id: VertexId) -> Around {
+    pub(crate) fn of(&self, id: VertexId) -> VertexClearance {
         let [free, corner] = self.values.get(id.index()).copied().unwrap_or_default().map(u32::from);
-        Around { free, corner }
+        VertexClearance { free, corner }
     }
 
     pub(crate) fn memory_bytes(&self) -> usize {
         size_of_val(&*self.values)
     }
 
-    /// The side of a free square that holds this cell.
+    /// The least [`free`](VertexClearance::free) whose square holds this cell.
     pub(crate) fn needed<P: Placement>((x, y): CellOffset) -> u32 {
         let along = |offset: i32| match P::KIND {
             PlacementKind::Corner if offset < 0 => offset.unsigned_abs(),
@@ -80,13 +87,15 @@ impl Clearance {
         along(x).max(along(y))
     }
 
-    /// The distance to corners from which on there are no turns, where moves have coordinates up to `radius`.
+    /// The distance to corners from which on there are no forced successors, where moves have coordinates up
+    /// to `radius`.
     pub(crate) fn needed_from_corners<P: Placement>(radius: i32) -> u32 {
         radius.unsigned_abs() + u32::from(P::KIND == PlacementKind::Corner)
     }
 }
 
-/// Whether of the four cells around a grid point, row by row, exactly one is blocked, or two that touch diagonally.
+/// Whether of the four cells around a grid point, row by row, exactly one is blocked, or two that touch
+/// diagonally.
 pub(crate) fn is_convex_corner([nw, ne, sw, se]: [bool; 4]) -> bool {
     match [nw, ne, sw, se].into_iter().filter(|&blocked| blocked).count() {
         1 => true,
@@ -95,9 +104,10 @@ pub(crate) fn is_convex_corner([nw, ne, sw, se]: [bool; 4]) -> bool {
     }
 }
 
-/// The Chebyshev distance of each place to the nearest marked one, in two passes; `outside` is that of what lies beyond the edges.
+/// The Chebyshev distance of each position to the nearest marked one, in two passes; `outside` is the
+/// distance of the positions beyond the edges.
 fn distances(width: usize, height: usize, outside: u8, marked: impl Fn(usize, usize) -> bool) -> Vec<u8> {
-    // A frame spares every look at a place beyond the edges.
+    // With a frame around them, positions at the edges need no case of their own.
     let stride = width + 2;
     let mut values = vec![outside; stride * (height + 2)];
     for y in 1..=height {

@@ -1,11 +1,14 @@
-//! What searches have found out about turns, kept for later ones.
+//! Which vertices have forced successors, as far as searches have found out.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use mediant_grid::VertexId;
 
-/// For each vertex and incoming move, whether a turn follows, as far as that is known: two bits. Filled as searches ask, by any number of
-/// planners at once; since each bit is a fact of the map, what they answer does not depend on it.
+/// For each vertex and incoming move, whether there is a forced successor: two bits, of which the lower says
+/// 'none', the higher 'some', and neither 'unknown'.
+///
+/// Any number of planners fill it as they ask. Each bit is a fact of the map, so their answers do not depend
+/// on what is filled in.
 #[derive(Debug)]
 pub(crate) struct ForcedCache {
     words: Box<[AtomicU64]>,
@@ -13,10 +16,10 @@ pub(crate) struct ForcedCache {
 }
 
 impl ForcedCache {
-    /// Larger maps do without: 256 MiB.
+    /// The most memory used, 256 MiB; larger maps do without a cache.
     const MAX_WORDS: usize = 1 << 25;
 
-    /// For so many vertices with 2^k moves.
+    /// An empty cache for so many vertices with 2^k moves.
     pub(crate) fn new(vertices: usize, k: u32) -> Self {
         let words = vertices.div_ceil(32).checked_mul(1 << k);
         let words = words.filter(|&words| words <= Self::MAX_WORDS).unwrap_or(0);
@@ -29,7 +32,7 @@ impl ForcedCache {
         (self.words.get(pair >> 5), 2 * (pair & 31) as u32)
     }
 
-    /// Whether a turn follows, if that is known.
+    /// Whether there is a forced successor, if that is known.
     #[inline]
     pub(crate) fn get(&self, id: VertexId, by: usize) -> Option<bool> {
         let (word, shift) = self.place(id, by);
@@ -39,11 +42,11 @@ impl ForcedCache {
         }
     }
 
-    /// Notes whether a turn follows.
+    /// Records whether there is a forced successor.
     #[inline]
-    pub(crate) fn note(&self, id: VertexId, by: usize, turns: bool) {
+    pub(crate) fn record(&self, id: VertexId, by: usize, forced: bool) {
         if let (Some(word), shift) = self.place(id, by) {
-            word.fetch_or(1 << (shift + u32::from(turns)), Ordering::Relaxed);
+            word.fetch_or(1 << (shift + u32::from(forced)), Ordering::Relaxed);
         }
     }
 

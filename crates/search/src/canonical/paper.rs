@@ -1,21 +1,33 @@
-//! Canonical A* as Rivera 2017 states it: complete, not optimal for k ≥ 4.
+//! Canonical A* as Rivera 2017 states it: complete, but not optimal for k ≥ 4.
 //!
-//! Rule variant: a node reached by an odd-indexed move is bidimensional (that move and its two neighbors), one reached by an
-//! even-indexed move unidimensional (that move alone). 'A cell is a jump point if it is one on the 8-neighborhood'; what a jump point leads
-//! to the paper leaves open beyond 'forced successors are required to preserve completeness'. Here it gets all legal moves, like the start.
+//! Rule variant: a node that was reached by an odd-indexed move is bidimensional (its successors are that
+//! move and its two neighbors), one that was reached by an even-indexed move is unidimensional (that move
+//! alone). 'A cell is a jump point if it is one on the 8-neighborhood'. The paper does not say what the
+//! successors of a jump point are, beyond 'forced successors are required to preserve completeness'; here
+//! they are all legal moves, as at the start.
 //!
-//! With just the vertices at which an arrival on the 8-neighborhood turns, the search is not complete, whatever Theorem 4 says: on the test
-//! suite's random maps, k = 5 to 7, it missed 3 of 1,000 paths. A vertex on a straight run may be reached more cheaply by a move that leads
-//! into the wall beside the run; it keeps that one, and the run ends. So two kinds are added: every vertex that touches a convex corner of an
-//! obstacle, and every vertex at which the incoming move cannot be repeated. That leaves 7 of 3,600 queries of four benchmark sets at k = 7, none at k = 4 and 5; for these
-//! the search is run again with all moves.
+//! With no other jump points than those at which an arrival on the 8-neighborhood has a forced successor, the
+//! search is not complete, contrary to Theorem 4: on random maps, k = 5 to 7, it missed 3 of 1,000 paths. The
+//! reason: a vertex on the way along an axis may be reached more cheaply by a move that leads into the wall
+//! beside it. The vertex keeps that move, and the way along the axis ends there. So all legal moves are also
+//! taken
+//! - at every vertex that touches a convex corner of an obstacle, and
+//! - at every vertex where the incoming move cannot be repeated.
+//!
+//! Even so, 7 of 3,600 queries of four benchmark sets found no path at k = 7 (none at k = 4 and 5). For these
+//! the search is repeated with all moves everywhere.
 
 use std::ops::Deref;
 
 use mediant_grid::{GridGraph, Placement, Vertex};
 
-use super::{clearance::is_convex_corner, natural, pattern};
-use crate::{BestFirst, ExpandedNode, Guarantee, Heuristic, Successor, Successors};
+use super::{clearance::is_convex_corner, order::natural, pattern_table::pattern_at};
+use crate::{
+    best_first::BestFirst,
+    heuristic::Heuristic,
+    outcome::Guarantee,
+    successors::{ExpandedNode, Successor, Successors},
+};
 
 /// Canonical A* with the published rule.
 pub type PaperCanonical<L, H> = BestFirst<L, H, PaperMoves>;
@@ -25,8 +37,8 @@ pub type PaperCanonical<L, H> = BestFirst<L, H, PaperMoves>;
 pub struct PaperMoves {
     /// For each pattern of cells around a vertex, whether it is a jump point of the 8-neighborhood.
     jump_points: Box<[bool]>,
-    /// Whether every vertex gets all legal moves.
-    wide: bool,
+    /// Whether all legal moves are taken at every vertex.
+    is_unpruned: bool,
 }
 
 impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> PaperCanonical<L, H> {
@@ -34,7 +46,7 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> PaperCanonical
     #[must_use]
     pub fn new(graph: L, heuristic: H) -> Self {
         let is_jump_point = |pattern| {
-            // The grid points around the vertex whose four cells the pattern holds.
+            // Those grid points around the vertex whose four cells the pattern holds.
             [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().any(|(x, y)| {
                 let cells = [(-1, -1), (0, -1), (-1, 0), (0, 0)].map(|(dx, dy)| (x + dx, y + dy));
                 cells.iter().all(|&(dx, dy)| P::pattern_holds(dx, dy))
@@ -42,7 +54,7 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> PaperCanonical
             })
         };
         let jump_points = (0..P::PATTERNS).map(is_jump_point).collect();
-        Self::with(graph, heuristic, PaperMoves { jump_points, wide: false })
+        Self::with_successors(graph, heuristic, PaperMoves { jump_points, is_unpruned: false })
     }
 }
 
@@ -57,7 +69,8 @@ impl<P: Placement> Successors<P> for PaperMoves {
         goal: Vertex,
         mut visit: impl FnMut(Successor),
     ) -> u32 {
-        let is_jump_point = self.wide || self.jump_points.get(pattern(graph, node.at)).is_none_or(|&is| is);
+        let is_jump_point =
+            self.is_unpruned || self.jump_points.get(pattern_at(graph, node.at)).is_none_or(|&is| is);
         let is_legal = |by: usize| graph.sees(node.at, node.at + graph.step(by).vector());
         match node.by.filter(|&by| !is_jump_point && !graph.has_closed_gaps() && is_legal(by)) {
             None => graph.for_each_successor(node.at, node.by, goal, |by| visit(node.step(graph, by))),
@@ -68,9 +81,13 @@ impl<P: Placement> Successors<P> for PaperMoves {
         0
     }
 
-    fn widen(&mut self, wide: bool) -> bool {
-        self.wide = wide;
+    fn begin_unpruned_retry(&mut self) -> bool {
+        self.is_unpruned = true;
         true
+    }
+
+    fn end_unpruned_retry(&mut self) {
+        self.is_unpruned = false;
     }
 
     fn guarantee(&self, _: &GridGraph<P>) -> Guarantee {

@@ -1,65 +1,71 @@
-//! How runs are followed: the point in which the engines of the jump point family differ.
+//! How jumps are made: the point in which the engines of the jump point family differ.
 
-use std::{fmt::Debug, sync::Arc};
+use std::fmt::Debug;
 
-use mediant_grid::{Grid, GridGraph, Placement, Rules, Step, Vector, Vertex};
-use mediant_moves::{Cost, FiniteK, KError};
+use mediant_grid::{GridGraph, Placement, Step, Vector, Vertex};
+use mediant_moves::Cost;
 
-use super::{JumpTable, planes::StopPlanes, slants::SlantPlanes};
 use crate::{
-    ExpandedNode, Successor,
     canonical::{LocalRule, Pruning},
+    successors::{ExpandedNode, Successor},
 };
 
-/// What a run is followed on, and where to.
+/// What the jumps from one node depend on.
 pub struct JumpContext<'c, P: Placement> {
     pub(crate) graph: &'c GridGraph<P>,
     pub(crate) pruning: &'c Pruning<P>,
     pub(crate) goal: Vertex,
-    /// Whether all runs are walked: closed gaps make some hard to foresee, and a finder may know another map.
-    pub(crate) walks: bool,
-    /// The longest run.
+    /// Whether all jumps are made step by step: near closed gaps finders may be wrong, and a finder may
+    /// belong to another map.
+    pub(crate) stepwise: bool,
+    /// The most steps of a jump.
     pub(crate) limit: u32,
-    /// Whether a slanted run ends at the first vertex that has anything to either side.
+    /// Whether a diagonal jump ends at the first intermediate jump point.
     pub(crate) keeps_intermediate: bool,
 }
 
-/// Finds the jump points of runs.
+/// Finds the jump points to which axial and diagonal jumps lead: [`StepwiseFinder`],
+/// [`BlockFinder`](crate::parts::BlockFinder), or a shared [`JumpTable`](crate::JumpTable).
 ///
-/// A *straight* run repeats an even move until its first vertex with a turn; a *slanted* one repeats an odd move, and from each of its
-/// vertices sends out the straight runs of the two even moves beside it. Neither leads to anything else on open ground.
+/// Axial jumps repeat an even-indexed move, diagonal jumps an odd-indexed one. The methods are for this crate
+/// alone.
 pub trait JumpFinder<P: Placement>: Debug {
     /// Whether it was made for this grid graph.
+    #[doc(hidden)]
     fn fits(&self, graph: &GridGraph<P>) -> bool;
 
-    /// After how many steps the straight run of move `index` from a vertex comes to a jump point or to the goal; `None` if to
-    /// neither. The goal is `goal_steps` ahead, if it lies ahead at all. Adds to `scanned` the vertices that it looks at.
-    fn straight(
+    /// The number of steps of the axial jump by move `index` from a vertex to a jump point or to the goal;
+    /// `None` if it comes to neither. The goal is `goal_steps` ahead, if it lies ahead at all. Adds to
+    /// `scanned` the number of vertices looked at.
+    #[doc(hidden)]
+    fn axial(
         &self,
-        course: &JumpContext<'_, P>,
+        context: &JumpContext<'_, P>,
         from: &ExpandedNode,
         index: usize,
         goal_steps: Option<u32>,
         scanned: &mut u32,
     ) -> Option<u32>;
 
-    /// What the vertex `here` allows to a slanted run of move `index`.
+    /// What is known of the vertex `here` for a diagonal jump by move `index`.
+    #[doc(hidden)]
     #[inline]
-    fn look(&self, course: &JumpContext<'_, P>, here: &ExpandedNode, index: usize) -> LocalRule {
-        course.pruning.view(course.graph, here, index)
+    fn local_rule(&self, context: &JumpContext<'_, P>, here: &ExpandedNode, index: usize) -> LocalRule {
+        context.pruning.local_rule(context.graph, here, index)
     }
 
-    /// Calls `visit` with all that the slanted run of move `index` from a vertex leads to.
+    /// Calls `visit` with all successors to which the diagonal jump by move `index` from a vertex leads.
+    #[doc(hidden)]
     #[inline]
-    fn slanted(
+    fn diagonal(
         &self,
-        course: &JumpContext<'_, P>,
+        context: &JumpContext<'_, P>,
         from: &ExpandedNode,
         index: usize,
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor),
     ) {
-        course.walk_slanted(self, from, index, scanned, visit);
+        context.step_diagonal(self, from, index, scanned, visit);
     }
 }
 
@@ -72,7 +78,7 @@ impl<P: Placement> JumpContext<'_, P> {
         [index.wrapping_sub(1) & last, (index + 1) & last]
     }
 
-    /// Whether a path that came to `from` may step on by move `index`.
+    /// Whether a path that came to `from` may go on by move `index`.
     #[inline]
     fn may_step(&self, from: &ExpandedNode, index: usize) -> bool {
         self.graph.may_step(from.at, from.by, index, self.goal)
@@ -83,7 +89,7 @@ impl<P: Placement> JumpContext<'_, P> {
         self.pruning.is_exempt(self.graph, at, by, self.goal)
     }
 
-    /// After how many steps of move `v` from a vertex the goal comes, if it lies ahead.
+    /// The number of steps of move `v` from a vertex to the goal, if the goal lies in that direction.
     #[inline]
     pub(crate) fn steps_to_goal(&self, from: Vertex, v: Vector) -> Option<u32> {
         let d = from.to(self.goal);
@@ -101,9 +107,10 @@ impl<P: Placement> JumpContext<'_, P> {
         ExpandedNode { id: step.target_after(from.id, n), at, by: Some(index) }
     }
 
-    /// A straight run, vertex by vertex, but where the nearest obstacle is so far that several have no turn.
+    /// An axial jump, step by step; several steps at once where obstacles are so far that none of these
+    /// vertices is a jump point.
     #[inline]
-    fn walk_straight(
+    pub(super) fn step_axial(
         &self,
         from: &ExpandedNode,
         index: usize,
@@ -123,24 +130,24 @@ impl<P: Placement> JumpContext<'_, P> {
             if n >= goal_steps || self.is_exempt(here.at, index) {
                 return Some(n.min(goal_steps));
             }
-            let view = self.pruning.view(self.graph, &here, index);
-            if view.turns {
+            let rule = self.pruning.local_rule(self.graph, &here, index);
+            if rule.forced {
                 return Some(n);
             }
-            if view.steps > 0 {
-                n += view.steps;
+            if rule.steps > 0 {
+                n += rule.steps;
                 if n >= goal_steps {
                     return Some(goal_steps);
                 }
-            } else if !view.ahead || !self.may_step(&here, index) {
+            } else if !rule.ahead || !self.may_step(&here, index) {
                 return None;
             }
         }
     }
 
-    /// A slanted run, vertex by vertex.
+    /// A diagonal jump, step by step.
     #[inline]
-    fn walk_slanted<J: JumpFinder<P> + ?Sized>(
+    pub(super) fn step_diagonal<J: JumpFinder<P> + ?Sized>(
         &self,
         finder: &J,
         from: &ExpandedNode,
@@ -152,21 +159,22 @@ impl<P: Placement> JumpContext<'_, P> {
             return;
         }
         let step = self.graph.step(index);
-        let to_goal = GoalWay::new(self, from.at, index);
+        let to_goal = GoalLegs::new(self, from.at, index);
         let mut here = self.after(from, step, index, 1);
         let mut cost = step.cost;
         for n in 1.. {
             *scanned += 1;
-            let way = to_goal.filter(|way| way.slanted == n);
-            let is_goal = way.is_some_and(|way| way.straight == 0);
-            let view = finder.look(self, &here, index);
-            if is_goal || n >= self.limit || view.turns || self.is_exempt(here.at, index) {
+            let legs = to_goal.filter(|legs| legs.diagonal == n);
+            let is_goal = legs.is_some_and(|legs| legs.axial == 0);
+            let rule = finder.local_rule(self, &here, index);
+            if is_goal || n >= self.limit || rule.forced || self.is_exempt(here.at, index) {
                 return visit(here.reached(cost, index));
             }
-            if (view.beside || way.is_some()) && self.send_out(finder, &here, cost, way, scanned, visit) {
+            if (rule.beside || legs.is_some()) && self.jump_beside(finder, &here, cost, legs, scanned, visit)
+            {
                 return visit(here.reached(cost, index));
             }
-            if !view.ahead || !self.may_step(&here, index) {
+            if !rule.ahead || !self.may_step(&here, index) {
                 return;
             }
             here = self.after(&here, step, index, 1);
@@ -174,21 +182,22 @@ impl<P: Placement> JumpContext<'_, P> {
         }
     }
 
-    /// The two straight runs from a vertex of a slanted run. Whether the slanted run must end there for their sake.
+    /// The two axial jumps from a vertex of a diagonal jump. Returns whether the diagonal jump must end
+    /// there, because the vertex is an intermediate jump point that becomes a node.
     #[inline]
-    fn send_out<J: JumpFinder<P> + ?Sized>(
+    pub(super) fn jump_beside<J: JumpFinder<P> + ?Sized>(
         &self,
         finder: &J,
         from: &ExpandedNode,
         cost: Cost,
-        to_goal: Option<GoalWay>,
+        to_goal: Option<GoalLegs>,
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor),
     ) -> bool {
         let mut ends = false;
         for index in self.beside(from.by.unwrap_or(0)) {
-            let goal_steps = to_goal.filter(|way| way.index == index).map(|way| way.straight);
-            if let Some(n) = finder.straight(self, from, index, goal_steps, scanned) {
+            let goal_steps = to_goal.filter(|legs| legs.index == index).map(|legs| legs.axial);
+            if let Some(n) = finder.axial(self, from, index, goal_steps, scanned) {
                 ends |= self.keeps_intermediate;
                 if !ends {
                     let step = self.graph.step(index);
@@ -212,186 +221,58 @@ fn cross(v: Vector, d: Vector) -> i64 {
     i64::from(v.x) * i64::from(d.y) - i64::from(v.y) * i64::from(d.x)
 }
 
-/// Vertex by vertex, for every k.
+/// Makes jumps vertex by vertex, for every k.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Walk;
+pub struct StepwiseFinder;
 
-impl<P: Placement> JumpFinder<P> for Walk {
+impl<P: Placement> JumpFinder<P> for StepwiseFinder {
     fn fits(&self, _: &GridGraph<P>) -> bool {
         true
     }
 
     #[inline]
-    fn straight(
+    fn axial(
         &self,
-        course: &JumpContext<'_, P>,
+        context: &JumpContext<'_, P>,
         from: &ExpandedNode,
         index: usize,
         goal_steps: Option<u32>,
         scanned: &mut u32,
     ) -> Option<u32> {
-        course.walk_straight(from, index, goal_steps, scanned)
+        context.step_axial(from, index, goal_steps, scanned)
     }
 }
 
-/// Straight runs by words of 64 vertices, for k ≤ 3.
-#[derive(Clone, Debug)]
-pub struct Blocks {
-    grid: Arc<Grid>,
-    k: FiniteK,
-    rules: Rules,
-    planes: StopPlanes,
-    slants: SlantPlanes,
-}
-
-impl Blocks {
-    /// The finder of a grid graph.
-    ///
-    /// # Errors
-    /// [`KError::TooLarge`] above k = 3.
-    pub fn new<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>) -> Result<Self, KError> {
-        let (k, max) = (graph.k().get(), JumpTable::MAX_K);
-        if k > max {
-            return Err(KError::TooLarge { k, max });
-        }
-        let (grid, k, rules) = (Arc::clone(graph.grid()), graph.k(), graph.rules());
-        Ok(Self { grid, k, rules, planes: StopPlanes::new(graph), slants: SlantPlanes::new(graph, pruning) })
-    }
-
-    /// Its size.
-    #[must_use]
-    pub fn memory_bytes(&self) -> usize {
-        self.planes.memory_bytes() + self.slants.memory_bytes()
-    }
-}
-
-impl<P: Placement> JumpFinder<P> for Blocks {
-    fn fits(&self, graph: &GridGraph<P>) -> bool {
-        (self.k, self.rules) == (graph.k(), graph.rules()) && Arc::ptr_eq(&self.grid, graph.grid())
-    }
-
-    #[inline]
-    fn straight(
-        &self,
-        course: &JumpContext<'_, P>,
-        from: &ExpandedNode,
-        index: usize,
-        goal_steps: Option<u32>,
-        scanned: &mut u32,
-    ) -> Option<u32> {
-        if course.walks {
-            return course.walk_straight(from, index, goal_steps, scanned);
-        }
-        let quarter = index >> (course.graph.k().get() - 2);
-        let scan = self.planes.scan(from.at, quarter, goal_steps);
-        *scanned += scan.scanned;
-        scan.found.then_some(scan.steps)
-    }
-
-    #[inline]
-    fn look(&self, course: &JumpContext<'_, P>, here: &ExpandedNode, index: usize) -> LocalRule {
-        if course.walks {
-            return course.pruning.view(course.graph, here, index);
-        }
-        if course.pruning.slanted_runs_turn() {
-            let view = course.pruning.view(course.graph, here, index);
-            return LocalRule { beside: self.slants.at(here.at, index).1, ..view };
-        }
-        let (ahead, beside) = self.slants.at(here.at, index);
-        LocalRule { turns: false, ahead, steps: 0, beside }
-    }
-}
-
-/// All runs from a table.
-impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
-    fn fits(&self, graph: &GridGraph<P>) -> bool {
-        self.check(graph).is_ok()
-    }
-
-    #[inline]
-    fn straight(
-        &self,
-        course: &JumpContext<'_, P>,
-        from: &ExpandedNode,
-        index: usize,
-        goal_steps: Option<u32>,
-        scanned: &mut u32,
-    ) -> Option<u32> {
-        if course.walks {
-            return course.walk_straight(from, index, goal_steps, scanned);
-        }
-        let (steps, found) = self.run(from.id, course.graph.step(index), index);
-        match goal_steps {
-            Some(goal_steps) if goal_steps <= steps => Some(goal_steps),
-            _ => found.then_some(steps),
-        }
-    }
-
-    #[inline]
-    fn slanted(
-        &self,
-        course: &JumpContext<'_, P>,
-        from: &ExpandedNode,
-        index: usize,
-        scanned: &mut u32,
-        visit: &mut impl FnMut(Successor),
-    ) {
-        if course.walks {
-            return course.walk_slanted(self, from, index, scanned, visit);
-        }
-        let step = course.graph.step(index);
-        let to_goal = GoalWay::new(course, from.at, index);
-        let (mut here, mut gone) = (*from, 0);
-        loop {
-            let (steps, found) = self.run(here.id, step, index);
-            if let Some(way) = to_goal.filter(|way| (gone + 1..=gone + steps).contains(&way.slanted)) {
-                let elbow = course.after(from, step, index, way.slanted);
-                let beside = course.graph.step(way.index);
-                if way.straight == 0 || self.run(elbow.id, beside, way.index).0 >= way.straight {
-                    // Nothing can be nearer to the goal by way of this node.
-                    let goal = course.after(&elbow, beside, way.index, way.straight);
-                    let cost = step.cost * way.slanted + beside.cost * way.straight;
-                    return visit(goal.reached(cost, if way.straight == 0 { index } else { way.index }));
-                }
-            }
-            if !found {
-                return;
-            }
-            gone += steps;
-            here = course.after(&here, step, index, steps);
-            let cost = step.cost * gone;
-            let turns =
-                course.pruning.slanted_runs_turn() && course.pruning.view(course.graph, &here, index).turns;
-            if turns || course.keeps_intermediate {
-                return visit(here.reached(cost, index));
-            }
-            course.send_out(self, &here, cost, None, scanned, visit);
-        }
-    }
-}
-
-/// The one way to the goal, on an empty grid, that begins with a given odd move.
+/// The canonical path to the goal on an empty grid that begins with a given odd move: its two straight legs.
 #[derive(Clone, Copy)]
-struct GoalWay {
-    slanted: u32,
+pub(super) struct GoalLegs {
+    /// How often the odd move is taken.
+    pub(super) diagonal: u32,
     /// The even move that follows.
-    index: usize,
-    straight: u32,
+    pub(super) index: usize,
+    /// How often that is taken.
+    pub(super) axial: u32,
 }
 
-impl GoalWay {
+impl GoalLegs {
+    /// The legs from a vertex, if the goal lies between the odd move and one of the even moves beside it.
     #[inline]
-    fn new<P: Placement>(course: &JumpContext<'_, P>, from: Vertex, index: usize) -> Option<Self> {
-        let (d, u) = (from.to(course.goal), course.graph.step(index).vector());
-        course.beside(index).into_iter().find_map(|beside| {
-            let v = course.graph.step(beside).vector();
-            // Adjacent moves span a square of area 1, so this is Cramer's rule without its denominator.
+    pub(super) fn new<P: Placement>(
+        context: &JumpContext<'_, P>,
+        from: Vertex,
+        index: usize,
+    ) -> Option<Self> {
+        let (d, u) = (from.to(context.goal), context.graph.step(index).vector());
+        context.beside(index).into_iter().find_map(|beside| {
+            let v = context.graph.step(beside).vector();
+            // Adjacent moves span a parallelogram of area 1, so this is Cramer's rule without its
+            // denominator.
             let sign = cross(u, v);
-            let (slanted, straight) = (cross(d, v) * sign, cross(u, d) * sign);
-            (slanted > 0 && straight >= 0).then_some(Self {
-                slanted: slanted as u32,
+            let (diagonal, axial) = (cross(d, v) * sign, cross(u, d) * sign);
+            (diagonal > 0 && axial >= 0).then_some(Self {
+                diagonal: diagonal as u32,
                 index: beside,
-                straight: straight as u32,
+                axial: axial as u32,
             })
         })
     }

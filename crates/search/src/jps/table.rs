@@ -1,57 +1,79 @@
 //! Precomputed jump distances (JPS+: Harabor & Grastien 2014, 'Improving Jump Point Search'), for k ≤ 3.
 //!
-//! **One byte for each vertex and move**, so that a vertex's entries are one word of 8 bytes at k = 3 (4 bytes at k = 2): bit 7
-//! says whether the run of the move ends at a vertex of interest or dead, the others after how many steps. 127 stands for
-//! more than 126: go on after 126 steps, where the entry says what is left.
+//! **One byte for each vertex and move**, so that the entries of a vertex are one word of 8 bytes at k = 3 (4
+//! bytes at k = 2). Bit 7 says whether the jump ends at a jump point or dead; the other bits say after how
+//! many steps. 127 stands for more than 126: the jump goes on after 126 steps, where the entry gives the
+//! rest.
 //!
-//! - Even moves: of interest is a jump point, as on the planes of block-based jumps.
-//! - Odd moves: of interest is a vertex with a turn of its own, or from which one of the two adjacent even runs finds a
-//!   jump point.
+//! - Even moves (axial jumps) end at a vertex with a forced successor.
+//! - Odd moves (diagonal jumps) end at a vertex with a forced successor, or at an intermediate jump point,
+//!   from which one of the two axial jumps beside it finds a jump point.
 //!
-//! Rule variants: all five. Under closed gaps a run ends before a gap; what paths do at one (where they begin, where
-//! they end, at k = 2 also on their way) the table does not say.
+//! Rule variants: all five. Under closed gaps a jump ends before a gap. The table does not say what paths do
+//! at gaps: where they begin or end at one, and at k = 2 where they pass one.
 
 use mediant_grid::{GridGraph, Placement, Step, Vector, Vertex, VertexId};
 use mediant_moves::{FiniteK, KError};
 
-use crate::Pruning;
+use crate::canonical::Pruning;
 
-/// The jump distances of a grid graph with k ≤ 3: 2^k bytes a vertex. Immutable; planners share it.
+/// The jump distances of a grid graph with k ≤ 3: 2^k bytes a vertex. Immutable; share it between planners.
+///
+/// ```
+/// use std::sync::Arc;
+/// use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph};
+/// use mediant_moves::FiniteK;
+/// use mediant_search::{Hk, JpsPlus, JumpTable, Planner, Query};
+///
+/// let map = AsciiMap::parse("
+///     ....
+///     .##.
+///     ....
+/// ")?;
+/// let graph = GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::new(3)?, CornerRule::Never)?;
+/// let table = JumpTable::new(&graph)?;
+/// // The bytes can be saved; they are checked when they come back.
+/// let table = JumpTable::from_bytes(&graph, table.as_bytes().to_vec())?;
+/// let mut planner = JpsPlus::new(&graph, Arc::new(table), Hk)?;
+/// let outcome = planner.solve(Query::new((0, 1), (3, 1)))?;
+/// assert_eq!(outcome.path().map(|path| path.cost()), Some(5.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct JumpTable {
-    /// That of a move at `id · 2^k + index`.
+    /// By vertex and move: the entry of a move is at `id · 2^k + index`.
     entries: Vec<u8>,
     k: u32,
     /// Vertices in a row.
     width: u32,
 }
 
-/// Bytes that are no table of the grid graph.
+/// A jump table that is not that of the grid graph, or bytes that are none.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum JumpTableError {
     /// No table for this k.
     #[error("a jump table needs k = 2 or 3: {0}")]
     Neighborhood(#[from] KError),
-    /// Too few bytes, or too many.
+    /// Too few or too many bytes.
     #[error(
         "a jump table of {found} bytes, where this graph needs {expected}: the table is for another map, placement or k, or cut off; build it anew"
     )]
     Length {
-        /// 2^k for each vertex.
+        /// The number of bytes needed: 2^k for each vertex.
         expected: usize,
-        /// The bytes that there are.
+        /// The number of bytes given.
         found: usize,
     },
-    /// As many entries, but in longer or shorter rows.
+    /// The right number of entries, but in longer or shorter rows.
     #[error("a jump table with {found} vertices a row, where this graph has {expected}: build it anew")]
     Width {
-        /// The grid graph's vertices in a row.
+        /// The number of vertices in a row of the grid graph.
         expected: u32,
-        /// The table's.
+        /// That of the table.
         found: u32,
     },
-    /// A distance that is not the map's.
+    /// An entry that does not fit the map.
     #[error(
         "the jump table says {found:#04x} for move ({}, {}) at {at}, where this graph has {expected:#04x}: the table is for another map or rule, or damaged; build it anew",
         towards.x,
@@ -62,21 +84,22 @@ pub enum JumpTableError {
         at: Vertex,
         /// The move.
         towards: Vector,
-        /// What follows from the map and the entries ahead.
+        /// The entry that follows from the map and the entries ahead.
         expected: u8,
-        /// What the bytes say.
+        /// The entry given.
         found: u8,
     },
 }
 
-/// The bit of an entry whose run ends at a vertex of interest.
+/// The bit of an entry whose jump ends at a jump point.
 const FOUND: u8 = 0x80;
-/// The steps of an entry.
+/// The bits for the number of steps.
 const STEPS: u8 = 0x7f;
-/// How far [`STEPS`] leads: less than it says to be left, so that the run is not passed by.
+/// The steps that are taken at once for an entry with [`STEPS`], of whose jump at least that many are left:
+/// one less, so that its end is not passed.
 const LEAP: u8 = STEPS - 1;
 
-/// The entry of a vertex whose next vertex on the run is of no interest and has the entry `next`.
+/// The entry of a vertex, if the next vertex of the jump is no jump point and has the entry `next`.
 #[inline]
 const fn extended(next: u8) -> u8 {
     if next & STEPS >= LEAP { next | STEPS } else { next + 1 }
@@ -86,35 +109,36 @@ impl JumpTable {
     /// The largest k that has a table.
     pub const MAX_K: u32 = 3;
 
-    /// The table of a grid graph; each entry follows from the one a step ahead.
+    /// Computes the table of a grid graph; each entry follows from the entry one step ahead.
     ///
     /// # Errors
     /// [`KError::TooLarge`] above [`MAX_K`](Self::MAX_K).
     pub fn new<P: Placement>(graph: &GridGraph<P>) -> Result<Self, KError> {
         let k = checked(graph.k())?;
-        let mut entries = vec![0; graph.vertex_count() << k];
+        let mut entries = vec![0; entry_count(graph.vertex_count(), k)];
         let around = Surroundings::new(graph);
         let ids = 0..graph.vertex_count();
-        // A move that adds to ids needs the larger ones first.
+        // A move that increases ids depends on entries of larger ids, so these come first.
         let moves = |parity: usize, adds: bool| {
             let steps = (parity..1 << k).step_by(2);
             steps.filter(|&index| (around.offsets[index] > 0) == adds).collect::<Vec<usize>>()
         };
-        // An odd move needs the two even ones beside it, of which one may be of the other kind.
+        // An odd move depends on the two even ones beside it, of which one may decrease ids where the odd one
+        // increases them.
         around.pass(&mut entries, ids.clone().rev(), &moves(0, true));
         around.pass(&mut entries, ids.clone(), &[moves(0, false), moves(1, false)].concat());
         around.pass(&mut entries, ids.rev(), &moves(1, true));
         Ok(Self { entries, k, width: P::vertices(graph.grid()).0 })
     }
 
-    /// The table that these bytes are; see [`as_bytes`](Self::as_bytes). Every entry is held against the map and the entry a
-    /// step ahead, so a table that is accepted is the one that [`new`](Self::new) makes.
+    /// The table from its bytes; see [`as_bytes`](Self::as_bytes). Every entry is checked against the map and
+    /// the entry one step ahead, so an accepted table is the one that [`new`](Self::new) computes.
     ///
     /// # Errors
-    /// A [`JumpTableError`] for bytes that are no table of this grid graph.
+    /// A [`JumpTableError`] for bytes that are not the table of this grid graph.
     pub fn from_bytes<P: Placement>(graph: &GridGraph<P>, bytes: Vec<u8>) -> Result<Self, JumpTableError> {
         let k = checked(graph.k())?;
-        let expected = graph.vertex_count() << k;
+        let expected = entry_count(graph.vertex_count(), k);
         if bytes.len() != expected {
             return Err(JumpTableError::Length { expected, found: bytes.len() });
         }
@@ -131,13 +155,13 @@ impl JumpTable {
         Ok(Self { entries: bytes, k, width: P::vertices(graph.grid()).0 })
     }
 
-    /// Whether a grid graph has the vertices and moves that this table is about.
+    /// Checks that a grid graph has the size and the k of this table.
     ///
     /// # Errors
     /// [`JumpTableError::Length`] and [`JumpTableError::Width`].
     pub(crate) fn check<P: Placement>(&self, graph: &GridGraph<P>) -> Result<(), JumpTableError> {
         let k = checked(graph.k())?;
-        let (expected, found) = (graph.vertex_count() << k, self.entries.len());
+        let (expected, found) = (entry_count(graph.vertex_count(), k), self.entries.len());
         let width = P::vertices(graph.grid()).0;
         if expected != found || k != self.k {
             return Err(JumpTableError::Length { expected, found });
@@ -148,14 +172,14 @@ impl JumpTable {
         Ok(())
     }
 
-    /// After how many steps the run of a move ends, and whether that is at a vertex of interest. `step` is the move at
+    /// After how many steps the jump by a move ends, and whether that is at a jump point. `step` is the move
     /// `index` of the grid graph.
     #[inline]
-    pub(crate) fn run(&self, id: VertexId, step: &Step, index: usize) -> (u32, bool) {
+    pub(crate) fn jump(&self, id: VertexId, step: &Step, index: usize) -> (u32, bool) {
         let mut at = id.index() << self.k | index;
         let mut entry = self.entries.get(at).copied().unwrap_or(0);
         let mut steps = 0;
-        // What a step adds to an id is what it makes of 0.
+        // A step adds to every id what it adds to 0.
         let offset = step.target(VertexId(0)).0 as i32 as isize;
         let stride = (offset * isize::from(LEAP)) << self.k;
         while entry & STEPS == STEPS {
@@ -166,14 +190,14 @@ impl JumpTable {
         (steps + u32::from(entry & STEPS), entry & FOUND != 0)
     }
 
-    /// The entries, vertex by vertex in the order of their ids and move by move: what [`from_bytes`](Self::from_bytes)
-    /// takes.
+    /// The entries, one byte each, by vertex id and then by move, as [`from_bytes`](Self::from_bytes) takes
+    /// them.
     #[must_use]
     pub fn as_bytes(&self) -> &[u8] {
         &self.entries
     }
 
-    /// The memory that this takes, in bytes.
+    /// The memory used, in bytes.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
         self.entries.len()
@@ -185,25 +209,30 @@ const fn checked(k: FiniteK) -> Result<u32, KError> {
     if k > max { Err(KError::TooLarge { k, max }) } else { Ok(k) }
 }
 
-/// What an entry depends on beside the entries ahead.
+/// The number of entries; on 32-bit targets, for maps too large for a table, more than can be allocated.
+const fn entry_count(vertices: usize, k: u32) -> usize {
+    vertices.saturating_mul(1 << k)
+}
+
+/// What an entry depends on besides the entries ahead.
 struct Surroundings {
     k: u32,
     /// By move: what it adds to an id.
     offsets: Vec<isize>,
-    /// By vertex: the obstacle pattern around it.
+    /// By vertex: the pattern of cells around it.
     patterns: Vec<u16>,
-    /// By pattern.
-    local: Vec<Local>,
+    /// By pattern: what it decides.
+    local: Vec<PatternRule>,
 }
 
-/// What the pattern around a vertex decides, one bit a move.
+/// What the pattern of cells around a vertex decides, one bit a move.
 #[derive(Clone, Copy, Debug, Default)]
-struct Local {
+struct PatternRule {
     /// The moves that are legal there.
     legal: u8,
-    /// The moves that find a turn when they lead there.
-    turns: u8,
-    /// Whether it is a corner that closed gaps forbid to pass.
+    /// The moves with a forced successor when they lead there.
+    forced: u8,
+    /// Whether it is a closed gap.
     gap: bool,
 }
 
@@ -212,15 +241,15 @@ impl Surroundings {
         let pruning = Pruning::new(graph);
         let (k, rows) = (graph.k().get(), graph.grid().rows());
         let (words, bits_per_row) = (rows.words(), rows.bits_per_row());
-        let mut local: Vec<Option<Local>> = vec![None; P::PATTERNS];
+        let mut local: Vec<Option<PatternRule>> = vec![None; P::PATTERNS];
         let patterns = (0..graph.vertex_count()).map(|id| {
             let at = graph.vertex(VertexId(id as u32));
             let pattern = P::pattern(words, rows.index(at.x, at.y), bits_per_row);
             // The rules of motion are asked once for each pattern that occurs.
-            local[pattern].get_or_insert_with(|| Local {
+            local[pattern].get_or_insert_with(|| PatternRule {
                 legal: graph.legal_moves(at).iter().fold(0, |set, index| set | 1 << index),
-                turns: (0..1 << k)
-                    .filter(|&index| pruning.turns_at(pattern, index))
+                forced: (0..1 << k)
+                    .filter(|&index| pruning.has_forced_at(pattern, index))
                     .fold(0, |set, index| set | 1 << index),
                 gap: graph.is_closed_gap(at),
             });
@@ -235,7 +264,8 @@ impl Surroundings {
         }
     }
 
-    /// Finds the entries of these moves at every vertex, each vertex after those that the moves lead to.
+    /// Computes the entries of these moves at every vertex. `ids` are ordered so that each vertex comes after
+    /// those to which the moves lead.
     fn pass(&self, entries: &mut [u8], ids: impl Iterator<Item = usize>, moves: &[usize]) {
         for id in ids {
             for &index in moves {
@@ -244,7 +274,7 @@ impl Surroundings {
         }
     }
 
-    /// The entry of a move, by the entries of the vertex that it leads to.
+    /// The entry of a move, from the entries of the vertex to which it leads.
     #[inline]
     fn entry(&self, entries: &[u8], id: usize, index: usize) -> u8 {
         let legal = self.local[usize::from(self.patterns[id])].legal;
@@ -259,7 +289,7 @@ impl Surroundings {
         let ahead = &entries[to << self.k..(to + 1) << self.k];
         let last = ahead.len() - 1;
         let beside = (ahead[(index + 1) & last] | ahead[(index + last) & last]) & FOUND != 0;
-        if there.turns >> index & 1 == 1 || (index % 2 == 1 && beside) {
+        if there.forced >> index & 1 == 1 || (index % 2 == 1 && beside) {
             return FOUND | 1;
         }
         extended(ahead[index])

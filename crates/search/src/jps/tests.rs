@@ -1,4 +1,5 @@
-//! Scans of planes and tables against runs that are followed step by step, with turns found by their definition.
+//! Scans of bit planes and jumps from tables against jumps that are made step by step, with forced successors
+//! by their definition.
 
 use std::sync::Arc;
 
@@ -10,24 +11,24 @@ use mediant_oracle::{Rng, describe, is_gap, noise, seeds, suite_grid, wide_grid}
 
 use super::{
     JumpTable, JumpTableError,
-    planes::{Scan, StopPlanes},
+    axial::{AxialStops, Scan},
 };
 
 const AXES: [Vector; 4] = [Vector::new(0, 1), Vector::new(1, 0), Vector::new(0, -1), Vector::new(-1, 0)];
 
-/// How a run ends: its steps, and whether it found what it looked for.
+/// How a jump ends: its steps, and whether it found a jump point or the goal.
 type End = (u32, bool);
 
-/// A grid graph, and runs on it step by step.
+/// A grid graph, and jumps on it step by step.
 struct Reference<P: Placement> {
     graph: GridGraph<P>,
-    /// By obstacle pattern: the moves that find a turn, one bit each.
-    turns: Vec<u8>,
+    /// By pattern of cells: the moves with a forced successor, one bit each.
+    forced: Vec<u8>,
     /// By vertex: the legal moves.
     legal: Vec<u8>,
 }
 
-/// The side of the grid that is a pattern.
+/// The side of the square of cells that is a pattern.
 fn pattern_side<P: Placement>() -> u32 {
     P::PATTERNS.ilog2().isqrt()
 }
@@ -39,11 +40,11 @@ fn pattern_at<P: Placement>(grid: &Grid, at: Vertex) -> usize {
     bits.enumerate().map(|(i, (x, y))| usize::from(grid.is_blocked(x, y)) << i).sum()
 }
 
-/// Which moves have a turn where the cells around a vertex form `pattern`, by the definition: a move b ≠ a is legal, and
-/// there is no path of displacement a + b from where a started that is shorter, or as long with a last move that comes
-/// earlier. All beyond the pattern is blocked, so that only those paths count that the pattern alone makes legal. (As
-/// gaps depend on more than that, they are open here.)
-fn turns_of<P: Placement>(rule: P::Rule, k: FiniteK, pattern: usize) -> u8 {
+/// Which moves a have a forced successor where the cells around a vertex form `pattern`, by the definition: a
+/// move b that is not natural is legal, and no path of displacement a + b from the start of a is shorter, or
+/// as long with a last move of lower rank. All cells beyond the pattern are blocked, so that only those paths
+/// count that the pattern alone makes legal. (Gaps depend on more than that, so they are open here.)
+fn forced_of<P: Placement>(rule: P::Rule, k: FiniteK, pattern: usize) -> u8 {
     let side = pattern_side::<P>();
     let grid = Grid::from_fn(side, side, |x, y| pattern >> (x + y * side) & 1 == 1).unwrap();
     let graph = GridGraph::<P>::new(Arc::new(grid), k, rule).unwrap();
@@ -51,13 +52,13 @@ fn turns_of<P: Placement>(rule: P::Rule, k: FiniteK, pattern: usize) -> u8 {
     let moves: Vec<Vector> = graph.steps().iter().map(|step| step.vector()).collect();
     let last = moves.len() - 1;
     let rank = |index: usize| (index % 2, index);
-    (0..moves.len()).fold(0, |turns, a| {
+    (0..moves.len()).fold(0, |forced, a| {
         let from = at + -moves[a];
         let natural = |b| b == a || (a % 2 == 1 && (b == (a + 1) & last || b == (a + last) & last));
-        let is_turn = |b: usize| {
+        let is_forced = |b: usize| {
             let to = at + moves[b];
             let length = moves[a].norm() + moves[b].norm();
-            // Where no shorter one exists, a path as long has two moves.
+            // If no path is shorter, one that is as long has two moves.
             let straight = to == from || moves.contains(&from.to(to)) && graph.sees(from, to);
             let bent = (0..moves.len()).any(|first| {
                 let middle = from + moves[first];
@@ -68,12 +69,12 @@ fn turns_of<P: Placement>(rule: P::Rule, k: FiniteK, pattern: usize) -> u8 {
             });
             graph.sees(at, to) && !straight && !bent
         };
-        turns | u8::from((0..moves.len()).any(|b| !natural(b) && is_turn(b))) << a
+        forced | u8::from((0..moves.len()).any(|b| !natural(b) && is_forced(b))) << a
     })
 }
 
 impl<P: Placement> Reference<P> {
-    fn new(grid: &Arc<Grid>, rule: P::Rule, k: u32, turns: &[u8]) -> Self {
+    fn new(grid: &Arc<Grid>, rule: P::Rule, k: u32, forced: &[u8]) -> Self {
         let graph = GridGraph::<P>::new(Arc::clone(grid), FiniteK::new(k).unwrap(), rule).unwrap();
         let legal = (0..graph.vertex_count()).map(|id| {
             let at = graph.vertex(VertexId(id as u32));
@@ -81,7 +82,7 @@ impl<P: Placement> Reference<P> {
             steps.fold(0, |set, (i, step)| set | u8::from(graph.is_legal(at, step.vector())) << i)
         });
         let legal = legal.collect();
-        Self { graph, turns: turns.to_vec(), legal }
+        Self { graph, forced: forced.to_vec(), legal }
     }
 
     fn vertices(&self) -> impl Iterator<Item = (VertexId, Vertex)> {
@@ -101,24 +102,24 @@ impl<P: Placement> Reference<P> {
         (self.legal[id.index()] >> index & 1 == 1).then(|| from + self.graph.step(index).vector())
     }
 
-    fn has_turn(&self, at: Vertex, index: usize) -> bool {
-        self.turns[pattern_at::<P>(self.graph.grid(), at)] >> index & 1 == 1
+    fn has_forced(&self, at: Vertex, index: usize) -> bool {
+        self.forced[pattern_at::<P>(self.graph.grid(), at)] >> index & 1 == 1
     }
 
-    /// The run of an even move.
+    /// The axial jump by an even move.
     fn scan(&self, from: Vertex, index: usize, goal: Option<Vertex>) -> End {
         let (mut at, mut steps) = (from, 0);
         while let Some(to) = self.next(at, index).filter(|&to| !self.is_closed_gap(to)) {
             (at, steps) = (to, steps + 1);
-            if goal == Some(at) || self.has_turn(at, index) {
+            if goal == Some(at) || self.has_forced(at, index) {
                 return (steps, true);
             }
         }
         (steps, false)
     }
 
-    /// The run of any move, as in a table.
-    fn run(&self, from: Vertex, index: usize) -> End {
+    /// The jump by any move, as in a table.
+    fn jump(&self, from: Vertex, index: usize) -> End {
         if index.is_multiple_of(2) {
             return self.scan(from, index, None);
         }
@@ -128,7 +129,7 @@ impl<P: Placement> Reference<P> {
             let beside = [(index + 1) & last, (index + last) & last];
             let finds = |&even: &usize| self.scan(to, even, None).1;
             (at, steps) = (to, steps + 1);
-            if self.has_turn(at, index) || beside.iter().any(finds) {
+            if self.has_forced(at, index) || beside.iter().any(finds) {
                 return (steps, true);
             }
         }
@@ -140,7 +141,7 @@ impl<P: Placement> Reference<P> {
     }
 }
 
-/// What is to be done on many grid graphs.
+/// A check that is done on many grid graphs.
 trait Suite {
     fn check<P: Placement>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String);
 }
@@ -148,11 +149,11 @@ trait Suite {
 /// Does it under all rules, for k = 2 and 3.
 fn on_all(grids: impl Iterator<Item = (u64, Grid)>, suite: &mut impl Suite) {
     fn on_one<P: Placement>(grids: &[(u64, Arc<Grid>)], rule: P::Rule, k: u32, suite: &mut impl Suite) {
-        let turns = |pattern| turns_of::<P>(rule, FiniteK::new(k).unwrap(), pattern);
-        let turns: Vec<u8> = (0..P::PATTERNS).map(turns).collect();
+        let forced = |pattern| forced_of::<P>(rule, FiniteK::new(k).unwrap(), pattern);
+        let forced: Vec<u8> = (0..P::PATTERNS).map(forced).collect();
         for (seed, grid) in grids {
             let case = |from, to| format!("k = {k}, {}", describe(grid, P::rules(rule), from, to, *seed));
-            suite.check(&Reference::<P>::new(grid, rule, k, &turns), &case);
+            suite.check(&Reference::<P>::new(grid, rule, k, &forced), &case);
         }
     }
     let grids: Vec<_> = grids.map(|(seed, grid)| (seed, Arc::new(grid))).collect();
@@ -170,7 +171,7 @@ fn suite_grids() -> impl Iterator<Item = (u64, Grid)> {
     seeds(100).map(|seed| (seed, suite_grid(seed).0)).chain(wide)
 }
 
-/// Long and narrow maps, almost empty: runs longer than an entry can say.
+/// Long and narrow maps, almost empty: with jumps longer than an entry can say.
 fn long_grids() -> impl Iterator<Item = (u64, Grid)> {
     (0..4).map(|seed| {
         let rng = &mut Rng::new(seed);
@@ -181,7 +182,7 @@ fn long_grids() -> impl Iterator<Item = (u64, Grid)> {
     })
 }
 
-/// Scans give what steps give: from every free vertex in every direction, with the goal at any place of the run.
+/// Scans give what steps give: from every free vertex in every direction, with the goal at various distances.
 struct Scans {
     compared: usize,
 }
@@ -189,7 +190,7 @@ struct Scans {
 impl Suite for Scans {
     fn check<P: Placement>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
         let graph = &reference.graph;
-        let planes = StopPlanes::new(graph);
+        let stops = AxialStops::new(graph);
         let count = graph.steps().len();
         for (_, from) in reference.vertices().filter(|&(_, at)| graph.is_free(at)) {
             for (quarter, &towards) in AXES.iter().enumerate() {
@@ -205,7 +206,7 @@ impl Suite for Scans {
                     let scanned = steps + u32::from(!found);
                     let expected = Scan { steps, found, scanned };
                     let name = || format!("{towards:?}, goal {goal:?}, {}", case(from, to.unwrap_or(from)));
-                    assert_eq!(planes.scan(from, quarter, goal), expected, "{}", name());
+                    assert_eq!(stops.scan(from, quarter, goal), expected, "{}", name());
                     self.compared += 1;
                 }
             }
@@ -232,8 +233,8 @@ impl Suite for Tables {
         let table = JumpTable::new(graph).unwrap();
         for (id, from) in reference.vertices() {
             for (index, step) in graph.steps().iter().enumerate() {
-                let expected = reference.run(from, index);
-                let found = table.run(id, step, index);
+                let expected = reference.jump(from, index);
+                let found = table.jump(id, step, index);
                 assert_eq!(found, expected, "{:?}, {}", step.vector(), case(from, from));
                 self.compared += 1;
                 self.longest = self.longest.max(expected.0);
@@ -252,19 +253,20 @@ fn tables_lead_where_steps_lead() {
     assert!(suite.longest > 3 * 127, "{}", suite.longest);
 }
 
-/// Every length of a run about the multiples of what an entry can say, dead and found.
+/// Jumps of lengths around the multiples of what an entry can say, dead and found.
 #[test]
 fn runs_longer_than_an_entry_can_say_are_followed_to_their_end() {
     for length in [1, 125, 126, 127, 128, 251, 252, 253, 254, 378, 379, 400_u32] {
-        // A blocked cell beside the run, before its last cell, makes that a jump point.
-        for with_turn in [false, true] {
-            let grid = Grid::from_fn(length + 1, 2, |x, y| y == 1 && (x != length || !with_turn)).unwrap();
+        // All cells beside the jump are blocked. If the one beside its last cell is free, that is a jump
+        // point.
+        for with_forced in [false, true] {
+            let grid = Grid::from_fn(length + 1, 2, |x, y| y == 1 && (x != length || !with_forced)).unwrap();
             for k in [2, 3] {
                 let (k, grid) = (FiniteK::new(k).unwrap(), Arc::new(transposed(&grid)));
                 let graph = GridGraph::<Centers>::new(grid, k, Default::default()).unwrap();
                 let table = JumpTable::new(&graph).unwrap();
-                let run = table.run(VertexId(0), graph.step(0), 0);
-                assert_eq!(run, (length, with_turn), "{length}, k = {k}");
+                let jump = table.jump(VertexId(0), graph.step(0), 0);
+                assert_eq!(jump, (length, with_forced), "{length}, k = {k}");
             }
         }
     }
@@ -274,7 +276,7 @@ fn transposed(grid: &Grid) -> Grid {
     Grid::from_fn(grid.height(), grid.width(), |x, y| grid.is_blocked(y as i32, x as i32)).unwrap()
 }
 
-/// The words' formulas, on every pattern there is and under each rule.
+/// The formulas on words, on every pattern and under each rule.
 struct Patterns;
 
 impl Suite for Patterns {

@@ -1,15 +1,16 @@
-//! The smoothing of Botea, Müller & Schaeffer 2004.
+//! Smoothing along the path (Botea, Müller & Schaeffer 2004).
 
 use mediant_grid::{FreeSpace, Placement, Vertex};
 
-/// Replaces what lies between two vertices of a path by a straight segment wherever they see each other (Botea, Müller & Schaeffer 2004,
-/// 'Near Optimal Hierarchical Path-Finding', Section 3.3): from the start one goes along the path for as long as it is in sight,
-/// places a waypoint at the last vertex that was, and goes on from there. That is one sight check for each vertex on the path, after one for each
-/// of its segments.
+/// Replaces parts of a path by straight segments between vertices that see each other (Botea, Müller &
+/// Schaeffer 2004, 'Near Optimal Hierarchical Path-Finding', Section 3.3). From the start it follows the path
+/// as long as that is in sight, places a waypoint at the last vertex in sight, and continues from there. It
+/// checks sight once for each segment of the path, then once for each vertex on it.
 ///
-/// The vertices are all that lie on the path, as in the paper, and not its turning points alone: a segment of a path over N(k) has one
-/// after each move, and waypoints may come to stand there. The new path is legal, not longer than the old one, and has the same ends. A path that is
-/// not legal on this free space comes back as it is.
+/// As in the paper, all vertices on the path are considered, not only its waypoints: on a path over N(k)
+/// there is one after each move, and new waypoints may be placed there. The new path is legal, not longer
+/// than the old one, and has the same ends. A path that is not legal on this free space is returned
+/// unchanged.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -27,41 +28,41 @@ use mediant_grid::{FreeSpace, Placement, Vertex};
 /// ```
 #[must_use]
 pub fn smooth<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
-    let corners = without_stops(waypoints);
+    let corners = without_repetitions(waypoints);
     if is_legal(space, &corners) { smooth_legal(space, &corners) } else { waypoints.to_vec() }
 }
 
-/// [`smooth`], for a legal path that never stands still.
+/// [`smooth`], for a legal path without repeated waypoints.
 pub(super) fn smooth_legal<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
-    let way = vertices(waypoints);
-    let mut path: Vec<Vertex> = way.first().copied().into_iter().collect();
+    let all = vertices(waypoints);
+    let mut path: Vec<Vertex> = all.first().copied().into_iter().collect();
     let mut last = 0;
-    while last + 1 < way.len() {
-        let (at, before) = (way[last], path.len().checked_sub(2).map(|index| path[index]));
+    while last + 1 < all.len() {
+        let (at, before) = (all[last], path.len().checked_sub(2).map(|index| path[index]));
         let mut best = last + 1;
-        for (&next, index) in way[last + 2..].iter().zip(last + 2..) {
+        for (&next, index) in all[last + 2..].iter().zip(last + 2..) {
             if next == at || !space.may_turn(before, at, Some(next)) || !space.sees(at, next) {
                 break;
             }
-            // Not at a gap where the path would come through the other quadrant.
-            if space.may_turn(Some(at), next, way.get(index + 1).copied()) {
+            // Not at a gap that the path would reach through the other quadrant.
+            if space.may_turn(Some(at), next, all.get(index + 1).copied()) {
                 best = index;
             }
         }
-        path.push(way[best]);
+        path.push(all[best]);
         last = best;
     }
     path
 }
 
-/// A path without waypoints that are the same as the one before.
-pub(super) fn without_stops(waypoints: &[Vertex]) -> Vec<Vertex> {
+/// A path without waypoints that repeat the one before.
+pub(super) fn without_repetitions(waypoints: &[Vertex]) -> Vec<Vertex> {
     let mut path = waypoints.to_vec();
     path.dedup();
     path
 }
 
-/// Whether a path that never stands still keeps the rules of motion.
+/// Whether a path without repeated waypoints keeps the rules of motion.
 pub(super) fn is_legal<P: Placement>(space: &FreeSpace<P>, path: &[Vertex]) -> bool {
     let at = |index: usize| path.get(index).copied();
     let turns = |(index, &vertex): (usize, &Vertex)| {
@@ -81,7 +82,7 @@ fn vertices(waypoints: &[Vertex]) -> Vec<Vertex> {
     all
 }
 
-/// The vertices strictly between two others, on the straight segment from the one to the other.
+/// The vertices strictly between two others on the straight segment that joins them.
 pub(super) fn between(from: Vertex, to: Vertex) -> impl DoubleEndedIterator<Item = Vertex> {
     let d = from.to(to);
     let parts = d.gcd().max(1) as i32;

@@ -1,31 +1,34 @@
-//! Paths pulled taut.
+//! Smoothing by pulling a path taut.
 
 use std::ops::Range;
 
-use mediant_grid::{FreeSpace, Placement, Vector, Vertex};
+use mediant_grid::{FreeSpace, Placement, Vector, Vertex, sight::PolygonCells};
 use mediant_moves::Cost;
 
-use super::linear::{between, is_legal, smooth_legal, without_stops};
-use mediant_grid::sight::PolygonCells;
+use super::linear::{between, is_legal, smooth_legal, without_repetitions};
 
-/// Pulls a path taut, like a string: [`smooth`](super::smooth) first, and then waypoint by waypoint until none can be skipped or moved.
+/// Pulls a path taut, like a string: first [`smooth`](super::smooth), then waypoint by waypoint, until none
+/// can be left out or moved.
 ///
 /// For each waypoint b of the new path, between a and c:
 /// - a and c do not see each other, nor do a and the waypoint after c.
-/// - No vertex on one of the two segments sees the far end of the other one, and the two vertices next to b on the segments do not see each other.
-/// - None of the eight vertices around b can take its place and make the path shorter, but perhaps by less than 2⁻²⁹ cells.
-/// - At corners: b is the corner of an obstacle within the turn. So the path is locally a shortest one: no path that passes the obstacles on the
-///   same sides is shorter.
+/// - No vertex on one of the two segments at b sees the far end of the other one, and the two vertices next
+///   to b on the segments do not see each other.
+/// - Replacing b by one of the eight vertices around it makes no legal path that is shorter by 2⁻²⁹ cells or
+///   more.
+/// - At corners: b is the corner of an obstacle that lies within the turn. So the path is locally shortest:
+///   no path that passes the obstacles on the same sides is shorter.
 ///
-/// (At centers, where a path keeps its distance from obstacles, the string is drawn around vertices beside them, if sight allows. There is not
-/// always such a string, and it need not be the shortest.)
+/// (At centers a path keeps its distance from obstacles. There the string is drawn around vertices beside
+/// obstacles, if sight allows. Such a string need not exist, and it need not be the shortest.)
 ///
-/// The new path is legal, not longer than the smoothed one, and has the same ends. Pulled again, it stays as it is. A path that is not legal
-/// on this free space comes back as it was.
+/// The new path is legal, not longer than the smoothed one, and has the same ends. Pulled again, it does not
+/// change. A path that is not legal on this free space is returned unchanged.
 ///
-/// **It ends**, since a step makes the path shorter, or leaves out a waypoint on a straight line, and of paths up to a given length there are
-/// finitely many. This is exact: a string pulled within a triangle is convex and lies within the old one, so it is shorter, and what is
-/// compared as lengths, in integers, has to be shorter by more than the rounding.
+/// **Pulling ends**, because each step makes the path shorter or leaves out a waypoint on a straight line,
+/// and there are finitely many paths up to a given length. Rounding does not spoil this: a string within a
+/// triangle is convex and lies inside the old path, so it is shorter; and where lengths are compared, in
+/// integers, the difference must exceed the rounding.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -43,7 +46,7 @@ use mediant_grid::sight::PolygonCells;
 /// ```
 #[must_use]
 pub fn pull_taut<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
-    let corners = without_stops(waypoints);
+    let corners = without_repetitions(waypoints);
     if !is_legal(space, &corners) {
         return waypoints.to_vec();
     }
@@ -51,7 +54,7 @@ pub fn pull_taut<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Ve
     let mut index = 1;
     while index + 1 < string.path.len() {
         if string.pull(index) {
-            // What was settled of the three waypoints before may depend on what is no longer there.
+            // What was found out about the three waypoints before may depend on a waypoint that is gone.
             index = index.saturating_sub(3).max(1);
         } else {
             index += 1;
@@ -68,14 +71,15 @@ struct Taut<'t, P: Placement> {
 }
 
 impl<P: Placement> Taut<'_, P> {
-    /// Pulls at a waypoint between two others. Whether it gave way.
+    /// Pulls at a waypoint between two others. Returns whether the path changed.
     fn pull(&mut self, index: usize) -> bool {
         let [a, b, c] = [index - 1, index, index + 1].map(|index| self.path[index]);
         if a == c {
             self.path.drain(index..index + 2);
             return true;
         }
-        // Where corners are not cut, a staircase may be seen along though none of its steps can be left out alone.
+        // Where corners are not cut, there may be sight past a staircase of which no single step can be left
+        // out.
         for after in index + 1..self.path.len().min(index + 3) {
             if self.turns_well(index..after, &[]) && self.space.sees(a, self.path[after]) {
                 self.path.drain(index..after);
@@ -87,7 +91,7 @@ impl<P: Placement> Taut<'_, P> {
         true
     }
 
-    /// What makes the path shorter in the place of waypoint b.
+    /// Waypoints that make the path shorter in place of b.
     fn instead_of(&mut self, index: usize, a: Vertex, b: Vertex, c: Vertex) -> Option<Vec<Vertex>> {
         let space = self.space;
         let fits = |taut: &Self, instead: &[Vertex]| taut.turns_well(index..index + 1, instead);
@@ -112,11 +116,13 @@ impl<P: Placement> Taut<'_, P> {
         self.best_neighbor(index, a, b, c).map(|at| vec![at])
     }
 
-    /// The string from a to c, without its ends, that is pulled from a–b–c until obstacles in the triangle stop it: the hull of these, or at
-    /// centers of vertices around them, on the side of b.
+    /// The string from a to c, without its ends, that results when a–b–c is pulled until obstacles in the
+    /// triangle stop it: the convex hull, on the side of b, of these obstacles, or at centers of the vertices
+    /// around them.
     ///
-    /// At corners no segment of it meets an obstacle, since those that it could meet are among these; nor does it pass or bend at a gap, beside
-    /// which more than a quarter would have to be free.
+    /// At corners no segment of it meets an obstacle, since all obstacles that it could meet are among these.
+    /// Nor does it pass a gap or bend at one: more than a quarter of the plane around such a vertex would
+    /// have to be free on one side.
     fn string(&mut self, a: Vertex, b: Vertex, c: Vertex, side: i128) -> Vec<Vertex> {
         let low = Vertex::new(a.x.min(b.x).min(c.x), a.y.min(b.y).min(c.y));
         let high = Vertex::new(a.x.max(b.x).max(c.x), a.y.max(b.y).max(c.y));
@@ -145,7 +151,7 @@ impl<P: Placement> Taut<'_, P> {
         string
     }
 
-    /// Whether a path may go straight from vertex to vertex. At corners a string always may.
+    /// Whether there is sight between consecutive vertices of a, `string`, c. At corners there always is.
     fn is_seen(&self, a: Vertex, string: &[Vertex], c: Vertex) -> bool {
         let mut last = a;
         string.iter().chain([&c]).all(|&next| self.space.sees(std::mem::replace(&mut last, next), next))
@@ -154,7 +160,7 @@ impl<P: Placement> Taut<'_, P> {
     /// The best of the eight vertices around a waypoint, if it makes the path shorter.
     fn best_neighbor(&self, index: usize, a: Vertex, b: Vertex, c: Vertex) -> Option<Vertex> {
         let length = |at: Vertex| Cost::of_move(a.to(at)) + Cost::of_move(at.to(c));
-        // Each of the four lengths is off by 2⁻³³ at most.
+        // Each of the four lengths is rounded by 2⁻³³ at most.
         let limit = length(b).to_bits().saturating_sub(4);
         let around = (-1..=1).flat_map(|y| (-1..=1).map(move |x| b + Vector::new(x, y)));
         let mut shorter: Vec<(Cost, Vertex)> = around
@@ -169,7 +175,7 @@ impl<P: Placement> Taut<'_, P> {
         shorter.into_iter().map(|(_, at)| at).find(|&at| fits(at))
     }
 
-    /// Whether the path keeps the rule of gaps with other vertices in the place of some waypoints.
+    /// Whether the path keeps the rule of closed gaps with other vertices in place of some waypoints.
     fn turns_well(&self, places: Range<usize>, instead: &[Vertex]) -> bool {
         let space = self.space;
         if !space.has_closed_gaps() {

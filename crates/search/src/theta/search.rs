@@ -1,23 +1,27 @@
-//! The search itself.
+//! A search of Theta* or Lazy Theta*.
 
 use std::marker::PhantomData;
 
 use mediant_grid::{GridGraph, Placement, Step, Vertex, VertexId};
 use mediant_moves::Cost;
 
-use super::{SightCheck, views::Views};
+use super::{sight_cache::SightCache, sight_check::SightCheck};
 use crate::{
-    Entry, Heuristic, Node, NodeEvent, NodeStore, Observer, OpenList, ParentPointer, segment::is_at_least,
-    segment_cost,
+    heuristic::Heuristic,
+    nodes::{Node, NodeStore},
+    observer::{NodeEvent, Observer},
+    open_list::{Entry, OpenList},
+    parent::ParentPointer,
+    segment::{is_at_least, segment_cost},
 };
 
-/// What a node keeps of others.
+/// The other vertices that a node stores.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Parents {
-    /// The vertex that it hangs on.
+    /// The parent on the best known path.
     pub(super) parent: VertexId,
-    /// A vertex that it was found not to see, so that it is not looked at again: the next neighbor to be expanded often hangs on
-    /// the same one.
+    /// A vertex that it was found not to see. The neighbor that is expanded next often has the same parent,
+    /// so this saves a second check.
     hidden_from: VertexId,
 }
 
@@ -47,7 +51,7 @@ pub(super) struct Search<'s, P: Placement, H, S, O> {
     pub(super) heuristic: H,
     pub(super) nodes: &'s mut NodeStore<Parents>,
     pub(super) open: &'s mut OpenList,
-    pub(super) views: &'s mut Views,
+    pub(super) sight: &'s mut SightCache,
     pub(super) observer: &'s mut O,
     pub(super) start: VertexId,
     pub(super) goal: VertexId,
@@ -55,16 +59,17 @@ pub(super) struct Search<'s, P: Placement, H, S, O> {
     pub(super) check: PhantomData<S>,
 }
 
-/// A node that others may hang on.
+/// A vertex and the cost of a path to it.
 #[derive(Clone, Copy)]
-struct Hook {
+struct PathEnd {
     id: VertexId,
     at: Vertex,
     g: Cost,
 }
 
 impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S, O> {
-    /// Expands nodes until the goal is the best of them. Whether it was found.
+    /// Expands nodes until the goal is the best open node, or none is open. Returns whether the goal was
+    /// found.
     pub(super) fn run(&mut self) -> bool {
         let at = self.graph.vertex(self.start);
         let h = self.heuristic.estimate(self.graph, at.to(self.goal_at));
@@ -79,10 +84,10 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
             let id = entry.id();
             self.nodes.set_slot(id, Node::<Parents>::CLOSED);
             let Some(&(mut node)) = self.nodes.get(id) else { continue };
-            let here = Hook { id, at: self.graph.vertex(id), g: node.g };
+            let here = PathEnd { id, at: self.graph.vertex(id), g: node.g };
             let mut f = entry.f();
-            if !S::AT_ONCE && !self.sees_parent(here, &node) {
-                self.hang_on_neighbor(here);
+            if !S::EAGER && !self.sees_parent(here, &node) {
+                self.set_parent_to_neighbor(here);
                 let Some(&settled) = self.nodes.get(id) else { continue };
                 f = settled.g + (f - node.g);
                 node = settled;
@@ -90,22 +95,23 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
             if id == self.goal {
                 return true;
             }
-            let parent = (id != self.start).then(|| self.graph.vertex(node.link.parent));
+            let parent = (id != self.start).then(|| self.graph.vertex(node.pointer.parent));
             self.observer.expanded(NodeEvent { at: here.at, parent, g: node.g, f });
-            self.expand(Hook { g: node.g, ..here }, &node);
+            self.expand(PathEnd { g: node.g, ..here }, &node);
         }
         false
     }
 
-    /// Generates the successors of a node. Each hangs on the node's parent if that sees it, or is taken to, and otherwise on the node.
+    /// Generates the successors of a node. The parent of each is the node's parent, if that sees it or is
+    /// assumed to, and otherwise the node.
     #[inline]
-    fn expand(&mut self, here: Hook, node: &Node<Parents>) {
+    fn expand(&mut self, here: PathEnd, node: &Node<Parents>) {
         let graph = self.graph;
         let by = (here.id != self.start).then(|| node.arrived_by());
-        // The start hangs on itself.
-        let parent = self.nodes.get(node.link.parent).map_or(here, |known| Hook {
-            id: node.link.parent,
-            at: graph.vertex(node.link.parent),
+        // The start is its own parent.
+        let parent = self.nodes.get(node.pointer.parent).map_or(here, |known| PathEnd {
+            id: node.pointer.parent,
+            at: graph.vertex(node.pointer.parent),
             g: known.g,
         });
         let grandparent = self.parent_of(parent.id);
@@ -118,35 +124,41 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
                 return;
             }
             let straight = parent.at.to(at);
-            // The way through the node is, by the triangle inequality, no cheaper.
+            // By the triangle inequality the path through the node is no cheaper.
             if known.is_some_and(|known| known.g <= parent.g || is_at_least(straight, known.g - parent.g)) {
                 return;
             }
-            let hidden_from = known.map_or(Parents::NONE, |known| known.link).hidden_from;
-            if (!has_closed_gaps || self.may_hang(grandparent, parent.at, at))
-                && (!S::AT_ONCE
-                    || hidden_from != parent.id && self.views.sees(graph, parent.id, parent.at, at))
+            let hidden_from = known.map_or(Parents::NONE, |known| known.pointer).hidden_from;
+            if (!has_closed_gaps || self.may_be_parent(grandparent, parent.at, at))
+                && (!S::EAGER || hidden_from != parent.id && self.sight.sees(graph, parent.id, parent.at, at))
             {
-                let to = Hook { id, at, g: parent.g + segment_cost(straight) };
+                let to = PathEnd { id, at, g: parent.g + segment_cost(straight) };
                 return self.relax(to, index, known, parent.at, Parents { parent: parent.id, hidden_from });
             }
             let hidden = Parents { parent: here.id, hidden_from: parent.id };
-            let to = Hook { id, at, g: here.g + step.cost };
+            let to = PathEnd { id, at, g: here.g + step.cost };
             match known {
                 Some(known) if known.g <= to.g => {
-                    let link = Parents { parent: known.link.parent, ..hidden };
-                    self.nodes.set_path(id, known.g, known.arrived_by(), link);
+                    let parents = Parents { parent: known.pointer.parent, ..hidden };
+                    self.nodes.set_path(id, known.g, known.arrived_by(), parents);
                 }
                 _ => self.relax(to, index, known, here.at, hidden),
             }
         });
     }
 
-    /// Makes a cheaper way to a vertex, which is not closed, the best known one.
+    /// Makes a cheaper path to a vertex, which is not closed, the best known one.
     #[inline]
-    fn relax(&mut self, to: Hook, by: usize, known: Option<Node<Parents>>, parent: Vertex, link: Parents) {
-        let Hook { id, at, g } = to;
-        self.nodes.set_path(id, g, by, link);
+    fn relax(
+        &mut self,
+        to: PathEnd,
+        by: usize,
+        known: Option<Node<Parents>>,
+        parent: Vertex,
+        parents: Parents,
+    ) {
+        let PathEnd { id, at, g } = to;
+        self.nodes.set_path(id, g, by, parents);
         let event = |f| NodeEvent { at, parent: Some(parent), g, f };
         let moved = |id, slot| self.nodes.set_slot(id, slot);
         let swaps = if let Some(known) = known {
@@ -162,25 +174,26 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
         self.observer.percolated(swaps);
     }
 
-    /// Whether the path that comes from `before` to `parent` may go on straight to `at`, as far as gaps are concerned. Gaps that are
-    /// passed hang on the node before them, so that its last move tells the quadrant.
-    fn may_hang(&self, before: Option<Vertex>, parent: Vertex, at: Vertex) -> bool {
+    /// Whether closed gaps allow the path that comes from `before` to `parent` to go on straight to `at`. The
+    /// parent of a gap is always the node that generated it (except at the goal), so that the last move tells
+    /// through which quadrant the path came.
+    fn may_be_parent(&self, before: Option<Vertex>, parent: Vertex, at: Vertex) -> bool {
         let graph = self.graph;
         graph.may_turn(before, parent, Some(at))
             && (!graph.is_closed_gap(at) || at == self.goal_at && graph.may_turn(Some(parent), at, None))
     }
 
-    /// Whether a node sees what it hangs on, as was taken for granted.
-    fn sees_parent(&mut self, here: Hook, node: &Node<Parents>) -> bool {
-        let parent = node.link.parent;
+    /// Whether a node sees its parent, as was assumed.
+    fn sees_parent(&mut self, here: PathEnd, node: &Node<Parents>) -> bool {
+        let parent = node.pointer.parent;
         here.id == self.start
             || self.graph.step(node.arrived_by()).source(here.id) == parent
-            || self.views.sees(self.graph, parent, self.graph.vertex(parent), here.at)
+            || self.sight.sees(self.graph, parent, self.graph.vertex(parent), here.at)
     }
 
-    /// Hangs a node on that of its closed neighbors through which it is cheapest, the first of these in the order of the moves. There is one:
-    /// that by which it was generated.
-    fn hang_on_neighbor(&mut self, here: Hook) {
+    /// Makes the closed neighbor through which a node is cheapest its parent, the first of these in the order
+    /// of the moves. There is at least one, that by which the node was generated.
+    fn set_parent_to_neighbor(&mut self, here: PathEnd) {
         let graph = self.graph;
         let opposite = graph.steps().len() / 2;
         let mut best: Option<(Cost, usize, VertexId)> = None;
@@ -204,9 +217,9 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
         }
     }
 
-    /// What a node hangs on; `None` for the start.
+    /// The parent of a node; `None` for the start.
     fn parent_of(&self, id: VertexId) -> Option<Vertex> {
         let node = self.nodes.get(id).filter(|_| id != self.start)?;
-        Some(self.graph.vertex(node.link.parent))
+        Some(self.graph.vertex(node.pointer.parent))
     }
 }

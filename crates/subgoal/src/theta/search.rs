@@ -2,7 +2,10 @@
 
 use mediant_grid::{FreeSpace, Vertex};
 use mediant_moves::Cost;
-use mediant_search::{NodeEvent, Observer, SearchTree, segment_cost};
+use mediant_search::{
+    NodeEvent, Observer,
+    parts::{SearchTree, segment_cost},
+};
 
 use super::descent::Descent;
 use crate::{
@@ -165,7 +168,7 @@ impl<P: SubgoalPlacement, O: Observer> Search<'_, P, O> {
         } else {
             self.observer.generated(event);
         }
-        let (_, swaps) = self.tree.reach(id, g, h, bend, ());
+        let (_, swaps) = self.tree.set_path_and_open(id, g, h, bend, ());
         self.observer.percolated(swaps);
     }
 

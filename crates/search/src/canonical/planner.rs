@@ -1,0 +1,89 @@
+//! Canonical A*: the planner.
+
+use std::{ops::Deref, sync::Arc};
+
+use mediant_grid::{GridGraph, Placement, Vertex};
+
+use super::{
+    order::rank,
+    pruning::{Pruning, prunes},
+};
+use crate::{
+    best_first::BestFirst,
+    heuristic::Heuristic,
+    successors::{ExpandedNode, Successor, Successors},
+};
+
+/// Canonical A*: optimal over N(k), for every k, both placements and all rules of motion.
+///
+/// ```
+/// use std::sync::Arc;
+/// use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph};
+/// use mediant_moves::FiniteK;
+/// use mediant_search::{Canonical, Hk, Planner, Query};
+///
+/// let map = AsciiMap::parse("
+///     ....
+///     .#..
+/// ")?;
+/// let graph = GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::new(4)?, CornerRule::Never)?;
+/// let outcome = Canonical::new(&graph, Hk).solve(Query::new((0, 0), (3, 1)))?;
+/// assert_eq!(outcome.path().map(|path| path.cost()), Some(1.0 + 5.0_f64.sqrt()));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub type Canonical<L, H, P> = BestFirst<L, H, CanonicalMoves<P>>;
+
+/// The moves that the rule does not prune; where it would cost more to find these, all legal moves.
+#[derive(Clone, Debug)]
+pub struct CanonicalMoves<P: Placement> {
+    pub(super) pruning: Arc<Pruning<P>>,
+}
+
+impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> Canonical<L, H, P> {
+    /// A planner with scratch memory for `graph`, and its own [`Pruning`].
+    #[must_use]
+    pub fn new(graph: L, heuristic: H) -> Self {
+        let pruning = Arc::new(Pruning::new(&*graph));
+        Self::with_pruning(graph, pruning, heuristic)
+    }
+
+    /// A planner that shares its pruning rule with others. A rule that was made for another map, k or rule of
+    /// motion is not used; the right one is computed instead.
+    #[must_use]
+    pub fn with_pruning(graph: L, pruning: Arc<Pruning<P>>, heuristic: H) -> Self {
+        let pruning = pruning.matching(&graph);
+        Self::with_successors(graph, heuristic, CanonicalMoves { pruning })
+    }
+}
+
+impl<P: Placement> Successors<P> for CanonicalMoves<P> {
+    type ParentPointer = ();
+
+    #[inline]
+    fn for_each(
+        &self,
+        graph: &GridGraph<P>,
+        node: ExpandedNode,
+        goal: Vertex,
+        mut visit: impl FnMut(Successor),
+    ) -> u32 {
+        let is_pruned = |by: &usize| {
+            !self.pruning.is_exempt(graph, node.at, *by, goal)
+                && !self.pruning.takes_all_moves(graph, &node, *by)
+        };
+        match node.by.filter(is_pruned) {
+            None => graph.for_each_successor(node.at, node.by, goal, |by| visit(node.step(graph, by))),
+            Some(by) => self.pruning.for_each(graph, &node, by, |next| {
+                if graph.may_step(node.at, node.by, next, goal) {
+                    visit(node.step(graph, next));
+                }
+            }),
+        }
+        0
+    }
+
+    #[inline]
+    fn prefers(&self, graph: &GridGraph<P>, new: usize, known: usize) -> bool {
+        prunes(graph) && rank(new) < rank(known)
+    }
+}

@@ -1,0 +1,91 @@
+//! Block-based jumps: axial jumps by words of 64 vertices.
+
+use std::sync::Arc;
+
+use mediant_grid::{Grid, GridGraph, Placement, Rules};
+use mediant_moves::{FiniteK, KError};
+
+use super::{
+    axial::AxialStops,
+    diagonals::DiagonalBits,
+    finder::{JumpContext, JumpFinder},
+    table::JumpTable,
+};
+use crate::{
+    canonical::{LocalRule, Pruning},
+    successors::ExpandedNode,
+};
+
+/// Makes axial jumps by words of 64 vertices, for k ≤ 3. Takes two bytes a vertex.
+#[derive(Clone, Debug)]
+pub struct BlockFinder {
+    grid: Arc<Grid>,
+    k: FiniteK,
+    rules: Rules,
+    axial: AxialStops,
+    diagonals: DiagonalBits,
+}
+
+impl BlockFinder {
+    /// Prepares the finder of a grid graph.
+    ///
+    /// # Errors
+    /// [`KError::TooLarge`] above k = 3.
+    pub fn new<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>) -> Result<Self, KError> {
+        let (k, max) = (graph.k().get(), JumpTable::MAX_K);
+        if k > max {
+            return Err(KError::TooLarge { k, max });
+        }
+        let (grid, k, rules) = (Arc::clone(graph.grid()), graph.k(), graph.rules());
+        Ok(Self {
+            grid,
+            k,
+            rules,
+            axial: AxialStops::new(graph),
+            diagonals: DiagonalBits::new(graph, pruning),
+        })
+    }
+
+    /// The memory used, in bytes.
+    #[must_use]
+    pub fn memory_bytes(&self) -> usize {
+        self.axial.memory_bytes() + self.diagonals.memory_bytes()
+    }
+}
+
+impl<P: Placement> JumpFinder<P> for BlockFinder {
+    fn fits(&self, graph: &GridGraph<P>) -> bool {
+        (self.k, self.rules) == (graph.k(), graph.rules()) && Arc::ptr_eq(&self.grid, graph.grid())
+    }
+
+    #[inline]
+    fn axial(
+        &self,
+        context: &JumpContext<'_, P>,
+        from: &ExpandedNode,
+        index: usize,
+        goal_steps: Option<u32>,
+        scanned: &mut u32,
+    ) -> Option<u32> {
+        if context.stepwise {
+            return context.step_axial(from, index, goal_steps, scanned);
+        }
+        let quarter = index >> (context.graph.k().get() - 2);
+        let scan = self.axial.scan(from.at, quarter, goal_steps);
+        *scanned += scan.scanned;
+        scan.found.then_some(scan.steps)
+    }
+
+    #[inline]
+    fn local_rule(&self, context: &JumpContext<'_, P>, here: &ExpandedNode, index: usize) -> LocalRule {
+        if context.stepwise {
+            return context.pruning.local_rule(context.graph, here, index);
+        }
+        if context.pruning.diagonals_may_force() {
+            let rule = context.pruning.local_rule(context.graph, here, index);
+            return LocalRule { beside: self.diagonals.at(here.at, index).1, ..rule };
+        }
+        let (ahead, beside) = self.diagonals.at(here.at, index);
+        LocalRule { forced: false, ahead, steps: 0, beside }
+    }
+}

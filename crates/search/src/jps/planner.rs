@@ -1,0 +1,156 @@
+//! Jump point search: the planner.
+
+use std::{ops::Deref, sync::Arc};
+
+use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
+use mediant_moves::KError;
+
+use super::{
+    block_finder::BlockFinder,
+    finder::{JumpContext, JumpFinder, StepwiseFinder},
+    table::{JumpTable, JumpTableError},
+};
+use crate::{
+    best_first::BestFirst,
+    canonical::{Pruning, prunes, rank},
+    heuristic::Heuristic,
+    successors::{ExpandedNode, Successor, Successors},
+};
+
+/// Jump point search with any [`JumpFinder`]. Its scratch memory is 24 bytes a vertex.
+pub type JumpPointSearch<L, H, P, J> = BestFirst<L, H, JumpMoves<P, J>, VertexId>;
+
+/// Jump point search for every k, which scans jumps vertex by vertex.
+pub type Jps<L, H, P> = JumpPointSearch<L, H, P, StepwiseFinder>;
+
+/// Block-based jump point search (Harabor & Grastien 2014), for k = 2 and 3.
+pub type BlockJps<L, H, P> = JumpPointSearch<L, H, P, BlockFinder>;
+
+/// JPS+ (Harabor & Grastien 2014): jump point search that looks jumps up in a table, for k = 2 and 3.
+pub type JpsPlus<L, H, P> = JumpPointSearch<L, H, P, Arc<JumpTable>>;
+
+/// The jump points to which a node leads.
+#[derive(Clone, Debug)]
+pub struct JumpMoves<P: Placement, J> {
+    pruning: Arc<Pruning<P>>,
+    finder: J,
+    /// Whether all jumps are made step by step, because the finder belongs to another grid graph.
+    stepwise: bool,
+    /// The most steps of a jump.
+    limit: u32,
+    /// Whether intermediate jump points become nodes.
+    keeps_intermediate: bool,
+}
+
+impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic, J: JumpFinder<P>>
+    JumpPointSearch<L, H, P, J>
+{
+    /// A planner with a finder that was made for this grid graph, and a pruning rule that may be shared with
+    /// other planners. If either was made for another map, k or rule of motion, it is not used: the right
+    /// rule is computed, and jumps are made step by step. (Of a [`JumpTable`] only the size is compared with
+    /// the grid graph.)
+    #[must_use]
+    pub fn with_finder(graph: L, pruning: Arc<Pruning<P>>, finder: J, heuristic: H) -> Self {
+        let (pruning, stepwise) = (pruning.matching(&graph), !finder.fits(&graph));
+        let successors = JumpMoves { pruning, finder, stepwise, limit: u32::MAX, keeps_intermediate: false };
+        Self::with_successors(graph, heuristic, successors)
+    }
+
+    /// The same planner with jumps of at most `limit` steps, at least 1; `None` for no limit. (Jumps from a
+    /// [`JumpTable`] are not limited.)
+    #[must_use]
+    pub fn with_jump_limit(mut self, limit: Option<u32>) -> Self {
+        self.successors.limit = limit.unwrap_or(u32::MAX).max(1);
+        self
+    }
+
+    /// The same planner with (`true`) or without nodes for intermediate jump points. By default they are
+    /// pruned.
+    #[must_use]
+    pub fn with_intermediate(mut self, keep: bool) -> Self {
+        self.successors.keeps_intermediate = keep;
+        self
+    }
+}
+
+impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> Jps<L, H, P> {
+    /// A planner with scratch memory for `graph`, and its own [`Pruning`].
+    #[must_use]
+    pub fn new(graph: L, heuristic: H) -> Self {
+        let pruning = Arc::new(Pruning::new(&*graph));
+        Self::with_finder(graph, pruning, StepwiseFinder, heuristic)
+    }
+}
+
+impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> BlockJps<L, H, P> {
+    /// A planner with scratch memory for `graph`, and its own [`BlockFinder`].
+    ///
+    /// # Errors
+    /// [`KError::TooLarge`] above k = 3.
+    pub fn new(graph: L, heuristic: H) -> Result<Self, KError> {
+        let pruning = Arc::new(Pruning::new(&*graph));
+        let blocks = BlockFinder::new(&*graph, &pruning)?;
+        Ok(Self::with_finder(graph, pruning, blocks, heuristic))
+    }
+}
+
+impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> JpsPlus<L, H, P> {
+    /// A planner with scratch memory for `graph`, on its table.
+    ///
+    /// # Errors
+    /// [`JumpTableError`] for a table of a grid graph of another size or k.
+    pub fn new(graph: L, table: Arc<JumpTable>, heuristic: H) -> Result<Self, JumpTableError> {
+        table.check(&*graph)?;
+        let pruning = Arc::new(Pruning::new(&*graph));
+        Ok(Self::with_finder(graph, pruning, table, heuristic))
+    }
+}
+
+impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
+    type ParentPointer = VertexId;
+
+    #[inline]
+    fn for_each(
+        &self,
+        graph: &GridGraph<P>,
+        node: ExpandedNode,
+        goal: Vertex,
+        mut visit: impl FnMut(Successor),
+    ) -> u32 {
+        let context = JumpContext {
+            graph,
+            pruning: &self.pruning,
+            goal,
+            // Asked once for the whole node: a jump never goes on from a gap, so only the node itself and the
+            // goal may be one.
+            stepwise: self.stepwise
+                || !prunes(graph)
+                || graph.has_closed_gaps() && (graph.is_closed_gap(goal) || graph.is_closed_gap(node.at)),
+            // Where forced successors are unknown, a jump would end almost everywhere and find little.
+            limit: if self.pruning.knows_forced() { self.limit } else { 1 },
+            keeps_intermediate: self.keeps_intermediate,
+        };
+        let mut scanned = 0;
+        let mut follow = |index: usize| {
+            if index & 1 == 1 {
+                self.finder.diagonal(&context, &node, index, &mut scanned, &mut visit);
+                return;
+            }
+            let step = graph.step(index);
+            let goal_steps = context.steps_to_goal(node.at, step.vector());
+            if let Some(n) = self.finder.axial(&context, &node, index, goal_steps, &mut scanned) {
+                visit(context.after(&node, step, index, n).reached(step.cost * n, index));
+            }
+        };
+        match node.by.filter(|&by| !self.pruning.is_exempt(graph, node.at, by, goal)) {
+            None => graph.for_each_successor(node.at, node.by, goal, follow),
+            Some(by) => self.pruning.for_each(graph, &node, by, &mut follow),
+        }
+        scanned
+    }
+
+    #[inline]
+    fn prefers(&self, graph: &GridGraph<P>, new: usize, known: usize) -> bool {
+        prunes(graph) && rank(new) < rank(known)
+    }
+}

@@ -1,0 +1,85 @@
+//! The answer to a query, and what is guaranteed of it.
+
+use mediant_grid::{CornerRule, Rules};
+use mediant_moves::{BOUND_WITHOUT_CORNER_CUTTING, FiniteK, bound_at_centers, bound_at_corners};
+
+use crate::path::Path;
+
+/// The answer to a query.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// A path, as good as the engine's [`Guarantee`] says.
+    Found(Path),
+    /// There is no path.
+    Unreachable,
+}
+
+impl Outcome {
+    /// The path, if there is one.
+    #[must_use]
+    pub const fn path(&self) -> Option<&Path> {
+        match self {
+            Self::Found(path) => Some(path),
+            Self::Unreachable => None,
+        }
+    }
+}
+
+/// What an engine guarantees of the length of its paths. Every engine finds a path whenever there is one; one
+/// that may fail says so by [`QueryError::GaveUp`](crate::QueryError::GaveUp).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Guarantee {
+    /// The path is over N(k), and no path over N(k) is shorter: in fixed-point costs exactly, in real lengths
+    /// up to a factor of 1 + 2⁻³¹ (see [`Cost`](mediant_moves::Cost)).
+    Optimal(FiniteK),
+    /// No path over N(k) is shorter, in the same sense; the path itself has segments at any angle.
+    AtMost(FiniteK),
+    /// No legal path at all is shorter.
+    OptimalAnyAngle,
+    /// Nothing.
+    Suboptimal,
+}
+
+impl Guarantee {
+    /// The suboptimality bound: the greatest cost of a path, as a multiple of the any-angle optimum between
+    /// the same two vertices under the same rules. For N(k) by Kramm 2018, Theorems 2 and 3, see
+    /// [`bound_at_corners`] and [`bound_at_centers`]. `None` where no bound is proven.
+    ///
+    /// ```
+    /// use mediant_grid::{CornerRule, DiagonalGap, Rules};
+    /// use mediant_moves::FiniteK;
+    /// use mediant_search::Guarantee;
+    /// let promised = Guarantee::Optimal(FiniteK::new(3)?);
+    /// let bound = promised.bound(Rules::Corner(DiagonalGap::Open));
+    /// assert!(bound.is_some_and(|bound| (bound - 1.0824).abs() < 1e-4));
+    /// assert_eq!(promised.bound(Rules::Center(CornerRule::Always)), None);
+    /// # Ok::<(), mediant_moves::KError>(())
+    /// ```
+    #[must_use]
+    pub fn bound(self, rules: Rules) -> Option<f64> {
+        match (self, rules) {
+            (Self::OptimalAnyAngle, _) => Some(1.0),
+            (Self::Suboptimal, _) | (_, Rules::Center(CornerRule::Always)) => None,
+            (Self::Optimal(k) | Self::AtMost(k), Rules::Corner(_)) => Some(bound_at_corners(k)),
+            (Self::Optimal(k) | Self::AtMost(k), Rules::Center(CornerRule::One)) => Some(bound_at_centers(k)),
+            (_, Rules::Center(CornerRule::Never)) => Some(BOUND_WITHOUT_CORNER_CUTTING),
+        }
+    }
+
+    /// The guarantee of the same paths once they are smoothed.
+    #[must_use]
+    pub const fn smoothed(self) -> Self {
+        match self {
+            Self::Optimal(k) => Self::AtMost(k),
+            Self::AtMost(_) | Self::OptimalAnyAngle | Self::Suboptimal => self,
+        }
+    }
+
+    /// A lower bound of the cost of every path between two vertices, when a path with this guarantee costs
+    /// `cost` and the straight line between them measures `straight`: the larger of `straight` and `cost`
+    /// divided by the [bound](Self::bound). In cells, up to the rounding that the guarantee allows.
+    #[must_use]
+    pub fn lower_bound(self, rules: Rules, cost: f64, straight: f64) -> f64 {
+        self.bound(rules).map_or(straight, |bound| straight.max(cost / bound))
+    }
+}

@@ -1,0 +1,23 @@
+//! The parts of which the planners are made, for planners of one's own.
+//!
+//! - [`BestFirst`] is the search loop of A*, canonical A* and jump point search. With successors of one's own
+//!   ([`Successors`]) it is a planner: see the example at [`BestFirst::with_successors`].
+//! - [`OpenList`] with a [`NodeStore`] is the memory of a search on a grid graph; [`SearchTree`] is that of a
+//!   search on any other graph of numbered nodes.
+//! - [`JumpPointSearch`] is jump point search with any [`JumpFinder`]; [`Theta`] is Theta* with any
+//!   [`SightCheck`].
+//! - [`HasFreeSpace`] is what a planner needs to be generic over grid graphs and free spaces.
+
+pub use crate::{
+    astar::AllMoves,
+    best_first::BestFirst,
+    jps::{BlockFinder, JumpFinder, JumpPointSearch, StepwiseFinder},
+    nodes::{Node, NodeStore},
+    open_list::{Entry, OpenList},
+    parent::ParentPointer,
+    search_tree::SearchTree,
+    segment::segment_cost,
+    smoothing::HasFreeSpace,
+    successors::{ExpandedNode, Successor, Successors},
+    theta::{Eager, Lazy, SightCheck, Theta},
+};

@@ -1,0 +1,124 @@
+//! Theta* and Lazy Theta*: the planner.
+
+use std::{marker::PhantomData, ops::Deref};
+
+use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
+
+use super::{
+    search::{Parents, Search},
+    sight_cache::SightCache,
+    sight_check::{Eager, Lazy, SightCheck},
+};
+use crate::{
+    heuristic::Heuristic,
+    nodes::NodeStore,
+    observer::Observer,
+    open_list::OpenList,
+    outcome::{Guarantee, Outcome},
+    path::Path,
+    planner::Planner,
+    query::{Query, QueryError},
+};
+
+/// Theta*: A* in which the parent of a node is the parent of the node that generates it, if that sees it.
+///
+/// ```
+/// use std::sync::Arc;
+/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, GridGraph};
+/// use mediant_moves::FiniteK;
+/// use mediant_search::{Hk, Planner, Query, ThetaStar};
+///
+/// let map = AsciiMap::parse("
+///     ......
+///     ...#..
+///     ...#..
+///     ......
+/// ")?;
+/// let graph = GridGraph::<Corners>::new(Arc::new(map.grid), FiniteK::new(3)?, DiagonalGap::Open)?;
+/// let outcome = ThetaStar::new(&graph, Hk).solve(Query::new((0, 1), (6, 2)))?;
+/// let expected = [(0, 1), (4, 1), (6, 2)].map(Into::into);
+/// assert_eq!(outcome.path().map(|path| path.waypoints()), Some(&expected[..]));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub type ThetaStar<L, H> = Theta<L, H, Eager>;
+
+/// Lazy Theta*: Theta* that assumes a line of sight until the node is expanded. If the node then does not see
+/// its parent, its parent becomes the closed neighbor through which the path is cheapest. The node is
+/// expanded all the same, at that higher cost.
+pub type LazyThetaStar<L, H> = Theta<L, H, Lazy>;
+
+/// The planner that [`ThetaStar`] and [`LazyThetaStar`] share; `S` says when lines of sight are checked.
+///
+/// `L` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`.
+/// Its scratch memory is 24½ bytes a vertex. The cost of a segment is that of a move of its displacement,
+/// [`Cost::of_move`](mediant_moves::Cost::of_move).
+#[derive(Clone, Debug)]
+pub struct Theta<L, H, S> {
+    graph: L,
+    heuristic: H,
+    nodes: NodeStore<Parents>,
+    open: OpenList,
+    sight: SightCache,
+    check: PhantomData<S>,
+}
+
+impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic, S: SightCheck> Theta<L, H, S> {
+    /// A planner with scratch memory for `graph`.
+    #[must_use]
+    pub fn new(graph: L, heuristic: H) -> Self {
+        let nodes = NodeStore::new(graph.vertex_count());
+        let sight = SightCache::new::<P>(&graph);
+        Self { graph, heuristic, nodes, open: OpenList::default(), sight, check: PhantomData }
+    }
+}
+
+impl<P, L, H, S> Planner for Theta<L, H, S>
+where
+    P: Placement,
+    L: Deref<Target = GridGraph<P>>,
+    H: Heuristic,
+    S: SightCheck,
+{
+    fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
+        let Some((start, goal)) = query.ends(&self.graph)? else { return Ok(Outcome::Unreachable) };
+        let Self { graph, heuristic, nodes, open, sight, check } = self;
+        let found = Search {
+            graph: &**graph,
+            heuristic: *heuristic,
+            nodes,
+            open,
+            sight,
+            observer,
+            start,
+            goal,
+            goal_at: query.goal,
+            check: *check,
+        }
+        .run();
+        Ok(if found { Outcome::Found(self.path(start, goal)) } else { Outcome::Unreachable })
+    }
+
+    fn guarantee(&self) -> Guarantee {
+        Guarantee::Suboptimal
+    }
+}
+
+impl<P: Placement, L: Deref<Target = GridGraph<P>>, H, S> Theta<L, H, S> {
+    /// The path that a search found, without waypoints on a straight line between their neighbors.
+    fn path(&self, start: VertexId, goal: VertexId) -> Path {
+        let up = |&id: &VertexId| self.nodes.get(id).filter(|_| id != start).map(|node| node.pointer.parent);
+        let mut waypoints: Vec<Vertex> = Vec::with_capacity(std::iter::successors(Some(goal), up).count());
+        for id in std::iter::successors(Some(goal), up) {
+            let at = self.graph.vertex(id);
+            if let [.., before, last] = waypoints[..] {
+                let (v, w) = (before.to(last), last.to(at));
+                if v.det(w) == 0 && v.dot(w) > 0 {
+                    waypoints.pop();
+                }
+            }
+            waypoints.push(at);
+        }
+        waypoints.reverse();
+        Path::new(waypoints)
+    }
+}

@@ -1,0 +1,467 @@
+//! Canonical search: the rule of the paper and the exact one, what each of them prunes, and shared rules and
+//! tables that belong to another map.
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use std::{collections::HashMap, sync::Arc};
+
+use mediant_grid::{
+    AsciiMap, Centers, CornerRule, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vertex,
+};
+use mediant_moves::FiniteK;
+use mediant_oracle::{
+    Case, Explicit, Rng, adversarial, describe, is_gap, noise, seeds, suite_grid, validate,
+};
+use mediant_search::{
+    AStar, BlockJps, Canonical, CanonicalRule, Counters, Hk, Jps, JpsPlus, JumpTable, JumpTableError,
+    NodeEvent, Observer, Outcome, PaperCanonical, Planner, Pruning, Query, QueryError, Zero,
+    parts::BlockFinder,
+};
+
+fn grid_graph<P: Placement>(grid: &Arc<Grid>, k: u32, rule: P::Rule) -> GridGraph<P> {
+    GridGraph::new(Arc::clone(grid), FiniteK::new(k).unwrap(), rule).unwrap()
+}
+
+fn drawn(drawing: &str) -> (Arc<Grid>, Query) {
+    let map = AsciiMap::parse(drawing).unwrap();
+    let query = Query::new(map.mark('s').unwrap(), map.mark('g').unwrap());
+    (Arc::new(map.grid), query)
+}
+
+fn cost(outcome: &Result<Outcome, QueryError>) -> Option<f64> {
+    outcome.as_ref().unwrap().path().map(|path| path.cost())
+}
+
+fn center_costs(drawing: &str, k: u32, corners: CornerRule) -> [Option<f64>; 2] {
+    let (grid, query) = drawn(drawing);
+    let grid_graph = &grid_graph::<Centers>(&grid, k, corners);
+    let exact = cost(&Canonical::new(grid_graph, Hk).solve(query));
+    [exact, cost(&PaperCanonical::new(grid_graph, Hk).solve(query))]
+}
+
+#[test]
+fn the_published_rule_misses_what_the_exact_one_finds() {
+    // The move (2, 1) is not legal at s, but it is one cell to the right, where no path on the 8-neighborhood
+    // turns.
+    let (grid, query) = drawn(
+        "
+        s....
+        .#.g.
+        .....
+        .....
+        ",
+    );
+    let grid_graph = grid_graph::<Centers>(&grid, 4, CornerRule::Never);
+    let outcome = Canonical::new(&grid_graph, Hk).solve(query).unwrap();
+    assert_eq!(outcome.path().unwrap().waypoints(), [(0, 0), (1, 0), (3, 1)].map(Vertex::from));
+    assert_eq!(outcome.path().unwrap().cost(), 1.0 + 5.0_f64.sqrt());
+
+    // The best path turns where no obstacle is near.
+    let drawing = "
+        g#.
+        ...
+        ...
+        ..s
+    ";
+    let [exact, paper] = center_costs(drawing, 4, CornerRule::Never).map(Option::unwrap);
+    assert!((exact - (2.0_f64.sqrt() + 5.0_f64.sqrt())).abs() < 1e-12, "{exact}");
+    assert!((paper - (1.0 + 8.0_f64.sqrt())).abs() < 1e-12, "{paper}");
+}
+
+/// A vertex is reached most cheaply by a long move, none of whose natural successors is legal there; and no
+/// path on the 8-neighborhood turns there.
+#[test]
+fn the_published_rule_finds_a_path_where_long_moves_lead_nowhere() {
+    let drawings = [
+        "
+        ....
+        g#.s
+        ",
+        "
+        g....
+        ###.s
+        ",
+    ];
+    for (drawing, k) in drawings.into_iter().flat_map(|drawing| [3, 4, 5, 6, 9].map(|k| (drawing, k))) {
+        for corners in [CornerRule::Never, CornerRule::One, CornerRule::Always] {
+            let [exact, paper] = center_costs(drawing, k, corners);
+            assert!(exact.is_some() && paper >= exact, "k = {k}, {corners}: {exact:?}, {paper:?}: {drawing}");
+        }
+    }
+}
+
+/// Which vertex generated which.
+#[derive(Default)]
+struct Births {
+    /// How often each vertex was generated.
+    generated: HashMap<Vertex, u32>,
+    updated: u32,
+    /// How many others each vertex generated.
+    children: HashMap<Vertex, u32>,
+    /// With their parents.
+    expanded: Vec<(Vertex, Option<Vertex>)>,
+}
+
+impl Observer for Births {
+    fn expanded(&mut self, node: NodeEvent) {
+        self.expanded.push((node.at, node.parent));
+    }
+
+    fn generated(&mut self, node: NodeEvent) {
+        *self.generated.entry(node.at).or_default() += 1;
+        if let Some(parent) = node.parent {
+            *self.children.entry(parent).or_default() += 1;
+        }
+    }
+
+    fn updated(&mut self, _: NodeEvent) {
+        self.updated += 1;
+    }
+}
+
+/// Searches open ground from its middle for a vertex in its last corner, without a heuristic, so that all
+/// nearer vertices are expanded.
+fn births<P: Placement>(k: u32, rule: P::Rule) -> (Births, i32, GridGraph<P>) {
+    let radius = FiniteK::new(k).unwrap().radius().unwrap();
+    // So large that for some vertices around the middle nothing but the border is within reach of two moves.
+    let side = 8 * radius + 9;
+    let grid = Arc::new(Grid::from_fn(side as u32, side as u32, |_, _| false).unwrap());
+    let grid_graph = grid_graph::<P>(&grid, k, rule);
+    let (mut births, last) = (Births::default(), side - 1);
+    let query = Query::new((side / 2, side / 2), (last, last));
+    Canonical::new(&grid_graph, Zero).solve_observed(query, &mut births).unwrap();
+    (births, side / 2, grid_graph)
+}
+
+fn open_ground<P: Placement>(k: u32, rule: P::Rule) {
+    let (births, middle, grid_graph) = births::<P>(k, rule);
+    let case = format!("k = {k}, {}", grid_graph.rules());
+    assert_eq!(births.updated, 0, "{case}");
+    assert!(births.generated.values().all(|&times| times == 1), "{case}");
+    // All vertices but a few as far as the goal.
+    assert!(births.generated.len() > grid_graph.vertex_count() - 4, "{case}: {}", births.generated.len());
+    let moves: Vec<_> = grid_graph.steps().iter().map(|step| step.vector()).collect();
+    let reach = grid_graph.k().radius().unwrap();
+    let mut seen = [0, 0];
+    for &(at, parent) in &births.expanded {
+        let d = Vertex::new(middle, middle).to(at);
+        // Not where a successor would be outside the map.
+        if d.x.abs().max(d.y.abs()) > middle - reach {
+            continue;
+        }
+        let children = births.children.get(&at).copied().unwrap_or(0) as usize;
+        let Some(parent) = parent else {
+            assert_eq!(children, moves.len(), "{case}");
+            continue;
+        };
+        let by = moves.iter().position(|&v| v == parent.to(at)).unwrap();
+        assert_eq!(children, [1, 3][by % 2], "{case}: {at}, reached by {:?}", moves[by]);
+        seen[by % 2] += 1;
+    }
+    assert!(seen.iter().all(|&nodes| nodes > 10), "{case}: {seen:?}");
+}
+
+/// The uni- and bidimensional nodes of the paper: one way to each vertex.
+#[test]
+fn on_open_ground_each_vertex_is_generated_once() {
+    for k in 2..=7 {
+        for corners in [CornerRule::Never, CornerRule::One, CornerRule::Always] {
+            open_ground::<Centers>(k, corners);
+        }
+        for gap in [DiagonalGap::Open, DiagonalGap::Closed] {
+            open_ground::<Corners>(k, gap);
+        }
+    }
+}
+
+/// Calls `each` with random cases under all rules, for each k.
+fn on_random_maps(maps: u64, ks: &[u32], mut each: impl FnMut(&Arc<Grid>, u32, &Case)) {
+    for seed in seeds(maps) {
+        for rules in Rules::ALL {
+            let Some(case) = Case::random(seed, rules) else { continue };
+            let grid = Arc::new(case.grid.clone());
+            ks.iter().for_each(|&k| each(&grid, k, &case));
+        }
+    }
+}
+
+/// The pruning rules, shared by all maps: to compute one takes longer than a search on a small map.
+struct Shared<P: Placement>(HashMap<(u32, Rules), Arc<CanonicalRule<P>>>);
+
+impl<P: Placement> Shared<P> {
+    fn pruning(&mut self, grid_graph: &GridGraph<P>) -> Arc<Pruning<P>> {
+        let (k, rule) = (grid_graph.k(), grid_graph.rule());
+        let known = self.0.entry((k.get(), P::rules(rule)));
+        let known = known.or_insert_with(|| Arc::new(CanonicalRule::new(k, rule)));
+        Arc::new(Pruning::with_rule(grid_graph, Arc::clone(known)))
+    }
+}
+
+/// A planner's cost and counts for a query.
+type Found = (Option<f64>, Counters);
+
+fn solve(mut planner: impl Planner, case: &Case) -> Found {
+    let mut counters = Counters::default();
+    let outcome = planner.solve_observed(Query::new(case.start, case.goal), &mut counters);
+    (cost(&outcome), counters)
+}
+
+/// The answers of A*, of the exact variant and of the published one.
+fn three<P: Placement>(
+    shared: &mut Shared<P>,
+    grid: &Arc<Grid>,
+    k: u32,
+    rule: P::Rule,
+    case: &Case,
+) -> [Found; 3] {
+    let grid_graph = &grid_graph::<P>(grid, k, rule);
+    let pruning = shared.pruning(grid_graph);
+    [
+        solve(AStar::new(grid_graph, Hk), case),
+        solve(Canonical::with_pruning(grid_graph, pruning, Hk), case),
+        solve(PaperCanonical::new(grid_graph, Hk), case),
+    ]
+}
+
+#[test]
+fn canonical_generates_no_more_than_a_star_and_the_published_rule_is_complete() {
+    let (mut at_centers, mut at_corners) = (Shared(HashMap::new()), Shared(HashMap::new()));
+    let ks = [2, 3, 4, 5, 6, 7, 9];
+    let (mut generated, mut cases, mut longer) = (HashMap::new(), 0, 0);
+    on_random_maps(150, &ks, |grid, k, case| {
+        let [a_star, exact, paper] = match case.rules {
+            Rules::Center(corners) => three::<Centers>(&mut at_centers, grid, k, corners, case),
+            Rules::Corner(gap) => three::<Corners>(&mut at_corners, grid, k, gap, case),
+        };
+        let (best, found) = (a_star.0, paper.0);
+        assert_eq!(best.is_some(), found.is_some(), "k = {k}; {case}");
+        if let (Some(best), Some(found)) = (best, found) {
+            assert!(found >= best * (1.0 - 1e-9), "{found}, the optimum is {best}: k = {k}; {case}");
+            longer += u32::from(found > best * (1.0 + 1e-9));
+        }
+        cases += 1;
+        let sums: &mut [u64; 2] = generated.entry(k).or_default();
+        sums[0] += a_star.1.generated;
+        sums[1] += exact.1.generated;
+    });
+    let maps = seeds(150).end as u32;
+    assert!(cases > 30 * maps, "{cases} cases");
+    assert!(longer > maps / 30, "only {longer} of {cases} paths are longer: the variants do not differ");
+    for k in ks {
+        let [a_star, exact] = generated[&k];
+        assert!(exact <= a_star, "k = {k}: {exact} nodes generated, {a_star} by A*");
+    }
+}
+
+fn mismatched<P: Placement>(ks: [u32; 2], rules: [P::Rule; 2]) {
+    let others = [(ks[1], rules[0]), (ks[0], rules[1])];
+    for seed in 0..20 {
+        let grid = Arc::new(suite_grid(seed).0);
+        let Some(case) = Case::random(seed, P::rules(rules[0])).filter(|case| case.grid == *grid) else {
+            continue;
+        };
+        let grid_graph = &grid_graph::<P>(&grid, ks[0], rules[0]);
+        let expected = solve(Canonical::new(grid_graph, Hk), &case);
+        for (k, rule) in others.into_iter().filter(|&other| other != (ks[0], rules[0])) {
+            let other = Arc::new(CanonicalRule::new(FiniteK::new(k).unwrap(), rule));
+            let pruning = Arc::new(Pruning::with_rule(grid_graph, other));
+            assert_eq!(pruning.memory_bytes(), Pruning::new(grid_graph).memory_bytes(), "{case}");
+            let found = solve(Canonical::with_pruning(grid_graph, pruning, Hk), &case);
+            assert_eq!(
+                found,
+                expected,
+                "a rule for k = {k}, {}, where k = {}; {case}",
+                P::rules(rule),
+                ks[0]
+            );
+        }
+    }
+}
+
+#[test]
+fn rules_for_other_moves_are_not_used() {
+    for ks in [[2, 3], [3, 2], [3, 4], [4, 3], [5, 4], [9, 4], [4, 9]] {
+        mismatched::<Centers>(ks, [CornerRule::Never, CornerRule::Always]);
+        mismatched::<Centers>(ks, [CornerRule::Always, CornerRule::Never]);
+        mismatched::<Corners>(ks, [DiagonalGap::Closed, DiagonalGap::Open]);
+    }
+}
+
+#[test]
+fn tables_of_other_graphs_are_refused() {
+    let grid = |width, height| Arc::new(noise(&mut Rng::new(1), width, height, 20));
+    let of = |width, height, k| grid_graph::<Centers>(&grid(width, height), k, CornerRule::Never);
+    let own = of(12, 10, 3);
+    let table = |grid_graph: &GridGraph<Centers>| Arc::new(JumpTable::new(grid_graph).unwrap());
+    let planner = |table| JpsPlus::new(&own, table, Hk).map(|_| ());
+    assert_eq!(planner(table(&own)), Ok(()));
+    let length = |found| Err(JumpTableError::Length { expected: 12 * 10 * 8, found });
+    assert_eq!(planner(table(&of(12, 11, 3))), length(12 * 11 * 8));
+    assert_eq!(planner(table(&of(12, 10, 2))), length(12 * 10 * 4));
+    // As many entries, but in rows of another length, or for other moves.
+    assert_eq!(planner(table(&of(10, 12, 3))), Err(JumpTableError::Width { expected: 12, found: 10 }));
+    assert_eq!(planner(table(&of(12, 20, 2))), length(12 * 20 * 4));
+    let k4 = of(12, 10, 4);
+    let refused = JpsPlus::new(&k4, table(&own), Hk).map(|_| ());
+    assert!(matches!(refused, Err(JumpTableError::Neighborhood(_))), "{refused:?}");
+    assert!(BlockJps::new(&k4, Hk).is_err());
+}
+
+/// Small maps full of gaps.
+fn gap_map(seed: u64) -> Arc<Grid> {
+    let rng = &mut Rng::new(seed);
+    let (width, height) = (2 + rng.below(7), 2 + rng.below(7));
+    if rng.chance(30) {
+        return Arc::new(adversarial(rng, width, height));
+    }
+    let (flips, parity) = (rng.below(50), rng.below(2));
+    let mut blocked = |x, y| ((x + y + parity) % 2 == 0) != rng.chance(flips);
+    let cells: Vec<bool> =
+        (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| blocked(x, y)).collect();
+    Arc::new(Grid::from_fn(width, height, |x, y| cells[(y * width + x) as usize]).unwrap())
+}
+
+/// Up to three gaps and two other vertices.
+fn ends(grid: &Grid, free: &[Vertex], seed: u64) -> Vec<Vertex> {
+    let rng = &mut Rng::new(seed ^ 0x6A9);
+    let (gaps, others): (Vec<Vertex>, Vec<Vertex>) = free.iter().partition(|&&at| is_gap(grid, at));
+    let mut ends: Vec<Vertex> = (0..3).filter_map(|_| rng.pick(&gaps).copied()).collect();
+    ends.extend((0..2).filter_map(|_| rng.pick(&others).copied()));
+    ends
+}
+
+/// Under closed gaps, from and to gaps and others: how many queries of each kind had a path.
+fn closed_gaps(k: u32, seeds: std::ops::Range<u64>) -> HashMap<[bool; 2], u32> {
+    let number = FiniteK::new(k).unwrap();
+    let rules = Rules::Corner(DiagonalGap::Closed);
+    let shared = Arc::new(CanonicalRule::new(number, DiagonalGap::Closed));
+    let mut found = HashMap::new();
+    for seed in seeds {
+        let grid = gap_map(seed);
+        let grid_graph = &grid_graph::<Corners>(&grid, k, DiagonalGap::Closed);
+        let pruning = || Arc::new(Pruning::with_rule(grid_graph, Arc::clone(&shared)));
+        let graph = Explicit::new(&grid, rules, Some(number));
+        let free: Vec<Vertex> = graph.free_vertices().collect();
+        let mut canonical = Canonical::with_pruning(grid_graph, pruning(), Hk);
+        let mut jps = Jps::with_finder(grid_graph, pruning(), mediant_search::parts::StepwiseFinder, Hk);
+        let mut blocks = (k <= 3).then(|| BlockJps::new(grid_graph, Hk).unwrap());
+        let table = (k <= 3).then(|| Arc::new(JumpTable::new(grid_graph).unwrap()));
+        let mut plus = table.map(|table| JpsPlus::new(grid_graph, table, Hk).unwrap());
+        let ends = ends(&grid, &free, seed);
+        for &start in &ends {
+            let costs = graph.costs_from(start);
+            for &goal in &ends {
+                let query = Query::new(start, goal);
+                let outcomes = [
+                    Some(canonical.solve(query)),
+                    Some(jps.solve(query)),
+                    blocks.as_mut().map(|planner| planner.solve(query)),
+                    plus.as_mut().map(|planner| planner.solve(query)),
+                ];
+                let names = ["canonical", "jps", "jps-block", "jps-plus"];
+                for (outcome, name) in outcomes.into_iter().zip(names) {
+                    let Some(outcome) = outcome.transpose().unwrap() else { continue };
+                    let case = || format!("{name}, k = {k}; {}", describe(&grid, rules, start, goal, seed));
+                    let best = costs.to(goal);
+                    let path = outcome.path();
+                    assert_eq!(path.is_some(), best.is_some(), "{}", case());
+                    let (Some(path), Some(best)) = (path, best) else { continue };
+                    let points = path.waypoints();
+                    let fault = validate(&grid, rules, Some(number), start, goal, points, path.cost());
+                    assert_eq!(fault, Ok(()), "{}", case());
+                    assert!((path.cost() - best).abs() < 1e-9, "{} for {best}: {}", path.cost(), case());
+                }
+                if start != goal && costs.to(goal).is_some() {
+                    *found.entry([start, goal].map(|at| is_gap(&grid, at))).or_default() += 1;
+                }
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn paths_begin_and_end_at_closed_gaps_and_pass_none() {
+    for k in 2..=6 {
+        let found = closed_gaps(k, seeds(400));
+        let maps = seeds(400).end as u32;
+        for kind in [[false, false], [true, false], [false, true], [true, true]] {
+            let paths = found.get(&kind).copied().unwrap_or(0);
+            assert!(paths > maps / 20, "k = {k}: {paths} paths where start, goal are gaps: {kind:?}");
+        }
+    }
+}
+
+/// At k = 2 a path may pass a gap, and how it may go on there depends on how it came. So a path of the same
+/// cost must not replace another. Found by the random suite.
+#[test]
+fn as_cheap_a_way_to_a_gap_replaces_no_other() {
+    let (grid, query) = drawn(
+        "
+        ......#...
+        .g..#.....
+        ###..#....
+        ....##..#.
+        #.##..#...
+        ..###..##.
+        .#....#...
+        ....#.....
+        ....#.#...
+        #.....#.##
+        .s#...#...
+    ",
+    );
+    let grid_graph = grid_graph::<Corners>(&grid, 2, DiagonalGap::Closed);
+    let check = |outcome: Result<Outcome, QueryError>| {
+        let outcome = outcome.unwrap();
+        let path = outcome.path().unwrap();
+        let (start, goal) = (query.start, query.goal);
+        let k = FiniteK::new(2).ok();
+        assert_eq!(
+            validate(&grid, grid_graph.rules(), k, start, goal, path.waypoints(), path.cost()),
+            Ok(())
+        );
+    };
+    check(Canonical::new(&grid_graph, Hk).solve(query));
+    check(Jps::new(&grid_graph, Hk).solve(query));
+    check(BlockJps::new(&grid_graph, Hk).unwrap().solve(query));
+}
+
+/// Rules and finders that were made for another map, k or rule of motion change no answer, and lead no
+/// planner off the map.
+#[test]
+fn what_was_made_for_other_graphs_is_not_believed() {
+    let mut rng = Rng::new(3);
+    let h = Hk;
+    let (map, other, larger) =
+        (noise(&mut rng, 30, 20, 20), noise(&mut rng, 30, 20, 20), noise(&mut rng, 70, 90, 5));
+    let map = Arc::new(map);
+    for (k, foreign_k) in [(3, 2), (3, 4), (5, 8), (4, 4)] {
+        let own = grid_graph::<Centers>(&map, k, CornerRule::Never);
+        for (grid, k, rule) in [
+            (Arc::new(other.clone()), k, CornerRule::Never),
+            (Arc::new(larger.clone()), foreign_k, CornerRule::Always),
+            (Arc::clone(&map), foreign_k, CornerRule::Always),
+        ] {
+            let foreign = grid_graph::<Centers>(&grid, k, rule);
+            let pruning = Arc::new(Pruning::new(&foreign));
+            let mut planners: Vec<Box<dyn FnMut(Query) -> Option<f64>>> = Vec::new();
+            let mut canonical = Canonical::with_pruning(&own, Arc::clone(&pruning), h);
+            planners.push(Box::new(move |query| cost(&canonical.solve(query))));
+            if let Ok(blocks) = BlockFinder::new(&foreign, &pruning) {
+                let mut block = BlockJps::with_finder(&own, Arc::clone(&pruning), blocks, h);
+                planners.push(Box::new(move |query| cost(&block.solve(query))));
+            }
+            for start in (0..600).step_by(37).map(|i| Vertex::new(i % 30, i / 30)) {
+                let query = Query::new(start, (28, 17));
+                if query.check(&own).is_ok() {
+                    let expected = cost(&AStar::new(&own, h).solve(query));
+                    planners.iter_mut().for_each(|solve| {
+                        let found = solve(query);
+                        let near = |(a, b): (f64, f64)| (a - b).abs() < 1e-9;
+                        assert!(found == expected || found.zip(expected).is_some_and(near), "{query:?}");
+                    });
+                }
+            }
+        }
+    }
+}

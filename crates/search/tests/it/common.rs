@@ -1,0 +1,79 @@
+//! Runs any engine under any rules, for all suites.
+
+use std::sync::Arc;
+
+use mediant_engines::{BoxedPlanner, EngineKind, Index, SearchSpace, Setup, SharedRules, Variant};
+use mediant_grid::{DiagonalGap, Grid, Rules};
+use mediant_moves::{FiniteK, K};
+use mediant_search::{Counters, Guarantee, Outcome, Query, QueryError};
+
+/// Pruning rules do not depend on the map: each is computed once.
+static RULES: SharedRules = SharedRules::new();
+
+/// The answer of an engine to a query.
+pub(crate) type Answer = Result<(Outcome, Counters), QueryError>;
+
+/// An engine on one search space, for any number of queries. Its planner is made at the first one, since most
+/// suites run few engines.
+pub(crate) struct Engine<'g> {
+    pub(crate) name: String,
+    pub(crate) guarantee: Guarantee,
+    /// The directions that its paths may take.
+    pub(crate) paths: K,
+    /// Whether it may fail to find a path where there is one.
+    pub(crate) may_give_up: bool,
+    /// Whether it plans on a hierarchy. Those engines have long suites of their own.
+    pub(crate) is_hierarchical: bool,
+    planner: Option<BoxedPlanner>,
+    setup: Setup,
+    space: &'g SearchSpace,
+}
+
+impl<'g> Engine<'g> {
+    fn new(setup: Setup, space: &'g SearchSpace) -> Self {
+        let (guarantee, paths) = (setup.guarantee(), setup.paths());
+        let may_give_up =
+            (setup.engine.kind(), setup.engine.variant()) == (EngineKind::Chpa, Some(Variant::Paper));
+        let is_hierarchical = matches!(setup.engine.kind(), EngineKind::Hpa | EngineKind::Chpa);
+        let name = setup.to_string();
+        Self { name, guarantee, paths, may_give_up, is_hierarchical, planner: None, setup, space }
+    }
+
+    pub(crate) fn solve(&mut self, query: Query) -> Answer {
+        let Self { setup, space, .. } = *self;
+        let make = || {
+            let planner = Index::new(setup, space, &RULES).and_then(|index| index.planner());
+            let planner = planner.unwrap_or_else(|error| panic!("{setup}: {error}"));
+            assert_eq!(planner.guarantee(), setup.guarantee(), "{setup}");
+            planner
+        };
+        self.planner.get_or_insert_with(make).solve_counted(query)
+    }
+}
+
+/// Runs `suite` on every engine of the catalog that searches N(k), in each of its variants, under these
+/// rules. The first is A* with h_k.
+pub(crate) fn with_engines<R>(
+    grid: &Arc<Grid>,
+    rules: Rules,
+    k: u32,
+    suite: impl FnOnce(Vec<Engine<'_>>) -> R,
+) -> R {
+    on(grid, rules, K::Finite(FiniteK::new(k).expect("k is at least 2")), suite)
+}
+
+/// Runs `suite` on every engine of the catalog that searches at any angle under these rules. There is at
+/// least one.
+pub(crate) fn with_any_angle_engines<R>(
+    grid: &Arc<Grid>,
+    gap: DiagonalGap,
+    suite: impl FnOnce(Vec<Engine<'_>>) -> R,
+) -> R {
+    on(grid, Rules::Corner(gap), K::Any, suite)
+}
+
+fn on<R>(grid: &Arc<Grid>, rules: Rules, k: K, suite: impl FnOnce(Vec<Engine<'_>>) -> R) -> R {
+    let setups: Vec<Setup> = Setup::all(k, rules).collect();
+    let space = SearchSpace::new(setups[0], grid).expect("k is in range");
+    suite(setups.into_iter().map(|setup| Engine::new(setup, &space)).collect())
+}

@@ -1,0 +1,159 @@
+//! Every map of 4 × 4 cells, from every vertex to every other, k = 3, 4, 5, all five rules: the canonical and
+//! jump point family against Dijkstra, exactly, in integer costs.
+//!
+//! By default on every [`SAMPLE`]-th map; with `MEDIANT_EXHAUSTIVE=1` on all 65,536.
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
+    thread,
+};
+
+use mediant_grid::{
+    Centers, CornerRule, Corners, DiagonalGap, Grid, GridGraph, MoveSet, Placement, Vector, Vertex, VertexId,
+};
+use mediant_moves::{Cost, FiniteK};
+use mediant_oracle::describe;
+use mediant_search::{
+    BlockJps, Canonical, CanonicalRule, Dijkstra, Distances, Guarantee, Hk, Jps, JpsPlus, JumpTable, Outcome,
+    Path, Planner, Pruning, Query, Zero,
+    parts::{BlockFinder, StepwiseFinder},
+};
+
+const SIDE: u32 = 4;
+const MAPS: u64 = 1 << (SIDE * SIDE);
+/// Prime, so that the sample's maps differ in all cells.
+const SAMPLE: u64 = 61;
+
+/// One map under one rule and k, with what the answers of its engines are checked against.
+struct Judge<'l, P: Placement> {
+    grid_graph: &'l GridGraph<P>,
+    map: u64,
+    vertices: Vec<Vertex>,
+    /// By vertex number.
+    legal: Vec<MoveSet>,
+    /// By index in `vertices`.
+    distances: Vec<Distances<Cost>>,
+    compared: u64,
+}
+
+impl<'l, P: Placement> Judge<'l, P> {
+    fn new(grid_graph: &'l GridGraph<P>, map: u64) -> Self {
+        let all = (0..grid_graph.vertex_count() as u32).map(|id| grid_graph.vertex(VertexId(id)));
+        let legal = all.clone().map(|at| grid_graph.legal_moves(at)).collect();
+        let vertices: Vec<Vertex> = all.filter(|&at| grid_graph.is_free(at)).collect();
+        let mut dijkstra = Dijkstra::new(grid_graph, Zero);
+        let distances = vertices.iter().map(|&start| dijkstra.distances(start).unwrap()).collect();
+        Self { grid_graph, map, vertices, legal, distances, compared: 0 }
+    }
+
+    /// Compares all answers of an engine with the distances.
+    fn judge(&mut self, name: &str, mut planner: impl Planner) {
+        let k = self.grid_graph.k();
+        assert_eq!(planner.guarantee(), Guarantee::Optimal(k), "{name}");
+        for (&start, distances) in self.vertices.iter().zip(&self.distances) {
+            for &goal in &self.vertices {
+                let outcome = planner.solve(Query::new(start, goal)).unwrap();
+                let found = match &outcome {
+                    Outcome::Found(path) => Some(self.cost(path, start, goal)),
+                    Outcome::Unreachable => None,
+                };
+                assert!(
+                    found == distances.get(goal).map(Ok),
+                    "{name}, k = {k}: {outcome:?} costs {found:?}, Dijkstra {:?}; {}",
+                    distances.get(goal),
+                    describe(self.grid_graph.grid(), self.grid_graph.rules(), start, goal, self.map)
+                );
+                self.compared += 1;
+            }
+        }
+    }
+
+    /// What the moves of a path cost, if it is legal.
+    fn cost(&self, path: &Path, start: Vertex, goal: Vertex) -> Result<Cost, &'static str> {
+        let grid_graph = self.grid_graph;
+        let (mut at, mut by, mut cost) = (start, None, Cost::ZERO);
+        let [first, rest @ ..] = path.waypoints() else { return Err("no waypoint") };
+        if *first != start || rest.last().unwrap_or(first) != &goal {
+            return Err("other ends");
+        }
+        for &end in rest {
+            let d = at.to(end);
+            let is_ahead = |v: Vector| v.x * d.y == v.y * d.x && v.x * d.x + v.y * d.y > 0;
+            let step = grid_graph.steps().iter().position(|step| is_ahead(step.vector()));
+            let index = step.ok_or("no move of the neighborhood")?;
+            while at != end {
+                let id = grid_graph.id(at).ok_or("no multiple of a move")?;
+                if !self.legal[id.index()].contains(index) || !grid_graph.may_step(at, by, index, goal) {
+                    return Err("no legal move");
+                }
+                (at, by) = (at + grid_graph.step(index).vector(), Some(index));
+                cost += grid_graph.step(index).cost;
+            }
+        }
+        Ok(cost)
+    }
+}
+
+/// Checks all engines against the distances on one map. Returns how many answers were compared.
+fn compare<P: Placement>(map: u64, k: FiniteK, rule: P::Rule, canonical: &Arc<CanonicalRule<P>>) -> u64 {
+    let grid = Grid::from_fn(SIDE, SIDE, |x, y| map >> (SIDE * y + x) & 1 == 1).unwrap();
+    let grid_graph = &GridGraph::<P>::new(Arc::new(grid), k, rule).unwrap();
+    let pruning = &Arc::new(Pruning::with_rule(grid_graph, Arc::clone(canonical)));
+    let mut judge = Judge::new(grid_graph, map);
+    let (h, pruning) = (Hk, || Arc::clone(pruning));
+    judge.judge("canonical", Canonical::with_pruning(grid_graph, pruning(), h));
+    let jps = || Jps::with_finder(grid_graph, pruning(), StepwiseFinder, h);
+    judge.judge("jps", jps());
+    judge.judge("jps, jumps of at most 2", jps().with_jump_limit(Some(2)));
+    judge.judge("jps, with intermediate nodes", jps().with_intermediate(true));
+    if k == FiniteK::N8 {
+        let (blocks, table) = (
+            BlockFinder::new(grid_graph, &pruning()).unwrap(),
+            Arc::new(JumpTable::new(grid_graph).unwrap()),
+        );
+        judge.judge("jps-block", BlockJps::with_finder(grid_graph, pruning(), blocks, h));
+        judge.judge("jps-plus", JpsPlus::with_finder(grid_graph, pruning(), table, h));
+    }
+    judge.compared
+}
+
+/// Compares on all maps, or on the sample. `sample` and `all` are the expected numbers of answers for each k.
+fn check<P: Placement>(rule: P::Rule, sample: [u64; 3], all: [u64; 3]) {
+    let is_exhaustive = std::env::var_os("MEDIANT_EXHAUSTIVE").is_some_and(|value| value == "1");
+    let (every, expected) = if is_exhaustive { (1, all) } else { (SAMPLE, sample) };
+    for (k, expected) in (3..).zip(expected) {
+        let k = FiniteK::new(k).unwrap();
+        let canonical = Arc::new(CanonicalRule::new(k, rule));
+        let (next, compared) = (AtomicU64::new(0), AtomicU64::new(0));
+        let work = || {
+            let map = || Some(next.fetch_add(every, Ordering::Relaxed)).filter(|&map| map < MAPS);
+            let sum = std::iter::from_fn(map).map(|map| compare::<P>(map, k, rule, &canonical)).sum();
+            compared.fetch_add(sum, Ordering::Relaxed);
+        };
+        thread::scope(|scope| {
+            let threads = thread::available_parallelism().map_or(1, usize::from);
+            (0..threads).for_each(|_| _ = scope.spawn(work));
+        });
+        assert_eq!(compared.into_inner(), expected, "k = {k}, {}", P::rules(rule));
+    }
+}
+
+// The same for each rule of a placement: which vertices are free does not depend on the rule.
+const CENTERS: [[u64; 3]; 2] = [[438_444, 292_296, 292_296], [26_738_688, 17_825_792, 17_825_792]];
+const CORNERS: [[u64; 3]; 2] = [[2_498_166, 1_665_444, 1_665_444], [152_297_472, 101_531_648, 101_531_648]];
+
+#[test]
+fn engines_are_exact_on_every_map_of_sixteen_cells() {
+    let [sample, all] = CENTERS;
+    for corners in [CornerRule::Never, CornerRule::One, CornerRule::Always] {
+        check::<Centers>(corners, sample, all);
+    }
+    let [sample, all] = CORNERS;
+    for gap in [DiagonalGap::Open, DiagonalGap::Closed] {
+        check::<Corners>(gap, sample, all);
+    }
+}

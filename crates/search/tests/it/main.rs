@@ -1,0 +1,17 @@
+//! The tests of the search crate that see it from outside. One binary, so that it is linked once; what needs
+//! an allocator of its own is in `../scratch.rs`.
+
+mod anya;
+mod canonical;
+mod common;
+mod events;
+mod exact;
+mod exhaustive;
+mod heuristics;
+mod kramm2018;
+mod open_list;
+mod queries;
+mod smoothing;
+mod snapshots;
+mod theta;
+mod wavefront;

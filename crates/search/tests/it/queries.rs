@@ -1,0 +1,88 @@
+//! Invalid queries: the errors, and their texts.
+
+use std::sync::Arc;
+
+use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Rules, Vertex};
+use mediant_search::{End, Query, QueryError};
+
+use crate::common::with_engines;
+
+const CENTERS: Rules = Rules::Center(CornerRule::Never);
+const CORNERS: Rules = Rules::Corner(DiagonalGap::Open);
+
+/// The error of a query, the same for every engine.
+fn error(grid: &Arc<Grid>, rules: Rules, start: (i32, i32), goal: (i32, i32)) -> Option<QueryError> {
+    with_engines(grid, rules, 3, |mut engines| {
+        let query = Query::new(start, goal);
+        let errors: Vec<_> = engines.iter_mut().map(|engine| engine.solve(query).err()).collect();
+        assert!(errors.windows(2).all(|pair| pair[0] == pair[1]), "{errors:?}");
+        errors[0]
+    })
+}
+
+/// Blocked: cells (1, 0), (2, 0), (1, 1), (2, 1); at corners vertex (2, 1), and (2, 0) on the border.
+fn grid() -> Arc<Grid> {
+    let drawing = "
+        .##.
+        .##.
+        ....
+    ";
+    Arc::new(AsciiMap::parse(drawing).expect("the drawing is a map").grid)
+}
+
+#[test]
+fn ends_outside_the_map_are_reported_with_its_last_vertex() {
+    let (grid, free) = (grid(), (0, 0));
+    for (rules, last) in [(CENTERS, Vertex::new(3, 2)), (CORNERS, Vertex::new(4, 3))] {
+        let inside = (last.x, last.y);
+        assert_eq!(error(&grid, rules, free, inside), None);
+        let beyond = [
+            (last.x + 1, 0),
+            (0, last.y + 1),
+            (-1, 0),
+            (0, -1),
+            (i32::MIN, 0),
+            (0, i32::MIN),
+            (i32::MAX, 0),
+            (0, i32::MAX),
+            (i32::MIN, i32::MAX),
+            (i32::MAX, i32::MIN),
+        ];
+        for outside in beyond {
+            let said = |end| Some(QueryError::Outside { end, at: outside.into(), last });
+            assert_eq!(error(&grid, rules, outside, free), said(End::Start), "{rules}");
+            assert_eq!(error(&grid, rules, free, outside), said(End::Goal), "{rules}");
+            // The start is checked first, whatever is wrong with the goal; also when both are the same.
+            assert_eq!(error(&grid, rules, outside, (-7, -7)), said(End::Start), "{rules}");
+            assert_eq!(error(&grid, rules, outside, outside), said(End::Start), "{rules}");
+        }
+    }
+}
+
+#[test]
+fn blocked_ends_are_reported() {
+    let (grid, free) = (grid(), (0, 0));
+    for (rules, blocked) in [(CENTERS, [(1, 0), (2, 1)]), (CORNERS, [(2, 0), (2, 1)])] {
+        for blocked in blocked {
+            let said = |end| Some(QueryError::Blocked { end, at: blocked.into() });
+            assert_eq!(error(&grid, rules, blocked, free), said(End::Start), "{rules}");
+            assert_eq!(error(&grid, rules, free, blocked), said(End::Goal), "{rules}");
+            assert_eq!(error(&grid, rules, blocked, blocked), said(End::Start), "{rules}");
+            // The start first: a blocked one before a goal outside.
+            assert_eq!(error(&grid, rules, blocked, (i32::MAX, 0)), said(End::Start), "{rules}");
+        }
+    }
+    // A corner of a blocked cell is a free vertex if a free cell touches it.
+    assert_eq!(error(&grid, CORNERS, (1, 1), (2, 2)), None);
+}
+
+#[test]
+fn errors_say_what_to_do() {
+    let grid = grid();
+    let text = |start, goal| error(&grid, CENTERS, start, goal).map(|error| error.to_string());
+    assert_eq!(
+        text((0, 0), (4, -1)).as_deref(),
+        Some("the goal (4, -1) is outside the map, whose vertices run from (0, 0) to (3, 2)")
+    );
+    assert_eq!(text((1, 1), (0, 0)).as_deref(), Some("the start (1, 1) is blocked: choose a free vertex"));
+}

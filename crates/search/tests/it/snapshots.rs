@@ -1,0 +1,131 @@
+//! Drawings of paths that a reader can check by eye, across k, placements and rules.
+//!
+//! Waypoints are 0, 1, 2, … in order. Under corner placement vertices are at even rows and columns of the
+//! drawing, cells at odd ones.
+
+use std::sync::Arc;
+
+use mediant_engines::{BoxedPlanner, EngineKind, Setup, SharedRules};
+use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Rules, draw};
+use mediant_moves::{FiniteK, K};
+use mediant_search::{Outcome, Query, Smoothing};
+
+/// The picture of the best path from `s` to `g`, under its cost.
+fn picture(drawing: &str, rules: Rules, k: u32) -> String {
+    picture_by(EngineKind::AStar, drawing, rules, k, None)
+}
+
+/// The same, by any engine, and smoothed.
+fn picture_by(
+    engine: EngineKind,
+    drawing: &str,
+    rules: Rules,
+    k: u32,
+    smoothing: Option<Smoothing>,
+) -> String {
+    let map = AsciiMap::parse(drawing).expect("the drawing is a map");
+    let query = Query::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
+    let k =
+        if engine == EngineKind::Anya { K::Any } else { FiniteK::new(k).expect("k is at least 2").into() };
+    let setup = Setup { smoothing, ..Setup::new(engine, k, rules) };
+    let grid = Arc::new(map.grid);
+    let mut planner = BoxedPlanner::new(setup, &grid, &SharedRules::new()).expect("the engine takes this");
+    match planner.solve(query).expect("both ends are free") {
+        Outcome::Found(path) => {
+            format!(
+                "k = {k}, {rules}: {:.4}\n{}",
+                path.cost(),
+                draw(&grid, rules.placement(), path.waypoints())
+            )
+        }
+        Outcome::Unreachable => format!("k = {k}, {rules}: unreachable\n"),
+    }
+}
+
+const WALL: &str = "
+    ...........
+    s....#.....
+    .....#.....
+    .....#...g.
+    .....#.....
+    ...........
+";
+
+const SLALOM: &str = "
+    s...#.......
+    ....#...#...
+    ....#...#...
+    ........#...
+    ....#...#...
+    ....#...#..g
+";
+
+const GAP: &str = "
+    s..#...
+    ...#...
+    ...#...
+    ###....
+    .......
+    ......g
+";
+
+const NEVER: Rules = Rules::Center(CornerRule::Never);
+const OPEN: Rules = Rules::Corner(DiagonalGap::Open);
+const CLOSED: Rules = Rules::Corner(DiagonalGap::Closed);
+
+macro_rules! pictures {
+    ($($name:ident: $map:expr, $rules:expr, $k:expr;)+) => {
+        $(#[test]
+        fn $name() {
+            insta::assert_snapshot!(picture($map, $rules, $k));
+        })+
+    };
+}
+
+pictures! {
+    wall_center_k2: WALL, NEVER, 2;
+    wall_center_k3: WALL, NEVER, 3;
+    wall_center_k4: WALL, NEVER, 4;
+    wall_center_k6: WALL, NEVER, 6;
+    wall_center_k3_one: WALL, Rules::Center(CornerRule::One), 3;
+    wall_center_k3_always: WALL, Rules::Center(CornerRule::Always), 3;
+    wall_corner_k2: WALL, OPEN, 2;
+    wall_corner_k3: WALL, OPEN, 3;
+    wall_corner_k5: WALL, OPEN, 5;
+    wall_corner_k8: WALL, OPEN, 8;
+    slalom_center_k5: SLALOM, NEVER, 5;
+    slalom_corner_k4: SLALOM, OPEN, 4;
+    slalom_corner_k7: SLALOM, OPEN, 7;
+    gap_center_never: GAP, NEVER, 3;
+    gap_center_always: GAP, Rules::Center(CornerRule::Always), 3;
+    gap_corner_open: GAP, OPEN, 4;
+    gap_corner_closed: GAP, CLOSED, 4;
+}
+
+/// Of the paths of one cost, jump point search finds the canonical one: odd moves first, other turns only
+/// where an obstacle forces them.
+#[test]
+fn slalom_center_k4_canonical() {
+    let [a_star, jumps] =
+        [EngineKind::AStar, EngineKind::Jps].map(|engine| picture_by(engine, SLALOM, NEVER, 4, None));
+    insta::assert_snapshot!(format!("A*, {a_star}\nJPS, {jumps}"));
+}
+
+/// At any angle: the optimal path, the one that Theta* finds, and smoothed ones.
+#[test]
+fn slalom_any_angle() {
+    let by = |engine, smoothing| picture_by(engine, SLALOM, OPEN, 3, smoothing);
+    let anya = by(EngineKind::Anya, None);
+    let theta = by(EngineKind::Theta, None);
+    let linear = by(EngineKind::AStar, Some(Smoothing::Linear));
+    let taut = by(EngineKind::AStar, Some(Smoothing::Taut));
+    insta::assert_snapshot!(format!(
+        "Anya, {anya}\nTheta*, {theta}\nA*, smoothed, {linear}\nA*, pulled taut, {taut}"
+    ));
+}
+
+#[test]
+fn gap_any_angle() {
+    let [open, closed] = [OPEN, CLOSED].map(|rules| picture_by(EngineKind::Anya, GAP, rules, 0, None));
+    insta::assert_snapshot!(format!("{open}\n{closed}"));
+}
