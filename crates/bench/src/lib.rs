@@ -11,7 +11,8 @@
 //! * [`Problem`]: a map of a benchmark set with the queries of its scenario.
 //! * [`Competitor`]: one of our engines in a [`Setup`](mediant_engines::Setup), or a baseline.
 //! * [`measure`]: checks and times competitors side by side; [`MapRecord`]: the times.
-//! * [`Study`]: runs setups on the queries of one map; [`Run`]: the answers of one of them, with all counts of its searches.
+//! * [`Study`]: runs setups on the queries of one map; [`Run`]: the answers of one of them, with all counts
+//!   of its searches.
 //! * [`ReferenceTimings`]: the times of other programs; [`Comparison`]: our ratio to each.
 //! * [`compare`] and [`verify`]: the programs behind `cargo xtask compare` and `cargo xtask verify`. `verify`
 //!   measures no time, but needs the same: all engines, and the benchmark sets.

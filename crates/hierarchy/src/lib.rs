@@ -40,11 +40,11 @@
 //! its own cells and those along its border, or on an upper level of HPA* from the parts that it consists of.
 //! Node numbers, the order of work and earlier versions of the map do not enter. Two things follow. A change
 //! can affect only the parts that it touches, their neighbors, and the parts above them, so that a repair
-//! computes these anew and nothing else. And a repaired index is *equal* to a new one, value by value, so that
-//! nothing decays over many repairs, and one comparison tests it. The price is the length of paths: a path
-//! must pass through given cells on the borders of its parts, transitions that were chosen before the query
-//! or checkpoints near the middle of a border. In HPA*, [straightening](HpaStar::with_straightening) regains
-//! most of that.
+//! computes these anew and nothing else. And a repaired index is *equal* to a new one, value by value, so
+//! that nothing decays over many repairs, and one comparison tests it. The price is the length of paths: a
+//! path must pass through given cells on the borders of its parts, transitions that were chosen before the
+//! query or checkpoints near the middle of a border. In HPA*, [straightening](HpaStar::with_straightening)
+//! regains most of that.
 //!
 //! How long the paths are, how fast the planners, and how the results compare with what the papers claim: see
 //! `docs/measurements.md`. In short, paths of HPA* are 0.2 to 0.4 % longer than optimal in the mean on maps
