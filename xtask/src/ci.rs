@@ -7,12 +7,28 @@ use mediant_sets::root;
 use crate::{Error, project, tidy};
 
 /// The arguments of cargo in each step. The environment makes warnings of rustdoc errors.
-const STEPS: [&[&str]; 4] = [
+const STEPS: [&[&str]; 5] = [
     &["fmt", "--all", "--check"],
     &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"],
     &["doc", "--no-deps", "--workspace"],
     &["build", "--package", "mediant-moves", "--no-default-features"],
+    // The workspace as a whole turns the features of `mediant-formats` on.
+    &["check", "--package", "mediant-formats"],
 ];
+
+/// What other programs are linked with, and so must compile wherever they do.
+const LIBRARIES: [&str; 7] = [
+    "mediant-moves",
+    "mediant-grid",
+    "mediant-formats",
+    "mediant-search",
+    "mediant-subgoal",
+    "mediant-hierarchy",
+    "mediant-engines",
+];
+
+/// Targets whose pointers have 32 bits: a browser's, and Linux's. `.ci/run` also runs tests on the latter.
+const TARGETS: [&str; 2] = ["wasm32-unknown-unknown", "i686-unknown-linux-gnu"];
 
 /// Runs all steps in order, up to the first that fails.
 ///
@@ -27,7 +43,30 @@ pub fn run() -> Result<(), Error> {
     }
     println!("$ cargo xtask tidy");
     tidy::run()?;
+    other_targets()?;
     minimum_version()
+}
+
+/// Compiles the libraries for each of [`TARGETS`] that is installed.
+fn other_targets() -> Result<(), Error> {
+    let installed = said_by_rustup(&["target", "list", "--installed"]);
+    for target in TARGETS {
+        if !installed.lines().any(|line| line == target) {
+            println!("{target} is not installed: not checked (rustup target add {target})");
+            continue;
+        }
+        let packages = LIBRARIES.iter().flat_map(|library| ["--package", library]);
+        let arguments: Vec<&str> = ["check", "--target", target].into_iter().chain(packages).collect();
+        let mut command = project::cargo();
+        step(command.args(&arguments), &format!("cargo {}", arguments.join(" ")))?;
+    }
+    Ok(())
+}
+
+/// What rustup prints; empty where there is none.
+fn said_by_rustup(arguments: &[&str]) -> String {
+    let output = Command::new("rustup").args(arguments).stderr(Stdio::null()).output();
+    output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned()).unwrap_or_default()
 }
 
 fn step(command: &mut Command, shown: &str) -> Result<(), Error> {
@@ -44,9 +83,7 @@ fn minimum_version() -> Result<(), Error> {
     let Some(version) = packages.iter().find_map(|package| package.rust_version.as_deref()) else {
         return Ok(());
     };
-    let installed = Command::new("rustup").args(["toolchain", "list"]).stderr(Stdio::null()).output();
-    let installed =
-        installed.map(|output| String::from_utf8_lossy(&output.stdout).into_owned()).unwrap_or_default();
+    let installed = said_by_rustup(&["toolchain", "list"]);
     if !lists(&installed, version) {
         println!(
             "Rust {version}, the oldest that Cargo.toml promises, is not installed: not checked by its compiler, only by \
