@@ -87,7 +87,7 @@ fn on_graph<P: SubgoalPlacement>(
             Some(BoxedPlanner::of(AStar::new(graph, SquaredEuclidean)))
         }
         (Engine::Wavefront, _) => Some(BoxedPlanner::of(Wavefront::new(graph))),
-        (_, HeuristicName::Hk) => guided(setup.engine, graph, parts, Hk),
+        (_, HeuristicName::Hk) => guided(setup.engine, graph, parts, Admissible::Hk),
         (_, HeuristicName::Euclidean) => guided(setup.engine, graph, parts, Admissible::Euclidean),
         (_, HeuristicName::Zero) => guided(setup.engine, graph, parts, Admissible::Zero),
         // No other search on a grid graph takes it.
@@ -100,7 +100,7 @@ fn guided<P: SubgoalPlacement>(
     engine: Engine,
     graph: Arc<GridGraph<P>>,
     parts: &Parts<P>,
-    heuristic: impl Heuristic + Send + 'static,
+    heuristic: Admissible,
 ) -> Option<BoxedPlanner> {
     Some(match (engine, parts) {
         (Engine::Theta(_), _) => BoxedPlanner::of(ThetaStar::new(graph, heuristic)),
