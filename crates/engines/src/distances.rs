@@ -5,22 +5,39 @@ use std::sync::Arc;
 use mediant_grid::{Grid, GridGraph, Placement, Vertex};
 use mediant_search::{Dijkstra, Wavefront};
 
-use crate::{Engine, EngineError, EngineKind, SearchSpace, Setup, SetupError};
+use crate::{
+    engine::Engine,
+    error::{EngineError, SetupError},
+    setup::Setup,
+    space::SearchSpace,
+};
 
-/// The vertices that can be reached from `start`, row by row, with their distances: in cells, or by the wavefront algorithm in
-/// moves.
+/// The vertices that can be reached from `start`, row by row, with their distances: in cells, or in moves by the
+/// wavefront algorithm.
+///
+/// ```
+/// use std::sync::Arc;
+/// use mediant_engines::distances;
+/// use mediant_grid::{Grid, Vertex};
+///
+/// let grid = Arc::new(Grid::from_fn(3, 1, |x, _| x == 2)?);
+/// let found = distances("dijkstra".parse()?, &grid, Vertex::new(0, 0))?;
+/// assert_eq!(found, [(Vertex::new(0, 0), 0.0), (Vertex::new(1, 0), 1.0)]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
-/// [`EngineError`] for a setup that does not exist, an engine that finds no distances, or a start that is blocked or outside
-/// the map.
+/// [`EngineError`] for a setup whose parts do not fit together, an engine that finds no distances, or a start that is
+/// blocked or outside the map.
 pub fn distances(setup: Setup, grid: &Arc<Grid>, start: Vertex) -> Result<Vec<(Vertex, f64)>, EngineError> {
     match SearchSpace::new(setup, grid)? {
         SearchSpace::Centers(graph) => on(setup, &graph, start),
         SearchSpace::Corners(graph) => on(setup, &graph, start),
-        SearchSpace::AnyAngle(_) => Err(without_distances(setup).into()),
+        SearchSpace::AnyAngle(_) => Err(SetupError::without_distances(setup.engine.kind()).into()),
     }
 }
 
+/// [`distances`] on a grid graph.
 fn on<P: Placement>(
     setup: Setup,
     graph: &GridGraph<P>,
@@ -35,11 +52,6 @@ fn on<P: Placement>(
             let moves = Wavefront::new(graph).distances(start)?;
             moves.iter().map(|(at, moves)| (at, f64::from(moves))).collect()
         }
-        _ => return Err(without_distances(setup).into()),
+        _ => return Err(SetupError::without_distances(setup.engine.kind()).into()),
     })
-}
-
-fn without_distances(setup: Setup) -> SetupError {
-    let others = EngineKind::names_of(|kind| kind.capabilities().distances);
-    SetupError::Without { engine: setup.engine.kind(), what: "distances to all vertices", others }
 }

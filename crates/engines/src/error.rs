@@ -1,4 +1,4 @@
-//! What an engine cannot be asked for.
+//! Why a setup is refused, and why a planner cannot be made.
 
 use mediant_grid::{PlacementKind, Rules};
 use mediant_hierarchy::HierarchyError;
@@ -6,48 +6,48 @@ use mediant_moves::{FiniteK, K, KError};
 use mediant_search::{JumpTableError, QueryError};
 use mediant_subgoal::SubgoalError;
 
-use crate::{EngineKind, Levels};
+use crate::{kind::EngineKind, option::Levels};
 
-/// A setup that does not exist.
+/// The error for a setup whose parts do not fit together.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SetupError {
-    /// An option that means nothing to the engine.
+    /// An option, or a value of it, that the engine does not take.
     #[error("{engine} takes no {option}: leave it out, or choose {others}")]
     Option {
         /// The engine.
         engine: EngineKind,
-        /// What the option is.
+        /// What the error calls it.
         option: &'static str,
         /// The engines that take it.
         others: String,
     },
-    /// A neighborhood that the engine does not search, as it searches smaller ones.
+    /// A finite k that is larger than the engine takes.
     #[error("{engine} needs a k from 2 to {max}, found {k}")]
     K {
         /// The engine.
         engine: EngineKind,
-        /// The largest k.
+        /// The largest k that it takes.
         max: u32,
-        /// What was asked for.
+        /// The k of the setup.
         k: FiniteK,
     },
-    /// Every direction, asked of an engine that searches neighborhoods.
+    /// k = ∞, for an engine that takes only finite k.
     #[error("{engine} needs a k from 2 to {max}; for any choose {others}")]
     NeedsFiniteK {
         /// The engine.
         engine: EngineKind,
-        /// The largest k.
+        /// The largest k that it takes.
         max: u32,
-        /// The engines that search every direction.
+        /// The engines that take k = ∞.
         others: String,
     },
-    /// A neighborhood, asked of an engine that searches every direction.
+    /// A finite k, for an engine that takes only k = ∞.
     #[error("{engine} searches every direction, not those of k = {k}: leave k out, or say any")]
     NeedsAny {
         /// The engine.
         engine: EngineKind,
-        /// What was asked for.
+        /// The k of the setup.
         k: FiniteK,
     },
     /// A placement that the engine does not take.
@@ -55,14 +55,14 @@ pub enum SetupError {
     Placement {
         /// The engine.
         engine: EngineKind,
-        /// What it takes.
+        /// The placement that it takes.
         needed: PlacementKind,
-        /// What was asked for.
+        /// The placement of the setup.
         placement: PlacementKind,
-        /// The engines that take that.
+        /// The engines that take the placement of the setup.
         others: String,
     },
-    /// Centers, asked of an engine that takes them for small k alone.
+    /// Vertices at centers, for an engine that takes them only for small k.
     #[error(
         "at centers {engine} needs k = 2, or k = 3 under corners never, found k = {k} under {rules}: \
          choose one of these,{} or another engine",
@@ -71,80 +71,94 @@ pub enum SetupError {
     Centers {
         /// The engine.
         engine: EngineKind,
-        /// The k that was asked for.
+        /// The k of the setup.
         k: K,
-        /// The rules.
+        /// The rules of the setup.
         rules: Rules,
     },
-    /// Two options of which one has no meaning beside the other.
+    /// CHPA* as published, with a limit to detours: only the complete variant has one.
     #[error("{engine} as published knows no detours: leave out the detour, or the variant paper")]
     DetourAsPublished {
         /// The engine.
         engine: EngineKind,
     },
-    /// An index, or something that only some engines find, asked of another engine.
+    /// A saved index or all distances, for an engine that has none.
     #[error("{engine} has no {what}: choose {others}")]
     Without {
         /// The engine.
         engine: EngineKind,
-        /// What it has not.
+        /// What it does not have.
         what: &'static str,
         /// The engines that have it.
         others: String,
     },
 }
 
-/// A planner that could not be made, or not be asked.
+impl SetupError {
+    /// The error for an engine whose index is not saved.
+    pub(crate) fn without_index(engine: EngineKind) -> Self {
+        let others = EngineKind::names_where(|kind| kind.capabilities().index.is_some());
+        Self::Without { engine, what: "index", others }
+    }
+
+    /// The error for an engine that does not find the distances to all vertices.
+    pub(crate) fn without_distances(engine: EngineKind) -> Self {
+        let others = EngineKind::names_where(|kind| kind.capabilities().distances);
+        Self::Without { engine, what: "distances to all vertices", others }
+    }
+}
+
+/// The error for a planner, an index or distances that cannot be made.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum EngineError {
-    /// A setup that does not exist.
+    /// A setup whose parts do not fit together.
     #[error(transparent)]
     Setup(#[from] SetupError),
-    /// A neighborhood without a search graph.
+    /// A k that grid graphs do not take.
     #[error(transparent)]
     K(#[from] KError),
-    /// A search space for another k or other rules.
+    /// A search space for another k or other rules than those of the setup.
     #[error("needs the search space of k = {} under {}, found that of k = {} under {}", expected.0, expected.1, found.0, found.1)]
     Space {
-        /// What the setup asks for.
+        /// The k and the rules of the setup.
         expected: (K, Rules),
-        /// What there is.
+        /// The k and the rules of the search space.
         found: (K, Rules),
     },
-    /// A jump table that is not that of the map.
+    /// A jump table that cannot be made, or bytes that are not a jump table of this map.
     #[error(transparent)]
     JumpTable(#[from] JumpTableError),
-    /// A subgoal graph that cannot be made, or an index that is not that of the map.
+    /// A subgoal graph that cannot be made, or bytes that are not a subgoal graph of this map.
     #[error(transparent)]
     Subgoal(#[from] SubgoalError),
-    /// A graph of clusters or segments that cannot be made, or an index that is not that of the map.
+    /// A graph of clusters or segments that cannot be made, or bytes that are no such graph of this map.
     #[error(transparent)]
     Hierarchy(#[from] HierarchyError),
-    /// An index with other levels than the setup has.
+    /// A saved index with other levels than the setup names.
     #[error(
         "needs an index with {}, found one with {}; choose the levels that it has, or build it again",
         expected.in_words(),
         found.in_words()
     )]
     Levels {
-        /// What the setup asks for.
+        /// The levels of the setup.
         expected: Levels,
-        /// What the index has.
+        /// The levels of the index.
         found: Levels,
     },
-    /// An index of clusters or segments of another size than the setup has.
+    /// A saved index of clusters or segments of another size than the setup names.
     #[error(
         "needs an index whose clusters or segments have {expected} × {expected} cells, found one with {found} × {found}; \
          choose the side that it has, or build it again"
     )]
     Side {
-        /// What the setup asks for, in cells.
+        /// The side of the setup, in cells.
         expected: u32,
-        /// What the index has.
+        /// The side of the index, in cells.
         found: u32,
     },
-    /// A query without an answer.
+    /// An invalid query, or one at which the engine gave up.
     #[error(transparent)]
     Query(#[from] QueryError),
 }

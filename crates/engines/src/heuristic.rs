@@ -1,15 +1,18 @@
-//! Heuristics that are chosen at run time.
+//! The heuristics that never overestimate, as one type.
 
 use mediant_grid::{GridGraph, Placement, Vector};
 use mediant_moves::Cost;
 use mediant_search::{Euclidean, Heuristic, Hk, Zero};
 
-/// One of the heuristics that never overestimate. h_k, which is the default of every engine, has searches compiled for it; the
-/// others share those for this type, at the cost of a branch an estimate.
+/// One of the heuristics that never overestimate, chosen at run time. Searches are compiled for h_k, the default, and
+/// once more for this type, which serves the other heuristics at the cost of a branch for each estimate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Admissible {
+    /// The cost on an empty grid.
     Hk,
+    /// The straight-line distance.
     Euclidean,
+    /// 0 everywhere.
     Zero,
 }
 

@@ -1,46 +1,81 @@
-//! The catalog of engines: the one list of them, from which the program, the benches, the chores and the test suites take theirs.
+//! The catalog of engines: programs, benchmarks and test suites take all engines from this one list.
 //!
-//! A [`Setup`] says which [`Engine`] searches, over which k, under which rules of motion, and how its paths are smoothed; it is
-//! refused with a [`SetupError`] where these do not fit. A [`SearchSpace`] is the map for one k and one rule, an [`Index`] what the
-//! engine prepares of it, a [`BoxedPlanner`] what answers queries on the index.
+//! - A [`Setup`] is an [`Engine`] with its options, a k, rules of motion and a smoothing. It is refused with a
+//!   [`SetupError`] if these do not fit together.
+//! - A [`SearchSpace`] is a map prepared for one k and one rule of motion.
+//! - An [`Index`] is what the engine prepares in that space.
+//! - A [`BoxedPlanner`] answers queries on an index.
 //!
-//! **The key decision: closed enums outside, types inside.** Each search is compiled for its placement, its heuristic and its
-//! kind of successors, so that nothing in it is dynamic. A query is one dynamic call: what a program holds has no type
-//! parameter.
+//! ```
+//! use std::sync::Arc;
+//! use mediant_engines::{BoxedPlanner, SharedRules};
+//! use mediant_grid::Grid;
+//! use mediant_search::Query;
 //!
-//! To add an engine: a variant of [`EngineKind`] and of [`Engine`], its [`Capabilities`], what it prepares (`index`), and the
-//! line that makes its planner (`make.rs`). To add an option: its description (`engine/option.rs`), its field
-//! (`engine/options.rs`), and its use in `make.rs` or `index`. Setups as text, the program's flags, help, records and tables, and the
-//! suites follow.
+//! let grid = Arc::new(Grid::from_fn(9, 9, |x, y| x == 4 && y != 8)?);
+//! let mut planner = BoxedPlanner::new("jps:3:never,limit=16".parse()?, &grid, &SharedRules::new())?;
+//! let outcome = planner.solve(Query::new((0, 0), (8, 0)))?;
+//! assert!(outcome.path().is_some());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 //!
-//! What is not here: files and clocks. An index comes and goes as bytes; who wants to know how long it took, measures.
+//! # The key decision: closed enums outside, types inside
+//!
+//! A program chooses its engine at run time, but a search is fast only if it is compiled for its placement, its heuristic
+//! and its kind of successors. So outside, an engine is a value of a closed enum, and planners of all engines have one type;
+//! a query is one dynamic call. Inside, each search has its types, and nothing in its loop is dynamic. `make.rs` leads from
+//! the one to the other, with a line for each engine. A closed enum also lets the compiler find every place that a new
+//! engine must fill in.
+//!
+//! # Adding to the catalog
+//!
+//! An engine is a variant of [`EngineKind`] with its [`Capabilities`], a variant of [`Engine`], what it prepares (`index/`),
+//! and the line that makes its planner (`make.rs`).
+//!
+//! An option, with a value of a [`ValueKind`] that exists, touches three files:
+//! 1. `option/description.rs`: its name, texts and samples, and its place in [`EngineOption::ALL`];
+//! 2. `engine.rs`: its field, its line in `Engine::slots`, and in `Engine::value` its default if it has one;
+//! 3. its use, in `make.rs` if it changes the search, or in `index/` if it changes what is prepared.
+//!
+//! The text of setups, [`Setup::all`] of the test suites, and the flags, help, records and tables of the program follow.
+//! Only tests that pin how many setups there are, or what a record holds, must be told. An option that rules out another
+//! one also needs a [`SetupError`].
+//!
+//! # What is not here
+//!
+//! Files and clocks. An index is written to bytes and read from them; whoever wants to know how long that takes, measures.
 
+mod capabilities;
 mod distances;
 mod engine;
 mod error;
 mod heuristic;
 mod index;
-mod levels;
+mod kind;
 mod make;
 mod names;
+mod option;
 mod planner;
-mod rules;
 mod setup;
+mod shared_rules;
 mod space;
+mod suite;
 mod text;
 
+pub use capabilities::Capabilities;
 pub use distances::distances;
 pub use engine::{
-    CanonicalOptions, Capabilities, ChpaOptions, Engine, EngineKind, EngineOption, GuidedOptions, HpaOptions,
-    JpsPlusOptions, JumpOptions, OptionValue, SubgoalOptions, ValueKind,
+    CanonicalOptions, ChpaOptions, Engine, GuidedOptions, HpaOptions, JpsPlusOptions, JumpOptions,
+    SubgoalOptions,
 };
 pub use error::{EngineError, SetupError};
 pub use index::Index;
-pub use levels::{Levels, UnknownLevels};
+pub use kind::EngineKind;
 pub use mediant_subgoal::{Progress, Stage};
-pub use names::{HeuristicName, UnknownName, Variant};
+pub use names::UnknownName;
+pub use option::{EngineOption, HeuristicName, Levels, OptionValue, UnknownLevels, ValueKind, Variant};
 pub use planner::BoxedPlanner;
-pub use rules::SharedRules;
 pub use setup::Setup;
+pub use shared_rules::SharedRules;
 pub use space::SearchSpace;
 pub use text::TextError;

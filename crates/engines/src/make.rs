@@ -1,7 +1,7 @@
-//! From an index to a planner that is compiled for its types.
+//! Planners made from an index, each compiled for its types: a line for each engine.
 //!
-//! A line for each engine. How often a search is compiled decides how long the crate takes to build, so that only A* has every
-//! heuristic as a type; the other engines have h_k, and one type for the rest.
+//! How often a search is compiled decides how long the crate takes to build. So only A* is compiled for every heuristic;
+//! the other engines are compiled for h_k and for one type that holds the rest.
 
 use std::{num::NonZeroU32, sync::Arc};
 
@@ -25,7 +25,7 @@ impl Index {
     /// A planner on this index, with scratch memory of its own.
     ///
     /// # Errors
-    /// [`EngineError`] where the index does not hold what its engine needs, which no constructor allows.
+    /// [`EngineError`] if the index does not hold what its engine needs, which no constructor allows.
     pub fn planner(&self) -> Result<BoxedPlanner, EngineError> {
         let setup = self.setup();
         let planner = match &self.prepared {
@@ -50,6 +50,7 @@ impl Index {
     }
 }
 
+/// A planner in a free space, of an engine that prepares nothing.
 fn any_angle(setup: Setup, space: &Arc<FreeSpace<Corners>>) -> Option<BoxedPlanner> {
     matches!(setup.engine, Engine::Anya).then(|| BoxedPlanner::of(Anya::new(Arc::clone(space))))
 }
@@ -67,7 +68,7 @@ where
     }
 }
 
-/// A planner over N(k); `None` where the parts are not the engine's.
+/// A planner on a grid graph; `None` if the parts are not the engine's.
 fn on_graph<P: SubgoalPlacement>(
     setup: Setup,
     graph: &Arc<GridGraph<P>>,
@@ -90,12 +91,12 @@ fn on_graph<P: SubgoalPlacement>(
         (_, HeuristicName::Hk) => guided(setup.engine, graph, parts, Admissible::Hk),
         (_, HeuristicName::Euclidean) => guided(setup.engine, graph, parts, Admissible::Euclidean),
         (_, HeuristicName::Zero) => guided(setup.engine, graph, parts, Admissible::Zero),
-        // No other search on a grid graph takes it.
+        // `Engine::check` refuses it: no other search on a grid graph takes a heuristic that overestimates.
         (_, HeuristicName::SquaredEuclidean) => None,
     }
 }
 
-/// A planner of an engine that takes the heuristics that never overestimate.
+/// A planner on a grid graph with a heuristic that never overestimates; `None` if the parts are not the engine's.
 fn guided<P: SubgoalPlacement>(
     engine: Engine,
     graph: Arc<GridGraph<P>>,
@@ -125,6 +126,7 @@ fn guided<P: SubgoalPlacement>(
     })
 }
 
+/// A jump point search with its options.
 fn jumping<P: Placement, H: Heuristic + Send + 'static, J: JumpFinder<P> + Send + 'static>(
     planner: JumpPointSearch<Arc<GridGraph<P>>, H, P, J>,
     limit: Option<NonZeroU32>,
@@ -159,6 +161,7 @@ fn chpa(
     }
 }
 
+/// CHPA* with the heuristics of both phases.
 fn chpa_by(
     own: ChpaOptions,
     graph: &Arc<GridGraph<Centers>>,

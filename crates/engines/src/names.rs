@@ -1,23 +1,24 @@
-//! Closed enums with the names that people type.
+//! Enums whose values have names that people type.
 
-/// A name that is none of those that there are.
+/// The error for a text that is none of an enum's names.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected one of {known}, found `{found}`")]
 pub struct UnknownName {
     /// What was found.
     pub found: String,
-    /// All names.
+    /// All names, separated by commas.
     pub known: String,
 }
 
-/// Gives a closed enum its list and its names.
+/// Gives an enum `ALL`, `name`, [`Display`](std::fmt::Display) and [`FromStr`](std::str::FromStr) by the name of each
+/// variant.
 macro_rules! names {
     ($type:ident: $($variant:ident => $name:literal),+ $(,)?) => {
         impl $type {
-            /// All of them.
+            /// All values.
             pub const ALL: [Self; [$($name),+].len()] = [$(Self::$variant),+];
 
-            /// The name, as options and tables have it.
+            /// The name, as in options and tables.
             #[must_use]
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$variant => $name),+ }
@@ -31,12 +32,14 @@ macro_rules! names {
         }
 
         impl std::str::FromStr for $type {
-            type Err = $crate::UnknownName;
+            type Err = $crate::names::UnknownName;
 
-            fn from_str(text: &str) -> Result<Self, $crate::UnknownName> {
-                Self::ALL.into_iter().find(|value| value.name() == text).ok_or_else(|| $crate::UnknownName {
-                    found: text.to_owned(),
-                    known: Self::ALL.map(Self::name).join(", "),
+            fn from_str(text: &str) -> Result<Self, $crate::names::UnknownName> {
+                Self::ALL.into_iter().find(|value| value.name() == text).ok_or_else(|| {
+                    $crate::names::UnknownName {
+                        found: text.to_owned(),
+                        known: Self::ALL.map(Self::name).join(", "),
+                    }
                 })
             }
         }
@@ -44,32 +47,3 @@ macro_rules! names {
 }
 
 pub(crate) use names;
-
-/// What guides a search.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum HeuristicName {
-    /// The cost on an empty grid.
-    #[default]
-    Hk,
-    /// The straight-line distance.
-    Euclidean,
-    /// None.
-    Zero,
-    /// The square of the straight-line distance, which overestimates.
-    SquaredEuclidean,
-}
-
-names!(HeuristicName: Hk => "hk", Euclidean => "euclidean", Zero => "zero", SquaredEuclidean => "squared");
-
-/// Of an engine that was published with a flaw, which.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Variant {
-    /// The rule that is optimal.
-    Exact,
-    /// The search that finds a path whenever there is one.
-    Complete,
-    /// As published.
-    Paper,
-}
-
-names!(Variant: Exact => "exact", Complete => "complete", Paper => "paper");

@@ -1,4 +1,4 @@
-//! Planners of any engine, in one type.
+//! One type for the planners of all engines.
 
 use std::{fmt, sync::Arc};
 
@@ -7,21 +7,25 @@ use mediant_search::{
     Counters, Guarantee, Observer, Outcome, Planner, Query, QueryError, Smoothing, parts::HasFreeSpace,
 };
 
-use crate::{EngineError, Index, SearchSpace, Setup, SharedRules};
+use crate::{error::EngineError, index::Index, setup::Setup, shared_rules::SharedRules, space::SearchSpace};
 
-/// A planner whose type is erased: a query costs one dynamic call; the search in it is compiled for its types.
+/// A planner whose type is erased. A query costs one dynamic call; the search itself is compiled for its types.
+///
+/// It holds the scratch memory of one thread. Planners for other threads are made of the same [`Index`].
 pub struct BoxedPlanner {
     planner: Box<dyn Erased + Send>,
-    /// What smooths its paths.
+    /// Smooths the path of an outcome; `None` for paths as they are found.
     smooth: Option<Box<dyn Fn(Outcome) -> Outcome + Send>>,
     guarantee: Guarantee,
 }
 
-/// A planner behind a vtable. An observer costs a dynamic call an event, so that each search is compiled twice only: with
-/// and without one.
+/// A [`Planner`] that can be `dyn`. Observers are `dyn` too, so that each search is compiled only twice: with and without
+/// an observer. An observed search costs a dynamic call for each event.
 trait Erased {
+    /// [`Planner::solve`].
     fn solve(&mut self, query: Query) -> Result<Outcome, QueryError>;
 
+    /// [`Planner::solve_observed`].
     fn solve_observed(&mut self, query: Query, observer: &mut dyn Observer) -> Result<Outcome, QueryError>;
 }
 
@@ -43,16 +47,17 @@ impl BoxedPlanner {
     /// A planner on a map, with a search space and an index of its own.
     ///
     /// # Errors
-    /// [`EngineError`] for a setup that does not exist.
+    /// [`EngineError`] for a setup whose parts do not fit together, or whose index cannot be made.
     pub fn new(setup: Setup, grid: &Arc<Grid>, rules: &SharedRules) -> Result<Self, EngineError> {
         Index::new(setup, &SearchSpace::new(setup, grid)?, rules)?.planner()
     }
 
+    /// Erases the type of a planner, whose paths are returned as it finds them.
     pub(crate) fn of(planner: impl Planner + Send + 'static) -> Self {
         Self { guarantee: planner.guarantee(), planner: Box::new(planner), smooth: None }
     }
 
-    /// Smooths the paths in a free space.
+    /// The same planner, with its paths smoothed in this free space.
     pub(crate) fn smoothed(
         self,
         space: Arc<impl HasFreeSpace + Send + Sync + 'static>,
@@ -68,7 +73,7 @@ impl BoxedPlanner {
     /// Answers a query.
     ///
     /// # Errors
-    /// [`QueryError`] for a query whose ends are blocked or outside the map, or at which the engine gives up.
+    /// [`QueryError`] for an end that is blocked or outside the map, or where the engine gives up.
     pub fn solve(&mut self, query: Query) -> Result<Outcome, QueryError> {
         let outcome = self.planner.solve(query);
         self.finish(outcome)
@@ -97,6 +102,7 @@ impl BoxedPlanner {
         Ok((outcome, counters))
     }
 
+    /// Smooths the path, if the planner smooths its paths.
     fn finish(&self, outcome: Result<Outcome, QueryError>) -> Result<Outcome, QueryError> {
         match &self.smooth {
             None => outcome,

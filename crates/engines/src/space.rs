@@ -1,24 +1,25 @@
-//! What several planners share.
+//! Search spaces: what the planners of one k and one rule of motion share.
 
 use std::sync::Arc;
 
 use mediant_grid::{Centers, Corners, FreeSpace, Grid, GridGraph, Rules, Vertex};
 use mediant_moves::K;
 
-use crate::{EngineError, Setup};
+use crate::{error::EngineError, setup::Setup};
 
-/// What the planners for one k and one rule of motion share: the grid graph of N(k), or for k = ∞ the free space alone.
+/// What the planners of one k and one rule of motion share: the grid graph of N(k), or at k = ∞ the free space.
+/// Immutable; clones share it.
 #[derive(Clone, Debug)]
 pub enum SearchSpace {
-    /// N(k) between centers.
+    /// N(k) on the centers of cells.
     Centers(Arc<GridGraph<Centers>>),
-    /// N(k) between corners.
+    /// N(k) on the corners of cells.
     Corners(Arc<GridGraph<Corners>>),
-    /// Every direction between corners.
+    /// Every direction, on the corners of cells.
     AnyAngle(Arc<FreeSpace<Corners>>),
 }
 
-/// The error for a space that an engine cannot search; [`Setup::check`] refuses such setups before.
+/// The error for a search space that an engine does not search. [`Setup::check`] refuses such setups, so nobody sees it.
 pub(crate) fn no_space(setup: Setup) -> EngineError {
     let capabilities = setup.capabilities();
     let k = capabilities.default_k();
@@ -27,10 +28,10 @@ pub(crate) fn no_space(setup: Setup) -> EngineError {
 }
 
 impl SearchSpace {
-    /// The space for a setup's k and rules.
+    /// The search space of a map for the k and the rules of a setup.
     ///
     /// # Errors
-    /// [`EngineError`] for a setup that does not exist.
+    /// [`EngineError::Setup`] for a setup whose parts do not fit together.
     pub fn new(setup: Setup, grid: &Arc<Grid>) -> Result<Self, EngineError> {
         setup.check()?;
         let grid = Arc::clone(grid);
@@ -42,7 +43,7 @@ impl SearchSpace {
         })
     }
 
-    /// The neighborhood.
+    /// The k of its moves.
     #[must_use]
     pub fn k(&self) -> K {
         match self {
@@ -52,7 +53,7 @@ impl SearchSpace {
         }
     }
 
-    /// Placement and rule of motion.
+    /// The placement and its rule of motion.
     #[must_use]
     pub fn rules(&self) -> Rules {
         match self {
@@ -72,7 +73,7 @@ impl SearchSpace {
         }
     }
 
-    /// The memory that it takes beyond the map, in bytes.
+    /// The memory that it uses beyond the map, in bytes.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
         let bytes = match self {
@@ -83,7 +84,7 @@ impl SearchSpace {
         bytes as u64
     }
 
-    /// Whether a path leads from one vertex to another.
+    /// Whether there is a path from one vertex to another.
     #[must_use]
     pub fn connected(&self, from: Vertex, to: Vertex) -> bool {
         match self {
@@ -93,7 +94,7 @@ impl SearchSpace {
         }
     }
 
-    /// Whether it is the space of a setup.
+    /// Checks that the setup's parts fit together, and that this is its search space.
     pub(crate) fn check(&self, setup: Setup) -> Result<(), EngineError> {
         setup.check()?;
         let (expected, found) = ((setup.k, setup.rules), (self.k(), self.rules()));

@@ -1,13 +1,13 @@
-//! Setups as text.
+//! Setups as text, written and read.
 
 use std::{fmt, str::FromStr};
 
 use mediant_grid::{CornerRule, DiagonalGap, Rules};
 use mediant_search::Smoothing;
 
-use crate::{EngineKind, EngineOption, Setup, engine::Capabilities};
+use crate::{capabilities::Capabilities, kind::EngineKind, option::EngineOption, setup::Setup};
 
-/// A text that is no [`Setup`].
+/// The error for a text that is no [`Setup`]: the form that was expected, and what is wrong.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected ENGINE[:K[:RULE]][,OPTION…], found `{found}`: {wrong}")]
 pub struct TextError {
@@ -15,14 +15,14 @@ pub struct TextError {
     wrong: String,
 }
 
-/// How the options are written.
+/// All that may be written for an option, for an error.
 fn option_forms() -> String {
     let forms = EngineOption::ALL.map(EngineOption::forms);
     let smoothings = [Smoothing::Linear, Smoothing::Taut].map(smoothing_name);
     [forms.join(", "), smoothings.join(", ")].join(", ")
 }
 
-/// In full except for the options: only those that were chosen.
+/// With k and rule in full, and the options that were chosen: what [`FromStr`] reads.
 impl fmt::Display for Setup {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rule = self.rule_name();
@@ -34,7 +34,7 @@ impl fmt::Display for Setup {
 }
 
 impl Setup {
-    /// The name of the rule of motion, without its placement.
+    /// The name of the corner rule or gap rule: `never`, `one`, `always`, `open` or `closed`.
     #[must_use]
     pub fn rule_name(&self) -> String {
         match self.rules {
@@ -57,10 +57,11 @@ impl FromStr for Setup {
         })?;
         let capabilities = engine.capabilities();
         let k = parts.next().map_or(Ok(capabilities.default_k()), |k| {
-            k.parse().map_err(|_| error(format!("K is {}", ks(capabilities))))
+            k.parse().map_err(|_| error(format!("K is {}", k_range(capabilities))))
         })?;
         let rules = parts.next().map_or(Ok(capabilities.default_rules(k)), |rule| {
-            rule_named(rule).ok_or_else(|| error("the rules are never, one, always, open, closed".to_owned()))
+            rules_named(rule)
+                .ok_or_else(|| error("the rules are never, one, always, open, closed".to_owned()))
         })?;
         if parts.next().is_some() {
             return Err(error("nothing but options may follow the rule".to_owned()));
@@ -75,14 +76,15 @@ impl FromStr for Setup {
 }
 
 /// The k that an engine takes, in words.
-fn ks(capabilities: Capabilities) -> String {
+fn k_range(capabilities: Capabilities) -> String {
     match capabilities.max_k {
         None => "any".to_owned(),
         Some(max) => format!("a number from 2 to {max}{}", if capabilities.any { ", or any" } else { "" }),
     }
 }
 
-fn rule_named(name: &str) -> Option<Rules> {
+/// The rules of motion with the corner rule or gap rule of this name.
+fn rules_named(name: &str) -> Option<Rules> {
     Some(match name {
         "never" => Rules::Center(CornerRule::Never),
         "one" => Rules::Center(CornerRule::One),
@@ -93,7 +95,7 @@ fn rule_named(name: &str) -> Option<Rules> {
     })
 }
 
-/// The option of a setup's text; [`Smoothing`] itself is named for its method.
+/// A smoothing as an option in the text of a setup.
 const fn smoothing_name(smoothing: Smoothing) -> &'static str {
     match smoothing {
         Smoothing::Linear => "smooth",
@@ -101,11 +103,12 @@ const fn smoothing_name(smoothing: Smoothing) -> &'static str {
     }
 }
 
+/// The smoothing that an option in the text of a setup names.
 fn smoothing_named(name: &str) -> Option<Smoothing> {
     [Smoothing::Linear, Smoothing::Taut].into_iter().find(|&smoothing| smoothing_name(smoothing) == name)
 }
 
-/// Chooses what an option's text says; the error is in words.
+/// Chooses the option that a part of a setup's text names; the error says what is wrong.
 fn choose(setup: &mut Setup, text: &str) -> Result<(), String> {
     if let Some(smoothing) = smoothing_named(text) {
         setup.smoothing = Some(smoothing);

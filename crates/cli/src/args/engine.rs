@@ -19,7 +19,7 @@ pub(crate) type IndexOptions = Options<true>;
 
 impl<const OF_INDEX: bool> Options<OF_INDEX> {
     fn taken() -> impl Iterator<Item = &'static EngineOption> {
-        EngineOption::ALL.into_iter().filter(|option| !OF_INDEX || option.is_of_index)
+        EngineOption::ALL.into_iter().filter(|option| !OF_INDEX || option.is_index_option)
     }
 
     /// Chooses what was given.

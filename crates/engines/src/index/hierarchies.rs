@@ -1,14 +1,19 @@
-//! Graphs of clusters and of segments, made or read.
+//! Clusters and segments, computed or read from bytes.
 
 use std::{num::NonZeroU32, sync::Arc};
 
 use mediant_grid::{Centers, GridGraph};
 use mediant_hierarchy::{ClusterGraph, Clustering, SegmentGraph};
 
-use super::Source;
-use crate::{ChpaOptions, Engine, EngineError, HpaOptions, Levels, Setup};
+use super::source::Source;
+use crate::{
+    engine::{ChpaOptions, Engine, HpaOptions},
+    error::EngineError,
+    option::Levels,
+    setup::Setup,
+};
 
-/// The clusters of a setup: new ones, or saved ones, whose side and levels must be those that the setup names.
+/// The clusters of a setup. Saved clusters must have the side and the levels that the setup names, if it names them.
 pub(super) fn clusters(
     setup: Setup,
     own: HpaOptions,
@@ -26,7 +31,7 @@ pub(super) fn clusters(
     let clusters = ClusterGraph::from_bytes(graph, bytes)?;
     let Clustering { side, levels } = clusters.clustering();
     check_side(own.side, side)?;
-    // All levels are as many as fit the side that there is.
+    // How many `all` levels are depends on the side.
     let expected = levels_of(HpaOptions { side: NonZeroU32::new(side), ..own });
     if own.levels.is_some() && expected != levels {
         let [expected, found] = [expected, levels]
@@ -36,7 +41,7 @@ pub(super) fn clusters(
     Ok(Arc::new(clusters))
 }
 
-/// The segments of a setup: new ones, or saved ones, whose side must be the one that the setup names.
+/// The segments of a setup. Saved segments must have the side that the setup names, if it names one.
 pub(super) fn segments(
     own: ChpaOptions,
     graph: &GridGraph<Centers>,
@@ -51,6 +56,7 @@ pub(super) fn segments(
     Ok(Arc::new(segments))
 }
 
+/// Checks the side of a saved index against the one that a setup names.
 fn check_side(named: Option<NonZeroU32>, found: u32) -> Result<(), EngineError> {
     match named {
         Some(side) if side.get() != found => Err(EngineError::Side { expected: side.get(), found }),

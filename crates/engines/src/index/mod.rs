@@ -1,25 +1,29 @@
 //! What an engine prepares of a map.
 
 mod hierarchies;
+mod parts;
+mod source;
 mod subgoals;
 
-use std::sync::Arc;
+use std::{num::NonZeroU32, sync::Arc};
 
-use mediant_grid::{Centers, Corners, FreeSpace, GridGraph};
-use mediant_hierarchy::{ClusterGraph, Clustering, SegmentGraph};
-use mediant_search::{JumpTable, Pruning, Smoothing, parts::BlockFinder};
-use mediant_subgoal::{Progress, SubgoalGraph, SubgoalPlacement};
+use mediant_grid::GridGraph;
+use mediant_search::{JumpTable, Smoothing, parts::BlockFinder};
+use mediant_subgoal::{Progress, SubgoalPlacement};
 
+pub(crate) use self::parts::{Parts, Prepared};
+use self::source::Source;
 use crate::{
-    Engine, EngineError, EngineOption, Levels, OptionValue, SearchSpace, Setup, SharedRules, Variant,
-    engine::{LEVELS, SIDE},
-    rules::Shared,
-    setup::without_index,
-    space::no_space,
+    engine::Engine,
+    error::{EngineError, SetupError},
+    option::{EngineOption, LEVELS, OptionValue, SIDE, Variant},
+    setup::Setup,
+    shared_rules::{Shared, SharedRules},
+    space::{SearchSpace, no_space},
 };
 
-/// What an engine prepares of a map before the first query, in its search space: nothing, a pruning rule, a jump table, a
-/// subgoal graph, clusters or segments. Immutable; clones share it. [`planner`](Self::planner) makes planners on it.
+/// What an engine prepares in a search space before the first query: nothing, a pruning rule, a jump table, a subgoal
+/// graph, clusters or segments. Immutable; clones share it. [`planner`](Self::planner) makes the planners on it.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -38,50 +42,21 @@ use crate::{
 #[derive(Clone, Debug)]
 pub struct Index {
     setup: Setup,
+    /// The search space, and what is prepared in it.
     pub(crate) prepared: Prepared,
 }
 
-/// What is prepared in each kind of space.
-#[derive(Clone, Debug)]
-pub(crate) enum Prepared {
-    Centers(Arc<GridGraph<Centers>>, Parts<Centers>),
-    Corners(Arc<GridGraph<Corners>>, Parts<Corners>),
-    AnyAngle(Arc<FreeSpace<Corners>>, Parts<Corners>),
-}
-
-/// What is prepared under a placement.
-#[derive(Clone, Debug)]
-pub(crate) enum Parts<P: SubgoalPlacement> {
-    Nothing,
-    Pruning(Arc<Pruning<P>>),
-    Blocks(Arc<Pruning<P>>, BlockFinder),
-    Table(Arc<Pruning<P>>, Arc<JumpTable>),
-    Subgoals(Arc<SubgoalGraph<P>>),
-    /// Only at centers.
-    Clusters(Arc<ClusterGraph>),
-    /// Only at centers.
-    Segments(Arc<SegmentGraph>),
-}
-
-/// Where an index comes from.
-#[derive(Clone, Copy)]
-pub(crate) struct Source<'a> {
-    /// The bytes of a saved one; a new one is made without them.
-    bytes: Option<&'a [u8]>,
-    rules: &'a SharedRules,
-    progress: &'a (dyn Fn(Progress) + Sync),
-}
-
 impl Index {
-    /// Prepares what a setup needs in a space.
+    /// Prepares what a setup's engine needs.
     ///
     /// # Errors
-    /// [`EngineError`] for a setup that does not exist, or a space for another k or other rules.
+    /// [`EngineError`] for a setup whose parts do not fit together, a search space for another k or other rules, or clusters
+    /// or segments of a size or number that does not exist.
     pub fn new(setup: Setup, space: &SearchSpace, rules: &SharedRules) -> Result<Self, EngineError> {
         Self::with_progress(setup, space, rules, &|_| {})
     }
 
-    /// [`new`](Self::new), reporting its progress from any thread. Engines that prepare quickly report nothing.
+    /// [`new`](Self::new), which calls `progress` from any thread. Only subgoal graphs report progress.
     ///
     /// # Errors
     /// Those of [`new`](Self::new).
@@ -94,10 +69,12 @@ impl Index {
         Self::from_source(setup, space, Source { bytes: None, rules, progress })
     }
 
-    /// Reads what [`to_bytes`](Self::to_bytes) gave.
+    /// Reads the bytes that [`to_bytes`](Self::to_bytes) wrote. Levels and side that the setup leaves out are those of the
+    /// bytes.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new), and for bytes that are no index of this engine for this space.
+    /// Those of [`new`](Self::new), and for bytes that are not an index of this engine for this search space, or have other
+    /// levels or another side than the setup names. Not all damage is found: a file format should add a checksum.
     pub fn from_bytes(
         setup: Setup,
         space: &SearchSpace,
@@ -109,6 +86,7 @@ impl Index {
         Self::from_source(setup, space, Source { bytes: Some(bytes), rules, progress: &|_| {} })
     }
 
+    /// Prepares a new index, or reads a saved one.
     fn from_source(setup: Setup, space: &SearchSpace, source: Source<'_>) -> Result<Self, EngineError> {
         space.check(setup)?;
         let prepared = match space {
@@ -140,26 +118,25 @@ impl Index {
         self.setup
     }
 
-    /// The same index for planners that smooth their paths in another way, or not at all.
+    /// The same index for planners with this smoothing, or with none.
     #[must_use]
     pub fn with_smoothing(self, smoothing: Option<Smoothing>) -> Self {
         Self { setup: Setup { smoothing, ..self.setup }, ..self }
     }
 
-    /// Its bytes, for [`from_bytes`](Self::from_bytes).
+    /// The bytes that [`from_bytes`](Self::from_bytes) reads.
     ///
     /// # Errors
     /// [`EngineError::Setup`] for an engine whose index is not saved.
     pub fn to_bytes(&self) -> Result<Vec<u8>, EngineError> {
-        let none = || without_index(self.setup.engine.kind()).into();
         match &self.prepared {
             Prepared::Centers(_, parts) => parts.to_bytes(),
             Prepared::Corners(_, parts) | Prepared::AnyAngle(_, parts) => parts.to_bytes(),
         }
-        .ok_or_else(none)
+        .ok_or_else(|| SetupError::without_index(self.setup.engine.kind()).into())
     }
 
-    /// The memory that it takes beyond the search space, in bytes.
+    /// The memory that it uses beyond the search space, in bytes.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
         let bytes = match &self.prepared {
@@ -169,7 +146,8 @@ impl Index {
         bytes as u64
     }
 
-    /// The value of an option ([`Engine::value`]), for levels and sides as they are in the index, which a saved one decides.
+    /// The value of an option, as [`Engine::value`], but levels and side as they are in the index: where the setup leaves
+    /// them out, a saved index decides them.
     #[must_use]
     pub fn value(&self, option: &EngineOption) -> Option<OptionValue> {
         let (levels, side) = match &self.prepared {
@@ -178,50 +156,13 @@ impl Index {
         };
         match option.name {
             name if name == LEVELS.name => levels.map(OptionValue::Levels),
-            name if name == SIDE.name => side.and_then(std::num::NonZeroU32::new).map(OptionValue::Number),
+            name if name == SIDE.name => side.and_then(NonZeroU32::new).map(OptionValue::Number),
             _ => self.setup.engine.value(option),
         }
     }
 }
 
-impl<P: SubgoalPlacement> Parts<P> {
-    fn to_bytes(&self) -> Option<Vec<u8>> {
-        match self {
-            Self::Nothing | Self::Pruning(_) | Self::Blocks(..) => None,
-            Self::Table(_, table) => Some(table.as_bytes().to_vec()),
-            Self::Subgoals(graph) => Some(graph.to_bytes()),
-            Self::Clusters(graph) => Some(graph.to_bytes()),
-            Self::Segments(graph) => Some(graph.to_bytes()),
-        }
-    }
-
-    fn memory_bytes(&self) -> usize {
-        match self {
-            Self::Nothing => 0,
-            Self::Pruning(pruning) => pruning.memory_bytes(),
-            Self::Blocks(pruning, blocks) => pruning.memory_bytes() + blocks.memory_bytes(),
-            Self::Table(pruning, table) => pruning.memory_bytes() + table.memory_bytes(),
-            Self::Subgoals(graph) => graph.memory_bytes(),
-            Self::Clusters(graph) => graph.memory_bytes(),
-            Self::Segments(graph) => graph.memory_bytes(),
-        }
-    }
-
-    /// Its levels, and the side of its lowest clusters or of its segments in cells.
-    fn shape(&self) -> (Option<Levels>, Option<u32>) {
-        match self {
-            Self::Nothing | Self::Pruning(_) | Self::Blocks(..) | Self::Table(..) => (None, None),
-            Self::Subgoals(graph) => (Some(graph.hierarchy().into()), None),
-            Self::Clusters(graph) => {
-                let Clustering { side, levels } = graph.clustering();
-                (std::num::NonZeroU32::new(levels).map(Levels::Number), Some(side))
-            }
-            Self::Segments(graph) => (None, Some(graph.side())),
-        }
-    }
-}
-
-/// What is prepared of a grid graph, under either placement.
+/// What an engine prepares of a grid graph, if it takes either placement.
 fn on_graph<P: SubgoalPlacement + Shared>(
     setup: Setup,
     graph: &GridGraph<P>,

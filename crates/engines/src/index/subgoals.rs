@@ -1,22 +1,27 @@
-//! Subgoal graphs, made or read.
+//! Subgoal graphs, computed or read from bytes.
 
 use std::sync::Arc;
 
 use mediant_grid::FreeSpace;
 use mediant_subgoal::{Hierarchy, SubgoalGraph, SubgoalPlacement};
 
-use super::Source;
-use crate::{Engine, EngineError, Levels, Setup, setup::without_index};
+use super::source::Source;
+use crate::{
+    engine::Engine,
+    error::{EngineError, SetupError},
+    option::Levels,
+    setup::Setup,
+};
 
-/// The subgoal graph of a setup: a new one, or a saved one, which must have the levels that the setup names; a setup that
-/// names none takes those that there are.
+/// The subgoal graph of a setup. A saved graph must have the levels that the setup names, if it names them; Sub-Theta*
+/// needs levels in any case.
 pub(super) fn graph<P: SubgoalPlacement>(
     setup: Setup,
     space: &FreeSpace<P>,
     source: Source<'_>,
 ) -> Result<Arc<SubgoalGraph<P>>, EngineError> {
     let (Engine::Subgoal(own) | Engine::SubgoalTheta(own)) = setup.engine else {
-        return Err(without_index(setup.engine.kind()).into());
+        return Err(SetupError::without_index(setup.engine.kind()).into());
     };
     let expected: Hierarchy = setup.engine.levels().unwrap_or(Levels::Contracted).into();
     let Some(bytes) = source.bytes else {

@@ -2,7 +2,7 @@
 
 use crate::names::names;
 
-/// The engines, without their options.
+/// An engine without its options.
 ///
 /// ```
 /// use mediant_engines::{Engine, EngineKind};
@@ -18,7 +18,7 @@ pub enum EngineKind {
     Dijkstra,
     /// [`Wavefront`](mediant_search::Wavefront).
     Wavefront,
-    /// [`Canonical`](mediant_search::Canonical), and [`PaperCanonical`](mediant_search::PaperCanonical) as its variant.
+    /// [`Canonical`](mediant_search::Canonical); [`PaperCanonical`](mediant_search::PaperCanonical) as its variant `paper`.
     Canonical,
     /// [`Jps`](mediant_search::Jps).
     Jps,
@@ -34,7 +34,7 @@ pub enum EngineKind {
     Anya,
     /// [`SubgoalAStar`](mediant_subgoal::SubgoalAStar) on a [`SubgoalGraph`](mediant_subgoal::SubgoalGraph).
     Subgoal,
-    /// [`SubgoalTheta`](mediant_subgoal::SubgoalTheta) on a [`SubgoalGraph`](mediant_subgoal::SubgoalGraph) of levels.
+    /// [`SubgoalTheta`](mediant_subgoal::SubgoalTheta) on a [`SubgoalGraph`](mediant_subgoal::SubgoalGraph) with levels.
     SubgoalTheta,
     /// [`HpaStar`](mediant_hierarchy::HpaStar) on a [`ClusterGraph`](mediant_hierarchy::ClusterGraph).
     Hpa,
@@ -60,9 +60,10 @@ names!(EngineKind:
 );
 
 impl EngineKind {
-    /// The names of the engines of which something holds, separated by commas.
-    pub(crate) fn names_of(has: impl Fn(Self) -> bool) -> String {
-        let names: Vec<&str> = Self::ALL.into_iter().filter(|&kind| has(kind)).map(Self::name).collect();
+    /// The names of the engines that satisfy a condition, separated by commas.
+    pub(crate) fn names_where(condition: impl Fn(Self) -> bool) -> String {
+        let names: Vec<&str> =
+            Self::ALL.into_iter().filter(|&kind| condition(kind)).map(Self::name).collect();
         names.join(", ")
     }
 }

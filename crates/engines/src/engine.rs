@@ -1,22 +1,30 @@
 //! The engines with their options.
 //!
-//! Each engine's options are a struct of its own, and `slots` lists its fields. What setups as text, the program's flags
-//! and its records know of an option, they know from that list and from the option's description (`option.rs`).
+//! Each engine's options are a struct, and `Engine::slots` pairs each field with the description of its option. Setups
+//! as text, the program's flags and its records know the options of an engine from that list alone.
 
 use std::num::NonZeroU32;
 
 use mediant_hierarchy::{Clustering, FallbackPolicy, SegmentGraph};
 
-use super::{
-    EngineKind,
+use crate::{
+    error::SetupError,
+    kind::EngineKind,
     option::{
-        DETOUR, EngineOption, HEURISTIC, JUMP_LIMIT, KEEP_INTERMEDIATE, LEVELS, OptionValue, SECOND, SIDE,
-        STEP, Slot, UNSTRAIGHTENED, VARIANT,
+        DETOUR, EngineOption, HEURISTIC, HeuristicName, JUMP_LIMIT, KEEP_INTERMEDIATE, LEVELS, Levels,
+        OptionValue, SECOND, SIDE, STEP, UNSTRAIGHTENED, VARIANT, Variant,
     },
 };
-use crate::{HeuristicName, Levels, SetupError, Variant};
 
-/// An engine with its options. An option that is `None` (or false) has its default.
+/// An engine with its options. An option that is `None` or false is left out: it has its default.
+///
+/// ```
+/// use std::num::NonZeroU32;
+/// use mediant_engines::{Engine, EngineKind, JumpOptions};
+///
+/// let engine = Engine::Jps(JumpOptions { jump_limit: NonZeroU32::new(16), ..JumpOptions::default() });
+/// assert_eq!(engine.kind(), EngineKind::Jps);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "each variant is documented as an `EngineKind`")]
 pub enum Engine {
@@ -36,7 +44,7 @@ pub enum Engine {
     Chpa(ChpaOptions),
 }
 
-/// Options of a search that takes a heuristic and nothing else.
+/// Options of a search that takes only a heuristic.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct GuidedOptions {
     /// The heuristic; h_k by default.
@@ -52,14 +60,14 @@ pub struct CanonicalOptions {
     pub variant: Option<Variant>,
 }
 
-/// Options of the jump point searches that scan.
+/// Options of JPS, scanning vertex by vertex or block by block.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct JumpOptions {
     /// The heuristic; h_k by default.
     pub heuristic: Option<HeuristicName>,
-    /// The largest number of steps of a jump; unbounded by default.
+    /// The most steps that a jump may take; unlimited by default.
     pub jump_limit: Option<NonZeroU32>,
-    /// Whether to keep the jump points at which a path only turns on its way to another.
+    /// Whether to keep intermediate jump points, at which a path only turns on its way to another jump point.
     pub keep_intermediate: bool,
 }
 
@@ -68,11 +76,11 @@ pub struct JumpOptions {
 pub struct JpsPlusOptions {
     /// The heuristic; h_k by default.
     pub heuristic: Option<HeuristicName>,
-    /// Whether to keep the jump points at which a path only turns on its way to another.
+    /// Whether to keep intermediate jump points, at which a path only turns on its way to another jump point.
     pub keep_intermediate: bool,
 }
 
-/// Options of searches on subgoal graphs.
+/// Options of the searches on subgoal graphs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct SubgoalOptions {
     /// The levels of the graph; by default a contraction hierarchy, or 2 levels for Sub-Theta*, which needs levels.
@@ -86,7 +94,7 @@ pub struct HpaOptions {
     pub levels: Option<Levels>,
     /// The side of the lowest clusters, in cells; that of [`Clustering::default`] by default.
     pub side: Option<NonZeroU32>,
-    /// Whether to leave the paths as they are refined, without straightening them.
+    /// Whether to leave out the straightening of paths.
     pub unstraightened: bool,
 }
 
@@ -103,8 +111,8 @@ pub struct ChpaOptions {
     pub second: Option<HeuristicName>,
     /// Every how many segments there is a checkpoint (Pstep of Teleiša & Čalnerytė 2023); 2 by default.
     pub step: Option<NonZeroU32>,
-    /// How many times h_k the way to a checkpoint may cost before the search leaves its plan; that of
-    /// [`FallbackPolicy::default`] by default.
+    /// How many times h_k the path to a checkpoint may cost before the search skips that checkpoint; that of
+    /// [`FallbackPolicy::default`] by default. Only for [`Variant::Complete`].
     pub detour: Option<NonZeroU32>,
 }
 
@@ -137,7 +145,7 @@ impl From<EngineKind> for Engine {
 }
 
 impl Engine {
-    /// Which engine it is.
+    /// The engine without its options.
     #[must_use]
     pub const fn kind(self) -> EngineKind {
         match self {
@@ -158,7 +166,7 @@ impl Engine {
         }
     }
 
-    /// The options that the engine takes, in the order in which they are written, each with the field that holds it.
+    /// The options that the engine takes, each with the field that holds it, in the order of a setup's text.
     fn slots(&mut self) -> Vec<(&'static EngineOption, Slot<'_>)> {
         match self {
             Self::Dijkstra | Self::Wavefront | Self::Anya => Vec::new(),
@@ -201,7 +209,7 @@ impl Engine {
         self.slots().into_iter().map(|(option, _)| option).collect()
     }
 
-    /// The options that were chosen, with their values, in the order in which they are written.
+    /// The options that were chosen, with their values, in the order of a setup's text.
     #[must_use]
     pub fn chosen(mut self) -> Vec<(&'static EngineOption, OptionValue)> {
         self.slots().into_iter().filter_map(|(option, slot)| Some((option, slot.get()?))).collect()
@@ -210,15 +218,20 @@ impl Engine {
     /// Chooses an option.
     ///
     /// # Errors
-    /// [`SetupError::Option`] for an option that the engine does not take.
+    /// [`SetupError::Option`] for an option that the engine does not take, or a value of another kind than the option's.
     pub fn set(&mut self, option: &EngineOption, value: OptionValue) -> Result<(), SetupError> {
         let engine = self.kind();
         let slot = self.slots().into_iter().find(|(known, _)| known.name == option.name);
         let is_set = slot.is_some_and(|(_, slot)| slot.set(value));
-        if is_set { Ok(()) } else { Err(option.refused_by(engine)) }
+        if is_set {
+            return Ok(());
+        }
+        let others = names_of_takers(option, |_| true);
+        Err(SetupError::Option { engine, option: option.noun(), others })
     }
 
-    /// The value that an option has, be it chosen or by default; `None` of one that has none, or is not the engine's.
+    /// The value of an option, chosen or by default. `None` if the engine does not take the option, if it is a flag that
+    /// is not set, or if its default is no value.
     #[must_use]
     pub fn value(self, option: &EngineOption) -> Option<OptionValue> {
         let name = option.name;
@@ -234,11 +247,11 @@ impl Engine {
         }
     }
 
-    /// Whether the options go together.
+    /// Checks that the engine takes the chosen values, and that they fit together.
     pub(crate) fn check(self) -> Result<(), SetupError> {
         let (kind, chosen) = (self.kind(), self.chosen());
         let refused = |option: &EngineOption, what, takes: &dyn Fn(EngineKind) -> bool| {
-            Err(SetupError::Option { engine: kind, option: what, others: option.takers(takes) })
+            Err(SetupError::Option { engine: kind, option: what, others: names_of_takers(option, takes) })
         };
         for &(option, value) in &chosen {
             match value {
@@ -271,7 +284,8 @@ impl Engine {
         }
     }
 
-    /// The heuristic that guides the search over N(k); `None` for an engine that has one of its own.
+    /// The heuristic that guides the search, also where the engine leaves no choice: zero for Dijkstra and wavefront.
+    /// `None` for an engine with a heuristic of its own kind.
     #[must_use]
     pub fn heuristic(self) -> Option<HeuristicName> {
         let chosen = match self {
@@ -286,7 +300,7 @@ impl Engine {
         Some(chosen.unwrap_or_default())
     }
 
-    /// The variant, of an engine that has several.
+    /// The variant; `None` for an engine that has only one.
     #[must_use]
     pub fn variant(self) -> Option<Variant> {
         match self {
@@ -296,7 +310,7 @@ impl Engine {
         }
     }
 
-    /// The levels of the subgoal graph or of the clusters, of an engine that searches such a graph.
+    /// The levels of the subgoal graph or of the clusters; `None` for an engine that has no levels.
     #[must_use]
     pub fn levels(self) -> Option<Levels> {
         match self {
@@ -319,7 +333,7 @@ impl Engine {
         }
     }
 
-    /// The side of the lowest clusters or of the segments, in cells, of an engine that cuts the map into them.
+    /// The side of the lowest clusters or of the segments, in cells; `None` for an engine that has neither.
     #[must_use]
     pub fn side(self) -> Option<NonZeroU32> {
         match self {
@@ -329,7 +343,7 @@ impl Engine {
         }
     }
 
-    /// The heuristic of the second phase, of an engine that has two.
+    /// The heuristic of the second phase; `None` for an engine that has only one phase.
     #[must_use]
     pub fn second(self) -> Option<HeuristicName> {
         match self {
@@ -338,7 +352,7 @@ impl Engine {
         }
     }
 
-    /// Every how many segments there is a checkpoint, of an engine that plans checkpoints.
+    /// There is a checkpoint every so many segments; `None` for an engine without checkpoints.
     #[must_use]
     pub fn step(self) -> Option<NonZeroU32> {
         match self {
@@ -347,7 +361,7 @@ impl Engine {
         }
     }
 
-    /// How many times h_k the way to a checkpoint may cost, of an engine that otherwise leaves its plan.
+    /// How many times h_k the path to a checkpoint may cost; `None` for an engine without such a limit.
     #[must_use]
     pub fn detour(self) -> Option<NonZeroU32> {
         match self.fallback_policy()? {
@@ -356,6 +370,7 @@ impl Engine {
         }
     }
 
+    /// What CHPA* does where its plan fails; `None` for other engines.
     pub(crate) fn fallback_policy(self) -> Option<FallbackPolicy> {
         let Self::Chpa(own) = self else { return None };
         Some(match own.detour {
@@ -364,6 +379,48 @@ impl Engine {
             None => FallbackPolicy::default(),
         })
     }
+}
+
+/// The field of an engine that holds the value of an option.
+#[derive(Debug)]
+enum Slot<'e> {
+    Flag(&'e mut bool),
+    Number(&'e mut Option<NonZeroU32>),
+    Heuristic(&'e mut Option<HeuristicName>),
+    Variant(&'e mut Option<Variant>),
+    Levels(&'e mut Option<Levels>),
+}
+
+impl Slot<'_> {
+    /// The value, if it was chosen.
+    fn get(&self) -> Option<OptionValue> {
+        match self {
+            Self::Flag(is_set) => is_set.then_some(OptionValue::Flag),
+            Self::Number(number) => number.map(OptionValue::Number),
+            Self::Heuristic(name) => name.map(OptionValue::Heuristic),
+            Self::Variant(variant) => variant.map(OptionValue::Variant),
+            Self::Levels(levels) => levels.map(OptionValue::Levels),
+        }
+    }
+
+    /// Chooses a value. Returns false if it is of another kind than the field.
+    fn set(self, value: OptionValue) -> bool {
+        match (self, value) {
+            (Self::Flag(slot), OptionValue::Flag) => *slot = true,
+            (Self::Number(slot), OptionValue::Number(number)) => *slot = Some(number),
+            (Self::Heuristic(slot), OptionValue::Heuristic(name)) => *slot = Some(name),
+            (Self::Variant(slot), OptionValue::Variant(variant)) => *slot = Some(variant),
+            (Self::Levels(slot), OptionValue::Levels(levels)) => *slot = Some(levels),
+            _ => return false,
+        }
+        true
+    }
+}
+
+/// The names of the engines that take an option and satisfy a condition.
+fn names_of_takers(option: &EngineOption, condition: impl Fn(EngineKind) -> bool) -> String {
+    let takes = |kind| Engine::from(kind).options().iter().any(|taken| taken.name == option.name);
+    EngineKind::names_where(|kind| takes(kind) && condition(kind))
 }
 
 const TWO: NonZeroU32 = NonZeroU32::MIN.saturating_add(1);

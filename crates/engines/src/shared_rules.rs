@@ -1,5 +1,6 @@
-//! The pruning rules of canonical search. One depends on k and the rules of motion only, and takes a second or two to
-//! make at k = 8, so that the indexes of many maps share it.
+//! The pruning rules of canonical search, shared by the indexes of many maps.
+//!
+//! A pruning rule depends only on k and the rules of motion, and takes a second or two to compute at k = 8.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -7,18 +8,21 @@ use mediant_grid::{Centers, Corners, GridGraph, Placement};
 use mediant_moves::FiniteK;
 use mediant_search::{CanonicalRule, Pruning};
 
-/// The rules of one placement that were asked for.
+/// The pruning rules of one placement that are known.
 type Known<P> = Mutex<Vec<((FiniteK, <P as Placement>::Rule), Arc<CanonicalRule<P>>)>>;
 
-/// The pruning rules that were asked for, each made once.
+/// The pruning rules of canonical search: each is computed when an index first needs it, then kept.
+///
+/// One value serves all maps and threads. A thread that needs a rule waits while another computes one.
 #[derive(Debug, Default)]
 pub struct SharedRules {
     centers: Known<Centers>,
     corners: Known<Corners>,
 }
 
-/// A placement of which there are shared rules.
+/// A placement, with its part of [`SharedRules`].
 pub(crate) trait Shared: Placement {
+    /// The rules of this placement.
     fn known(rules: &SharedRules) -> &Known<Self>;
 }
 
@@ -35,13 +39,13 @@ impl Shared for Corners {
 }
 
 impl SharedRules {
-    /// None yet.
+    /// No rules yet.
     #[must_use]
     pub const fn new() -> Self {
         Self { centers: Mutex::new(Vec::new()), corners: Mutex::new(Vec::new()) }
     }
 
-    /// The pruning of canonical search on a grid graph.
+    /// The pruning rule on a grid graph.
     pub(crate) fn pruning<P: Shared>(&self, graph: &GridGraph<P>) -> Arc<Pruning<P>> {
         let key = (graph.k(), graph.rule());
         let mut known = P::known(self).lock().unwrap_or_else(PoisonError::into_inner);

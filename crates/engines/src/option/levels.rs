@@ -1,21 +1,21 @@
-//! The levels of a subgoal graph or of clusters, as options and tables have them.
+//! The levels of a subgoal graph or of clusters.
 
 use std::{fmt, num::NonZeroU32, str::FromStr};
 
 use mediant_subgoal::Hierarchy;
 
-/// How many levels a hierarchy has: a number, `all`, or `contracted`.
+/// The levels of a subgoal graph or of clusters. As text a number, `all` or `contracted`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Levels {
-    /// At most this number; 1 is the graph without a hierarchy.
+    /// At most this many; 1 is a graph without a hierarchy.
     Number(NonZeroU32),
     /// As many as possible.
     All,
-    /// None: a contraction hierarchy in their place. Only of subgoal graphs.
+    /// A contraction hierarchy instead of levels; only subgoal graphs have one.
     Contracted,
 }
 
-/// A text that is no [`Levels`].
+/// The error for a text that is no [`Levels`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected a whole number from 1 to {}, or all", u32::MAX)]
 pub struct UnknownLevels {

@@ -1,4 +1,4 @@
-//! What is to be known of each engine.
+//! What each engine can do.
 
 use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, GridGraph, PlacementKind, Rules};
 use mediant_hierarchy::{ClusterGraph, SegmentGraph};
@@ -6,35 +6,36 @@ use mediant_moves::{FiniteK, K};
 use mediant_search::JumpTable;
 use mediant_subgoal::SubgoalGraph;
 
-use super::EngineKind;
-use crate::Variant;
+use crate::{kind::EngineKind, option::Variant};
 
-/// What an engine can do, whatever its options. Under the placements that it takes it works with every rule of motion,
-/// except for subgoal graphs and hierarchies at centers ([`Setup::check`](crate::Setup::check)).
+/// What an engine can do, whatever its options.
+///
+/// An engine works under every rule of motion of the placements that it takes, with one exception: subgoal graphs and
+/// hierarchies at centers ([`Setup::check`](crate::Setup::check)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capabilities {
     /// The placements that it takes.
     pub placements: &'static [PlacementKind],
-    /// The largest finite k that it takes, the smallest being 2; `None` for an engine that searches only at any angle.
+    /// The largest finite k that it takes; the smallest is 2. `None` for an engine that takes no finite k.
     pub max_k: Option<u32>,
     /// Whether it takes k = ∞.
     pub any: bool,
-    /// Its guarantee, for a table; `optimal(k)` with k = any is over all paths.
+    /// Its guarantee, for a table. `optimal(k)` at k = ∞ means that no legal path is shorter.
     pub guarantee: &'static str,
-    /// Who published it.
+    /// Its paper: first author and year.
     pub paper: &'static str,
-    /// Whether it takes a heuristic that overestimates: its paths get longer, and nothing else goes wrong.
+    /// Whether it takes a heuristic that overestimates. Its paths may then be longer; nothing else goes wrong.
     pub overestimates: bool,
-    /// Its variants, the default first; empty for an engine that has no choice.
+    /// Its variants, the default first; empty for an engine that has only one.
     pub variants: &'static [Variant],
-    /// Whether it finds the distances to all vertices.
+    /// Whether it finds the distances from one vertex to all others.
     pub distances: bool,
-    /// The version of its index; `None` if nothing that it prepares can be saved.
+    /// The version of its saved index; `None` for an engine whose index is not saved.
     pub index: Option<u32>,
 }
 
 impl Capabilities {
-    /// Those of a search that is optimal over N(k) and prepares nothing.
+    /// A search that is optimal over N(k) and has no saved index.
     const SEARCH: Self = Self {
         placements: &[PlacementKind::Center, PlacementKind::Corner],
         max_k: Some(GridGraph::<Centers>::MAX_K),

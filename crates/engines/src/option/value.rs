@@ -1,0 +1,117 @@
+//! The values that options take.
+
+use std::{
+    fmt,
+    num::{IntErrorKind, NonZeroU32, ParseIntError},
+};
+
+use super::levels::{Levels, UnknownLevels};
+use crate::names::{UnknownName, names};
+
+/// The heuristic that guides a search.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum HeuristicName {
+    /// h_k: the cost on an empty grid.
+    #[default]
+    Hk,
+    /// The straight-line distance.
+    Euclidean,
+    /// 0 everywhere: no guidance.
+    Zero,
+    /// The square of the straight-line distance, which overestimates.
+    SquaredEuclidean,
+}
+
+names!(HeuristicName: Hk => "hk", Euclidean => "euclidean", Zero => "zero", SquaredEuclidean => "squared");
+
+/// The variants of an engine that was published with a flaw: repaired or as published.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Variant {
+    /// The repaired pruning rule of canonical A*, which is optimal.
+    Exact,
+    /// The repaired CHPA*, which finds a path whenever there is one.
+    Complete,
+    /// As published.
+    Paper,
+}
+
+names!(Variant: Exact => "exact", Complete => "complete", Paper => "paper");
+
+/// What kind of value an option takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ValueKind {
+    /// None: the option is given or not.
+    Flag,
+    /// A whole number from 1 up.
+    Number,
+    /// The name of a heuristic.
+    Heuristic,
+    /// The name of a variant.
+    Variant,
+    /// A number of levels, `all` or `contracted`.
+    Levels,
+}
+
+/// The value of an option.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OptionValue {
+    /// The flag is given.
+    Flag,
+    /// A whole number.
+    Number(NonZeroU32),
+    /// A heuristic.
+    Heuristic(HeuristicName),
+    /// A variant.
+    Variant(Variant),
+    /// Levels.
+    Levels(Levels),
+}
+
+impl ValueKind {
+    /// Reads a value of this kind; the error says what was expected.
+    pub(super) fn parse(self, text: &str) -> Result<OptionValue, String> {
+        match self {
+            Self::Flag if text.is_empty() => Ok(OptionValue::Flag),
+            Self::Flag => Err("expected no value".to_owned()),
+            Self::Number => number(text).map(OptionValue::Number),
+            Self::Heuristic => {
+                text.parse().map(OptionValue::Heuristic).map_err(|wrong: UnknownName| wrong.to_string())
+            }
+            Self::Variant => {
+                text.parse().map(OptionValue::Variant).map_err(|wrong: UnknownName| wrong.to_string())
+            }
+            Self::Levels => {
+                text.parse().map(OptionValue::Levels).map_err(|wrong: UnknownLevels| wrong.to_string())
+            }
+        }
+    }
+
+    /// The names of all values of this kind; empty for a kind whose values are not names.
+    pub(super) fn names(self) -> Vec<&'static str> {
+        match self {
+            Self::Heuristic => HeuristicName::ALL.map(HeuristicName::name).to_vec(),
+            Self::Variant => Variant::ALL.map(Variant::name).to_vec(),
+            Self::Flag | Self::Number | Self::Levels => Vec::new(),
+        }
+    }
+}
+
+/// As [`EngineOption::parse`](super::EngineOption::parse) reads it.
+impl fmt::Display for OptionValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Flag => Ok(()),
+            Self::Number(number) => number.fmt(f),
+            Self::Heuristic(name) => name.fmt(f),
+            Self::Variant(variant) => variant.fmt(f),
+            Self::Levels(levels) => levels.fmt(f),
+        }
+    }
+}
+
+fn number(text: &str) -> Result<NonZeroU32, String> {
+    text.parse().map_err(|error: ParseIntError| match error.kind() {
+        IntErrorKind::PosOverflow => format!("expected a whole number from 1 to {}", u32::MAX),
+        _ => "expected a whole number from 1 up".to_owned(),
+    })
+}

@@ -1,0 +1,61 @@
+//! The setups that test suites try.
+
+use std::num::NonZeroU32;
+
+use mediant_grid::Rules;
+use mediant_moves::K;
+use mediant_search::Smoothing;
+
+use crate::{
+    engine::{Engine, HpaOptions},
+    kind::EngineKind,
+    option::{EngineOption, Levels},
+    setup::Setup,
+};
+
+/// The smoothed setups of [`Setup::all`]: by both methods, of paths over few and over many directions.
+const SMOOTHED: [(EngineKind, Smoothing); 7] = [
+    (EngineKind::AStar, Smoothing::Linear),
+    (EngineKind::AStar, Smoothing::Taut),
+    (EngineKind::Theta, Smoothing::Taut),
+    (EngineKind::Anya, Smoothing::Taut),
+    (EngineKind::Subgoal, Smoothing::Taut),
+    (EngineKind::Hpa, Smoothing::Taut),
+    (EngineKind::Chpa, Smoothing::Linear),
+];
+
+impl Setup {
+    /// The setups for this k and these rules that test suites try: each engine with its default options and with some
+    /// values of each option, and a few with smoothing.
+    ///
+    /// For a finite k the first is A* with h_k. For k = ∞ the first is Anya at corners, and there is none at centers.
+    pub fn all(k: impl Into<K>, rules: Rules) -> impl Iterator<Item = Self> {
+        let k = k.into();
+        let engines =
+            EngineKind::ALL.into_iter().flat_map(samples).map(move |engine| Self::new(engine, k, rules));
+        let smoothed = SMOOTHED.into_iter().map(move |(engine, smoothing)| Self {
+            smoothing: Some(smoothing),
+            ..Self::new(engine, k, rules)
+        });
+        engines.chain(smoothed).filter(|setup| setup.check().is_ok())
+    }
+}
+
+/// An engine with its default options, and with each sample of an option that it takes.
+fn samples(kind: EngineKind) -> Vec<Engine> {
+    let mut engines = vec![Engine::from(kind)];
+    for option in EngineOption::ALL {
+        for value in option.samples() {
+            let mut engine = Engine::from(kind);
+            if engine.set(option, value).is_ok() {
+                engines.push(engine);
+            }
+        }
+    }
+    if kind == EngineKind::Hpa {
+        // Small clusters, so that small maps have several on each level.
+        let (side, levels) = (NonZeroU32::new(3), NonZeroU32::new(3).map(Levels::Number));
+        engines.push(Engine::Hpa(HpaOptions { side, levels, unstraightened: false }));
+    }
+    engines
+}
