@@ -1,33 +1,32 @@
-//! How the program ends: what it says, and its exit status.
+//! How the program ends: its exit status, and what it says if it failed.
 
 use std::{
-    io::{self, Write},
+    io,
     path::{Path, PathBuf},
     process::ExitCode,
 };
 
-use anstyle::{AnsiColor, Style};
 use mediant_engines::{EngineError, EngineKind, SetupError};
 use mediant_formats::{IndexError, MapMismatch, ReadError, WriteError};
 use mediant_grid::{PlacementKind, Vertex};
 
-use crate::terminal::text::printable;
+use crate::terminal::message::say_error;
 
-/// Exit status 1: some query was an error.
+/// Exit status 1: some query could not be answered.
 const QUERY_ERROR: u8 = 1;
 /// Exit status 2: bad arguments, or a file that cannot be read.
 pub(crate) const FAILURE: u8 = 2;
 
-/// A command that came to its end.
+/// How a command ended that could do what it was asked to.
 #[derive(Debug)]
 pub(crate) enum Ending {
-    /// Every query was answered, be it by 'there is no path'.
+    /// Every query was answered, if only by 'there is no path'.
     Answered,
-    /// Some query was an error, of which this tells.
+    /// Some query could not be answered; this says why.
     QueryErrors(String),
 }
 
-/// A command that cannot do what it was asked to.
+/// Why a command cannot do what it was asked to.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
     #[error(transparent)]
@@ -78,13 +77,13 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    /// Names the file that cannot be written.
+    /// Adds the path of the file that cannot be written to an error.
     pub(crate) fn writing(path: &Path) -> impl FnOnce(io::Error) -> Self {
         move |source| Self::Write { path: path.to_owned(), source }
     }
 }
 
-/// Says what is to be said on stderr. A reader of the output that has seen enough (`| head`) is no failure.
+/// Writes what failed on stderr, and returns the exit status. If the reader of stdout has left (`| head`), nothing failed.
 pub(crate) fn finish(ending: Result<Ending, Failure>) -> ExitCode {
     match ending {
         Ok(Ending::Answered) => ExitCode::SUCCESS,
@@ -98,20 +97,4 @@ pub(crate) fn finish(ending: Result<Ending, Failure>) -> ExitCode {
             ExitCode::from(FAILURE)
         }
     }
-}
-
-/// Writes `error: …` on stderr.
-pub(crate) fn say_error(text: &str) {
-    say("error", AnsiColor::Red, text);
-}
-
-/// Writes `warning: …` on stderr.
-pub(crate) fn say_warning(text: &str) {
-    say("warning", AnsiColor::Yellow, text);
-}
-
-fn say(kind: &str, color: AnsiColor, text: &str) {
-    let style = Style::new().bold().fg_color(Some(color.into()));
-    // There is nobody to tell when stderr is closed.
-    _ = writeln!(anstream::stderr(), "{style}{kind}:{style:#} {}", printable(text));
 }

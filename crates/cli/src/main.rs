@@ -1,8 +1,8 @@
 //! `mediant`: pathfinding on the 2^k neighborhoods of a grid, from the command line.
 //!
-//! A thin program: it turns arguments into types (a [`Setup`](mediant_engines::Setup) of a closed catalog), runs the queries on a
-//! planner that is compiled for just those types, and reports. What scripts rely on (the objects of `--format jsonl`, the
-//! exit status) is in [`record`] and [`failure`].
+//! The program is thin: it turns arguments into a [`Setup`](mediant_engines::Setup) of the catalog, runs the queries on the
+//! planner of that setup, and reports the answers. Scripts rely on the objects of `--format jsonl` (`run/jsonl.rs`) and on
+//! the exit status (`failure.rs`).
 
 use std::{io::Write, process::ExitCode};
 
@@ -15,9 +15,11 @@ use crate::{
 };
 
 mod args;
+mod builtin;
 mod commands;
 mod draw;
 mod failure;
+mod index_file;
 mod map;
 mod run;
 mod terminal;
@@ -35,7 +37,7 @@ fn main() -> ExitCode {
         Command::Engines => commands::engines::list(&mut screen).map(|()| Ending::Answered),
         Command::Moves(args) => commands::moves::moves(&args, &mut screen).map(|()| Ending::Answered),
     };
-    // What was printed before a failure is shown before the failure is.
+    // What was printed before a failure is shown before the failure.
     let flushed = screen.flush();
     finish(ending.and_then(|ending| flushed.map(|()| ending).map_err(Into::into)))
 }

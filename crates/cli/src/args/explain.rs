@@ -1,4 +1,4 @@
-//! What clap has to say, in the program's own form.
+//! What clap prints: help, and errors in the form of the program's own.
 
 use std::{
     io::{self, Write},
@@ -7,9 +7,12 @@ use std::{
 
 use clap::error::ErrorKind;
 
-use crate::failure::{Ending, FAILURE, Failure, finish, say_error};
+use crate::{
+    failure::{Ending, FAILURE, Failure, finish},
+    terminal::message::say_error,
+};
 
-/// Prints what clap has to say: help and version as they are, an error in one line.
+/// Prints what clap returned instead of arguments: help and version as they are, an error in one line.
 pub(crate) fn explain(error: &clap::Error) -> ExitCode {
     match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
@@ -27,9 +30,9 @@ pub(crate) fn explain(error: &clap::Error) -> ExitCode {
     }
 }
 
-/// clap's error without its paragraphs: what is wrong, what is possible, where to read more.
+/// clap's error in one line: what is wrong, what is possible, where to read more.
 fn one_line(error: &clap::Error) -> String {
-    // The tip on `--` is for positional arguments that look like options; none here does.
+    // clap's tip on `--` is for positional arguments that look like options. There are none here.
     const NOISE: [&str; 3] = ["Usage:", "For more information", "tip: to pass"];
     let text = error.render().to_string();
     let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());

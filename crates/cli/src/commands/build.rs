@@ -1,27 +1,27 @@
-//! `mediant build`: what an engine preprocesses, saved.
+//! `mediant build`: prepares an engine's index of a map, and saves it.
 
-use std::{io::Write, path::Path, time::Instant};
+use std::{io::Write, time::Instant};
 
-use mediant_engines::{Index, SearchSpace, Setup, SharedRules};
-use mediant_formats::{IndexFile, IndexKey};
-use mediant_grid::Grid;
-use mediant_moves::FiniteK;
+use mediant_engines::{Index, SearchSpace, SharedRules};
 
 use crate::{
     args::BuildArgs,
     failure::Failure,
+    index_file,
     map::{Map, file_name},
     terminal::{
+        numbers::{grouped, time},
         progress::BuildProgress,
         screen::{BOLD, Screen},
-        text::{grouped, printable, time},
+        text::printable,
     },
 };
 
 /// Runs the command.
 pub(crate) fn build(args: &BuildArgs, screen: &mut Screen) -> Result<(), Failure> {
     let setup = args.setup()?;
-    let version = setup.index_version()?;
+    // A setup without an index is refused before anything is computed.
+    setup.index_version()?;
     let map = Map::load(&args.map)?;
     let progress = BuildProgress::new();
     let begin = Instant::now();
@@ -30,35 +30,17 @@ pub(crate) fn build(args: &BuildArgs, screen: &mut Screen) -> Result<(), Failure
     });
     let took = begin.elapsed();
     progress.clear();
-    let payload = built?;
-    let key = key(setup, version, &map.grid).map_err(refused(&args.output))?;
-    let bytes = grouped(payload.len() as u64);
-    IndexFile::new(key, payload).write(&args.output)?;
+    let bytes = built?;
+    let size = grouped(bytes.len() as u64);
+    index_file::save(&args.output, setup, &map.grid, bytes)?;
     let name = file_name(&args.output);
     let name = screen.paint(BOLD, printable(&name)).to_string();
     let took = time(took.as_nanos() as f64);
     writeln!(
         screen,
-        "{name} · {} of {} · {bytes} bytes · built in {took}",
+        "{name} · {} of {} · {size} bytes · built in {took}",
         setup.engine.kind(),
         printable(&map.name)
     )?;
     Ok(())
-}
-
-/// The bytes of a saved index, if it is the one for this setup and map.
-pub(crate) fn load(path: &Path, setup: Setup, grid: &Grid) -> Result<Vec<u8>, Failure> {
-    let version = setup.index_version()?;
-    let file = IndexFile::read(path)?;
-    let expected = key(setup, version, grid).map_err(refused(path))?;
-    file.check(&expected).map_err(refused(path))?;
-    Ok(file.into_payload())
-}
-
-fn key(setup: Setup, version: u32, grid: &Grid) -> Result<IndexKey, mediant_formats::IndexError> {
-    IndexKey::new(setup.engine.kind().name(), version, setup.rules, setup.k.finite().map(FiniteK::get), grid)
-}
-
-fn refused(path: &Path) -> impl FnOnce(mediant_formats::IndexError) -> Failure {
-    move |source| Failure::Index { path: path.to_owned(), source }
 }

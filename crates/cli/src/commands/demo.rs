@@ -1,4 +1,4 @@
-//! `mediant demo`: one query, many k, a picture.
+//! `mediant demo`: a query on a bundled map for many k, as a table and a picture.
 
 use std::io::{self, Write};
 
@@ -10,30 +10,33 @@ use mediant_search::{Outcome, Query};
 
 use crate::{
     args::DemoArgs,
+    builtin::Builtin,
     draw::{
         braille::Stroke,
         picture::{Canvas, GOAL_MARK, START_MARK},
         theme::INKS,
     },
     failure::Failure,
-    map::{Builtin, Map},
+    map::Map,
     run::measure::Measured,
     terminal::{
+        numbers::{grouped, percent_over, time},
         screen::{BOLD, DIM, Screen},
-        text::{Align, Table, grouped, percent_over, time, wrap},
+        table::{Align, Table},
+        text::wrap,
     },
 };
 
-/// The finite k that the table compares.
+/// The finite k of the table's rows at corners.
 const KS: [u32; 8] = [2, 3, 4, 5, 6, 7, 9, 12];
-/// Of so many timed runs the best counts.
+/// How often each query is timed; the best time counts.
 const REPEAT: u32 = 20;
 
 /// A line of the table.
 struct Row {
     rules: Rules,
     k: K,
-    /// How much longer than an any-angle path it can be at most, where that is known.
+    /// At most this many times as long as the shortest any-angle path on any map; `None` where no such bound is known.
     bound: Option<f64>,
     cost: f64,
     waypoints: Vec<Vertex>,
@@ -41,11 +44,11 @@ struct Row {
     nanos: u64,
 }
 
-/// Solves the demo's query under one setup; `None` when there is no path.
+/// Solves the demo's query in one setup; `None` if there is no path.
 fn solve(setup: Setup, map: &Map, query: Query, pruning: &SharedRules) -> Result<Option<Row>, Failure> {
     let Setup { rules, k, .. } = setup;
     let mut planner = BoxedPlanner::new(setup, &map.grid, pruning)?;
-    // Of paths between centers no bound over those between corners, the best here, is known.
+    // The table compares with any-angle paths between corners; no bound to these is known for paths between centers.
     let at_corners = rules.placement() == PlacementKind::Corner;
     let bound = planner.guarantee().bound(rules).filter(|_| at_corners);
     let Measured { outcome, counters, nanos } = Measured::new(&mut planner, query, REPEAT);
@@ -56,8 +59,8 @@ fn solve(setup: Setup, map: &Map, query: Query, pruning: &SharedRules) -> Result
 
 /// Runs the command.
 pub(crate) fn demo(args: &DemoArgs, screen: &mut Screen) -> Result<(), Failure> {
-    let builtin = Builtin::named(args.name.strip_prefix("builtin:").unwrap_or(&args.name))?;
-    let map = builtin.map()?;
+    let builtin = Builtin::of_name(&args.name)?;
+    let map = Map::bundled(builtin)?;
     let query = Query::new(builtin.start, builtin.goal);
     let corners = Rules::Corner(DiagonalGap::Open);
     let centers = Rules::Center(CornerRule::Never);
@@ -77,6 +80,7 @@ pub(crate) fn demo(args: &DemoArgs, screen: &mut Screen) -> Result<(), Failure> 
     Ok(explanation(builtin, screen)?)
 }
 
+/// Writes the map's name and size, and the query.
 fn title(builtin: &Builtin, map: &Map, query: Query, screen: &mut Screen) -> io::Result<()> {
     let name = screen.paint(BOLD, builtin.name);
     let (width, height) = (map.grid.width(), map.grid.height());
@@ -84,7 +88,7 @@ fn title(builtin: &Builtin, map: &Map, query: Query, screen: &mut Screen) -> io:
     writeln!(screen, "\n  {name} · {width} × {height} · {}, {start} to {goal}\n", builtin.caption)
 }
 
-/// How a row of the table is drawn on the map, if it is.
+/// How the path of a row is drawn on the map; `None` if it is not drawn.
 fn stroke(row: &Row) -> Option<(Stroke, RgbColor)> {
     match (row.rules.placement(), row.k) {
         (PlacementKind::Corner, K::Finite(FiniteK::N4)) => Some((Stroke::Dotted, INKS.four)),
@@ -94,13 +98,14 @@ fn stroke(row: &Row) -> Option<(Stroke, RgbColor)> {
     }
 }
 
-/// A k, ∞ by its sign.
+/// A k, with the sign for ∞.
 fn k_sign(k: K) -> String {
     k.finite().map_or_else(|| "∞".to_owned(), |k| k.to_string())
 }
 
+/// Draws the map with some of the paths, and says which is which.
 fn picture(map: &Map, query: Query, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
-    let mut canvas = Canvas::fit(map, PlacementKind::Corner, screen);
+    let mut canvas = Canvas::fit(&map.file, map.theme, PlacementKind::Corner, screen);
     for row in rows {
         if let Some((stroke, ink)) = stroke(row) {
             canvas.path(&row.waypoints, stroke, ink);
@@ -122,6 +127,7 @@ fn picture(map: &Map, query: Query, rows: &[Row], screen: &mut Screen) -> io::Re
     writeln!(screen, "\n  {}\n", legend.trim_end())
 }
 
+/// Writes the table, a row for each setup.
 fn table(map: &Map, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
     let best = rows.iter().filter(|row| row.rules.placement() == PlacementKind::Corner).map(|row| row.cost);
     let best = best.fold(f64::INFINITY, f64::min);
@@ -131,7 +137,7 @@ fn table(map: &Map, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
     for row in rows {
         let placement = row.rules.placement();
         let cells = [
-            // A column wider than its numbers keeps them off the sample of the line.
+            // Wider than any k, so that there is a gap after the sample of the stroke.
             format!("{:>3}", k_sign(row.k)),
             format!("{placement}s"),
             row.k.finite().and_then(FiniteK::moves).map_or_else(|| "∞".to_owned(), grouped),
@@ -153,6 +159,7 @@ fn table(map: &Map, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
     table.write(screen)
 }
 
+/// Says how to read the table, and what to try next.
 fn explanation(builtin: &Builtin, screen: &mut Screen) -> io::Result<()> {
     let words = "Each path is the shortest that its moves allow: k = 2 steps along the axes, k = 3 adds the diagonals, and \
                  each k after it puts a new move between every two, and k = ∞ goes in any direction. `bound` is the most that \

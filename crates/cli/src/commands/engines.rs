@@ -9,10 +9,11 @@ use crate::{
     failure::Failure,
     terminal::{
         screen::Screen,
-        text::{Align, Table},
+        table::{Align, Table},
     },
 };
 
+/// How to read the table.
 const NOTES: &str = "\
 Both is center and corner. optimal(k) with k = any: the shortest of all paths.
 At centers subgoal, hpa and chpa take k = 2, and k = 3 under corners never.";

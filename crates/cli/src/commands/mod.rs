@@ -1,8 +1,7 @@
-//! The commands of the program, a file each.
+//! The commands of the program.
 
 pub(crate) mod build;
 pub(crate) mod demo;
-pub(crate) mod distances;
 pub(crate) mod engines;
 pub(crate) mod moves;
 pub(crate) mod run;

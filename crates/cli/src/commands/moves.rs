@@ -11,8 +11,11 @@ use crate::{
     args::{MAX_K, MovesArgs},
     draw::star,
     failure::Failure,
-    terminal::screen::{BOLD, DIM, Screen},
-    terminal::text::{Align, Table, grouped, percent_over},
+    terminal::{
+        numbers::{grouped, percent_over},
+        screen::{BOLD, DIM, Screen},
+        table::{Align, Table},
+    },
 };
 
 /// Runs the command.
@@ -34,6 +37,7 @@ pub(crate) fn moves(args: &MovesArgs, screen: &mut Screen) -> Result<(), Failure
     }
 }
 
+/// Writes the number of moves, the radius and the bounds.
 fn facts(neighborhood: Neighborhood, screen: &mut Screen) -> Result<(), Failure> {
     let k = neighborhood.k();
     let radius = k.radius().map_err(|error: KError| Failure::K(error))?;
@@ -43,7 +47,7 @@ fn facts(neighborhood: Neighborhood, screen: &mut Screen) -> Result<(), Failure>
     writeln!(screen, "  radius          {}", grouped(radius.unsigned_abs().into()))?;
     let uncut = ("centers, never", BOUND_WITHOUT_CORNER_CUTTING);
     for (place, bound) in [("corners", bound_at_corners(k)), ("centers, one", bound_at_centers(k)), uncut] {
-        // Where the bound is close to 1 its distance from 1 is what tells.
+        // A bound close to 1 needs more digits to differ from 1.
         let digits = if bound < 1.001 { 6 } else { 2 };
         let percent = (bound - 1.0) * 100.0;
         writeln!(
@@ -54,9 +58,11 @@ fn facts(neighborhood: Neighborhood, screen: &mut Screen) -> Result<(), Failure>
     Ok(())
 }
 
-/// The first and the last moves of a quadrant are listed, so many of each; all of them when there are no more.
+/// How many of the first moves of a quadrant are listed, and how many of the last. A quadrant that has at most one more
+/// move than that is listed in full.
 const SHOWN: u64 = 16;
 
+/// Lists the moves of a quadrant.
 fn list(quadrant: Quadrant, screen: &mut Screen) -> io::Result<()> {
     let heads = ["index", "move", "parity", "level", "length", "parents"];
     let align = |head| (head, if matches!(head, "parity" | "parents") { Align::Left } else { Align::Right });
@@ -82,6 +88,7 @@ fn list(quadrant: Quadrant, screen: &mut Screen) -> io::Result<()> {
     Ok(())
 }
 
+/// The row of a move.
 fn move_cells(quadrant: Quadrant, index: u64) -> [String; 6] {
     let v = quadrant.get(index).unwrap_or_default();
     let pair = |v: Vector| format!("({}, {})", v.x, v.y);
@@ -99,7 +106,7 @@ fn move_cells(quadrant: Quadrant, index: u64) -> [String; 6] {
     ]
 }
 
-/// The k that a bound asks for.
+/// Writes the smallest k whose bound is at most `ratio`.
 fn smallest(ratio: f64, after_moves: bool, screen: &mut Screen) -> io::Result<()> {
     if after_moves {
         writeln!(screen)?;

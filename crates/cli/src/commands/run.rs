@@ -1,4 +1,4 @@
-//! `mediant run`: queries on a map.
+//! `mediant run`: answers queries on a map.
 
 use std::{
     fs::File,
@@ -8,19 +8,23 @@ use std::{
 
 use mediant_engines::{BoxedPlanner, EngineOption, Index, SearchSpace, Setup, SharedRules};
 
-use super::{build, distances};
 use crate::{
     args::{Format, RunArgs},
     draw::{braille::Stroke, picture::Canvas, theme::INKS},
     failure::{Ending, Failure},
+    index_file,
     map::Map,
     run::{
         answer::Run,
+        distances,
+        jsonl::Jsonl,
         queries::Queries,
-        report::{Jsonl, Report, TableReport},
-        session::{Finished, Session, TraceFile},
+        report::Report,
+        session::{Finished, Session},
+        table::TableReport,
+        trace::TraceFile,
     },
-    terminal::{progress::Progress, screen::Screen, text::count},
+    terminal::{numbers::count, progress::Progress, screen::Screen},
 };
 
 /// Runs the command.
@@ -66,7 +70,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
         preparation,
         memory_bytes: space.memory_bytes() + index.memory_bytes(),
     };
-    // Lines of JSON on the screen are progress enough, and a bar would break them.
+    // Lines of JSON on the screen show progress themselves, and a bar would break them.
     let lines_on_screen = args.format == Format::Jsonl && io::stdout().is_terminal();
     let mut report: Box<dyn Report> = match args.format {
         Format::Jsonl => Box::new(Jsonl::new(screen, lines_on_screen)),
@@ -87,14 +91,14 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     Ok(ending(&queries, finished))
 }
 
-/// The search space of a map, and the index that is made, or loaded from the file that the arguments name.
+/// The search space of a map, and the index: a new one, or that of the file that the arguments name.
 fn prepare(
     args: &RunArgs,
     setup: Setup,
     map: &Map,
     rules: &SharedRules,
 ) -> Result<(SearchSpace, Index), Failure> {
-    let bytes = args.index.as_deref().map(|path| build::load(path, setup, &map.grid)).transpose()?;
+    let bytes = args.index.as_deref().map(|path| index_file::load(path, setup, &map.grid)).transpose()?;
     let space = SearchSpace::new(setup, &map.grid)?;
     let index = match bytes {
         None => Index::new(setup, &space, rules)?,
@@ -103,7 +107,7 @@ fn prepare(
     Ok((space, index))
 }
 
-/// The picture of a single query.
+/// Draws the map with the path of a single query.
 fn draw(
     setup: Setup,
     map: &Map,
@@ -112,13 +116,14 @@ fn draw(
     screen: &mut Screen,
 ) -> io::Result<()> {
     let Some(item) = queries.iter().next() else { return Ok(()) };
-    let mut canvas = Canvas::fit(map, setup.rules.placement(), screen);
+    let mut canvas = Canvas::fit(&map.file, map.theme, setup.rules.placement(), screen);
     canvas.path(&finished.path, Stroke::Solid, INKS.best);
     canvas.ends(item.query);
     writeln!(screen)?;
     canvas.write(screen)
 }
 
+/// What the program says and returns after the last query.
 fn ending(queries: &Queries, finished: Finished) -> Ending {
     match (finished.first_error, queries) {
         (None, _) => Ending::Answered,

@@ -1,4 +1,4 @@
-//! Lines of dots, eight times as fine as characters: a Braille character is two dots wide and four high.
+//! Lines of dots: a Braille character is two dots wide and four high.
 
 use anstyle::RgbColor;
 
@@ -16,7 +16,7 @@ pub(crate) enum Stroke {
 }
 
 impl Stroke {
-    /// Whether the `i`-th dot of a line is there.
+    /// Whether the `i`-th dot of a line is drawn.
     pub(crate) const fn inks(self, i: usize) -> bool {
         match self {
             Self::Solid => true,
@@ -35,7 +35,7 @@ impl Stroke {
     }
 }
 
-/// What stands in one character.
+/// The content of one character: a mark or dots, and their color.
 #[derive(Clone, Copy)]
 pub(crate) struct Glyph {
     dots: u8,
@@ -46,14 +46,14 @@ pub(crate) struct Glyph {
 impl Glyph {
     const NONE: Self = Self { dots: 0, mark: None, ink: RgbColor(0, 0, 0) };
 
-    /// The mark, else the dots; `None` where there are neither.
+    /// The mark, else the dots as a character; `None` without either.
     pub(crate) fn letter(self) -> Option<char> {
         let dots = (self.dots != 0).then(|| char::from_u32(0x2800 + u32::from(self.dots))).flatten();
         self.mark.or(dots)
     }
 }
 
-/// Characters to be drawn on.
+/// Rows of characters to draw dots and marks on.
 pub(crate) struct Sheet {
     columns: usize,
     rows: usize,
@@ -81,25 +81,26 @@ impl Sheet {
         &self.glyphs[row * self.columns..][..self.columns]
     }
 
-    /// Puts a dot at dot column x, dot row y; nothing outside the sheet.
+    /// Draws the dot of column x and row y, both in dots. Outside the sheet it draws nothing.
     pub(crate) fn dot(&mut self, x: usize, y: usize, ink: RgbColor) {
         // Unicode counts the dots down the left column, then down the right one, but for the lowest two.
         const BITS: [[u8; DOT_COLUMNS]; DOT_ROWS] = [[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]];
         let Some(glyph) = self.glyph(x, y) else { return };
         if glyph.ink != ink {
-            // One color a character: the line drawn last has it to itself.
+            // A character has one color: the line drawn last replaces the others.
             *glyph = Glyph { ink, ..Glyph::NONE };
         }
         glyph.dots |= BITS[y % DOT_ROWS][x % DOT_COLUMNS];
     }
 
-    /// Writes a character over the one that holds the dot (x, y).
+    /// Puts a mark in place of the character that holds the dot (x, y).
     pub(crate) fn mark(&mut self, x: usize, y: usize, mark: char, ink: RgbColor) {
         if let Some(glyph) = self.glyph(x, y) {
             *glyph = Glyph { dots: 0, mark: Some(mark), ink };
         }
     }
 
+    /// The character that holds the dot (x, y), if it is on the sheet.
     fn glyph(&mut self, x: usize, y: usize) -> Option<&mut Glyph> {
         let (column, row) = (x / DOT_COLUMNS, y / DOT_ROWS);
         if column >= self.columns {
@@ -109,8 +110,7 @@ impl Sheet {
     }
 }
 
-/// The places of the dots on a line, in dots: one for each step along the longer axis, where the line passes the middle of
-/// the step.
+/// The positions of a line's dots, in dots: one for each unit step along the longer axis, at the middle of the step.
 pub(crate) fn steps(from: (f64, f64), to: (f64, f64)) -> impl Iterator<Item = (f64, f64)> {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let steps = dx.abs().max(dy.abs()).round().max(1.0);

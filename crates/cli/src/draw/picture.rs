@@ -1,7 +1,7 @@
 //! Maps and paths drawn with characters.
 //!
-//! A character is a block of 2 × 4 dots (Braille), over two square pixels of ground, the upper and the lower half. The ground
-//! is drawn as colors, or as blocks where there is no color; paths are lines of dots, eight times as fine as characters.
+//! A character shows 2 × 4 dots (Braille) over two square pixels of ground, its upper and its lower half. The ground is
+//! drawn in colors, or without color as blocks. Paths are lines of dots.
 
 use std::io::{self, Write};
 
@@ -10,21 +10,14 @@ use mediant_formats::MapFile;
 use mediant_grid::{PlacementKind, Vertex};
 use mediant_search::Query;
 
-use crate::{
-    draw::braille::{DOT_COLUMNS, DOT_ROWS, Glyph, Sheet, Stroke, steps},
-    draw::theme::{INKS, Theme},
-    map::Map,
-    terminal::screen::Screen,
+use super::{
+    braille::{DOT_COLUMNS, DOT_ROWS, Glyph, Sheet, Stroke, steps},
+    ground::{Ground, paint, pixels},
+    theme::{INKS, Theme},
 };
+use crate::terminal::screen::Screen;
 
-/// A pixel of ground: two by two dots.
-#[derive(Clone, Copy)]
-struct Ground {
-    free: bool,
-    color: RgbColor,
-}
-
-/// A map in the size of the screen, to be drawn on.
+/// A picture of a map that fits on the screen, to draw paths on.
 pub(crate) struct Canvas {
     placement: PlacementKind,
     dots_per_cell: f64,
@@ -33,16 +26,16 @@ pub(crate) struct Canvas {
     sheet: Sheet,
 }
 
-/// Along each side of a pixel.
+/// The dots along each side of a pixel.
 const PIXEL_DOTS: usize = DOT_COLUMNS;
 
 impl Canvas {
-    /// The rows that a picture may take.
+    /// The most rows of a picture; half as many for a map drawn larger than a dot's pixel a cell.
     const MAX_ROWS: f64 = 48.0;
 
-    /// The map, as large as fits on the screen but not larger than is good to look at.
-    pub(crate) fn fit(map: &Map, placement: PlacementKind, screen: &Screen) -> Self {
-        let (width, height) = (f64::from(map.grid.width()), f64::from(map.grid.height()));
+    /// The map, as large as fits on the screen, but a small map not larger than is good to look at.
+    pub(crate) fn fit(map: &MapFile, theme: Theme, placement: PlacementKind, screen: &Screen) -> Self {
+        let (width, height) = (f64::from(map.width()), f64::from(map.height()));
         // Margins, and the frame where there is no color.
         let columns = screen.columns().max(24) as f64 - 6.0;
         let fits = |dots: f64| {
@@ -53,16 +46,17 @@ impl Canvas {
         let shrunk = (2..).map(|cells| 1.0 / f64::from(cells));
         let dots_per_cell =
             [8.0, 4.0, 2.0, 1.0].into_iter().chain(shrunk).find(|&dots| fits(dots)).unwrap_or(1.0);
-        Self::new(map, placement, dots_per_cell)
+        Self::new(map, theme, placement, dots_per_cell)
     }
 
-    fn new(map: &Map, placement: PlacementKind, dots_per_cell: f64) -> Self {
+    /// The map, with so many dots along the side of a cell.
+    fn new(map: &MapFile, theme: Theme, placement: PlacementKind, dots_per_cell: f64) -> Self {
         let chars =
             |cells: u32, dots: usize| (f64::from(cells) * dots_per_cell / dots as f64).ceil() as usize;
-        let (columns, rows) = (chars(map.grid.width(), DOT_COLUMNS), chars(map.grid.height(), DOT_ROWS));
+        let (columns, rows) = (chars(map.width(), DOT_COLUMNS), chars(map.height(), DOT_ROWS));
         let pixel_in_cells = PIXEL_DOTS as f64 / dots_per_cell;
-        let tiles = pixels(&map.file, columns, 2 * rows, pixel_in_cells);
-        let ground = paint(&tiles, columns, pixel_in_cells, map.theme);
+        let tiles = pixels(map, columns, 2 * rows, pixel_in_cells);
+        let ground = paint(&tiles, columns, pixel_in_cells, theme);
         Self { placement, dots_per_cell, ground, sheet: Sheet::new(columns, rows) }
     }
 
@@ -80,12 +74,13 @@ impl Canvas {
         }
     }
 
-    /// Marks both ends of a query.
+    /// Marks the start and the goal of a query.
     pub(crate) fn ends(&mut self, query: Query) {
         self.mark(query.start, START_MARK, INKS.start);
         self.mark(query.goal, GOAL_MARK, INKS.goal);
     }
 
+    /// Puts a character at a vertex.
     fn mark(&mut self, at: Vertex, mark: char, ink: RgbColor) {
         let (x, y) = self.position(at);
         if let Some((column, row)) = self.nearest_dot(x, y) {
@@ -93,15 +88,15 @@ impl Canvas {
         }
     }
 
-    /// Where a vertex is, in dots.
+    /// The position of a vertex, in dots.
     fn position(&self, at: Vertex) -> (f64, f64) {
         let offset = if self.placement == PlacementKind::Center { 0.5 } else { 0.0 };
         let dots = |cells: i32| (f64::from(cells) + offset) * self.dots_per_cell;
         (dots(at.x), dots(at.y))
     }
 
-    /// The dot at a place. Where the place is on the line between two dots, as all places along grid lines are, the one on
-    /// free ground: a path along a wall is drawn beside it.
+    /// The dot at a position. A position on a grid line is between two dots: there it is the one on free ground, so that a
+    /// path along a wall is drawn beside the wall.
     fn nearest_dot(&self, x: f64, y: f64) -> Option<(usize, usize)> {
         const NEAR: f64 = 1e-6;
         let (columns, rows) = (self.sheet.columns() * DOT_COLUMNS, self.sheet.rows() * DOT_ROWS);
@@ -115,7 +110,7 @@ impl Canvas {
         dots.clone().find(is_free).or_else(|| dots.next())
     }
 
-    /// Writes the picture, two columns from the left.
+    /// Writes the picture, indented by two columns.
     pub(crate) fn write(&self, screen: &mut Screen) -> io::Result<()> {
         if screen.has_color() {
             for row in 0..self.sheet.rows() {
@@ -132,7 +127,7 @@ impl Canvas {
         writeln!(screen, "  └{edge}┘")
     }
 
-    /// A row of glyphs with the ground above and below the middle of each.
+    /// A row of glyphs, each with the ground of its upper and its lower half.
     fn row(&self, row: usize) -> impl Iterator<Item = (Glyph, Ground, Ground)> {
         let columns = self.sheet.columns();
         let pixels = |row: usize| self.ground[row * columns..][..columns].iter().copied();
@@ -143,6 +138,7 @@ impl Canvas {
             .map(|((glyph, above), below)| (glyph, above, below))
     }
 
+    /// A row without color: glyphs, and blocks for blocked ground.
     fn plain_row(&self, row: usize) -> String {
         let blocks = |(glyph, above, below): (Glyph, Ground, Ground)| {
             glyph.letter().unwrap_or(match (above.free, below.free) {
@@ -155,13 +151,13 @@ impl Canvas {
         self.row(row).map(blocks).collect()
     }
 
-    /// Escape sequences only where a color changes.
+    /// A row with escape sequences wherever a color changes.
     fn colored_row(&self, row: usize, screen: &Screen) -> String {
         let mut text = String::new();
         let mut current = (None, None);
         for (glyph, above, below) in self.row(row) {
             let (letter, ink, paper) = match glyph.letter() {
-                // A character has one background: under a line it is that of the free half.
+                // A character has one background. Under a line it is the free half's.
                 Some(letter) => (letter, Some(glyph.ink), if above.free { above.color } else { below.color }),
                 None if above.color == below.color => (' ', None, below.color),
                 None => ('▀', Some(above.color), below.color),
@@ -184,65 +180,3 @@ impl Canvas {
 pub(crate) const START_MARK: char = '●';
 /// The sign of a query's goal.
 pub(crate) const GOAL_MARK: char = '◆';
-
-/// The tile of each pixel. A pixel that covers several cells is free when at least half of them are.
-fn pixels(file: &MapFile, columns: usize, rows: usize, pixel_in_cells: f64) -> Vec<u8> {
-    const OUTSIDE: u8 = b'@';
-    let map: Vec<&[u8]> = file.rows().collect();
-    let span = |i: usize, cells: usize| {
-        let first = (i as f64 * pixel_in_cells) as usize;
-        let last = ((i + 1) as f64 * pixel_in_cells).ceil() as usize;
-        first.min(cells)..last.min(cells).max((first + 1).min(cells))
-    };
-    let mut result = Vec::with_capacity(columns * rows);
-    for row in 0..rows {
-        for column in 0..columns {
-            let lines = &map[span(row, map.len())];
-            let cells = || lines.iter().flat_map(|line| &line[span(column, line.len())]).copied();
-            let free = cells().filter(|&tile| MapFile::is_free_tile(tile)).count();
-            let is_free = 2 * free >= cells().count();
-            result.push(cells().find(|&tile| MapFile::is_free_tile(tile) == is_free).unwrap_or(OUTSIDE));
-        }
-    }
-    result
-}
-
-/// Colors the pixels by how far they are from the border between free and blocked.
-fn paint(tiles: &[u8], columns: usize, pixel_in_cells: f64, theme: Theme) -> Vec<Ground> {
-    let depths = depths(tiles, columns);
-    let ground = tiles.iter().zip(depths).map(|(&tile, thirds)| {
-        let free = MapFile::is_free_tile(tile);
-        // Pixels smaller than a cell count as parts of one.
-        let depth = (f64::from(thirds) / 3.0 * pixel_in_cells.min(1.0)).ceil() as u32;
-        Ground { free, color: theme.color(tile, free, depth) }
-    });
-    ground.collect()
-}
-
-/// How far each pixel is from the nearest one of the other kind, in thirds of a pixel: the chamfer distance (3 for a step along an axis, 4 for a diagonal one), in one pass
-/// down and one up.
-fn depths(tiles: &[u8], columns: usize) -> Vec<u32> {
-    const FAR: u32 = 1 << 20;
-    let rows = tiles.len() / columns.max(1);
-    let mut depths = vec![FAR; tiles.len()];
-    let mut relax = |i: usize, around: [(isize, isize); 4]| {
-        let (x, y) = (i % columns, i / columns);
-        for (dx, dy) in around {
-            let (Some(x), Some(y)) = (x.checked_add_signed(dx), y.checked_add_signed(dy)) else { continue };
-            if x >= columns || y >= rows {
-                continue;
-            }
-            let other = y * columns + x;
-            let weight = if dx != 0 && dy != 0 { 4 } else { 3 };
-            let alike = MapFile::is_free_tile(tiles[i]) == MapFile::is_free_tile(tiles[other]);
-            depths[i] = depths[i].min(weight + if alike { depths[other] } else { 0 });
-        }
-    };
-    for i in 0..tiles.len() {
-        relax(i, [(-1, -1), (0, -1), (1, -1), (-1, 0)]);
-    }
-    for i in (0..tiles.len()).rev() {
-        relax(i, [(1, 1), (0, 1), (-1, 1), (1, 0)]);
-    }
-    depths
-}

@@ -1,4 +1,4 @@
-//! The moves of N(k) as a star: rays from the origin, and at the tip of each its level.
+//! The moves of N(k) as a star: a ray for each move, with its level at the tip.
 
 use std::io::{self, Write};
 
@@ -6,15 +6,13 @@ use anstyle::RgbColor;
 use mediant_grid::Vector;
 use mediant_moves::{Neighborhood, level};
 
-use crate::{
-    draw::braille::{DOT_COLUMNS, DOT_ROWS, Sheet, steps},
-    terminal::screen::Screen,
-};
+use super::braille::{DOT_COLUMNS, DOT_ROWS, Sheet, steps};
+use crate::terminal::screen::Screen;
 
 /// The largest k whose star fits on a screen.
 pub(crate) const MAX_K: u32 = 7;
 
-/// Colors of the levels, from 2. None is so light that it vanishes on a light screen, nor so dark on a dark one.
+/// Colors of the levels, from level 2 up. All can be seen on a light and on a dark screen.
 const LEVEL_INKS: [RgbColor; 6] = [
     RgbColor(0xe0, 0x5a, 0x4e),
     RgbColor(0xe0, 0x9a, 0x2b),
@@ -39,7 +37,7 @@ pub(crate) fn draw(neighborhood: Neighborhood, screen: &mut Screen) -> io::Resul
         (place(v.x, middle_x) + DOT_COLUMNS as f64 / 2.0, place(v.y, middle_y) + DOT_ROWS as f64 / 2.0)
     };
     let mut moves: Vec<(u32, Vector)> = neighborhood.iter().filter_map(|v| Some((level(v)?, v))).collect();
-    // Low levels last, since they are what the others grow from.
+    // Low levels are drawn last, over the levels that come from them.
     moves.sort_by_key(|&(level, _)| std::cmp::Reverse(level));
     for &(level, v) in &moves {
         for (x, y) in steps(tip(Vector::ZERO), tip(v)) {

@@ -2,18 +2,18 @@
 
 use anstyle::RgbColor as Rgb;
 
-/// What a map is drawn as.
+/// What a map shows, which decides its colors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Theme {
-    /// A file of which nothing is known: by its tiles.
+    /// Unknown: each tile has the color of its kind.
     Plain,
-    /// Free is water, blocked is land.
+    /// Free cells are water, blocked cells are land.
     Sea,
-    /// Free is the floor of a cave.
+    /// Free cells are the floor of a cave, blocked cells are rock.
     Cave,
-    /// Free are the gravel paths between hedges.
+    /// Free cells are gravel paths, blocked cells are hedges.
     Hedges,
-    /// Free are streets; blocked are houses, trees and a canal.
+    /// Free cells are streets; blocked cells are houses, trees and a canal.
     Town,
 }
 
@@ -49,13 +49,13 @@ const TREE: [Rgb; 1] = [Rgb(0x5b, 0x96, 0x4e)];
 const SWAMP: [Rgb; 1] = [Rgb(0x2c, 0x40, 0x3c)];
 
 impl Theme {
-    /// The color of free ground far from all else.
+    /// The color of free ground far from blocked ground.
     pub(crate) const fn ground(self) -> Rgb {
         self.color(b'.', true, u32::MAX)
     }
 
-    /// The color of a place by its tile, whether it is free, and how far it is from the next place that is not (or
-    /// that is), from 1.
+    /// The color of ground by its tile, by whether it is free, and by its depth: its distance, from 1 up, from the nearest
+    /// ground of the other kind.
     pub(crate) const fn color(self, tile: u8, free: bool, depth: u32) -> Rgb {
         let colors: &[Rgb] = match (self, free, tile) {
             (Self::Sea, true, _) => &WATER,
@@ -72,21 +72,24 @@ impl Theme {
             (Self::Plain, false, _) => &ROCK,
         };
         let i = (depth as usize).saturating_sub(1);
-        // Beyond the last color, the last.
+        // The last color serves all greater depths.
         colors[if i < colors.len() { i } else { colors.len() - 1 }]
     }
 }
 
-/// The colors of what is drawn on the map: bright, and apart from each other and from every theme.
+/// The colors of what is drawn on the map: bright, and unlike each other and the colors of every theme.
 pub(crate) struct Inks {
+    /// The path of a run, and of k = ∞ in the demo.
     pub(crate) best: Rgb,
+    /// The path of k = 3 in the demo.
     pub(crate) eight: Rgb,
+    /// The path of k = 2 in the demo.
     pub(crate) four: Rgb,
     pub(crate) start: Rgb,
     pub(crate) goal: Rgb,
 }
 
-/// See [`Inks`].
+/// The colors of what is drawn on the map.
 pub(crate) const INKS: Inks = Inks {
     best: Rgb(0xff, 0xff, 0xff),
     eight: Rgb(0xff, 0xd0, 0x40),
@@ -94,33 +97,3 @@ pub(crate) const INKS: Inks = Inks {
     start: Rgb(0x7d, 0xff, 0x9a),
     goal: Rgb(0xff, 0x5c, 0x50),
 };
-
-/// The color of the 256-color palette that is nearest: in the cube of 6 × 6 × 6 colors, or on the ramp of 24 grays.
-pub(crate) fn nearest_of_256(Rgb(r, g, b): Rgb) -> u8 {
-    const LEVELS: [u8; 6] = [0, 95, 135, 175, 215, 255];
-    let level = |c: u8| (0..6_u8).min_by_key(|&i| LEVELS[usize::from(i)].abs_diff(c)).unwrap_or(0);
-    let distance = |(x, y, z): (u8, u8, u8)| {
-        [(x, r), (y, g), (z, b)].map(|(p, q)| u32::from(p.abs_diff(q)).pow(2)).iter().sum::<u32>()
-    };
-    let [i, j, k] = [r, g, b].map(level);
-    let cube = (LEVELS[usize::from(i)], LEVELS[usize::from(j)], LEVELS[usize::from(k)]);
-    let gray_of = |n: u8| 8 + 10 * n;
-    let gray = (0..24).min_by_key(|&n| distance((gray_of(n), gray_of(n), gray_of(n)))).unwrap_or(0);
-    if distance((gray_of(gray), gray_of(gray), gray_of(gray))) < distance(cube) {
-        232 + gray
-    } else {
-        16 + 36 * i + 6 * j + k
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn palette_colors_are_found() {
-        let found = [Rgb(0, 0, 0), Rgb(255, 255, 255), Rgb(95, 135, 175), Rgb(38, 38, 38), Rgb(250, 3, 2)]
-            .map(nearest_of_256);
-        assert_eq!(found, [16, 231, 67, 235, 196]);
-    }
-}

@@ -1,20 +1,20 @@
-//! One query, counted and timed.
+//! A query, counted and timed.
 
 use std::{hint::black_box, time::Instant};
 
 use mediant_engines::BoxedPlanner;
 use mediant_search::{Counters, Outcome, Query, QueryError};
 
-/// The answer of a planner, and its expense.
+/// The answer of a planner, with counts and time.
 pub(crate) struct Measured {
     pub(crate) outcome: Result<Outcome, QueryError>,
     pub(crate) counters: Counters,
-    /// The best time.
+    /// The best time of all repetitions; 0 for errors.
     pub(crate) nanos: u64,
 }
 
 impl Measured {
-    /// Solves a query once, to count and to warm up, then `repeat` times against the clock, without counters.
+    /// Solves a query once with counters, which warms the planner, then `repeat` times by the clock, without counters.
     pub(crate) fn new(planner: &mut BoxedPlanner, query: Query, repeat: u32) -> Self {
         let mut counters = Counters::default();
         let outcome = planner.solve_observed(query, &mut counters);
@@ -22,7 +22,7 @@ impl Measured {
             let begin = Instant::now();
             let outcome = black_box(planner.solve(black_box(query)));
             let time = begin.elapsed();
-            // The path is dropped after the clock has stopped.
+            // The path is freed after the clock has stopped.
             drop(outcome);
             time.as_nanos() as u64
         };

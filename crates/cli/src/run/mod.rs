@@ -1,9 +1,13 @@
-//! What `mediant run` does with its queries: answers, sums and reports.
+//! The parts of `mediant run`: queries, answers, sums and reports.
 
 pub(crate) mod answer;
+pub(crate) mod distances;
+pub(crate) mod jsonl;
 pub(crate) mod measure;
 pub(crate) mod queries;
+mod query_error;
 pub(crate) mod report;
 pub(crate) mod session;
 pub(crate) mod summary;
+pub(crate) mod table;
 pub(crate) mod trace;

@@ -1,4 +1,4 @@
-//! Which queries a run answers.
+//! The queries of a run.
 
 use mediant_formats::{Instance, Scenario};
 use mediant_grid::{Grid, Vertex};
@@ -6,21 +6,23 @@ use mediant_search::{End, Query};
 
 use crate::{
     args::RunArgs,
-    failure::{Failure, say_warning},
-    map::{Map, is_builtin, load_scenario},
+    builtin::is_builtin,
+    failure::Failure,
+    map::{Map, load_scenario},
+    terminal::message::say_warning,
 };
 
-/// A query with its place in the scenario.
+/// A query with its number and its length in the scenario.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Item {
-    /// Counted from 0.
+    /// The number of the instance, counted from 0; 0 for a single query.
     pub(crate) index: usize,
     pub(crate) query: Query,
-    /// The length that the scenario gives for k = 3 at centers, corners never cut.
+    /// The length that the scenario gives: optimal for k = 3 at centers under `never`.
     pub(crate) reference: Option<f64>,
 }
 
-/// The queries of a run.
+/// A single query, or some of a scenario's.
 pub(crate) enum Queries {
     Single(Query),
     Scenario { name: String, scenario: Scenario, every: usize, limit: usize },
@@ -40,7 +42,7 @@ impl Queries {
         check_names(scenario.instances(), map)?;
         let every = args.every.map_or(1, usize::from);
         let limit = args.limit.map_or(usize::MAX, usize::from);
-        // Index 0 is always among those that are taken.
+        // Whatever `every` and `limit` are, instance 0 is taken: only a scenario without instances has no query.
         if scenario.instances().is_empty() {
             return Err(Failure::NoInstances { scenario: name });
         }
@@ -65,7 +67,7 @@ impl Queries {
         }
     }
 
-    /// All of them, in the order of the file.
+    /// The queries, in the order of the file.
     pub(crate) fn iter(&self) -> impl Iterator<Item = Item> {
         let (single, instances, every, limit): (_, &[Instance], _, _) = match self {
             Self::Single(query) => (Some(*query), &[], 1, 0),
@@ -81,9 +83,9 @@ impl Queries {
     }
 }
 
-/// Maps of equal size are told apart by their names, but a renamed map is still the same map. So where the names differ,
-/// the queries decide: scenarios start and end on free cells of their map (but for some of the set wc3maps512, whose maps
-/// must keep their names).
+/// Checks that a scenario is for this map. Maps of equal size differ by their names, but a renamed map is still the same
+/// map. So if the names differ, the queries decide: they start and end on free cells of their map. (Some of the set
+/// wc3maps512 do not; its maps must keep their names.)
 fn check_names(instances: &[Instance], map: &Map) -> Result<(), Failure> {
     let Some(named) = instances.iter().find(|instance| instance.map_file_name() != map.name) else {
         return Ok(());
@@ -99,6 +101,7 @@ fn check_names(instances: &[Instance], map: &Map) -> Result<(), Failure> {
     Ok(())
 }
 
+/// The first instance with a blocked end: its number, and that end.
 fn first_blocked(instances: &[Instance], grid: &Grid) -> Option<(usize, End, Vertex)> {
     instances.iter().enumerate().find_map(|(index, instance)| {
         let ends = [(End::Start, instance.start), (End::Goal, instance.goal)];

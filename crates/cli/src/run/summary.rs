@@ -1,11 +1,11 @@
-//! The figures that sum up a run.
+//! The summary of a run.
 
 use mediant_formats::scenario_tolerance;
 use serde::Serialize;
 
 use super::answer::{Answer, Found};
 
-/// What a run came to. Times and counts are over the answered queries, costs over the found ones.
+/// The sums and means of a run: times and counts of the answered queries, costs of those with a path.
 #[derive(Clone, Debug, Serialize)]
 #[serde(tag = "type", rename = "summary")]
 pub(crate) struct Summary {
@@ -22,17 +22,18 @@ pub(crate) struct Summary {
     pub(crate) mean_percolations: f64,
     pub(crate) mean_updated: f64,
     pub(crate) mean_scanned: f64,
-    /// How often searches in two phases left their plans, in all.
+    /// How often CHPA* left its plan, in all.
     pub(crate) fallbacks: u64,
-    /// `null` where no path was found.
+    /// `null` if no path was found.
     pub(crate) mean_cost: Option<f64>,
-    /// `null` where no path was found.
+    /// `null` if no path was found.
     pub(crate) mean_smoothness: Option<f64>,
-    /// Of how much longer than the shortest any-angle paths the paths can be; `null` where no path was found.
+    /// The certificates: how many times as long as the shortest any-angle paths the paths are at most. `null` if no path
+    /// was found.
     pub(crate) bound: Option<Ratios>,
-    /// Of how much longer they are; `null` where that is not known of any.
+    /// How many times as long as the shortest any-angle paths they are; `null` without `--reference` or a path.
     pub(crate) ratio: Option<Ratios>,
-    /// `null` where no answered query has a reference.
+    /// `null` if no answered query has a reference.
     pub(crate) reference: Option<References>,
 }
 
@@ -41,26 +42,26 @@ pub(crate) struct Summary {
 pub(crate) struct Ratios {
     pub(crate) mean: f64,
     pub(crate) worst: f64,
-    /// The index of the first query with the worst.
+    /// The index of the first query with the worst ratio.
     pub(crate) worst_index: usize,
 }
 
-/// How the costs compare with the lengths in the scenario. No path counts as length 0, which is what scenarios give for it.
+/// How the costs compare with the scenario's lengths. No path counts as length 0, as in scenarios.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct References {
-    /// The answered queries that have a reference.
+    /// The number of answered queries that have a reference.
     pub(crate) compared: u64,
-    /// Those as near to it as [`scenario_tolerance`] asks.
+    /// The number of costs within [`scenario_tolerance`] of the reference.
     pub(crate) equal: u64,
-    /// The cost less the reference, where they are furthest apart.
+    /// The cost minus the reference, of the query for which they differ most.
     pub(crate) worst_deviation: f64,
     /// The index of that query.
     pub(crate) worst_index: usize,
-    /// All costs over all references.
+    /// The sum of the costs, divided by the sum of the references.
     pub(crate) cost_ratio: f64,
 }
 
-/// Takes the records one by one; keeps eight bytes of each.
+/// Sums up answers one by one. Of each it keeps only the time, for the median.
 #[derive(Debug, Default)]
 pub(crate) struct Tally {
     nanos: Vec<u64>,
@@ -85,6 +86,7 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
+    /// Adds an answer.
     pub(crate) fn add(&mut self, answer: &Answer) {
         let found = match &answer.found {
             Ok(found) => found.as_ref(),
@@ -112,6 +114,7 @@ impl Tally {
         }
     }
 
+    /// Adds a cost and its reference.
     fn compare(&mut self, index: usize, cost: f64, reference: f64) {
         let deviation = cost - reference;
         if self.compared == 0 || deviation.abs() > self.worst.0.abs() {
@@ -123,6 +126,7 @@ impl Tally {
         self.reference += reference;
     }
 
+    /// The summary of all answers that were added.
     pub(crate) fn finish(mut self) -> Summary {
         self.nanos.sort_unstable();
         let total: u64 = self.nanos.iter().sum();
@@ -160,6 +164,7 @@ impl Tally {
     }
 }
 
+/// Sums up ratios.
 #[derive(Clone, Copy, Debug, Default)]
 struct RatioTally {
     sum: f64,
@@ -183,7 +188,7 @@ impl RatioTally {
     }
 }
 
-/// Of sorted numbers; the mean of the two in the middle, cut off, where their count is even; 0 of none.
+/// The median of sorted numbers. Of an even count it is the mean of the middle two, rounded down; of none it is 0.
 fn median(sorted: &[u64]) -> u64 {
     let upper = sorted.get(sorted.len() / 2).copied().unwrap_or(0);
     if sorted.len() % 2 == 1 {

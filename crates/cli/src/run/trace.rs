@@ -1,31 +1,42 @@
-//! `mediant run --trace`: an observer that writes down what a search does.
+//! `mediant run --trace`: an observer that writes the events of a search to a file.
 
-use std::io::{self, Write};
+use std::{
+    fs::File,
+    io::{self, BufWriter, Write},
+    path,
+};
 
 use mediant_engines::BoxedPlanner;
 use mediant_formats::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
 use mediant_grid::{Grid, PlacementKind, Vertex};
 use mediant_search::{NodeEvent, Observer, Outcome, Path, Query, QueryError};
 
+/// The file of a trace.
+pub(crate) struct TraceFile<'s> {
+    pub(crate) path: &'s path::Path,
+    pub(crate) out: BufWriter<File>,
+}
+
 /// Writes the events of one search.
 pub(crate) struct Tracer<'g, W: Write> {
     trace: TraceWriter<'g, W>,
-    /// Vertices in a row.
+    /// The number of vertices in a row.
     width: u32,
     /// The vertex that is being expanded.
     open: Option<TraceEvent>,
-    /// What the writer said first; nothing is written after an error.
+    /// The first error of the writer, after which nothing is written.
     written: io::Result<()>,
 }
 
 impl<'g, W: Write> Tracer<'g, W> {
+    /// Begins a trace of a search on this map.
     pub(crate) fn new(out: W, grid: &'g Grid, placement: PlacementKind) -> io::Result<Self> {
         let width = grid.width() + u32::from(placement == PlacementKind::Corner);
         let trace = TraceWriter::new(out, &TraceHeader { placement, map: Some(grid) })?;
         Ok(Self { trace, width, open: None, written: Ok(()) })
     }
 
-    /// Writes down the search that gives this answer. A query that is an error makes a trace without events.
+    /// Writes the search of a query whose answer is known. An invalid query makes a trace without events.
     pub(crate) fn run(
         mut self,
         planner: &mut BoxedPlanner,
@@ -42,15 +53,15 @@ impl<'g, W: Write> Tracer<'g, W> {
         self.trace.finish().map(|_| ())
     }
 
-    /// Says between which vertices the search is.
+    /// Writes the start and the goal.
     fn begin(&mut self, query: Query) {
         let (source, destination) = (self.at(query.start), self.at(query.goal));
         self.write(TraceEventKind::Source, &TraceEvent { g: Some(0.0), ..source });
         self.write(TraceEventKind::Destination, &destination);
     }
 
-    /// Ends the trace by the waypoints of the path: so the visualizer shows the path as it is, also where it turns at a vertex that is
-    /// no node of the search.
+    /// Ends the trace with the waypoints of the path. So the visualizer shows the path as it is, even if it turns at a
+    /// vertex that is not a node of the search.
     fn end(&mut self, outcome: &Outcome) {
         self.close();
         let mut last: Option<(TraceEvent, Vertex)> = None;
@@ -64,24 +75,26 @@ impl<'g, W: Write> Tracer<'g, W> {
         }
     }
 
-    /// An event of which nothing but the place is known. Numbers begin with 1, since the visualizer's path stops short of 0.
+    /// An event at a vertex, without anything else. Ids begin with 1, since the visualizer's path stops before the id 0.
     fn at(&self, at: Vertex) -> TraceEvent {
         let id = at.y as u32 * self.width + at.x as u32 + 1;
         TraceEvent { id, parent: None, x: at.x, y: at.y, f: None, g: None }
     }
 
+    /// An event of a node of the search.
     fn node(&self, node: NodeEvent) -> TraceEvent {
         let parent = node.parent.map(|parent| self.at(parent).id);
         TraceEvent { parent, f: Some(node.f.to_f64()), g: Some(node.g.to_f64()), ..self.at(node.at) }
     }
 
+    /// Writes an event, unless an error came before.
     fn write(&mut self, kind: TraceEventKind, event: &TraceEvent) {
         if self.written.is_ok() {
             self.written = self.trace.event(kind, event);
         }
     }
 
-    /// The vertex that was being expanded has no more successors.
+    /// Ends the expansion of the vertex that is being expanded, if there is one.
     fn close(&mut self) {
         if let Some(event) = self.open.take() {
             self.write(TraceEventKind::Closing, &event);

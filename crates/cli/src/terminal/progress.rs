@@ -10,10 +10,10 @@ use std::{
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use mediant_engines::Stage;
 
-/// How long people wait without a bar.
+/// How long a job may take without a bar.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// A bar that appears only when the job turns out to be a long one.
+/// The bar of `mediant run`, which appears only if the job takes long.
 pub(crate) struct Progress {
     total: u64,
     done: u64,
@@ -23,13 +23,13 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// A bar for `total` queries. `wanted` is whether stdout leaves the screen to it.
+    /// A bar for `total` queries; none if it is not wanted, or if stderr is no terminal.
     pub(crate) fn new(total: usize, wanted: bool) -> Self {
         let allowed = wanted && io::stderr().is_terminal();
         Self { total: total as u64, done: 0, begin: Instant::now(), allowed, bar: None }
     }
 
-    /// One more query is answered.
+    /// Counts one more answered query.
     pub(crate) fn tick(&mut self) {
         self.done += 1;
         if self.bar.is_none() && self.allowed && self.begin.elapsed() > PATIENCE {
@@ -42,7 +42,7 @@ impl Progress {
         }
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub(crate) fn clear(&self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
@@ -50,7 +50,7 @@ impl Progress {
     }
 }
 
-/// The bar of a [`mediant build`](crate::build), which any thread may move.
+/// The bar of `mediant build`, which any thread may move.
 #[derive(Debug)]
 pub(crate) struct BuildProgress {
     begin: Instant,
@@ -59,11 +59,12 @@ pub(crate) struct BuildProgress {
 }
 
 impl BuildProgress {
+    /// A bar; none if stderr is no terminal.
     pub(crate) fn new() -> Self {
         Self { begin: Instant::now(), allowed: io::stderr().is_terminal(), bar: OnceLock::new() }
     }
 
-    /// Shows how far it is.
+    /// Shows how far the preparation is.
     pub(crate) fn tell(&self, progress: mediant_engines::Progress) {
         let mediant_engines::Progress { stage, done, total } = progress;
         if !self.allowed || self.begin.elapsed() < PATIENCE {
@@ -85,7 +86,7 @@ impl BuildProgress {
         bar.set_position(done as u64);
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     pub(crate) fn clear(&self) {
         if let Some(bar) = self.bar.get() {
             bar.finish_and_clear();
@@ -93,18 +94,20 @@ impl BuildProgress {
     }
 }
 
+/// The template of a run's bar.
 const QUERIES: &str = "  {bar:40.cyan/blue} {human_pos} of {human_len} queries, {left} left";
+/// The template of a build's bar.
 const SUBGOALS: &str = "  {bar:40.cyan/blue} {msg}: {human_pos} of {human_len} subgoals, {left} left";
 
 fn style(template: &str) -> ProgressStyle {
-    // indicatif's own estimate would take the queries before the bar appeared for instant ones.
+    // indicatif's own estimate would count the queries before the bar appeared as taking no time.
     let left = |state: &ProgressState, text: &mut dyn fmt::Write| {
         let rest = state.len().unwrap_or(0).saturating_sub(state.pos());
         let seconds = state.elapsed().as_secs_f64() * rest as f64 / state.pos().max(1) as f64;
-        // Nobody is told when a bar cannot be written.
+        // A bar that cannot be written is no failure.
         _ = write!(text, "{seconds:.0} s");
     };
-    // The template is a constant; should a new version refuse it, the default serves.
+    // The template is a constant that is valid; if a new version of indicatif refuses it, the default serves.
     ProgressStyle::with_template(template)
         .unwrap_or_else(|_| ProgressStyle::default_bar())
         .with_key("left", left)

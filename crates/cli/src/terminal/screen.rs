@@ -1,4 +1,4 @@
-//! Where output goes: buffered, and in color only for a terminal that wants it.
+//! Standard output: buffered, and in color only where that is wanted.
 
 use std::{
     fmt::{self, Display},
@@ -8,13 +8,15 @@ use std::{
 use anstream::{AutoStream, ColorChoice};
 use anstyle::{Color, RgbColor, Style};
 
-use crate::draw::theme::nearest_of_256;
+use super::palette::nearest_of_256;
 
 /// The colors that a screen shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Depth {
     None,
+    /// 256 colors.
     Palette,
+    /// All colors.
     True,
 }
 
@@ -26,13 +28,13 @@ pub(crate) struct Screen {
 }
 
 impl Screen {
-    /// The width where there is no terminal to ask.
+    /// The width if stdout is no terminal.
     const COLUMNS: usize = 80;
     /// The widest picture or text, however wide the terminal.
     const MAX_COLUMNS: usize = 160;
 
-    /// Colors are off when stdout is no terminal or `NO_COLOR` is set, on when `CLICOLOR_FORCE` is; `COLORTERM` says whether
-    /// there are more than 256.
+    /// Standard output. Colors are off if it is no terminal or `NO_COLOR` is set, on if `CLICOLOR_FORCE` is set;
+    /// `COLORTERM` says whether there are more than 256.
     pub(crate) fn stdout() -> Self {
         let stdout = io::stdout();
         let true_color = std::env::var("COLORTERM").is_ok_and(|term| term == "truecolor" || term == "24bit");
@@ -48,7 +50,7 @@ impl Screen {
         Self { out: BufWriter::with_capacity(1 << 16, out), color, columns }
     }
 
-    /// Whether escape sequences for colors are welcome.
+    /// Whether output may have escape sequences for colors.
     pub(crate) fn has_color(&self) -> bool {
         self.color != Depth::None
     }
@@ -58,22 +60,22 @@ impl Screen {
         if self.color == Depth::True { rgb.into() } else { Color::from(nearest_of_256(rgb)) }
     }
 
-    /// Text in a color.
+    /// The style of text in a color.
     pub(crate) fn ink(&self, rgb: RgbColor) -> Style {
         Style::new().fg_color(Some(self.color(rgb)))
     }
 
-    /// The width of a line.
+    /// The width of a line, in characters.
     pub(crate) const fn columns(&self) -> usize {
         self.columns
     }
 
-    /// Text in one color on another.
+    /// The style of text in one color on another.
     pub(crate) fn ink_on(&self, ink: RgbColor, paper: RgbColor) -> Style {
         self.ink(ink).bg_color(Some(self.color(paper)))
     }
 
-    /// Text in a style, or as it is where there is no color.
+    /// Text in a style; without color, as it is.
     pub(crate) fn paint<T: Display>(&self, style: Style, text: T) -> Painted<T> {
         Painted { style: if self.has_color() { style } else { Style::new() }, text }
     }
@@ -89,7 +91,7 @@ impl Write for Screen {
     }
 }
 
-/// See [`Screen::paint`].
+/// Text in a style: what [`Screen::paint`] returns.
 pub(crate) struct Painted<T> {
     style: Style,
     text: T,
@@ -102,7 +104,7 @@ impl<T: Display> Display for Painted<T> {
     }
 }
 
-/// Headings.
+/// The style of headings.
 pub(crate) const BOLD: Style = Style::new().bold();
-/// What matters less.
+/// The style of what matters less.
 pub(crate) const DIM: Style = Style::new().dimmed();

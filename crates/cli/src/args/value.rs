@@ -1,4 +1,4 @@
-//! Values of arguments.
+//! The values of arguments: how each kind is read, and what is said of a wrong one.
 
 use std::{
     fmt::Display,
@@ -6,11 +6,23 @@ use std::{
     str::FromStr,
 };
 
-use mediant_grid::Vertex;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use mediant_engines::UnknownName;
+use mediant_grid::{Centers, GridGraph, Vertex};
 use mediant_moves::{FiniteK, K, ParseKError};
 
-use super::MAX_K;
+/// The largest k that grid graphs take.
+pub(crate) const MAX_K: u32 = GridGraph::<Centers>::MAX_K;
 
+/// Reads one of these values by its name.
+pub(super) fn one_of<T: FromStr<Err = UnknownName> + Clone + Send + Sync + 'static, const N: usize>(
+    all: [T; N],
+    name: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(all.map(name)).try_map(|name| name.parse())
+}
+
+/// Reads `X,Y`.
 pub(super) fn parse_vertex(text: &str) -> Result<Vertex, String> {
     const EXPECTED: &str = "expected two whole numbers, such as 3,14";
     let parts: Vec<&str> = text.split(',').collect();
@@ -21,7 +33,8 @@ pub(super) fn parse_vertex(text: &str) -> Result<Vertex, String> {
     }
 }
 
-pub(super) fn parse_coordinate(text: &str) -> Result<i32, String> {
+/// Reads a coordinate.
+fn parse_coordinate(text: &str) -> Result<i32, String> {
     text.trim().parse().map_err(|error: ParseIntError| match error.kind() {
         IntErrorKind::PosOverflow => format!("`{text}` is too large: coordinates go up to {}", i32::MAX),
         IntErrorKind::NegOverflow => format!("`{text}` is too small: coordinates go down to {}", i32::MIN),
@@ -29,6 +42,7 @@ pub(super) fn parse_coordinate(text: &str) -> Result<i32, String> {
     })
 }
 
+/// Reads a whole number from 1 to `max`.
 pub(super) fn parse_count<N: FromStr<Err = ParseIntError> + Display>(
     text: &str,
     max: &N,
@@ -39,7 +53,7 @@ pub(super) fn parse_count<N: FromStr<Err = ParseIntError> + Display>(
     })
 }
 
-/// A k that some engine may take.
+/// Reads a k that some engine may take.
 pub(super) fn parse_k(text: &str) -> Result<K, String> {
     let form = format!("choose a number from 2 to {MAX_K}, or any");
     match text.parse() {
@@ -50,7 +64,7 @@ pub(super) fn parse_k(text: &str) -> Result<K, String> {
     }
 }
 
-/// A k of which the moves can be computed, though no grid graph may take it.
+/// Reads a k whose moves can be computed, even if no grid graph takes it.
 pub(super) fn parse_any_k(text: &str) -> Result<FiniteK, String> {
     let max = FiniteK::MAX_MOVES;
     let form = format!("choose a number from 2 to {max}");
@@ -62,6 +76,7 @@ pub(super) fn parse_any_k(text: &str) -> Result<FiniteK, String> {
     }
 }
 
+/// Reads a ratio of lengths, at least 1.
 pub(super) fn parse_ratio(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(ratio) if ratio >= 1.0 && ratio.is_finite() => Ok(ratio),

@@ -1,4 +1,4 @@
-//! `mediant run --distances`: how far it is from one vertex to all others.
+//! `mediant run --distances`: the distances from one vertex to all others.
 
 use std::{
     fs::File,
@@ -9,17 +9,18 @@ use std::{
 use mediant_engines::{EngineError, Setup, distances};
 use mediant_grid::Vertex;
 
+use super::query_error::explain;
 use crate::{
     failure::{Ending, Failure},
     map::{Map, file_name},
-    run::session::explain,
     terminal::{
+        numbers::count,
         screen::{BOLD, Screen},
-        text::{count, printable},
+        text::printable,
     },
 };
 
-/// Writes the distances from a vertex to a file, or to the screen for `-`.
+/// Writes the distances from a vertex to a file as CSV; for the path `-`, to the screen.
 pub(crate) fn write(
     setup: Setup,
     map: &Map,
@@ -50,12 +51,13 @@ pub(crate) fn write(
     Ok(Ending::Answered)
 }
 
+/// Writes the distances, a line for each vertex.
 fn csv(distances: &[(Vertex, f64)], out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "x,y,distance")?;
     distances.iter().try_for_each(|(at, distance)| writeln!(out, "{},{},{}", at.x, at.y, rounded(*distance)))
 }
 
-/// In billionths of a cell: a sum of rounded moves is no more exact than that.
+/// Rounded to billionths of a cell, since a sum of rounded costs is not more exact.
 fn rounded(distance: f64) -> f64 {
     (distance * 1e9).round() / 1e9
 }

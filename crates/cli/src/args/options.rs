@@ -1,4 +1,4 @@
-//! The flags of the engines' options, made from the catalog: an option that it gets is a flag here.
+//! The flags of the engines' options, made from the catalog: each of its options is a flag here.
 
 use clap::{
     Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches,
@@ -7,22 +7,23 @@ use clap::{
 };
 use mediant_engines::{Engine, EngineOption, OptionValue, SetupError, ValueKind};
 
-/// Options of engines that were given, of those that a command takes.
+/// The options that were given, of those that a command takes: all, or only those that decide what an index holds.
 #[derive(Debug)]
 pub(crate) struct Options<const OF_INDEX: bool>(Vec<(&'static EngineOption, OptionValue)>);
 
-/// All options.
+/// The options of `mediant run`: all.
 pub(crate) type AllOptions = Options<false>;
 
-/// The options that decide what an index holds.
+/// The options of `mediant build`: those that decide what an index holds.
 pub(crate) type IndexOptions = Options<true>;
 
 impl<const OF_INDEX: bool> Options<OF_INDEX> {
+    /// The options that the command takes.
     fn taken() -> impl Iterator<Item = &'static EngineOption> {
         EngineOption::ALL.into_iter().filter(|option| !OF_INDEX || option.is_index_option)
     }
 
-    /// Chooses what was given.
+    /// Chooses the options that were given.
     pub(super) fn choose(&self, engine: &mut Engine) -> Result<(), SetupError> {
         self.0.iter().try_for_each(|&(option, value)| engine.set(option, value))
     }
@@ -47,7 +48,7 @@ impl<const OF_INDEX: bool> FromArgMatches for Options<OF_INDEX> {
                 _ => matches.get_one::<String>(option.name).map(String::as_str),
             };
             if let Some(text) = text {
-                // The flag's own parser has let it through.
+                // The flag's parser has accepted the text already.
                 let value = option.parse(text);
                 given.push((
                     option,

@@ -1,4 +1,4 @@
-//! `--format jsonl`: a JSON object a line, which scripts rely on.
+//! `--format jsonl`: one JSON object a line. Scripts rely on its keys and their meaning.
 //!
 //! First a [`RunLine`] (`"type": "run"`), then a [`QueryLine`] (`"query"`) for each query in the order of the scenario, last a
 //! [`Summary`] (`"summary"`). Lengths are in cells, times in nanoseconds.
@@ -12,30 +12,28 @@ use std::{
 use mediant_engines::{EngineKind, EngineOption, Levels, OptionValue, ValueKind};
 use mediant_grid::{CornerRule, DiagonalGap, Rules, Vertex};
 use mediant_moves::K;
-use mediant_search::{Path, Smoothing};
+use mediant_search::Path;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::{Report, guarantee_name};
-use crate::{
-    run::{
-        answer::{Answer, Found, Run},
-        summary::Summary,
-    },
-    terminal::screen::Screen,
+use super::{
+    answer::{Answer, Found, Run},
+    report::{Report, guarantee_name, smoothing_name},
+    summary::Summary,
 };
+use crate::terminal::screen::Screen;
 
-/// Writes each record as it comes, and seldom keeps it back: an interrupted run loses the query at hand and less than a
-/// second's work.
+/// Writes each record as it comes, and flushes often: an interrupted run loses the current query and the records of less
+/// than a second.
 pub(crate) struct Jsonl<'s> {
     screen: &'s mut Screen,
-    /// How long a line may wait for others.
+    /// How long lines may wait in the buffer.
     patience: Duration,
     flushed: Instant,
 }
 
 impl<'s> Jsonl<'s> {
-    /// `watched` is whether somebody looks on, for whom no line waits.
+    /// Lines that somebody watches on a terminal do not wait in the buffer.
     pub(crate) fn new(screen: &'s mut Screen, watched: bool) -> Self {
         let patience = if watched { Duration::ZERO } else { Duration::from_secs(1) };
         Self { screen, patience, flushed: Instant::now() }
@@ -69,7 +67,7 @@ impl Report for Jsonl<'_> {
     }
 }
 
-/// What is run.
+/// The first line: what is run.
 #[derive(Debug, Serialize)]
 #[serde(tag = "type", rename = "run")]
 struct RunLine<'r> {
@@ -82,24 +80,26 @@ struct RunLine<'r> {
     scenario: Option<&'r str>,
     queries: usize,
     engine: &'static str,
-    /// A number or `any`.
+    /// A number or "any".
     k: Value,
     placement: String,
     corners: String,
     gap: String,
-    /// The engine's options by name, with `_` for `-`: a flag is true or false, a number of levels is a number, `all` or
-    /// `contracted`; `null` of an option that the engine does not have.
+    /// All options by name, with `_` for `-`. The value of a flag is true or false; levels are a number, "all" or
+    /// "contracted"; an option that the engine does not take is false or `null`.
     #[serde(flatten)]
     options: BTreeMap<String, Value>,
     smooth: bool,
-    /// `linear` or `taut`; `null` unless paths are smoothed.
+    /// "linear" or "taut"; `null` unless paths are smoothed.
     smoothing: Option<&'static str>,
-    /// The engine that finds each query's `any_angle`; `null` without one.
+    /// The engine of `--reference`, which finds each query's `any_angle`; `null` without it.
     any_angle: Option<&'static str>,
     guarantee: String,
     repeat: u32,
-    /// The time to make the search space of the loaded map and the engine's index; with a saved index, to load that.
+    /// The time to prepare the search space and the index of the map that was read; with `--index`, the time to load the
+    /// index instead of preparing it.
     preprocess_ns: u64,
+    /// The memory of the search space and the index, beyond the map.
     index_bytes: u64,
     version: &'static str,
 }
@@ -107,7 +107,7 @@ struct RunLine<'r> {
 impl<'r> From<&Run<'r>> for RunLine<'r> {
     fn from(run: &Run<'r>) -> Self {
         let setup = run.setup;
-        // The rule of the other placement is reported by its default.
+        // The key of the other placement's rule has that rule's default.
         let (corners, gap) = match setup.rules {
             Rules::Center(corners) => (corners, DiagonalGap::default()),
             Rules::Corner(gap) => (CornerRule::default(), gap),
@@ -141,7 +141,7 @@ impl<'r> From<&Run<'r>> for RunLine<'r> {
     }
 }
 
-/// An option's key and value.
+/// The key and the value of an option.
 fn json_of(option: &EngineOption, value: Option<OptionValue>) -> (String, Value) {
     let value = match value {
         _ if option.kind == ValueKind::Flag => Value::Bool(value.is_some()),
@@ -154,14 +154,6 @@ fn json_of(option: &EngineOption, value: Option<OptionValue>) -> (String, Value)
     (option.name.replace('-', "_"), value)
 }
 
-/// The name of a smoothing.
-pub(super) const fn smoothing_name(smoothing: Smoothing) -> &'static str {
-    match smoothing {
-        Smoothing::Linear => "linear",
-        Smoothing::Taut => "taut",
-    }
-}
-
 /// How a query ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -171,11 +163,11 @@ enum Status {
     Error,
 }
 
-/// A query and its answer.
+/// The line of a query and its answer.
 #[derive(Debug, Serialize)]
 #[serde(tag = "type", rename = "query")]
 struct QueryLine<'a> {
-    /// The instance of the scenario, from 0.
+    /// The number of the scenario's instance, from 0.
     index: usize,
     start: [i32; 2],
     goal: [i32; 2],
@@ -184,30 +176,33 @@ struct QueryLine<'a> {
     cost: Option<f64>,
     /// The waypoints; empty unless found.
     path: Vec<[i32; 2]>,
-    /// The path smoothness of Hammoud 2023: the sum of all turns, in degrees; `null` unless found.
+    /// The sum of the path's turning angles, in degrees (Hammoud 2023); `null` unless found.
     smoothness: Option<f64>,
-    /// The scenario's length: optimal for k = 3 at centers, corners never cut.
+    /// The length that the scenario gives: optimal for k = 3 at centers under `never`. `null` without a scenario.
     reference: Option<f64>,
-    /// The certificate: no any-angle path under the same rules is shorter; `null` unless found.
+    /// The certificate: no path at any angle under the same rules is shorter than this; `null` unless found.
     lower_bound: Option<f64>,
     /// `cost / lower_bound`, at least 1; `null` unless found.
     bound: Option<f64>,
-    /// The length of the shortest any-angle path under the same rules; `null` unless asked for and there is one.
+    /// The length of the shortest any-angle path under the same rules; `null` without `--reference` or a path.
     any_angle: Option<f64>,
-    /// `cost / any_angle`; `null` where either is.
+    /// `cost / any_angle`; `null` if either is.
     ratio: Option<f64>,
+    /// Nodes taken from the open list.
     expanded: u64,
+    /// Nodes that entered the open list.
     generated: u64,
+    /// Swaps in the open list's heap.
     percolations: u64,
-    /// Cheaper paths found to known nodes.
+    /// How often a cheaper path to a known node was found.
     updated: u64,
-    /// Vertices that jump point searches looked at while they scanned.
+    /// Vertices that jumps looked at.
     scanned: u64,
-    /// How often a search in two phases left its plan.
+    /// How often CHPA* left its plan.
     fallbacks: u64,
-    /// The query alone on a warm planner, the best of all repetitions; 0 for errors.
+    /// The time of the query alone on a warm planner, the best of all repetitions; 0 for errors.
     nanos: u64,
-    /// What is wrong with the query; only where the status is `error`.
+    /// What is wrong with the query; only if the status is "error".
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<&'a str>,
 }
@@ -247,6 +242,7 @@ impl<'a> From<&'a Answer> for QueryLine<'a> {
     }
 }
 
+/// A vertex as `[x, y]`.
 const fn pair(at: Vertex) -> [i32; 2] {
     [at.x, at.y]
 }

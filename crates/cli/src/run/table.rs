@@ -1,40 +1,41 @@
-//! `--format table`: for people.
+//! `--format table`: a report for people.
 
 use std::io::{self, Write};
 
 use mediant_engines::{EngineKind, OptionValue};
 use mediant_grid::{PlacementKind, Vertex};
 
-use super::{Report, guarantee_name, jsonl::smoothing_name};
-use crate::{
-    run::{
-        answer::{Answer, Found, Run},
-        summary::{Ratios, References, Summary},
-    },
-    terminal::{
-        screen::{BOLD, Screen},
-        text::{Align, Table, count, excess, grouped, percent_over, printable, time, wrap},
-    },
+use super::{
+    answer::{Answer, Found, Run},
+    report::{Report, guarantee_name, smoothing_name},
+    summary::{Ratios, References, Summary},
+};
+use crate::terminal::{
+    numbers::{count, excess, grouped, percent_over, time},
+    screen::{BOLD, Screen},
+    table::{Align, Table},
+    text::{printable, wrap},
 };
 
-/// Keeps the rows, since columns are as wide as their widest cell: all of a few queries, of many only the errors.
+/// Keeps its rows until the end, since columns are as wide as their widest cell. Few queries have a row each; of many
+/// queries only errors have a row, and only the first of them.
 pub(crate) struct TableReport<'s> {
     screen: &'s mut Screen,
     queries: usize,
     from_scenario: bool,
-    /// Whether the scenario's lengths are for these rules and this k.
+    /// Whether the engine finds paths of the lengths that scenarios give.
     is_reference: bool,
-    /// The engine that finds the shortest any-angle paths.
+    /// The engine of `--reference`, or nothing.
     any_angle: &'static str,
-    /// Whether searches may leave their plans.
+    /// Whether the engine may leave its plan.
     may_fall_back: bool,
     rows: Vec<Answer>,
-    /// Errors beyond those in the rows.
+    /// The number of errors that have no row.
     more_errors: u64,
 }
 
 impl<'s> TableReport<'s> {
-    /// The most rows.
+    /// The largest number of rows.
     const ROWS: usize = 20;
 
     pub(crate) const fn new(screen: &'s mut Screen) -> Self {
@@ -50,6 +51,7 @@ impl<'s> TableReport<'s> {
         }
     }
 
+    /// Writes the table of queries or errors.
     fn rows(&mut self) -> io::Result<()> {
         let few = self.queries <= Self::ROWS;
         let mut heads = vec![("index", Align::Right), ("start", Align::Left), ("goal", Align::Left)];
@@ -65,7 +67,7 @@ impl<'s> TableReport<'s> {
         }
         table.write(self.screen)?;
         let mut gap = "\n";
-        // What is wrong with the only query is said on stderr.
+        // What is wrong with a single query, stderr says.
         for row in self.rows.iter().filter(|_| few && self.queries > 1) {
             if let Err(error) = &row.found {
                 writeln!(self.screen, "{gap}  {}: {error}", row.item.index)?;
@@ -82,7 +84,7 @@ impl<'s> TableReport<'s> {
         Ok(())
     }
 
-    /// The waypoints of a single query.
+    /// Writes the path of a single query, with its certificate.
     fn path(&mut self) -> io::Result<()> {
         let Some((row, found)) = self.rows.first().and_then(|row| Some((row, row.path()?))) else {
             return Ok(());
@@ -110,7 +112,7 @@ impl<'s> TableReport<'s> {
         writeln!(self.screen, "  {than} the one that {} finds, of length {best:.4}", self.any_angle)
     }
 
-    /// How much longer than the shortest any-angle paths the paths are, or are at most.
+    /// Writes how much longer than the shortest any-angle paths the paths are, or can be.
     fn ratios(&mut self, name: &str, ratios: Option<Ratios>, at_most: &str, source: &str) -> io::Result<()> {
         let Some(Ratios { mean, worst, worst_index }) = ratios else { return Ok(()) };
         let text = if worst > NO_LONGER {
@@ -122,10 +124,11 @@ impl<'s> TableReport<'s> {
         self.fact(name, &text)
     }
 
+    /// Writes how the costs compare with the scenario's lengths.
     fn references(&mut self, references: &References) -> io::Result<()> {
         let &References { compared, equal, worst_deviation, worst_index, cost_ratio } = references;
         let (equal, compared) = (grouped(equal), grouped(compared));
-        // A deviation that the printed digits do not show has no sign either.
+        // A deviation that is too small for the printed digits is printed without a sign.
         let worst = if worst_deviation.abs() < 0.000_05 { 0.0 } else { worst_deviation };
         self.fact("reference", &format!("{equal} of {compared} equal (within 0.005 or 0.001 %)"))?;
         self.fact("", &format!("furthest off {worst:+.4} at index {worst_index}"))?;
@@ -136,6 +139,7 @@ impl<'s> TableReport<'s> {
         self.fact("", &format!("costs {over} in all (references: k = 3, center, corners never)"))
     }
 
+    /// Writes a line of the summary.
     fn fact(&mut self, name: &str, text: &str) -> io::Result<()> {
         writeln!(self.screen, "  {}  {text}", self.screen.paint(BOLD, format_args!("{name:<9}")))
     }
@@ -228,10 +232,10 @@ impl Report for TableReport<'_> {
     }
 }
 
-/// A path whose ratio to the shortest is no larger is as short, but for rounding.
+/// Up to this ratio a path counts as no longer than another: the difference may be rounding.
 const NO_LONGER: f64 = 1.0 + 1e-9;
 
-/// How often plans were left.
+/// How often plans were left, in words.
 fn left(times: u64) -> String {
     match times {
         0 => "never left".to_owned(),
@@ -240,11 +244,12 @@ fn left(times: u64) -> String {
     }
 }
 
+/// A mean of counts, with a digit after the point if it is small.
 fn mean_count(mean: f64) -> String {
     if mean < 1_000.0 { format!("{mean:.1}") } else { grouped(mean.round() as u64) }
 }
 
-/// The engine's options in words, with the second heuristic only where it is not the first.
+/// The engine's options in words. A second heuristic that is the same as the first is left out.
 fn options(run: &Run<'_>) -> impl Iterator<Item = String> {
     let mut heuristics = Vec::new();
     run.options.iter().filter_map(move |&(option, value)| {
@@ -259,15 +264,18 @@ fn options(run: &Run<'_>) -> impl Iterator<Item = String> {
     })
 }
 
+/// A vertex as `(x, y)`.
 fn vertex(at: Vertex) -> String {
     format!("({}, {})", at.x, at.y)
 }
 
+/// The row of a query that could not be answered, if only those have rows.
 fn error_cells(row: &Answer) -> Vec<String> {
     let error = row.found.as_ref().err().cloned().unwrap_or_default();
     vec![row.item.index.to_string(), vertex(row.item.query.start), vertex(row.item.query.goal), error]
 }
 
+/// The row of a query, if all have rows.
 fn answer_cells(row: &Answer, with_reference: bool) -> Vec<String> {
     let item = row.item;
     let mut cells = vec![item.index.to_string(), vertex(item.query.start), vertex(item.query.goal)];

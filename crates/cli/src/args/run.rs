@@ -1,0 +1,155 @@
+//! The arguments of `mediant run`.
+
+use std::{
+    num::{NonZeroU32, NonZeroUsize},
+    path::PathBuf,
+};
+
+use clap::{ArgGroup, Args, ValueEnum};
+use mediant_engines::{EngineKind, Setup};
+use mediant_grid::{Rules, Vertex};
+use mediant_moves::K;
+use mediant_search::Smoothing;
+
+use super::{
+    options::AllOptions,
+    setup::SetupArgs,
+    value::{one_of, parse_count, parse_vertex},
+};
+use crate::failure::Failure;
+
+#[derive(Args, Debug)]
+#[command(after_help = RUN_HELP, group(ArgGroup::new("aim").args(["to", "distances"])))]
+pub(crate) struct RunArgs {
+    /// A MovingAI map file, or builtin:NAME (archipelago, cave, maze, town)
+    pub(crate) map: PathBuf,
+
+    /// A MovingAI scenario file with the queries, or builtin:NAME
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["from", "to"])]
+    pub(crate) scen: Option<PathBuf>,
+    /// Take the instances whose index, counted from 0, is divisible by N
+    #[arg(long, value_name = "N", conflicts_with_all = ["from", "to"])]
+    #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_count(text, &NonZeroUsize::MAX))]
+    pub(crate) every: Option<NonZeroUsize>,
+    /// Take at most N instances
+    #[arg(long, value_name = "N", conflicts_with_all = ["from", "to"])]
+    #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_count(text, &NonZeroUsize::MAX))]
+    pub(crate) limit: Option<NonZeroUsize>,
+    /// The start of a single query
+    #[arg(long, value_name = "X,Y", requires = "aim", allow_hyphen_values = true, value_parser = parse_vertex)]
+    pub(crate) from: Option<Vertex>,
+    /// The goal of a single query
+    #[arg(long, value_name = "X,Y", requires = "from", allow_hyphen_values = true, value_parser = parse_vertex)]
+    pub(crate) to: Option<Vertex>,
+
+    #[command(flatten)]
+    pub(crate) setup: SetupArgs,
+    #[command(flatten)]
+    pub(crate) options: AllOptions,
+    /// Make each path shorter afterwards, by straight segments at any angle: linear (the default) looks for the next vertex in sight
+    /// along the path, taut pulls the path tight around the corners
+    #[arg(long, value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "linear")]
+    #[arg(hide_possible_values = true, value_name = "linear|taut")]
+    pub(crate) smooth: Option<SmoothArg>,
+    /// Also find each query's shortest any-angle path by this engine, and say how much longer the path is
+    #[arg(long, value_name = "ENGINE", value_parser = one_of(REFERENCES, EngineKind::name))]
+    pub(crate) reference: Option<EngineKind>,
+    /// Load what the engine preprocesses from a file that `mediant build` made
+    #[arg(long, value_name = "FILE")]
+    pub(crate) index: Option<PathBuf>,
+
+    /// Time each query N times and report the best
+    #[arg(long, value_name = "N", default_value = "1")]
+    #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_count(text, &NonZeroU32::MAX))]
+    pub(crate) repeat: NonZeroU32,
+    /// A table for people, or one JSON object a line for programs
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+    /// Draw the map and the path of a single query
+    #[arg(long)]
+    pub(crate) draw: bool,
+    /// Write what the search of a single query does to this file, for the Posthoc visualizer
+    #[arg(long, value_name = "FILE")]
+    pub(crate) trace: Option<PathBuf>,
+    /// Write the distances from --from to all vertices to this file, as CSV (`-` is stdout); needs an engine that finds them
+    #[arg(long, value_name = "FILE", requires = "from")]
+    #[arg(conflicts_with_all = ["scen", "every", "limit", "smooth", "reference", "index", "repeat", "format", "draw", "trace"])]
+    pub(crate) distances: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SmoothArg {
+    Linear,
+    Taut,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    #[default]
+    Table,
+    Jsonl,
+}
+
+const RUN_HELP: &str = "\
+Times are of the query alone, on a warm planner: each query is first solved once without a clock, which also counts \
+expanded and generated nodes and heap percolations; the timed runs count nothing.
+
+Of each path found the report says how much longer than the shortest any-angle path it can be: the certificate, which follows from \
+what the engine guarantees and from the straight line between the ends. --reference says how much longer it is.
+
+A builtin map with no query given runs its own scenario.
+
+A trace is JSON for the Posthoc visualizer, with every event of the search, and the path found as its end.
+
+Exit status: 0 when every query was answered (found or unreachable), 1 when any was an error, 2 for bad arguments or an \
+unreadable file.
+
+Examples:
+  mediant run builtin:archipelago
+  mediant run arena.map --scen arena.map.scen --k 5 --placement corner --format jsonl
+  mediant run arena.map --from 1,11 --to 40,30 --draw
+  mediant run arena.map --from 1,11 --to 40,30 --engine anya --draw
+  mediant run arena.map --scen arena.map.scen --engine subgoal --index arena.idx
+  mediant run builtin:town --k 4 --placement corner --smooth --reference anya
+  mediant run arena.map --from 1,11 --engine dijkstra --distances -";
+
+/// The engines whose paths are the shortest at any angle.
+const REFERENCES: [EngineKind; 2] = [EngineKind::Anya, EngineKind::Subgoal];
+
+impl RunArgs {
+    /// The setup that the arguments ask for.
+    pub(crate) fn setup(&self) -> Result<Setup, Failure> {
+        let mut setup = self.setup.without_options()?;
+        self.options.choose(&mut setup.engine)?;
+        setup.smoothing = self.smooth.map(|smooth| match smooth {
+            SmoothArg::Linear => Smoothing::Linear,
+            SmoothArg::Taut => Smoothing::Taut,
+        });
+        setup.check()?;
+        Ok(setup)
+    }
+
+    /// The setup of `--reference`, under the same rules of motion; `None` without it.
+    pub(crate) fn reference(&self, rules: Rules) -> Result<Option<Setup>, Failure> {
+        let Some(engine) = self.reference else { return Ok(None) };
+        let setup = Setup::new(engine, K::Any, rules);
+        match setup.check() {
+            Ok(()) => Ok(Some(setup)),
+            Err(_) => Err(Failure::NoReference { engine, placement: rules.placement() }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn references_are_the_engines_that_promise_the_shortest_any_angle_paths() {
+        let promises = |engine: &EngineKind| {
+            let setup = Setup::new(*engine, K::Any, engine.capabilities().default_rules(K::Any));
+            setup.check().is_ok() && setup.optimal_over() == Some(K::Any)
+        };
+        assert!(EngineKind::ALL.into_iter().filter(promises).eq(REFERENCES));
+    }
+}
