@@ -64,11 +64,13 @@ pub(crate) enum Failure {
     Write { path: PathBuf, source: io::Error },
     #[error("--draw shows a single query: give --from and --to, or --limit 1")]
     DrawMany,
-    #[error("--draw is for people: leave it out, or choose --format table")]
+    #[error("--draw does not go with --format jsonl: leave it out, or choose --format table")]
     DrawJsonl,
     #[error("--trace follows a single query: give --from and --to, or --limit 1")]
     TraceMany,
-    #[error("give --k for the moves of a neighborhood, --ratio for the k that a bound asks for, or both")]
+    #[error(
+        "give --k to list the moves of a neighborhood, --ratio to find the smallest k for a bound, or both"
+    )]
     NoK,
     #[error(transparent)]
     K(#[from] mediant_moves::KError),

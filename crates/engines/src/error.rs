@@ -77,7 +77,9 @@ pub enum SetupError {
         rules: Rules,
     },
     /// CHPA* as published, with a limit to detours: only the complete variant has one.
-    #[error("{engine} as published knows no detours: leave out the detour, or the variant paper")]
+    #[error(
+        "{engine} as published has no limit to detours: leave out the detour, or choose the variant complete"
+    )]
     DetourAsPublished {
         /// The engine.
         engine: EngineKind,

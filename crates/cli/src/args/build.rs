@@ -16,7 +16,7 @@ pub(crate) struct BuildArgs {
     pub(crate) setup: SetupArgs,
     #[command(flatten)]
     pub(crate) options: IndexOptions,
-    /// The file to make
+    /// The index file to write
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
 }

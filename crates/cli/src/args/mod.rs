@@ -32,7 +32,7 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Answer queries on a map.
     Run(RunArgs),
-    /// Preprocess a map, and save what an engine needs of it.
+    /// Prepare an engine's index of a map, and save it.
     Build(BuildArgs),
     /// Show the moves of N(k), its radius and its bounds.
     Moves(MovesArgs),

@@ -54,7 +54,7 @@ pub(crate) struct RunArgs {
     /// Also find each query's shortest any-angle path by this engine, and say how much longer the path is
     #[arg(long, value_name = "ENGINE", value_parser = one_of(REFERENCES, EngineKind::name))]
     pub(crate) reference: Option<EngineKind>,
-    /// Load what the engine preprocesses from a file that `mediant build` made
+    /// Load the engine's index from a file that `mediant build` wrote, instead of preparing it
     #[arg(long, value_name = "FILE")]
     pub(crate) index: Option<PathBuf>,
 
@@ -68,7 +68,7 @@ pub(crate) struct RunArgs {
     /// Draw the map and the path of a single query
     #[arg(long)]
     pub(crate) draw: bool,
-    /// Write what the search of a single query does to this file, for the Posthoc visualizer
+    /// Write the events of a single query's search to this file, for the Posthoc visualizer
     #[arg(long, value_name = "FILE")]
     pub(crate) trace: Option<PathBuf>,
     /// Write the distances from --from to all vertices to this file, as CSV (`-` is stdout); needs an engine that finds them
@@ -94,15 +94,15 @@ const RUN_HELP: &str = "\
 Times are of the query alone, on a warm planner: each query is first solved once without a clock, which also counts \
 expanded and generated nodes and heap percolations; the timed runs count nothing.
 
-Of each path found the report says how much longer than the shortest any-angle path it can be: the certificate, which follows from \
-what the engine guarantees and from the straight line between the ends. --reference says how much longer it is.
+For each path found the report gives a certificate: how much longer than the shortest any-angle path it is at most, by \
+the engine's guarantee and by the straight line between the ends. With --reference it also gives how much longer it is.
 
-A builtin map with no query given runs its own scenario.
+For a builtin map without queries, the queries are those of its own scenario.
 
-A trace is JSON for the Posthoc visualizer, with every event of the search, and the path found as its end.
+A trace is JSON for the Posthoc visualizer: every event of the search, then the path found.
 
-Exit status: 0 when every query was answered (found or unreachable), 1 when any was an error, 2 for bad arguments or an \
-unreadable file.
+Exit status: 0 if every query was answered (found or unreachable), 1 if any was an error, 2 for bad arguments, or a file \
+that cannot be read or written.
 
 Examples:
   mediant run builtin:archipelago

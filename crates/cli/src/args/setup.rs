@@ -11,7 +11,7 @@ use crate::failure::Failure;
 /// The arguments of a setup but the engine's options.
 #[derive(Args, Debug)]
 pub(crate) struct SetupArgs {
-    /// How to search
+    /// The algorithm; `mediant engines` says what each can do
     #[arg(long, default_value_t, value_parser = one_of(EngineKind::ALL, EngineKind::name))]
     pub(crate) engine: EngineKind,
     /// The neighborhood: 2 to 12, or any, which is every direction. 3 by default, any for anya

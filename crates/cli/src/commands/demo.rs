@@ -161,9 +161,9 @@ fn table(map: &Map, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
 
 /// Says how to read the table, and what to try next.
 fn explanation(builtin: &Builtin, screen: &mut Screen) -> io::Result<()> {
-    let words = "Each path is the shortest that its moves allow: k = 2 steps along the axes, k = 3 adds the diagonals, and \
-                 each k after it puts a new move between every two, and k = ∞ goes in any direction. `bound` is the most that \
-                 any map can cost them over such any-angle paths.";
+    let words = "Each path is the shortest that its moves allow. k = 2 moves along the axes, k = 3 adds the diagonals, each \
+                 further k adds a move between every two, and k = ∞ allows every direction. `bound` says how much longer \
+                 than an any-angle path the shortest path of that k can be, whatever the map.";
     let text = wrap("  ", words.split(' ').map(str::to_owned), screen.columns().min(80) - 2);
     writeln!(screen, "\n{text}")?;
     let Builtin { name, start, goal, .. } = builtin;

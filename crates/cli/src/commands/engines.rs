@@ -15,7 +15,7 @@ use crate::{
 
 /// How to read the table.
 const NOTES: &str = "\
-Both is center and corner. optimal(k) with k = any: the shortest of all paths.
+`both` is center and corner. optimal(k) at k = any: no legal path is shorter.
 At centers subgoal, hpa and chpa take k = 2, and k = 3 under corners never.";
 
 /// Runs the command.

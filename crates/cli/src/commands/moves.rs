@@ -128,7 +128,7 @@ fn smallest(ratio: f64, after_moves: bool, screen: &mut Screen) -> io::Result<()
         (
             "at centers",
             smallest_k_at_centers(ratio),
-            "no k: more moves do not help the worst case below 3√2 − 3 ≈ 1.2426",
+            "no k: more moves do not bring the bound below 3√2 − 3 ≈ 1.2426",
         ),
     ];
     for (place, k, none) in places {

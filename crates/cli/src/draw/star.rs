@@ -60,7 +60,7 @@ pub(crate) fn draw(neighborhood: Neighborhood, screen: &mut Screen) -> io::Resul
     }
     writeln!(
         screen,
-        "\n  A move's number is its level: the k that brings it in, as the sum of its two neighbors."
+        "\n  A move's number is its level: the smallest k that has it, as the sum of its two neighbors."
     )
 }
 

@@ -214,7 +214,7 @@ impl Report for TableReport<'_> {
         let updated = mean_count(summary.mean_updated);
         self.fact("nodes", &format!("mean {expanded} expanded, {generated} generated, {updated} updated"))?;
         if summary.mean_scanned > 0.0 {
-            self.fact("runs", &format!("mean {} vertices scanned", mean_count(summary.mean_scanned)))?;
+            self.fact("jumps", &format!("mean {} vertices scanned", mean_count(summary.mean_scanned)))?;
         }
         if self.may_fall_back {
             self.fact("plans", &left(summary.fallbacks))?;

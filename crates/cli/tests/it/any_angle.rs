@@ -4,16 +4,19 @@ use serde_json::Value;
 
 use crate::common::{Files, Ran, mediant, redact_times, run, told};
 
+/// A number in a record.
 fn number(record: &Value, name: &str) -> f64 {
     record[name].as_f64().unwrap_or_else(|| panic!("a number `{name}` in {record}"))
 }
 
+/// The straight-line distance of a query's ends.
 fn straight(query: &Value) -> f64 {
     let [x, y] =
         [0, 1].map(|i| query["goal"][i].as_f64().zip(query["start"][i].as_f64()).map(|(a, b)| a - b));
     x.zip(y).map(|(x, y)| x.hypot(y)).expect("coordinates")
 }
 
+/// What rounding may add to a ratio.
 const SLACK: f64 = 1.0 + 1e-9;
 
 #[test]
@@ -32,17 +35,17 @@ fn anya_needs_no_more_than_its_name() {
     for ((query, same), fine) in queries.iter().zip(&same).zip(&fine) {
         assert_eq!((&query["path"], &query["expanded"]), (&same["path"], &same["expanded"]));
         let (cost, fine) = (number(query, "cost"), number(fine, "cost"));
-        // Of N(12) no path is longer by more than 0.12 %.
+        // A shortest path over N(12) is at most 0.13 % longer than the shortest at any angle.
         assert!(straight(query) <= cost * SLACK && cost <= fine * SLACK && fine <= 1.0013 * cost, "{query}");
         assert_eq!((number(query, "bound"), number(query, "lower_bound")), (1.0, cost), "{query}");
     }
     assert_eq!(summary["bound"], serde_json::json!({ "mean": 1.0, "worst": 1.0, "worst_index": 0 }));
     assert_eq!(told("run builtin:town --engine anya --gap closed").0["gap"], "closed");
-    // The default placement follows the engine, a named one does not.
+    // The default placement is the engine's: theta takes centers, too.
     assert_eq!(told("run builtin:town --engine theta").0["placement"], "center");
 }
 
-/// What a certificate says is true: of each engine, against the any-angle optimum under the same rules.
+/// The certificates of each engine are true of the shortest any-angle paths under the same rules.
 #[test]
 fn certificates_hold() {
     let mut inexact = 0;
@@ -71,7 +74,7 @@ fn certificates_hold() {
             assert!(1.0 <= bound && ratio <= bound * SLACK, "{options}: {query}");
             match worst {
                 Some(worst) => assert!(bound <= worst * SLACK, "{options}: {query}"),
-                // Nothing is known but the straight line.
+                // A suboptimal engine has only the straight line as a bound.
                 None => assert!((lower - straight(query)).abs() < 1e-9 * lower, "{options}: {query}"),
             }
             inexact += u32::from(ratio > SLACK);
@@ -101,7 +104,7 @@ fn centers_have_certificates_too() {
 }
 
 #[test]
-fn no_path_and_no_way_have_certificates_of_their_own() {
+fn a_path_of_length_0_has_a_certificate_and_no_path_has_none() {
     let files = Files::new();
     let map = files.add("walls.map", "type octile\nheight 1\nwidth 5\nmap\n.@@..\n");
     let line = |x: i32, goal: i32| format!("0\twalls.map\t5\t1\t{x}\t0\t{goal}\t0\t1\n");
@@ -140,6 +143,7 @@ fn smoothing_makes_paths_no_longer() {
     }
 }
 
+/// The output of a command line that succeeds, in 80 columns.
 #[track_caller]
 fn shown(line: &str) -> String {
     let Ran { status, stdout, stderr } = run(line);
@@ -175,6 +179,7 @@ fn many_paths_are_summed_up() {
     );
 }
 
+/// Runs a command line that fails, and checks all that it says.
 #[track_caller]
 fn refused(line: &str, message: &str) {
     let Ran { status, stdout, stderr } = run(line);

@@ -1,4 +1,5 @@
 //! Runs the built program.
+
 use std::{
     path::PathBuf,
     process::{Command, Stdio},
@@ -7,7 +8,7 @@ use std::{
 use serde_json::Value;
 use tempfile::TempDir;
 
-/// What a run of the program left.
+/// What the program printed, and its exit status.
 #[derive(Debug)]
 pub(crate) struct Ran {
     pub(crate) status: Option<i32>,
@@ -56,7 +57,7 @@ impl Files {
         path
     }
 
-    /// The path of a file in the folder, there or not.
+    /// The path of a file in the folder, whether it exists or not.
     pub(crate) fn path(&self, name: &str) -> String {
         self.0.path().join(name).to_str().expect("a UTF-8 path").to_owned()
     }
@@ -68,7 +69,7 @@ impl Files {
     }
 }
 
-/// Answers a bundled map's queries: what a run tells, line by line, of itself, of each query, and of all.
+/// Runs a command line whose queries are all answered. Returns the records of the run, of each query, and of the summary.
 #[track_caller]
 pub(crate) fn told(line: &str) -> (Value, Vec<Value>, Value) {
     let Ran { status, stdout, stderr } = run(&format!("{line} --format jsonl"));
@@ -103,7 +104,7 @@ pub(crate) fn bundled(name: &str) -> String {
     folder.join(name).to_str().expect("a UTF-8 path").to_owned()
 }
 
-/// The text with each time, and the spaces before it, replaced by ` TIME`: they differ from run to run.
+/// The text with each time, and the spaces before it, replaced by ` TIME`, since times differ from run to run.
 pub(crate) fn redact_times(text: &str) -> String {
     let redact_line = |line: &str| {
         let mut words: Vec<&str> = Vec::new();
@@ -121,7 +122,7 @@ pub(crate) fn redact_times(text: &str) -> String {
             }
         }
         let line = words.join(" ");
-        // The head of a column of times stands as far right as they are wide.
+        // The head of a column of times is as far to the right as the times are wide.
         match line.strip_suffix("time") {
             Some(rest) => format!("{} TIME", rest.trim_end()),
             None => line,

@@ -57,7 +57,7 @@ fn arguments_that_make_no_sense() {
     );
     check(
         "moves",
-        "give --k for the moves of a neighborhood, --ratio for the k that a bound asks for, or both",
+        "give --k to list the moves of a neighborhood, --ratio to find the smallest k for a bound, or both",
     );
     check(
         "moves --k 48",
@@ -72,7 +72,7 @@ fn arguments_that_make_no_sense() {
 }
 
 #[test]
-fn engines_and_options_that_are_none() {
+fn engines_and_values_that_do_not_exist() {
     check(
         "run builtin:cave --engine warp",
         "invalid value 'warp' for '--engine <ENGINE>' [possible values: astar, dijkstra, wavefront, canonical, jps, jps-block, \
@@ -97,7 +97,7 @@ fn engines_and_options_that_are_none() {
 }
 
 #[test]
-fn vertices_that_are_none() {
+fn arguments_that_are_no_vertices() {
     check(
         "run builtin:cave --from 3 --to 4,5",
         "invalid value '3' for '--from <X,Y>': expected two whole numbers, such as 3,14; see --help",
@@ -158,7 +158,7 @@ fn options_that_do_not_go_together() {
     check("run builtin:cave --draw", "--draw shows a single query: give --from and --to, or --limit 1");
     check(
         "run builtin:cave --limit 1 --draw --format jsonl",
-        "--draw is for people: leave it out, or choose --format table",
+        "--draw does not go with --format jsonl: leave it out, or choose --format table",
     );
 }
 
@@ -268,7 +268,7 @@ fn files_that_cannot_be_written() {
 }
 
 #[test]
-fn distances_from_a_blocked_start_are_a_query_without_an_answer() {
+fn distances_from_a_blocked_start_are_an_error() {
     let files = Files::new();
     let (map, csv) = (files.add("yard.map", MAP), files.path("yard.csv"));
     let Ran { status, stdout, stderr } =
@@ -279,7 +279,7 @@ fn distances_from_a_blocked_start_are_a_query_without_an_answer() {
 }
 
 #[test]
-fn maps_that_are_none() {
+fn files_that_are_no_maps() {
     let files = Files::new();
     #[track_caller]
     fn check(files: &Files, path: &str, message: &str) {
@@ -293,7 +293,7 @@ fn maps_that_are_none() {
     let path = files.path("nowhere.map");
     check(&files, &path, "nowhere.map: no such file; check the path and the folder that you are in");
     check(&files, &files.path(""), ": expected a file, found a directory; name a file in it");
-    // What is wrong inside a file is for the parser to say; that it is said in one line, with the file's name, is ours.
+    // The parser says what is wrong inside a file; the program says it in one line, with the file's name.
     let junk: Vec<u8> = (0..4_096_u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
     let contents: [(&str, Vec<u8>); 5] = [
         ("empty.map", Vec::new()),
@@ -311,7 +311,7 @@ fn maps_that_are_none() {
 }
 
 #[test]
-fn scenarios_that_are_none_or_another_maps() {
+fn files_that_are_no_scenarios_of_this_map() {
     let files = Files::new();
     let map = files.add("yard.map", MAP);
     let check = |path: &str, message: &str| {
@@ -338,7 +338,7 @@ fn scenarios_that_are_none_or_another_maps() {
         "instance 0 of the scenario: expected the map `maps/barn.map` of 5 × 7 cells, found `yard.map` of 3 × 2 cells; \
          take the scenario that was made for this map",
     );
-    // As large, but not the same: its queries tell.
+    // Of the same size, but another map: a blocked goal shows it.
     let misfit = SCENARIO.replace("yard.map", "maps/barn.map").replace("\t2\t0\t4", "\t1\t0\t4");
     check(
         &files.add("misfit.scen", misfit),
@@ -357,7 +357,7 @@ fn a_renamed_map_is_still_the_map() {
 }
 
 #[test]
-fn queries_without_an_answer_are_errors_of_their_own() {
+fn each_query_that_cannot_be_answered_is_an_error() {
     let files = Files::new();
     let map = files.add("yard.map", MAP);
     let single = |from: &str, to: &str, placement: &str, message: &str| {
@@ -365,7 +365,7 @@ fn queries_without_an_answer_are_errors_of_their_own() {
             let args =
                 ["run", &map, "--from", from, "--to", to, "--placement", placement, "--format", format];
             let Ran { status, stdout, stderr } = mediant(&args);
-            // The table has the word only; each line of JSON has all that is to be said.
+            // The table says only `error`; the line of JSON has the message, too.
             assert_eq!(stdout.contains(message), format == "jsonl", "{stdout}");
             assert!(stdout.contains("error"), "{stdout}");
             assert_eq!(
@@ -412,7 +412,7 @@ fn names_send_no_codes_to_the_terminal() {
     let files = Files::new();
     let name = "\u{1b}]0;title\u{7}\u{1b}[31mred\r.map";
     let shown = r"\u{1b}]0;title\u{7}\u{1b}[31mred\r.map";
-    // Colors are asked for, since without them escape sequences are taken out on the way.
+    // With colors, since without them all escape sequences are removed from the output.
     let color = [("CLICOLOR_FORCE", "1")];
     let single = |path: &str| mediant_with(&["run", path, "--from", "0,0", "--to", "2,0"], &color);
     let missing = single(&files.path(name));
@@ -451,7 +451,7 @@ fn a_reader_that_stops_is_no_failure() {
 
 #[test]
 #[cfg(target_os = "linux")]
-fn a_full_disk_is_one() {
+fn a_full_disk_is_a_failure() {
     use std::{fs::File, process::Command};
     for line in ["engines", "--help", "--version", "run --help", "run builtin:cave --format jsonl"] {
         let full = File::options().write(true).open("/dev/full").expect("the device that is always full");

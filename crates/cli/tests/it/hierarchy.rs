@@ -6,12 +6,13 @@ use serde_json::Value;
 
 use crate::common::{Files, Ran, built, redact_times, refused, run, told};
 
-/// What a program can rely on being the same.
+/// What a saved index must not change of the answers.
 fn answers(queries: &[Value]) -> Vec<[Value; 5]> {
     let keys = ["status", "cost", "path", "expanded", "fallbacks"];
     queries.iter().map(|query| keys.map(|key| query[key].clone())).collect()
 }
 
+/// The sum of a number over all queries.
 fn total(queries: &[Value], key: &str) -> f64 {
     queries.iter().filter_map(|query| query[key].as_f64()).sum()
 }
@@ -42,7 +43,7 @@ fn records_of_chpa() {
 }
 
 #[test]
-fn a_run_tells_how_the_map_is_cut_and_searched() {
+fn the_record_of_a_run_has_the_options() {
     let keys = ["levels", "side", "unstraightened", "heuristic", "second", "variant", "step", "detour"];
     let told = |options: &str| {
         let (run, ..) = told(&format!("run builtin:cave --limit 1 --engine {options}"));
@@ -71,8 +72,11 @@ fn a_run_tells_how_the_map_is_cut_and_searched() {
 fn every_option_reaches_the_planner() {
     let costs =
         |options: &str| total(&told(&format!("run builtin:archipelago --engine {options}")).1, "cost");
-    let [exact, straight, refined] = ["astar", "hpa", "hpa --unstraightened"].map(costs);
-    assert!(exact < straight && straight < refined, "{exact}, {straight}, {refined}");
+    let [exact, straightened, unstraightened] = ["astar", "hpa", "hpa --unstraightened"].map(costs);
+    assert!(
+        exact < straightened && straightened < unstraightened,
+        "{exact}, {straightened}, {unstraightened}"
+    );
     let mut different: Vec<String> = Vec::new();
     for options in [
         "",
@@ -98,7 +102,7 @@ fn every_option_reaches_the_planner() {
 }
 
 #[test]
-fn people_are_told_how_often_a_plan_was_left() {
+fn the_table_says_how_often_a_plan_was_left() {
     let shown = |options: &str| redact_times(&run(&format!("run builtin:cave {options}")).stdout);
     let text = shown("--engine chpa --detour 1 --second squared");
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
@@ -132,10 +136,10 @@ fn a_saved_index_gives_the_same_answers() {
     ] {
         let index = built(&files, "town.idx", &format!("builtin:town {built_with}"));
         let (new_run, new, _) = told(&format!("run builtin:town {built_with}{more}"));
-        // The index knows how it was made.
-        let unsaid: Vec<&str> =
+        // Options that are left out are those of the index.
+        let without: Vec<&str> =
             built_with.split(" --side").next().expect("a part").split(" --levels").collect();
-        for options in [built_with, unsaid[0]] {
+        for options in [built_with, without[0]] {
             let (run, saved, _) = told(&format!("run builtin:town {options}{more} --index {index}"));
             assert_eq!((saved.len(), answers(&saved)), (22, answers(&new)), "{options}");
             for key in ["levels", "side", "index_bytes"] {
@@ -223,7 +227,7 @@ fn an_index_for_something_else_is_refused() {
 }
 
 #[test]
-fn what_means_nothing_is_refused() {
+fn options_that_an_engine_does_not_take_are_refused() {
     let files = Files::new();
     let small = "found k = 3 under center, corners one: choose one of these, or another engine";
     for (options, message) in [
@@ -245,7 +249,7 @@ fn what_means_nothing_is_refused() {
         ),
         (
             "--engine chpa --variant paper --detour 2",
-            "chpa as published knows no detours: leave out the detour, or the variant paper".to_owned(),
+            "chpa as published has no limit to detours: leave out the detour, or choose the variant complete".to_owned(),
         ),
         (
             "--engine hpa --heuristic squared",
@@ -289,8 +293,8 @@ fn what_means_nothing_is_refused() {
     }
 }
 
-/// The windows of CHPA* as published look for a way from the left side of a segment to the one beside it, and here its left side is
-/// blocked.
+/// CHPA* as published joins two segments beside each other if a path leads from the left side of the first to the second.
+/// Here that side is blocked.
 #[test]
 fn a_query_that_is_given_up_is_an_error() {
     let files = Files::new();

@@ -1,4 +1,4 @@
-//! `--format jsonl`: what scripts rely on.
+//! `--format jsonl`: the records that scripts rely on.
 
 use std::{
     collections::BTreeSet,
@@ -25,7 +25,7 @@ fn records(args: &[&str]) -> Vec<Value> {
     stdout.lines().map(|line| serde_json::from_str(line).expect("each line is JSON")).collect()
 }
 
-/// The run, the queries and the summary.
+/// The records of the run and of its queries, and the summary.
 #[track_caller]
 fn parts(records: &[Value]) -> (&Value, &[Value], &Value) {
     let [run, queries @ .., summary] = records else { panic!("too few records: {records:?}") };
@@ -34,32 +34,67 @@ fn parts(records: &[Value]) -> (&Value, &[Value], &Value) {
     (run, queries, summary)
 }
 
+/// The keys of a record.
 fn keys(record: &Value) -> BTreeSet<&str> {
     record.as_object().expect("an object").keys().map(String::as_str).collect()
 }
 
+/// The records of our own scenario of the bundled map `cave`, read from files.
+#[track_caller]
+fn cave() -> Vec<Value> {
+    records(&["run", &bundled("cave.map"), "--scen", &bundled("cave.map.scen"), "--format", "jsonl"])
+}
+
+/// The keys of a run's record that scripts rely on.
+const RUN_KEYS: [&str; 11] = [
+    "type",
+    "map",
+    "engine",
+    "k",
+    "placement",
+    "corners",
+    "gap",
+    "smooth",
+    "guarantee",
+    "preprocess_ns",
+    "index_bytes",
+];
+
+/// The keys of a query's record.
+const QUERY_KEYS: [&str; 20] = [
+    "type",
+    "index",
+    "start",
+    "goal",
+    "status",
+    "cost",
+    "path",
+    "reference",
+    "expanded",
+    "generated",
+    "percolations",
+    "updated",
+    "scanned",
+    "fallbacks",
+    "smoothness",
+    "lower_bound",
+    "bound",
+    "any_angle",
+    "ratio",
+    "nanos",
+];
+
 #[test]
-fn every_record_is_complete() {
-    let records =
-        records(&["run", &bundled("cave.map"), "--scen", &bundled("cave.map.scen"), "--format", "jsonl"]);
-    let (run, queries, summary) = parts(&records);
-    let contract = [
-        "type",
-        "map",
-        "engine",
-        "k",
-        "placement",
-        "corners",
-        "gap",
-        "smooth",
-        "guarantee",
-        "preprocess_ns",
-        "index_bytes",
-    ];
-    assert!(keys(run).is_superset(&contract.into()), "{run}");
+fn the_record_of_a_run_is_complete() {
+    let records = cave();
+    let (run, ..) = parts(&records);
+    assert!(keys(run).is_superset(&RUN_KEYS.into()), "{run}");
     let expected: Value = serde_json::json!({
-        "map": "cave.map", "scenario": "cave.map.scen", "engine": "astar", "k": 3, "placement": "center", "corners": "never",
-        "variant": null, "jump_limit": null, "keep_intermediate": false, "levels": null, "side": null, "unstraightened": false, "second": null, "step": null, "detour": null, "gap": "open", "smooth": false, "smoothing": null, "any_angle": null, "guarantee": "optimal(3)", "heuristic": "hk", "repeat": 1, "queries": 32,
+        "map": "cave.map", "scenario": "cave.map.scen", "queries": 32, "repeat": 1,
+        "engine": "astar", "k": 3, "placement": "center", "corners": "never", "gap": "open",
+        "heuristic": "hk", "variant": null, "jump_limit": null, "keep_intermediate": false, "levels": null, "side": null,
+        "unstraightened": false, "second": null, "step": null, "detour": null,
+        "smooth": false, "smoothing": null, "any_angle": null, "guarantee": "optimal(3)",
     });
     for (key, value) in expected.as_object().expect("an object") {
         assert_eq!(&run[key], value, "{key}");
@@ -67,33 +102,16 @@ fn every_record_is_complete() {
     assert!(run["preprocess_ns"].as_u64() > Some(0));
     // The components alone take four bytes a cell.
     assert!(run["index_bytes"].as_u64() > Some(4 * 72 * 36), "{run}");
+}
 
+#[test]
+fn the_record_of_every_query_is_complete() {
+    let records = cave();
+    let (_, queries, summary) = parts(&records);
     assert_eq!(queries.len(), 32);
-    let contract = [
-        "type",
-        "index",
-        "start",
-        "goal",
-        "status",
-        "cost",
-        "path",
-        "reference",
-        "expanded",
-        "generated",
-        "percolations",
-        "updated",
-        "scanned",
-        "fallbacks",
-        "smoothness",
-        "lower_bound",
-        "bound",
-        "any_angle",
-        "ratio",
-        "nanos",
-    ];
     let scenario = Scenario::read(bundled("cave.map.scen")).expect("our own scenario");
     for (i, (query, instance)) in queries.iter().zip(scenario.instances()).enumerate() {
-        assert_eq!(keys(query), contract.into(), "no `error` where there is none: {query}");
+        assert_eq!(keys(query), QUERY_KEYS.into(), "no `error` where there is none: {query}");
         assert_eq!((query["index"].as_u64(), &query["status"]), (Some(i as u64), &Value::from("found")));
         let (start, goal) = (
             serde_json::json!([instance.start.x, instance.start.y]),
@@ -159,14 +177,14 @@ fn a_mean_of_no_cost_is_null() {
 
 #[test]
 fn lines_come_while_the_run_goes_on() {
-    // The first queries take a second or so, as long as a line may wait; all of them take minutes.
+    // A line may wait for a second. The first queries take about that long, all of them minutes.
     let line = "run builtin:cave --repeat 3000000 --format jsonl";
     let mut command = Command::new(env!("CARGO_BIN_EXE_mediant"));
     let mut child = command.args(line.split(' ')).stdout(Stdio::piped()).spawn().expect("the program starts");
     let stdout = BufReader::new(child.stdout.take().expect("a pipe"));
     let (sender, receiver) = mpsc::channel();
     let reader = thread::spawn(move || {
-        // The receiver is gone once it has seen enough.
+        // The receiver goes after two lines.
         stdout.lines().map_while(Result::ok).try_for_each(|line| sender.send(line)).is_ok()
     });
     let lines = [(); 2].map(|()| receiver.recv_timeout(Duration::from_secs(120)));
@@ -184,7 +202,7 @@ fn lines_come_while_the_run_goes_on() {
 
 #[test]
 fn our_own_scenarios_are_right() {
-    // The lengths were computed by a Dijkstra of its own, apart from this program.
+    // Their lengths were computed by another program's Dijkstra.
     for (name, instances) in [("archipelago", 40), ("cave", 32), ("maze", 40), ("town", 22)] {
         let records = records(&["run", &format!("builtin:{name}"), "--format", "jsonl"]);
         let (run, queries, summary) = parts(&records);
@@ -204,7 +222,7 @@ fn nanocells(length: f64) -> u64 {
     (length * 1e9).round() as u64
 }
 
-/// Costs and counts of the library's planner on a bundled map's scenario.
+/// For each query of a scenario the cost, and the expanded, generated and percolated nodes of the library's A*.
 fn library<P: Placement>(
     grid: &Arc<Grid>,
     k: u32,
@@ -212,7 +230,7 @@ fn library<P: Placement>(
     scenario: &Scenario,
 ) -> Vec<(Option<u64>, u64, u64, u64)> {
     let k = FiniteK::new(k).expect("a k");
-    let grid_graph = GridGraph::<P>::new(grid.clone(), k, rule).expect("a grid_graph");
+    let grid_graph = GridGraph::<P>::new(grid.clone(), k, rule).expect("a grid graph");
     let mut planner = AStar::new(&grid_graph, Hk);
     let mut solve = |query| {
         let mut counters = Counters::default();
@@ -287,10 +305,12 @@ fn town(options: &str) -> (Value, Vec<Value>) {
     (run.clone(), queries.to_vec())
 }
 
+/// The cost of each query.
 fn costs(queries: &[Value]) -> Vec<Option<u64>> {
     queries.iter().map(|query| query["cost"].as_f64().map(nanocells)).collect()
 }
 
+/// The sum of a count over all queries.
 fn sum(queries: &[Value], count: &str) -> u64 {
     queries.iter().filter_map(|query| query[count].as_u64()).sum()
 }
@@ -383,54 +403,6 @@ fn a_saved_index_gives_the_same_answers() {
         };
         assert_eq!(told(&saved), told(&new), "{options:?}");
     }
-}
-
-#[test]
-fn a_trace_has_the_search_and_its_path() {
-    let files = Files::new();
-    let path = files.path("trace.json");
-    for engine in mediant_engines::EngineKind::ALL {
-        for placement in engine.capabilities().placements.iter().map(ToString::to_string) {
-            let line = format!(
-                "run builtin:town --from 60,18 --to 10,5 --format jsonl --engine {engine} --trace {path}"
-            );
-            let args: Vec<&str> = line.split(' ').chain(["--placement", &placement]).collect();
-            let records = records(&args);
-            let (_, queries, _) = parts(&records);
-            let text = std::fs::read_to_string(&path).expect("a trace");
-            let trace: Value = serde_json::from_str(&text).expect("a trace is JSON");
-            let events = trace["events"].as_array().expect("events");
-            let of = |kind: &str| events.iter().filter(|event| event["type"] == kind).collect::<Vec<_>>();
-            let count = |kind: &str| Some(of(kind).len() as u64);
-            assert_eq!(count("generating"), queries[0]["generated"].as_u64(), "{engine}");
-            assert_eq!(count("expanding"), queries[0]["expanded"].as_u64(), "{engine}");
-            assert_eq!(
-                (count("closing"), count("updating")),
-                (count("expanding"), queries[0]["updated"].as_u64())
-            );
-            assert_eq!((&events[0]["type"], &events[1]["type"]), (&"source".into(), &"destination".into()));
-            assert_eq!((&events[0]["x"], &events[0]["y"]), (&60.into(), &18.into()));
-            assert!(events[0]["map"].is_array(), "the map is drawn");
-            let ends: Vec<Value> =
-                of("end").iter().map(|event| serde_json::json!([event["x"], event["y"]])).collect();
-            assert_eq!(Value::from(ends), queries[0]["path"], "{engine}");
-            for pair in of("end").windows(2) {
-                assert_eq!(pair[1]["pId"], pair[0]["id"], "{engine}");
-            }
-            let last = of("end").last().and_then(|event| event["g"].as_f64()).map(nanocells);
-            assert_eq!(last, queries[0]["cost"].as_f64().map(nanocells), "{engine}");
-        }
-    }
-}
-
-#[test]
-fn a_query_that_is_an_error_has_a_trace_without_events() {
-    let files = Files::new();
-    let path = files.path("trace.json");
-    let Ran { status, .. } =
-        mediant(&["run", "builtin:town", "--from", "-5,99999", "--to", "10,5", "--trace", &path]);
-    let trace: Value = serde_json::from_str(&std::fs::read_to_string(&path).expect("a trace")).expect("JSON");
-    assert_eq!((status, &trace["events"]), (Some(1), &serde_json::json!([])));
 }
 
 #[test]

@@ -7,3 +7,4 @@ mod hierarchy;
 mod jsonl;
 mod subgoal;
 mod table;
+mod trace;

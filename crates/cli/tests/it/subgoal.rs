@@ -1,4 +1,4 @@
-//! Subgoal graphs from the command line: built, saved, loaded, and refused where they do not belong.
+//! Subgoal graphs from the command line: built, saved, loaded, and refused if they do not fit.
 
 use std::{fs, path::Path};
 
@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use crate::common::{Files, Ran, built, mediant, redact_times, refused, run, told};
 
-/// What a program can rely on being the same.
+/// What a saved index must not change of the answers.
 fn answers(queries: &[Value]) -> Vec<[Value; 3]> {
     queries.iter().map(|query| ["status", "cost", "path"].map(|key| query[key].clone())).collect()
 }
@@ -42,7 +42,7 @@ fn a_saved_graph_gives_the_same_answers() {
 }
 
 #[test]
-fn answers_are_those_of_engines_that_prepare_nothing() {
+fn costs_are_those_of_engines_without_a_graph() {
     for (options, same) in [
         ("--corners never", "--engine jps"),
         ("--k 2 --corners one", "--engine astar --k 2 --corners one"),
@@ -141,7 +141,7 @@ fn a_damaged_index_is_refused() {
     let index = built(&files, "cave.idx", "builtin:cave --engine subgoal --k any");
     let whole = fs::read(&index).expect("the index");
     let line = format!("run builtin:cave --engine subgoal --k any --index {}", files.path("damaged.idx"));
-    // Each run takes milliseconds: some of all bits and lengths, the ends among them.
+    // Each run takes milliseconds, so only some bits and lengths are tried, among them the first and the last.
     const SOME: usize = 60;
     for i in 0..=SOME {
         let mut bytes = whole.clone();
@@ -161,7 +161,7 @@ fn a_damaged_index_is_refused() {
     assert!(refused(&files, &line).contains("copy the file again"));
 }
 
-/// Files that are whole, but not as this program writes them.
+/// Undamaged files, but not as this program writes them.
 #[test]
 fn an_index_of_another_version_is_refused() {
     let files = Files::new();
@@ -217,7 +217,7 @@ fn a_build_that_fails_leaves_nothing_behind() {
     assert_eq!((status, contents().len()), (Some(0), 2), "no temporary file stays");
 }
 
-/// A folder in which nothing may be written: the file in it stays as it was. (Who may write everywhere sees no difference.)
+/// In a folder without permission to write, nothing is written. (Root may write everywhere.)
 #[cfg(unix)]
 #[test]
 fn an_unwritable_folder_is_an_error() {
@@ -235,7 +235,7 @@ fn an_unwritable_folder_is_an_error() {
 }
 
 #[test]
-fn what_subgoal_graphs_are_not_for_is_refused() {
+fn setups_without_a_subgoal_graph_are_refused() {
     let files = Files::new();
     let refused = |options: &str, message: &str| {
         assert_eq!(refused(&files, &format!("run builtin:cave {options}")), format!("error: {message}\n"));

@@ -1,7 +1,8 @@
-//! What people see, pinned. Times are redacted.
+//! `--format table`, and the output of the other commands, pinned. Times are redacted.
 
 use crate::common::{Files, Ran, mediant, mediant_with, redact_times, run};
 
+/// The output of a command line that succeeds.
 #[track_caller]
 fn shown(line: &str) -> String {
     let Ran { status, stdout, stderr } = run(line);
@@ -131,7 +132,7 @@ fn every_demo_solves_all_its_queries_and_fits_in_80_columns() {
 }
 
 #[test]
-fn colors_are_for_those_who_want_them() {
+fn colors_are_only_where_they_are_wanted() {
     let demo = |variables: &[(&str, &str)]| mediant_with(&["demo"], variables).stdout;
     let plain = demo(&[]);
     assert!(!plain.contains('\x1b'));
@@ -140,7 +141,7 @@ fn colors_are_for_those_who_want_them() {
     assert!(palette.contains("\x1b[48;5;") && !palette.contains("\x1b[48;2;"));
     let all = demo(&[("CLICOLOR_FORCE", "1"), ("COLORTERM", "truecolor")]);
     assert!(all.contains("\x1b[48;2;") && !all.contains("\x1b[48;5;"));
-    // Every line ends as it began: with the colors of the terminal.
+    // Every line ends with the terminal's own colors.
     let last_codes = all.lines().filter_map(|line| line.rsplit_once("\x1b[")).map(|(_, code)| code);
     assert!(
         last_codes.clone().count() > 20 && last_codes.clone().all(|code| code.starts_with("0m")),

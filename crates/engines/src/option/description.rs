@@ -56,8 +56,8 @@ pub(crate) static VARIANT: EngineOption = EngineOption {
     kind: ValueKind::Variant,
     key: None,
     is_index_option: false,
-    help: "For an engine that was published with a flaw: the optimal or complete variant (the default), or the published \
-           one",
+    help: "For an engine that was published with a flaw: the repaired variant (the default; exact for canonical, complete \
+           for chpa), or paper, the published one",
     phrase: "variant {}",
     samples: &["paper"],
 };
@@ -94,8 +94,8 @@ pub(crate) static LEVELS: EngineOption = EngineOption {
     key: Some("levels"),
     is_index_option: true,
     help: "The number of levels of the subgoal graph (1 is the graph without a hierarchy) or of the clusters, or all. \
-           A contraction hierarchy by default, 2 levels for subgoal-theta, 3 levels for hpa; with --index, those of the \
-           index",
+           A contraction hierarchy by default for subgoal, 2 levels for subgoal-theta, 3 levels for hpa; with --index, \
+           those of the index",
     phrase: "{}",
     samples: &["1", "2", "all"],
 };
@@ -120,7 +120,7 @@ pub(crate) static UNSTRAIGHTENED: EngineOption = EngineOption {
     kind: ValueKind::Flag,
     key: Some("unstraightened"),
     is_index_option: false,
-    help: "Do not straighten the paths that lead through clusters",
+    help: "Leave out the straightening of hpa, which shortens each path after the search",
     phrase: "paths not straightened",
     samples: &[""],
 };
@@ -132,7 +132,7 @@ pub(crate) static SECOND: EngineOption = EngineOption {
     kind: ValueKind::Heuristic,
     key: Some("second"),
     is_index_option: false,
-    help: "The heuristic of the second phase, from checkpoint to checkpoint. That of the first phase by default",
+    help: "The heuristic of chpa's second phase, from checkpoint to checkpoint. That of the first phase by default",
     phrase: "second heuristic {}",
     samples: &["squared"],
 };

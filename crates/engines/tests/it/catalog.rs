@@ -1,4 +1,4 @@
-//! The catalog keeps what it says of each engine.
+//! What the catalog says of each engine is true, and what is wrong is refused.
 
 use std::num::NonZeroU32;
 
@@ -12,90 +12,109 @@ use mediant_search::{Guarantee, Query, QueryError, Smoothing};
 
 use super::{NEVER, OPEN, RULES, build, grid, index, k, planner, planner_on, setup};
 
-/// The engine on the problem that is meant where none is said.
+/// The engine with its default options, k and rules.
 fn plain(engine: EngineKind) -> Setup {
     let k = engine.capabilities().default_k();
     Setup::new(engine, k, engine.capabilities().default_rules(k))
 }
 
+/// The query that all setups answer.
+fn query() -> Query {
+    Query::new((0, 0), (8, 4))
+}
+
+/// The length of the shortest path at any angle under these rules. At centers, where no engine finds it, the straight line.
+fn any_angle_length(rules: Rules) -> f64 {
+    let anya = Setup::new(EngineKind::Anya, K::Any, rules);
+    let outcome = BoxedPlanner::new(anya, &grid(), &RULES).and_then(|mut anya| Ok(anya.solve(query())?));
+    match outcome {
+        Ok(outcome) => outcome.path().expect("there is a path").cost(),
+        Err(_) => query().start.distance(query().goal),
+    }
+}
+
+/// Whether the engine prepares nothing.
+fn prepares_nothing(setup: Setup) -> bool {
+    match setup.engine {
+        Engine::AStar(_)
+        | Engine::Dijkstra
+        | Engine::Wavefront
+        | Engine::Theta(_)
+        | Engine::LazyTheta(_)
+        | Engine::Anya => true,
+        Engine::Canonical(own) => own.variant == Some(Variant::Paper),
+        _ => false,
+    }
+}
+
+/// Checks a setup's planner against its guarantee: `best` is the length of the shortest path over its k, `shortest` that of
+/// the shortest at any angle.
+fn check(setup: Setup, best: f64, shortest: f64) {
+    let index = index(setup, &grid(), None).unwrap_or_else(|error| panic!("{setup}: {error}"));
+    assert_eq!(index.memory_bytes() == 0, prepares_nothing(setup), "{setup}");
+    let mut planner = planner_on(&index);
+    assert_eq!(planner.guarantee(), setup.guarantee(), "{setup}");
+    let answer = planner.solve_counted(query());
+    let (kind, variant) = (setup.engine.kind(), setup.engine.variant());
+    if (kind, variant, setup.k) == (EngineKind::Chpa, Some(Variant::Paper), K::Finite(FiniteK::N4)) {
+        // As published, the windows of its segments join only what is joined within them.
+        assert!(matches!(answer, Err(QueryError::GaveUp { .. })), "{setup}: {answer:?}");
+        return;
+    }
+    let (outcome, counters) = answer.expect("both ends are free");
+    let cost = outcome.path().expect("there is a path").cost();
+    match setup.guarantee() {
+        Guarantee::Suboptimal => {
+            let least = if setup.paths() == K::Any { shortest } else { best };
+            assert!(cost >= least - 1e-9, "{setup}: {cost}, {least}");
+        }
+        Guarantee::AtMost(_) => {
+            assert!((shortest - 1e-9..=best + 1e-9).contains(&cost), "{setup}: {cost}, {best}");
+        }
+        _ => assert!((cost - best).abs() < 1e-9, "{setup}: {cost}, {best}"),
+    }
+    assert!(counters.generated > 0 && counters.expanded > 0, "{setup}");
+    assert_eq!(planner.solve(query()), Ok(outcome), "{setup}: the same answer again");
+}
+
 #[test]
 fn every_setup_makes_the_planner_that_it_promises() {
-    let query = Query::new((0, 0), (8, 4));
     let mut setups = 0;
     for rules in Rules::ALL {
-        let anya = Setup::new(EngineKind::Anya, K::Any, rules);
-        let any_angle = BoxedPlanner::new(anya, &grid(), &RULES).and_then(|mut anya| Ok(anya.solve(query)?));
-        let shortest = match any_angle {
-            Ok(outcome) => outcome.path().expect("there is a way").cost(),
-            Err(_) => query.start.distance(query.goal),
-        };
+        let shortest = any_angle_length(rules);
         for k in (2..=5).map(|n| K::Finite(k(n))).chain([K::Any]) {
             let all: Vec<Setup> = Setup::all(k, rules).collect();
             let Some(&first) = all.first() else {
-                assert_eq!((k, rules.placement()), (K::Any, PlacementKind::Center), "only this is left out");
+                assert_eq!(
+                    (k, rules.placement()),
+                    (K::Any, PlacementKind::Center),
+                    "only here is there none"
+                );
                 continue;
             };
             let engine = if k == K::Any { EngineKind::Anya } else { EngineKind::AStar };
             assert_eq!(first, Setup::new(engine, k, rules));
-            let best = planner(first).solve(query).expect("both ends are free");
-            let best = best.path().expect("there is a way").cost();
-            for setup in all {
-                let index = index(setup, &grid(), None).unwrap_or_else(|error| panic!("{setup}: {error}"));
-                let mut planner = planner_on(&index);
-                assert_eq!(planner.guarantee(), setup.guarantee(), "{setup}");
-                let answer = planner.solve_counted(query);
-                setups += 1;
-                let as_published =
-                    (setup.engine.kind(), setup.engine.variant()) == (EngineKind::Chpa, Some(Variant::Paper));
-                if as_published && k == K::Finite(FiniteK::N4) {
-                    // The windows of its segments join only what is joined within them.
-                    assert!(matches!(answer, Err(QueryError::GaveUp { .. })), "{setup}: {answer:?}");
-                    continue;
-                }
-                let (outcome, counters) = answer.expect("both ends are free");
-                let cost = outcome.path().expect("there is a way").cost();
-                match setup.guarantee() {
-                    Guarantee::Suboptimal => {
-                        let least = if setup.paths() == K::Any { shortest } else { best };
-                        assert!(cost >= least - 1e-9, "{setup}: {cost}, {least}");
-                    }
-                    Guarantee::AtMost(_) => {
-                        assert!((shortest - 1e-9..=best + 1e-9).contains(&cost), "{setup}: {cost}, {best}");
-                    }
-                    _ => assert!((cost - best).abs() < 1e-9, "{setup}: {cost}, {best}"),
-                }
-                assert!(counters.generated > 0 && counters.expanded > 0, "{setup}");
-                assert_eq!(planner.solve(query), Ok(outcome), "{setup}: the same again");
-                let nothing = matches!(
-                    setup.engine,
-                    Engine::AStar(_)
-                        | Engine::Dijkstra
-                        | Engine::Wavefront
-                        | Engine::Theta(_)
-                        | Engine::LazyTheta(_)
-                        | Engine::Anya
-                );
-                let nothing = nothing
-                    || (setup.engine.kind(), setup.engine.variant())
-                        == (EngineKind::Canonical, Some(Variant::Paper));
-                assert_eq!(index.memory_bytes() == 0, nothing, "{setup}");
-            }
+            let best = planner(first).solve(query()).expect("both ends are free");
+            let best = best.path().expect("there is a path").cost();
+            setups += all.len();
+            all.into_iter().for_each(|setup| check(setup, best, shortest));
         }
     }
-    // 4 of A*, Dijkstra, wavefront, 4 of canonical, 5 of jps, 3 each of theta and lazy-theta; for k ≤ 3 also 5 of jps-block and 4 of
-    // jps-plus; 3 that are smoothed. Of each gap rule anya, and once smoothed.
+    // On grid graphs: 4 setups of astar, 1 each of dijkstra and wavefront, 4 of canonical, 5 of jps, 3 each of theta and
+    // lazy-theta, and 3 that are smoothed; for k ≤ 3 also 5 of jps-block and 4 of jps-plus. For each gap rule anya, plain and
+    // smoothed.
     let grids = 5 * (4 * (4 + 1 + 1 + 4 + 5 + 3 + 3 + 3) + 2 * (5 + 4)) + 2 * 2;
-    // 4 of subgoal, and once smoothed: at corners for each k and for any, at centers for k = 2 under 3 rules and for k = 3 under one. 4 of
-    // subgoal-theta at corners.
+    // 4 of subgoal and one that is smoothed: at corners for each k and for ∞, at centers for k = 2 under 3 rules and for k = 3
+    // under one. 4 of subgoal-theta at corners.
     let subgoals = 5 * (2 * (4 + 1) + 3 + 1) + 4 * 2 * 4;
-    // 8 of hpa and 10 of chpa, each once smoothed, for the same k at centers.
+    // 8 of hpa and 10 of chpa, and one each that is smoothed, for the same k at centers.
     assert_eq!(setups, grids + subgoals + (3 + 1) * (8 + 1 + 10 + 1));
 }
 
 #[test]
-fn every_engine_is_in_its_own_range_of_k() {
+fn every_engine_takes_the_k_that_it_says() {
     for engine in EngineKind::ALL {
-        // Under one of these rules an engine takes every k that it takes at all.
+        // Under these rules an engine takes every k that it takes at all.
         let capabilities = engine.capabilities();
         let rules = if capabilities.placements.contains(&PlacementKind::Corner) { OPEN } else { NEVER };
         let setup = |k: K| Setup::new(engine, k, rules);
@@ -105,13 +124,13 @@ fn every_engine_is_in_its_own_range_of_k() {
             assert_eq!(planner, Err(EngineError::Setup(error)));
         };
         if let Some(max) = capabilities.max_k {
-            let [least, most, beyond] = [2, max, max + 1].map(k);
+            let [least, most, too_large] = [2, max, max + 1].map(k);
             assert_eq!(
                 (setup(least.into()).check(), setup(most.into()).check()),
                 (Ok(()), Ok(())),
                 "{engine}"
             );
-            refused(beyond.into(), SetupError::K { engine, max, k: beyond });
+            refused(too_large.into(), SetupError::K { engine, max, k: too_large });
             let others = "anya, subgoal".to_owned();
             if capabilities.any {
                 assert_eq!((engine, setup(K::Any).check()), (EngineKind::Subgoal, Ok(())));
@@ -130,13 +149,13 @@ fn every_engine_takes_the_placements_that_it_says() {
     for engine in EngineKind::ALL {
         for rules in Rules::ALL {
             let (capabilities, placement) = (engine.capabilities(), rules.placement());
-            // Some engines take centers only for the smallest k under every rule.
+            // k = 2, since some engines at centers take larger k only under some rules.
             let k = capabilities.max_k.map_or(K::Any, |_| K::Finite(k(2)));
             let said = Setup { rules, k, ..plain(engine) }.check();
             if capabilities.placements.contains(&placement) {
                 assert_eq!(said, Ok(()), "{engine}, {rules}");
             } else {
-                let said = said.expect_err("it does not take it").to_string();
+                let said = said.expect_err("the engine does not take this placement").to_string();
                 let needs = match placement {
                     PlacementKind::Center => "placement corner; for center choose astar, dijkstra,",
                     PlacementKind::Corner => "placement center; for corner choose astar, dijkstra,",
@@ -165,9 +184,8 @@ fn a_search_space_is_for_its_own_k_and_rules() {
     ] {
         let index =
             index(ours, others).unwrap_or_else(|error| panic!("{ours} in the space of {others}: {error}"));
-        let query = Query::new((0, 0), (8, 4));
-        let alone = planner(setup(ours)).solve_counted(query);
-        assert_eq!(planner_on(&index).solve_counted(query), alone, "{ours}");
+        let alone = planner(setup(ours)).solve_counted(query());
+        assert_eq!(planner_on(&index).solve_counted(query()), alone, "{ours}");
     }
     for (ours, others) in [
         ("astar:3:open", "astar:4:open"),
@@ -191,30 +209,30 @@ fn a_search_space_is_for_its_own_k_and_rules() {
 }
 
 #[test]
-fn options_are_refused_where_they_mean_nothing() {
-    let chosen = |options: &str| {
+fn engines_take_only_their_own_options() {
+    let takers = |options: &str| {
         let setup = |engine: EngineKind| format!("{engine}{options}").parse::<Setup>();
         let takers = EngineKind::ALL.into_iter().filter(|&engine| setup(engine).is_ok());
         takers.map(EngineKind::name).collect::<Vec<_>>()
     };
-    assert_eq!(chosen("").len(), EngineKind::ALL.len());
+    assert_eq!(takers("").len(), EngineKind::ALL.len());
     let guided = ["astar", "canonical", "jps", "jps-block", "jps-plus", "theta", "lazy-theta"];
-    assert_eq!(chosen(",euclidean"), [&guided[..], &["chpa"]].concat());
-    assert_eq!(chosen(",squared"), ["astar", "chpa"]);
+    assert_eq!(takers(",euclidean"), [&guided[..], &["chpa"]].concat());
+    assert_eq!(takers(",squared"), ["astar", "chpa"]);
     assert_eq!(
-        (chosen(",smooth").len(), chosen(",taut").len()),
+        (takers(",smooth").len(), takers(",taut").len()),
         (EngineKind::ALL.len(), EngineKind::ALL.len())
     );
-    assert_eq!(chosen(",paper"), ["canonical", "chpa"]);
-    assert_eq!((chosen(",exact"), chosen(",complete")), (vec!["canonical"], vec!["chpa"]));
-    assert_eq!((chosen(",side=3"), chosen(",unstraightened")), (vec!["hpa", "chpa"], vec!["hpa"]));
+    assert_eq!(takers(",paper"), ["canonical", "chpa"]);
+    assert_eq!((takers(",exact"), takers(",complete")), (vec!["canonical"], vec!["chpa"]));
+    assert_eq!((takers(",side=3"), takers(",unstraightened")), (vec!["hpa", "chpa"], vec!["hpa"]));
     for option in ["second=zero", "step=3", "detour=2"] {
-        assert_eq!(chosen(&format!(",{option}")), ["chpa"], "{option}");
+        assert_eq!(takers(&format!(",{option}")), ["chpa"], "{option}");
     }
-    assert_eq!(chosen(",limit=4"), ["jps", "jps-block"]);
-    assert_eq!(chosen(",intermediate"), ["jps", "jps-block", "jps-plus"]);
+    assert_eq!(takers(",limit=4"), ["jps", "jps-block"]);
+    assert_eq!(takers(",intermediate"), ["jps", "jps-block", "jps-plus"]);
     for levels in ["1", "4", "all"] {
-        assert_eq!(chosen(&format!(",levels={levels}")), ["subgoal", "subgoal-theta", "hpa"]);
+        assert_eq!(takers(&format!(",levels={levels}")), ["subgoal", "subgoal-theta", "hpa"]);
     }
     let error = "astar,limit=4".parse::<Setup>().expect_err("no jumps").to_string();
     assert_eq!(
@@ -247,6 +265,14 @@ fn what_is_left_out_has_its_default() {
         [levels(1), levels(2)]
     );
     assert_eq!(setup("subgoal-theta,levels=all").engine.levels(), Some(Levels::All));
+    assert_eq!(
+        (setup("canonical").engine.variant(), setup("jps").engine.variant()),
+        (Some(Variant::Exact), None)
+    );
+}
+
+#[test]
+fn setups_say_what_their_paths_are() {
     let paths = [
         "astar:4",
         "subgoal:4:open",
@@ -270,10 +296,6 @@ fn what_is_left_out_has_its_default() {
             Guarantee::AtMost(k(2)),
             Guarantee::Suboptimal,
         ]
-    );
-    assert_eq!(
-        (setup("canonical").engine.variant(), setup("jps").engine.variant()),
-        (Some(Variant::Exact), None)
     );
     let over = ["jps:4", "subgoal:9:closed", "wavefront:2", "anya,taut", "subgoal:any"]
         .map(|text| setup(text).optimal_over());
@@ -324,7 +346,7 @@ fn setups_are_read_as_they_are_written() {
 
 #[test]
 fn each_wrong_part_is_named() {
-    let wrong = |text: &str| text.parse::<Setup>().expect_err("no setup").to_string();
+    let wrong = |text: &str| text.parse::<Setup>().expect_err("a wrong part").to_string();
     let names = "astar, dijkstra, wavefront, canonical, jps, jps-block, jps-plus, theta, lazy-theta, anya, \
                  subgoal, subgoal-theta, hpa, chpa";
     let form = "expected ENGINE[:K[:RULE]][,OPTION…], found `warp`";
@@ -379,8 +401,7 @@ fn a_saved_index_is_as_good_as_a_new_one() {
             let setup = Setup::new(EngineKind::JpsPlus, k, rules);
             let bytes = build(setup, &grid()).expect("an index");
             let saved = index(setup, &grid(), Some(&bytes)).expect("these are its bytes");
-            let query = Query::new((0, 0), (8, 4));
-            assert_eq!(planner_on(&saved).solve_counted(query), planner(setup).solve_counted(query));
+            assert_eq!(planner_on(&saved).solve_counted(query()), planner(setup).solve_counted(query()));
             let mut damaged = bytes;
             damaged[0] ^= 1;
             let refused = index(setup, &grid(), Some(&damaged)).map(|_| ());
@@ -403,7 +424,7 @@ fn only_some_engines_have_an_index_or_distances() {
     for engine in EngineKind::ALL {
         let found = distances(plain(engine), &grid(), Vertex::new(0, 0));
         match found {
-            // The wall parts nothing: every free cell is reached.
+            // The map is connected: every free cell is reached.
             Ok(found) => {
                 assert!(matches!(engine, EngineKind::Dijkstra | EngineKind::Wavefront));
                 assert_eq!(found.len() as u64, grid().free_cells());
@@ -424,17 +445,16 @@ fn only_some_engines_have_an_index_or_distances() {
 }
 
 #[test]
-fn a_shared_rule_changes_nothing() {
-    let query = Query::new((0, 0), (8, 4));
+fn shared_rules_change_no_answer() {
     let shared = SharedRules::new();
     for rules in Rules::ALL {
-        // Also after those of another k.
+        // A rule for another k is known when the second one is asked for.
         for number in [4, 5] {
             for engine in [EngineKind::Canonical, EngineKind::Jps] {
                 let setup = Setup::new(engine, k(number), rules);
                 let answer = |rules: &SharedRules| {
                     let planner = BoxedPlanner::new(setup, &grid(), rules);
-                    planner.unwrap_or_else(|error| panic!("{setup}: {error}")).solve_counted(query)
+                    planner.unwrap_or_else(|error| panic!("{setup}: {error}")).solve_counted(query())
                 };
                 assert_eq!(answer(&shared), answer(&SharedRules::new()), "{setup}");
             }

@@ -1,4 +1,4 @@
-//! Clusters and segments in the catalog: where there are any, what is left out, and what becomes of a saved graph.
+//! Clusters and segments in the catalog: for which setups there are any, their defaults, and how they are saved and read.
 
 use std::{num::NonZeroU32, sync::Arc};
 
@@ -14,7 +14,7 @@ use mediant_search::{Guarantee, Query, QueryError};
 
 use super::{NEVER, build, grid, index, k, planner_on, setup};
 
-/// The levels and the side that an index has.
+/// The levels and the side of an index.
 fn shape(index: &Index) -> (Option<Levels>, Option<u32>) {
     let value = |name: &str| EngineOption::ALL.into_iter().find(|option| option.name == name);
     let value = |name: &str| value(name).and_then(|option| index.value(option));
@@ -29,12 +29,12 @@ fn shape(index: &Index) -> (Option<Levels>, Option<u32>) {
     (levels, side)
 }
 
-/// Whether an engine searches clusters or segments.
+/// Whether the engine of a setup searches clusters or segments.
 fn has_hierarchy(setup: &Setup) -> bool {
     matches!(setup.engine.kind(), EngineKind::Hpa | EngineKind::Chpa)
 }
 
-/// A map of many clusters, and queries all over it.
+/// A map with many clusters, and queries between cells all over it.
 fn map() -> (Arc<Grid>, Vec<Query>) {
     let grid = caves(&mut Rng::new(3), 50, 40);
     let all = (0..40).flat_map(|y| (0..50).map(move |x| (x, y)));
@@ -44,7 +44,7 @@ fn map() -> (Arc<Grid>, Vec<Query>) {
 }
 
 #[test]
-fn there_are_graphs_where_the_catalog_says_so() {
+fn graphs_exist_for_the_setups_that_the_catalog_takes() {
     let mut taken = Vec::new();
     for rules in Rules::ALL {
         for k in (2..=5).map(|n| K::Finite(k(n))).chain([K::Any]) {
@@ -54,14 +54,14 @@ fn there_are_graphs_where_the_catalog_says_so() {
                     taken.push(setup.to_string());
                 }
                 let (K::Finite(number), Rules::Center(_)) = (k, rules) else { continue };
-                // What the catalog says is what the graphs say.
+                // The catalog and the graphs agree on which exist.
                 let space = SearchSpace::new(Setup::new(EngineKind::AStar, number, rules), &grid());
                 let Ok(SearchSpace::Centers(grid_graph)) = space else { panic!("{space:?}") };
-                let there = match engine {
+                let made = match engine {
                     EngineKind::Hpa => ClusterGraph::new(&grid_graph, Clustering::default()).map(|_| ()),
                     _ => SegmentGraph::new(&grid_graph, 3).map(|_| ()),
                 };
-                assert_eq!(setup.check().is_ok(), there.is_ok(), "{setup}: {there:?}");
+                assert_eq!(setup.check().is_ok(), made.is_ok(), "{setup}: {made:?}");
             }
         }
     }
@@ -141,7 +141,7 @@ fn all_levels_are_as_many_as_fit() {
             matches!(refused, Err(EngineError::Hierarchy(HierarchyError::Levels { .. }))),
             "{side}: {refused:?}"
         );
-        // Where a side alone is said, the default levels fit.
+        // The default levels fit every side.
         let built = build(of(None), &grid());
         assert!(built.is_ok(), "{side}: {built:?}");
     }
@@ -218,7 +218,7 @@ fn a_saved_graph_has_the_levels_and_the_side_that_are_named() {
     }
 }
 
-/// Bytes that were damaged are refused, or are those of another graph: never more than that.
+/// Damaged bytes are refused, or read as another graph, on which a planner answers or gives up.
 #[test]
 fn damaged_graphs_do_no_harm() {
     let (mut refused, mut read) = (0, 0);
@@ -228,7 +228,7 @@ fn damaged_graphs_do_no_harm() {
         let mut check = |bytes: Vec<u8>, what: &str| match index(setup, &grid(), Some(&bytes)) {
             Ok(index) => {
                 match planner_on(&index).solve(Query::new((0, 0), (8, 4))) {
-                    // Only the file that holds an index knows whether it is whole.
+                    // The bytes have no checksum; the file format adds one.
                     Ok(_) | Err(QueryError::GaveUp { .. }) => read += 1,
                     Err(error) => panic!("{text}, {what}: {error}"),
                 }

@@ -14,17 +14,20 @@ use mediant_moves::FiniteK;
 const NEVER: Rules = Rules::Center(CornerRule::Never);
 const OPEN: Rules = Rules::Corner(DiagonalGap::Open);
 
-/// Pruning rules depend on no map: each is made once.
+/// Pruning rules do not depend on a map: each is computed once for all tests.
 static RULES: SharedRules = SharedRules::new();
 
+/// A finite k.
 fn k(k: u32) -> FiniteK {
     FiniteK::new(k).expect("k is at least 2")
 }
 
+/// The setup with this text.
 fn setup(text: &str) -> Setup {
     text.parse().unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// A small map, all of whose free cells are connected.
 fn grid() -> Arc<Grid> {
     let drawing = "
         ......#..
@@ -36,7 +39,7 @@ fn grid() -> Arc<Grid> {
     Arc::new(AsciiMap::parse(drawing).expect("the drawing is a map").grid)
 }
 
-/// The index of a setup on a map: a new one, or the one that these bytes hold.
+/// The index of a setup on a map: a new one, or the one in these bytes.
 fn index(setup: Setup, grid: &Arc<Grid>, bytes: Option<&[u8]>) -> Result<Index, EngineError> {
     let space = SearchSpace::new(setup, grid)?;
     match bytes {
@@ -50,10 +53,12 @@ fn build(setup: Setup, grid: &Arc<Grid>) -> Result<Vec<u8>, EngineError> {
     index(setup, grid, None)?.to_bytes()
 }
 
+/// A planner on the small map.
 fn planner(setup: Setup) -> BoxedPlanner {
     BoxedPlanner::new(setup, &grid(), &RULES).unwrap_or_else(|error| panic!("{setup}: {error}"))
 }
 
+/// A planner on an index.
 fn planner_on(index: &Index) -> BoxedPlanner {
     index.planner().unwrap_or_else(|error| panic!("{}: {error}", index.setup()))
 }

@@ -1,11 +1,11 @@
-//! Options: what each engine takes, what is written and read, and what is meant where nothing is chosen.
+//! Options: which engines take them, and how they are read, written and reported.
 
 use mediant_engines::{Engine, EngineKind, EngineOption, OptionValue, SetupError, ValueKind};
 
 use super::{NEVER, k, setup};
 
 #[test]
-fn an_option_is_chosen_written_and_told_by_its_description_alone() {
+fn every_engine_takes_the_options_that_it_says() {
     let mut pairs = 0;
     for kind in EngineKind::ALL {
         let plain = Engine::from(kind);
@@ -34,7 +34,8 @@ fn an_option_is_chosen_written_and_told_by_its_description_alone() {
             }
         }
     }
-    // 8 heuristics, 2 variants, 2 limits, 3 intermediate, 3 levels, 2 sides, 1 unstraightened, second, step and detour.
+    // The engines that take heuristic, variant, jump limit, intermediate jump points, levels, side and unstraightened; second,
+    // step and detour.
     assert_eq!(pairs, 8 + 2 + 2 + 3 + 3 + 2 + 1 + 3);
 }
 
@@ -63,30 +64,30 @@ fn wrong_values_are_refused_in_words() {
 }
 
 #[test]
-fn reports_say_what_was_chosen() {
-    let told = |text: &str| {
+fn reports_say_what_each_option_is() {
+    let described = |text: &str| {
         let engine = setup(text).engine;
         let all =
             EngineOption::ALL.into_iter().filter_map(|option| Some(option.describe(engine.value(option)?)));
         all.collect::<Vec<_>>().join(", ")
     };
-    assert_eq!(told("astar"), "heuristic hk");
-    assert_eq!(told("anya"), "");
+    assert_eq!(described("astar"), "heuristic hk");
+    assert_eq!(described("anya"), "");
     assert_eq!(
-        told("jps,limit=16,intermediate"),
+        described("jps,limit=16,intermediate"),
         "heuristic hk, jumps up to 16, intermediate jump points kept"
     );
-    assert_eq!(told("subgoal"), "a contraction hierarchy");
-    assert_eq!(told("hpa,levels=1,unstraightened"), "1 level, side 10, paths not straightened");
+    assert_eq!(described("subgoal"), "a contraction hierarchy");
+    assert_eq!(described("hpa,levels=1,unstraightened"), "1 level, side 10, paths not straightened");
     assert_eq!(
-        told("chpa,squared"),
+        described("chpa,squared"),
         "heuristic squared, variant complete, side 3, second heuristic squared, step 2, detours up to 3"
     );
-    assert_eq!(told("chpa,paper"), "heuristic hk, variant paper, side 3, second heuristic hk, step 2");
+    assert_eq!(described("chpa,paper"), "heuristic hk, variant paper, side 3, second heuristic hk, step 2");
 }
 
 #[test]
-fn a_contraction_hierarchy_is_of_subgoal_graphs_alone() {
+fn only_subgoal_graphs_have_a_contraction_hierarchy() {
     assert_eq!(setup("subgoal,levels=contracted").engine.levels(), setup("subgoal").engine.levels());
     let said = "hpa,levels=contracted".parse::<mediant_engines::Setup>().expect_err("clusters have levels");
     assert!(

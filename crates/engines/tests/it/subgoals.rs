@@ -1,4 +1,4 @@
-//! Subgoal graphs in the catalog: where there are any, and what becomes of a saved one.
+//! Subgoal graphs in the catalog: for which setups there are any, and how they are saved and read.
 
 use std::sync::Mutex;
 
@@ -13,7 +13,7 @@ use mediant_subgoal::{Hierarchy, SubgoalGraph};
 
 use super::{RULES, build, grid, index, k, planner_on, setup};
 
-/// The levels that an index has.
+/// The levels of an index.
 fn levels(index: &Index) -> Option<Levels> {
     match index.value(EngineOption::ALL.into_iter().find(|option| option.name == "levels")?)? {
         OptionValue::Levels(levels) => Some(levels),
@@ -21,7 +21,7 @@ fn levels(index: &Index) -> Option<Levels> {
     }
 }
 
-/// Whether an engine searches a subgoal graph.
+/// Whether the engine of a setup searches a subgoal graph.
 fn is_subgoal(setup: &Setup) -> bool {
     matches!(setup.engine.kind(), EngineKind::Subgoal | EngineKind::SubgoalTheta)
 }
@@ -32,21 +32,21 @@ fn subgoal_graphs_at_centers_are_for_small_k() {
     for rules in Rules::ALL.into_iter().filter(|rules| rules.placement() == PlacementKind::Center) {
         for k in (2..=12).map(|n| K::Finite(k(n))).chain([K::Any]) {
             let setup = Setup::new(EngineKind::Subgoal, k, rules);
-            // What the catalog says is what the engine says.
-            let grid_graph = k.finite().map_or(4, |k| k.get().min(4));
+            // The catalog and the subgoal graphs agree on which exist.
+            let small = k.finite().map_or(4, |k| k.get().min(4));
             let space = SearchSpace::new(
-                Setup::new(EngineKind::AStar, FiniteK::new(grid_graph).expect("a k"), rules),
+                Setup::new(EngineKind::AStar, FiniteK::new(small).expect("a k"), rules),
                 &grid(),
             );
             let Ok(SearchSpace::Centers(grid_graph)) = space else { panic!("{space:?}") };
-            let there = SubgoalGraph::new(&grid_graph, k, Hierarchy::Contracted).is_ok();
+            let exists = SubgoalGraph::new(&grid_graph, k, Hierarchy::Contracted).is_ok();
             match setup.check() {
                 Ok(()) => taken.push(setup.to_string()),
                 Err(error) => {
                     assert_eq!(error, SetupError::Centers { engine: EngineKind::Subgoal, k, rules })
                 }
             }
-            assert_eq!(setup.check().is_ok(), there, "{setup}");
+            assert_eq!(setup.check().is_ok(), exists, "{setup}");
         }
     }
     assert_eq!(taken, ["subgoal:2:never", "subgoal:3:never", "subgoal:2:one", "subgoal:2:always"]);
@@ -58,7 +58,7 @@ fn subgoal_graphs_at_centers_are_for_small_k() {
         ),
         "{said}"
     );
-    // Where every direction is searched, corners are meant.
+    // For k = any the default is corners.
     assert_eq!("subgoal:any".parse(), "subgoal:any:open".parse::<Setup>());
 }
 
@@ -126,7 +126,7 @@ fn a_saved_subgoal_graph_has_the_levels_that_are_named() {
     assert_eq!(said, "expected a whole number from 1 to 4294967295, or all");
 }
 
-/// Bytes that were damaged are refused, or are those of another graph: never more than that.
+/// Damaged bytes are refused, or read as another graph, on which a planner works.
 #[test]
 fn damaged_subgoal_graphs_do_no_harm() {
     let (mut refused, mut read) = (0, 0);
@@ -154,7 +154,7 @@ fn damaged_subgoal_graphs_do_no_harm() {
 }
 
 #[test]
-fn a_build_tells_how_far_it_is() {
+fn progress_is_reported() {
     let told = |text: &str| {
         let told = Mutex::new(Vec::new());
         let progress = |step: Progress| told.lock().expect("nobody panics").push(step);
