@@ -11,8 +11,11 @@ use crate::{
     error::SetupError,
     kind::EngineKind,
     option::{
-        DETOUR, EngineOption, HEURISTIC, HeuristicName, JUMP_LIMIT, KEEP_INTERMEDIATE, LEVELS, Levels,
-        OptionValue, SECOND, SIDE, STEP, UNSTRAIGHTENED, VARIANT, Variant,
+        EngineOption, HeuristicName, Levels, OptionValue, Variant,
+        description::{
+            DETOUR, HEURISTIC, JUMP_LIMIT, KEEP_INTERMEDIATE, LEVELS, SECOND, SIDE, STEP, UNSTRAIGHTENED,
+            VARIANT,
+        },
     },
 };
 

@@ -38,7 +38,7 @@
 //! 3. its use, in `make.rs` if it changes the search, or in `index/` if it changes what is prepared.
 //!
 //! The text of setups, [`Setup::all`] of the test suites, and the flags, help, records and tables of the program follow.
-//! Only tests that pin how many setups there are, or what a record holds, must be told. An option that rules out another
+//! Only tests that pin numbers of setups, lists of options or snapshots change with it. An option that rules out another
 //! one also needs a [`SetupError`].
 //!
 //! # What is not here

@@ -55,7 +55,7 @@ fn samples(kind: EngineKind) -> Vec<Engine> {
     if kind == EngineKind::Hpa {
         // Small clusters, so that small maps have several on each level.
         let (side, levels) = (NonZeroU32::new(3), NonZeroU32::new(3).map(Levels::Number));
-        engines.push(Engine::Hpa(HpaOptions { side, levels, unstraightened: false }));
+        engines.push(Engine::Hpa(HpaOptions { side, levels, ..HpaOptions::default() }));
     }
     engines
 }

@@ -16,7 +16,10 @@ use self::source::Source;
 use crate::{
     engine::Engine,
     error::{EngineError, SetupError},
-    option::{EngineOption, LEVELS, OptionValue, SIDE, Variant},
+    option::{
+        EngineOption, OptionValue, Variant,
+        description::{LEVELS, SIDE},
+    },
     setup::Setup,
     shared_rules::{Shared, SharedRules},
     space::{SearchSpace, no_space},

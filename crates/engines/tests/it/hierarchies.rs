@@ -126,7 +126,7 @@ fn what_is_left_out_has_its_default() {
 fn all_levels_are_as_many_as_fit() {
     for side in 2..=64 {
         let of = |levels| {
-            let own = HpaOptions { side: NonZeroU32::new(side), levels, unstraightened: false };
+            let own = HpaOptions { side: NonZeroU32::new(side), levels, ..HpaOptions::default() };
             Setup::new(Engine::Hpa(own), k(3), NEVER)
         };
         let all = of(Some(Levels::All));
