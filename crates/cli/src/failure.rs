@@ -85,7 +85,8 @@ impl Failure {
     }
 }
 
-/// Writes what failed on stderr, and returns the exit status. If the reader of stdout has left (`| head`), nothing failed.
+/// Writes what failed on stderr, and returns the exit status. If the reader of stdout has left (`| head`),
+/// nothing failed.
 pub(crate) fn finish(ending: Result<Ending, Failure>) -> ExitCode {
     match ending {
         Ok(Ending::Answered) => ExitCode::SUCCESS,

@@ -35,8 +35,8 @@ impl Map {
     }
 }
 
-/// Reads a scenario file, or parses that of the bundled map that `builtin:NAME` names. Returns the name that reports give
-/// it, too.
+/// Reads a scenario file, or parses that of the bundled map that `builtin:NAME` names. Returns the name that
+/// reports give it, too.
 pub(crate) fn load_scenario(path: &Path) -> Result<(String, Scenario), Failure> {
     match Builtin::of_path(path) {
         None => Ok((file_name(path), Scenario::read(path)?)),

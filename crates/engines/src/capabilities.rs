@@ -10,8 +10,8 @@ use crate::{kind::EngineKind, option::Variant};
 
 /// What an engine can do, whatever its options.
 ///
-/// An engine works under every rule of motion of the placements that it takes, with one exception: subgoal graphs and
-/// hierarchies at centers ([`Setup::check`](crate::Setup::check)).
+/// An engine works under every rule of motion of the placements that it takes, with one exception: subgoal
+/// graphs and hierarchies at centers ([`Setup::check`](crate::Setup::check)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capabilities {
     /// The placements that it takes.
@@ -24,7 +24,8 @@ pub struct Capabilities {
     pub guarantee: &'static str,
     /// Its paper: first author and year.
     pub paper: &'static str,
-    /// Whether it takes a heuristic that overestimates. Its paths may then be longer; nothing else goes wrong.
+    /// Whether it takes a heuristic that overestimates. Its paths may then be longer; nothing else goes
+    /// wrong.
     pub overestimates: bool,
     /// Its variants, the default first; empty for an engine that has only one.
     pub variants: &'static [Variant],
@@ -54,7 +55,8 @@ impl Capabilities {
         if self.max_k.is_some() { K::Finite(FiniteK::N8) } else { K::Any }
     }
 
-    /// The default rules: `never` at centers; `open` at corners for an engine that takes only corners, and for k = ∞.
+    /// The default rules: `never` at centers; `open` at corners for an engine that takes only corners, and
+    /// for k = ∞.
     #[must_use]
     pub fn default_rules(self, k: K) -> Rules {
         if self.placements.contains(&PlacementKind::Center) && k != K::Any {

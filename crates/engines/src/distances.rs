@@ -12,8 +12,8 @@ use crate::{
     space::SearchSpace,
 };
 
-/// The vertices that can be reached from `start`, row by row, with their distances: in cells, or in moves by the
-/// wavefront algorithm.
+/// The vertices that can be reached from `start`, row by row, with their distances: in cells, or in moves by
+/// the wavefront algorithm.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -27,8 +27,8 @@ use crate::{
 /// ```
 ///
 /// # Errors
-/// [`EngineError`] for a setup whose parts do not fit together, an engine that finds no distances, or a start that is
-/// blocked or outside the map.
+/// [`EngineError`] for a setup whose parts do not fit together, an engine that finds no distances, or a start
+/// that is blocked or outside the map.
 pub fn distances(setup: Setup, grid: &Arc<Grid>, start: Vertex) -> Result<Vec<(Vertex, f64)>, EngineError> {
     match SearchSpace::new(setup, grid)? {
         SearchSpace::Centers(graph) => on(setup, &graph, start),

@@ -1,7 +1,8 @@
 //! The engines with their options.
 //!
-//! Each engine's options are a struct, and `Engine::slots` pairs each field with the description of its option. Setups
-//! as text, the program's flags and its records know the options of an engine from that list alone.
+//! Each engine's options are a struct, and `Engine::slots` pairs each field with the description of its
+//! option. Setups as text, the program's flags and its records know the options of an engine from that list
+//! alone.
 
 use std::num::NonZeroU32;
 
@@ -86,7 +87,8 @@ pub struct JpsPlusOptions {
 /// Options of the searches on subgoal graphs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct SubgoalOptions {
-    /// The levels of the graph; by default a contraction hierarchy, or 2 levels for Sub-Theta*, which needs levels.
+    /// The levels of the graph; by default a contraction hierarchy, or 2 levels for Sub-Theta*, which needs
+    /// levels.
     pub levels: Option<Levels>,
 }
 
@@ -221,7 +223,8 @@ impl Engine {
     /// Chooses an option.
     ///
     /// # Errors
-    /// [`SetupError::Option`] for an option that the engine does not take, or a value of another kind than the option's.
+    /// [`SetupError::Option`] for an option that the engine does not take, or a value of another kind than
+    /// the option's.
     pub fn set(&mut self, option: &EngineOption, value: OptionValue) -> Result<(), SetupError> {
         let engine = self.kind();
         let slot = self.slots().into_iter().find(|(known, _)| known.name == option.name);
@@ -233,8 +236,8 @@ impl Engine {
         Err(SetupError::Option { engine, option: option.noun(), others })
     }
 
-    /// The value of an option, chosen or by default. `None` if the engine does not take the option, if it is a flag that
-    /// is not set, or if its default is no value.
+    /// The value of an option, chosen or by default. `None` if the engine does not take the option, if it is
+    /// a flag that is not set, or if its default is no value.
     #[must_use]
     pub fn value(self, option: &EngineOption) -> Option<OptionValue> {
         let name = option.name;
@@ -287,8 +290,8 @@ impl Engine {
         }
     }
 
-    /// The heuristic that guides the search, also where the engine leaves no choice: zero for Dijkstra and wavefront.
-    /// `None` for an engine with a heuristic of its own kind.
+    /// The heuristic that guides the search, also where the engine leaves no choice: zero for Dijkstra and
+    /// wavefront. `None` for an engine with a heuristic of its own kind.
     #[must_use]
     pub fn heuristic(self) -> Option<HeuristicName> {
         let chosen = match self {

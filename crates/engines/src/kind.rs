@@ -18,7 +18,8 @@ pub enum EngineKind {
     Dijkstra,
     /// [`Wavefront`](mediant_search::Wavefront).
     Wavefront,
-    /// [`Canonical`](mediant_search::Canonical); [`PaperCanonical`](mediant_search::PaperCanonical) as its variant `paper`.
+    /// [`Canonical`](mediant_search::Canonical); [`PaperCanonical`](mediant_search::PaperCanonical) as its
+    /// variant `paper`.
     Canonical,
     /// [`Jps`](mediant_search::Jps).
     Jps,
@@ -34,7 +35,8 @@ pub enum EngineKind {
     Anya,
     /// [`SubgoalAStar`](mediant_subgoal::SubgoalAStar) on a [`SubgoalGraph`](mediant_subgoal::SubgoalGraph).
     Subgoal,
-    /// [`SubgoalTheta`](mediant_subgoal::SubgoalTheta) on a [`SubgoalGraph`](mediant_subgoal::SubgoalGraph) with levels.
+    /// [`SubgoalTheta`](mediant_subgoal::SubgoalTheta) on a [`SubgoalGraph`](mediant_subgoal::SubgoalGraph)
+    /// with levels.
     SubgoalTheta,
     /// [`HpaStar`](mediant_hierarchy::HpaStar) on a [`ClusterGraph`](mediant_hierarchy::ClusterGraph).
     Hpa,

@@ -1,7 +1,7 @@
 //! The catalog of engines: programs, benchmarks and test suites take all engines from this one list.
 //!
-//! - A [`Setup`] is an [`Engine`] with its options, a k, rules of motion and a smoothing. It is refused with a
-//!   [`SetupError`] if these do not fit together.
+//! - A [`Setup`] is an [`Engine`] with its options, a k, rules of motion and a smoothing. It is refused with
+//!   a [`SetupError`] if these do not fit together.
 //! - A [`SearchSpace`] is a map prepared for one k and one rule of motion.
 //! - An [`Index`] is what the engine prepares in that space.
 //! - A [`BoxedPlanner`] answers queries on an index.
@@ -21,29 +21,30 @@
 //!
 //! # The key decision: closed enums outside, types inside
 //!
-//! A program chooses its engine at run time, but a search is fast only if it is compiled for its placement, its heuristic
-//! and its kind of successors. So outside, an engine is a value of a closed enum, and planners of all engines have one type;
-//! a query is one dynamic call. Inside, each search has its types, and nothing in its loop is dynamic. `make.rs` leads from
-//! the one to the other, with a line for each engine. A closed enum also lets the compiler find every place that a new
-//! engine must fill in.
+//! A program chooses its engine at run time, but a search is fast only if it is compiled for its placement,
+//! its heuristic and its kind of successors. So outside, an engine is a value of a closed enum, and planners
+//! of all engines have one type; a query is one dynamic call. Inside, each search has its types, and nothing
+//! in its loop is dynamic. `make.rs` leads from the one to the other, with a line for each engine. A closed
+//! enum also lets the compiler find every place that a new engine must fill in.
 //!
 //! # Adding to the catalog
 //!
-//! An engine is a variant of [`EngineKind`] with its [`Capabilities`], a variant of [`Engine`], what it prepares (`index/`),
-//! and the line that makes its planner (`make.rs`).
+//! An engine is a variant of [`EngineKind`] with its [`Capabilities`], a variant of [`Engine`], what it
+//! prepares (`index/`), and the line that makes its planner (`make.rs`).
 //!
 //! An option, with a value of a [`ValueKind`] that exists, touches three files:
 //! 1. `option/description.rs`: its name, texts and samples, and its place in [`EngineOption::ALL`];
 //! 2. `engine.rs`: its field, its line in `Engine::slots`, and in `Engine::value` its default if it has one;
 //! 3. its use, in `make.rs` if it changes the search, or in `index/` if it changes what is prepared.
 //!
-//! The text of setups, [`Setup::all`] of the test suites, and the flags, help, records and tables of the program follow.
-//! Only tests that pin numbers of setups, lists of options or snapshots change with it. An option that rules out another
-//! one also needs a [`SetupError`].
+//! The text of setups, [`Setup::all`] of the test suites, and the flags, help, records and tables of the
+//! program follow. Only tests that pin numbers of setups, lists of options or snapshots change with it. An
+//! option that rules out another one also needs a [`SetupError`].
 //!
 //! # What is not here
 //!
-//! Files and clocks. An index is written to bytes and read from them; whoever wants to know how long that takes, measures.
+//! Files and clocks. An index is written to bytes and read from them; whoever wants to know how long that
+//! takes, measures.
 
 mod capabilities;
 mod distances;

@@ -1,7 +1,7 @@
 //! Planners made from an index, each compiled for its types: a line for each engine.
 //!
-//! How often a search is compiled decides how long the crate takes to build. So only A* is compiled for every heuristic;
-//! the other engines are compiled for h_k and for one type that holds the rest.
+//! How often a search is compiled decides how long the crate takes to build. So only A* is compiled for every
+//! heuristic; the other engines are compiled for h_k and for one type that holds the rest.
 
 use std::{num::NonZeroU32, sync::Arc};
 
@@ -96,7 +96,8 @@ fn on_graph<P: SubgoalPlacement>(
     }
 }
 
-/// A planner on a grid graph with a heuristic that never overestimates; `None` if the parts are not the engine's.
+/// A planner on a grid graph with a heuristic that never overestimates; `None` if the parts are not the
+/// engine's.
 fn guided<P: SubgoalPlacement>(
     engine: Engine,
     graph: Arc<GridGraph<P>>,

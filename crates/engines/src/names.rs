@@ -10,8 +10,8 @@ pub struct UnknownName {
     pub known: String,
 }
 
-/// Gives an enum `ALL`, `name`, [`Display`](std::fmt::Display) and [`FromStr`](std::str::FromStr) by the name of each
-/// variant.
+/// Gives an enum `ALL`, `name`, [`Display`](std::fmt::Display) and [`FromStr`](std::str::FromStr) by the name
+/// of each variant.
 macro_rules! names {
     ($type:ident: $($variant:ident => $name:literal),+ $(,)?) => {
         impl $type {

@@ -9,7 +9,8 @@ use mediant_search::{
 
 use crate::{error::EngineError, index::Index, setup::Setup, shared_rules::SharedRules, space::SearchSpace};
 
-/// A planner whose type is erased. A query costs one dynamic call; the search itself is compiled for its types.
+/// A planner whose type is erased. A query costs one dynamic call; the search itself is compiled for its
+/// types.
 ///
 /// It holds the scratch memory of one thread. Planners for other threads are made of the same [`Index`].
 pub struct BoxedPlanner {
@@ -19,8 +20,8 @@ pub struct BoxedPlanner {
     guarantee: Guarantee,
 }
 
-/// A [`Planner`] that can be `dyn`. Observers are `dyn` too, so that each search is compiled only twice: with and without
-/// an observer. An observed search costs a dynamic call for each event.
+/// A [`Planner`] that can be `dyn`. Observers are `dyn` too, so that each search is compiled only twice: with
+/// and without an observer. An observed search costs a dynamic call for each event.
 trait Erased {
     /// [`Planner::solve`].
     fn solve(&mut self, query: Query) -> Result<Outcome, QueryError>;

@@ -16,10 +16,11 @@ use crate::{
 ///
 /// As text `ENGINE[:K[:RULE]][,OPTION…]`:
 /// - K is a number or `any`. Left out, it is 3, or `any` for an engine that takes only that.
-/// - RULE is `never`, `one` or `always` at centers, `open` or `closed` at corners. Left out, it is `never`, or `open` for
-///   K = `any` and for an engine that takes only corners. So `astar` solves the scenario files' own problem.
-/// - An OPTION is one of the engine's ([`EngineOption::ALL`](crate::EngineOption::ALL)), or `smooth` or `taut`: paths are
-///   smoothed by [`Smoothing::Linear`] or by [`Smoothing::Taut`].
+/// - RULE is `never`, `one` or `always` at centers, `open` or `closed` at corners. Left out, it is `never`,
+///   or `open` for K = `any` and for an engine that takes only corners. So `astar` solves the scenario files'
+///   own problem.
+/// - An OPTION is one of the engine's ([`EngineOption::ALL`](crate::EngineOption::ALL)), or `smooth` or
+///   `taut`: paths are smoothed by [`Smoothing::Linear`] or by [`Smoothing::Taut`].
 ///
 /// ```
 /// use mediant_engines::Setup;
@@ -131,8 +132,8 @@ impl Setup {
     }
 }
 
-/// Whether an engine that takes the placement, and takes the k, takes both together. Subgoal graphs, clusters and
-/// segments at centers exist only for k = 2, and for k = 3 under `never`.
+/// Whether an engine that takes the placement, and takes the k, takes both together. Subgoal graphs, clusters
+/// and segments at centers exist only for k = 2, and for k = 3 under `never`.
 fn takes_together(engine: EngineKind, k: K, rules: Rules) -> bool {
     if !matches!(engine, EngineKind::Subgoal | EngineKind::Hpa | EngineKind::Chpa) {
         return true;

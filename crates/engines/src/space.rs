@@ -7,8 +7,8 @@ use mediant_moves::K;
 
 use crate::{error::EngineError, setup::Setup};
 
-/// What the planners of one k and one rule of motion share: the grid graph of N(k), or at k = ∞ the free space.
-/// Immutable; clones share it.
+/// What the planners of one k and one rule of motion share: the grid graph of N(k), or at k = ∞ the free
+/// space. Immutable; clones share it.
 #[derive(Clone, Debug)]
 pub enum SearchSpace {
     /// N(k) on the centers of cells.
@@ -19,7 +19,8 @@ pub enum SearchSpace {
     AnyAngle(Arc<FreeSpace<Corners>>),
 }
 
-/// The error for a search space that an engine does not search. [`Setup::check`] refuses such setups, so nobody sees it.
+/// The error for a search space that an engine does not search. [`Setup::check`] refuses such setups, so
+/// nobody sees it.
 pub(crate) fn no_space(setup: Setup) -> EngineError {
     let capabilities = setup.capabilities();
     let k = capabilities.default_k();

@@ -25,10 +25,11 @@ const SMOOTHED: [(EngineKind, Smoothing); 7] = [
 ];
 
 impl Setup {
-    /// The setups for this k and these rules that test suites try: each engine with its default options and with some
-    /// values of each option, and a few with smoothing.
+    /// The setups for this k and these rules that test suites try: each engine with its default options and
+    /// with some values of each option, and a few with smoothing.
     ///
-    /// For a finite k the first is A* with h_k. For k = ∞ the first is Anya at corners, and there is none at centers.
+    /// For a finite k the first is A* with h_k. For k = ∞ the first is Anya at corners, and there is none at
+    /// centers.
     pub fn all(k: impl Into<K>, rules: Rules) -> impl Iterator<Item = Self> {
         let k = k.into();
         let engines =

@@ -7,7 +7,8 @@ use clap::{
 };
 use mediant_engines::{Engine, EngineOption, OptionValue, SetupError, ValueKind};
 
-/// The options that were given, of those that a command takes: all, or only those that decide what an index holds.
+/// The options that were given, of those that a command takes: all, or only those that decide what an index
+/// holds.
 #[derive(Debug)]
 pub(crate) struct Options<const OF_INDEX: bool>(Vec<(&'static EngineOption, OptionValue)>);
 

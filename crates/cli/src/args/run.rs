@@ -46,8 +46,8 @@ pub(crate) struct RunArgs {
     pub(crate) setup: SetupArgs,
     #[command(flatten)]
     pub(crate) options: AllOptions,
-    /// Make each path shorter afterwards, by straight segments at any angle: linear (the default) looks for the next vertex in sight
-    /// along the path, taut pulls the path tight around the corners
+    /// Make each path shorter afterwards, by straight segments at any angle: linear (the default) looks for
+    /// the next vertex in sight along the path, taut pulls the path tight around the corners
     #[arg(long, value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "linear")]
     #[arg(hide_possible_values = true, value_name = "linear|taut")]
     pub(crate) smooth: Option<SmoothArg>,
@@ -71,7 +71,8 @@ pub(crate) struct RunArgs {
     /// Write the events of a single query's search to this file, for the Posthoc visualizer
     #[arg(long, value_name = "FILE")]
     pub(crate) trace: Option<PathBuf>,
-    /// Write the distances from --from to all vertices to this file, as CSV (`-` is stdout); needs an engine that finds them
+    /// Write the distances from --from to all vertices to this file, as CSV (`-` is stdout); needs an engine
+    /// that finds them
     #[arg(long, value_name = "FILE", requires = "from")]
     #[arg(conflicts_with_all = ["scen", "every", "limit", "smooth", "reference", "index", "repeat", "format", "draw", "trace"])]
     pub(crate) distances: Option<PathBuf>,

@@ -17,14 +17,16 @@ pub(crate) struct SetupArgs {
     /// The neighborhood: 2 to 12, or any, which is every direction. 3 by default, any for anya
     #[arg(long, allow_negative_numbers = true, value_parser = parse_k)]
     pub(crate) k: Option<K>,
-    /// Where the vertices are: at cell centers or at cell corners. center by default, corner for anya, subgoal-theta and k = any
+    /// Where the vertices are: at cell centers or at cell corners. center by default, corner for anya,
+    /// subgoal-theta and k = any
     #[arg(long, value_enum, hide_possible_values = true, value_name = "center|corner")]
     pub(crate) placement: Option<PlacementArg>,
-    /// At centers, whether a path may cut the corner of a blocked cell: never (the default), one (if the cell across is
-    /// free), always
+    /// At centers, whether a path may cut the corner of a blocked cell: never (the default), one (if the cell
+    /// across is free), always
     #[arg(long, value_enum, hide_possible_values = true, value_name = "never|one|always")]
     pub(crate) corners: Option<CornersArg>,
-    /// At corners, whether a path may pass between two blocked cells that touch diagonally: open (the default), closed
+    /// At corners, whether a path may pass between two blocked cells that touch diagonally: open (the
+    /// default), closed
     #[arg(long, value_enum, hide_possible_values = true, value_name = "open|closed")]
     pub(crate) gap: Option<GapArg>,
 }

@@ -36,7 +36,8 @@ const REPEAT: u32 = 20;
 struct Row {
     rules: Rules,
     k: K,
-    /// At most this many times as long as the shortest any-angle path on any map; `None` where no such bound is known.
+    /// At most this many times as long as the shortest any-angle path on any map; `None` where no such bound
+    /// is known.
     bound: Option<f64>,
     cost: f64,
     waypoints: Vec<Vertex>,
@@ -48,7 +49,8 @@ struct Row {
 fn solve(setup: Setup, map: &Map, query: Query, pruning: &SharedRules) -> Result<Option<Row>, Failure> {
     let Setup { rules, k, .. } = setup;
     let mut planner = BoxedPlanner::new(setup, &map.grid, pruning)?;
-    // The table compares with any-angle paths between corners; no bound to these is known for paths between centers.
+    // The table compares with any-angle paths between corners; no bound to these is known for paths between
+    // centers.
     let at_corners = rules.placement() == PlacementKind::Corner;
     let bound = planner.guarantee().bound(rules).filter(|_| at_corners);
     let Measured { outcome, counters, nanos } = Measured::new(&mut planner, query, REPEAT);

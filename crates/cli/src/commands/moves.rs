@@ -58,8 +58,8 @@ fn facts(neighborhood: Neighborhood, screen: &mut Screen) -> Result<(), Failure>
     Ok(())
 }
 
-/// How many of the first moves of a quadrant are listed, and how many of the last. A quadrant that has at most one more
-/// move than that is listed in full.
+/// How many of the first moves of a quadrant are listed, and how many of the last. A quadrant that has at
+/// most one more move than that is listed in full.
 const SHOWN: u64 = 16;
 
 /// Lists the moves of a quadrant.

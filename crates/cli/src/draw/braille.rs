@@ -110,7 +110,8 @@ impl Sheet {
     }
 }
 
-/// The positions of a line's dots, in dots: one for each unit step along the longer axis, at the middle of the step.
+/// The positions of a line's dots, in dots: one for each unit step along the longer axis, at the middle of
+/// the step.
 pub(crate) fn steps(from: (f64, f64), to: (f64, f64)) -> impl Iterator<Item = (f64, f64)> {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let steps = dx.abs().max(dy.abs()).round().max(1.0);

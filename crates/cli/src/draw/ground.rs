@@ -12,7 +12,8 @@ pub(super) struct Ground {
     pub(super) color: RgbColor,
 }
 
-/// The map's tile at each pixel, row by row. A pixel that covers several cells is free if at least half of them are.
+/// The map's tile at each pixel, row by row. A pixel that covers several cells is free if at least half of
+/// them are.
 pub(super) fn pixels(file: &MapFile, columns: usize, rows: usize, pixel_in_cells: f64) -> Vec<u8> {
     const OUTSIDE: u8 = b'@';
     let map: Vec<&[u8]> = file.rows().collect();
@@ -46,8 +47,8 @@ pub(super) fn paint(tiles: &[u8], columns: usize, pixel_in_cells: f64, theme: Th
     ground.collect()
 }
 
-/// The distance of each pixel from the nearest pixel of the other kind, in thirds of a pixel: the chamfer distance (3 for
-/// a step along an axis, 4 for a diagonal one), computed in one pass down and one up.
+/// The distance of each pixel from the nearest pixel of the other kind, in thirds of a pixel: the chamfer
+/// distance (3 for a step along an axis, 4 for a diagonal one), computed in one pass down and one up.
 fn depths(tiles: &[u8], columns: usize) -> Vec<u32> {
     const FAR: u32 = 1 << 20;
     let rows = tiles.len() / columns.max(1);

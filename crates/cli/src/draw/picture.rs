@@ -1,7 +1,7 @@
 //! Maps and paths drawn with characters.
 //!
-//! A character shows 2 × 4 dots (Braille) over two square pixels of ground, its upper and its lower half. The ground is
-//! drawn in colors, or without color as blocks. Paths are lines of dots.
+//! A character shows 2 × 4 dots (Braille) over two square pixels of ground, its upper and its lower half. The
+//! ground is drawn in colors, or without color as blocks. Paths are lines of dots.
 
 use std::io::{self, Write};
 
@@ -30,7 +30,7 @@ pub(crate) struct Canvas {
 const PIXEL_DOTS: usize = DOT_COLUMNS;
 
 impl Canvas {
-    /// The most rows of a picture; half as many for a map drawn larger than a dot's pixel a cell.
+    /// The most rows of a picture; half as many if a cell is larger than a pixel.
     const MAX_ROWS: f64 = 48.0;
 
     /// The map, as large as fits on the screen, but a small map not larger than is good to look at.
@@ -95,8 +95,8 @@ impl Canvas {
         (dots(at.x), dots(at.y))
     }
 
-    /// The dot at a position. A position on a grid line is between two dots: there it is the one on free ground, so that a
-    /// path along a wall is drawn beside the wall.
+    /// The dot at a position. A position on a grid line is between two dots: there it is the one on free
+    /// ground, so that a path along a wall is drawn beside the wall.
     fn nearest_dot(&self, x: f64, y: f64) -> Option<(usize, usize)> {
         const NEAR: f64 = 1e-6;
         let (columns, rows) = (self.sheet.columns() * DOT_COLUMNS, self.sheet.rows() * DOT_ROWS);

@@ -54,8 +54,8 @@ impl Theme {
         self.color(b'.', true, u32::MAX)
     }
 
-    /// The color of ground by its tile, by whether it is free, and by its depth: its distance, from 1 up, from the nearest
-    /// ground of the other kind.
+    /// The color of ground by its tile, by whether it is free, and by its depth: its distance, from 1 up,
+    /// from the nearest ground of the other kind.
     pub(crate) const fn color(self, tile: u8, free: bool, depth: u32) -> Rgb {
         let colors: &[Rgb] = match (self, free, tile) {
             (Self::Sea, true, _) => &WATER,

@@ -45,7 +45,8 @@ pub(crate) struct Answer {
 #[derive(Clone, Debug)]
 pub(crate) struct Found {
     pub(crate) path: Path,
-    /// The certificate: no any-angle path is shorter than this, by the engine's guarantee and by the straight line.
+    /// The certificate: no any-angle path is shorter than this, by the engine's guarantee and by the straight
+    /// line.
     pub(crate) lower_bound: f64,
     /// The length of the shortest any-angle path, with `--reference`.
     pub(crate) any_angle: Option<f64>,

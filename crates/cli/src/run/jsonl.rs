@@ -1,7 +1,7 @@
 //! `--format jsonl`: one JSON object a line. Scripts rely on its keys and their meaning.
 //!
-//! First a [`RunLine`] (`"type": "run"`), then a [`QueryLine`] (`"query"`) for each query in the order of the scenario, last a
-//! [`Summary`] (`"summary"`). Lengths are in cells, times in nanoseconds.
+//! First a [`RunLine`] (`"type": "run"`), then a [`QueryLine`] (`"query"`) for each query in the order of the
+//! scenario, last a [`Summary`] (`"summary"`). Lengths are in cells, times in nanoseconds.
 
 use std::{
     collections::BTreeMap,
@@ -23,8 +23,8 @@ use super::{
 };
 use crate::terminal::screen::Screen;
 
-/// Writes each record as it comes, and flushes often: an interrupted run loses the current query and the records of less
-/// than a second.
+/// Writes each record as it comes, and flushes often: an interrupted run loses the current query and the
+/// records of less than a second.
 pub(crate) struct Jsonl<'s> {
     screen: &'s mut Screen,
     /// How long lines may wait in the buffer.
@@ -85,8 +85,8 @@ struct RunLine<'r> {
     placement: String,
     corners: String,
     gap: String,
-    /// All options by name, with `_` for `-`. The value of a flag is true or false; levels are a number, "all" or
-    /// "contracted"; an option that the engine does not take is false or `null`.
+    /// All options by name, with `_` for `-`. The value of a flag is true or false; levels are a number,
+    /// "all" or "contracted"; an option that the engine does not take is false or `null`.
     #[serde(flatten)]
     options: BTreeMap<String, Value>,
     smooth: bool,
@@ -96,8 +96,8 @@ struct RunLine<'r> {
     any_angle: Option<&'static str>,
     guarantee: String,
     repeat: u32,
-    /// The time to prepare the search space and the index of the map that was read; with `--index`, the time to load the
-    /// index instead of preparing it.
+    /// The time to prepare the search space and the index of the map that was read; with `--index`, the time
+    /// to load the index instead of preparing it.
     preprocess_ns: u64,
     /// The memory of the search space and the index, beyond the map.
     index_bytes: u64,
@@ -178,13 +178,15 @@ struct QueryLine<'a> {
     path: Vec<[i32; 2]>,
     /// The sum of the path's turning angles, in degrees (Hammoud 2023); `null` unless found.
     smoothness: Option<f64>,
-    /// The length that the scenario gives: optimal for k = 3 at centers under `never`. `null` without a scenario.
+    /// The length that the scenario gives: optimal for k = 3 at centers under `never`. `null` without a
+    /// scenario.
     reference: Option<f64>,
     /// The certificate: no path at any angle under the same rules is shorter than this; `null` unless found.
     lower_bound: Option<f64>,
     /// `cost / lower_bound`, at least 1; `null` unless found.
     bound: Option<f64>,
-    /// The length of the shortest any-angle path under the same rules; `null` without `--reference` or a path.
+    /// The length of the shortest any-angle path under the same rules; `null` without `--reference` or a
+    /// path.
     any_angle: Option<f64>,
     /// `cost / any_angle`; `null` if either is.
     ratio: Option<f64>,

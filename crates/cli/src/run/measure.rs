@@ -14,7 +14,8 @@ pub(crate) struct Measured {
 }
 
 impl Measured {
-    /// Solves a query once with counters, which warms the planner, then `repeat` times by the clock, without counters.
+    /// Solves a query once with counters, which warms the planner, then `repeat` times by the clock, without
+    /// counters.
     pub(crate) fn new(planner: &mut BoxedPlanner, query: Query, repeat: u32) -> Self {
         let mut counters = Counters::default();
         let outcome = planner.solve_observed(query, &mut counters);

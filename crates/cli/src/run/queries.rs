@@ -42,7 +42,8 @@ impl Queries {
         check_names(scenario.instances(), map)?;
         let every = args.every.map_or(1, usize::from);
         let limit = args.limit.map_or(usize::MAX, usize::from);
-        // Whatever `every` and `limit` are, instance 0 is taken: only a scenario without instances has no query.
+        // Whatever `every` and `limit` are, instance 0 is taken: only a scenario without instances has no
+        // query.
         if scenario.instances().is_empty() {
             return Err(Failure::NoInstances { scenario: name });
         }
@@ -83,9 +84,9 @@ impl Queries {
     }
 }
 
-/// Checks that a scenario is for this map. Maps of equal size differ by their names, but a renamed map is still the same
-/// map. So if the names differ, the queries decide: they start and end on free cells of their map. (Some of the set
-/// wc3maps512 do not; its maps must keep their names.)
+/// Checks that a scenario is for this map. Maps of equal size differ by their names, but a renamed map is
+/// still the same map. So if the names differ, the queries decide: they start and end on free cells of their
+/// map. (Some of the set wc3maps512 do not; its maps must keep their names.)
 fn check_names(instances: &[Instance], map: &Map) -> Result<(), Failure> {
     let Some(named) = instances.iter().find(|instance| instance.map_file_name() != map.name) else {
         return Ok(());

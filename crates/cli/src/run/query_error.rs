@@ -14,7 +14,8 @@ pub(crate) fn explain(error: QueryError, grid: &Grid, placement: PlacementKind) 
     }
 }
 
-/// The free vertex nearest to `at`, of equally near ones the first row by row; `None` if there is none nearby.
+/// The free vertex nearest to `at`, of equally near ones the first row by row; `None` if there is none
+/// nearby.
 fn nearest_free(grid: &Grid, placement: PlacementKind, at: Vertex) -> Option<Vertex> {
     /// How far away it may be, in each coordinate.
     const REACH: i32 = 64;

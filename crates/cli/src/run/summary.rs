@@ -28,10 +28,11 @@ pub(crate) struct Summary {
     pub(crate) mean_cost: Option<f64>,
     /// `null` if no path was found.
     pub(crate) mean_smoothness: Option<f64>,
-    /// The certificates: how many times as long as the shortest any-angle paths the paths are at most. `null` if no path
-    /// was found.
+    /// The certificates: how many times as long as the shortest any-angle paths the paths are at most. `null`
+    /// if no path was found.
     pub(crate) bound: Option<Ratios>,
-    /// How many times as long as the shortest any-angle paths they are; `null` without `--reference` or a path.
+    /// How many times as long as the shortest any-angle paths they are; `null` without `--reference` or a
+    /// path.
     pub(crate) ratio: Option<Ratios>,
     /// `null` if no answered query has a reference.
     pub(crate) reference: Option<References>,
@@ -188,7 +189,8 @@ impl RatioTally {
     }
 }
 
-/// The median of sorted numbers. Of an even count it is the mean of the middle two, rounded down; of none it is 0.
+/// The median of sorted numbers. Of an even count it is the mean of the middle two, rounded down; of none it
+/// is 0.
 fn median(sorted: &[u64]) -> u64 {
     let upper = sorted.get(sorted.len() / 2).copied().unwrap_or(0);
     if sorted.len() % 2 == 1 {

@@ -17,8 +17,8 @@ use crate::terminal::{
     text::{printable, wrap},
 };
 
-/// Keeps its rows until the end, since columns are as wide as their widest cell. Few queries have a row each; of many
-/// queries only errors have a row, and only the first of them.
+/// Keeps its rows until the end, since columns are as wide as their widest cell. Few queries have a row each;
+/// of many queries only errors have a row, and only the first of them.
 pub(crate) struct TableReport<'s> {
     screen: &'s mut Screen,
     queries: usize,

@@ -60,8 +60,8 @@ impl<'g, W: Write> Tracer<'g, W> {
         self.write(TraceEventKind::Destination, &destination);
     }
 
-    /// Ends the trace with the waypoints of the path. So the visualizer shows the path as it is, even if it turns at a
-    /// vertex that is not a node of the search.
+    /// Ends the trace with the waypoints of the path. So the visualizer shows the path as it is, even if it
+    /// turns at a vertex that is not a node of the search.
     fn end(&mut self, outcome: &Outcome) {
         self.close();
         let mut last: Option<(TraceEvent, Vertex)> = None;
@@ -75,7 +75,8 @@ impl<'g, W: Write> Tracer<'g, W> {
         }
     }
 
-    /// An event at a vertex, without anything else. Ids begin with 1, since the visualizer's path stops before the id 0.
+    /// An event at a vertex, without anything else. Ids begin with 1, since the visualizer's path stops
+    /// before the id 0.
     fn at(&self, at: Vertex) -> TraceEvent {
         let id = at.y as u32 * self.width + at.x as u32 + 1;
         TraceEvent { id, parent: None, x: at.x, y: at.y, f: None, g: None }

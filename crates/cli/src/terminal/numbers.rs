@@ -41,7 +41,8 @@ pub(crate) fn percent_over(ratio: f64, digits: usize) -> String {
     format!("{percent:+.digits$} %")
 }
 
-/// How much more than 1 a ratio of two lengths is, in percent, with more digits if it is little: `8.24 %`, `0.0120 %`.
+/// How much more than 1 a ratio of two lengths is, in percent, with more digits if it is little: `8.24 %`,
+/// `0.0120 %`.
 pub(crate) fn excess(ratio: f64) -> String {
     let percent = (ratio - 1.0) * 100.0;
     let digits = if percent < 0.095 { 4 } else { 2 };

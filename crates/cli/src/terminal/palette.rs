@@ -2,7 +2,8 @@
 
 use anstyle::RgbColor as Rgb;
 
-/// The color of the 256-color palette that is nearest: in the cube of 6 × 6 × 6 colors, or on the ramp of 24 grays.
+/// The color of the 256-color palette that is nearest: in the cube of 6 × 6 × 6 colors, or on the ramp of 24
+/// grays.
 pub(super) fn nearest_of_256(Rgb(r, g, b): Rgb) -> u8 {
     const LEVELS: [u8; 6] = [0, 95, 135, 175, 215, 255];
     let level = |c: u8| (0..6_u8).min_by_key(|&i| LEVELS[usize::from(i)].abs_diff(c)).unwrap_or(0);

@@ -33,8 +33,8 @@ impl Screen {
     /// The widest picture or text, however wide the terminal.
     const MAX_COLUMNS: usize = 160;
 
-    /// Standard output. Colors are off if it is no terminal or `NO_COLOR` is set, on if `CLICOLOR_FORCE` is set;
-    /// `COLORTERM` says whether there are more than 256.
+    /// Standard output. Colors are off if it is no terminal or `NO_COLOR` is set, on if `CLICOLOR_FORCE` is
+    /// set; `COLORTERM` says whether there are more than 256.
     pub(crate) fn stdout() -> Self {
         let stdout = io::stdout();
         let true_color = std::env::var("COLORTERM").is_ok_and(|term| term == "truecolor" || term == "24bit");

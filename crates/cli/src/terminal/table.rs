@@ -38,7 +38,8 @@ impl Table {
         self.row_with("  ".to_owned(), Style::new(), cells);
     }
 
-    /// Adds a row in a style, with `lead` in the left margin: two characters, which may have a style of their own.
+    /// Adds a row in a style, with `lead` in the left margin: two characters, which may have a style of their
+    /// own.
     pub(crate) fn row_with(&mut self, lead: String, style: Style, cells: impl Into<Vec<String>>) {
         self.rows.push(Row { lead, style, cells: cells.into() });
     }

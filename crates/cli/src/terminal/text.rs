@@ -1,6 +1,7 @@
 //! Text for people: made harmless, and wrapped.
 
-/// Text with its control characters escaped, since a file's name may hold escape sequences that a terminal obeys.
+/// Text with its control characters escaped, since a file's name may hold escape sequences that a terminal
+/// obeys.
 pub(crate) fn printable(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     for c in text.chars() {

@@ -69,7 +69,8 @@ impl Files {
     }
 }
 
-/// Runs a command line whose queries are all answered. Returns the records of the run, of each query, and of the summary.
+/// Runs a command line whose queries are all answered. Returns the records of the run, of each query, and of
+/// the summary.
 #[track_caller]
 pub(crate) fn told(line: &str) -> (Value, Vec<Value>, Value) {
     let Ran { status, stdout, stderr } = run(&format!("{line} --format jsonl"));
@@ -104,7 +105,8 @@ pub(crate) fn bundled(name: &str) -> String {
     folder.join(name).to_str().expect("a UTF-8 path").to_owned()
 }
 
-/// The text with each time, and the spaces before it, replaced by ` TIME`, since times differ from run to run.
+/// The text with each time, and the spaces before it, replaced by ` TIME`, since times differ from run to
+/// run.
 pub(crate) fn redact_times(text: &str) -> String {
     let redact_line = |line: &str| {
         let mut words: Vec<&str> = Vec::new();

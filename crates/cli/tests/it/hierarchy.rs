@@ -293,8 +293,8 @@ fn options_that_an_engine_does_not_take_are_refused() {
     }
 }
 
-/// CHPA* as published joins two segments beside each other if a path leads from the left side of the first to the second.
-/// Here that side is blocked.
+/// CHPA* as published joins two segments beside each other if a path leads from the left side of the first to
+/// the second. Here that side is blocked.
 #[test]
 fn a_query_that_is_given_up_is_an_error() {
     let files = Files::new();

@@ -222,7 +222,8 @@ fn nanocells(length: f64) -> u64 {
     (length * 1e9).round() as u64
 }
 
-/// For each query of a scenario the cost, and the expanded, generated and percolated nodes of the library's A*.
+/// For each query of a scenario the cost, and the expanded, generated and percolated nodes of the library's
+/// A*.
 fn library<P: Placement>(
     grid: &Arc<Grid>,
     k: u32,

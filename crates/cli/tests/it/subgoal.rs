@@ -141,7 +141,8 @@ fn a_damaged_index_is_refused() {
     let index = built(&files, "cave.idx", "builtin:cave --engine subgoal --k any");
     let whole = fs::read(&index).expect("the index");
     let line = format!("run builtin:cave --engine subgoal --k any --index {}", files.path("damaged.idx"));
-    // Each run takes milliseconds, so only some bits and lengths are tried, among them the first and the last.
+    // Each run takes milliseconds, so only some bits and lengths are tried, among them the first and the
+    // last.
     const SOME: usize = 60;
     for i in 0..=SOME {
         let mut bytes = whole.clone();

@@ -13,7 +13,8 @@ use crate::{
     setup::Setup,
 };
 
-/// The clusters of a setup. Saved clusters must have the side and the levels that the setup names, if it names them.
+/// The clusters of a setup. Saved clusters must have the side and the levels that the setup names, if it
+/// names them.
 pub(super) fn clusters(
     setup: Setup,
     own: HpaOptions,

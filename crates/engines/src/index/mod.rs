@@ -25,8 +25,9 @@ use crate::{
     space::{SearchSpace, no_space},
 };
 
-/// What an engine prepares in a search space before the first query: nothing, a pruning rule, a jump table, a subgoal
-/// graph, clusters or segments. Immutable; clones share it. [`planner`](Self::planner) makes the planners on it.
+/// What an engine prepares in a search space before the first query: nothing, a pruning rule, a jump table, a
+/// subgoal graph, clusters or segments. Immutable; clones share it. [`planner`](Self::planner) makes the
+/// planners on it.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -53,8 +54,8 @@ impl Index {
     /// Prepares what a setup's engine needs.
     ///
     /// # Errors
-    /// [`EngineError`] for a setup whose parts do not fit together, a search space for another k or other rules, or clusters
-    /// or segments of a size or number that does not exist.
+    /// [`EngineError`] for a setup whose parts do not fit together, a search space for another k or other
+    /// rules, or clusters or segments of a size or number that does not exist.
     pub fn new(setup: Setup, space: &SearchSpace, rules: &SharedRules) -> Result<Self, EngineError> {
         Self::with_progress(setup, space, rules, &|_| {})
     }
@@ -72,12 +73,13 @@ impl Index {
         Self::from_source(setup, space, Source { bytes: None, rules, progress })
     }
 
-    /// Reads the bytes that [`to_bytes`](Self::to_bytes) wrote. Levels and side that the setup leaves out are those of the
-    /// bytes.
+    /// Reads the bytes that [`to_bytes`](Self::to_bytes) wrote. Levels and side that the setup leaves out are
+    /// those of the bytes.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new), and for bytes that are not an index of this engine for this search space, or have other
-    /// levels or another side than the setup names. Not all damage is found: a file format should add a checksum.
+    /// Those of [`new`](Self::new), and for bytes that are not an index of this engine for this search space,
+    /// or have other levels or another side than the setup names. Not all damage is found: a file format
+    /// should add a checksum.
     pub fn from_bytes(
         setup: Setup,
         space: &SearchSpace,
@@ -149,8 +151,8 @@ impl Index {
         bytes as u64
     }
 
-    /// The value of an option, as [`Engine::value`], but levels and side as they are in the index: where the setup leaves
-    /// them out, a saved index decides them.
+    /// The value of an option, as [`Engine::value`], but levels and side as they are in the index: where the
+    /// setup leaves them out, a saved index decides them.
     #[must_use]
     pub fn value(&self, option: &EngineOption) -> Option<OptionValue> {
         let (levels, side) = match &self.prepared {

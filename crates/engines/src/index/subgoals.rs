@@ -13,8 +13,8 @@ use crate::{
     setup::Setup,
 };
 
-/// The subgoal graph of a setup. A saved graph must have the levels that the setup names, if it names them; Sub-Theta*
-/// needs levels in any case.
+/// The subgoal graph of a setup. A saved graph must have the levels that the setup names, if it names them;
+/// Sub-Theta* needs levels in any case.
 pub(super) fn graph<P: SubgoalPlacement>(
     setup: Setup,
     space: &FreeSpace<P>,

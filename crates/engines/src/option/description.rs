@@ -23,8 +23,8 @@ pub struct EngineOption {
     noun: &'static str,
     /// The kind of its value.
     pub kind: ValueKind,
-    /// Its key in the text of a [`Setup`](crate::Setup), written `KEY=VALUE`, or just `KEY` for a flag. `None` if the
-    /// value is written without a key.
+    /// Its key in the text of a [`Setup`](crate::Setup), written `KEY=VALUE`, or just `KEY` for a flag.
+    /// `None` if the value is written without a key.
     key: Option<&'static str>,
     /// Whether it decides what an index holds.
     pub is_index_option: bool,
@@ -225,7 +225,8 @@ impl EngineOption {
         }
     }
 
-    /// The value that a part of a setup's text gives to this option; `None` if that part is no valid text of it.
+    /// The value that a part of a setup's text gives to this option; `None` if that part is no valid text of
+    /// it.
     pub(crate) fn read(&self, text: &str) -> Option<OptionValue> {
         match self.key {
             None => self.parse(text).ok(),

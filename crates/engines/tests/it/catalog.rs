@@ -23,7 +23,8 @@ fn query() -> Query {
     Query::new((0, 0), (8, 4))
 }
 
-/// The length of the shortest path at any angle under these rules. At centers, where no engine finds it, the straight line.
+/// The length of the shortest path at any angle under these rules. At centers, where no engine finds it, the
+/// straight line.
 fn any_angle_length(rules: Rules) -> f64 {
     let anya = Setup::new(EngineKind::Anya, K::Any, rules);
     let outcome = BoxedPlanner::new(anya, &grid(), &RULES).and_then(|mut anya| Ok(anya.solve(query())?));
@@ -47,8 +48,8 @@ fn prepares_nothing(setup: Setup) -> bool {
     }
 }
 
-/// Checks a setup's planner against its guarantee: `best` is the length of the shortest path over its k, `shortest` that of
-/// the shortest at any angle.
+/// Checks a setup's planner against its guarantee: `best` is the length of the shortest path over its k,
+/// `shortest` that of the shortest at any angle.
 fn check(setup: Setup, best: f64, shortest: f64) {
     let index = index(setup, &grid(), None).unwrap_or_else(|error| panic!("{setup}: {error}"));
     assert_eq!(index.memory_bytes() == 0, prepares_nothing(setup), "{setup}");
@@ -100,12 +101,12 @@ fn every_setup_makes_the_planner_that_it_promises() {
             all.into_iter().for_each(|setup| check(setup, best, shortest));
         }
     }
-    // On grid graphs: 4 setups of astar, 1 each of dijkstra and wavefront, 4 of canonical, 5 of jps, 3 each of theta and
-    // lazy-theta, and 3 that are smoothed; for k ≤ 3 also 5 of jps-block and 4 of jps-plus. For each gap rule anya, plain and
-    // smoothed.
+    // On grid graphs: 4 setups of astar, 1 each of dijkstra and wavefront, 4 of canonical, 5 of jps, 3 each
+    // of theta and lazy-theta, and 3 that are smoothed; for k ≤ 3 also 5 of jps-block and 4 of jps-plus. For
+    // each gap rule anya, plain and smoothed.
     let grids = 5 * (4 * (4 + 1 + 1 + 4 + 5 + 3 + 3 + 3) + 2 * (5 + 4)) + 2 * 2;
-    // 4 of subgoal and one that is smoothed: at corners for each k and for ∞, at centers for k = 2 under 3 rules and for k = 3
-    // under one. 4 of subgoal-theta at corners.
+    // 4 of subgoal and one that is smoothed: at corners for each k and for ∞, at centers for k = 2 under 3
+    // rules and for k = 3 under one. 4 of subgoal-theta at corners.
     let subgoals = 5 * (2 * (4 + 1) + 3 + 1) + 4 * 2 * 4;
     // 8 of hpa and 10 of chpa, and one each that is smoothed, for the same k at centers.
     assert_eq!(setups, grids + subgoals + (3 + 1) * (8 + 1 + 10 + 1));

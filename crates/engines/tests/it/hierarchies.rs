@@ -1,4 +1,5 @@
-//! Clusters and segments in the catalog: for which setups there are any, their defaults, and how they are saved and read.
+//! Clusters and segments in the catalog: for which setups there are any, their defaults, and how they are
+//! saved and read.
 
 use std::{num::NonZeroU32, sync::Arc};
 

@@ -34,8 +34,8 @@ fn every_engine_takes_the_options_that_it_says() {
             }
         }
     }
-    // The engines that take heuristic, variant, jump limit, intermediate jump points, levels, side and unstraightened; second,
-    // step and detour.
+    // The engines that take heuristic, variant, jump limit, intermediate jump points, levels, side and
+    // unstraightened; second, step and detour.
     assert_eq!(pairs, 8 + 2 + 2 + 3 + 3 + 2 + 1 + 3);
 }
 
