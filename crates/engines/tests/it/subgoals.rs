@@ -43,7 +43,7 @@ fn subgoal_graphs_at_centers_are_for_small_k() {
             match setup.check() {
                 Ok(()) => taken.push(setup.to_string()),
                 Err(error) => {
-                    assert_eq!(error, SetupError::Centers { engine: EngineKind::Subgoal, k, rules })
+                    assert_eq!(error, SetupError::Centers { engine: EngineKind::Subgoal, k, rules });
                 }
             }
             assert_eq!(setup.check().is_ok(), exists, "{setup}");
