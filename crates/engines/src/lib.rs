@@ -24,8 +24,9 @@
 //! A program chooses its engine at run time, but a search is fast only if it is compiled for its placement,
 //! its heuristic and its kind of successors. So outside, an engine is a value of a closed enum, and planners
 //! of all engines have one type; a query is one dynamic call. Inside, each search has its types, and nothing
-//! in its loop is dynamic. `make.rs` leads from the one to the other, with a line for each engine. A closed
-//! enum also lets the compiler find every place that a new engine must fill in.
+//! in its loop is dynamic, except an observer if there is one. `make.rs` leads from the one to the other,
+//! with a line for each engine. A closed enum also lets the compiler find every place that a new engine must
+//! fill in.
 //!
 //! # Adding to the catalog
 //!
