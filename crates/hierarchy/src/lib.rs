@@ -47,8 +47,8 @@
 //! regains most of that.
 //!
 //! How long the paths are, how fast the planners, and how the results compare with what the papers claim: see
-//! `docs/measurements.md`. In short, paths of HPA* are 0.2 to 0.4 % longer than optimal in the mean on maps
-//! of games.
+//! `docs/measurements/hierarchy.md`. In short, paths of HPA* are 0.2 to 0.4 % longer than optimal in the mean
+//! on maps of games.
 //!
 //! **What is not here.** No path is promised to be optimal; `mediant-search` and `mediant-subgoal` have the
 //! engines that promise it. There are no hierarchies for k above 3, for corners that may be cut at k = 3, or

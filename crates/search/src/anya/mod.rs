@@ -42,8 +42,8 @@
 //!
 //! **Ties.** The open list orders by f, then h, then the age of the node; see module `frontier`.
 //!
-//! On eighteen benchmark maps it takes 0.13 to 0.31 of the time of Anya16 (Java) and 0.94 of that of
-//! Polyanya, in the geometric mean; this, and what was tried on the way, is in `docs/measurements/search.md`.
+//! On eighteen benchmark maps it takes 0.88 of the time of Polyanya in the geometric mean, with nothing
+//! prepared (`docs/performance.md`); what was tried on the way is in `docs/measurements/search.md`.
 
 mod cone;
 mod frontier;
