@@ -5,13 +5,9 @@ use mediant_moves::Vector;
 use crate::{
     BitMatrix, Placement,
     bits::{BitIndex, load},
-    frame::Frame,
+    frame::{CellOffset, Frame},
     placement::SweptCells,
 };
-
-/// A cell by its offset (columns, rows) from cell (x, y), for a vertex (x, y).
-#[doc(hidden)]
-pub type CellOffset = (i32, i32);
 
 /// The cells that a straight segment sweeps, by offsets from its start: [`Placement::sweep`] in all
 /// directions.

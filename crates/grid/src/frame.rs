@@ -2,7 +2,11 @@
 
 use mediant_moves::Vector;
 
-use crate::{Placement, footprint::CellOffset};
+use crate::Placement;
+
+/// A cell by its offset (columns, rows) from cell (x, y), for a vertex (x, y).
+#[doc(hidden)]
+pub type CellOffset = (i32, i32);
 
 /// How the first octant of [`Placement::sweep`] lies on the map: which axis is the long one, and the signs
 /// along both.

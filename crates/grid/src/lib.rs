@@ -54,7 +54,9 @@ pub use bits::{BitIndex, load};
 pub use bits::{BitMatrix, BitRow};
 pub use components::{Components, Connectivity};
 #[doc(hidden)]
-pub use footprint::{CellOffset, Footprint};
+pub use footprint::Footprint;
+#[doc(hidden)]
+pub use frame::CellOffset;
 pub use free_space::FreeSpace;
 pub use grid::{Grid, GridError, Rectangle};
 pub use grid_graph::{GridGraph, MoveSet, Step};

@@ -22,8 +22,8 @@ use mediant_moves::Vector;
 use crate::{
     BitMatrix, Grid, Placement,
     bits::BitIndex,
-    footprint::{CellMask, CellOffset, Footprint},
-    frame::Frame,
+    footprint::{CellMask, Footprint},
+    frame::{CellOffset, Frame},
 };
 
 /// A move with the masks of its cells. Nodes are stored in depth-first order.
