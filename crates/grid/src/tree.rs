@@ -33,9 +33,9 @@ struct Node {
     index: u16,
     /// The next node that is not in this one's subtree.
     skip: u16,
-    /// Where the masks of the cells that the whole subtree footprints begin and end in [`Octant::masks`].
+    /// Where the masks of the cells that the whole subtree sweeps begin and end in [`Octant::masks`].
     shared: (u32, u32),
-    /// Where the masks of the other cells that the move footprints end; they begin where the shared ones end.
+    /// Where the masks of the other cells that the move sweeps end; they begin where the shared ones end.
     own: u32,
     /// The index of its pair in [`Octant::pairs`], if it has one.
     pair: Option<u16>,
@@ -48,7 +48,7 @@ pub(crate) struct Octant {
     pub(crate) transposed: bool,
     nodes: Vec<Node>,
     masks: Vec<CellMask>,
-    /// All cells that any of the moves footprints: if they are free, all moves are legal. Open ground is
+    /// All cells that any of the moves sweeps: if they are free, all moves are legal. Open ground is
     /// common, and there this takes one load a row instead of several a move.
     all: Vec<CellMask>,
     /// Pairs of cells of which one must be free: corner rule `One`.

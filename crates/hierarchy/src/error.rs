@@ -7,10 +7,8 @@ use mediant_moves::{FiniteK, KError};
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum HierarchyError {
-    /// Moves that there are no hierarchies for.
-    #[error(
-        "no hierarchy for k = {k} at centers under {rules}: k must be 2 or 3, and corners never cut at 3"
-    )]
+    /// A k and rules without a hierarchy.
+    #[error("no hierarchy for k = {k} under {rules}: k must be 2 or 3, and corners never cut at 3")]
     Moves {
         /// The k that was asked for.
         k: FiniteK,
@@ -29,8 +27,8 @@ pub enum HierarchyError {
     },
     /// No level, or too many.
     #[error(
-        "{found} levels of clusters, the lowest of {side} × {side} cells: there must be one, and the clusters of the highest \
-         at most {max} cells long"
+        "{found} levels of clusters, the lowest of {side} × {side} cells: there must be at least one level, and the \
+         clusters of the highest at most {max} cells long"
     )]
     Levels {
         /// The number of levels that was asked for.
@@ -42,7 +40,7 @@ pub enum HierarchyError {
     },
     /// A map of another size.
     #[error(
-        "this index is of a map of {} × {} cells, not {} × {}: repair it with the map that changed",
+        "this index is of a map of {} × {} cells, not {} × {}: an index is repaired only for a map of its size; make a new one",
         expected.0, expected.1, found.0, found.1
     )]
     Size {

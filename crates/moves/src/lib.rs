@@ -55,7 +55,7 @@
 //! | Eq. 15, 16: cutting a path where it crosses a ray | none: a step of Theorem 2's proof |
 //! | Theorem 3, Eq. 14: its optimum is integral | `rivera2017::theorem_3_the_linear_optimum_is_integral` |
 //! | Eq. 17, 18: from k + 1 back to k | `rivera2017::equations_17_and_18_the_factors_one_level_back` |
-//! | Corollary 1: h_k is the shortest path, against Dijkstra | `rivera2017::corollary_1_no_path_on_an_empty_lattice_is_shorter` |
+//! | Corollary 1: h_k is the shortest path, against Dijkstra | `rivera2017::corollary_1_no_path_on_an_empty_grid_is_shorter` |
 //! | Algorithm 1: closed forms for k = 3, 4, 5 | `rivera2017::algorithm_1_the_closed_forms` |
 //! | 'The 2^k-Tile Heuristic': linear = iterative = naive | `rivera2017::the_heuristic_three_ways` |
 //! | 15, 6 and 1 optimal paths to (4, 2) | `rivera2017::optimal_paths_are_fewer_for_larger_k` |

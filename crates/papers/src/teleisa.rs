@@ -62,7 +62,7 @@ const ALGORITHMS: [(&str, &str); 17] = [
     ("chpa:2,side=5", "ours, segments of 5 × 5"),
     ("chpa:2,side=8", "ours, segments of 8 × 8"),
     ("hpa:2", "HPA*"),
-    ("hpa:2,unstraightened", "HPA*, as refined"),
+    ("hpa:2,unstraightened", "HPA*, unstraightened"),
     ("hpa:2,levels=1", "HPA*, one level"),
 ];
 

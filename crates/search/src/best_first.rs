@@ -24,7 +24,7 @@ use crate::{
 /// `S` says what the [`Successors`] of a node are. A cheaper path to a closed node reopens it. So a search
 /// with all legal moves is optimal with every admissible heuristic, consistent or not. Inadmissible
 /// heuristics do not reopen nodes, which would be costly and would guarantee nothing, except where successors
-/// depend on the arrival move: there a path might be missed.
+/// depend on the arriving move: there a path might be missed.
 ///
 /// `L` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`.
 /// `N` is the [`ParentPointer`] of a node.

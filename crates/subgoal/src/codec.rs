@@ -51,7 +51,7 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// them in a file.
     ///
     /// # Errors
-    /// [`SubgoalError`] if the bytes are no subgoal graph on this free space. Besides the memory of the map's
+    /// [`SubgoalError`] if the bytes are no subgoal graph of this free space. Besides the memory of the map's
     /// subgoals, reading allocates a small multiple of the length of `bytes`.
     pub fn from_bytes(space: &FreeSpace<P>, k: impl Into<K>, bytes: &[u8]) -> Result<Self, SubgoalError> {
         let k = k.into();

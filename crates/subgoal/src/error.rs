@@ -8,9 +8,7 @@ use mediant_moves::{K, KError};
 #[non_exhaustive]
 pub enum SubgoalError {
     /// At centers there are subgoal graphs for k = 2, and for k = 3 if corners are never cut.
-    #[error(
-        "no subgoal graph for k = {k} at centers under {rules}: k must be 2 or 3, and corners never cut at 3"
-    )]
+    #[error("no subgoal graph for k = {k} under {rules}: k must be 2 or 3, and corners never cut at 3")]
     Centers {
         /// The k that was asked for.
         k: K,

@@ -275,7 +275,7 @@ fn options_that_an_engine_does_not_take_are_refused() {
         ("--engine chpa --side 64", "a cluster or segment of 64 × 64 cells: the side must be 1 to 63".to_owned()),
         (
             "--engine hpa --levels 6",
-            "6 levels of clusters, the lowest of 10 × 10 cells: there must be one, and the clusters of the highest at most 256 \
+            "6 levels of clusters, the lowest of 10 × 10 cells: there must be at least one level, and the clusters of the highest at most 256 \
              cells long"
                 .to_owned(),
         ),

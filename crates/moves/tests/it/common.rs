@@ -1,5 +1,5 @@
-//! The 2^k neighborhoods as naively as the papers define them, and the plainest shortest-path search over a
-//! grid graph.
+//! The 2^k neighborhoods as naively as the papers define them, and the plainest shortest-path search on the
+//! empty grid.
 
 use std::{
     cmp::Reverse,
@@ -127,13 +127,13 @@ pub(crate) fn first_quadrant(n: i64) -> impl Iterator<Item = Pair> {
     (0..=n).flat_map(move |x| (0..=n).map(move |y| (x, y)))
 }
 
-/// The costs of the cheapest paths from (0, 0) to the vertices of an unbounded empty grid graph.
-pub(crate) struct GridGraph {
+/// The costs of the cheapest paths from (0, 0) to the vertices of the unbounded empty grid.
+pub(crate) struct EmptyGrid {
     reach: i64,
     costs: Vec<f64>,
 }
 
-impl GridGraph {
+impl EmptyGrid {
     /// By Dijkstra's algorithm, for all vertices of cost at most `reach` times `unit`. No move may cost less
     /// than `unit` times its larger coordinate: then no such path leaves the square −reach…reach.
     ///

@@ -208,9 +208,9 @@ fn equations_17_and_18_the_factors_one_level_back() {
 }
 
 #[test]
-fn corollary_1_no_path_on_an_empty_lattice_is_shorter() {
+fn corollary_1_no_path_on_an_empty_grid_is_shorter() {
     for n in 2..=14 {
-        let graph = GridGraph::new(&naive_neighborhood(n), 32, 1.0, norm);
+        let graph = EmptyGrid::new(&naive_neighborhood(n), 32, 1.0, norm);
         for d in square(16) {
             let (got, expected) = (distance(vector(d), k(n)), graph.cost(d));
             assert!((got - expected).abs() < 1e-11, "h_{n}{d:?} = {got}, not {expected}");

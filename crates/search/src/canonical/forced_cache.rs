@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use mediant_grid::VertexId;
 
-/// For each vertex and incoming move, whether there is a forced successor: two bits, of which the lower says
+/// For each vertex and arriving move, whether there is a forced successor: two bits, of which the lower says
 /// 'none', the higher 'some', and neither 'unknown'.
 ///
 /// Any number of planners fill it as they ask. Each bit is a fact of the map, so their answers do not depend

@@ -1,4 +1,4 @@
-//! The rule for 4 ≤ k ≤ 8: for each incoming move a binary tree over the candidates for forced successors,
+//! The rule for 4 ≤ k ≤ 8: for each arriving move a binary tree over the candidates for forced successors,
 //! ordered by angle.
 //!
 //! A node of the tree stands for the candidates of one sector of directions. It is tested on a window of the
@@ -9,7 +9,7 @@
 //!
 //! So walls end the sectors that run into them, open ground ends the sectors beside it, and what remains is
 //! the neighborhood of an obstacle's corner. A leaf is one candidate, with the cells of its move and up to
-//! [`MAX_ALTERNATIVES`] alternatives. The cells that the incoming move and the candidate itself sweep are
+//! [`MAX_ALTERNATIVES`] alternatives. The cells that the arriving move and the candidate itself sweep are
 //! known to be free and not tested again.
 
 use mediant_grid::{CellOffset, Grid, Placement, Vertex, load};
@@ -81,16 +81,16 @@ struct StepTest {
     either: Option<[CellOffset; 2]>,
 }
 
-/// The trees of all incoming moves.
+/// The trees of all arriving moves.
 #[derive(Clone, Debug)]
 pub(crate) struct ForcedTrees {
-    /// Where the tree of each incoming move begins in `nodes`, and where the last one ends.
+    /// Where the tree of each arriving move begins in `nodes`, and where the last one ends.
     begins: Vec<u32>,
     nodes: Vec<Node>,
     alternatives: Vec<Zone>,
     masks: Vec<u64>,
     steps: Vec<StepTest>,
-    /// For each incoming move, the least side of a free square in which all its natural successors are legal.
+    /// For each arriving move, the least side of a free square in which all its natural successors are legal.
     pub(crate) needed: Vec<u32>,
     /// How many rows up and down from the vertex the trees look.
     reach: i32,

@@ -53,9 +53,9 @@
 //!
 //! # How successors are found
 //!
-//! - k ≤ 3: a table gives the successors for each incoming move and each pattern of cells around the vertex
+//! - k ≤ 3: a table gives the successors for each arriving move and each pattern of cells around the vertex
 //!   (module `pattern_table`).
-//! - 4 ≤ k ≤ 8: for each incoming move there is a tree over its possible forced successors, tested with words
+//! - 4 ≤ k ≤ 8: for each arriving move there is a tree over its possible forced successors, tested with words
 //!   of the map (module `forced_trees`). From k = 7 on the tree only says whether there is a forced
 //!   successor, and where there is one canonical A* takes all legal moves. That is faster than to find out
 //!   which of them are forced, and just as exact.
@@ -63,7 +63,7 @@
 //!
 //! For k ≥ 4 two bytes a vertex store the distances to the nearest obstacle and to the nearest corner of one
 //! (module `clearance`). Far from corners, also along walls, there are no forced successors; on open ground
-//! not even legality is tested. What the trees find is remembered for each vertex and incoming move (module
+//! not even legality is tested. What the trees find is remembered for each vertex and arriving move (module
 //! `forced_cache`).
 //!
 //! # Closed gaps

@@ -12,7 +12,7 @@
 //! beside it. The vertex keeps that move, and the way along the axis ends there. So all legal moves are also
 //! taken
 //! - at every vertex that touches a convex corner of an obstacle, and
-//! - at every vertex where the incoming move cannot be repeated.
+//! - at every vertex where the arriving move cannot be repeated.
 //!
 //! Even so, 7 of 3,600 queries of four benchmark sets found no path at k = 7 (none at k = 4 and 5). For these
 //! the search is repeated with all moves everywhere.

@@ -1,4 +1,4 @@
-//! The rule for k ≤ 3 as a table: incoming move × pattern of cells around the vertex → successors.
+//! The rule for k ≤ 3 as a table: arriving move × pattern of cells around the vertex → successors.
 //!
 //! The table is computed by operations on sets of patterns: a move or an alternative is legal in the patterns
 //! in which all cells that it requires are free.
@@ -15,12 +15,12 @@ use super::{
 
 const _: () = assert!(Centers::PATTERNS == 512 && Corners::PATTERNS <= 512);
 
-/// For each incoming move and each pattern, the moves by which a path goes on, a bit each.
+/// For each arriving move and each pattern, the moves by which a path goes on, a bit each.
 #[derive(Clone, Debug)]
 pub(crate) struct PatternTable {
     successors: Box<[u8]>,
     patterns: usize,
-    /// For each incoming move, those that follow it on open ground.
+    /// For each arriving move, those that follow it on open ground.
     natural: [u8; 8],
     diagonals_may_force: bool,
 }

@@ -36,9 +36,9 @@ pub struct Pruning<P: Placement> {
 pub struct LocalRule {
     /// Whether it has any forced successor, and so is a jump point.
     pub(crate) forced: bool,
-    /// Whether the incoming move may be repeated.
+    /// Whether the arriving move may be repeated.
     pub(crate) ahead: bool,
-    /// For how many more steps of the incoming move this is known to hold.
+    /// For how many more steps of the arriving move this is known to hold.
     pub(crate) steps: u32,
     /// Whether the axial jumps beside a diagonal one may come to a jump point.
     pub(crate) beside: bool,

@@ -9,7 +9,7 @@ use mediant_grid::{FreeSpace, Placement, Vertex};
 ///
 /// As in the paper, all vertices on the path are considered, not only its waypoints: on a path over N(k)
 /// there is one after each move, and new waypoints may be placed there. The new path is legal, not longer
-/// than the old one, and has the same ends. A path that is not legal on this free space is returned
+/// than the old one, and has the same ends. A path that is not legal in this free space is returned
 /// unchanged.
 ///
 /// ```

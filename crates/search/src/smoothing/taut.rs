@@ -23,7 +23,7 @@ use super::linear::{between, is_legal, smooth_legal, without_repetitions};
 /// obstacles, if sight allows. Such a string need not exist, and it need not be the shortest.)
 ///
 /// The new path is legal, not longer than the smoothed one, and has the same ends. Pulled again, it does not
-/// change. A path that is not legal on this free space is returned unchanged.
+/// change. A path that is not legal in this free space is returned unchanged.
 ///
 /// **Pulling ends**, because each step makes the path shorter or leaves out a waypoint on a straight line,
 /// and there are finitely many paths up to a given length. Rounding does not spoil this: a string within a

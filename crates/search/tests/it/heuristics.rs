@@ -235,7 +235,7 @@ fn a_star_finds_a_path_by_a_heuristic_that_overestimates_whenever_there_is_one()
             found > 2_000 && longer > found / 20 && longer < found,
             "{rules}: {longer} of {found} longer"
         );
-        // At closed gaps successors depend on the arrival move, so closed nodes are reopened there.
+        // At closed gaps successors depend on the arriving move, so closed nodes are reopened there.
         let reopens = rules == Rules::Corner(DiagonalGap::Closed);
         assert_eq!(again > 0, reopens, "{rules}: {again} vertices were expanded again");
     }
