@@ -1,7 +1,8 @@
 //! Planners made from an index, each compiled for its types: a line for each engine.
 //!
 //! How often a search is compiled decides how long the crate takes to build. So only A* is compiled for every
-//! heuristic; the other engines are compiled for h_k and for one type that holds the rest.
+//! heuristic; the other engines are compiled for one type, [`Admissible`], that tells heuristics apart at run
+//! time.
 
 use std::{num::NonZeroU32, sync::Arc};
 

@@ -169,11 +169,11 @@ fn made_up(rng: &mut Rng, count: usize, edges: &[(u32, u32)]) -> Vec<u8> {
     }
     let core = rng.below(count as u32) as usize;
     for _ in 0..rng.below(20) {
-        let mid = rng.below(count as u32);
-        let arcs = &up[mid as usize];
+        let middle = rng.below(count as u32);
+        let arcs = &up[middle as usize];
         if let Some((&(p, _), &(q, _))) = rng.pick(arcs).zip(rng.pick(arcs)) {
             let (low, high) = above(p, q);
-            up[low as usize].push((high, mid));
+            up[low as usize].push((high, middle));
         }
     }
     if rng.chance(20) {
@@ -185,7 +185,7 @@ fn made_up(rng: &mut Rng, count: usize, edges: &[(u32, u32)]) -> Vec<u8> {
     let mut numbers = vec![rng.below(3), count as u32, arcs as u32];
     let highest = |id: usize| rank.iter().filter(|&&other| other > rank[id]).count() < core;
     numbers.extend(up.iter().enumerate().map(|(id, up)| 2 * up.len() as u32 + u32::from(highest(id))));
-    numbers.extend(up.iter().flatten().flat_map(|&(to, mid)| [to, mid]));
+    numbers.extend(up.iter().flatten().flat_map(|&(to, middle)| [to, middle]));
     numbers.into_iter().flat_map(u32::to_le_bytes).collect()
 }
 
