@@ -22,8 +22,8 @@ pub(crate) struct Engine<'g> {
     pub(crate) paths: K,
     /// Whether it may fail to find a path where there is one.
     pub(crate) may_give_up: bool,
-    /// Whether it plans on a hierarchy. Those engines have long suites of their own.
-    pub(crate) is_hierarchical: bool,
+    /// Whether it searches a prepared graph. The crates of those engines have long suites of their own.
+    pub(crate) is_prepared: bool,
     planner: Option<BoxedPlanner>,
     setup: Setup,
     space: &'g SearchSpace,
@@ -34,9 +34,12 @@ impl<'g> Engine<'g> {
         let (guarantee, paths) = (setup.guarantee(), setup.paths());
         let may_give_up =
             (setup.engine.kind(), setup.engine.variant()) == (EngineKind::Chpa, Some(Variant::Paper));
-        let is_hierarchical = matches!(setup.engine.kind(), EngineKind::Hpa | EngineKind::Chpa);
+        let is_prepared = matches!(
+            setup.engine.kind(),
+            EngineKind::Subgoal | EngineKind::SubgoalTheta | EngineKind::Hpa | EngineKind::Chpa
+        );
         let name = setup.to_string();
-        Self { name, guarantee, paths, may_give_up, is_hierarchical, planner: None, setup, space }
+        Self { name, guarantee, paths, may_give_up, is_prepared, planner: None, setup, space }
     }
 
     pub(crate) fn solve(&mut self, query: Query) -> Answer {
