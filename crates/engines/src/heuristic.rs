@@ -5,8 +5,9 @@ use mediant_moves::Cost;
 use mediant_search::{Euclidean, Heuristic, Hk, Zero};
 
 /// One of the heuristics that never overestimate, chosen at run time: every engine but A* is compiled for
-/// this type alone. Its branch for each estimate takes at most 0.4 % of the instructions of a query (canonical
-/// A*, k = 3). Compiling those engines for h_k as well makes the release build of this crate a fifth longer.
+/// this type alone. Its branch for each estimate takes at most 0.4 % of the instructions of a query
+/// (canonical A*, k = 3). Compiling those engines for h_k as well makes the release build of this crate a
+/// fifth longer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Admissible {
     /// The cost on an empty grid.

@@ -7,12 +7,12 @@ use std::{
     sync::Arc,
 };
 
-use mediant_grid::{Centers, Corners, DiagonalGap, FreeSpace, GridGraph, Placement, Vertex};
-use mediant_moves::FiniteK;
-use mediant_search::{
-    AStar, Anya, BlockJps, Canonical, Dijkstra, Hk, Jps, JpsPlus, JumpTable, LazyThetaStar, Outcome,
-    PaperCanonical, Planner, Pruning, Query, ThetaStar, Wavefront, Zero, parts::StepwiseFinder,
+use mediant_engines::{BoxedPlanner, EngineKind, Setup, SharedRules};
+use mediant_grid::{
+    Centers, CornerRule, Corners, DiagonalGap, Grid, Placement, PlacementKind, Rules, Vertex,
 };
+use mediant_moves::{FiniteK, K};
+use mediant_search::{Outcome, Query};
 
 thread_local! {
     static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
@@ -38,13 +38,17 @@ unsafe impl GlobalAlloc for Counting {
 static COUNTING: Counting = Counting;
 
 /// Queries between vertices all over a map.
-fn queries<P: Placement>(grid_graph: &FreeSpace<P>) -> Vec<Query> {
-    let free: Vec<Vertex> = (0..50).flat_map(|y| (0..60).map(move |x| Vertex::new(x, y))).collect();
-    let free: Vec<Vertex> = free.into_iter().filter(|&at| grid_graph.is_free(at)).step_by(197).collect();
+fn queries(grid: &Grid, placement: PlacementKind) -> Vec<Query> {
+    let is_free = |at: Vertex| match placement {
+        PlacementKind::Center => Centers::is_free(grid, at),
+        PlacementKind::Corner => Corners::is_free(grid, at),
+    };
+    let all = (0..50).flat_map(|y| (0..60).map(move |x| Vertex::new(x, y)));
+    let free: Vec<Vertex> = all.filter(|&at| is_free(at)).step_by(311).collect();
     free.iter().flat_map(|&a| free.iter().map(move |&b| Query::new(a, b))).collect()
 }
 
-fn check(case: &str, mut planner: impl Planner, queries: &[Query]) {
+fn check(setup: Setup, planner: &mut BoxedPlanner, queries: &[Query]) {
     for &query in queries {
         planner.solve(query).expect("both ends are free");
     }
@@ -54,56 +58,45 @@ fn check(case: &str, mut planner: impl Planner, queries: &[Query]) {
         let outcome = planner.solve(query).expect("both ends are free");
         let allocated = ALLOCATIONS.get() - before;
         let expected = usize::from(matches!(outcome, Outcome::Found(_)));
-        assert_eq!(allocated, expected, "{case}, {query:?}");
+        assert_eq!(allocated, expected, "{setup}, {query:?}");
         found += expected;
     }
-    assert!(found > 30, "only {found} paths were found: {case}");
+    assert!(found > 30, "only {found} paths were found: {setup}");
 }
 
-fn allocations_of<P: Placement>(k: u32) {
-    let mut rng = mediant_oracle::Rng::new(7);
-    let grid = mediant_oracle::caves(&mut rng, 60, 50);
-    let k = FiniteK::new(k).expect("k is at least 2");
-    let grid_graph = GridGraph::<P>::new(Arc::new(grid), k, P::Rule::default()).expect("k is in range");
-    let (grid_graph, queries) = (&grid_graph, queries(&grid_graph));
-    let (h, case) = (Hk, |name| format!("{name}, k = {k}"));
-    check(&case("astar"), AStar::new(grid_graph, h), &queries);
-    check(&case("dijkstra"), Dijkstra::new(grid_graph, Zero), &queries);
-    check(&case("wavefront"), Wavefront::new(grid_graph), &queries);
-    let pruning = Arc::new(Pruning::new(grid_graph));
-    let pruning = || Arc::clone(&pruning);
-    let jps = || Jps::with_finder(grid_graph, pruning(), StepwiseFinder, h);
-    check(&case("canonical"), Canonical::with_pruning(grid_graph, pruning(), h), &queries);
-    check(&case("canonical as published"), PaperCanonical::new(grid_graph, h), &queries);
-    check(&case("jps"), jps(), &queries);
-    check(&case("theta"), ThetaStar::new(grid_graph, h), &queries);
-    check(&case("lazy-theta"), LazyThetaStar::new(grid_graph, h), &queries);
-    check(&case("jps, bounded"), jps().with_jump_limit(Some(3)).with_intermediate(true), &queries);
-    if k <= FiniteK::N8 {
-        let table = Arc::new(JumpTable::new(grid_graph).expect("k is in range"));
-        check(&case("jps-block"), BlockJps::new(grid_graph, h).expect("k is in range"), &queries);
-        check(
-            &case("jps-plus"),
-            JpsPlus::new(grid_graph, table, h).expect("the table is this map's"),
-            &queries,
-        );
-    }
+/// Checks every setup of the catalog whose engine is in this crate, but for those that smooth their paths:
+/// smoothing allocates. How many there were.
+fn check_all(k: K, rules: Rules, pruning: &SharedRules) -> usize {
+    use EngineKind::{Chpa, Hpa, Subgoal, SubgoalTheta};
+    let grid = Arc::new(mediant_oracle::caves(&mut mediant_oracle::Rng::new(7), 60, 50));
+    let queries = queries(&grid, rules.placement());
+    let is_here = |setup: &Setup| !matches!(setup.engine.kind(), Subgoal | SubgoalTheta | Hpa | Chpa);
+    let setups = Setup::all(k, rules).filter(is_here).filter(|setup| setup.smoothing.is_none());
+    setups
+        .inspect(|&setup| {
+            let planner = BoxedPlanner::new(setup, &grid, pruning);
+            check(setup, &mut planner.unwrap_or_else(|error| panic!("{setup}: {error}")), &queries);
+        })
+        .count()
 }
 
 #[test]
 fn a_warm_query_allocates_its_path_and_nothing_else() {
+    let (pruning, mut setups) = (SharedRules::new(), 0);
     // One k for each way in which a canonical search finds its successors.
-    for k in [2, 3, 5, 9] {
-        allocations_of::<Centers>(k);
-        allocations_of::<Corners>(k);
+    for k in [2, 3, 5, 9].map(|k| K::Finite(FiniteK::new(k).expect("k is at least 2"))) {
+        for rules in [Rules::Center(CornerRule::Never), Rules::Corner(DiagonalGap::Open)] {
+            setups += check_all(k, rules, &pruning);
+        }
     }
+    // 4 of A*, Dijkstra, wavefront, 4 of canonical, 5 of jps, 3 each of theta and lazy-theta; for k ≤ 3 also
+    // 5 of jps-block and 4 of jps-plus.
+    assert_eq!(setups, 2 * (4 * (4 + 1 + 1 + 4 + 5 + 3 + 3) + 2 * (5 + 4)));
 }
 
 #[test]
 fn nor_does_anya() {
     for gap in [DiagonalGap::Open, DiagonalGap::Closed] {
-        let grid = Arc::new(mediant_oracle::caves(&mut mediant_oracle::Rng::new(7), 60, 50));
-        let space = FreeSpace::<Corners>::new(grid, gap);
-        check(&format!("anya, gap {gap}"), Anya::new(&space), &queries(&space));
+        assert_eq!(check_all(K::ANY, Rules::Corner(gap), &SharedRules::new()), 1);
     }
 }

@@ -435,7 +435,7 @@ fn what_was_made_for_other_graphs_is_not_believed() {
     let (map, other, larger) =
         (noise(&mut rng, 30, 20, 20), noise(&mut rng, 30, 20, 20), noise(&mut rng, 70, 90, 5));
     let map = Arc::new(map);
-    for (k, foreign_k) in [(3, 2), (3, 4), (5, 8), (4, 4)] {
+    for (k, foreign_k) in [(3, 2), (3, 4), (5, 6), (4, 4)] {
         let own = grid_graph::<Centers>(&map, k, CornerRule::Never);
         for (grid, k, rule) in [
             (Arc::new(other.clone()), k, CornerRule::Never),
