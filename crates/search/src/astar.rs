@@ -38,22 +38,22 @@ use crate::{
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// `L` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`.
+/// `G` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`.
 /// Its scratch memory is 16 bytes a vertex.
-pub type AStar<L, H> = BestFirst<L, H, AllMoves>;
+pub type AStar<G, H> = BestFirst<G, H, AllMoves>;
 
 /// Dijkstra's algorithm (1959): A* without a heuristic.
-pub type Dijkstra<L> = AStar<L, Zero>;
+pub type Dijkstra<G> = AStar<G, Zero>;
 
-impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> AStar<L, H> {
+impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> AStar<G, H> {
     /// A planner with scratch memory for `graph`.
     #[must_use]
-    pub fn new(graph: L, heuristic: H) -> Self {
+    pub fn new(graph: G, heuristic: H) -> Self {
         Self::with_successors(graph, heuristic, AllMoves)
     }
 
     /// Continues with another grid graph. The scratch memory is kept if that has as many vertices.
-    pub fn set_graph(&mut self, graph: L) {
+    pub fn set_graph(&mut self, graph: G) {
         if graph.vertex_count() == self.graph.vertex_count() {
             self.graph = graph;
         } else {
@@ -100,7 +100,7 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> AStar<L, H> {
     }
 }
 
-impl<P: Placement, L: Deref<Target = GridGraph<P>>> Dijkstra<L> {
+impl<P: Placement, G: Deref<Target = GridGraph<P>>> Dijkstra<G> {
     /// The cost of an optimal path from `start` to every vertex.
     ///
     /// # Errors

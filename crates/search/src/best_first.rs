@@ -26,21 +26,21 @@ use crate::{
 /// heuristics do not reopen nodes, which would be costly and would guarantee nothing, except where successors
 /// depend on the arriving move: there a path might be missed.
 ///
-/// `L` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`.
+/// `G` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`.
 /// `N` is the [`ParentPointer`] of a node.
 #[derive(Clone, Debug)]
-pub struct BestFirst<L, H, S, N = ()> {
-    pub(crate) graph: L,
+pub struct BestFirst<G, H, S, N = ()> {
+    pub(crate) graph: G,
     pub(crate) heuristic: H,
     pub(crate) successors: S,
     nodes: NodeStore<N>,
     open: OpenList,
 }
 
-impl<P, L, H, S, N> BestFirst<L, H, S, N>
+impl<P, G, H, S, N> BestFirst<G, H, S, N>
 where
     P: Placement,
-    L: Deref<Target = GridGraph<P>>,
+    G: Deref<Target = GridGraph<P>>,
     H: Heuristic,
     S: Successors<P, ParentPointer = N>,
     N: ParentPointer,
@@ -94,7 +94,7 @@ where
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn with_successors(graph: L, heuristic: H, successors: S) -> Self {
+    pub fn with_successors(graph: G, heuristic: H, successors: S) -> Self {
         let nodes = NodeStore::new(graph.vertex_count());
         Self { graph, heuristic, successors, nodes, open: OpenList::default() }
     }
@@ -185,7 +185,7 @@ where
     }
 }
 
-impl<L, H, S, N: ParentPointer> BestFirst<L, H, S, N> {
+impl<G, H, S, N: ParentPointer> BestFirst<G, H, S, N> {
     /// After a search, adds the waypoints of the best known path to a goal, without its start.
     pub(crate) fn extend_back<P: Placement>(
         &self,
@@ -193,7 +193,7 @@ impl<L, H, S, N: ParentPointer> BestFirst<L, H, S, N> {
         goal: VertexId,
         waypoints: &mut Vec<Vertex>,
     ) where
-        L: Deref<Target = GridGraph<P>>,
+        G: Deref<Target = GridGraph<P>>,
     {
         extend_back(&self.graph, &self.nodes, start, goal, waypoints);
     }
@@ -209,10 +209,10 @@ impl<L, H, S, N: ParentPointer> BestFirst<L, H, S, N> {
     }
 }
 
-impl<P, L, H, S, N> Planner for BestFirst<L, H, S, N>
+impl<P, G, H, S, N> Planner for BestFirst<G, H, S, N>
 where
     P: Placement,
-    L: Deref<Target = GridGraph<P>>,
+    G: Deref<Target = GridGraph<P>>,
     H: Heuristic,
     S: Successors<P, ParentPointer = N>,
     N: ParentPointer,

@@ -51,20 +51,20 @@ use crate::{
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// `L` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`.
+/// `G` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`.
 #[derive(Clone, Debug)]
-pub struct Wavefront<L> {
-    graph: L,
+pub struct Wavefront<G> {
+    graph: G,
     nodes: NodeStore,
     /// The vertices that were reached, in the order in which they were.
     reached: Vec<VertexId>,
 }
 
-impl<P: Placement, L: Deref<Target = GridGraph<P>>> Wavefront<L> {
+impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
     /// A planner with scratch memory for `graph`: 16 bytes a vertex, and up to 4 more for each that a search
     /// reaches.
     #[must_use]
-    pub fn new(graph: L) -> Self {
+    pub fn new(graph: G) -> Self {
         let nodes = NodeStore::new(graph.vertex_count());
         Self { graph, nodes, reached: Vec::new() }
     }
@@ -129,7 +129,7 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>> Wavefront<L> {
     }
 }
 
-impl<P: Placement, L: Deref<Target = GridGraph<P>>> Planner for Wavefront<L> {
+impl<P: Placement, G: Deref<Target = GridGraph<P>>> Planner for Wavefront<G> {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
         let Some((start, goal)) = query.ends(&self.graph)? else { return Ok(Outcome::Unreachable) };
         if !self.search(start, Some(goal), observer) {

@@ -31,8 +31,8 @@ use crate::{
 /// counts are the same each time and on every platform. An observer is told the events of both searches; a
 /// subgoal that both reach has events of each.
 #[derive(Debug)]
-pub struct SubgoalAStar<T, G, P: SubgoalPlacement> {
-    space: T,
+pub struct SubgoalAStar<S, G, P: SubgoalPlacement> {
+    space: S,
     graph: G,
     scratch: P::Scratch,
     /// The searches from the start and from the goal.
@@ -46,15 +46,15 @@ pub struct SubgoalAStar<T, G, P: SubgoalPlacement> {
     waypoints: Vec<Vertex>,
 }
 
-impl<T, G, P> SubgoalAStar<T, G, P>
+impl<S, G, P> SubgoalAStar<S, G, P>
 where
     P: SubgoalPlacement,
-    T: Deref<Target: HasFreeSpace<Placement = P>>,
+    S: Deref<Target: HasFreeSpace<Placement = P>>,
     G: Deref<Target = SubgoalGraph<P>>,
 {
     /// A planner with scratch memory for `graph`, which must be that of `space`.
     #[must_use]
-    pub fn new(space: T, graph: G) -> Self {
+    pub fn new(space: S, graph: G) -> Self {
         let count = graph.subgoals();
         Self {
             space,
@@ -69,10 +69,10 @@ where
     }
 }
 
-impl<T, G, P> Planner for SubgoalAStar<T, G, P>
+impl<S, G, P> Planner for SubgoalAStar<S, G, P>
 where
     P: SubgoalPlacement,
-    T: Deref<Target: HasFreeSpace<Placement = P>>,
+    S: Deref<Target: HasFreeSpace<Placement = P>>,
     G: Deref<Target = SubgoalGraph<P>>,
 {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
@@ -103,10 +103,10 @@ where
     }
 }
 
-impl<T, G, P> SubgoalAStar<T, G, P>
+impl<S, G, P> SubgoalAStar<S, G, P>
 where
     P: SubgoalPlacement,
-    T: Deref<Target: HasFreeSpace<Placement = P>>,
+    S: Deref<Target: HasFreeSpace<Placement = P>>,
     G: Deref<Target = SubgoalGraph<P>>,
 {
     /// Finds the subgoal at which the searches from the start and from the goal meet on a shortest path.

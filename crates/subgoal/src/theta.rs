@@ -63,8 +63,8 @@ use crate::{edge_path::push, graph::SubgoalGraph, placement::SubgoalPlacement};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
-pub struct SubgoalTheta<T, G, P: SubgoalPlacement> {
-    space: T,
+pub struct SubgoalTheta<S, G, P: SubgoalPlacement> {
+    space: S,
     graph: G,
     scratch: P::Scratch,
     /// Its nodes are the subgoals and, after the last of them, the goal.
@@ -75,15 +75,15 @@ pub struct SubgoalTheta<T, G, P: SubgoalPlacement> {
     unpacking: Unpacking,
 }
 
-impl<T, G, P> SubgoalTheta<T, G, P>
+impl<S, G, P> SubgoalTheta<S, G, P>
 where
     P: SubgoalPlacement,
-    T: Deref<Target: HasFreeSpace<Placement = P>>,
+    S: Deref<Target: HasFreeSpace<Placement = P>>,
     G: Deref<Target = SubgoalGraph<P>>,
 {
     /// A planner with scratch memory for `graph`, which must be that of `space`.
     #[must_use]
-    pub fn new(space: T, graph: G) -> Self {
+    pub fn new(space: S, graph: G) -> Self {
         let count = graph.subgoals();
         Self {
             space,
@@ -98,10 +98,10 @@ where
     }
 }
 
-impl<T, G, P> Planner for SubgoalTheta<T, G, P>
+impl<S, G, P> Planner for SubgoalTheta<S, G, P>
 where
     P: SubgoalPlacement,
-    T: Deref<Target: HasFreeSpace<Placement = P>>,
+    S: Deref<Target: HasFreeSpace<Placement = P>>,
     G: Deref<Target = SubgoalGraph<P>>,
 {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {

@@ -22,18 +22,18 @@ use crate::{HierarchyError, check, waypoints::waypoints};
 /// search over segments, whose costs are counted in segments, `H2` that of the searches over tiles. Where a
 /// checkpoint cannot be reached, the [`FallbackPolicy`] says what happens.
 ///
-/// `L` and `G` are how the planner holds the grid graph and its index: by reference or by `Arc`. A planner
+/// `G` and `I` are how the planner holds the grid graph and its index: by reference or by `Arc`. A planner
 /// that holds its index in a `Box` can [repair](Self::repair) it.
 ///
 /// **Ties** are decided by the order of the open lists: f, then h, then the number of the segment or vertex.
 /// An observer gets the events of both phases; an event of the first is at the middle of its segment. Scratch
 /// memory: 16 bytes a vertex, 24 a segment.
 #[derive(Clone, Debug)]
-pub struct ChpaStar<L, G, H1, H2> {
-    grid_graph: L,
-    graph: G,
+pub struct ChpaStar<G, I, H1, H2> {
+    grid_graph: G,
+    index: I,
     heuristic: H1,
-    tiles: AStar<L, H2>,
+    tile_search: AStar<G, H2>,
     step: NonZeroU32,
     fallback: FallbackPolicy,
     tree: SearchTree,
@@ -69,26 +69,26 @@ impl Default for FallbackPolicy {
     }
 }
 
-impl<L, G, H1, H2> ChpaStar<L, G, H1, H2>
+impl<G, I, H1, H2> ChpaStar<G, I, H1, H2>
 where
-    L: Deref<Target = GridGraph<Centers>> + Clone,
-    G: Deref<Target = SegmentGraph>,
+    G: Deref<Target = GridGraph<Centers>> + Clone,
+    I: Deref<Target = SegmentGraph>,
     H1: Heuristic,
     H2: Heuristic,
 {
-    /// A planner on `graph`, which must be the index of `grid_graph`, with the heuristics of the two phases;
+    /// A planner on `index`, which must be that of `grid_graph`, with the heuristics of the two phases;
     /// with a step of 2 and the default [`FallbackPolicy`].
     ///
     /// # Errors
     /// [`HierarchyError`] for the index of a map of another size or of other moves. That the index is of this
     /// very map is not checked: with another one's, paths are legal, but may be longer.
-    pub fn new(grid_graph: L, graph: G, first: H1, second: H2) -> Result<Self, HierarchyError> {
-        check::grid_graph(graph.k, graph.size, &grid_graph)?;
+    pub fn new(grid_graph: G, index: I, first: H1, second: H2) -> Result<Self, HierarchyError> {
+        check::grid_graph(index.k, index.size, &grid_graph)?;
         Ok(Self {
-            tree: SearchTree::new(graph.segments()),
-            graph,
+            tree: SearchTree::new(index.segments()),
+            index,
             heuristic: first,
-            tiles: AStar::new(grid_graph.clone(), second),
+            tile_search: AStar::new(grid_graph.clone(), second),
             step: NonZeroU32::MIN.saturating_add(1),
             fallback: FallbackPolicy::default(),
             segments: Vec::new(),
@@ -111,10 +111,10 @@ where
     }
 }
 
-impl<L, G, H1, H2> ChpaStar<L, G, H1, H2>
+impl<G, I, H1, H2> ChpaStar<G, I, H1, H2>
 where
-    L: Deref<Target = GridGraph<Centers>> + Clone,
-    G: DerefMut<Target = SegmentGraph>,
+    G: Deref<Target = GridGraph<Centers>> + Clone,
+    I: DerefMut<Target = SegmentGraph>,
     H1: Heuristic,
     H2: Heuristic,
 {
@@ -123,19 +123,19 @@ where
     ///
     /// # Errors
     /// [`HierarchyError`] for a grid graph of another size or of other moves; nothing is changed then.
-    pub fn repair(&mut self, grid_graph: L, changed: Rectangle) -> Result<(), HierarchyError> {
-        check::grid_graph(self.graph.k, self.graph.size, &grid_graph)?;
-        self.graph.repair(grid_graph.grid(), changed)?;
-        self.tiles.set_graph(grid_graph.clone());
+    pub fn repair(&mut self, grid_graph: G, changed: Rectangle) -> Result<(), HierarchyError> {
+        check::grid_graph(self.index.k, self.index.size, &grid_graph)?;
+        self.index.repair(grid_graph.grid(), changed)?;
+        self.tile_search.set_graph(grid_graph.clone());
         self.grid_graph = grid_graph;
         Ok(())
     }
 }
 
-impl<L, G, H1, H2> Planner for ChpaStar<L, G, H1, H2>
+impl<G, I, H1, H2> Planner for ChpaStar<G, I, H1, H2>
 where
-    L: Deref<Target = GridGraph<Centers>> + Clone,
-    G: Deref<Target = SegmentGraph>,
+    G: Deref<Target = GridGraph<Centers>> + Clone,
+    I: Deref<Target = SegmentGraph>,
     H1: Heuristic,
     H2: Heuristic,
 {
@@ -143,11 +143,11 @@ where
         if query.ends(&self.grid_graph)?.is_none() {
             return Ok(Outcome::Unreachable);
         }
-        let Self { grid_graph, graph, heuristic, tree, segments, checkpoints, step, .. } = self;
-        let is_connected = search(grid_graph, graph, *heuristic, tree, query, segments, observer);
+        let Self { grid_graph, index, heuristic, tree, segments, checkpoints, step, .. } = self;
+        let is_connected = search(grid_graph, index, *heuristic, tree, query, segments, observer);
         checkpoints.clear();
         if is_connected {
-            graph.append_checkpoints(grid_graph, segments, query.goal, *step, checkpoints);
+            index.append_checkpoints(grid_graph, segments, query.goal, *step, checkpoints);
         }
         checkpoints.push(query.goal);
         match self.fallback {
@@ -169,20 +169,20 @@ where
     }
 }
 
-impl<L, G, H1, H2> ChpaStar<L, G, H1, H2>
+impl<G, I, H1, H2> ChpaStar<G, I, H1, H2>
 where
-    L: Deref<Target = GridGraph<Centers>> + Clone,
-    G: Deref<Target = SegmentGraph>,
+    G: Deref<Target = GridGraph<Centers>> + Clone,
+    I: Deref<Target = SegmentGraph>,
     H1: Heuristic,
     H2: Heuristic,
 {
     /// Phase 2 as published: finds a path from each checkpoint to the next.
     fn visit_all(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        let Self { tiles, checkpoints, path, .. } = self;
+        let Self { tile_search, checkpoints, path, .. } = self;
         path.clear();
         path.push(query.start);
         for &to in &*checkpoints {
-            if !tiles.extend(path, to, Cost::MAX, observer)? {
+            if !tile_search.extend(path, to, Cost::MAX, observer)? {
                 return Err(QueryError::GaveUp { why: "a checkpoint cannot be reached" });
             }
         }
@@ -197,7 +197,7 @@ where
         detour: NonZeroU32,
         observer: &mut impl Observer,
     ) -> Result<Outcome, QueryError> {
-        let Self { grid_graph, tiles, checkpoints, path, .. } = self;
+        let Self { grid_graph, tile_search, checkpoints, path, .. } = self;
         path.clear();
         path.push(query.start);
         let (mut at, mut next, mut skip) = (query.start, 0, 1);
@@ -206,7 +206,7 @@ where
         while let Some(&to) = checkpoints.get(next) {
             let limit =
                 if next == last { Cost::MAX } else { times(grid_graph.costs().distance(at.to(to)), detour) };
-            if tiles.extend(path, to, limit, observer)? {
+            if tile_search.extend(path, to, limit, observer)? {
                 (at, next, skip) = (to, next + 1, 1);
             } else if next == last {
                 return Ok(Outcome::Unreachable);

@@ -29,7 +29,7 @@ use crate::{
 /// on one straight line, this one joins vertices by a shortest path over N(k) on an empty grid, so that paths
 /// stay paths over N(k).
 ///
-/// `L` and `G` are how the planner holds the grid graph and its index: by reference or by `Arc`. A planner
+/// `G` and `I` are how the planner holds the grid graph and its index: by reference or by `Arc`. A planner
 /// that holds its index in a `Box` can [repair](Self::repair) it.
 ///
 /// **Ties** are decided by the order of the open lists: f, then h, then the number of the node or cell. Paths
@@ -37,9 +37,9 @@ use crate::{
 /// every level and within clusters; percolations are counted only in the searches over levels. Scratch
 /// memory: 24 bytes for each number that a node may have (20 in a cluster of 10 × 10 cells).
 #[derive(Clone, Debug)]
-pub struct HpaStar<L, G> {
-    grid_graph: L,
-    graph: G,
+pub struct HpaStar<G, I> {
+    grid_graph: G,
+    index: I,
     straightens: bool,
     tree: SearchTree,
     cluster_search: ClusterSearch,
@@ -60,32 +60,32 @@ struct PathNode {
     id: u32,
 }
 
-impl<L, G> HpaStar<L, G>
+impl<G, I> HpaStar<G, I>
 where
-    L: Deref<Target = GridGraph<Centers>>,
-    G: Deref<Target = ClusterGraph>,
+    G: Deref<Target = GridGraph<Centers>>,
+    I: Deref<Target = ClusterGraph>,
 {
-    /// A planner on `graph`, which must be the index of `grid_graph`; it straightens its paths.
+    /// A planner on `index`, which must be that of `grid_graph`; it straightens its paths.
     ///
     /// # Errors
     /// [`HierarchyError`] for the index of a map of another size or of other moves. That the index is of this
     /// very map is not checked: with another one's, a planner may give up ([`QueryError::GaveUp`]), but its
     /// paths are legal.
-    pub fn new(grid_graph: L, graph: G) -> Result<Self, HierarchyError> {
-        check::grid_graph(graph.k, graph.size, &grid_graph)?;
-        let nodes = graph.levels.iter().map(|level| level.nodes.len()).max().unwrap_or(0);
-        let costs = vec![Vec::new(); graph.levels.len()];
+    pub fn new(grid_graph: G, index: I) -> Result<Self, HierarchyError> {
+        check::grid_graph(index.k, index.size, &grid_graph)?;
+        let nodes = index.levels.iter().map(|level| level.nodes.len()).max().unwrap_or(0);
+        let costs = vec![Vec::new(); index.levels.len()];
         Ok(Self {
             straightens: true,
             tree: SearchTree::new(nodes + 2),
-            cluster_search: ClusterSearch::new(graph.k),
+            cluster_search: ClusterSearch::new(index.k),
             endpoint_costs: [costs.clone(), costs],
             abstract_path: Vec::new(),
             refined: Vec::new(),
             cells: Vec::new(),
             straighten: Straighten::default(),
             grid_graph,
-            graph,
+            index,
         })
     }
 
@@ -96,19 +96,19 @@ where
     }
 }
 
-impl<L, G> HpaStar<L, G>
+impl<G, I> HpaStar<G, I>
 where
-    L: Deref<Target = GridGraph<Centers>>,
-    G: DerefMut<Target = ClusterGraph>,
+    G: Deref<Target = GridGraph<Centers>>,
+    I: DerefMut<Target = ClusterGraph>,
 {
     /// Changes the map: `grid_graph` may differ from the one before only in the cells of a rectangle. Repairs
     /// the index, and keeps the scratch memory.
     ///
     /// # Errors
     /// [`HierarchyError`] for a grid graph of another size or of other moves; nothing is changed then.
-    pub fn repair(&mut self, grid_graph: L, changed: Rectangle) -> Result<(), HierarchyError> {
-        check::grid_graph(self.graph.k, self.graph.size, &grid_graph)?;
-        self.graph.repair(grid_graph.grid(), changed)?;
+    pub fn repair(&mut self, grid_graph: G, changed: Rectangle) -> Result<(), HierarchyError> {
+        check::grid_graph(self.index.k, self.index.size, &grid_graph)?;
+        self.index.repair(grid_graph.grid(), changed)?;
         self.grid_graph = grid_graph;
         Ok(())
     }
@@ -117,10 +117,10 @@ where
 const STALE: QueryError =
     QueryError::GaveUp { why: "the index is not that of the map; repair it or make it anew" };
 
-impl<L, G> Planner for HpaStar<L, G>
+impl<G, I> Planner for HpaStar<G, I>
 where
-    L: Deref<Target = GridGraph<Centers>>,
-    G: Deref<Target = ClusterGraph>,
+    G: Deref<Target = GridGraph<Centers>>,
+    I: Deref<Target = ClusterGraph>,
 {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
         if query.ends(&self.grid_graph)?.is_none() {
@@ -139,7 +139,7 @@ where
             return Ok(Outcome::Found(Path::new(path)));
         }
         let separates = |level: &Level| level.cluster_at(start) != level.cluster_at(goal);
-        let top = self.graph.levels.iter().rposition(separates).unwrap_or(0);
+        let top = self.index.levels.iter().rposition(separates).unwrap_or(0);
         let direct = self.insert(query, top, observer);
         self.find_abstract_path(query, top, direct, observer).ok_or(STALE)?;
         for number in (0..top).rev() {
@@ -163,19 +163,19 @@ where
 
 /// Each step but the first returns `None` where there is no path although the map has one: then the index is
 /// of another map.
-impl<L, G> HpaStar<L, G>
+impl<G, I> HpaStar<G, I>
 where
-    L: Deref<Target = GridGraph<Centers>>,
-    G: Deref<Target = ClusterGraph>,
+    G: Deref<Target = GridGraph<Centers>>,
+    I: Deref<Target = ClusterGraph>,
 {
     /// Finds the costs from start and goal to the nodes of their clusters, on the levels up to `top`. Returns
     /// the cost from one to the other within a cluster of the lowest level.
     fn insert(&mut self, query: Query, top: usize, observer: &mut impl Observer) -> FixedCost {
         let direct = self.insert_lowest(0, query.start, Some(query.goal), observer);
         self.insert_lowest(1, query.goal, None, observer);
-        let Self { grid_graph, graph, tree, endpoint_costs, .. } = self;
+        let Self { grid_graph, index, tree, endpoint_costs, .. } = self;
         for number in 1..=top {
-            let (below, level) = (&graph.levels[number - 1], &graph.levels[number]);
+            let (below, level) = (&index.levels[number - 1], &index.levels[number]);
             for (costs, at) in endpoint_costs.iter_mut().zip([query.start, query.goal]) {
                 let (lower, upper) = costs.split_at_mut(number);
                 let cluster = level.cluster_at(at);
@@ -199,8 +199,8 @@ where
         other: Option<Vertex>,
         observer: &mut impl Observer,
     ) -> FixedCost {
-        let Self { grid_graph, graph, cluster_search, endpoint_costs, .. } = self;
-        let level = &graph.levels[0];
+        let Self { grid_graph, index, cluster_search, endpoint_costs, .. } = self;
+        let level = &index.levels[0];
         let cluster = level.cluster_at(at);
         let bounds = level.bounds(cluster, grid_graph.grid());
         let other = other.filter(|&other| bounds.contains(other));
@@ -208,14 +208,14 @@ where
         let costs = &mut endpoint_costs[which][0];
         costs.clear();
         // Where a path of cost h_k is free to each of them, there is nothing to search.
-        let cost = |to: Vertex| free_elbow(grid_graph, at, to).map(|_| graph.costs.distance(at.to(to)));
+        let cost = |to: Vertex| free_elbow(grid_graph, at, to).map(|_| index.costs.distance(at.to(to)));
         costs.extend(targets.clone().map_while(cost).map(|cost| FixedCost::new(Some(cost))));
         if costs.len() < targets.clone().count() {
             let window = bounds.window(grid_graph.grid());
             let cells = targets.map(|target| window.cell(target));
             let mut set = [0; MAX_SIDE as usize];
             cells.clone().for_each(|cell| insert(&mut set, cell));
-            cluster_search.flood(&graph.costs, &window, window.cell(at), &set, observer);
+            cluster_search.flood(&index.costs, &window, window.cell(at), &set, observer);
             costs.clear();
             costs.extend(cells.map(|cell| FixedCost::new(cluster_search.cost(cell))));
         }
@@ -230,15 +230,15 @@ where
         direct: FixedCost,
         observer: &mut impl Observer,
     ) -> Option<()> {
-        let Self { graph, tree, endpoint_costs, abstract_path, .. } = self;
+        let Self { index, tree, endpoint_costs, abstract_path, .. } = self;
         let Query { start, goal } = query;
-        let level = &graph.levels[top];
+        let level = &index.levels[top];
         let [from, to] = [(start, 0), (goal, 1)].map(|(at, which)| Endpoint {
             cluster: level.cluster_at(at),
             costs: &endpoint_costs[which][top],
         });
         let to = Goal { endpoint: to, direct };
-        let estimate = |at: Vertex| graph.costs.distance(at.to(goal));
+        let estimate = |at: Vertex| index.costs.distance(at.to(goal));
         abstract_path.clear();
         abstract_path.push(PathNode { at: start, id: level.start_id() });
         search(level, Bounds::ALL, tree, estimate, from, Some(to), observer)
@@ -248,8 +248,8 @@ where
     /// Replaces the abstract path by one on the level below it, `number`: within each cluster that it
     /// crosses, by a shortest.
     fn refine(&mut self, number: usize, observer: &mut impl Observer) -> Option<()> {
-        let Self { grid_graph, graph, tree, endpoint_costs, abstract_path, refined, .. } = self;
-        let (below, level) = (&graph.levels[number], &graph.levels[number + 1]);
+        let Self { grid_graph, index, tree, endpoint_costs, abstract_path, refined, .. } = self;
+        let (below, level) = (&index.levels[number], &index.levels[number + 1]);
         // A node of the path as an endpoint on the level below; and its index in its cluster there, if it is
         // not start or goal.
         let endpoint = |path_node: PathNode| {
@@ -280,7 +280,7 @@ where
                     _ => FixedCost::NONE,
                 };
                 let bounds = level.bounds(cluster, grid_graph.grid());
-                let estimate = |at: Vertex| graph.costs.distance(at.to(to.at));
+                let estimate = |at: Vertex| index.costs.distance(at.to(to.at));
                 let goal = Goal { endpoint: goal, direct };
                 if !search(below, bounds, tree, estimate, start, Some(goal), observer) {
                     return None;
@@ -297,8 +297,8 @@ where
     /// Refines the abstract path of the lowest level to cells: each edge to a path that turns once if that is
     /// free, else to a shortest path within the cluster.
     fn refine_to_cells(&mut self, observer: &mut impl Observer) -> Option<()> {
-        let Self { grid_graph, graph, cluster_search, abstract_path, cells, .. } = self;
-        let (level, grid) = (&graph.levels[0], grid_graph.grid());
+        let Self { grid_graph, index, cluster_search, abstract_path, cells, .. } = self;
+        let (level, grid) = (&index.levels[0], grid_graph.grid());
         cells.clear();
         cells.extend(abstract_path.first().map(|node| node.at));
         for edge in abstract_path.windows(2) {
@@ -318,7 +318,7 @@ where
             // Searched backward, so that the parents lead forward.
             let window = level.bounds(cluster, grid).window(grid);
             let [first, last] = [from, to].map(|at| window.cell(at));
-            if !cluster_search.path(&graph.costs, &window, last, first, observer) {
+            if !cluster_search.path(&index.costs, &window, last, first, observer) {
                 return None;
             }
             let mut cell = first;

@@ -122,18 +122,18 @@ fn boxed<'i>(mut planner: impl Planner + Send + 'i) -> Solve<'i> {
     Box::new(move |query, counters| planner.solve_observed(query, counters))
 }
 
-pub(crate) fn hpa<'i, L, G>(grid_graph: L, graph: G, straightens: bool) -> Solve<'i>
+pub(crate) fn hpa<'i, G, I>(grid_graph: G, graph: I, straightens: bool) -> Solve<'i>
 where
-    L: Deref<Target = GridGraph<Centers>> + Send + 'i,
-    G: Deref<Target = ClusterGraph> + Send + 'i,
+    G: Deref<Target = GridGraph<Centers>> + Send + 'i,
+    I: Deref<Target = ClusterGraph> + Send + 'i,
 {
     boxed(HpaStar::new(grid_graph, graph).expect("the index fits").with_straightening(straightens))
 }
 
-pub(crate) fn chpa<'i, L, G>(grid_graph: L, graph: G, setting: Setting) -> Solve<'i>
+pub(crate) fn chpa<'i, G, I>(grid_graph: G, graph: I, setting: Setting) -> Solve<'i>
 where
-    L: Deref<Target = GridGraph<Centers>> + Clone + Send + 'i,
-    G: Deref<Target = SegmentGraph> + Send + 'i,
+    G: Deref<Target = GridGraph<Centers>> + Clone + Send + 'i,
+    I: Deref<Target = SegmentGraph> + Send + 'i,
 {
     let Setting { phases, step, fallback } = setting;
     macro_rules! planner {

@@ -30,7 +30,7 @@ use crate::{
 };
 
 /// Canonical A* with the published rule.
-pub type PaperCanonical<L, H> = BestFirst<L, H, PaperMoves>;
+pub type PaperCanonical<G, H> = BestFirst<G, H, PaperMoves>;
 
 /// The moves that the published rule leaves.
 #[derive(Clone, Debug)]
@@ -41,10 +41,10 @@ pub struct PaperMoves {
     is_unpruned: bool,
 }
 
-impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> PaperCanonical<L, H> {
+impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> PaperCanonical<G, H> {
     /// A planner with scratch memory for `graph`.
     #[must_use]
-    pub fn new(graph: L, heuristic: H) -> Self {
+    pub fn new(graph: G, heuristic: H) -> Self {
         let is_jump_point = |pattern| {
             // Those grid points around the vertex whose four cells the pattern holds.
             [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().any(|(x, y)| {

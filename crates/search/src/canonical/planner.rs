@@ -31,7 +31,7 @@ use crate::{
 /// assert_eq!(outcome.path().map(|path| path.cost()), Some(1.0 + 5.0_f64.sqrt()));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub type Canonical<L, H, P> = BestFirst<L, H, CanonicalMoves<P>>;
+pub type Canonical<G, H, P> = BestFirst<G, H, CanonicalMoves<P>>;
 
 /// The moves that the rule does not prune; where it would cost more to find these, all legal moves.
 #[derive(Clone, Debug)]
@@ -39,10 +39,10 @@ pub struct CanonicalMoves<P: Placement> {
     pub(super) pruning: Arc<Pruning<P>>,
 }
 
-impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> Canonical<L, H, P> {
+impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> Canonical<G, H, P> {
     /// A planner with scratch memory for `graph`, and its own [`Pruning`].
     #[must_use]
-    pub fn new(graph: L, heuristic: H) -> Self {
+    pub fn new(graph: G, heuristic: H) -> Self {
         let pruning = Arc::new(Pruning::new(&*graph));
         Self::with_pruning(graph, pruning, heuristic)
     }
@@ -50,7 +50,7 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> Canonical<L, H
     /// A planner that shares its pruning rule with others. A rule that was made for another map, k or rule of
     /// motion is not used; the right one is computed instead.
     #[must_use]
-    pub fn with_pruning(graph: L, pruning: Arc<Pruning<P>>, heuristic: H) -> Self {
+    pub fn with_pruning(graph: G, pruning: Arc<Pruning<P>>, heuristic: H) -> Self {
         let pruning = pruning.matching(&graph);
         Self::with_successors(graph, heuristic, CanonicalMoves { pruning })
     }

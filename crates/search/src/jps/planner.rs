@@ -18,16 +18,16 @@ use crate::{
 };
 
 /// Jump point search with any [`JumpFinder`]. Its scratch memory is 24 bytes a vertex.
-pub type JumpPointSearch<L, H, P, J> = BestFirst<L, H, JumpMoves<P, J>, VertexId>;
+pub type JumpPointSearch<G, H, P, J> = BestFirst<G, H, JumpMoves<P, J>, VertexId>;
 
 /// Jump point search for every k, which scans jumps vertex by vertex.
-pub type Jps<L, H, P> = JumpPointSearch<L, H, P, StepwiseFinder>;
+pub type Jps<G, H, P> = JumpPointSearch<G, H, P, StepwiseFinder>;
 
 /// Block-based jump point search (Harabor & Grastien 2014), for k = 2 and 3.
-pub type BlockJps<L, H, P> = JumpPointSearch<L, H, P, BlockFinder>;
+pub type BlockJps<G, H, P> = JumpPointSearch<G, H, P, BlockFinder>;
 
 /// JPS+ (Harabor & Grastien 2014): jump point search that looks jumps up in a table, for k = 2 and 3.
-pub type JpsPlus<L, H, P> = JumpPointSearch<L, H, P, Arc<JumpTable>>;
+pub type JpsPlus<G, H, P> = JumpPointSearch<G, H, P, Arc<JumpTable>>;
 
 /// The jump points to which a node leads.
 #[derive(Clone, Debug)]
@@ -42,15 +42,15 @@ pub struct JumpMoves<P: Placement, J> {
     keeps_intermediate: bool,
 }
 
-impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic, J: JumpFinder<P>>
-    JumpPointSearch<L, H, P, J>
+impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic, J: JumpFinder<P>>
+    JumpPointSearch<G, H, P, J>
 {
     /// A planner with a finder that was made for this grid graph, and a pruning rule that may be shared with
     /// other planners. If either was made for another map, k or rule of motion, it is not used: the right
     /// rule is computed, and jumps are made step by step. (Of a [`JumpTable`] only the size is compared with
     /// the grid graph.)
     #[must_use]
-    pub fn with_finder(graph: L, pruning: Arc<Pruning<P>>, finder: J, heuristic: H) -> Self {
+    pub fn with_finder(graph: G, pruning: Arc<Pruning<P>>, finder: J, heuristic: H) -> Self {
         let (pruning, stepwise) = (pruning.matching(&graph), !finder.fits(&graph));
         let successors = JumpMoves { pruning, finder, stepwise, limit: u32::MAX, keeps_intermediate: false };
         Self::with_successors(graph, heuristic, successors)
@@ -73,33 +73,33 @@ impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic, J: JumpFinder<
     }
 }
 
-impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> Jps<L, H, P> {
+impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> Jps<G, H, P> {
     /// A planner with scratch memory for `graph`, and its own [`Pruning`].
     #[must_use]
-    pub fn new(graph: L, heuristic: H) -> Self {
+    pub fn new(graph: G, heuristic: H) -> Self {
         let pruning = Arc::new(Pruning::new(&*graph));
         Self::with_finder(graph, pruning, StepwiseFinder, heuristic)
     }
 }
 
-impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> BlockJps<L, H, P> {
+impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> BlockJps<G, H, P> {
     /// A planner with scratch memory for `graph`, and its own [`BlockFinder`].
     ///
     /// # Errors
     /// [`KError::TooLarge`] above k = 3.
-    pub fn new(graph: L, heuristic: H) -> Result<Self, KError> {
+    pub fn new(graph: G, heuristic: H) -> Result<Self, KError> {
         let pruning = Arc::new(Pruning::new(&*graph));
         let blocks = BlockFinder::new(&*graph, &pruning)?;
         Ok(Self::with_finder(graph, pruning, blocks, heuristic))
     }
 }
 
-impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic> JpsPlus<L, H, P> {
+impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> JpsPlus<G, H, P> {
     /// A planner with scratch memory for `graph`, on its table.
     ///
     /// # Errors
     /// [`JumpTableError`] for a table of a grid graph of another size or k.
-    pub fn new(graph: L, table: Arc<JumpTable>, heuristic: H) -> Result<Self, JumpTableError> {
+    pub fn new(graph: G, table: Arc<JumpTable>, heuristic: H) -> Result<Self, JumpTableError> {
         table.check(&*graph)?;
         let pruning = Arc::new(Pruning::new(&*graph));
         Ok(Self::with_finder(graph, pruning, table, heuristic))

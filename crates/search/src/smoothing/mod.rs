@@ -69,7 +69,7 @@ impl<P: Placement> HasFreeSpace for GridGraph<P> {
 /// A planner whose paths are smoothed. Its [`guarantee`](Planner::guarantee) is [`Guarantee::AtMost`] if the
 /// paths were optimal over N(k).
 ///
-/// `L` is how the free space is held: by reference or `Arc`, as a [`FreeSpace`] or a [`GridGraph`].
+/// `S` is how the free space is held: by reference or `Arc`, as a [`FreeSpace`] or a [`GridGraph`].
 /// Smoothing, unlike searching, allocates.
 ///
 /// ```
@@ -94,27 +94,27 @@ impl<P: Placement> HasFreeSpace for GridGraph<P> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Smoothed<L, E> {
+pub struct Smoothed<S, E> {
     planner: E,
-    space: L,
+    space: S,
     smoothing: Option<Smoothing>,
 }
 
-impl<L, E> Smoothed<L, E>
+impl<S, E> Smoothed<S, E>
 where
-    L: Deref<Target: HasFreeSpace>,
+    S: Deref<Target: HasFreeSpace>,
     E: Planner,
 {
     /// Smooths the paths of `planner`; with `None` leaves them as they are.
     #[must_use]
-    pub const fn new(planner: E, space: L, smoothing: Option<Smoothing>) -> Self {
+    pub const fn new(planner: E, space: S, smoothing: Option<Smoothing>) -> Self {
         Self { planner, space, smoothing }
     }
 }
 
-impl<L, E> Planner for Smoothed<L, E>
+impl<S, E> Planner for Smoothed<S, E>
 where
-    L: Deref<Target: HasFreeSpace>,
+    S: Deref<Target: HasFreeSpace>,
     E: Planner,
 {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {

@@ -40,21 +40,21 @@ use crate::{
 /// assert_eq!(outcome.path().map(|path| path.waypoints()), Some(&expected[..]));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub type ThetaStar<L, H> = Theta<L, H, Eager>;
+pub type ThetaStar<G, H> = Theta<G, H, Eager>;
 
 /// Lazy Theta*: Theta* that assumes a line of sight until the node is expanded. If the node then does not see
 /// its parent, its parent becomes the closed neighbor through which the path is cheapest. The node is
 /// expanded all the same, at that higher cost.
-pub type LazyThetaStar<L, H> = Theta<L, H, Lazy>;
+pub type LazyThetaStar<G, H> = Theta<G, H, Lazy>;
 
 /// The planner that [`ThetaStar`] and [`LazyThetaStar`] share; `S` says when lines of sight are checked.
 ///
-/// `L` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`.
+/// `G` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`.
 /// Its scratch memory is 24½ bytes a vertex. The cost of a segment is that of a move of its displacement,
 /// [`Cost::of_move`](mediant_moves::Cost::of_move).
 #[derive(Clone, Debug)]
-pub struct Theta<L, H, S> {
-    graph: L,
+pub struct Theta<G, H, S> {
+    graph: G,
     heuristic: H,
     nodes: NodeStore<Parents>,
     open: OpenList,
@@ -62,20 +62,20 @@ pub struct Theta<L, H, S> {
     check: PhantomData<S>,
 }
 
-impl<P: Placement, L: Deref<Target = GridGraph<P>>, H: Heuristic, S: SightCheck> Theta<L, H, S> {
+impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic, S: SightCheck> Theta<G, H, S> {
     /// A planner with scratch memory for `graph`.
     #[must_use]
-    pub fn new(graph: L, heuristic: H) -> Self {
+    pub fn new(graph: G, heuristic: H) -> Self {
         let nodes = NodeStore::new(graph.vertex_count());
         let sight = SightCache::new::<P>(&graph);
         Self { graph, heuristic, nodes, open: OpenList::default(), sight, check: PhantomData }
     }
 }
 
-impl<P, L, H, S> Planner for Theta<L, H, S>
+impl<P, G, H, S> Planner for Theta<G, H, S>
 where
     P: Placement,
-    L: Deref<Target = GridGraph<P>>,
+    G: Deref<Target = GridGraph<P>>,
     H: Heuristic,
     S: SightCheck,
 {
@@ -103,7 +103,7 @@ where
     }
 }
 
-impl<P: Placement, L: Deref<Target = GridGraph<P>>, H, S> Theta<L, H, S> {
+impl<P: Placement, G: Deref<Target = GridGraph<P>>, H, S> Theta<G, H, S> {
     /// The path that a search found, without waypoints on a straight line between their neighbors.
     fn path(&self, start: VertexId, goal: VertexId) -> Path {
         let up = |&id: &VertexId| self.nodes.get(id).filter(|_| id != start).map(|node| node.pointer.parent);
