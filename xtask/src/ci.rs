@@ -86,8 +86,9 @@ fn minimum_version() -> Result<(), Error> {
     let installed = said_by_rustup(&["toolchain", "list"]);
     if !lists(&installed, version) {
         println!(
-            "Rust {version}, the oldest that Cargo.toml promises, is not installed: not checked by its compiler, only by \
-             clippy's incompatible_msrv for the standard library (rustup toolchain install {version})"
+            "Rust {version}, the oldest that Cargo.toml promises, is not installed: not checked by its \
+             compiler, only by clippy's incompatible_msrv for the standard library (rustup toolchain install \
+             {version})"
         );
         return Ok(());
     }

@@ -14,7 +14,8 @@ pub enum Error {
     Set(#[from] mediant_sets::Error),
     /// A mirror without any of the sets.
     #[error(
-        "{mirror}: none of the sets is there; check --mirror: it holds files like dao-map.zip and dao-scen.zip"
+        "{mirror}: none of the sets is there; check --mirror: it holds files like dao-map.zip and \
+         dao-scen.zip"
     )]
     NoSet {
         /// The address or path.

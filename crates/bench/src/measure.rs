@@ -77,7 +77,8 @@ pub enum MeasureError {
     },
     /// A path of the wrong length, or none.
     #[error(
-        "{competitor} on map `{map}`, instance {index}: expected a path of length {expected} ({by}), found {found}"
+        "{competitor} on map `{map}`, instance {index}: expected a path of length {expected} ({by}), found \
+         {found}"
     )]
     Answer {
         /// The competitor.

@@ -168,7 +168,8 @@ pub enum ReferenceTimingsError {
     Form(#[from] serde_json::Error),
     /// The programs of a map's times are not those of the list.
     #[error(
-        "the reference timings of map `{map}`: each program of the list needs one entry, and no other may have one"
+        "the reference timings of map `{map}`: each program of the list needs one entry, and no other may \
+         have one"
     )]
     Programs {
         /// The map.

@@ -272,7 +272,8 @@ fn against_scenarios(
         if tally.blocked + tally.shorter > 0 {
             writeln!(
                 out,
-                "{:<12} not compared, since made on other maps: {} instances with a blocked end, {} with a shorter reference",
+                "{:<12} not compared, since made on other maps: {} instances with a blocked end, {} with a \
+                 shorter reference",
                 "", tally.blocked, tally.shorter
             )?;
         }
@@ -392,7 +393,8 @@ fn against_references(
     )?;
     writeln!(
         out,
-        "not compared: {unsupported} files of problems that {engine} does not solve, {unknown} whose names say no problem"
+        "not compared: {unsupported} files of problems that {engine} does not solve, {unknown} whose names \
+         say no problem"
     )?;
     Ok(total)
 }

@@ -34,8 +34,8 @@ pub(crate) enum Failure {
     #[error(transparent)]
     OtherMap(#[from] MapMismatch),
     #[error(
-        "the scenario is for the map `{expected}` and does not fit `{found}`, where the {end} {at} of instance {index} is \
-         blocked; give the map that it was made for, under that name"
+        "the scenario is for the map `{expected}` and does not fit `{found}`, where the {end} {at} of \
+         instance {index} is blocked; give the map that it was made for, under that name"
     )]
     MisfitScenario { expected: String, found: String, end: mediant_search::End, at: Vertex, index: usize },
     #[error("there is no bundled map `{name}`; there are {known}")]
@@ -49,7 +49,8 @@ pub(crate) enum Failure {
     )]
     NotApplicable { option: &'static str, placement: &'static str, other: &'static str },
     #[error(
-        "--reference {engine} finds no any-angle paths at --placement {placement}: leave it out, or choose --placement corner"
+        "--reference {engine} finds no any-angle paths at --placement {placement}: leave it out, or choose \
+         --placement corner"
     )]
     NoReference { engine: EngineKind, placement: PlacementKind },
     #[error(transparent)]

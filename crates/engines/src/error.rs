@@ -151,8 +151,8 @@ pub enum EngineError {
     },
     /// A saved index of clusters or segments of another size than the setup names.
     #[error(
-        "needs an index whose clusters or segments have {expected} × {expected} cells, found one with {found} × {found}; \
-         choose the side that it has, or build it again"
+        "needs an index whose clusters or segments have {expected} × {expected} cells, found one with \
+         {found} × {found}; choose the side that it has, or build it again"
     )]
     Side {
         /// The side of the setup, in cells.

@@ -27,8 +27,8 @@ pub enum HierarchyError {
     },
     /// No level, or too many.
     #[error(
-        "{found} levels of clusters, the lowest of {side} × {side} cells: there must be at least one level, and the \
-         clusters of the highest at most {max} cells long"
+        "{found} levels of clusters, the lowest of {side} × {side} cells: there must be at least one level, \
+         and the clusters of the highest at most {max} cells long"
     )]
     Levels {
         /// The number of levels that was asked for.
@@ -40,7 +40,8 @@ pub enum HierarchyError {
     },
     /// A map of another size.
     #[error(
-        "this index is of a map of {} × {} cells, not {} × {}: an index is repaired only for a map of its size; make a new one",
+        "this index is of a map of {} × {} cells, not {} × {}: an index is repaired only for a map of its \
+         size; make a new one",
         expected.0, expected.1, found.0, found.1
     )]
     Size {

@@ -170,8 +170,10 @@ fn show_programs(record: &Record) -> Section {
     let mut section = Section::default();
     let Ok(references) = ReferenceTimings::bundled() else { return section };
     section.text(
-        "Ratios, never times: two crates that anyone can run were measured on the machine of the other programs, and here in the same passes as our engines; their times tell the ratio \
-         of the machines, map by map. Below 1, ours is faster. Only programs that solve the same problem are compared: the same directions and rules, both optimally or neither.",
+        "Ratios, never times: two crates that anyone can run were measured on the machine of the other \
+         programs, and here in the same passes as our engines; their times tell the ratio of the machines, \
+         map by map. Below 1, ours is faster. Only programs that solve the same problem are compared: the \
+         same directions and rules, both optimally or neither.",
     );
     let compared = comparisons(record, &references);
     let mut table =
@@ -379,7 +381,8 @@ fn measure_central(context: &Context<'_>) -> Result<Findings, Error> {
     ];
     let instances = measured.iter().filter_map(|sums| sums.first()).map(|sums| sums.queries).sum();
     let drawn = format!(
-        "of each scenario the instances whose index {every} divides, between corners, gap open; mean of a map, then over maps"
+        "of each scenario the instances whose index {every} divides, between corners, gap open; mean of a \
+         map, then over maps"
     );
     Ok(Findings { columns, rows, maps: maps.len(), instances, drawn, seeded: false })
 }
@@ -393,8 +396,10 @@ fn smoothing(record: &Record) -> String {
         texts.collect::<Vec<_>>().join(", ")
     };
     format!(
-        "The smoothing. Ours is one pass along the path (Botea et al. 2004). Shortest paths over N(k), k = 3 to 6, as another engine finds them, are {} % longer than the shortest at any \
-         angle after this pass, and {} % once they are pulled taut. The published numbers lie between: they smooth more than one pass does, less than until nothing can be pulled shorter.",
+        "The smoothing. Ours is one pass along the path (Botea et al. 2004). Shortest paths over N(k), k = 3 \
+         to 6, as another engine finds them, are {} % longer than the shortest at any angle after this pass, \
+         and {} % once they are pulled taut. The published numbers lie between: they smooth more than one \
+         pass does, less than until nothing can be pulled shorter.",
         list("smooth"),
         list("taut")
     )
@@ -408,8 +413,9 @@ fn show_central(record: &Record) -> Section {
         return section;
     };
     section.text(format!(
-        "{} ({}, 4 to 64 neighbors, nothing prepared) publishes the mean of a map, then over the 156 maps, on a {}. Times are of two machines: read their shape, not their ratio. The \
-         excess is over the shortest path at any angle.",
+        "{} ({}, 4 to 64 neighbors, nothing prepared) publishes the mean of a map, then over the 156 maps, \
+         on a {}. Times are of two machines: read their shape, not their ratio. The excess is over the \
+         shortest path at any angle.",
         published.name, published.language, published.machine
     ));
     let heading = ["variant", "k", "published, µs", "excess", "ours", "µs", "excess", ""];

@@ -122,7 +122,8 @@ fn measure(context: &Context<'_>) -> Result<Findings, Error> {
     ];
     columns.extend(Sums::columns());
     let drawn = format!(
-        "of each set {maps_of} maps, evenly, of each scenario {queries_of} instances, evenly, that have a path both between corners and between centers"
+        "of each set {maps_of} maps, evenly, of each scenario {queries_of} instances, evenly, that have a \
+         path both between corners and between centers"
     );
     Ok(Findings { columns, rows, maps: maps_in_all, instances: instances / 2, drawn, seeded: false })
 }
@@ -200,8 +201,9 @@ fn chart(record: &Record, set: &str, placement: &str) -> Chart {
 fn show(record: &Record) -> Section {
     let mut section = Section::default();
     section.text(
-        "Between corners, the reference is the shortest path at any angle. Between centers no engine is exact at any angle; the reference there is A* over N(7), pulled taut. \
-         Below and to the left is better; a point at the lower border is exact, or as good as the reference.",
+        "Between corners, the reference is the shortest path at any angle. Between centers no engine is \
+         exact at any angle; the reference there is A* over N(7), pulled taut. Below and to the left is \
+         better; a point at the lower border is exact, or as good as the reference.",
     );
     for set in record.distinct("set") {
         section.heading(set);

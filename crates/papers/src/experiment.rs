@@ -64,7 +64,8 @@ impl Page {
         match self {
             Self::Rivera2017 => "Rivera, Hernández & Baier 2017: Grid Pathfinding on the 2^k Neighborhoods",
             Self::Hormazabal2017 => {
-                "Hormazábal, Díaz, Hernández & Baier 2017: Fast and Almost Optimal Any-Angle Pathfinding Using the 2^k Neighborhoods"
+                "Hormazábal, Díaz, Hernández & Baier 2017: Fast and Almost Optimal Any-Angle Pathfinding \
+                 Using the 2^k Neighborhoods"
             }
             Self::Kramm2018 => {
                 "Kramm, Rivera, Hernández & Baier 2018: A Suboptimality Bound for 2^k Grid Path Planning"

@@ -100,8 +100,9 @@ fn on_tiles(context: &Context<'_>, map: &Map, times: u32, count: usize) -> Resul
 fn show(record: &Record) -> Section {
     let mut section = Section::default();
     section.text(
-        "Queries are drawn over the whole map, so that paths grow with its sides. Memory counts what an engine prepares besides the map: search graph and index. The scratch of a \
-         search comes on top; for engines on the grid graph it is 16 to 24 bytes a vertex.",
+        "Queries are drawn over the whole map, so that paths grow with its sides. Memory counts what an \
+         engine prepares besides the map: search graph and index. The scratch of a search comes on top; for \
+         engines on the grid graph it is 16 to 24 bytes a vertex.",
     );
     for (column, scale, label, title) in [
         ("micros", 1.0, "mean time of a query, µs", "Time of a query"),

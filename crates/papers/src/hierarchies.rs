@@ -117,8 +117,9 @@ fn on_map(context: &Context<'_>, map: &Map, k: &str, every: usize) -> Result<Opt
 fn show(record: &Record) -> Section {
     let mut section = Section::default();
     section.text(
-        "Botea, Müller & Schaeffer 2004 claim paths within 1 % of the optimum after smoothing, up to ten times faster than A*. Clusters of 10 × 10 cells, 3 levels. Nodes and times \
-         are A*'s over those of HPA*.",
+        "Botea, Müller & Schaeffer 2004 claim paths within 1 % of the optimum after smoothing, up to ten \
+         times faster than A*. Clusters of 10 × 10 cells, 3 levels. Nodes and times are A*'s over those of \
+         HPA*.",
     );
     let mut table = Table::new([
         "set",

@@ -17,8 +17,10 @@ use crate::{
 };
 
 /// What the marks of tables mean.
-const MARKS: &str = "✓ as published: to the printed digits if the instances are the same, else within 3 % or the stated tolerance. ≈ within two standard errors \
-                     of the difference, as another draw of the instances could be. ✗ differs: [deviations](deviations.md) says why. – not measured.";
+const MARKS: &str = "✓ as published: to the printed digits if the instances are the same, else within 3 % or \
+                     the stated tolerance. ≈ within two standard errors of the difference, as another draw \
+                     of the instances could be. ✗ differs: [deviations](deviations.md) says why. – not \
+                     measured.";
 
 /// Draws the pages of a folder from the records in it, and writes those that changed.
 ///
@@ -98,7 +100,8 @@ fn about(record: &Record) -> String {
         &record.provenance;
     let mut text = String::new();
     if *bundled {
-        text += "> **Not the paper's maps.** The benchmark sets were not there, so this was measured on the maps that come with the project.\n\n";
+        text += "> **Not the paper's maps.** The benchmark sets were not there, so this was measured on the \
+                 maps that come with the project.\n\n";
     }
     if *quick {
         text += "> A quick run, on an even sample.\n\n";
@@ -117,7 +120,8 @@ fn about(record: &Record) -> String {
     if let Some(passes) = passes {
         let cpu = machine.cpu.as_deref().unwrap_or(&machine.arch);
         text += &format!(
-            " Times: one thread, warm, paths included, reading and preprocessing excluded, median of {passes} passes, on {cpu}."
+            " Times: one thread, warm, paths included, reading and preprocessing excluded, median of \
+             {passes} passes, on {cpu}."
         );
     } else if record.columns.iter().any(|column| column.kind == ColumnKind::Time) {
         text += " No times were taken.";
@@ -129,8 +133,9 @@ fn about(record: &Record) -> String {
 
 /// The page of the deviations and their causes.
 fn deviations(shown: &[(&Experiment, &Record, Section)]) -> String {
-    let mut text = "# Where our numbers differ from the published ones\n\n[All results](README.md). Each group belongs to one table column, figure or sentence of a \
-                    paper. The difference is our number over the published one, less 1.\n\n"
+    let mut text = "# Where our numbers differ from the published ones\n\n[All results](README.md). Each \
+                    group belongs to one table column, figure or sentence of a paper. The difference is our \
+                    number over the published one, less 1.\n\n"
         .to_owned();
     for page in Page::ALL {
         let mut groups: Vec<(&str, &str, Vec<&Claim>)> = Vec::new();
@@ -199,10 +204,12 @@ fn listed(claims: &[&Claim]) -> String {
 
 /// The page `README.md`: a table of all experiments.
 fn index(shown: &[(&Experiment, &Record, Section)]) -> String {
-    let mut text = "# Results\n\nEvery table and figure of the five papers, measured by `cargo xtask reproduce-tables`, beside the published values.\n\n"
+    let mut text = "# Results\n\nEvery table and figure of the five papers, measured by `cargo xtask \
+                    reproduce-tables`, beside the published values.\n\n"
         .to_owned();
     if shown.iter().any(|(_, record, _)| record.provenance.bundled) {
-        text += "> **Not the papers' maps.** Some benchmark sets were not there: `cargo xtask download` fetches them.\n\n";
+        text += "> **Not the papers' maps.** Some benchmark sets were not there: `cargo xtask download` \
+                 fetches them.\n\n";
     }
     if shown.iter().any(|(_, record, _)| record.provenance.quick) {
         text += "> A quick run, on an even sample.\n\n";
@@ -229,18 +236,16 @@ fn index(shown: &[(&Experiment, &Record, Section)]) -> String {
     table.row(cells);
     text += &table.markdown();
     text += &format!(
-        "\n{MARKS}\n\n\
-         The pages are drawn from the records in [`{DATA}/`]({DATA}): JSON, one row on a line, each column with its unit, with revision, machine, number of \
-         instances and seed. Lengths and numbers of nodes are the same on every machine; times are not, so only their ratios can be compared.\n\n\
-         ```sh\n\
-         cargo xtask reproduce-tables                      # everything, {} experiments\n\
-         cargo xtask reproduce-tables --quick              # an even sample, into docs/results/quick\n\
-         cargo xtask reproduce-tables --only kramm2018     # one page, or one experiment\n\
-         cargo xtask reproduce-tables --render             # the pages again, from the records\n\
-         cargo xtask reproduce-tables --check              # whether the counts are still the same\n\
-         ```\n\n\
-         A run that is interrupted goes on where it was. Benchmark sets that are not there are downloaded, or taken from `--mirror`; without them the experiments run on the \
-         maps that come with the project, and say so.\n",
+        "\n{MARKS}\n\nThe pages are drawn from the records in [`{DATA}/`]({DATA}): JSON, one row on a line, \
+         each column with its unit, with revision, machine, number of instances and seed. Lengths and \
+         numbers of nodes are the same on every machine; times are not, so only their ratios can be \
+         compared.\n\n```sh\ncargo xtask reproduce-tables                      # everything, {} experiments\n\
+         cargo xtask reproduce-tables --quick              # an even sample, into docs/results/quick\ncargo \
+         xtask reproduce-tables --only kramm2018     # one page, or one experiment\ncargo xtask \
+         reproduce-tables --render             # the pages again, from the records\ncargo xtask \
+         reproduce-tables --check              # whether the counts are still the same\n```\n\nA run that is \
+         interrupted goes on where it was. Benchmark sets that are not there are downloaded, or taken from \
+         `--mirror`; without them the experiments run on the maps that come with the project, and say so.\n",
         EXPERIMENTS.len()
     );
     text

@@ -105,7 +105,8 @@ fn measure(setting: &Setting, experiment: &'static Experiment) -> Result<Record,
     let context = Context::new(setting, experiment.id, experiment.sets);
     if context.is_bundled() {
         eprintln!(
-            "{}: none of the sets {} is there. It runs on the maps that come with the project: these are not the paper's.",
+            "{}: none of the sets {} is there. It runs on the maps that come with the project: these are not \
+             the paper's.",
             experiment.id,
             experiment.sets.join(", ")
         );

@@ -150,18 +150,28 @@ fn on_map(context: &Context<'_>, map: &Map, parts: usize) -> Result<Part, Error>
 
 // Why our numbers differ from theirs.
 
-const TIES: &str = "Our guess: how ties are broken. Ours takes, of nodes with equal f, the one nearest to the goal. Measured once, by code that is not kept here, on the same 800 \
-    instances: an A* that takes the one that came first makes A* + MD expand 67.6 % of the tiles of A* + ED, and A* + SED 19.9 % of those of A* + MD: the published 67 and \
-    20 %. With ties turned around in all of our searches, CHPA* by ED expands 142 % of the tiles of CHPA* by MD (published 134, ours 164), and CHPA* by MD 68 % of those of \
-    A* + SED (published 80, ours 59).";
-const CHECKPOINTS: &str = "Our guess: where the checkpoints are. The paper does not say in which order the tiles of a wall are tried. Ours, from its middle outwards, loses so little at \
-    Pstep 1 that there is little to win back; two other orders, from either end of the wall, lost 0.2 and 0.3 % (measured once, by code that is not kept here). Among free tiles no \
-    order can lose any length, as the path stays monotone from checkpoint to checkpoint. What is left are the walls: the paper itself reports obstacles that its windows do not \
-    recognize, and extremely long paths there. Ours gives such queries up (column *gave up*).";
-const PER_NODE: &str = "Our guess: the time of a node. The published numbers need a node of CHPA* to cost a quarter of a node of A*: 3 % of the time for 13 % of the nodes. Here both cost \
-    the same, as the open list is a heap. A list that is searched from end to end would make the difference: the one of A* + MD holds 694 entries in the mean on these instances \
-    if ties are taken first in, first out (measured once, by code that is not kept here), that of a search from checkpoint to checkpoint a few. Which list the paper's program \
-    has is not published.";
+const TIES: &str = "Our guess: how ties are broken. Ours takes, of nodes with equal f, the one nearest to \
+                    the goal. Measured once, by code that is not kept here, on the same 800 instances: an A* \
+                    that takes the one that came first makes A* + MD expand 67.6 % of the tiles of A* + ED, \
+                    and A* + SED 19.9 % of those of A* + MD: the published 67 and 20 %. With ties turned \
+                    around in all of our searches, CHPA* by ED expands 142 % of the tiles of CHPA* by MD \
+                    (published 134, ours 164), and CHPA* by MD 68 % of those of A* + SED (published 80, ours \
+                    59).";
+const CHECKPOINTS: &str = "Our guess: where the checkpoints are. The paper does not say in which order the \
+                           tiles of a wall are tried. Ours, from its middle outwards, loses so little at \
+                           Pstep 1 that there is little to win back; two other orders, from either end of \
+                           the wall, lost 0.2 and 0.3 % (measured once, by code that is not kept here). \
+                           Among free tiles no order can lose any length, as the path stays monotone from \
+                           checkpoint to checkpoint. What is left are the walls: the paper itself reports \
+                           obstacles that its windows do not recognize, and extremely long paths there. Ours \
+                           gives such queries up (column *gave up*).";
+const PER_NODE: &str = "Our guess: the time of a node. The published numbers need a node of CHPA* to cost a \
+                        quarter of a node of A*: 3 % of the time for 13 % of the nodes. Here both cost the \
+                        same, as the open list is a heap. A list that is searched from end to end would make \
+                        the difference: the one of A* + MD holds 694 entries in the mean on these instances \
+                        if ties are taken first in, first out (measured once, by code that is not kept \
+                        here), that of a search from checkpoint to checkpoint a few. Which list the paper's \
+                        program has is not published.";
 
 fn claims(record: &Record) -> Vec<Claim> {
     const TABLE_1: &str = "Section 5, Table 1";
@@ -211,8 +221,10 @@ fn claims(record: &Record) -> Vec<Claim> {
 fn show(record: &Record) -> Section {
     let mut section = Section::default();
     section.text(
-        "The publication's tables are pictures, whose numbers its text does not repeat; these are the numbers that it states in words. MD, ED and SED are the Manhattan, \
-         Euclidean and squared Euclidean distances; F1 and F2 the heuristics of the two phases. Lengths of runs that gave up on some queries are compared on the others.",
+        "The publication's tables are pictures, whose numbers its text does not repeat; these are the \
+         numbers that it states in words. MD, ED and SED are the Manhattan, Euclidean and squared Euclidean \
+         distances; F1 and F2 the heuristics of the two phases. Lengths of runs that gave up on some queries \
+         are compared on the others.",
     );
     section.claims(claims(record), true);
     let base = record.rows.first();

@@ -153,8 +153,9 @@ fn name(path: &Path) -> String {
 }
 
 /// The form of [`map_digest`], as [`Manifest::digest`] states it.
-pub const DIGEST: &str = "sha256 of: width and height, each as 4 bytes, lowest first; then a bit a cell, row by row without \
-                          padding, 1 = blocked, the first cell in the lowest bit of the first byte, zeros after the last";
+pub const DIGEST: &str = "sha256 of: width and height, each as 4 bytes, lowest first; then a bit a cell, row \
+                          by row without padding, 1 = blocked, the first cell in the lowest bit of the first \
+                          byte, zeros after the last";
 
 /// The digest of a map's cells, whatever the line ends and headers of its file: SHA-256, in hexadecimal, over
 /// the form [`DIGEST`].

@@ -58,7 +58,8 @@ pub(super) fn check(tree: &Tree, exceptions: &[Exception], findings: &mut Vec<Fi
 fn too_long(function: Option<&str>, lines: usize, allowed: usize) -> String {
     match function {
         Some(name) => format!(
-            "`{name}` has {lines} lines, at most {allowed}: a function that does not fit on a screen is not seen as a whole"
+            "`{name}` has {lines} lines, at most {allowed}: a function that does not fit on a screen is not \
+             seen as a whole"
         ),
         None => {
             format!("{lines} lines, at most {allowed}: a file should have one subject; split it by subjects")
@@ -155,7 +156,8 @@ fn check_lib(path: &Path, text: &str, file: &syn::File, findings: &mut Vec<Findi
             let line = syn::spanned::Spanned::span(item).start().line;
             find(
                 line,
-                "an item in lib.rs: it holds the story, `mod` lines and re-exports only, to be read as a table of contents",
+                "an item in lib.rs: it holds the story, `mod` lines and re-exports only, to be read as a \
+                 table of contents",
             );
         }
     }

@@ -49,12 +49,14 @@ pub(super) fn text(results: &Results<'_>) -> String {
         if !same.is_empty() {
             let quality = if setup.optimal_over().is_some() { "" } else { ", neither optimally" };
             lines.push(format!(
-                "\n{setup} by the scaled time of programs that solve the same problem{quality} (< 1: we are faster)"
+                "\n{setup} by the scaled time of programs that solve the same problem{quality} (< 1: we are \
+                 faster)"
             ));
             lines.extend(ratios(results, i, &same).lines());
             if setup.capabilities().index.is_some() {
                 lines.push(format!(
-                    "\n{setup}: what comes before the first query, on all cores, by the scaled time and the index file of these programs"
+                    "\n{setup}: what comes before the first query, on all cores, by the scaled time and the \
+                     index file of these programs"
                 ));
                 lines.extend(preparation(results, i, &same).lines());
             }
@@ -104,7 +106,10 @@ fn disturbance(scales: &[f64]) -> Option<String> {
         scales.iter().fold((f64::MAX, 0.0_f64), |(a, b), &scale| (a.min(scale), b.max(scale)));
     let factor = most / least;
     (factor > 1.3).then(|| {
-        format!("CAUTION: here/there differs by a factor of {factor:.2} from map to map: was the machine busy? Measure again.")
+        format!(
+            "CAUTION: here/there differs by a factor of {factor:.2} from map to map: was the machine \
+                 busy? Measure again."
+        )
     })
 }
 

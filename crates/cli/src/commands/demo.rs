@@ -163,9 +163,10 @@ fn table(map: &Map, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
 
 /// Says how to read the table, and what to try next.
 fn explanation(builtin: &Builtin, screen: &mut Screen) -> io::Result<()> {
-    let words = "Each path is the shortest that its moves allow. k = 2 moves along the axes, k = 3 adds the diagonals, each \
-                 further k adds a move between every two, and k = ∞ allows every direction. `bound` says how much longer \
-                 than an any-angle path the shortest path of that k can be, whatever the map.";
+    let words = "Each path is the shortest that its moves allow. k = 2 moves along the axes, k = 3 adds the \
+                 diagonals, each further k adds a move between every two, and k = ∞ allows every direction. \
+                 `bound` says how much longer than an any-angle path the shortest path of that k can be, \
+                 whatever the map.";
     let text = wrap("  ", words.split(' ').map(str::to_owned), screen.columns().min(80) - 2);
     writeln!(screen, "\n{text}")?;
     let Builtin { name, start, goal, .. } = builtin;

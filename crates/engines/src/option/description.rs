@@ -43,8 +43,8 @@ pub(crate) static HEURISTIC: EngineOption = EngineOption {
     kind: ValueKind::Heuristic,
     key: None,
     is_index_option: false,
-    help: "The heuristic of the search: the cost on an empty grid (the default), the straight-line distance, zero, or \
-           the distance squared, which overestimates",
+    help: "The heuristic of the search: the cost on an empty grid (the default), the straight-line distance, \
+           zero, or the distance squared, which overestimates",
     phrase: "heuristic {}",
     samples: &["euclidean", "zero", "squared"],
 };
@@ -56,8 +56,8 @@ pub(crate) static VARIANT: EngineOption = EngineOption {
     kind: ValueKind::Variant,
     key: None,
     is_index_option: false,
-    help: "For an engine that was published with a flaw: the repaired variant (the default; exact for canonical, complete \
-           for chpa), or paper, the published one",
+    help: "For an engine that was published with a flaw: the repaired variant (the default; exact for \
+           canonical, complete for chpa), or paper, the published one",
     phrase: "variant {}",
     samples: &["paper"],
 };
@@ -93,9 +93,9 @@ pub(crate) static LEVELS: EngineOption = EngineOption {
     kind: ValueKind::Levels,
     key: Some("levels"),
     is_index_option: true,
-    help: "The number of levels of the subgoal graph (1 is the graph without a hierarchy) or of the clusters, or all. \
-           A contraction hierarchy by default for subgoal, 2 levels for subgoal-theta, 3 levels for hpa; with --index, \
-           those of the index",
+    help: "The number of levels of the subgoal graph (1 is the graph without a hierarchy) or of the \
+           clusters, or all. A contraction hierarchy by default for subgoal, 2 levels for subgoal-theta, 3 \
+           levels for hpa; with --index, those of the index",
     phrase: "{}",
     samples: &["1", "2", "all"],
 };
@@ -107,8 +107,8 @@ pub(crate) static SIDE: EngineOption = EngineOption {
     kind: ValueKind::Number,
     key: Some("side"),
     is_index_option: true,
-    help: "Cut the map into clusters (on the lowest level) or segments of N × N cells. 10 by default for hpa, 3 for chpa; \
-           with --index, those of the index",
+    help: "Cut the map into clusters (on the lowest level) or segments of N × N cells. 10 by default for \
+           hpa, 3 for chpa; with --index, those of the index",
     phrase: "side {}",
     samples: &["2", "5"],
 };
@@ -132,7 +132,8 @@ pub(crate) static SECOND: EngineOption = EngineOption {
     kind: ValueKind::Heuristic,
     key: Some("second"),
     is_index_option: false,
-    help: "The heuristic of chpa's second phase, from checkpoint to checkpoint. That of the first phase by default",
+    help: "The heuristic of chpa's second phase, from checkpoint to checkpoint. That of the first phase by \
+           default",
     phrase: "second heuristic {}",
     samples: &["squared"],
 };
@@ -156,7 +157,8 @@ pub(crate) static DETOUR: EngineOption = EngineOption {
     kind: ValueKind::Number,
     key: Some("detour"),
     is_index_option: false,
-    help: "Skip a checkpoint to which the path costs more than N times what it would cost on an empty grid. 3 by default",
+    help: "Skip a checkpoint to which the path costs more than N times what it would cost on an empty grid. \
+           3 by default",
     phrase: "detours up to {}",
     samples: &["1"],
 };

@@ -13,7 +13,8 @@ use super::{
 pub enum IndexError {
     /// The bytes do not begin like an index.
     #[error(
-        "expected an index as `mediant build` makes it, found {found} at its start; is this the file that you meant?"
+        "expected an index as `mediant build` makes it, found {found} at its start; is this the file that \
+         you meant?"
     )]
     NotAnIndex {
         /// The first bytes, quoted.
@@ -35,7 +36,8 @@ pub enum IndexError {
     },
     /// The checksum is wrong: the bytes are not those that were saved.
     #[error(
-        "expected the checksum that was saved with the index, found another: the file is damaged; copy it again, or {BUILD_AGAIN}"
+        "expected the checksum that was saved with the index, found another: the file is damaged; copy it \
+         again, or {BUILD_AGAIN}"
     )]
     Damaged,
     /// The checksum is right, but a field of the header has a value that it cannot have.
@@ -54,7 +56,8 @@ pub enum IndexError {
     },
     /// The index was built by another engine.
     #[error(
-        "expected an index of the engine {expected}, found one of {found}; choose that engine, or {BUILD_AGAIN}"
+        "expected an index of the engine {expected}, found one of {found}; choose that engine, or \
+         {BUILD_AGAIN}"
     )]
     Engine {
         /// The engine that is to use the index.
@@ -74,7 +77,8 @@ pub enum IndexError {
     },
     /// The index was built under other rules of motion.
     #[error(
-        "expected an index for the rules `{expected}`, found one for `{found}`; choose those rules, or {BUILD_AGAIN}"
+        "expected an index for the rules `{expected}`, found one for `{found}`; choose those rules, or \
+         {BUILD_AGAIN}"
     )]
     Rules {
         /// The rules in use.
@@ -96,7 +100,8 @@ pub enum IndexError {
     },
     /// The index was built for another map.
     #[error(
-        "expected an index for this map ({expected}), found one for another ({found}); name that map, or {BUILD_AGAIN}"
+        "expected an index for this map ({expected}), found one for another ({found}); name that map, or \
+         {BUILD_AGAIN}"
     )]
     Map {
         /// The map in use.

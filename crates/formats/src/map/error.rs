@@ -40,8 +40,8 @@ pub enum MapError {
     },
     /// A row has fewer cells than the width.
     #[error(
-        "line {line}, column {column}: expected a row of {expected} cells, found the end of the line after {found}; \
-         complete the row or mend the width in the header"
+        "line {line}, column {column}: expected a row of {expected} cells, found the end of the line after \
+         {found}; complete the row or mend the width in the header"
     )]
     ShortRow {
         /// The line, from 1.
@@ -55,8 +55,8 @@ pub enum MapError {
     },
     /// A row has more cells than the width.
     #[error(
-        "line {line}, column {column}: expected the end of a row of {expected} cells, found {found} more bytes; \
-         shorten the row or mend the width in the header"
+        "line {line}, column {column}: expected the end of a row of {expected} cells, found {found} more \
+         bytes; shorten the row or mend the width in the header"
     )]
     LongRow {
         /// The line, from 1.
@@ -109,4 +109,5 @@ pub enum MapError {
     },
 }
 
-const HEADER_FORM: &str = "a MovingAI map begins with the lines `type octile`, `height N`, `width N` and `map`, with its rows below";
+const HEADER_FORM: &str = "a MovingAI map begins with the lines `type octile`, `height N`, `width N` and \
+                           `map`, with its rows below";

@@ -6,7 +6,8 @@
 pub enum ScenarioError {
     /// The file is empty.
     #[error(
-        "line 1, column 1: expected a MovingAI scenario, found an empty file; is this the file that you meant?"
+        "line 1, column 1: expected a MovingAI scenario, found an empty file; is this the file that you \
+         meant?"
     )]
     Empty,
     /// The first line is not `version 1` or `version 1.0`.
@@ -20,8 +21,8 @@ pub enum ScenarioError {
     },
     /// A line has too few or too many fields.
     #[error(
-        "line {line}, column {column}: expected nine fields (bucket, map, width, height, start x, start y, goal x, goal y, \
-         optimal length), found {found}; separate them by tabs if the map's name has spaces"
+        "line {line}, column {column}: expected nine fields (bucket, map, width, height, start x, start y, \
+         goal x, goal y, optimal length), found {found}; separate them by tabs if the map's name has spaces"
     )]
     Fields {
         /// The line, from 1.

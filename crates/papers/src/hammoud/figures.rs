@@ -60,8 +60,8 @@ pub(super) fn measure(ctx: &Context<'_>) -> Result<Findings, Error> {
         maps: maps.len(),
         instances: parts.iter().filter_map(|part| part.sums.first()).map(|sums| sums.queries).sum(),
         drawn: format!(
-            "of the scenarios, which are sorted by length, one instance in {} on maps of 256 × 256 cells, in {} on 512 × 512, in {} on 1024 × 1024, the same \
-             for all engines",
+            "of the scenarios, which are sorted by length, one instance in {} on maps of 256 × 256 cells, in \
+             {} on 512 × 512, in {} on 1024 × 1024, the same for all engines",
             every[0], every[1], every[2]
         ),
         seeded: false,

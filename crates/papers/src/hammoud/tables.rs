@@ -110,7 +110,8 @@ fn columns() -> Vec<Column> {
         Column::key("rule", "the corner rule"),
         Column::key(
             "engine",
-            "the engine, k = 3 at centers; with options, one that is tried to explain a number; or an A* whose open list is an unsorted list",
+            "the engine, k = 3 at centers; with options, one that is tried to explain a number; or an A* \
+             whose open list is an unsorted list",
         ),
         Column::count("index", "", "of the instance in the map's scenario, from 0"),
         Column::count("optimum", "cells", "length that the scenario states"),

@@ -188,8 +188,9 @@ fn overall(graphs: &[Graphs], sense: Sense) -> Option<f64> {
 fn show(record: &Record) -> Section {
     let mut section = Section::default();
     section.text(
-        "The paper gives an average branching factor of the 2-level graph and does not say over what. Here are four readings, each as the mean of the maps' factors and over \
-         the subgoals of all maps together.",
+        "The paper gives an average branching factor of the 2-level graph and does not say over what. Here \
+         are four readings, each as the mean of the maps' factors and over the subgoals of all maps \
+         together.",
     );
     let mut table = Table::new([
         "set",
@@ -267,8 +268,10 @@ fn claims(record: &Record) -> Vec<Claim> {
     };
     let claim = |&(set, k, factor): &(&str, u32, f64)| {
         let cause = format!(
-            "The paper does not say over what it averages. At k = 3 and 9, over all subgoals of {set} (in the mean of maps): {} within the second level, {} upward, {} both ways, {} on one level. \
-             None of these, nor of the last five maps of each kind, gives all four published numbers; for rooms the second level comes nearest, for Baldur's Gate what leads upward.",
+            "The paper does not say over what it averages. At k = 3 and 9, over all subgoals of {set} (in \
+             the mean of maps): {} within the second level, {} upward, {} both ways, {} on one level. None \
+             of these, nor of the last five maps of each kind, gives all four published numbers; for rooms \
+             the second level comes nearest, for Baldur's Gate what leads upward.",
             told(set, Sense::Core),
             told(set, Sense::Upward),
             told(set, Sense::BothWays),

@@ -122,7 +122,8 @@ fn measure(ctx: &Context<'_>) -> Result<Findings, Error> {
         maps: 0,
         instances: 2 * count as u64,
         drawn: format!(
-            "displacements of coordinates up to {MAX_COORDINATE}, half of them at random, half along walks; each way of each k takes all in turn"
+            "displacements of coordinates up to {MAX_COORDINATE}, half of them at random, half along walks; \
+             each way of each k takes all in turn"
         ),
         seeded: true,
     })
@@ -185,7 +186,8 @@ fn columns() -> Vec<Column> {
         Column::time(
             "chain",
             "ns",
-            "the linear search as the papers' Algorithm 1 prints it: an `if` a move, moves and lengths constants",
+            "the linear search as the papers' Algorithm 1 prints it: an `if` a move, moves and lengths \
+             constants",
         ),
         Column::time("closed", "ns", "the closed forms of h_3, h_4 and h_5"),
         Column::time("table", "ns", "in fixed-point costs, from a table, as searches take it"),
@@ -205,8 +207,10 @@ const WAYS: [(&str, &str); 6] = [
 fn show(record: &Record) -> Section {
     let mut section = Section::default();
     section.text(
-        "Nanoseconds for one distance. What decides is whether the processor predicts the branches of the searches: for random displacements it cannot; along a walk, as in a search, \
-         where each displacement is near the last, it can. Inlined into a loop, the compiler may also take several vectors at once; a search calls for one at a time.",
+        "Nanoseconds for one distance. What decides is whether the processor predicts the branches of the \
+         searches: for random displacements it cannot; along a walk, as in a search, where each displacement \
+         is near the last, it can. Inlined into a loop, the compiler may also take several vectors at once; \
+         a search calls for one at a time.",
     );
     let mut heading = vec!["order", "how", "k"];
     heading.extend(WAYS.map(|(_, name)| name));
@@ -274,9 +278,11 @@ fn claims(record: &Record) -> Vec<Claim> {
         ratios.join(", ")
     };
     let cause = format!(
-        "The ratio depends on what is asked for and on how the linear search is written, both of which the paper leaves open. Algorithm 2 as printed takes, at k = 5, 6, 7: {} of the time of \
-         a search over a table of moves on displacements at random, {} along walks, where branches are predicted; {} and {} of that of the printed Algorithm 1, one `if` a move with all moves constants of the program. \
-         The published range lies within what these four span.",
+        "The ratio depends on what is asked for and on how the linear search is written, both of which the \
+         paper leaves open. Algorithm 2 as printed takes, at k = 5, 6, 7: {} of the time of a search over a \
+         table of moves on displacements at random, {} along walks, where branches are predicted; {} and {} \
+         of that of the printed Algorithm 1, one `if` a move with all moves constants of the program. The \
+         published range lies within what these four span.",
         told("random", "linear"),
         told("walk", "linear"),
         told("random", "chain"),
@@ -284,7 +290,8 @@ fn claims(record: &Record) -> Vec<Claim> {
     );
     let claim = |k| {
         let what = format!(
-            "time of the printed iterative h_{k} over that of the linear search, displacements at random, 0.65 to 0.75"
+            "time of the printed iterative h_{k} over that of the linear search, displacements at random, \
+             0.65 to 0.75"
         );
         // The range is its center and so much to each side.
         let claim = Claim::new("Iterative h_2^k in Practice", what, 0.7, of("random", k, "linear"));

@@ -129,8 +129,14 @@ pub(super) fn measure(ctx: &Context<'_>) -> Result<Findings, Error> {
         maps: maps.len(),
         instances: queries,
         drawn: format!(
-            "every {every}th instance of each scenario, those with joined ends, vertices at corners, gaps open{}",
-            ctx.quick_or("", "; of bg512 and room every second map, of sc1 every eighth, of random every second of those with 40 % blocked, since 2-level graphs of sparser noise take minutes each")
+            "every {every}th instance of each scenario, those with joined ends, vertices at corners, gaps \
+             open{}",
+            ctx.quick_or(
+                "",
+                "; of bg512 and room every second map, of sc1 every eighth, of random every \
+                              second of those with 40 % blocked, since 2-level graphs of sparser noise take \
+                              minutes each"
+            )
         ),
         seeded: false,
     })

@@ -141,8 +141,9 @@ fn show(record: &Record) -> Section {
     }
     section.table(&table);
     section.text(
-        "The largest ratio on an empty grid comes as near to Γ_k as a displacement comes to the direction that bisects (0, 1) and (1, k − 2). `bisecting` is the \
-         ratio at the paper's goal (n, ⌊n(√((k − 2)² + 1) + k − 2)⌋). (The paper subtracts n there from the number of moves (0, 1); it is n(k − 2).) \
+        "The largest ratio on an empty grid comes as near to Γ_k as a displacement comes to the direction \
+         that bisects (0, 1) and (1, k − 2). `bisecting` is the ratio at the paper's goal (n, ⌊n(√((k − 2)² \
+         + 1) + k − 2)⌋). (The paper subtracts n there from the number of moves (0, 1); it is n(k − 2).) \
          Between centers no k ≥ 3 helps: the instance of Figure 6 attains the bound at each.",
     );
     section.figure("kramm2018-bounds-gamma", "Bounds and largest ratios by k", chart(record));
@@ -195,8 +196,10 @@ fn chart(record: &Record) -> String {
 }
 
 fn trees() -> String {
-    let mut drawing = TreeDrawing::new("Decomposition trees of (7, 5)")
-        .note("A node above level k has the two adjacent moves for children of which it is the sum; the leaves are a path over N(k)");
+    let mut drawing = TreeDrawing::new("Decomposition trees of (7, 5)").note(
+        "A node above level k has the two adjacent moves for children of which it is the sum; the \
+               leaves are a path over N(k)",
+    );
     for k in [7, 6, 5, 4] {
         if let Some(tree) = FiniteK::new(k).ok().and_then(|k| DecompositionTree::new(Vector::new(7, 5), k)) {
             drawing = drawing.tree(format!("level {k}"), &tree);
@@ -255,8 +258,9 @@ fn worked_example() -> Vec<Claim> {
     let moves = level(nine).map(|level| f64::from(level).exp2());
     let own = Claim::new(source, "the smallest neighborhood with the move (7, 9)", 512.0, moves).exact(0);
     claims.push(own.because(
-        "A misprint: one step after (4, 5) + (3, 4), which the paper has right for the 128-neighborhood, comes the 256-neighborhood, and there (7, 9) = (4, 5) + (3, 4) \
-         is a move. By Algorithm 1 its level is 8, and 2^8 = 256.",
+        "A misprint: one step after (4, 5) + (3, 4), which the paper has right for the 128-neighborhood, \
+         comes the 256-neighborhood, and there (7, 9) = (4, 5) + (3, 4) is a move. By Algorithm 1 its level \
+         is 8, and 2^8 = 256.",
     ));
     claims
 }

@@ -172,8 +172,14 @@ fn measure(ctx: &Context<'_>) -> Result<Findings, Error> {
         rows,
         maps: maps.len(),
         instances: queries,
-        drawn: ctx.quick_or("every 40th instance".to_owned(), format!("all instances of the paper's maps, every {EVERY}th of the others; of random the paper's maps alone"))
-            + ", if its ends are free and joined at corners",
+        drawn: ctx.quick_or(
+            "every 40th instance".to_owned(),
+            format!(
+                "all instances of the paper's maps, \
+                                                                       every {EVERY}th of the others; of \
+                                                                       random the paper's maps alone"
+            ),
+        ) + ", if its ends are free and joined at corners",
         seeded: false,
     })
 }
@@ -225,9 +231,11 @@ fn percent(ratio: f64) -> f64 {
 fn show(record: &Record) -> Section {
     let mut section = Section::default();
     section.text(
-        "The paper took 6,282 instances of Baldur's Gate, 45,760 of random maps and 39,460 of rooms, and does not say which. These are the numbers of instances of the last five maps, by name: \
-         of bg512, of each density of 10, 20, 30 and 40 % of random, and of each size of rooms. So *the paper's maps* are these 45 here; *all* are those of the sets that were taken. \
-         Its Figure 7 compares ratios with the bound: hence the columns 'of Γ_k'.",
+        "The paper took 6,282 instances of Baldur's Gate, 45,760 of random maps and 39,460 of rooms, and \
+         does not say which. These are the numbers of instances of the last five maps, by name: of bg512, of \
+         each density of 10, 20, 30 and 40 % of random, and of each size of rooms. So *the paper's maps* are \
+         these 45 here; *all* are those of the sets that were taken. Its Figure 7 compares ratios with the \
+         bound: hence the columns 'of Γ_k'.",
     );
     for set in record.distinct("set") {
         section.figure(
@@ -237,8 +245,10 @@ fn show(record: &Record) -> Section {
         );
     }
     section.text(
-        "Averages and largest ratios are those of the optimum over N(k) to the any-angle optimum, gaps open in both. Against the any-angle optimum with gaps closed, which is what Anya finds \
-         (the last two columns), averages fall below 1 where paths through gaps are shorter: in noise by far. So both must be taken under the same rule.",
+        "Averages and largest ratios are those of the optimum over N(k) to the any-angle optimum, gaps open \
+         in both. Against the any-angle optimum with gaps closed, which is what Anya finds (the last two \
+         columns), averages fall below 1 where paths through gaps are shorter: in noise by far. So both must \
+         be taken under the same rule.",
     );
     for set in record.distinct("set") {
         section.heading(set);
@@ -293,7 +303,9 @@ fn claims(record: &Record) -> Vec<Claim> {
     let [without_2, from_4] = [3, 4].map(|k| below(record, k..=LAST_PUBLISHED_K).unwrap_or_default());
     let what = "the same, 'less than 2 %'";
     claims.push(Claim::new("Summary", what, 2.0, mean).written(1, " %").because(format!(
-        "The paper gives two numbers for it: about 3 % with the experiment, which is what we find, and less than 2 % in the summary. It is k = 2 that makes the difference: without it the mean is {without_2:.1} %, from k = 4 on {from_4:.1} %."
+        "The paper gives two numbers for it: about 3 % with the experiment, which is what we find, and less \
+         than 2 % in the summary. It is k = 2 that makes the difference: without it the mean is \
+         {without_2:.1} %, from k = 4 on {from_4:.1} %."
     )));
     for (set, _) in PUBLISHED {
         let all: Option<f64> = (FIRST_K..=LAST_K).map(|k| ours(set, "all", k, "violations")).sum();

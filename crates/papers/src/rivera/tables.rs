@@ -60,7 +60,8 @@ pub(super) fn measure(context: &Context<'_>) -> Result<Findings, Error> {
         maps: maps.len(),
         instances: instances.sum(),
         drawn: format!(
-            "{} random solvable problems on each StarCraft map, {} on each other, as many as in the paper, whose own are lost; one in {TIMED} is timed",
+            "{} random solvable problems on each StarCraft map, {} on each other, as many as in the paper, \
+             whose own are lost; one in {TIMED} is timed",
             problems(context, "sc1"),
             problems(context, "bg512")
         ),
@@ -86,8 +87,8 @@ fn columns() -> Vec<Column> {
     }
     for measure in COUNTS {
         let about = format!(
-            "standard error, by the draw of the problems, of the {} over those of k = 3; of k = 3, over those of the other heuristic or of A*; \
-             where there is neither, of the mean itself; a part of it",
+            "standard error, by the draw of the problems, of the {} over those of k = 3; of k = 3, over \
+             those of the other heuristic or of A*; where there is neither, of the mean itself; a part of it",
             measure.words()
         );
         columns.push(Column::count(&error_column(measure), "", &about));

@@ -140,11 +140,13 @@ fn of(record: &Record, search: &str, k: u32, column: &str) -> Option<f64> {
 pub(super) fn show(record: &Record) -> Section {
     let mut section = Section::default();
     section.text(
-        "A* with h_k beside Theta* with the octile distance, between corners. Excess: mean of the lengths over those of shortest any-angle paths, less 1.",
+        "A* with h_k beside Theta* with the octile distance, between corners. Excess: mean of the lengths \
+         over those of shortest any-angle paths, less 1.",
     );
     section.table(&table(record));
     if let Some(svg) = chart(record) {
-        let alternative = "Excess of the paths over the any-angle optimum against the time of a query, of A* for each k and of Theta*";
+        let alternative = "Excess of the paths over the any-angle optimum against the time of a query, of A* \
+                           for each k and of Theta*";
         section.figure("rivera2017-theta-excess", alternative, svg);
     }
     section.claims(claims(record), true);

@@ -57,7 +57,8 @@ pub enum JumpTableError {
     Neighborhood(#[from] KError),
     /// Too few or too many bytes.
     #[error(
-        "a jump table of {found} bytes, where this graph needs {expected}: the table is for another map, placement or k, or cut off; build it anew"
+        "a jump table of {found} bytes, where this graph needs {expected}: the table is for another map, \
+         placement or k, or cut off; build it anew"
     )]
     Length {
         /// The number of bytes needed: 2^k for each vertex.
@@ -75,7 +76,8 @@ pub enum JumpTableError {
     },
     /// An entry that does not fit the map.
     #[error(
-        "the jump table says {found:#04x} for move ({}, {}) at {at}, where this graph has {expected:#04x}: the table is for another map or rule, or damaged; build it anew",
+        "the jump table says {found:#04x} for move ({}, {}) at {at}, where this graph has {expected:#04x}: \
+         the table is for another map or rule, or damaged; build it anew",
         towards.x,
         towards.y
     )]

@@ -14,10 +14,11 @@ pub(in crate::hammoud) fn show(record: &Record) -> Section {
     let mut section = Section::default();
     let sizes = sizes(record);
     section.text(
-        "As in the paper, A* cuts no corners (`never`) and JPS may (`one`) in figures 8 to 13; the engines that the paper does not have are drawn under the rule \
-         of their kin. Dijkstra's paths are as long as those of A*, and those of block JPS and JPS+ as long as those of JPS. Wavefront \
-         finds the fewest moves, not the shortest path. A point is the mean over the queries of one map; the maps of a size stand in the order of their \
-         mean A* length.",
+        "As in the paper, A* cuts no corners (`never`) and JPS may (`one`) in figures 8 to 13; the engines \
+         that the paper does not have are drawn under the rule of their kin. Dijkstra's paths are as long as \
+         those of A*, and those of block JPS and JPS+ as long as those of JPS. Wavefront finds the fewest \
+         moves, not the shortest path. A point is the mean over the queries of one map; the maps of a size \
+         stand in the order of their mean A* length.",
     );
     summary(&mut section, &sizes);
     for size in &sizes {
@@ -212,8 +213,9 @@ fn summary(section: &mut Section, sizes: &[Size<'_>]) {
     }
     section.table(&table);
     section.text(
-        "The paper says that JPS finds about the same path as A*, and faster. The paths are a little shorter, as they may cut a corner, and under one rule both \
-         are equally long. Faster it is by far in nodes; in time, only as far as its jumps are fast.",
+        "The paper says that JPS finds about the same path as A*, and faster. The paths are a little \
+         shorter, as they may cut a corner, and under one rule both are equally long. Faster it is by far in \
+         nodes; in time, only as far as its jumps are fast.",
     );
 }
 
@@ -314,9 +316,11 @@ fn slower(size: &Size<'_>) -> Option<String> {
     let step = 1e3 * size.ratio_within(JPS, "micros", "scanned")?;
     let others = wins.map_or(String::new(), |wins| format!("; on the others {}", number(wins)));
     Some(format!(
-        "Each vertex that a jump of JPS looks at takes {} ns, each node that A* expands {} ns, as much as {} vertices. On the maps of {} on which A* is faster, \
-         the jumps look at {} vertices for each node of A* (median){others}. An A* whose open list is a list, as the times of tables I and II show the paper's \
-         to be, pays far more for a node. Block JPS, which looks at 64 cells at once, is faster than A* on {} of these maps.",
+        "Each vertex that a jump of JPS looks at takes {} ns, each node that A* expands {} ns, as much as {} \
+         vertices. On the maps of {} on which A* is faster, the jumps look at {} vertices for each node of \
+         A* (median){others}. An A* whose open list is a list, as the times of tables I and II show the \
+         paper's to be, pays far more for a node. Block JPS, which looks at 64 cells at once, is faster than \
+         A* on {} of these maps.",
         number(step),
         number(node),
         number(node / step),

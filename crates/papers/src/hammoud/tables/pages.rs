@@ -87,10 +87,12 @@ fn short(value: Option<f64>) -> String {
 fn lengths(section: &mut Section, asked: &[Asked<'_>]) {
     section.heading("Lengths");
     section.text(
-        "The captions of tables I and II are swapped: the instances of table I are on the 512 × 512 maps, those of table II on the 256 × 256 maps. \
-         *Instance* is the place in the map's scenario, from 0. The paper's A* lengths are those of corner rule `never`, which the scenarios are made \
-         for. Its JPS lengths are shorter: they are those of rule `one`, under which a path may pass one blocked cell's corner. So the two columns are \
-         answers to two problems; under one rule, A* and JPS are equally long.",
+        "The captions of tables I and II are swapped: the instances of table I are on the 512 × 512 maps, \
+         those of table II on the 256 × 256 maps. *Instance* is the place in the map's scenario, from 0. The \
+         paper's A* lengths are those of corner rule `never`, which the scenarios are made for. Its JPS \
+         lengths are shorter: they are those of rule `one`, under which a path may pass one blocked cell's \
+         corner. So the two columns are answers to two problems; under one rule, A* and JPS are equally \
+         long.",
     );
     let mut table = Table::new([
         "table",
@@ -124,7 +126,8 @@ fn lengths(section: &mut Section, asked: &[Asked<'_>]) {
     }
     section.table(&table);
     section.text(format!(
-        "Under each rule the four engines A*, JPS, block JPS and JPS+ agree: over these queries their lengths differ by at most {} cells.",
+        "Under each rule the four engines A*, JPS, block JPS and JPS+ agree: over these queries their \
+         lengths differ by at most {} cells.",
         text(widest(asked), 9)
     ));
 }
@@ -146,10 +149,12 @@ fn widest(asked: &[Asked<'_>]) -> Option<f64> {
 fn times(section: &mut Section, asked: &[Asked<'_>]) {
     section.heading("Times");
     section.text(
-        "The published times are seconds of the paper's program, ours microseconds; what compares is the ratio of the two columns. A* is `never`, JPS is \
-         `one`, as in the paper. The last columns explain the published times by counts. *List* is how many entries an A* looks at that keeps its open list \
-         unsorted and searches it for each node; *steps* is how many vertices the jumps look at of a JPS as of 2011, which keeps the jump points at which a \
-         path only turns. The published times are so many microseconds for each.",
+        "The published times are seconds of the paper's program, ours microseconds; what compares is the \
+         ratio of the two columns. A* is `never`, JPS is `one`, as in the paper. The last columns explain \
+         the published times by counts. *List* is how many entries an A* looks at that keeps its open list \
+         unsorted and searches it for each node; *steps* is how many vertices the jumps look at of a JPS as \
+         of 2011, which keeps the jump points at which a path only turns. The published times are so many \
+         microseconds for each.",
     );
     let mut table = Table::new([
         "map",
@@ -245,9 +250,10 @@ fn repeated(asked: &[Asked<'_>]) -> String {
     let Some(odd) = asked.iter().find(|asked| !fits(asked)) else { return String::new() };
     let length = |rule, engine| text(odd.get(rule, engine, "cost"), 4);
     format!(
-        "The printed JPS length is the A* length once more. It is the optimum of rule `never` ({}). Under rule `one`, which gives the other 15 rows to \
-         the last digit, the shortest path has {}, by A*, JPS, block JPS and JPS+ alike, with the Euclidean distance as heuristic {}, without a heuristic \
-         {}; under `always` it has {}. Of the scenario's instances, {} have the printed length under `one`.",
+        "The printed JPS length is the A* length once more. It is the optimum of rule `never` ({}). Under \
+         rule `one`, which gives the other 15 rows to the last digit, the shortest path has {}, by A*, JPS, \
+         block JPS and JPS+ alike, with the Euclidean distance as heuristic {}, without a heuristic {}; \
+         under `always` it has {}. Of the scenario's instances, {} have the printed length under `one`.",
         length("never", "jps"),
         length("one", "jps"),
         length("one", "jps:3:one,euclidean"),
@@ -272,10 +278,11 @@ fn slower(asked: &[Asked<'_>]) -> String {
         spread(paces).map_or("–".to_owned(), |pace| number(1e3 * pace.middle))
     };
     format!(
-        "The published times fit a program whose A* searches an unsorted open list for each node: they are {:.2} µs (median; {:.2} to {:.2}) for each \
-         entry that it then looks at. The JPS times are {:.1} µs (median; {:.1} to {:.1}) for each vertex that the jumps of a JPS as of 2011 look \
-         at. So the published ratio is that of these two counts, a vertex weighing {:.0} entries. Here the open list is a heap: a node that A* expands takes {} ns, a \
-         vertex that a jump looks at {} ns.",
+        "The published times fit a program whose A* searches an unsorted open list for each node: they are \
+         {:.2} µs (median; {:.2} to {:.2}) for each entry that it then looks at. The JPS times are {:.1} µs \
+         (median; {:.1} to {:.1}) for each vertex that the jumps of a JPS as of 2011 look at. So the \
+         published ratio is that of these two counts, a vertex weighing {:.0} entries. Here the open list is \
+         a heap: a node that A* expands takes {} ns, a vertex that a jump looks at {} ns.",
         list.middle,
         list.least,
         list.most,
@@ -300,8 +307,10 @@ fn misprinted(asked: &[Asked<'_>]) -> String {
         return String::new();
     };
     format!(
-        "The JPS time of this row, 167.0000 s, is a misprint. It would be {jps:.0} µs for each of the {} vertices that jumps look at, where all other rows have \
-         {:.1} to {:.1} µs; at their median the row takes {:.2} s. The A* time of the row is sound: {astar:.2} µs for each entry of the list, as on the other rows.",
+        "The JPS time of this row, 167.0000 s, is a misprint. It would be {jps:.0} µs for each of the {} \
+         vertices that jumps look at, where all other rows have {:.1} to {:.1} µs; at their median the row \
+         takes {:.2} s. The A* time of the row is sound: {astar:.2} µs for each entry of the list, as on the \
+         other rows.",
         thousands(count),
         steps.least,
         steps.most,

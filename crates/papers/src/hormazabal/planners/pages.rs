@@ -37,7 +37,8 @@ pub(in crate::hormazabal) fn show(record: &Record) -> Section {
     };
     section.heading("Excess and time against Sub2-Theta* (Figures 2 and 3)");
     section.text(
-        "Ratios over 1 are in favor of Sub2-A*(k). The excess is the mean of the lengths over the any-angle optimum, less 1.",
+        "Ratios over 1 are in favor of Sub2-A*(k). The excess is the mean of the lengths over the any-angle \
+         optimum, less 1.",
     );
     for (_, smoothing) in SMOOTHINGS {
         let name = format!("hormazabal2017-planners-excess-{smoothing}");
@@ -56,8 +57,9 @@ pub(in crate::hormazabal) fn show(record: &Record) -> Section {
     }
     section.heading("The planners");
     section.text(
-        "Without smoothing, smoothed (one pass, a straight line where two points of the path see each other) and pulled taut. `subgoal` is the project's contraction \
-         hierarchy on the same graph, which the paper does not have.",
+        "Without smoothing, smoothed (one pass, a straight line where two points of the path see each other) \
+         and pulled taut. `subgoal` is the project's contraction hierarchy on the same graph, which the \
+         paper does not have.",
     );
     section.table(&table(record));
     section.heading("Published and here");
@@ -181,8 +183,10 @@ fn claims(record: &Record) -> Vec<Claim> {
     };
     let (smoothed, taut) = (excess("smooth"), excess("taut").map(|taut| taut.max(0.0)));
     let cause = format!(
-        "How far smoothing goes decides. At k = {LAST_K}, in the mean of the sets, paths are {} % too long as they come, {} % after one pass that replaces steps by a straight line where \
-         the ends see each other, and {} % pulled taut. The published values lie between the last two; the paper says neither for which k they are nor how its pass picks the ends.",
+        "How far smoothing goes decides. At k = {LAST_K}, in the mean of the sets, paths are {} % too long \
+         as they come, {} % after one pass that replaces steps by a straight line where the ends see each \
+         other, and {} % pulled taut. The published values lie between the last two; the paper says neither \
+         for which k they are nor how its pass picks the ends.",
         told(excess("none"), 4),
         told(smoothed, 5),
         told(taut, 6)
@@ -208,8 +212,9 @@ fn faster(record: &Record, set: &str, smoothing: &str) -> Claim {
     let what =
         format!("{set}, smoothing {smoothing}: k, of 7, at which Sub2-A*(k) is faster than Sub2-Theta*");
     Claim::new("Comparing Sub2-Theta* with Sub2-A*(k)", what, 7.0, ours).exact(0).because(format!(
-        "On {set}, at k = {LAST_K}, Sub2-A* expands {} nodes, Sub2-Theta*, on the graph of k = 3, {}: the former takes {} µs, and {} µs with smoothing, the latter {} µs. \
-         (The paper shows no plot of random maps.)",
+        "On {set}, at k = {LAST_K}, Sub2-A* expands {} nodes, Sub2-Theta*, on the graph of k = 3, {}: the \
+         former takes {} µs, and {} µs with smoothing, the latter {} µs. (The paper shows no plot of random \
+         maps.)",
         told(a_star(record, set, LAST_K, "none", "expanded"), 0),
         told(theta(record, set, "expanded"), 0),
         told(a_star(record, set, LAST_K, "none", "micros"), 0),
@@ -232,9 +237,12 @@ fn beside_anya(record: &Record) -> Claim {
         Some(anya(record, set, "micros")? / of(record, set, CONTRACTED, "any", "none", "micros")?)
     });
     let cause = format!(
-        "Anya is another program here: ours takes {OF_JAVA_ANYA} of the time of Anya16, the Java program of its authors, which the paper ran (geometric mean of 18 maps, both under closed gaps: [compared](compared.md)). \
-         Over Sub2-A*({LAST_K}), smoothed, ours takes {} times as long, {} times not smoothed, {} times with closed gaps; so that Java program would take some {} times as long. \
-         The contraction hierarchy at any angle, with nothing longer than optimal, is faster than our Anya by {}.",
+        "Anya is another program here: ours takes {OF_JAVA_ANYA} of the time of Anya16, the Java program of \
+         its authors, which the paper ran (geometric mean of 18 maps, both under closed gaps: \
+         [compared](compared.md)). Over Sub2-A*({LAST_K}), smoothed, ours takes {} times as long, {} times \
+         not smoothed, {} times with closed gaps; so that Java program would take some {} times as long. The \
+         contraction hierarchy at any angle, with nothing longer than optimal, is faster than our Anya by \
+         {}.",
         told(ours, 1),
         told(over("none", anya), 1),
         told(closed, 1),

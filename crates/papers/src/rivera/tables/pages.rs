@@ -15,8 +15,9 @@ use crate::experiment::Section;
 pub(in crate::rivera) fn show(record: &Record) -> Section {
     let mut section = Section::default();
     section.text(
-        "The paper's problems are lost, so numbers are compared as ratios: each to that of 2^3 = 8 neighbors in its own column, with the same problems in \
-         both. Of 8 neighbors itself, those with the Euclidean heuristic to those with h_k, and canonical A* to A*; what remains (cost, moves, expansions and \
+        "The paper's problems are lost, so numbers are compared as ratios: each to that of 2^3 = 8 neighbors \
+         in its own column, with the same problems in both. Of 8 neighbors itself, those with the Euclidean \
+         heuristic to those with h_k, and canonical A* to A*; what remains (cost, moves, expansions and \
          percolations of A* with h_k) as it is. The draw's error is that of the problems on each map.",
     );
     let sets: Vec<&str> = record.distinct("set");
@@ -35,7 +36,8 @@ pub(in crate::rivera) fn show(record: &Record) -> Section {
         if let Some(svg) = charts::runtime(record, set) {
             section.figure(
                 "rivera2017-tables-time",
-                "Time of a query against the number of neighbors, of A* and canonical A* with both heuristics",
+                "Time of a query against the number of neighbors, of A* and canonical A* with both \
+                 heuristics",
                 svg,
             );
         }
@@ -51,7 +53,8 @@ pub(in crate::rivera) fn show(record: &Record) -> Section {
     section.claims(sentences(record), true);
     section.heading("The published rule of canonical A*, and an exact one");
     section.text(
-        "Canonical A* as published does not always find a shortest path over N(k) for k ≥ 4; the exact rule does. Longer: mean cost over that of A*, less 1.",
+        "Canonical A* as published does not always find a shortest path over N(k) for k ≥ 4; the exact rule \
+         does. Longer: mean cost over that of A*, less 1.",
     );
     section.table(&rules(record, &sets));
     section
@@ -231,7 +234,8 @@ fn sentences(record: &Record) -> Vec<Claim> {
             &causes::faster(record, Algorithm::AStar),
         ),
         said(
-            "sets, k and heuristics at which canonical A* is faster than A* (in the tables all but BG, 4 neighbors, h_k)",
+            "sets, k and heuristics at which canonical A* is faster than A* (in the tables all but BG, 4 \
+             neighbors, h_k)",
             35.0,
             36,
             count(all().flat_map(|(set, k)| {
