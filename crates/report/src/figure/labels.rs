@@ -69,15 +69,15 @@ impl Placer {
         let mut places: Vec<Option<Place>> = vec![None; labels.len()];
         // A little wider than the text, since fonts differ.
         let widths: Vec<f64> = labels.iter().map(|label| text_width(label.text, SMALL) + 3.0).collect();
-        let nearby: Vec<Self> = labels
-            .iter()
-            .zip(&widths)
-            .map(|(label, width)| self.within(Rect::around(label.at, DISTANCES[3] + label.radius + width)))
-            .collect();
+        let reach =
+            |(label, width): (&Label<'_>, &f64)| Rect::around(label.at, DISTANCES[3] + label.radius + width);
+        let areas: Vec<Rect> = labels.iter().zip(&widths).map(reach).collect();
+        let nearby: Vec<Self> = areas.iter().map(|&area| self.within(area)).collect();
         for _ in 0..ROUNDS {
             for (i, label) in labels.iter().enumerate() {
                 let others = places.iter().enumerate().filter(|(j, _)| *j != i);
                 let others = others.filter_map(|(_, place)| Some((place.as_ref()?.rect, ON_LABEL)));
+                let others = others.filter(|(rect, _)| rect.overlap(areas[i]) > 0.0);
                 let mut near = nearby[i].clone();
                 near.boxes.extend(others);
                 places[i] = Some(near.best(label, widths[i]));
