@@ -121,7 +121,10 @@ pub enum EngineError {
     #[error(transparent)]
     K(#[from] KError),
     /// A search space for another k or other rules than those of the setup.
-    #[error("needs the search space of k = {} under {}, found that of k = {} under {}", expected.0, expected.1, found.0, found.1)]
+    #[error(
+        "needs the search space of k = {} under {}, found that of k = {} under {}",
+        expected.0, expected.1, found.0, found.1
+    )]
     Space {
         /// The k and the rules of the setup.
         expected: (K, Rules),

@@ -236,16 +236,20 @@ fn index(shown: &[(&Experiment, &Record, Section)]) -> String {
     table.row(cells);
     text += &table.markdown();
     text += &format!(
-        "\n{MARKS}\n\nThe pages are drawn from the records in [`{DATA}/`]({DATA}): JSON, one row on a line, \
-         each column with its unit, with revision, machine, number of instances and seed. Lengths and \
-         numbers of nodes are the same on every machine; times are not, so only their ratios can be \
-         compared.\n\n```sh\ncargo xtask reproduce-tables                      # everything, {} experiments\n\
-         cargo xtask reproduce-tables --quick              # an even sample, into docs/results/quick\ncargo \
-         xtask reproduce-tables --only kramm2018     # one page, or one experiment\ncargo xtask \
-         reproduce-tables --render             # the pages again, from the records\ncargo xtask \
-         reproduce-tables --check              # whether the counts are still the same\n```\n\nA run that is \
-         interrupted goes on where it was. Benchmark sets that are not there are downloaded, or taken from \
-         `--mirror`; without them the experiments run on the maps that come with the project, and say so.\n",
+        "\n{MARKS}\n\n\
+         The pages are drawn from the records in [`{DATA}/`]({DATA}): JSON, one row on a line, each column \
+         with its unit, with revision, machine, number of instances and seed. Lengths and numbers of nodes \
+         are the same on every machine; times are not, so only their ratios can be compared.\n\n\
+         ```sh\n\
+         cargo xtask reproduce-tables                      # everything, {} experiments\n\
+         cargo xtask reproduce-tables --quick              # an even sample, into docs/results/quick\n\
+         cargo xtask reproduce-tables --only kramm2018     # one page, or one experiment\n\
+         cargo xtask reproduce-tables --render             # the pages again, from the records\n\
+         cargo xtask reproduce-tables --check              # whether the counts are still the same\n\
+         ```\n\n\
+         A run that is interrupted goes on where it was. Benchmark sets that are not there are downloaded, \
+         or taken from `--mirror`; without them the experiments run on the maps that come with the project, \
+         and say so.\n",
         EXPERIMENTS.len()
     );
     text

@@ -54,9 +54,9 @@ impl EdgeFinder for Centers {
 }
 
 /// The search for the subgoals that are directly reachable from a cell.
-struct EdgeSearch<'l, F> {
-    grid: &'l Grid,
-    clearance: &'l ClearanceBits,
+struct EdgeSearch<'g, F> {
+    grid: &'g Grid,
+    clearance: &'g ClearanceBits,
     from: Vertex,
     kind: EdgeKind,
     /// The costs of an axis move, and of a diagonal one (over N(2), of the other axis move).

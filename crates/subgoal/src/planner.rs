@@ -26,14 +26,16 @@ use crate::{
 /// below the cost of the best path found, over a subgoal that both have reached. Scratch memory: 64 bytes a
 /// subgoal.
 ///
+/// `S` and `I` are how the planner holds the free space and its subgoal graph: by reference or by `Arc`.
+///
 /// **Ties.** The open lists order nodes by f, h and the subgoal's number. Between the two searches the one
 /// from the start goes first, and of equally good meeting points the first found is kept. So the path and the
 /// counts are the same each time and on every platform. An observer is told the events of both searches; a
 /// subgoal that both reach has events of each.
 #[derive(Debug)]
-pub struct SubgoalAStar<S, G, P: SubgoalPlacement> {
+pub struct SubgoalAStar<S, I, P: SubgoalPlacement> {
     space: S,
-    graph: G,
+    graph: I,
     scratch: P::Scratch,
     /// The searches from the start and from the goal.
     searches: [SearchTree<ParentEdge>; 2],
@@ -46,15 +48,15 @@ pub struct SubgoalAStar<S, G, P: SubgoalPlacement> {
     waypoints: Vec<Vertex>,
 }
 
-impl<S, G, P> SubgoalAStar<S, G, P>
+impl<S, I, P> SubgoalAStar<S, I, P>
 where
     P: SubgoalPlacement,
     S: Deref<Target: HasFreeSpace<Placement = P>>,
-    G: Deref<Target = SubgoalGraph<P>>,
+    I: Deref<Target = SubgoalGraph<P>>,
 {
     /// A planner with scratch memory for `graph`, which must be that of `space`.
     #[must_use]
-    pub fn new(space: S, graph: G) -> Self {
+    pub fn new(space: S, graph: I) -> Self {
         let count = graph.subgoals();
         Self {
             space,
@@ -69,11 +71,11 @@ where
     }
 }
 
-impl<S, G, P> Planner for SubgoalAStar<S, G, P>
+impl<S, I, P> Planner for SubgoalAStar<S, I, P>
 where
     P: SubgoalPlacement,
     S: Deref<Target: HasFreeSpace<Placement = P>>,
-    G: Deref<Target = SubgoalGraph<P>>,
+    I: Deref<Target = SubgoalGraph<P>>,
 {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
         let space = self.space.free_space();
@@ -103,11 +105,11 @@ where
     }
 }
 
-impl<S, G, P> SubgoalAStar<S, G, P>
+impl<S, I, P> SubgoalAStar<S, I, P>
 where
     P: SubgoalPlacement,
     S: Deref<Target: HasFreeSpace<Placement = P>>,
-    G: Deref<Target = SubgoalGraph<P>>,
+    I: Deref<Target = SubgoalGraph<P>>,
 {
     /// Finds the subgoal at which the searches from the start and from the goal meet on a shortest path.
     fn search(&mut self, ends: [Vertex; 2], observer: &mut impl Observer) -> Option<u32> {

@@ -30,6 +30,8 @@ use crate::{edge_path::push, graph::SubgoalGraph, placement::SubgoalPlacement};
 /// A shortcut need not be a legal segment. If its end does not see the parent, the path follows the subgoals
 /// that the shortcut passes. It bends at one of them if the next does not see the last bend.
 ///
+/// `S` and `I` are how the planner holds the free space and its subgoal graph: by reference or by `Arc`.
+///
 /// **Guarantees.** A path is found whenever N(k) has one: which subgoals are reached does not depend on
 /// parents, and an optimal path over the graph goes up from the start, through the core, and down. No path is
 /// shorter than the any-angle optimum; how much longer one can be is not known. Measured excess:
@@ -63,9 +65,9 @@ use crate::{edge_path::push, graph::SubgoalGraph, placement::SubgoalPlacement};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
-pub struct SubgoalTheta<S, G, P: SubgoalPlacement> {
+pub struct SubgoalTheta<S, I, P: SubgoalPlacement> {
     space: S,
-    graph: G,
+    graph: I,
     scratch: P::Scratch,
     /// Its nodes are the subgoals and, after the last of them, the goal.
     tree: SearchTree,
@@ -75,15 +77,15 @@ pub struct SubgoalTheta<S, G, P: SubgoalPlacement> {
     unpacking: Unpacking,
 }
 
-impl<S, G, P> SubgoalTheta<S, G, P>
+impl<S, I, P> SubgoalTheta<S, I, P>
 where
     P: SubgoalPlacement,
     S: Deref<Target: HasFreeSpace<Placement = P>>,
-    G: Deref<Target = SubgoalGraph<P>>,
+    I: Deref<Target = SubgoalGraph<P>>,
 {
     /// A planner with scratch memory for `graph`, which must be that of `space`.
     #[must_use]
-    pub fn new(space: S, graph: G) -> Self {
+    pub fn new(space: S, graph: I) -> Self {
         let count = graph.subgoals();
         Self {
             space,
@@ -98,11 +100,11 @@ where
     }
 }
 
-impl<S, G, P> Planner for SubgoalTheta<S, G, P>
+impl<S, I, P> Planner for SubgoalTheta<S, I, P>
 where
     P: SubgoalPlacement,
     S: Deref<Target: HasFreeSpace<Placement = P>>,
-    G: Deref<Target = SubgoalGraph<P>>,
+    I: Deref<Target = SubgoalGraph<P>>,
 {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
         let Self { space, graph, scratch, tree, descent, query_edges, bends, unpacking } = self;

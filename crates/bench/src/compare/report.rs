@@ -108,7 +108,7 @@ fn disturbance(scales: &[f64]) -> Option<String> {
     (factor > 1.3).then(|| {
         format!(
             "CAUTION: here/there differs by a factor of {factor:.2} from map to map: was the machine \
-                 busy? Measure again."
+             busy? Measure again."
         )
     })
 }

@@ -74,7 +74,8 @@ pub(crate) struct RunArgs {
     /// Write the distances from --from to all vertices to this file, as CSV (`-` is stdout); needs an engine
     /// that finds them
     #[arg(long, value_name = "FILE", requires = "from")]
-    #[arg(conflicts_with_all = ["scen", "every", "limit", "smooth", "reference", "index", "repeat", "format", "draw", "trace"])]
+    #[arg(conflicts_with_all = ["scen", "every", "limit", "smooth", "reference", "index", "repeat"])]
+    #[arg(conflicts_with_all = ["format", "draw", "trace"])]
     pub(crate) distances: Option<PathBuf>,
 }
 
@@ -95,16 +96,16 @@ const RUN_HELP: &str = "\
 Times are of the query alone, on a warm planner: each query is first solved once without a clock, which also \
 counts expanded and generated nodes and heap percolations; the timed runs count nothing.
 
-For each path found the report gives a certificate: how much longer than the shortest any-angle path it is at \
-most, by the engine's guarantee and by the straight line between the ends. With --reference it also gives how \
-much longer it is.
+For each path found the report gives a certificate: how much longer than the shortest any-angle path it is \
+at most, by the engine's guarantee and by the straight line between the ends. With --reference it also gives \
+how much longer it is.
 
 For a builtin map without queries, the queries are those of its own scenario.
 
 A trace is JSON for the Posthoc visualizer: every event of the search, then the path found.
 
-Exit status: 0 if every query was answered (found or unreachable), 1 if any was an error, 2 for bad arguments, or \
-a file that cannot be read or written.
+Exit status: 0 if every query was answered (found or unreachable), 1 if any was an error, 2 for bad arguments, \
+or a file that cannot be read or written.
 
 Examples:
   mediant run builtin:archipelago

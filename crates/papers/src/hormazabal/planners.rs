@@ -133,9 +133,8 @@ pub(super) fn measure(ctx: &Context<'_>) -> Result<Findings, Error> {
              open{}",
             ctx.quick_or(
                 "",
-                "; of bg512 and room every second map, of sc1 every eighth, of random every \
-                              second of those with 40 % blocked, since 2-level graphs of sparser noise take \
-                              minutes each"
+                "; of bg512 and room every second map, of sc1 every eighth, of random every second of those \
+                 with 40 % blocked, since 2-level graphs of sparser noise take minutes each"
             )
         ),
         seeded: false,

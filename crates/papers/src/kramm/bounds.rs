@@ -198,7 +198,7 @@ fn chart(record: &Record) -> String {
 fn trees() -> String {
     let mut drawing = TreeDrawing::new("Decomposition trees of (7, 5)").note(
         "A node above level k has the two adjacent moves for children of which it is the sum; the \
-               leaves are a path over N(k)",
+         leaves are a path over N(k)",
     );
     for k in [7, 6, 5, 4] {
         if let Some(tree) = FiniteK::new(k).ok().and_then(|k| DecompositionTree::new(Vector::new(7, 5), k)) {

@@ -175,9 +175,8 @@ fn measure(ctx: &Context<'_>) -> Result<Findings, Error> {
         drawn: ctx.quick_or(
             "every 40th instance".to_owned(),
             format!(
-                "all instances of the paper's maps, \
-                                                                       every {EVERY}th of the others; of \
-                                                                       random the paper's maps alone"
+                "all instances of the paper's maps, every {EVERY}th of the others; of random the paper's \
+                 maps alone"
             ),
         ) + ", if its ends are free and joined at corners",
         seeded: false,

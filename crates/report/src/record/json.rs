@@ -23,8 +23,8 @@ impl Record {
             if rows.is_empty() { "[]".to_owned() } else { format!("[\n    {}\n  ]", rows.join(",\n    ")) }
         };
         format!(
-            "{{\n  \"id\": {},\n  \"title\": {},\n  \"provenance\": {},\n  \"columns\": {},\n  \"rows\": {}\n\
-             }}\n",
+            "{{\n  \"id\": {},\n  \"title\": {},\n  \"provenance\": {},\n  \
+             \"columns\": {},\n  \"rows\": {}\n}}\n",
             text(serde_json::to_string(&self.id)),
             text(serde_json::to_string(&self.title)),
             text(serde_json::to_string(&self.provenance)),

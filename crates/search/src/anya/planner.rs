@@ -37,21 +37,21 @@ use crate::{
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// `T` is how the planner holds its map: by reference, or, where both belong in one struct, by `Arc`. Its
-/// scratch memory is 8 bytes a vertex, and 40 for each node and 24 for each root of the largest search. The
-/// events of its search name the roots of nodes, so the expansions of one root differ in f alone.
+/// `S` is how the planner holds the free space: by reference, or, where both belong in one struct, by `Arc`.
+/// Its scratch memory is 8 bytes a vertex, and 40 for each node and 24 for each root of the largest search.
+/// The events of its search name the roots of nodes, so the expansions of one root differ in f alone.
 #[derive(Clone, Debug)]
-pub struct Anya<T> {
-    space: T,
+pub struct Anya<S> {
+    space: S,
     frontier: Frontier,
     /// The successors of the node under expansion.
     next: Vec<Successor>,
 }
 
-impl<T: Deref<Target = FreeSpace<Corners>>> Anya<T> {
+impl<S: Deref<Target = FreeSpace<Corners>>> Anya<S> {
     /// A planner with scratch memory for a map.
     #[must_use]
-    pub fn new(space: T) -> Self {
+    pub fn new(space: S) -> Self {
         let frontier = Frontier::new(space.vertex_count());
         Self { space, frontier, next: Vec::new() }
     }
@@ -77,7 +77,7 @@ impl<T: Deref<Target = FreeSpace<Corners>>> Anya<T> {
     }
 }
 
-impl<T: Deref<Target = FreeSpace<Corners>>> Planner for Anya<T> {
+impl<S: Deref<Target = FreeSpace<Corners>>> Planner for Anya<S> {
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
         if query.ends(&self.space)?.is_none() {
             return Ok(Outcome::Unreachable);

@@ -29,8 +29,8 @@ const MAPS: u64 = 1 << (SIDE * SIDE);
 const SAMPLE: u64 = 127;
 
 /// One map under one rule and k, with what the answers of its engines are checked against.
-struct Judge<'l, P: Placement> {
-    grid_graph: &'l GridGraph<P>,
+struct Judge<'g, P: Placement> {
+    grid_graph: &'g GridGraph<P>,
     map: u64,
     vertices: Vec<Vertex>,
     /// By vertex number.
@@ -40,8 +40,8 @@ struct Judge<'l, P: Placement> {
     compared: u64,
 }
 
-impl<'l, P: Placement> Judge<'l, P> {
-    fn new(grid_graph: &'l GridGraph<P>, map: u64) -> Self {
+impl<'g, P: Placement> Judge<'g, P> {
+    fn new(grid_graph: &'g GridGraph<P>, map: u64) -> Self {
         let all = (0..grid_graph.vertex_count() as u32).map(|id| grid_graph.vertex(VertexId(id)));
         let legal = all.clone().map(|at| grid_graph.legal_moves(at)).collect();
         let vertices: Vec<Vertex> = all.filter(|&at| grid_graph.is_free(at)).collect();
