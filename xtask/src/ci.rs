@@ -24,7 +24,7 @@ const LIBRARIES: [&str; 7] = [
     "mediant-search",
     "mediant-subgoal",
     "mediant-hierarchy",
-    "mediant-engines",
+    "mediant",
 ];
 
 /// Targets whose pointers have 32 bits: a browser's, and Linux's. `.ci/run` also runs tests on the latter.

@@ -5,7 +5,7 @@
 use std::{hint::black_box, sync::Arc};
 
 use criterion::{BenchmarkId, Criterion, Throughput};
-use mediant_engines::{EngineKind, Index, SearchSpace, Setup, SharedRules};
+use mediant::{Engine, Index, Setup, SharedRules, Space};
 use mediant_grid::{
     Centers, CornerRule, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vertex, VertexId,
 };
@@ -20,17 +20,17 @@ const SEED: u64 = 1;
 const SIDE: u32 = 160;
 const QUERIES: usize = 10;
 const ENTRIES: u32 = 4096;
-const ENGINES: [EngineKind; 10] = [
-    EngineKind::AStar,
-    EngineKind::Canonical,
-    EngineKind::Jps,
-    EngineKind::JpsBlock,
-    EngineKind::JpsPlus,
-    EngineKind::Theta,
-    EngineKind::LazyTheta,
-    EngineKind::Anya,
-    EngineKind::Subgoal,
-    EngineKind::SubgoalTheta,
+const ENGINES: [Engine; 10] = [
+    Engine::AStar,
+    Engine::Canonical,
+    Engine::Jps,
+    Engine::JpsBlock,
+    Engine::JpsPlus,
+    Engine::Theta,
+    Engine::LazyTheta,
+    Engine::Anya,
+    Engine::Subgoal,
+    Engine::SubgoalTheta,
 ];
 const RULES: [Rules; 2] = [Rules::Center(CornerRule::Never), Rules::Corner(DiagonalGap::Open)];
 
@@ -67,7 +67,7 @@ fn grid_graph<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: u32) -> GridGrap
 }
 
 /// Random queries, the same for every k. All of them have a path.
-fn random_queries(grid: &Grid, space: &SearchSpace) -> Vec<Query> {
+fn random_queries(grid: &Grid, space: &Space) -> Vec<Query> {
     let (mut rng, placement) = (Rng::new(SEED), space.rules().placement());
     let mut end = || random_free_vertex(&mut rng, grid, placement).expect("the map has free cells");
     let pairs = std::iter::repeat_with(|| (end(), end()));
@@ -77,7 +77,7 @@ fn random_queries(grid: &Grid, space: &SearchSpace) -> Vec<Query> {
 
 /// Benchmarks all queries together, on a warm planner.
 fn queries(c: &mut Criterion, setup: Setup, map: &str, grid: &Arc<Grid>, rules: &SharedRules) {
-    let space = SearchSpace::new(setup, grid).expect("the setup was checked");
+    let space = Space::new(setup, grid).expect("the setup was checked");
     let queries = random_queries(grid, &space);
     let index = Index::new(setup, &space, rules).expect("the setup was checked");
     let mut planner = index.planner().expect("the index is the engine's");

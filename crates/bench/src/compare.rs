@@ -11,7 +11,7 @@ use std::{
 
 use clap::Args;
 use indicatif::ProgressBar;
-use mediant_engines::Setup;
+use mediant::Setup;
 use mediant_sets::{Archive, cache, root};
 
 use self::report::Results;

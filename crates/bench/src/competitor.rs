@@ -4,7 +4,7 @@ use std::{fmt, time::Instant};
 
 use grid_pathfinding::PathingGrid;
 use grid_util::point::Point;
-use mediant_engines::{BoxedPlanner, EngineError, Index, SearchSpace, Setup, SharedRules};
+use mediant::{EngineError, Index, Planner, Setup, SharedRules, Space};
 use mediant_search::{Outcome, Query, QueryError};
 
 use crate::{
@@ -36,7 +36,7 @@ impl fmt::Display for Competitor {
 /// A competitor made ready for the queries of one map. Only ours keep scratch memory: a baseline allocates it
 /// for each query, or hides it.
 pub(crate) enum Runner {
-    Ours(BoxedPlanner, Preparation),
+    Ours(Planner, Preparation),
     Bools(BoolMap),
     Pathing(Box<PathingGrid>),
 }
@@ -54,7 +54,7 @@ impl Runner {
         Ok(match competitor {
             Competitor::Ours(setup) => {
                 let begin = Instant::now();
-                let space = SearchSpace::new(setup, grid)?;
+                let space = Space::new(setup, grid)?;
                 let index = Index::new(setup, &space, &RULES)?;
                 let seconds = begin.elapsed().as_secs_f64();
                 let bytes = space.memory_bytes() + index.memory_bytes();

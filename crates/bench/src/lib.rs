@@ -9,7 +9,7 @@
 //! Nothing is timed before it is checked: a path of the wrong length is an error, not a result.
 //!
 //! * [`Problem`]: a map of a benchmark set with the queries of its scenario.
-//! * [`Competitor`]: one of our engines in a [`Setup`](mediant_engines::Setup), or a baseline.
+//! * [`Competitor`]: one of our engines in a [`Setup`](mediant::Setup), or a baseline.
 //! * [`measure`]: checks and times competitors side by side; [`MapRecord`]: the times.
 //! * [`Study`]: runs setups on the queries of one map; [`Run`]: the answers of one of them, with all counts
 //!   of its searches.

@@ -2,7 +2,7 @@
 
 use std::{hint::black_box, time::Instant};
 
-use mediant_engines::EngineError;
+use mediant::EngineError;
 use mediant_formats::scenario_tolerance;
 use mediant_grid::{CornerRule, Rules};
 use mediant_moves::{FiniteK, K};

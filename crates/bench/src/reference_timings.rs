@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Deserializer, de::Error as _};
 
-use mediant_engines::Setup;
+use mediant::Setup;
 use mediant_moves::K;
 
 /// The times of other programs on the instances of our comparison.

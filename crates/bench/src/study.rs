@@ -2,7 +2,7 @@
 
 use std::{hint::black_box, sync::Arc, time::Instant};
 
-use mediant_engines::{BoxedPlanner, EngineError, Index, SearchSpace, Setup, SharedRules};
+use mediant::{EngineError, Index, Planner, Setup, SharedRules, Space};
 use mediant_grid::{Grid, Vertex};
 use mediant_report::stats::median;
 use mediant_search::{Counters, Outcome, Path, Query};
@@ -19,7 +19,7 @@ pub struct Study<'a> {
     queries: &'a [Query],
     passes: u32,
     /// The last search space, and the seconds that it took: setups of the same k and rules share it.
-    space: Option<(SearchSpace, f64)>,
+    space: Option<(Space, f64)>,
     /// The last index, and the seconds that it took.
     index: Option<(Index, f64)>,
 }
@@ -96,7 +96,7 @@ impl<'a> Study<'a> {
         Ok(Run { answers, micros: median(&passes), preparation })
     }
 
-    fn planner(&mut self, setup: Setup) -> Result<(BoxedPlanner, Preparation), EngineError> {
+    fn planner(&mut self, setup: Setup) -> Result<(Planner, Preparation), EngineError> {
         setup.check()?;
         let space = match self.space.take() {
             Some((space, seconds)) if (space.k(), space.rules()) == (setup.k, setup.rules) => {
@@ -106,7 +106,7 @@ impl<'a> Study<'a> {
                 // Whatever was prepared in another space is not for this one.
                 self.index = None;
                 let begin = Instant::now();
-                (SearchSpace::new(setup, self.grid)?, begin.elapsed().as_secs_f64())
+                (Space::new(setup, self.grid)?, begin.elapsed().as_secs_f64())
             }
         };
         let (space, space_seconds) = self.space.insert(space);
@@ -156,7 +156,7 @@ mod tests {
             "jps-plus:3:never",
         ] {
             let run = study.run(setup(text)).expect("a run");
-            let space = SearchSpace::new(setup(text), &grid).expect("a space");
+            let space = Space::new(setup(text), &grid).expect("a space");
             let index = Index::new(setup(text), &space, &RULES).expect("an index");
             let mut planner = index.planner().expect("a planner");
             for (query, answer) in queries.iter().zip(&run.answers) {

@@ -16,7 +16,7 @@ use std::{
 };
 
 use clap::Args;
-use mediant_engines::{BoxedPlanner, EngineKind, Setup, SharedRules};
+use mediant::{Engine, Planner, Setup, SharedRules};
 use mediant_formats::{MapFile, Scenario, scenario_tolerance};
 use mediant_grid::{CornerRule, DiagonalGap, Rules};
 use mediant_moves::{FiniteK, K};
@@ -35,7 +35,7 @@ pub struct Options {
     every: NonZeroUsize,
     /// The engines to verify, one after the other
     #[arg(long, value_name = "NAME", num_args = 1.., default_value = "astar")]
-    engine: Vec<EngineKind>,
+    engine: Vec<Engine>,
     /// Compare with the reference costs in this folder, not with the scenarios' optima
     #[arg(long, value_name = "DIR")]
     oracle: Option<PathBuf>,
@@ -202,7 +202,7 @@ pub fn run_in(cache: &Path, options: &Options, out: &mut dyn io::Write) -> Resul
 }
 
 /// The setup of an engine for the problem of the scenario files: k = 3 between centers, no corner cut.
-fn scenarios_for(engine: EngineKind) -> Result<(Setup, Relation), VerifyError> {
+fn scenarios_for(engine: Engine) -> Result<(Setup, Relation), VerifyError> {
     let setup = Setup::new(engine, FiniteK::N8, Rules::Center(CornerRule::Never));
     let unknown = || {
         VerifyError::Wrong(format!(
@@ -215,7 +215,7 @@ fn scenarios_for(engine: EngineKind) -> Result<(Setup, Relation), VerifyError> {
 fn against_scenarios(
     cache: &Path,
     options: &Options,
-    engine: EngineKind,
+    engine: Engine,
     out: &mut dyn io::Write,
 ) -> Result<Tally, VerifyError> {
     let (setup, relation) = scenarios_for(engine)?;
@@ -304,7 +304,7 @@ fn scenario_of(
     let grid = Arc::new(MapFile::read(path)?.to_grid());
     let scenario = Scenario::read(path.with_extension("map.scen"))?;
     let mut tally = Tally::default();
-    let mut planner = BoxedPlanner::new(setup, &grid, &RULES)
+    let mut planner = Planner::new(setup, &grid, &RULES)
         .map_err(|wrong| VerifyError::Wrong(format!("{}: {wrong}", path.display())))?;
     for (index, instance) in scenario.instances().iter().enumerate().step_by(every) {
         let reachable = instance.optimal > 0.0 || instance.start == instance.goal;
@@ -329,12 +329,12 @@ fn scenario_of(
 }
 
 /// The cost of a query's answer; `None` where there is no path.
-fn cost(planner: &mut BoxedPlanner, query: Query) -> Result<Option<f64>, QueryError> {
+fn cost(planner: &mut Planner, query: Query) -> Result<Option<f64>, QueryError> {
     planner.solve(query).map(|outcome| outcome.path().map(|path| path.cost()))
 }
 
 /// The setup and the map that the name of a reference file states.
-fn reference_setup(name: &str, engine: EngineKind) -> Option<(Setup, &str)> {
+fn reference_setup(name: &str, engine: Engine) -> Option<(Setup, &str)> {
     let (kind, rest) = name.strip_suffix(".csv")?.split_once('-')?;
     let (part, map) = rest.split_once('-')?;
     let k = || part.strip_prefix('k')?.parse::<K>().ok();
@@ -351,7 +351,7 @@ fn reference_setup(name: &str, engine: EngineKind) -> Option<(Setup, &str)> {
 fn against_references(
     cache: &Path,
     folder: &Path,
-    engine: EngineKind,
+    engine: Engine,
     out: &mut dyn io::Write,
 ) -> Result<Tally, VerifyError> {
     let mut maps = BTreeMap::new();
@@ -408,11 +408,7 @@ enum Compared {
     Unknown,
 }
 
-fn reference(
-    file: &Path,
-    engine: EngineKind,
-    maps: &BTreeMap<String, PathBuf>,
-) -> Result<Compared, VerifyError> {
+fn reference(file: &Path, engine: Engine, maps: &BTreeMap<String, PathBuf>) -> Result<Compared, VerifyError> {
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     let Some((setup, map)) = reference_setup(&name, engine) else { return Ok(Compared::Unknown) };
     let Some(relation) = Relation::of(setup) else { return Ok(Compared::Unsupported) };
@@ -433,7 +429,7 @@ fn reference(
     let grid = Arc::new(MapFile::read(path)?.to_grid());
     let scenario = Scenario::read(path.with_extension("map.scen"))?;
     let mut tally = Tally::default();
-    let mut planner = BoxedPlanner::new(setup, &grid, &RULES).map_err(|error| wrong(error.to_string()))?;
+    let mut planner = Planner::new(setup, &grid, &RULES).map_err(|error| wrong(error.to_string()))?;
     for &(index, known) in &rows {
         let instance = scenario.instances().get(index);
         let instance = instance.ok_or_else(|| wrong(format!("no instance {index}")))?;

@@ -6,7 +6,7 @@ use std::{
     process::ExitCode,
 };
 
-use mediant_engines::{EngineError, EngineKind, SetupError};
+use mediant::{Engine, EngineError, SetupError};
 use mediant_formats::{IndexError, MapMismatch, ReadError, WriteError};
 use mediant_grid::{PlacementKind, Vertex};
 
@@ -52,7 +52,7 @@ pub(crate) enum Failure {
         "--reference {engine} finds no any-angle paths at --placement {placement}: leave it out, or choose \
          --placement corner"
     )]
-    NoReference { engine: EngineKind, placement: PlacementKind },
+    NoReference { engine: Engine, placement: PlacementKind },
     #[error(transparent)]
     Setup(#[from] SetupError),
     #[error(transparent)]

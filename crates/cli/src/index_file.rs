@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mediant_engines::Setup;
+use mediant::Setup;
 use mediant_formats::{IndexError, IndexFile, IndexKey};
 use mediant_grid::Grid;
 use mediant_moves::FiniteK;

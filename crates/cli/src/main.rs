@@ -1,6 +1,6 @@
 //! `mediant`: pathfinding on the 2^k neighborhoods of a grid, from the command line.
 //!
-//! The program is thin: it turns arguments into a [`Setup`](mediant_engines::Setup) of the catalog, runs the
+//! The program is thin: it turns arguments into a [`Setup`](mediant::Setup) of the catalog, runs the
 //! queries on the planner of that setup, and reports the answers. Scripts rely on the objects of `--format
 //! jsonl` (`run/jsonl.rs`) and on the exit status (`failure.rs`).
 

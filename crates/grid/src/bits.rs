@@ -133,6 +133,12 @@ impl BitMatrix {
         BitRow { words: self.words(), origin: self.index(0, y), bits_per_row: self.bits_per_row() }
     }
 
+    /// The words of a row, with the part of the frame that follows it.
+    pub(crate) fn row_words(&self, y: u32) -> &[u64] {
+        let start = self.index(0, y as i32).0 as usize / 64;
+        &self.words[start..start + self.words_per_row as usize]
+    }
+
     /// Sets one bit within the frame.
     pub(crate) fn set(&mut self, x: u32, y: u32, blocked: bool) {
         let BitIndex(at) = self.index(x as i32, y as i32);

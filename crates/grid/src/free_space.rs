@@ -2,13 +2,15 @@
 
 use std::sync::Arc;
 
+use mediant_moves::{FiniteK, K};
+
 use crate::{
-    BitMatrix, Components, Connectivity, Grid, Placement, Rules, Vertex, VertexId,
+    BitMatrix, Components, Connectivity, Grid, Identity, Placement, Rules, Vertex, VertexId,
     line_of_sight::line_of_sight,
 };
 
 /// A grid with placement `P` and a rule of motion: what any-angle searches need, and what the grid graphs of
-/// all k have in common. It never changes, and planners share it.
+/// all k have in common. It never changes; planners share it, and so do its clones.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -32,28 +34,48 @@ pub struct FreeSpace<P: Placement> {
     width: u32,
     height: u32,
     /// The gaps that no path may pass through, if there are any.
-    gaps: Option<BitMatrix>,
-    components: Components,
+    gaps: Option<Arc<BitMatrix>>,
+    connectivity: Connectivity,
+    components: Arc<Components>,
 }
 
 impl<P: Placement> FreeSpace<P> {
     /// The free space of a grid under a rule of motion, for paths at any angle.
     #[must_use]
     pub fn new(grid: Arc<Grid>, rule: P::Rule) -> Self {
-        Self::with_connectivity(grid, rule, P::connectivity(rule, None))
+        Self::for_k(grid, rule, K::Any)
     }
 
-    /// The free space of a grid for paths that connect the cells in this way.
-    pub(crate) fn with_connectivity(grid: Arc<Grid>, rule: P::Rule, connectivity: Connectivity) -> Self {
+    /// The free space of a grid under a rule of motion, for paths over N(k). It differs from that of all
+    /// other k only at k = 2 where corners are always cut: there are more components then.
+    #[must_use]
+    pub fn for_k(grid: Arc<Grid>, rule: P::Rule, k: K) -> Self {
         let (width, height) = P::vertices(&grid);
+        let connectivity = P::connectivity(rule, k.finite());
         Self {
-            gaps: P::closes_gaps(rule).then(|| gaps(&grid)).flatten(),
-            components: Components::new(&grid, connectivity),
+            gaps: P::closes_gaps(rule).then(|| gaps(&grid)).flatten().map(Arc::new),
+            components: Arc::new(Components::new(&grid, connectivity)),
+            connectivity,
             grid,
             rule,
             width,
             height,
         }
+    }
+
+    /// This, if it serves N(k); else the free space that does.
+    pub(crate) fn serving(&self, k: FiniteK) -> Self {
+        if P::connectivity(self.rule, Some(k)) == self.connectivity {
+            self.clone()
+        } else {
+            Self::for_k(Arc::clone(&self.grid), self.rule, k.into())
+        }
+    }
+
+    /// What it belongs to: its map and rules, and every k.
+    #[must_use]
+    pub fn identity(&self) -> Identity {
+        Identity { map: Some(self.grid.id()), rules: self.rules(), k: None }
     }
 
     /// The map.
@@ -118,7 +140,7 @@ impl<P: Placement> FreeSpace<P> {
 
     /// The components of cells in which [`connected`](Self::connected) looks vertices up.
     #[must_use]
-    pub const fn components(&self) -> &Components {
+    pub fn components(&self) -> &Components {
         &self.components
     }
 

@@ -1,6 +1,6 @@
 //! The map: which cells are blocked.
 
-use crate::{BitMatrix, Vertex};
+use crate::{BitMatrix, Vertex, identity::MapId};
 
 /// A bit-packed map: which cells are blocked. It keeps a transposed copy, so that runs along a row and along
 /// a column are both runs of bits.
@@ -16,6 +16,7 @@ use crate::{BitMatrix, Vertex};
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Grid {
+    id: MapId,
     rows: BitMatrix,
     columns: BitMatrix,
 }
@@ -76,7 +77,7 @@ impl Grid {
     ) -> Result<Self, GridError> {
         Self::check_size(u64::from(width), u64::from(height))?;
         let rows = BitMatrix::from_bits(width, height, blocked);
-        Ok(Self { columns: rows.transposed(), rows })
+        Ok(Self { id: MapId::new(&rows), columns: rows.transposed(), rows })
     }
 
     /// A copy of this map with other cells in a rectangle: `blocked(x, y)` is asked once for each cell that
@@ -92,15 +93,69 @@ impl Grid {
     #[must_use]
     pub fn with_rectangle(&self, at: Rectangle, mut blocked: impl FnMut(u32, u32) -> bool) -> Self {
         let mut grid = self.clone();
-        let end = |first: u32, length: u32, side: u32| first.saturating_add(length).min(side);
-        for y in at.y..end(at.y, at.height, self.height()) {
-            for x in at.x..end(at.x, at.width, self.width()) {
+        let at = self.on_map(at);
+        grid.id = grid.id.without(&grid.rows, at);
+        for y in at.y..at.y + at.height {
+            for x in at.x..at.x + at.width {
                 let blocked = blocked(x, y);
                 grid.rows.set(x, y, blocked);
                 grid.columns.set(y, x, blocked);
             }
         }
+        grid.id = grid.id.with(&grid.rows, at);
         grid
+    }
+
+    /// The part of a rectangle that lies on the map.
+    fn on_map(&self, Rectangle { x, y, width, height }: Rectangle) -> Rectangle {
+        let (x, y) = (x.min(self.width()), y.min(self.height()));
+        Rectangle { x, y, width: width.min(self.width() - x), height: height.min(self.height() - y) }
+    }
+
+    /// Whether another map is the same as this one in all cells outside of a rectangle. Looks only at the
+    /// words that the rectangle touches, and at the identities.
+    #[must_use]
+    pub fn equals_outside(&self, other: &Self, at: Rectangle) -> bool {
+        if self.id.size() != other.id.size() {
+            return false;
+        }
+        let at = self.on_map(at);
+        // The words that the rectangle touches have other cells beside it.
+        let beside = |grid: &Self, y: u32| {
+            let row = grid.rows.row(y as i32);
+            let [before, after] = [at.x / 64, (at.x + at.width) / 64].map(|word| row.word(64 * word as i32));
+            (before & !(!0 << (at.x % 64)), after >> ((at.x + at.width) % 64))
+        };
+        self.id.without(&self.rows, at) == other.id.without(&other.rows, at)
+            && (at.y..at.y + at.height).all(|y| beside(self, y) == beside(other, y))
+    }
+
+    /// The smallest rectangle outside of which another map of the same size [equals](Self::equals_outside)
+    /// this one: of no cells if they are the same. `None` for a map of another size.
+    #[must_use]
+    pub fn difference(&self, other: &Self) -> Option<Rectangle> {
+        if self.id.size() != other.id.size() {
+            return None;
+        }
+        let span = |one: &BitMatrix, other: &BitMatrix| {
+            let differ = |&y: &u32| one.row_words(y) != other.row_words(y);
+            let first = (0..one.height()).find(differ)?;
+            let last = (first..one.height()).rev().find(differ)?;
+            Some((first, last - first + 1))
+        };
+        let same = Rectangle { x: 0, y: 0, width: 0, height: 0 };
+        if self.id == other.id {
+            return Some(same);
+        }
+        let spans = span(&self.rows, &other.rows).zip(span(&self.columns, &other.columns));
+        Some(spans.map_or(same, |((y, height), (x, width))| Rectangle { x, y, width, height }))
+    }
+
+    /// The identity of the map.
+    #[must_use]
+    #[inline]
+    pub const fn id(&self) -> MapId {
+        self.id
     }
 
     /// Checks that a map may have these sides.

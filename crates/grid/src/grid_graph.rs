@@ -4,7 +4,7 @@ use std::{ops::Deref, sync::Arc};
 
 use mediant_moves::{Cost, CostTable, FiniteK, KError, Neighborhood, Vector};
 
-use crate::{FreeSpace, Grid, Placement, Vertex, VertexId, footprint::Footprint, tree::Octant};
+use crate::{FreeSpace, Grid, Identity, Placement, Vertex, VertexId, footprint::Footprint, tree::Octant};
 
 /// A move of N(k) with its cost and its effect on vertex ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,10 +96,29 @@ impl<P: Placement> GridGraph<P> {
     /// # Errors
     /// [`KError::TooLarge`] above [`MAX_K`](Self::MAX_K).
     pub fn new(grid: Arc<Grid>, k: FiniteK, rule: P::Rule) -> Result<Self, KError> {
+        Self::check_k(k)?;
+        Self::of(FreeSpace::for_k(grid, rule, k.into()), k)
+    }
+
+    /// The search graph of N(k) in a free space, which the two then share.
+    ///
+    /// # Errors
+    /// [`KError::TooLarge`] above [`MAX_K`](Self::MAX_K).
+    pub fn in_space(space: &FreeSpace<P>, k: FiniteK) -> Result<Self, KError> {
+        Self::check_k(k)?;
+        Self::of(space.serving(k), k)
+    }
+
+    const fn check_k(k: FiniteK) -> Result<(), KError> {
         if k.get() > Self::MAX_K {
             return Err(KError::TooLarge { k: k.get(), max: Self::MAX_K });
         }
-        let (width, _) = P::vertices(&grid);
+        Ok(())
+    }
+
+    fn of(space: FreeSpace<P>, k: FiniteK) -> Result<Self, KError> {
+        let (grid, rule) = (space.grid(), space.rule());
+        let (width, _) = P::vertices(grid);
         let moves: Vec<Vector> = Neighborhood::new(k)?.iter().collect();
         let steps = moves.iter().map(|&v| Step {
             cost: Cost::of_move(v),
@@ -111,10 +130,16 @@ impl<P: Placement> GridGraph<P> {
             steps: steps.collect(),
             costs: CostTable::new(k)?,
             short: (0..P::PATTERNS).map(|pattern| legal_in_pattern::<P>(rule, k, &moves, pattern)).collect(),
-            octants: octants::<P>(rule, &moves, &grid),
-            space: FreeSpace::with_connectivity(grid, rule, P::connectivity(rule, Some(k))),
+            octants: octants::<P>(rule, &moves, grid),
+            space,
             k,
         })
+    }
+
+    /// What it belongs to: its map, rules and k.
+    #[must_use]
+    pub fn identity(&self) -> Identity {
+        Identity { k: Some(self.k.into()), ..self.space.identity() }
     }
 
     /// The k of the neighborhood.

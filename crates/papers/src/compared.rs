@@ -1,11 +1,11 @@
 //! Our engines beside other programs: what `cargo xtask compare` measures, as a page; and the figures that
 //! Central64 publishes.
 
+use mediant::Setup;
 use mediant_bench::{
     Baseline, Comparison, Competitor, MapRecord, Problem, PublishedRow, ReferenceTimings, Study, Timing,
     measure as side_by_side,
 };
-use mediant_engines::Setup;
 use mediant_report::{
     Axis, Chart, Claim, Column, Mark, Record, Row, Series, Table, number, stats, thousands,
 };

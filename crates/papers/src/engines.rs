@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use mediant::Setup;
 use mediant_bench::Study;
-use mediant_engines::Setup;
 use mediant_report::{Axis, Chart, Column, Mark, Record, Row, Series, Table, number, thousands};
 use mediant_search::Query;
 
@@ -248,7 +248,7 @@ fn show(record: &Record) -> Section {
 
 #[cfg(test)]
 mod tests {
-    use mediant_engines::EngineKind;
+    use mediant::Engine;
 
     use super::*;
 
@@ -256,7 +256,7 @@ mod tests {
     fn every_engine_takes_part() {
         let parsed: Vec<Setup> = setups().map(|(_, setup)| setup.parse().unwrap()).collect();
         assert!(parsed.iter().all(|setup| setup.check().is_ok()));
-        for engine in EngineKind::ALL {
+        for engine in Engine::ALL {
             assert!(parsed.iter().any(|setup| setup.engine.kind() == engine), "{engine}");
         }
         for ((placement, setup), parsed) in setups().zip(&parsed) {

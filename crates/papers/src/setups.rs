@@ -1,7 +1,7 @@
 //! Setups by their text, and sums over their runs.
 
+use mediant::Setup;
 use mediant_bench::{Run, Study};
-use mediant_engines::Setup;
 use mediant_report::{Column, Row};
 use serde::{Deserialize, Serialize};
 

@@ -7,7 +7,7 @@ use std::{
     sync::Arc,
 };
 
-use mediant_engines::{BoxedPlanner, EngineKind, Setup, SharedRules};
+use mediant::{Engine, Planner, Setup, SharedRules};
 use mediant_grid::{
     Centers, CornerRule, Corners, DiagonalGap, Grid, Placement, PlacementKind, Rules, Vertex,
 };
@@ -48,7 +48,7 @@ fn queries(grid: &Grid, placement: PlacementKind) -> Vec<Query> {
     free.iter().flat_map(|&a| free.iter().map(move |&b| Query::new(a, b))).collect()
 }
 
-fn check(setup: Setup, planner: &mut BoxedPlanner, queries: &[Query]) {
+fn check(setup: Setup, planner: &mut Planner, queries: &[Query]) {
     for &query in queries {
         planner.solve(query).expect("both ends are free");
     }
@@ -67,14 +67,14 @@ fn check(setup: Setup, planner: &mut BoxedPlanner, queries: &[Query]) {
 /// Checks every setup of the catalog whose engine is in this crate, but for those that smooth their paths:
 /// smoothing allocates. How many there were.
 fn check_all(k: K, rules: Rules, pruning: &SharedRules) -> usize {
-    use EngineKind::{Chpa, Hpa, Subgoal, SubgoalTheta};
+    use Engine::{Chpa, Hpa, Subgoal, SubgoalTheta};
     let grid = Arc::new(mediant_oracle::caves(&mut mediant_oracle::Rng::new(7), 60, 50));
     let queries = queries(&grid, rules.placement());
     let is_here = |setup: &Setup| !matches!(setup.engine.kind(), Subgoal | SubgoalTheta | Hpa | Chpa);
     let setups = Setup::all(k, rules).filter(is_here).filter(|setup| setup.smoothing.is_none());
     setups
         .inspect(|&setup| {
-            let planner = BoxedPlanner::new(setup, &grid, pruning);
+            let planner = Planner::new(setup, &grid, pruning);
             check(setup, &mut planner.unwrap_or_else(|error| panic!("{setup}: {error}")), &queries);
         })
         .count()

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mediant_engines::Setup;
+use mediant::Setup;
 use mediant_report::{Machine, Table, number, revision, stats::geometric_mean};
 use serde::Serialize;
 

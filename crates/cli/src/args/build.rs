@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use mediant_engines::Setup;
+use mediant::Setup;
 
 use super::{options::IndexOptions, setup::SetupArgs};
 use crate::failure::Failure;

@@ -45,7 +45,7 @@ pub(crate) enum Command {
 #[cfg(test)]
 mod tests {
     use clap::CommandFactory;
-    use mediant_engines::{Engine, EngineKind};
+    use mediant::{ConfiguredEngine, Engine};
 
     use super::*;
 
@@ -62,21 +62,20 @@ mod tests {
             let argument = run.get_arguments().find(|argument| argument.get_id() == name).unwrap();
             argument.get_help().unwrap().to_string()
         };
-        let engine = |kind: EngineKind| Engine::from(kind);
-        for kind in [EngineKind::Subgoal, EngineKind::SubgoalTheta, EngineKind::Hpa] {
+        let engine = |kind: Engine| ConfiguredEngine::from(kind);
+        for kind in [Engine::Subgoal, Engine::SubgoalTheta, Engine::Hpa] {
             let name = engine(kind).levels().unwrap().in_words().replacen("a c", "A c", 1);
-            let by =
-                if kind == EngineKind::Subgoal { "by default".to_owned() } else { format!("for {kind}") };
+            let by = if kind == Engine::Subgoal { "by default".to_owned() } else { format!("for {kind}") };
             let name = format!("{name} {by}");
             assert!(help("levels").contains(&name), "{name}: {}", help("levels"));
         }
-        for (kind, by) in [(EngineKind::Hpa, "10 by default for hpa"), (EngineKind::Chpa, "3 for chpa")] {
+        for (kind, by) in [(Engine::Hpa, "10 by default for hpa"), (Engine::Chpa, "3 for chpa")] {
             assert!(
                 by.contains(&engine(kind).side().unwrap().to_string()) && help("side").contains(by),
                 "{by}"
             );
         }
-        let chpa = engine(EngineKind::Chpa);
+        let chpa = engine(Engine::Chpa);
         for (option, value) in [("step", chpa.step()), ("detour", chpa.detour())] {
             assert!(help(option).contains(&format!("{} by default", value.unwrap())), "{}", help(option));
         }

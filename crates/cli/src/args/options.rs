@@ -5,7 +5,7 @@ use clap::{
     builder::{PossibleValuesParser, ValueParser},
     error::ErrorKind,
 };
-use mediant_engines::{Engine, EngineOption, OptionValue, SetupError, ValueKind};
+use mediant::{ConfiguredEngine, EngineOption, OptionValue, SetupError, ValueKind};
 
 /// The options that were given, of those that a command takes: all, or only those that decide what an index
 /// holds.
@@ -25,7 +25,7 @@ impl<const OF_INDEX: bool> Options<OF_INDEX> {
     }
 
     /// Chooses the options that were given.
-    pub(super) fn choose(&self, engine: &mut Engine) -> Result<(), SetupError> {
+    pub(super) fn choose(&self, engine: &mut ConfiguredEngine) -> Result<(), SetupError> {
         self.0.iter().try_for_each(|&(option, value)| engine.set(option, value))
     }
 }

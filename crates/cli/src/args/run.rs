@@ -6,7 +6,7 @@ use std::{
 };
 
 use clap::{ArgGroup, Args, ValueEnum};
-use mediant_engines::{EngineKind, Setup};
+use mediant::{Engine, Setup};
 use mediant_grid::{Rules, Vertex};
 use mediant_moves::K;
 use mediant_search::Smoothing;
@@ -52,8 +52,8 @@ pub(crate) struct RunArgs {
     #[arg(hide_possible_values = true, value_name = "linear|taut")]
     pub(crate) smooth: Option<SmoothArg>,
     /// Also find each query's shortest any-angle path by this engine, and say how much longer the path is
-    #[arg(long, value_name = "ENGINE", value_parser = one_of(REFERENCES, EngineKind::name))]
-    pub(crate) reference: Option<EngineKind>,
+    #[arg(long, value_name = "ENGINE", value_parser = one_of(REFERENCES, Engine::name))]
+    pub(crate) reference: Option<Engine>,
     /// Load the engine's index from a file that `mediant build` wrote, instead of preparing it
     #[arg(long, value_name = "FILE")]
     pub(crate) index: Option<PathBuf>,
@@ -117,7 +117,7 @@ Examples:
   mediant run arena.map --from 1,11 --engine dijkstra --distances -";
 
 /// The engines whose paths are the shortest at any angle.
-const REFERENCES: [EngineKind; 2] = [EngineKind::Anya, EngineKind::Subgoal];
+const REFERENCES: [Engine; 2] = [Engine::Anya, Engine::Subgoal];
 
 impl RunArgs {
     /// The setup that the arguments ask for.
@@ -149,10 +149,10 @@ mod tests {
 
     #[test]
     fn references_are_the_engines_that_promise_the_shortest_any_angle_paths() {
-        let promises = |engine: &EngineKind| {
+        let promises = |engine: &Engine| {
             let setup = Setup::new(*engine, K::Any, engine.capabilities().default_rules(K::Any));
             setup.check().is_ok() && setup.optimal_over() == Some(K::Any)
         };
-        assert!(EngineKind::ALL.into_iter().filter(promises).eq(REFERENCES));
+        assert!(Engine::ALL.into_iter().filter(promises).eq(REFERENCES));
     }
 }

@@ -1,7 +1,7 @@
 //! The arguments that say what is searched and by which engine, and the setup that they make.
 
 use clap::{Args, ValueEnum};
-use mediant_engines::{EngineKind, Setup};
+use mediant::{Engine, Setup};
 use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Rules};
 use mediant_moves::K;
 
@@ -12,8 +12,8 @@ use crate::failure::Failure;
 #[derive(Args, Debug)]
 pub(crate) struct SetupArgs {
     /// The algorithm; `mediant engines` says what each can do
-    #[arg(long, default_value_t, value_parser = one_of(EngineKind::ALL, EngineKind::name))]
-    pub(crate) engine: EngineKind,
+    #[arg(long, default_value_t, value_parser = one_of(Engine::ALL, Engine::name))]
+    pub(crate) engine: Engine,
     /// The neighborhood: 2 to 12, or any, which is every direction. 3 by default, any for anya
     #[arg(long, allow_negative_numbers = true, value_parser = parse_k)]
     pub(crate) k: Option<K>,

@@ -7,7 +7,7 @@ use std::{
 };
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use mediant_engines::UnknownName;
+use mediant::UnknownName;
 use mediant_grid::{Centers, GridGraph, Vertex};
 use mediant_moves::{FiniteK, K, ParseKError};
 

@@ -2,7 +2,7 @@
 
 use std::{io::Write, time::Instant};
 
-use mediant_engines::{Index, SearchSpace, SharedRules};
+use mediant::{Index, SharedRules, Space};
 
 use crate::{
     args::BuildArgs,
@@ -25,7 +25,7 @@ pub(crate) fn build(args: &BuildArgs, screen: &mut Screen) -> Result<(), Failure
     let map = Map::load(&args.map)?;
     let progress = BuildProgress::new();
     let begin = Instant::now();
-    let built = SearchSpace::new(setup, &map.grid).and_then(|space| {
+    let built = Space::new(setup, &map.grid).and_then(|space| {
         Index::with_progress(setup, &space, &SharedRules::new(), &|step| progress.tell(step))?.to_bytes()
     });
     let took = begin.elapsed();

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use anstyle::RgbColor;
-use mediant_engines::{BoxedPlanner, EngineKind, Setup, SharedRules};
+use mediant::{Engine, Planner, Setup, SharedRules};
 use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Rules, Vertex};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{Outcome, Query};
@@ -48,7 +48,7 @@ struct Row {
 /// Solves the demo's query in one setup; `None` if there is no path.
 fn solve(setup: Setup, map: &Map, query: Query, pruning: &SharedRules) -> Result<Option<Row>, Failure> {
     let Setup { rules, k, .. } = setup;
-    let mut planner = BoxedPlanner::new(setup, &map.grid, pruning)?;
+    let mut planner = Planner::new(setup, &map.grid, pruning)?;
     // The table compares with any-angle paths between corners; no bound to these is known for paths between
     // centers.
     let at_corners = rules.placement() == PlacementKind::Corner;
@@ -68,10 +68,10 @@ pub(crate) fn demo(args: &DemoArgs, screen: &mut Screen) -> Result<(), Failure> 
     let centers = Rules::Center(CornerRule::Never);
     let mut setups = Vec::new();
     for k in KS {
-        setups.push(Setup::new(EngineKind::AStar, FiniteK::new(k)?, corners));
+        setups.push(Setup::new(Engine::AStar, FiniteK::new(k)?, corners));
     }
-    setups.push(Setup::new(EngineKind::Anya, K::Any, corners));
-    setups.push(Setup::new(EngineKind::AStar, FiniteK::N8, centers));
+    setups.push(Setup::new(Engine::Anya, K::Any, corners));
+    setups.push(Setup::new(Engine::AStar, FiniteK::N8, centers));
     let (pruning, mut rows) = (SharedRules::new(), Vec::new());
     for setup in setups {
         rows.extend(solve(setup, &map, query, &pruning)?);

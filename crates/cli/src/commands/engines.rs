@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use mediant_engines::{Capabilities, EngineKind};
+use mediant::{Capabilities, Engine};
 use mediant_moves::K;
 
 use crate::{
@@ -22,7 +22,7 @@ At centers subgoal, hpa and chpa take k = 2, and k = 3 under corners never.";
 pub(crate) fn list(screen: &mut Screen) -> Result<(), Failure> {
     let heads = ["engine", "placement", "k", "guarantee", "paper"].map(|head| (head, Align::Left));
     let mut table = Table::new(heads);
-    for engine in EngineKind::ALL {
+    for engine in Engine::ALL {
         let Capabilities { placements, max_k, any, guarantee, paper, .. } = engine.capabilities();
         let placement = match placements {
             [one] => one.to_string(),

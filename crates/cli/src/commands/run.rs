@@ -6,7 +6,7 @@ use std::{
     time::Instant,
 };
 
-use mediant_engines::{BoxedPlanner, EngineOption, Index, SearchSpace, Setup, SharedRules};
+use mediant::{EngineOption, Index, Planner, Setup, SharedRules, Space};
 
 use crate::{
     args::{Format, RunArgs},
@@ -78,7 +78,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     };
     let session = Session {
         queries: &queries,
-        any_angle: reference.map(|setup| BoxedPlanner::new(setup, &map.grid, &rules)).transpose()?,
+        any_angle: reference.map(|setup| Planner::new(setup, &map.grid, &rules)).transpose()?,
         report: &mut *report,
         progress: Progress::new(queries.len(), !lines_on_screen),
         trace,
@@ -92,14 +92,9 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
 }
 
 /// The search space of a map, and the index: a new one, or that of the file that the arguments name.
-fn prepare(
-    args: &RunArgs,
-    setup: Setup,
-    map: &Map,
-    rules: &SharedRules,
-) -> Result<(SearchSpace, Index), Failure> {
+fn prepare(args: &RunArgs, setup: Setup, map: &Map, rules: &SharedRules) -> Result<(Space, Index), Failure> {
     let bytes = args.index.as_deref().map(|path| index_file::load(path, setup, &map.grid)).transpose()?;
-    let space = SearchSpace::new(setup, &map.grid)?;
+    let space = Space::new(setup, &map.grid)?;
     let index = match bytes {
         None => Index::new(setup, &space, rules)?,
         Some(bytes) => Index::from_bytes(setup, &space, rules, &bytes)?,

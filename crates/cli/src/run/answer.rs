@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use mediant_engines::{EngineKind, EngineOption, OptionValue, Setup};
+use mediant::{Engine, EngineOption, OptionValue, Setup};
 use mediant_grid::{Rules, Vertex};
 use mediant_search::{Counters, Guarantee, Path};
 
@@ -21,7 +21,7 @@ pub(crate) struct Run<'r> {
     pub(crate) options: Vec<(&'static EngineOption, Option<OptionValue>)>,
     pub(crate) guarantee: Guarantee,
     /// The engine of `--reference`, which finds the shortest any-angle paths to compare with.
-    pub(crate) reference: Option<EngineKind>,
+    pub(crate) reference: Option<Engine>,
     /// How often each query is timed.
     pub(crate) repeat: u32,
     /// The time to prepare the search space, and to prepare or load the index.

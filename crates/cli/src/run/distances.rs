@@ -6,7 +6,7 @@ use std::{
     path::Path,
 };
 
-use mediant_engines::{EngineError, Setup, distances};
+use mediant::{EngineError, Setup, distances};
 use mediant_grid::Vertex;
 
 use super::query_error::explain;

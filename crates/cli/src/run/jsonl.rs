@@ -9,7 +9,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use mediant_engines::{EngineKind, EngineOption, Levels, OptionValue, ValueKind};
+use mediant::{Engine, EngineOption, Levels, OptionValue, ValueKind};
 use mediant_grid::{CornerRule, DiagonalGap, Rules, Vertex};
 use mediant_moves::K;
 use mediant_search::Path;
@@ -131,7 +131,7 @@ impl<'r> From<&Run<'r>> for RunLine<'r> {
             options: run.options.iter().map(|&(option, value)| json_of(option, value)).collect(),
             smooth: setup.smoothing.is_some(),
             smoothing: setup.smoothing.map(smoothing_name),
-            any_angle: run.reference.map(EngineKind::name),
+            any_angle: run.reference.map(Engine::name),
             guarantee: guarantee_name(run.guarantee),
             repeat: run.repeat,
             preprocess_ns: run.preparation.as_nanos() as u64,

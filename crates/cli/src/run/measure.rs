@@ -2,7 +2,7 @@
 
 use std::{hint::black_box, time::Instant};
 
-use mediant_engines::BoxedPlanner;
+use mediant::Planner;
 use mediant_search::{Counters, Outcome, Query, QueryError};
 
 /// The answer of a planner, with counts and time.
@@ -16,7 +16,7 @@ pub(crate) struct Measured {
 impl Measured {
     /// Solves a query once with counters, which warms the planner, then `repeat` times by the clock, without
     /// counters.
-    pub(crate) fn new(planner: &mut BoxedPlanner, query: Query, repeat: u32) -> Self {
+    pub(crate) fn new(planner: &mut Planner, query: Query, repeat: u32) -> Self {
         let mut counters = Counters::default();
         let outcome = planner.solve_observed(query, &mut counters);
         let timed = |_| {

@@ -1,6 +1,6 @@
 //! Answers queries one after the other on one warm planner.
 
-use mediant_engines::BoxedPlanner;
+use mediant::Planner;
 use mediant_grid::Vertex;
 use mediant_search::{Outcome, Path};
 
@@ -19,7 +19,7 @@ use crate::{failure::Failure, terminal::progress::Progress};
 pub(crate) struct Session<'s> {
     pub(crate) queries: &'s Queries,
     /// The planner of `--reference`, which finds the shortest any-angle paths to compare with.
-    pub(crate) any_angle: Option<BoxedPlanner>,
+    pub(crate) any_angle: Option<Planner>,
     pub(crate) report: &'s mut dyn Report,
     pub(crate) progress: Progress,
     /// Where the trace of the first query goes.
@@ -37,11 +37,7 @@ pub(crate) struct Finished {
 
 impl Session<'_> {
     /// Answers all queries and reports the answers.
-    pub(crate) fn answer_all(
-        mut self,
-        planner: &mut BoxedPlanner,
-        run: &Run<'_>,
-    ) -> Result<Finished, Failure> {
+    pub(crate) fn answer_all(mut self, planner: &mut Planner, run: &Run<'_>) -> Result<Finished, Failure> {
         self.report.begin(run)?;
         let mut tally = Tally::default();
         let (mut first_error, mut path) = (None, Vec::new());
@@ -63,7 +59,7 @@ impl Session<'_> {
     }
 
     /// Answers one query.
-    fn answer(&mut self, planner: &mut BoxedPlanner, run: &Run<'_>, item: Item) -> Result<Answer, Failure> {
+    fn answer(&mut self, planner: &mut Planner, run: &Run<'_>, item: Item) -> Result<Answer, Failure> {
         let (grid, rules) = (&*run.map.grid, run.setup.rules);
         let Measured { outcome, counters, nanos } = Measured::new(planner, item.query, run.repeat);
         if let Some(TraceFile { path, out }) = self.trace.take() {

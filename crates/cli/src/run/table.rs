@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use mediant_engines::{EngineKind, OptionValue};
+use mediant::{Engine, OptionValue};
 use mediant_grid::{PlacementKind, Vertex};
 
 use super::{
@@ -151,7 +151,7 @@ impl Report for TableReport<'_> {
         self.queries = run.queries;
         self.from_scenario = run.scenario.is_some();
         self.is_reference = setup.solves_scenarios();
-        self.any_angle = run.reference.map_or("", EngineKind::name);
+        self.any_angle = run.reference.map_or("", Engine::name);
         self.may_fall_back = setup.engine.detour().is_some();
         let rule = match setup.rules.placement() {
             PlacementKind::Center => format!("corners {}", setup.rule_name()),

@@ -6,7 +6,7 @@ use std::{
     path,
 };
 
-use mediant_engines::BoxedPlanner;
+use mediant::Planner;
 use mediant_formats::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
 use mediant_grid::{Grid, PlacementKind, Vertex};
 use mediant_search::{NodeEvent, Observer, Outcome, Path, Query, QueryError};
@@ -39,7 +39,7 @@ impl<'g, W: Write> Tracer<'g, W> {
     /// Writes the search of a query whose answer is known. An invalid query makes a trace without events.
     pub(crate) fn run(
         mut self,
-        planner: &mut BoxedPlanner,
+        planner: &mut Planner,
         query: Query,
         answer: &Result<Outcome, QueryError>,
     ) -> io::Result<()> {

@@ -8,7 +8,7 @@ use crate::common::{Files, Ran, mediant, told};
 fn a_trace_has_the_search_and_its_path() {
     let files = Files::new();
     let path = files.path("trace.json");
-    for engine in mediant_engines::EngineKind::ALL {
+    for engine in mediant::Engine::ALL {
         for placement in engine.capabilities().placements.iter().map(ToString::to_string) {
             let line = format!(
                 "run builtin:town --from 60,18 --to 10,5 --engine {engine} --placement {placement} --trace {path}"

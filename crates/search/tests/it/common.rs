@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_engines::{BoxedPlanner, EngineKind, Index, SearchSpace, Setup, SharedRules, Variant};
+use mediant::{Engine, Index, Planner, Setup, SharedRules, Space, Variant};
 use mediant_grid::{DiagonalGap, Grid, Rules};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{Counters, Guarantee, Outcome, Query, QueryError};
@@ -15,7 +15,7 @@ pub(crate) type Answer = Result<(Outcome, Counters), QueryError>;
 
 /// An engine on one search space, for any number of queries. Its planner is made at the first one, since most
 /// suites run few engines.
-pub(crate) struct Engine<'g> {
+pub(crate) struct TestedEngine<'g> {
     pub(crate) name: String,
     pub(crate) guarantee: Guarantee,
     /// The directions that its paths may take.
@@ -24,19 +24,19 @@ pub(crate) struct Engine<'g> {
     pub(crate) may_give_up: bool,
     /// Whether it searches a prepared graph. The crates of those engines have long suites of their own.
     pub(crate) is_prepared: bool,
-    planner: Option<BoxedPlanner>,
+    planner: Option<Planner>,
     setup: Setup,
-    space: &'g SearchSpace,
+    space: &'g Space,
 }
 
-impl<'g> Engine<'g> {
-    fn new(setup: Setup, space: &'g SearchSpace) -> Self {
+impl<'g> TestedEngine<'g> {
+    fn new(setup: Setup, space: &'g Space) -> Self {
         let (guarantee, paths) = (setup.guarantee(), setup.paths());
         let may_give_up =
-            (setup.engine.kind(), setup.engine.variant()) == (EngineKind::Chpa, Some(Variant::Paper));
+            (setup.engine.kind(), setup.engine.variant()) == (Engine::Chpa, Some(Variant::Paper));
         let is_prepared = matches!(
             setup.engine.kind(),
-            EngineKind::Subgoal | EngineKind::SubgoalTheta | EngineKind::Hpa | EngineKind::Chpa
+            Engine::Subgoal | Engine::SubgoalTheta | Engine::Hpa | Engine::Chpa
         );
         let name = setup.to_string();
         Self { name, guarantee, paths, may_give_up, is_prepared, planner: None, setup, space }
@@ -60,7 +60,7 @@ pub(crate) fn with_engines<R>(
     grid: &Arc<Grid>,
     rules: Rules,
     k: u32,
-    suite: impl FnOnce(Vec<Engine<'_>>) -> R,
+    suite: impl FnOnce(Vec<TestedEngine<'_>>) -> R,
 ) -> R {
     on(grid, rules, K::Finite(FiniteK::new(k).expect("k is at least 2")), suite)
 }
@@ -70,13 +70,13 @@ pub(crate) fn with_engines<R>(
 pub(crate) fn with_any_angle_engines<R>(
     grid: &Arc<Grid>,
     gap: DiagonalGap,
-    suite: impl FnOnce(Vec<Engine<'_>>) -> R,
+    suite: impl FnOnce(Vec<TestedEngine<'_>>) -> R,
 ) -> R {
     on(grid, Rules::Corner(gap), K::Any, suite)
 }
 
-fn on<R>(grid: &Arc<Grid>, rules: Rules, k: K, suite: impl FnOnce(Vec<Engine<'_>>) -> R) -> R {
+fn on<R>(grid: &Arc<Grid>, rules: Rules, k: K, suite: impl FnOnce(Vec<TestedEngine<'_>>) -> R) -> R {
     let setups: Vec<Setup> = Setup::all(k, rules).collect();
-    let space = SearchSpace::new(setups[0], grid).expect("k is in range");
-    suite(setups.into_iter().map(|setup| Engine::new(setup, &space)).collect())
+    let space = Space::new(setups[0], grid).expect("k is in range");
+    suite(setups.into_iter().map(|setup| TestedEngine::new(setup, &space)).collect())
 }

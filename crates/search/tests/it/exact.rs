@@ -8,7 +8,7 @@ use mediant_moves::{FiniteK, K};
 use mediant_oracle::{Explicit, Rng, describe, on_all_cores, random_free_vertex, suite_grid, validate};
 use mediant_search::{Counters, Guarantee, Outcome, Path, Query, QueryError};
 
-use crate::common::{Engine, with_any_angle_engines, with_engines};
+use crate::common::{TestedEngine, with_any_angle_engines, with_engines};
 
 /// The maps of the default run.
 const MAPS: u64 = 60;
@@ -85,7 +85,7 @@ struct Case<'g> {
 impl Case<'_> {
     /// Checks the answer of an engine against its guarantee. Returns how it was answered; `None` where there
     /// is no path.
-    fn check(&self, engine: &mut Engine<'_>) -> Option<Found> {
+    fn check(&self, engine: &mut TestedEngine<'_>) -> Option<Found> {
         let Self { grid, rules, start, goal, seed, .. } = *self;
         let answer = engine.solve(Query::new(start, goal));
         let case = || format!("{}; {}", engine.name, describe(grid, rules, start, goal, seed));
@@ -140,7 +140,7 @@ fn check_all(seed: u64) -> Tally {
     for rules in Rules::ALL {
         let any_angle = Explicit::new(&grid, rules, None);
         let queries = queries(&grid, rules, seed);
-        let mut run = |graph: &Explicit, mut engines: Vec<Engine<'_>>| {
+        let mut run = |graph: &Explicit, mut engines: Vec<TestedEngine<'_>>| {
             for (start, goals) in &queries {
                 let (costs, best) = (graph.costs_from(*start), any_angle.costs_from(*start));
                 for &goal in goals {
@@ -196,7 +196,7 @@ fn engines_are_exact_on_every_map_of_nine_cells() {
         let grid = Arc::new(Grid::from_fn(3, 3, |x, y| cells >> (3 * y + x) & 1 == 1).expect("a valid size"));
         for rules in Rules::ALL {
             let any_angle = Explicit::new(&grid, rules, None);
-            let mut run = |graph: &Explicit, mut engines: Vec<Engine<'_>>| {
+            let mut run = |graph: &Explicit, mut engines: Vec<TestedEngine<'_>>| {
                 for start in graph.free_vertices() {
                     let (costs, best) = (graph.costs_from(start), any_angle.costs_from(start));
                     for goal in graph.free_vertices() {

@@ -5,31 +5,24 @@
 
 use std::sync::Arc;
 
-use mediant_engines::{BoxedPlanner, EngineKind, Setup, SharedRules};
+use mediant::{Engine, Planner, Setup, SharedRules};
 use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Rules, draw};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{Outcome, Query, Smoothing};
 
 /// The picture of the best path from `s` to `g`, under its cost.
 fn picture(drawing: &str, rules: Rules, k: u32) -> String {
-    picture_by(EngineKind::AStar, drawing, rules, k, None)
+    picture_by(Engine::AStar, drawing, rules, k, None)
 }
 
 /// The same, by any engine, and smoothed.
-fn picture_by(
-    engine: EngineKind,
-    drawing: &str,
-    rules: Rules,
-    k: u32,
-    smoothing: Option<Smoothing>,
-) -> String {
+fn picture_by(engine: Engine, drawing: &str, rules: Rules, k: u32, smoothing: Option<Smoothing>) -> String {
     let map = AsciiMap::parse(drawing).expect("the drawing is a map");
     let query = Query::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
-    let k =
-        if engine == EngineKind::Anya { K::Any } else { FiniteK::new(k).expect("k is at least 2").into() };
+    let k = if engine == Engine::Anya { K::Any } else { FiniteK::new(k).expect("k is at least 2").into() };
     let setup = Setup { smoothing, ..Setup::new(engine, k, rules) };
     let grid = Arc::new(map.grid);
-    let mut planner = BoxedPlanner::new(setup, &grid, &SharedRules::new()).expect("the engine takes this");
+    let mut planner = Planner::new(setup, &grid, &SharedRules::new()).expect("the engine takes this");
     match planner.solve(query).expect("both ends are free") {
         Outcome::Found(path) => {
             format!(
@@ -107,7 +100,7 @@ pictures! {
 #[test]
 fn slalom_center_k4_canonical() {
     let [a_star, jumps] =
-        [EngineKind::AStar, EngineKind::Jps].map(|engine| picture_by(engine, SLALOM, NEVER, 4, None));
+        [Engine::AStar, Engine::Jps].map(|engine| picture_by(engine, SLALOM, NEVER, 4, None));
     insta::assert_snapshot!(format!("A*, {a_star}\nJPS, {jumps}"));
 }
 
@@ -115,10 +108,10 @@ fn slalom_center_k4_canonical() {
 #[test]
 fn slalom_any_angle() {
     let by = |engine, smoothing| picture_by(engine, SLALOM, OPEN, 3, smoothing);
-    let anya = by(EngineKind::Anya, None);
-    let theta = by(EngineKind::Theta, None);
-    let linear = by(EngineKind::AStar, Some(Smoothing::Linear));
-    let taut = by(EngineKind::AStar, Some(Smoothing::Taut));
+    let anya = by(Engine::Anya, None);
+    let theta = by(Engine::Theta, None);
+    let linear = by(Engine::AStar, Some(Smoothing::Linear));
+    let taut = by(Engine::AStar, Some(Smoothing::Taut));
     insta::assert_snapshot!(format!(
         "Anya, {anya}\nTheta*, {theta}\nA*, smoothed, {linear}\nA*, pulled taut, {taut}"
     ));
@@ -126,6 +119,6 @@ fn slalom_any_angle() {
 
 #[test]
 fn gap_any_angle() {
-    let [open, closed] = [OPEN, CLOSED].map(|rules| picture_by(EngineKind::Anya, GAP, rules, 0, None));
+    let [open, closed] = [OPEN, CLOSED].map(|rules| picture_by(Engine::Anya, GAP, rules, 0, None));
     insta::assert_snapshot!(format!("{open}\n{closed}"));
 }

@@ -7,7 +7,7 @@ mod subgoals;
 
 use std::sync::Arc;
 
-use mediant_engines::{BoxedPlanner, EngineError, Index, SearchSpace, Setup, SharedRules};
+use mediant::{EngineError, Index, Planner, Setup, SharedRules, Space};
 use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Rules};
 use mediant_moves::FiniteK;
 
@@ -41,7 +41,7 @@ fn grid() -> Arc<Grid> {
 
 /// The index of a setup on a map: a new one, or the one in these bytes.
 fn index(setup: Setup, grid: &Arc<Grid>, bytes: Option<&[u8]>) -> Result<Index, EngineError> {
-    let space = SearchSpace::new(setup, grid)?;
+    let space = Space::new(setup, grid)?;
     match bytes {
         None => Index::new(setup, &space, &RULES),
         Some(bytes) => Index::from_bytes(setup, &space, &RULES, bytes),
@@ -54,11 +54,11 @@ fn build(setup: Setup, grid: &Arc<Grid>) -> Result<Vec<u8>, EngineError> {
 }
 
 /// A planner on the small map.
-fn planner(setup: Setup) -> BoxedPlanner {
-    BoxedPlanner::new(setup, &grid(), &RULES).unwrap_or_else(|error| panic!("{setup}: {error}"))
+fn planner(setup: Setup) -> Planner {
+    Planner::new(setup, &grid(), &RULES).unwrap_or_else(|error| panic!("{setup}: {error}"))
 }
 
 /// A planner on an index.
-fn planner_on(index: &Index) -> BoxedPlanner {
+fn planner_on(index: &Index) -> Planner {
     index.planner().unwrap_or_else(|error| panic!("{}: {error}", index.setup()))
 }

@@ -10,7 +10,7 @@ use crate::{error::EngineError, setup::Setup};
 /// What the planners of one k and one rule of motion share: the grid graph of N(k), or at k = ∞ the free
 /// space. Immutable; clones share it.
 #[derive(Clone, Debug)]
-pub enum SearchSpace {
+pub enum Space {
     /// N(k) on the centers of cells.
     Centers(Arc<GridGraph<Centers>>),
     /// N(k) on the corners of cells.
@@ -28,7 +28,7 @@ pub(crate) fn no_space(setup: Setup) -> EngineError {
     EngineError::Space { expected, found: (setup.k, setup.rules) }
 }
 
-impl SearchSpace {
+impl Space {
     /// The search space of a map for the k and the rules of a setup.
     ///
     /// # Errors

@@ -14,7 +14,7 @@ use mediant_subgoal::{Progress, SubgoalPlacement};
 pub(crate) use self::parts::{Parts, Prepared};
 use self::source::Source;
 use crate::{
-    engine::Engine,
+    configured::ConfiguredEngine,
     error::{EngineError, SetupError},
     option::{
         EngineOption, OptionValue, Variant,
@@ -22,7 +22,7 @@ use crate::{
     },
     setup::Setup,
     shared_rules::{Shared, SharedRules},
-    space::{SearchSpace, no_space},
+    space::{Space, no_space},
 };
 
 /// What an engine prepares in a search space before the first query: nothing, a pruning rule, a jump table, a
@@ -31,13 +31,13 @@ use crate::{
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_engines::{Index, SearchSpace, Setup, SharedRules};
+/// use mediant::{Index, Space, Setup, SharedRules};
 /// use mediant_grid::Grid;
 /// use mediant_search::Query;
 ///
 /// let grid = Arc::new(Grid::from_fn(9, 9, |x, y| x == 4 && y != 8)?);
 /// let setup: Setup = "subgoal:any:open".parse()?;
-/// let space = SearchSpace::new(setup, &grid)?;
+/// let space = Space::new(setup, &grid)?;
 /// let index = Index::new(setup, &space, &SharedRules::new())?;
 /// let outcome = index.planner()?.solve(Query::new((0, 0), (9, 0)))?;
 /// assert!(outcome.path().is_some());
@@ -56,7 +56,7 @@ impl Index {
     /// # Errors
     /// [`EngineError`] for a setup whose parts do not fit together, a search space for another k or other
     /// rules, or clusters or segments of a size or number that does not exist.
-    pub fn new(setup: Setup, space: &SearchSpace, rules: &SharedRules) -> Result<Self, EngineError> {
+    pub fn new(setup: Setup, space: &Space, rules: &SharedRules) -> Result<Self, EngineError> {
         Self::with_progress(setup, space, rules, &|_| {})
     }
 
@@ -66,7 +66,7 @@ impl Index {
     /// Those of [`new`](Self::new).
     pub fn with_progress(
         setup: Setup,
-        space: &SearchSpace,
+        space: &Space,
         rules: &SharedRules,
         progress: &(dyn Fn(Progress) + Sync),
     ) -> Result<Self, EngineError> {
@@ -82,7 +82,7 @@ impl Index {
     /// should add a checksum.
     pub fn from_bytes(
         setup: Setup,
-        space: &SearchSpace,
+        space: &Space,
         rules: &SharedRules,
         bytes: &[u8],
     ) -> Result<Self, EngineError> {
@@ -92,23 +92,25 @@ impl Index {
     }
 
     /// Prepares a new index, or reads a saved one.
-    fn from_source(setup: Setup, space: &SearchSpace, source: Source<'_>) -> Result<Self, EngineError> {
+    fn from_source(setup: Setup, space: &Space, source: Source<'_>) -> Result<Self, EngineError> {
         space.check(setup)?;
         let prepared = match space {
-            SearchSpace::Centers(graph) => {
+            Space::Centers(graph) => {
                 let parts = match setup.engine {
-                    Engine::Hpa(own) => Parts::Clusters(hierarchies::clusters(setup, own, graph, source)?),
-                    Engine::Chpa(own) => Parts::Segments(hierarchies::segments(own, graph, source)?),
+                    ConfiguredEngine::Hpa(own) => {
+                        Parts::Clusters(hierarchies::clusters(setup, own, graph, source)?)
+                    }
+                    ConfiguredEngine::Chpa(own) => {
+                        Parts::Segments(hierarchies::segments(own, graph, source)?)
+                    }
                     _ => on_graph(setup, graph, source)?,
                 };
                 Prepared::Centers(Arc::clone(graph), parts)
             }
-            SearchSpace::Corners(graph) => {
-                Prepared::Corners(Arc::clone(graph), on_graph(setup, graph, source)?)
-            }
-            SearchSpace::AnyAngle(space) => {
+            Space::Corners(graph) => Prepared::Corners(Arc::clone(graph), on_graph(setup, graph, source)?),
+            Space::AnyAngle(space) => {
                 let parts = match setup.engine {
-                    Engine::Subgoal(_) => Parts::Subgoals(subgoals::graph(setup, space, source)?),
+                    ConfiguredEngine::Subgoal(_) => Parts::Subgoals(subgoals::graph(setup, space, source)?),
                     _ => Parts::Nothing,
                 };
                 Prepared::AnyAngle(Arc::clone(space), parts)
@@ -151,7 +153,7 @@ impl Index {
         bytes as u64
     }
 
-    /// The value of an option, as [`Engine::value`], but levels and side as they are in the index: where the
+    /// The value of an option, as [`ConfiguredEngine::value`], but levels and side as they are in the index: where the
     /// setup leaves them out, a saved index decides them.
     #[must_use]
     pub fn value(&self, option: &EngineOption) -> Option<OptionValue> {
@@ -175,26 +177,30 @@ fn on_graph<P: SubgoalPlacement + Shared>(
 ) -> Result<Parts<P>, EngineError> {
     let pruning = || source.rules.pruning(graph);
     Ok(match setup.engine {
-        Engine::AStar(_) | Engine::Dijkstra | Engine::Wavefront | Engine::Theta(_) | Engine::LazyTheta(_) => {
-            Parts::Nothing
-        }
-        Engine::Canonical(own) if own.variant == Some(Variant::Paper) => Parts::Nothing,
-        Engine::Canonical(_) | Engine::Jps(_) => Parts::Pruning(pruning()),
-        Engine::JpsBlock(_) => {
+        ConfiguredEngine::AStar(_)
+        | ConfiguredEngine::Dijkstra
+        | ConfiguredEngine::Wavefront
+        | ConfiguredEngine::Theta(_)
+        | ConfiguredEngine::LazyTheta(_) => Parts::Nothing,
+        ConfiguredEngine::Canonical(own) if own.variant == Some(Variant::Paper) => Parts::Nothing,
+        ConfiguredEngine::Canonical(_) | ConfiguredEngine::Jps(_) => Parts::Pruning(pruning()),
+        ConfiguredEngine::JpsBlock(_) => {
             let pruning = pruning();
             let blocks = BlockFinder::new(graph, &pruning)?;
             Parts::Blocks(pruning, blocks)
         }
-        Engine::JpsPlus(_) => {
+        ConfiguredEngine::JpsPlus(_) => {
             let table = match source.bytes {
                 None => JumpTable::new(graph)?,
                 Some(bytes) => JumpTable::from_bytes(graph, bytes.to_vec())?,
             };
             Parts::Table(pruning(), Arc::new(table))
         }
-        Engine::Subgoal(_) | Engine::SubgoalTheta(_) => {
+        ConfiguredEngine::Subgoal(_) | ConfiguredEngine::SubgoalTheta(_) => {
             Parts::Subgoals(subgoals::graph(setup, graph, source)?)
         }
-        Engine::Anya | Engine::Hpa(_) | Engine::Chpa(_) => return Err(no_space(setup)),
+        ConfiguredEngine::Anya | ConfiguredEngine::Hpa(_) | ConfiguredEngine::Chpa(_) => {
+            return Err(no_space(setup));
+        }
     })
 }

@@ -7,7 +7,7 @@ use mediant_subgoal::{Hierarchy, SubgoalGraph, SubgoalPlacement};
 
 use super::source::Source;
 use crate::{
-    engine::Engine,
+    configured::ConfiguredEngine,
     error::{EngineError, SetupError},
     option::Levels,
     setup::Setup,
@@ -20,7 +20,7 @@ pub(super) fn graph<P: SubgoalPlacement>(
     space: &FreeSpace<P>,
     source: Source<'_>,
 ) -> Result<Arc<SubgoalGraph<P>>, EngineError> {
-    let (Engine::Subgoal(own) | Engine::SubgoalTheta(own)) = setup.engine else {
+    let (ConfiguredEngine::Subgoal(own) | ConfiguredEngine::SubgoalTheta(own)) = setup.engine else {
         return Err(SetupError::without_index(setup.engine.kind()).into());
     };
     let expected: Hierarchy = setup.engine.levels().unwrap_or(Levels::Contracted).into();
@@ -30,7 +30,8 @@ pub(super) fn graph<P: SubgoalPlacement>(
     };
     let graph = SubgoalGraph::from_bytes(space, setup.k, bytes)?;
     let found = graph.hierarchy();
-    let needs_levels = matches!(setup.engine, Engine::SubgoalTheta(_)) && found == Hierarchy::Contracted;
+    let needs_levels =
+        matches!(setup.engine, ConfiguredEngine::SubgoalTheta(_)) && found == Hierarchy::Contracted;
     if expected != found && (own.levels.is_some() || needs_levels) {
         let [expected, found] = [expected, found].map(Levels::from);
         return Err(EngineError::Levels { expected, found });

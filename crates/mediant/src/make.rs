@@ -10,13 +10,13 @@ use mediant_grid::{Centers, Corners, FreeSpace, GridGraph, Placement};
 use mediant_hierarchy::{ChpaStar, HpaStar, SegmentGraph};
 use mediant_search::{
     AStar, Anya, BlockJps, Canonical, Euclidean, Heuristic, Hk, Jps, JpsPlus, LazyThetaStar, PaperCanonical,
-    Planner, SquaredEuclidean, ThetaStar, Wavefront, Zero,
+    Planner as Search, SquaredEuclidean, ThetaStar, Wavefront, Zero,
     parts::{HasFreeSpace, JumpFinder, JumpPointSearch, StepwiseFinder},
 };
 use mediant_subgoal::{SubgoalAStar, SubgoalGraph, SubgoalPlacement, SubgoalTheta};
 
 use crate::{
-    BoxedPlanner, ChpaOptions, Engine, EngineError, HeuristicName, Index, Setup,
+    ChpaOptions, ConfiguredEngine, EngineError, HeuristicName, Index, Planner, Setup,
     heuristic::Admissible,
     index::{Parts, Prepared},
     space::no_space,
@@ -27,13 +27,13 @@ impl Index {
     ///
     /// # Errors
     /// [`EngineError`] if the index does not hold what its engine needs, which no constructor allows.
-    pub fn planner(&self) -> Result<BoxedPlanner, EngineError> {
+    pub fn planner(&self) -> Result<Planner, EngineError> {
         let setup = self.setup();
         let planner = match &self.prepared {
             Prepared::Centers(graph, Parts::Clusters(clusters)) => {
                 let planner = HpaStar::new(Arc::clone(graph), Arc::clone(clusters))?;
-                let unstraightened = matches!(setup.engine, Engine::Hpa(own) if own.unstraightened);
-                Some(BoxedPlanner::of(planner.with_straightening(!unstraightened)))
+                let unstraightened = matches!(setup.engine, ConfiguredEngine::Hpa(own) if own.unstraightened);
+                Some(Planner::of(planner.with_straightening(!unstraightened)))
             }
             Prepared::Centers(graph, Parts::Segments(segments)) => Some(chpa(setup, graph, segments)?),
             Prepared::Centers(graph, parts) => on_graph(setup, graph, parts),
@@ -52,20 +52,20 @@ impl Index {
 }
 
 /// A planner in a free space, of an engine that prepares nothing.
-fn any_angle(setup: Setup, space: &Arc<FreeSpace<Corners>>) -> Option<BoxedPlanner> {
-    matches!(setup.engine, Engine::Anya).then(|| BoxedPlanner::of(Anya::new(Arc::clone(space))))
+fn any_angle(setup: Setup, space: &Arc<FreeSpace<Corners>>) -> Option<Planner> {
+    matches!(setup.engine, ConfiguredEngine::Anya).then(|| Planner::of(Anya::new(Arc::clone(space))))
 }
 
 /// A planner on a subgoal graph.
-fn subgoal<S, P>(setup: Setup, space: &Arc<S>, graph: &Arc<SubgoalGraph<P>>) -> BoxedPlanner
+fn subgoal<S, P>(setup: Setup, space: &Arc<S>, graph: &Arc<SubgoalGraph<P>>) -> Planner
 where
     S: HasFreeSpace<Placement = P> + Send + Sync + 'static,
     P: SubgoalPlacement,
 {
     let (space, graph) = (Arc::clone(space), Arc::clone(graph));
     match setup.engine {
-        Engine::SubgoalTheta(_) => BoxedPlanner::of(SubgoalTheta::new(space, graph)),
-        _ => BoxedPlanner::of(SubgoalAStar::new(space, graph)),
+        ConfiguredEngine::SubgoalTheta(_) => Planner::of(SubgoalTheta::new(space, graph)),
+        _ => Planner::of(SubgoalAStar::new(space, graph)),
     }
 }
 
@@ -74,25 +74,27 @@ fn on_graph<P: SubgoalPlacement>(
     setup: Setup,
     graph: &Arc<GridGraph<P>>,
     parts: &Parts<P>,
-) -> Option<BoxedPlanner> {
+) -> Option<Planner> {
     if let Parts::Subgoals(subgoals) = parts {
         return Some(subgoal(setup, graph, subgoals));
     }
     let graph = Arc::clone(graph);
     match (setup.engine, setup.engine.heuristic()?) {
-        (Engine::Dijkstra, _) | (Engine::AStar(_), HeuristicName::Zero) => {
-            Some(BoxedPlanner::of(AStar::new(graph, Zero)))
+        (ConfiguredEngine::Dijkstra, _) | (ConfiguredEngine::AStar(_), HeuristicName::Zero) => {
+            Some(Planner::of(AStar::new(graph, Zero)))
         }
-        (Engine::AStar(_), HeuristicName::Hk) => Some(BoxedPlanner::of(AStar::new(graph, Hk))),
-        (Engine::AStar(_), HeuristicName::Euclidean) => Some(BoxedPlanner::of(AStar::new(graph, Euclidean))),
-        (Engine::AStar(_), HeuristicName::SquaredEuclidean) => {
-            Some(BoxedPlanner::of(AStar::new(graph, SquaredEuclidean)))
+        (ConfiguredEngine::AStar(_), HeuristicName::Hk) => Some(Planner::of(AStar::new(graph, Hk))),
+        (ConfiguredEngine::AStar(_), HeuristicName::Euclidean) => {
+            Some(Planner::of(AStar::new(graph, Euclidean)))
         }
-        (Engine::Wavefront, _) => Some(BoxedPlanner::of(Wavefront::new(graph))),
+        (ConfiguredEngine::AStar(_), HeuristicName::SquaredEuclidean) => {
+            Some(Planner::of(AStar::new(graph, SquaredEuclidean)))
+        }
+        (ConfiguredEngine::Wavefront, _) => Some(Planner::of(Wavefront::new(graph))),
         (_, HeuristicName::Hk) => guided(setup.engine, graph, parts, Admissible::Hk),
         (_, HeuristicName::Euclidean) => guided(setup.engine, graph, parts, Admissible::Euclidean),
         (_, HeuristicName::Zero) => guided(setup.engine, graph, parts, Admissible::Zero),
-        // `Engine::check` refuses it: no other search on a grid graph takes a heuristic that overestimates.
+        // `ConfiguredEngine::check` refuses it: no other search on a grid graph takes a heuristic that overestimates.
         (_, HeuristicName::SquaredEuclidean) => None,
     }
 }
@@ -100,27 +102,29 @@ fn on_graph<P: SubgoalPlacement>(
 /// A planner on a grid graph with a heuristic that never overestimates; `None` if the parts are not the
 /// engine's.
 fn guided<P: SubgoalPlacement>(
-    engine: Engine,
+    engine: ConfiguredEngine,
     graph: Arc<GridGraph<P>>,
     parts: &Parts<P>,
     heuristic: Admissible,
-) -> Option<BoxedPlanner> {
+) -> Option<Planner> {
     Some(match (engine, parts) {
-        (Engine::Theta(_), _) => BoxedPlanner::of(ThetaStar::new(graph, heuristic)),
-        (Engine::LazyTheta(_), _) => BoxedPlanner::of(LazyThetaStar::new(graph, heuristic)),
-        (Engine::Canonical(_), Parts::Nothing) => BoxedPlanner::of(PaperCanonical::new(graph, heuristic)),
-        (Engine::Canonical(_), Parts::Pruning(pruning)) => {
-            BoxedPlanner::of(Canonical::with_pruning(graph, Arc::clone(pruning), heuristic))
+        (ConfiguredEngine::Theta(_), _) => Planner::of(ThetaStar::new(graph, heuristic)),
+        (ConfiguredEngine::LazyTheta(_), _) => Planner::of(LazyThetaStar::new(graph, heuristic)),
+        (ConfiguredEngine::Canonical(_), Parts::Nothing) => {
+            Planner::of(PaperCanonical::new(graph, heuristic))
         }
-        (Engine::Jps(own), Parts::Pruning(pruning)) => {
+        (ConfiguredEngine::Canonical(_), Parts::Pruning(pruning)) => {
+            Planner::of(Canonical::with_pruning(graph, Arc::clone(pruning), heuristic))
+        }
+        (ConfiguredEngine::Jps(own), Parts::Pruning(pruning)) => {
             let planner = Jps::with_finder(graph, Arc::clone(pruning), StepwiseFinder, heuristic);
             jumping(planner, own.jump_limit, own.keep_intermediate)
         }
-        (Engine::JpsBlock(own), Parts::Blocks(pruning, blocks)) => {
+        (ConfiguredEngine::JpsBlock(own), Parts::Blocks(pruning, blocks)) => {
             let planner = BlockJps::with_finder(graph, Arc::clone(pruning), blocks.clone(), heuristic);
             jumping(planner, own.jump_limit, own.keep_intermediate)
         }
-        (Engine::JpsPlus(own), Parts::Table(pruning, table)) => {
+        (ConfiguredEngine::JpsPlus(own), Parts::Table(pruning, table)) => {
             let planner = JpsPlus::with_finder(graph, Arc::clone(pruning), Arc::clone(table), heuristic);
             jumping(planner, None, own.keep_intermediate)
         }
@@ -133,12 +137,12 @@ fn jumping<P: Placement, H: Heuristic + Send + 'static, J: JumpFinder<P> + Send 
     planner: JumpPointSearch<Arc<GridGraph<P>>, H, P, J>,
     limit: Option<NonZeroU32>,
     keep_intermediate: bool,
-) -> BoxedPlanner
+) -> Planner
 where
-    JumpPointSearch<Arc<GridGraph<P>>, H, P, J>: Planner + Send + 'static,
+    JumpPointSearch<Arc<GridGraph<P>>, H, P, J>: Search + Send + 'static,
 {
     let planner = planner.with_jump_limit(limit.map(NonZeroU32::get));
-    BoxedPlanner::of(planner.with_intermediate(keep_intermediate))
+    Planner::of(planner.with_intermediate(keep_intermediate))
 }
 
 /// CHPA*, compiled for each phase with and without a heuristic that overestimates.
@@ -146,8 +150,8 @@ fn chpa(
     setup: Setup,
     graph: &Arc<GridGraph<Centers>>,
     segments: &Arc<SegmentGraph>,
-) -> Result<BoxedPlanner, EngineError> {
-    let Engine::Chpa(own) = setup.engine else { return Err(no_space(setup)) };
+) -> Result<Planner, EngineError> {
+    let ConfiguredEngine::Chpa(own) = setup.engine else { return Err(no_space(setup)) };
     let admissible = |name| match name {
         Some(HeuristicName::SquaredEuclidean) => None,
         Some(HeuristicName::Hk) => Some(Admissible::Hk),
@@ -170,11 +174,11 @@ fn chpa_by(
     segments: &Arc<SegmentGraph>,
     first: impl Heuristic + Send + 'static,
     second: impl Heuristic + Send + 'static,
-) -> Result<BoxedPlanner, EngineError> {
-    let engine = Engine::Chpa(own);
+) -> Result<Planner, EngineError> {
+    let engine = ConfiguredEngine::Chpa(own);
     let planner = ChpaStar::new(Arc::clone(graph), Arc::clone(segments), first, second)?;
     let planner = planner.with_fallback_policy(engine.fallback_policy().unwrap_or_default());
-    Ok(BoxedPlanner::of(match engine.step() {
+    Ok(Planner::of(match engine.step() {
         Some(step) => planner.with_step(step),
         None => planner,
     }))

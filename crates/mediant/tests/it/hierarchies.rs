@@ -3,9 +3,9 @@
 
 use std::{num::NonZeroU32, sync::Arc};
 
-use mediant_engines::{
-    ChpaOptions, Engine, EngineError, EngineKind, EngineOption, HeuristicName, HpaOptions, Index, Levels,
-    OptionValue, SearchSpace, Setup, SetupError, Variant,
+use mediant::{
+    ChpaOptions, ConfiguredEngine, Engine, EngineError, EngineOption, HeuristicName, HpaOptions, Index,
+    Levels, OptionValue, Setup, SetupError, Space, Variant,
 };
 use mediant_grid::{CornerRule, Grid, PlacementKind, Rules};
 use mediant_hierarchy::{ClusterGraph, Clustering, FallbackPolicy, HierarchyError, SegmentGraph};
@@ -32,7 +32,7 @@ fn shape(index: &Index) -> (Option<Levels>, Option<u32>) {
 
 /// Whether the engine of a setup searches clusters or segments.
 fn has_hierarchy(setup: &Setup) -> bool {
-    matches!(setup.engine.kind(), EngineKind::Hpa | EngineKind::Chpa)
+    matches!(setup.engine.kind(), Engine::Hpa | Engine::Chpa)
 }
 
 /// A map with many clusters, and queries between cells all over it.
@@ -49,17 +49,17 @@ fn graphs_exist_for_the_setups_that_the_catalog_takes() {
     let mut taken = Vec::new();
     for rules in Rules::ALL {
         for k in (2..=5).map(|n| K::Finite(k(n))).chain([K::Any]) {
-            for engine in [EngineKind::Hpa, EngineKind::Chpa] {
+            for engine in [Engine::Hpa, Engine::Chpa] {
                 let setup = Setup::new(engine, k, rules);
                 if setup.check().is_ok() {
                     taken.push(setup.to_string());
                 }
                 let (K::Finite(number), Rules::Center(_)) = (k, rules) else { continue };
                 // The catalog and the graphs agree on which exist.
-                let space = SearchSpace::new(Setup::new(EngineKind::AStar, number, rules), &grid());
-                let Ok(SearchSpace::Centers(grid_graph)) = space else { panic!("{space:?}") };
+                let space = Space::new(Setup::new(Engine::AStar, number, rules), &grid());
+                let Ok(Space::Centers(grid_graph)) = space else { panic!("{space:?}") };
                 let made = match engine {
-                    EngineKind::Hpa => ClusterGraph::new(&grid_graph, Clustering::default()).map(|_| ()),
+                    Engine::Hpa => ClusterGraph::new(&grid_graph, Clustering::default()).map(|_| ()),
                     _ => SegmentGraph::new(&grid_graph, 3).map(|_| ()),
                 };
                 assert_eq!(setup.check().is_ok(), made.is_ok(), "{setup}: {made:?}");
@@ -71,10 +71,10 @@ fn graphs_exist_for_the_setups_that_the_catalog_takes() {
         expected.flat_map(|(rule, k)| ["hpa", "chpa"].map(|engine| format!("{engine}:{k}:{rule}")));
     assert_eq!(taken, expected.collect::<Vec<_>>());
     let (k, rules) = (K::Finite(FiniteK::N8), Rules::Center(CornerRule::One));
-    let refused = Setup::new(EngineKind::Hpa, k, rules).check();
-    assert_eq!(refused, Err(SetupError::Centers { engine: EngineKind::Hpa, k, rules }));
+    let refused = Setup::new(Engine::Hpa, k, rules).check();
+    assert_eq!(refused, Err(SetupError::Centers { engine: Engine::Hpa, k, rules }));
     let needed = PlacementKind::Center;
-    let corners = Setup::new(EngineKind::Chpa, k, Rules::Corner(Default::default())).check();
+    let corners = Setup::new(Engine::Chpa, k, Rules::Corner(Default::default())).check();
     assert!(
         matches!(corners, Err(SetupError::Placement { needed: found, .. }) if found == needed),
         "{corners:?}"
@@ -119,8 +119,8 @@ fn what_is_left_out_has_its_default() {
     assert_eq!((setup("hpa").paths(), setup("chpa,smooth").paths()), (K::Finite(FiniteK::N8), K::Any));
     let both =
         ChpaOptions { variant: Some(Variant::Paper), detour: NonZeroU32::new(2), ..ChpaOptions::default() };
-    let refused = Setup { engine: Engine::Chpa(both), ..chpa }.check();
-    assert_eq!(refused, Err(SetupError::DetourAsPublished { engine: EngineKind::Chpa }));
+    let refused = Setup { engine: ConfiguredEngine::Chpa(both), ..chpa }.check();
+    assert_eq!(refused, Err(SetupError::DetourAsPublished { engine: Engine::Chpa }));
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn all_levels_are_as_many_as_fit() {
     for side in 2..=64 {
         let of = |levels| {
             let own = HpaOptions { side: NonZeroU32::new(side), levels, ..HpaOptions::default() };
-            Setup::new(Engine::Hpa(own), k(3), NEVER)
+            Setup::new(ConfiguredEngine::Hpa(own), k(3), NEVER)
         };
         let all = of(Some(Levels::All));
         let Some(Levels::Number(levels)) = all.engine.levels() else {

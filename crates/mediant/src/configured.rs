@@ -1,6 +1,6 @@
 //! The engines with their options.
 //!
-//! Each engine's options are a struct, and `Engine::slots` pairs each field with the description of its
+//! Each engine's options are a struct, and `ConfiguredEngine::slots` pairs each field with the description of its
 //! option. Setups as text, the program's flags and its records know the options of an engine from that list
 //! alone.
 
@@ -9,8 +9,8 @@ use std::num::NonZeroU32;
 use mediant_hierarchy::{Clustering, FallbackPolicy, SegmentGraph};
 
 use crate::{
+    engine::Engine,
     error::SetupError,
-    kind::EngineKind,
     option::{
         EngineOption, HeuristicName, Levels, OptionValue, Variant,
         description::{
@@ -24,14 +24,14 @@ use crate::{
 ///
 /// ```
 /// use std::num::NonZeroU32;
-/// use mediant_engines::{Engine, EngineKind, JumpOptions};
+/// use mediant::{ConfiguredEngine, Engine, JumpOptions};
 ///
-/// let engine = Engine::Jps(JumpOptions { jump_limit: NonZeroU32::new(16), ..JumpOptions::default() });
-/// assert_eq!(engine.kind(), EngineKind::Jps);
+/// let engine = ConfiguredEngine::Jps(JumpOptions { jump_limit: NonZeroU32::new(16), ..JumpOptions::default() });
+/// assert_eq!(engine.kind(), Engine::Jps);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[expect(missing_docs, reason = "each variant is documented as an `EngineKind`")]
-pub enum Engine {
+#[expect(missing_docs, reason = "each variant is documented as an `Engine`")]
+pub enum ConfiguredEngine {
     AStar(GuidedOptions),
     Dijkstra,
     Wavefront,
@@ -121,53 +121,53 @@ pub struct ChpaOptions {
     pub detour: Option<NonZeroU32>,
 }
 
-impl Default for Engine {
+impl Default for ConfiguredEngine {
     fn default() -> Self {
-        EngineKind::default().into()
+        Engine::default().into()
     }
 }
 
 /// The engine with its default options.
-impl From<EngineKind> for Engine {
-    fn from(kind: EngineKind) -> Self {
+impl From<Engine> for ConfiguredEngine {
+    fn from(kind: Engine) -> Self {
         match kind {
-            EngineKind::AStar => Self::AStar(GuidedOptions::default()),
-            EngineKind::Dijkstra => Self::Dijkstra,
-            EngineKind::Wavefront => Self::Wavefront,
-            EngineKind::Canonical => Self::Canonical(CanonicalOptions::default()),
-            EngineKind::Jps => Self::Jps(JumpOptions::default()),
-            EngineKind::JpsBlock => Self::JpsBlock(JumpOptions::default()),
-            EngineKind::JpsPlus => Self::JpsPlus(JpsPlusOptions::default()),
-            EngineKind::Theta => Self::Theta(GuidedOptions::default()),
-            EngineKind::LazyTheta => Self::LazyTheta(GuidedOptions::default()),
-            EngineKind::Anya => Self::Anya,
-            EngineKind::Subgoal => Self::Subgoal(SubgoalOptions::default()),
-            EngineKind::SubgoalTheta => Self::SubgoalTheta(SubgoalOptions::default()),
-            EngineKind::Hpa => Self::Hpa(HpaOptions::default()),
-            EngineKind::Chpa => Self::Chpa(ChpaOptions::default()),
+            Engine::AStar => Self::AStar(GuidedOptions::default()),
+            Engine::Dijkstra => Self::Dijkstra,
+            Engine::Wavefront => Self::Wavefront,
+            Engine::Canonical => Self::Canonical(CanonicalOptions::default()),
+            Engine::Jps => Self::Jps(JumpOptions::default()),
+            Engine::JpsBlock => Self::JpsBlock(JumpOptions::default()),
+            Engine::JpsPlus => Self::JpsPlus(JpsPlusOptions::default()),
+            Engine::Theta => Self::Theta(GuidedOptions::default()),
+            Engine::LazyTheta => Self::LazyTheta(GuidedOptions::default()),
+            Engine::Anya => Self::Anya,
+            Engine::Subgoal => Self::Subgoal(SubgoalOptions::default()),
+            Engine::SubgoalTheta => Self::SubgoalTheta(SubgoalOptions::default()),
+            Engine::Hpa => Self::Hpa(HpaOptions::default()),
+            Engine::Chpa => Self::Chpa(ChpaOptions::default()),
         }
     }
 }
 
-impl Engine {
+impl ConfiguredEngine {
     /// The engine without its options.
     #[must_use]
-    pub const fn kind(self) -> EngineKind {
+    pub const fn kind(self) -> Engine {
         match self {
-            Self::AStar(_) => EngineKind::AStar,
-            Self::Dijkstra => EngineKind::Dijkstra,
-            Self::Wavefront => EngineKind::Wavefront,
-            Self::Canonical(_) => EngineKind::Canonical,
-            Self::Jps(_) => EngineKind::Jps,
-            Self::JpsBlock(_) => EngineKind::JpsBlock,
-            Self::JpsPlus(_) => EngineKind::JpsPlus,
-            Self::Theta(_) => EngineKind::Theta,
-            Self::LazyTheta(_) => EngineKind::LazyTheta,
-            Self::Anya => EngineKind::Anya,
-            Self::Subgoal(_) => EngineKind::Subgoal,
-            Self::SubgoalTheta(_) => EngineKind::SubgoalTheta,
-            Self::Hpa(_) => EngineKind::Hpa,
-            Self::Chpa(_) => EngineKind::Chpa,
+            Self::AStar(_) => Engine::AStar,
+            Self::Dijkstra => Engine::Dijkstra,
+            Self::Wavefront => Engine::Wavefront,
+            Self::Canonical(_) => Engine::Canonical,
+            Self::Jps(_) => Engine::Jps,
+            Self::JpsBlock(_) => Engine::JpsBlock,
+            Self::JpsPlus(_) => Engine::JpsPlus,
+            Self::Theta(_) => Engine::Theta,
+            Self::LazyTheta(_) => Engine::LazyTheta,
+            Self::Anya => Engine::Anya,
+            Self::Subgoal(_) => Engine::Subgoal,
+            Self::SubgoalTheta(_) => Engine::SubgoalTheta,
+            Self::Hpa(_) => Engine::Hpa,
+            Self::Chpa(_) => Engine::Chpa,
         }
     }
 
@@ -256,7 +256,7 @@ impl Engine {
     /// Checks that the engine takes the chosen values, and that they fit together.
     pub(crate) fn check(self) -> Result<(), SetupError> {
         let (kind, chosen) = (self.kind(), self.chosen());
-        let refused = |option: &EngineOption, what, takes: &dyn Fn(EngineKind) -> bool| {
+        let refused = |option: &EngineOption, what, takes: &dyn Fn(Engine) -> bool| {
             Err(SetupError::Option { engine: kind, option: what, others: names_of_takers(option, takes) })
         };
         for &(option, value) in &chosen {
@@ -264,11 +264,11 @@ impl Engine {
                 OptionValue::Heuristic(HeuristicName::SquaredEuclidean)
                     if !kind.capabilities().overestimates =>
                 {
-                    let takes = |kind: EngineKind| kind.capabilities().overestimates;
+                    let takes = |kind: Engine| kind.capabilities().overestimates;
                     return refused(option, "heuristic that overestimates", &takes);
                 }
                 OptionValue::Variant(variant) if !kind.capabilities().variants.contains(&variant) => {
-                    let takes = |kind: EngineKind| kind.capabilities().variants.contains(&variant);
+                    let takes = |kind: Engine| kind.capabilities().variants.contains(&variant);
                     let what = match variant {
                         Variant::Exact => "variant exact",
                         Variant::Complete => "variant complete",
@@ -276,8 +276,8 @@ impl Engine {
                     };
                     return refused(option, what, &takes);
                 }
-                OptionValue::Levels(Levels::Contracted) if kind != EngineKind::Subgoal => {
-                    return refused(option, "contraction hierarchy", &|kind| kind == EngineKind::Subgoal);
+                OptionValue::Levels(Levels::Contracted) if kind != Engine::Subgoal => {
+                    return refused(option, "contraction hierarchy", &|kind| kind == Engine::Subgoal);
                 }
                 _ => {}
             }
@@ -424,9 +424,9 @@ impl Slot<'_> {
 }
 
 /// The names of the engines that take an option and satisfy a condition.
-fn names_of_takers(option: &EngineOption, condition: impl Fn(EngineKind) -> bool) -> String {
-    let takes = |kind| Engine::from(kind).options().iter().any(|taken| taken.name == option.name);
-    EngineKind::names_where(|kind| takes(kind) && condition(kind))
+fn names_of_takers(option: &EngineOption, condition: impl Fn(Engine) -> bool) -> String {
+    let takes = |kind| ConfiguredEngine::from(kind).options().iter().any(|taken| taken.name == option.name);
+    Engine::names_where(|kind| takes(kind) && condition(kind))
 }
 
 const TWO: NonZeroU32 = NonZeroU32::MIN.saturating_add(1);

@@ -6,7 +6,7 @@ use mediant_moves::{FiniteK, K, KError};
 use mediant_search::{JumpTableError, QueryError};
 use mediant_subgoal::SubgoalError;
 
-use crate::{kind::EngineKind, option::Levels};
+use crate::{engine::Engine, option::Levels};
 
 /// The error for a setup whose parts do not fit together.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -16,7 +16,7 @@ pub enum SetupError {
     #[error("{engine} takes no {option}: leave it out, or choose {others}")]
     Option {
         /// The engine.
-        engine: EngineKind,
+        engine: Engine,
         /// What the error calls it.
         option: &'static str,
         /// The engines that take it.
@@ -26,7 +26,7 @@ pub enum SetupError {
     #[error("{engine} needs a k from 2 to {max}, found {k}")]
     K {
         /// The engine.
-        engine: EngineKind,
+        engine: Engine,
         /// The largest k that it takes.
         max: u32,
         /// The k of the setup.
@@ -36,7 +36,7 @@ pub enum SetupError {
     #[error("{engine} needs a k from 2 to {max}; for any choose {others}")]
     NeedsFiniteK {
         /// The engine.
-        engine: EngineKind,
+        engine: Engine,
         /// The largest k that it takes.
         max: u32,
         /// The engines that take k = ∞.
@@ -46,7 +46,7 @@ pub enum SetupError {
     #[error("{engine} searches every direction, not those of k = {k}: leave k out, or say any")]
     NeedsAny {
         /// The engine.
-        engine: EngineKind,
+        engine: Engine,
         /// The k of the setup.
         k: FiniteK,
     },
@@ -54,7 +54,7 @@ pub enum SetupError {
     #[error("{engine} needs placement {needed}; for {placement} choose {others}")]
     Placement {
         /// The engine.
-        engine: EngineKind,
+        engine: Engine,
         /// The placement that it takes.
         needed: PlacementKind,
         /// The placement of the setup.
@@ -70,7 +70,7 @@ pub enum SetupError {
     )]
     Centers {
         /// The engine.
-        engine: EngineKind,
+        engine: Engine,
         /// The k of the setup.
         k: K,
         /// The rules of the setup.
@@ -82,13 +82,13 @@ pub enum SetupError {
     )]
     DetourAsPublished {
         /// The engine.
-        engine: EngineKind,
+        engine: Engine,
     },
     /// A saved index or all distances, for an engine that has none.
     #[error("{engine} has no {what}: choose {others}")]
     Without {
         /// The engine.
-        engine: EngineKind,
+        engine: Engine,
         /// What it does not have.
         what: &'static str,
         /// The engines that have it.
@@ -98,14 +98,14 @@ pub enum SetupError {
 
 impl SetupError {
     /// The error for an engine whose index is not saved.
-    pub(crate) fn without_index(engine: EngineKind) -> Self {
-        let others = EngineKind::names_where(|kind| kind.capabilities().index.is_some());
+    pub(crate) fn without_index(engine: Engine) -> Self {
+        let others = Engine::names_where(|kind| kind.capabilities().index.is_some());
         Self::Without { engine, what: "index", others }
     }
 
     /// The error for an engine that does not find the distances to all vertices.
-    pub(crate) fn without_distances(engine: EngineKind) -> Self {
-        let others = EngineKind::names_where(|kind| kind.capabilities().distances);
+    pub(crate) fn without_distances(engine: Engine) -> Self {
+        let others = Engine::names_where(|kind| kind.capabilities().distances);
         Self::Without { engine, what: "distances to all vertices", others }
     }
 }

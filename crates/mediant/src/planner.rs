@@ -4,35 +4,36 @@ use std::{fmt, sync::Arc};
 
 use mediant_grid::Grid;
 use mediant_search::{
-    Counters, Guarantee, Observer, Outcome, Planner, Query, QueryError, Smoothing, parts::HasFreeSpace,
+    Counters, Guarantee, Observer, Outcome, Planner as Search, Query, QueryError, Smoothing,
+    parts::HasFreeSpace,
 };
 
-use crate::{error::EngineError, index::Index, setup::Setup, shared_rules::SharedRules, space::SearchSpace};
+use crate::{error::EngineError, index::Index, setup::Setup, shared_rules::SharedRules, space::Space};
 
 /// A planner whose type is erased. A query costs one dynamic call; the search itself is compiled for its
 /// types.
 ///
 /// It holds the scratch memory of one thread. Planners for other threads are made of the same [`Index`].
-pub struct BoxedPlanner {
+pub struct Planner {
     planner: Box<dyn Erased + Send>,
     /// Smooths the path of an outcome; `None` for paths as they are found.
     smooth: Option<Box<dyn Fn(Outcome) -> Outcome + Send>>,
     guarantee: Guarantee,
 }
 
-/// A [`Planner`] that can be `dyn`. Observers are `dyn` too, so that each search is compiled only twice: with
+/// A planner that can be `dyn`. Observers are `dyn` too, so that each search is compiled only twice: with
 /// and without an observer. An observed search costs a dynamic call for each event.
 trait Erased {
-    /// [`Planner::solve`].
+    /// [`Search::solve`].
     fn solve(&mut self, query: Query) -> Result<Outcome, QueryError>;
 
-    /// [`Planner::solve_observed`].
+    /// [`Search::solve_observed`].
     fn solve_observed(&mut self, query: Query, observer: &mut dyn Observer) -> Result<Outcome, QueryError>;
 }
 
-impl<P: Planner> Erased for P {
+impl<P: Search> Erased for P {
     fn solve(&mut self, query: Query) -> Result<Outcome, QueryError> {
-        Planner::solve(self, query)
+        Search::solve(self, query)
     }
 
     fn solve_observed(
@@ -40,21 +41,21 @@ impl<P: Planner> Erased for P {
         query: Query,
         mut observer: &mut dyn Observer,
     ) -> Result<Outcome, QueryError> {
-        Planner::solve_observed(self, query, &mut observer)
+        Search::solve_observed(self, query, &mut observer)
     }
 }
 
-impl BoxedPlanner {
+impl Planner {
     /// A planner on a map, with a search space and an index of its own.
     ///
     /// # Errors
     /// [`EngineError`] for a setup whose parts do not fit together, or whose index cannot be made.
     pub fn new(setup: Setup, grid: &Arc<Grid>, rules: &SharedRules) -> Result<Self, EngineError> {
-        Index::new(setup, &SearchSpace::new(setup, grid)?, rules)?.planner()
+        Index::new(setup, &Space::new(setup, grid)?, rules)?.planner()
     }
 
     /// Erases the type of a planner, whose paths are returned as it finds them.
-    pub(crate) fn of(planner: impl Planner + Send + 'static) -> Self {
+    pub(crate) fn of(planner: impl Search + Send + 'static) -> Self {
         Self { guarantee: planner.guarantee(), planner: Box::new(planner), smooth: None }
     }
 
@@ -118,8 +119,8 @@ impl BoxedPlanner {
     }
 }
 
-impl fmt::Debug for BoxedPlanner {
+impl fmt::Debug for Planner {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("BoxedPlanner").field("guarantee", &self.guarantee).finish_non_exhaustive()
+        f.debug_struct("Planner").field("guarantee", &self.guarantee).finish_non_exhaustive()
     }
 }

@@ -1,14 +1,14 @@
 //! Options: which engines take them, and how they are read, written and reported.
 
-use mediant_engines::{Engine, EngineKind, EngineOption, OptionValue, SetupError, ValueKind};
+use mediant::{ConfiguredEngine, Engine, EngineOption, OptionValue, SetupError, ValueKind};
 
 use super::{NEVER, k, setup};
 
 #[test]
 fn every_engine_takes_the_options_that_it_says() {
     let mut pairs = 0;
-    for kind in EngineKind::ALL {
-        let plain = Engine::from(kind);
+    for kind in Engine::ALL {
+        let plain = ConfiguredEngine::from(kind);
         assert_eq!((plain.kind(), plain.chosen()), (kind, Vec::new()));
         for option in EngineOption::ALL {
             let text = match option.kind {
@@ -42,9 +42,9 @@ fn every_engine_takes_the_options_that_it_says() {
 #[test]
 fn a_value_of_another_kind_is_refused() {
     let step = EngineOption::ALL.into_iter().find(|option| option.name == "step").expect("an option");
-    let mut engine = Engine::from(EngineKind::Chpa);
+    let mut engine = ConfiguredEngine::from(Engine::Chpa);
     assert!(engine.set(step, OptionValue::Flag).is_err());
-    assert_eq!(engine, Engine::from(EngineKind::Chpa));
+    assert_eq!(engine, ConfiguredEngine::from(Engine::Chpa));
 }
 
 #[test]
@@ -89,9 +89,9 @@ fn reports_say_what_each_option_is() {
 #[test]
 fn only_subgoal_graphs_have_a_contraction_hierarchy() {
     assert_eq!(setup("subgoal,levels=contracted").engine.levels(), setup("subgoal").engine.levels());
-    let said = "hpa,levels=contracted".parse::<mediant_engines::Setup>().expect_err("clusters have levels");
+    let said = "hpa,levels=contracted".parse::<mediant::Setup>().expect_err("clusters have levels");
     assert!(
         said.to_string().ends_with("hpa takes no contraction hierarchy: leave it out, or choose subgoal")
     );
-    assert!(mediant_engines::Setup::new(EngineKind::Hpa, k(3), NEVER).check().is_ok());
+    assert!(mediant::Setup::new(Engine::Hpa, k(3), NEVER).check().is_ok());
 }

@@ -6,9 +6,9 @@ use mediant_search::{Guarantee, Smoothing};
 
 use crate::{
     capabilities::Capabilities,
+    configured::ConfiguredEngine,
     engine::Engine,
     error::SetupError,
-    kind::EngineKind,
     option::{HeuristicName, Variant},
 };
 
@@ -23,17 +23,17 @@ use crate::{
 ///   `taut`: paths are smoothed by [`Smoothing::Linear`] or by [`Smoothing::Taut`].
 ///
 /// ```
-/// use mediant_engines::Setup;
+/// use mediant::Setup;
 /// let setup: Setup = "astar:5:open,euclidean".parse()?;
 /// assert_eq!(setup.to_string(), "astar:5:open,euclidean");
 /// assert_eq!("anya".parse::<Setup>()?.to_string(), "anya:any:open");
 /// assert!(!setup.solves_scenarios() && "astar".parse::<Setup>()?.solves_scenarios());
-/// # Ok::<(), mediant_engines::TextError>(())
+/// # Ok::<(), mediant::TextError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Setup {
     /// The engine and its options.
-    pub engine: Engine,
+    pub engine: ConfiguredEngine,
     /// The neighborhood that it searches over.
     pub k: K,
     /// The placement and its rule of motion.
@@ -45,7 +45,7 @@ pub struct Setup {
 impl Setup {
     /// A setup without smoothing. Whether its parts fit together, [`check`](Self::check) says.
     #[must_use]
-    pub fn new(engine: impl Into<Engine>, k: impl Into<K>, rules: Rules) -> Self {
+    pub fn new(engine: impl Into<ConfiguredEngine>, k: impl Into<K>, rules: Rules) -> Self {
         Self { engine: engine.into(), k: k.into(), rules, smoothing: None }
     }
 
@@ -67,7 +67,7 @@ impl Setup {
             (K::Finite(k), Some(max)) if k.get() > max => return Err(SetupError::K { engine, max, k }),
             (K::Finite(k), None) => return Err(SetupError::NeedsAny { engine, k }),
             (K::Any, Some(max)) if !capabilities.any => {
-                let others = EngineKind::names_where(|kind| kind.capabilities().any);
+                let others = Engine::names_where(|kind| kind.capabilities().any);
                 return Err(SetupError::NeedsFiniteK { engine, max, others });
             }
             _ => {}
@@ -75,8 +75,7 @@ impl Setup {
         let placement = rules.placement();
         match capabilities.placements {
             [needed] if *needed != placement => {
-                let others =
-                    EngineKind::names_where(|kind| kind.capabilities().placements.contains(&placement));
+                let others = Engine::names_where(|kind| kind.capabilities().placements.contains(&placement));
                 Err(SetupError::Placement { engine, needed: *needed, placement, others })
             }
             _ if !takes_together(engine, k, rules) => Err(SetupError::Centers { engine, k, rules }),
@@ -95,7 +94,7 @@ impl Setup {
     /// The guarantee of the planner's paths.
     #[must_use]
     pub fn guarantee(&self) -> Guarantee {
-        use EngineKind::{Anya, Chpa, Hpa, LazyTheta, SubgoalTheta, Theta, Wavefront};
+        use Engine::{Anya, Chpa, Hpa, LazyTheta, SubgoalTheta, Theta, Wavefront};
         let unsmoothed = match (self.engine.kind(), self.k) {
             (Theta | LazyTheta | SubgoalTheta | Hpa | Chpa, _) => Guarantee::Suboptimal,
             _ if self.engine.heuristic() == Some(HeuristicName::SquaredEuclidean) => Guarantee::Suboptimal,
@@ -120,7 +119,7 @@ impl Setup {
     /// The k over which its paths are: that of the search, or ∞ if the engine or the smoothing leaves N(k).
     #[must_use]
     pub fn paths(&self) -> K {
-        use EngineKind::{LazyTheta, SubgoalTheta, Theta};
+        use Engine::{LazyTheta, SubgoalTheta, Theta};
         let leaves_neighborhood = matches!(self.engine.kind(), Theta | LazyTheta | SubgoalTheta);
         if leaves_neighborhood || self.smoothing.is_some() { K::Any } else { self.k }
     }
@@ -134,8 +133,8 @@ impl Setup {
 
 /// Whether an engine that takes the placement, and takes the k, takes both together. Subgoal graphs, clusters
 /// and segments at centers exist only for k = 2, and for k = 3 under `never`.
-fn takes_together(engine: EngineKind, k: K, rules: Rules) -> bool {
-    if !matches!(engine, EngineKind::Subgoal | EngineKind::Hpa | EngineKind::Chpa) {
+fn takes_together(engine: Engine, k: K, rules: Rules) -> bool {
+    if !matches!(engine, Engine::Subgoal | Engine::Hpa | Engine::Chpa) {
         return true;
     }
     match (rules.placement(), k) {

@@ -6,10 +6,10 @@ use mediant_grid::{Grid, GridGraph, Placement, Vertex};
 use mediant_search::{Dijkstra, Wavefront};
 
 use crate::{
-    engine::Engine,
+    configured::ConfiguredEngine,
     error::{EngineError, SetupError},
     setup::Setup,
-    space::SearchSpace,
+    space::Space,
 };
 
 /// The vertices that can be reached from `start`, row by row, with their distances: in cells, or in moves by
@@ -17,7 +17,7 @@ use crate::{
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_engines::distances;
+/// use mediant::distances;
 /// use mediant_grid::{Grid, Vertex};
 ///
 /// let grid = Arc::new(Grid::from_fn(3, 1, |x, _| x == 2)?);
@@ -30,10 +30,10 @@ use crate::{
 /// [`EngineError`] for a setup whose parts do not fit together, an engine that finds no distances, or a start
 /// that is blocked or outside the map.
 pub fn distances(setup: Setup, grid: &Arc<Grid>, start: Vertex) -> Result<Vec<(Vertex, f64)>, EngineError> {
-    match SearchSpace::new(setup, grid)? {
-        SearchSpace::Centers(graph) => on(setup, &graph, start),
-        SearchSpace::Corners(graph) => on(setup, &graph, start),
-        SearchSpace::AnyAngle(_) => Err(SetupError::without_distances(setup.engine.kind()).into()),
+    match Space::new(setup, grid)? {
+        Space::Centers(graph) => on(setup, &graph, start),
+        Space::Corners(graph) => on(setup, &graph, start),
+        Space::AnyAngle(_) => Err(SetupError::without_distances(setup.engine.kind()).into()),
     }
 }
 
@@ -44,11 +44,11 @@ fn on<P: Placement>(
     start: Vertex,
 ) -> Result<Vec<(Vertex, f64)>, EngineError> {
     Ok(match setup.engine {
-        Engine::Dijkstra => {
+        ConfiguredEngine::Dijkstra => {
             let costs = Dijkstra::new(graph, mediant_search::Zero).distances(start)?;
             costs.iter().map(|(at, cost)| (at, cost.to_f64())).collect()
         }
-        Engine::Wavefront => {
+        ConfiguredEngine::Wavefront => {
             let moves = Wavefront::new(graph).distances(start)?;
             moves.iter().map(|(at, moves)| (at, f64::from(moves))).collect()
         }

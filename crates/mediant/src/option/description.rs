@@ -4,13 +4,13 @@ use super::value::{OptionValue, ValueKind};
 
 /// An option that some engines take: its name, its texts and the kind of its value.
 ///
-/// Which engines take it, [`Engine::options`](crate::Engine::options) says.
+/// Which engines take it, [`ConfiguredEngine::options`](crate::ConfiguredEngine::options) says.
 ///
 /// ```
-/// use mediant_engines::{Engine, EngineKind, EngineOption, Setup};
+/// use mediant::{ConfiguredEngine, Engine, EngineOption, Setup};
 ///
 /// let limit = EngineOption::ALL.into_iter().find(|option| option.name == "jump-limit").ok_or("no such option")?;
-/// let mut engine = Engine::from(EngineKind::Jps);
+/// let mut engine = ConfiguredEngine::from(Engine::Jps);
 /// engine.set(limit, limit.parse("16")?)?;
 /// assert_eq!("jps,limit=16".parse::<Setup>()?.engine, engine);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -7,21 +7,21 @@ use mediant_moves::K;
 use mediant_search::Smoothing;
 
 use crate::{
-    engine::{Engine, HpaOptions},
-    kind::EngineKind,
+    configured::{ConfiguredEngine, HpaOptions},
+    engine::Engine,
     option::{EngineOption, Levels},
     setup::Setup,
 };
 
 /// The smoothed setups of [`Setup::all`]: by both methods, of paths over few and over many directions.
-const SMOOTHED: [(EngineKind, Smoothing); 7] = [
-    (EngineKind::AStar, Smoothing::Linear),
-    (EngineKind::AStar, Smoothing::Taut),
-    (EngineKind::Theta, Smoothing::Taut),
-    (EngineKind::Anya, Smoothing::Taut),
-    (EngineKind::Subgoal, Smoothing::Taut),
-    (EngineKind::Hpa, Smoothing::Taut),
-    (EngineKind::Chpa, Smoothing::Linear),
+const SMOOTHED: [(Engine, Smoothing); 7] = [
+    (Engine::AStar, Smoothing::Linear),
+    (Engine::AStar, Smoothing::Taut),
+    (Engine::Theta, Smoothing::Taut),
+    (Engine::Anya, Smoothing::Taut),
+    (Engine::Subgoal, Smoothing::Taut),
+    (Engine::Hpa, Smoothing::Taut),
+    (Engine::Chpa, Smoothing::Linear),
 ];
 
 impl Setup {
@@ -33,7 +33,7 @@ impl Setup {
     pub fn all(k: impl Into<K>, rules: Rules) -> impl Iterator<Item = Self> {
         let k = k.into();
         let engines =
-            EngineKind::ALL.into_iter().flat_map(samples).map(move |engine| Self::new(engine, k, rules));
+            Engine::ALL.into_iter().flat_map(samples).map(move |engine| Self::new(engine, k, rules));
         let smoothed = SMOOTHED.into_iter().map(move |(engine, smoothing)| Self {
             smoothing: Some(smoothing),
             ..Self::new(engine, k, rules)
@@ -43,20 +43,20 @@ impl Setup {
 }
 
 /// An engine with its default options, and with each sample of an option that it takes.
-fn samples(kind: EngineKind) -> Vec<Engine> {
-    let mut engines = vec![Engine::from(kind)];
+fn samples(kind: Engine) -> Vec<ConfiguredEngine> {
+    let mut engines = vec![ConfiguredEngine::from(kind)];
     for option in EngineOption::ALL {
         for value in option.samples() {
-            let mut engine = Engine::from(kind);
+            let mut engine = ConfiguredEngine::from(kind);
             if engine.set(option, value).is_ok() {
                 engines.push(engine);
             }
         }
     }
-    if kind == EngineKind::Hpa {
+    if kind == Engine::Hpa {
         // Small clusters, so that small maps have several on each level.
         let (side, levels) = (NonZeroU32::new(3), NonZeroU32::new(3).map(Levels::Number));
-        engines.push(Engine::Hpa(HpaOptions { side, levels, ..HpaOptions::default() }));
+        engines.push(ConfiguredEngine::Hpa(HpaOptions { side, levels, ..HpaOptions::default() }));
     }
     engines
 }

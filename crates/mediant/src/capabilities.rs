@@ -6,7 +6,7 @@ use mediant_moves::{FiniteK, K};
 use mediant_search::JumpTable;
 use mediant_subgoal::SubgoalGraph;
 
-use crate::{kind::EngineKind, option::Variant};
+use crate::{engine::Engine, option::Variant};
 
 /// What an engine can do, whatever its options.
 ///
@@ -67,7 +67,7 @@ impl Capabilities {
     }
 }
 
-impl EngineKind {
+impl Engine {
     /// What the engine can do.
     #[must_use]
     pub const fn capabilities(self) -> Capabilities {

@@ -5,7 +5,7 @@ use std::{fmt, str::FromStr};
 use mediant_grid::{CornerRule, DiagonalGap, Rules};
 use mediant_search::Smoothing;
 
-use crate::{capabilities::Capabilities, kind::EngineKind, option::EngineOption, setup::Setup};
+use crate::{capabilities::Capabilities, engine::Engine, option::EngineOption, setup::Setup};
 
 /// The error for a text that is no [`Setup`]: the form that was expected, and what is wrong.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -52,9 +52,9 @@ impl FromStr for Setup {
         let mut options = text.split(',');
         let mut parts = options.next().unwrap_or_default().split(':');
         let name = parts.next().unwrap_or_default();
-        let engine: EngineKind = name.parse().map_err(|_| {
-            error(format!("the engines are {}", EngineKind::ALL.map(EngineKind::name).join(", ")))
-        })?;
+        let engine: Engine = name
+            .parse()
+            .map_err(|_| error(format!("the engines are {}", Engine::ALL.map(Engine::name).join(", "))))?;
         let capabilities = engine.capabilities();
         let k = parts.next().map_or(Ok(capabilities.default_k()), |k| {
             k.parse().map_err(|_| error(format!("K is {}", k_range(capabilities))))

@@ -2,9 +2,8 @@
 
 use std::sync::Mutex;
 
-use mediant_engines::{
-    EngineError, EngineKind, EngineOption, Index, Levels, OptionValue, Progress, SearchSpace, Setup,
-    SetupError, Stage,
+use mediant::{
+    Engine, EngineError, EngineOption, Index, Levels, OptionValue, Progress, Setup, SetupError, Space, Stage,
 };
 use mediant_grid::{PlacementKind, Rules};
 use mediant_moves::{FiniteK, K};
@@ -23,7 +22,7 @@ fn levels(index: &Index) -> Option<Levels> {
 
 /// Whether the engine of a setup searches a subgoal graph.
 fn is_subgoal(setup: &Setup) -> bool {
-    matches!(setup.engine.kind(), EngineKind::Subgoal | EngineKind::SubgoalTheta)
+    matches!(setup.engine.kind(), Engine::Subgoal | Engine::SubgoalTheta)
 }
 
 #[test]
@@ -31,19 +30,17 @@ fn subgoal_graphs_at_centers_are_for_small_k() {
     let mut taken = Vec::new();
     for rules in Rules::ALL.into_iter().filter(|rules| rules.placement() == PlacementKind::Center) {
         for k in (2..=12).map(|n| K::Finite(k(n))).chain([K::Any]) {
-            let setup = Setup::new(EngineKind::Subgoal, k, rules);
+            let setup = Setup::new(Engine::Subgoal, k, rules);
             // The catalog and the subgoal graphs agree on which exist.
             let small = k.finite().map_or(4, |k| k.get().min(4));
-            let space = SearchSpace::new(
-                Setup::new(EngineKind::AStar, FiniteK::new(small).expect("a k"), rules),
-                &grid(),
-            );
-            let Ok(SearchSpace::Centers(grid_graph)) = space else { panic!("{space:?}") };
+            let space =
+                Space::new(Setup::new(Engine::AStar, FiniteK::new(small).expect("a k"), rules), &grid());
+            let Ok(Space::Centers(grid_graph)) = space else { panic!("{space:?}") };
             let exists = SubgoalGraph::new(&grid_graph, k, Hierarchy::Contracted).is_ok();
             match setup.check() {
                 Ok(()) => taken.push(setup.to_string()),
                 Err(error) => {
-                    assert_eq!(error, SetupError::Centers { engine: EngineKind::Subgoal, k, rules });
+                    assert_eq!(error, SetupError::Centers { engine: Engine::Subgoal, k, rules });
                 }
             }
             assert_eq!(setup.check().is_ok(), exists, "{setup}");
@@ -159,7 +156,7 @@ fn progress_is_reported() {
         let told = Mutex::new(Vec::new());
         let progress = |step: Progress| told.lock().expect("nobody panics").push(step);
         let setup: Setup = text.parse().expect("a setup");
-        let space = SearchSpace::new(setup, &grid()).expect("a setup that was checked");
+        let space = Space::new(setup, &grid()).expect("a setup that was checked");
         let made = Index::with_progress(setup, &space, &RULES, &progress).expect("an index");
         assert_eq!(made.to_bytes(), build(setup, &grid()));
         told.into_inner().expect("nobody panics")

@@ -7,7 +7,7 @@ use mediant_hierarchy::{ClusterGraph, Clustering, SegmentGraph};
 
 use super::source::Source;
 use crate::{
-    engine::{ChpaOptions, Engine, HpaOptions},
+    configured::{ChpaOptions, ConfiguredEngine, HpaOptions},
     error::EngineError,
     option::Levels,
     setup::Setup,
@@ -21,7 +21,7 @@ pub(super) fn clusters(
     graph: &GridGraph<Centers>,
     source: Source<'_>,
 ) -> Result<Arc<ClusterGraph>, EngineError> {
-    let levels_of = |own: HpaOptions| match Engine::Hpa(own).levels() {
+    let levels_of = |own: HpaOptions| match ConfiguredEngine::Hpa(own).levels() {
         Some(Levels::Number(number)) => number.get(),
         _ => Clustering::default().levels,
     };

@@ -5,12 +5,12 @@ use crate::names::names;
 /// An engine without its options.
 ///
 /// ```
-/// use mediant_engines::{Engine, EngineKind};
-/// assert_eq!("jps-block".parse(), Ok(EngineKind::JpsBlock));
-/// assert_eq!(Engine::from(EngineKind::Anya), Engine::Anya);
+/// use mediant::{ConfiguredEngine, Engine};
+/// assert_eq!("jps-block".parse(), Ok(Engine::JpsBlock));
+/// assert_eq!(ConfiguredEngine::from(Engine::Anya), ConfiguredEngine::Anya);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum EngineKind {
+pub enum Engine {
     /// [`AStar`](mediant_search::AStar).
     #[default]
     AStar,
@@ -44,7 +44,7 @@ pub enum EngineKind {
     Chpa,
 }
 
-names!(EngineKind:
+names!(Engine:
     AStar => "astar",
     Dijkstra => "dijkstra",
     Wavefront => "wavefront",
@@ -61,7 +61,7 @@ names!(EngineKind:
     Chpa => "chpa",
 );
 
-impl EngineKind {
+impl Engine {
     /// The names of the engines that satisfy a condition, separated by commas.
     pub(crate) fn names_where(condition: impl Fn(Self) -> bool) -> String {
         let names: Vec<&str> =

@@ -2,9 +2,9 @@
 
 use std::num::NonZeroU32;
 
-use mediant_engines::{
-    BoxedPlanner, Engine, EngineError, EngineKind, GuidedOptions, HeuristicName, Index, JumpOptions, Levels,
-    SearchSpace, Setup, SetupError, SharedRules, Variant, distances,
+use mediant::{
+    ConfiguredEngine, Engine, EngineError, GuidedOptions, HeuristicName, Index, JumpOptions, Levels, Planner,
+    Setup, SetupError, SharedRules, Space, Variant, distances,
 };
 use mediant_grid::{DiagonalGap, PlacementKind, Rules, Vertex};
 use mediant_moves::{FiniteK, K};
@@ -13,7 +13,7 @@ use mediant_search::{Guarantee, Query, QueryError, Smoothing};
 use super::{NEVER, OPEN, RULES, build, grid, index, k, planner, planner_on, setup};
 
 /// The engine with its default options, k and rules.
-fn plain(engine: EngineKind) -> Setup {
+fn plain(engine: Engine) -> Setup {
     let k = engine.capabilities().default_k();
     Setup::new(engine, k, engine.capabilities().default_rules(k))
 }
@@ -26,8 +26,8 @@ fn query() -> Query {
 /// The length of the shortest path at any angle under these rules. At centers, where no engine finds it, the
 /// straight line.
 fn any_angle_length(rules: Rules) -> f64 {
-    let anya = Setup::new(EngineKind::Anya, K::Any, rules);
-    let outcome = BoxedPlanner::new(anya, &grid(), &RULES).and_then(|mut anya| Ok(anya.solve(query())?));
+    let anya = Setup::new(Engine::Anya, K::Any, rules);
+    let outcome = Planner::new(anya, &grid(), &RULES).and_then(|mut anya| Ok(anya.solve(query())?));
     match outcome {
         Ok(outcome) => outcome.path().expect("there is a path").cost(),
         Err(_) => query().start.distance(query().goal),
@@ -37,13 +37,13 @@ fn any_angle_length(rules: Rules) -> f64 {
 /// Whether the engine prepares nothing.
 fn prepares_nothing(setup: Setup) -> bool {
     match setup.engine {
-        Engine::AStar(_)
-        | Engine::Dijkstra
-        | Engine::Wavefront
-        | Engine::Theta(_)
-        | Engine::LazyTheta(_)
-        | Engine::Anya => true,
-        Engine::Canonical(own) => own.variant == Some(Variant::Paper),
+        ConfiguredEngine::AStar(_)
+        | ConfiguredEngine::Dijkstra
+        | ConfiguredEngine::Wavefront
+        | ConfiguredEngine::Theta(_)
+        | ConfiguredEngine::LazyTheta(_)
+        | ConfiguredEngine::Anya => true,
+        ConfiguredEngine::Canonical(own) => own.variant == Some(Variant::Paper),
         _ => false,
     }
 }
@@ -57,7 +57,7 @@ fn check(setup: Setup, best: f64, shortest: f64) {
     assert_eq!(planner.guarantee(), setup.guarantee(), "{setup}");
     let answer = planner.solve_counted(query());
     let (kind, variant) = (setup.engine.kind(), setup.engine.variant());
-    if (kind, variant, setup.k) == (EngineKind::Chpa, Some(Variant::Paper), K::Finite(FiniteK::N4)) {
+    if (kind, variant, setup.k) == (Engine::Chpa, Some(Variant::Paper), K::Finite(FiniteK::N4)) {
         // As published, the windows of its segments join only what is joined within them.
         assert!(matches!(answer, Err(QueryError::GaveUp { .. })), "{setup}: {answer:?}");
         return;
@@ -93,7 +93,7 @@ fn every_setup_makes_the_planner_that_it_promises() {
                 );
                 continue;
             };
-            let engine = if k == K::Any { EngineKind::Anya } else { EngineKind::AStar };
+            let engine = if k == K::Any { Engine::Anya } else { Engine::AStar };
             assert_eq!(first, Setup::new(engine, k, rules));
             let best = planner(first).solve(query()).expect("both ends are free");
             let best = best.path().expect("there is a path").cost();
@@ -114,14 +114,14 @@ fn every_setup_makes_the_planner_that_it_promises() {
 
 #[test]
 fn every_engine_takes_the_k_that_it_says() {
-    for engine in EngineKind::ALL {
+    for engine in Engine::ALL {
         // Under these rules an engine takes every k that it takes at all.
         let capabilities = engine.capabilities();
         let rules = if capabilities.placements.contains(&PlacementKind::Corner) { OPEN } else { NEVER };
         let setup = |k: K| Setup::new(engine, k, rules);
         let refused = |k: K, error: SetupError| {
             assert_eq!(setup(k).check(), Err(error.clone()));
-            let planner = BoxedPlanner::new(setup(k), &grid(), &RULES).map(|_| ());
+            let planner = Planner::new(setup(k), &grid(), &RULES).map(|_| ());
             assert_eq!(planner, Err(EngineError::Setup(error)));
         };
         if let Some(max) = capabilities.max_k {
@@ -134,12 +134,12 @@ fn every_engine_takes_the_k_that_it_says() {
             refused(too_large.into(), SetupError::K { engine, max, k: too_large });
             let others = "anya, subgoal".to_owned();
             if capabilities.any {
-                assert_eq!((engine, setup(K::Any).check()), (EngineKind::Subgoal, Ok(())));
+                assert_eq!((engine, setup(K::Any).check()), (Engine::Subgoal, Ok(())));
             } else {
                 refused(K::Any, SetupError::NeedsFiniteK { engine, max, others });
             }
         } else {
-            assert_eq!((engine, setup(K::Any).check()), (EngineKind::Anya, Ok(())));
+            assert_eq!((engine, setup(K::Any).check()), (Engine::Anya, Ok(())));
             refused(k(2).into(), SetupError::NeedsAny { engine, k: k(2) });
         }
     }
@@ -147,7 +147,7 @@ fn every_engine_takes_the_k_that_it_says() {
 
 #[test]
 fn every_engine_takes_the_placements_that_it_says() {
-    for engine in EngineKind::ALL {
+    for engine in Engine::ALL {
         for rules in Rules::ALL {
             let (capabilities, placement) = (engine.capabilities(), rules.placement());
             // k = 2, since some engines at centers take larger k only under some rules.
@@ -176,7 +176,7 @@ fn every_engine_takes_the_placements_that_it_says() {
 
 #[test]
 fn a_search_space_is_for_its_own_k_and_rules() {
-    let space = |text: &str| SearchSpace::new(setup(text), &grid()).expect("a setup that was checked");
+    let space = |text: &str| Space::new(setup(text), &grid()).expect("a setup that was checked");
     let index = |ours: &str, others: &str| Index::new(setup(ours), &space(others), &RULES);
     for (ours, others) in [
         ("astar:3:open", "theta:3:open,taut"),
@@ -201,7 +201,7 @@ fn a_search_space_is_for_its_own_k_and_rules() {
         );
     }
     assert!(matches!(
-        SearchSpace::new(Setup::new(EngineKind::Anya, K::Any, NEVER), &grid()),
+        Space::new(Setup::new(Engine::Anya, K::Any, NEVER), &grid()),
         Err(EngineError::Setup(_))
     ));
     let said = index("anya", "astar:3:open").map(|_| ()).map_err(|error| error.to_string());
@@ -212,18 +212,15 @@ fn a_search_space_is_for_its_own_k_and_rules() {
 #[test]
 fn engines_take_only_their_own_options() {
     let takers = |options: &str| {
-        let setup = |engine: EngineKind| format!("{engine}{options}").parse::<Setup>();
-        let takers = EngineKind::ALL.into_iter().filter(|&engine| setup(engine).is_ok());
-        takers.map(EngineKind::name).collect::<Vec<_>>()
+        let setup = |engine: Engine| format!("{engine}{options}").parse::<Setup>();
+        let takers = Engine::ALL.into_iter().filter(|&engine| setup(engine).is_ok());
+        takers.map(Engine::name).collect::<Vec<_>>()
     };
-    assert_eq!(takers("").len(), EngineKind::ALL.len());
+    assert_eq!(takers("").len(), Engine::ALL.len());
     let guided = ["astar", "canonical", "jps", "jps-block", "jps-plus", "theta", "lazy-theta"];
     assert_eq!(takers(",euclidean"), [&guided[..], &["chpa"]].concat());
     assert_eq!(takers(",squared"), ["astar", "chpa"]);
-    assert_eq!(
-        (takers(",smooth").len(), takers(",taut").len()),
-        (EngineKind::ALL.len(), EngineKind::ALL.len())
-    );
+    assert_eq!((takers(",smooth").len(), takers(",taut").len()), (Engine::ALL.len(), Engine::ALL.len()));
     assert_eq!(takers(",paper"), ["canonical", "chpa"]);
     assert_eq!((takers(",exact"), takers(",complete")), (vec!["canonical"], vec!["chpa"]));
     assert_eq!((takers(",side=3"), takers(",unstraightened")), (vec!["hpa", "chpa"], vec!["hpa"]));
@@ -333,9 +330,10 @@ fn setups_are_read_as_they_are_written() {
     assert_eq!(many.parse::<Setup>().map(|setup| setup.to_string()), Ok(many.to_owned()));
     let many = "hpa:3:never,levels=2,side=4,unstraightened";
     assert_eq!(many.parse::<Setup>().map(|setup| setup.to_string()), Ok(many.to_owned()));
-    let zero = Engine::LazyTheta(GuidedOptions { heuristic: Some(HeuristicName::Zero) });
+    let zero = ConfiguredEngine::LazyTheta(GuidedOptions { heuristic: Some(HeuristicName::Zero) });
     let both = Setup { smoothing: Some(Smoothing::Taut), ..Setup::new(zero, k(5), OPEN) };
-    let limited = Engine::Jps(JumpOptions { jump_limit: NonZeroU32::new(16), ..JumpOptions::default() });
+    let limited =
+        ConfiguredEngine::Jps(JumpOptions { jump_limit: NonZeroU32::new(16), ..JumpOptions::default() });
     assert_eq!(Setup::new(limited, k(4), NEVER), setup("jps:4:never,limit=16"));
     assert_eq!(
         (both.to_string().as_str(), "lazy-theta:5:open,taut,zero".parse()),
@@ -399,7 +397,7 @@ fn each_wrong_part_is_named() {
 fn a_saved_index_is_as_good_as_a_new_one() {
     for rules in Rules::ALL {
         for k in [2, 3].map(k) {
-            let setup = Setup::new(EngineKind::JpsPlus, k, rules);
+            let setup = Setup::new(Engine::JpsPlus, k, rules);
             let bytes = build(setup, &grid()).expect("an index");
             let saved = index(setup, &grid(), Some(&bytes)).expect("these are its bytes");
             assert_eq!(planner_on(&saved).solve_counted(query()), planner(setup).solve_counted(query()));
@@ -413,7 +411,7 @@ fn a_saved_index_is_as_good_as_a_new_one() {
 
 #[test]
 fn only_some_engines_have_an_index_or_distances() {
-    for engine in EngineKind::ALL.into_iter().filter(|&engine| engine.capabilities().index.is_none()) {
+    for engine in Engine::ALL.into_iter().filter(|&engine| engine.capabilities().index.is_none()) {
         let setup = plain(engine);
         let error = format!("{engine} has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa");
         let said = [build(setup, &grid()).map(|_| ()), index(setup, &grid(), Some(&[])).map(|_| ())];
@@ -422,12 +420,12 @@ fn only_some_engines_have_an_index_or_distances() {
             [Err(error.clone()), Err(error)]
         );
     }
-    for engine in EngineKind::ALL {
+    for engine in Engine::ALL {
         let found = distances(plain(engine), &grid(), Vertex::new(0, 0));
         match found {
             // The map is connected: every free cell is reached.
             Ok(found) => {
-                assert!(matches!(engine, EngineKind::Dijkstra | EngineKind::Wavefront));
+                assert!(matches!(engine, Engine::Dijkstra | Engine::Wavefront));
                 assert_eq!(found.len() as u64, grid().free_cells());
                 assert_eq!((found[0], found[1]), ((Vertex::new(0, 0), 0.0), (Vertex::new(1, 0), 1.0)));
             }
@@ -437,9 +435,9 @@ fn only_some_engines_have_an_index_or_distances() {
             ),
         }
     }
-    let blocked = distances(Setup::new(EngineKind::Dijkstra, k(3), NEVER), &grid(), Vertex::new(6, 0));
+    let blocked = distances(Setup::new(Engine::Dijkstra, k(3), NEVER), &grid(), Vertex::new(6, 0));
     assert!(matches!(blocked, Err(EngineError::Query(_))), "{blocked:?}");
-    let corner = Setup::new(EngineKind::Dijkstra, k(4), Rules::Corner(DiagonalGap::Closed));
+    let corner = Setup::new(Engine::Dijkstra, k(4), Rules::Corner(DiagonalGap::Closed));
     let found = distances(corner, &grid(), Vertex::new(0, 0)).expect("a free start");
     let (_, distance) = found.iter().find(|(at, _)| *at == Vertex::new(2, 1)).expect("it is reached");
     assert!((distance - 5.0_f64.sqrt()).abs() < 1e-9, "{distance}");
@@ -451,10 +449,10 @@ fn shared_rules_change_no_answer() {
     for rules in Rules::ALL {
         // A rule for another k is known when the second one is asked for.
         for number in [4, 5] {
-            for engine in [EngineKind::Canonical, EngineKind::Jps] {
+            for engine in [Engine::Canonical, Engine::Jps] {
                 let setup = Setup::new(engine, k(number), rules);
                 let answer = |rules: &SharedRules| {
-                    let planner = BoxedPlanner::new(setup, &grid(), rules);
+                    let planner = Planner::new(setup, &grid(), rules);
                     planner.unwrap_or_else(|error| panic!("{setup}: {error}")).solve_counted(query())
                 };
                 assert_eq!(answer(&shared), answer(&SharedRules::new()), "{setup}");

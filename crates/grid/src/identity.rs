@@ -1,0 +1,254 @@
+//! What belongs together: the identity of a map, and of what is prepared on it.
+
+use std::fmt;
+
+use mediant_moves::{FiniteK, K};
+
+use crate::{BitMatrix, Rules, grid::Rectangle};
+
+/// The identity of a map: its size, and a digest of its cells.
+///
+/// Maps with the same cells have the same identity, on every run and platform. Two others have the same one
+/// with a probability of about 2⁻¹²⁸; the digest is not made to withstand forgery.
+///
+/// ```
+/// use mediant_grid::{Grid, Rectangle};
+/// let map = Grid::from_fn(5, 4, |x, y| x == y)?;
+/// let at = Rectangle { x: 2, y: 0, width: 1, height: 1 };
+/// let edited = map.with_rectangle(at, |_, _| true);
+/// assert_ne!(edited.id(), map.id());
+/// assert_eq!(edited.with_rectangle(at, |_, _| false).id(), map.id());
+/// # Ok::<(), mediant_grid::GridError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct MapId {
+    width: u32,
+    height: u32,
+    /// The sum of a digest of each word of the map, modulo 2¹²⁸: an edit changes only its own words' terms.
+    digest: [u64; 2],
+}
+
+/// The size, and the digest's first eight digits.
+impl fmt::Display for MapId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [_, high] = self.digest;
+        write!(f, "map {:08x} of {} × {} cells", high >> 32, self.width, self.height)
+    }
+}
+
+impl MapId {
+    pub(crate) fn new(rows: &BitMatrix) -> Self {
+        let (width, height) = (rows.width(), rows.height());
+        let all = Rectangle { x: 0, y: 0, width, height };
+        Self { width, height, digest: [0; 2] }.plus(sum(rows, all))
+    }
+
+    /// The number of columns and of rows.
+    #[must_use]
+    pub const fn size(self) -> (u32, u32) {
+        (self.width, self.height)
+    }
+
+    /// This without the words that a rectangle touches.
+    pub(crate) fn without(self, rows: &BitMatrix, at: Rectangle) -> Self {
+        self.plus(sum(rows, at).wrapping_neg())
+    }
+
+    /// This with the words that a rectangle touches.
+    pub(crate) fn with(self, rows: &BitMatrix, at: Rectangle) -> Self {
+        self.plus(sum(rows, at))
+    }
+
+    fn plus(self, terms: u128) -> Self {
+        let [low, high] = self.digest;
+        let sum = (u128::from(high) << 64 | u128::from(low)).wrapping_add(terms);
+        Self { digest: [sum as u64, (sum >> 64) as u64], ..self }
+    }
+}
+
+/// The sum of the terms of the words that a rectangle on the map touches.
+fn sum(rows: &BitMatrix, at: Rectangle) -> u128 {
+    let words = at.x / 64..(at.x + at.width).div_ceil(64);
+    (at.y..at.y + at.height).fold(0, |sum: u128, y| {
+        let row = rows.row(y as i32);
+        words.clone().fold(sum, |sum, word| {
+            sum.wrapping_add(term(u64::from(y) << 32 | u64::from(word), row.word(64 * word as i32)))
+        })
+    })
+}
+
+/// The digest of one word at its position.
+const fn term(position: u64, word: u64) -> u128 {
+    let key = mix(position ^ 0x243f_6a88_85a3_08d3);
+    let low = mix(word ^ key);
+    let high = mix(word.wrapping_add(key).rotate_left(32) ^ 0x1319_8a2e_0370_7344);
+    (high as u128) << 64 | low as u128
+}
+
+/// The finalizer of `SplitMix64` (Steele, Lea & Flood 2014): a bijection in which each bit depends on all.
+const fn mix(word: u64) -> u64 {
+    let word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let word = (word ^ word >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let word = (word ^ word >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    word ^ word >> 31
+}
+
+/// What something belongs to: a map, a placement with its rule of motion, and a k. Everything that is
+/// prepared carries it, and every constructor that joins two things compares them, in constant time.
+///
+/// ```
+/// use std::sync::Arc;
+/// use mediant_grid::{Corners, DiagonalGap, FreeSpace, Grid, GridGraph};
+/// use mediant_moves::FiniteK;
+/// let grid = Arc::new(Grid::from_fn(5, 4, |x, y| x == y)?);
+/// let space = FreeSpace::<Corners>::new(Arc::clone(&grid), DiagonalGap::Open);
+/// let [four, five] = [FiniteK::N16, FiniteK::N32].map(|k| GridGraph::in_space(&space, k));
+/// let (four, five) = (four?.identity(), five?.identity());
+/// // A free space serves every k.
+/// assert!(four.check("one", ("another", space.identity())).is_ok());
+/// let wrong = four.check("the graph", ("the other graph", five)).unwrap_err();
+/// assert!(wrong.to_string().contains("k = 4") && wrong.to_string().contains("k = 5"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Identity {
+    /// The map; `None` for what serves every map.
+    pub map: Option<MapId>,
+    /// The placement and its rule of motion.
+    pub rules: Rules,
+    /// The neighborhood; `None` for what serves every k.
+    pub k: Option<K>,
+}
+
+impl fmt::Display for Identity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.map {
+            Some(map) => write!(f, "{map}")?,
+            None => f.write_str("every map")?,
+        }
+        write!(f, ", {}, ", self.rules)?;
+        match self.k {
+            Some(k) => write!(f, "k = {k}"),
+            None => f.write_str("every k"),
+        }
+    }
+}
+
+/// Two things that do not belong together: of another map, placement, rule of motion or k.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[error(
+    "{prepared} is for {belongs_to}; {other} is for {found}: use it with what it was made for, or make it anew"
+)]
+pub struct Mismatch {
+    /// What the first of them is.
+    pub prepared: &'static str,
+    /// What it belongs to.
+    pub belongs_to: Identity,
+    /// What the other one is.
+    pub other: &'static str,
+    /// What that belongs to.
+    pub found: Identity,
+}
+
+impl Identity {
+    /// The length of [`to_bytes`](Self::to_bytes).
+    pub const BYTES: usize = 32;
+
+    /// Checks that something of this identity, called `prepared`, may be used with `other`: that their maps,
+    /// rules and k agree as far as both have them.
+    ///
+    /// # Errors
+    /// [`Mismatch`] if they do not.
+    pub fn check(self, prepared: &'static str, (other, found): (&'static str, Self)) -> Result<(), Mismatch> {
+        fn agree<T: PartialEq>(one: Option<T>, other: Option<T>) -> bool {
+            one.zip(other).is_none_or(|(one, other)| one == other)
+        }
+        if self.rules == found.rules && agree(self.map, found.map) && agree(self.k, found.k) {
+            return Ok(());
+        }
+        Err(Mismatch { prepared, belongs_to: self, other, found })
+    }
+
+    /// The identity as bytes: width, height, digest, rules and k as little-endian numbers of 4, 4, 16, 4 and
+    /// 4 bytes. A width of 0 stands for every map, a k of 0 for every k, and of 2³² − 1 for k = ∞.
+    #[must_use]
+    pub fn to_bytes(self) -> [u8; Self::BYTES] {
+        let MapId { width, height, digest: [low, high] } =
+            self.map.unwrap_or(MapId { width: 0, height: 0, digest: [0; 2] });
+        let rules = Rules::ALL.iter().position(|&rules| rules == self.rules).unwrap_or_default();
+        let k = match self.k {
+            None => 0,
+            Some(K::Finite(k)) => k.get(),
+            Some(K::Any) => u32::MAX,
+        };
+        let mut bytes = [0; Self::BYTES];
+        let fields =
+            [&width.to_le_bytes()[..], &height.to_le_bytes(), &low.to_le_bytes(), &high.to_le_bytes()];
+        let fields = fields.into_iter().flatten().copied();
+        let rest = (rules as u32).to_le_bytes().into_iter().chain(k.to_le_bytes());
+        bytes.iter_mut().zip(fields.chain(rest)).for_each(|(to, byte)| *to = byte);
+        bytes
+    }
+
+    /// The identity from its bytes; `None` if they stand for none.
+    #[must_use]
+    pub fn from_bytes(bytes: [u8; Self::BYTES]) -> Option<Self> {
+        let (words, _) = bytes.as_chunks::<4>();
+        let word = |at: usize| u32::from_le_bytes(words[at]);
+        let long = |at: usize| u64::from(word(at + 1)) << 32 | u64::from(word(at));
+        let map = MapId { width: word(0), height: word(1), digest: [long(2), long(4)] };
+        let k = match word(7) {
+            0 => None,
+            u32::MAX => Some(K::Any),
+            k => Some(K::Finite(FiniteK::new(k).ok()?)),
+        };
+        let rules = *Rules::ALL.get(word(6) as usize)?;
+        Some(Self { map: (map.width > 0).then_some(map), rules, k })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_are_read_back_and_others_refused() {
+        let rows = BitMatrix::from_bits(70, 3, |x, y| x * y % 7 == 1);
+        let ks = [None, Some(K::N4), Some(K::Any)];
+        for (rules, k) in Rules::ALL.into_iter().flat_map(|rules| ks.map(|k| (rules, k))) {
+            for map in [None, Some(MapId::new(&rows))] {
+                let identity = Identity { map, rules, k };
+                assert_eq!(Identity::from_bytes(identity.to_bytes()), Some(identity));
+            }
+        }
+        let bytes = Identity { map: None, rules: Rules::ALL[0], k: None }.to_bytes();
+        for (at, wrong) in [(24, 5), (28, 1)] {
+            let mut bytes = bytes;
+            bytes[at] = wrong;
+            assert_eq!(Identity::from_bytes(bytes), None, "byte {at}");
+        }
+    }
+
+    /// Every map of 3 × 3 cells, and the moves of one blocked cell on a larger one, differ from one another.
+    #[test]
+    fn different_maps_have_different_identities() {
+        let small =
+            (0..1_u32 << 9).map(|cells| BitMatrix::from_bits(3, 3, |x, y| cells >> (3 * y + x) & 1 == 1));
+        let large = (0..130 * 5).map(|cell| BitMatrix::from_bits(130, 5, |x, y| y * 130 + x == cell));
+        let turned =
+            [(1, 64), (64, 1), (2, 32), (128, 1)].map(|(w, h)| BitMatrix::from_bits(w, h, |_, _| false));
+        let ids: Vec<MapId> = small.chain(large).chain(turned).map(|rows| MapId::new(&rows)).collect();
+        let digests: std::collections::HashSet<_> = ids.iter().collect();
+        assert_eq!(digests.len(), ids.len());
+    }
+
+    /// Pinned, since saved indexes hold it.
+    #[test]
+    fn the_digest_is_the_same_everywhere() {
+        let id = MapId::new(&BitMatrix::from_bits(70, 3, |x, y| x * y % 7 == 1));
+        assert_eq!(
+            format!("{id}, {:016x?}", id.digest),
+            "map 9a537a66 of 70 × 3 cells, [3425d87d8789e346, 9a537a662674a16a]"
+        );
+    }
+}
