@@ -25,14 +25,15 @@ pub struct MapId {
     width: u32,
     height: u32,
     /// The sum of a digest of each word of the map, modulo 2¹²⁸: an edit changes only its own words' terms.
-    digest: [u64; 2],
+    /// Four words of 32 bits, lowest first, so that errors that name two identities stay small.
+    digest: [u32; 4],
 }
 
 /// The size, and the digest's first eight digits.
 impl fmt::Display for MapId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [_, high] = self.digest;
-        write!(f, "map {:08x} of {} × {} cells", high >> 32, self.width, self.height)
+        let [.., high] = self.digest;
+        write!(f, "map {high:08x} of {} × {} cells", self.width, self.height)
     }
 }
 
@@ -40,7 +41,7 @@ impl MapId {
     pub(crate) fn new(rows: &BitMatrix) -> Self {
         let (width, height) = (rows.width(), rows.height());
         let all = Rectangle { x: 0, y: 0, width, height };
-        Self { width, height, digest: [0; 2] }.plus(sum(rows, all))
+        Self { width, height, digest: [0; 4] }.plus(sum(rows, all))
     }
 
     /// The number of columns and of rows.
@@ -60,9 +61,9 @@ impl MapId {
     }
 
     fn plus(self, terms: u128) -> Self {
-        let [low, high] = self.digest;
-        let sum = (u128::from(high) << 64 | u128::from(low)).wrapping_add(terms);
-        Self { digest: [sum as u64, (sum >> 64) as u64], ..self }
+        let digest = self.digest.iter().rev().fold(0, |digest, &word| digest << 32 | u128::from(word));
+        let sum: u128 = digest.wrapping_add(terms);
+        Self { digest: [0, 32, 64, 96].map(|shift| (sum >> shift) as u32), ..self }
     }
 }
 
@@ -169,24 +170,21 @@ impl Identity {
         Err(Mismatch { prepared, belongs_to: self, other, found })
     }
 
-    /// The identity as bytes: width, height, digest, rules and k as little-endian numbers of 4, 4, 16, 4 and
-    /// 4 bytes. A width of 0 stands for every map, a k of 0 for every k, and of 2³² − 1 for k = ∞.
+    /// The identity as bytes: width, height, four words of digest, rules and k, each a little-endian `u32`. A width of 0 stands for every map, a k of 0 for every k, and of 2³² − 1 for k = ∞.
     #[must_use]
     pub fn to_bytes(self) -> [u8; Self::BYTES] {
-        let MapId { width, height, digest: [low, high] } =
-            self.map.unwrap_or(MapId { width: 0, height: 0, digest: [0; 2] });
+        let MapId { width, height, digest: [a, b, c, d] } =
+            self.map.unwrap_or(MapId { width: 0, height: 0, digest: [0; 4] });
         let rules = Rules::ALL.iter().position(|&rules| rules == self.rules).unwrap_or_default();
         let k = match self.k {
             None => 0,
             Some(K::Finite(k)) => k.get(),
             Some(K::Any) => u32::MAX,
         };
+        let words = [width, height, a, b, c, d, rules as u32, k];
         let mut bytes = [0; Self::BYTES];
-        let fields =
-            [&width.to_le_bytes()[..], &height.to_le_bytes(), &low.to_le_bytes(), &high.to_le_bytes()];
-        let fields = fields.into_iter().flatten().copied();
-        let rest = (rules as u32).to_le_bytes().into_iter().chain(k.to_le_bytes());
-        bytes.iter_mut().zip(fields.chain(rest)).for_each(|(to, byte)| *to = byte);
+        let bytes_of_words = words.into_iter().flat_map(u32::to_le_bytes);
+        bytes.iter_mut().zip(bytes_of_words).for_each(|(to, byte)| *to = byte);
         bytes
     }
 
@@ -194,16 +192,15 @@ impl Identity {
     #[must_use]
     pub fn from_bytes(bytes: [u8; Self::BYTES]) -> Option<Self> {
         let (words, _) = bytes.as_chunks::<4>();
-        let word = |at: usize| u32::from_le_bytes(words[at]);
-        let long = |at: usize| u64::from(word(at + 1)) << 32 | u64::from(word(at));
-        let map = MapId { width: word(0), height: word(1), digest: [long(2), long(4)] };
-        let k = match word(7) {
+        let [width, height, a, b, c, d, rules, k] = std::array::from_fn(|at| u32::from_le_bytes(words[at]));
+        let map = MapId { width, height, digest: [a, b, c, d] };
+        let k = match k {
             0 => None,
             u32::MAX => Some(K::Any),
             k => Some(K::Finite(FiniteK::new(k).ok()?)),
         };
-        let rules = *Rules::ALL.get(word(6) as usize)?;
-        Some(Self { map: (map.width > 0).then_some(map), rules, k })
+        let rules = *Rules::ALL.get(rules as usize)?;
+        Some(Self { map: (width > 0).then_some(map), rules, k })
     }
 }
 
@@ -246,9 +243,8 @@ mod tests {
     #[test]
     fn the_digest_is_the_same_everywhere() {
         let id = MapId::new(&BitMatrix::from_bits(70, 3, |x, y| x * y % 7 == 1));
-        assert_eq!(
-            format!("{id}, {:016x?}", id.digest),
-            "map 9a537a66 of 70 × 3 cells, [3425d87d8789e346, 9a537a662674a16a]"
-        );
+        let MapId { width, height, digest } = id;
+        assert_eq!((width, height), (70, 3));
+        assert_eq!(digest, [0x8789_e346, 0x3425_d87d, 0x2674_a16a, 0x9a53_7a66]);
     }
 }
