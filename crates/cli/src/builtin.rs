@@ -24,12 +24,12 @@ pub(crate) struct Builtin {
     pub(crate) caption: &'static str,
 }
 
-/// The texts of a map and its scenario in `benchdata/maps`.
+/// The texts of a map and its scenario in this crate's folder `maps`.
 macro_rules! bundled {
     ($name:literal) => {
         (
-            include_str!(concat!("../../../benchdata/maps/", $name, ".map")),
-            include_str!(concat!("../../../benchdata/maps/", $name, ".map.scen")),
+            include_str!(concat!("../maps/", $name, ".map")),
+            include_str!(concat!("../maps/", $name, ".map.scen")),
         )
     };
 }

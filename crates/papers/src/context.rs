@@ -173,7 +173,7 @@ impl<'a> Context<'a> {
     /// The maps of a set, sorted; in a quick run, an even sample of `quick` maps.
     pub(super) fn maps(&self, set: &str, quick: usize) -> Result<Vec<Map>, Error> {
         let folder = match set {
-            "bundled" => self.setting.root.join("benchdata").join("maps"),
+            "bundled" => self.setting.root.join("crates/cli/maps"),
             set => self.setting.folder(set),
         };
         let paths = files(&folder, ".map")?;

@@ -36,13 +36,14 @@ fn options(arguments: &[&str]) -> Options {
 /// A project with the bundled maps and no sets, and a mirror that has none: no network is asked.
 fn project_without_sets() -> tempfile::TempDir {
     let (folder, real) = (tempfile::tempdir().unwrap(), root());
-    let benchdata = folder.path().join("benchdata");
-    fs::create_dir_all(benchdata.join("maps")).unwrap();
-    fs::create_dir_all(folder.path().join("mirror")).unwrap();
+    let (benchdata, maps) = (folder.path().join("benchdata"), folder.path().join("crates/cli/maps"));
+    for new in [&benchdata, &maps, &folder.path().join("mirror")] {
+        fs::create_dir_all(new).unwrap();
+    }
     fs::copy(real.join("benchdata/manifest.json"), benchdata.join("manifest.json")).unwrap();
-    for entry in fs::read_dir(real.join("benchdata/maps")).unwrap() {
+    for entry in fs::read_dir(real.join("crates/cli/maps")).unwrap() {
         let entry = entry.unwrap();
-        fs::copy(entry.path(), benchdata.join("maps").join(entry.file_name())).unwrap();
+        fs::copy(entry.path(), maps.join(entry.file_name())).unwrap();
     }
     folder
 }

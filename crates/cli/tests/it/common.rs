@@ -99,9 +99,9 @@ pub(crate) fn refused(files: &Files, line: &str) -> String {
     files.strip(&stderr)
 }
 
-/// A file of the repository's `benchdata/maps`.
+/// A file of this crate's folder `maps`.
 pub(crate) fn bundled(name: &str) -> String {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../benchdata/maps");
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("maps");
     folder.join(name).to_str().expect("a UTF-8 path").to_owned()
 }
 
