@@ -27,6 +27,8 @@
 mod index;
 mod map;
 mod read;
+#[cfg(doctest)]
+mod readme;
 mod scenario;
 mod text;
 #[cfg(feature = "trace")]

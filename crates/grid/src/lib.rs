@@ -44,6 +44,8 @@ mod grid_graph;
 mod identity;
 mod line_of_sight;
 mod placement;
+#[cfg(doctest)]
+mod readme;
 mod rules;
 pub mod sight;
 mod tree;

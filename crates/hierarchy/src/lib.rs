@@ -59,6 +59,8 @@ mod check;
 mod chpa;
 mod error;
 mod hpa;
+#[cfg(doctest)]
+mod readme;
 mod waypoints;
 mod window;
 

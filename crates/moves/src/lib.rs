@@ -128,6 +128,8 @@ mod finite_k;
 mod k;
 mod level;
 mod quadrant;
+#[cfg(doctest)]
+mod readme;
 mod sector;
 mod sqrt;
 mod vector;

@@ -44,6 +44,8 @@ pub mod parts;
 mod path;
 mod planner;
 mod query;
+#[cfg(doctest)]
+mod readme;
 mod search_tree;
 mod segment;
 mod smoothing;

@@ -89,6 +89,8 @@ mod metric;
 mod placement;
 mod planner;
 mod progress;
+#[cfg(doctest)]
+mod readme;
 mod subgoals;
 mod theta;
 
