@@ -137,7 +137,8 @@ pub const COMPILED: [Compiled; 3] = [
     Compiled {
         package: "xtask",
         options: &[],
-        never: &[SEARCH, SUBGOAL, HIERARCHY, ENGINES],
+        // The catalog compiles all three, and its name begins those of all our crates.
+        never: &[SEARCH, SUBGOAL, HIERARCHY],
         reason: "`cargo xtask tidy` answers within seconds, and an engine takes minutes",
     },
 ];
