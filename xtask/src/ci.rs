@@ -4,7 +4,11 @@ use std::process::{Command, Stdio};
 
 use mediant_sets::root;
 
-use crate::{Error, project, tidy};
+use crate::{
+    Error,
+    project::{self, LIBRARIES},
+    tidy,
+};
 
 /// The arguments of cargo in each step. The environment makes warnings of rustdoc errors.
 const STEPS: [&[&str]; 5] = [
@@ -14,17 +18,6 @@ const STEPS: [&[&str]; 5] = [
     &["build", "--package", "mediant-moves", "--no-default-features"],
     // The workspace as a whole turns the features of `mediant-formats` on.
     &["check", "--package", "mediant-formats"],
-];
-
-/// What other programs are linked with, and so must compile wherever they do.
-const LIBRARIES: [&str; 7] = [
-    "mediant-moves",
-    "mediant-grid",
-    "mediant-formats",
-    "mediant-search",
-    "mediant-subgoal",
-    "mediant-hierarchy",
-    "mediant",
 ];
 
 /// Targets whose pointers have 32 bits: a browser's, and Linux's. `.ci/run` also runs tests on the latter.
@@ -47,7 +40,8 @@ pub fn run() -> Result<(), Error> {
     minimum_version()
 }
 
-/// Compiles the libraries for each of [`TARGETS`] that is installed.
+/// Compiles the libraries, which must compile wherever programs that link them do, for each of [`TARGETS`]
+/// that is installed.
 fn other_targets() -> Result<(), Error> {
     let installed = said_by_rustup(&["target", "list", "--installed"]);
     for target in TARGETS {
@@ -69,7 +63,8 @@ fn said_by_rustup(arguments: &[&str]) -> String {
     output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned()).unwrap_or_default()
 }
 
-fn step(command: &mut Command, shown: &str) -> Result<(), Error> {
+/// Prints a command and runs it.
+pub(crate) fn step(command: &mut Command, shown: &str) -> Result<(), Error> {
     println!("$ {shown}");
     match command.status() {
         Ok(status) if status.success() => Ok(()),

@@ -29,6 +29,14 @@ pub enum Error {
         /// What the system says.
         source: io::Error,
     },
+    /// A package without a file that belongs in each.
+    #[error("the package of {package} has no {file}: name it in `include`, in its Cargo.toml")]
+    Missing {
+        /// The crate.
+        package: String,
+        /// The file.
+        file: &'static str,
+    },
     /// Rules that are broken; each was printed.
     #[error("broken rules: {count}")]
     Tidy {

@@ -5,7 +5,7 @@ use std::{ffi::OsString, process::ExitCode};
 
 use clap::{Args, Parser, Subcommand};
 use xtask::{
-    ci, download,
+    ci, download, package,
     program::{COMPARE, REPRODUCE, VERIFY},
     tidy,
 };
@@ -32,6 +32,8 @@ enum Task {
     Tidy,
     /// Check all but the tests: format, lints, documentation, tidiness, the oldest supported Rust
     Ci,
+    /// Package the published crates, and compile them in an empty folder from their packages alone
+    Package,
 }
 
 /// Arguments that another program reads, `--help` among them.
@@ -51,6 +53,7 @@ fn main() -> ExitCode {
         Task::ReproduceTables(options) => REPRODUCE.run(&options.arguments),
         Task::Tidy => tidy::run().map(done),
         Task::Ci => ci::run().map(done),
+        Task::Package => package::run().map(done),
     };
     outcome.unwrap_or_else(|error| {
         eprintln!("error: {error}");

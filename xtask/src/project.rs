@@ -1,6 +1,7 @@
 //! The crates and files of the project.
 
 use std::{
+    collections::BTreeMap,
     env, fs, io,
     path::{Path, PathBuf},
     process::{Command, Stdio},
@@ -8,18 +9,53 @@ use std::{
 
 use mediant_sets::root;
 use serde::Deserialize;
+use serde_json::Value;
 
 use crate::Error;
 
+/// The published libraries, each after those that it depends on.
+pub const LIBRARIES: [&str; 7] = [
+    "mediant-moves",
+    "mediant-grid",
+    "mediant-formats",
+    "mediant-search",
+    "mediant-subgoal",
+    "mediant-hierarchy",
+    "mediant",
+];
+
+/// The published program.
+pub const PROGRAM: &str = "mediant-cli";
+
+/// All crates that are published, in an order in which they can be.
+pub fn published() -> impl Iterator<Item = &'static str> {
+    LIBRARIES.into_iter().chain([PROGRAM])
+}
+
 /// A crate of the workspace, from `cargo metadata`.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
 pub struct Package {
     /// Its name.
     pub name: String,
+    /// Its version.
+    pub version: String,
+    /// Its `Cargo.toml`, from the root.
+    pub manifest_path: PathBuf,
     /// The oldest Rust that it promises to compile with.
     pub rust_version: Option<String>,
     /// Its dependencies, with those of tests.
     pub dependencies: Vec<Dependency>,
+    /// The registries that take it: none for `publish = false`, any where the line is missing.
+    pub publish: Option<Vec<String>>,
+    /// What it is, in a line.
+    pub description: Option<String>,
+    /// Its README, from its folder.
+    pub readme: Option<PathBuf>,
+    /// Its features.
+    pub features: BTreeMap<String, Vec<String>>,
+    /// What other programs than cargo read, docs.rs among them.
+    #[serde(default)]
+    pub metadata: Value,
 }
 
 /// One line of a `Cargo.toml`.
@@ -68,12 +104,18 @@ pub fn packages() -> Result<Vec<Package>, Error> {
     #[derive(Deserialize)]
     struct Metadata {
         packages: Vec<Package>,
+        workspace_root: PathBuf,
     }
     let arguments = ["metadata", "--no-deps", "--format-version", "1"];
     let metadata = serde_json::from_str::<Metadata>(&run_cargo(&arguments)?);
-    metadata
-        .map(|metadata| metadata.packages)
-        .map_err(|error| Error::Step { command: format!("cargo {}: {error}", arguments.join(" ")) })
+    let mut metadata = metadata
+        .map_err(|error| Error::Step { command: format!("cargo {}: {error}", arguments.join(" ")) })?;
+    for package in &mut metadata.packages {
+        if let Ok(path) = package.manifest_path.strip_prefix(&metadata.workspace_root) {
+            package.manifest_path = path.to_owned();
+        }
+    }
+    Ok(metadata.packages)
 }
 
 /// The files that git tracks or would add, as paths from `root`, sorted. Where git does not answer (an

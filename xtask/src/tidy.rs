@@ -7,6 +7,7 @@ mod dependencies;
 mod finding;
 mod links;
 mod modules;
+mod published;
 mod source;
 mod text;
 mod tree;
@@ -20,6 +21,7 @@ use crate::{Error, project};
 
 pub use dependencies::{COMPILED, Compiled, check_compiled, check_packages};
 pub use finding::{Exception, Finding};
+pub use published::check_published;
 pub use tree::Tree;
 
 /// All exceptions of the project. One that is not needed any more is itself a finding, so that the list only
@@ -39,13 +41,15 @@ pub fn check_files(tree: &Tree, exceptions: &[Exception]) -> Vec<Finding> {
     findings
 }
 
-/// All findings in the project: the files, and what its crates depend on.
+/// All findings in the project: the files, what its crates depend on, and what is published.
 ///
 /// # Errors
 /// [`Error::Io`] for a file that cannot be read, [`Error::Step`] if cargo fails.
 pub fn check(root: &Path) -> Result<Vec<Finding>, Error> {
-    let mut findings = check_files(&Tree::read(root)?, EXCEPTIONS);
-    findings.extend(check_packages(&project::packages()?));
+    let (tree, packages) = (Tree::read(root)?, project::packages()?);
+    let mut findings = check_files(&tree, EXCEPTIONS);
+    findings.extend(check_packages(&packages));
+    findings.extend(check_published(&packages, &tree));
     for rule in &COMPILED {
         findings.extend(check_compiled(rule, &rule.tree()?));
     }

@@ -1,6 +1,6 @@
 //! The rules hold for the project, and each of them finds what it is there to find.
 
-use std::path::PathBuf;
+use std::{collections::BTreeMap, path::PathBuf};
 
 use mediant_sets::root;
 use xtask::{
@@ -220,11 +220,11 @@ fn links() {
 fn dependencies() {
     let package = |name: &str, dependencies: &[(&str, Option<Kind>)]| Package {
         name: name.to_owned(),
-        rust_version: None,
         dependencies: dependencies
             .iter()
             .map(|&(name, kind)| Dependency { name: name.to_owned(), kind })
             .collect(),
+        ..Package::default()
     };
     let packages = [
         package(
@@ -266,6 +266,49 @@ fn dependencies() {
         "xtask: depends on mediant-search",
         "mediant-new: has no place among the layers",
     ];
+    assert_eq!(findings.iter().map(short).collect::<Vec<_>>(), expected);
+}
+
+#[test]
+fn what_is_published() {
+    let package = |name: &str, folder: &str| Package {
+        name: name.to_owned(),
+        manifest_path: format!("{folder}/Cargo.toml").into(),
+        description: Some("What it is".to_owned()),
+        readme: Some("README.md".into()),
+        ..Package::default()
+    };
+    let kept_back = Some(Vec::new());
+    let features = BTreeMap::from([("parallel".to_owned(), Vec::new())]);
+    let documented: serde_json::Value = serde_json::json!({ "docs": { "rs": { "all-features": true } } });
+    let packages = [
+        Package { features: features.clone(), metadata: documented, ..package("mediant-moves", "good") },
+        Package { publish: kept_back.clone(), features, ..package("mediant-grid", "silent") },
+        Package { description: None, ..package("mediant-search", "bare") },
+        Package { readme: None, ..package("mediant", "nothing") },
+        Package { publish: kept_back, readme: None, description: None, ..package("mediant-bench", "ours") },
+        package("mediant-new", "new"),
+    ];
+    let files = tree(&[
+        ("LICENSE", "Do what you like.\n"),
+        ("good/LICENSE", "Do what you like.\n"),
+        ("good/README.md", "[elsewhere](https://example.org), `[code](x)`\n"),
+        ("silent/LICENSE", "Do what we like.\n"),
+        ("silent/README.md", "\n[license](LICENSE)\n"),
+        ("bare/README.md", ""),
+        ("nothing/LICENSE", "Do what you like.\n"),
+    ]);
+    let expected = [
+        "silent/Cargo.toml: `publish = false` in a crate that is published",
+        "silent/Cargo.toml: no `all-features = true` for docs.rs",
+        "silent/LICENSE: differs from the LICENSE at the top",
+        "silent/README.md:2: a link to `LICENSE`",
+        "bare/Cargo.toml: no `description`",
+        "bare/LICENSE: no such file",
+        "nothing/Cargo.toml: no README, or one that is not there",
+        "new/Cargo.toml: `publish = false` is missing",
+    ];
+    let findings = tidy::check_published(&packages, &files);
     assert_eq!(findings.iter().map(short).collect::<Vec<_>>(), expected);
 }
 

@@ -17,7 +17,7 @@ pub(super) fn check(tree: &Tree, findings: &mut Vec<Finding>) {
 }
 
 /// The targets of relative links with their lines, without their fragments (`#…`). Code has no links.
-fn targets(text: &str) -> impl Iterator<Item = (usize, &str)> {
+pub(super) fn targets(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut code = false;
     let lines = (1..).zip(text.lines()).filter(move |(_, line)| {
         let fence = line.trim_start().starts_with("```");

@@ -45,6 +45,11 @@ impl Tree {
         named.filter_map(|(path, bytes)| Some((path, std::str::from_utf8(bytes).ok()?)))
     }
 
+    /// The contents of one file.
+    pub(super) fn bytes(&self, path: &Path) -> Option<&[u8]> {
+        self.files().find(|(file, _)| *file == path).map(|(_, bytes)| bytes)
+    }
+
     /// Whether there is a file of this path, or one below it.
     pub(super) fn holds(&self, path: &Path) -> bool {
         self.files.iter().any(|(file, _)| file.starts_with(path))

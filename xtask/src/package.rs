@@ -1,0 +1,116 @@
+//! `cargo xtask package`: the published crates as others get them.
+//!
+//! It proves that each crate can be packaged, and that the packages need nothing besides: not a file of the
+//! repository, not a feature that only another crate of the workspace turns on. So they are unpacked in a
+//! folder that is otherwise empty, and compiled there from these files, first each crate alone with its
+//! default features, then all with all features. Nothing is published.
+//!
+//! `cargo package` can compile what it packed. That is not used: from the second run on it takes crates of
+//! the same version that the first run unpacked, so that it answers for files of yesterday.
+
+use std::{
+    fmt::Write,
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+};
+
+use mediant_sets::root;
+
+use crate::{
+    Error,
+    ci::step,
+    project::{self, published},
+};
+
+/// What belongs in each package.
+const FILES: [&str; 2] = ["LICENSE", "README.md"];
+
+/// Packs, unpacks and compiles.
+///
+/// # Errors
+/// [`Error::Step`] names the command that failed, [`Error::Missing`] the file that a package lacks;
+/// [`Error::Io`] if there is no room for a temporary folder.
+pub fn run() -> Result<(), Error> {
+    let folder = tempfile::tempdir().map_err(Error::at(&std::env::temp_dir()))?;
+    let folder = folder.path();
+    pack(folder)?;
+    let members = unpack(folder)?;
+    let manifest = folder.join("Cargo.toml");
+    fs::write(&manifest, workspace(&members)).map_err(Error::at(&manifest))?;
+    // The versions of other crates that the workspace is tested with, so that no network is needed.
+    let lock = folder.join("Cargo.lock");
+    fs::copy(root().join("Cargo.lock"), &lock).map_err(Error::at(&lock))?;
+    for name in published() {
+        compile(folder, &["build", "--package", name])?;
+    }
+    compile(folder, &["build", "--workspace", "--all-features"])
+}
+
+/// Runs `cargo package` for all crates at once, since none of them is in a registry yet. That takes cargo
+/// 1.90 or newer.
+fn pack(folder: &Path) -> Result<(), Error> {
+    let packages = published().flat_map(|name| ["--package", name]);
+    // Not asked for our own crates, no index is needed. `cargo xtask tidy` checks the metadata.
+    let options = ["package", "--offline", "--no-verify", "--no-metadata", "--allow-dirty"];
+    let arguments: Vec<&str> = options.into_iter().chain(packages).collect();
+    let mut command = project::cargo();
+    command.args(&arguments).arg("--target-dir").arg(target(folder));
+    step(&mut command, &format!("cargo {}", arguments.join(" ")))
+}
+
+/// Unpacks the packages, and returns their names, each with its folder's.
+fn unpack(folder: &Path) -> Result<Vec<(String, String)>, Error> {
+    let mut members = Vec::new();
+    for package in project::packages()? {
+        if !published().any(|name| name == package.name) {
+            continue;
+        }
+        let unpacked = format!("{}-{}", package.name, package.version);
+        let file = format!("{unpacked}.crate");
+        let archive = target(folder).join("package").join(&file);
+        // Relative paths: the `tar` of some systems takes what is before a colon for another machine.
+        let relative = archive.strip_prefix(folder).unwrap_or(&archive);
+        step(Command::new("tar").arg("-xzf").arg(relative).current_dir(folder), &format!("tar -xzf {file}"))?;
+        if let Some(file) = FILES.into_iter().find(|file| !folder.join(&unpacked).join(file).is_file()) {
+            return Err(Error::Missing { package: package.name, file });
+        }
+        members.push((package.name, unpacked));
+    }
+    Ok(members)
+}
+
+/// A workspace of these packages, in which they depend on one another and not on what a registry has.
+fn workspace(members: &[(String, String)]) -> String {
+    let folders: Vec<&str> = members.iter().map(|(_, folder)| &**folder).collect();
+    let mut text = format!("[workspace]\nresolver = \"3\"\nmembers = {folders:?}\n\n[patch.crates-io]\n");
+    for (name, folder) in members {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{name} = {{ path = {folder:?} }}");
+    }
+    text + "\n[profile.dev]\ndebug = false\n"
+}
+
+fn compile(folder: &Path, arguments: &[&str]) -> Result<(), Error> {
+    let mut command = project::cargo();
+    command.args(arguments).arg("--target-dir").arg(target(folder)).current_dir(folder);
+    step(&mut command, &format!("cargo {}", arguments.join(" ")))
+}
+
+fn target(folder: &Path) -> PathBuf {
+    folder.join("target")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::workspace;
+
+    #[test]
+    fn packages_use_one_another() {
+        let names = ["a", "b"].map(|name| (name.to_owned(), format!("{name}-0.1.0")));
+        let expected = "[workspace]\nresolver = \"3\"\nmembers = [\"a-0.1.0\", \"b-0.1.0\"]\n\n\
+                        [patch.crates-io]\na = { path = \"a-0.1.0\" }\nb = { path = \"b-0.1.0\" }\n\n\
+                        [profile.dev]\ndebug = false\n";
+        assert_eq!(workspace(&names), expected);
+    }
+}
