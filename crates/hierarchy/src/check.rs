@@ -1,6 +1,6 @@
 //! Checks of what is handed in: moves, sizes, and whether a grid graph and an index belong together.
 
-use mediant_grid::{Centers, CornerRule, Grid, GridGraph};
+use mediant_grid::{Centers, CornerRule, Grid, GridGraph, Identity, Mismatch, Rectangle};
 use mediant_moves::FiniteK;
 
 use crate::HierarchyError;
@@ -20,20 +20,52 @@ pub(crate) fn size(expected: (u32, u32), grid: &Grid) -> Result<(), HierarchyErr
     if found == expected { Ok(()) } else { Err(HierarchyError::Size { expected, found }) }
 }
 
-/// Checks that an index for k, of a map of this size, can be used on a grid graph.
-pub(crate) fn grid_graph(
-    k: FiniteK,
-    size: (u32, u32),
-    grid_graph: &GridGraph<Centers>,
+/// Checks that an index is that of a grid graph.
+pub(crate) fn belongs(index: Identity, grid_graph: &GridGraph<Centers>) -> Result<(), Mismatch> {
+    index.check(INDEX, ("the grid graph", grid_graph.identity()))
+}
+
+/// Checks that an index, after a repair, can be that of a grid graph: that both have the same moves.
+pub(crate) fn same_moves(index: Identity, grid_graph: &GridGraph<Centers>) -> Result<(), Mismatch> {
+    let of_any_map = belongs(Identity { map: None, ..index }, grid_graph);
+    of_any_map.map_err(|other| Mismatch { belongs_to: index, ..other })
+}
+
+/// Checks that an index is that of the map before a change, and that the map after it differs in no cell
+/// outside of a rectangle.
+pub(crate) fn change(
+    index: Identity,
+    before: &Grid,
+    after: &Grid,
+    changed: Rectangle,
 ) -> Result<(), HierarchyError> {
-    moves(grid_graph)?;
-    self::size(size, grid_graph.grid())?;
-    if grid_graph.k() == k {
+    index.check(INDEX, ("the map before the change", Identity { map: Some(before.id()), ..index }))?;
+    size(before.id().size(), after)?;
+    if before.equals_outside(after, changed) {
         Ok(())
     } else {
-        Err(HierarchyError::OtherK { expected: k, found: grid_graph.k() })
+        Err(HierarchyError::ChangedOutside { changed })
     }
 }
+
+/// The bytes behind the identity with which those of an index begin, if that is the grid graph's.
+pub(crate) fn after_identity<'b>(
+    bytes: &'b [u8],
+    grid_graph: &GridGraph<Centers>,
+) -> Result<&'b [u8], HierarchyError> {
+    let (found, rest) = bytes.split_first_chunk().ok_or(HierarchyError::Bytes("they are too few"))?;
+    let belongs_to = Identity::from_bytes(*found)
+        .ok_or(HierarchyError::Bytes("they do not begin with what they belong to"))?;
+    // Not `Identity::check`: no index serves every map, or every k.
+    if belongs_to != grid_graph.identity() {
+        let (other, found) = ("the grid graph", grid_graph.identity());
+        return Err(Mismatch { prepared: INDEX, belongs_to, other, found }.into());
+    }
+    Ok(rest)
+}
+
+/// What errors call an index.
+const INDEX: &str = "the index";
 
 /// Checks that so many nodes or segments can be addressed. On 64 bits every map's can, on 32 bits not those
 /// of small clusters on the largest maps.

@@ -1,6 +1,6 @@
 //! Why there is no index, or no planner on it.
 
-use mediant_grid::Rules;
+use mediant_grid::{Mismatch, Rectangle, Rules};
 use mediant_moves::{FiniteK, KError};
 
 /// An index that cannot be made, repaired, read or used.
@@ -38,7 +38,10 @@ pub enum HierarchyError {
         /// The longest side of a cluster of any level, in cells.
         max: u32,
     },
-    /// A map of another size.
+    /// An index of another map, rule of motion or k.
+    #[error(transparent)]
+    Mismatch(#[from] Mismatch),
+    /// A repair for a map of another size.
     #[error(
         "this index is of a map of {} × {} cells, not {} × {}: an index is repaired only for a map of its \
          size; make a new one",
@@ -50,15 +53,15 @@ pub enum HierarchyError {
         /// Width and height of the other map.
         found: (u32, u32),
     },
-    /// An index for other moves.
+    /// A repair for a map that differs from the one before in other cells than those that are named.
     #[error(
-        "this index is for k = {expected}, not {found}: make it for the moves that the planner is to take"
+        "the maps before and after differ outside of the {} × {} cells from ({}, {}) on: name a rectangle \
+         that holds all changed cells, or make a new index",
+        changed.width, changed.height, changed.x, changed.y
     )]
-    OtherK {
-        /// The index's k.
-        expected: FiniteK,
-        /// The grid graph's k.
-        found: FiniteK,
+    ChangedOutside {
+        /// The rectangle that was named.
+        changed: Rectangle,
     },
     /// An index with more nodes or segments than this machine can address.
     #[error(

@@ -14,7 +14,7 @@ use common::{
     Bound, Setting, Solve, any_clustering, any_grid_graph, ask, chpa, clusters, describe_query, grid_graph,
     hpa, k, map, number, random_queries, segments,
 };
-use mediant_grid::{Centers, CornerRule, Grid, GridGraph, Rectangle};
+use mediant_grid::{Centers, CornerRule, Grid, GridGraph, Identity, Rectangle};
 use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, FallbackPolicy, HpaStar, SegmentGraph};
 use mediant_oracle::{Rng, caves, on_all_cores, seeds};
 use mediant_search::{Counters, Outcome, Planner, Query};
@@ -213,32 +213,37 @@ fn check_headers<T, E>(words: usize, bytes: &[u8], read: impl Fn(&[u8]) -> Resul
     }
 }
 
-/// The first words say how the map is cut. In an index of clusters the number of the first one's nodes comes
-/// next.
+/// The first words are the identity, the next say how the map is cut. In an index of clusters the number of
+/// the first one's nodes comes next.
 #[test]
 fn no_header_allocates_more_than_an_index_of_the_map() {
     let grid = cave();
     let grid_graph: GridGraph<Centers> = grid_graph(&grid, k(3), CornerRule::Never);
     // An index of the smallest clusters in all levels that fit is the largest.
+    const WORDS: usize = Identity::BYTES / 4;
     let most = allocated(|| Ok::<_, ()>(clusters(&grid_graph, Clustering { side: 2, levels: 8 }))).1;
     assert!(most < 10_000_000, "{most} bytes for a map of 60 × 50 cells");
     let bytes = clusters(&grid_graph, Clustering { side: 6, levels: 2 }).to_bytes();
-    check_headers(5, &bytes, |bytes| ClusterGraph::from_bytes(&grid_graph, bytes), most);
+    check_headers(WORDS + 3, &bytes, |bytes| ClusterGraph::from_bytes(&grid_graph, bytes), most);
     let bytes = segments(&grid_graph, 3).to_bytes();
-    check_headers(3, &bytes, |bytes| SegmentGraph::from_bytes(&grid_graph, bytes), 60 * 50 + 100);
+    check_headers(WORDS + 1, &bytes, |bytes| SegmentGraph::from_bytes(&grid_graph, bytes), 60 * 50 + 100);
     // A header alone, of the largest indexes, allocates nothing.
-    for header in [[2_u32, 8, 60, 50], [2, 1, 60, 50], [64, 3, 60, 50]] {
-        let bytes = header.map(u32::to_le_bytes).concat();
+    let bytes_of = |grid_graph: &GridGraph<Centers>, words: &[u32]| -> Vec<u8> {
+        let words = words.iter().flat_map(|word| word.to_le_bytes());
+        grid_graph.identity().to_bytes().into_iter().chain(words).collect()
+    };
+    for header in [[2, 8], [2, 1], [64, 3]] {
+        let bytes = bytes_of(&grid_graph, &header);
         let (is_ok, taken) = allocated(|| ClusterGraph::from_bytes(&grid_graph, &bytes));
         assert!(!is_ok && taken < 200, "{header:?}: {taken} bytes");
     }
-    let header = [1_u32, 60, 50].map(u32::to_le_bytes).concat();
+    let header = bytes_of(&grid_graph, &[1]);
     let (is_ok, taken) = allocated(|| SegmentGraph::from_bytes(&grid_graph, &header));
     assert!(!is_ok && taken == 0, "{taken} bytes");
     // One cell, and the largest clusters.
     let one = Grid::from_fn(1, 1, |_, _| false).expect("a valid size");
     let grid_graph = common::grid_graph(&one, k(3), CornerRule::Never);
-    let numbers: Vec<u8> = [64_u32, 3, 1, 1, 0, 0, 0].into_iter().flat_map(u32::to_le_bytes).collect();
+    let numbers = bytes_of(&grid_graph, &[64, 3, 0, 0, 0]);
     let (is_ok, taken) = allocated(|| ClusterGraph::from_bytes(&grid_graph, &numbers));
     assert!(is_ok && taken < 200_000, "{taken} bytes");
 }

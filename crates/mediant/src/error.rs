@@ -1,9 +1,9 @@
 //! Why a setup is refused, and why a planner cannot be made.
 
-use mediant_grid::{PlacementKind, Rules};
+use mediant_grid::{Mismatch, PlacementKind, Rules};
 use mediant_hierarchy::HierarchyError;
 use mediant_moves::{FiniteK, K, KError};
-use mediant_search::{JumpTableError, QueryError};
+use mediant_search::{JumpError, QueryError};
 use mediant_subgoal::SubgoalError;
 
 use crate::{engine::Engine, option::Levels};
@@ -131,9 +131,12 @@ pub enum EngineError {
         /// The k and the rules of the search space.
         found: (K, Rules),
     },
+    /// Two parts that do not belong together.
+    #[error(transparent)]
+    Mismatch(#[from] Mismatch),
     /// A jump table that cannot be made, or bytes that are not a jump table of this map.
     #[error(transparent)]
-    JumpTable(#[from] JumpTableError),
+    JumpTable(#[from] JumpError),
     /// A subgoal graph that cannot be made, or bytes that are not a subgoal graph of this map.
     #[error(transparent)]
     Subgoal(#[from] SubgoalError),

@@ -6,7 +6,7 @@
 
 use std::{num::NonZeroU32, sync::Arc};
 
-use mediant_grid::{Centers, Corners, FreeSpace, GridGraph, Placement};
+use mediant_grid::{Centers, Corners, FreeSpace, GridGraph, Mismatch, Placement};
 use mediant_hierarchy::{ChpaStar, HpaStar, SegmentGraph};
 use mediant_search::{
     AStar, Anya, BlockJps, Canonical, Euclidean, Heuristic, Hk, Jps, JpsPlus, LazyThetaStar, PaperCanonical,
@@ -36,9 +36,9 @@ impl Index {
                 Some(Planner::of(planner.with_straightening(!unstraightened)))
             }
             Prepared::Centers(graph, Parts::Segments(segments)) => Some(chpa(setup, graph, segments)?),
-            Prepared::Centers(graph, parts) => on_graph(setup, graph, parts),
-            Prepared::Corners(graph, parts) => on_graph(setup, graph, parts),
-            Prepared::AnyAngle(space, Parts::Subgoals(graph)) => Some(subgoal(setup, space, graph)),
+            Prepared::Centers(graph, parts) => on_graph(setup, graph, parts)?,
+            Prepared::Corners(graph, parts) => on_graph(setup, graph, parts)?,
+            Prepared::AnyAngle(space, Parts::Subgoals(graph)) => Some(subgoal(setup, space, graph)?),
             Prepared::AnyAngle(space, _) => any_angle(setup, space),
         };
         let planner = planner.ok_or_else(|| no_space(setup))?;
@@ -57,16 +57,16 @@ fn any_angle(setup: Setup, space: &Arc<FreeSpace<Corners>>) -> Option<Planner> {
 }
 
 /// A planner on a subgoal graph.
-fn subgoal<S, P>(setup: Setup, space: &Arc<S>, graph: &Arc<SubgoalGraph<P>>) -> Planner
+fn subgoal<S, P>(setup: Setup, space: &Arc<S>, graph: &Arc<SubgoalGraph<P>>) -> Result<Planner, Mismatch>
 where
     S: HasFreeSpace<Placement = P> + Send + Sync + 'static,
     P: SubgoalPlacement,
 {
     let (space, graph) = (Arc::clone(space), Arc::clone(graph));
-    match setup.engine {
-        ConfiguredEngine::SubgoalTheta(_) => Planner::of(SubgoalTheta::new(space, graph)),
-        _ => Planner::of(SubgoalAStar::new(space, graph)),
-    }
+    Ok(match setup.engine {
+        ConfiguredEngine::SubgoalTheta(_) => Planner::of(SubgoalTheta::new(space, graph)?),
+        _ => Planner::of(SubgoalAStar::new(space, graph)?),
+    })
 }
 
 /// A planner on a grid graph; `None` if the parts are not the engine's.
@@ -74,12 +74,13 @@ fn on_graph<P: SubgoalPlacement>(
     setup: Setup,
     graph: &Arc<GridGraph<P>>,
     parts: &Parts<P>,
-) -> Option<Planner> {
+) -> Result<Option<Planner>, Mismatch> {
     if let Parts::Subgoals(subgoals) = parts {
-        return Some(subgoal(setup, graph, subgoals));
+        return Ok(Some(subgoal(setup, graph, subgoals)?));
     }
     let graph = Arc::clone(graph);
-    match (setup.engine, setup.engine.heuristic()?) {
+    let Some(heuristic) = setup.engine.heuristic() else { return Ok(None) };
+    Ok(match (setup.engine, heuristic) {
         (ConfiguredEngine::Dijkstra, _) | (ConfiguredEngine::AStar(_), HeuristicName::Zero) => {
             Some(Planner::of(AStar::new(graph, Zero)))
         }
@@ -91,12 +92,12 @@ fn on_graph<P: SubgoalPlacement>(
             Some(Planner::of(AStar::new(graph, SquaredEuclidean)))
         }
         (ConfiguredEngine::Wavefront, _) => Some(Planner::of(Wavefront::new(graph))),
-        (_, HeuristicName::Hk) => guided(setup.engine, graph, parts, Admissible::Hk),
-        (_, HeuristicName::Euclidean) => guided(setup.engine, graph, parts, Admissible::Euclidean),
-        (_, HeuristicName::Zero) => guided(setup.engine, graph, parts, Admissible::Zero),
+        (_, HeuristicName::Hk) => guided(setup.engine, graph, parts, Admissible::Hk)?,
+        (_, HeuristicName::Euclidean) => guided(setup.engine, graph, parts, Admissible::Euclidean)?,
+        (_, HeuristicName::Zero) => guided(setup.engine, graph, parts, Admissible::Zero)?,
         // `ConfiguredEngine::check` refuses it: no other search on a grid graph takes a heuristic that overestimates.
         (_, HeuristicName::SquaredEuclidean) => None,
-    }
+    })
 }
 
 /// A planner on a grid graph with a heuristic that never overestimates; `None` if the parts are not the
@@ -106,30 +107,30 @@ fn guided<P: SubgoalPlacement>(
     graph: Arc<GridGraph<P>>,
     parts: &Parts<P>,
     heuristic: Admissible,
-) -> Option<Planner> {
-    Some(match (engine, parts) {
+) -> Result<Option<Planner>, Mismatch> {
+    Ok(Some(match (engine, parts) {
         (ConfiguredEngine::Theta(_), _) => Planner::of(ThetaStar::new(graph, heuristic)),
         (ConfiguredEngine::LazyTheta(_), _) => Planner::of(LazyThetaStar::new(graph, heuristic)),
         (ConfiguredEngine::Canonical(_), Parts::Nothing) => {
             Planner::of(PaperCanonical::new(graph, heuristic))
         }
         (ConfiguredEngine::Canonical(_), Parts::Pruning(pruning)) => {
-            Planner::of(Canonical::with_pruning(graph, Arc::clone(pruning), heuristic))
+            Planner::of(Canonical::with_pruning(graph, Arc::clone(pruning), heuristic)?)
         }
         (ConfiguredEngine::Jps(own), Parts::Pruning(pruning)) => {
-            let planner = Jps::with_finder(graph, Arc::clone(pruning), StepwiseFinder, heuristic);
+            let planner = Jps::with_finder(graph, Arc::clone(pruning), StepwiseFinder, heuristic)?;
             jumping(planner, own.jump_limit, own.keep_intermediate)
         }
         (ConfiguredEngine::JpsBlock(own), Parts::Blocks(pruning, blocks)) => {
-            let planner = BlockJps::with_finder(graph, Arc::clone(pruning), blocks.clone(), heuristic);
+            let planner = BlockJps::with_finder(graph, Arc::clone(pruning), blocks.clone(), heuristic)?;
             jumping(planner, own.jump_limit, own.keep_intermediate)
         }
         (ConfiguredEngine::JpsPlus(own), Parts::Table(pruning, table)) => {
-            let planner = JpsPlus::with_finder(graph, Arc::clone(pruning), Arc::clone(table), heuristic);
+            let planner = JpsPlus::with_finder(graph, Arc::clone(pruning), Arc::clone(table), heuristic)?;
             jumping(planner, None, own.keep_intermediate)
         }
-        _ => return None,
-    })
+        _ => return Ok(None),
+    }))
 }
 
 /// A jump point search with its options.

@@ -4,7 +4,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use mediant_grid::{Centers, Corners, GridGraph, Placement};
+use mediant_grid::{Centers, Corners, GridGraph, Mismatch, Placement};
 use mediant_moves::FiniteK;
 use mediant_search::{CanonicalRule, Pruning};
 
@@ -46,7 +46,7 @@ impl SharedRules {
     }
 
     /// The pruning rule on a grid graph.
-    pub(crate) fn pruning<P: Shared>(&self, graph: &GridGraph<P>) -> Arc<Pruning<P>> {
+    pub(crate) fn pruning<P: Shared>(&self, graph: &GridGraph<P>) -> Result<Arc<Pruning<P>>, Mismatch> {
         let key = (graph.k(), graph.rule());
         let mut known = P::known(self).lock().unwrap_or_else(PoisonError::into_inner);
         let rule = match known.iter().find(|(of, _)| *of == key) {
@@ -58,6 +58,6 @@ impl SharedRules {
             }
         };
         drop(known);
-        Arc::new(Pruning::with_rule(graph, rule))
+        Ok(Arc::new(Pruning::with_rule(graph, rule)?))
     }
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Deref;
 
-use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
+use mediant_grid::{GridGraph, Identity, Placement, Vertex, VertexId};
 use mediant_moves::Cost;
 
 use crate::{
@@ -232,5 +232,9 @@ where
 
     fn guarantee(&self) -> Guarantee {
         if H::ADMISSIBLE { self.successors.guarantee(&self.graph) } else { Guarantee::Suboptimal }
+    }
+
+    fn identity(&self) -> Identity {
+        self.graph.identity()
     }
 }

@@ -59,7 +59,7 @@ pub use astar::{AStar, Dijkstra};
 pub use canonical::{Canonical, CanonicalRule, PaperCanonical, Pruning};
 pub use distances::Distances;
 pub use heuristic::{Euclidean, Heuristic, Hk, SquaredEuclidean, Zero};
-pub use jps::{BlockJps, Jps, JpsPlus, JumpTable, JumpTableError};
+pub use jps::{BlockJps, Jps, JpsPlus, JumpError, JumpTable};
 pub use observer::{Counters, NodeEvent, Observer};
 pub use outcome::{Guarantee, Outcome};
 pub use path::Path;

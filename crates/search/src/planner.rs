@@ -1,5 +1,7 @@
 //! The contract of every engine.
 
+use mediant_grid::Identity;
+
 use crate::{
     observer::Observer,
     outcome::{Guarantee, Outcome},
@@ -20,6 +22,9 @@ pub trait Planner {
 
     /// What is guaranteed of the paths.
     fn guarantee(&self) -> Guarantee;
+
+    /// What the answers are for: the map, the rules of motion and k.
+    fn identity(&self) -> Identity;
 
     /// Answers a query.
     ///

@@ -16,7 +16,7 @@
 
 use std::ops::Deref;
 
-use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
+use mediant_grid::{GridGraph, Identity, Placement, Vertex, VertexId};
 use mediant_moves::{Cost, FiniteK};
 
 use crate::{
@@ -141,5 +141,9 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Planner for Wavefront<G> {
     fn guarantee(&self) -> Guarantee {
         let k = self.graph.k();
         if k == FiniteK::N4 { Guarantee::Optimal(k) } else { Guarantee::Suboptimal }
+    }
+
+    fn identity(&self) -> Identity {
+        self.graph.identity()
     }
 }

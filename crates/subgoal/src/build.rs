@@ -5,7 +5,7 @@ use std::{
     sync::atomic::{AtomicUsize, Ordering},
 };
 
-use mediant_grid::{FreeSpace, Vertex};
+use mediant_grid::{FreeSpace, Identity, Vertex};
 use mediant_moves::K;
 
 use crate::{
@@ -74,7 +74,8 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
             return Err(SubgoalError::Arcs { count, most: MAX_ARCS });
         }
         let (offsets, arcs) = pack(&contracted);
-        let graph = Self { subgoals, tables, metric, k, criterion, hierarchy, offsets, arcs };
+        let identity = Identity { k: Some(k), ..space.identity() };
+        let graph = Self { identity, subgoals, tables, metric, k, criterion, hierarchy, offsets, arcs };
         graph.with_costs(space)
     }
 }

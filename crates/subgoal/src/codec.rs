@@ -1,13 +1,13 @@
 //! A subgoal graph as bytes.
 //!
-//! All numbers are `u32`, little endian. First the code of the hierarchy, the number of subgoals and the
-//! number of arcs; then, for each subgoal, twice the number of its arcs, plus 1 if it belongs to the core;
-//! then, for each arc, the subgoal that it leads to and its middle node (2³² − 1 for an edge). The subgoals
-//! themselves follow from the map, and the costs from the subgoals.
+//! First the [`Identity`] of the graph, 32 bytes. All else is numbers, `u32`, little endian: the code of the
+//! hierarchy, the number of subgoals and the number of arcs; then, for each subgoal, twice the number of its
+//! arcs, plus 1 if it belongs to the core; then, for each arc, the subgoal that it leads to and its middle
+//! node (2³² − 1 for an edge). The subgoals themselves follow from the map, and the costs from the subgoals.
 
 use std::num::NonZeroU32;
 
-use mediant_grid::FreeSpace;
+use mediant_grid::{FreeSpace, Identity, Mismatch};
 use mediant_moves::K;
 
 use crate::{
@@ -23,14 +23,15 @@ use crate::{
 
 impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// The version of the format that [`to_bytes`](Self::to_bytes) writes.
-    pub const VERSION: u32 = 1;
+    pub const VERSION: u32 = 2;
 
     /// What does not follow from the map, for [`from_bytes`](Self::from_bytes).
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let count = self.subgoals();
         // On 32 bits this cannot overflow: in memory an arc takes three times as much.
-        let mut bytes = Vec::with_capacity(4 * (3 + count + 2 * self.arcs()));
+        let mut bytes = Vec::with_capacity(Identity::BYTES + 4 * (3 + count + 2 * self.arcs()));
+        bytes.extend(self.identity.to_bytes());
         let mut write = |number: u32| bytes.extend(number.to_le_bytes());
         [code(self.hierarchy()), count as u32, self.arcs() as u32].into_iter().for_each(&mut write);
         for id in 0..count as u32 {
@@ -46,15 +47,17 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// The graph that [`to_bytes`](Self::to_bytes) wrote for the same free space and k. It answers exactly as
     /// the one that was written.
     ///
-    /// Whatever the bytes are, the paths of the graph are legal. But this function cannot tell whether the
-    /// bytes were made for this map and k, or are damaged: `IndexFile` of `mediant-formats` can, which holds
-    /// them in a file.
+    /// Whatever the bytes are, the paths of the graph are legal. But damage is not always found: `IndexFile`
+    /// of `mediant-formats`, which holds them in a file, finds it.
     ///
     /// # Errors
-    /// [`SubgoalError`] if the bytes are no subgoal graph of this free space. Besides the memory of the map's
-    /// subgoals, reading allocates a small multiple of the length of `bytes`.
+    /// [`SubgoalError::Mismatch`] for the bytes of a graph of another map, rule of motion or k, before
+    /// anything else is looked at; another [`SubgoalError`] if they are no subgoal graph of this free space.
+    /// Besides the memory of the map's subgoals, reading allocates a small multiple of the length of `bytes`.
     pub fn from_bytes(space: &FreeSpace<P>, k: impl Into<K>, bytes: &[u8]) -> Result<Self, SubgoalError> {
         let k = k.into();
+        let identity = Identity { k: Some(k), ..space.identity() };
+        let bytes = after_identity(bytes, identity)?;
         P::check(space, k)?;
         let metric = Metric::new(k)?;
         let (marks, tables) = P::prepare(space);
@@ -78,7 +81,7 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
         let offsets = read_offsets(&mut numbers, count, total)?;
         let arcs = read_arcs(&mut numbers, count, total)?;
         let criterion = P::edge_criterion(k, hierarchy);
-        let graph = Self { subgoals, tables, metric, k, criterion, hierarchy, offsets, arcs };
+        let graph = Self { identity, subgoals, tables, metric, k, criterion, hierarchy, offsets, arcs };
         let graph = graph.with_costs(space)?;
         if graph.edges_are_free(space) {
             Ok(graph)
@@ -101,6 +104,19 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
         // be missing.
         (0..self.subgoals() as u32).all(|id| self.up(id).iter().all(|arc| is_free(id, arc)))
     }
+}
+
+/// The bytes behind the identity with which they begin, if that is the expected one.
+fn after_identity(bytes: &[u8], expected: Identity) -> Result<&[u8], SubgoalError> {
+    let (found, rest) = bytes.split_first_chunk().ok_or(SubgoalError::Bytes("they are too few"))?;
+    let found = Identity::from_bytes(*found)
+        .ok_or(SubgoalError::Bytes("they do not begin with what they belong to"))?;
+    // Not `Identity::check`: no graph serves every map, or every k.
+    if found != expected {
+        let (prepared, other) = ("the subgoal graph", "the search space");
+        return Err(Mismatch { prepared, belongs_to: found, other, found: expected }.into());
+    }
+    Ok(rest)
 }
 
 /// Reads how many arcs each of `count` subgoals has, `total` together.

@@ -1,6 +1,6 @@
 //! Errors of building and reading subgoal graphs.
 
-use mediant_grid::Rules;
+use mediant_grid::{Mismatch, Rules};
 use mediant_moves::{K, KError};
 
 /// A subgoal graph that cannot be built or read.
@@ -26,6 +26,9 @@ pub enum SubgoalError {
         /// The most that a graph can have.
         most: u32,
     },
+    /// The graph belongs to another map, placement, rule of motion or k.
+    #[error(transparent)]
+    Mismatch(#[from] Mismatch),
     /// The bytes are no subgoal graph of this map.
     #[error("these bytes are no subgoal graph of this map: {0}")]
     Bytes(&'static str),

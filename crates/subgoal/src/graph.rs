@@ -1,7 +1,8 @@
 //! The index: the subgoals, the arcs between them, and looking both up.
 
-use mediant_grid::{FreeSpace, Vertex};
+use mediant_grid::{FreeSpace, Identity, Mismatch, Vertex};
 use mediant_moves::{Cost, K};
+use mediant_search::parts::HasFreeSpace;
 
 use crate::{
     arc::{NONE, PackedArc, UpwardArc},
@@ -20,6 +21,7 @@ pub(crate) const MAX_ARCS: u32 = u32::MAX / 2;
 /// the core their arcs to one another.
 #[derive(Clone, Debug)]
 pub struct SubgoalGraph<P: SubgoalPlacement> {
+    pub(crate) identity: Identity,
     pub(crate) subgoals: Subgoals,
     pub(crate) tables: P::Tables,
     pub(crate) metric: Metric,
@@ -77,6 +79,17 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
     #[must_use]
     pub const fn k(&self) -> K {
         self.k
+    }
+
+    /// What it belongs to: the map and the rules of motion of its free space, and its k.
+    #[must_use]
+    pub const fn identity(&self) -> Identity {
+        self.identity
+    }
+
+    /// Checks that it is the graph of a free space.
+    pub(crate) fn check(&self, space: &(impl HasFreeSpace + ?Sized)) -> Result<(), Mismatch> {
+        self.identity.check("the subgoal graph", ("the search space", space.identity()))
     }
 
     /// The hierarchy.

@@ -25,7 +25,7 @@
 //! ")?;
 //! let space = FreeSpace::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
 //! let graph = SubgoalGraph::new(&space, K::Any, Hierarchy::Contracted)?;
-//! let mut planner = SubgoalAStar::new(&space, &graph);
+//! let mut planner = SubgoalAStar::new(&space, &graph)?;
 //! let outcome = planner.solve(Query::new((0, 0), (5, 3)))?;
 //! let path = outcome.path().ok_or("there is a way")?;
 //! assert_eq!(path.waypoints(), [(0, 0), (1, 2), (5, 3)].map(Into::into));
@@ -66,9 +66,8 @@
 //! # What this crate does not do
 //!
 //! It reads and writes no files: a graph is converted to bytes and back. It does not repair a graph when the
-//! map changes. It does not check that a graph belongs to the free space that it is given with: callers keep
-//! both together. It uses one thread, unless the feature `parallel` is on; then it finds edges in rayon's
-//! current pool.
+//! map changes: a planner refuses the graph of another map. It uses one thread, unless the feature `parallel`
+//! is on; then it finds edges in rayon's current pool.
 
 mod arc;
 mod bends;

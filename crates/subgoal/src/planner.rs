@@ -2,7 +2,7 @@
 
 use std::ops::Deref;
 
-use mediant_grid::Vertex;
+use mediant_grid::{Identity, Mismatch, Vertex};
 use mediant_moves::{Cost, K};
 use mediant_search::{
     Guarantee, NodeEvent, Observer, Outcome, Path, Planner, Query, QueryError,
@@ -55,10 +55,14 @@ where
     I: Deref<Target = SubgoalGraph<P>>,
 {
     /// A planner with scratch memory for `graph`, which must be that of `space`.
-    #[must_use]
-    pub fn new(space: S, graph: I) -> Self {
+    ///
+    /// # Errors
+    /// [`Mismatch`] for the graph of another map or other rules than those of `space`, or, if that is a grid
+    /// graph, of another k.
+    pub fn new(space: S, graph: I) -> Result<Self, Mismatch> {
+        graph.check(&*space)?;
         let count = graph.subgoals();
-        Self {
+        Ok(Self {
             space,
             graph,
             scratch: P::Scratch::default(),
@@ -67,7 +71,7 @@ where
             pending: Vec::new(),
             arcs: Vec::new(),
             waypoints: Vec::new(),
-        }
+        })
     }
 }
 
@@ -102,6 +106,10 @@ where
             K::Finite(k) => Guarantee::Optimal(k),
             K::Any => Guarantee::OptimalAnyAngle,
         }
+    }
+
+    fn identity(&self) -> Identity {
+        self.graph.identity()
     }
 }
 

@@ -5,7 +5,7 @@ mod search;
 
 use std::ops::Deref;
 
-use mediant_grid::Vertex;
+use mediant_grid::{Identity, Mismatch, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{
     Guarantee, Observer, Outcome, Path, Planner, Query, QueryError,
@@ -59,7 +59,7 @@ use crate::{edge_path::push, graph::SubgoalGraph, placement::SubgoalPlacement};
 /// let space = FreeSpace::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
 /// let levels = Hierarchy::Levels(NonZeroU32::MIN.saturating_add(1));
 /// let graph = SubgoalGraph::new(&space, FiniteK::N8, levels)?;
-/// let outcome = SubgoalTheta::new(&space, &graph).solve(Query::new((0, 1), (6, 2)))?;
+/// let outcome = SubgoalTheta::new(&space, &graph)?.solve(Query::new((0, 1), (6, 2)))?;
 /// let expected = [(0, 1), (4, 1), (6, 2)].map(Into::into);
 /// assert_eq!(outcome.path().map(|path| path.waypoints()), Some(&expected[..]));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -84,10 +84,14 @@ where
     I: Deref<Target = SubgoalGraph<P>>,
 {
     /// A planner with scratch memory for `graph`, which must be that of `space`.
-    #[must_use]
-    pub fn new(space: S, graph: I) -> Self {
+    ///
+    /// # Errors
+    /// [`Mismatch`] for the graph of another map or other rules than those of `space`, or, if that is a grid
+    /// graph, of another k.
+    pub fn new(space: S, graph: I) -> Result<Self, Mismatch> {
+        graph.check(&*space)?;
         let count = graph.subgoals();
-        Self {
+        Ok(Self {
             space,
             graph,
             scratch: P::Scratch::default(),
@@ -96,7 +100,7 @@ where
             query_edges: Vec::new(),
             bends: Vec::new(),
             unpacking: Unpacking::default(),
-        }
+        })
     }
 }
 
@@ -129,6 +133,10 @@ where
 
     fn guarantee(&self) -> Guarantee {
         Guarantee::Suboptimal
+    }
+
+    fn identity(&self) -> Identity {
+        self.graph.identity()
     }
 }
 

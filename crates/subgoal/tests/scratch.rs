@@ -11,7 +11,7 @@ use std::{
 };
 
 use common::{GAPS, HIERARCHIES, graph, k, levels, space};
-use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Vertex};
+use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Identity, Vertex};
 use mediant_moves::K;
 use mediant_oracle::{Rng, caves};
 use mediant_search::{Outcome, Planner, Query};
@@ -70,8 +70,24 @@ fn check<P: SubgoalPlacement>(rule: P::Rule, k: K) {
     let queries = queries(&space);
     for hierarchy in HIERARCHIES {
         let (graph, case) = (graph(&space, k, hierarchy), format!("{hierarchy:?}, k = {k}, {rule:?}"));
-        assert_eq!(most_allocations(&case, SubgoalTheta::new(&space, &graph), &queries), 0, "Theta, {case}");
-        assert_eq!(most_allocations(&case, SubgoalAStar::new(&space, &graph), &queries), 0, "A*, {case}");
+        assert_eq!(
+            most_allocations(
+                &case,
+                SubgoalTheta::new(&space, &graph).expect("the graph is for this space"),
+                &queries
+            ),
+            0,
+            "Theta, {case}"
+        );
+        assert_eq!(
+            most_allocations(
+                &case,
+                SubgoalAStar::new(&space, &graph).expect("the graph is for this space"),
+                &queries
+            ),
+            0,
+            "A*, {case}"
+        );
     }
 }
 
@@ -99,7 +115,7 @@ fn huge_counts_allocate_nothing_huge() {
     assert!(is_ok && most > bytes.len(), "{most}");
     for count in [1 << 20, 1 << 30, (1 << 31) - 1, 1 << 31, u32::MAX - 1, u32::MAX] {
         // The counts of subgoals and of arcs, the first number of arcs of one subgoal.
-        for place in [4, 8, 12] {
+        for place in [4, 8, 12].map(|place| Identity::BYTES + place) {
             let mut huge = bytes.clone();
             huge[place..place + 4].copy_from_slice(&u32::to_le_bytes(count));
             let (is_ok, taken) = allocated(&huge);

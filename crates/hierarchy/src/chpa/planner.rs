@@ -5,7 +5,7 @@ use std::{
     ops::{Deref, DerefMut},
 };
 
-use mediant_grid::{Centers, GridGraph, Rectangle, Vertex};
+use mediant_grid::{Centers, GridGraph, Identity, Rectangle, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{
     AStar, Guarantee, Heuristic, Observer, Outcome, Path, Planner, Query, QueryError, parts::SearchTree,
@@ -80,10 +80,9 @@ where
     /// with a step of 2 and the default [`FallbackPolicy`].
     ///
     /// # Errors
-    /// [`HierarchyError`] for the index of a map of another size or of other moves. That the index is of this
-    /// very map is not checked: with another one's, paths are legal, but may be longer.
+    /// [`HierarchyError::Mismatch`] for the index of another map, rule of motion or k.
     pub fn new(grid_graph: G, index: I, first: H1, second: H2) -> Result<Self, HierarchyError> {
-        check::grid_graph(index.k, index.size, &grid_graph)?;
+        check::belongs(index.identity, &grid_graph)?;
         Ok(Self {
             tree: SearchTree::new(index.segments()),
             index,
@@ -122,10 +121,12 @@ where
     /// the index, and keeps the scratch memory.
     ///
     /// # Errors
-    /// [`HierarchyError`] for a grid graph of another size or of other moves; nothing is changed then.
+    /// [`HierarchyError::Mismatch`] for a grid graph of another rule of motion or k,
+    /// [`HierarchyError::Size`] for one of another size, and [`HierarchyError::ChangedOutside`] if the maps
+    /// differ outside of the rectangle. Nothing is changed then.
     pub fn repair(&mut self, grid_graph: G, changed: Rectangle) -> Result<(), HierarchyError> {
-        check::grid_graph(self.index.k, self.index.size, &grid_graph)?;
-        self.index.repair(grid_graph.grid(), changed)?;
+        check::same_moves(self.index.identity, &grid_graph)?;
+        self.index.repair(self.grid_graph.grid(), grid_graph.grid(), changed)?;
         self.tile_search.set_graph(grid_graph.clone());
         self.grid_graph = grid_graph;
         Ok(())
@@ -166,6 +167,10 @@ where
 
     fn guarantee(&self) -> Guarantee {
         Guarantee::Suboptimal
+    }
+
+    fn identity(&self) -> Identity {
+        self.grid_graph.identity()
     }
 }
 

@@ -1,6 +1,6 @@
 //! The index of CHPA*: made by sliding windows over the map, and repaired where the map changed.
 
-use mediant_grid::{Centers, Grid, GridGraph, Rectangle, Vector, Vertex};
+use mediant_grid::{Centers, Grid, GridGraph, Identity, Rectangle, Vector, Vertex};
 use mediant_moves::FiniteK;
 
 use crate::{
@@ -32,6 +32,7 @@ pub(crate) const SOUTH_WEST: u8 = 8;
 /// number of planners share it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SegmentGraph {
+    pub(crate) identity: Identity,
     pub(crate) k: FiniteK,
     pub(crate) side: u32,
     pub(crate) size: (u32, u32),
@@ -71,7 +72,8 @@ impl SegmentGraph {
         let size = (grid_graph.grid().width(), grid_graph.grid().height());
         let (columns, rows) = (size.0.div_ceil(side), size.1.div_ceil(side));
         check::address_space(u64::from(columns) * u64::from(rows))?;
-        Ok(Self { k: grid_graph.k(), side, size, columns, rows, edges: Box::default() })
+        let (identity, k) = (grid_graph.identity(), grid_graph.k());
+        Ok(Self { identity, k, side, size, columns, rows, edges: Box::default() })
     }
 
     /// The number of segments that the map is cut into.
@@ -79,23 +81,32 @@ impl SegmentGraph {
         self.columns as usize * self.rows as usize
     }
 
-    /// Repairs the index after cells of a rectangle changed: `grid` may differ only there from the map
-    /// before. The index is then equal to a new one of `grid`. The edges whose windows touch the rectangle
-    /// are made anew.
+    /// Repairs the index after cells of a rectangle changed. The index is then equal to a new one of the map
+    /// `after`, its identity included. The edges whose windows touch the rectangle are made anew.
     ///
     /// # Errors
-    /// [`HierarchyError::Size`] for a map of another size; nothing is changed then.
-    pub fn repair(&mut self, grid: &Grid, changed: Rectangle) -> Result<(), HierarchyError> {
-        check::size(self.size, grid)?;
+    /// [`HierarchyError::Mismatch`] if the map `before` is not that of the index, [`HierarchyError::Size`]
+    /// for a map `after` of another size, and [`HierarchyError::ChangedOutside`] if the two differ outside of
+    /// the rectangle. Nothing is changed then.
+    pub fn repair(&mut self, before: &Grid, after: &Grid, changed: Rectangle) -> Result<(), HierarchyError> {
+        check::change(self.identity, before, after, changed)?;
+        // Where no cell of the rectangle is on the map, the maps are equal.
         let Some([columns, rows]) = on_map(changed, self.size) else { return Ok(()) };
         // The windows of a segment reach one tile beyond it to the left, to the right, and downward.
         let first = |cell: u32| cell.saturating_sub(1) / self.side;
         for y in first(rows.start)..rows.end.div_ceil(self.side) {
             for x in first(columns.start)..((columns.end + 1).div_ceil(self.side)).min(self.columns) {
-                self.edges[(y * self.columns + x) as usize] = self.edges_of(grid, x, y);
+                self.edges[(y * self.columns + x) as usize] = self.edges_of(after, x, y);
             }
         }
+        self.identity.map = Some(after.id());
         Ok(())
+    }
+
+    /// What it belongs to: the map, the rules of motion and the k of its grid graph.
+    #[must_use]
+    pub const fn identity(&self) -> Identity {
+        self.identity
     }
 
     /// The side of the segments, in cells.

@@ -1,9 +1,9 @@
 //! A [`ClusterGraph`] as bytes.
 //!
-//! All numbers are `u32`, little endian: the side of the clusters of the lowest level, the number of levels,
-//! the width and height of the map. Then for each cluster, level by level and row by row: the number n of its
-//! nodes, and the n(n − 1)/2 costs from each node to those after it, in units of 2⁻¹⁶ cells. The nodes
-//! themselves are not stored: they follow from the map.
+//! First its [`Identity`](mediant_grid::Identity), 32 bytes. All else is numbers, `u32`, little endian: the
+//! side of the clusters of the lowest level, and the number of levels. Then for each cluster, level by level
+//! and row by row: the number n of its nodes, and the n(n − 1)/2 costs from each node to those after it, in
+//! units of 2⁻¹⁶ cells. The nodes themselves are not stored: they follow from the map.
 
 use mediant_grid::{Centers, GridGraph};
 
@@ -12,13 +12,13 @@ use crate::{HierarchyError, bytes::WordReader, check};
 
 impl ClusterGraph {
     /// The version of the format of [`to_bytes`](Self::to_bytes).
-    pub const VERSION: u32 = 1;
+    pub const VERSION: u32 = 2;
 
     /// The index as bytes, without what follows from the map. [`from_bytes`](Self::from_bytes) reads them.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let Clustering { side, levels } = self.clustering;
-        let mut words = vec![side, levels, self.size.0, self.size.1];
+        let mut words = vec![side, levels];
         for Cluster { count, costs } in self.levels.iter().flat_map(|level| &level.clusters) {
             words.push(*count);
             for from in 0..*count as usize {
@@ -26,23 +26,24 @@ impl ClusterGraph {
                 words.extend(later.iter().map(|cost| cost.to_bits()));
             }
         }
-        words.into_iter().flat_map(u32::to_le_bytes).collect()
+        let words = words.into_iter().flat_map(u32::to_le_bytes);
+        self.identity.to_bytes().into_iter().chain(words).collect()
     }
 
     /// The index of a grid graph from its bytes. It gives the same answers as the index that was written.
     ///
-    /// The bytes do not say which map or k they belong to, and damage is not always found; a file that holds
-    /// them must tell (see `IndexFile` of `mediant-formats`). Whatever the bytes are, paths found with the
-    /// index are legal, but with wrong bytes they may be longer, or a planner may give up.
+    /// Damage is not always found; a file that holds the bytes must tell (see `IndexFile` of
+    /// `mediant-formats`). Whatever the bytes are, paths found with the index are legal, but with damaged
+    /// bytes they may be longer, or a planner may give up.
     ///
     /// # Errors
-    /// [`HierarchyError`] for bytes that are no index of this grid graph, or moves that there is no index
-    /// for.
+    /// [`HierarchyError::Mismatch`] for the bytes of an index of another map, rule of motion or k, before
+    /// anything else is looked at; another [`HierarchyError`] for bytes that are no index of this grid graph,
+    /// or moves that there is no index for.
     pub fn from_bytes(grid_graph: &GridGraph<Centers>, bytes: &[u8]) -> Result<Self, HierarchyError> {
-        let mut words = WordReader::new(bytes)?;
+        let mut words = WordReader::new(check::after_identity(bytes, grid_graph)?)?;
         let clustering = Clustering { side: words.next()?, levels: words.next()? };
-        let size = (words.next()?, words.next()?);
-        check::size(size, grid_graph.grid())?;
+        let size = (grid_graph.grid().width(), grid_graph.grid().height());
         // Each cluster has at least its number of nodes: no header allocates more than the bytes behind it
         // warrant.
         let clusters = |side: u32| size.0.div_ceil(side) as usize * size.1.div_ceil(side) as usize;

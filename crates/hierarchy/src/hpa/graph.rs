@@ -1,6 +1,6 @@
 //! The index of HPA*.
 
-use mediant_grid::{Centers, Grid, GridGraph, Rectangle};
+use mediant_grid::{Centers, Grid, GridGraph, Identity, Rectangle};
 use mediant_moves::{CostTable, FiniteK};
 
 use super::{clustering::Clustering, level::Level};
@@ -20,6 +20,7 @@ use crate::{HierarchyError, check, window::on_map};
 /// give the same answers.
 #[derive(Clone, Debug)]
 pub struct ClusterGraph {
+    pub(crate) identity: Identity,
     pub(crate) k: FiniteK,
     pub(crate) clustering: Clustering,
     pub(crate) size: (u32, u32),
@@ -30,8 +31,7 @@ pub struct ClusterGraph {
 
 impl PartialEq for ClusterGraph {
     fn eq(&self, other: &Self) -> bool {
-        (self.k, self.clustering, self.size) == (other.k, other.clustering, other.size)
-            && self.levels == other.levels
+        (self.identity, self.clustering) == (other.identity, other.clustering) && self.levels == other.levels
     }
 }
 
@@ -60,6 +60,7 @@ impl ClusterGraph {
         let (grid, sides) = (grid_graph.grid(), clustering.sides()?);
         let level = |side| Level::new(grid, side, clustering.side);
         Ok(Self {
+            identity: grid_graph.identity(),
             k: grid_graph.k(),
             clustering,
             size: (grid.width(), grid.height()),
@@ -68,23 +69,32 @@ impl ClusterGraph {
         })
     }
 
-    /// Repairs the index after cells of a rectangle changed: `grid` may differ only there from the map
-    /// before. The index is then equal to a new one of `grid`.
+    /// Repairs the index after cells of a rectangle changed. The index is then equal to a new one of the map
+    /// `after`, its identity included.
     ///
     /// Rebuilt are the clusters that the rectangle touches, their neighbors whose entrances changed, and the
     /// clusters of upper levels that contain them.
     ///
     /// # Errors
-    /// [`HierarchyError::Size`] for a map of another size; nothing is changed then.
-    pub fn repair(&mut self, grid: &Grid, changed: Rectangle) -> Result<(), HierarchyError> {
-        check::size(self.size, grid)?;
+    /// [`HierarchyError::Mismatch`] if the map `before` is not that of the index, [`HierarchyError::Size`]
+    /// for a map `after` of another size, and [`HierarchyError::ChangedOutside`] if the two differ outside of
+    /// the rectangle. Nothing is changed then.
+    pub fn repair(&mut self, before: &Grid, after: &Grid, changed: Rectangle) -> Result<(), HierarchyError> {
+        check::change(self.identity, before, after, changed)?;
         if let Some(cells) = on_map(changed, self.size) {
             let level = &self.levels[0];
             let [columns, rows] = cells.map(|cells| cells.start / level.side..cells.end.div_ceil(level.side));
             let dirty = rows.flat_map(|y| columns.clone().map(move |x| y * level.columns + x)).collect();
-            self.rebuild(grid, dirty);
+            self.rebuild(after, dirty);
         }
+        self.identity.map = Some(after.id());
         Ok(())
+    }
+
+    /// What it belongs to: the map, the rules of motion and the k of its grid graph.
+    #[must_use]
+    pub const fn identity(&self) -> Identity {
+        self.identity
     }
 
     /// How the map is cut into clusters.

@@ -2,7 +2,7 @@
 
 use std::ops::{Deref, DerefMut};
 
-use mediant_grid::{Centers, GridGraph, Rectangle, Vertex};
+use mediant_grid::{Centers, GridGraph, Identity, Rectangle, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{Guarantee, Observer, Outcome, Path, Planner, Query, QueryError, parts::SearchTree};
 
@@ -68,11 +68,9 @@ where
     /// A planner on `index`, which must be that of `grid_graph`; it straightens its paths.
     ///
     /// # Errors
-    /// [`HierarchyError`] for the index of a map of another size or of other moves. That the index is of this
-    /// very map is not checked: with another one's, a planner may give up ([`QueryError::GaveUp`]), but its
-    /// paths are legal.
+    /// [`HierarchyError::Mismatch`] for the index of another map, rule of motion or k.
     pub fn new(grid_graph: G, index: I) -> Result<Self, HierarchyError> {
-        check::grid_graph(index.k, index.size, &grid_graph)?;
+        check::belongs(index.identity, &grid_graph)?;
         let nodes = index.levels.iter().map(|level| level.nodes.len()).max().unwrap_or(0);
         let costs = vec![Vec::new(); index.levels.len()];
         Ok(Self {
@@ -105,17 +103,18 @@ where
     /// the index, and keeps the scratch memory.
     ///
     /// # Errors
-    /// [`HierarchyError`] for a grid graph of another size or of other moves; nothing is changed then.
+    /// [`HierarchyError::Mismatch`] for a grid graph of another rule of motion or k,
+    /// [`HierarchyError::Size`] for one of another size, and [`HierarchyError::ChangedOutside`] if the maps
+    /// differ outside of the rectangle. Nothing is changed then.
     pub fn repair(&mut self, grid_graph: G, changed: Rectangle) -> Result<(), HierarchyError> {
-        check::grid_graph(self.index.k, self.index.size, &grid_graph)?;
-        self.index.repair(grid_graph.grid(), changed)?;
+        check::same_moves(self.index.identity, &grid_graph)?;
+        self.index.repair(self.grid_graph.grid(), grid_graph.grid(), changed)?;
         self.grid_graph = grid_graph;
         Ok(())
     }
 }
 
-const STALE: QueryError =
-    QueryError::GaveUp { why: "the index is not that of the map; repair it or make it anew" };
+const DAMAGED: QueryError = QueryError::GaveUp { why: "the index was read from damaged bytes; make it anew" };
 
 impl<G, I> Planner for HpaStar<G, I>
 where
@@ -141,11 +140,11 @@ where
         let separates = |level: &Level| level.cluster_at(start) != level.cluster_at(goal);
         let top = self.index.levels.iter().rposition(separates).unwrap_or(0);
         let direct = self.insert(query, top, observer);
-        self.find_abstract_path(query, top, direct, observer).ok_or(STALE)?;
+        self.find_abstract_path(query, top, direct, observer).ok_or(DAMAGED)?;
         for number in (0..top).rev() {
-            self.refine(number, observer).ok_or(STALE)?;
+            self.refine(number, observer).ok_or(DAMAGED)?;
         }
-        self.refine_to_cells(observer).ok_or(STALE)?;
+        self.refine_to_cells(observer).ok_or(DAMAGED)?;
         let path = if self.straightens {
             self.straighten.path(&self.grid_graph, &self.cells)
         } else {
@@ -159,10 +158,14 @@ where
     fn guarantee(&self) -> Guarantee {
         Guarantee::Suboptimal
     }
+
+    fn identity(&self) -> Identity {
+        self.grid_graph.identity()
+    }
 }
 
-/// Each step but the first returns `None` where there is no path although the map has one: then the index is
-/// of another map.
+/// Each step but the first returns `None` where there is no path although the map has one: then the index was
+/// read from damaged bytes.
 impl<G, I> HpaStar<G, I>
 where
     G: Deref<Target = GridGraph<Centers>>,

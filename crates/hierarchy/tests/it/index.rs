@@ -4,10 +4,10 @@ use crate::common::{
     Setting, any_clustering, any_grid_graph, ask, check_path, chpa, clusters, describe_query, grid_graph,
     hpa, k, map, random_queries, segments,
 };
-use mediant_grid::{AsciiMap, Centers, CornerRule, Grid, GridGraph, Rectangle};
-use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, HierarchyError, HpaStar, SegmentGraph};
+use mediant_grid::{AsciiMap, Centers, CornerRule, Grid, GridGraph, Identity, Rectangle};
+use mediant_hierarchy::{ClusterGraph, Clustering, HierarchyError, SegmentGraph};
 use mediant_oracle::{Rng, on_all_cores, seeds};
-use mediant_search::{Hk, Outcome, Planner, Query, QueryError, Zero};
+use mediant_search::{Outcome, Query, QueryError};
 
 #[test]
 fn a_loaded_index_is_the_one_that_was_written() {
@@ -65,14 +65,19 @@ fn the_versions_are_those_of_the_bytes_below() {
             .map(|word| u32::from_le_bytes(word.try_into().expect("words of four bytes")))
             .collect()
     };
-    assert_eq!((ClusterGraph::VERSION, SegmentGraph::VERSION), (1, 1));
+    assert_eq!((ClusterGraph::VERSION, SegmentGraph::VERSION), (2, 2));
     let one = clusters(&grid_graph, Clustering { side: 2, levels: 2 }).to_bytes();
-    // Side, levels, size; two clusters with one node each; on level 1 one cluster without nodes.
-    assert_eq!(words(&one), [2, 2, 3, 2, 1, 1, 0]);
+    let (identity, rest) = one.split_at(Identity::BYTES);
+    assert_eq!(identity, grid_graph.identity().to_bytes());
+    // Side, levels; two clusters with one node each; on level 1 one cluster without nodes.
+    assert_eq!(words(rest), [2, 2, 1, 1, 0]);
     let other = segments(&grid_graph, 1).to_bytes();
-    assert_eq!(words(&other[..12]), [1, 3, 2]);
+    let (identity, rest) = other.split_at(Identity::BYTES);
+    assert_eq!(identity, grid_graph.identity().to_bytes());
+    let (side, edges) = rest.split_at(4);
+    assert_eq!(words(side), [1]);
     // East 1, south 2, south-east 4, south-west 8.
-    assert_eq!(other[12..], [1 + 2 + 4, 2 + 4 + 8, 8, 1, 1, 0]);
+    assert_eq!(edges, [1 + 2 + 4, 2 + 4 + 8, 8, 1, 1, 0]);
 }
 
 const ROOMS: &str = "
@@ -122,7 +127,7 @@ fn an_edge_to_no_segment_is_refused() {
                     _ => false,
                 };
                 let mut other = bytes.clone();
-                other[12 + segment] |= 1 << bit;
+                other[Identity::BYTES + 4 + segment] |= 1 << bit;
                 let read = SegmentGraph::from_bytes(&grid_graph, &other);
                 assert_eq!(read.is_ok(), is_possible, "bit {bit} of segment {x}, {y}: {read:?}");
             }
@@ -275,8 +280,8 @@ fn random_bytes_make_no_illegal_path() {
         for _ in 0..1 + rng.below(20) {
             // Wrong numbers of nodes are refused. Small words may be such and stay, so that many indexes are
             // read.
-            let words = (bytes.len() / 4) as u32;
-            let at = 4 * (4 + rng.below(words - 4)) as usize;
+            let words = ((bytes.len() - Identity::BYTES) / 4) as u32;
+            let at = Identity::BYTES + 4 * (2 + rng.below(words - 2)) as usize;
             let word: [u8; 4] = bytes[at..at + 4].try_into().expect("four bytes");
             if u32::from_le_bytes(word) >= 1 << 12 {
                 let new = [0, 1, rng.below(1 << 24), u32::MAX, u32::MAX - 1][rng.below(5) as usize];
@@ -289,7 +294,7 @@ fn random_bytes_make_no_illegal_path() {
             check_clusters(&grid_graph, &graph, &queries, &case, &mut answers[0]);
         }
         let mut bytes = segments(&grid_graph, 1 + rng.below(9)).to_bytes();
-        bytes[12..].iter_mut().for_each(|edges| *edges &= rng.below(16) as u8);
+        bytes[Identity::BYTES + 4..].iter_mut().for_each(|edges| *edges &= rng.below(16) as u8);
         if let Ok(graph) = SegmentGraph::from_bytes(&grid_graph, &bytes) {
             read[1] += 1;
             let [_, complete, published] = &mut answers;
@@ -309,7 +314,7 @@ fn random_bytes_make_no_illegal_path() {
     }
 }
 
-/// The bytes do not say which map they belong to: those of another map of the same size may be read.
+/// Bytes with a wrong identity, that of the map that they are read for.
 #[test]
 fn an_index_of_another_map_makes_no_illegal_path() {
     let (mut read, mut answers) = ([0; 2], [Answers::default(); 3]);
@@ -323,14 +328,19 @@ fn an_index_of_another_map_makes_no_illegal_path() {
             let other = crate::common::grid_graph(&grid, grid_graph.k(), CornerRule::Never);
             let queries = random_queries(&mut rng, &grid, 10);
             let case = || format!("seed {seed}");
+            let forged = |mut bytes: Vec<u8>| {
+                bytes[..Identity::BYTES].copy_from_slice(&other.identity().to_bytes());
+                bytes
+            };
             for graph in &of_clusters {
-                if let Ok(graph) = ClusterGraph::from_bytes(&other, &graph.to_bytes()) {
+                if let Ok(graph) = ClusterGraph::from_bytes(&other, &forged(graph.to_bytes())) {
                     read[0] += 1;
                     check_clusters(&other, &graph, &queries, &case, &mut answers[0]);
                 }
             }
             for graph in &of_segments {
-                let graph = SegmentGraph::from_bytes(&other, &graph.to_bytes()).expect("any edges may be");
+                let graph =
+                    SegmentGraph::from_bytes(&other, &forged(graph.to_bytes())).expect("any edges may be");
                 read[1] += 1;
                 let [_, complete, published] = &mut answers;
                 check_segments(&other, &graph, &queries, &case, (complete, published));
@@ -342,74 +352,11 @@ fn an_index_of_another_map_makes_no_illegal_path() {
 }
 
 #[test]
-fn an_index_of_another_size_or_other_moves_is_refused() {
-    let sizes = [(12, 7), (12, 9), (11, 8), (13, 8), (8, 12), (1, 1)];
-    for (grid_graph, of_clusters, of_segments) in indexes() {
-        for (width, height) in sizes {
-            let grid = Grid::from_fn(width, height, |_, _| false).expect("a valid size");
-            let other = crate::common::grid_graph(&grid, grid_graph.k(), CornerRule::Never);
-            let error = HierarchyError::Size { expected: (12, 8), found: (width, height) };
-            for graph in &of_clusters {
-                assert_eq!(ClusterGraph::from_bytes(&other, &graph.to_bytes()), Err(error.clone()));
-            }
-            for graph in &of_segments {
-                assert_eq!(SegmentGraph::from_bytes(&other, &graph.to_bytes()), Err(error.clone()));
-            }
-        }
-        for (number, rule) in [(3, CornerRule::One), (3, CornerRule::Always), (4, CornerRule::Never)] {
-            let other = crate::common::grid_graph(&rooms(), k(number), rule);
-            let expected = Err(HierarchyError::Moves { k: k(number), rules: other.rules() });
-            let bytes = of_clusters[0].to_bytes();
-            assert_eq!(ClusterGraph::from_bytes(&other, &bytes).map(|_| ()), expected);
-            assert_eq!(ClusterGraph::new(&other, Clustering::default()).map(|_| ()), expected);
-            let bytes = of_segments[0].to_bytes();
-            assert_eq!(SegmentGraph::from_bytes(&other, &bytes).map(|_| ()), expected);
-            assert_eq!(SegmentGraph::new(&other, 3).map(|_| ()), expected);
-        }
-    }
-}
-
-/// New planners refuse such an index, and planners that repair their own refuse such a map.
-#[test]
-fn planners_refuse_an_index_of_another_size_or_other_moves() {
-    let grid_graph = grid_graph(&rooms(), k(2), CornerRule::Never);
-    let of_clusters = clusters(&grid_graph, Clustering { side: 4, levels: 2 });
-    let of_segments = segments(&grid_graph, 3);
-    let smaller = Grid::from_fn(11, 8, |_, _| false).expect("a valid size");
-    let others = [
-        (crate::common::grid_graph(&smaller, k(2), CornerRule::Never), true),
-        (crate::common::grid_graph(&rooms(), k(3), CornerRule::Never), false),
-        (crate::common::grid_graph(&rooms(), k(3), CornerRule::One), false),
-        (crate::common::grid_graph(&rooms(), k(4), CornerRule::Never), false),
-    ];
-    let is_right = |error: &HierarchyError, other: &GridGraph<Centers>, is_smaller: bool| match error {
-        HierarchyError::Size { expected: (12, 8), found: (11, 8) } => is_smaller,
-        HierarchyError::OtherK { expected, found } => *expected == k(2) && *found == other.k() && !is_smaller,
-        HierarchyError::Moves { rules, .. } => *rules == other.rules() && !is_smaller,
-        _ => false,
-    };
-    let all = Rectangle { x: 0, y: 0, width: 12, height: 8 };
-    for (other, is_smaller) in &others {
-        let mut hpa = HpaStar::new(&grid_graph, Box::new(of_clusters.clone())).expect("it fits");
-        let mut chpa = ChpaStar::new(&grid_graph, Box::new(of_segments.clone()), Hk, Zero).expect("it fits");
-        let query = Query::new((0, 0), (11, 7));
-        let before = (hpa.solve(query), chpa.solve(query));
-        let errors = [
-            HpaStar::new(other, &of_clusters).map(|_| ()),
-            ChpaStar::new(other, &of_segments, Hk, Zero).map(|_| ()),
-            hpa.repair(other, all),
-            chpa.repair(other, all),
-        ];
-        for error in errors {
-            let error = error.expect_err("it does not fit");
-            assert!(is_right(&error, other, *is_smaller), "{error:?}");
-        }
-        assert_eq!((hpa.solve(query), chpa.solve(query)), before);
-    }
-    // With four neighbors corners are never cut, whatever the rule.
-    for rule in crate::common::CORNER_RULES {
-        let same = crate::common::grid_graph(&rooms(), k(2), rule);
-        assert!(HpaStar::new(&same, &of_clusters).is_ok());
-        assert!(ChpaStar::new(&same, &of_segments, Zero, Zero).is_ok());
+fn there_is_no_index_for_other_moves() {
+    for (number, rule) in [(3, CornerRule::One), (3, CornerRule::Always), (4, CornerRule::Never)] {
+        let other = grid_graph(&rooms(), k(number), rule);
+        let expected = Err(HierarchyError::Moves { k: k(number), rules: other.rules() });
+        assert_eq!(ClusterGraph::new(&other, Clustering::default()).map(|_| ()), expected);
+        assert_eq!(SegmentGraph::new(&other, 3).map(|_| ()), expected);
     }
 }

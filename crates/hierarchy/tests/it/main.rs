@@ -4,6 +4,7 @@
 mod clusters;
 mod common;
 mod complete;
+mod identity;
 mod index;
 mod repair;
 mod segments;

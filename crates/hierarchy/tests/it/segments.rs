@@ -4,7 +4,7 @@
 //! neighbor.
 
 use crate::common::{grid_graph, k, map, segments};
-use mediant_grid::{AsciiMap, CornerRule, Grid, Vertex};
+use mediant_grid::{AsciiMap, CornerRule, Grid, Identity, Vertex};
 use mediant_hierarchy::{HierarchyError, SegmentGraph};
 use mediant_oracle::{Rng, describe, on_all_cores, seeds};
 
@@ -75,9 +75,9 @@ fn is_edge(grid: &Grid, side: u32, diagonals: bool, (x, y): (u32, u32), edge: u8
     }
 }
 
-/// The edges of each segment: the bytes behind side, width and height.
+/// The edges of each segment: the bytes behind the identity and the side.
 fn edges(graph: &SegmentGraph) -> Vec<u8> {
-    graph.to_bytes().split_off(12)
+    graph.to_bytes().split_off(Identity::BYTES + 4)
 }
 
 /// Checks an index. Returns how many windows of each kind had no edge, and how many had one.

@@ -183,9 +183,9 @@ fn on_graph<P: SubgoalPlacement + Shared>(
         | ConfiguredEngine::Theta(_)
         | ConfiguredEngine::LazyTheta(_) => Parts::Nothing,
         ConfiguredEngine::Canonical(own) if own.variant == Some(Variant::Paper) => Parts::Nothing,
-        ConfiguredEngine::Canonical(_) | ConfiguredEngine::Jps(_) => Parts::Pruning(pruning()),
+        ConfiguredEngine::Canonical(_) | ConfiguredEngine::Jps(_) => Parts::Pruning(pruning()?),
         ConfiguredEngine::JpsBlock(_) => {
-            let pruning = pruning();
+            let pruning = pruning()?;
             let blocks = BlockFinder::new(graph, &pruning)?;
             Parts::Blocks(pruning, blocks)
         }
@@ -194,7 +194,7 @@ fn on_graph<P: SubgoalPlacement + Shared>(
                 None => JumpTable::new(graph)?,
                 Some(bytes) => JumpTable::from_bytes(graph, bytes.to_vec())?,
             };
-            Parts::Table(pruning(), Arc::new(table))
+            Parts::Table(pruning()?, Arc::new(table))
         }
         ConfiguredEngine::Subgoal(_) | ConfiguredEngine::SubgoalTheta(_) => {
             Parts::Subgoals(subgoals::graph(setup, graph, source)?)

@@ -2,7 +2,8 @@
 
 use std::ops::Deref;
 
-use mediant_grid::{Corners, FreeSpace};
+use mediant_grid::{Corners, FreeSpace, Identity};
+use mediant_moves::K;
 
 use super::{
     cone::Successor,
@@ -93,5 +94,9 @@ impl<S: Deref<Target = FreeSpace<Corners>>> Planner for Anya<S> {
 
     fn guarantee(&self) -> Guarantee {
         Guarantee::OptimalAnyAngle
+    }
+
+    fn identity(&self) -> Identity {
+        Identity { k: Some(K::Any), ..self.space.identity() }
     }
 }

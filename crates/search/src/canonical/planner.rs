@@ -2,7 +2,7 @@
 
 use std::{ops::Deref, sync::Arc};
 
-use mediant_grid::{GridGraph, Placement, Vertex};
+use mediant_grid::{GridGraph, Mismatch, Placement, Vertex};
 
 use super::{
     order::rank,
@@ -44,15 +44,16 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> Canonical<G, H
     #[must_use]
     pub fn new(graph: G, heuristic: H) -> Self {
         let pruning = Arc::new(Pruning::new(&*graph));
-        Self::with_pruning(graph, pruning, heuristic)
+        Self::with_successors(graph, heuristic, CanonicalMoves { pruning })
     }
 
-    /// A planner that shares its pruning rule with others. A rule that was made for another map, k or rule of
-    /// motion is not used; the right one is computed instead.
-    #[must_use]
-    pub fn with_pruning(graph: G, pruning: Arc<Pruning<P>>, heuristic: H) -> Self {
-        let pruning = pruning.matching(&graph);
-        Self::with_successors(graph, heuristic, CanonicalMoves { pruning })
+    /// A planner that shares its pruning rule with others.
+    ///
+    /// # Errors
+    /// [`Mismatch`] for a rule that was prepared for another map, k or rule of motion.
+    pub fn with_pruning(graph: G, pruning: Arc<Pruning<P>>, heuristic: H) -> Result<Self, Mismatch> {
+        pruning.check(&graph)?;
+        Ok(Self::with_successors(graph, heuristic, CanonicalMoves { pruning }))
     }
 }
 

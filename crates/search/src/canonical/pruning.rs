@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Grid, GridGraph, Placement, Vertex};
+use mediant_grid::{GridGraph, Identity, Mismatch, Placement, Vertex};
 use mediant_moves::FiniteK;
 
 use super::{
@@ -25,7 +25,7 @@ pub(crate) fn prunes<P: Placement>(graph: &GridGraph<P>) -> bool {
 /// The pruning rule on one map. Immutable; share it between planners.
 #[derive(Debug)]
 pub struct Pruning<P: Placement> {
-    grid: Arc<Grid>,
+    identity: Identity,
     rule: Arc<CanonicalRule<P>>,
     clearance: Option<Clearance>,
     forced_cache: Option<ForcedCache>,
@@ -48,31 +48,35 @@ impl<P: Placement> Pruning<P> {
     /// Prepares the rule for a grid graph.
     #[must_use]
     pub fn new(graph: &GridGraph<P>) -> Self {
-        Self::with_rule(graph, Arc::new(CanonicalRule::new(graph.k(), graph.rule())))
+        Self::prepare(graph, Arc::new(CanonicalRule::new(graph.k(), graph.rule())))
     }
 
-    /// The same with a rule that is shared with other maps. A rule for another k or rule of motion is not
-    /// used; the right one is computed instead.
-    #[must_use]
-    pub fn with_rule(graph: &GridGraph<P>, rule: Arc<CanonicalRule<P>>) -> Self {
-        if (rule.k, rule.rule) != (graph.k(), graph.rule()) {
-            return Self::new(graph);
-        }
+    /// The same with a rule that is shared with other maps.
+    ///
+    /// # Errors
+    /// [`Mismatch`] for a rule of another k or rule of motion.
+    pub fn with_rule(graph: &GridGraph<P>, rule: Arc<CanonicalRule<P>>) -> Result<Self, Mismatch> {
+        rule.identity().check("the pruning rule", ("the grid graph", graph.identity()))?;
+        Ok(Self::prepare(graph, rule))
+    }
+
+    /// Prepares a rule that is that of the grid graph.
+    fn prepare(graph: &GridGraph<P>, rule: Arc<CanonicalRule<P>>) -> Self {
         let clearance = (graph.k() > FiniteK::N8).then(|| Clearance::new(graph));
         let has_trees = matches!(rule.lookup, ForcedLookup::Trees(_));
         let forced_cache = has_trees.then(|| ForcedCache::new(graph.vertex_count(), graph.k().get()));
-        Self { grid: Arc::clone(graph.grid()), rule, clearance, forced_cache }
+        Self { identity: graph.identity(), rule, clearance, forced_cache }
     }
 
-    /// This, if it was made for the grid graph; otherwise a new one that is, since what holds on one map may
-    /// be wrong on another.
+    /// What it belongs to: the map, the rules of motion and the k of its grid graph.
     #[must_use]
-    pub(crate) fn matching(self: Arc<Self>, graph: &GridGraph<P>) -> Arc<Self> {
-        let same_rule = (self.rule.k, self.rule.rule) == (graph.k(), graph.rule());
-        if same_rule && Arc::ptr_eq(&self.grid, graph.grid()) {
-            return self;
-        }
-        Arc::new(Self::with_rule(graph, Arc::clone(&self.rule)))
+    pub const fn identity(&self) -> Identity {
+        self.identity
+    }
+
+    /// Checks that it was made for a grid graph: what holds on one map may be wrong on another.
+    pub(crate) fn check(&self, graph: &GridGraph<P>) -> Result<(), Mismatch> {
+        self.identity.check("the pruning rule", ("the grid graph", graph.identity()))
     }
 
     /// The memory used, in bytes, with that of the shared rule.

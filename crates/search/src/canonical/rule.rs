@@ -1,6 +1,6 @@
 //! The pruning rule without a map: what can be prepared for a placement, a rule of motion and k.
 
-use mediant_grid::Placement;
+use mediant_grid::{Identity, Placement};
 use mediant_moves::{FiniteK, Neighborhood};
 
 use super::{
@@ -46,6 +46,12 @@ impl<P: Placement> CanonicalRule<P> {
             Some(all) => ForcedLookup::Trees(ForcedTrees::new(&MoveTable::<P>::new(rule, all))),
         };
         Self { k, rule, radius, corner_distance: Clearance::needed_from_corners::<P>(radius), lookup }
+    }
+
+    /// What it belongs to: its rules of motion and k, and every map.
+    #[must_use]
+    pub fn identity(&self) -> Identity {
+        Identity { map: None, rules: P::rules(self.rule), k: Some(self.k.into()) }
     }
 
     /// The memory used, in bytes.

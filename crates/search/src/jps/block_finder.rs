@@ -1,15 +1,13 @@
 //! Block-based jumps: axial jumps by words of 64 vertices.
 
-use std::sync::Arc;
-
-use mediant_grid::{Grid, GridGraph, Placement, Rules};
-use mediant_moves::{FiniteK, KError};
+use mediant_grid::{GridGraph, Identity, Placement};
+use mediant_moves::KError;
 
 use super::{
     axial::AxialStops,
     diagonals::DiagonalBits,
     finder::{JumpContext, JumpFinder},
-    table::JumpTable,
+    table::{JumpError, JumpTable},
 };
 use crate::{
     canonical::{LocalRule, Pruning},
@@ -19,28 +17,30 @@ use crate::{
 /// Makes axial jumps by words of 64 vertices, for k ≤ 3. Takes two bytes a vertex.
 #[derive(Clone, Debug)]
 pub struct BlockFinder {
-    grid: Arc<Grid>,
-    k: FiniteK,
-    rules: Rules,
+    identity: Identity,
     axial: AxialStops,
     diagonals: DiagonalBits,
 }
 
 impl BlockFinder {
-    /// Prepares the finder of a grid graph.
+    /// Prepares the finder of a grid graph, by the pruning rule of that grid graph.
     ///
     /// # Errors
-    /// [`KError::TooLarge`] above k = 3.
-    pub fn new<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>) -> Result<Self, KError> {
+    /// [`JumpError::Mismatch`] for a rule that was prepared for another grid graph; [`JumpError::K`] above
+    /// k = 3.
+    pub fn new<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>) -> Result<Self, JumpError> {
+        pruning.check(graph)?;
+        Ok(Self::prepare(graph, pruning)?)
+    }
+
+    /// [`new`](Self::new) with a pruning rule that is that of the grid graph.
+    pub(super) fn prepare<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>) -> Result<Self, KError> {
         let (k, max) = (graph.k().get(), JumpTable::MAX_K);
         if k > max {
             return Err(KError::TooLarge { k, max });
         }
-        let (grid, k, rules) = (Arc::clone(graph.grid()), graph.k(), graph.rules());
         Ok(Self {
-            grid,
-            k,
-            rules,
+            identity: graph.identity(),
             axial: AxialStops::new(graph),
             diagonals: DiagonalBits::new(graph, pruning),
         })
@@ -54,8 +54,8 @@ impl BlockFinder {
 }
 
 impl<P: Placement> JumpFinder<P> for BlockFinder {
-    fn fits(&self, graph: &GridGraph<P>) -> bool {
-        (self.k, self.rules) == (graph.k(), graph.rules()) && Arc::ptr_eq(&self.grid, graph.grid())
+    fn identity(&self) -> Option<Identity> {
+        Some(self.identity)
     }
 
     #[inline]

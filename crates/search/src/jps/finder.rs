@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use mediant_grid::{GridGraph, Placement, Step, Vector, Vertex};
+use mediant_grid::{GridGraph, Identity, Placement, Step, Vector, Vertex};
 use mediant_moves::Cost;
 
 use crate::{
@@ -15,8 +15,7 @@ pub struct JumpContext<'c, P: Placement> {
     pub(crate) graph: &'c GridGraph<P>,
     pub(crate) pruning: &'c Pruning<P>,
     pub(crate) goal: Vertex,
-    /// Whether all jumps are made step by step: near closed gaps finders may be wrong, and a finder may
-    /// belong to another map.
+    /// Whether all jumps are made step by step: near closed gaps finders may be wrong.
     pub(crate) stepwise: bool,
     /// The most steps of a jump.
     pub(crate) limit: u32,
@@ -27,12 +26,11 @@ pub struct JumpContext<'c, P: Placement> {
 /// Finds the jump points to which axial and diagonal jumps lead: [`StepwiseFinder`],
 /// [`BlockFinder`](crate::parts::BlockFinder), or a shared [`JumpTable`](crate::JumpTable).
 ///
-/// Axial jumps repeat an even-indexed move, diagonal jumps an odd-indexed one. The methods are for this crate
-/// alone.
+/// Axial jumps repeat an even-indexed move, diagonal jumps an odd-indexed one. All methods but
+/// [`identity`](Self::identity) are for this crate alone.
 pub trait JumpFinder<P: Placement>: Debug {
-    /// Whether it was made for this grid graph.
-    #[doc(hidden)]
-    fn fits(&self, graph: &GridGraph<P>) -> bool;
+    /// What it belongs to; `None` for what serves every grid graph.
+    fn identity(&self) -> Option<Identity>;
 
     /// The number of steps of the axial jump by move `index` from a vertex to a jump point or to the goal;
     /// `None` if it comes to neither. The goal is `goal_steps` ahead, if it lies ahead at all. Adds to
@@ -226,8 +224,8 @@ fn cross(v: Vector, d: Vector) -> i64 {
 pub struct StepwiseFinder;
 
 impl<P: Placement> JumpFinder<P> for StepwiseFinder {
-    fn fits(&self, _: &GridGraph<P>) -> bool {
-        true
+    fn identity(&self) -> Option<Identity> {
+        None
     }
 
     #[inline]

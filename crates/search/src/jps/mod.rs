@@ -48,4 +48,4 @@ mod tests;
 pub use block_finder::BlockFinder;
 pub use finder::{JumpFinder, StepwiseFinder};
 pub use planner::{BlockJps, Jps, JpsPlus, JumpPointSearch};
-pub use table::{JumpTable, JumpTableError};
+pub use table::{JumpError, JumpTable};

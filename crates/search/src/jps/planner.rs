@@ -2,13 +2,13 @@
 
 use std::{ops::Deref, sync::Arc};
 
-use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
+use mediant_grid::{GridGraph, Mismatch, Placement, Vertex, VertexId};
 use mediant_moves::KError;
 
 use super::{
     block_finder::BlockFinder,
     finder::{JumpContext, JumpFinder, StepwiseFinder},
-    table::{JumpTable, JumpTableError},
+    table::{JumpError, JumpTable},
 };
 use crate::{
     best_first::BestFirst,
@@ -34,8 +34,6 @@ pub type JpsPlus<G, H, P> = JumpPointSearch<G, H, P, Arc<JumpTable>>;
 pub struct JumpMoves<P: Placement, J> {
     pruning: Arc<Pruning<P>>,
     finder: J,
-    /// Whether all jumps are made step by step, because the finder belongs to another grid graph.
-    stepwise: bool,
     /// The most steps of a jump.
     limit: u32,
     /// Whether intermediate jump points become nodes.
@@ -45,14 +43,26 @@ pub struct JumpMoves<P: Placement, J> {
 impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic, J: JumpFinder<P>>
     JumpPointSearch<G, H, P, J>
 {
-    /// A planner with a finder that was made for this grid graph, and a pruning rule that may be shared with
-    /// other planners. If either was made for another map, k or rule of motion, it is not used: the right
-    /// rule is computed, and jumps are made step by step. (Of a [`JumpTable`] only the size is compared with
-    /// the grid graph.)
-    #[must_use]
-    pub fn with_finder(graph: G, pruning: Arc<Pruning<P>>, finder: J, heuristic: H) -> Self {
-        let (pruning, stepwise) = (pruning.matching(&graph), !finder.fits(&graph));
-        let successors = JumpMoves { pruning, finder, stepwise, limit: u32::MAX, keeps_intermediate: false };
+    /// A planner with a finder and a pruning rule, both of which may be shared with other planners.
+    ///
+    /// # Errors
+    /// [`Mismatch`] for a rule or a finder that was made for another map, k or rule of motion.
+    pub fn with_finder(
+        graph: G,
+        pruning: Arc<Pruning<P>>,
+        finder: J,
+        heuristic: H,
+    ) -> Result<Self, Mismatch> {
+        pruning.check(&graph)?;
+        if let Some(identity) = finder.identity() {
+            identity.check("the jump finder", ("the grid graph", graph.identity()))?;
+        }
+        Ok(Self::with_parts(graph, pruning, finder, heuristic))
+    }
+
+    /// A planner with a finder and a pruning rule that are those of the grid graph.
+    fn with_parts(graph: G, pruning: Arc<Pruning<P>>, finder: J, heuristic: H) -> Self {
+        let successors = JumpMoves { pruning, finder, limit: u32::MAX, keeps_intermediate: false };
         Self::with_successors(graph, heuristic, successors)
     }
 
@@ -78,7 +88,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> Jps<G, H, P> {
     #[must_use]
     pub fn new(graph: G, heuristic: H) -> Self {
         let pruning = Arc::new(Pruning::new(&*graph));
-        Self::with_finder(graph, pruning, StepwiseFinder, heuristic)
+        Self::with_parts(graph, pruning, StepwiseFinder, heuristic)
     }
 }
 
@@ -89,8 +99,8 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> BlockJps<G, H,
     /// [`KError::TooLarge`] above k = 3.
     pub fn new(graph: G, heuristic: H) -> Result<Self, KError> {
         let pruning = Arc::new(Pruning::new(&*graph));
-        let blocks = BlockFinder::new(&*graph, &pruning)?;
-        Ok(Self::with_finder(graph, pruning, blocks, heuristic))
+        let blocks = BlockFinder::prepare(&*graph, &pruning)?;
+        Ok(Self::with_parts(graph, pruning, blocks, heuristic))
     }
 }
 
@@ -98,11 +108,11 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> JpsPlus<G, H, 
     /// A planner with scratch memory for `graph`, on its table.
     ///
     /// # Errors
-    /// [`JumpTableError`] for a table of a grid graph of another size or k.
-    pub fn new(graph: G, table: Arc<JumpTable>, heuristic: H) -> Result<Self, JumpTableError> {
-        table.check(&*graph)?;
+    /// [`JumpError::Mismatch`] for the table of a grid graph of another map, k or rule of motion.
+    pub fn new(graph: G, table: Arc<JumpTable>, heuristic: H) -> Result<Self, JumpError> {
+        JumpTable::identity(&table).check("the jump table", ("the grid graph", graph.identity()))?;
         let pruning = Arc::new(Pruning::new(&*graph));
-        Ok(Self::with_finder(graph, pruning, table, heuristic))
+        Ok(Self::with_parts(graph, pruning, table, heuristic))
     }
 }
 
@@ -123,8 +133,7 @@ impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
             goal,
             // Asked once for the whole node: a jump never goes on from a gap, so only the node itself and the
             // goal may be one.
-            stepwise: self.stepwise
-                || !prunes(graph)
+            stepwise: !prunes(graph)
                 || graph.has_closed_gaps() && (graph.is_closed_gap(goal) || graph.is_closed_gap(node.at)),
             // Where forced successors are unknown, a jump would end almost everywhere and find little.
             limit: if self.pruning.knows_forced() { self.limit } else { 1 },

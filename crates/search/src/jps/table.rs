@@ -12,7 +12,7 @@
 //! Rule variants: all five. Under closed gaps a jump ends before a gap. The table does not say what paths do
 //! at gaps: where they begin or end at one, and at k = 2 where they pass one.
 
-use mediant_grid::{GridGraph, Placement, Step, Vector, Vertex, VertexId};
+use mediant_grid::{GridGraph, Identity, Mismatch, Placement, Step, Vector, Vertex, VertexId};
 use mediant_moves::{FiniteK, KError};
 
 use crate::canonical::Pruning;
@@ -44,17 +44,19 @@ pub struct JumpTable {
     /// By vertex and move: the entry of a move is at `id · 2^k + index`.
     entries: Vec<u8>,
     k: u32,
-    /// Vertices in a row.
-    width: u32,
+    identity: Identity,
 }
 
-/// A jump table that is not that of the grid graph, or bytes that are none.
+/// Jump distances that there are not, that belong to another grid graph, or whose bytes are wrong.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
-pub enum JumpTableError {
-    /// No table for this k.
-    #[error("a jump table needs k = 2 or 3: {0}")]
-    Neighborhood(#[from] KError),
+pub enum JumpError {
+    /// No jump distances for this k.
+    #[error("jump distances need k = 2 or 3: {0}")]
+    K(#[from] KError),
+    /// Something that was made for another grid graph.
+    #[error(transparent)]
+    Mismatch(#[from] Mismatch),
     /// Too few or too many bytes.
     #[error(
         "a jump table of {found} bytes, where this graph needs {expected}: the table is for another map, \
@@ -65,14 +67,6 @@ pub enum JumpTableError {
         expected: usize,
         /// The number of bytes given.
         found: usize,
-    },
-    /// The right number of entries, but in longer or shorter rows.
-    #[error("a jump table with {found} vertices a row, where this graph has {expected}: build it anew")]
-    Width {
-        /// The number of vertices in a row of the grid graph.
-        expected: u32,
-        /// That of the table.
-        found: u32,
     },
     /// An entry that does not fit the map.
     #[error(
@@ -130,19 +124,19 @@ impl JumpTable {
         around.pass(&mut entries, ids.clone().rev(), &moves(0, true));
         around.pass(&mut entries, ids.clone(), &[moves(0, false), moves(1, false)].concat());
         around.pass(&mut entries, ids.rev(), &moves(1, true));
-        Ok(Self { entries, k, width: P::vertices(graph.grid()).0 })
+        Ok(Self { entries, k, identity: graph.identity() })
     }
 
     /// The table from its bytes; see [`as_bytes`](Self::as_bytes). Every entry is checked against the map and
     /// the entry one step ahead, so an accepted table is the one that [`new`](Self::new) computes.
     ///
     /// # Errors
-    /// A [`JumpTableError`] for bytes that are not the table of this grid graph.
-    pub fn from_bytes<P: Placement>(graph: &GridGraph<P>, bytes: Vec<u8>) -> Result<Self, JumpTableError> {
+    /// A [`JumpError`] for bytes that are not the table of this grid graph.
+    pub fn from_bytes<P: Placement>(graph: &GridGraph<P>, bytes: Vec<u8>) -> Result<Self, JumpError> {
         let k = checked(graph.k())?;
         let expected = entry_count(graph.vertex_count(), k);
         if bytes.len() != expected {
-            return Err(JumpTableError::Length { expected, found: bytes.len() });
+            return Err(JumpError::Length { expected, found: bytes.len() });
         }
         let around = Surroundings::new(graph);
         for id in 0..graph.vertex_count() {
@@ -150,28 +144,17 @@ impl JumpTable {
                 let (expected, found) = (around.entry(&bytes, id, index), bytes[id << k | index]);
                 if expected != found {
                     let (at, towards) = (graph.vertex(VertexId(id as u32)), graph.step(index).vector());
-                    return Err(JumpTableError::Entry { at, towards, expected, found });
+                    return Err(JumpError::Entry { at, towards, expected, found });
                 }
             }
         }
-        Ok(Self { entries: bytes, k, width: P::vertices(graph.grid()).0 })
+        Ok(Self { entries: bytes, k, identity: graph.identity() })
     }
 
-    /// Checks that a grid graph has the size and the k of this table.
-    ///
-    /// # Errors
-    /// [`JumpTableError::Length`] and [`JumpTableError::Width`].
-    pub(crate) fn check<P: Placement>(&self, graph: &GridGraph<P>) -> Result<(), JumpTableError> {
-        let k = checked(graph.k())?;
-        let (expected, found) = (entry_count(graph.vertex_count(), k), self.entries.len());
-        let width = P::vertices(graph.grid()).0;
-        if expected != found || k != self.k {
-            return Err(JumpTableError::Length { expected, found });
-        }
-        if width != self.width {
-            return Err(JumpTableError::Width { expected: width, found: self.width });
-        }
-        Ok(())
+    /// What it belongs to: the map, the rules of motion and the k of its grid graph.
+    #[must_use]
+    pub const fn identity(&self) -> Identity {
+        self.identity
     }
 
     /// After how many steps the jump by a move ends, and whether that is at a jump point. `step` is the move

@@ -10,7 +10,7 @@ use mediant_moves::FiniteK;
 use mediant_oracle::{Rng, describe, is_gap, noise, seeds, suite_grid, wide_grid};
 
 use super::{
-    JumpTable, JumpTableError,
+    JumpError, JumpTable,
     axial::{AxialStops, Scan},
 };
 
@@ -311,7 +311,7 @@ fn bytes_of_another_length_are_refused() {
     for length in [0, 1, bytes.len() - 1, bytes.len() + 1, 2 * bytes.len()] {
         let mut other = bytes.clone();
         other.resize(length, 0);
-        let error = JumpTableError::Length { expected: bytes.len(), found: length };
+        let error = JumpError::Length { expected: bytes.len(), found: length };
         assert_eq!(JumpTable::from_bytes(&graph, other), Err(error));
     }
 }
@@ -324,7 +324,7 @@ fn every_flipped_bit_is_refused() {
         let mut other = bytes.clone();
         other[bit / 8] ^= 1 << (bit % 8);
         let refused = JumpTable::from_bytes(&graph, other);
-        assert!(matches!(refused, Err(JumpTableError::Entry { .. })), "bit {bit}: {refused:?}");
+        assert!(matches!(refused, Err(JumpError::Entry { .. })), "bit {bit}: {refused:?}");
     }
 }
 
@@ -335,13 +335,13 @@ fn tables_of_other_graphs_are_refused() {
     let other = noise(&mut Rng::new(6), 20, 15, 20);
     let other = GridGraph::<Centers>::new(Arc::new(other), graph.k(), graph.rule()).unwrap();
     let refused = JumpTable::from_bytes(&other, table.as_bytes().to_vec());
-    assert!(matches!(refused, Err(JumpTableError::Entry { .. })), "{refused:?}");
+    assert!(matches!(refused, Err(JumpError::Entry { .. })), "{refused:?}");
 
     let k4 =
         GridGraph::<Centers>::new(Arc::clone(graph.grid()), FiniteK::new(4).unwrap(), graph.rule()).unwrap();
     assert!(JumpTable::new(&k4).is_err());
     let refused = JumpTable::from_bytes(&k4, table.as_bytes().to_vec());
-    assert!(matches!(refused, Err(JumpTableError::Neighborhood(_))), "{refused:?}");
+    assert!(matches!(refused, Err(JumpError::K(_))), "{refused:?}");
 }
 
 #[test]

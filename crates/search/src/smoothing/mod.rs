@@ -9,7 +9,7 @@ mod taut;
 
 use std::ops::Deref;
 
-use mediant_grid::{FreeSpace, GridGraph, Placement};
+use mediant_grid::{FreeSpace, GridGraph, Identity, Mismatch, Placement};
 
 pub use self::{linear::smooth, taut::pull_taut};
 
@@ -48,6 +48,9 @@ pub trait HasFreeSpace {
 
     /// The free space.
     fn free_space(&self) -> &FreeSpace<Self::Placement>;
+
+    /// What it belongs to: for a grid graph with its k, for a free space with every k.
+    fn identity(&self) -> Identity;
 }
 
 impl<P: Placement> HasFreeSpace for FreeSpace<P> {
@@ -56,6 +59,10 @@ impl<P: Placement> HasFreeSpace for FreeSpace<P> {
     fn free_space(&self) -> &Self {
         self
     }
+
+    fn identity(&self) -> Identity {
+        self.identity()
+    }
 }
 
 impl<P: Placement> HasFreeSpace for GridGraph<P> {
@@ -63,6 +70,10 @@ impl<P: Placement> HasFreeSpace for GridGraph<P> {
 
     fn free_space(&self) -> &FreeSpace<P> {
         self
+    }
+
+    fn identity(&self) -> Identity {
+        self.identity()
     }
 }
 
@@ -86,7 +97,7 @@ impl<P: Placement> HasFreeSpace for GridGraph<P> {
 /// let (k, gap) = (FiniteK::new(3)?, DiagonalGap::Open);
 /// let graph = Arc::new(GridGraph::<Corners>::new(Arc::new(map.grid), k, gap)?);
 /// let search = AStar::new(Arc::clone(&graph), Hk);
-/// let mut planner = Smoothed::new(search, graph, Some(Smoothing::Taut));
+/// let mut planner = Smoothed::new(search, graph, Some(Smoothing::Taut))?;
 /// let outcome = planner.solve(Query::new((0, 0), (5, 3)))?;
 /// let expected = [(0, 0), (2, 2), (5, 3)].map(Into::into);
 /// assert_eq!(outcome.path().map(|path| path.waypoints()), Some(&expected[..]));
@@ -106,9 +117,13 @@ where
     E: Planner,
 {
     /// Smooths the paths of `planner`; with `None` leaves them as they are.
-    #[must_use]
-    pub const fn new(planner: E, space: S, smoothing: Option<Smoothing>) -> Self {
-        Self { planner, space, smoothing }
+    ///
+    /// # Errors
+    /// [`Mismatch`] for a planner of another map or of other rules than `space`, or, if that is a grid graph,
+    /// of another k.
+    pub fn new(planner: E, space: S, smoothing: Option<Smoothing>) -> Result<Self, Mismatch> {
+        planner.identity().check("the planner", ("the search space", space.identity()))?;
+        Ok(Self { planner, space, smoothing })
     }
 }
 
@@ -130,5 +145,9 @@ where
     fn guarantee(&self) -> Guarantee {
         let guarantee = self.planner.guarantee();
         if self.smoothing.is_some() { guarantee.smoothed() } else { guarantee }
+    }
+
+    fn identity(&self) -> Identity {
+        self.planner.identity()
     }
 }

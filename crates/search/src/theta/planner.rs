@@ -2,7 +2,7 @@
 
 use std::{marker::PhantomData, ops::Deref};
 
-use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
+use mediant_grid::{GridGraph, Identity, Placement, Vertex, VertexId};
 
 use super::{
     search::{Parents, Search},
@@ -100,6 +100,10 @@ where
 
     fn guarantee(&self) -> Guarantee {
         Guarantee::Suboptimal
+    }
+
+    fn identity(&self) -> Identity {
+        self.graph.identity()
     }
 }
 

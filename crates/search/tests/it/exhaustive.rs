@@ -102,11 +102,11 @@ impl<'g, P: Placement> Judge<'g, P> {
 fn compare<P: Placement>(map: u64, k: FiniteK, rule: P::Rule, canonical: &Arc<CanonicalRule<P>>) -> u64 {
     let grid = Grid::from_fn(SIDE, SIDE, |x, y| map >> (SIDE * y + x) & 1 == 1).unwrap();
     let grid_graph = &GridGraph::<P>::new(Arc::new(grid), k, rule).unwrap();
-    let pruning = &Arc::new(Pruning::with_rule(grid_graph, Arc::clone(canonical)));
+    let pruning = &Arc::new(Pruning::with_rule(grid_graph, Arc::clone(canonical)).unwrap());
     let mut judge = Judge::new(grid_graph, map);
     let (h, pruning) = (Hk, || Arc::clone(pruning));
-    judge.judge("canonical", Canonical::with_pruning(grid_graph, pruning(), h));
-    let jps = || Jps::with_finder(grid_graph, pruning(), StepwiseFinder, h);
+    judge.judge("canonical", Canonical::with_pruning(grid_graph, pruning(), h).unwrap());
+    let jps = || Jps::with_finder(grid_graph, pruning(), StepwiseFinder, h).unwrap();
     judge.judge("jps", jps());
     judge.judge("jps, jumps of at most 2", jps().with_jump_limit(Some(2)));
     judge.judge("jps, with intermediate nodes", jps().with_intermediate(true));
@@ -115,8 +115,8 @@ fn compare<P: Placement>(map: u64, k: FiniteK, rule: P::Rule, canonical: &Arc<Ca
             BlockFinder::new(grid_graph, &pruning()).unwrap(),
             Arc::new(JumpTable::new(grid_graph).unwrap()),
         );
-        judge.judge("jps-block", BlockJps::with_finder(grid_graph, pruning(), blocks, h));
-        judge.judge("jps-plus", JpsPlus::with_finder(grid_graph, pruning(), table, h));
+        judge.judge("jps-block", BlockJps::with_finder(grid_graph, pruning(), blocks, h).unwrap());
+        judge.judge("jps-plus", JpsPlus::with_finder(grid_graph, pruning(), table, h).unwrap());
     }
     judge.compared
 }

@@ -8,6 +8,7 @@ mod events;
 mod exact;
 mod exhaustive;
 mod heuristics;
+mod identity;
 mod kramm2018;
 mod open_list;
 mod queries;

@@ -220,7 +220,8 @@ fn without_islands_a_taut_path_at_corners_is_optimal() {
                 let k = FiniteK::new(k).expect("k is at least 2");
                 let grid_graph = GridGraph::<Corners>::new(Arc::clone(&grid), k, gap).expect("k is in range");
                 let mut planner =
-                    Smoothed::new(AStar::new(&grid_graph, Hk), &grid_graph, Some(Smoothing::Taut));
+                    Smoothed::new(AStar::new(&grid_graph, Hk), &grid_graph, Some(Smoothing::Taut))
+                        .expect("the planner is of this space");
                 let mut rng = Rng::new(seed ^ 0x15);
                 for _ in 0..6 {
                     let mut free = || random_free_vertex(&mut rng, &grid, Corners::KIND);
@@ -384,9 +385,11 @@ fn planners_smooth_their_paths() {
     let best = pull_taut(&space, plain.path().expect("a path").waypoints());
 
     let planner = || AStar::new(Arc::clone(&grid_graph), Hk);
-    let mut passing = Smoothed::new(planner(), Arc::clone(&grid_graph), None);
+    let mut passing =
+        Smoothed::new(planner(), Arc::clone(&grid_graph), None).expect("the planner is of this space");
     assert_eq!((passing.guarantee(), passing.solve(query).as_ref()), (Guarantee::Optimal(k), Ok(&plain)));
-    let mut taut = Smoothed::new(planner(), Arc::clone(&space), Some(Smoothing::Taut));
+    let mut taut = Smoothed::new(planner(), Arc::clone(&space), Some(Smoothing::Taut))
+        .expect("the planner is of this space");
     assert_eq!(taut.guarantee(), Guarantee::AtMost(k));
     let mut counters = [Counters::default(); 2];
     let outcome = taut.solve_observed(query, &mut counters[0]).expect("both ends are free");
@@ -397,7 +400,8 @@ fn planners_smooth_their_paths() {
 
     // Errors and unreachable goals are passed on.
     assert_eq!(taut.solve(Query::new((0, 0), (5, 4))), planner().solve(Query::new((0, 0), (5, 4))));
-    let smoothed = Smoothed::new(ThetaStar::new(&*grid_graph, Hk), &*grid_graph, Some(Smoothing::Linear));
+    let smoothed = Smoothed::new(ThetaStar::new(&*grid_graph, Hk), &*grid_graph, Some(Smoothing::Linear))
+        .expect("the planner is of this space");
     assert_eq!(smoothed.guarantee(), Guarantee::Suboptimal);
 }
 
@@ -409,7 +413,8 @@ fn check_bounds<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed:
     let mut rng = Rng::new(seed ^ 0xB0D);
     let mut closer = 0;
     for smoothing in [None, Some(Smoothing::Linear), Some(Smoothing::Taut)] {
-        let mut planner = Smoothed::new(AStar::new(&grid_graph, Hk), &grid_graph, smoothing);
+        let mut planner = Smoothed::new(AStar::new(&grid_graph, Hk), &grid_graph, smoothing)
+            .expect("the planner is of this space");
         let mut free = || random_free_vertex(&mut rng, grid, P::KIND);
         let (Some(start), Some(goal)) = (free(), free()) else { continue };
         let outcome = planner.solve(Query::new(start, goal)).expect("both ends are free");

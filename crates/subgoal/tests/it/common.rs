@@ -3,7 +3,7 @@
 
 use std::{num::NonZeroU32, sync::Arc};
 
-use mediant_grid::{DiagonalGap, FreeSpace, Grid, Placement};
+use mediant_grid::{DiagonalGap, FreeSpace, Grid, Identity, Placement};
 use mediant_moves::{FiniteK, K};
 use mediant_subgoal::{Hierarchy, SubgoalGraph, SubgoalPlacement};
 
@@ -28,6 +28,11 @@ pub(crate) fn all_ks() -> impl Iterator<Item = K> {
 
 pub(crate) fn space<P: Placement>(grid: &Grid, rule: P::Rule) -> FreeSpace<P> {
     FreeSpace::new(Arc::new(grid.clone()), rule)
+}
+
+/// The identity of a graph of this space.
+pub(crate) fn identity<P: Placement>(space: &FreeSpace<P>, k: K) -> Identity {
+    Identity { k: Some(k), ..space.identity() }
 }
 
 pub(crate) fn graph<P: SubgoalPlacement>(

@@ -58,8 +58,8 @@ impl<'t, P: SubgoalPlacement> Suite<'t, P> {
     /// before it left.
     fn check(&self, queries: &[Expected]) -> Tally {
         let mut tally = Tally::default();
-        let mut a_star = SubgoalAStar::new(self.space, &self.graph);
-        let mut theta = SubgoalTheta::new(self.space, &self.graph);
+        let mut a_star = SubgoalAStar::new(self.space, &self.graph).expect("the graph is for this space");
+        let mut theta = SubgoalTheta::new(self.space, &self.graph).expect("the graph is for this space");
         let optimal = match self.graph.k() {
             K::Finite(k) => Guarantee::Optimal(k),
             K::Any => Guarantee::OptimalAnyAngle,

@@ -1,19 +1,19 @@
 //! Graphs as bytes: what was written is read back; other bytes are refused, or make a graph of legal paths.
 
-use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace, Grid, PlacementKind, Vertex};
+use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace, Grid, Identity, PlacementKind, Vertex};
 use mediant_moves::K;
 use mediant_oracle::{Rng, on_all_cores, random_free_vertex, seeds, suite_grid, validate};
 use mediant_search::{Outcome, Planner, Query};
 use mediant_subgoal::{SubgoalAStar, SubgoalError, SubgoalGraph, SubgoalTheta};
 
-use crate::common::{GAPS, HIERARCHIES, graph, k, levels, space};
+use crate::common::{GAPS, HIERARCHIES, graph, identity, k, levels, space};
 
 type Graph = SubgoalGraph<Corners>;
 
 /// The answers of both planners.
 fn answers(space: &FreeSpace<Corners>, graph: &Graph, queries: &[Query]) -> Vec<[Outcome; 2]> {
-    let mut a_star = SubgoalAStar::new(space, graph);
-    let mut theta = SubgoalTheta::new(space, graph);
+    let mut a_star = SubgoalAStar::new(space, graph).expect("the graph is for this space");
+    let mut theta = SubgoalTheta::new(space, graph).expect("the graph is for this space");
     let mut solve = |&query| {
         [a_star.solve(query), theta.solve(query)].map(|outcome| outcome.expect("both ends are free"))
     };
@@ -125,6 +125,7 @@ fn no_flipped_bit_makes_an_illegal_path() {
     assert!(counts.iter().all(|&count| count > 1000), "{counts:?} refused, and read");
 }
 
+/// Bytes with a wrong identity, that of the space and k that they are read for.
 #[test]
 fn bytes_of_another_map_or_k_make_no_illegal_path() {
     let (mut refused, mut read) = (0, 0);
@@ -138,8 +139,9 @@ fn bytes_of_another_map_or_k_make_no_illegal_path() {
         let own = space::<Corners>(&rooms, gap);
         let others = [space(&mirrored, gap), space(&rooms, gap), space(&suite_grid(3).0, gap)];
         for (made, k) in [(k(3), k(3)), (k(3), k(5)), (k(5), k(3)), (k(3), K::Any), (K::Any, k(2))] {
-            let bytes = graph(&own, made, hierarchy).to_bytes();
+            let mut bytes = graph(&own, made, hierarchy).to_bytes();
             for space in &others {
+                bytes[..Identity::BYTES].copy_from_slice(&identity(space, k).to_bytes());
                 match Graph::from_bytes(space, k, &bytes) {
                     Err(error) => {
                         assert!(matches!(error, SubgoalError::Bytes(_)), "{error:?}");
@@ -157,9 +159,15 @@ fn bytes_of_another_map_or_k_make_no_illegal_path() {
     assert!(refused > 60 && read > 20, "{refused} refused, {read} read");
 }
 
-/// The bytes of a made-up graph: subgoals in a random order, shortcuts over any two arcs of a subgoal,
+/// The bytes of these numbers, as those of a graph of this space.
+fn bytes_of(space: &FreeSpace<Corners>, k: K, numbers: Vec<u32>) -> Vec<u8> {
+    let numbers = numbers.into_iter().flat_map(u32::to_le_bytes);
+    identity(space, k).to_bytes().into_iter().chain(numbers).collect()
+}
+
+/// The numbers of a made-up graph: subgoals in a random order, shortcuts over any two arcs of a subgoal,
 /// sometimes an arc that is wrong.
-fn made_up(rng: &mut Rng, count: usize, edges: &[(u32, u32)]) -> Vec<u8> {
+fn made_up(rng: &mut Rng, count: usize, edges: &[(u32, u32)]) -> Vec<u32> {
     let rank: Vec<u64> = (0..count).map(|_| rng.bits()).collect();
     let above = |a: u32, b: u32| if rank[a as usize] < rank[b as usize] { (a, b) } else { (b, a) };
     let mut up = vec![Vec::new(); count];
@@ -186,7 +194,7 @@ fn made_up(rng: &mut Rng, count: usize, edges: &[(u32, u32)]) -> Vec<u8> {
     let highest = |id: usize| rank.iter().filter(|&&other| other > rank[id]).count() < core;
     numbers.extend(up.iter().enumerate().map(|(id, up)| 2 * up.len() as u32 + u32::from(highest(id))));
     numbers.extend(up.iter().flatten().flat_map(|&(to, middle)| [to, middle]));
-    numbers.into_iter().flat_map(u32::to_le_bytes).collect()
+    numbers
 }
 
 #[test]
@@ -200,7 +208,7 @@ fn a_made_up_graph_is_refused_or_one_of_legal_paths() {
         let made = graph(&space, k, levels(1));
         let place = |at: Vertex| made.vertices().position(|other| other == at).expect("a subgoal") as u32;
         let edges: Vec<(u32, u32)> = made.edges().map(|(a, b)| (place(a), place(b))).collect();
-        let bytes = made_up(&mut rng, made.subgoals(), &edges);
+        let bytes = bytes_of(&space, k, made_up(&mut rng, made.subgoals(), &edges));
         let read = Graph::from_bytes(&space, k, &bytes);
         counts[usize::from(read.is_ok())] += 1;
         if let Ok(graph) = read {
@@ -222,7 +230,7 @@ fn ways_there_and_back_are_refused() {
         let mut numbers = vec![0, count, (0..count).map(|id| up(id).len() as u32).sum()];
         numbers.extend((0..count).map(|id| 2 * up(id).len() as u32));
         numbers.extend((0..count).flat_map(|id| up(id).flat_map(move |to| [to, id.wrapping_sub(1)])));
-        numbers.into_iter().flat_map(u32::to_le_bytes).collect::<Vec<u8>>()
+        bytes_of(&space, K::Any, numbers)
     };
     assert!(Graph::from_bytes(&space, K::Any, &bytes(1)).is_ok(), "edges from the first to all");
     assert!(Graph::from_bytes(&space, K::Any, &bytes(2)).is_ok(), "shortcuts over the first");

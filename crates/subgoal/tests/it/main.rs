@@ -2,6 +2,7 @@
 
 mod common;
 mod exact;
+mod identity;
 mod index;
 mod reachability;
 mod shared;

@@ -148,7 +148,9 @@ fn every_hierarchy_keeps_the_distances_of_the_edges() {
         let space = space::<Corners>(&grid, gap);
         let (subgoals, lengths) = lengths(&grid, gap, number);
         let graphs = HIERARCHIES.map(|hierarchy| graph(&space, number.into(), hierarchy));
-        let mut planners = graphs.each_ref().map(|graph| SubgoalAStar::new(&space, graph));
+        let mut planners = graphs
+            .each_ref()
+            .map(|graph| SubgoalAStar::new(&space, graph).expect("the graph is for this space"));
         let mut count = 0;
         for (i, &start) in subgoals.iter().enumerate().step_by(1 + subgoals.len() / 8) {
             let costs = dijkstra(&lengths, i, |_| true);

@@ -27,8 +27,10 @@ fn queries(space: &FreeSpace<Corners>) -> Vec<Query> {
 type Shared = (Arc<FreeSpace<Corners>>, Arc<SubgoalGraph<Corners>>);
 
 fn solve_all((space, graph): &Shared, queries: &[Query]) -> Vec<[Outcome; 2]> {
-    let mut a_star = SubgoalAStar::new(Arc::clone(space), Arc::clone(graph));
-    let mut theta = SubgoalTheta::new(Arc::clone(space), Arc::clone(graph));
+    let mut a_star =
+        SubgoalAStar::new(Arc::clone(space), Arc::clone(graph)).expect("the graph is for this space");
+    let mut theta =
+        SubgoalTheta::new(Arc::clone(space), Arc::clone(graph)).expect("the graph is for this space");
     let mut solve = |&query| {
         [a_star.solve(query), theta.solve(query)].map(|outcome| outcome.expect("both ends are free"))
     };
@@ -111,8 +113,8 @@ fn maps_without_subgoals_have_graphs() {
             assert_eq!((made.subgoals(), made.arcs(), made.core()), (0, 0, 0));
             let query = Query::new((0, 0), (5, 3));
             let [a_star, theta] = [
-                SubgoalAStar::new(&space, &made).solve(query),
-                SubgoalTheta::new(&space, &made).solve(query),
+                SubgoalAStar::new(&space, &made).expect("the graph is for this space").solve(query),
+                SubgoalTheta::new(&space, &made).expect("the graph is for this space").solve(query),
             ];
             assert_eq!(theta.is_ok(), !cells);
             assert_eq!(

@@ -40,8 +40,8 @@ fn picture(k: K, gap: DiagonalGap) -> String {
         let picture = draw(&map.grid, PlacementKind::Corner, path.waypoints());
         write!(text, "{name}: {:.4}\n{picture}", path.cost()).expect("a text takes all");
     };
-    let mut a_star = SubgoalAStar::new(&space, &two);
-    let mut theta = SubgoalTheta::new(&space, &two);
+    let mut a_star = SubgoalAStar::new(&space, &two).expect("the graph is for this space");
+    let mut theta = SubgoalTheta::new(&space, &two).expect("the graph is for this space");
     add("Sub2-A*", &mut |query| a_star.solve(query).ok()?.path().cloned());
     add("Sub2-Theta*", &mut |query| theta.solve(query).ok()?.path().cloned());
     text

@@ -37,7 +37,7 @@ fn solve(drawing: &str, hierarchy: Hierarchy, [start, goal]: [(i32, i32); 2]) ->
     let map = AsciiMap::parse(drawing).expect("the drawing is a map");
     let space = space::<Corners>(&map.grid, DiagonalGap::Open);
     let graph = graph(&space, k(3), hierarchy);
-    let mut planner = SubgoalTheta::new(&space, &graph);
+    let mut planner = SubgoalTheta::new(&space, &graph).expect("the graph is for this space");
     let (query, mut log, mut counters) = (Query::new(start, goal), Log::default(), Counters::default());
     let outcome = planner.solve_observed(query, &mut log).expect("both ends are free");
     assert_eq!(planner.solve_observed(query, &mut counters), Ok(outcome.clone()));
