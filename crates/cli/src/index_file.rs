@@ -4,8 +4,7 @@ use std::path::Path;
 
 use mediant::Setup;
 use mediant_formats::{IndexError, IndexFile, IndexKey};
-use mediant_grid::Grid;
-use mediant_moves::FiniteK;
+use mediant_grid::{Grid, Identity};
 
 use crate::failure::Failure;
 
@@ -24,9 +23,10 @@ pub(crate) fn load(path: &Path, setup: Setup, grid: &Grid) -> Result<Vec<u8>, Fa
     Ok(file.into_payload())
 }
 
-/// What an index file is for: engine, version, rules, k and map.
+/// What an index file is for: engine, version, and map, rules and k.
 fn key(setup: Setup, version: u32, grid: &Grid) -> Result<IndexKey, IndexError> {
-    IndexKey::new(setup.engine.kind().name(), version, setup.rules, setup.k.finite().map(FiniteK::get), grid)
+    let identity = Identity { map: Some(grid.id()), rules: setup.rules, k: Some(setup.k) };
+    IndexKey::new(setup.engine.kind().name(), version, identity)
 }
 
 /// Adds the path of the file to an error.

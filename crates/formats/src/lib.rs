@@ -35,7 +35,7 @@ mod text;
 mod trace;
 
 #[cfg(feature = "index")]
-pub use index::{IndexError, IndexFile, IndexKey, MapDigest, WriteError};
+pub use index::{IndexError, IndexFile, IndexKey, WriteError};
 pub use map::{MapError, MapFile};
 pub use read::{MAX_FILE_BYTES, ReadError};
 pub use scenario::{Instance, MapMismatch, Scenario, ScenarioError, scenario_tolerance};

@@ -132,3 +132,14 @@ pub(crate) fn redact_times(text: &str) -> String {
     };
     text.lines().map(|line| redact_line(line) + "\n").collect()
 }
+
+/// Checks the error for the index in a file that is for something else: what it says that each is for.
+#[track_caller]
+pub(crate) fn check_mismatch(error: &str, file: &str, [built, needed]: [&str; 2]) {
+    let (of_file, of_search) = error.split_once("; the search space is for map ").expect(error);
+    assert!(of_file.starts_with(&format!("error: {file}: the file is for map ")), "{error}");
+    assert!(of_file.ends_with(built), "{error}, not {built}");
+    let (of_search, advice) = of_search.split_once(": ").expect(error);
+    assert!(of_search.ends_with(needed), "{error}, not {needed}");
+    assert_eq!(advice, "use it with what it was made for, or make it anew with `mediant build`\n");
+}

@@ -3,10 +3,11 @@
 use std::{fs, path::Path};
 
 use mediant_formats::{IndexFile, IndexKey};
-use mediant_grid::{CornerRule, DiagonalGap, Rules};
+use mediant_grid::{CornerRule, DiagonalGap, Identity, Rules};
+use mediant_moves::K;
 use serde_json::Value;
 
-use crate::common::{Files, Ran, built, mediant, redact_times, refused, run, told};
+use crate::common::{Files, Ran, built, check_mismatch, mediant, redact_times, refused, run, told};
 
 /// What a saved index must not change of the answers.
 fn answers(queries: &[Value]) -> Vec<[Value; 3]> {
@@ -100,19 +101,6 @@ fn an_index_for_something_else_is_refused() {
     let again = "or build it again with `mediant build`";
     for (options, message) in [
         (
-            "--engine subgoal --placement corner --k 4",
-            "expected an index for k = 4, found one for k = 3; choose that k",
-        ),
-        ("--engine subgoal --k any", "expected an index for k = any, found one for k = 3; choose that k"),
-        (
-            "--engine subgoal --placement corner --gap closed",
-            "expected an index for the rules `corner, gap closed`, found one for `corner, gap open`; choose those rules",
-        ),
-        (
-            "--engine subgoal",
-            "expected an index for the rules `center, corners never`, found one for `corner, gap open`; choose those rules",
-        ),
-        (
             "--engine subgoal-theta",
             "expected an index of the engine subgoal-theta, found one of subgoal; choose that engine",
         ),
@@ -126,11 +114,16 @@ fn an_index_for_something_else_is_refused() {
             format!("error: cave.idx: {message}, {again}\n")
         );
     }
-    let map = refused("builtin:maze --engine subgoal --placement corner");
-    assert!(
-        map.starts_with("error: cave.idx: expected an index for this map (69 × 33 cells, digest "),
-        "{map}"
-    );
+    for (options, needed) in [
+        ("cave --engine subgoal --placement corner --k 4", "corner, gap open, k = 4"),
+        ("cave --engine subgoal --k any", "corner, gap open, k = any"),
+        ("cave --engine subgoal --placement corner --gap closed", "corner, gap closed, k = 3"),
+        ("cave --engine subgoal", "center, corners never, k = 3"),
+        ("maze --engine subgoal --placement corner", " of 69 × 33 cells, corner, gap open, k = 3"),
+    ] {
+        let built = " of 72 × 36 cells, corner, gap open, k = 3";
+        check_mismatch(&refused(&format!("builtin:{options}")), "cave.idx", [built, needed]);
+    }
     let none = refused("builtin:cave --engine jps");
     assert_eq!(none, "error: jps has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa\n");
 }
@@ -171,7 +164,8 @@ fn an_index_of_another_version_is_refused() {
     let map =
         mediant_formats::MapFile::read(crate::common::bundled("cave.map")).expect("our own map").to_grid();
     let saved = |engine: &str, version: u32, rules: Rules, payload: &[u8]| {
-        let key = IndexKey::new(engine, version, rules, Some(3), &map).expect("a plain name");
+        let identity = Identity { map: Some(map.id()), rules, k: Some(K::N8) };
+        let key = IndexKey::new(engine, version, identity).expect("a plain name");
         IndexFile::new(key, payload.to_vec()).write(files.path("other.idx")).expect("a file");
         refused(&files, &format!("run builtin:cave --engine subgoal --index {}", files.path("other.idx")))
     };
@@ -187,11 +181,19 @@ fn an_index_of_another_version_is_refused() {
     let other = saved("warp", version, never, &payload);
     assert!(other.contains("expected an index of the engine subgoal, found one of warp; "), "{other}");
     let other = saved("subgoal", version, Rules::Corner(DiagonalGap::Open), &payload);
-    assert!(other.contains("found one for `corner, gap open`"), "{other}");
-    for damaged in [&payload[..payload.len() - 4], &[], &[0; 12]] {
+    check_mismatch(&other, "other.idx", ["corner, gap open, k = 3", "center, corners never, k = 3"]);
+    for damaged in [&payload[..payload.len() - 4], &payload[..32], &[], &[0xff; 50]] {
         let message = saved("subgoal", version, never, damaged);
         assert!(message.starts_with("error: these bytes are no subgoal graph of this map: "), "{message}");
     }
+    // An index says itself what it belongs to, whatever its file says.
+    let mut foreign = payload;
+    foreign[28] = 2;
+    let message = saved("subgoal", version, never, &foreign);
+    assert!(
+        message.starts_with("error: the subgoal graph is for map ") && message.contains("k = 2"),
+        "{message}"
+    );
 }
 
 #[test]

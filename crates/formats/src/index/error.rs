@@ -1,11 +1,8 @@
 //! Why an index is refused.
 
-use mediant_grid::Rules;
+use mediant_grid::Mismatch;
 
-use super::{
-    digest::MapDigest,
-    layout::{FORMAT_VERSION, NAME_FORM},
-};
+use super::layout::{FORMAT_VERSION, NAME_FORM};
 
 /// Why an index is refused: the bytes are none, or the index was built for something else.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -75,45 +72,9 @@ pub enum IndexError {
         /// The version of the index.
         found: u32,
     },
-    /// The index was built under other rules of motion.
-    #[error(
-        "expected an index for the rules `{expected}`, found one for `{found}`; choose those rules, or \
-         {BUILD_AGAIN}"
-    )]
-    Rules {
-        /// The rules in use.
-        expected: Rules,
-        /// The rules of the index.
-        found: Rules,
-    },
-    /// The index was built for another neighborhood.
-    #[error(
-        "expected an index for k = {}, found one for k = {}; choose that k, or {BUILD_AGAIN}",
-        k_name(*expected),
-        k_name(*found)
-    )]
-    K {
-        /// The k in use.
-        expected: Option<u32>,
-        /// The k of the index.
-        found: Option<u32>,
-    },
-    /// The index was built for another map.
-    #[error(
-        "expected an index for this map ({expected}), found one for another ({found}); name that map, or \
-         {BUILD_AGAIN}"
-    )]
-    Map {
-        /// The map in use.
-        expected: MapDigest,
-        /// The map of the index.
-        found: MapDigest,
-    },
+    /// The index was built for another map, other rules of motion or another k.
+    #[error("{0} with `mediant build`")]
+    Mismatch(#[from] Mismatch),
 }
 
 const BUILD_AGAIN: &str = "build it again with `mediant build`";
-
-/// The k as `mediant` takes it.
-fn k_name(k: Option<u32>) -> String {
-    k.map_or_else(|| "any".to_owned(), |k| k.to_string())
-}

@@ -2,6 +2,7 @@
 
 use std::{fmt, path::Path};
 
+use mediant_grid::Mismatch;
 use sha2::{Digest, Sha256};
 
 use super::{
@@ -19,9 +20,11 @@ use crate::read::{ReadError, read_regular};
 ///
 /// ```
 /// use mediant_formats::{IndexFile, IndexKey};
-/// use mediant_grid::{AsciiMap, CornerRule, Rules};
+/// use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph};
+/// use mediant_moves::FiniteK;
 /// let grid = AsciiMap::parse("..#\n...")?.grid;
-/// let key = IndexKey::new("jps-plus", 1, Rules::Center(CornerRule::Never), Some(3), &grid)?;
+/// let graph = GridGraph::<Centers>::new(grid.into(), FiniteK::N8, CornerRule::Never)?;
+/// let key = IndexKey::new("jps-plus", 1, graph.identity())?;
 /// let saved = IndexFile::new(key.clone(), vec![1, 2, 3]).to_bytes();
 /// let index = IndexFile::from_bytes(saved)?;
 /// index.check(&key)?;
@@ -111,10 +114,11 @@ impl IndexFile {
             .map_err(|source| ReadError::Index { path: path.to_owned(), source })
     }
 
-    /// Checks that the index was built for this engine, version, rules, k and map.
+    /// Checks that the index was built for this engine, version and identity: for the same map, rules of
+    /// motion and k.
     ///
     /// # Errors
-    /// The [`IndexError`] of the first difference, in this order.
+    /// The [`IndexError`] of the first difference, in this order; [`IndexError::Mismatch`] for the identity.
     pub fn check(&self, expected: &IndexKey) -> Result<(), IndexError> {
         let found = &self.key;
         if found.engine != expected.engine {
@@ -129,14 +133,11 @@ impl IndexFile {
                 found: found.version,
             });
         }
-        if found.rules != expected.rules {
-            return Err(IndexError::Rules { expected: expected.rules, found: found.rules });
-        }
-        if found.k != expected.k {
-            return Err(IndexError::K { expected: expected.k, found: found.k });
-        }
-        if found.map != expected.map {
-            return Err(IndexError::Map { expected: expected.map, found: found.map });
+        // Not `Identity::check`: an index for every map, or for every k, is none for this one.
+        let (belongs_to, found) = (found.identity, expected.identity);
+        if belongs_to != found {
+            let (prepared, other) = ("the file", "the search space");
+            return Err(Mismatch { prepared, belongs_to, other, found }.into());
         }
         Ok(())
     }

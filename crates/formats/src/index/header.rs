@@ -2,43 +2,27 @@
 
 use std::ops::Range;
 
-use mediant_grid::{CornerRule, DiagonalGap, Rules};
+use mediant_grid::Identity;
 use sha2::{Digest, Sha256};
 
 use super::{
-    digest::MapDigest,
     error::IndexError,
     key::IndexKey,
     layout::{DIGEST_BYTES, FORMAT_VERSION, HEADER_BYTES, MAGIC, NAME_BYTES, NAME_FORM, is_engine_name},
 };
 use crate::text::quote;
 
-/// The rules of motion by the two bytes that stand for them.
-const RULES: [([u8; 2], Rules); 5] = [
-    ([0, 0], Rules::Center(CornerRule::Never)),
-    ([0, 1], Rules::Center(CornerRule::One)),
-    ([0, 2], Rules::Center(CornerRule::Always)),
-    ([1, 0], Rules::Corner(DiagonalGap::Open)),
-    ([1, 1], Rules::Corner(DiagonalGap::Closed)),
-];
-
 /// The header of an index with a payload of this many bytes.
 pub(super) fn encode(key: &IndexKey, payload: usize) -> Vec<u8> {
     let mut name = [0; NAME_BYTES];
     // A key's name has at most NAME_BYTES.
     name[..key.engine.len()].copy_from_slice(key.engine.as_bytes());
-    let code = RULES.iter().find(|(_, rules)| *rules == key.rules).map_or([u8::MAX; 2], |&(code, _)| code);
     [
         &MAGIC[..],
         &FORMAT_VERSION.to_le_bytes(),
         &name,
         &key.version.to_le_bytes(),
-        &code,
-        &[u8::from(key.k.is_none()), 0],
-        &key.k.unwrap_or(0).to_le_bytes(),
-        &key.map.width.to_le_bytes(),
-        &key.map.height.to_le_bytes(),
-        &key.map.digest,
+        &key.identity.to_bytes(),
         &(payload as u64).to_le_bytes(),
     ]
     .concat()
@@ -87,10 +71,7 @@ impl Fields<'_> {
 struct Header {
     name: [u8; NAME_BYTES],
     version: u32,
-    rules: [u8; 2],
-    any_angle: [u8; 2],
-    k: u32,
-    map: MapDigest,
+    identity: [u8; Identity::BYTES],
     payload: u64,
 }
 
@@ -100,10 +81,7 @@ impl Header {
         Some(Self {
             name: fields.take()?,
             version: fields.number()?,
-            rules: fields.take()?,
-            any_angle: fields.take()?,
-            k: fields.number()?,
-            map: MapDigest { width: fields.number()?, height: fields.number()?, digest: fields.take()? },
+            identity: fields.take()?,
             payload: fields.take().map(u64::from_le_bytes)?,
         })
     }
@@ -113,13 +91,8 @@ impl Header {
         let end = self.name.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
         let name = std::str::from_utf8(&self.name[..end]).ok().filter(|name| is_engine_name(name.as_bytes()));
         let engine = name.ok_or_else(|| field(NAME_FORM, &self.name))?.to_owned();
-        let rules = RULES.iter().find(|(code, _)| *code == self.rules);
-        let &(_, rules) = rules.ok_or_else(|| field("the codes of a placement and its rule", &self.rules))?;
-        let k = match (self.any_angle, self.k) {
-            ([0, 0], k) => Some(k),
-            ([1, 0], 0) => None,
-            _ => return Err(field("a number k or the mark of any-angle", &self.any_angle)),
-        };
-        Ok(IndexKey { engine, version: self.version, rules, k, map: self.map })
+        let identity = Identity::from_bytes(self.identity)
+            .ok_or_else(|| field("a map with the codes of its rules and k", &self.identity))?;
+        Ok(IndexKey { engine, version: self.version, identity })
     }
 }

@@ -1,42 +1,34 @@
 //! What an index was built for.
 
-use mediant_grid::{Grid, Rules};
+use mediant_grid::Identity;
 
-use super::{digest::MapDigest, error::IndexError, layout::is_engine_name};
+use super::{error::IndexError, layout::is_engine_name};
 use crate::text::quote;
 
-/// What an index was built for: engine, version, rules of motion, k and map. All must be the same where it is
-/// used.
+/// What an index was built for: the engine, the version of its payload, and the identity of what it belongs
+/// to: map, rules of motion and k. All must be the same where it is used.
 ///
 /// Needs the feature `index`.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct IndexKey {
     pub(super) engine: String,
     pub(super) version: u32,
-    pub(super) rules: Rules,
-    pub(super) k: Option<u32>,
-    pub(super) map: MapDigest,
+    pub(super) identity: Identity,
 }
 
 impl IndexKey {
-    /// The key of an index that `engine` built for `grid` under `rules` and N(k), `None` for any-angle.
+    /// The key of an index that `engine` built for what `identity` says.
     ///
     /// `engine` is a name of 1 to 16 printable ASCII characters without blanks, `version` the version of its
     /// payload.
     ///
     /// # Errors
     /// [`IndexError::EngineName`] for a name that cannot be saved.
-    pub fn new(
-        engine: &str,
-        version: u32,
-        rules: Rules,
-        k: Option<u32>,
-        grid: &Grid,
-    ) -> Result<Self, IndexError> {
+    pub fn new(engine: &str, version: u32, identity: Identity) -> Result<Self, IndexError> {
         if !is_engine_name(engine.as_bytes()) {
             return Err(IndexError::EngineName { found: quote(engine.as_bytes()) });
         }
-        Ok(Self { engine: engine.to_owned(), version, rules, k, map: MapDigest::of(grid) })
+        Ok(Self { engine: engine.to_owned(), version, identity })
     }
 
     /// The engine's name.
@@ -51,21 +43,9 @@ impl IndexKey {
         self.version
     }
 
-    /// The rules of motion.
+    /// The map, the rules of motion and k.
     #[must_use]
-    pub const fn rules(&self) -> Rules {
-        self.rules
-    }
-
-    /// The k of the neighborhood; `None` for any-angle.
-    #[must_use]
-    pub const fn k(&self) -> Option<u32> {
-        self.k
-    }
-
-    /// The map.
-    #[must_use]
-    pub const fn map(&self) -> MapDigest {
-        self.map
+    pub const fn identity(&self) -> Identity {
+        self.identity
     }
 }

@@ -8,23 +8,19 @@
 //! | 4 | the version of this format |
 //! | 16 | the engine's name, ASCII, filled up with zeros |
 //! | 4 | the version of the engine's payload |
-//! | 1, 1 | placement (0 center, 1 corner); its rule (0 never, 1 one, 2 always; 0 open, 1 closed) |
-//! | 1, 1 | 1 for any-angle, else 0; zero |
-//! | 4 | k; 0 for any-angle |
-//! | 4, 4 | width and height of the map, in cells |
-//! | 32 | digest of the map, see [`MapDigest`](super::MapDigest) |
+//! | 32 | the map, the rules of motion and k, see [`Identity::to_bytes`](mediant_grid::Identity::to_bytes) |
 //! | 8 | length of the payload |
 //! | … | the payload |
 //! | 32 | SHA-256 of all that precedes |
 
 /// The first byte occurs in no text file, and the last one is lost where line ends are converted.
 pub(super) const MAGIC: [u8; 8] = *b"\x89MEDIDX\n";
-pub(super) const FORMAT_VERSION: u32 = 1;
+pub(super) const FORMAT_VERSION: u32 = 2;
 pub(super) const NAME_BYTES: usize = 16;
 /// What [`is_engine_name`] accepts, for error messages.
 pub(super) const NAME_FORM: &str = "an engine's name of 1 to 16 printable ASCII characters without blanks";
 /// The length of everything before the payload.
-pub(super) const HEADER_BYTES: usize = 88;
+pub(super) const HEADER_BYTES: usize = 72;
 /// The length of a SHA-256.
 pub(super) const DIGEST_BYTES: usize = 32;
 

@@ -2,22 +2,24 @@
 
 use std::{fs, path::Path};
 
-use mediant_formats::{IndexError, IndexFile, IndexKey, MapDigest, ReadError, WriteError};
-use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Rules};
+use mediant_formats::{IndexError, IndexFile, IndexKey, ReadError, WriteError};
+use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Identity, Rules};
+use mediant_moves::K;
 use sha2::{Digest, Sha256};
 
 const RULES: Rules = Rules::Center(CornerRule::Never);
 
-fn grid(drawing: &str) -> Grid {
-    AsciiMap::parse(drawing).expect("a well-formed drawing").grid
+fn identity(rules: Rules, k: Option<K>) -> Identity {
+    let grid = AsciiMap::parse("..#\n...").expect("a well-formed drawing").grid;
+    Identity { map: Some(grid.id()), rules, k }
 }
 
-fn key(rules: Rules, k: Option<u32>) -> IndexKey {
-    IndexKey::new("jps-plus", 7, rules, k, &grid("..#\n...")).expect("a plain name")
+fn key(rules: Rules, k: Option<K>) -> IndexKey {
+    IndexKey::new("jps-plus", 7, identity(rules, k)).expect("a plain name")
 }
 
 fn index() -> IndexFile {
-    IndexFile::new(key(RULES, Some(3)), (0..50).collect())
+    IndexFile::new(key(RULES, Some(K::N8)), (0..50).collect())
 }
 
 /// The bytes with a right checksum, as another program might have written them.
@@ -50,15 +52,15 @@ fn files(folder: &Path) -> Vec<String> {
 #[test]
 fn what_is_saved_comes_back() {
     for rules in Rules::ALL {
-        for k in [None, Some(0), Some(2), Some(12), Some(u32::MAX)] {
+        for k in [None, Some(K::N4), Some(K::N8), Some(K::Any)] {
             for payload in [vec![], vec![9], (0..=255).collect()] {
                 let saved = IndexFile::new(key(rules, k), payload.clone());
                 let read = IndexFile::from_bytes(saved.to_bytes()).unwrap();
                 assert_eq!(read, saved);
                 assert_eq!(read.payload(), payload);
                 assert_eq!(
-                    (read.key().engine(), read.key().version(), read.key().rules(), read.key().k()),
-                    ("jps-plus", 7, rules, k)
+                    (read.key().engine(), read.key().version(), read.key().identity()),
+                    ("jps-plus", 7, identity(rules, k))
                 );
                 read.check(&key(rules, k)).unwrap();
                 assert_eq!(read.into_payload(), payload);
@@ -70,42 +72,17 @@ fn what_is_saved_comes_back() {
 /// There are files of this layout on disk: it may change only together with its version.
 #[test]
 fn the_bytes_of_a_file() {
-    let bytes = IndexFile::new(key(Rules::Corner(DiagonalGap::Closed), None), vec![0xaa, 0xbb]).to_bytes();
-    let digest = {
-        // Width 3, height 2, then one word per row. Cell (2, 0) is blocked.
-        let mut map = [3_u32.to_le_bytes(), 2_u32.to_le_bytes()].concat();
-        map.extend([4_u64.to_le_bytes(), 0_u64.to_le_bytes()].concat());
-        Sha256::digest(map)
-    };
+    let (rules, k) = (Rules::Corner(DiagonalGap::Closed), Some(K::Any));
+    let bytes = IndexFile::new(key(rules, k), vec![0xaa, 0xbb]).to_bytes();
     let expected = [
-        b"\x89MEDIDX\n\x01\0\0\0jps-plus\0\0\0\0\0\0\0\0\x07\0\0\0\x01\x01\x01\0\0\0\0\0\x03\0\0\0\x02\0\0\0",
-        &digest[..],
+        b"\x89MEDIDX\n\x02\0\0\0jps-plus\0\0\0\0\0\0\0\0\x07\0\0\0",
+        &identity(rules, k).to_bytes()[..],
         b"\x02\0\0\0\0\0\0\0\xaa\xbb",
     ]
     .concat();
     let (content, checksum) = bytes.split_at(bytes.len() - 32);
     assert_eq!(content, expected);
     assert_eq!(checksum, &Sha256::digest(&expected)[..]);
-}
-
-#[test]
-fn the_digest_tells_maps_apart() {
-    let mut seen = std::collections::HashMap::new();
-    for (width, height) in
-        [(1, 1), (1, 6), (6, 1), (2, 3), (3, 2), (63, 2), (64, 2), (65, 2), (128, 1), (130, 1)]
-    {
-        let of = |blocked: Option<(u32, u32)>| {
-            MapDigest::of(&Grid::from_fn(width, height, |x, y| Some((x, y)) == blocked).unwrap())
-        };
-        let cells = (0..height).flat_map(|y| (0..width).map(move |x| Some((x, y))));
-        for blocked in cells.chain([None]) {
-            let digest = of(blocked);
-            assert_eq!((digest.width(), digest.height()), (width, height));
-            assert_eq!(digest, of(blocked), "the same map again");
-            let other = seen.insert(*digest.as_bytes(), (width, height, blocked));
-            assert_eq!(other, None, "{width} × {height}, {blocked:?}");
-        }
-    }
 }
 
 #[test]
@@ -120,7 +97,7 @@ fn every_truncation_is_refused() {
                     _ => format!("`{}`", bytes[..length].escape_ascii()),
                 },
             },
-            8..88 => IndexError::Length { expected: 120, found: length as u64 },
+            8..72 => IndexError::Length { expected: 104, found: length as u64 },
             _ => IndexError::Length { expected: whole, found: length as u64 },
         };
         assert_eq!(refused(&bytes[..length]), expected);
@@ -139,7 +116,7 @@ fn every_flipped_bit_is_refused() {
         let right = match bit / 8 {
             0..8 => matches!(error, IndexError::NotAnIndex { .. }),
             8..12 => matches!(error, IndexError::Format { .. }),
-            80..88 => matches!(error, IndexError::Length { .. }),
+            64..72 => matches!(error, IndexError::Length { .. }),
             _ => error == IndexError::Damaged,
         };
         assert!(right, "bit {bit}: {error}");
@@ -148,11 +125,11 @@ fn every_flipped_bit_is_refused() {
 
 #[test]
 fn a_claimed_length_allocates_nothing() {
-    for claimed in [51, 1 << 32, u64::MAX - 120, u64::MAX] {
+    for claimed in [51, 1 << 32, u64::MAX - 104, u64::MAX] {
         let mut bytes = index().to_bytes();
-        bytes[80..88].copy_from_slice(&claimed.to_le_bytes());
+        bytes[64..72].copy_from_slice(&claimed.to_le_bytes());
         let found = bytes.len() as u64;
-        let expected = claimed.saturating_add(120);
+        let expected = claimed.saturating_add(104);
         assert_eq!(refused(&sealed(bytes)), IndexError::Length { expected, found });
     }
 }
@@ -171,12 +148,12 @@ fn what_is_no_index_word_by_word() {
              is this the file that you meant?",
         ),
         (
-            forged(8, &[2]),
-            "expected an index of format version 1, found version 2; build it again with `mediant build`",
+            forged(8, &[1]),
+            "expected an index of format version 2, found version 1; build it again with `mediant build`",
         ),
         (
             refused(&index().to_bytes()[..100]),
-            "expected an index of 170 bytes, found 100; copy the file again, or build it again with `mediant build`",
+            "expected an index of 154 bytes, found 100; copy the file again, or build it again with `mediant build`",
         ),
         (
             IndexError::Damaged,
@@ -189,29 +166,26 @@ fn what_is_no_index_word_by_word() {
              found `jps\\x00plus\\x00\\x00\\x00\\x00\\x00\\x00\\x00\\x00`: \
              another program wrote this index; build it again with `mediant build`",
         ),
-        (
-            forged(32, &[1, 2]),
-            "expected the codes of a placement and its rule, found `\\x01\\x02`: \
-             another program wrote this index; build it again with `mediant build`",
-        ),
-        (
-            forged(34, &[1]),
-            "expected a number k or the mark of any-angle, found `\\x01\\x00`: \
-             another program wrote this index; build it again with `mediant build`",
-        ),
     ];
     for (error, message) in cases {
         assert_eq!(error.to_string(), message);
     }
     assert!(matches!(forged(12, &[0; 16]), IndexError::Field { .. }), "no name");
     assert!(matches!(forged(12, "jps-plüs".as_bytes()), IndexError::Field { .. }), "not ASCII");
-    assert!(matches!(forged(34, &[2]), IndexError::Field { .. }), "neither any-angle nor not");
-    assert!(matches!(forged(35, &[1]), IndexError::Field { .. }), "not zero");
+    // The codes of rules and k end the identity, which begins at byte 32.
+    for (at, code) in [(32 + 24, 5), (32 + 28, 1)] {
+        let text = forged(at, &[code]).to_string();
+        assert!(text.starts_with("expected a map with the codes of its rules and k, found `"), "{text}");
+        assert!(
+            text.ends_with("another program wrote this index; build it again with `mediant build`"),
+            "{text}"
+        );
+    }
 }
 
 #[test]
 fn names_that_cannot_be_saved() {
-    let make = |name: &str| IndexKey::new(name, 1, RULES, None, &grid("."));
+    let make = |name: &str| IndexKey::new(name, 1, identity(RULES, None));
     for name in ["", "jps plus", "jps\n", "übersicht", "a-name-of-17-long"] {
         assert!(matches!(make(name), Err(IndexError::EngineName { .. })), "{name:?}");
     }
@@ -220,48 +194,6 @@ fn names_that_cannot_be_saved() {
         make("").unwrap_err().to_string(),
         "expected an engine's name of 1 to 16 printable ASCII characters without blanks, found nothing; \
          give the engine a shorter or plainer name"
-    );
-}
-
-#[test]
-fn an_index_for_something_else_word_by_word() {
-    let index = index();
-    let other = |engine: &str, version, rules, k, drawing: &str| {
-        let expected = IndexKey::new(engine, version, rules, k, &grid(drawing)).unwrap();
-        index.check(&expected).unwrap_err().to_string()
-    };
-    let map = "..#\n...";
-    assert_eq!(
-        other("subgoal", 8, Rules::Corner(DiagonalGap::Open), None, "."),
-        "expected an index of the engine subgoal, found one of jps-plus; \
-         choose that engine, or build it again with `mediant build`"
-    );
-    assert_eq!(
-        other("jps-plus", 8, Rules::Corner(DiagonalGap::Open), None, "."),
-        "expected version 8 of the jps-plus index, found version 7; build it again with `mediant build`"
-    );
-    assert_eq!(
-        other("jps-plus", 7, Rules::Center(CornerRule::One), Some(3), map),
-        "expected an index for the rules `center, corners one`, found one for `center, corners never`; \
-         choose those rules, or build it again with `mediant build`"
-    );
-    assert_eq!(
-        other("jps-plus", 7, RULES, None, map),
-        "expected an index for k = any, found one for k = 3; choose that k, or build it again with `mediant build`"
-    );
-    assert_eq!(
-        other("jps-plus", 7, RULES, Some(4), map),
-        "expected an index for k = 4, found one for k = 3; choose that k, or build it again with `mediant build`"
-    );
-    let digests = [MapDigest::of(&grid("..#\n..#")), MapDigest::of(&grid(map))]
-        .map(|map| map.as_bytes()[..6].iter().map(|byte| format!("{byte:02x}")).collect::<String>());
-    assert_eq!(
-        other("jps-plus", 7, RULES, Some(3), "..#\n..#"),
-        format!(
-            "expected an index for this map (3 × 2 cells, digest {}…), \
-             found one for another (3 × 2 cells, digest {}…); name that map, or build it again with `mediant build`",
-            digests[0], digests[1]
-        )
     );
 }
 
@@ -319,13 +251,13 @@ fn files_that_cannot_be_read() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("map.idx");
     assert!(matches!(IndexFile::read(&path), Err(ReadError::Missing { .. })));
-    fs::write(&path, &index().to_bytes()[..150]).unwrap();
+    fs::write(&path, &index().to_bytes()[..140]).unwrap();
     let error = IndexFile::read(&path).unwrap_err();
     assert!(matches!(error, ReadError::Index { source: IndexError::Length { .. }, .. }));
     assert_eq!(
         error.to_string(),
         format!(
-            "{}: expected an index of 170 bytes, found 150; copy the file again, or build it again with `mediant build`",
+            "{}: expected an index of 154 bytes, found 140; copy the file again, or build it again with `mediant build`",
             path.display()
         )
     );
