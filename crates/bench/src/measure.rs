@@ -61,7 +61,7 @@ pub enum MeasureError {
         /// The map.
         map: String,
         /// The reason.
-        source: EngineError,
+        source: Box<EngineError>,
     },
     /// A query that was refused.
     #[error("{competitor} on map `{map}`, instance {index}: {source}")]
@@ -115,7 +115,7 @@ pub fn measure(
         Runner::new(competitor, problem).map_err(|source| MeasureError::Engine {
             competitor: competitor.to_string(),
             map: problem.name.clone(),
-            source,
+            source: source.into(),
         })
     };
     let mut runners: Vec<Runner> = competitors.iter().map(prepare).collect::<Result<_, _>>()?;

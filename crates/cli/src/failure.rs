@@ -58,7 +58,7 @@ pub(crate) enum Failure {
     #[error(transparent)]
     Engine(#[from] EngineError),
     #[error("{}: {source}", path.display())]
-    Index { path: PathBuf, source: IndexError },
+    Index { path: PathBuf, source: Box<IndexError> },
     #[error(transparent)]
     WriteIndex(#[from] WriteError),
     #[error("{}: cannot be written: {source}", path.display())]

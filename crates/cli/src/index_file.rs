@@ -31,5 +31,5 @@ fn key(setup: Setup, version: u32, grid: &Grid) -> Result<IndexKey, IndexError> 
 
 /// Adds the path of the file to an error.
 fn refused(path: &Path) -> impl FnOnce(IndexError) -> Failure {
-    move |source| Failure::Index { path: path.to_owned(), source }
+    move |source| Failure::Index { path: path.to_owned(), source: source.into() }
 }

@@ -75,7 +75,8 @@ pub enum ReadError {
         /// The file.
         path: PathBuf,
         /// What is wrong with it.
-        source: IndexError,
+        // An error that can name two maps is large, and all that read files return this one.
+        source: Box<IndexError>,
     },
 }
 

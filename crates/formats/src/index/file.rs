@@ -111,7 +111,7 @@ impl IndexFile {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
         let path = path.as_ref();
         Self::from_bytes(read_regular(path)?)
-            .map_err(|source| ReadError::Index { path: path.to_owned(), source })
+            .map_err(|source| ReadError::Index { path: path.to_owned(), source: source.into() })
     }
 
     /// Checks that the index was built for this engine, version and identity: for the same map, rules of

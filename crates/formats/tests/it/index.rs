@@ -253,7 +253,8 @@ fn files_that_cannot_be_read() {
     assert!(matches!(IndexFile::read(&path), Err(ReadError::Missing { .. })));
     fs::write(&path, &index().to_bytes()[..140]).unwrap();
     let error = IndexFile::read(&path).unwrap_err();
-    assert!(matches!(error, ReadError::Index { source: IndexError::Length { .. }, .. }));
+    let ReadError::Index { source, .. } = &error else { panic!("{error}") };
+    assert!(matches!(**source, IndexError::Length { .. }));
     assert_eq!(
         error.to_string(),
         format!(
