@@ -5,7 +5,7 @@
 use std::{hint::black_box, sync::Arc};
 
 use criterion::{BenchmarkId, Criterion, Throughput};
-use mediant::{Engine, Index, Setup, SharedRules, Space};
+use mediant::{Engine, Map, Setup, Space};
 use mediant_grid::{
     Centers, CornerRule, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vertex, VertexId,
 };
@@ -41,13 +41,12 @@ fn main() {
         ("caves", Arc::new(caves(&mut rng, SIDE, SIDE))),
         ("noise", Arc::new(noise(&mut rng, SIDE, SIDE, 25))),
     ];
-    let rules = SharedRules::new();
     for engine in ENGINES {
         for (name, grid) in &maps {
             let ks = (2..=8).filter_map(|k| FiniteK::new(k).ok()).map(K::Finite).chain([K::Any]);
             let setups = ks.flat_map(|k| RULES.map(|rules| Setup::new(engine, k, rules)));
             for setup in setups.filter(|setup| setup.check().is_ok()) {
-                queries(&mut c, setup, name, grid, &rules);
+                queries(&mut c, setup, name, grid);
             }
         }
     }
@@ -68,7 +67,7 @@ fn grid_graph<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: u32) -> GridGrap
 
 /// Random queries, the same for every k. All of them have a path.
 fn random_queries(grid: &Grid, space: &Space) -> Vec<Query> {
-    let (mut rng, placement) = (Rng::new(SEED), space.rules().placement());
+    let (mut rng, placement) = (Rng::new(SEED), space.motion().rules.placement());
     let mut end = || random_free_vertex(&mut rng, grid, placement).expect("the map has free cells");
     let pairs = std::iter::repeat_with(|| (end(), end()));
     let connected = pairs.filter(|&(start, goal)| space.connected(start, goal));
@@ -76,15 +75,14 @@ fn random_queries(grid: &Grid, space: &Space) -> Vec<Query> {
 }
 
 /// Benchmarks all queries together, on a warm planner.
-fn queries(c: &mut Criterion, setup: Setup, map: &str, grid: &Arc<Grid>, rules: &SharedRules) {
-    let space = Space::new(setup, grid).expect("the setup was checked");
+fn queries(c: &mut Criterion, setup: Setup, map: &str, grid: &Arc<Grid>) {
+    let space = setup.space(&Map::from(Arc::clone(grid))).expect("the setup was checked");
     let queries = random_queries(grid, &space);
-    let index = Index::new(setup, &space, rules).expect("the setup was checked");
-    let mut planner = index.planner().expect("the index is the engine's");
+    let mut planner = setup.prepare(&space).expect("the setup was checked").planner();
     let mut group = c.benchmark_group(format!("{}/{}/{map}", setup.engine.kind(), setup.rules.placement()));
     group.throughput(Throughput::Elements(queries.len() as u64));
     group.bench_function(BenchmarkId::from_parameter(setup.k), |b| {
-        b.iter(|| queries.iter().for_each(|&query| _ = black_box(planner.solve(black_box(query)))));
+        b.iter(|| queries.iter().for_each(|&query| _ = black_box(planner.find(black_box(query)))));
     });
     group.finish();
 }

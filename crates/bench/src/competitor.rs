@@ -1,19 +1,16 @@
 //! The competitors of a measurement, behind one interface.
 
-use std::{fmt, time::Instant};
+use std::{fmt, sync::Arc, time::Instant};
 
 use grid_pathfinding::PathingGrid;
 use grid_util::point::Point;
-use mediant::{EngineError, Index, Planner, Setup, SharedRules, Space};
+use mediant::{Error, Map, Planner, Setup};
 use mediant_search::{Outcome, Query, QueryError};
 
 use crate::{
     Baseline, Preparation, Problem,
     baseline::{BoolMap, Length, pathing_grid, solve_on},
 };
-
-/// The pruning rules that the maps have in common.
-static RULES: SharedRules = SharedRules::new();
 
 /// A competitor of a measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -49,16 +46,16 @@ pub(crate) enum Answer {
 }
 
 impl Runner {
-    pub(crate) fn new(competitor: Competitor, problem: &Problem) -> Result<Self, EngineError> {
+    pub(crate) fn new(competitor: Competitor, problem: &Problem) -> Result<Self, Error> {
         let grid = &problem.grid;
         Ok(match competitor {
             Competitor::Ours(setup) => {
                 let begin = Instant::now();
-                let space = Space::new(setup, grid)?;
-                let index = Index::new(setup, &space, &RULES)?;
+                let space = setup.space(&Map::from(Arc::clone(grid)))?;
+                let index = setup.prepare(&space)?;
                 let seconds = begin.elapsed().as_secs_f64();
                 let bytes = space.memory_bytes() + index.memory_bytes();
-                Self::Ours(index.planner()?, Preparation { seconds, bytes })
+                Self::Ours(index.planner(), Preparation { seconds, bytes })
             }
             Competitor::Baseline(Baseline::Pathfinding) => Self::Bools(BoolMap::new(grid)),
             Competitor::Baseline(Baseline::GridPathfinding) => Self::Pathing(Box::new(pathing_grid(grid))),
@@ -75,7 +72,7 @@ impl Runner {
 
     pub(crate) fn solve(&mut self, query: Query) -> Result<Answer, QueryError> {
         Ok(match self {
-            Self::Ours(planner, _) => Answer::Outcome(planner.solve(query)?),
+            Self::Ours(planner, _) => Answer::Outcome(planner.find(query)?),
             Self::Bools(map) => Answer::Cells(map.solve(query)),
             Self::Pathing(pathing) => Answer::Points(solve_on(pathing, query)),
         })

@@ -2,7 +2,7 @@
 
 use std::{hint::black_box, time::Instant};
 
-use mediant::EngineError;
+use mediant::Error;
 use mediant_formats::scenario_tolerance;
 use mediant_grid::{CornerRule, Rules};
 use mediant_moves::{FiniteK, K};
@@ -61,7 +61,7 @@ pub enum MeasureError {
         /// The map.
         map: String,
         /// The reason.
-        source: Box<EngineError>,
+        source: Box<Error>,
     },
     /// A query that was refused.
     #[error("{competitor} on map `{map}`, instance {index}: {source}")]

@@ -2,15 +2,12 @@
 
 use std::{hint::black_box, sync::Arc, time::Instant};
 
-use mediant::{EngineError, Index, Planner, Setup, SharedRules, Space};
+use mediant::{Error, Index, Map, Planner, Setup, Space};
 use mediant_grid::{Grid, Vertex};
 use mediant_report::stats::median;
 use mediant_search::{Counters, Outcome, Path, Query};
 
 use crate::Preparation;
-
-/// The pruning rules that the maps have in common.
-static RULES: SharedRules = SharedRules::new();
 
 /// The queries of a map, to be answered by several setups one after the other.
 #[derive(Debug)]
@@ -18,10 +15,33 @@ pub struct Study<'a> {
     grid: &'a Arc<Grid>,
     queries: &'a [Query],
     passes: u32,
-    /// The last search space, and the seconds that it took: setups of the same k and rules share it.
-    space: Option<(Space, f64)>,
+    /// The last space: setups of the same k and rules share it, if they search the same of it.
+    space: Option<ReadySpace>,
     /// The last index, and the seconds that it took.
     index: Option<(Index, f64)>,
+}
+
+/// A space in which what an engine searches is made.
+#[derive(Debug)]
+struct ReadySpace {
+    space: Space,
+    /// Whether that is the grid graph.
+    has_grid_graph: bool,
+    seconds: f64,
+}
+
+impl ReadySpace {
+    fn new(map: &Map, setup: Setup) -> Result<Self, Error> {
+        let begin = Instant::now();
+        let space = setup.space(map)?;
+        space.make_ready(setup.engine)?;
+        let seconds = begin.elapsed().as_secs_f64();
+        Ok(Self { space, has_grid_graph: setup.capabilities().grid_graph, seconds })
+    }
+
+    fn serves(&self, setup: Setup) -> bool {
+        self.space.motion() == setup.motion() && self.has_grid_graph == setup.capabilities().grid_graph
+    }
 }
 
 /// The answers of a setup to the queries of a [`Study`], and their time.
@@ -76,19 +96,19 @@ impl<'a> Study<'a> {
     /// over its index.
     ///
     /// # Errors
-    /// [`EngineError`] for a setup that does not exist.
-    pub fn run(&mut self, setup: Setup) -> Result<Run, EngineError> {
+    /// [`Error`] for a setup that does not exist.
+    pub fn run(&mut self, setup: Setup) -> Result<Run, Error> {
         let (mut planner, preparation) = self.planner(setup)?;
-        let answer = |query: &Query| match planner.solve_counted(*query) {
+        let answer = |query: &Query| match planner.find_counted(*query) {
             Ok((Outcome::Found(path), counters)) => Some(Answer::new(&path, counters)),
             // A query with a blocked end, or one at which CHPA* as published gives up.
-            Ok((Outcome::Unreachable, _)) | Err(_) => None,
+            Ok(_) | Err(_) => None,
         };
         let answers: Vec<Option<Answer>> = self.queries.iter().map(answer).collect();
         let mut pass = || {
             let begin = Instant::now();
             for query in self.queries {
-                let _ = black_box(planner.solve(black_box(*query)));
+                let _ = black_box(planner.find(black_box(*query)));
             }
             begin.elapsed().as_secs_f64() * 1e6 / self.queries.len().max(1) as f64
         };
@@ -96,32 +116,29 @@ impl<'a> Study<'a> {
         Ok(Run { answers, micros: median(&passes), preparation })
     }
 
-    fn planner(&mut self, setup: Setup) -> Result<(Planner, Preparation), EngineError> {
+    fn planner(&mut self, setup: Setup) -> Result<(Planner, Preparation), Error> {
         setup.check()?;
-        let space = match self.space.take() {
-            Some((space, seconds)) if (space.k(), space.rules()) == (setup.k, setup.rules) => {
-                (space, seconds)
-            }
+        let ready = match self.space.take() {
+            Some(ready) if ready.serves(setup) => ready,
             _ => {
                 // Whatever was prepared in another space is not for this one.
                 self.index = None;
-                let begin = Instant::now();
-                (Space::new(setup, self.grid)?, begin.elapsed().as_secs_f64())
+                ReadySpace::new(&Map::from(Arc::clone(self.grid)), setup)?
             }
         };
-        let (space, space_seconds) = self.space.insert(space);
+        let ReadySpace { space, seconds: space_seconds, .. } = self.space.insert(ready);
         let unsmoothed = Setup { smoothing: None, ..setup };
         let index = match self.index.take() {
             Some((index, seconds)) if index.setup() == unsmoothed => (index, seconds),
             _ => {
                 let begin = Instant::now();
-                (Index::new(unsmoothed, space, &RULES)?, begin.elapsed().as_secs_f64())
+                (unsmoothed.prepare(space)?, begin.elapsed().as_secs_f64())
             }
         };
         let (index, index_seconds) = self.index.insert(index);
         let bytes = space.memory_bytes() + index.memory_bytes();
         let preparation = Preparation { seconds: *space_seconds + *index_seconds, bytes };
-        Ok((index.clone().with_smoothing(setup.smoothing).planner()?, preparation))
+        Ok((index.clone().with_smoothing(setup.smoothing).planner(), preparation))
     }
 }
 
@@ -156,11 +173,12 @@ mod tests {
             "jps-plus:3:never",
         ] {
             let run = study.run(setup(text)).expect("a run");
-            let space = Space::new(setup(text), &grid).expect("a space");
-            let index = Index::new(setup(text), &space, &RULES).expect("an index");
-            let mut planner = index.planner().expect("a planner");
+            let ReadySpace { space, .. } =
+                ReadySpace::new(&Map::from(Arc::clone(&grid)), setup(text)).expect("a space");
+            let index = setup(text).prepare(&space).expect("an index");
+            let mut planner = index.planner();
             for (query, answer) in queries.iter().zip(&run.answers) {
-                let Ok((Outcome::Found(path), counters)) = planner.solve_counted(*query) else {
+                let Ok((Outcome::Found(path), counters)) = planner.find_counted(*query) else {
                     assert_eq!(*answer, None, "{text}");
                     continue;
                 };

@@ -16,7 +16,7 @@ use std::{
 };
 
 use clap::Args;
-use mediant::{Engine, Planner, Setup, SharedRules};
+use mediant::{Engine, Map, Planner, Setup};
 use mediant_formats::{MapFile, Scenario, scenario_tolerance};
 use mediant_grid::{CornerRule, DiagonalGap, Rules};
 use mediant_moves::{FiniteK, K};
@@ -67,9 +67,6 @@ pub enum VerifyError {
 fn number(text: &str) -> Result<u64, std::num::ParseIntError> {
     text.replace('_', "").parse()
 }
-
-/// The pruning rules, which all maps share.
-static RULES: SharedRules = SharedRules::new();
 
 /// How the costs of an engine must relate to the known ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -304,7 +301,8 @@ fn scenario_of(
     let grid = Arc::new(MapFile::read(path)?.to_grid());
     let scenario = Scenario::read(path.with_extension("map.scen"))?;
     let mut tally = Tally::default();
-    let mut planner = Planner::new(setup, &grid, &RULES)
+    let mut planner = setup
+        .planner(&Map::from(Arc::clone(&grid)))
         .map_err(|wrong| VerifyError::Wrong(format!("{}: {wrong}", path.display())))?;
     for (index, instance) in scenario.instances().iter().enumerate().step_by(every) {
         let reachable = instance.optimal > 0.0 || instance.start == instance.goal;
@@ -330,7 +328,7 @@ fn scenario_of(
 
 /// The cost of a query's answer; `None` where there is no path.
 fn cost(planner: &mut Planner, query: Query) -> Result<Option<f64>, QueryError> {
-    planner.solve(query).map(|outcome| outcome.path().map(|path| path.cost()))
+    planner.find(query).map(|outcome| outcome.path().map(|path| path.cost()))
 }
 
 /// The setup and the map that the name of a reference file states.
@@ -429,7 +427,8 @@ fn reference(file: &Path, engine: Engine, maps: &BTreeMap<String, PathBuf>) -> R
     let grid = Arc::new(MapFile::read(path)?.to_grid());
     let scenario = Scenario::read(path.with_extension("map.scen"))?;
     let mut tally = Tally::default();
-    let mut planner = Planner::new(setup, &grid, &RULES).map_err(|error| wrong(error.to_string()))?;
+    let mut planner =
+        setup.planner(&Map::from(Arc::clone(&grid))).map_err(|error| wrong(error.to_string()))?;
     for &(index, known) in &rows {
         let instance = scenario.instances().get(index);
         let instance = instance.ok_or_else(|| wrong(format!("no instance {index}")))?;

@@ -6,8 +6,8 @@ use std::{
     process::ExitCode,
 };
 
-use mediant::{Engine, EngineError, SetupError};
-use mediant_formats::{IndexError, MapMismatch, ReadError, WriteError};
+use mediant::{Engine, SetupError};
+use mediant_formats::{MapMismatch, ReadError};
 use mediant_grid::{PlacementKind, Vertex};
 
 use crate::terminal::message::say_error;
@@ -56,11 +56,7 @@ pub(crate) enum Failure {
     #[error(transparent)]
     Setup(#[from] SetupError),
     #[error(transparent)]
-    Engine(#[from] EngineError),
-    #[error("{}: {source}", path.display())]
-    Index { path: PathBuf, source: Box<IndexError> },
-    #[error(transparent)]
-    WriteIndex(#[from] WriteError),
+    Library(#[from] mediant::Error),
     #[error("{}: cannot be written: {source}", path.display())]
     Write { path: PathBuf, source: io::Error },
     #[error("--draw shows a single query: give --from and --to, or --limit 1")]

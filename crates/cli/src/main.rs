@@ -19,7 +19,6 @@ mod builtin;
 mod commands;
 mod draw;
 mod failure;
-mod index_file;
 mod map;
 mod run;
 mod terminal;

@@ -35,6 +35,13 @@ impl Map {
     }
 }
 
+impl Map {
+    /// The map as the library searches it.
+    pub(crate) fn to_library(&self) -> mediant::Map {
+        mediant::Map::from(Arc::clone(&self.grid))
+    }
+}
+
 /// Reads a scenario file, or parses that of the bundled map that `builtin:NAME` names. Returns the name that
 /// reports give it, too.
 pub(crate) fn load_scenario(path: &Path) -> Result<(String, Scenario), Failure> {

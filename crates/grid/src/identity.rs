@@ -170,7 +170,8 @@ impl Identity {
         Err(Mismatch { prepared, belongs_to: self, other, found })
     }
 
-    /// The identity as bytes: width, height, four words of digest, rules and k, each a little-endian `u32`. A width of 0 stands for every map, a k of 0 for every k, and of 2³² − 1 for k = ∞.
+    /// The identity as bytes: width, height, four words of digest, rules and k, each a little-endian `u32`. A
+    /// width of 0 stands for every map, a k of 0 for every k, and of 2³² − 1 for k = ∞.
     #[must_use]
     pub fn to_bytes(self) -> [u8; Self::BYTES] {
         let MapId { width, height, digest: [a, b, c, d] } =

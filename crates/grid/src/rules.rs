@@ -78,6 +78,18 @@ impl Rules {
     }
 }
 
+impl From<CornerRule> for Rules {
+    fn from(rule: CornerRule) -> Self {
+        Self::Center(rule)
+    }
+}
+
+impl From<DiagonalGap> for Rules {
+    fn from(gap: DiagonalGap) -> Self {
+        Self::Corner(gap)
+    }
+}
+
 /// Displays a value by the name that the `mediant` program accepts and prints.
 macro_rules! names {
     ($type:ty: $($variant:path => $name:literal),+) => {

@@ -20,6 +20,8 @@ pub struct Capabilities {
     pub max_k: Option<u32>,
     /// Whether it takes k = ∞.
     pub any: bool,
+    /// Whether it searches the grid graph, rather than the free space alone.
+    pub grid_graph: bool,
     /// Its guarantee, for a table. `optimal(k)` at k = ∞ means that no legal path is shorter.
     pub guarantee: &'static str,
     /// Its paper: first author and year.
@@ -41,6 +43,7 @@ impl Capabilities {
         placements: &[PlacementKind::Center, PlacementKind::Corner],
         max_k: Some(GridGraph::<Centers>::MAX_K),
         any: false,
+        grid_graph: true,
         guarantee: "optimal(k)",
         paper: "",
         overestimates: false,
@@ -73,7 +76,8 @@ impl Engine {
     pub const fn capabilities(self) -> Capabilities {
         let search = Capabilities::SEARCH;
         let theta = Capabilities { guarantee: "suboptimal", ..search };
-        let subgoals = Capabilities { index: Some(SubgoalGraph::<Corners>::VERSION), ..search };
+        let subgoals =
+            Capabilities { grid_graph: false, index: Some(SubgoalGraph::<Corners>::VERSION), ..search };
         let hierarchy = Capabilities {
             placements: &[PlacementKind::Center],
             max_k: Some(3),
@@ -103,6 +107,7 @@ impl Engine {
                 placements: &[PlacementKind::Corner],
                 max_k: None,
                 any: true,
+                grid_graph: false,
                 guarantee: "optimal(any)",
                 paper: "Harabor 2016",
                 ..search

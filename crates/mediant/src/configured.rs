@@ -1,8 +1,8 @@
 //! The engines with their options.
 //!
-//! Each engine's options are a struct, and `ConfiguredEngine::slots` pairs each field with the description of its
-//! option. Setups as text, the program's flags and its records know the options of an engine from that list
-//! alone.
+//! Each engine's options are a struct, and `ConfiguredEngine::slots` pairs each field with the description of
+//! its option. Setups as text, the program's flags and its records know the options of an engine from that
+//! list alone.
 
 use std::num::NonZeroU32;
 

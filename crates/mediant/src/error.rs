@@ -1,12 +1,15 @@
-//! Why a setup is refused, and why a planner cannot be made.
+//! The errors of the library.
 
-use mediant_grid::{Mismatch, PlacementKind, Rules};
+use std::path::Path;
+
+use mediant_formats::{IndexError, ReadError, WriteError};
+use mediant_grid::{GridError, Mismatch, PlacementKind, Rectangle, Rules};
 use mediant_hierarchy::HierarchyError;
 use mediant_moves::{FiniteK, K, KError};
 use mediant_search::{JumpError, QueryError};
 use mediant_subgoal::SubgoalError;
 
-use crate::{engine::Engine, option::Levels};
+use crate::{engine::Engine, motion::Motion, names::UnknownName, option::Levels, text::TextError};
 
 /// The error for a setup whose parts do not fit together.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -84,6 +87,20 @@ pub enum SetupError {
         /// The engine.
         engine: Engine,
     },
+    /// Options of another engine than that of the index.
+    #[error("this index is of {known}: give options of {known}, or prepare {engine}")]
+    OtherEngine {
+        /// The engine of the options.
+        engine: Engine,
+        /// The engine of the index.
+        known: Engine,
+    },
+    /// Another variant than that which the index was prepared for.
+    #[error("this index is for another variant of {engine}: prepare the one that you want")]
+    OtherVariant {
+        /// The engine.
+        engine: Engine,
+    },
     /// A saved index or all distances, for an engine that has none.
     #[error("{engine} has no {what}: choose {others}")]
     Without {
@@ -110,39 +127,71 @@ impl SetupError {
     }
 }
 
-/// The error for a planner, an index or distances that cannot be made.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+/// Why something cannot be made, read, written, or asked.
+///
+/// [`code`](Self::code) is a stable name for each kind of mistake, the same in all languages; the text says
+/// what was expected, what was found, and what to do, and may be worded better in any version.
+///
+/// ```
+/// use mediant::{Map, Error, ErrorCode};
+/// let map = Map::from_rows(["..#", "..."])?;
+/// let error = map.path((2, 0), (0, 0)).unwrap_err();
+/// assert_eq!((error.code(), error.code().name()), (ErrorCode::StartBlocked, "start-blocked"));
+/// assert_eq!(error.to_string(), "the start (2, 0) is blocked: choose a free vertex");
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum EngineError {
-    /// A setup whose parts do not fit together.
+pub enum Error {
+    /// A map that cannot be made.
     #[error(transparent)]
-    Setup(#[from] SetupError),
-    /// A k that grid graphs do not take.
+    Grid(#[from] GridError),
+    /// An edit outside the map.
+    #[error(
+        "an edit of {} × {} cells at ({}, {}), outside the map of {} × {} cells: name cells of the map",
+        at.width, at.height, at.x, at.y, size.0, size.1
+    )]
+    Edit {
+        /// The rectangle.
+        at: Rectangle,
+        /// The width and the height of the map.
+        size: (u32, u32),
+    },
+    /// Motion that no engine searches.
+    #[error("no engine searches {motion}: choose a k from 2 to {max}, or corners for k = any")]
+    Motion {
+        /// The motion.
+        motion: Motion,
+        /// The largest finite k.
+        max: u32,
+    },
+    /// A number that is no k.
     #[error(transparent)]
     K(#[from] KError),
-    /// A search space for another k or other rules than those of the setup.
-    #[error(
-        "needs the search space of k = {} under {}, found that of k = {} under {}",
-        expected.0, expected.1, found.0, found.1
-    )]
-    Space {
-        /// The k and the rules of the setup.
-        expected: (K, Rules),
-        /// The k and the rules of the search space.
-        found: (K, Rules),
-    },
-    /// Two parts that do not belong together.
+    /// The name of an engine, or of a value of an option, that does not exist.
+    #[error(transparent)]
+    Name(#[from] UnknownName),
+    /// A text that is no setup.
+    #[error(transparent)]
+    Text(#[from] TextError),
+    /// An engine with options, a k or rules that it does not take, or asked for what it does not have.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// Two things that do not belong together: of another map, placement, rule or k.
     #[error(transparent)]
     Mismatch(#[from] Mismatch),
-    /// A jump table that cannot be made, or bytes that are not a jump table of this map.
+    /// An invalid query, or one at which the engine gave up.
     #[error(transparent)]
-    JumpTable(#[from] JumpError),
-    /// A subgoal graph that cannot be made, or bytes that are not a subgoal graph of this map.
+    Query(#[from] QueryError),
+    /// A jump table that cannot be made or read.
     #[error(transparent)]
-    Subgoal(#[from] SubgoalError),
-    /// A graph of clusters or segments that cannot be made, or bytes that are no such graph of this map.
+    Jump(JumpError),
+    /// A subgoal graph that cannot be made or read.
     #[error(transparent)]
-    Hierarchy(#[from] HierarchyError),
+    Subgoal(SubgoalError),
+    /// A graph of clusters or segments that cannot be made, repaired or read.
+    #[error(transparent)]
+    Hierarchy(HierarchyError),
     /// A saved index with other levels than the setup names.
     #[error(
         "needs an index with {}, found one with {}; choose the levels that it has, or build it again",
@@ -166,7 +215,41 @@ pub enum EngineError {
         /// The side of the index, in cells.
         found: u32,
     },
-    /// An invalid query, or one at which the engine gave up.
+    /// Bytes that are no saved index, or one of another engine or version.
     #[error(transparent)]
-    Query(#[from] QueryError),
+    IndexFile(IndexError),
+    /// A file that cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// A file that cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+}
+
+/// Whatever has a mismatch inside is a mismatch.
+macro_rules! from_errors {
+    ($($variant:ident: $source:ident),+) => {
+        $(impl From<$source> for Error {
+            fn from(error: $source) -> Self {
+                match error {
+                    $source::Mismatch(mismatch) => Self::Mismatch(mismatch),
+                    other => Self::$variant(other),
+                }
+            }
+        })+
+    };
+}
+
+from_errors!(Jump: JumpError, Subgoal: SubgoalError, Hierarchy: HierarchyError, IndexFile: IndexError);
+
+impl Error {
+    /// This error of the index in a file, with the file's path where it has a place for it.
+    pub(crate) fn of_file(self, path: &Path) -> Self {
+        match self {
+            Self::IndexFile(source) => {
+                ReadError::Index { path: path.to_owned(), source: source.into() }.into()
+            }
+            other => other,
+        }
+    }
 }

@@ -1,23 +1,27 @@
-//! The catalog of engines: programs, benchmarks and test suites take all engines from this one list.
+//! Pathfinding on uniform-cost grids over the 2^k neighborhoods: every engine of Mediant behind one door.
 //!
-//! - A [`Setup`] is an [`ConfiguredEngine`] with its options, a k, rules of motion and a smoothing. It is refused with
-//!   a [`SetupError`] if these do not fit together.
-//! - A [`Space`] is a map prepared for one k and one rule of motion.
-//! - An [`Index`] is what the engine prepares in that space.
-//! - A [`Planner`] answers queries on an index.
+//! - A [`Map`] says which cells are blocked.
+//! - With a [`Motion`] (k, the placement of vertices, the rule of motion) it is a [`Space`].
+//! - An [`Index`] is what an [`Engine`] prepares in a space.
+//! - A [`Planner`] answers one [`Query`] after another on an index: one for each thread.
 //!
 //! ```
-//! use std::sync::Arc;
-//! use mediant::{Planner, SharedRules};
-//! use mediant_grid::Grid;
-//! use mediant_search::Query;
+//! use mediant::{Engine, K, Map, Motion, Query};
 //!
-//! let grid = Arc::new(Grid::from_fn(9, 9, |x, y| x == 4 && y != 8)?);
-//! let mut planner = Planner::new("jps:3:never,limit=16".parse()?, &grid, &SharedRules::new())?;
-//! let outcome = planner.solve(Query::new((0, 0), (8, 0)))?;
-//! assert!(outcome.path().is_some());
-//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! let map = Map::from_fn(9, 9, |x, y| x == 4 && y != 8)?;
+//! // At once, over eight directions between the centers of cells:
+//! let path = map.path((0, 0), (8, 0))?.expect("there is a way");
+//! // Prepared, at any angle between the corners of cells:
+//! let index = map.space(Motion::corners(K::ANY))?.prepare(Engine::Subgoal)?;
+//! let answer = index.planner().find(Query::new((0, 0), (9, 0)))?;
+//! assert!(answer.path().is_some_and(|shortest| shortest.cost() < 19.0));
+//! # assert!(path.cost() > 16.0);
+//! # Ok::<(), mediant::Error>(())
 //! ```
+//!
+//! Handles own what they need: no lifetime and no type parameter reaches the user. Maps, spaces and indexes
+//! never change, their clones share them, and all threads may use them. Every error has a stable
+//! [code](Error::code), and nothing panics on bad input.
 //!
 //! # The key decision: closed enums outside, types inside
 //!
@@ -26,16 +30,23 @@
 //! of all engines have one type; a query is one dynamic call. Inside, each search has its types, and nothing
 //! in its loop is dynamic, except an observer if there is one. `make.rs` leads from the one to the other,
 //! with a line for each engine. A closed enum also lets the compiler find every place that a new engine must
-//! fill in.
+//! fill in. The typed crates stay for those who want them: `mediant-search`, `mediant-subgoal`,
+//! `mediant-hierarchy`.
 //!
-//! # Adding to the catalog
+//! # What belongs together
+//!
+//! Maps, spaces and indexes carry their [`Identity`]: a digest of the map's cells, the rules, the k. Whatever
+//! joins two of them compares these in constant time, and answers with [`Error::Mismatch`], which names both.
+//!
+//! # Adding an engine or an option
 //!
 //! An engine is a variant of [`Engine`] with its [`Capabilities`], a variant of [`ConfiguredEngine`], what it
-//! prepares (`index/`), and the line that makes its planner (`make.rs`).
+//! prepares (`index/`), and the line that makes its search (`make.rs`).
 //!
 //! An option, with a value of a [`ValueKind`] that exists, touches three files:
 //! 1. `option/description.rs`: its name, texts and samples, and its place in [`EngineOption::ALL`];
-//! 2. `engine.rs`: its field, its line in `ConfiguredEngine::slots`, and in `ConfiguredEngine::value` its default if it has one;
+//! 2. `configured.rs`: its field, its line in `ConfiguredEngine::slots`, and in `ConfiguredEngine::value` its
+//!    default if it has one;
 //! 3. its use, in `make.rs` if it changes the search, or in `index/` if it changes what is prepared.
 //!
 //! The text of setups, [`Setup::all`] of the test suites, and the flags, help, records and tables of the
@@ -44,20 +55,24 @@
 //!
 //! # What is not here
 //!
-//! Files and clocks. An index is written to bytes and read from them; whoever wants to know how long that
-//! takes, measures.
+//! Clocks, threads (but for the feature `parallel`, which prepares subgoal graphs on all cores), and output.
 
 mod capabilities;
+mod choice;
+mod code;
 mod configured;
-mod distances;
 mod engine;
 mod error;
 mod heuristic;
 mod index;
 mod make;
+mod map;
+mod motion;
 mod names;
 mod option;
 mod planner;
+#[cfg(doctest)]
+mod readme;
 mod setup;
 mod shared_rules;
 mod space;
@@ -65,19 +80,28 @@ mod suite;
 mod text;
 
 pub use capabilities::Capabilities;
+pub use choice::Choice;
+pub use code::ErrorCode;
 pub use configured::{
     CanonicalOptions, ChpaOptions, ConfiguredEngine, GuidedOptions, HpaOptions, JpsPlusOptions, JumpOptions,
     SubgoalOptions,
 };
-pub use distances::distances;
 pub use engine::Engine;
-pub use error::{EngineError, SetupError};
-pub use index::Index;
+pub use error::{Error, SetupError};
+pub use index::{Index, Origin};
+pub use map::Map;
+pub use mediant_grid::{
+    CornerRule, DiagonalGap, Grid, Identity, MapId, Mismatch, PlacementKind, Rectangle, Rules, Vertex,
+};
+pub use mediant_moves::{Cost, FiniteK, K};
+pub use mediant_search::{
+    Counters, End, Guarantee, NodeEvent, Observer, Outcome, Path, Query, QueryError, Smoothing,
+};
 pub use mediant_subgoal::{Progress, Stage};
+pub use motion::Motion;
 pub use names::UnknownName;
 pub use option::{EngineOption, HeuristicName, Levels, OptionValue, UnknownLevels, ValueKind, Variant};
 pub use planner::Planner;
 pub use setup::Setup;
-pub use shared_rules::SharedRules;
 pub use space::Space;
 pub use text::TextError;

@@ -1,37 +1,67 @@
-//! One type for the planners of all engines.
+//! Planners: one type for all engines.
 
-use std::{fmt, sync::Arc};
+use std::fmt;
 
-use mediant_grid::Grid;
-use mediant_search::{
-    Counters, Guarantee, Observer, Outcome, Planner as Search, Query, QueryError, Smoothing,
-    parts::HasFreeSpace,
-};
+use mediant_search::{Counters, Guarantee, Observer, Outcome, Planner as Search, Query, QueryError};
 
-use crate::{error::EngineError, index::Index, setup::Setup, shared_rules::SharedRules, space::Space};
+use crate::{index::Index, make};
 
-/// A planner whose type is erased. A query costs one dynamic call; the search itself is compiled for its
-/// types.
+/// Answers queries on an [`Index`], one after another, on scratch memory of its own: make one for each
+/// thread. A warm planner allocates nothing but the path that it returns. The same query always gives the
+/// same path.
 ///
-/// It holds the scratch memory of one thread. Planners for other threads are made of the same [`Index`].
+/// A query costs one dynamic call; the search itself is compiled for its types.
+///
+/// ```
+/// use mediant::{K, Map, Motion, Query};
+///
+/// let space = Map::from_fn(9, 9, |x, y| x == 4 && y != 8)?.space(Motion::centers(K::N8))?;
+/// let mut planner = space.planner(space.engine())?;
+/// let answer = planner.find(Query::new((0, 0), (8, 0)))?;
+/// assert!(answer.path().is_some_and(|path| path.cost() > 16.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Planner {
-    planner: Box<dyn Erased + Send>,
-    /// Smooths the path of an outcome; `None` for paths as they are found.
+    index: Index,
+    search: Box<dyn Erased + Send>,
+    /// Smooths the path of an answer; `None` for paths as they are found.
     smooth: Option<Box<dyn Fn(Outcome) -> Outcome + Send>>,
     guarantee: Guarantee,
 }
 
-/// A planner that can be `dyn`. Observers are `dyn` too, so that each search is compiled only twice: with
-/// and without an observer. An observed search costs a dynamic call for each event.
-trait Erased {
+impl Index {
+    /// A planner on this index. It shares the index, and owns its scratch memory.
+    ///
+    /// # Panics
+    /// Never: the index was checked when it was made.
+    #[must_use]
+    pub fn planner(&self) -> Planner {
+        let search = make::search(self).expect("every constructor of an index checks what its planners need");
+        let guarantee = search.guarantee();
+        let smoothing = self.setup().smoothing;
+        Planner {
+            search,
+            smooth: smoothing.map(|smoothing| make::smoother(self, smoothing)),
+            guarantee: if smoothing.is_some() { guarantee.smoothed() } else { guarantee },
+            index: self.clone(),
+        }
+    }
+}
+
+/// A search that can be `dyn`. Observers are `dyn` too, so that each search is compiled only twice: with and
+/// without an observer. An observed search costs a dynamic call for each event.
+pub(crate) trait Erased {
     /// [`Search::solve`].
     fn solve(&mut self, query: Query) -> Result<Outcome, QueryError>;
 
     /// [`Search::solve_observed`].
     fn solve_observed(&mut self, query: Query, observer: &mut dyn Observer) -> Result<Outcome, QueryError>;
+
+    /// [`Search::guarantee`].
+    fn guarantee(&self) -> Guarantee;
 }
 
-impl<P: Search> Erased for P {
+impl<S: Search> Erased for S {
     fn solve(&mut self, query: Query) -> Result<Outcome, QueryError> {
         Search::solve(self, query)
     }
@@ -43,72 +73,50 @@ impl<P: Search> Erased for P {
     ) -> Result<Outcome, QueryError> {
         Search::solve_observed(self, query, &mut observer)
     }
+
+    fn guarantee(&self) -> Guarantee {
+        Search::guarantee(self)
+    }
 }
 
 impl Planner {
-    /// A planner on a map, with a search space and an index of its own.
-    ///
-    /// # Errors
-    /// [`EngineError`] for a setup whose parts do not fit together, or whose index cannot be made.
-    pub fn new(setup: Setup, grid: &Arc<Grid>, rules: &SharedRules) -> Result<Self, EngineError> {
-        Index::new(setup, &Space::new(setup, grid)?, rules)?.planner()
-    }
-
-    /// Erases the type of a planner, whose paths are returned as it finds them.
-    pub(crate) fn of(planner: impl Search + Send + 'static) -> Self {
-        Self { guarantee: planner.guarantee(), planner: Box::new(planner), smooth: None }
-    }
-
-    /// The same planner, with its paths smoothed in this free space.
-    pub(crate) fn smoothed(
-        self,
-        space: Arc<impl HasFreeSpace + Send + Sync + 'static>,
-        smoothing: Smoothing,
-    ) -> Self {
-        let smooth = move |outcome| match outcome {
-            Outcome::Found(path) => Outcome::Found(smoothing.apply(space.free_space(), &path)),
-            outcome => outcome,
-        };
-        Self { smooth: Some(Box::new(smooth)), guarantee: self.guarantee.smoothed(), ..self }
-    }
-
     /// Answers a query.
     ///
     /// # Errors
     /// [`QueryError`] for an end that is blocked or outside the map, or where the engine gives up.
-    pub fn solve(&mut self, query: Query) -> Result<Outcome, QueryError> {
-        let outcome = self.planner.solve(query);
-        self.finish(outcome)
+    pub fn find(&mut self, query: Query) -> Result<Outcome, QueryError> {
+        let answer = self.search.solve(query);
+        self.finish(answer)
     }
 
     /// Answers a query and reports the events of the search.
     ///
     /// # Errors
-    /// Those of [`solve`](Self::solve).
-    pub fn solve_observed(
+    /// Those of [`find`](Self::find).
+    pub fn find_observed(
         &mut self,
         query: Query,
         observer: &mut dyn Observer,
     ) -> Result<Outcome, QueryError> {
-        let outcome = self.planner.solve_observed(query, observer);
-        self.finish(outcome)
+        let answer = self.search.solve_observed(query, observer);
+        self.finish(answer)
     }
 
     /// Answers a query and counts the events of the search.
     ///
     /// # Errors
-    /// Those of [`solve`](Self::solve).
-    pub fn solve_counted(&mut self, query: Query) -> Result<(Outcome, Counters), QueryError> {
+    /// Those of [`find`](Self::find).
+    pub fn find_counted(&mut self, query: Query) -> Result<(Outcome, Counters), QueryError> {
         let mut counters = Counters::default();
-        let outcome = self.solve_observed(query, &mut counters)?;
-        Ok((outcome, counters))
+        let answer = self.find_observed(query, &mut counters)?;
+        Ok((answer, counters))
     }
 
     /// Smooths the path, if the planner smooths its paths.
-    fn finish(&self, outcome: Result<Outcome, QueryError>) -> Result<Outcome, QueryError> {
+    fn finish(&self, answer: Result<Outcome, QueryError>) -> Result<Outcome, QueryError> {
         match &self.smooth {
-            None => outcome,
-            Some(smooth) => outcome.map(smooth),
+            None => answer,
+            Some(smooth) => answer.map(smooth),
         }
     }
 
@@ -117,10 +125,23 @@ impl Planner {
     pub const fn guarantee(&self) -> Guarantee {
         self.guarantee
     }
+
+    /// How much longer than the shortest path at any angle its paths can be: 1.08 is 8 %. `None` where no
+    /// bound is proven.
+    #[must_use]
+    pub fn bound(&self) -> Option<f64> {
+        self.guarantee.bound(self.index.setup().rules)
+    }
+
+    /// The index that it searches.
+    #[must_use]
+    pub const fn index(&self) -> &Index {
+        &self.index
+    }
 }
 
 impl fmt::Debug for Planner {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Planner").field("guarantee", &self.guarantee).finish_non_exhaustive()
+        f.debug_struct("Planner").field("setup", &self.index.setup()).finish_non_exhaustive()
     }
 }

@@ -1,6 +1,6 @@
 //! Setups: an engine with all that a planner needs besides a map.
 
-use mediant_grid::{CornerRule, PlacementKind, Rules};
+use mediant_grid::{Centers, CornerRule, GridGraph, Identity, PlacementKind, Rules};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{Guarantee, Smoothing};
 
@@ -8,8 +8,13 @@ use crate::{
     capabilities::Capabilities,
     configured::ConfiguredEngine,
     engine::Engine,
-    error::SetupError,
+    error::{Error, SetupError},
+    index::Index,
+    map::Map,
+    motion::Motion,
     option::{HeuristicName, Variant},
+    planner::Planner,
+    space::Space,
 };
 
 /// An engine with its options, its k and rules of motion, and how its paths are smoothed.
@@ -49,6 +54,50 @@ impl Setup {
         Self { engine: engine.into(), k: k.into(), rules, smoothing: None }
     }
 
+    /// The k and the rules.
+    #[must_use]
+    pub const fn motion(&self) -> Motion {
+        Motion { k: self.k, rules: self.rules }
+    }
+
+    /// A map with the setup's k and rules.
+    ///
+    /// # Errors
+    /// [`Error::Setup`] for a setup whose parts do not fit together.
+    pub fn space(&self, map: &Map) -> Result<Space, Error> {
+        self.check()?;
+        map.space(self.motion())
+    }
+
+    /// Prepares the setup's engine in a space.
+    ///
+    /// # Errors
+    /// Those of [`Space::prepare`], and [`Error::Mismatch`] for a space of another k or other rules.
+    pub fn prepare(&self, space: &Space) -> Result<Index, Error> {
+        let needed = Identity { map: None, rules: self.rules, k: Some(self.k) };
+        needed.check("the setup", ("the space", space.identity()))?;
+        Ok(space.prepare(self.engine)?.with_smoothing(self.smoothing))
+    }
+
+    /// A planner on a map, with a space and an index of its own.
+    ///
+    /// # Errors
+    /// Those of [`space`](Self::space) and [`prepare`](Self::prepare).
+    pub fn planner(&self, map: &Map) -> Result<Planner, Error> {
+        Ok(self.prepare(&self.space(map)?)?.planner())
+    }
+
+    /// The finite k of a search on a grid graph.
+    pub(crate) fn finite_k(&self) -> Result<FiniteK, SetupError> {
+        self.k.finite().ok_or_else(|| self.needs_finite_k())
+    }
+
+    fn needs_finite_k(&self) -> SetupError {
+        let max = self.capabilities().max_k.unwrap_or(GridGraph::<Centers>::MAX_K);
+        let others = Engine::names_where(|engine| engine.capabilities().any);
+        SetupError::NeedsFiniteK { engine: self.engine.kind(), max, others }
+    }
+
     /// What the engine can do.
     #[must_use]
     pub const fn capabilities(&self) -> Capabilities {
@@ -66,10 +115,7 @@ impl Setup {
         match (k, capabilities.max_k) {
             (K::Finite(k), Some(max)) if k.get() > max => return Err(SetupError::K { engine, max, k }),
             (K::Finite(k), None) => return Err(SetupError::NeedsAny { engine, k }),
-            (K::Any, Some(max)) if !capabilities.any => {
-                let others = Engine::names_where(|kind| kind.capabilities().any);
-                return Err(SetupError::NeedsFiniteK { engine, max, others });
-            }
+            (K::Any, Some(_)) if !capabilities.any => return Err(self.needs_finite_k()),
             _ => {}
         }
         let placement = rules.placement();

@@ -1,104 +1,285 @@
-//! Search spaces: what the planners of one k and one rule of motion share.
+//! Spaces: a map with rules of motion and a k.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-use mediant_grid::{Centers, Corners, FreeSpace, Grid, GridGraph, Rules, Vertex};
-use mediant_moves::K;
+use mediant_grid::{
+    Centers, Corners, FreeSpace, GridGraph, Identity, Placement, PlacementKind, Rectangle, Rules, Vertex,
+};
+use mediant_moves::{FiniteK, K};
+use mediant_search::{Dijkstra, Path, Query, Wavefront, Zero};
 
-use crate::{error::EngineError, setup::Setup};
+use crate::{
+    choice::Choice,
+    configured::ConfiguredEngine,
+    engine::Engine,
+    error::{Error, SetupError},
+    index::Index,
+    map::Map,
+    motion::Motion,
+    planner::Planner,
+    setup::Setup,
+};
 
-/// What the planners of one k and one rule of motion share: the grid graph of N(k), or at k = ∞ the free
-/// space. Immutable; clones share it.
+/// A map with rules of motion and a k: what can be searched. It never changes, and all threads can share it;
+/// clones are cheap.
+///
+/// ```
+/// use mediant::{Engine, K, Map, Motion, Query};
+///
+/// let map = Map::from_fn(9, 9, |x, y| x == 4 && y != 8)?;
+/// let space = map.space(Motion::corners(K::ANY))?;
+/// // For a few paths: an engine that prepares nothing.
+/// let mut planner = space.planner(Engine::Anya)?;
+/// let answer = planner.find(Query::new((0, 0), (9, 0)))?;
+/// assert!(answer.path().is_some());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
-pub enum Space {
-    /// N(k) on the centers of cells.
-    Centers(Arc<GridGraph<Centers>>),
-    /// N(k) on the corners of cells.
-    Corners(Arc<GridGraph<Corners>>),
-    /// Every direction, on the corners of cells.
-    AnyAngle(Arc<FreeSpace<Corners>>),
+pub struct Space {
+    inner: Arc<Inner>,
 }
 
-/// The error for a search space that an engine does not search. [`Setup::check`] refuses such setups, so
-/// nobody sees it.
-pub(crate) fn no_space(setup: Setup) -> EngineError {
-    let capabilities = setup.capabilities();
-    let k = capabilities.default_k();
-    let expected = (k, capabilities.default_rules(k));
-    EngineError::Space { expected, found: (setup.k, setup.rules) }
+#[derive(Debug)]
+struct Inner {
+    map: Map,
+    motion: Motion,
+    placed: Placed,
+}
+
+/// What can be searched, by placement.
+#[derive(Debug)]
+pub(crate) enum Placed {
+    Centers(Layers<Centers>),
+    Corners(Layers<Corners>),
+}
+
+/// The free space of a map, and the grid graph of N(k), which is made when an engine first searches it.
+#[derive(Debug)]
+pub(crate) struct Layers<P: Placement> {
+    pub(crate) free: Arc<FreeSpace<P>>,
+    graph: OnceLock<Arc<GridGraph<P>>>,
+}
+
+impl<P: Placement> Layers<P> {
+    fn new(map: &Map, motion: Motion, rule: P::Rule) -> Self {
+        let free = FreeSpace::for_k(Arc::clone(map.grid()), rule, motion.k);
+        Self { free: Arc::new(free), graph: OnceLock::new() }
+    }
+
+    /// The grid graph of N(k). Two threads that ask first at the same time both make it, and one is kept.
+    pub(crate) fn graph(&self, k: FiniteK) -> Result<&Arc<GridGraph<P>>, Error> {
+        if let Some(graph) = self.graph.get() {
+            return Ok(graph);
+        }
+        let graph = Arc::new(GridGraph::in_space(&self.free, k)?);
+        Ok(self.graph.get_or_init(|| graph))
+    }
+
+    /// The grid graph shares the free space.
+    fn memory_bytes(&self) -> usize {
+        self.graph.get().map_or_else(|| self.free.memory_bytes(), |graph| graph.memory_bytes())
+    }
 }
 
 impl Space {
-    /// The search space of a map for the k and the rules of a setup.
+    /// A map with rules of motion and a k.
+    pub(crate) fn new(map: &Map, motion: Motion) -> Result<Self, Error> {
+        let max = GridGraph::<Centers>::MAX_K;
+        let is_searched = match motion.k {
+            K::Finite(k) => k.get() <= max,
+            K::Any => motion.rules.placement() == PlacementKind::Corner,
+        };
+        if !is_searched {
+            return Err(Error::Motion { motion, max });
+        }
+        let placed = match motion.rules {
+            Rules::Center(rule) => Placed::Centers(Layers::new(map, motion, rule)),
+            Rules::Corner(gap) => Placed::Corners(Layers::new(map, motion, gap)),
+        };
+        Ok(Self { inner: Arc::new(Inner { map: map.clone(), motion, placed }) })
+    }
+
+    /// Prepares what an engine needs. The index belongs to this space; any number of planners share it.
     ///
     /// # Errors
-    /// [`EngineError::Setup`] for a setup whose parts do not fit together.
-    pub fn new(setup: Setup, grid: &Arc<Grid>) -> Result<Self, EngineError> {
-        setup.check()?;
-        let grid = Arc::clone(grid);
-        Ok(match (setup.k, setup.rules) {
-            (K::Finite(k), Rules::Center(rule)) => Self::Centers(Arc::new(GridGraph::new(grid, k, rule)?)),
-            (K::Finite(k), Rules::Corner(gap)) => Self::Corners(Arc::new(GridGraph::new(grid, k, gap)?)),
-            (K::Any, Rules::Corner(gap)) => Self::AnyAngle(Arc::new(FreeSpace::new(grid, gap))),
-            (K::Any, Rules::Center(_)) => return Err(no_space(setup)),
-        })
+    /// [`Error::Setup`] for an engine that does not take the space's k or rules, or options that do not fit
+    /// together; an error of the engine if the map is too large for its index.
+    pub fn prepare(&self, engine: impl Into<ConfiguredEngine>) -> Result<Index, Error> {
+        Index::new(self, engine.into(), &|_| {})
     }
 
-    /// The k of its moves.
-    #[must_use]
-    pub fn k(&self) -> K {
-        match self {
-            Self::Centers(graph) => graph.k().into(),
-            Self::Corners(graph) => graph.k().into(),
-            Self::AnyAngle(_) => K::Any,
-        }
+    /// A planner of an engine, on an index of its own.
+    ///
+    /// # Errors
+    /// Those of [`prepare`](Self::prepare).
+    pub fn planner(&self, engine: impl Into<ConfiguredEngine>) -> Result<Planner, Error> {
+        Ok(self.prepare(engine)?.planner())
     }
 
-    /// The placement and its rule of motion.
+    /// A shortest path, by an engine that prepares little; `None` if there is none. For more than a few paths
+    /// make a [`planner`](Self::planner).
+    ///
+    /// # Errors
+    /// [`Error::Query`] for a start or goal that is blocked or outside the map.
+    pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
+        let query = Query::new(start, goal);
+        self.check(query)?;
+        let answer = self.planner(Choice::for_one_path(self.motion().k))?.find(query)?;
+        Ok(answer.into_path())
+    }
+
+    /// The engine that we would take for many paths, and why.
+    ///
+    /// ```
+    /// use mediant::{Engine, K, Map, Motion};
+    /// let map = Map::from_fn(40, 40, |x, y| x % 9 == 4 && y % 7 != 3)?;
+    /// let space = map.space(Motion::centers(K::N8))?;
+    /// assert_eq!(space.engine().engine, Engine::Subgoal);
+    /// let mut planner = space.planner(space.engine())?;
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
     #[must_use]
-    pub fn rules(&self) -> Rules {
-        match self {
-            Self::Centers(graph) => graph.rules(),
-            Self::Corners(graph) => graph.rules(),
-            Self::AnyAngle(space) => space.rules(),
-        }
+    pub fn engine(&self) -> Choice {
+        Choice::for_many_paths(self)
+    }
+
+    /// The same rules and k on an edited map: see [`Map::edit`]. This space stays as it is.
+    ///
+    /// # Errors
+    /// Those of [`Map::edit`].
+    pub fn edit(&self, at: Rectangle, blocked: impl FnMut(u32, u32) -> bool) -> Result<Self, Error> {
+        Self::new(&self.map().edit(at, blocked)?, self.motion())
     }
 
     /// The map.
     #[must_use]
-    pub fn grid(&self) -> &Arc<Grid> {
-        match self {
-            Self::Centers(graph) => graph.grid(),
-            Self::Corners(graph) => graph.grid(),
-            Self::AnyAngle(space) => space.grid(),
+    pub fn map(&self) -> &Map {
+        &self.inner.map
+    }
+
+    /// The rules of motion and the k.
+    #[must_use]
+    pub fn motion(&self) -> Motion {
+        self.inner.motion
+    }
+
+    /// What the space is: its map, rules and k.
+    #[must_use]
+    pub fn identity(&self) -> Identity {
+        let Motion { k, rules } = self.motion();
+        Identity { map: Some(self.map().id()), rules, k: Some(k) }
+    }
+
+    /// Whether a path may stand on this vertex; false outside the map.
+    #[must_use]
+    pub fn is_free(&self, at: impl Into<Vertex>) -> bool {
+        let at = at.into();
+        match self.placed() {
+            Placed::Centers(layers) => layers.free.is_free(at),
+            Placed::Corners(layers) => layers.free.is_free(at),
         }
     }
 
-    /// The memory that it uses beyond the map, in bytes.
+    /// Whether there is a path from one vertex to another, in constant time.
+    #[must_use]
+    pub fn connected(&self, from: impl Into<Vertex>, to: impl Into<Vertex>) -> bool {
+        let (from, to) = (from.into(), to.into());
+        match self.placed() {
+            Placed::Centers(layers) => layers.free.connected(from, to),
+            Placed::Corners(layers) => layers.free.connected(from, to),
+        }
+    }
+
+    /// Whether the straight segment between two vertices obeys the rules of motion.
+    #[must_use]
+    pub fn sees(&self, from: impl Into<Vertex>, to: impl Into<Vertex>) -> bool {
+        let (from, to) = (from.into(), to.into());
+        match self.placed() {
+            Placed::Centers(layers) => layers.free.sees(from, to),
+            Placed::Corners(layers) => layers.free.sees(from, to),
+        }
+    }
+
+    /// The vertices that can be reached from `start`, row by row, with their distances: in cells by
+    /// [`Engine::Dijkstra`], in moves by [`Engine::Wavefront`].
+    ///
+    /// ```
+    /// use mediant::{Engine, K, Map, Motion};
+    /// let space = Map::from_rows(["..#"])?.space(Motion::centers(K::N4))?;
+    /// let found = space.distances(Engine::Dijkstra, (0, 0))?;
+    /// assert_eq!(found, [((0, 0).into(), 0.0), ((1, 0).into(), 1.0)]);
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Setup`] for another engine, [`Error::Query`] for a start that is blocked or outside the map.
+    pub fn distances(&self, engine: Engine, start: impl Into<Vertex>) -> Result<Vec<(Vertex, f64)>, Error> {
+        let start = start.into();
+        let Motion { k, rules } = self.motion();
+        Setup::new(engine, k, rules).check()?;
+        match (self.placed(), k.finite()) {
+            (Placed::Centers(layers), Some(k)) => distances(engine, layers.graph(k)?, start),
+            (Placed::Corners(layers), Some(k)) => distances(engine, layers.graph(k)?, start),
+            (_, None) => Err(SetupError::without_distances(engine).into()),
+        }
+    }
+
+    /// Makes what an engine searches, if it is not there yet. [`prepare`](Self::prepare) does it by itself;
+    /// who measures it, calls it before.
+    ///
+    /// # Errors
+    /// [`Error::Setup`] for an engine that does not take the space's k or rules.
+    pub fn make_ready(&self, engine: impl Into<ConfiguredEngine>) -> Result<(), Error> {
+        let (engine, Motion { k, rules }) = (engine.into(), self.motion());
+        Setup::new(engine, k, rules).check()?;
+        if let Some(k) = k.finite().filter(|_| engine.kind().capabilities().grid_graph) {
+            match self.placed() {
+                Placed::Centers(layers) => _ = layers.graph(k)?,
+                Placed::Corners(layers) => _ = layers.graph(k)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// The memory that it uses beyond the map, in bytes: that of the connected components, and of the search
+    /// graph once an engine has searched it.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
-        let bytes = match self {
-            Self::Centers(graph) => graph.memory_bytes(),
-            Self::Corners(graph) => graph.memory_bytes(),
-            Self::AnyAngle(space) => space.memory_bytes(),
+        let bytes = match self.placed() {
+            Placed::Centers(layers) => layers.memory_bytes(),
+            Placed::Corners(layers) => layers.memory_bytes(),
         };
         bytes as u64
     }
 
-    /// Whether there is a path from one vertex to another.
-    #[must_use]
-    pub fn connected(&self, from: Vertex, to: Vertex) -> bool {
-        match self {
-            Self::Centers(graph) => graph.connected(from, to),
-            Self::Corners(graph) => graph.connected(from, to),
-            Self::AnyAngle(space) => space.connected(from, to),
-        }
+    pub(crate) fn placed(&self) -> &Placed {
+        &self.inner.placed
     }
 
-    /// Checks that the setup's parts fit together, and that this is its search space.
-    pub(crate) fn check(&self, setup: Setup) -> Result<(), EngineError> {
-        setup.check()?;
-        let (expected, found) = ((setup.k, setup.rules), (self.k(), self.rules()));
-        if expected == found { Ok(()) } else { Err(EngineError::Space { expected, found }) }
+    /// Checks the ends of a query.
+    fn check(&self, query: Query) -> Result<(), Error> {
+        Ok(match self.placed() {
+            Placed::Centers(layers) => query.check(&layers.free),
+            Placed::Corners(layers) => query.check(&layers.free),
+        }?)
     }
+}
+
+/// The distances from a vertex on a grid graph.
+fn distances<P: Placement>(
+    engine: Engine,
+    graph: &Arc<GridGraph<P>>,
+    start: Vertex,
+) -> Result<Vec<(Vertex, f64)>, Error> {
+    Ok(match engine {
+        Engine::Dijkstra => {
+            let costs = Dijkstra::new(&**graph, Zero).distances(start)?;
+            costs.iter().map(|(at, cost)| (at, cost.to_f64())).collect()
+        }
+        Engine::Wavefront => {
+            let moves = Wavefront::new(&**graph).distances(start)?;
+            moves.iter().map(|(at, moves)| (at, f64::from(moves))).collect()
+        }
+        _ => return Err(SetupError::without_distances(engine).into()),
+    })
 }

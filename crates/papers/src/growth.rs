@@ -86,7 +86,9 @@ fn measure(context: &Context<'_>) -> Result<Findings, Error> {
 fn on_tiles(context: &Context<'_>, map: &Map, times: u32, count: usize) -> Result<(f64, Vec<Sums>), Error> {
     let grid = Arc::new(tiled(map.grid()?.as_ref(), times)?);
     let reference = setup(SETUPS[0])?;
-    let space = mediant::Space::new(reference, &grid).map_err(|wrong| Error::Reproduce(wrong.to_string()))?;
+    let space = reference
+        .space(&mediant::Map::from(Arc::clone(&grid)))
+        .map_err(|wrong| Error::Reproduce(wrong.to_string()))?;
     let rules: Rules = reference.rules;
     let connected = |query: mediant_search::Query| space.connected(query.start, query.goal);
     let queries = random_queries(&mut context.rng(map), &grid, rules, count, connected);

@@ -5,8 +5,9 @@ use mediant_moves::{BOUND_WITHOUT_CORNER_CUTTING, FiniteK, bound_at_centers, bou
 
 use crate::path::Path;
 
-/// The answer to a query.
+/// The answer to a query. Other kinds of answers may come.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Outcome {
     /// A path, as good as the engine's [`Guarantee`] says.
     Found(Path),
@@ -18,6 +19,21 @@ impl Outcome {
     /// The path, if there is one.
     #[must_use]
     pub const fn path(&self) -> Option<&Path> {
+        match self {
+            Self::Found(path) => Some(path),
+            Self::Unreachable => None,
+        }
+    }
+
+    /// The length of the path in cells, if there is one.
+    #[must_use]
+    pub fn cost(&self) -> Option<f64> {
+        self.path().map(Path::cost)
+    }
+
+    /// The path, if there is one, without a copy.
+    #[must_use]
+    pub fn into_path(self) -> Option<Path> {
         match self {
             Self::Found(path) => Some(path),
             Self::Unreachable => None,

@@ -1,5 +1,7 @@
 //! Paths.
 
+use std::fmt;
+
 use mediant_grid::Vertex;
 
 /// A path: its waypoints and its length.
@@ -61,6 +63,16 @@ impl Path {
             let turn = last.replace((x, y)).map_or(0.0, |(a, b)| (a * y - b * x).atan2(a * x + b * y));
             sum + turn.abs().to_degrees()
         })
+    }
+}
+
+/// The waypoints, joined by arrows.
+impl fmt::Display for Path {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (at, waypoint) in self.waypoints.iter().enumerate() {
+            write!(f, "{}{waypoint}", if at == 0 { "" } else { " → " })?;
+        }
+        Ok(())
     }
 }
 

@@ -7,7 +7,7 @@ use std::{
     sync::Arc,
 };
 
-use mediant::{Engine, Planner, Setup, SharedRules};
+use mediant::{Engine, Map, Planner, Setup};
 use mediant_grid::{
     Centers, CornerRule, Corners, DiagonalGap, Grid, Placement, PlacementKind, Rules, Vertex,
 };
@@ -50,12 +50,12 @@ fn queries(grid: &Grid, placement: PlacementKind) -> Vec<Query> {
 
 fn check(setup: Setup, planner: &mut Planner, queries: &[Query]) {
     for &query in queries {
-        planner.solve(query).expect("both ends are free");
+        planner.find(query).expect("both ends are free");
     }
     let mut found = 0;
     for &query in queries {
         let before = ALLOCATIONS.get();
-        let outcome = planner.solve(query).expect("both ends are free");
+        let outcome = planner.find(query).expect("both ends are free");
         let allocated = ALLOCATIONS.get() - before;
         let expected = usize::from(matches!(outcome, Outcome::Found(_)));
         assert_eq!(allocated, expected, "{setup}, {query:?}");
@@ -66,7 +66,7 @@ fn check(setup: Setup, planner: &mut Planner, queries: &[Query]) {
 
 /// Checks every setup of the catalog whose engine is in this crate, but for those that smooth their paths:
 /// smoothing allocates. How many there were.
-fn check_all(k: K, rules: Rules, pruning: &SharedRules) -> usize {
+fn check_all(k: K, rules: Rules) -> usize {
     use Engine::{Chpa, Hpa, Subgoal, SubgoalTheta};
     let grid = Arc::new(mediant_oracle::caves(&mut mediant_oracle::Rng::new(7), 60, 50));
     let queries = queries(&grid, rules.placement());
@@ -74,7 +74,7 @@ fn check_all(k: K, rules: Rules, pruning: &SharedRules) -> usize {
     let setups = Setup::all(k, rules).filter(is_here).filter(|setup| setup.smoothing.is_none());
     setups
         .inspect(|&setup| {
-            let planner = Planner::new(setup, &grid, pruning);
+            let planner = setup.planner(&Map::from(Arc::clone(&grid)));
             check(setup, &mut planner.unwrap_or_else(|error| panic!("{setup}: {error}")), &queries);
         })
         .count()
@@ -82,11 +82,11 @@ fn check_all(k: K, rules: Rules, pruning: &SharedRules) -> usize {
 
 #[test]
 fn a_warm_query_allocates_its_path_and_nothing_else() {
-    let (pruning, mut setups) = (SharedRules::new(), 0);
+    let mut setups = 0;
     // One k for each way in which a canonical search finds its successors.
     for k in [2, 3, 5, 9].map(|k| K::Finite(FiniteK::new(k).expect("k is at least 2"))) {
         for rules in [Rules::Center(CornerRule::Never), Rules::Corner(DiagonalGap::Open)] {
-            setups += check_all(k, rules, &pruning);
+            setups += check_all(k, rules);
         }
     }
     // 4 of A*, Dijkstra, wavefront, 4 of canonical, 5 of jps, 3 each of theta and lazy-theta; for k ≤ 3 also
@@ -97,6 +97,6 @@ fn a_warm_query_allocates_its_path_and_nothing_else() {
 #[test]
 fn nor_does_anya() {
     for gap in [DiagonalGap::Open, DiagonalGap::Closed] {
-        assert_eq!(check_all(K::ANY, Rules::Corner(gap), &SharedRules::new()), 1);
+        assert_eq!(check_all(K::ANY, Rules::Corner(gap)), 1);
     }
 }

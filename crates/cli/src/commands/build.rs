@@ -1,13 +1,10 @@
 //! `mediant build`: prepares an engine's index of a map, and saves it.
 
-use std::{io::Write, time::Instant};
-
-use mediant::{Index, SharedRules, Space};
+use std::{fs, io::Write, time::Instant};
 
 use crate::{
     args::BuildArgs,
     failure::Failure,
-    index_file,
     map::{Map, file_name},
     terminal::{
         numbers::{grouped, time},
@@ -25,14 +22,12 @@ pub(crate) fn build(args: &BuildArgs, screen: &mut Screen) -> Result<(), Failure
     let map = Map::load(&args.map)?;
     let progress = BuildProgress::new();
     let begin = Instant::now();
-    let built = Space::new(setup, &map.grid).and_then(|space| {
-        Index::with_progress(setup, &space, &SharedRules::new(), &|step| progress.tell(step))?.to_bytes()
-    });
+    let space = setup.space(&map.to_library())?;
+    let built = space.prepare_with_progress(setup.engine, &|step| progress.tell(step));
     let took = begin.elapsed();
     progress.clear();
-    let bytes = built?;
-    let size = grouped(bytes.len() as u64);
-    index_file::save(&args.output, setup, &map.grid, bytes)?;
+    built?.save(&args.output)?;
+    let size = grouped(fs::metadata(&args.output)?.len());
     let name = file_name(&args.output);
     let name = screen.paint(BOLD, printable(&name)).to_string();
     let took = time(took.as_nanos() as f64);

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use anstyle::RgbColor;
-use mediant::{Engine, Planner, Setup, SharedRules};
+use mediant::{Engine, Setup};
 use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Rules, Vertex};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{Outcome, Query};
@@ -46,9 +46,9 @@ struct Row {
 }
 
 /// Solves the demo's query in one setup; `None` if there is no path.
-fn solve(setup: Setup, map: &Map, query: Query, pruning: &SharedRules) -> Result<Option<Row>, Failure> {
+fn solve(setup: Setup, map: &Map, query: Query) -> Result<Option<Row>, Failure> {
     let Setup { rules, k, .. } = setup;
-    let mut planner = Planner::new(setup, &map.grid, pruning)?;
+    let mut planner = setup.planner(&map.to_library())?;
     // The table compares with any-angle paths between corners; no bound to these is known for paths between
     // centers.
     let at_corners = rules.placement() == PlacementKind::Corner;
@@ -72,9 +72,9 @@ pub(crate) fn demo(args: &DemoArgs, screen: &mut Screen) -> Result<(), Failure> 
     }
     setups.push(Setup::new(Engine::Anya, K::Any, corners));
     setups.push(Setup::new(Engine::AStar, FiniteK::N8, centers));
-    let (pruning, mut rows) = (SharedRules::new(), Vec::new());
+    let mut rows = Vec::new();
     for setup in setups {
-        rows.extend(solve(setup, &map, query, &pruning)?);
+        rows.extend(solve(setup, &map, query)?);
     }
     title(builtin, &map, query, screen)?;
     picture(&map, query, &rows, screen)?;

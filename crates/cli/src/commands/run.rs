@@ -6,13 +6,12 @@ use std::{
     time::Instant,
 };
 
-use mediant::{EngineOption, Index, Planner, Setup, SharedRules, Space};
+use mediant::{EngineOption, Index, Setup, Space};
 
 use crate::{
     args::{Format, RunArgs},
     draw::{braille::Stroke, picture::Canvas, theme::INKS},
     failure::{Ending, Failure},
-    index_file,
     map::Map,
     run::{
         answer::Run,
@@ -48,16 +47,15 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     if args.trace.is_some() && queries.len() > 1 {
         return Err(Failure::TraceMany);
     }
-    let rules = SharedRules::new();
     let begin = Instant::now();
-    let (space, index) = prepare(args, setup, &map, &rules)?;
+    let (space, index) = prepare(args, setup, &map)?;
     let preparation = begin.elapsed();
     let trace = args.trace.as_deref().map(|path| {
         let file = File::create(path).map_err(Failure::writing(path))?;
         Ok::<_, Failure>(TraceFile { path, out: BufWriter::new(file) })
     });
     let trace = trace.transpose()?;
-    let mut planner = index.planner()?;
+    let mut planner = index.planner();
     let run = Run {
         map: &map,
         scenario: queries.scenario_name(),
@@ -78,7 +76,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     };
     let session = Session {
         queries: &queries,
-        any_angle: reference.map(|setup| Planner::new(setup, &map.grid, &rules)).transpose()?,
+        any_angle: reference.map(|setup| setup.planner(&map.to_library())).transpose()?,
         report: &mut *report,
         progress: Progress::new(queries.len(), !lines_on_screen),
         trace,
@@ -91,15 +89,14 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     Ok(ending(&queries, finished))
 }
 
-/// The search space of a map, and the index: a new one, or that of the file that the arguments name.
-fn prepare(args: &RunArgs, setup: Setup, map: &Map, rules: &SharedRules) -> Result<(Space, Index), Failure> {
-    let bytes = args.index.as_deref().map(|path| index_file::load(path, setup, &map.grid)).transpose()?;
-    let space = Space::new(setup, &map.grid)?;
-    let index = match bytes {
-        None => Index::new(setup, &space, rules)?,
-        Some(bytes) => Index::from_bytes(setup, &space, rules, &bytes)?,
+/// The space of a map, and the index: a new one, or that of the file that the arguments name.
+fn prepare(args: &RunArgs, setup: Setup, map: &Map) -> Result<(Space, Index), Failure> {
+    let space = setup.space(&map.to_library())?;
+    let index = match &args.index {
+        None => space.prepare(setup.engine)?,
+        Some(path) => space.load_for(setup.engine, path)?,
     };
-    Ok((space, index))
+    Ok((space, index.with_smoothing(setup.smoothing)))
 }
 
 /// Draws the map with the path of a single query.

@@ -6,7 +6,7 @@ use std::{
     path::Path,
 };
 
-use mediant::{EngineError, Setup, distances};
+use mediant::{Error, Setup};
 use mediant_grid::Vertex;
 
 use super::query_error::explain;
@@ -28,9 +28,9 @@ pub(crate) fn write(
     path: &Path,
     screen: &mut Screen,
 ) -> Result<Ending, Failure> {
-    let found = match distances(setup, &map.grid, from) {
+    let found = match setup.space(&map.to_library())?.distances(setup.engine.kind(), from) {
         Ok(found) => found,
-        Err(EngineError::Query(error)) => {
+        Err(Error::Query(error)) => {
             let placement = setup.rules.placement();
             return Ok(Ending::QueryErrors(explain(error, &map.grid, placement)));
         }

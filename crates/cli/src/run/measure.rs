@@ -18,10 +18,10 @@ impl Measured {
     /// counters.
     pub(crate) fn new(planner: &mut Planner, query: Query, repeat: u32) -> Self {
         let mut counters = Counters::default();
-        let outcome = planner.solve_observed(query, &mut counters);
+        let outcome = planner.find_observed(query, &mut counters);
         let timed = |_| {
             let begin = Instant::now();
-            let outcome = black_box(planner.solve(black_box(query)));
+            let outcome = black_box(planner.find(black_box(query)));
             let time = begin.elapsed();
             // The path is freed after the clock has stopped.
             drop(outcome);

@@ -69,11 +69,11 @@ impl Session<'_> {
                 .map_err(Failure::writing(path))?;
         }
         // If this query cannot be answered, the other planner's error says so.
-        let any_angle = self.any_angle.as_mut().and_then(|planner| planner.solve(item.query).ok());
+        let any_angle = self.any_angle.as_mut().and_then(|planner| planner.find(item.query).ok());
         let any_angle = any_angle.and_then(|outcome| outcome.path().map(Path::cost));
         let found = match outcome {
             Ok(Outcome::Found(path)) => Ok(Some(Found::new(path, run.guarantee, rules, any_angle))),
-            Ok(Outcome::Unreachable) => Ok(None),
+            Ok(_) => Ok(None),
             Err(error) => Err(explain(error, grid, rules.placement())),
         };
         Ok(Answer { item, found, counters, nanos })

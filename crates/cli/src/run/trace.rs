@@ -46,7 +46,7 @@ impl<'g, W: Write> Tracer<'g, W> {
         if let Ok(outcome) = answer {
             self.begin(query);
             // The same query gives the same answer.
-            _ = planner.solve_observed(query, &mut self);
+            _ = planner.find_observed(query, &mut self);
             self.end(outcome);
         }
         self.written?;

@@ -163,7 +163,7 @@ fn check_answers(
                 assert!(may_give_up && is_connected, "{}", case());
                 answers.gave_up += 1;
             }
-            Err(error) => panic!("{error}; {}", case()),
+            other => panic!("{other:?}; {}", case()),
         }
     }
 }

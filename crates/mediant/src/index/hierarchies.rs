@@ -7,60 +7,38 @@ use mediant_hierarchy::{ClusterGraph, Clustering, SegmentGraph};
 
 use super::source::Source;
 use crate::{
-    configured::{ChpaOptions, ConfiguredEngine, HpaOptions},
-    error::EngineError,
+    configured::{ChpaOptions, ConfiguredEngine},
+    error::Error,
     option::Levels,
-    setup::Setup,
 };
 
-/// The clusters of a setup. Saved clusters must have the side and the levels that the setup names, if it
-/// names them.
+/// The clusters of a setup's engine.
 pub(super) fn clusters(
-    setup: Setup,
-    own: HpaOptions,
+    engine: ConfiguredEngine,
     graph: &GridGraph<Centers>,
     source: Source<'_>,
-) -> Result<Arc<ClusterGraph>, EngineError> {
-    let levels_of = |own: HpaOptions| match ConfiguredEngine::Hpa(own).levels() {
-        Some(Levels::Number(number)) => number.get(),
-        _ => Clustering::default().levels,
-    };
-    let Some(bytes) = source.bytes else {
-        let side = setup.engine.side().map_or(Clustering::default().side, NonZeroU32::get);
-        return Ok(Arc::new(ClusterGraph::new(graph, Clustering { side, levels: levels_of(own) })?));
-    };
-    let clusters = ClusterGraph::from_bytes(graph, bytes)?;
-    let Clustering { side, levels } = clusters.clustering();
-    check_side(own.side, side)?;
-    // How many `all` levels are depends on the side.
-    let expected = levels_of(HpaOptions { side: NonZeroU32::new(side), ..own });
-    if own.levels.is_some() && expected != levels {
-        let [expected, found] = [expected, levels]
-            .map(|levels| Levels::Number(NonZeroU32::new(levels).unwrap_or(NonZeroU32::MIN)));
-        return Err(EngineError::Levels { expected, found });
+) -> Result<Arc<ClusterGraph>, Error> {
+    if let Some(bytes) = source.bytes {
+        return Ok(Arc::new(ClusterGraph::from_bytes(graph, bytes)?));
     }
-    Ok(Arc::new(clusters))
+    let default = Clustering::default();
+    let levels = match engine.levels() {
+        Some(Levels::Number(number)) => number.get(),
+        _ => default.levels,
+    };
+    let side = engine.side().map_or(default.side, NonZeroU32::get);
+    Ok(Arc::new(ClusterGraph::new(graph, Clustering { side, levels })?))
 }
 
-/// The segments of a setup. Saved segments must have the side that the setup names, if it names one.
+/// The segments of CHPA* with these options.
 pub(super) fn segments(
     own: ChpaOptions,
     graph: &GridGraph<Centers>,
     source: Source<'_>,
-) -> Result<Arc<SegmentGraph>, EngineError> {
+) -> Result<Arc<SegmentGraph>, Error> {
     let Some(bytes) = source.bytes else {
         let side = own.side.map_or(SegmentGraph::PAPER_SIDE, NonZeroU32::get);
         return Ok(Arc::new(SegmentGraph::new(graph, side)?));
     };
-    let segments = SegmentGraph::from_bytes(graph, bytes)?;
-    check_side(own.side, segments.side())?;
-    Ok(Arc::new(segments))
-}
-
-/// Checks the side of a saved index against the one that a setup names.
-fn check_side(named: Option<NonZeroU32>, found: u32) -> Result<(), EngineError> {
-    match named {
-        Some(side) if side.get() != found => Err(EngineError::Side { expected: side.get(), found }),
-        _ => Ok(()),
-    }
+    Ok(Arc::new(SegmentGraph::from_bytes(graph, bytes)?))
 }

@@ -1,166 +1,175 @@
-//! What an engine prepares of a map.
+//! What an engine prepares of a space.
 
+mod file;
 mod hierarchies;
 mod parts;
+mod repair;
+mod shape;
 mod source;
 mod subgoals;
 
 use std::{num::NonZeroU32, sync::Arc};
 
-use mediant_grid::GridGraph;
+use mediant_grid::{FreeSpace, GridGraph, Identity};
 use mediant_search::{JumpTable, Smoothing, parts::BlockFinder};
 use mediant_subgoal::{Progress, SubgoalPlacement};
 
-pub(crate) use self::parts::{Parts, Prepared};
+pub(crate) use self::parts::{InFreeSpace, OnGridGraph, Prepared};
+pub use self::repair::Origin;
 use self::source::Source;
 use crate::{
     configured::ConfiguredEngine,
-    error::{EngineError, SetupError},
+    error::{Error, SetupError},
+    motion::Motion,
     option::{
         EngineOption, OptionValue, Variant,
         description::{LEVELS, SIDE},
     },
     setup::Setup,
-    shared_rules::{Shared, SharedRules},
-    space::{Space, no_space},
+    shared_rules::{self, Shared},
+    space::{Layers, Placed, Space},
 };
 
-/// What an engine prepares in a search space before the first query: nothing, a pruning rule, a jump table, a
-/// subgoal graph, clusters or segments. Immutable; clones share it. [`planner`](Self::planner) makes the
-/// planners on it.
+/// What an engine prepares in a space before the first query: nothing, a pruning rule, a jump table, a
+/// subgoal graph, clusters or segments. It never changes; all threads can share it, and clones do.
+/// [`planner`](Self::planner) makes the planners on it.
 ///
 /// ```
-/// use std::sync::Arc;
-/// use mediant::{Index, Space, Setup, SharedRules};
-/// use mediant_grid::Grid;
-/// use mediant_search::Query;
+/// use mediant::{Engine, K, Map, Motion, Query};
 ///
-/// let grid = Arc::new(Grid::from_fn(9, 9, |x, y| x == 4 && y != 8)?);
-/// let setup: Setup = "subgoal:any:open".parse()?;
-/// let space = Space::new(setup, &grid)?;
-/// let index = Index::new(setup, &space, &SharedRules::new())?;
-/// let outcome = index.planner()?.solve(Query::new((0, 0), (9, 0)))?;
-/// assert!(outcome.path().is_some());
+/// let map = Map::from_fn(9, 9, |x, y| x == 4 && y != 8)?;
+/// let index = map.space(Motion::corners(K::ANY))?.prepare(Engine::Subgoal)?;
+/// // On another day, or in another program:
+/// let bytes = index.to_bytes()?;
+/// let index = map.space(Motion::corners(K::ANY))?.index_from_bytes(bytes)?;
+/// assert!(index.planner().find(Query::new((0, 0), (9, 0)))?.path().is_some());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Index {
+    space: Space,
     setup: Setup,
-    /// The search space, and what is prepared in it.
+    origin: Origin,
+    /// What is searched, and what is prepared for it.
     pub(crate) prepared: Prepared,
 }
 
-impl Index {
-    /// Prepares what a setup's engine needs.
+impl Space {
+    /// [`prepare`](Self::prepare), which calls `progress` from any thread. Only subgoal graphs report
+    /// progress.
     ///
     /// # Errors
-    /// [`EngineError`] for a setup whose parts do not fit together, a search space for another k or other
-    /// rules, or clusters or segments of a size or number that does not exist.
-    pub fn new(setup: Setup, space: &Space, rules: &SharedRules) -> Result<Self, EngineError> {
-        Self::with_progress(setup, space, rules, &|_| {})
-    }
-
-    /// [`new`](Self::new), which calls `progress` from any thread. Only subgoal graphs report progress.
-    ///
-    /// # Errors
-    /// Those of [`new`](Self::new).
-    pub fn with_progress(
-        setup: Setup,
-        space: &Space,
-        rules: &SharedRules,
+    /// Those of [`prepare`](Self::prepare).
+    pub fn prepare_with_progress(
+        &self,
+        engine: impl Into<ConfiguredEngine>,
         progress: &(dyn Fn(Progress) + Sync),
-    ) -> Result<Self, EngineError> {
-        Self::from_source(setup, space, Source { bytes: None, rules, progress })
+    ) -> Result<Index, Error> {
+        Index::new(self, engine.into(), progress)
     }
+}
 
-    /// Reads the bytes that [`to_bytes`](Self::to_bytes) wrote. Levels and side that the setup leaves out are
-    /// those of the bytes.
-    ///
-    /// # Errors
-    /// Those of [`new`](Self::new), and for bytes that are not an index of this engine for this search space,
-    /// or have other levels or another side than the setup names. Not all damage is found: a file format
-    /// should add a checksum.
-    pub fn from_bytes(
-        setup: Setup,
+impl Index {
+    pub(crate) fn new(
         space: &Space,
-        rules: &SharedRules,
-        bytes: &[u8],
-    ) -> Result<Self, EngineError> {
-        setup.check()?;
-        setup.index_version()?;
-        Self::from_source(setup, space, Source { bytes: Some(bytes), rules, progress: &|_| {} })
+        engine: ConfiguredEngine,
+        progress: &(dyn Fn(Progress) + Sync),
+    ) -> Result<Self, Error> {
+        Self::from_source(space, engine, Source { bytes: None, progress })
     }
 
     /// Prepares a new index, or reads a saved one.
-    fn from_source(setup: Setup, space: &Space, source: Source<'_>) -> Result<Self, EngineError> {
-        space.check(setup)?;
-        let prepared = match space {
-            Space::Centers(graph) => {
-                let parts = match setup.engine {
-                    ConfiguredEngine::Hpa(own) => {
-                        Parts::Clusters(hierarchies::clusters(setup, own, graph, source)?)
+    fn from_source(space: &Space, engine: ConfiguredEngine, source: Source<'_>) -> Result<Self, Error> {
+        let Motion { k, rules } = space.motion();
+        let setup = Setup::new(engine, k, rules);
+        setup.check()?;
+        let prepared = match space.placed() {
+            Placed::Centers(layers) => match setup.engine {
+                ConfiguredEngine::Hpa(_) => {
+                    let graph = layers.graph(setup.finite_k()?)?;
+                    let clusters = hierarchies::clusters(setup.engine, graph, source)?;
+                    Prepared::Centers(Arc::clone(graph), OnGridGraph::Clusters(clusters))
+                }
+                ConfiguredEngine::Chpa(own) => {
+                    let graph = layers.graph(setup.finite_k()?)?;
+                    let segments = hierarchies::segments(own, graph, source)?;
+                    Prepared::Centers(Arc::clone(graph), OnGridGraph::Segments(segments))
+                }
+                _ => match in_free_space(setup, &layers.free, source)? {
+                    Some(parts) => Prepared::FreeCenters(Arc::clone(&layers.free), parts),
+                    None => {
+                        let (graph, parts) = on_grid_graph(setup, layers, source)?;
+                        Prepared::Centers(graph, parts)
                     }
-                    ConfiguredEngine::Chpa(own) => {
-                        Parts::Segments(hierarchies::segments(own, graph, source)?)
-                    }
-                    _ => on_graph(setup, graph, source)?,
-                };
-                Prepared::Centers(Arc::clone(graph), parts)
-            }
-            Space::Corners(graph) => Prepared::Corners(Arc::clone(graph), on_graph(setup, graph, source)?),
-            Space::AnyAngle(space) => {
-                let parts = match setup.engine {
-                    ConfiguredEngine::Subgoal(_) => Parts::Subgoals(subgoals::graph(setup, space, source)?),
-                    _ => Parts::Nothing,
-                };
-                Prepared::AnyAngle(Arc::clone(space), parts)
-            }
+                },
+            },
+            Placed::Corners(layers) => match in_free_space(setup, &layers.free, source)? {
+                Some(parts) => Prepared::FreeCorners(Arc::clone(&layers.free), parts),
+                None => {
+                    let (graph, parts) = on_grid_graph(setup, layers, source)?;
+                    Prepared::Corners(graph, parts)
+                }
+            },
         };
-        Ok(Self { setup, prepared })
+        prepared.check_shape(setup.engine)?;
+        let origin = if source.bytes.is_some() { Origin::Loaded } else { Origin::Prepared };
+        Ok(Self { space: space.clone(), setup, origin, prepared })
     }
 
-    /// The setup that it was made for.
-    #[must_use]
-    pub const fn setup(&self) -> Setup {
-        self.setup
+    /// The same index for planners with other options of its engine, such as another heuristic.
+    ///
+    /// # Errors
+    /// [`Error::Setup`] for another engine, or options that do not fit together; [`Error::Levels`] and
+    /// [`Error::Side`] for options that decide what is prepared, if the index has others.
+    pub fn with_options(self, engine: impl Into<ConfiguredEngine>) -> Result<Self, Error> {
+        let setup = Setup { engine: engine.into(), ..self.setup };
+        setup.check()?;
+        self.prepared.check(setup, self.setup)?;
+        Ok(Self { setup, ..self })
     }
 
-    /// The same index for planners with this smoothing, or with none.
+    /// The same index for planners that smooth their paths, or do not.
     #[must_use]
     pub fn with_smoothing(self, smoothing: Option<Smoothing>) -> Self {
         Self { setup: Setup { smoothing, ..self.setup }, ..self }
     }
 
-    /// The bytes that [`from_bytes`](Self::from_bytes) reads.
-    ///
-    /// # Errors
-    /// [`EngineError::Setup`] for an engine whose index is not saved.
-    pub fn to_bytes(&self) -> Result<Vec<u8>, EngineError> {
-        match &self.prepared {
-            Prepared::Centers(_, parts) => parts.to_bytes(),
-            Prepared::Corners(_, parts) | Prepared::AnyAngle(_, parts) => parts.to_bytes(),
-        }
-        .ok_or_else(|| SetupError::without_index(self.setup.engine.kind()).into())
+    /// The space that it belongs to.
+    #[must_use]
+    pub const fn space(&self) -> &Space {
+        &self.space
     }
 
-    /// The memory that it uses beyond the search space, in bytes.
+    /// What it belongs to: its map, rules and k.
+    #[must_use]
+    pub fn identity(&self) -> Identity {
+        self.space.identity()
+    }
+
+    /// The engine with its options, its motion and smoothing.
+    #[must_use]
+    pub const fn setup(&self) -> Setup {
+        self.setup
+    }
+
+    /// How it came about: [`repair`](Self::repair) says so what could be repaired.
+    #[must_use]
+    pub const fn origin(&self) -> Origin {
+        self.origin
+    }
+
+    /// The memory that it uses beyond the space, in bytes; counted once, however many planners and clones
+    /// share it.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
-        let bytes = match &self.prepared {
-            Prepared::Centers(_, parts) => parts.memory_bytes(),
-            Prepared::Corners(_, parts) | Prepared::AnyAngle(_, parts) => parts.memory_bytes(),
-        };
-        bytes as u64
+        self.prepared.memory_bytes() as u64
     }
 
-    /// The value of an option, as [`ConfiguredEngine::value`], but levels and side as they are in the index: where the
-    /// setup leaves them out, a saved index decides them.
+    /// The value of an option, as [`ConfiguredEngine::value`], but levels and side as they are in the index:
+    /// where the setup leaves them out, a saved index decides them.
     #[must_use]
     pub fn value(&self, option: &EngineOption) -> Option<OptionValue> {
-        let (levels, side) = match &self.prepared {
-            Prepared::Centers(_, parts) => parts.shape(),
-            Prepared::Corners(_, parts) | Prepared::AnyAngle(_, parts) => parts.shape(),
-        };
+        let (levels, side) = self.prepared.shape();
         match option.name {
             name if name == LEVELS.name => levels.map(OptionValue::Levels),
             name if name == SIDE.name => side.and_then(NonZeroU32::new).map(OptionValue::Number),
@@ -169,38 +178,55 @@ impl Index {
     }
 }
 
-/// What an engine prepares of a grid graph, if it takes either placement.
-fn on_graph<P: SubgoalPlacement + Shared>(
+/// What an engine prepares of a free space; `None` for one that searches the grid graph.
+fn in_free_space<P: SubgoalPlacement>(
     setup: Setup,
-    graph: &GridGraph<P>,
+    space: &FreeSpace<P>,
     source: Source<'_>,
-) -> Result<Parts<P>, EngineError> {
-    let pruning = || source.rules.pruning(graph);
+) -> Result<Option<InFreeSpace<P>>, Error> {
     Ok(match setup.engine {
+        ConfiguredEngine::Anya => Some(InFreeSpace::Nothing),
+        ConfiguredEngine::Subgoal(_) | ConfiguredEngine::SubgoalTheta(_) => {
+            Some(InFreeSpace::Subgoals(subgoals::graph(setup, space, source)?))
+        }
+        _ => None,
+    })
+}
+
+/// The grid graph, and what an engine prepares of it, if it takes either placement.
+fn on_grid_graph<P: SubgoalPlacement + Shared>(
+    setup: Setup,
+    layers: &Layers<P>,
+    source: Source<'_>,
+) -> Result<(Arc<GridGraph<P>>, OnGridGraph<P>), Error> {
+    let graph = layers.graph(setup.finite_k()?)?;
+    let pruning = || shared_rules::pruning(graph);
+    let parts = match setup.engine {
         ConfiguredEngine::AStar(_)
         | ConfiguredEngine::Dijkstra
         | ConfiguredEngine::Wavefront
         | ConfiguredEngine::Theta(_)
-        | ConfiguredEngine::LazyTheta(_) => Parts::Nothing,
-        ConfiguredEngine::Canonical(own) if own.variant == Some(Variant::Paper) => Parts::Nothing,
-        ConfiguredEngine::Canonical(_) | ConfiguredEngine::Jps(_) => Parts::Pruning(pruning()?),
+        | ConfiguredEngine::LazyTheta(_) => OnGridGraph::Nothing,
+        ConfiguredEngine::Canonical(own) if own.variant == Some(Variant::Paper) => OnGridGraph::Nothing,
+        ConfiguredEngine::Canonical(_) | ConfiguredEngine::Jps(_) => OnGridGraph::Pruning(pruning()?),
         ConfiguredEngine::JpsBlock(_) => {
             let pruning = pruning()?;
             let blocks = BlockFinder::new(graph, &pruning)?;
-            Parts::Blocks(pruning, blocks)
+            OnGridGraph::Blocks(pruning, blocks)
         }
         ConfiguredEngine::JpsPlus(_) => {
             let table = match source.bytes {
                 None => JumpTable::new(graph)?,
                 Some(bytes) => JumpTable::from_bytes(graph, bytes.to_vec())?,
             };
-            Parts::Table(pruning()?, Arc::new(table))
+            OnGridGraph::Table(pruning()?, Arc::new(table))
         }
-        ConfiguredEngine::Subgoal(_) | ConfiguredEngine::SubgoalTheta(_) => {
-            Parts::Subgoals(subgoals::graph(setup, graph, source)?)
-        }
-        ConfiguredEngine::Anya | ConfiguredEngine::Hpa(_) | ConfiguredEngine::Chpa(_) => {
-            return Err(no_space(setup));
-        }
-    })
+        // `Setup::check` has refused these at corners, and they are not handed here at centers.
+        ConfiguredEngine::Anya
+        | ConfiguredEngine::Subgoal(_)
+        | ConfiguredEngine::SubgoalTheta(_)
+        | ConfiguredEngine::Hpa(_)
+        | ConfiguredEngine::Chpa(_) => return Err(SetupError::without_index(setup.engine.kind()).into()),
+    };
+    Ok((Arc::clone(graph), parts))
 }

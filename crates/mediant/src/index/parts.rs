@@ -1,4 +1,4 @@
-//! The parts of an index: what each engine prepares in each kind of search space.
+//! The parts of an index: what each engine searches, and what it prepares for that.
 
 use std::{num::NonZeroU32, sync::Arc};
 
@@ -7,23 +7,34 @@ use mediant_hierarchy::{ClusterGraph, Clustering, SegmentGraph};
 use mediant_search::{JumpTable, Pruning, parts::BlockFinder};
 use mediant_subgoal::{SubgoalGraph, SubgoalPlacement};
 
-use crate::option::Levels;
+use super::shape;
+use crate::{
+    configured::ConfiguredEngine,
+    error::{Error, SetupError},
+    option::{
+        Levels, OptionValue,
+        description::{LEVELS, SIDE},
+    },
+    setup::Setup,
+};
 
-/// A search space with what is prepared in it.
+/// What an engine searches, with what is prepared for it.
 #[derive(Clone, Debug)]
 pub(crate) enum Prepared {
     /// N(k) on the centers of cells.
-    Centers(Arc<GridGraph<Centers>>, Parts<Centers>),
+    Centers(Arc<GridGraph<Centers>>, OnGridGraph<Centers>),
     /// N(k) on the corners of cells.
-    Corners(Arc<GridGraph<Corners>>, Parts<Corners>),
-    /// Every direction, on the corners of cells.
-    AnyAngle(Arc<FreeSpace<Corners>>, Parts<Corners>),
+    Corners(Arc<GridGraph<Corners>>, OnGridGraph<Corners>),
+    /// The free space between the centers of cells.
+    FreeCenters(Arc<FreeSpace<Centers>>, InFreeSpace<Centers>),
+    /// The free space between the corners of cells.
+    FreeCorners(Arc<FreeSpace<Corners>>, InFreeSpace<Corners>),
 }
 
-/// What an engine prepares.
+/// What an engine prepares of a grid graph.
 #[derive(Clone, Debug)]
-pub(crate) enum Parts<P: SubgoalPlacement> {
-    /// Nothing: the engine searches the space as it is.
+pub(crate) enum OnGridGraph<P: SubgoalPlacement> {
+    /// Nothing: the engine searches the graph as it is.
     Nothing,
     /// The pruning rule of canonical search.
     Pruning(Arc<Pruning<P>>),
@@ -31,49 +42,112 @@ pub(crate) enum Parts<P: SubgoalPlacement> {
     Blocks(Arc<Pruning<P>>, BlockFinder),
     /// A pruning rule, and the length of every jump.
     Table(Arc<Pruning<P>>, Arc<JumpTable>),
-    /// A subgoal graph.
-    Subgoals(Arc<SubgoalGraph<P>>),
     /// Clusters; only at centers.
     Clusters(Arc<ClusterGraph>),
     /// Segments; only at centers.
     Segments(Arc<SegmentGraph>),
 }
 
-impl<P: SubgoalPlacement> Parts<P> {
+/// What an engine prepares of a free space.
+#[derive(Clone, Debug)]
+pub(crate) enum InFreeSpace<P: SubgoalPlacement> {
+    /// Nothing: the engine searches the space as it is.
+    Nothing,
+    /// A subgoal graph.
+    Subgoals(Arc<SubgoalGraph<P>>),
+}
+
+impl Prepared {
     /// The bytes of a saved index; `None` where there is nothing to save.
     pub(super) fn to_bytes(&self) -> Option<Vec<u8>> {
         match self {
+            Self::Centers(_, parts) => parts.to_bytes(),
+            Self::Corners(_, parts) => parts.to_bytes(),
+            Self::FreeCenters(_, InFreeSpace::Subgoals(graph)) => Some(graph.to_bytes()),
+            Self::FreeCorners(_, InFreeSpace::Subgoals(graph)) => Some(graph.to_bytes()),
+            Self::FreeCenters(_, InFreeSpace::Nothing) | Self::FreeCorners(_, InFreeSpace::Nothing) => None,
+        }
+    }
+
+    /// The memory that is used beyond the space, in bytes.
+    pub(super) fn memory_bytes(&self) -> usize {
+        match self {
+            Self::Centers(_, parts) => parts.memory_bytes(),
+            Self::Corners(_, parts) => parts.memory_bytes(),
+            Self::FreeCenters(_, InFreeSpace::Subgoals(graph)) => graph.memory_bytes(),
+            Self::FreeCorners(_, InFreeSpace::Subgoals(graph)) => graph.memory_bytes(),
+            Self::FreeCenters(_, InFreeSpace::Nothing) | Self::FreeCorners(_, InFreeSpace::Nothing) => 0,
+        }
+    }
+
+    /// The levels, and the side of the lowest clusters or of the segments in cells, of an index that has
+    /// them.
+    pub(super) fn shape(&self) -> (Option<Levels>, Option<u32>) {
+        match self {
+            Self::Centers(_, OnGridGraph::Clusters(graph)) => {
+                let Clustering { side, levels } = graph.clustering();
+                (NonZeroU32::new(levels).map(Levels::Number), Some(side))
+            }
+            Self::Centers(_, OnGridGraph::Segments(graph)) => (None, Some(graph.side())),
+            Self::FreeCenters(_, InFreeSpace::Subgoals(graph)) => (Some(graph.hierarchy().into()), None),
+            Self::FreeCorners(_, InFreeSpace::Subgoals(graph)) => (Some(graph.hierarchy().into()), None),
+            _ => (None, None),
+        }
+    }
+
+    /// Checks that it has the levels and the side that an engine's options name.
+    pub(super) fn check_shape(&self, engine: ConfiguredEngine) -> Result<(), Error> {
+        let (levels, side) = self.shape();
+        shape::check(engine, levels, side)
+    }
+
+    /// The engine with the levels and the side that are prepared, named or not.
+    pub(super) fn with_shape(&self, mut engine: ConfiguredEngine) -> Result<ConfiguredEngine, SetupError> {
+        let (levels, side) = self.shape();
+        if let Some(levels) = levels.filter(|&levels| levels != Levels::Contracted) {
+            engine.set(&LEVELS, OptionValue::Levels(levels))?;
+        }
+        if let Some(side) = side.and_then(NonZeroU32::new) {
+            engine.set(&SIDE, OptionValue::Number(side))?;
+        }
+        Ok(engine)
+    }
+
+    /// Checks that what was prepared for one setup serves another one on the same space.
+    pub(super) fn check(&self, setup: Setup, made_for: Setup) -> Result<(), Error> {
+        let (engine, known) = (setup.engine.kind(), made_for.engine.kind());
+        if engine != known {
+            return Err(SetupError::OtherEngine { engine, known }.into());
+        }
+        self.check_shape(setup.engine)?;
+        // Canonical A* as published has no pruning rule; the variants of CHPA* search the same segments.
+        let is_canonical = matches!(self, Self::Centers(_, OnGridGraph::Pruning(_) | OnGridGraph::Nothing))
+            || matches!(self, Self::Corners(_, OnGridGraph::Pruning(_) | OnGridGraph::Nothing));
+        if is_canonical && setup.engine.variant() != made_for.engine.variant() {
+            return Err(SetupError::OtherVariant { engine }.into());
+        }
+        Ok(())
+    }
+}
+
+impl<P: SubgoalPlacement> OnGridGraph<P> {
+    fn to_bytes(&self) -> Option<Vec<u8>> {
+        match self {
             Self::Nothing | Self::Pruning(_) | Self::Blocks(..) => None,
             Self::Table(_, table) => Some(table.as_bytes().to_vec()),
-            Self::Subgoals(graph) => Some(graph.to_bytes()),
             Self::Clusters(graph) => Some(graph.to_bytes()),
             Self::Segments(graph) => Some(graph.to_bytes()),
         }
     }
 
-    /// The memory that they use, in bytes.
-    pub(super) fn memory_bytes(&self) -> usize {
+    fn memory_bytes(&self) -> usize {
         match self {
             Self::Nothing => 0,
             Self::Pruning(pruning) => pruning.memory_bytes(),
             Self::Blocks(pruning, blocks) => pruning.memory_bytes() + blocks.memory_bytes(),
             Self::Table(pruning, table) => pruning.memory_bytes() + table.memory_bytes(),
-            Self::Subgoals(graph) => graph.memory_bytes(),
             Self::Clusters(graph) => graph.memory_bytes(),
             Self::Segments(graph) => graph.memory_bytes(),
-        }
-    }
-
-    /// The levels, and the side of the lowest clusters or of the segments in cells, of parts that have them.
-    pub(super) fn shape(&self) -> (Option<Levels>, Option<u32>) {
-        match self {
-            Self::Nothing | Self::Pruning(_) | Self::Blocks(..) | Self::Table(..) => (None, None),
-            Self::Subgoals(graph) => (Some(graph.hierarchy().into()), None),
-            Self::Clusters(graph) => {
-                let Clustering { side, levels } = graph.clustering();
-                (NonZeroU32::new(levels).map(Levels::Number), Some(side))
-            }
-            Self::Segments(graph) => (None, Some(graph.side())),
         }
     }
 }

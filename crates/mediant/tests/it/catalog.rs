@@ -3,14 +3,14 @@
 use std::num::NonZeroU32;
 
 use mediant::{
-    ConfiguredEngine, Engine, EngineError, GuidedOptions, HeuristicName, Index, JumpOptions, Levels, Planner,
-    Setup, SetupError, SharedRules, Space, Variant, distances,
+    ConfiguredEngine, Engine, Error, GuidedOptions, HeuristicName, JumpOptions, Levels, Setup, SetupError,
+    Variant,
 };
 use mediant_grid::{DiagonalGap, PlacementKind, Rules, Vertex};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{Guarantee, Query, QueryError, Smoothing};
 
-use super::{NEVER, OPEN, RULES, build, grid, index, k, planner, planner_on, setup};
+use super::{NEVER, OPEN, build, index, k, map, planner, read, setup};
 
 /// The engine with its default options, k and rules.
 fn plain(engine: Engine) -> Setup {
@@ -27,9 +27,10 @@ fn query() -> Query {
 /// straight line.
 fn any_angle_length(rules: Rules) -> f64 {
     let anya = Setup::new(Engine::Anya, K::Any, rules);
-    let outcome = Planner::new(anya, &grid(), &RULES).and_then(|mut anya| Ok(anya.solve(query())?));
-    match outcome {
-        Ok(outcome) => outcome.path().expect("there is a path").cost(),
+    match anya.planner(&map()) {
+        Ok(mut anya) => {
+            anya.find(query()).expect("both ends are free").path().expect("there is a path").cost()
+        }
         Err(_) => query().start.distance(query().goal),
     }
 }
@@ -51,11 +52,11 @@ fn prepares_nothing(setup: Setup) -> bool {
 /// Checks a setup's planner against its guarantee: `best` is the length of the shortest path over its k,
 /// `shortest` that of the shortest at any angle.
 fn check(setup: Setup, best: f64, shortest: f64) {
-    let index = index(setup, &grid(), None).unwrap_or_else(|error| panic!("{setup}: {error}"));
+    let index = index(setup, &map()).unwrap_or_else(|error| panic!("{setup}: {error}"));
     assert_eq!(index.memory_bytes() == 0, prepares_nothing(setup), "{setup}");
-    let mut planner = planner_on(&index);
+    let mut planner = index.planner();
     assert_eq!(planner.guarantee(), setup.guarantee(), "{setup}");
-    let answer = planner.solve_counted(query());
+    let answer = planner.find_counted(query());
     let (kind, variant) = (setup.engine.kind(), setup.engine.variant());
     if (kind, variant, setup.k) == (Engine::Chpa, Some(Variant::Paper), K::Finite(FiniteK::N4)) {
         // As published, the windows of its segments join only what is joined within them.
@@ -75,7 +76,7 @@ fn check(setup: Setup, best: f64, shortest: f64) {
         _ => assert!((cost - best).abs() < 1e-9, "{setup}: {cost}, {best}"),
     }
     assert!(counters.generated > 0 && counters.expanded > 0, "{setup}");
-    assert_eq!(planner.solve(query()), Ok(outcome), "{setup}: the same answer again");
+    assert_eq!(planner.find(query()), Ok(outcome), "{setup}: the same answer again");
 }
 
 #[test]
@@ -95,7 +96,7 @@ fn every_setup_makes_the_planner_that_it_promises() {
             };
             let engine = if k == K::Any { Engine::Anya } else { Engine::AStar };
             assert_eq!(first, Setup::new(engine, k, rules));
-            let best = planner(first).solve(query()).expect("both ends are free");
+            let best = planner(first).find(query()).expect("both ends are free");
             let best = best.path().expect("there is a path").cost();
             setups += all.len();
             all.into_iter().for_each(|setup| check(setup, best, shortest));
@@ -121,8 +122,8 @@ fn every_engine_takes_the_k_that_it_says() {
         let setup = |k: K| Setup::new(engine, k, rules);
         let refused = |k: K, error: SetupError| {
             assert_eq!(setup(k).check(), Err(error.clone()));
-            let planner = Planner::new(setup(k), &grid(), &RULES).map(|_| ());
-            assert_eq!(planner, Err(EngineError::Setup(error)));
+            let planner = setup(k).planner(&map());
+            assert!(matches!(planner, Err(Error::Setup(found)) if found == error), "{engine}");
         };
         if let Some(max) = capabilities.max_k {
             let [least, most, too_large] = [2, max, max + 1].map(k);
@@ -176,8 +177,8 @@ fn every_engine_takes_the_placements_that_it_says() {
 
 #[test]
 fn a_search_space_is_for_its_own_k_and_rules() {
-    let space = |text: &str| Space::new(setup(text), &grid()).expect("a setup that was checked");
-    let index = |ours: &str, others: &str| Index::new(setup(ours), &space(others), &RULES);
+    let space = |text: &str| setup(text).space(&map()).expect("a setup that was checked");
+    let index = |ours: &str, others: &str| setup(ours).prepare(&space(others));
     for (ours, others) in [
         ("astar:3:open", "theta:3:open,taut"),
         ("anya", "anya:any:open,smooth"),
@@ -185,8 +186,8 @@ fn a_search_space_is_for_its_own_k_and_rules() {
     ] {
         let index =
             index(ours, others).unwrap_or_else(|error| panic!("{ours} in the space of {others}: {error}"));
-        let alone = planner(setup(ours)).solve_counted(query());
-        assert_eq!(planner_on(&index).solve_counted(query()), alone, "{ours}");
+        let alone = planner(setup(ours)).find_counted(query());
+        assert_eq!(index.planner().find_counted(query()), alone, "{ours}");
     }
     for (ours, others) in [
         ("astar:3:open", "astar:4:open"),
@@ -195,18 +196,16 @@ fn a_search_space_is_for_its_own_k_and_rules() {
         ("astar:3:open", "anya"),
     ] {
         let refused = index(ours, others).map(|_| ());
-        assert!(
-            matches!(refused, Err(EngineError::Space { .. })),
-            "{ours} in the space of {others}: {refused:?}"
-        );
+        assert!(matches!(refused, Err(Error::Mismatch(_))), "{ours} in the space of {others}: {refused:?}");
     }
-    assert!(matches!(
-        Space::new(Setup::new(Engine::Anya, K::Any, NEVER), &grid()),
-        Err(EngineError::Setup(_))
-    ));
+    assert!(matches!(Setup::new(Engine::Anya, K::Any, NEVER).space(&map()), Err(Error::Setup(_))));
     let said = index("anya", "astar:3:open").map(|_| ()).map_err(|error| error.to_string());
-    let expected = "needs the search space of k = any under corner, gap open, found that of k = 3 under corner, gap open";
-    assert_eq!(said, Err(expected.to_owned()));
+    let expected = format!(
+        "the setup is for every map, corner, gap open, k = any; the space is for {}, corner, gap open, k = 3: \
+         use it with what it was made for, or make it anew",
+        map().id()
+    );
+    assert_eq!(said, Err(expected));
 }
 
 #[test]
@@ -398,35 +397,34 @@ fn a_saved_index_is_as_good_as_a_new_one() {
     for rules in Rules::ALL {
         for k in [2, 3].map(k) {
             let setup = Setup::new(Engine::JpsPlus, k, rules);
-            let bytes = build(setup, &grid()).expect("an index");
-            let saved = index(setup, &grid(), Some(&bytes)).expect("these are its bytes");
-            assert_eq!(planner_on(&saved).solve_counted(query()), planner(setup).solve_counted(query()));
+            let bytes = build(setup, &map()).expect("an index");
+            let saved = read(setup, &map(), bytes.clone()).expect("these are its bytes");
+            assert_eq!(saved.planner().find_counted(query()), planner(setup).find_counted(query()));
             let mut damaged = bytes;
             damaged[0] ^= 1;
-            let refused = index(setup, &grid(), Some(&damaged)).map(|_| ());
-            assert!(matches!(refused, Err(EngineError::JumpTable(_))), "{refused:?}");
+            let refused = read(setup, &map(), damaged).map(|_| ());
+            assert!(matches!(refused, Err(Error::IndexFile(_))), "{refused:?}");
         }
     }
 }
 
 #[test]
 fn only_some_engines_have_an_index_or_distances() {
+    let distances = |setup: Setup, start: (i32, i32)| {
+        setup.space(&map()).and_then(|space| space.distances(setup.engine.kind(), start))
+    };
     for engine in Engine::ALL.into_iter().filter(|&engine| engine.capabilities().index.is_none()) {
         let setup = plain(engine);
         let error = format!("{engine} has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa");
-        let said = [build(setup, &grid()).map(|_| ()), index(setup, &grid(), Some(&[])).map(|_| ())];
-        assert_eq!(
-            said.map(|said| said.map_err(|error| error.to_string())),
-            [Err(error.clone()), Err(error)]
-        );
+        assert_eq!(build(setup, &map()).map_err(|error| error.to_string()), Err(error));
     }
     for engine in Engine::ALL {
-        let found = distances(plain(engine), &grid(), Vertex::new(0, 0));
+        let found = distances(plain(engine), (0, 0));
         match found {
             // The map is connected: every free cell is reached.
             Ok(found) => {
                 assert!(matches!(engine, Engine::Dijkstra | Engine::Wavefront));
-                assert_eq!(found.len() as u64, grid().free_cells());
+                assert_eq!(found.len() as u64, map().grid().free_cells());
                 assert_eq!((found[0], found[1]), ((Vertex::new(0, 0), 0.0), (Vertex::new(1, 0), 1.0)));
             }
             Err(error) => assert_eq!(
@@ -435,28 +433,10 @@ fn only_some_engines_have_an_index_or_distances() {
             ),
         }
     }
-    let blocked = distances(Setup::new(Engine::Dijkstra, k(3), NEVER), &grid(), Vertex::new(6, 0));
-    assert!(matches!(blocked, Err(EngineError::Query(_))), "{blocked:?}");
+    let blocked = distances(Setup::new(Engine::Dijkstra, k(3), NEVER), (6, 0));
+    assert!(matches!(blocked, Err(Error::Query(_))), "{blocked:?}");
     let corner = Setup::new(Engine::Dijkstra, k(4), Rules::Corner(DiagonalGap::Closed));
-    let found = distances(corner, &grid(), Vertex::new(0, 0)).expect("a free start");
+    let found = distances(corner, (0, 0)).expect("a free start");
     let (_, distance) = found.iter().find(|(at, _)| *at == Vertex::new(2, 1)).expect("it is reached");
     assert!((distance - 5.0_f64.sqrt()).abs() < 1e-9, "{distance}");
-}
-
-#[test]
-fn shared_rules_change_no_answer() {
-    let shared = SharedRules::new();
-    for rules in Rules::ALL {
-        // A rule for another k is known when the second one is asked for.
-        for number in [4, 5] {
-            for engine in [Engine::Canonical, Engine::Jps] {
-                let setup = Setup::new(engine, k(number), rules);
-                let answer = |rules: &SharedRules| {
-                    let planner = Planner::new(setup, &grid(), rules);
-                    planner.unwrap_or_else(|error| panic!("{setup}: {error}")).solve_counted(query())
-                };
-                assert_eq!(answer(&shared), answer(&SharedRules::new()), "{setup}");
-            }
-        }
-    }
 }

@@ -1,21 +1,19 @@
 //! The catalog of engines.
 
 mod catalog;
+mod door;
 mod hierarchies;
+mod identity;
+mod mistakes;
 mod options;
 mod subgoals;
 
-use std::sync::Arc;
-
-use mediant::{EngineError, Index, Planner, Setup, SharedRules, Space};
-use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Rules};
+use mediant::{Error, Index, Map, Planner, Setup};
+use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Rules};
 use mediant_moves::FiniteK;
 
 const NEVER: Rules = Rules::Center(CornerRule::Never);
 const OPEN: Rules = Rules::Corner(DiagonalGap::Open);
-
-/// Pruning rules do not depend on a map: each is computed once for all tests.
-static RULES: SharedRules = SharedRules::new();
 
 /// A finite k.
 fn k(k: u32) -> FiniteK {
@@ -28,7 +26,7 @@ fn setup(text: &str) -> Setup {
 }
 
 /// A small map, all of whose free cells are connected.
-fn grid() -> Arc<Grid> {
+fn map() -> Map {
     let drawing = "
         ......#..
         .##...#..
@@ -36,29 +34,26 @@ fn grid() -> Arc<Grid> {
         ...#.....
         ...#..#..
     ";
-    Arc::new(AsciiMap::parse(drawing).expect("the drawing is a map").grid)
+    AsciiMap::parse(drawing).expect("the drawing is a map").grid.into()
 }
 
-/// The index of a setup on a map: a new one, or the one in these bytes.
-fn index(setup: Setup, grid: &Arc<Grid>, bytes: Option<&[u8]>) -> Result<Index, EngineError> {
-    let space = Space::new(setup, grid)?;
-    match bytes {
-        None => Index::new(setup, &space, &RULES),
-        Some(bytes) => Index::from_bytes(setup, &space, &RULES, bytes),
-    }
+/// A new index of a setup on a map.
+fn index(setup: Setup, map: &Map) -> Result<Index, Error> {
+    setup.prepare(&setup.space(map)?)
+}
+
+/// The index of a setup on a map, from its bytes.
+fn read(setup: Setup, map: &Map, bytes: Vec<u8>) -> Result<Index, Error> {
+    let index = setup.space(map)?.index_from_bytes(bytes)?.with_options(setup.engine)?;
+    Ok(index.with_smoothing(setup.smoothing))
 }
 
 /// The bytes of a new index.
-fn build(setup: Setup, grid: &Arc<Grid>) -> Result<Vec<u8>, EngineError> {
-    index(setup, grid, None)?.to_bytes()
+fn build(setup: Setup, map: &Map) -> Result<Vec<u8>, Error> {
+    index(setup, map)?.to_bytes()
 }
 
 /// A planner on the small map.
 fn planner(setup: Setup) -> Planner {
-    Planner::new(setup, &grid(), &RULES).unwrap_or_else(|error| panic!("{setup}: {error}"))
-}
-
-/// A planner on an index.
-fn planner_on(index: &Index) -> Planner {
-    index.planner().unwrap_or_else(|error| panic!("{}: {error}", index.setup()))
+    setup.planner(&map()).unwrap_or_else(|error| panic!("{setup}: {error}"))
 }

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use mediant::{Planner, SharedRules};
+use mediant::Map;
 use mediant_grid::{AsciiMap, DiagonalGap, Grid, Vertex};
 use mediant_oracle::Visibility;
 use mediant_report::GridDrawing;
@@ -38,9 +38,8 @@ impl Worst {
     pub(super) fn path(&self, k: u32) -> Result<Vec<(f64, f64)>, Error> {
         let wrong = |wrong: &dyn std::fmt::Display| Error::Reproduce(format!("Figure 6, k = {k}: {wrong}"));
         let setup = setup(&format!("astar:{k}:one"))?;
-        let mut planner =
-            Planner::new(setup, &self.grid, &SharedRules::new()).map_err(|error| wrong(&error))?;
-        let outcome = planner.solve(Query::new(self.start, self.goal)).map_err(|error| wrong(&error))?;
+        let mut planner = setup.planner(&Map::from(Arc::clone(&self.grid))).map_err(|error| wrong(&error))?;
+        let outcome = planner.find(Query::new(self.start, self.goal)).map_err(|error| wrong(&error))?;
         let path = outcome.path().ok_or_else(|| wrong(&"no path"))?;
         Ok(path.waypoints().iter().map(|at| (f64::from(at.x) + 0.5, f64::from(at.y) + 0.5)).collect())
     }

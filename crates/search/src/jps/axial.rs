@@ -110,7 +110,7 @@ pub(crate) struct AxialStops {
     planes: [BitPlane; 4],
     /// For 64 vertices of a line: which of them end a jump, and which of these because the jump cannot enter
     /// them.
-    words: Vec<[u64; 2]>,
+    words: Box<[[u64; 2]]>,
 }
 
 /// Where the bits of one direction are: the bit of vertex (x, y) is at `origin` + `per_x` · x + `per_y` · y,
@@ -151,7 +151,7 @@ impl AxialStops {
         });
         // A scan reads two words.
         words.push([!0; 2]);
-        Self { planes, words }
+        Self { planes, words: words.into_boxed_slice() }
     }
 
     /// The axial jump from a vertex of the map in direction number `quarter` < 4: (0, 1), (1, 0), (0, −1),

@@ -1,5 +1,7 @@
 //! Block-based jumps: axial jumps by words of 64 vertices.
 
+use std::sync::Arc;
+
 use mediant_grid::{GridGraph, Identity, Placement};
 use mediant_moves::KError;
 
@@ -14,12 +16,13 @@ use crate::{
     successors::ExpandedNode,
 };
 
-/// Makes axial jumps by words of 64 vertices, for k ≤ 3. Takes two bytes a vertex.
+/// Makes axial jumps by words of 64 vertices, for k ≤ 3. Takes two bytes a vertex, which clones
+/// share.
 #[derive(Clone, Debug)]
 pub struct BlockFinder {
     identity: Identity,
-    axial: AxialStops,
-    diagonals: DiagonalBits,
+    axial: Arc<AxialStops>,
+    diagonals: Arc<DiagonalBits>,
 }
 
 impl BlockFinder {
@@ -41,8 +44,8 @@ impl BlockFinder {
         }
         Ok(Self {
             identity: graph.identity(),
-            axial: AxialStops::new(graph),
-            diagonals: DiagonalBits::new(graph, pruning),
+            axial: Arc::new(AxialStops::new(graph)),
+            diagonals: Arc::new(DiagonalBits::new(graph, pruning)),
         })
     }
 

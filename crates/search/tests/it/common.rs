@@ -2,13 +2,10 @@
 
 use std::sync::Arc;
 
-use mediant::{Engine, Index, Planner, Setup, SharedRules, Space, Variant};
+use mediant::{Engine, Map, Planner, Setup, Space, Variant};
 use mediant_grid::{DiagonalGap, Grid, Rules};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{Counters, Guarantee, Outcome, Query, QueryError};
-
-/// Pruning rules do not depend on the map: each is computed once.
-static RULES: SharedRules = SharedRules::new();
 
 /// The answer of an engine to a query.
 pub(crate) type Answer = Result<(Outcome, Counters), QueryError>;
@@ -45,12 +42,12 @@ impl<'g> TestedEngine<'g> {
     pub(crate) fn solve(&mut self, query: Query) -> Answer {
         let Self { setup, space, .. } = *self;
         let make = || {
-            let planner = Index::new(setup, space, &RULES).and_then(|index| index.planner());
-            let planner = planner.unwrap_or_else(|error| panic!("{setup}: {error}"));
+            let index = setup.prepare(space).unwrap_or_else(|error| panic!("{setup}: {error}"));
+            let planner = index.planner();
             assert_eq!(planner.guarantee(), setup.guarantee(), "{setup}");
             planner
         };
-        self.planner.get_or_insert_with(make).solve_counted(query)
+        self.planner.get_or_insert_with(make).find_counted(query)
     }
 }
 
@@ -77,6 +74,6 @@ pub(crate) fn with_any_angle_engines<R>(
 
 fn on<R>(grid: &Arc<Grid>, rules: Rules, k: K, suite: impl FnOnce(Vec<TestedEngine<'_>>) -> R) -> R {
     let setups: Vec<Setup> = Setup::all(k, rules).collect();
-    let space = Space::new(setups[0], grid).expect("k is in range");
+    let space = setups[0].space(&Map::from(Arc::clone(grid))).expect("k is in range");
     suite(setups.into_iter().map(|setup| TestedEngine::new(setup, &space)).collect())
 }

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use mediant::{Engine, Planner, Setup, SharedRules};
+use mediant::{Engine, Map, Setup};
 use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Rules, draw};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{Outcome, Query, Smoothing};
@@ -22,8 +22,8 @@ fn picture_by(engine: Engine, drawing: &str, rules: Rules, k: u32, smoothing: Op
     let k = if engine == Engine::Anya { K::Any } else { FiniteK::new(k).expect("k is at least 2").into() };
     let setup = Setup { smoothing, ..Setup::new(engine, k, rules) };
     let grid = Arc::new(map.grid);
-    let mut planner = Planner::new(setup, &grid, &SharedRules::new()).expect("the engine takes this");
-    match planner.solve(query).expect("both ends are free") {
+    let mut planner = setup.planner(&Map::from(Arc::clone(&grid))).expect("the engine takes this");
+    match planner.find(query).expect("both ends are free") {
         Outcome::Found(path) => {
             format!(
                 "k = {k}, {rules}: {:.4}\n{}",
@@ -31,7 +31,7 @@ fn picture_by(engine: Engine, drawing: &str, rules: Rules, k: u32, smoothing: Op
                 draw(&grid, rules.placement(), path.waypoints())
             )
         }
-        Outcome::Unreachable => format!("k = {k}, {rules}: unreachable\n"),
+        _ => format!("k = {k}, {rules}: unreachable\n"),
     }
 }
 

@@ -185,7 +185,7 @@ fn paths<P: Placement>(grid: Arc<Grid>, k: FiniteK, rule: P::Rule, query: Query)
     let lazy = LazyThetaStar::new(&grid_graph, Hk).solve(query);
     [eager, lazy].map(|outcome| match outcome.expect("both ends are free") {
         Outcome::Found(path) => path.into_waypoints(),
-        Outcome::Unreachable => Vec::new(),
+        _ => Vec::new(),
     })
 }
 

@@ -1,0 +1,18 @@
+//! A map that changes: a door opens, and the index is repaired.
+#![allow(clippy::print_stdout, reason = "an example shows what it finds")]
+
+use mediant::{Engine, K, Map, Motion, Query, Rectangle};
+
+fn main() -> Result<(), mediant::Error> {
+    let walled = Map::from_fn(64, 64, |x, _| x == 30)?.space(Motion::centers(K::N8))?;
+    let index = walled.prepare(Engine::Hpa)?;
+
+    let door = Rectangle { x: 30, y: 20, width: 1, height: 2 };
+    let opened = walled.edit(door, |_, _| false)?;
+    let repaired = index.repair(&opened)?;
+    for index in [index, repaired] {
+        let answer = index.planner().find(Query::new((0, 0), (60, 50)))?;
+        println!("{:?}: {:?}", index.origin(), answer.cost());
+    }
+    Ok(())
+}

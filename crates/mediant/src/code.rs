@@ -1,0 +1,181 @@
+//! Stable names for the kinds of mistakes.
+
+use mediant_formats::{IndexError, ReadError};
+use mediant_grid::GridError;
+use mediant_hierarchy::HierarchyError;
+use mediant_search::{End, QueryError};
+
+use crate::{
+    error::{Error, SetupError},
+    names::names,
+};
+
+/// The kind of a mistake. The names are the same in all languages, and stay from version to version; new
+/// ones may come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ErrorCode {
+    /// A map with a side of 0, or one that is too long.
+    MapSize,
+    /// A map with rows of different lengths.
+    MapRagged,
+    /// An edit outside the map.
+    EditOutside,
+    /// A k that does not exist, or that nothing is made for.
+    K,
+    /// Rules and a k that no engine searches together.
+    Motion,
+    /// The name of an engine, or of a value of an option, that does not exist.
+    UnknownName,
+    /// A text that is no setup.
+    SetupText,
+    /// An option, or a value of it, that the engine does not take.
+    EngineOption,
+    /// A k that the engine does not take.
+    EngineK,
+    /// A placement or rule that the engine does not take.
+    EngineRules,
+    /// Something that the engine does not have: a saved index, or distances.
+    EngineWithout,
+    /// Two things that belong to other maps, rules or k.
+    Mismatch,
+    /// A start that is blocked.
+    StartBlocked,
+    /// A goal that is blocked.
+    GoalBlocked,
+    /// A start outside the map.
+    StartOutside,
+    /// A goal outside the map.
+    GoalOutside,
+    /// No path was found, though there is one.
+    GaveUp,
+    /// An index that cannot be made: too large, or with levels or a side that do not exist.
+    IndexRange,
+    /// An index that does not have the levels or the side that were named.
+    IndexOptions,
+    /// An index that is damaged, cut short, or none.
+    IndexDamaged,
+    /// An index of another engine, or of another version of it.
+    IndexEngine,
+    /// An index that does not follow from the map by the edit that was named.
+    IndexEdit,
+    /// A file that does not exist.
+    FileMissing,
+    /// A file that cannot be read.
+    FileUnreadable,
+    /// A file that cannot be written.
+    FileUnwritable,
+    /// A file that is no map.
+    MapFormat,
+    /// A file that is no scenario.
+    ScenarioFormat,
+    /// A mistake of a kind that has no name yet.
+    Other,
+}
+
+names!(ErrorCode:
+    MapSize => "map-size",
+    MapRagged => "map-ragged",
+    EditOutside => "edit-outside",
+    K => "k",
+    Motion => "motion",
+    UnknownName => "unknown-name",
+    SetupText => "setup-text",
+    EngineOption => "engine-option",
+    EngineK => "engine-k",
+    EngineRules => "engine-rules",
+    EngineWithout => "engine-without",
+    Mismatch => "mismatch",
+    StartBlocked => "start-blocked",
+    GoalBlocked => "goal-blocked",
+    StartOutside => "start-outside",
+    GoalOutside => "goal-outside",
+    GaveUp => "gave-up",
+    IndexRange => "index-range",
+    IndexOptions => "index-options",
+    IndexDamaged => "index-damaged",
+    IndexEngine => "index-engine",
+    IndexEdit => "index-edit",
+    FileMissing => "file-missing",
+    FileUnreadable => "file-unreadable",
+    FileUnwritable => "file-unwritable",
+    MapFormat => "map-format",
+    ScenarioFormat => "scenario-format",
+    Other => "other",
+);
+
+impl Error {
+    /// The kind of the mistake.
+    #[must_use]
+    pub fn code(&self) -> ErrorCode {
+        match self {
+            Self::Grid(GridError::Size { .. }) => ErrorCode::MapSize,
+            Self::Grid(GridError::Ragged { .. }) => ErrorCode::MapRagged,
+            Self::Edit { .. } => ErrorCode::EditOutside,
+            Self::Motion { .. } => ErrorCode::Motion,
+            Self::K(_) => ErrorCode::K,
+            Self::Name(_) => ErrorCode::UnknownName,
+            Self::Text(_) => ErrorCode::SetupText,
+            Self::Setup(error) => of_setup(error),
+            Self::Mismatch(_) => ErrorCode::Mismatch,
+            Self::Query(error) => of_query(error),
+            Self::Jump(_) | Self::Subgoal(_) => ErrorCode::IndexDamaged,
+            Self::Hierarchy(error) => of_hierarchy(error),
+            Self::Levels { .. } | Self::Side { .. } => ErrorCode::IndexOptions,
+            Self::IndexFile(error) => of_index(error),
+            Self::Read(ReadError::Missing { .. }) => ErrorCode::FileMissing,
+            Self::Read(ReadError::Map { .. }) => ErrorCode::MapFormat,
+            Self::Read(ReadError::Scenario { .. }) => ErrorCode::ScenarioFormat,
+            Self::Read(ReadError::Index { source, .. }) => of_index(source),
+            Self::Read(_) => ErrorCode::FileUnreadable,
+            Self::Write(_) => ErrorCode::FileUnwritable,
+            Self::Grid(_) => ErrorCode::Other,
+        }
+    }
+}
+
+const fn of_setup(error: &SetupError) -> ErrorCode {
+    match error {
+        SetupError::Option { .. }
+        | SetupError::DetourAsPublished { .. }
+        | SetupError::OtherEngine { .. }
+        | SetupError::OtherVariant { .. } => ErrorCode::EngineOption,
+        SetupError::K { .. } | SetupError::NeedsFiniteK { .. } | SetupError::NeedsAny { .. } => {
+            ErrorCode::EngineK
+        }
+        SetupError::Placement { .. } | SetupError::Centers { .. } => ErrorCode::EngineRules,
+        SetupError::Without { .. } => ErrorCode::EngineWithout,
+    }
+}
+
+const fn of_query(error: &QueryError) -> ErrorCode {
+    match error {
+        QueryError::Outside { end: End::Start, .. } => ErrorCode::StartOutside,
+        QueryError::Outside { end: End::Goal, .. } => ErrorCode::GoalOutside,
+        QueryError::Blocked { end: End::Start, .. } => ErrorCode::StartBlocked,
+        QueryError::Blocked { end: End::Goal, .. } => ErrorCode::GoalBlocked,
+        QueryError::GaveUp { .. } => ErrorCode::GaveUp,
+        _ => ErrorCode::Other,
+    }
+}
+
+const fn of_hierarchy(error: &HierarchyError) -> ErrorCode {
+    match error {
+        HierarchyError::Side { .. } | HierarchyError::Levels { .. } | HierarchyError::TooLarge { .. } => {
+            ErrorCode::IndexRange
+        }
+        HierarchyError::Moves { .. } => ErrorCode::EngineRules,
+        HierarchyError::K(_) => ErrorCode::K,
+        HierarchyError::Mismatch(_) => ErrorCode::Mismatch,
+        HierarchyError::Bytes(_) => ErrorCode::IndexDamaged,
+        _ => ErrorCode::IndexEdit,
+    }
+}
+
+const fn of_index(error: &IndexError) -> ErrorCode {
+    match error {
+        IndexError::Engine { .. } | IndexError::EngineVersion { .. } => ErrorCode::IndexEngine,
+        IndexError::Mismatch(_) => ErrorCode::Mismatch,
+        _ => ErrorCode::IndexDamaged,
+    }
+}

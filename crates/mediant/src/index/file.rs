@@ -1,0 +1,92 @@
+//! Indexes as bytes and files. Both begin with a key: the engine, the version of its format, and the map,
+//! rules and k that the index is for. They end with a checksum.
+
+use std::path::Path as FilePath;
+
+use mediant_formats::{IndexFile, IndexKey};
+
+use super::{Index, source::Source};
+use crate::{
+    configured::ConfiguredEngine,
+    engine::Engine,
+    error::{Error, SetupError},
+    space::Space,
+};
+
+impl Index {
+    /// Writes the index to a file, for [`Space::load`]. An older file there is replaced as a whole.
+    ///
+    /// # Errors
+    /// [`Error::Setup`] for an engine whose index is not saved, [`Error::Write`] if the operating system
+    /// refuses.
+    pub fn save(&self, path: impl AsRef<FilePath>) -> Result<(), Error> {
+        Ok(self.file()?.write(path)?)
+    }
+
+    /// The index as bytes, those of its file, for [`Space::index_from_bytes`].
+    ///
+    /// # Errors
+    /// [`Error::Setup`] for an engine whose index is not saved.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
+        Ok(self.file()?.to_bytes())
+    }
+
+    fn file(&self) -> Result<IndexFile, Error> {
+        let engine = self.setup.engine.kind();
+        let payload = self.prepared.to_bytes().ok_or_else(|| SetupError::without_index(engine))?;
+        Ok(IndexFile::new(key(engine, &self.space)?, payload))
+    }
+}
+
+impl Space {
+    /// Reads an index that [`Index::save`] wrote for the same map, rules and k. Its engine has the default
+    /// options; [`Index::with_options`] chooses others.
+    ///
+    /// # Errors
+    /// [`Error::Read`] for a file that is missing, cannot be read, or is no whole index; [`Error::Mismatch`]
+    /// for an index of another map, rule or k.
+    pub fn load(&self, path: impl AsRef<FilePath>) -> Result<Index, Error> {
+        let path = path.as_ref();
+        self.index(&IndexFile::read(path)?, None).map_err(|error| error.of_file(path))
+    }
+
+    /// [`load`](Self::load) for an engine with options.
+    ///
+    /// # Errors
+    /// Those of [`load`](Self::load) and of [`Index::with_options`]; for the index of another engine
+    /// [`Error::Read`].
+    pub fn load_for(
+        &self,
+        engine: impl Into<ConfiguredEngine>,
+        path: impl AsRef<FilePath>,
+    ) -> Result<Index, Error> {
+        let path = path.as_ref();
+        self.index(&IndexFile::read(path)?, Some(engine.into())).map_err(|error| error.of_file(path))
+    }
+
+    /// The index that [`Index::to_bytes`] wrote for the same map, rules and k, as [`load`](Self::load) reads
+    /// it from a file.
+    ///
+    /// # Errors
+    /// [`Error::IndexFile`] for bytes that are no whole index; [`Error::Mismatch`] for an index of another
+    /// map, rule or k.
+    pub fn index_from_bytes(&self, bytes: Vec<u8>) -> Result<Index, Error> {
+        self.index(&IndexFile::from_bytes(bytes)?, None)
+    }
+
+    /// The index of a file, for an engine with options, or the file's engine with none.
+    fn index(&self, file: &IndexFile, engine: Option<ConfiguredEngine>) -> Result<Index, Error> {
+        let engine = match engine {
+            Some(engine) => engine,
+            None => file.key().engine().parse::<Engine>()?.into(),
+        };
+        file.check(&key(engine.kind(), self)?)?;
+        Index::from_source(self, engine, Source { bytes: Some(file.payload()), progress: &|_| {} })
+    }
+}
+
+/// What the index of an engine in a space is for.
+fn key(engine: Engine, space: &Space) -> Result<IndexKey, Error> {
+    let version = engine.capabilities().index.ok_or_else(|| SetupError::without_index(engine))?;
+    Ok(IndexKey::new(engine.name(), version, space.identity())?)
+}

@@ -1,0 +1,94 @@
+//! Indexes for a map that changed.
+
+use std::sync::Arc;
+
+use mediant_grid::{Centers, GridGraph, Mismatch, Rectangle};
+
+use super::{Index, OnGridGraph, Prepared};
+use crate::{
+    error::Error,
+    space::{Placed, Space},
+};
+
+/// How an index came about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Origin {
+    /// It was prepared.
+    Prepared,
+    /// It was read from bytes or a file.
+    Loaded,
+    /// It was repaired: only what an edit of the map touches was made anew.
+    Repaired,
+}
+
+impl Index {
+    /// The index for a changed map of the same rules and k. It gives the same answers as one prepared anew.
+    /// Clusters and segments are repaired where the maps differ; the other engines' indexes are prepared
+    /// anew. [`origin`](Self::origin) says which it was. This index stays as it is.
+    ///
+    /// ```
+    /// use mediant::{Engine, K, Map, Motion, Origin, Rectangle};
+    ///
+    /// let space = Map::from_fn(40, 30, |x, _| x == 20)?.space(Motion::centers(K::N8))?;
+    /// let door = Rectangle { x: 20, y: 7, width: 1, height: 2 };
+    /// let opened = space.edit(door, |_, _| false)?;
+    /// let index = space.prepare(Engine::Hpa)?.repair(&opened)?;
+    /// assert_eq!(index.origin(), Origin::Repaired);
+    /// assert_eq!(space.prepare(Engine::Subgoal)?.repair(&opened)?.origin(), Origin::Prepared);
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Mismatch`] for a space of other rules or another k; those of [`Space::prepare`].
+    pub fn repair(&self, changed: &Space) -> Result<Self, Error> {
+        let (belongs_to, found) = (self.identity(), changed.identity());
+        if self.space.motion() != changed.motion() {
+            let mismatch = Mismatch { prepared: "the index", belongs_to, other: "the changed space", found };
+            return Err(mismatch.into());
+        }
+        let repaired = match (&self.prepared, changed.placed(), self.changed_cells(changed)) {
+            (Prepared::Centers(graph, parts), Placed::Centers(layers), Some(at)) => {
+                parts.repaired(graph, layers.graph(graph.k())?, at)?
+            }
+            _ => None,
+        };
+        let Some(prepared) = repaired else {
+            let setup = self.setup;
+            let engine = self.prepared.with_shape(setup.engine)?;
+            return Ok(Self { setup, ..Self::new(changed, engine, &|_| {})? });
+        };
+        Ok(Self { space: changed.clone(), setup: self.setup, origin: Origin::Repaired, prepared })
+    }
+
+    /// The cells that differ from those of a changed map; `None` if its size differs.
+    fn changed_cells(&self, changed: &Space) -> Option<Rectangle> {
+        changed.map().grid().difference(self.space.map().grid())
+    }
+}
+
+impl OnGridGraph<Centers> {
+    /// The same on a changed grid graph, of which only the cells of a rectangle differ; `None` for what
+    /// cannot be repaired.
+    fn repaired(
+        &self,
+        before: &Arc<GridGraph<Centers>>,
+        after: &Arc<GridGraph<Centers>>,
+        at: Rectangle,
+    ) -> Result<Option<Prepared>, Error> {
+        let parts = match self {
+            Self::Clusters(graph) => {
+                let mut graph = graph.as_ref().clone();
+                graph.repair(before.grid(), after.grid(), at)?;
+                Self::Clusters(Arc::new(graph))
+            }
+            Self::Segments(graph) => {
+                let mut graph = graph.as_ref().clone();
+                graph.repair(before.grid(), after.grid(), at)?;
+                Self::Segments(Arc::new(graph))
+            }
+            Self::Nothing | Self::Pruning(_) | Self::Blocks(..) | Self::Table(..) => return Ok(None),
+        };
+        Ok(Some(Prepared::Centers(Arc::clone(after), parts)))
+    }
+}

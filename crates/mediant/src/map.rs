@@ -1,0 +1,157 @@
+//! Maps: which cells are blocked.
+
+use std::{path::Path as FilePath, sync::Arc};
+
+use mediant_formats::MapFile;
+use mediant_grid::{Grid, GridError, MapId, Rectangle, Vertex};
+use mediant_moves::K;
+use mediant_search::Path;
+
+use crate::{error::Error, motion::Motion, space::Space};
+
+/// A map: a rectangle of cells, each free or blocked. Cell (x, y) is the one in column x from the left and
+/// row y from the top, both from 0. Everything outside is blocked.
+///
+/// A map never changes; [`edit`](Self::edit) makes another one. Clones share it.
+///
+/// ```
+/// use mediant::Map;
+///
+/// let map = Map::from_rows([
+///     "...#....",
+///     ".#.#.##.",
+///     ".#...#..",
+/// ])?;
+/// let path = map.path((0, 0), (7, 0))?.expect("there is a way");
+/// assert_eq!(path.waypoints()[0], (0, 0).into());
+/// assert!((path.cost() - 11.0).abs() < 1e-9);
+/// # Ok::<(), mediant::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Map {
+    grid: Arc<Grid>,
+}
+
+impl Map {
+    /// Reads a `MovingAI` map file: `.`, `G` and `S` are free cells, all other characters blocked ones.
+    ///
+    /// # Errors
+    /// [`Error::Read`] for a file that is missing, cannot be read, or is no map.
+    pub fn open(path: impl AsRef<FilePath>) -> Result<Self, Error> {
+        Ok(MapFile::read(path)?.to_grid().into())
+    }
+
+    /// The map with these rows from top to bottom, all of the same length: `.`, `G` and `S` are free cells,
+    /// all other characters blocked ones, as in the files of `MovingAI`.
+    ///
+    /// # Errors
+    /// [`Error::Grid`] for no rows, rows of different lengths, or sides longer than [`Grid::MAX_SIDE`].
+    pub fn from_rows<R: AsRef<str>>(rows: impl IntoIterator<Item = R>) -> Result<Self, Error> {
+        let is_blocked = |tile: char| !u8::try_from(tile).is_ok_and(MapFile::is_free_tile);
+        let rows = rows.into_iter().map(|row| row.as_ref().chars().map(is_blocked).collect());
+        let rows: Vec<Vec<bool>> = rows.collect();
+        let expected = rows.first().map_or(0, Vec::len);
+        if let Some((row, cells)) = rows.iter().enumerate().find(|(_, cells)| cells.len() != expected) {
+            return Err(GridError::Ragged { row, found: cells.len(), expected }.into());
+        }
+        Grid::check_size(expected as u64, rows.len() as u64)?;
+        Self::from_fn(expected as u32, rows.len() as u32, |x, y| rows[y as usize][x as usize])
+    }
+
+    /// The map of `width` × `height` cells for which `blocked(x, y)` says which are blocked. It is asked once
+    /// for each cell, row by row.
+    ///
+    /// # Errors
+    /// [`Error::Grid`] for a side of 0 or longer than [`Grid::MAX_SIDE`].
+    pub fn from_fn(width: u32, height: u32, blocked: impl FnMut(u32, u32) -> bool) -> Result<Self, Error> {
+        Ok(Grid::from_fn(width, height, blocked)?.into())
+    }
+
+    /// The map of `width` columns with these cells, row by row; true is blocked.
+    ///
+    /// # Errors
+    /// [`Error::Grid`] for a number of cells that is no multiple of the width, or sides of 0 or longer than
+    /// [`Grid::MAX_SIDE`].
+    pub fn from_bits(width: u32, blocked: &[bool]) -> Result<Self, Error> {
+        let columns = width.max(1) as usize;
+        let (height, rest) = (blocked.len() / columns, blocked.len() % columns);
+        Grid::check_size(u64::from(width), height as u64)?;
+        if rest != 0 {
+            return Err(GridError::Ragged { row: height, found: rest, expected: columns }.into());
+        }
+        Self::from_fn(width, height as u32, |x, y| blocked[y as usize * columns + x as usize])
+    }
+
+    /// A shortest path from one cell to another over k = 3: along rows, columns and diagonals between the
+    /// centers of cells, without cutting corners. `None` if there is none.
+    ///
+    /// This prepares the map each time. For more than one path, or other motion, make a [`Space`].
+    ///
+    /// # Errors
+    /// [`Error::Query`] for a start or goal that is blocked or outside the map.
+    pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
+        self.space(Motion::centers(K::N8))?.path(start, goal)
+    }
+
+    /// This map with rules of motion and a k.
+    ///
+    /// # Errors
+    /// [`Error::Motion`] where no engine searches: at k above 12, and between centers at any angle.
+    pub fn space(&self, motion: Motion) -> Result<Space, Error> {
+        Space::new(self, motion)
+    }
+
+    /// This map with other cells in a rectangle: `blocked(x, y)` is asked once for each of its cells, row by
+    /// row. Cells of the rectangle beyond the map are left out.
+    ///
+    /// # Errors
+    /// [`Error::Edit`] for a rectangle that lies outside the map as a whole.
+    pub fn edit(&self, at: Rectangle, blocked: impl FnMut(u32, u32) -> bool) -> Result<Self, Error> {
+        if at.x >= self.width() || at.y >= self.height() {
+            return Err(Error::Edit { at, size: self.id().size() });
+        }
+        Ok(self.grid.with_rectangle(at, blocked).into())
+    }
+
+    /// The number of columns.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.grid.width()
+    }
+
+    /// The number of rows.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.grid.height()
+    }
+
+    /// Whether a cell is blocked; those outside the map are.
+    #[must_use]
+    pub fn is_blocked(&self, x: i32, y: i32) -> bool {
+        self.grid.is_blocked(x, y)
+    }
+
+    /// The identity of the map: the same for all maps with the same cells.
+    #[must_use]
+    pub fn id(&self) -> MapId {
+        self.grid.id()
+    }
+
+    /// The bit-packed grid, for the typed crates.
+    #[must_use]
+    pub const fn grid(&self) -> &Arc<Grid> {
+        &self.grid
+    }
+}
+
+impl From<Grid> for Map {
+    fn from(grid: Grid) -> Self {
+        Self { grid: Arc::new(grid) }
+    }
+}
+
+impl From<Arc<Grid>> for Map {
+    fn from(grid: Arc<Grid>) -> Self {
+        Self { grid }
+    }
+}

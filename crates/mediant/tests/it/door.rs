@@ -1,0 +1,211 @@
+//! The library as its users call it.
+
+use std::sync::Arc;
+
+use mediant::{
+    Counters, Engine, Error, K, Map, Motion, Observer, Origin, Outcome, Planner, Query, Rectangle, Setup,
+    Space,
+};
+use mediant_grid::Rules;
+use mediant_oracle::{Rng, caves};
+
+use super::{k, map};
+
+/// What a user keeps can go to another thread, and what is shared can be used by many.
+#[test]
+fn handles_are_owned_and_can_be_sent() {
+    fn shared<T: Clone + Send + Sync + 'static>() {}
+    fn owned<T: Send + 'static>() {}
+    shared::<Map>();
+    shared::<Space>();
+    shared::<mediant::Index>();
+    owned::<Planner>();
+    owned::<Error>();
+}
+
+#[test]
+fn maps_are_made_in_many_ways() {
+    let rows = ["..#", "S@G"];
+    let from_rows = Map::from_rows(rows).expect("a map");
+    let cells: Vec<bool> = rows.concat().chars().map(|tile| "#@".contains(tile)).collect();
+    assert_eq!(Map::from_bits(3, &cells).expect("a map"), from_rows);
+    assert_eq!(Map::from_fn(3, 2, |x, y| cells[(3 * y + x) as usize]).expect("a map"), from_rows);
+    let file = tempfile::Builder::new().suffix(".map").tempfile().expect("a file");
+    std::fs::write(&file, "type octile\nheight 2\nwidth 3\nmap\n..@\n.TG\n").expect("it is written");
+    assert_eq!(Map::open(file.path()).expect("a map").id(), from_rows.id());
+    assert_eq!((from_rows.width(), from_rows.height()), (3, 2));
+    assert!(from_rows.is_blocked(2, 0) && !from_rows.is_blocked(2, 1) && from_rows.is_blocked(3, 0));
+    let grid = Arc::clone(from_rows.grid());
+    assert_eq!(Map::from(grid.as_ref().clone()), Map::from(grid));
+}
+
+/// An observer is a trait object, and hears what the counters count.
+#[test]
+fn observers_are_trait_objects() {
+    let space = map().space(Motion::centers(K::N8)).expect("a space");
+    let mut planner = space.planner(Engine::AStar).expect("a planner");
+    let query = Query::new((0, 0), (8, 4));
+    let mut counters: Box<dyn Observer> = Box::new(Counters::default());
+    let observed = planner.find_observed(query, &mut *counters);
+    let (counted, counts) = planner.find_counted(query).expect("both ends are free");
+    assert_eq!(observed, Ok(counted));
+    assert!(counts.expanded > 3);
+}
+
+/// The engine that is chosen takes the space, and its paths are shortest.
+#[test]
+fn the_chosen_engine_finds_shortest_paths() {
+    let query = Query::new((0, 0), (8, 4));
+    for rules in Rules::ALL {
+        for k in (2..=7).map(|n| K::Finite(k(n))).chain([K::Any]) {
+            let Ok(space) = map().space(Motion { k, rules }) else { continue };
+            let reference = if k == K::Any { Engine::Anya } else { Engine::AStar };
+            let cost = |engine: Engine| {
+                let answer = space.planner(engine).expect("it takes the space").find(query);
+                answer.expect("both ends are free").path().expect("there is one").cost()
+            };
+            let best = cost(reference);
+            assert!(
+                (cost(space.engine().engine) - best).abs() < 1e-9,
+                "{}: {}",
+                space.motion(),
+                space.engine()
+            );
+            let now = space.path(query.start, query.goal).expect("both ends are free").expect("there is one");
+            assert!((now.cost() - best).abs() < 1e-9, "{}", space.motion());
+        }
+    }
+}
+
+/// Random edits by seed, each engine's index along them: a repaired index answers as one made anew, is as
+/// large, and says how it came about.
+#[test]
+fn repaired_indexes_are_as_good_as_new_ones() {
+    let mut rng = Rng::new(16);
+    for motion in
+        [Motion::centers(K::N8), Motion::centers(K::N4), Motion::corners(K::N16), Motion::corners(K::ANY)]
+    {
+        let mut space = Map::from(caves(&mut rng, 50, 40)).space(motion).expect("a space");
+        let mut indexes: Vec<_> = Setup::all(motion.k, motion.rules)
+            .map(|setup| setup.prepare(&space).unwrap_or_else(|error| panic!("{setup}: {error}")))
+            .collect();
+        for edit in 0..6 {
+            let mut side = |length| rng.below(length);
+            let at = Rectangle { x: side(50), y: side(40), width: side(20), height: side(9) };
+            space = space.edit(at, |x, y| (x * 7 + y * 3 + edit) % 5 == 0).expect("cells of the map");
+            for index in &mut indexes {
+                let setup = index.setup();
+                *index = index.repair(&space).unwrap_or_else(|error| panic!("{setup}: {error}"));
+                let anew = setup.prepare(&space).expect("as before");
+                let is_repaired = matches!(setup.engine.kind(), Engine::Hpa | Engine::Chpa);
+                let origin = if is_repaired { Origin::Repaired } else { Origin::Prepared };
+                assert_eq!((index.setup(), index.origin()), (setup, origin));
+                assert_eq!(index.identity(), space.identity());
+                assert_eq!(index.memory_bytes(), anew.memory_bytes(), "{setup}, edit {edit}");
+                assert_eq!(index.to_bytes().ok(), anew.to_bytes().ok(), "{setup}, edit {edit}");
+                let (mut repaired, mut new) = (index.planner(), anew.planner());
+                for _ in 0..8 {
+                    let mut end = || (rng.below(50) as i32, rng.below(40) as i32);
+                    let query = Query::new(end(), end());
+                    assert_eq!(repaired.find_counted(query), new.find_counted(query), "{setup}, {query:?}");
+                }
+            }
+        }
+        // A map of another size shares nothing with the last one.
+        let other = map().space(motion).expect("a space");
+        for index in indexes {
+            let index = index.repair(&other).expect("the same motion");
+            assert_eq!((index.origin(), index.identity()), (Origin::Prepared, other.identity()));
+        }
+    }
+}
+
+/// An index that was read keeps its shape when it is made anew for a changed map.
+#[test]
+fn repaired_indexes_keep_their_shape() {
+    let space = map().space(Motion::centers(K::N8)).expect("a space");
+    let larger = Map::from_fn(40, 40, |x, y| x == y && x != 9).expect("a map").space(Motion::centers(K::N8));
+    let larger = larger.expect("a space");
+    for text in ["hpa,side=4,levels=1", "chpa,side=5", "subgoal,levels=2"] {
+        let setup: Setup = text.parse().expect("a setup");
+        let bytes = setup.prepare(&space).and_then(|index| index.to_bytes()).expect("an index");
+        let read =
+            space.index_from_bytes(bytes).expect("its bytes").repair(&larger).expect("the same motion");
+        let anew = setup.prepare(&larger).expect("an index");
+        assert_eq!(read.to_bytes().ok(), anew.to_bytes().ok(), "{text}");
+    }
+}
+
+/// Nothing is made that an engine does not search.
+#[test]
+fn engines_in_free_space_make_no_grid_graph() {
+    for (motion, engine, is_free) in [
+        (Motion::centers(K::N8), Engine::Subgoal, true),
+        (Motion::corners(K::N32), Engine::Subgoal, true),
+        (Motion::corners(K::N32), Engine::SubgoalTheta, true),
+        (Motion::corners(K::ANY), Engine::Anya, true),
+        (Motion::centers(K::N8), Engine::AStar, false),
+        (Motion::centers(K::N8), Engine::Hpa, false),
+    ] {
+        let space = map().space(motion).expect("a space");
+        let before = space.memory_bytes();
+        let mut planner = space.planner(engine).expect("it takes the motion");
+        assert!(planner.find(Query::new((0, 0), (8, 4))).is_ok_and(|answer| answer.path().is_some()));
+        assert_eq!(space.memory_bytes() == before, is_free, "{engine}, {motion}");
+    }
+}
+
+/// Damaged bytes are refused, whatever is damaged.
+#[test]
+fn damaged_indexes_are_refused() {
+    for text in ["jps-plus", "subgoal", "subgoal:any,levels=2", "subgoal-theta", "hpa,side=4", "chpa"] {
+        let setup: Setup = text.parse().expect("a setup");
+        let space = setup.space(&map()).expect("a space");
+        let whole = setup.prepare(&space).and_then(|index| index.to_bytes()).expect("an index");
+        let refused = |bytes: Vec<u8>, what: &str| {
+            let Err(error) = space.index_from_bytes(bytes) else { panic!("{text}, {what}: accepted") };
+            assert!(matches!(error, Error::IndexFile(_)), "{text}, {what}: {error}");
+        };
+        for length in 0..whole.len() {
+            refused(whole[..length].to_vec(), "cut");
+        }
+        for bit in (0..8 * whole.len()).step_by(3) {
+            let mut bytes = whole.clone();
+            bytes[bit / 8] ^= 1 << (bit % 8);
+            refused(bytes, &format!("bit {bit}"));
+        }
+    }
+}
+
+#[test]
+fn answers_are_taken_apart() {
+    let space = map().space(Motion::centers(K::N8)).expect("a space");
+    let mut planner = space.planner(Engine::Subgoal).expect("a planner");
+    let answer = planner.find(Query::new((0, 0), (0, 0))).expect("a free cell");
+    assert!(matches!(&answer, Outcome::Found(path) if path.cost() == 0.0));
+    assert_eq!(answer.into_path().map(|path| path.waypoints().len()), Some(1));
+    assert_eq!(planner.bound().is_some(), space.motion().rules == Rules::ALL[0]);
+    assert_eq!(planner.index().space().identity(), space.identity());
+}
+
+/// The README shows the examples as they are.
+#[test]
+fn the_readme_shows_the_examples() {
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+    let readme = std::fs::read_to_string(format!("{root}/README.md")).expect("the README");
+    let examples = std::fs::read_dir("examples").expect("a folder").map(|file| file.expect("a file").path());
+    let mut shown = 0;
+    for path in examples {
+        let text = std::fs::read_to_string(&path).expect("an example");
+        let (_, code) = text.split_once("\n\n").expect("a first line that says what it shows");
+        assert!(readme.contains(&format!("```rust\n{code}```")), "{}", path.display());
+        // Five jobs, each of at most six names and ten lines.
+        let [uses, main] = ["use mediant::", "fn main()"].map(|from| code.find(from).expect("it is there"));
+        let names = code[uses..main].lines().next().map_or(0, |line| line.split(", ").count());
+        let lines = code[main..].lines().skip(1).take_while(|line| *line != "    Ok(())");
+        let lines = lines.filter(|line| !line.trim().is_empty()).count();
+        assert!(names <= 6 && lines <= 10, "{}: {names} names, {lines} lines", path.display());
+        shown += 1;
+    }
+    assert_eq!(shown, 5);
+}

@@ -1,0 +1,102 @@
+//! An index is in memory once, however many planners share it; a planner takes its scratch memory alone.
+#![allow(unsafe_code, reason = "a counting allocator implements an unsafe trait")]
+
+use std::{
+    alloc::{GlobalAlloc, Layout, System},
+    sync::atomic::{AtomicUsize, Ordering},
+};
+
+use mediant::{Engine, K, Map, Motion, Planner, Query};
+
+/// The bytes that are allocated, by all threads.
+static BYTES: AtomicUsize = AtomicUsize::new(0);
+
+struct Counting;
+
+// SAFETY: every call goes to the system's allocator unchanged; the count touches no heap memory.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        BYTES.fetch_add(layout.size(), Ordering::Relaxed);
+        // SAFETY: the caller keeps the contract of `alloc`.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, at: *mut u8, layout: Layout) {
+        BYTES.fetch_sub(layout.size(), Ordering::Relaxed);
+        // SAFETY: the caller keeps the contract of `dealloc`, and `at` came from `System`.
+        unsafe { System.dealloc(at, layout) }
+    }
+}
+
+#[global_allocator]
+static COUNTING: Counting = Counting;
+
+const SIDE: u32 = 256;
+const THREADS: usize = 8;
+/// Bytes of a planner besides: its open list.
+const SLACK: usize = 20 << 10;
+
+/// What `make` makes, and how many bytes that keeps.
+fn kept<T>(make: impl FnOnce() -> T) -> (T, usize) {
+    let before = BYTES.load(Ordering::Relaxed);
+    let made = make();
+    (made, BYTES.load(Ordering::Relaxed) - before)
+}
+
+/// Eight planners, each warmed by a thread of its own.
+fn planners(index: &mediant::Index) -> Vec<Planner> {
+    let mut planners: Vec<Planner> = (0..THREADS).map(|_| index.planner()).collect();
+    std::thread::scope(|scope| {
+        for planner in &mut planners {
+            scope.spawn(move || {
+                for goal in [(250, 3), (3, 250), (250, 250)] {
+                    let answer = planner.find(Query::new((0, 0), goal)).expect("both ends are free");
+                    assert!(answer.path().is_some());
+                }
+            });
+        }
+    });
+    planners
+}
+
+/// One test: the count is of the whole program.
+#[test]
+fn eight_planners_share_one_index() {
+    // A cell in sixteen is blocked, so that every engine has much to prepare.
+    let map = Map::from_fn(SIDE, SIDE, |x, y| x % 4 == 1 && y % 4 == 2).expect("a map");
+    let vertices = (SIDE * SIDE) as usize;
+    // Bytes of scratch memory a vertex. A planner with a copy of its index would need more.
+    for (engine, k, scratch) in [
+        (Engine::AStar, K::N8, 16),
+        (Engine::Canonical, K::N32, 16),
+        (Engine::Jps, K::N8, 24),
+        (Engine::JpsBlock, K::N8, 24),
+        (Engine::JpsPlus, K::N8, 24),
+        (Engine::Subgoal, K::N8, 16),
+        (Engine::Subgoal, K::N4, 16),
+        (Engine::Hpa, K::N8, 6),
+        (Engine::Chpa, K::N8, 19),
+    ] {
+        let space = map.space(Motion::centers(k)).expect("a space");
+        space.make_ready(engine).expect("it takes the motion");
+        let (index, bytes) = kept(|| space.prepare(engine).expect("an index"));
+        let stated = index.memory_bytes() as usize;
+        assert!(
+            stated <= bytes + 4096 && bytes <= stated + stated / 8 + 8192,
+            "{engine}: {stated} of {bytes}"
+        );
+
+        let (shared, of_eight) = kept(|| planners(&index));
+        let most = THREADS * (scratch * vertices + SLACK);
+        assert!(of_eight <= most, "{engine}: {of_eight} bytes of eight planners, at most {most}");
+        assert_eq!(index.memory_bytes() as usize, stated, "{engine}");
+        println!(
+            "{engine} at k = {k}: index {bytes} bytes once, {} each of {THREADS} planners",
+            of_eight / THREADS
+        );
+        // Clones share it too, and the last one that goes frees it.
+        let (_clones, of_clones) = kept(|| vec![index.clone(); 64]);
+        assert!(of_clones < 64 * 512, "{engine}: {of_clones}");
+        drop(shared);
+    }
+}
