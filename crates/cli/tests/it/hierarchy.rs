@@ -150,8 +150,8 @@ fn a_saved_index_gives_the_same_answers() {
     }
     let line = format!("build builtin:cave --engine chpa -o {}", files.path("cave.idx"));
     let text = redact_times(&run(&line).stdout);
-    // A header, and a byte for each of 24 × 12 segments.
-    assert_eq!(text, "cave.idx · chpa of cave.map · 324 bytes · built in TIME\n");
+    // What the index is for, the side, a byte for each of 24 × 12 segments, a checksum.
+    assert_eq!(text, "cave.idx · chpa of cave.map · 428 bytes · built in TIME\n");
 }
 
 #[test]

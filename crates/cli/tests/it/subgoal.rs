@@ -191,7 +191,7 @@ fn an_index_of_another_version_is_refused() {
     foreign[28] = 2;
     let message = saved("subgoal", version, never, &foreign);
     assert!(
-        message.starts_with("error: the subgoal graph is for map ") && message.contains("k = 2"),
+        message.starts_with("error: other.idx: the subgoal graph is for map ") && message.contains("k = 2"),
         "{message}"
     );
 }
