@@ -17,7 +17,7 @@ use mediant_sets::{Archive, cache, root};
 use self::report::Results;
 use crate::{
     Baseline, Comparison, Competitor, MapRecord, MeasureError, Problem, ProblemError, ReferenceTimings,
-    ReferenceTimingsError, measure,
+    ReferenceTimingsError, TypedEngine, measure,
 };
 
 /// The options of `cargo xtask compare`.
@@ -37,6 +37,9 @@ pub struct Options {
     /// The timed passes of each competitor over a map, of which the median counts
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=999))]
     passes: u32,
+    /// Also time those of our engines that have a typed planner here as such, to see what the library adds
+    #[arg(long)]
+    typed: bool,
     /// A folder that holds the archives (SET-map.zip, SET-scen.zip) of sets that were not downloaded
     #[arg(long, value_name = "DIR", env = "MEDIANT_MIRROR")]
     mirror: Option<PathBuf>,
@@ -153,7 +156,9 @@ fn measure_all<'a>(
     options: &Options,
 ) -> Result<Measured<'a>, CompareError> {
     let ours = options.engines.iter().copied().map(Competitor::Ours);
-    let competitors: Vec<Competitor> = ours.chain(Baseline::ALL.map(Competitor::Baseline)).collect();
+    let typed = options.engines.iter().filter(|_| options.typed).copied().filter_map(TypedEngine::of);
+    let competitors = ours.chain(Baseline::ALL.map(Competitor::Baseline)).chain(typed.map(Competitor::Typed));
+    let competitors: Vec<Competitor> = competitors.collect();
     let rows =
         references.maps.iter().filter(|row| options.maps.is_empty() || options.maps.contains(&row.map));
     let rows: Vec<_> = rows.collect();

@@ -10,6 +10,7 @@ use mediant_search::{Outcome, Query, QueryError};
 use crate::{
     Baseline, Preparation, Problem,
     baseline::{BoolMap, Length, pathing_grid, solve_on},
+    typed::{Typed, TypedEngine},
 };
 
 /// A competitor of a measurement.
@@ -17,6 +18,8 @@ use crate::{
 pub enum Competitor {
     /// One of our engines.
     Ours(Setup),
+    /// The same engine as a planner of the typed crates, without the library.
+    Typed(TypedEngine),
     /// Another crate.
     Baseline(Baseline),
 }
@@ -25,6 +28,7 @@ impl fmt::Display for Competitor {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Ours(setup) => setup.fmt(f),
+            Self::Typed(engine) => engine.fmt(f),
             Self::Baseline(baseline) => f.pad(baseline.name()),
         }
     }
@@ -34,6 +38,7 @@ impl fmt::Display for Competitor {
 /// for each query, or hides it.
 pub(crate) enum Runner {
     Ours(Planner, Preparation),
+    Typed(Box<Typed>),
     Bools(BoolMap),
     Pathing(Box<PathingGrid>),
 }
@@ -57,6 +62,7 @@ impl Runner {
                 let bytes = space.memory_bytes() + index.memory_bytes();
                 Self::Ours(index.planner(), Preparation { seconds, bytes })
             }
+            Competitor::Typed(engine) => Self::Typed(Box::new(engine.planner(grid)?)),
             Competitor::Baseline(Baseline::Pathfinding) => Self::Bools(BoolMap::new(grid)),
             Competitor::Baseline(Baseline::GridPathfinding) => Self::Pathing(Box::new(pathing_grid(grid))),
         })
@@ -66,13 +72,14 @@ impl Runner {
     pub(crate) fn preparation(&self) -> Option<Preparation> {
         match self {
             Self::Ours(_, preparation) => Some(*preparation),
-            Self::Bools(_) | Self::Pathing(_) => None,
+            Self::Typed(_) | Self::Bools(_) | Self::Pathing(_) => None,
         }
     }
 
     pub(crate) fn solve(&mut self, query: Query) -> Result<Answer, QueryError> {
         Ok(match self {
             Self::Ours(planner, _) => Answer::Outcome(planner.find(query)?),
+            Self::Typed(planner) => Answer::Outcome(planner.solve(query)?),
             Self::Bools(map) => Answer::Cells(map.solve(query)),
             Self::Pathing(pathing) => Answer::Points(solve_on(pathing, query)),
         })

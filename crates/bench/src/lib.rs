@@ -9,7 +9,8 @@
 //! Nothing is timed before it is checked: a path of the wrong length is an error, not a result.
 //!
 //! * [`Problem`]: a map of a benchmark set with the queries of its scenario.
-//! * [`Competitor`]: one of our engines in a [`Setup`](mediant::Setup), or a baseline.
+//! * [`Competitor`]: one of our engines in a [`Setup`](mediant::Setup), the same as a
+//!   typed planner ([`TypedEngine`]), or a baseline.
 //! * [`measure`]: checks and times competitors side by side; [`MapRecord`]: the times.
 //! * [`Study`]: runs setups on the queries of one map; [`Run`]: the answers of one of them, with all counts
 //!   of its searches.
@@ -30,6 +31,7 @@ mod problem;
 mod readme;
 mod reference_timings;
 mod study;
+mod typed;
 pub mod verify;
 
 pub use baseline::Baseline;
@@ -42,3 +44,4 @@ pub use reference_timings::{
     ReferenceTimingsError,
 };
 pub use study::{Answer, Run, Study};
+pub use typed::TypedEngine;

@@ -155,6 +155,7 @@ const SCENARIOS: Optimum = (K::Finite(FiniteK::N8), Rules::Center(CornerRule::Ne
 /// The problem whose shortest paths a competitor promises, if any.
 fn promise(competitor: Competitor) -> Option<Optimum> {
     match competitor {
+        Competitor::Typed(engine) => promise(Competitor::Ours(engine.setup())),
         Competitor::Ours(setup) => setup.optimal_over().map(|k| (k, setup.rules)),
         Competitor::Baseline(Baseline::Pathfinding) => Some(SCENARIOS),
         Competitor::Baseline(Baseline::GridPathfinding) => None,

@@ -51,7 +51,7 @@ const LAYERS: [Layer; 14] = [
     layer(SETS, &[GRID, FORMATS], "a set is downloaded and verified without an engine"),
     layer(
         BENCH,
-        &[MOVES, GRID, SEARCH, LIBRARY, FORMATS, REPORT, SETS],
+        &[MOVES, GRID, SEARCH, SUBGOAL, LIBRARY, FORMATS, REPORT, SETS],
         "measurements take engines as users have them",
     ),
     layer(

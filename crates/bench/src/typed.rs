@@ -1,0 +1,101 @@
+//! Planners of the typed crates, to measure what the library `mediant` adds to a query.
+
+use std::{fmt, sync::Arc};
+
+use mediant::{Error, Setup};
+use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, GridGraph};
+use mediant_moves::{FiniteK, K};
+use mediant_search::{AStar, Anya, BlockJps, Hk, Outcome, Planner, Query, QueryError};
+use mediant_subgoal::{Hierarchy, SubgoalAStar, SubgoalGraph};
+
+/// An engine that is also measured as a typed planner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct TypedEngine {
+    engine: Kind,
+    setup: Setup,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Kind {
+    AStar,
+    JpsBlock,
+    Subgoal,
+    AnyAngleSubgoal,
+    Anya,
+}
+
+/// As the setup, after `typed`.
+impl fmt::Display for TypedEngine {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "typed {}", self.setup)
+    }
+}
+
+impl TypedEngine {
+    /// The engine of a setup; `None` if it is not measured as a typed planner.
+    #[must_use]
+    pub fn of(setup: Setup) -> Option<Self> {
+        let engine = match setup.to_string().as_str() {
+            "astar:3:never" => Kind::AStar,
+            "jps-block:3:never" => Kind::JpsBlock,
+            "subgoal:3:never" => Kind::Subgoal,
+            "subgoal:any:open" => Kind::AnyAngleSubgoal,
+            "anya:any:open" => Kind::Anya,
+            _ => return None,
+        };
+        Some(Self { engine, setup })
+    }
+
+    /// The setup through which the library has it.
+    #[must_use]
+    pub const fn setup(self) -> Setup {
+        self.setup
+    }
+
+    /// A planner on a map.
+    pub(crate) fn planner(self, grid: &Arc<Grid>) -> Result<Typed, Error> {
+        let (never, open) = (CornerRule::Never, DiagonalGap::Open);
+        let graph = || GridGraph::new(Arc::clone(grid), FiniteK::N8, never).map(Arc::new);
+        let corners = || Arc::new(FreeSpace::<Corners>::new(Arc::clone(grid), open));
+        Ok(match self.engine {
+            Kind::AStar => Typed::AStar(AStar::new(graph()?, Hk)),
+            Kind::JpsBlock => Typed::JpsBlock(BlockJps::new(graph()?, Hk)?),
+            Kind::Subgoal => {
+                let space = Arc::new(FreeSpace::<Centers>::new(Arc::clone(grid), never));
+                let subgoals = SubgoalGraph::new(&space, K::N8, Hierarchy::Contracted)?;
+                Typed::Subgoal(SubgoalAStar::new(space, Arc::new(subgoals))?)
+            }
+            Kind::AnyAngleSubgoal => {
+                let space = corners();
+                let subgoals = SubgoalGraph::new(&space, K::Any, Hierarchy::Contracted)?;
+                Typed::AnyAngleSubgoal(SubgoalAStar::new(space, Arc::new(subgoals))?)
+            }
+            Kind::Anya => Typed::Anya(Anya::new(corners())),
+        })
+    }
+}
+
+type Graph = Arc<GridGraph<Centers>>;
+type Free<P> = Arc<FreeSpace<P>>;
+type OnSubgoals<P> = SubgoalAStar<Free<P>, Arc<SubgoalGraph<P>>, P>;
+
+/// A planner whose type the compiler knows.
+pub(crate) enum Typed {
+    AStar(AStar<Graph, Hk>),
+    JpsBlock(BlockJps<Graph, Hk, Centers>),
+    Subgoal(OnSubgoals<Centers>),
+    AnyAngleSubgoal(OnSubgoals<Corners>),
+    Anya(Anya<Free<Corners>>),
+}
+
+impl Typed {
+    pub(crate) fn solve(&mut self, query: Query) -> Result<Outcome, QueryError> {
+        match self {
+            Self::AStar(planner) => planner.solve(query),
+            Self::JpsBlock(planner) => planner.solve(query),
+            Self::Subgoal(planner) => planner.solve(query),
+            Self::AnyAngleSubgoal(planner) => planner.solve(query),
+            Self::Anya(planner) => planner.solve(query),
+        }
+    }
+}
