@@ -113,7 +113,7 @@ fn after_identity(bytes: &[u8], expected: Identity) -> Result<&[u8], SubgoalErro
         .ok_or(SubgoalError::Bytes("they do not begin with what they belong to"))?;
     // Not `Identity::check`: no graph serves every map, or every k.
     if found != expected {
-        let (prepared, other) = ("the subgoal graph", "the search space");
+        let (prepared, other) = ("the subgoal graph", "the space");
         return Err(Mismatch { prepared, belongs_to: found, other, found: expected }.into());
     }
     Ok(rest)

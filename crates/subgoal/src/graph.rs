@@ -89,7 +89,7 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
 
     /// Checks that it is the graph of a free space.
     pub(crate) fn check(&self, space: &(impl HasFreeSpace + ?Sized)) -> Result<(), Mismatch> {
-        self.identity.check("the subgoal graph", ("the search space", space.identity()))
+        self.identity.check("the subgoal graph", ("the space", space.identity()))
     }
 
     /// The hierarchy.

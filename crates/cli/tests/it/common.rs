@@ -136,8 +136,8 @@ pub(crate) fn redact_times(text: &str) -> String {
 /// Checks the error for the index in a file that is for something else: what it says that each is for.
 #[track_caller]
 pub(crate) fn check_mismatch(error: &str, file: &str, [built, needed]: [&str; 2]) {
-    let (of_file, of_search) = error.split_once("; the search space is for map ").expect(error);
-    assert!(of_file.starts_with(&format!("error: {file}: the file is for map ")), "{error}");
+    let (of_file, of_search) = error.split_once("; the space is for map ").expect(error);
+    assert!(of_file.starts_with(&format!("error: {file}: the saved index is for map ")), "{error}");
     assert!(of_file.ends_with(built), "{error}, not {built}");
     let (of_search, advice) = of_search.split_once(": ").expect(error);
     assert!(of_search.ends_with(needed), "{error}, not {needed}");

@@ -136,7 +136,7 @@ impl IndexFile {
         // Not `Identity::check`: an index for every map, or for every k, is none for this one.
         let (belongs_to, found) = (found.identity, expected.identity);
         if belongs_to != found {
-            let (prepared, other) = ("the file", "the search space");
+            let (prepared, other) = ("the saved index", "the space");
             return Err(Mismatch { prepared, belongs_to, other, found }.into());
         }
         Ok(())

@@ -74,7 +74,7 @@ fn what_a_file_is_for_word_by_word() {
     assert_eq!(
         refused("jps-plus", 7),
         format!(
-            "the file is for {own}; the search space is for {other}: \
+            "the saved index is for {own}; the space is for {other}: \
              use it with what it was made for, or make it anew with `mediant build`"
         )
     );

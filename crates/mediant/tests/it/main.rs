@@ -5,6 +5,7 @@ mod door;
 mod hierarchies;
 mod identity;
 mod mistakes;
+mod odd_input;
 mod options;
 mod subgoals;
 

@@ -122,7 +122,7 @@ where
     /// [`Mismatch`] for a planner of another map or of other rules than `space`, or, if that is a grid graph,
     /// of another k.
     pub fn new(planner: E, space: S, smoothing: Option<Smoothing>) -> Result<Self, Mismatch> {
-        planner.identity().check("the planner", ("the search space", space.identity()))?;
+        planner.identity().check("the planner", ("the space", space.identity()))?;
         Ok(Self { planner, space, smoothing })
     }
 }

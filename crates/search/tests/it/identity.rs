@@ -213,7 +213,7 @@ fn a_search_at_any_angle_is_smoothed_in_its_own_space() {
     let wrong = Smoothed::new(planner(), &graph, None).map(|_| ()).unwrap_err();
     assert_eq!(wrong.found, graph.identity());
     let message = wrong.to_string();
-    for part in ["the planner", "the search space", "k = any", "k = 4"] {
+    for part in ["the planner", "the space", "k = any", "k = 4"] {
         assert!(message.contains(part), "{message}");
     }
 }

@@ -57,7 +57,7 @@ fn check<P: SubgoalPlacement>(
     for planner in planners {
         match planner {
             Ok(identity) => assert!(belong && identity == graph.identity(), "{identity}"),
-            Err(Mismatch { prepared: "the subgoal graph", belongs_to, other: "the search space", found }) => {
+            Err(Mismatch { prepared: "the subgoal graph", belongs_to, other: "the space", found }) => {
                 assert!(!belong, "{belongs_to}");
                 assert_eq!((belongs_to, found), (graph.identity(), space.identity()));
             }
