@@ -88,7 +88,7 @@ impl ClusterGraph {
             let window = level.bounds(id, grid).window(grid);
             let cells: Vec<u32> = level.nodes_of(id).iter().map(|node| window.cell(node.at())).collect();
             let count = cells.len();
-            let mut costs = vec![FixedCost::ZERO; count * count].into_boxed_slice();
+            let mut costs = vec![FixedCost::ZERO; count * count];
             for (from, &cell) in cells.iter().enumerate() {
                 let targets = &cells[from + 1..];
                 cluster_search.flood(&self.costs, &window, cell, &rows_of(targets), &mut ());
@@ -98,7 +98,7 @@ impl ClusterGraph {
                     costs[(from + 1 + to) * count + from] = cost;
                 }
             }
-            level.clusters[id as usize].costs = costs;
+            level.clusters[id as usize].costs = costs.into();
         }
     }
 

@@ -57,7 +57,7 @@ impl ClusterGraph {
                     return Err(HierarchyError::Bytes("a cluster has another number of nodes"));
                 }
                 let count = count as usize;
-                let mut costs = vec![FixedCost::ZERO; count * count].into_boxed_slice();
+                let mut costs = vec![FixedCost::ZERO; count * count];
                 for from in 0..count {
                     for to in from + 1..count {
                         let cost = FixedCost::from_bits(words.next()?);
@@ -65,7 +65,7 @@ impl ClusterGraph {
                         costs[to * count + from] = cost;
                     }
                 }
-                cluster.costs = costs;
+                cluster.costs = costs.into();
             }
         }
         words.end()?;

@@ -1,5 +1,7 @@
 //! One level of the abstract graph: clusters, their nodes, and the costs between these.
 
+use std::sync::Arc;
+
 use mediant_grid::{Grid, Vertex};
 
 use super::fixed_cost::FixedCost;
@@ -37,11 +39,12 @@ impl Node {
     }
 }
 
-/// A cluster: the number of its nodes, and the costs from each to each within it, row by row.
+/// A cluster: the number of its nodes, and the costs from each to each within it, row by row. A repaired
+/// index shares with the one before what did not change.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Cluster {
     pub(crate) count: u32,
-    pub(crate) costs: Box<[FixedCost]>,
+    pub(crate) costs: Arc<[FixedCost]>,
 }
 
 /// A level: the map cut into clusters of `side` × `side` cells; those at the right and lower edge may be
