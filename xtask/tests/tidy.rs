@@ -241,7 +241,7 @@ fn dependencies() {
             &[("mediant-grid", None), ("mediant-oracle", None), ("mediant", Some(Kind::Dev))],
         ),
         package("mediant-oracle", &[("mediant-grid", None), ("mediant-search", Some(Kind::Dev))]),
-        package("mediant", &[("mediant-search", None), ("mediant-formats", None)]),
+        package("mediant", &[("mediant-search", None), ("mediant-report", None)]),
         package("mediant-report", &[("serde", None), ("mediant-search", None)]),
         package("mediant-sets", &[("mediant-formats", None), ("zip", None), ("mediant-bench", None)]),
         package(
@@ -259,7 +259,7 @@ fn dependencies() {
         "mediant-formats: depends on mediant-search",
         "mediant-search: depends on mediant-oracle",
         "mediant-oracle: depends on mediant-search",
-        "mediant: depends on mediant-formats",
+        "mediant: depends on mediant-report",
         "mediant-report: depends on mediant-search",
         "mediant-sets: depends on mediant-bench",
         "mediant-bench: depends on mediant-papers",

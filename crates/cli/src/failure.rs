@@ -6,7 +6,7 @@ use std::{
     process::ExitCode,
 };
 
-use mediant::{Engine, Mismatch, SetupError};
+use mediant::{Engine, SetupError};
 use mediant_formats::{MapMismatch, ReadError};
 use mediant_grid::{PlacementKind, Vertex};
 
@@ -57,8 +57,6 @@ pub(crate) enum Failure {
     Setup(#[from] SetupError),
     #[error(transparent)]
     Library(#[from] mediant::Error),
-    #[error("{}: {source} with `mediant build`", path.display())]
-    OtherIndex { path: PathBuf, source: Mismatch },
     #[error("{}: cannot be written: {source}", path.display())]
     Write { path: PathBuf, source: io::Error },
     #[error("--draw shows a single query: give --from and --to, or --limit 1")]

@@ -72,10 +72,13 @@ impl<P: Placement> FreeSpace<P> {
         }
     }
 
-    /// What it belongs to: its map and rules, and every k.
+    /// What it belongs to: its map and rules, and every k; or k = 2 alone, where that has components of its
+    /// own ([`for_k`](Self::for_k)).
     #[must_use]
     pub fn identity(&self) -> Identity {
-        Identity { map: Some(self.grid.id()), rules: self.rules(), k: None }
+        let is_for_all = self.connectivity == P::connectivity(self.rule, None);
+        let k = (!is_for_all).then_some(K::N4);
+        Identity { map: Some(self.grid.id()), rules: self.rules(), k }
     }
 
     /// The map.

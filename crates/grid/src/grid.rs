@@ -46,10 +46,8 @@ pub enum GridError {
         /// The height that was asked for.
         height: u64,
     },
-    /// The rows of an ASCII map differ in length.
-    #[error(
-        "row {row} of the ASCII map has {found} cells, the first row has {expected}: make all rows as long"
-    )]
+    /// The rows of a map differ in length.
+    #[error("row {row} of the map has {found} cells, the first row has {expected}: make all rows as long")]
     Ragged {
         /// The row, from 0.
         row: usize,

@@ -138,7 +138,8 @@ impl fmt::Display for Identity {
 /// Two things that do not belong together: of another map, placement, rule of motion or k.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 #[error(
-    "{prepared} is for {belongs_to}; {other} is for {found}: use it with what it was made for, or make it anew"
+    "{prepared} is for {belongs_to}; {other} is for {other_belongs_to}: use {prepared} with what it was made for, or \
+     make a new one"
 )]
 pub struct Mismatch {
     /// What the first of them is.
@@ -148,7 +149,7 @@ pub struct Mismatch {
     /// What the other one is.
     pub other: &'static str,
     /// What that belongs to.
-    pub found: Identity,
+    pub other_belongs_to: Identity,
 }
 
 impl Identity {
@@ -160,14 +161,41 @@ impl Identity {
     ///
     /// # Errors
     /// [`Mismatch`] if they do not.
-    pub fn check(self, prepared: &'static str, (other, found): (&'static str, Self)) -> Result<(), Mismatch> {
+    pub fn check(
+        self,
+        prepared: &'static str,
+        (other, other_belongs_to): (&'static str, Self),
+    ) -> Result<(), Mismatch> {
         fn agree<T: PartialEq>(one: Option<T>, other: Option<T>) -> bool {
             one.zip(other).is_none_or(|(one, other)| one == other)
         }
-        if self.rules == found.rules && agree(self.map, found.map) && agree(self.k, found.k) {
+        let theirs = other_belongs_to;
+        if self.rules == theirs.rules && agree(self.map, theirs.map) && agree(self.k, theirs.k) {
             return Ok(());
         }
-        Err(Mismatch { prepared, belongs_to: self, other, found })
+        Err(Mismatch { prepared, belongs_to: self, other, other_belongs_to })
+    }
+
+    /// [`check`](Self::check) for bytes, of which none serve every map or every k: that the two are equal.
+    ///
+    /// # Errors
+    /// [`Mismatch`] if they are not.
+    pub fn check_equal(
+        self,
+        prepared: &'static str,
+        (other, other_belongs_to): (&'static str, Self),
+    ) -> Result<(), Mismatch> {
+        if self == other_belongs_to {
+            return Ok(());
+        }
+        Err(Mismatch { prepared, belongs_to: self, other, other_belongs_to })
+    }
+
+    /// The identity with which bytes begin, and the bytes after it; `None` if they begin with none.
+    #[must_use]
+    pub fn split_from(bytes: &[u8]) -> Option<(Self, &[u8])> {
+        let (identity, rest) = bytes.split_first_chunk()?;
+        Some((Self::from_bytes(*identity)?, rest))
     }
 
     /// The identity as bytes: width, height, four words of digest, rules and k, each a little-endian `u32`. A

@@ -53,14 +53,9 @@ pub(crate) fn after_identity<'b>(
     bytes: &'b [u8],
     grid_graph: &GridGraph<Centers>,
 ) -> Result<&'b [u8], HierarchyError> {
-    let (found, rest) = bytes.split_first_chunk().ok_or(HierarchyError::Bytes("they are too few"))?;
-    let belongs_to = Identity::from_bytes(*found)
+    let (found, rest) = Identity::split_from(bytes)
         .ok_or(HierarchyError::Bytes("they do not begin with what they belong to"))?;
-    // Not `Identity::check`: no index serves every map, or every k.
-    if belongs_to != grid_graph.identity() {
-        let (other, found) = ("the grid graph", grid_graph.identity());
-        return Err(Mismatch { prepared: INDEX, belongs_to, other, found }.into());
-    }
+    found.check_equal(INDEX, ("the grid graph", grid_graph.identity()))?;
     Ok(rest)
 }
 

@@ -98,7 +98,7 @@ impl Engine {
             Self::JpsPlus => Capabilities {
                 paper: "Harabor 2014",
                 max_k: Some(JumpTable::MAX_K),
-                index: Some(1),
+                index: Some(JumpTable::VERSION),
                 ..search
             },
             Self::Theta => Capabilities { paper: "Daniel 2010", ..theta },

@@ -3,7 +3,8 @@
 use mediant_formats::{IndexError, ReadError};
 use mediant_grid::GridError;
 use mediant_hierarchy::HierarchyError;
-use mediant_search::{End, QueryError};
+use mediant_search::{End, JumpError, QueryError};
+use mediant_subgoal::SubgoalError;
 
 use crate::{
     error::{Error, SetupError},
@@ -55,7 +56,7 @@ pub enum ErrorCode {
     IndexOptions,
     /// An index that is damaged, cut short, or none.
     IndexDamaged,
-    /// An index of another engine, or of another version of it.
+    /// An index of another engine, or of another version.
     IndexEngine,
     /// An index that does not follow from the map by the edit that was named.
     IndexEdit,
@@ -119,7 +120,9 @@ impl Error {
             Self::Setup(error) => of_setup(error),
             Self::Mismatch(_) => ErrorCode::Mismatch,
             Self::Query(error) => of_query(error),
-            Self::Jump(_) | Self::Subgoal(_) => ErrorCode::IndexDamaged,
+            Self::Jump(error) => of_jump(error),
+            Self::Subgoal(error) => of_subgoal(error),
+            Self::InFile { source, .. } => source.code(),
             Self::Hierarchy(error) => of_hierarchy(error),
             Self::Levels { .. } | Self::Side { .. } => ErrorCode::IndexOptions,
             Self::IndexFile(error) => of_index(error),
@@ -159,13 +162,31 @@ const fn of_query(error: &QueryError) -> ErrorCode {
     }
 }
 
+const fn of_jump(error: &JumpError) -> ErrorCode {
+    match error {
+        JumpError::K(_) => ErrorCode::EngineK,
+        JumpError::Mismatch(_) => ErrorCode::Mismatch,
+        _ => ErrorCode::IndexDamaged,
+    }
+}
+
+const fn of_subgoal(error: &SubgoalError) -> ErrorCode {
+    match error {
+        SubgoalError::Centers { .. } => ErrorCode::EngineRules,
+        SubgoalError::K(_) => ErrorCode::EngineK,
+        SubgoalError::Arcs { .. } => ErrorCode::IndexRange,
+        SubgoalError::Mismatch(_) => ErrorCode::Mismatch,
+        _ => ErrorCode::IndexDamaged,
+    }
+}
+
 const fn of_hierarchy(error: &HierarchyError) -> ErrorCode {
     match error {
         HierarchyError::Side { .. } | HierarchyError::Levels { .. } | HierarchyError::TooLarge { .. } => {
             ErrorCode::IndexRange
         }
         HierarchyError::Moves { .. } => ErrorCode::EngineRules,
-        HierarchyError::K(_) => ErrorCode::K,
+        HierarchyError::K(_) => ErrorCode::EngineK,
         HierarchyError::Mismatch(_) => ErrorCode::Mismatch,
         HierarchyError::Bytes(_) => ErrorCode::IndexDamaged,
         _ => ErrorCode::IndexEdit,
@@ -174,7 +195,9 @@ const fn of_hierarchy(error: &HierarchyError) -> ErrorCode {
 
 const fn of_index(error: &IndexError) -> ErrorCode {
     match error {
-        IndexError::Engine { .. } | IndexError::EngineVersion { .. } => ErrorCode::IndexEngine,
+        IndexError::Engine { .. } | IndexError::EngineVersion { .. } | IndexError::Format { .. } => {
+            ErrorCode::IndexEngine
+        }
         IndexError::Mismatch(_) => ErrorCode::Mismatch,
         _ => ErrorCode::IndexDamaged,
     }

@@ -10,6 +10,7 @@ use crate::names::names;
 /// assert_eq!(ConfiguredEngine::from(Engine::Anya), ConfiguredEngine::Anya);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Engine {
     /// [`AStar`](mediant_search::AStar).
     #[default]

@@ -1,6 +1,6 @@
 //! The errors of the library.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use mediant_formats::{IndexError, ReadError, WriteError};
 use mediant_grid::{GridError, Mismatch, PlacementKind, Rectangle, Rules};
@@ -221,6 +221,14 @@ pub enum Error {
     /// A file that cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// An index in a file that cannot be used: its own error, and which file it is.
+    #[error("{}: {source}", path.display())]
+    InFile {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        source: Box<Error>,
+    },
     /// A file that cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
@@ -243,13 +251,8 @@ macro_rules! from_errors {
 from_errors!(Jump: JumpError, Subgoal: SubgoalError, Hierarchy: HierarchyError, IndexFile: IndexError);
 
 impl Error {
-    /// This error of the index in a file, with the file's path where it has a place for it.
-    pub(crate) fn of_file(self, path: &Path) -> Self {
-        match self {
-            Self::IndexFile(source) => {
-                ReadError::Index { path: path.to_owned(), source: source.into() }.into()
-            }
-            other => other,
-        }
+    /// This error of the index in a file.
+    pub(crate) fn in_file(self, path: &Path) -> Self {
+        Self::InFile { path: path.to_owned(), source: Box::new(self) }
     }
 }

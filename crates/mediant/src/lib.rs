@@ -63,6 +63,7 @@ mod code;
 mod configured;
 mod engine;
 mod error;
+pub mod errors;
 mod heuristic;
 mod index;
 mod make;

@@ -72,13 +72,14 @@ impl Map {
     /// # Errors
     /// [`Error::Grid`] for a number of cells that is no multiple of the width, or sides of 0 or longer than
     /// [`Grid::MAX_SIDE`].
-    pub fn from_bits(width: u32, blocked: &[bool]) -> Result<Self, Error> {
+    pub fn from_bits(width: u32, blocked: impl IntoIterator<Item = bool>) -> Result<Self, Error> {
+        let blocked: Vec<bool> = blocked.into_iter().collect();
         let columns = width.max(1) as usize;
         let (height, rest) = (blocked.len() / columns, blocked.len() % columns);
-        Grid::check_size(u64::from(width), height as u64)?;
         if rest != 0 {
             return Err(GridError::Ragged { row: height, found: rest, expected: columns }.into());
         }
+        Grid::check_size(u64::from(width), height as u64)?;
         Self::from_fn(width, height as u32, |x, y| blocked[y as usize * columns + x as usize])
     }
 

@@ -20,6 +20,7 @@ use mediant_moves::K;
 /// # assert_ne!(walker, drone);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub struct Motion {
     /// The neighborhood: 2^k directions, or all of them.
     pub k: K,

@@ -7,8 +7,8 @@ use mediant_search::{Counters, Guarantee, Observer, Outcome, Planner as Search, 
 use crate::{index::Index, make};
 
 /// Answers queries on an [`Index`], one after another, on scratch memory of its own: make one for each
-/// thread. A warm planner allocates nothing but the path that it returns. The same query always gives the
-/// same path.
+/// thread. A warm planner allocates nothing but the path that it returns; one that smooths paths allocates
+/// more. The same query always gives the same path.
 ///
 /// A query costs one dynamic call; the search itself is compiled for its types.
 ///
@@ -31,9 +31,6 @@ pub struct Planner {
 
 impl Index {
     /// A planner on this index. It shares the index, and owns its scratch memory.
-    ///
-    /// # Panics
-    /// Never: the index was checked when it was made.
     #[must_use]
     pub fn planner(&self) -> Planner {
         let search = make::search(self).expect("every constructor of an index checks what its planners need");

@@ -3,14 +3,17 @@
 //! A pruning rule depends only on k and the rules of motion, and takes a second or two to compute at k = 8.
 //! So each is computed when an index first needs it, and kept as long as the process lives.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use mediant_grid::{Centers, Corners, GridGraph, Mismatch, Placement};
 use mediant_moves::FiniteK;
 use mediant_search::{CanonicalRule, Pruning};
 
-/// The pruning rules of one placement that are known.
-pub(crate) type Known<P> = Mutex<Vec<((FiniteK, <P as Placement>::Rule), Arc<CanonicalRule<P>>)>>;
+/// A pruning rule, once it was computed.
+type Cell<P> = Arc<OnceLock<Arc<CanonicalRule<P>>>>;
+
+/// The pruning rules of one placement that were asked for.
+pub(crate) type Known<P> = Mutex<Vec<((FiniteK, <P as Placement>::Rule), Cell<P>)>>;
 
 static CENTERS: Known<Centers> = Mutex::new(Vec::new());
 static CORNERS: Known<Corners> = Mutex::new(Vec::new());
@@ -33,18 +36,19 @@ impl Shared for Corners {
     }
 }
 
-/// The pruning rule on a grid graph. A thread that needs a rule waits while another computes one.
+/// The pruning rule on a grid graph. A thread that needs a rule waits only while another computes the same.
 pub(crate) fn pruning<P: Shared>(graph: &GridGraph<P>) -> Result<Arc<Pruning<P>>, Mismatch> {
     let key = (graph.k(), graph.rule());
     let mut known = P::known().lock().unwrap_or_else(PoisonError::into_inner);
-    let rule = match known.iter().find(|(of, _)| *of == key) {
-        Some((_, rule)) => Arc::clone(rule),
+    let cell = match known.iter().find(|(of, _)| *of == key) {
+        Some((_, cell)) => Arc::clone(cell),
         None => {
-            let rule = Arc::new(CanonicalRule::new(graph.k(), graph.rule()));
-            known.push((key, Arc::clone(&rule)));
-            rule
+            let cell = Cell::default();
+            known.push((key, Arc::clone(&cell)));
+            cell
         }
     };
     drop(known);
-    Ok(Arc::new(Pruning::with_rule(graph, rule)?))
+    let rule = cell.get_or_init(|| Arc::new(CanonicalRule::new(graph.k(), graph.rule())));
+    Ok(Arc::new(Pruning::with_rule(graph, Arc::clone(rule))?))
 }

@@ -128,7 +128,8 @@ impl Space {
         Ok(answer.into_path())
     }
 
-    /// The engine that we would take for many paths, and why.
+    /// The engine that we would take for many paths, and why. It depends on the motion and on the size of
+    /// the map alone.
     ///
     /// ```
     /// use mediant::{Engine, K, Map, Motion};
@@ -217,6 +218,9 @@ impl Space {
         let start = start.into();
         let Motion { k, rules } = self.motion();
         Setup::new(engine, k, rules).check()?;
+        if !engine.capabilities().distances {
+            return Err(SetupError::without_distances(engine).into());
+        }
         match (self.placed(), k.finite()) {
             (Placed::Centers(layers), Some(k)) => distances(engine, layers.graph(k)?, start),
             (Placed::Corners(layers), Some(k)) => distances(engine, layers.graph(k)?, start),

@@ -2,8 +2,9 @@
 
 use mediant_grid::{FreeSpace, Placement, Vertex, VertexId};
 
-/// The start and the goal of a path.
+/// The start and the goal of a path. More may come that can be asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub struct Query {
     /// The vertex where the path begins.
     pub start: Vertex,

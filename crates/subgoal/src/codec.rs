@@ -7,7 +7,7 @@
 
 use std::num::NonZeroU32;
 
-use mediant_grid::{FreeSpace, Identity, Mismatch};
+use mediant_grid::{FreeSpace, Identity};
 use mediant_moves::K;
 
 use crate::{
@@ -108,14 +108,9 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
 
 /// The bytes behind the identity with which they begin, if that is the expected one.
 fn after_identity(bytes: &[u8], expected: Identity) -> Result<&[u8], SubgoalError> {
-    let (found, rest) = bytes.split_first_chunk().ok_or(SubgoalError::Bytes("they are too few"))?;
-    let found = Identity::from_bytes(*found)
+    let (found, rest) = Identity::split_from(bytes)
         .ok_or(SubgoalError::Bytes("they do not begin with what they belong to"))?;
-    // Not `Identity::check`: no graph serves every map, or every k.
-    if found != expected {
-        let (prepared, other) = ("the subgoal graph", "the space");
-        return Err(Mismatch { prepared, belongs_to: found, other, found: expected }.into());
-    }
+    found.check_equal("the subgoal graph", ("the space", expected))?;
     Ok(rest)
 }
 

@@ -116,7 +116,7 @@ where
         if query.ends(space)?.is_none() {
             return Ok(Outcome::Unreachable);
         }
-        let Query { start, goal } = query;
+        let Query { start, goal, .. } = query;
         if start == goal {
             return Ok(Outcome::Found(Path::new(vec![start])));
         }

@@ -86,7 +86,7 @@ pub(crate) fn demo(args: &DemoArgs, screen: &mut Screen) -> Result<(), Failure> 
 fn title(builtin: &Builtin, map: &Map, query: Query, screen: &mut Screen) -> io::Result<()> {
     let name = screen.paint(BOLD, builtin.name);
     let (width, height) = (map.grid.width(), map.grid.height());
-    let Query { start, goal } = query;
+    let Query { start, goal, .. } = query;
     writeln!(screen, "\n  {name} · {width} × {height} · {}, {start} to {goal}\n", builtin.caption)
 }
 

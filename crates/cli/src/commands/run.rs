@@ -6,7 +6,7 @@ use std::{
     time::Instant,
 };
 
-use mediant::{EngineOption, Error, Index, Setup, Space};
+use mediant::{EngineOption, Index, Setup, Space};
 
 use crate::{
     args::{Format, RunArgs},
@@ -94,10 +94,7 @@ fn prepare(args: &RunArgs, setup: Setup, map: &Map) -> Result<(Space, Index), Fa
     let space = setup.space(&map.to_library())?;
     let index = match &args.index {
         None => space.prepare(setup.engine)?,
-        Some(path) => space.load_for(setup.engine, path).map_err(|error| match error {
-            Error::Mismatch(source) => Failure::OtherIndex { path: path.clone(), source },
-            error => error.into(),
-        })?,
+        Some(path) => space.load_for(setup.engine, path)?,
     };
     Ok((space, index.with_smoothing(setup.smoothing)))
 }

@@ -141,5 +141,5 @@ pub(crate) fn check_mismatch(error: &str, file: &str, [built, needed]: [&str; 2]
     assert!(of_file.ends_with(built), "{error}, not {built}");
     let (of_search, advice) = of_search.split_once(": ").expect(error);
     assert!(of_search.ends_with(needed), "{error}, not {needed}");
-    assert_eq!(advice, "use it with what it was made for, or make it anew with `mediant build`\n");
+    assert_eq!(advice, "use the saved index with what it was made for, or make a new one\n");
 }

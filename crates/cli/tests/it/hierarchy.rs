@@ -164,25 +164,25 @@ fn an_index_for_something_else_is_refused() {
         (
             format!("--engine hpa --levels 1 --index {clusters}"),
             format!(
-                "needs an index with 1 level, found one with 2 levels; choose the levels that it has, {again}"
+                "hpa.idx: needs an index with 1 level, found one with 2 levels; choose the levels that it has, {again}"
             ),
         ),
         (
             format!("--engine hpa --levels all --index {clusters}"),
             format!(
-                "needs an index with 5 levels, found one with 2 levels; choose the levels that it has, {again}"
+                "hpa.idx: needs an index with 5 levels, found one with 2 levels; choose the levels that it has, {again}"
             ),
         ),
         (
             format!("--engine hpa --side 8 --index {clusters}"),
             format!(
-                "needs an index whose clusters or segments have 8 × 8 cells, found one with 10 × 10; choose the side that it has, {again}"
+                "hpa.idx: needs an index whose clusters or segments have 8 × 8 cells, found one with 10 × 10; choose the side that it has, {again}"
             ),
         ),
         (
             format!("--engine chpa --k 2 --side 4 --index {segments}"),
             format!(
-                "needs an index whose clusters or segments have 4 × 4 cells, found one with 3 × 3; choose the side that it has, {again}"
+                "chpa.idx: needs an index whose clusters or segments have 4 × 4 cells, found one with 3 × 3; choose the side that it has, {again}"
             ),
         ),
         (

@@ -70,7 +70,7 @@ fn an_index_says_which_levels_it_has() {
     let line = format!("run builtin:cave --engine subgoal --index {index} --levels");
     for (levels, name) in [("1", "1 level"), ("all", "all levels")] {
         let message = format!(
-            "error: needs an index with {name}, found one with 2 levels; choose the levels that it has, or build it again\n"
+            "error: cave.idx: needs an index with {name}, found one with 2 levels; choose the levels that it has, or build it again\n"
         );
         assert_eq!(refused(&files, &format!("{line} {levels}")), message);
     }
@@ -184,7 +184,10 @@ fn an_index_of_another_version_is_refused() {
     check_mismatch(&other, "other.idx", ["corner, gap open, k = 3", "center, corners never, k = 3"]);
     for damaged in [&payload[..payload.len() - 4], &payload[..32], &[], &[0xff; 50]] {
         let message = saved("subgoal", version, never, damaged);
-        assert!(message.starts_with("error: these bytes are no subgoal graph of this map: "), "{message}");
+        assert!(
+            message.starts_with("error: other.idx: these bytes are no subgoal graph of this map: "),
+            "{message}"
+        );
     }
     // An index says itself what it belongs to, whatever its file says.
     let mut foreign = payload;

@@ -2,7 +2,6 @@
 
 use std::{fmt, path::Path};
 
-use mediant_grid::Mismatch;
 use sha2::{Digest, Sha256};
 
 use super::{
@@ -133,12 +132,7 @@ impl IndexFile {
                 found: found.version,
             });
         }
-        // Not `Identity::check`: an index for every map, or for every k, is none for this one.
-        let (belongs_to, found) = (found.identity, expected.identity);
-        if belongs_to != found {
-            let (prepared, other) = ("the saved index", "the space");
-            return Err(Mismatch { prepared, belongs_to, other, found }.into());
-        }
+        found.identity.check_equal("the saved index", ("the space", expected.identity))?;
         Ok(())
     }
 }

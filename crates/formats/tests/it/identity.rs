@@ -48,7 +48,7 @@ fn a_file_for_something_else_is_refused() {
                 }
                 Err(IndexError::Mismatch(wrong)) => {
                     assert_ne!(built, needed);
-                    assert_eq!((wrong.belongs_to, wrong.found), (built, needed));
+                    assert_eq!((wrong.belongs_to, wrong.other_belongs_to), (built, needed));
                 }
                 Err(error) => panic!("{error}"),
             }
@@ -75,7 +75,7 @@ fn what_a_file_is_for_word_by_word() {
         refused("jps-plus", 7),
         format!(
             "the saved index is for {own}; the space is for {other}: \
-             use it with what it was made for, or make it anew with `mediant build`"
+             use the saved index with what it was made for, or make a new one with `mediant build`"
         )
     );
 }

@@ -125,7 +125,7 @@ where
         if query.ends(&self.grid_graph)?.is_none() {
             return Ok(Outcome::Unreachable);
         }
-        let Query { start, goal } = query;
+        let Query { start, goal, .. } = query;
         if start == goal {
             return Ok(Outcome::Found(Path::new(vec![start])));
         }
@@ -234,7 +234,7 @@ where
         observer: &mut impl Observer,
     ) -> Option<()> {
         let Self { index, tree, endpoint_costs, abstract_path, .. } = self;
-        let Query { start, goal } = query;
+        let Query { start, goal, .. } = query;
         let level = &index.levels[top];
         let [from, to] = [(start, 0), (goal, 1)].map(|(at, which)| Endpoint {
             cluster: level.cluster_at(at),

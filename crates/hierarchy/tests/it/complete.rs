@@ -133,7 +133,7 @@ fn check_chpa(rng: &mut Rng, grid_graph: &GridGraph<Centers>, all: &[Expected], 
     let mut tallies = [Tally::default(); 2];
     let segment = |at: Vertex| (at.x as u32 / side, at.y as u32 / side);
     for &expected in all {
-        let Query { start, goal } = expected.query;
+        let Query { start, goal, .. } = expected.query;
         let case =
             || format!("side {side}, {setting:?}; {}", describe_query(grid_graph, expected.query, seed));
         let answers = [&mut complete, &mut published].map(|planner| ask(planner, expected.query));
@@ -247,7 +247,7 @@ fn nothing_is_promised_of_the_length() {
 }
 
 /// The cost of a shortest path on an empty grid: |dx| + |dy|, or octile.
-fn distance(Query { start, goal }: Query, k: u32) -> f64 {
+fn distance(Query { start, goal, .. }: Query, k: u32) -> f64 {
     let (x, y) = (f64::from(start.x.abs_diff(goal.x)), f64::from(start.y.abs_diff(goal.y)));
     if k == 2 { x + y } else { x.max(y) + x.min(y) * (2.0_f64.sqrt() - 1.0) }
 }

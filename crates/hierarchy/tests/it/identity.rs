@@ -57,7 +57,7 @@ fn check(result: Result<Identity, HierarchyError>, index: Identity, grid_graph: 
         Ok(identity) => assert!(identity == index && index == grid_graph, "{index} with {grid_graph}"),
         Err(HierarchyError::Mismatch(wrong)) => {
             let expected = ("the index", index, "the grid graph", grid_graph);
-            let Mismatch { prepared, belongs_to, other, found } = wrong;
+            let Mismatch { prepared, belongs_to, other, other_belongs_to: found } = wrong;
             assert_eq!((prepared, belongs_to, other, found), expected);
             assert_ne!(index, grid_graph);
         }
@@ -174,7 +174,7 @@ fn an_index_is_repaired_from_its_own_map() {
         for after in [own.grid(), other.grid()] {
             let error = refused(own, other.grid(), after, ALL);
             let HierarchyError::Mismatch(wrong) = &error else { panic!("{error}") };
-            assert_eq!((wrong.belongs_to, wrong.found), (own.identity(), other.identity()));
+            assert_eq!((wrong.belongs_to, wrong.other_belongs_to), (own.identity(), other.identity()));
             assert!(error.to_string().contains("the map before the change"), "{error}");
         }
     }

@@ -3,7 +3,7 @@
 
 use std::path::Path as FilePath;
 
-use mediant_formats::{IndexFile, IndexKey};
+use mediant_formats::{IndexError, IndexFile, IndexKey};
 
 use super::{Index, source::Source};
 use crate::{
@@ -43,33 +43,32 @@ impl Space {
     /// options; [`Index::with_options`] chooses others.
     ///
     /// # Errors
-    /// [`Error::Read`] for a file that is missing, cannot be read, or is no whole index; [`Error::Mismatch`]
-    /// for an index of another map, rule or k.
+    /// [`Error::Read`] for a file that is missing, cannot be read, or is no whole index; [`Error::InFile`]
+    /// with an [`Error::Mismatch`] for an index of another map, rule or k, or with what else is wrong.
     pub fn load(&self, path: impl AsRef<FilePath>) -> Result<Index, Error> {
         let path = path.as_ref();
-        self.index(&IndexFile::read(path)?, None).map_err(|error| error.of_file(path))
+        self.index(&IndexFile::read(path)?, None).map_err(|error| error.in_file(path))
     }
 
     /// [`load`](Self::load) for an engine with options.
     ///
     /// # Errors
-    /// Those of [`load`](Self::load) and of [`Index::with_options`]; for the index of another engine
-    /// [`Error::Read`].
+    /// Those of [`load`](Self::load) and of [`Index::with_options`]; also for the index of another engine.
     pub fn load_for(
         &self,
         engine: impl Into<ConfiguredEngine>,
         path: impl AsRef<FilePath>,
     ) -> Result<Index, Error> {
         let path = path.as_ref();
-        self.index(&IndexFile::read(path)?, Some(engine.into())).map_err(|error| error.of_file(path))
+        self.index(&IndexFile::read(path)?, Some(engine.into())).map_err(|error| error.in_file(path))
     }
 
     /// The index that [`Index::to_bytes`] wrote for the same map, rules and k, as [`load`](Self::load) reads
     /// it from a file.
     ///
     /// # Errors
-    /// [`Error::IndexFile`] for bytes that are no whole index; [`Error::Mismatch`] for an index of another
-    /// map, rule or k.
+    /// [`Error::IndexFile`] for bytes that are no whole index, or one of another version; [`Error::Mismatch`]
+    /// for an index of another map, rule or k; the engine's error for bytes that another program wrote.
     pub fn index_from_bytes(&self, bytes: Vec<u8>) -> Result<Index, Error> {
         self.index(&IndexFile::from_bytes(bytes)?, None)
     }
@@ -78,11 +77,21 @@ impl Space {
     fn index(&self, file: &IndexFile, engine: Option<ConfiguredEngine>) -> Result<Index, Error> {
         let engine = match engine {
             Some(engine) => engine,
-            None => file.key().engine().parse::<Engine>()?.into(),
+            None => {
+                let found = file.key().engine();
+                let unknown =
+                    |_| IndexError::Engine { expected: names_of_indexed(), found: found.to_owned() };
+                found.parse::<Engine>().map_err(unknown)?.into()
+            }
         };
         file.check(&key(engine.kind(), self)?)?;
         Index::from_source(self, engine, Source { bytes: Some(file.payload()), progress: &|_| {} })
     }
+}
+
+/// The names of the engines whose indexes are saved.
+fn names_of_indexed() -> String {
+    Engine::names_where(|engine| engine.capabilities().index.is_some())
 }
 
 /// What the index of an engine in a space is for.

@@ -112,8 +112,12 @@ impl Index {
             },
         };
         prepared.check_shape(setup.engine)?;
-        let origin = if source.bytes.is_some() { Origin::Loaded } else { Origin::Prepared };
-        Ok(Self { space: space.clone(), setup, origin, prepared })
+        let space = space.clone();
+        if source.bytes.is_none() {
+            return Ok(Self { space, setup, origin: Origin::Prepared, prepared });
+        }
+        let setup = Setup { engine: prepared.with_shape(engine)?, ..setup };
+        Ok(Self { space, setup, origin: Origin::Loaded, prepared })
     }
 
     /// The same index for planners with other options of its engine, such as another heuristic.
@@ -125,7 +129,7 @@ impl Index {
         let setup = Setup { engine: engine.into(), ..self.setup };
         setup.check()?;
         self.prepared.check(setup, self.setup)?;
-        Ok(Self { setup, ..self })
+        Ok(Self { setup: Setup { engine: self.prepared.with_shape(setup.engine)?, ..setup }, ..self })
     }
 
     /// The same index for planners that smooth their paths, or do not.
@@ -146,7 +150,8 @@ impl Index {
         self.space.identity()
     }
 
-    /// The engine with its options, its motion and smoothing.
+    /// The engine with its options, its motion and smoothing. Of an index that was read, or has got other
+    /// options, the levels and the side are named: [`Setup::prepare`] makes the same index again.
     #[must_use]
     pub const fn setup(&self) -> Setup {
         self.setup
@@ -158,8 +163,8 @@ impl Index {
         self.origin
     }
 
-    /// The memory that it uses beyond the space, in bytes; counted once, however many planners and clones
-    /// share it.
+    /// The memory that it uses beyond the space, in bytes: once, however many planners and clones share it.
+    /// It includes the pruning rule of its k and rules, which all indexes of the process share.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
         self.prepared.memory_bytes() as u64
@@ -217,7 +222,7 @@ fn on_grid_graph<P: SubgoalPlacement + Shared>(
         ConfiguredEngine::JpsPlus(_) => {
             let table = match source.bytes {
                 None => JumpTable::new(graph)?,
-                Some(bytes) => JumpTable::from_bytes(graph, bytes.to_vec())?,
+                Some(bytes) => JumpTable::from_bytes(graph, bytes)?,
             };
             OnGridGraph::Table(pruning()?, Arc::new(table))
         }

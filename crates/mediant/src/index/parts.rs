@@ -134,7 +134,7 @@ impl<P: SubgoalPlacement> OnGridGraph<P> {
     fn to_bytes(&self) -> Option<Vec<u8>> {
         match self {
             Self::Nothing | Self::Pruning(_) | Self::Blocks(..) => None,
-            Self::Table(_, table) => Some(table.as_bytes().to_vec()),
+            Self::Table(_, table) => Some(table.to_bytes()),
             Self::Clusters(graph) => Some(graph.to_bytes()),
             Self::Segments(graph) => Some(graph.to_bytes()),
         }

@@ -18,14 +18,17 @@ pub enum Origin {
     Prepared,
     /// It was read from bytes or a file.
     Loaded,
-    /// It was repaired: only what an edit of the map touches was made anew.
+    /// It was repaired: only the clusters or segments that an edit of the map touches were made anew.
     Repaired,
+    /// It is the index of an equal map.
+    Unchanged,
 }
 
 impl Index {
     /// The index for a changed map of the same rules and k. It gives the same answers as one prepared anew.
-    /// Clusters and segments are repaired where the maps differ; the other engines' indexes are prepared
-    /// anew. [`origin`](Self::origin) says which it was. This index stays as it is.
+    /// Clusters and segments are repaired where the maps differ, which takes a copy of the index besides; the
+    /// other engines' indexes are prepared anew. [`origin`](Self::origin) says which it was. This index stays
+    /// as it is.
     ///
     /// ```
     /// use mediant::{Engine, K, Map, Motion, Origin, Rectangle};
@@ -44,8 +47,11 @@ impl Index {
     pub fn repair(&self, changed: &Space) -> Result<Self, Error> {
         let (belongs_to, found) = (self.identity(), changed.identity());
         if self.space.motion() != changed.motion() {
-            let mismatch = Mismatch { prepared: "the index", belongs_to, other: "the changed space", found };
-            return Err(mismatch.into());
+            let (prepared, other, other_belongs_to) = ("the index", "the changed space", found);
+            return Err(Mismatch { prepared, belongs_to, other, other_belongs_to }.into());
+        }
+        if belongs_to == found {
+            return Ok(Self { space: changed.clone(), origin: Origin::Unchanged, ..self.clone() });
         }
         let repaired = match (&self.prepared, changed.placed(), self.changed_cells(changed)) {
             (Prepared::Centers(graph, parts), Placed::Centers(layers), Some(at)) => {
@@ -54,9 +60,7 @@ impl Index {
             _ => None,
         };
         let Some(prepared) = repaired else {
-            let setup = self.setup;
-            let engine = self.prepared.with_shape(setup.engine)?;
-            return Ok(Self { setup, ..Self::new(changed, engine, &|_| {})? });
+            return Ok(Self { setup: self.setup, ..Self::new(changed, self.setup.engine, &|_| {})? });
         };
         Ok(Self { space: changed.clone(), setup: self.setup, origin: Origin::Repaired, prepared })
     }

@@ -202,7 +202,7 @@ fn a_search_space_is_for_its_own_k_and_rules() {
     let said = index("anya", "astar:3:open").map(|_| ()).map_err(|error| error.to_string());
     let expected = format!(
         "the setup is for every map, corner, gap open, k = any; the space is for {}, corner, gap open, k = 3: \
-         use it with what it was made for, or make it anew",
+         use the setup with what it was made for, or make a new one",
         map().id()
     );
     assert_eq!(said, Err(expected));

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use mediant::{
-    Counters, Engine, Error, K, Map, Motion, Observer, Origin, Outcome, Planner, Query, Rectangle, Setup,
-    Space,
+    CornerRule, Counters, Engine, Error, Identity, K, Map, Motion, Observer, Origin, Outcome, Planner, Query,
+    QueryError, Rectangle, Rules, Setup, Space,
 };
-use mediant_grid::Rules;
+use mediant_formats::IndexFile;
 use mediant_oracle::{Rng, caves};
 
 use super::{k, map};
@@ -20,7 +20,8 @@ fn handles_are_owned_and_can_be_sent() {
     shared::<Space>();
     shared::<mediant::Index>();
     owned::<Planner>();
-    owned::<Error>();
+    fn error<T: std::error::Error + Send + Sync + 'static>() {}
+    error::<Error>();
 }
 
 #[test]
@@ -28,7 +29,7 @@ fn maps_are_made_in_many_ways() {
     let rows = ["..#", "S@G"];
     let from_rows = Map::from_rows(rows).expect("a map");
     let cells: Vec<bool> = rows.concat().chars().map(|tile| "#@".contains(tile)).collect();
-    assert_eq!(Map::from_bits(3, &cells).expect("a map"), from_rows);
+    assert_eq!(Map::from_bits(3, cells.iter().copied()).expect("a map"), from_rows);
     assert_eq!(Map::from_fn(3, 2, |x, y| cells[(3 * y + x) as usize]).expect("a map"), from_rows);
     let file = tempfile::Builder::new().suffix(".map").tempfile().expect("a file");
     std::fs::write(&file, "type octile\nheight 2\nwidth 3\nmap\n..@\n.TG\n").expect("it is written");
@@ -58,7 +59,7 @@ fn the_chosen_engine_finds_shortest_paths() {
     let query = Query::new((0, 0), (8, 4));
     for rules in Rules::ALL {
         for k in (2..=7).map(|n| K::Finite(k(n))).chain([K::Any]) {
-            let Ok(space) = map().space(Motion { k, rules }) else { continue };
+            let Ok(space) = map().space(Motion::new(k, rules)) else { continue };
             let reference = if k == K::Any { Engine::Anya } else { Engine::AStar };
             let cost = |engine: Engine| {
                 let answer = space.planner(engine).expect("it takes the space").find(query);
@@ -94,11 +95,17 @@ fn repaired_indexes_are_as_good_as_new_ones() {
             let at = Rectangle { x: side(50), y: side(40), width: side(20), height: side(9) };
             space = space.edit(at, |x, y| (x * 7 + y * 3 + edit) % 5 == 0).expect("cells of the map");
             for index in &mut indexes {
-                let setup = index.setup();
+                let (setup, is_same) = (index.setup(), index.identity() == space.identity());
                 *index = index.repair(&space).unwrap_or_else(|error| panic!("{setup}: {error}"));
                 let anew = setup.prepare(&space).expect("as before");
                 let is_repaired = matches!(setup.engine.kind(), Engine::Hpa | Engine::Chpa);
-                let origin = if is_repaired { Origin::Repaired } else { Origin::Prepared };
+                let origin = match (is_same, is_repaired) {
+                    (true, _) => Origin::Unchanged,
+                    (false, true) => Origin::Repaired,
+                    (false, false) => Origin::Prepared,
+                };
+                let same = index.repair(&index.space().clone()).expect("the same space");
+                assert_eq!((same.origin(), same.to_bytes().ok()), (Origin::Unchanged, index.to_bytes().ok()));
                 assert_eq!((index.setup(), index.origin()), (setup, origin));
                 assert_eq!(index.identity(), space.identity());
                 assert_eq!(index.memory_bytes(), anew.memory_bytes(), "{setup}, edit {edit}");
@@ -155,7 +162,8 @@ fn engines_in_free_space_make_no_grid_graph() {
     }
 }
 
-/// Damaged bytes are refused, whatever is damaged.
+/// Damaged bytes are refused, whatever is damaged: by the checksum, and where that is right, by what reads
+/// them, or they are an index that answers or gives up.
 #[test]
 fn damaged_indexes_are_refused() {
     for text in ["jps-plus", "subgoal", "subgoal:any,levels=2", "subgoal-theta", "hpa,side=4", "chpa"] {
@@ -174,6 +182,22 @@ fn damaged_indexes_are_refused() {
             bytes[bit / 8] ^= 1 << (bit % 8);
             refused(bytes, &format!("bit {bit}"));
         }
+        let file = IndexFile::from_bytes(whole).expect("an index");
+        let (mut read, mut refused) = (0, 0);
+        for bit in (0..8 * file.payload().len()).step_by(5) {
+            let mut payload = file.payload().to_vec();
+            payload[bit / 8] ^= 1 << (bit % 8);
+            match space.index_from_bytes(IndexFile::new(file.key().clone(), payload).to_bytes()) {
+                Err(_) => refused += 1,
+                Ok(index) => {
+                    let answer = index.planner().find(Query::new((0, 0), (8, 4)));
+                    assert!(matches!(answer, Ok(_) | Err(QueryError::GaveUp { .. })), "{text}: {answer:?}");
+                    read += 1;
+                }
+            }
+        }
+        // At least every bit of the identity is checked.
+        assert!(refused >= 8 * Identity::BYTES / 5, "{text}: {refused} refused, {read} read");
     }
 }
 
@@ -184,7 +208,10 @@ fn answers_are_taken_apart() {
     let answer = planner.find(Query::new((0, 0), (0, 0))).expect("a free cell");
     assert!(matches!(&answer, Outcome::Found(path) if path.cost() == 0.0));
     assert_eq!(answer.into_path().map(|path| path.waypoints().len()), Some(1));
-    assert_eq!(planner.bound().is_some(), space.motion().rules == Rules::ALL[0]);
+    assert!(planner.bound().is_some_and(|bound| bound > 1.0));
+    let cutting =
+        map().space(Motion::new(K::N8, CornerRule::Always)).and_then(|space| space.planner(Engine::AStar));
+    assert_eq!(cutting.expect("a planner").bound(), None, "where corners are always cut none is proven");
     assert_eq!(planner.index().space().identity(), space.identity());
 }
 
@@ -201,7 +228,7 @@ fn the_readme_shows_the_examples() {
         assert!(readme.contains(&format!("```rust\n{code}```")), "{}", path.display());
         // Five jobs, each of at most six names and ten lines.
         let [uses, main] = ["use mediant::", "fn main()"].map(|from| code.find(from).expect("it is there"));
-        let names = code[uses..main].lines().next().map_or(0, |line| line.split(", ").count());
+        let names = code[uses..main].split(';').next().map_or(0, |names| names.split(',').count());
         let lines = code[main..].lines().skip(1).take_while(|line| *line != "    Ok(())");
         let lines = lines.filter(|line| !line.trim().is_empty()).count();
         assert!(names <= 6 && lines <= 10, "{}: {names} names, {lines} lines", path.display());

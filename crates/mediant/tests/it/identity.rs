@@ -9,7 +9,7 @@ use super::{k, map};
 /// Every motion of small k.
 fn motions() -> impl Iterator<Item = Motion> {
     let ks = [2, 3, 4].map(|n| K::Finite(k(n))).into_iter().chain([K::Any]);
-    ks.flat_map(|k| Rules::ALL.map(|rules| Motion { k, rules }))
+    ks.flat_map(|k| Rules::ALL.map(|rules| Motion::new(k, rules)))
 }
 
 /// A map of the same size with one other cell, and one that is larger.

@@ -1,4 +1,4 @@
-//! The catalog of engines.
+//! The library.
 
 mod catalog;
 mod door;

@@ -13,7 +13,7 @@ fn vertices() -> impl Iterator<Item = Vertex> {
 
 fn motions() -> impl Iterator<Item = Motion> {
     let ks = [2, 3, 5].map(|n| K::Finite(k(n))).into_iter().chain([K::Any]);
-    ks.flat_map(|k| Rules::ALL.map(|rules| Motion { k, rules }))
+    ks.flat_map(|k| Rules::ALL.map(|rules| Motion::new(k, rules)))
 }
 
 #[test]

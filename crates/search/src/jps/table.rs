@@ -33,7 +33,7 @@ use crate::canonical::Pruning;
 /// let graph = GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::new(3)?, CornerRule::Never)?;
 /// let table = JumpTable::new(&graph)?;
 /// // The bytes can be saved; they are checked when they come back.
-/// let table = JumpTable::from_bytes(&graph, table.as_bytes().to_vec())?;
+/// let table = JumpTable::from_bytes(&graph, &table.to_bytes())?;
 /// let mut planner = JpsPlus::new(&graph, Arc::new(table), Hk)?;
 /// let outcome = planner.solve(Query::new((0, 1), (3, 1)))?;
 /// assert_eq!(outcome.path().map(|path| path.cost()), Some(5.0));
@@ -57,21 +57,23 @@ pub enum JumpError {
     /// Something that was made for another grid graph.
     #[error(transparent)]
     Mismatch(#[from] Mismatch),
-    /// Too few or too many bytes.
+    /// Bytes that do not begin with what they belong to.
+    #[error("these bytes are no jump table: they do not begin with what they belong to; build it anew")]
+    Bytes,
+    /// Too few or too many entries.
     #[error(
-        "a jump table of {found} bytes, where this graph needs {expected}: the table is for another map, \
-         placement or k, or cut off; build it anew"
+        "a jump table of {found} entries, where this graph needs {expected}: it is cut off; build it anew"
     )]
     Length {
-        /// The number of bytes needed: 2^k for each vertex.
+        /// The number of entries needed: 2^k for each vertex.
         expected: usize,
-        /// The number of bytes given.
+        /// The number of entries given.
         found: usize,
     },
     /// An entry that does not fit the map.
     #[error(
         "the jump table says {found:#04x} for move ({}, {}) at {at}, where this graph has {expected:#04x}: \
-         the table is for another map or rule, or damaged; build it anew",
+         the table is damaged; build it anew",
         towards.x,
         towards.y
     )]
@@ -127,12 +129,25 @@ impl JumpTable {
         Ok(Self { entries, k, identity: graph.identity() })
     }
 
-    /// The table from its bytes; see [`as_bytes`](Self::as_bytes). Every entry is checked against the map and
-    /// the entry one step ahead, so an accepted table is the one that [`new`](Self::new) computes.
+    /// The version of the format of [`to_bytes`](Self::to_bytes).
+    pub const VERSION: u32 = 2;
+
+    /// The table as bytes: what it belongs to, then the entries, one byte each, by vertex id and then by
+    /// move. [`from_bytes`](Self::from_bytes) reads them.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        [&self.identity.to_bytes(), &*self.entries].concat()
+    }
+
+    /// The table from its bytes. Every entry is checked against the map and the entry one step ahead, so an
+    /// accepted table is the one that [`new`](Self::new) computes.
     ///
     /// # Errors
-    /// A [`JumpError`] for bytes that are not the table of this grid graph.
-    pub fn from_bytes<P: Placement>(graph: &GridGraph<P>, bytes: Vec<u8>) -> Result<Self, JumpError> {
+    /// [`JumpError::Mismatch`] for the table of another grid graph, another [`JumpError`] for bytes that are
+    /// no table.
+    pub fn from_bytes<P: Placement>(graph: &GridGraph<P>, bytes: &[u8]) -> Result<Self, JumpError> {
+        let (found, bytes) = Identity::split_from(bytes).ok_or(JumpError::Bytes)?;
+        found.check_equal("the jump table", ("the grid graph", graph.identity()))?;
         let k = checked(graph.k())?;
         let expected = entry_count(graph.vertex_count(), k);
         if bytes.len() != expected {
@@ -141,14 +156,14 @@ impl JumpTable {
         let around = Surroundings::new(graph);
         for id in 0..graph.vertex_count() {
             for index in 0..1 << k {
-                let (expected, found) = (around.entry(&bytes, id, index), bytes[id << k | index]);
+                let (expected, found) = (around.entry(bytes, id, index), bytes[id << k | index]);
                 if expected != found {
                     let (at, towards) = (graph.vertex(VertexId(id as u32)), graph.step(index).vector());
                     return Err(JumpError::Entry { at, towards, expected, found });
                 }
             }
         }
-        Ok(Self { entries: bytes, k, identity: graph.identity() })
+        Ok(Self { entries: bytes.to_vec(), k, identity: found })
     }
 
     /// What it belongs to: the map, the rules of motion and the k of its grid graph.
@@ -173,13 +188,6 @@ impl JumpTable {
             entry = self.entries.get(at).copied().unwrap_or(0);
         }
         (steps + u32::from(entry & STEPS), entry & FOUND != 0)
-    }
-
-    /// The entries, one byte each, by vertex id and then by move, as [`from_bytes`](Self::from_bytes) takes
-    /// them.
-    #[must_use]
-    pub fn as_bytes(&self) -> &[u8] {
-        &self.entries
     }
 
     /// The memory used, in bytes.

@@ -29,7 +29,7 @@ fn is_taut(grid: &Grid, waypoints: &[Vertex]) -> bool {
 
 #[track_caller]
 fn check(grid: &Grid, rules: Rules, query: Query, outcome: &Outcome, expected: Option<f64>, seed: u64) {
-    let Query { start, goal } = query;
+    let Query { start, goal, .. } = query;
     let case = || describe(grid, rules, start, goal, seed);
     match (outcome, expected) {
         (Outcome::Unreachable, None) => {}

@@ -155,7 +155,7 @@ fn check(joined: Vec<Joined>, a_star: &[Option<f64>]) -> [usize; 2] {
             }
             Err(wrong) => {
                 assert!(is_other, "{by}: {wrong}");
-                assert_eq!((wrong.belongs_to, wrong.found), (prepared, other), "{by}");
+                assert_eq!((wrong.belongs_to, wrong.other_belongs_to), (prepared, other), "{by}");
                 assert_ne!(wrong.prepared, wrong.other, "{by}");
             }
         }
@@ -207,11 +207,11 @@ fn a_search_at_any_angle_is_smoothed_in_its_own_space() {
     assert!(Smoothed::new(planner(), &space(1, DiagonalGap::Open), None).is_ok());
     for other in [space(2, DiagonalGap::Open), space(1, DiagonalGap::Closed)] {
         let wrong = Smoothed::new(planner(), &other, Some(Smoothing::Taut)).map(|_| ()).unwrap_err();
-        assert_eq!((wrong.belongs_to, wrong.found), (planner().identity(), other.identity()));
+        assert_eq!((wrong.belongs_to, wrong.other_belongs_to), (planner().identity(), other.identity()));
     }
     let graph = GridGraph::in_space(&own, FiniteK::N16).unwrap();
     let wrong = Smoothed::new(planner(), &graph, None).map(|_| ()).unwrap_err();
-    assert_eq!(wrong.found, graph.identity());
+    assert_eq!(wrong.other_belongs_to, graph.identity());
     let message = wrong.to_string();
     for part in ["the planner", "the space", "k = any", "k = 4"] {
         assert!(message.contains(part), "{message}");
@@ -270,5 +270,5 @@ fn there_are_no_jump_distances_above_k_3() {
     let refused = JpsPlus::new(&four.graph, table, Hk).map(|_| ());
     assert!(matches!(refused, Err(JumpError::Mismatch(_))), "{refused:?}");
     let refused = BlockJps::with_finder(&four.graph, four.pruning, blocks, Hk).map(|_| ());
-    assert_eq!(refused.unwrap_err().found, four.graph.identity());
+    assert_eq!(refused.unwrap_err().other_belongs_to, four.graph.identity());
 }

@@ -156,7 +156,7 @@ fn check_path(waves: &mut dyn Waves, graph: &Graph<'_>, query: Query, case: &dyn
         assert_eq!(counters, Counters::default(), "the components know without a search; {}", case());
         return;
     };
-    let Query { start, goal } = query;
+    let Query { start, goal, .. } = query;
     let fault = validate(graph.grid, graph.rules, Some(k), start, goal, path.waypoints(), path.cost());
     assert_eq!(fault, Ok(()), "{}", case());
     assert!(counters.expanded < counters.generated, "{counters:?}; {}", case());

@@ -57,7 +57,12 @@ fn check<P: SubgoalPlacement>(
     for planner in planners {
         match planner {
             Ok(identity) => assert!(belong && identity == graph.identity(), "{identity}"),
-            Err(Mismatch { prepared: "the subgoal graph", belongs_to, other: "the space", found }) => {
+            Err(Mismatch {
+                prepared: "the subgoal graph",
+                belongs_to,
+                other: "the space",
+                other_belongs_to: found,
+            }) => {
                 assert!(!belong, "{belongs_to}");
                 assert_eq!((belongs_to, found), (graph.identity(), space.identity()));
             }
@@ -90,7 +95,7 @@ fn check_all<P: SubgoalPlacement>(k: K, other_k: K, rules: [P::Rule; 2]) {
                 let SubgoalError::Mismatch(wrong) = refused(&other.space, other.k, &bytes) else {
                     panic!("{one} is not {another}");
                 };
-                assert_eq!((wrong.belongs_to, wrong.found), (one, another));
+                assert_eq!((wrong.belongs_to, wrong.other_belongs_to), (one, another));
             }
         }
     }

@@ -94,7 +94,7 @@ fn part_of_the_bytes_is_no_graph_and_neither_is_more() {
 
 /// Checks that a graph, whatever it was made for, answers with legal paths or none.
 fn check_answers(space: &FreeSpace<Corners>, graph: &Graph, queries: &[Query], case: &str) {
-    for (&Query { start, goal }, outcomes) in queries.iter().zip(answers(space, graph, queries)) {
+    for (&Query { start, goal, .. }, outcomes) in queries.iter().zip(answers(space, graph, queries)) {
         for (outcome, k) in outcomes.into_iter().zip([graph.k().finite(), None]) {
             let Outcome::Found(path) = outcome else { continue };
             let (rules, way) = (space.rules(), path.waypoints());

@@ -1,0 +1,10 @@
+//! The errors inside an [`Error`](crate::Error), each with its fields.
+
+pub use mediant_formats::{IndexError, MapError, ReadError, WriteError};
+pub use mediant_grid::{GridError, Mismatch};
+pub use mediant_hierarchy::HierarchyError;
+pub use mediant_moves::KError;
+pub use mediant_search::{JumpError, QueryError};
+pub use mediant_subgoal::SubgoalError;
+
+pub use crate::{error::SetupError, names::UnknownName, text::TextError};
