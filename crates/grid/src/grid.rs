@@ -1,6 +1,6 @@
 //! The map: which cells are blocked.
 
-use crate::{BitMatrix, Vertex, identity::MapId};
+use crate::{BitMatrix, Rectangle, Vertex, identity::MapId};
 
 /// A bit-packed map: which cells are blocked. It keeps a transposed copy, so that runs along a row and along
 /// a column are both runs of bits.
@@ -19,19 +19,6 @@ pub struct Grid {
     id: MapId,
     rows: BitMatrix,
     columns: BitMatrix,
-}
-
-/// A rectangle of cells. The part of it that lies beyond a map is ignored.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Rectangle {
-    /// Its first column.
-    pub x: u32,
-    /// Its first row.
-    pub y: u32,
-    /// The number of columns.
-    pub width: u32,
-    /// The number of rows.
-    pub height: u32,
 }
 
 /// Why a grid cannot be made.

@@ -4,7 +4,7 @@ use std::fmt;
 
 use mediant_moves::{FiniteK, K};
 
-use crate::{BitMatrix, Rules, grid::Rectangle};
+use crate::{BitMatrix, Rectangle, Rules};
 
 /// The identity of a map: its size, and a digest of its cells.
 ///

@@ -46,6 +46,7 @@ mod line_of_sight;
 mod placement;
 #[cfg(doctest)]
 mod readme;
+mod rectangle;
 mod rules;
 pub mod sight;
 mod tree;
@@ -61,10 +62,11 @@ pub use footprint::Footprint;
 #[doc(hidden)]
 pub use frame::CellOffset;
 pub use free_space::FreeSpace;
-pub use grid::{Grid, GridError, Rectangle};
+pub use grid::{Grid, GridError};
 pub use grid_graph::{GridGraph, MoveSet, Step};
 pub use identity::{Identity, MapId, Mismatch};
 pub use mediant_moves::Vector;
 pub use placement::{Centers, Corners, Placement, SweptCells};
+pub use rectangle::Rectangle;
 pub use rules::{CornerRule, DiagonalGap, PlacementKind, Rules};
 pub use vertex::{Vertex, VertexId};

@@ -1,8 +1,13 @@
-//! Which engine we would take.
+//! Which engine we would take, and a path by it at once.
 
+use mediant_grid::Vertex;
 use mediant_moves::K;
+use mediant_search::{Path, Query};
 
-use crate::{configured::ConfiguredEngine, engine::Engine, setup::Setup, space::Space};
+use crate::{
+    configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion, setup::Setup,
+    space::Space,
+};
 
 /// The engine that we would take, and why.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,6 +51,49 @@ impl Choice {
             Some(4 | 5) => Self { engine: Engine::Jps, why: "for these k jumping is faster than A*" },
             Some(_) => Self { engine: Engine::Canonical, why: "for large k pruning is faster than jumping" },
         }
+    }
+}
+
+impl Space {
+    /// The engine that we would take for many paths, and why. It depends on the motion and on the size of
+    /// the map alone.
+    ///
+    /// ```
+    /// use mediant::{Engine, K, Map, Motion};
+    /// let map = Map::from_fn(40, 40, |x, y| x % 9 == 4 && y % 7 != 3)?;
+    /// let space = map.space(Motion::centers(K::N8))?;
+    /// assert_eq!(space.engine().engine, Engine::Subgoal);
+    /// let mut planner = space.planner(space.engine())?;
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    #[must_use]
+    pub fn engine(&self) -> Choice {
+        Choice::for_many_paths(self)
+    }
+
+    /// A shortest path, by an engine that prepares little; `None` if there is none. For more than a few paths
+    /// make a [`planner`](Self::planner).
+    ///
+    /// # Errors
+    /// [`Error::Query`] for a start or goal that is blocked or outside the map.
+    pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
+        let query = Query::new(start, goal);
+        self.check(query)?;
+        let answer = self.planner(Choice::for_one_path(self.motion().k))?.find(query)?;
+        Ok(answer.into_path())
+    }
+}
+
+impl Map {
+    /// A shortest path from one cell to another over k = 3: along rows, columns and diagonals between the
+    /// centers of cells, without cutting corners. `None` if there is none.
+    ///
+    /// This prepares the map each time. For more than one path, or other motion, make a [`Space`].
+    ///
+    /// # Errors
+    /// [`Error::Query`] for a start or goal that is blocked or outside the map.
+    pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
+        self.space(Motion::centers(K::N8))?.path(start, goal)
     }
 }
 

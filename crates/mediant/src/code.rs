@@ -6,10 +6,7 @@ use mediant_hierarchy::HierarchyError;
 use mediant_search::{End, JumpError, QueryError};
 use mediant_subgoal::SubgoalError;
 
-use crate::{
-    error::{Error, SetupError},
-    names::names,
-};
+use crate::{error::Error, names::names, setup_error::SetupError};
 
 /// The kind of a mistake. The names are the same in all languages, and stay from version to version; new
 /// ones may come.

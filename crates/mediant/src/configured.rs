@@ -10,7 +10,6 @@ use mediant_hierarchy::{Clustering, FallbackPolicy, SegmentGraph};
 
 use crate::{
     engine::Engine,
-    error::SetupError,
     option::{
         EngineOption, HeuristicName, Levels, OptionValue, Variant,
         description::{
@@ -18,6 +17,7 @@ use crate::{
             VARIANT,
         },
     },
+    setup_error::SetupError,
 };
 
 /// An engine with its options. An option that is `None` or false is left out: it has its default.

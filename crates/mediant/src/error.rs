@@ -3,129 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use mediant_formats::{IndexError, ReadError, WriteError};
-use mediant_grid::{GridError, Mismatch, PlacementKind, Rectangle, Rules};
+use mediant_grid::{GridError, Mismatch, Rectangle};
 use mediant_hierarchy::HierarchyError;
-use mediant_moves::{FiniteK, K, KError};
+use mediant_moves::KError;
 use mediant_search::{JumpError, QueryError};
 use mediant_subgoal::SubgoalError;
 
-use crate::{engine::Engine, motion::Motion, names::UnknownName, option::Levels, text::TextError};
-
-/// The error for a setup whose parts do not fit together.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SetupError {
-    /// An option, or a value of it, that the engine does not take.
-    #[error("{engine} takes no {option}: leave it out, or choose {others}")]
-    Option {
-        /// The engine.
-        engine: Engine,
-        /// What the error calls it.
-        option: &'static str,
-        /// The engines that take it.
-        others: String,
-    },
-    /// A finite k that is larger than the engine takes.
-    #[error("{engine} needs a k from 2 to {max}, found {k}")]
-    K {
-        /// The engine.
-        engine: Engine,
-        /// The largest k that it takes.
-        max: u32,
-        /// The k of the setup.
-        k: FiniteK,
-    },
-    /// k = ∞, for an engine that takes only finite k.
-    #[error("{engine} needs a k from 2 to {max}; for any choose {others}")]
-    NeedsFiniteK {
-        /// The engine.
-        engine: Engine,
-        /// The largest k that it takes.
-        max: u32,
-        /// The engines that take k = ∞.
-        others: String,
-    },
-    /// A finite k, for an engine that takes only k = ∞.
-    #[error("{engine} searches every direction, not those of k = {k}: leave k out, or say any")]
-    NeedsAny {
-        /// The engine.
-        engine: Engine,
-        /// The k of the setup.
-        k: FiniteK,
-    },
-    /// A placement that the engine does not take.
-    #[error("{engine} needs placement {needed}; for {placement} choose {others}")]
-    Placement {
-        /// The engine.
-        engine: Engine,
-        /// The placement that it takes.
-        needed: PlacementKind,
-        /// The placement of the setup.
-        placement: PlacementKind,
-        /// The engines that take the placement of the setup.
-        others: String,
-    },
-    /// Vertices at centers, for an engine that takes them only for small k.
-    #[error(
-        "at centers {engine} needs k = 2, or k = 3 under corners never, found k = {k} under {rules}: \
-         choose one of these,{} or another engine",
-        if engine.capabilities().placements.contains(&PlacementKind::Corner) { " placement corner," } else { "" }
-    )]
-    Centers {
-        /// The engine.
-        engine: Engine,
-        /// The k of the setup.
-        k: K,
-        /// The rules of the setup.
-        rules: Rules,
-    },
-    /// CHPA* as published, with a limit to detours: only the complete variant has one.
-    #[error(
-        "{engine} as published has no limit to detours: leave out the detour, or choose the variant complete"
-    )]
-    DetourAsPublished {
-        /// The engine.
-        engine: Engine,
-    },
-    /// Options of another engine than that of the index.
-    #[error("this index is of {known}: give options of {known}, or prepare {engine}")]
-    OtherEngine {
-        /// The engine of the options.
-        engine: Engine,
-        /// The engine of the index.
-        known: Engine,
-    },
-    /// Another variant than that which the index was prepared for.
-    #[error("this index is for another variant of {engine}: prepare the one that you want")]
-    OtherVariant {
-        /// The engine.
-        engine: Engine,
-    },
-    /// A saved index or all distances, for an engine that has none.
-    #[error("{engine} has no {what}: choose {others}")]
-    Without {
-        /// The engine.
-        engine: Engine,
-        /// What it does not have.
-        what: &'static str,
-        /// The engines that have it.
-        others: String,
-    },
-}
-
-impl SetupError {
-    /// The error for an engine whose index is not saved.
-    pub(crate) fn without_index(engine: Engine) -> Self {
-        let others = Engine::names_where(|kind| kind.capabilities().index.is_some());
-        Self::Without { engine, what: "index", others }
-    }
-
-    /// The error for an engine that does not find the distances to all vertices.
-    pub(crate) fn without_distances(engine: Engine) -> Self {
-        let others = Engine::names_where(|kind| kind.capabilities().distances);
-        Self::Without { engine, what: "distances to all vertices", others }
-    }
-}
+use crate::{motion::Motion, names::UnknownName, option::Levels, setup_error::SetupError, text::TextError};
 
 /// Why something cannot be made, read, written, or asked.
 ///

@@ -7,4 +7,4 @@ pub use mediant_moves::KError;
 pub use mediant_search::{JumpError, QueryError};
 pub use mediant_subgoal::SubgoalError;
 
-pub use crate::{error::SetupError, names::UnknownName, text::TextError};
+pub use crate::{names::UnknownName, setup_error::SetupError, text::TextError};

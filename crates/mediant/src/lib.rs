@@ -62,6 +62,7 @@ mod choice;
 mod code;
 mod configured;
 mod engine;
+mod erased;
 mod error;
 pub mod errors;
 mod heuristic;
@@ -75,6 +76,7 @@ mod planner;
 #[cfg(doctest)]
 mod readme;
 mod setup;
+mod setup_error;
 mod shared_rules;
 mod space;
 mod suite;
@@ -88,7 +90,7 @@ pub use configured::{
     SubgoalOptions,
 };
 pub use engine::Engine;
-pub use error::{Error, SetupError};
+pub use error::Error;
 pub use index::{Index, Origin};
 pub use map::Map;
 pub use mediant_grid::{
@@ -104,5 +106,6 @@ pub use names::UnknownName;
 pub use option::{EngineOption, HeuristicName, Levels, OptionValue, UnknownLevels, ValueKind, Variant};
 pub use planner::Planner;
 pub use setup::Setup;
+pub use setup_error::SetupError;
 pub use space::Space;
 pub use text::TextError;

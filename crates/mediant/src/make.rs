@@ -17,16 +17,17 @@ use mediant_subgoal::{SubgoalAStar, SubgoalGraph, SubgoalPlacement, SubgoalTheta
 
 use crate::{
     configured::{ChpaOptions, ConfiguredEngine},
-    error::{Error, SetupError},
+    erased::Erased,
+    error::Error,
     heuristic::Admissible,
     index::{InFreeSpace, Index, OnGridGraph, Prepared},
     option::HeuristicName,
-    planner::Erased,
     setup::Setup,
+    setup_error::SetupError,
 };
 
 /// A search with scratch memory of its own.
-type Boxed = Box<dyn Erased + Send>;
+pub(crate) type Boxed = Box<dyn Erased + Send>;
 
 /// Erases the type of a search.
 fn boxed(search: impl Search + Send + 'static) -> Boxed {

@@ -3,11 +3,9 @@
 use std::{path::Path as FilePath, sync::Arc};
 
 use mediant_formats::MapFile;
-use mediant_grid::{Grid, GridError, MapId, Rectangle, Vertex};
-use mediant_moves::K;
-use mediant_search::Path;
+use mediant_grid::{Grid, GridError, MapId, Rectangle};
 
-use crate::{error::Error, motion::Motion, space::Space};
+use crate::error::Error;
 
 /// A map: a rectangle of cells, each free or blocked. Cell (x, y) is the one in column x from the left and
 /// row y from the top, both from 0. Everything outside is blocked.
@@ -81,25 +79,6 @@ impl Map {
         }
         Grid::check_size(u64::from(width), height as u64)?;
         Self::from_fn(width, height as u32, |x, y| blocked[y as usize * columns + x as usize])
-    }
-
-    /// A shortest path from one cell to another over k = 3: along rows, columns and diagonals between the
-    /// centers of cells, without cutting corners. `None` if there is none.
-    ///
-    /// This prepares the map each time. For more than one path, or other motion, make a [`Space`].
-    ///
-    /// # Errors
-    /// [`Error::Query`] for a start or goal that is blocked or outside the map.
-    pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
-        self.space(Motion::centers(K::N8))?.path(start, goal)
-    }
-
-    /// This map with rules of motion and a k.
-    ///
-    /// # Errors
-    /// [`Error::Motion`] where no engine searches: at k above 12, and between centers at any angle.
-    pub fn space(&self, motion: Motion) -> Result<Space, Error> {
-        Space::new(self, motion)
     }
 
     /// This map with other cells in a rectangle: `blocked(x, y)` is asked once for each of its cells, row by

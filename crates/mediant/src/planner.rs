@@ -2,9 +2,13 @@
 
 use std::fmt;
 
-use mediant_search::{Counters, Guarantee, Observer, Outcome, Planner as Search, Query, QueryError};
+use mediant_grid::Identity;
+use mediant_search::{Counters, Guarantee, Observer, Outcome, Query, QueryError};
 
-use crate::{index::Index, make};
+use crate::{
+    configured::ConfiguredEngine, erased::Erased, error::Error, index::Index, make, map::Map, setup::Setup,
+    space::Space,
+};
 
 /// Answers queries on an [`Index`], one after another, on scratch memory of its own: make one for each
 /// thread. A warm planner allocates nothing but the path that it returns; one that smooths paths allocates
@@ -29,6 +33,45 @@ pub struct Planner {
     guarantee: Guarantee,
 }
 
+impl Space {
+    /// A planner of an engine, on an index of its own.
+    ///
+    /// # Errors
+    /// Those of [`prepare`](Self::prepare).
+    pub fn planner(&self, engine: impl Into<ConfiguredEngine>) -> Result<Planner, Error> {
+        Ok(self.prepare(engine)?.planner())
+    }
+}
+
+impl Setup {
+    /// A map with the setup's k and rules.
+    ///
+    /// # Errors
+    /// [`Error::Setup`] for a setup whose parts do not fit together.
+    pub fn space(&self, map: &Map) -> Result<Space, Error> {
+        self.check()?;
+        map.space(self.motion())
+    }
+
+    /// Prepares the setup's engine in a space.
+    ///
+    /// # Errors
+    /// Those of [`Space::prepare`], and [`Error::Mismatch`] for a space of another k or other rules.
+    pub fn prepare(&self, space: &Space) -> Result<Index, Error> {
+        let needed = Identity { map: None, rules: self.rules, k: Some(self.k) };
+        needed.check("the setup", ("the space", space.identity()))?;
+        Ok(space.prepare(self.engine)?.with_smoothing(self.smoothing))
+    }
+
+    /// A planner on a map, with a space and an index of its own.
+    ///
+    /// # Errors
+    /// Those of [`space`](Self::space) and [`prepare`](Self::prepare).
+    pub fn planner(&self, map: &Map) -> Result<Planner, Error> {
+        Ok(self.prepare(&self.space(map)?)?.planner())
+    }
+}
+
 impl Index {
     /// A planner on this index. It shares the index, and owns its scratch memory.
     #[must_use]
@@ -42,37 +85,6 @@ impl Index {
             guarantee: if smoothing.is_some() { guarantee.smoothed() } else { guarantee },
             index: self.clone(),
         }
-    }
-}
-
-/// A search that can be `dyn`. Observers are `dyn` too, so that each search is compiled only twice: with and
-/// without an observer. An observed search costs a dynamic call for each event.
-pub(crate) trait Erased {
-    /// [`Search::solve`].
-    fn solve(&mut self, query: Query) -> Result<Outcome, QueryError>;
-
-    /// [`Search::solve_observed`].
-    fn solve_observed(&mut self, query: Query, observer: &mut dyn Observer) -> Result<Outcome, QueryError>;
-
-    /// [`Search::guarantee`].
-    fn guarantee(&self) -> Guarantee;
-}
-
-impl<S: Search> Erased for S {
-    fn solve(&mut self, query: Query) -> Result<Outcome, QueryError> {
-        Search::solve(self, query)
-    }
-
-    fn solve_observed(
-        &mut self,
-        query: Query,
-        mut observer: &mut dyn Observer,
-    ) -> Result<Outcome, QueryError> {
-        Search::solve_observed(self, query, &mut observer)
-    }
-
-    fn guarantee(&self) -> Guarantee {
-        Search::guarantee(self)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Setups: an engine with all that a planner needs besides a map.
 
-use mediant_grid::{Centers, CornerRule, GridGraph, Identity, PlacementKind, Rules};
+use mediant_grid::{Centers, CornerRule, GridGraph, PlacementKind, Rules};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{Guarantee, Smoothing};
 
@@ -8,13 +8,9 @@ use crate::{
     capabilities::Capabilities,
     configured::ConfiguredEngine,
     engine::Engine,
-    error::{Error, SetupError},
-    index::Index,
-    map::Map,
     motion::Motion,
     option::{HeuristicName, Variant},
-    planner::Planner,
-    space::Space,
+    setup_error::SetupError,
 };
 
 /// An engine with its options, its k and rules of motion, and how its paths are smoothed.
@@ -58,33 +54,6 @@ impl Setup {
     #[must_use]
     pub const fn motion(&self) -> Motion {
         Motion { k: self.k, rules: self.rules }
-    }
-
-    /// A map with the setup's k and rules.
-    ///
-    /// # Errors
-    /// [`Error::Setup`] for a setup whose parts do not fit together.
-    pub fn space(&self, map: &Map) -> Result<Space, Error> {
-        self.check()?;
-        map.space(self.motion())
-    }
-
-    /// Prepares the setup's engine in a space.
-    ///
-    /// # Errors
-    /// Those of [`Space::prepare`], and [`Error::Mismatch`] for a space of another k or other rules.
-    pub fn prepare(&self, space: &Space) -> Result<Index, Error> {
-        let needed = Identity { map: None, rules: self.rules, k: Some(self.k) };
-        needed.check("the setup", ("the space", space.identity()))?;
-        Ok(space.prepare(self.engine)?.with_smoothing(self.smoothing))
-    }
-
-    /// A planner on a map, with a space and an index of its own.
-    ///
-    /// # Errors
-    /// Those of [`space`](Self::space) and [`prepare`](Self::prepare).
-    pub fn planner(&self, map: &Map) -> Result<Planner, Error> {
-        Ok(self.prepare(&self.space(map)?)?.planner())
     }
 
     /// The finite k of a search on a grid graph.

@@ -6,18 +6,11 @@ use mediant_grid::{
     Centers, Corners, FreeSpace, GridGraph, Identity, Placement, PlacementKind, Rectangle, Rules, Vertex,
 };
 use mediant_moves::{FiniteK, K};
-use mediant_search::{Dijkstra, Path, Query, Wavefront, Zero};
+use mediant_search::{Dijkstra, Query, Wavefront, Zero};
 
 use crate::{
-    choice::Choice,
-    configured::ConfiguredEngine,
-    engine::Engine,
-    error::{Error, SetupError},
-    index::Index,
-    map::Map,
-    motion::Motion,
-    planner::Planner,
-    setup::Setup,
+    configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion, setup::Setup,
+    setup_error::SetupError,
 };
 
 /// A map with rules of motion and a k: what can be searched. It never changes, and all threads can share it;
@@ -81,9 +74,19 @@ impl<P: Placement> Layers<P> {
     }
 }
 
+impl Map {
+    /// This map with rules of motion and a k.
+    ///
+    /// # Errors
+    /// [`Error::Motion`] where no engine searches: at k above 12, and between centers at any angle.
+    pub fn space(&self, motion: Motion) -> Result<Space, Error> {
+        Space::new(self, motion)
+    }
+}
+
 impl Space {
     /// A map with rules of motion and a k.
-    pub(crate) fn new(map: &Map, motion: Motion) -> Result<Self, Error> {
+    fn new(map: &Map, motion: Motion) -> Result<Self, Error> {
         let max = GridGraph::<Centers>::MAX_K;
         let is_searched = match motion.k {
             K::Finite(k) => k.get() <= max,
@@ -97,51 +100,6 @@ impl Space {
             Rules::Corner(gap) => Placed::Corners(Layers::new(map, motion, gap)),
         };
         Ok(Self { inner: Arc::new(Inner { map: map.clone(), motion, placed }) })
-    }
-
-    /// Prepares what an engine needs. The index belongs to this space; any number of planners share it.
-    ///
-    /// # Errors
-    /// [`Error::Setup`] for an engine that does not take the space's k or rules, or options that do not fit
-    /// together; an error of the engine if the map is too large for its index.
-    pub fn prepare(&self, engine: impl Into<ConfiguredEngine>) -> Result<Index, Error> {
-        Index::new(self, engine.into(), &|_| {})
-    }
-
-    /// A planner of an engine, on an index of its own.
-    ///
-    /// # Errors
-    /// Those of [`prepare`](Self::prepare).
-    pub fn planner(&self, engine: impl Into<ConfiguredEngine>) -> Result<Planner, Error> {
-        Ok(self.prepare(engine)?.planner())
-    }
-
-    /// A shortest path, by an engine that prepares little; `None` if there is none. For more than a few paths
-    /// make a [`planner`](Self::planner).
-    ///
-    /// # Errors
-    /// [`Error::Query`] for a start or goal that is blocked or outside the map.
-    pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
-        let query = Query::new(start, goal);
-        self.check(query)?;
-        let answer = self.planner(Choice::for_one_path(self.motion().k))?.find(query)?;
-        Ok(answer.into_path())
-    }
-
-    /// The engine that we would take for many paths, and why. It depends on the motion and on the size of
-    /// the map alone.
-    ///
-    /// ```
-    /// use mediant::{Engine, K, Map, Motion};
-    /// let map = Map::from_fn(40, 40, |x, y| x % 9 == 4 && y % 7 != 3)?;
-    /// let space = map.space(Motion::centers(K::N8))?;
-    /// assert_eq!(space.engine().engine, Engine::Subgoal);
-    /// let mut planner = space.planner(space.engine())?;
-    /// # Ok::<(), mediant::Error>(())
-    /// ```
-    #[must_use]
-    pub fn engine(&self) -> Choice {
-        Choice::for_many_paths(self)
     }
 
     /// The same rules and k on an edited map: see [`Map::edit`]. This space stays as it is.
@@ -261,7 +219,7 @@ impl Space {
     }
 
     /// Checks the ends of a query.
-    fn check(&self, query: Query) -> Result<(), Error> {
+    pub(crate) fn check(&self, query: Query) -> Result<(), Error> {
         Ok(match self.placed() {
             Placed::Centers(layers) => query.check(&layers.free),
             Placed::Corners(layers) => query.check(&layers.free),

@@ -7,10 +7,7 @@ use mediant_formats::{IndexError, IndexFile, IndexKey};
 
 use super::{Index, source::Source};
 use crate::{
-    configured::ConfiguredEngine,
-    engine::Engine,
-    error::{Error, SetupError},
-    space::Space,
+    configured::ConfiguredEngine, engine::Engine, error::Error, setup_error::SetupError, space::Space,
 };
 
 impl Index {

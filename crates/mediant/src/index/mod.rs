@@ -15,17 +15,17 @@ use mediant_search::{JumpTable, Smoothing, parts::BlockFinder};
 use mediant_subgoal::{Progress, SubgoalPlacement};
 
 pub(crate) use self::parts::{InFreeSpace, OnGridGraph, Prepared};
-pub use self::repair::Origin;
 use self::source::Source;
 use crate::{
     configured::ConfiguredEngine,
-    error::{Error, SetupError},
+    error::Error,
     motion::Motion,
     option::{
         EngineOption, OptionValue, Variant,
         description::{LEVELS, SIDE},
     },
     setup::Setup,
+    setup_error::SetupError,
     shared_rules::{self, Shared},
     space::{Layers, Placed, Space},
 };
@@ -54,7 +54,30 @@ pub struct Index {
     pub(crate) prepared: Prepared,
 }
 
+/// How an index came about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Origin {
+    /// It was prepared.
+    Prepared,
+    /// It was read from bytes or a file.
+    Loaded,
+    /// It was repaired: only the clusters or segments that an edit of the map touches were made anew.
+    Repaired,
+    /// It is the index of an equal map.
+    Unchanged,
+}
+
 impl Space {
+    /// Prepares what an engine needs. The index belongs to this space; any number of planners share it.
+    ///
+    /// # Errors
+    /// [`Error::Setup`] for an engine that does not take the space's k or rules, or options that do not fit
+    /// together; an error of the engine if the map is too large for its index.
+    pub fn prepare(&self, engine: impl Into<ConfiguredEngine>) -> Result<Index, Error> {
+        Index::new(self, engine.into(), &|_| {})
+    }
+
     /// [`prepare`](Self::prepare), which calls `progress` from any thread. Only subgoal graphs report
     /// progress.
     ///

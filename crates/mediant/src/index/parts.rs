@@ -10,12 +10,13 @@ use mediant_subgoal::{SubgoalGraph, SubgoalPlacement};
 use super::shape;
 use crate::{
     configured::ConfiguredEngine,
-    error::{Error, SetupError},
+    error::Error,
     option::{
         Levels, OptionValue,
         description::{LEVELS, SIDE},
     },
     setup::Setup,
+    setup_error::SetupError,
 };
 
 /// What an engine searches, with what is prepared for it.

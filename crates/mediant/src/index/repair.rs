@@ -4,25 +4,11 @@ use std::sync::Arc;
 
 use mediant_grid::{Centers, GridGraph, Mismatch, Rectangle};
 
-use super::{Index, OnGridGraph, Prepared};
+use super::{Index, OnGridGraph, Origin, Prepared};
 use crate::{
     error::Error,
     space::{Placed, Space},
 };
-
-/// How an index came about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Origin {
-    /// It was prepared.
-    Prepared,
-    /// It was read from bytes or a file.
-    Loaded,
-    /// It was repaired: only the clusters or segments that an edit of the map touches were made anew.
-    Repaired,
-    /// It is the index of an equal map.
-    Unchanged,
-}
 
 impl Index {
     /// The index for a changed map of the same rules and k. It gives the same answers as one prepared anew.
