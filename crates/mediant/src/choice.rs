@@ -22,13 +22,12 @@ pub struct Choice {
 const MOST_CELLS_FOR_SUBGOALS: u64 = 1 << 22;
 
 impl Choice {
-    /// For one path, after which everything is thrown away.
+    /// For one path, after which everything is thrown away: an engine that prepares nothing. On four maps of
+    /// up to 1024 × 1024 cells, space and search together, A* took 0.4 to 0.9 of the time of block-based JPS
+    /// at k = 3, and 0.1 to 0.6 of that of JPS at k = 5.
     pub(crate) fn for_one_path(k: K) -> Self {
         match k {
-            K::Any => Self { engine: Engine::Anya, why: "it finds shortest paths and prepares nothing" },
-            K::Finite(k) if k.get() <= 3 => {
-                Self { engine: Engine::JpsBlock, why: "it prepares little and reads the map by words" }
-            }
+            K::Any => Self { engine: Engine::Anya, why: "it prepares nothing" },
             K::Finite(_) => Self { engine: Engine::AStar, why: "it prepares nothing" },
         }
     }
@@ -71,8 +70,8 @@ impl Space {
         Choice::for_many_paths(self)
     }
 
-    /// A shortest path, by an engine that prepares little; `None` if there is none. For more than a few paths
-    /// make a [`planner`](Self::planner).
+    /// A shortest path, by an engine that prepares nothing; `None` if there is none. For more than a few make
+    /// a [`planner`](Self::planner).
     ///
     /// # Errors
     /// [`Error::Query`] for a start or goal that is blocked or outside the map.
