@@ -18,17 +18,20 @@ pub struct Choice {
     pub why: &'static str,
 }
 
-/// The most cells of a map for which subgoal graphs pay (`docs/performance.md`).
+/// The most cells of a map for which subgoal graphs pay on nearly every kind of map. On 4096 × 4096 cells the
+/// engines that prepare nothing are as fast or faster (`docs/performance.md`, 'How it grows').
 const MOST_CELLS_FOR_SUBGOALS: u64 = 1 << 22;
 
 impl Choice {
-    /// For one path, after which everything is thrown away: an engine that prepares nothing. On four maps of
-    /// up to 1024 × 1024 cells, space and search together, A* took 0.4 to 0.9 of the time of block-based JPS
-    /// at k = 3, and 0.1 to 0.6 of that of JPS at k = 5.
+    /// For one path, after which everything is thrown away: an engine that prepares next to nothing. On four
+    /// maps of up to 1024 × 1024 cells, space and search together, canonical A* took 0.6 to 0.9 of the time
+    /// of A* at k = 3 and 0.7 to 1.1 at k = 2. From k = 4 on its preparation takes longer than A*; that of
+    /// block-based JPS makes it slower than A* at k = 3 already, by a factor of 1.2 to 2.2.
     pub(crate) fn for_one_path(k: K) -> Self {
-        match k {
-            K::Any => Self { engine: Engine::Anya, why: "it prepares nothing" },
-            K::Finite(_) => Self { engine: Engine::AStar, why: "it prepares nothing" },
+        match k.finite().map(|k| k.get()) {
+            None => Self { engine: Engine::Anya, why: "it prepares nothing" },
+            Some(2 | 3) => Self { engine: Engine::Canonical, why: "it prepares next to nothing" },
+            Some(_) => Self { engine: Engine::AStar, why: "it prepares nothing" },
         }
     }
 
@@ -38,8 +41,7 @@ impl Choice {
         let takes_subgoals = Setup::new(Engine::Subgoal, motion.k, motion.rules).check().is_ok();
         let cells = u64::from(map.width()) * u64::from(map.height());
         if takes_subgoals && cells <= MOST_CELLS_FOR_SUBGOALS {
-            let why =
-                "it prepares the map within about a second and then finds shortest paths in microseconds";
+            let why = "it prepares the map once; then it finds most shortest paths in tens of microseconds";
             return Self { engine: Engine::Subgoal, why };
         }
         match motion.k.finite().map(|k| k.get()) {
@@ -70,8 +72,8 @@ impl Space {
         Choice::for_many_paths(self)
     }
 
-    /// A shortest path, by an engine that prepares nothing; `None` if there is none. For more than a few make
-    /// a [`planner`](Self::planner).
+    /// A shortest path, by an engine that prepares little; `None` if there is none. For more than a few
+    /// paths make a [`planner`](Self::planner).
     ///
     /// # Errors
     /// [`Error::Query`] for a start or goal that is blocked or outside the map.

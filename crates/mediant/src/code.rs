@@ -163,7 +163,8 @@ const fn of_jump(error: &JumpError) -> ErrorCode {
     match error {
         JumpError::K(_) => ErrorCode::EngineK,
         JumpError::Mismatch(_) => ErrorCode::Mismatch,
-        _ => ErrorCode::IndexDamaged,
+        JumpError::Bytes | JumpError::Length { .. } | JumpError::Entry { .. } => ErrorCode::IndexDamaged,
+        _ => ErrorCode::Other,
     }
 }
 
@@ -173,7 +174,8 @@ const fn of_subgoal(error: &SubgoalError) -> ErrorCode {
         SubgoalError::K(_) => ErrorCode::EngineK,
         SubgoalError::Arcs { .. } => ErrorCode::IndexRange,
         SubgoalError::Mismatch(_) => ErrorCode::Mismatch,
-        _ => ErrorCode::IndexDamaged,
+        SubgoalError::Bytes(_) => ErrorCode::IndexDamaged,
+        _ => ErrorCode::Other,
     }
 }
 
@@ -186,7 +188,8 @@ const fn of_hierarchy(error: &HierarchyError) -> ErrorCode {
         HierarchyError::K(_) => ErrorCode::EngineK,
         HierarchyError::Mismatch(_) => ErrorCode::Mismatch,
         HierarchyError::Bytes(_) => ErrorCode::IndexDamaged,
-        _ => ErrorCode::IndexEdit,
+        HierarchyError::Size { .. } | HierarchyError::ChangedOutside { .. } => ErrorCode::IndexEdit,
+        _ => ErrorCode::Other,
     }
 }
 

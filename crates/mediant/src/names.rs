@@ -18,7 +18,7 @@ macro_rules! names {
             /// All values.
             pub const ALL: [Self; [$($name),+].len()] = [$(Self::$variant),+];
 
-            /// The name, as in options and tables.
+            /// The name, as people and scripts write it.
             #[must_use]
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$variant => $name),+ }

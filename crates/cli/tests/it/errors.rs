@@ -27,7 +27,8 @@ fn arguments_that_make_no_sense() {
     );
     check(
         "run builtin:cave --k 1",
-        "invalid value '1' for '--k <K>': k = 1 is too small: the smallest 2^k neighborhood is the 4-connected one, k = 2; \
+        "invalid value '1' for '--k <K>': k = 1 is too small: the smallest 2^k neighborhood is the \
+         4-connected one, k = 2; \
          choose a number from 2 to 12, or any; see --help",
     );
     check(
@@ -75,7 +76,8 @@ fn arguments_that_make_no_sense() {
 fn engines_and_values_that_do_not_exist() {
     check(
         "run builtin:cave --engine warp",
-        "invalid value 'warp' for '--engine <ENGINE>' [possible values: astar, dijkstra, wavefront, canonical, jps, jps-block, \
+        "invalid value 'warp' for '--engine <ENGINE>' [possible values: astar, dijkstra, wavefront, \
+         canonical, jps, jps-block, \
          jps-plus, theta, lazy-theta, anya, subgoal, subgoal-theta, hpa, chpa]; see --help",
     );
     check(
@@ -84,7 +86,8 @@ fn engines_and_values_that_do_not_exist() {
     );
     check(
         "run builtin:cave --heuristic manhattan",
-        "invalid value 'manhattan' for '--heuristic <HEURISTIC>' [possible values: hk, euclidean, zero, squared]; see --help",
+        "invalid value 'manhattan' for '--heuristic <HEURISTIC>' [possible values: hk, euclidean, zero, \
+         squared]; see --help",
     );
     check(
         "run builtin:cave --engine jps --jump-limit 0",
@@ -112,11 +115,13 @@ fn arguments_that_are_no_vertices() {
     );
     check(
         "run builtin:cave --from 2147483648,0 --to 4,5",
-        "invalid value '2147483648,0' for '--from <X,Y>': `2147483648` is too large: coordinates go up to 2147483647; see --help",
+        "invalid value '2147483648,0' for '--from <X,Y>': `2147483648` is too large: coordinates go up to \
+         2147483647; see --help",
     );
     check(
         "run builtin:cave --from 1,2 --to 4,-99999999999",
-        "invalid value '4,-99999999999' for '--to <X,Y>': `-99999999999` is too small: coordinates go down to -2147483648; \
+        "invalid value '4,-99999999999' for '--to <X,Y>': `-99999999999` is too small: coordinates go down \
+         to -2147483648; \
          see --help",
     );
 }
@@ -165,10 +170,12 @@ fn options_that_do_not_go_together() {
 #[test]
 fn what_an_engine_does_not_take() {
     let jumpers = "leave it out, or choose jps, jps-block";
+    let indexed = "jps-plus, subgoal, subgoal-theta, hpa, chpa";
     for (options, message) in [
         (
             "--engine dijkstra --heuristic hk",
-            "dijkstra takes no heuristic: leave it out, or choose astar, canonical, jps, jps-block, jps-plus, theta, lazy-theta, chpa"
+            "dijkstra takes no heuristic: leave it out, or choose astar, canonical, jps, jps-block, \
+             jps-plus, theta, lazy-theta, chpa"
                 .to_owned(),
         ),
         (
@@ -183,8 +190,11 @@ fn what_an_engine_does_not_take() {
         ),
         ("--engine jps-block --k 4", "jps-block needs a k from 2 to 3, found 4".to_owned()),
         ("--engine jps-plus --k 12", "jps-plus needs a k from 2 to 3, found 12".to_owned()),
-        ("--engine jps-plus --k any", "jps-plus needs a k from 2 to 3; for any choose anya, subgoal".to_owned()),
-        ("--engine jps --index x.idx", "jps has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa".to_owned()),
+        (
+            "--engine jps-plus --k any",
+            "jps-plus needs a k from 2 to 3; for any choose anya, subgoal".to_owned(),
+        ),
+        ("--engine jps --index x.idx", format!("jps has no index: choose {indexed}")),
         (
             "--from 2,5 --distances -",
             "astar has no distances to all vertices: choose dijkstra, wavefront".to_owned(),
@@ -312,7 +322,8 @@ fn files_that_are_no_scenarios_of_this_map() {
     let empty = files.add("empty.scen", "");
     check(
         &empty,
-        "empty.scen: line 1, column 1: expected a MovingAI scenario, found an empty file; is this the file that you meant?",
+        "empty.scen: line 1, column 1: expected a MovingAI scenario, found an empty file; is this the file \
+         that you meant?",
     );
     check(
         &files.add("none.scen", "version 1\n"),
@@ -328,7 +339,8 @@ fn files_that_are_no_scenarios_of_this_map() {
     let misfit = SCENARIO.replace("yard.map", "maps/barn.map").replace("\t2\t0\t4", "\t1\t0\t4");
     check(
         &files.add("misfit.scen", misfit),
-        "the scenario is for the map `barn.map` and does not fit `yard.map`, where the goal (1, 0) of instance 0 is blocked; \
+        "the scenario is for the map `barn.map` and does not fit `yard.map`, where the goal (1, 0) of \
+         instance 0 is blocked; \
          give the map that it was made for, under that name",
     );
 }
@@ -338,7 +350,8 @@ fn a_renamed_map_is_still_the_map() {
     let files = Files::new();
     let map = files.add("renamed.map", MAP);
     let Ran { status, stderr, .. } = mediant(&["run", &map, "--scen", &files.add("yard.scen", SCENARIO)]);
-    let warning = "warning: the scenario names the map `yard.map`, not `renamed.map`; every query fits, so it is used\n";
+    let warning = "warning: the scenario names the map `yard.map`, not `renamed.map`; every query fits, so \
+                   it is used\n";
     assert_eq!((stderr.as_str(), status), (warning, Some(0)));
 }
 

@@ -160,37 +160,22 @@ fn an_index_for_something_else_is_refused() {
     let clusters = built(&files, "hpa.idx", "builtin:cave --engine hpa --levels 2");
     let segments = built(&files, "chpa.idx", "builtin:cave --engine chpa --k 2");
     let again = "or build it again";
+    let levels = |named: &str| {
+        let found = "found one with 2 levels; choose the levels that it has";
+        format!("hpa.idx: needs an index with {named}, {found}, {again}")
+    };
+    let side = |file: &str, named: u32, found: u32| {
+        let needs = format!("needs an index whose clusters or segments have {named} × {named} cells");
+        let found = format!("found one with {found} × {found}; choose the side that it has");
+        format!("{file}: {needs}, {found}, {again}")
+    };
+    let other = "hpa.idx: expected an index of the engine chpa, found one of hpa; choose that engine";
     for (options, message) in [
-        (
-            format!("--engine hpa --levels 1 --index {clusters}"),
-            format!(
-                "hpa.idx: needs an index with 1 level, found one with 2 levels; choose the levels that it has, {again}"
-            ),
-        ),
-        (
-            format!("--engine hpa --levels all --index {clusters}"),
-            format!(
-                "hpa.idx: needs an index with 5 levels, found one with 2 levels; choose the levels that it has, {again}"
-            ),
-        ),
-        (
-            format!("--engine hpa --side 8 --index {clusters}"),
-            format!(
-                "hpa.idx: needs an index whose clusters or segments have 8 × 8 cells, found one with 10 × 10; choose the side that it has, {again}"
-            ),
-        ),
-        (
-            format!("--engine chpa --k 2 --side 4 --index {segments}"),
-            format!(
-                "chpa.idx: needs an index whose clusters or segments have 4 × 4 cells, found one with 3 × 3; choose the side that it has, {again}"
-            ),
-        ),
-        (
-            format!("--engine chpa --index {clusters}"),
-            format!(
-                "hpa.idx: expected an index of the engine chpa, found one of hpa; choose that engine, {again} with `mediant build`"
-            ),
-        ),
+        (format!("--engine hpa --levels 1 --index {clusters}"), levels("1 level")),
+        (format!("--engine hpa --levels all --index {clusters}"), levels("5 levels")),
+        (format!("--engine hpa --side 8 --index {clusters}"), side("hpa.idx", 8, 10)),
+        (format!("--engine chpa --k 2 --side 4 --index {segments}"), side("chpa.idx", 4, 3)),
+        (format!("--engine chpa --index {clusters}"), format!("{other}, {again} with `mediant build`")),
     ] {
         assert_eq!(refused(&files, &format!("run builtin:cave {options}")), format!("error: {message}\n"));
     }
@@ -226,12 +211,13 @@ fn an_index_for_something_else_is_refused() {
 #[test]
 fn options_that_an_engine_does_not_take_are_refused() {
     let files = Files::new();
+    let choose = "leave it out, or choose";
     let small = "found k = 3 under center, corners one: choose one of these, or another engine";
     for (options, message) in [
         ("--side 3", "astar takes no side: leave it out, or choose hpa, chpa".to_owned()),
         ("--engine subgoal --side 3", "subgoal takes no side: leave it out, or choose hpa, chpa".to_owned()),
-        ("--engine chpa --levels 2", "chpa takes no levels: leave it out, or choose subgoal, subgoal-theta, hpa".to_owned()),
-        ("--engine chpa --unstraightened", "chpa takes no option unstraightened: leave it out, or choose hpa".to_owned()),
+        ("--engine chpa --levels 2", format!("chpa takes no levels: {choose} subgoal, subgoal-theta, hpa")),
+        ("--engine chpa --unstraightened", format!("chpa takes no option unstraightened: {choose} hpa")),
         ("--engine hpa --second hk", "hpa takes no second heuristic: leave it out, or choose chpa".to_owned()),
         ("--engine hpa --step 2", "hpa takes no step: leave it out, or choose chpa".to_owned()),
         ("--detour 2", "astar takes no detour: leave it out, or choose chpa".to_owned()),
@@ -246,7 +232,8 @@ fn options_that_an_engine_does_not_take_are_refused() {
         ),
         (
             "--engine chpa --variant paper --detour 2",
-            "chpa as published has no limit to detours: leave out the detour, or choose the variant complete".to_owned(),
+            "chpa as published has no limit to detours: leave out the detour, or choose the variant \
+             complete".to_owned(),
         ),
         (
             "--engine hpa --heuristic squared",
@@ -264,7 +251,8 @@ fn options_that_an_engine_does_not_take_are_refused() {
         ("--engine chpa --k any", "chpa needs a k from 2 to 3; for any choose anya, subgoal".to_owned()),
         (
             "--engine chpa --placement corner",
-            "chpa needs placement center; for corner choose astar, dijkstra, wavefront, canonical, jps, jps-block, jps-plus, \
+            "chpa needs placement center; for corner choose astar, dijkstra, wavefront, canonical, jps, \
+             jps-block, jps-plus, \
              theta, lazy-theta, anya, subgoal, subgoal-theta"
                 .to_owned(),
         ),
@@ -272,7 +260,8 @@ fn options_that_an_engine_does_not_take_are_refused() {
         ("--engine chpa --side 64", "a cluster or segment of 64 × 64 cells: the side must be 1 to 63".to_owned()),
         (
             "--engine hpa --levels 6",
-            "6 levels of clusters, the lowest of 10 × 10 cells: there must be at least one level, and the clusters of the highest at most 256 \
+            "6 levels of clusters, the lowest of 10 × 10 cells: there must be at least one level, and the \
+             clusters of the highest at most 256 \
              cells long"
                 .to_owned(),
         ),

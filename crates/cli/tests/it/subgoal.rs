@@ -70,7 +70,8 @@ fn an_index_says_which_levels_it_has() {
     let line = format!("run builtin:cave --engine subgoal --index {index} --levels");
     for (levels, name) in [("1", "1 level"), ("all", "all levels")] {
         let message = format!(
-            "error: cave.idx: needs an index with {name}, found one with 2 levels; choose the levels that it has, or build it again\n"
+            "error: cave.idx: needs an index with {name}, found one with 2 levels; choose the levels that \
+             it has, or build it again\n"
         );
         assert_eq!(refused(&files, &format!("{line} {levels}")), message);
     }
@@ -174,7 +175,8 @@ fn an_index_of_another_version_is_refused() {
     assert_eq!(
         saved("subgoal", version + 1, never, &payload),
         format!(
-            "error: other.idx: expected version {version} of the subgoal index, found version {}; build it again with `mediant build`\n",
+            "error: other.idx: expected version {version} of the subgoal index, found version {}; build it \
+             again with `mediant build`\n",
             version + 1
         )
     );
@@ -250,7 +252,8 @@ fn setups_without_a_subgoal_graph_are_refused() {
         ("--levels 2", "astar takes no levels: leave it out, or choose subgoal, subgoal-theta, hpa"),
         (
             "--engine subgoal --heuristic hk",
-            "subgoal takes no heuristic: leave it out, or choose astar, canonical, jps, jps-block, jps-plus, theta, lazy-theta, chpa",
+            "subgoal takes no heuristic: leave it out, or choose astar, canonical, jps, jps-block, \
+             jps-plus, theta, lazy-theta, chpa",
         ),
         (
             "--engine subgoal --k 4",
@@ -268,7 +271,8 @@ fn setups_without_a_subgoal_graph_are_refused() {
         ),
         (
             "--engine subgoal-theta --placement center",
-            "subgoal-theta needs placement corner; for center choose astar, dijkstra, wavefront, canonical, jps, jps-block, \
+            "subgoal-theta needs placement corner; for center choose astar, dijkstra, wavefront, \
+             canonical, jps, jps-block, \
              jps-plus, theta, lazy-theta, subgoal, hpa, chpa",
         ),
     ] {
@@ -278,7 +282,8 @@ fn setups_without_a_subgoal_graph_are_refused() {
         refused(
             &format!("--engine subgoal --levels {levels}"),
             &format!(
-                "invalid value '{levels}' for '--levels <N|all>': expected a whole number from 1 to 4294967295, or all; see --help"
+                "invalid value '{levels}' for '--levels <N|all>': expected a whole number from 1 to \
+                 4294967295, or all; see --help"
             ),
         );
     }

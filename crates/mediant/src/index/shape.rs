@@ -8,6 +8,11 @@ use crate::{
     option::Levels,
 };
 
+/// More levels than there can be are all levels: subgoal graphs have one word for both.
+fn same(levels: Levels) -> Levels {
+    if levels == Levels::Number(NonZeroU32::MAX) { Levels::All } else { levels }
+}
+
 /// Checks that an index has the levels and the side that the engine's options name, if they name them;
 /// Sub-Theta* needs levels in any case.
 pub(super) fn check(
@@ -39,7 +44,7 @@ pub(super) fn check(
         _ => (false, None),
     };
     match expected {
-        Some(expected) if is_named && expected != found => Err(Error::Levels { expected, found }),
+        Some(expected) if is_named && same(expected) != same(found) => Err(Error::Levels { expected, found }),
         _ => Ok(()),
     }
 }

@@ -236,3 +236,38 @@ fn the_readme_shows_the_examples() {
     }
     assert_eq!(shown, 5);
 }
+
+/// Options are changed on an index as if it had been prepared with them, or refused; whatever is accepted
+/// makes planners.
+#[test]
+fn an_index_takes_the_options_that_it_serves() {
+    let (mut accepted, mut refused) = (0, 0);
+    let query = Query::new((0, 0), (8, 4));
+    let motions =
+        [Motion::centers(K::N4), Motion::centers(K::N8), Motion::corners(K::N16), Motion::corners(K::ANY)];
+    for motion in motions {
+        let space = map().space(motion).expect("a space");
+        let setups: Vec<Setup> =
+            Setup::all(motion.k, motion.rules).filter(|one| one.smoothing.is_none()).collect();
+        for (one, other) in setups.iter().flat_map(|one| setups.iter().map(move |other| (one, other))) {
+            let index = one.prepare(&space).expect("it fits");
+            match index.with_options(other.engine) {
+                Err(error) => {
+                    let is_right =
+                        matches!(error, Error::Setup(_) | Error::Levels { .. } | Error::Side { .. });
+                    assert!(is_right, "{one}, {other}: {error}");
+                    assert!(one != other, "{one}");
+                    refused += 1;
+                }
+                Ok(index) => {
+                    let found = index.planner().find_counted(query);
+                    // What the options leave out is as it was prepared.
+                    let named = index.setup().prepare(&space).expect("it fits").planner().find_counted(query);
+                    assert_eq!(found, named, "{one}, {other}");
+                    accepted += 1;
+                }
+            }
+        }
+    }
+    assert!(accepted > 200 && refused > 1_000, "{accepted} accepted, {refused} refused");
+}

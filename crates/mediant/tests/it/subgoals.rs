@@ -86,6 +86,7 @@ fn a_saved_subgoal_graph_has_the_levels_that_are_named() {
     };
     for (built, asked) in [
         ("subgoal:3:open,levels=2", "subgoal:3:open"),
+        ("subgoal:3:open,levels=all", "subgoal:3:open,levels=4294967295"),
         ("subgoal-theta", "subgoal-theta,levels=2"),
         ("subgoal-theta,levels=all", "subgoal-theta"),
     ] {
@@ -105,6 +106,9 @@ fn a_saved_subgoal_graph_has_the_levels_that_are_named() {
         let advice = "choose the levels that it has, or build it again";
         assert_eq!(error.to_string(), format!("{message}; {advice}"));
     }
+    // As many levels as a number can say are all.
+    let most = index(setup("subgoal:3:open,levels=4294967295"), &map()).expect("an index");
+    assert_eq!(levels(&most), Some(Levels::All));
     for text in ["1", "7", "all", "contracted"] {
         assert_eq!(text.parse::<Levels>().map(|levels| levels.to_string()), Ok(text.to_owned()));
     }

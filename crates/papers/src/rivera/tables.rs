@@ -4,7 +4,6 @@ pub(super) mod pages;
 
 use std::sync::Arc;
 
-use mediant::Map as Ground;
 use mediant_bench::Study;
 use mediant_grid::Rules;
 use mediant_report::{Column, Row};
@@ -124,8 +123,9 @@ const fn timed_of(problems: usize) -> usize {
 fn queries(context: &Context<'_>, map: &Map) -> Result<Vec<Query>, Error> {
     let grid = map.grid()?;
     let setup = setup("astar:3:never")?;
-    let space =
-        setup.space(&Ground::from(Arc::clone(&grid))).map_err(|wrong| Error::Reproduce(wrong.to_string()))?;
+    let space = setup
+        .space(&mediant::Map::from(Arc::clone(&grid)))
+        .map_err(|wrong| Error::Reproduce(wrong.to_string()))?;
     let rules: Rules = setup.rules;
     let solvable = |query: Query| space.connected(query.start, query.goal);
     Ok(random_queries(&mut context.rng(map), &grid, rules, problems(context, &map.set), solvable))
