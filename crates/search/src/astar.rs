@@ -12,8 +12,9 @@ use crate::{
     best_first::BestFirst,
     distances::{Distances, end_at_gaps},
     heuristic::{Heuristic, Zero},
-    observer::Observer,
+    observer::{Observer, Unpaused},
     path::Path,
+    planner::{Planner, Status},
     query::{Query, QueryError},
     successors::{ExpandedNode, Successor, Successors},
 };
@@ -75,13 +76,21 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> AStar<G, H> {
         observer: &mut impl Observer,
     ) -> Result<bool, QueryError> {
         let Some(&start) = path.last() else { return Ok(false) };
-        let Some((start, goal)) = Query::new(start, goal).ends(&self.graph)? else { return Ok(false) };
+        let mut observer = Unpaused(observer);
         // h_k of a single move is its cost, so that no path beyond the limit reaches the goal.
-        let found = self.search(start, Some(goal), limit, observer);
+        self.begin_within(Query::new(start, goal), limit, &mut observer)?;
+        let found = self.proceed(&mut observer)? == Status::Found;
         if found {
-            self.extend_back(start, goal, path);
+            self.extend_to(path, goal);
         }
         Ok(found)
+    }
+
+    /// After a search from its last waypoint, extends a path to a vertex that the search has reached.
+    pub fn extend_to(&self, path: &mut Vec<Vertex>, to: Vertex) {
+        if let Some((start, to)) = path.last().and_then(|&at| self.graph.id(at).zip(self.graph.id(to))) {
+            self.extend_back(start, to, path);
+        }
     }
 
     /// Finds a path that costs at most `limit`, as [`extend`](Self::extend) does.
@@ -108,7 +117,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Dijkstra<G> {
     pub fn distances(&mut self, start: Vertex) -> Result<Distances<Cost>, QueryError> {
         Query::new(start, start).check(&self.graph)?;
         if let Some(id) = self.graph.id(start) {
-            self.search(id, None, Cost::MAX, &mut ());
+            self.flood(id);
         }
         let ids = (0..self.graph.vertex_count() as u32).map(VertexId);
         let mut costs: Vec<Option<Cost>> = ids.map(|id| self.cost_to(id)).collect();

@@ -10,9 +10,10 @@ use crate::{
     nodes::{Node, NodeStore},
     observer::{NodeEvent, Observer},
     open_list::{Entry, OpenList},
-    outcome::{Guarantee, Outcome},
+    outcome::Guarantee,
     parent::ParentPointer,
-    planner::Planner,
+    path::Path,
+    planner::{Planner, Status},
     query::{Query, QueryError},
     successors::{ExpandedNode, Successor, Successors},
     trace::{extend_back, trace_back},
@@ -35,6 +36,24 @@ pub struct BestFirst<G, H, S, N = ()> {
     pub(crate) successors: S,
     nodes: NodeStore<N>,
     open: OpenList,
+    aim: Aim,
+    status: Status,
+}
+
+/// From where to where a search leads.
+#[derive(Clone, Copy, Debug)]
+struct Aim {
+    start: VertexId,
+    /// `None` for a search that finds the distances of all vertices.
+    goal: Option<VertexId>,
+    /// Vertices through which every path costs more are not expanded.
+    limit: Cost,
+    /// Whether it is the second search, without pruning.
+    is_retry: bool,
+}
+
+impl Aim {
+    const NONE: Self = Self { start: VertexId(0), goal: None, limit: Cost::MAX, is_retry: false };
 }
 
 impl<P, G, H, S, N> BestFirst<G, H, S, N>
@@ -96,11 +115,19 @@ where
     #[must_use]
     pub fn with_successors(graph: G, heuristic: H, successors: S) -> Self {
         let nodes = NodeStore::new(graph.vertex_count());
-        Self { graph, heuristic, successors, nodes, open: OpenList::default() }
+        let (open, aim, status) = (OpenList::default(), Aim::NONE, Status::default());
+        Self { graph, heuristic, successors, nodes, open, aim, status }
+    }
+
+    /// The goal; outside the map, where no move leads, if there is none.
+    fn goal_at(&self) -> Vertex {
+        self.aim.goal.map_or(Vertex::new(-1, -1), |goal| self.graph.vertex(goal))
     }
 
     /// Makes the start the only node that is known.
-    fn begin(&mut self, start: VertexId, goal_at: Vertex, observer: &mut impl Observer) {
+    fn begin_at(&mut self, aim: Aim, observer: &mut impl Observer) {
+        self.aim = aim;
+        let (start, goal_at) = (aim.start, self.goal_at());
         let Self { graph, heuristic, nodes, open, .. } = self;
         let at = graph.vertex(start);
         let h = heuristic.estimate(graph, at.to(goal_at));
@@ -109,29 +136,64 @@ where
         nodes.set_path(start, Cost::ZERO, 0, N::to(start));
         observer.generated(NodeEvent { at, parent: None, g: Cost::ZERO, f: h });
         open.push(Entry::new(h, h, start), |id, slot| nodes.set_slot(id, slot));
+        self.status = Status::Searching;
     }
 
-    /// Expands nodes until the goal is the best open node, or, without a goal, until none is open. Returns
-    /// whether the goal was found. A node is not expanded when every path through it costs more than `limit`.
-    pub(crate) fn search(
+    /// Turns the pruning on again, if it is off.
+    fn end_retry(&mut self) {
+        if std::mem::take(&mut self.aim.is_retry) {
+            self.successors.end_unpruned_retry();
+        }
+    }
+
+    /// Begins the search for a path that costs at most `limit`: vertices through which every path costs more
+    /// are not expanded. [`proceed`](Planner::proceed) continues it.
+    ///
+    /// # Errors
+    /// [`QueryError`] when an end of the query is blocked or outside the map.
+    pub fn begin_within(
         &mut self,
-        start: VertexId,
-        goal: Option<VertexId>,
+        query: Query,
         limit: Cost,
         observer: &mut impl Observer,
-    ) -> bool {
-        // No move leads to a vertex outside the map.
-        let goal_at = goal.map_or(Vertex::new(-1, -1), |goal| self.graph.vertex(goal));
-        self.begin(start, goal_at, observer);
-        let Self { graph, heuristic, successors, nodes, open } = self;
+    ) -> Result<Status, QueryError> {
+        self.end_retry();
+        self.status = Status::Unreachable;
+        if let Some((start, goal)) = query.ends(&self.graph)? {
+            self.begin_at(Aim { start, goal: Some(goal), limit, is_retry: false }, observer);
+        }
+        Ok(self.status)
+    }
+
+    /// Searches all that can be reached, without a pause.
+    pub(crate) fn flood(&mut self, start: VertexId) {
+        self.begin_at(Aim { start, ..Aim::NONE }, &mut ());
+        self.status = self.run(&mut ());
+    }
+
+    /// Expands nodes until the goal is the best open node, or, without a goal, until none is open, or until
+    /// the observer pauses.
+    fn run(&mut self, observer: &mut impl Observer) -> Status {
+        let goal_at = self.goal_at();
+        let Self { graph, heuristic, successors, nodes, open, aim, .. } = self;
+        let Aim { start, goal, limit, .. } = *aim;
         let (graph, heuristic, successors): (&GridGraph<P>, &H, &S) = (graph, heuristic, successors);
         let reopens = H::ADMISSIBLE || S::DEPEND_ON_ARRIVAL || graph.has_closed_gaps();
 
-        while let Some((entry, swaps)) = open.pop(|id, slot| nodes.set_slot(id, slot)) {
+        loop {
+            if let Some(next) = open.get(0).filter(|next| Some(next.id()) != goal) {
+                let g = || nodes.get(next.id()).map_or(Cost::ZERO, |node| node.g);
+                if observer.pauses(if H::ADMISSIBLE { next.f() } else { g() }) {
+                    return Status::Searching;
+                }
+            }
+            let Some((entry, swaps)) = open.pop(|id, slot| nodes.set_slot(id, slot)) else {
+                return Status::Unreachable;
+            };
             observer.percolated(swaps);
             let id = entry.id();
             if Some(id) == goal {
-                return true;
+                return Status::Found;
             }
             nodes.set_slot(id, Node::<N>::CLOSED);
             let Some(&node) = nodes.get(id) else { continue };
@@ -142,6 +204,9 @@ where
             let by = (id != start).then(|| node.arrived_by());
             let parent = by.map(|by| node.pointer.parent(graph, graph.step(by), id, at).1);
             observer.expanded(NodeEvent { at, parent, g: node.g, f: entry.f() });
+            if !graph.is_closed_gap(at) {
+                observer.reached(at, node.g);
+            }
 
             let (nodes, open, watcher) = (&mut *nodes, &mut *open, &mut *observer);
             // The closure owns what it needs: following one reference less for each successor saves a tenth
@@ -181,7 +246,6 @@ where
             let scanned = successors.for_each(graph, ExpandedNode { id, at, by }, goal_at, relax);
             observer.scanned(scanned);
         }
-        false
     }
 }
 
@@ -217,17 +281,28 @@ where
     S: Successors<P, ParentPointer = N>,
     N: ParentPointer,
 {
-    fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        let Some((start, goal)) = query.ends(&self.graph)? else { return Ok(Outcome::Unreachable) };
-        let mut found = self.search(start, Some(goal), Cost::MAX, observer);
-        if !found && self.successors.begin_unpruned_retry() {
-            found = self.search(start, Some(goal), Cost::MAX, observer);
-            self.successors.end_unpruned_retry();
+    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        self.begin_within(query, Cost::MAX, observer)
+    }
+
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        if self.status == Status::Searching {
+            self.status = self.run(observer);
+            let is_missed = self.status == Status::Unreachable && !self.aim.is_retry;
+            if is_missed && self.successors.begin_unpruned_retry() {
+                self.begin_at(Aim { is_retry: true, ..self.aim }, observer);
+                self.status = self.run(observer);
+            }
+            if self.status != Status::Searching {
+                self.end_retry();
+            }
         }
-        if !found {
-            return Ok(Outcome::Unreachable);
-        }
-        Ok(Outcome::Found(trace_back(&self.graph, &self.nodes, start, goal)))
+        Ok(self.status)
+    }
+
+    fn path_to(&mut self, at: Vertex) -> Option<Path> {
+        let id = self.graph.id(at).filter(|&id| self.aim.goal.is_some() && self.nodes.get(id).is_some())?;
+        Some(trace_back(&self.graph, &self.nodes, self.aim.start, id))
     }
 
     fn guarantee(&self) -> Guarantee {

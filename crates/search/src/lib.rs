@@ -63,7 +63,7 @@ pub use jps::{BlockJps, Jps, JpsPlus, JumpError, JumpTable};
 pub use observer::{Counters, NodeEvent, Observer};
 pub use outcome::{Guarantee, Outcome};
 pub use path::Path;
-pub use planner::Planner;
+pub use planner::{Planner, Status};
 pub use query::{End, Query, QueryError};
 pub use smoothing::{Smoothed, Smoothing, pull_taut, smooth};
 pub use theta::{LazyThetaStar, ThetaStar};

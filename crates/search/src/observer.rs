@@ -69,6 +69,24 @@ pub trait Observer {
     fn scanned(&mut self, vertices: u32) {
         let _ = vertices;
     }
+
+    /// A path from the start to this vertex is known now, of cost `g`, and
+    /// [`Planner::path_to`](crate::Planner::path_to) gives it. For most engines these are the expanded nodes.
+    /// Told only by [`Planner::proceed`](crate::Planner::proceed).
+    #[inline]
+    fn reached(&mut self, at: Vertex, g: Cost) {
+        let _ = (at, g);
+    }
+
+    /// Asked before each expansion but that of a goal: whether the search pauses here. `least` is the least f
+    /// of the open nodes (with a heuristic that overestimates, the g of the best one). A search that is
+    /// optimal finds no cheaper path any more. Asked only by
+    /// [`Planner::proceed`](crate::Planner::proceed).
+    #[inline]
+    fn pauses(&mut self, least: Cost) -> bool {
+        let _ = least;
+        false
+    }
 }
 
 /// The observer that does nothing.
@@ -103,6 +121,53 @@ impl<O: Observer + ?Sized> Observer for &mut O {
     #[inline]
     fn fell_back(&mut self) {
         (**self).fell_back();
+    }
+
+    #[inline]
+    fn reached(&mut self, at: Vertex, g: Cost) {
+        (**self).reached(at, g);
+    }
+
+    #[inline]
+    fn pauses(&mut self, least: Cost) -> bool {
+        (**self).pauses(least)
+    }
+}
+
+/// The observer of a search that runs to its end, or of a part of a search: it is neither asked to pause nor
+/// told what is reached.
+#[derive(Debug)]
+pub struct Unpaused<'o, O>(pub &'o mut O);
+
+impl<O: Observer> Observer for Unpaused<'_, O> {
+    #[inline]
+    fn expanded(&mut self, node: NodeEvent) {
+        self.0.expanded(node);
+    }
+
+    #[inline]
+    fn generated(&mut self, node: NodeEvent) {
+        self.0.generated(node);
+    }
+
+    #[inline]
+    fn updated(&mut self, node: NodeEvent) {
+        self.0.updated(node);
+    }
+
+    #[inline]
+    fn percolated(&mut self, swaps: u32) {
+        self.0.percolated(swaps);
+    }
+
+    #[inline]
+    fn scanned(&mut self, vertices: u32) {
+        self.0.scanned(vertices);
+    }
+
+    #[inline]
+    fn fell_back(&mut self) {
+        self.0.fell_back();
     }
 }
 

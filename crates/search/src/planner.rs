@@ -1,10 +1,11 @@
 //! The contract of every engine.
 
-use mediant_grid::Identity;
+use mediant_grid::{Identity, Vertex};
 
 use crate::{
-    observer::Observer,
+    observer::{Observer, Unpaused},
     outcome::{Guarantee, Outcome},
+    path::Path,
     query::{Query, QueryError},
 };
 
@@ -13,18 +14,50 @@ use crate::{
 /// The map and whatever was preprocessed from it are immutable, and shared between planners. A warm planner
 /// allocates nothing but the path that it returns. The same query always gives the same path and the same
 /// counts.
+///
+/// **A search in steps.** [`begin`](Self::begin) begins the search for an answer, [`proceed`](Self::proceed)
+/// continues it until it is finished or its observer [pauses](Observer::pauses) it, and
+/// [`path_to`](Self::path_to) gives paths to what it has reached. [`solve`](Self::solve) is these three
+/// without a pause. The events of a search are the same however often it is paused.
 pub trait Planner {
-    /// Answers a query, watched by an observer.
+    /// Begins the search for an answer, and forgets the last one. Without a search it already knows that
+    /// there is no path, or finds one that is plain to see.
     ///
     /// # Errors
     /// [`QueryError`] when an end of the query is blocked or outside the map.
-    fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError>;
+    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError>;
+
+    /// Continues the search until it is finished or the observer pauses it. A search that is finished, or was
+    /// never begun, stays as it is.
+    ///
+    /// # Errors
+    /// [`QueryError::GaveUp`] by a planner that may fail.
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError>;
+
+    /// The best path that the search has found to a vertex: to the goal, once its status is
+    /// [`Found`](Status::Found), and to each vertex that an observer was told to be
+    /// [reached](Observer::reached). `None` for others.
+    fn path_to(&mut self, at: Vertex) -> Option<Path>;
 
     /// What is guaranteed of the paths.
     fn guarantee(&self) -> Guarantee;
 
     /// What the answers are for: the map, the rules of motion and k.
     fn identity(&self) -> Identity;
+
+    /// Answers a query, watched by an observer, which cannot pause the search.
+    ///
+    /// # Errors
+    /// [`QueryError`] when an end of the query is blocked or outside the map.
+    fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
+        let mut observer = Unpaused(observer);
+        let status = match self.begin(query, &mut observer)? {
+            Status::Searching => self.proceed(&mut observer)?,
+            status => status,
+        };
+        let path = if status == Status::Found { self.path_to(query.goal) } else { None };
+        Ok(path.map_or(Outcome::Unreachable, Outcome::Found))
+    }
 
     /// Answers a query.
     ///
@@ -33,4 +66,16 @@ pub trait Planner {
     fn solve(&mut self, query: Query) -> Result<Outcome, QueryError> {
         self.solve_observed(query, &mut ())
     }
+}
+
+/// How far a search has come.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Status {
+    /// It has no answer yet.
+    Searching,
+    /// It has found the path to the goal.
+    Found,
+    /// It has found that there is no path. A search that was never begun has this status, too.
+    #[default]
+    Unreachable,
 }

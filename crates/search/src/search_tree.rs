@@ -90,6 +90,13 @@ impl<E: Copy + Default> SearchTree<E> {
         self.open.get(0).map(Entry::f)
     }
 
+    /// The best open node: its f and its number.
+    #[must_use]
+    #[inline]
+    pub fn best(&self) -> Option<(Cost, u32)> {
+        self.open.get(0).map(|entry| (entry.f(), entry.id().0))
+    }
+
     /// Takes the best node from the open list. Returns its f, its number, the cost of the best known path to
     /// it, and the number of swaps in the open list.
     #[inline]

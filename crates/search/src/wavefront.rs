@@ -23,8 +23,9 @@ use crate::{
     distances::{Distances, end_at_gaps},
     nodes::NodeStore,
     observer::{NodeEvent, Observer},
-    outcome::{Guarantee, Outcome},
-    planner::Planner,
+    outcome::Guarantee,
+    path::Path,
+    planner::{Planner, Status},
     query::{Query, QueryError},
     trace::trace_back,
 };
@@ -58,6 +59,11 @@ pub struct Wavefront<G> {
     nodes: NodeStore,
     /// The vertices that were reached, in the order in which they were.
     reached: Vec<VertexId>,
+    /// How many of these were expanded.
+    expanded: usize,
+    /// `None` for a search that finds the distances of all vertices.
+    goal: Option<VertexId>,
+    status: Status,
 }
 
 impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
@@ -66,7 +72,8 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
     #[must_use]
     pub fn new(graph: G) -> Self {
         let nodes = NodeStore::new(graph.vertex_count());
-        Self { graph, nodes, reached: Vec::new() }
+        let (goal, status) = (None, Status::default());
+        Self { graph, nodes, reached: Vec::new(), expanded: 0, goal, status }
     }
 
     /// The least number of moves from `start` to every vertex.
@@ -77,10 +84,11 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
         Query::new(start, start).check(&self.graph)?;
         let mut moves = vec![None; self.graph.vertex_count()];
         if let Some(id) = self.graph.id(start) {
-            self.search(id, None, &mut ());
+            self.begin_at(id, None, &mut ());
+            self.run(&mut ());
             moves[id.index()] = Some(0);
         }
-        let Self { graph, nodes, reached } = self;
+        let Self { graph, nodes, reached, .. } = self;
         let arrived_by = |id| nodes.get(id).map_or(0, |node| node.arrived_by());
         for &id in reached.iter().skip(1) {
             let from = graph.step(arrived_by(id)).source(id);
@@ -90,28 +98,44 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
         Ok(Distances::new(P::vertices(graph.grid()).0, moves))
     }
 
-    /// Reaches vertices layer by layer, until the goal is reached or no vertex is left. Returns whether the
-    /// goal was reached.
-    fn search(&mut self, start: VertexId, goal: Option<VertexId>, observer: &mut impl Observer) -> bool {
-        let Self { graph, nodes, reached } = self;
-        let graph: &GridGraph<P> = graph;
-        // No move leads to a vertex outside the map.
-        let goal_at = goal.map_or(Vertex::new(-1, -1), |goal| graph.vertex(goal));
+    /// Makes the start the only vertex that is reached.
+    fn begin_at(&mut self, start: VertexId, goal: Option<VertexId>, observer: &mut impl Observer) {
+        let Self { graph, nodes, reached, .. } = self;
         nodes.start_search();
         reached.clear();
         nodes.set_path(start, Cost::ZERO, 0, ());
         reached.push(start);
-        let event = |at, parent, g| NodeEvent { at, parent, g, f: g };
-        observer.generated(event(graph.vertex(start), None, Cost::ZERO));
-        let mut found = goal == Some(start);
-        let mut next = 0;
-        while let Some(&id) = reached.get(next).filter(|_| !found) {
-            next += 1;
-            let Some(&node) = nodes.get(id) else { continue };
+        let at = graph.vertex(start);
+        observer.generated(NodeEvent { at, parent: None, g: Cost::ZERO, f: Cost::ZERO });
+        (self.expanded, self.goal) = (0, goal);
+        self.status = if goal == Some(start) { Status::Found } else { Status::Searching };
+    }
+
+    /// Reaches vertices layer by layer, until the goal is reached, no vertex is left, or the observer pauses.
+    fn run(&mut self, observer: &mut impl Observer) {
+        let Self { graph, nodes, reached, expanded, goal, status } = self;
+        let graph: &GridGraph<P> = graph;
+        // No move leads to a vertex outside the map.
+        let goal_at = goal.map_or(Vertex::new(-1, -1), |goal| graph.vertex(goal));
+        let mut found = *status == Status::Found;
+        while !found {
+            let Some(&id) = reached.get(*expanded) else {
+                *status = Status::Unreachable;
+                return;
+            };
+            let Some(&node) = nodes.get(id) else { return };
+            if observer.pauses(node.g) {
+                return;
+            }
             let at = graph.vertex(id);
-            let arrived_by = (id != start).then(|| node.arrived_by());
+            // The start is the vertex that was reached first.
+            let arrived_by = (*expanded > 0).then(|| node.arrived_by());
+            *expanded += 1;
             let parent = arrived_by.map(|index| at + -graph.step(index).vector());
-            observer.expanded(event(at, parent, node.g));
+            observer.expanded(NodeEvent { at, parent, g: node.g, f: node.g });
+            if !graph.is_closed_gap(at) {
+                observer.reached(at, node.g);
+            }
             graph.for_each_successor(at, arrived_by, goal_at, |index| {
                 let step = graph.step(index);
                 let to = step.target(id);
@@ -121,21 +145,34 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
                 let g = node.g + step.cost;
                 nodes.set_path(to, g, index, ());
                 reached.push(to);
-                observer.generated(event(at + step.vector(), Some(at), g));
-                found = goal == Some(to);
+                observer.generated(NodeEvent { at: at + step.vector(), parent: Some(at), g, f: g });
+                found = *goal == Some(to);
             });
         }
-        found
+        *status = Status::Found;
     }
 }
 
 impl<P: Placement, G: Deref<Target = GridGraph<P>>> Planner for Wavefront<G> {
-    fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        let Some((start, goal)) = query.ends(&self.graph)? else { return Ok(Outcome::Unreachable) };
-        if !self.search(start, Some(goal), observer) {
-            return Ok(Outcome::Unreachable);
+    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        self.status = Status::Unreachable;
+        if let Some((start, goal)) = query.ends(&self.graph)? {
+            self.begin_at(start, Some(goal), observer);
         }
-        Ok(Outcome::Found(trace_back(&self.graph, &self.nodes, start, goal)))
+        Ok(self.status)
+    }
+
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        if self.status == Status::Searching {
+            self.run(observer);
+        }
+        Ok(self.status)
+    }
+
+    fn path_to(&mut self, at: Vertex) -> Option<Path> {
+        let id = self.graph.id(at).filter(|&id| self.goal.is_some() && self.nodes.get(id).is_some())?;
+        let start = *self.reached.first()?;
+        Some(trace_back(&self.graph, &self.nodes, start, id))
     }
 
     fn guarantee(&self) -> Guarantee {

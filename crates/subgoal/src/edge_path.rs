@@ -6,40 +6,54 @@
 
 use mediant_grid::{FreeSpace, Placement, PlacementKind, Vector, Vertex};
 use mediant_moves::{Decomposition, K, decompose};
-use mediant_search::Path;
 
 use crate::{
     graph::SubgoalGraph,
     placement::{EdgeCriterion, SubgoalPlacement},
 };
 
-/// The path between two vertices if an optimal path of the empty grid is free: then no search is needed.
-/// `waypoints` is scratch memory.
+/// Writes the path between two vertices to `waypoints`, if an optimal path of the empty grid is free: then no
+/// search is needed. Returns whether it is.
 pub(crate) fn direct_path<P: Placement>(
     space: &FreeSpace<P>,
     k: K,
     start: Vertex,
     goal: Vertex,
     waypoints: &mut Vec<Vertex>,
-) -> Option<Path> {
-    let straight = || leg_is_free(space, None, start, goal, None).then(|| Path::new(vec![start, goal]));
-    let K::Finite(k) = k else { return straight() };
-    let parts = decompose(start.to(goal), k)?;
-    for elbow in elbows(start, parts) {
+) -> bool {
+    waypoints.clear();
+    waypoints.push(start);
+    let is_straight = || leg_is_free(space, None, start, goal, None);
+    let parts = match k {
+        K::Any => None,
+        K::Finite(k) => match decompose(start.to(goal), k) {
+            None => return false,
+            parts => parts,
+        },
+    };
+    for elbow in parts.map(|parts| elbows(start, parts)).into_iter().flatten() {
         if elbow == start || elbow == goal {
-            return straight();
+            waypoints.push(goal);
+            return is_straight();
         }
         if legs_are_free(space, start, elbow, goal) {
-            return Some(Path::new(vec![start, elbow, goal]));
+            waypoints.extend([elbow, goal]);
+            return true;
         }
     }
-    // At centers a line of sight may touch fewer cells than the moves along it.
-    (P::KIND == PlacementKind::Corner && leg_is_free(space, None, start, goal, None)).then(|| {
-        waypoints.clear();
-        waypoints.push(start);
-        along_line(waypoints, parts);
-        Path::new(waypoints.clone())
-    })
+    match parts {
+        None => waypoints.push(goal),
+        // At centers a line of sight may touch fewer cells than the moves along it.
+        Some(_) if P::KIND == PlacementKind::Center => return false,
+        Some(parts) => {
+            let is_free = is_straight();
+            if is_free {
+                along_line(waypoints, parts);
+            }
+            return is_free;
+        }
+    }
+    is_straight()
 }
 
 /// Whether the paths of an edge over either elbow are free.

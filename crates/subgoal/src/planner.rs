@@ -5,7 +5,7 @@ use std::ops::Deref;
 use mediant_grid::{Identity, Mismatch, Vertex};
 use mediant_moves::{Cost, K};
 use mediant_search::{
-    Guarantee, NodeEvent, Observer, Outcome, Path, Planner, Query, QueryError,
+    Guarantee, NodeEvent, Observer, Path, Planner, Query, QueryError, Status,
     parts::{HasFreeSpace, SearchTree},
 };
 
@@ -46,6 +46,12 @@ pub struct SubgoalAStar<S, I, P: SubgoalPlacement> {
     /// Scratch memory: the arcs from the meeting point back to the start.
     arcs: Vec<PackedArc>,
     waypoints: Vec<Vertex>,
+    query: Option<Query>,
+    status: Status,
+    /// Whether `waypoints` are a path that was found without a search.
+    is_direct: bool,
+    /// The cost of the best path found, and the subgoal at which the searches meet on it.
+    best: (Cost, Option<u32>),
 }
 
 impl<S, I, P> SubgoalAStar<S, I, P>
@@ -71,6 +77,10 @@ where
             pending: Vec::new(),
             arcs: Vec::new(),
             waypoints: Vec::new(),
+            query: None,
+            status: Status::default(),
+            is_direct: false,
+            best: (Cost::MAX, None),
         })
     }
 }
@@ -81,24 +91,58 @@ where
     S: Deref<Target: HasFreeSpace<Placement = P>>,
     I: Deref<Target = SubgoalGraph<P>>,
 {
-    fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
+    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        (self.query, self.status) = (None, Status::Unreachable);
         let space = self.space.free_space();
         if query.ends(space)?.is_none() {
-            return Ok(Outcome::Unreachable);
+            return Ok(self.status);
         }
         let Query { start, goal, .. } = query;
-        if start == goal {
-            return Ok(Outcome::Found(Path::new(vec![start])));
+        self.query = Some(query);
+        self.is_direct = if start == goal {
+            self.waypoints.clear();
+            self.waypoints.push(start);
+            true
+        } else {
+            direct_path(space, self.graph.k, start, goal, &mut self.waypoints)
+        };
+        if self.is_direct {
+            self.status = Status::Found;
+            return Ok(self.status);
         }
-        if let Some(path) = direct_path(space, self.graph.k, start, goal, &mut self.waypoints) {
-            return Ok(Outcome::Found(path));
-        }
-        let Self { graph, scratch, query_edges, .. } = self;
-        for (at, edges) in [start, goal].into_iter().zip(query_edges) {
+        let Self { graph, scratch, query_edges, searches, .. } = self;
+        let ends = [start, goal];
+        for (at, edges) in ends.into_iter().zip(&mut *query_edges) {
             graph.query_edges(space, scratch, at, edges);
         }
-        let meeting = self.search([start, goal], observer);
-        Ok(meeting.map_or(Outcome::Unreachable, |at| Outcome::Found(self.path(start, at, goal))))
+        self.best = begin(graph, searches, query_edges, ends, observer);
+        self.status = Status::Searching;
+        Ok(self.status)
+    }
+
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        if let (Some(query), Status::Searching) = (self.query, self.status) {
+            self.status = self.search([query.start, query.goal], observer);
+        }
+        Ok(self.status)
+    }
+
+    fn path_to(&mut self, at: Vertex) -> Option<Path> {
+        let Query { start, goal, .. } = self.query?;
+        if at == goal && self.is_direct {
+            return Some(Path::new(self.waypoints.clone()));
+        }
+        if at == start {
+            return Some(Path::new(vec![start]));
+        }
+        match self.best.1.filter(|_| at == goal && !self.is_direct) {
+            Some(meeting) => Some(self.path(start, meeting, Some(goal))),
+            None => {
+                let id = self.graph.subgoals.id(at).filter(|_| !self.is_direct)?;
+                self.searches[0].cost(id)?;
+                Some(self.path(start, id, None))
+            }
+        }
     }
 
     fn guarantee(&self) -> Guarantee {
@@ -119,23 +163,32 @@ where
     S: Deref<Target: HasFreeSpace<Placement = P>>,
     I: Deref<Target = SubgoalGraph<P>>,
 {
-    /// Finds the subgoal at which the searches from the start and from the goal meet on a shortest path.
-    fn search(&mut self, ends: [Vertex; 2], observer: &mut impl Observer) -> Option<u32> {
-        let Self { space, graph, searches, query_edges, .. } = self;
+    /// Finds the subgoal at which the searches from the start and from the goal meet on a shortest path, or
+    /// pauses.
+    fn search(&mut self, ends: [Vertex; 2], observer: &mut impl Observer) -> Status {
+        let Self { space, graph, searches, best: result, .. } = self;
         let (graph, space) = (&**graph, space.free_space());
-        let mut best = begin(graph, searches, query_edges, ends, observer);
-        loop {
+        let mut best = *result;
+        let status = loop {
             let [forward, backward] = [0, 1].map(|side| searches[side].least_f().unwrap_or(Cost::MAX));
-            if forward.min(backward) >= best.0 {
-                return best.1;
+            let least = forward.min(backward);
+            if least >= best.0 {
+                break if best.1.is_some() { Status::Found } else { Status::Unreachable };
+            }
+            // Each search has expanded all its nodes of a lesser f, so no path is cheaper.
+            if observer.pauses(least) {
+                break Status::Searching;
             }
             let side = usize::from(backward < forward);
-            let (f, id, g, swaps) = searches[side].pop()?;
+            let Some((f, id, g, swaps)) = searches[side].pop() else { break Status::Unreachable };
             observer.percolated(swaps);
             let at = graph.subgoals.vertex(id);
             let before =
                 searches[side].parent(id).map_or(ends[side], |(parent, _)| graph.subgoals.vertex(parent));
             observer.expanded(NodeEvent { at, parent: Some(before), g, f });
+            if side == 0 && !space.is_closed_gap(at) {
+                observer.reached(at, g);
+            }
             if side == 1 && graph.is_core(id) {
                 continue;
             }
@@ -166,14 +219,17 @@ where
                     }
                     if let Some(rest) = other.cost(arc.to).filter(|&rest| g + rest < best.0) {
                         best = (g + rest, Some(arc.to));
+                        observer.reached(ends[1], best.0);
                     }
                 }
             }
-        }
+        };
+        *result = best;
+        status
     }
 
-    /// The path over the subgoal at which the searches meet.
-    fn path(&mut self, start: Vertex, meeting: u32, goal: Vertex) -> Path {
+    /// The path to a subgoal, and on to the goal if the searches meet there.
+    fn path(&mut self, start: Vertex, meeting: u32, goal: Option<Vertex>) -> Path {
         let Self { space, graph, searches: [forward, backward], pending, arcs, waypoints, .. } = self;
         let (space, graph) = (space.free_space(), &**graph);
         waypoints.clear();
@@ -189,12 +245,14 @@ where
         while let Some(arc) = arcs.pop() {
             graph.unpack(arc, pending, &mut to);
         }
-        let mut at = meeting;
-        while let Some((parent, ParentEdge { middle, .. })) = backward.parent(at) {
-            graph.unpack(PackedArc { from: at, to: parent, middle }, pending, &mut to);
-            at = parent;
+        if let Some(goal) = goal {
+            let mut at = meeting;
+            while let Some((parent, ParentEdge { middle, .. })) = backward.parent(at) {
+                graph.unpack(PackedArc { from: at, to: parent, middle }, pending, &mut to);
+                at = parent;
+            }
+            to(goal);
         }
-        to(goal);
         Path::new(waypoints.clone())
     }
 }

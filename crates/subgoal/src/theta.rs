@@ -8,7 +8,7 @@ use std::ops::Deref;
 use mediant_grid::{Identity, Mismatch, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{
-    Guarantee, Observer, Outcome, Path, Planner, Query, QueryError,
+    Guarantee, Observer, Path, Planner, Query, QueryError, Status,
     parts::{HasFreeSpace, SearchTree},
 };
 
@@ -16,7 +16,7 @@ use self::{
     descent::Descent,
     search::{Search, Unpacking, Waypoint, may_join},
 };
-use crate::{edge_path::push, graph::SubgoalGraph, placement::SubgoalPlacement};
+use crate::{arc::NONE, edge_path::push, graph::SubgoalGraph, placement::SubgoalPlacement};
 
 /// Sub-Theta* (Uras & Koenig 2015, 'Speeding-up any-angle path-planning on grids'): Theta* over a subgoal
 /// graph. On [`Levels`] of 2 it is the Sub2-Theta* with which Hormazábal et al. 2017 compare Sub2-A*(k).
@@ -75,6 +75,10 @@ pub struct SubgoalTheta<S, I, P: SubgoalPlacement> {
     query_edges: Vec<(u32, Cost)>,
     bends: Vec<Waypoint>,
     unpacking: Unpacking,
+    query: Option<Query>,
+    status: Status,
+    /// Where the path to the goal bends last, once it is found; [`NONE`] for a straight one.
+    last: Option<u32>,
 }
 
 impl<S, I, P> SubgoalTheta<S, I, P>
@@ -100,6 +104,9 @@ where
             query_edges: Vec::new(),
             bends: Vec::new(),
             unpacking: Unpacking::default(),
+            query: None,
+            status: Status::default(),
+            last: None,
         })
     }
 }
@@ -110,25 +117,51 @@ where
     S: Deref<Target: HasFreeSpace<Placement = P>>,
     I: Deref<Target = SubgoalGraph<P>>,
 {
-    fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        let Self { space, graph, scratch, tree, descent, query_edges, bends, unpacking } = self;
+    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        (self.query, self.last, self.status) = (None, None, Status::Unreachable);
+        let Self { space, graph, scratch, tree, descent, query_edges, bends, unpacking, .. } = self;
         let (space, graph) = (space.free_space(), &**graph);
         if query.ends(space)?.is_none() {
-            return Ok(Outcome::Unreachable);
+            return Ok(self.status);
         }
         let Query { start, goal, .. } = query;
-        if start == goal {
-            return Ok(Outcome::Found(Path::new(vec![start])));
-        }
-        if may_join(space, start, goal) {
-            return Ok(Outcome::Found(Path::new(vec![start, goal])));
+        self.query = Some(query);
+        if start == goal || may_join(space, start, goal) {
+            (self.last, self.status) = (Some(NONE), Status::Found);
+            return Ok(self.status);
         }
         graph.query_edges(space, scratch, goal, query_edges);
         descent.start_search(graph, query_edges);
         graph.query_edges(space, scratch, start, query_edges);
-        let mut search = Search { space, graph, tree, descent, bends, unpacking, observer, goal };
-        let last = search.run(start, query_edges);
-        Ok(last.map_or(Outcome::Unreachable, |last| Outcome::Found(path(bends, last, goal))))
+        Search { space, graph, tree, descent, bends, unpacking, observer, goal }.begin(start, query_edges);
+        self.status = Status::Searching;
+        Ok(self.status)
+    }
+
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        if let (Some(Query { goal, .. }), Status::Searching) = (self.query, self.status) {
+            let Self { space, graph, tree, descent, bends, unpacking, last, .. } = self;
+            let (space, graph) = (space.free_space(), &**graph);
+            let mut search = Search { space, graph, tree, descent, bends, unpacking, observer, goal };
+            self.status = search.run(last);
+        }
+        Ok(self.status)
+    }
+
+    fn path_to(&mut self, at: Vertex) -> Option<Path> {
+        let Query { start, goal, .. } = self.query?;
+        if at == start {
+            return Some(Path::new(vec![start]));
+        }
+        match self.last.filter(|_| at == goal) {
+            Some(NONE) => Some(Path::new(vec![start, goal])),
+            Some(last) => Some(path(&self.bends, last, goal)),
+            None => {
+                let id = self.graph.subgoals.id(at).filter(|&id| self.last != Some(NONE) && self.tree.is_closed(id))?;
+                let (last, ()) = self.tree.parent(id)?;
+                Some(path(&self.bends, last, at))
+            }
+        }
     }
 
     fn guarantee(&self) -> Guarantee {

@@ -8,10 +8,10 @@ use std::{
 use mediant_grid::{Centers, GridGraph, Identity, Rectangle, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{
-    AStar, Guarantee, Heuristic, Observer, Outcome, Path, Planner, Query, QueryError, parts::SearchTree,
+    AStar, Guarantee, Heuristic, Observer, Path, Planner, Query, QueryError, Status, parts::SearchTree,
 };
 
-use super::{search::search, segments::SegmentGraph};
+use super::{search::Search, segments::SegmentGraph};
 use crate::{HierarchyError, check, waypoints::waypoints};
 
 /// CHPA* (Teleiša & Čalnerytė 2023): A* over segments finds checkpoints, A* over tiles finds a path from each
@@ -42,6 +42,29 @@ pub struct ChpaStar<G, I, H1, H2> {
     /// The checkpoints on it, then the goal.
     checkpoints: Vec<Vertex>,
     path: Vec<Vertex>,
+    query: Query,
+    phase: Phase,
+}
+
+/// What the planner is doing.
+#[derive(Clone, Copy, Debug)]
+enum Phase {
+    /// Nothing: no search was begun, or it is over.
+    Over(Status),
+    /// Phase 1: it searches a path over segments.
+    Segments,
+    /// Phase 2: it extends the path to the next checkpoint.
+    Tiles(Leg),
+}
+
+/// Which checkpoint the path is to be extended to.
+#[derive(Clone, Copy, Debug)]
+struct Leg {
+    next: usize,
+    /// How many checkpoints to skip if this one cannot be reached.
+    skip: usize,
+    /// Whether the search for it has begun.
+    has_begun: bool,
 }
 
 /// What CHPA* does where a checkpoint cannot be reached, or only by a detour. Both happen, since segments do
@@ -93,6 +116,8 @@ where
             segments: Vec::new(),
             checkpoints: Vec::new(),
             path: Vec::new(),
+            query: Query::new((0, 0), (0, 0)),
+            phase: Phase::Over(Status::Unreachable),
             grid_graph,
         })
     }
@@ -140,29 +165,59 @@ where
     H1: Heuristic,
     H2: Heuristic,
 {
-    fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
+    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        self.phase = Phase::Over(Status::Unreachable);
         if query.ends(&self.grid_graph)?.is_none() {
-            return Ok(Outcome::Unreachable);
+            return Ok(Status::Unreachable);
         }
-        let Self { grid_graph, index, heuristic, tree, segments, checkpoints, step, .. } = self;
-        let is_connected = search(grid_graph, index, *heuristic, tree, query, segments, observer);
-        checkpoints.clear();
-        if is_connected {
-            index.append_checkpoints(grid_graph, segments, query.goal, *step, checkpoints);
-        }
-        checkpoints.push(query.goal);
-        match self.fallback {
-            FallbackPolicy::Paper if !is_connected => {
-                Err(QueryError::GaveUp { why: "the segments of its ends are not connected" })
+        self.path.clear();
+        self.path.push(query.start);
+        self.query = query;
+        self.search(observer).begin();
+        self.phase = Phase::Segments;
+        Ok(Status::Searching)
+    }
+
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        if let Phase::Segments = self.phase {
+            let status = self.search(observer).run();
+            if status == Status::Searching {
+                return Ok(status);
             }
-            FallbackPolicy::Paper => self.visit_all(query, observer),
-            FallbackPolicy::Complete { detour } => {
-                if !is_connected {
-                    observer.fell_back();
+            self.phase = Phase::Over(Status::Unreachable);
+            self.plan(status == Status::Found, observer)?;
+            self.phase = Phase::Tiles(Leg { next: 0, skip: 1, has_begun: false });
+        }
+        while let Phase::Tiles(leg) = self.phase {
+            let phase = self.extend(leg, observer);
+            self.phase = *phase.as_ref().unwrap_or(&Phase::Over(Status::Unreachable));
+            phase?;
+            if let Phase::Tiles(Leg { has_begun: true, .. }) = self.phase {
+                return Ok(Status::Searching);
+            }
+        }
+        Ok(match self.phase {
+            Phase::Over(status) => status,
+            Phase::Segments | Phase::Tiles(_) => Status::Searching,
+        })
+    }
+
+    fn path_to(&mut self, at: Vertex) -> Option<Path> {
+        let length = self.path.len();
+        match self.phase {
+            Phase::Over(Status::Found) if at == self.query.goal => {}
+            Phase::Segments | Phase::Tiles(_) if self.path.last() == Some(&at) => {}
+            Phase::Tiles(Leg { has_begun: true, .. }) => {
+                self.tile_search.extend_to(&mut self.path, at);
+                if self.path.len() == length {
+                    return None;
                 }
-                self.visit_some(query, detour, observer)
             }
+            Phase::Over(_) | Phase::Segments | Phase::Tiles(_) => return None,
         }
+        let path = path_along(&self.path);
+        self.path.truncate(length);
+        Some(path)
     }
 
     fn guarantee(&self) -> Guarantee {
@@ -181,46 +236,68 @@ where
     H1: Heuristic,
     H2: Heuristic,
 {
-    /// Phase 2 as published: finds a path from each checkpoint to the next.
-    fn visit_all(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        let Self { tile_search, checkpoints, path, .. } = self;
-        path.clear();
-        path.push(query.start);
-        for &to in &*checkpoints {
-            if !tile_search.extend(path, to, Cost::MAX, observer)? {
-                return Err(QueryError::GaveUp { why: "a checkpoint cannot be reached" });
-            }
-        }
-        Ok(Outcome::Found(path_along(path)))
+    /// The search of phase 1, with its memory.
+    fn search<'s, O: Observer>(&'s mut self, observer: &'s mut O) -> Search<'s, H1, O> {
+        let Self { grid_graph, index, heuristic, tree, query, .. } = self;
+        Search { grid_graph, graph: index, heuristic: *heuristic, tree, query: *query, observer }
     }
 
-    /// Phase 2, complete: finds a path to the next checkpoint that can be reached without a detour, until it
-    /// is at the goal.
-    fn visit_some(
-        &mut self,
-        query: Query,
-        detour: NonZeroU32,
-        observer: &mut impl Observer,
-    ) -> Result<Outcome, QueryError> {
-        let Self { grid_graph, tile_search, checkpoints, path, .. } = self;
-        path.clear();
-        path.push(query.start);
-        let (mut at, mut next, mut skip) = (query.start, 0, 1);
-        // The last one is the goal, which may cost any detour.
-        let last = checkpoints.len().saturating_sub(1);
-        while let Some(&to) = checkpoints.get(next) {
-            let limit =
-                if next == last { Cost::MAX } else { times(grid_graph.costs().distance(at.to(to)), detour) };
-            if tile_search.extend(path, to, limit, observer)? {
-                (at, next, skip) = (to, next + 1, 1);
-            } else if next == last {
-                return Ok(Outcome::Unreachable);
-            } else {
-                observer.fell_back();
-                (next, skip) = ((next + skip).min(last), 2 * skip);
-            }
+    /// Between the phases: makes the checkpoints.
+    fn plan(&mut self, is_connected: bool, observer: &mut impl Observer) -> Result<(), QueryError> {
+        let mut segments = std::mem::take(&mut self.segments);
+        self.checkpoints.clear();
+        if is_connected {
+            self.search(observer).path(&mut segments);
+            let Self { grid_graph, index, query, step, checkpoints, .. } = self;
+            index.append_checkpoints(grid_graph, &segments, query.goal, *step, checkpoints);
         }
-        Ok(Outcome::Found(path_along(path)))
+        self.segments = segments;
+        self.checkpoints.push(self.query.goal);
+        match self.fallback {
+            FallbackPolicy::Paper if !is_connected => {
+                return Err(QueryError::GaveUp { why: "the segments of its ends are not connected" });
+            }
+            FallbackPolicy::Complete { .. } if !is_connected => observer.fell_back(),
+            FallbackPolicy::Paper | FallbackPolicy::Complete { .. } => {}
+        }
+        Ok(())
+    }
+
+    /// Phase 2: extends the path to the next checkpoint. The complete planner takes the next one that can be
+    /// reached without a detour, and may take any to the last, the goal.
+    fn extend(&mut self, leg: Leg, observer: &mut impl Observer) -> Result<Phase, QueryError> {
+        let Self { grid_graph, tile_search, checkpoints, path, fallback, .. } = self;
+        let Leg { next, skip, has_begun } = leg;
+        let (Some(&at), Some(&to)) = (path.last(), checkpoints.get(next)) else {
+            return Ok(Phase::Over(Status::Found));
+        };
+        let last = checkpoints.len() - 1;
+        if !has_begun {
+            let limit = match *fallback {
+                FallbackPolicy::Complete { detour } if next != last => {
+                    times(grid_graph.costs().distance(at.to(to)), detour)
+                }
+                FallbackPolicy::Complete { .. } | FallbackPolicy::Paper => Cost::MAX,
+            };
+            tile_search.begin_within(Query::new(at, to), limit, observer)?;
+        }
+        Ok(match (tile_search.proceed(observer)?, *fallback) {
+            (Status::Searching, _) => Phase::Tiles(Leg { has_begun: true, ..leg }),
+            (Status::Found, _) => {
+                tile_search.extend_to(path, to);
+                Phase::Tiles(Leg { next: next + 1, skip: 1, has_begun: false })
+            }
+            (Status::Unreachable, FallbackPolicy::Paper) => {
+                return Err(QueryError::GaveUp { why: "a checkpoint cannot be reached" });
+            }
+            (Status::Unreachable, FallbackPolicy::Complete { .. }) if next == last => {
+                Phase::Over(Status::Unreachable)
+            }
+            (Status::Unreachable, FallbackPolicy::Complete { .. }) => {
+                observer.fell_back();
+                Phase::Tiles(Leg { next: (next + skip).min(last), skip: 2 * skip, has_begun: false })
+            }
+        })
     }
 }
 

@@ -4,14 +4,17 @@ use std::ops::{Deref, DerefMut};
 
 use mediant_grid::{Centers, GridGraph, Identity, Rectangle, Vertex};
 use mediant_moves::Cost;
-use mediant_search::{Guarantee, Observer, Outcome, Path, Planner, Query, QueryError, parts::SearchTree};
+use mediant_search::{
+    Guarantee, Observer, Path, Planner, Query, QueryError, Status,
+    parts::{SearchTree, Unpaused},
+};
 
 use super::{
     cluster_search::ClusterSearch,
     fixed_cost::FixedCost,
     graph::ClusterGraph,
     level::{Bounds, Level, Node},
-    search::{Endpoint, Goal, search},
+    search::{Endpoint, Goal, Search, search},
     straighten::{Straighten, free_elbow},
 };
 use crate::{
@@ -50,6 +53,31 @@ pub struct HpaStar<G, I> {
     refined: Vec<PathNode>,
     cells: Vec<Vertex>,
     straighten: Straighten,
+    phase: Phase,
+    /// Searches within clusters while a path of an unfinished search is refined. Made when it is first needed.
+    second_tree: Option<SearchTree>,
+}
+
+/// What the planner is doing.
+#[derive(Clone, Copy, Debug)]
+enum Phase {
+    /// Nothing: no search was begun, or there is no path.
+    None,
+    /// It searches the abstract path.
+    Search(AbstractQuery),
+    /// It has found a path: its cells, or, if they were found without a search, its waypoints.
+    Found { goal: Vertex, is_direct: bool },
+}
+
+/// A query, after start and goal were inserted.
+#[derive(Clone, Copy, Debug)]
+struct AbstractQuery {
+    start: Vertex,
+    goal: Vertex,
+    /// The level on which it is searched.
+    top: usize,
+    /// The cost from start to goal within a cluster of the lowest level.
+    direct: FixedCost,
 }
 
 /// A node of an abstract path.
@@ -82,6 +110,8 @@ where
             refined: Vec::new(),
             cells: Vec::new(),
             straighten: Straighten::default(),
+            phase: Phase::None,
+            second_tree: None,
             grid_graph,
             index,
         })
@@ -121,38 +151,86 @@ where
     G: Deref<Target = GridGraph<Centers>>,
     I: Deref<Target = ClusterGraph>,
 {
-    fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
+    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        self.phase = Phase::None;
         if query.ends(&self.grid_graph)?.is_none() {
-            return Ok(Outcome::Unreachable);
+            return Ok(Status::Unreachable);
         }
         let Query { start, goal, .. } = query;
-        if start == goal {
-            return Ok(Outcome::Found(Path::new(vec![start])));
-        }
         // A free path that costs h_k is the best that straightening can find: no search is needed.
-        if self.straightens
-            && let Some(elbow) = free_elbow(&self.grid_graph, start, goal)
-        {
-            let mut path = Vec::with_capacity(3);
-            waypoints(&[start, elbow, goal], &mut path);
-            return Ok(Outcome::Found(Path::new(path)));
+        let elbow = match () {
+            () if start == goal => Some(goal),
+            () if self.straightens => free_elbow(&self.grid_graph, start, goal),
+            () => None,
+        };
+        if let Some(elbow) = elbow {
+            self.cells.clear();
+            self.cells.extend([start, elbow, goal]);
+            self.phase = Phase::Found { goal, is_direct: true };
+            return Ok(Status::Found);
         }
         let separates = |level: &Level| level.cluster_at(start) != level.cluster_at(goal);
         let top = self.index.levels.iter().rposition(separates).unwrap_or(0);
-        let direct = self.insert(query, top, observer);
-        self.find_abstract_path(query, top, direct, observer).ok_or(DAMAGED)?;
-        for number in (0..top).rev() {
-            self.refine(number, observer).ok_or(DAMAGED)?;
+        let direct = self.insert(query, top, &mut Unpaused(observer));
+        let query = AbstractQuery { start, goal, top, direct };
+        self.phase = Phase::Search(query);
+        Ok(self.search(query, true, observer))
+    }
+
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        let query = match self.phase {
+            Phase::None => return Ok(Status::Unreachable),
+            Phase::Found { .. } => return Ok(Status::Found),
+            Phase::Search(query) => query,
+        };
+        match self.search(query, false, observer) {
+            Status::Searching => Ok(Status::Searching),
+            Status::Unreachable => Err(DAMAGED),
+            Status::Found => {
+                let level = &self.index.levels[query.top];
+                trace(level, &self.tree, query, level.goal_id(), query.goal, &mut self.abstract_path);
+                self.refine_all(query.top, &mut Unpaused(observer)).ok_or(DAMAGED)?;
+                self.phase = Phase::Found { goal: query.goal, is_direct: false };
+                Ok(Status::Found)
+            }
         }
-        self.refine_to_cells(observer).ok_or(DAMAGED)?;
-        let path = if self.straightens {
+    }
+
+    fn path_to(&mut self, at: Vertex) -> Option<Path> {
+        match self.phase {
+            Phase::None => return None,
+            Phase::Found { goal, is_direct } => {
+                if goal != at {
+                    return None;
+                }
+                if is_direct {
+                    let mut path = Vec::with_capacity(3);
+                    waypoints(&self.cells, &mut path);
+                    return Some(Path::new(path));
+                }
+            }
+            Phase::Search(query) if at == query.start => return Some(Path::new(vec![at])),
+            Phase::Search(query) => {
+                let level = &self.index.levels[query.top];
+                let cluster = level.cluster_at(at);
+                let mut nodes = level.nodes_of(cluster).iter().zip(level.first_node(cluster)..);
+                let (_, id) = nodes.find(|&(node, id)| node.at() == at && self.tree.cost(id).is_some())?;
+                trace(level, &self.tree, query, id, at, &mut self.abstract_path);
+                // The search goes on afterwards, so that its tree must stay.
+                let second = self.second_tree.take().unwrap_or_else(|| self.tree.clone());
+                let first = std::mem::replace(&mut self.tree, second);
+                let refined = self.refine_all(query.top, &mut ());
+                self.second_tree = Some(std::mem::replace(&mut self.tree, first));
+                refined?;
+            }
+        }
+        Some(Path::new(if self.straightens {
             self.straighten.path(&self.grid_graph, &self.cells)
         } else {
             let mut path = Vec::with_capacity(self.cells.len());
             waypoints(&self.cells, &mut path);
             path
-        };
-        Ok(Outcome::Found(Path::new(path)))
+        }))
     }
 
     fn guarantee(&self) -> Guarantee {
@@ -164,7 +242,7 @@ where
     }
 }
 
-/// Each step but the first returns `None` where there is no path although the map has one: then the index was
+/// Refining returns `None` where there is no path although the map has one: then the index was
 /// read from damaged bytes.
 impl<G, I> HpaStar<G, I>
 where
@@ -225,27 +303,31 @@ where
         other.and_then(|_| costs.pop()).unwrap_or(FixedCost::NONE)
     }
 
-    /// Finds the abstract path on level `top`.
-    fn find_abstract_path(
-        &mut self,
-        query: Query,
-        top: usize,
-        direct: FixedCost,
-        observer: &mut impl Observer,
-    ) -> Option<()> {
-        let Self { index, tree, endpoint_costs, abstract_path, .. } = self;
-        let Query { start, goal, .. } = query;
+    /// Begins or continues the search of the abstract path.
+    fn search<O: Observer>(&mut self, query: AbstractQuery, begins: bool, observer: &mut O) -> Status {
+        let Self { index, tree, endpoint_costs, .. } = self;
+        let AbstractQuery { start, goal, top, direct } = query;
         let level = &index.levels[top];
         let [from, to] = [(start, 0), (goal, 1)].map(|(at, which)| Endpoint {
             cluster: level.cluster_at(at),
             costs: &endpoint_costs[which][top],
         });
-        let to = Goal { endpoint: to, direct };
+        let to = Some(Goal { endpoint: to, direct });
         let estimate = |at: Vertex| index.costs.distance(at.to(goal));
-        abstract_path.clear();
-        abstract_path.push(PathNode { at: start, id: level.start_id() });
-        search(level, Bounds::ALL, tree, estimate, from, Some(to), observer)
-            .then(|| append_path(level, tree, goal, abstract_path))
+        let mut search = Search { level, bounds: Bounds::ALL, tree, estimate, observer };
+        if begins {
+            search.begin(from, to);
+            return Status::Searching;
+        }
+        search.run(to)
+    }
+
+    /// Refines the abstract path of level `top` down to cells.
+    fn refine_all(&mut self, top: usize, observer: &mut impl Observer) -> Option<()> {
+        for number in (0..top).rev() {
+            self.refine(number, observer)?;
+        }
+        self.refine_to_cells(observer)
     }
 
     /// Replaces the abstract path by one on the level below it, `number`: within each cluster that it
@@ -288,7 +370,7 @@ where
                 if !search(below, bounds, tree, estimate, start, Some(goal), observer) {
                     return None;
                 }
-                append_path(below, tree, to.at, refined);
+                append_path(below, tree, PathNode { at: to.at, id: below.goal_id() }, refined);
                 refined.pop();
             }
             refined.push(on_level_below(to));
@@ -334,11 +416,25 @@ where
     }
 }
 
-/// Appends the path of the last search: what comes after its start, up to its goal.
-fn append_path(level: &Level, tree: &SearchTree, goal: Vertex, path: &mut Vec<PathNode>) {
+/// Writes the abstract path to a node, or to the goal.
+fn trace(
+    level: &Level,
+    tree: &SearchTree,
+    query: AbstractQuery,
+    id: u32,
+    at: Vertex,
+    path: &mut Vec<PathNode>,
+) {
+    path.clear();
+    path.push(PathNode { at: query.start, id: level.start_id() });
+    append_path(level, tree, PathNode { at, id }, path);
+}
+
+/// Appends the path of a search: what comes after its start, up to a node or the goal.
+fn append_path(level: &Level, tree: &SearchTree, last: PathNode, path: &mut Vec<PathNode>) {
     let first = path.len();
-    path.push(PathNode { at: goal, id: level.goal_id() });
-    let mut id = level.goal_id();
+    path.push(last);
+    let mut id = last.id;
     while let Some((parent, ())) = tree.parent(id).filter(|&(parent, ())| parent != level.start_id()) {
         path.push(PathNode { at: level.node(parent).at(), id: parent });
         id = parent;

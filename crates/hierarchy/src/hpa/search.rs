@@ -2,7 +2,10 @@
 
 use mediant_grid::Vertex;
 use mediant_moves::Cost;
-use mediant_search::{NodeEvent, Observer, parts::SearchTree};
+use mediant_search::{
+    NodeEvent, Observer, Status,
+    parts::{SearchTree, Unpaused},
+};
 
 use super::{
     fixed_cost::FixedCost,
@@ -51,45 +54,65 @@ pub(crate) fn search(
     goal: Option<Goal<'_>>,
     observer: &mut impl Observer,
 ) -> bool {
-    tree.start_search();
-    let mut search = Search { level, bounds, tree, estimate, observer };
-    search.tree.set_path(level.start_id(), Cost::ZERO, SearchTree::<()>::NONE, ());
-    search.cross_cluster(level.start_id(), start, Cost::ZERO);
-    if let Some(cost) = goal.and_then(|goal| goal.direct.cost()) {
-        search.tree.set_path_and_open(level.goal_id(), cost, Cost::ZERO, level.start_id(), ());
-    }
-    while let Some((f, id, g, swaps)) = search.tree.pop() {
-        search.observer.percolated(swaps);
-        if id == level.goal_id() {
-            return true;
-        }
-        let node = level.node(id);
-        let parent = search.tree.parent(id).map(|(parent, ())| level.node(parent).at());
-        search.observer.expanded(NodeEvent { at: node.at(), parent, g, f });
-        search.cross_cluster(id, Endpoint { cluster: node.cluster, costs: level.costs_from(id) }, g);
-        search.cross_border(id, node.at(), g);
-        if let Some(Goal { endpoint, .. }) = goal.filter(|goal| goal.endpoint.cluster == node.cluster) {
-            let index = (id - level.first_node(node.cluster)) as usize;
-            if let Some(rest) = endpoint.costs[index].cost()
-                && search.tree.cost(level.goal_id()).is_none_or(|known| g + rest < known)
-            {
-                let (_, swaps) = search.tree.set_path_and_open(level.goal_id(), g + rest, Cost::ZERO, id, ());
-                search.observer.percolated(swaps);
-            }
-        }
-    }
-    false
+    let mut search = Search { level, bounds, tree, estimate, observer: &mut Unpaused(observer) };
+    search.begin(start, goal);
+    search.run(goal) == Status::Found
 }
 
-struct Search<'s, E, O> {
-    level: &'s Level,
-    bounds: Bounds,
-    tree: &'s mut SearchTree,
-    estimate: E,
-    observer: &'s mut O,
+/// A search.
+pub(crate) struct Search<'s, E, O> {
+    pub(crate) level: &'s Level,
+    pub(crate) bounds: Bounds,
+    pub(crate) tree: &'s mut SearchTree,
+    pub(crate) estimate: E,
+    pub(crate) observer: &'s mut O,
 }
 
 impl<E: Fn(Vertex) -> Cost, O: Observer> Search<'_, E, O> {
+    /// Forgets the last search, and generates the nodes around the start's cluster.
+    pub(crate) fn begin(&mut self, start: Endpoint<'_>, goal: Option<Goal<'_>>) {
+        let level = self.level;
+        self.tree.start_search();
+        self.tree.set_path(level.start_id(), Cost::ZERO, SearchTree::<()>::NONE, ());
+        self.cross_cluster(level.start_id(), start, Cost::ZERO);
+        if let Some(cost) = goal.and_then(|goal| goal.direct.cost()) {
+            self.tree.set_path_and_open(level.goal_id(), cost, Cost::ZERO, level.start_id(), ());
+        }
+    }
+
+    /// Expands nodes until the goal is the best open node, none is open, or the observer pauses.
+    pub(crate) fn run(&mut self, goal: Option<Goal<'_>>) -> Status {
+        let level = self.level;
+        loop {
+            if let Some((f, _)) = self.tree.best().filter(|&(_, id)| id != level.goal_id())
+                && self.observer.pauses(f)
+            {
+                return Status::Searching;
+            }
+            let Some((f, id, g, swaps)) = self.tree.pop() else { return Status::Unreachable };
+            self.observer.percolated(swaps);
+            if id == level.goal_id() {
+                return Status::Found;
+            }
+            let node = level.node(id);
+            let parent = self.tree.parent(id).map(|(parent, ())| level.node(parent).at());
+            self.observer.expanded(NodeEvent { at: node.at(), parent, g, f });
+            self.observer.reached(node.at(), g);
+            self.cross_cluster(id, Endpoint { cluster: node.cluster, costs: level.costs_from(id) }, g);
+            self.cross_border(id, node.at(), g);
+            if let Some(Goal { endpoint, .. }) = goal.filter(|goal| goal.endpoint.cluster == node.cluster) {
+                let index = (id - level.first_node(node.cluster)) as usize;
+                if let Some(rest) = endpoint.costs[index].cost()
+                    && self.tree.cost(level.goal_id()).is_none_or(|known| g + rest < known)
+                {
+                    let (goal, cost) = (level.goal_id(), g + rest);
+                    let (_, swaps) = self.tree.set_path_and_open(goal, cost, Cost::ZERO, id, ());
+                    self.observer.percolated(swaps);
+                }
+            }
+        }
+    }
+
     /// Gives the other nodes of a node's cluster their costs, and crosses the border from each that became
     /// cheaper.
     #[inline]

@@ -150,14 +150,28 @@ impl Frontier {
     }
 
     /// The best node and its f.
-    pub(super) fn pop(&mut self) -> Option<(f64, Node)> {
-        let Reverse(entry) = self.open.pop()?;
+    #[inline]
+    pub(super) fn best(&self) -> Option<(f64, Node)> {
+        let Reverse(entry) = self.open.peek()?;
         Some((entry.f(), self.nodes[entry.number() as usize]))
+    }
+
+    /// Takes the best node from the open list.
+    #[inline]
+    pub(super) fn pop(&mut self) {
+        self.open.pop();
     }
 
     /// Whether no shorter path to the root's vertex was found since it became a root.
     pub(super) fn is_current(&self, space: &FreeSpace<Corners>, number: u32) -> bool {
         space.id(self.root(number).at).is_some_and(|id| self.best_roots[id.index()].root == number)
+    }
+
+    /// The best known path to a root.
+    pub(super) fn path_to_root(&self, space: &FreeSpace<Corners>, at: Vertex) -> Option<Path> {
+        let best = self.best_roots[space.id(at)?.index()];
+        let root = (best.generation == self.generation).then(|| self.roots.get(best.root as usize))??;
+        Some(if best.root == 0 { Path::new(vec![at]) } else { self.path(root.parent, at) })
     }
 
     /// The path to the goal by a root that sees it. Allocates nothing but its waypoints.

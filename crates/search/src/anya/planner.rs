@@ -2,7 +2,7 @@
 
 use std::ops::Deref;
 
-use mediant_grid::{Corners, FreeSpace, Identity};
+use mediant_grid::{Corners, FreeSpace, Identity, Vertex};
 use mediant_moves::K;
 
 use super::{
@@ -12,9 +12,9 @@ use super::{
 };
 use crate::{
     observer::{NodeEvent, Observer},
-    outcome::{Guarantee, Outcome},
+    outcome::Guarantee,
     path::Path,
-    planner::Planner,
+    planner::{Planner, Status},
     query::{Query, QueryError},
 };
 
@@ -47,6 +47,10 @@ pub struct Anya<S> {
     frontier: Frontier,
     /// The successors of the node under expansion.
     next: Vec<Successor>,
+    goal: Vertex,
+    /// The last root of the path to the goal, once that is found.
+    last: Option<u32>,
+    status: Status,
 }
 
 impl<S: Deref<Target = FreeSpace<Corners>>> Anya<S> {
@@ -54,41 +58,65 @@ impl<S: Deref<Target = FreeSpace<Corners>>> Anya<S> {
     #[must_use]
     pub fn new(space: S) -> Self {
         let frontier = Frontier::new(space.vertex_count());
-        Self { space, frontier, next: Vec::new() }
+        let (goal, status) = (Vertex::new(0, 0), Status::default());
+        Self { space, frontier, next: Vec::new(), goal, last: None, status }
     }
 
-    /// Searches an optimal path to the goal and returns the number of its last root.
-    fn search(&mut self, query: Query, observer: &mut impl Observer) -> Option<u32> {
-        let Self { space, frontier, next } = self;
-        let mut search = Search { space, frontier, goal: query.goal, observer, next };
-        search.start(query.start);
-        while let Some((f, node)) = search.frontier.pop() {
-            if !search.frontier.is_current(search.space, node.root) {
+    /// Expands nodes until the best one holds the goal, none is open, or the observer pauses.
+    fn run(&mut self, observer: &mut impl Observer) -> Status {
+        let Self { space, frontier, next, goal, last, .. } = self;
+        let mut search = Search { space, frontier, goal: *goal, observer, next };
+        loop {
+            let Some((f, node)) = search.frontier.best() else { return Status::Unreachable };
+            let is_current = search.frontier.is_current(search.space, node.root);
+            let is_last = is_current && search.reaches_goal(node);
+            if is_current && !is_last && search.observer.pauses(fixed(f)) {
+                return Status::Searching;
+            }
+            search.frontier.pop();
+            if !is_current {
                 continue;
             }
-            if search.reaches_goal(node) {
-                return Some(node.root);
+            if is_last {
+                *last = Some(node.root);
+                return Status::Found;
             }
             let root = search.frontier.root(node.root);
             let parent = search.frontier.parent(node.root);
             search.observer.expanded(NodeEvent { at: root.at, parent, g: fixed(root.g), f: fixed(f) });
+            search.observer.reached(root.at, fixed(root.g));
             search.expand(node);
         }
-        None
     }
 }
 
 impl<S: Deref<Target = FreeSpace<Corners>>> Planner for Anya<S> {
-    fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        if query.ends(&self.space)?.is_none() {
-            return Ok(Outcome::Unreachable);
+    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        self.status = Status::Unreachable;
+        let ends = query.ends(&self.space)?;
+        (self.goal, self.last) = (query.goal, None);
+        let Self { space, frontier, next, goal, .. } = self;
+        if ends.is_some() && query.start == query.goal {
+            frontier.start(space, query.start);
+            self.status = Status::Found;
+        } else if ends.is_some() {
+            Search { space, frontier, goal: *goal, observer, next }.start(query.start);
+            self.status = Status::Searching;
         }
-        if query.start == query.goal {
-            return Ok(Outcome::Found(Path::new(vec![query.start])));
+        Ok(self.status)
+    }
+
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        if self.status == Status::Searching {
+            self.status = self.run(observer);
         }
-        match self.search(query, observer) {
-            Some(root) => Ok(Outcome::Found(self.frontier.path(root, query.goal))),
-            None => Ok(Outcome::Unreachable),
+        Ok(self.status)
+    }
+
+    fn path_to(&mut self, at: Vertex) -> Option<Path> {
+        match self.last.filter(|_| at == self.goal) {
+            Some(root) => Some(self.frontier.path(root, at)),
+            None => self.frontier.path_to_root(&self.space, at),
         }
     }
 

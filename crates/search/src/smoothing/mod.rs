@@ -9,15 +9,15 @@ mod taut;
 
 use std::ops::Deref;
 
-use mediant_grid::{FreeSpace, GridGraph, Identity, Mismatch, Placement};
+use mediant_grid::{FreeSpace, GridGraph, Identity, Mismatch, Placement, Vertex};
 
 pub use self::{linear::smooth, taut::pull_taut};
 
 use crate::{
     observer::Observer,
-    outcome::{Guarantee, Outcome},
+    outcome::Guarantee,
     path::Path,
-    planner::Planner,
+    planner::{Planner, Status},
     query::{Query, QueryError},
 };
 
@@ -132,13 +132,19 @@ where
     S: Deref<Target: HasFreeSpace>,
     E: Planner,
 {
-    fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        let outcome = self.planner.solve_observed(query, observer)?;
-        Ok(match (outcome, self.smoothing) {
-            (Outcome::Found(path), Some(smoothing)) => {
-                Outcome::Found(smoothing.apply(self.space.free_space(), &path))
-            }
-            (outcome, _) => outcome,
+    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        self.planner.begin(query, observer)
+    }
+
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        self.planner.proceed(observer)
+    }
+
+    fn path_to(&mut self, at: Vertex) -> Option<Path> {
+        let path = self.planner.path_to(at)?;
+        Some(match self.smoothing {
+            Some(smoothing) => smoothing.apply(self.space.free_space(), &path),
+            None => path,
         })
     }
 

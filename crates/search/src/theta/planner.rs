@@ -11,12 +11,12 @@ use super::{
 };
 use crate::{
     heuristic::Heuristic,
-    nodes::NodeStore,
+    nodes::{Node, NodeStore},
     observer::Observer,
     open_list::OpenList,
-    outcome::{Guarantee, Outcome},
+    outcome::Guarantee,
     path::Path,
-    planner::Planner,
+    planner::{Planner, Status},
     query::{Query, QueryError},
 };
 
@@ -59,6 +59,8 @@ pub struct Theta<G, H, S> {
     nodes: NodeStore<Parents>,
     open: OpenList,
     sight: SightCache,
+    ends: [VertexId; 2],
+    status: Status,
     check: PhantomData<S>,
 }
 
@@ -68,7 +70,16 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic, S: SightCheck>
     pub fn new(graph: G, heuristic: H) -> Self {
         let nodes = NodeStore::new(graph.vertex_count());
         let sight = SightCache::new::<P>(&graph);
-        Self { graph, heuristic, nodes, open: OpenList::default(), sight, check: PhantomData }
+        let (open, ends, status) = (OpenList::default(), [VertexId(0); 2], Status::default());
+        Self { graph, heuristic, nodes, open, sight, ends, status, check: PhantomData }
+    }
+
+    /// The search, with its memory.
+    fn search<'s, O: Observer>(&'s mut self, observer: &'s mut O) -> Search<'s, P, H, S, O> {
+        let Self { graph, heuristic, nodes, open, sight, ends: [start, goal], check, .. } = self;
+        let (graph, heuristic, check): (&GridGraph<P>, _, _) = (graph, *heuristic, *check);
+        let (start, goal, goal_at) = (*start, *goal, graph.vertex(*goal));
+        Search { graph, heuristic, nodes, open, sight, observer, start, goal, goal_at, check }
     }
 }
 
@@ -79,23 +90,28 @@ where
     H: Heuristic,
     S: SightCheck,
 {
-    fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        let Some((start, goal)) = query.ends(&self.graph)? else { return Ok(Outcome::Unreachable) };
-        let Self { graph, heuristic, nodes, open, sight, check } = self;
-        let found = Search {
-            graph: &**graph,
-            heuristic: *heuristic,
-            nodes,
-            open,
-            sight,
-            observer,
-            start,
-            goal,
-            goal_at: query.goal,
-            check: *check,
+    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        self.status = Status::Unreachable;
+        if let Some((start, goal)) = query.ends(&self.graph)? {
+            self.ends = [start, goal];
+            self.search(observer).begin();
+            self.status = Status::Searching;
         }
-        .run();
-        Ok(if found { Outcome::Found(self.path(start, goal)) } else { Outcome::Unreachable })
+        Ok(self.status)
+    }
+
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        if self.status == Status::Searching {
+            self.status = self.search(observer).run();
+        }
+        Ok(self.status)
+    }
+
+    fn path_to(&mut self, at: Vertex) -> Option<Path> {
+        let id = self.graph.id(at)?;
+        let is_closed = self.nodes.get(id)?.slot == Node::<Parents>::CLOSED;
+        // The parent of an open node may be a guess.
+        is_closed.then(|| self.path(self.ends[0], id))
     }
 
     fn guarantee(&self) -> Guarantee {

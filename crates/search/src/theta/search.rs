@@ -12,6 +12,7 @@ use crate::{
     observer::{NodeEvent, Observer},
     open_list::{Entry, OpenList},
     parent::ParentPointer,
+    planner::Status,
     segment::{is_at_least, segment_cost},
 };
 
@@ -68,9 +69,8 @@ struct PathEnd {
 }
 
 impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S, O> {
-    /// Expands nodes until the goal is the best open node, or none is open. Returns whether the goal was
-    /// found.
-    pub(super) fn run(&mut self) -> bool {
+    /// Makes the start the only node that is known.
+    pub(super) fn begin(&mut self) {
         let at = self.graph.vertex(self.start);
         let h = self.heuristic.estimate(self.graph, at.to(self.goal_at));
         self.nodes.start_search();
@@ -78,8 +78,19 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
         self.nodes.set_path(self.start, Cost::ZERO, 0, Parents::to(self.start));
         self.observer.generated(NodeEvent { at, parent: None, g: Cost::ZERO, f: h });
         self.open.push(Entry::new(h, h, self.start), |id, slot| self.nodes.set_slot(id, slot));
+    }
 
-        while let Some((entry, swaps)) = self.open.pop(|id, slot| self.nodes.set_slot(id, slot)) {
+    /// Expands nodes until the goal is the best open node, none is open, or the observer pauses.
+    pub(super) fn run(&mut self) -> Status {
+        loop {
+            if let Some(next) = self.open.get(0).filter(|next| next.id() != self.goal)
+                && self.observer.pauses(next.f())
+            {
+                return Status::Searching;
+            }
+            let Some((entry, swaps)) = self.open.pop(|id, slot| self.nodes.set_slot(id, slot)) else {
+                return Status::Unreachable;
+            };
             self.observer.percolated(swaps);
             let id = entry.id();
             self.nodes.set_slot(id, Node::<Parents>::CLOSED);
@@ -93,13 +104,15 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
                 node = settled;
             }
             if id == self.goal {
-                return true;
+                return Status::Found;
             }
             let parent = (id != self.start).then(|| self.graph.vertex(node.pointer.parent));
             self.observer.expanded(NodeEvent { at: here.at, parent, g: node.g, f });
+            if !self.graph.is_closed_gap(here.at) {
+                self.observer.reached(here.at, node.g);
+            }
             self.expand(PathEnd { g: node.g, ..here }, &node);
         }
-        false
     }
 
     /// Generates the successors of a node. The parent of each is the node's parent, if that sees it or is

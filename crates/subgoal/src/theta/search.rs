@@ -3,7 +3,7 @@
 use mediant_grid::{FreeSpace, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{
-    NodeEvent, Observer,
+    NodeEvent, Observer, Status,
     parts::{SearchTree, segment_cost},
 };
 
@@ -70,8 +70,8 @@ struct Node {
 }
 
 impl<P: SubgoalPlacement, O: Observer> Search<'_, P, O> {
-    /// Expands subgoals until the goal has the least f. Returns the last bend before the goal.
-    pub(super) fn run(&mut self, start: Vertex, query_edges: &[(u32, Cost)]) -> Option<u32> {
+    /// Puts the subgoals that the start is joined to on the open list.
+    pub(super) fn begin(&mut self, start: Vertex, query_edges: &[(u32, Cost)]) {
         self.tree.start_search();
         self.bends.clear();
         let first = self.bend(start, Cost::ZERO, NONE);
@@ -79,16 +79,30 @@ impl<P: SubgoalPlacement, O: Observer> Search<'_, P, O> {
             let at = self.vertex(id);
             self.reach(id, at, segment_cost(start.to(at)), first);
         }
+    }
+
+    /// Expands subgoals until the goal has the least f, none is open, or the observer pauses. Writes the last
+    /// bend before the goal to `last`.
+    pub(super) fn run(&mut self, last: &mut Option<u32>) -> Status {
         loop {
-            let (f, id, g, swaps) = self.tree.pop()?;
+            if let Some((f, _)) = self.tree.best().filter(|&(_, id)| id != self.goal_id())
+                && self.observer.pauses(f)
+            {
+                return Status::Searching;
+            }
+            let Some((f, id, g, swaps)) = self.tree.pop() else { return Status::Unreachable };
             self.observer.percolated(swaps);
-            let (bend, ()) = self.tree.parent(id)?;
+            let Some((bend, ())) = self.tree.parent(id) else { return Status::Unreachable };
             let at = self.vertex(id);
             if id == self.goal_id() {
-                return Some(bend);
+                *last = Some(bend);
+                return Status::Found;
             }
             let parent = Some(self.bends[bend as usize].at).filter(|&parent| parent != at);
             self.observer.expanded(NodeEvent { at, parent, g, f });
+            if !self.space.is_closed_gap(at) {
+                self.observer.reached(at, g);
+            }
             self.expand(Node { id, at, g, parent: bend, own_bend: None });
         }
     }
