@@ -67,6 +67,12 @@ pub enum ErrorCode {
     MapFormat,
     /// A file that is no scenario.
     ScenarioFormat,
+    /// A request without a start or a goal.
+    NoEnd,
+    /// A tolerance, a limit, a radius or a spacing that is negative, or no number.
+    Number,
+    /// A step of a search that was never begun.
+    NotBegun,
     /// A mistake of a kind that has no name yet.
     Other,
 }
@@ -99,6 +105,9 @@ names!(ErrorCode:
     FileUnwritable => "file-unwritable",
     MapFormat => "map-format",
     ScenarioFormat => "scenario-format",
+    NoEnd => "no-end",
+    Number => "number",
+    NotBegun => "not-begun",
     Other => "other",
 );
 
@@ -155,6 +164,9 @@ const fn of_query(error: &QueryError) -> ErrorCode {
         QueryError::Blocked { end: End::Start, .. } => ErrorCode::StartBlocked,
         QueryError::Blocked { end: End::Goal, .. } => ErrorCode::GoalBlocked,
         QueryError::GaveUp { .. } => ErrorCode::GaveUp,
+        QueryError::NoEnd { .. } => ErrorCode::NoEnd,
+        QueryError::Tolerance | QueryError::CostLimit => ErrorCode::Number,
+        QueryError::NotBegun => ErrorCode::NotBegun,
         _ => ErrorCode::Other,
     }
 }

@@ -1,6 +1,7 @@
 //! Searches whose type is erased.
 
-use mediant_search::{Guarantee, Observer, Outcome, Planner as Search, Query, QueryError};
+use mediant_grid::{Identity, Vertex};
+use mediant_search::{Guarantee, Observer, Outcome, Path, Planner as Search, Query, QueryError, Status};
 
 /// A search that can be `dyn`. Observers are `dyn` too, so that each search is compiled only twice: with and
 /// without an observer. An observed search costs a dynamic call for each event.
@@ -11,8 +12,20 @@ pub(crate) trait Erased {
     /// [`Search::solve_observed`].
     fn solve_observed(&mut self, query: Query, observer: &mut dyn Observer) -> Result<Outcome, QueryError>;
 
+    /// [`Search::begin`].
+    fn begin(&mut self, query: Query, observer: &mut dyn Observer) -> Result<Status, QueryError>;
+
+    /// [`Search::proceed`].
+    fn proceed(&mut self, observer: &mut dyn Observer) -> Result<Status, QueryError>;
+
+    /// [`Search::path_to`].
+    fn path_to(&mut self, at: Vertex) -> Option<Path>;
+
     /// [`Search::guarantee`].
     fn guarantee(&self) -> Guarantee;
+
+    /// [`Search::identity`].
+    fn identity(&self) -> Identity;
 }
 
 impl<S: Search> Erased for S {
@@ -28,7 +41,48 @@ impl<S: Search> Erased for S {
         Search::solve_observed(self, query, &mut observer)
     }
 
+    fn begin(&mut self, query: Query, mut observer: &mut dyn Observer) -> Result<Status, QueryError> {
+        Search::begin(self, query, &mut observer)
+    }
+
+    fn proceed(&mut self, mut observer: &mut dyn Observer) -> Result<Status, QueryError> {
+        Search::proceed(self, &mut observer)
+    }
+
+    fn path_to(&mut self, at: Vertex) -> Option<Path> {
+        Search::path_to(self, at)
+    }
+
     fn guarantee(&self) -> Guarantee {
         Search::guarantee(self)
+    }
+
+    fn identity(&self) -> Identity {
+        Search::identity(self)
+    }
+}
+
+/// A search of any type, as a search.
+pub(crate) struct Dynamic<'s>(pub(crate) &'s mut (dyn Erased + Send));
+
+impl Search for Dynamic<'_> {
+    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        self.0.begin(query, observer)
+    }
+
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
+        self.0.proceed(observer)
+    }
+
+    fn path_to(&mut self, at: Vertex) -> Option<Path> {
+        self.0.path_to(at)
+    }
+
+    fn guarantee(&self) -> Guarantee {
+        self.0.guarantee()
+    }
+
+    fn identity(&self) -> Identity {
+        self.0.identity()
     }
 }

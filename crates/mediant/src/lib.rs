@@ -98,7 +98,8 @@ pub use mediant_grid::{
 };
 pub use mediant_moves::{Cost, FiniteK, K};
 pub use mediant_search::{
-    Counters, End, Guarantee, NodeEvent, Observer, Outcome, Path, Query, QueryError, Smoothing,
+    Counters, End, Guarantee, Limit, Limits, NodeEvent, Observer, Outcome, Path, Query, QueryError, Request,
+    Smoothing, Stopped,
 };
 pub use mediant_subgoal::{Progress, Stage};
 pub use motion::Motion;

@@ -9,8 +9,8 @@ use std::{num::NonZeroU32, sync::Arc};
 use mediant_grid::{Centers, FreeSpace, GridGraph, Placement};
 use mediant_hierarchy::{ChpaStar, HpaStar, SegmentGraph};
 use mediant_search::{
-    AStar, Anya, BlockJps, Canonical, Euclidean, Heuristic, Hk, Jps, JpsPlus, LazyThetaStar, Outcome,
-    PaperCanonical, Planner as Search, Smoothing, SquaredEuclidean, ThetaStar, Wavefront, Zero,
+    AStar, Anya, BlockJps, Canonical, Euclidean, Heuristic, Hk, Jps, JpsPlus, LazyThetaStar, PaperCanonical,
+    Path, Planner as Search, Smoothing, SquaredEuclidean, ThetaStar, Wavefront, Zero,
     parts::{HasFreeSpace, JumpFinder, JumpPointSearch, StepwiseFinder},
 };
 use mediant_subgoal::{SubgoalAStar, SubgoalGraph, SubgoalPlacement, SubgoalTheta};
@@ -54,7 +54,7 @@ pub(crate) fn search(index: &Index) -> Result<Boxed, Error> {
 }
 
 /// What smooths the paths of an index's planners.
-pub(crate) fn smoother(index: &Index, smoothing: Smoothing) -> Box<dyn Fn(Outcome) -> Outcome + Send> {
+pub(crate) fn smoother(index: &Index, smoothing: Smoothing) -> Box<dyn Fn(&Path) -> Path + Send> {
     match &index.prepared {
         Prepared::Centers(graph, _) => smoother_in(Arc::clone(graph), smoothing),
         Prepared::Corners(graph, _) => smoother_in(Arc::clone(graph), smoothing),
@@ -66,11 +66,8 @@ pub(crate) fn smoother(index: &Index, smoothing: Smoothing) -> Box<dyn Fn(Outcom
 fn smoother_in(
     space: Arc<impl HasFreeSpace + Send + Sync + 'static>,
     smoothing: Smoothing,
-) -> Box<dyn Fn(Outcome) -> Outcome + Send> {
-    Box::new(move |answer| match answer {
-        Outcome::Found(path) => Outcome::Found(smoothing.apply(space.free_space(), &path)),
-        answer => answer,
-    })
+) -> Box<dyn Fn(&Path) -> Path + Send> {
+    Box::new(move |path| smoothing.apply(space.free_space(), path))
 }
 
 /// The error for an index that does not hold what its engine searches. No constructor makes one.

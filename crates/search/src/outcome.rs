@@ -3,7 +3,7 @@
 use mediant_grid::{CornerRule, Rules};
 use mediant_moves::{BOUND_WITHOUT_CORNER_CUTTING, FiniteK, bound_at_centers, bound_at_corners};
 
-use crate::path::Path;
+use crate::{path::Path, request::Stopped};
 
 /// The answer to a query. Other kinds of answers may come.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,15 +13,21 @@ pub enum Outcome {
     Found(Path),
     /// There is no path.
     Unreachable,
+    /// There is no path; this one leads to the reachable vertex that is nearest to the goal, if that was
+    /// [asked for](crate::Request::nearest).
+    Nearest(Path),
+    /// A limit stopped the search.
+    Stopped(Stopped),
 }
 
 impl Outcome {
-    /// The path, if there is one.
+    /// The path that was asked for: to the goal, or to the nearest vertex. That of a stopped search is
+    /// [`Stopped::best`].
     #[must_use]
     pub const fn path(&self) -> Option<&Path> {
         match self {
-            Self::Found(path) => Some(path),
-            Self::Unreachable => None,
+            Self::Found(path) | Self::Nearest(path) => Some(path),
+            Self::Unreachable | Self::Stopped(_) => None,
         }
     }
 
@@ -35,8 +41,8 @@ impl Outcome {
     #[must_use]
     pub fn into_path(self) -> Option<Path> {
         match self {
-            Self::Found(path) => Some(path),
-            Self::Unreachable => None,
+            Self::Found(path) | Self::Nearest(path) => Some(path),
+            Self::Unreachable | Self::Stopped(_) => None,
         }
     }
 }

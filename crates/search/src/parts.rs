@@ -6,6 +6,7 @@
 //!   search on any other graph of numbered nodes.
 //! - [`JumpPointSearch`] is jump point search with any [`JumpFinder`]; [`Theta`] is Theta* with any
 //!   [`SightCheck`].
+//! - [`Metric`] is the length of a displacement where no obstacle is in the way.
 //! - [`Unpaused`] is the observer of a part of a search.
 //! - [`HasFreeSpace`] is what a planner needs to be generic over grid graphs and free spaces.
 
@@ -13,6 +14,7 @@ pub use crate::{
     astar::AllMoves,
     best_first::BestFirst,
     jps::{BlockFinder, JumpFinder, JumpPointSearch, StepwiseFinder},
+    metric::Metric,
     nodes::{Node, NodeStore},
     observer::Unpaused,
     open_list::{Entry, OpenList},

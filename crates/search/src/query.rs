@@ -93,6 +93,21 @@ pub enum QueryError {
         /// Why the planner may fail.
         why: &'static str,
     },
+    /// A request without a start, or without a goal.
+    #[error("the request has no {end}: name at least one")]
+    NoEnd {
+        /// Which end.
+        end: End,
+    },
+    /// A tolerance that is negative, or no number.
+    #[error("the tolerance must be a number of cells, 0 or more")]
+    Tolerance,
+    /// A limit on the cost that is negative, or no number.
+    #[error("the limit on the cost must be a number of cells, 0 or more")]
+    CostLimit,
+    /// A step of a search that was never begun.
+    #[error("no search was begun: begin one first")]
+    NotBegun,
     /// An end is on a blocked cell (at corners: between four of them).
     #[error("the {end} {at} is blocked: choose a free vertex")]
     Blocked {
@@ -101,4 +116,15 @@ pub enum QueryError {
         /// The vertex of the query.
         at: Vertex,
     },
+}
+
+impl QueryError {
+    /// The same error of this end.
+    pub(crate) const fn at_end(self, end: End) -> Self {
+        match self {
+            Self::Outside { at, last, .. } => Self::Outside { end, at, last },
+            Self::Blocked { at, .. } => Self::Blocked { end, at },
+            other => other,
+        }
+    }
 }

@@ -15,11 +15,11 @@ use crate::{
     error::SubgoalError,
     graph::{MAX_ARCS, SubgoalGraph},
     hierarchy::Hierarchy,
-    metric::Metric,
     placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, SubgoalPlacement},
     progress::{Progress, Stage},
     subgoals::Subgoals,
 };
+use mediant_search::parts::Metric;
 
 impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// The subgoal graph of a free space for paths over N(k), or at any angle.

@@ -177,9 +177,9 @@ mod tests {
     use mediant_grid::{Centers, CornerRule, FreeSpace, Grid, Placement, Vector, Vertex};
     use mediant_moves::{Cost, FiniteK, K};
     use mediant_oracle::{Explicit, random_grid, wide_grid};
+    use mediant_search::parts::Metric;
 
     use crate::{
-        metric::Metric,
         placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind},
         subgoals::Subgoals,
     };

@@ -16,10 +16,10 @@ use crate::{
     error::SubgoalError,
     graph::{MAX_ARCS, SubgoalGraph},
     hierarchy::Hierarchy,
-    metric::Metric,
     placement::{EdgeCriterion, SubgoalPlacement},
     subgoals::Subgoals,
 };
+use mediant_search::parts::Metric;
 
 impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// The version of the format that [`to_bytes`](Self::to_bytes) writes.

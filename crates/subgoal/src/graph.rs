@@ -7,10 +7,10 @@ use mediant_search::parts::HasFreeSpace;
 use crate::{
     arc::{NONE, PackedArc, UpwardArc},
     hierarchy::Hierarchy,
-    metric::Metric,
     placement::{BuildContext, EdgeCriterion, EdgeKind, EdgeTables, SubgoalPlacement},
     subgoals::Subgoals,
 };
+use mediant_search::parts::Metric;
 
 /// The most arcs that a graph can have: its offsets hold twice their number.
 pub(crate) const MAX_ARCS: u32 = u32::MAX / 2;

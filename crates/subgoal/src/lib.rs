@@ -84,7 +84,6 @@ mod edge_path;
 mod error;
 mod graph;
 mod hierarchy;
-mod metric;
 mod placement;
 mod planner;
 mod progress;

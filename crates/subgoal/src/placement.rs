@@ -2,8 +2,9 @@
 
 use mediant_grid::{BitMatrix, FreeSpace, Placement, Vector, Vertex};
 use mediant_moves::{Cost, K};
+use mediant_search::parts::Metric;
 
-use crate::{error::SubgoalError, hierarchy::Hierarchy, metric::Metric, subgoals::Subgoals};
+use crate::{error::SubgoalError, hierarchy::Hierarchy, subgoals::Subgoals};
 
 /// A placement that has subgoal graphs: [`Corners`](mediant_grid::Corners) has them for every k,
 /// [`Centers`](mediant_grid::Centers) for k = 2 and 3.

@@ -157,7 +157,11 @@ where
             Some(NONE) => Some(Path::new(vec![start, goal])),
             Some(last) => Some(path(&self.bends, last, goal)),
             None => {
-                let id = self.graph.subgoals.id(at).filter(|&id| self.last != Some(NONE) && self.tree.is_closed(id))?;
+                let id = self
+                    .graph
+                    .subgoals
+                    .id(at)
+                    .filter(|&id| self.last != Some(NONE) && self.tree.is_closed(id))?;
                 let (last, ()) = self.tree.parent(id)?;
                 Some(path(&self.bends, last, at))
             }

@@ -80,10 +80,10 @@ mod tests {
     use mediant_grid::{Centers, CornerRule, FreeSpace, Placement};
     use mediant_moves::{FiniteK, K};
     use mediant_oracle::{Explicit, random_grid};
+    use mediant_search::parts::Metric;
 
     use super::OctileBends;
     use crate::{
-        metric::Metric,
         placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind},
         subgoals::Subgoals,
     };

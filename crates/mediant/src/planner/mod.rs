@@ -1,9 +1,13 @@
 //! Planners: one type for all engines.
 
+mod steps;
+
 use std::fmt;
 
 use mediant_grid::Identity;
-use mediant_search::{Counters, Guarantee, Observer, Outcome, Query, QueryError};
+use mediant_search::{
+    Counters, Guarantee, Observer, Outcome, Path, QueryError, Request, Search, parts::Metric,
+};
 
 use crate::{
     configured::ConfiguredEngine, erased::Erased, error::Error, index::Index, make, map::Map, setup::Setup,
@@ -28,9 +32,13 @@ use crate::{
 pub struct Planner {
     index: Index,
     search: Box<dyn Erased + Send>,
-    /// Smooths the path of an answer; `None` for paths as they are found.
-    smooth: Option<Box<dyn Fn(Outcome) -> Outcome + Send>>,
+    /// Smooths a path; `None` for paths as they are found.
+    smooth: Option<Box<dyn Fn(&Path) -> Path + Send>>,
     guarantee: Guarantee,
+    /// The search that was begun last.
+    begun: Option<Search>,
+    /// Of the space's k; made when it is first needed.
+    metric: Option<Metric>,
 }
 
 impl Space {
@@ -84,18 +92,37 @@ impl Index {
             smooth: smoothing.map(|smoothing| make::smoother(self, smoothing)),
             guarantee: if smoothing.is_some() { guarantee.smoothed() } else { guarantee },
             index: self.clone(),
+            begun: None,
+            metric: None,
         }
     }
 }
 
 impl Planner {
-    /// Answers a query.
+    /// Answers a query, or a [`Request`]: a query with wishes.
+    ///
+    /// ```
+    /// use mediant::{K, Limits, Map, Motion, Outcome, Query};
+    ///
+    /// let space = Map::from_fn(9, 9, |x, _| x == 4)?.space(Motion::centers(K::N8))?;
+    /// let mut planner = space.planner(space.engine())?;
+    /// assert_eq!(planner.find(Query::new((0, 0), (8, 0)))?, Outcome::Unreachable);
+    /// let nearest = planner.find(Query::new((0, 0), (8, 0)).nearest())?;
+    /// assert_eq!(nearest.cost(), Some(3.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// [`QueryError`] for an end that is blocked or outside the map, or where the engine gives up.
-    pub fn find(&mut self, query: Query) -> Result<Outcome, QueryError> {
+    pub fn find(&mut self, request: impl Into<Request>) -> Result<Outcome, QueryError> {
+        let request = request.into();
+        let Some(query) = request.as_query() else {
+            self.begin(request)?;
+            return self.finish();
+        };
+        self.begun = None;
         let answer = self.search.solve(query);
-        self.finish(answer)
+        self.smoothed(answer)
     }
 
     /// Answers a query and reports the events of the search.
@@ -104,28 +131,49 @@ impl Planner {
     /// Those of [`find`](Self::find).
     pub fn find_observed(
         &mut self,
-        query: Query,
+        request: impl Into<Request>,
         observer: &mut dyn Observer,
     ) -> Result<Outcome, QueryError> {
+        let request = request.into();
+        let Some(query) = request.as_query() else {
+            self.begin(request)?;
+            return self.finish_observed(observer);
+        };
+        self.begun = None;
         let answer = self.search.solve_observed(query, observer);
-        self.finish(answer)
+        self.smoothed(answer)
     }
 
     /// Answers a query and counts the events of the search.
     ///
     /// # Errors
     /// Those of [`find`](Self::find).
-    pub fn find_counted(&mut self, query: Query) -> Result<(Outcome, Counters), QueryError> {
+    pub fn find_counted(&mut self, request: impl Into<Request>) -> Result<(Outcome, Counters), QueryError> {
         let mut counters = Counters::default();
-        let answer = self.find_observed(query, &mut counters)?;
+        let answer = self.find_observed(request, &mut counters)?;
         Ok((answer, counters))
     }
 
     /// Smooths the path, if the planner smooths its paths.
-    fn finish(&self, answer: Result<Outcome, QueryError>) -> Result<Outcome, QueryError> {
-        match &self.smooth {
-            None => answer,
-            Some(smooth) => answer.map(smooth),
+    fn smoothed(&self, answer: Result<Outcome, QueryError>) -> Result<Outcome, QueryError> {
+        let Some(smooth) = &self.smooth else { return answer };
+        Ok(match answer? {
+            Outcome::Found(path) => Outcome::Found(smooth(&path)),
+            Outcome::Nearest(path) => Outcome::Nearest(smooth(&path)),
+            Outcome::Stopped(mut stopped) => {
+                stopped.best = smooth(&stopped.best);
+                stopped.lower_bound = self.smoothed_bound(stopped.lower_bound);
+                Outcome::Stopped(stopped)
+            }
+            answer => answer,
+        })
+    }
+
+    /// A lower bound on smoothed paths, from one on the paths of the search.
+    fn smoothed_bound(&self, lower_bound: f64) -> f64 {
+        match self.guarantee {
+            Guarantee::AtMost(_) => self.bound().map_or(0.0, |bound| lower_bound / bound),
+            Guarantee::Optimal(_) | Guarantee::OptimalAnyAngle | Guarantee::Suboptimal => lower_bound,
         }
     }
 

@@ -2,25 +2,34 @@
 
 use mediant_grid::Vector;
 use mediant_moves::{Cost, CostTable, K, KError};
-use mediant_search::parts::segment_cost;
+
+use crate::segment::segment_cost;
 
 /// h_k, or the Euclidean length for k = ∞. Both are norms; values are in fixed point.
 #[derive(Clone, Debug)]
-pub(crate) enum Metric {
+pub enum Metric {
+    /// h_k.
     Hk(CostTable),
+    /// The Euclidean length.
     Euclidean,
 }
 
 impl Metric {
-    pub(crate) fn new(k: K) -> Result<Self, KError> {
+    /// The metric of N(k).
+    ///
+    /// # Errors
+    /// [`KError::TooLarge`] above [`CostTable::MAX_K`].
+    pub fn new(k: K) -> Result<Self, KError> {
         Ok(match k {
             K::Finite(k) => Self::Hk(CostTable::new(k)?),
             K::Any => Self::Euclidean,
         })
     }
 
+    /// The length of a displacement.
+    #[must_use]
     #[inline]
-    pub(crate) fn distance(&self, v: Vector) -> Cost {
+    pub fn distance(&self, v: Vector) -> Cost {
         match self {
             Self::Hk(costs) => costs.distance(v),
             Self::Euclidean => segment_cost(v),
@@ -29,8 +38,9 @@ impl Metric {
 
     /// A lower bound on the cost of any path with this displacement, faster than
     /// [`distance`](Self::distance): the heuristic.
+    #[must_use]
     #[inline]
-    pub(crate) fn estimate(&self, v: Vector) -> Cost {
+    pub fn estimate(&self, v: Vector) -> Cost {
         match self {
             Self::Hk(costs) => costs.distance(v),
             // A displacement has at most 2¹⁵ · √2 cells, so truncation takes off more than the root's
@@ -42,7 +52,8 @@ impl Metric {
     /// The pair (h_k, Euclidean length) as one number, ordered lexicographically; the Euclidean length alone
     /// for k = ∞, in more digits than [`distance`](Self::distance). Of two paths with the same cost over
     /// N(k), the shorter line is less. So lexicographically shortest paths are taut.
-    pub(crate) fn lexicographic_length(&self, v: Vector) -> u128 {
+    #[must_use]
+    pub fn lexicographic_length(&self, v: Vector) -> u128 {
         match self {
             Self::Hk(costs) => {
                 u128::from(costs.distance(v).to_bits()) << 64 | u128::from(segment_cost(v).to_bits())

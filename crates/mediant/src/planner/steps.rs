@@ -1,0 +1,116 @@
+//! Searches in steps.
+
+use mediant_search::{Observer, Outcome, Path, QueryError, Request, Search, parts::Metric};
+
+use super::Planner;
+use crate::{
+    erased::Dynamic,
+    space::{Placed, Space},
+};
+
+/// # A search in steps
+///
+/// [`begin`](Self::begin), [`step`](Self::step) until there is an answer, or [`finish`](Self::finish) at any
+/// time. Between steps the state of the search can be read. A search in steps finds the same path by the
+/// same expansions as one at once.
+///
+/// ```
+/// use mediant::{Engine, K, Map, Motion, Query};
+///
+/// let space = Map::from_fn(9, 9, |x, y| x == 4 && y != 8)?.space(Motion::centers(K::N8))?;
+/// let mut planner = space.planner(Engine::AStar)?;
+/// planner.begin(Query::new((0, 0), (8, 0)))?;
+/// let answer = loop {
+///     match planner.step(10)? {
+///         Some(answer) => break answer,
+///         None => assert!(planner.lower_bound() >= 8.0 && planner.best().is_some()),
+///     }
+/// };
+/// assert_eq!(answer, planner.find(Query::new((0, 0), (8, 0)))?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+impl Planner {
+    /// Begins the search for an answer, and forgets the last one. Nothing is expanded yet.
+    ///
+    /// # Errors
+    /// [`QueryError`] for ends that are missing, blocked or outside the map, unless the request says what to
+    /// do then, and for limits and tolerances that are no numbers, or less than 0.
+    pub fn begin(&mut self, request: impl Into<Request>) -> Result<(), QueryError> {
+        self.begun = None;
+        let guarantee = self.search.guarantee();
+        let space = self.index.space();
+        let metric = self.metric.get_or_insert_with(|| metric(space));
+        self.begun = Some(match space.placed() {
+            Placed::Centers(layers) => Search::new(&layers.free, metric, guarantee, request.into()),
+            Placed::Corners(layers) => Search::new(&layers.free, metric, guarantee, request.into()),
+        }?);
+        Ok(())
+    }
+
+    /// Continues the search by at most `expansions` expansions. Returns the answer once it is there.
+    ///
+    /// # Errors
+    /// [`QueryError::NotBegun`] without a search, [`QueryError::GaveUp`] where the engine gives up.
+    pub fn step(&mut self, expansions: u64) -> Result<Option<Outcome>, QueryError> {
+        self.step_observed(expansions, &mut ())
+    }
+
+    /// Continues the search by at most `expansions` expansions, and reports its events.
+    ///
+    /// # Errors
+    /// Those of [`step`](Self::step).
+    pub fn step_observed(
+        &mut self,
+        expansions: u64,
+        mut observer: &mut dyn Observer,
+    ) -> Result<Option<Outcome>, QueryError> {
+        let Self { begun, search, metric, .. } = self;
+        let (Some(begun), Some(metric)) = (begun, metric) else { return Err(QueryError::NotBegun) };
+        let answer = begun.step(&mut Dynamic(&mut **search), metric, expansions, &mut observer)?;
+        answer.map(|answer| self.smoothed(Ok(answer))).transpose()
+    }
+
+    /// Continues the search until there is an answer.
+    ///
+    /// # Errors
+    /// Those of [`step`](Self::step).
+    pub fn finish(&mut self) -> Result<Outcome, QueryError> {
+        self.finish_observed(&mut ())
+    }
+
+    /// Continues the search until there is an answer, and reports its events.
+    pub(crate) fn finish_observed(&mut self, observer: &mut dyn Observer) -> Result<Outcome, QueryError> {
+        loop {
+            if let Some(answer) = self.step_observed(u64::MAX, observer)? {
+                return Ok(answer);
+            }
+        }
+    }
+
+    /// The best path so far of the search that was begun: to a goal, if one was found, else to the vertex
+    /// nearest to a goal among those that it expanded. `None` without a search.
+    #[must_use]
+    pub fn best(&mut self) -> Option<Path> {
+        let Self { begun, search, smooth, .. } = self;
+        let best = begun.as_ref()?.best(&mut Dynamic(&mut **search));
+        Some(smooth.as_ref().map_or_else(|| best.clone(), |smooth| smooth(&best)))
+    }
+
+    /// A lower bound on the cost of its answer, in cells. 0 without a search.
+    #[must_use]
+    pub fn lower_bound(&self) -> f64 {
+        self.begun.as_ref().map_or(0.0, |begun| self.smoothed_bound(begun.lower_bound()))
+    }
+
+    /// The number of its expansions so far. 0 without a search.
+    #[must_use]
+    pub fn expansions(&self) -> u64 {
+        self.begun.as_ref().map_or(0, Search::expansions)
+    }
+}
+
+/// The metric of a space's k.
+fn metric(space: &Space) -> Metric {
+    // No space has a k that is too large.
+    Metric::new(space.motion().k).unwrap_or(Metric::Euclidean)
+}

@@ -1,0 +1,153 @@
+//! From which vertex to which a request asks for a path.
+
+use mediant_grid::{FreeSpace, Placement, Vertex};
+use mediant_moves::Cost;
+
+use super::{Wishes, nearest::nearest};
+use crate::{
+    metric::Metric,
+    query::{End, Query, QueryError},
+};
+
+/// A path that answers the request, if it is the shortest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Pair {
+    pub(super) query: Query,
+    /// No path between the two is shorter: the straight line, or h_k where paths are over N(k).
+    pub(super) least: Cost,
+    /// Its place in the order of goals, then of starts.
+    pub(super) rank: (u32, u32),
+}
+
+/// The pairs of start and goal that a request asks for.
+#[derive(Debug)]
+pub(super) struct Ends {
+    /// Those that are connected, by their least cost, then by rank.
+    pub(super) pairs: Vec<Pair>,
+    /// Whether the goals are the vertices nearest to those of the request.
+    pub(super) are_nearest: bool,
+}
+
+impl Ends {
+    /// The pairs of a request. `metric` is h_k or the straight line, by which 'near' is measured; `bound` is
+    /// the metric by which no path is shorter.
+    pub(super) fn new<P: Placement>(
+        space: &FreeSpace<P>,
+        metric: &Metric,
+        bound: &Metric,
+        wishes: &Wishes,
+    ) -> Result<Self, QueryError> {
+        wishes.limits.check()?;
+        if wishes.tolerance.is_nan() || wishes.tolerance < 0.0 {
+            return Err(QueryError::Tolerance);
+        }
+        let starts = free_ends(space, metric, wishes, End::Start, &wishes.starts)?;
+        let goals = free_ends(space, metric, wishes, End::Goal, &wishes.goals)?;
+        let mut ends = Self { pairs: Vec::new(), are_nearest: false };
+        ends.add(space, bound, &starts, &goals);
+        if ends.pairs.is_empty() && wishes.nearest {
+            ends.are_nearest = true;
+            ends.add_nearest(space, metric, bound, &starts, wishes);
+        }
+        ends.pairs.sort_unstable_by_key(|pair| (pair.least, pair.rank));
+        Ok(ends)
+    }
+
+    /// Adds the pairs that are connected.
+    fn add<P: Placement>(
+        &mut self,
+        space: &FreeSpace<P>,
+        bound: &Metric,
+        starts: &[Vertex],
+        goals: &[Vertex],
+    ) {
+        for (&goal, goal_rank) in goals.iter().zip(0..) {
+            for (&start, start_rank) in starts.iter().zip(0..) {
+                if space.connected(start, goal) {
+                    let least = bound.estimate(start.to(goal));
+                    let rank = (goal_rank, start_rank);
+                    self.pairs.push(Pair { query: Query::new(start, goal), least, rank });
+                }
+            }
+        }
+    }
+
+    /// Adds the vertices that can be reached and are nearest to a goal of the request.
+    fn add_nearest<P: Placement>(
+        &mut self,
+        space: &FreeSpace<P>,
+        metric: &Metric,
+        bound: &Metric,
+        starts: &[Vertex],
+        wishes: &Wishes,
+    ) {
+        let is_reachable = |at: Vertex| starts.iter().any(|&start| space.connected(start, at));
+        let mut near: Option<(Cost, Vec<Vertex>)> = None;
+        for &goal in &wishes.goals {
+            let goal = clamped(space, goal);
+            let Some((cost, vertices)) = nearest(space, metric, goal, is_reachable) else { continue };
+            match &mut near {
+                Some((least, _)) if *least < cost => {}
+                Some((least, known)) if *least == cost => known.extend(vertices),
+                _ => near = Some((cost, vertices)),
+            }
+        }
+        let mut goals = near.map_or(Vec::new(), |(_, vertices)| vertices);
+        goals.sort_unstable_by_key(|at| (at.y, at.x));
+        goals.dedup();
+        self.add(space, bound, starts, &goals);
+    }
+}
+
+/// The vertices at which paths may begin or end: the free ones among the ends of a request, those within the
+/// tolerance of a goal, and those to which blocked ends are moved.
+fn free_ends<P: Placement>(
+    space: &FreeSpace<P>,
+    metric: &Metric,
+    wishes: &Wishes,
+    end: End,
+    ends: &[Vertex],
+) -> Result<Vec<Vertex>, QueryError> {
+    if ends.is_empty() {
+        return Err(QueryError::NoEnd { end });
+    }
+    let mut free = Vec::with_capacity(ends.len());
+    for &at in ends {
+        let known = free.len();
+        if end == End::Goal && wishes.tolerance > 0.0 && space.id(at).is_some() {
+            free.extend(around(space, at, wishes.tolerance));
+        } else if space.is_free(at) {
+            free.push(at);
+        }
+        if free.len() > known {
+            continue;
+        }
+        if wishes.snap {
+            let at = clamped(space, at);
+            let moved = nearest(space, metric, at, |at| space.is_free(at))
+                .and_then(|(_, near)| near.first().copied());
+            free.push(moved.ok_or(QueryError::Blocked { end, at })?);
+        } else if end == End::Start || !wishes.nearest || space.id(at).is_none() {
+            let query = Query::new(at, at);
+            query.check(space).map_err(|error| error.at_end(end))?;
+        }
+    }
+    Ok(free)
+}
+
+/// The free vertices within a distance of a goal, row by row.
+fn around<P: Placement>(space: &FreeSpace<P>, goal: Vertex, cells: f64) -> impl Iterator<Item = Vertex> {
+    let (width, height) = P::vertices(space.grid());
+    // A float that is too large becomes the greatest integer.
+    let reach = cells as i32;
+    let rows = (goal.y.saturating_sub(reach)).max(0)..=goal.y.saturating_add(reach).min(height as i32 - 1);
+    let columns = (goal.x.saturating_sub(reach)).max(0)..=goal.x.saturating_add(reach).min(width as i32 - 1);
+    let all = rows.flat_map(move |y| columns.clone().map(move |x| Vertex::new(x, y)));
+    all.filter(move |&at| at.to(goal).norm_squared() as f64 <= cells * cells && space.is_free(at))
+}
+
+/// The vertex of the map's rectangle that is nearest along each axis.
+fn clamped<P: Placement>(space: &FreeSpace<P>, at: Vertex) -> Vertex {
+    let (width, height) = P::vertices(space.grid());
+    Vertex::new(at.x.clamp(0, width as i32 - 1), at.y.clamp(0, height as i32 - 1))
+}

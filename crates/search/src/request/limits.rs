@@ -1,0 +1,155 @@
+//! What stops a search before it has its answer.
+
+use std::{
+    fmt,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+};
+
+use mediant_moves::Cost;
+
+use crate::{path::Path, query::QueryError};
+
+/// Limits of a search. None is set at first; the first one that is met stops the search.
+///
+/// ```
+/// use std::{sync::{Arc, atomic::AtomicBool}, time::{Duration, Instant}};
+/// use mediant_search::Limits;
+///
+/// let (begin, cancelled) = (Instant::now(), Arc::new(AtomicBool::new(false)));
+/// let limits = Limits::new()
+///     .cost(500.0)
+///     .expansions(100_000)
+///     .deadline(move || begin.elapsed() > Duration::from_millis(5))
+///     .cancel(cancelled);
+/// # let _ = limits;
+/// ```
+#[derive(Clone, Default)]
+pub struct Limits {
+    cost: Option<f64>,
+    expansions: Option<u64>,
+    deadline: Option<Arc<dyn Fn() -> bool + Send + Sync>>,
+    cancel: Option<Arc<AtomicBool>>,
+}
+
+/// Which limit stopped a search.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Limit {
+    /// No path within the limit on its cost was found, or there is none.
+    Cost,
+    /// The number of expansions.
+    Expansions,
+    /// The deadline.
+    Deadline,
+    /// The flag that cancels it.
+    Cancelled,
+}
+
+impl fmt::Display for Limit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Cost => "cost",
+            Self::Expansions => "expansions",
+            Self::Deadline => "deadline",
+            Self::Cancelled => "cancelled",
+        })
+    }
+}
+
+/// The answer of a search that was stopped.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Stopped {
+    /// The limit.
+    pub by: Limit,
+    /// The best so far: a path to a goal, if one was found and it was not yet known whether it is the best;
+    /// else the path to the vertex nearest to a goal among those that the search expanded, by h_k (at k = ∞
+    /// by the straight line), the first of several. At least the start.
+    pub best: Path,
+    /// A lower bound on the cost of the path that was sought, in cells: no path over N(k), by an engine of
+    /// any-angle paths no legal path, is shorter. Up to the rounding of [`Cost`].
+    pub lower_bound: f64,
+}
+
+impl Limits {
+    /// How many expansions are made between two looks at the deadline.
+    pub const EXPANSIONS_PER_LOOK: u64 = 64;
+
+    /// No limits.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The greatest cost of a path, in cells, up to a factor of 1 + 2⁻³¹. An engine that guarantees nothing
+    /// of its paths may miss one that costs nearly as much.
+    #[must_use]
+    pub fn cost(mut self, cells: f64) -> Self {
+        self.cost = Some(cells);
+        self
+    }
+
+    /// The most expansions. The goal's is none.
+    #[must_use]
+    pub fn expansions(mut self, count: u64) -> Self {
+        self.expansions = Some(count);
+        self
+    }
+
+    /// Whether it is time to stop: asked at first and after each
+    /// [`EXPANSIONS_PER_LOOK`](Self::EXPANSIONS_PER_LOOK) expansions. Libraries read no clock; the caller
+    /// does.
+    #[must_use]
+    pub fn deadline(mut self, is_over: impl Fn() -> bool + Send + Sync + 'static) -> Self {
+        self.deadline = Some(Arc::new(is_over));
+        self
+    }
+
+    /// A flag by which another thread stops the search. Read before each expansion.
+    #[must_use]
+    pub fn cancel(mut self, flag: Arc<AtomicBool>) -> Self {
+        self.cancel = Some(flag);
+        self
+    }
+
+    /// Checks the limit on the cost.
+    pub(super) fn check(&self) -> Result<(), QueryError> {
+        if self.cost.is_some_and(|cost| cost.is_nan() || cost < 0.0) {
+            return Err(QueryError::CostLimit);
+        }
+        Ok(())
+    }
+
+    /// The greatest cost, with room for rounding.
+    pub(super) fn greatest_cost(&self) -> Cost {
+        const ONE: f64 = (1_u64 << Cost::FRACTION_BITS) as f64;
+        // A float that is too large becomes the greatest integer.
+        self.cost.map_or(Cost::MAX, |cost| Cost::from_bits((cost * (ONE + 2.0)) as u64))
+    }
+
+    /// The limit that is met after this many expansions.
+    pub(super) fn met(&self, expansions: u64, looks_at_deadline: bool) -> Option<Limit> {
+        if self.expansions.is_some_and(|most| expansions >= most) {
+            return Some(Limit::Expansions);
+        }
+        if self.cancel.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+            return Some(Limit::Cancelled);
+        }
+        let is_over = looks_at_deadline && self.deadline.as_ref().is_some_and(|is_over| is_over());
+        is_over.then_some(Limit::Deadline)
+    }
+}
+
+impl fmt::Debug for Limits {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Limits")
+            .field("cost", &self.cost)
+            .field("expansions", &self.expansions)
+            .field("deadline", &self.deadline.is_some())
+            .field("cancel", &self.cancel)
+            .finish()
+    }
+}

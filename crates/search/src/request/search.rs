@@ -1,0 +1,289 @@
+//! The search for the answer to a request.
+
+use mediant_grid::{FreeSpace, Placement, Vector, Vertex};
+use mediant_moves::Cost;
+
+use super::{
+    Request,
+    ends::{Ends, Pair},
+    limits::{Limit, Stopped},
+    watch::{Pause, Progress, Watch},
+};
+use crate::{
+    metric::Metric,
+    observer::Observer,
+    outcome::{Guarantee, Outcome},
+    path::Path,
+    planner::{Planner, Status},
+    query::QueryError,
+};
+
+/// The search for the answer to a [`Request`], by any planner, at once or in steps.
+///
+/// Several starts and goals are pairs, which are searched one after another, in the order of the distance
+/// that no path between them can be shorter than; until that is more than the cost of the best path found. A
+/// pair's search ends where its paths become longer than that.
+///
+/// ```
+/// use std::sync::Arc;
+/// use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph};
+/// use mediant_moves::{FiniteK, K};
+/// use mediant_search::{AStar, Hk, Outcome, Planner, Query, Request, Search, parts::Metric};
+///
+/// let map = AsciiMap::parse("
+///     ...#.
+///     ...#.
+/// ")?;
+/// let k = FiniteK::N8;
+/// let graph = GridGraph::<Centers>::new(Arc::new(map.grid), k, CornerRule::Never)?;
+/// let (mut planner, metric) = (AStar::new(&graph, Hk), Metric::new(K::Finite(k))?);
+/// let request = Query::new((0, 0), (4, 1)).nearest();
+/// let mut search = Search::new(&graph, &metric, planner.guarantee(), request)?;
+/// let answer = loop {
+///     if let Some(answer) = search.step(&mut planner, &metric, 1, &mut ())? {
+///         break answer;
+///     }
+/// };
+/// assert!(matches!(answer, Outcome::Nearest(path) if path.waypoints().last() == Some(&(2, 1).into())));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Search {
+    ends: Ends,
+    guarantee: Guarantee,
+    /// The pair that is searched, and whether the planner has begun with it.
+    next: usize,
+    has_begun: bool,
+    progress: Progress,
+    found: Option<Found>,
+    /// Of the pairs whose search met the limit on the cost: the path to the vertex nearest to its goal, with
+    /// its distance.
+    partial: Option<(Cost, Path)>,
+    /// The least lower bound of those pairs.
+    beyond_limit: Option<Cost>,
+    answer: Option<Outcome>,
+}
+
+/// The best path that was found.
+#[derive(Debug)]
+struct Found {
+    cost: Cost,
+    rank: (u32, u32),
+    path: Path,
+}
+
+impl Search {
+    /// A search that has not begun. `metric` is that of the planner's k, `guarantee` the planner's.
+    ///
+    /// # Errors
+    /// [`QueryError`] for ends that are missing, blocked or outside the map, unless the request says what to
+    /// do then, and for limits and tolerances that are no numbers, or less than 0.
+    pub fn new<P: Placement>(
+        space: &FreeSpace<P>,
+        metric: &Metric,
+        guarantee: Guarantee,
+        request: Request,
+    ) -> Result<Self, QueryError> {
+        let wishes = request.into_wishes();
+        let bound = if let Guarantee::Optimal(_) = guarantee { metric } else { &Metric::Euclidean };
+        let ends = Ends::new(space, metric, bound, &wishes)?;
+        let progress = Progress {
+            greatest: wishes.limits.greatest_cost(),
+            limits: wishes.limits,
+            expansions: 0,
+            step_end: 0,
+            known: Cost::MAX,
+            least: Cost::ZERO,
+            pause: None,
+            goal: Vertex::new(0, 0),
+            nearest: (Cost::MAX, Vertex::new(0, 0)),
+        };
+        Ok(Self {
+            answer: ends.pairs.is_empty().then_some(Outcome::Unreachable),
+            ends,
+            guarantee,
+            next: 0,
+            has_begun: false,
+            progress,
+            found: None,
+            partial: None,
+            beyond_limit: None,
+        })
+    }
+
+    /// Makes at most `expansions` expansions. Returns the answer once it is there; `None` before. All steps
+    /// must be made on the same planner, which answers nothing else in between.
+    ///
+    /// # Errors
+    /// [`QueryError::GaveUp`] by a planner that may fail.
+    pub fn step(
+        &mut self,
+        planner: &mut impl Planner,
+        metric: &Metric,
+        expansions: u64,
+        observer: &mut impl Observer,
+    ) -> Result<Option<Outcome>, QueryError> {
+        self.progress.step_end = self.progress.expansions.saturating_add(expansions);
+        while self.answer.is_none() {
+            let Some(&pair) = self.pair() else {
+                self.conclude();
+                break;
+            };
+            let status = self.search(pair, planner, metric, observer)?;
+            match (status, self.progress.pause.take()) {
+                (Status::Searching, None | Some(Pause::Step)) => return Ok(None),
+                (Status::Searching, Some(Pause::Limit(Limit::Cost))) => {
+                    self.leave_beyond_limit(pair, planner)
+                }
+                (Status::Searching, Some(Pause::Limit(limit))) => self.stop(limit, planner),
+                (Status::Searching, Some(Pause::Beaten)) | (Status::Unreachable, _) => self.leave(),
+                (Status::Found, _) => self.found(pair, planner),
+            }
+        }
+        Ok(self.answer.clone())
+    }
+
+    /// The pair to be searched, if the best path may lead between its ends.
+    fn pair(&self) -> Option<&Pair> {
+        self.ends.pairs.get(self.next).filter(|pair| pair.least <= self.progress.known)
+    }
+
+    /// Begins or continues the search of a pair.
+    fn search(
+        &mut self,
+        pair: Pair,
+        planner: &mut impl Planner,
+        metric: &Metric,
+        observer: &mut impl Observer,
+    ) -> Result<Status, QueryError> {
+        if !self.has_begun {
+            let Pair { query, least, .. } = pair;
+            self.progress.goal = query.goal;
+            self.progress.nearest = (metric.distance(query.start.to(query.goal)), query.start);
+            self.progress.least = least;
+            self.progress.pause = self.progress.reason();
+            if self.progress.pause.is_some_and(|pause| pause != Pause::Step) {
+                return Ok(Status::Searching);
+            }
+        }
+        let mut watch = Watch { progress: &mut self.progress, metric, observer };
+        if !self.has_begun {
+            let status = planner.begin(pair.query, &mut watch)?;
+            self.has_begun = true;
+            if status != Status::Searching {
+                return Ok(status);
+            }
+        }
+        planner.proceed(&mut watch)
+    }
+
+    /// Goes on to the next pair.
+    const fn leave(&mut self) {
+        self.next += 1;
+        self.has_begun = false;
+    }
+
+    fn found(&mut self, pair: Pair, planner: &mut impl Planner) {
+        if let Some(path) = planner.path_to(pair.query.goal) {
+            let cost = fixed_cost(&path);
+            if cost > self.progress.greatest {
+                return self.leave_beyond_limit(pair, planner);
+            }
+            let is_better = |known: &Found| (cost, pair.rank) < (known.cost, known.rank);
+            if self.found.as_ref().is_none_or(is_better) {
+                self.progress.known = cost;
+                self.found = Some(Found { cost, rank: pair.rank, path });
+            }
+        }
+        self.leave();
+    }
+
+    /// Leaves a pair whose paths cost more than the limit.
+    fn leave_beyond_limit(&mut self, pair: Pair, planner: &mut impl Planner) {
+        let least = self.current_bound(pair);
+        self.beyond_limit = Some(self.beyond_limit.map_or(least, |known| known.min(least)));
+        let distance = self.progress.nearest.0;
+        if self.partial.as_ref().is_none_or(|&(known, _)| distance < known) {
+            self.partial = Some((distance, self.path_to_nearest(planner)));
+        }
+        self.leave();
+    }
+
+    /// The path to the vertex nearest to the goal.
+    fn path_to_nearest(&self, planner: &mut impl Planner) -> Path {
+        let start = self.ends.pairs.get(self.next).map(|pair| pair.query.start);
+        let path = if self.has_begun { planner.path_to(self.progress.nearest.1) } else { None };
+        path.unwrap_or_else(|| Path::new(start.into_iter().collect()))
+    }
+
+    fn stop(&mut self, by: Limit, planner: &mut impl Planner) {
+        let (lower_bound, best) = (self.lower_bound(), self.best(planner));
+        self.answer = Some(Outcome::Stopped(Stopped { by, best, lower_bound }));
+    }
+
+    /// Makes the answer after the last pair.
+    fn conclude(&mut self) {
+        let lower_bound = self.lower_bound();
+        self.answer = Some(match (self.found.take(), self.partial.take()) {
+            (Some(Found { path, .. }), _) if self.ends.are_nearest => Outcome::Nearest(path),
+            (Some(Found { path, .. }), _) => Outcome::Found(path),
+            (None, Some((_, best))) => Outcome::Stopped(Stopped { by: Limit::Cost, best, lower_bound }),
+            (None, None) => Outcome::Unreachable,
+        });
+    }
+
+    /// The best so far; see [`Stopped::best`].
+    #[must_use]
+    pub fn best(&self, planner: &mut impl Planner) -> Path {
+        if let Some(path) = self.answer.as_ref().and_then(Outcome::path) {
+            return path.clone();
+        }
+        match (&self.found, &self.partial) {
+            (Some(found), _) => found.path.clone(),
+            (None, Some((distance, path))) if *distance <= self.progress.nearest.0 => path.clone(),
+            (None, _) => self.path_to_nearest(planner),
+        }
+    }
+
+    /// A lower bound on the cost of the answer, in cells; see [`Stopped::lower_bound`].
+    #[must_use]
+    pub fn lower_bound(&self) -> f64 {
+        /// Costs are rounded sums.
+        const ROUNDED: f64 = 1.0 - 1.0 / (1_u64 << 31) as f64;
+        let pairs = &self.ends.pairs;
+        let least = if let Guarantee::Optimal(_) | Guarantee::OptimalAnyAngle = self.guarantee {
+            let current = self.pair().map(|&pair| self.current_bound(pair));
+            let later = pairs.get(self.next + 1).map(|pair| pair.least);
+            let found = self.found.as_ref().map(|found| found.cost);
+            [current, later, found, self.beyond_limit].into_iter().flatten().min()
+        } else {
+            pairs.first().map(|pair| pair.least)
+        };
+        least.map_or(0.0, |least| least.to_f64() * ROUNDED)
+    }
+
+    /// A lower bound on the paths of the pair that is searched.
+    fn current_bound(&self, pair: Pair) -> Cost {
+        match self.guarantee {
+            Guarantee::Optimal(_) | Guarantee::OptimalAnyAngle if self.has_begun => {
+                self.progress.least.max(pair.least)
+            }
+            _ => pair.least,
+        }
+    }
+
+    /// The number of expansions so far.
+    #[must_use]
+    pub const fn expansions(&self) -> u64 {
+        self.progress.expansions
+    }
+}
+
+/// The cost of a path in fixed point, by which paths of the same length compare as equal.
+fn fixed_cost(path: &Path) -> Cost {
+    path.waypoints().windows(2).fold(Cost::ZERO, |cost, ends| {
+        let v = ends[0].to(ends[1]);
+        let times = v.gcd().max(1);
+        cost + Cost::of_move(Vector::new(v.x / times as i32, v.y / times as i32)) * times
+    })
+}

@@ -1,0 +1,107 @@
+//! What watches a search for a request.
+
+use mediant_grid::Vertex;
+use mediant_moves::Cost;
+
+use super::limits::{Limit, Limits};
+use crate::{
+    metric::Metric,
+    observer::{NodeEvent, Observer},
+};
+
+/// Why a search paused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Pause {
+    /// The step is over.
+    Step,
+    /// A limit is met.
+    Limit(Limit),
+    /// Another path is known that is at least as short.
+    Beaten,
+}
+
+/// What is known of a search.
+#[derive(Debug)]
+pub(super) struct Progress {
+    pub(super) limits: Limits,
+    /// All expansions, of all pairs.
+    pub(super) expansions: u64,
+    /// How many expansions there are when the step is over.
+    pub(super) step_end: u64,
+    /// The greatest cost that the request allows.
+    pub(super) greatest: Cost,
+    /// The cost of the best path that is known.
+    pub(super) known: Cost,
+    /// The least f of the open nodes when the search paused.
+    pub(super) least: Cost,
+    pub(super) pause: Option<Pause>,
+    pub(super) goal: Vertex,
+    /// The vertex nearest to the goal among those that were reached, and its distance.
+    pub(super) nearest: (Cost, Vertex),
+}
+
+/// An observer that counts, pauses at limits, and knows what is nearest to the goal.
+pub(super) struct Watch<'w, O> {
+    pub(super) progress: &'w mut Progress,
+    pub(super) metric: &'w Metric,
+    pub(super) observer: &'w mut O,
+}
+
+impl Progress {
+    /// The reason to pause now, if there is one.
+    pub(super) fn reason(&self) -> Option<Pause> {
+        let Self { expansions, .. } = *self;
+        if self.least > self.greatest {
+            return Some(Pause::Limit(Limit::Cost));
+        }
+        if self.least > self.known {
+            return Some(Pause::Beaten);
+        }
+        let looks = expansions.is_multiple_of(Limits::EXPANSIONS_PER_LOOK);
+        if let Some(limit) = self.limits.met(expansions, looks) {
+            return Some(Pause::Limit(limit));
+        }
+        (expansions >= self.step_end).then_some(Pause::Step)
+    }
+}
+
+impl<O: Observer> Observer for Watch<'_, O> {
+    fn expanded(&mut self, node: NodeEvent) {
+        self.progress.expansions += 1;
+        self.observer.expanded(node);
+    }
+
+    fn reached(&mut self, at: Vertex, g: Cost) {
+        let distance = self.metric.distance(at.to(self.progress.goal));
+        if distance < self.progress.nearest.0 {
+            self.progress.nearest = (distance, at);
+        }
+        self.observer.reached(at, g);
+    }
+
+    fn pauses(&mut self, least: Cost) -> bool {
+        self.progress.least = least;
+        self.progress.pause = self.progress.reason();
+        self.progress.pause.is_some() || self.observer.pauses(least)
+    }
+
+    fn generated(&mut self, node: NodeEvent) {
+        self.observer.generated(node);
+    }
+
+    fn updated(&mut self, node: NodeEvent) {
+        self.observer.updated(node);
+    }
+
+    fn percolated(&mut self, swaps: u32) {
+        self.observer.percolated(swaps);
+    }
+
+    fn scanned(&mut self, vertices: u32) {
+        self.observer.scanned(vertices);
+    }
+
+    fn fell_back(&mut self) {
+        self.observer.fell_back();
+    }
+}
