@@ -15,6 +15,9 @@ pub(crate) trait Erased {
     /// [`Search::begin`].
     fn begin(&mut self, query: Query, observer: &mut dyn Observer) -> Result<Status, QueryError>;
 
+    /// [`Search::begin_from`].
+    fn begin_from(&mut self, starts: &[Vertex], goal: Vertex, observer: &mut dyn Observer) -> Option<Status>;
+
     /// [`Search::proceed`].
     fn proceed(&mut self, observer: &mut dyn Observer) -> Result<Status, QueryError>;
 
@@ -45,6 +48,15 @@ impl<S: Search> Erased for S {
         Search::begin(self, query, &mut observer)
     }
 
+    fn begin_from(
+        &mut self,
+        starts: &[Vertex],
+        goal: Vertex,
+        mut observer: &mut dyn Observer,
+    ) -> Option<Status> {
+        Search::begin_from(self, starts, goal, &mut observer)
+    }
+
     fn proceed(&mut self, mut observer: &mut dyn Observer) -> Result<Status, QueryError> {
         Search::proceed(self, &mut observer)
     }
@@ -68,6 +80,15 @@ pub(crate) struct Dynamic<'s>(pub(crate) &'s mut (dyn Erased + Send));
 impl Search for Dynamic<'_> {
     fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
         self.0.begin(query, observer)
+    }
+
+    fn begin_from(
+        &mut self,
+        starts: &[Vertex],
+        goal: Vertex,
+        observer: &mut impl Observer,
+    ) -> Option<Status> {
+        self.0.begin_from(starts, goal, observer)
     }
 
     fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {

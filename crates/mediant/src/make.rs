@@ -53,8 +53,11 @@ pub(crate) fn search(index: &Index) -> Result<Boxed, Error> {
     }
 }
 
+/// Smooths a path.
+pub(crate) type Smoother = Box<dyn Fn(&Path) -> Path + Send>;
+
 /// What smooths the paths of an index's planners.
-pub(crate) fn smoother(index: &Index, smoothing: Smoothing) -> Box<dyn Fn(&Path) -> Path + Send> {
+pub(crate) fn smoother(index: &Index, smoothing: Smoothing) -> Smoother {
     match &index.prepared {
         Prepared::Centers(graph, _) => smoother_in(Arc::clone(graph), smoothing),
         Prepared::Corners(graph, _) => smoother_in(Arc::clone(graph), smoothing),
@@ -63,10 +66,7 @@ pub(crate) fn smoother(index: &Index, smoothing: Smoothing) -> Box<dyn Fn(&Path)
     }
 }
 
-fn smoother_in(
-    space: Arc<impl HasFreeSpace + Send + Sync + 'static>,
-    smoothing: Smoothing,
-) -> Box<dyn Fn(&Path) -> Path + Send> {
+fn smoother_in(space: Arc<impl HasFreeSpace + Send + Sync + 'static>, smoothing: Smoothing) -> Smoother {
     Box::new(move |path| smoothing.apply(space.free_space(), path))
 }
 

@@ -88,8 +88,8 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> AStar<G, H> {
 
     /// After a search from its last waypoint, extends a path to a vertex that the search has reached.
     pub fn extend_to(&self, path: &mut Vec<Vertex>, to: Vertex) {
-        if let Some((start, to)) = path.last().and_then(|&at| self.graph.id(at).zip(self.graph.id(to))) {
-            self.extend_back(start, to, path);
+        if let Some(to) = self.graph.id(to).filter(|&to| !path.is_empty() && self.cost_to(to).is_some()) {
+            self.extend_back(to, path);
         }
     }
 

@@ -36,6 +36,7 @@ pub struct BestFirst<G, H, S, N = ()> {
     pub(crate) successors: S,
     nodes: NodeStore<N>,
     open: OpenList,
+    starts: Vec<VertexId>,
     aim: Aim,
     status: Status,
 }
@@ -43,7 +44,6 @@ pub struct BestFirst<G, H, S, N = ()> {
 /// From where to where a search leads.
 #[derive(Clone, Copy, Debug)]
 struct Aim {
-    start: VertexId,
     /// `None` for a search that finds the distances of all vertices.
     goal: Option<VertexId>,
     /// Vertices through which every path costs more are not expanded.
@@ -53,7 +53,7 @@ struct Aim {
 }
 
 impl Aim {
-    const NONE: Self = Self { start: VertexId(0), goal: None, limit: Cost::MAX, is_retry: false };
+    const NONE: Self = Self { goal: None, limit: Cost::MAX, is_retry: false };
 }
 
 impl<P, G, H, S, N> BestFirst<G, H, S, N>
@@ -115,8 +115,9 @@ where
     #[must_use]
     pub fn with_successors(graph: G, heuristic: H, successors: S) -> Self {
         let nodes = NodeStore::new(graph.vertex_count());
-        let (open, aim, status) = (OpenList::default(), Aim::NONE, Status::default());
-        Self { graph, heuristic, successors, nodes, open, aim, status }
+        let (open, starts) = (OpenList::default(), Vec::new());
+        let (aim, status) = (Aim::NONE, Status::default());
+        Self { graph, heuristic, successors, nodes, open, starts, aim, status }
     }
 
     /// The goal; outside the map, where no move leads, if there is none.
@@ -124,19 +125,27 @@ where
         self.aim.goal.map_or(Vertex::new(-1, -1), |goal| self.graph.vertex(goal))
     }
 
-    /// Makes the start the only node that is known.
+    /// Makes the starts the only nodes that are known.
     fn begin_at(&mut self, aim: Aim, observer: &mut impl Observer) {
         self.aim = aim;
-        let (start, goal_at) = (aim.start, self.goal_at());
-        let Self { graph, heuristic, nodes, open, .. } = self;
-        let at = graph.vertex(start);
-        let h = heuristic.estimate(graph, at.to(goal_at));
+        self.status = Status::Searching;
+        let goal_at = self.goal_at();
+        let Self { graph, heuristic, nodes, open, starts, .. } = self;
         nodes.start_search();
         open.clear();
-        nodes.set_path(start, Cost::ZERO, 0, N::to(start));
-        observer.generated(NodeEvent { at, parent: None, g: Cost::ZERO, f: h });
-        open.push(Entry::new(h, h, start), |id, slot| nodes.set_slot(id, slot));
-        self.status = Status::Searching;
+        for &start in &*starts {
+            let at = graph.vertex(start);
+            let h = heuristic.estimate(graph, at.to(goal_at));
+            nodes.set_path(start, Cost::ZERO, 0, N::to(start));
+            observer.generated(NodeEvent { at, parent: None, g: Cost::ZERO, f: h });
+            open.push(Entry::new(h, h, start), |id, slot| nodes.set_slot(id, slot));
+        }
+    }
+
+    /// Makes a vertex the only start of the next search.
+    fn set_start(&mut self, start: VertexId) {
+        self.starts.clear();
+        self.starts.push(start);
     }
 
     /// Turns the pruning on again, if it is off.
@@ -160,14 +169,16 @@ where
         self.end_retry();
         self.status = Status::Unreachable;
         if let Some((start, goal)) = query.ends(&self.graph)? {
-            self.begin_at(Aim { start, goal: Some(goal), limit, is_retry: false }, observer);
+            self.set_start(start);
+            self.begin_at(Aim { goal: Some(goal), limit, is_retry: false }, observer);
         }
         Ok(self.status)
     }
 
     /// Searches all that can be reached, without a pause.
     pub(crate) fn flood(&mut self, start: VertexId) {
-        self.begin_at(Aim { start, ..Aim::NONE }, &mut ());
+        self.set_start(start);
+        self.begin_at(Aim::NONE, &mut ());
         self.status = self.run(&mut ());
     }
 
@@ -176,7 +187,7 @@ where
     fn run(&mut self, observer: &mut impl Observer) -> Status {
         let goal_at = self.goal_at();
         let Self { graph, heuristic, successors, nodes, open, aim, .. } = self;
-        let Aim { start, goal, limit, .. } = *aim;
+        let Aim { goal, limit, .. } = *aim;
         let (graph, heuristic, successors): (&GridGraph<P>, &H, &S) = (graph, heuristic, successors);
         let reopens = H::ADMISSIBLE || S::DEPEND_ON_ARRIVAL || graph.has_closed_gaps();
 
@@ -201,7 +212,8 @@ where
             if limit != Cost::MAX && node.g + graph.costs().distance(at.to(goal_at)) > limit {
                 continue;
             }
-            let by = (id != start).then(|| node.arrived_by());
+            // Only a start costs nothing.
+            let by = (node.g != Cost::ZERO).then(|| node.arrived_by());
             let parent = by.map(|by| node.pointer.parent(graph, graph.step(by), id, at).1);
             observer.expanded(NodeEvent { at, parent, g: node.g, f: entry.f() });
             if !graph.is_closed_gap(at) {
@@ -251,15 +263,11 @@ where
 
 impl<G, H, S, N: ParentPointer> BestFirst<G, H, S, N> {
     /// After a search, adds the waypoints of the best known path to a goal, without its start.
-    pub(crate) fn extend_back<P: Placement>(
-        &self,
-        start: VertexId,
-        goal: VertexId,
-        waypoints: &mut Vec<Vertex>,
-    ) where
+    pub(crate) fn extend_back<P: Placement>(&self, goal: VertexId, waypoints: &mut Vec<Vertex>)
+    where
         G: Deref<Target = GridGraph<P>>,
     {
-        extend_back(&self.graph, &self.nodes, start, goal, waypoints);
+        extend_back(&self.graph, &self.nodes, goal, waypoints);
     }
 
     /// After a search, the cost of the best known path to a vertex.
@@ -285,6 +293,22 @@ where
         self.begin_within(query, Cost::MAX, observer)
     }
 
+    fn begin_from(
+        &mut self,
+        starts: &[Vertex],
+        goal: Vertex,
+        observer: &mut impl Observer,
+    ) -> Option<Status> {
+        self.end_retry();
+        let goal = self.graph.id(goal)?;
+        self.starts.clear();
+        self.starts.extend(starts.iter().filter_map(|&start| self.graph.id(start)));
+        self.starts.sort_unstable();
+        self.starts.dedup();
+        self.begin_at(Aim { goal: Some(goal), ..Aim::NONE }, observer);
+        Some(self.status)
+    }
+
     fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
         if self.status == Status::Searching {
             self.status = self.run(observer);
@@ -302,7 +326,7 @@ where
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
         let id = self.graph.id(at).filter(|&id| self.aim.goal.is_some() && self.nodes.get(id).is_some())?;
-        Some(trace_back(&self.graph, &self.nodes, self.aim.start, id))
+        Some(trace_back(&self.graph, &self.nodes, id))
     }
 
     fn guarantee(&self) -> Guarantee {

@@ -27,6 +27,18 @@ pub trait Planner {
     /// [`QueryError`] when an end of the query is blocked or outside the map.
     fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError>;
 
+    /// Begins the search for the shortest of the paths from several starts to a goal, which all have a way to
+    /// it. `None` by a planner that searches from one start only: nothing was begun then.
+    fn begin_from(
+        &mut self,
+        starts: &[Vertex],
+        goal: Vertex,
+        observer: &mut impl Observer,
+    ) -> Option<Status> {
+        let _ = (starts, goal, observer);
+        None
+    }
+
     /// Continues the search until it is finished or the observer pauses it. A search that is finished, or was
     /// never begun, stays as it is.
     ///

@@ -1,7 +1,7 @@
 //! From the nodes of a finished search to the path that it found.
 
 use mediant_grid::{GridGraph, Placement, Vector, Vertex, VertexId};
-use mediant_moves::decompose;
+use mediant_moves::{Cost, decompose};
 
 use crate::{nodes::NodeStore, parent::ParentPointer, path::Path};
 
@@ -9,13 +9,14 @@ use crate::{nodes::NodeStore, parent::ParentPointer, path::Path};
 pub(crate) fn trace_back<P: Placement, N: ParentPointer>(
     graph: &GridGraph<P>,
     nodes: &NodeStore<N>,
-    start: VertexId,
     goal: VertexId,
 ) -> Path {
-    let turns = LegsBack::new(graph, nodes, start, goal).turns().count();
-    let mut waypoints = Vec::with_capacity(turns + 1);
-    waypoints.push(graph.vertex(start));
-    extend_back(graph, nodes, start, goal, &mut waypoints);
+    let mut legs = LegsBack::new(graph, nodes, goal);
+    let count = turns(&mut legs).count();
+    let mut waypoints = Vec::with_capacity(count + 1);
+    // The legs end at the start.
+    waypoints.push(legs.node.1);
+    extend_back(graph, nodes, goal, &mut waypoints);
     Path::new(waypoints)
 }
 
@@ -24,12 +25,11 @@ pub(crate) fn trace_back<P: Placement, N: ParentPointer>(
 pub(crate) fn extend_back<P: Placement, N: ParentPointer>(
     graph: &GridGraph<P>,
     nodes: &NodeStore<N>,
-    start: VertexId,
     goal: VertexId,
     waypoints: &mut Vec<Vertex>,
 ) {
     let first = waypoints.len();
-    waypoints.extend(LegsBack::new(graph, nodes, start, goal).turns());
+    waypoints.extend(turns(LegsBack::new(graph, nodes, goal)));
     waypoints[first..].reverse();
 }
 
@@ -37,22 +37,21 @@ pub(crate) fn extend_back<P: Placement, N: ParentPointer>(
 struct LegsBack<'s, P: Placement, N> {
     graph: &'s GridGraph<P>,
     nodes: &'s NodeStore<N>,
-    start: VertexId,
     node: (VertexId, Vertex),
     /// The first of two legs between a node and its parent, when the second has been returned.
     pending: Option<(Vertex, Vector)>,
 }
 
 impl<'s, P: Placement, N: ParentPointer> LegsBack<'s, P, N> {
-    fn new(graph: &'s GridGraph<P>, nodes: &'s NodeStore<N>, start: VertexId, goal: VertexId) -> Self {
-        Self { graph, nodes, start, node: (goal, graph.vertex(goal)), pending: None }
+    fn new(graph: &'s GridGraph<P>, nodes: &'s NodeStore<N>, goal: VertexId) -> Self {
+        Self { graph, nodes, node: (goal, graph.vertex(goal)), pending: None }
     }
+}
 
-    /// The ends of those legs after which the direction changes, the goal included.
-    fn turns(self) -> impl Iterator<Item = Vertex> {
-        let mut last = None;
-        self.filter(move |&(_, v)| last.replace(v) != Some(v)).map(|(end, _)| end)
-    }
+/// The ends of those legs after which the direction changes, the goal included.
+fn turns(legs: impl Iterator<Item = (Vertex, Vector)>) -> impl Iterator<Item = Vertex> {
+    let mut last = None;
+    legs.filter(move |&(_, v)| last.replace(v) != Some(v)).map(|(end, _)| end)
 }
 
 impl<P: Placement, N: ParentPointer> Iterator for LegsBack<'_, P, N> {
@@ -63,7 +62,8 @@ impl<P: Placement, N: ParentPointer> Iterator for LegsBack<'_, P, N> {
             return Some(leg);
         }
         let (id, at) = self.node;
-        let node = self.nodes.get(id).filter(|_| id != self.start)?;
+        // Only a start costs nothing: no move does.
+        let node = self.nodes.get(id).filter(|node| node.g != Cost::ZERO)?;
         let step = self.graph.step(node.arrived_by());
         self.node = node.pointer.parent(self.graph, step, id, at);
         let (from, v) = (self.node.1, step.vector());

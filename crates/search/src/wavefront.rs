@@ -171,8 +171,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Planner for Wavefront<G> {
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
         let id = self.graph.id(at).filter(|&id| self.goal.is_some() && self.nodes.get(id).is_some())?;
-        let start = *self.reached.first()?;
-        Some(trace_back(&self.graph, &self.nodes, start, id))
+        Some(trace_back(&self.graph, &self.nodes, id))
     }
 
     fn guarantee(&self) -> Guarantee {

@@ -10,7 +10,13 @@ use mediant_search::{
 };
 
 use crate::{
-    configured::ConfiguredEngine, erased::Erased, error::Error, index::Index, make, map::Map, setup::Setup,
+    configured::ConfiguredEngine,
+    erased::Erased,
+    error::Error,
+    index::Index,
+    make::{self, Smoother},
+    map::Map,
+    setup::Setup,
     space::Space,
 };
 
@@ -33,7 +39,7 @@ pub struct Planner {
     index: Index,
     search: Box<dyn Erased + Send>,
     /// Smooths a path; `None` for paths as they are found.
-    smooth: Option<Box<dyn Fn(&Path) -> Path + Send>>,
+    smooth: Option<Smoother>,
     guarantee: Guarantee,
     /// The search that was begun last.
     begun: Option<Search>,

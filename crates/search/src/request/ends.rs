@@ -29,6 +29,12 @@ pub(super) struct Ends {
 }
 
 impl Ends {
+    /// The one start that all pairs have, if there are several pairs.
+    pub(super) fn only_start(&self) -> Option<Vertex> {
+        let start = self.pairs.first()?.query.start;
+        (self.pairs.len() > 1 && self.pairs.iter().all(|pair| pair.query.start == start)).then_some(start)
+    }
+
     /// The pairs of a request. `metric` is h_k or the straight line, by which 'near' is measured; `bound` is
     /// the metric by which no path is shorter.
     pub(super) fn new<P: Placement>(

@@ -123,6 +123,11 @@ impl Limits {
         Ok(())
     }
 
+    /// Whether there are none.
+    pub(super) const fn are_none(&self) -> bool {
+        self.cost.is_none() && self.expansions.is_none() && self.deadline.is_none() && self.cancel.is_none()
+    }
+
     /// The greatest cost, with room for rounding.
     pub(super) fn greatest_cost(&self) -> Cost {
         const ONE: f64 = (1_u64 << Cost::FRACTION_BITS) as f64;

@@ -54,6 +54,8 @@ pub struct Search {
     /// The pair that is searched, and whether the planner has begun with it.
     next: usize,
     has_begun: bool,
+    /// The only start, while it is searched from all goals at once.
+    backward: Backward,
     progress: Progress,
     found: Option<Found>,
     /// Of the pairs whose search met the limit on the cost: the path to the vertex nearest to its goal, with
@@ -62,6 +64,16 @@ pub struct Search {
     /// The least lower bound of those pairs.
     beyond_limit: Option<Cost>,
     answer: Option<Outcome>,
+}
+
+/// Whether a search leads from all goals at once to the only start: for a goal with a tolerance, where it
+/// takes one search instead of one for each vertex near the goal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Backward {
+    No,
+    /// If the planner can.
+    Try(Vertex),
+    To(Vertex),
 }
 
 /// The best path that was found.
@@ -87,6 +99,11 @@ impl Search {
         let wishes = request.into_wishes();
         let bound = if let Guarantee::Optimal(_) = guarantee { metric } else { &Metric::Euclidean };
         let ends = Ends::new(space, metric, bound, &wishes)?;
+        // Only forward a stopped search has a path that begins at the start.
+        let backward = match ends.only_start() {
+            Some(start) if wishes.tolerance > 0.0 && wishes.limits.are_none() => Backward::Try(start),
+            _ => Backward::No,
+        };
         let progress = Progress {
             greatest: wishes.limits.greatest_cost(),
             limits: wishes.limits,
@@ -104,6 +121,7 @@ impl Search {
             guarantee,
             next: 0,
             has_begun: false,
+            backward,
             progress,
             found: None,
             partial: None,
@@ -133,7 +151,7 @@ impl Search {
             match (status, self.progress.pause.take()) {
                 (Status::Searching, None | Some(Pause::Step)) => return Ok(None),
                 (Status::Searching, Some(Pause::Limit(Limit::Cost))) => {
-                    self.leave_beyond_limit(pair, planner)
+                    self.leave_beyond_limit(pair, planner);
                 }
                 (Status::Searching, Some(Pause::Limit(limit))) => self.stop(limit, planner),
                 (Status::Searching, Some(Pause::Beaten)) | (Status::Unreachable, _) => self.leave(),
@@ -167,6 +185,12 @@ impl Search {
             }
         }
         let mut watch = Watch { progress: &mut self.progress, metric, observer };
+        if let Backward::Try(start) = self.backward {
+            let goals: Vec<Vertex> = self.ends.pairs.iter().map(|pair| pair.query.goal).collect();
+            let status = planner.begin_from(&goals, start, &mut watch);
+            self.backward = status.map_or(Backward::No, |_| Backward::To(start));
+            self.has_begun = status.is_some();
+        }
         if !self.has_begun {
             let status = planner.begin(pair.query, &mut watch)?;
             self.has_begun = true;
@@ -184,6 +208,13 @@ impl Search {
     }
 
     fn found(&mut self, pair: Pair, planner: &mut impl Planner) {
+        if let Backward::To(start) = self.backward {
+            self.next = self.ends.pairs.len();
+            let back = planner.path_to(start).map(Path::into_waypoints).unwrap_or_default();
+            let path = Path::new(back.into_iter().rev().collect());
+            self.found = Some(Found { cost: fixed_cost(&path), rank: pair.rank, path });
+            return;
+        }
         if let Some(path) = planner.path_to(pair.query.goal) {
             let cost = fixed_cost(&path);
             if cost > self.progress.greatest {
@@ -212,7 +243,11 @@ impl Search {
     /// The path to the vertex nearest to the goal.
     fn path_to_nearest(&self, planner: &mut impl Planner) -> Path {
         let start = self.ends.pairs.get(self.next).map(|pair| pair.query.start);
-        let path = if self.has_begun { planner.path_to(self.progress.nearest.1) } else { None };
+        let path = if self.has_begun && self.backward == Backward::No {
+            planner.path_to(self.progress.nearest.1)
+        } else {
+            None
+        };
         path.unwrap_or_else(|| Path::new(start.into_iter().collect()))
     }
 

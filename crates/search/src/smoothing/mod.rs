@@ -136,6 +136,15 @@ where
         self.planner.begin(query, observer)
     }
 
+    fn begin_from(
+        &mut self,
+        starts: &[Vertex],
+        goal: Vertex,
+        observer: &mut impl Observer,
+    ) -> Option<Status> {
+        self.planner.begin_from(starts, goal, observer)
+    }
+
     fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
         self.planner.proceed(observer)
     }
