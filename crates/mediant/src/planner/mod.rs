@@ -5,9 +5,7 @@ mod steps;
 use std::fmt;
 
 use mediant_grid::Identity;
-use mediant_search::{
-    Counters, Guarantee, Observer, Outcome, Path, QueryError, Request, Search, parts::Metric,
-};
+use mediant_search::{Counters, Guarantee, Observer, Outcome, QueryError, Request, Search, parts::Metric};
 
 use crate::{
     configured::ConfiguredEngine,
