@@ -80,6 +80,7 @@ mod setup_error;
 mod shared_rules;
 mod space;
 mod suite;
+mod table;
 mod text;
 
 pub use capabilities::Capabilities;
@@ -109,4 +110,5 @@ pub use planner::Planner;
 pub use setup::Setup;
 pub use setup_error::SetupError;
 pub use space::Space;
+pub use table::Table;
 pub use text::TextError;

@@ -6,7 +6,7 @@ use mediant_grid::{
     Centers, Corners, FreeSpace, GridGraph, Identity, Placement, PlacementKind, Rectangle, Rules, Vertex,
 };
 use mediant_moves::{FiniteK, K};
-use mediant_search::{Dijkstra, Query, Wavefront, Zero};
+use mediant_search::{Dijkstra, End, Query, QueryError, Wavefront, Zero};
 
 use crate::{
     configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion, setup::Setup,
@@ -216,6 +216,14 @@ impl Space {
 
     pub(crate) fn placed(&self) -> &Placed {
         &self.inner.placed
+    }
+
+    /// Checks an end of a query.
+    pub(crate) fn check_end(&self, end: End, at: Vertex) -> Result<(), QueryError> {
+        match self.placed() {
+            Placed::Centers(layers) => end.check(&layers.free, at),
+            Placed::Corners(layers) => end.check(&layers.free, at),
+        }
     }
 
     /// Checks the ends of a query.

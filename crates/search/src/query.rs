@@ -24,20 +24,8 @@ impl Query {
     /// # Errors
     /// A [`QueryError`] for the first end that is not; the start is checked first.
     pub fn check<P: Placement>(self, space: &FreeSpace<P>) -> Result<(), QueryError> {
-        for (end, at) in [(End::Start, self.start), (End::Goal, self.goal)] {
-            if space.id(at).is_none() {
-                let (width, height) = P::vertices(space.grid());
-                return Err(QueryError::Outside {
-                    end,
-                    at,
-                    last: Vertex::new(width as i32 - 1, height as i32 - 1),
-                });
-            }
-            if !space.is_free(at) {
-                return Err(QueryError::Blocked { end, at });
-            }
-        }
-        Ok(())
+        End::Start.check(space, self.start)?;
+        End::Goal.check(space, self.goal)
     }
 
     /// The ids of start and goal; `None` when there is no path. The connected components tell this in
@@ -62,6 +50,22 @@ pub enum End {
     Start,
     /// Its goal.
     Goal,
+}
+
+impl End {
+    /// Checks that a vertex can be this end of a path: that it is a free vertex of the map.
+    ///
+    /// # Errors
+    /// [`QueryError::Outside`] or [`QueryError::Blocked`].
+    pub fn check<P: Placement>(self, space: &FreeSpace<P>, at: Vertex) -> Result<(), QueryError> {
+        let end = self;
+        if space.id(at).is_none() {
+            let (width, height) = P::vertices(space.grid());
+            let last = Vertex::new(width as i32 - 1, height as i32 - 1);
+            return Err(QueryError::Outside { end, at, last });
+        }
+        if space.is_free(at) { Ok(()) } else { Err(QueryError::Blocked { end, at }) }
+    }
 }
 
 impl std::fmt::Display for End {
@@ -116,15 +120,4 @@ pub enum QueryError {
         /// The vertex of the query.
         at: Vertex,
     },
-}
-
-impl QueryError {
-    /// The same error of this end.
-    pub(crate) const fn at_end(self, end: End) -> Self {
-        match self {
-            Self::Outside { at, last, .. } => Self::Outside { end, at, last },
-            Self::Blocked { at, .. } => Self::Blocked { end, at },
-            other => other,
-        }
-    }
 }

@@ -8,6 +8,7 @@ mod mistakes;
 mod odd_input;
 mod options;
 mod subgoals;
+mod table;
 
 use mediant::{Error, Index, Map, Planner, Setup};
 use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Rules};

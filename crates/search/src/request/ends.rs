@@ -134,8 +134,7 @@ fn free_ends<P: Placement>(
                 .and_then(|(_, near)| near.first().copied());
             free.push(moved.ok_or(QueryError::Blocked { end, at })?);
         } else if end == End::Start || !wishes.nearest || space.id(at).is_none() {
-            let query = Query::new(at, at);
-            query.check(space).map_err(|error| error.at_end(end))?;
+            end.check(space, at)?;
         }
     }
     Ok(free)

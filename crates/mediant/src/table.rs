@@ -1,0 +1,84 @@
+//! Tables of distances, many to many.
+
+use mediant_grid::Vertex;
+use mediant_search::{End, Outcome, Query, QueryError};
+
+use crate::{error::Error, index::Index, planner::Planner};
+
+/// The lengths of the paths from several starts to several goals.
+///
+/// ```
+/// use mediant::{Engine, K, Map, Motion};
+///
+/// let space = Map::from_fn(9, 9, |x, y| x == 4 && y != 8)?.space(Motion::centers(K::N8))?;
+/// let table = space.prepare(Engine::Subgoal)?.table([(0, 0), (8, 0)], [(8, 0), (3, 0), (5, 1)])?;
+/// assert_eq!(table.row(0)[1], 3.0);
+/// assert_eq!(table.get(1, 0), Some(0.0));
+/// # Ok::<(), mediant::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    goals: usize,
+    values: Vec<f64>,
+}
+
+impl Table {
+    /// The length of the path from the start with this number to the goal with that one, in cells: infinite
+    /// if there is no path. `None` for numbers that no end has.
+    #[must_use]
+    pub fn get(&self, start: usize, goal: usize) -> Option<f64> {
+        self.row(start).get(goal).copied()
+    }
+
+    /// The lengths of the paths from a start to all goals. Empty for a number that no start has.
+    #[must_use]
+    pub fn row(&self, start: usize) -> &[f64] {
+        let row = start.checked_mul(self.goals).and_then(|first| self.values.get(first..first + self.goals));
+        row.unwrap_or(&[])
+    }
+
+    /// All lengths, a row for each start.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+}
+
+impl Index {
+    /// The lengths of the paths from each start to each goal, as the engine's planners find them: a query for
+    /// each pair. With the feature `parallel` on all cores.
+    ///
+    /// # Errors
+    /// [`Error::Query`] for the first end that is blocked or outside the map, and where the engine gives up.
+    pub fn table<S: Into<Vertex>, G: Into<Vertex>>(
+        &self,
+        starts: impl IntoIterator<Item = S>,
+        goals: impl IntoIterator<Item = G>,
+    ) -> Result<Table, Error> {
+        let starts: Vec<Vertex> = starts.into_iter().map(Into::into).collect();
+        let goals: Vec<Vertex> = goals.into_iter().map(Into::into).collect();
+        for (end, ends) in [(End::Start, &starts), (End::Goal, &goals)] {
+            ends.iter().try_for_each(|&at| self.space().check_end(end, at))?;
+        }
+        let values = rows(self, &starts, &goals)?;
+        Ok(Table { goals: goals.len(), values: values.concat() })
+    }
+}
+
+#[cfg(feature = "parallel")]
+fn rows(index: &Index, starts: &[Vertex], goals: &[Vertex]) -> Result<Vec<Vec<f64>>, QueryError> {
+    use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+    starts.par_iter().map_init(|| index.planner(), |planner, &start| row(planner, start, goals)).collect()
+}
+
+#[cfg(not(feature = "parallel"))]
+fn rows(index: &Index, starts: &[Vertex], goals: &[Vertex]) -> Result<Vec<Vec<f64>>, QueryError> {
+    let mut planner = index.planner();
+    starts.iter().map(|&start| row(&mut planner, start, goals)).collect()
+}
+
+/// The lengths of the paths from one start.
+fn row(planner: &mut Planner, start: Vertex, goals: &[Vertex]) -> Result<Vec<f64>, QueryError> {
+    let length = |outcome: Outcome| outcome.cost().unwrap_or(f64::INFINITY);
+    goals.iter().map(|&goal| planner.find(Query::new(start, goal)).map(length)).collect()
+}
