@@ -1,21 +1,35 @@
-//! Reads and writes MovingAI maps and scenarios without loss. Features add saved indexes and search traces.
+//! Reads and writes maps as people have them: MovingAI maps and pictures; and scenarios. Features add
+//! PNG, saved indexes and search traces.
 //!
-//! **The key decision: a parsed file keeps its bytes.** [`MapFile`] and [`Scenario`] hold the text from which
-//! they were parsed beside what the parser found in it. So writing gives back every byte: line ends, the
-//! order of the header, separators, the digits of a length. A parser that kept these as properties could
-//! forget one. A map made from a grid, or a scenario made from a list of queries, gets its text at once, in
-//! the plainest form.
+//! | file | type | its grid |
+//! |---|---|---|
+//! | MovingAI `.map` | [`MapFile`] | `.`, `G` and `S` are free |
+//! | PGM and PBM, P1, P2, P4, P5; PNG | [`Raster`] | dark pixels are blocked, and those that are transparent, see [`ImageOptions`] |
 //!
-//! Input is not trusted: memory grows with the bytes that a file has, never with the sizes that it states.
-//! Each error names the line and the column (in bytes, both from 1), what was expected, what was found, and
-//! how to mend it.
+//! **The key decision for MovingAI files: a parsed file keeps its bytes.** [`MapFile`] and [`Scenario`] hold
+//! the text from which they were parsed beside what the parser found in it. So writing gives back every byte:
+//! line ends, the order of the header, separators, the digits of a length. A parser that kept these as
+//! properties could forget one. A map made from a grid, or a scenario made from a list of queries, gets its
+//! text at once, in the plainest form.
 //!
-//! The formats of maps and scenarios are those of Sturtevant, *Benchmarks for Grid-Based Pathfinding* (2012).
+//! **That for pictures: no shade is rounded.** A [`Raster`] keeps the sum of a pixel's colours, and a
+//! threshold is a [`Fraction`]. They are compared as whole numbers, so a pixel at a threshold is on the same
+//! side of it on every platform.
+//!
+//! Input is not trusted: memory grows with the bytes that a file has, never with the sizes that it states. A
+//! picture, which may be compressed, has at most [`Raster::MAX_PIXELS`] pixels. Each error says where it is
+//! (of a text the line, and the column in bytes, both from 1), what was expected, what was found, and how to
+//! mend it.
+//!
+//! The formats of maps and scenarios are those of Sturtevant, *Benchmarks for Grid-Based Pathfinding* (2012);
+//! of PGM and PBM, those of the manual pages of Netpbm; of PNG, that of its specification (W3C, third
+//! edition), by the crate `png`.
 //!
 //! | feature | adds | compiles in addition |
 //! |---|---|---|
-//! | none | [`MapFile`], [`Scenario`] | `mediant-grid`, `thiserror` |
+//! | none | [`MapFile`], [`Scenario`], [`Raster`] of PGM and PBM | `mediant-grid`, `thiserror` |
 //! | `index` | `IndexFile`: what an engine preprocessed, saved for later runs | `sha2`, `tempfile` |
+//! | `png` | PNG wherever there are pictures | `png` |
 //! | `trace` | `TraceWriter`: a search, for the Posthoc visualizer | `serde`, `serde_json` |
 //!
 //! No feature is on by default, and none changes what is there without it.
@@ -23,9 +37,11 @@
 //! What is not here: searches and engines. Indexes and traces are made of names, numbers and bytes. It is not
 //! checked whether a query's start or goal is free, since that depends on where the vertices are.
 
+mod fraction;
 #[cfg(feature = "index")]
 mod index;
 mod map;
+mod raster;
 mod read;
 #[cfg(doctest)]
 mod readme;
@@ -34,9 +50,11 @@ mod text;
 #[cfg(feature = "trace")]
 mod trace;
 
+pub use fraction::{Fraction, FractionError};
 #[cfg(feature = "index")]
 pub use index::{IndexError, IndexFile, IndexKey, WriteError};
 pub use map::{MapError, MapFile};
+pub use raster::{ImageOptions, Raster, RasterError, RasterFormat, Unknown};
 pub use read::{MAX_FILE_BYTES, ReadError};
 pub use scenario::{Instance, MapMismatch, Scenario, ScenarioError, scenario_tolerance};
 #[cfg(feature = "trace")]

@@ -8,7 +8,7 @@ use std::{
 
 #[cfg(feature = "index")]
 use crate::index::error::IndexError;
-use crate::{map::error::MapError, scenario::error::ScenarioError};
+use crate::{map::error::MapError, raster::error::RasterError, scenario::error::ScenarioError};
 
 /// The size of the largest file that is read, in bytes: twice that of the largest map, of [`Grid::MAX_SIDE`]
 /// rows and columns.
@@ -59,6 +59,14 @@ pub enum ReadError {
         path: PathBuf,
         /// What is wrong with it.
         source: MapError,
+    },
+    /// The file is no picture.
+    #[error("{}: {source}", path.display())]
+    Raster {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: RasterError,
     },
     /// The file is no scenario.
     #[error("{}: {source}", path.display())]

@@ -82,3 +82,10 @@ pub(crate) fn quote_line(line: Option<Line<'_>>) -> String {
         Some(line) => quote(line.text),
     }
 }
+
+/// The finite number that a text of digits, sign, point and exponent stands for. Names such as `inf`, which
+/// Rust reads too, are no numbers here.
+pub(crate) fn decimal(text: &str) -> Option<f64> {
+    let plain = text.bytes().all(|byte| byte.is_ascii_digit() || b"+-.eE".contains(&byte));
+    text.parse().ok().filter(|number: &f64| plain && number.is_finite())
+}

@@ -1,9 +1,13 @@
 //! The tests of all formats, with every feature of the crate.
 
+mod fixtures;
 mod fuzz;
 mod identity;
 mod index;
 mod map;
+#[path = "../png_chunks.rs"]
+mod png_chunks;
+mod raster;
 mod read;
 mod scenario;
 mod trace;

@@ -1,0 +1,232 @@
+//! Pictures of maps, in shades of gray: PGM, PBM and PNG.
+
+pub(crate) mod error;
+mod netpbm;
+mod options;
+mod plain;
+#[cfg(feature = "png")]
+mod png;
+mod samples;
+mod write;
+
+use std::path::Path;
+
+use mediant_grid::Grid;
+
+pub use error::RasterError;
+pub use options::{ImageOptions, Unknown};
+pub use write::RasterFormat;
+
+use crate::{
+    read::{ReadError, read_regular},
+    text::quote,
+};
+use error::check_sides;
+use samples::Samples;
+
+/// A picture: for each pixel its shade, from 0 (black) to [`white`](Self::white), and, if the picture has
+/// it, its opacity. Row 0 is the top one.
+///
+/// The shade of a pixel with colours is their mean. It is kept as their sum, so that no shade is rounded: a
+/// picture of three channels of 8 bits has shades of 0 to 765. Samples count as they are stored; a gamma
+/// or a colour profile changes nothing.
+///
+/// ```
+/// use mediant_formats::{ImageOptions, Raster};
+/// let raster = Raster::parse(b"P2 3 1 255  0 127 128")?;
+/// let grid = raster.to_grid(&ImageOptions::default());
+/// assert!(grid.is_blocked(1, 0) && grid.is_free(2, 0));
+/// # Ok::<(), mediant_formats::RasterError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Raster {
+    width: u32,
+    height: u32,
+    white: u32,
+    /// width · height of them.
+    shades: Samples,
+    opacities: Option<Opacities>,
+}
+
+/// How opaque each pixel is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Opacities {
+    opaque: u32,
+    samples: Samples,
+}
+
+const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
+
+impl Raster {
+    /// The most pixels: 2²⁸, as 16,384 × 16,384 have. Pictures are compressed, up to a thousand to one, so it
+    /// is this number that bounds the memory that a small file takes: a byte a pixel for gray of 8 bits, at
+    /// most 6 for colours of 16 bits with opacity. It may be three times that while the picture is read, and
+    /// five times if it is interlaced.
+    pub const MAX_PIXELS: u64 = 1 << 28;
+
+    /// The largest shade of white: of three channels of 16 bits.
+    pub const MAX_WHITE: u32 = 3 * 0xffff;
+
+    /// Reads a PNG (feature `png`), PGM or PBM from its bytes.
+    ///
+    /// A PNG may have any kind of pixels, and may be interlaced; of an animated one the still picture is
+    /// read. A PGM or PBM is plain or binary (P1, P2, P4, P5), with a maxval of up to 65,535. In a PBM 1 is
+    /// black.
+    ///
+    /// # Errors
+    /// [`RasterError`] says what is wrong. Memory grows with what was decoded, never with what the header
+    /// states.
+    pub fn parse(bytes: &[u8]) -> Result<Self, RasterError> {
+        if bytes.starts_with(PNG_SIGNATURE) {
+            #[cfg(feature = "png")]
+            return png::read(bytes);
+            #[cfg(not(feature = "png"))]
+            return Err(RasterError::PngIsOff);
+        }
+        match netpbm::kind(bytes) {
+            Some(kind) => netpbm::read(kind, bytes),
+            None => Err(RasterError::Unknown { found: quote(bytes) }),
+        }
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`ReadError`] for a file that is missing, cannot be read, or is no picture.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
+        let path = path.as_ref();
+        Self::parse(&read_regular(path)?)
+            .map_err(|source| ReadError::Raster { path: path.to_owned(), source })
+    }
+
+    /// A picture of `width` × `height` opaque pixels; `shade(x, y)` is asked once for each, row by row. A
+    /// shade above `white` counts as white.
+    ///
+    /// # Errors
+    /// [`RasterError`] for sides or a number of pixels that a picture cannot have, for a `white` that is 0 or
+    /// more than [`MAX_WHITE`](Self::MAX_WHITE), and where memory does not suffice.
+    pub fn from_fn(
+        width: u32,
+        height: u32,
+        white: u32,
+        mut shade: impl FnMut(u32, u32) -> u32,
+    ) -> Result<Self, RasterError> {
+        check_sides(u64::from(width), u64::from(height))?;
+        if white == 0 || white > Self::MAX_WHITE {
+            return Err(RasterError::White { found: white });
+        }
+        let mut shades = Samples::up_to(white);
+        for y in 0..height as i32 {
+            shades.extend((0..width as i32).map(|x| shade(x as u32, y as u32).min(white)))?;
+        }
+        Ok(Self { width, height, white, shades, opacities: None })
+    }
+
+    /// The same picture with another opacity: `opacity(x, y)`, from 0 to `opaque`, is asked once for each
+    /// pixel, row by row. Larger numbers count as `opaque`, and an `opaque` of 0 as 1.
+    ///
+    /// # Errors
+    /// [`RasterError::Memory`] where memory does not suffice.
+    pub fn with_opacity(
+        mut self,
+        opaque: u16,
+        mut opacity: impl FnMut(u32, u32) -> u16,
+    ) -> Result<Self, RasterError> {
+        let opaque = opaque.max(1);
+        let mut samples = Samples::up_to(u32::from(opaque));
+        for y in 0..self.height {
+            // Sides are at most MAX_SIDE, which fits.
+            let row = 0..self.width as i32;
+            samples.extend(row.map(|x| u32::from(opacity(x as u32, y).min(opaque))))?;
+        }
+        self.opacities = Some(Opacities { opaque: u32::from(opaque), samples });
+        Ok(self)
+    }
+
+    /// The picture of a grid: blocked cells black (0), free cells white (1).
+    ///
+    /// # Errors
+    /// [`RasterError::Pixels`] for a grid of more than [`MAX_PIXELS`](Self::MAX_PIXELS) cells, and
+    /// [`RasterError::Memory`].
+    pub fn from_grid(grid: &Grid) -> Result<Self, RasterError> {
+        Self::from_fn(grid.width(), grid.height(), 1, |x, y| u32::from(grid.is_free(x as i32, y as i32)))
+    }
+
+    /// The grid of the picture, one cell a pixel: dark pixels are blocked, see [`ImageOptions`].
+    #[must_use]
+    pub fn to_grid(&self, options: &ImageOptions) -> Grid {
+        let limit = options.threshold.ceil_of(self.white);
+        let (white, invert) = (self.white, options.invert);
+        let unknown = options.unknown == Unknown::Blocked;
+        let dark = |shade: u32| (if invert { white - shade } else { shade }) < limit;
+        match self.opaque() {
+            None => self.grid_where(|shade, _| dark(shade)),
+            Some(opaque) => {
+                self.grid_where(|shade, opacity| if 2 * opacity < opaque { unknown } else { dark(shade) })
+            }
+        }
+    }
+
+    /// The grid in which those cells are blocked for whose shade and opacity `blocked` says so. The opacity
+    /// is 0 in pictures without.
+    pub(crate) fn grid_where(&self, blocked: impl Fn(u32, u32) -> bool) -> Grid {
+        match &self.shades {
+            Samples::U8(shades) => self.grid_of(shades, blocked),
+            Samples::U16(shades) => self.grid_of(shades, blocked),
+            Samples::U32(shades) => self.grid_of(shades, blocked),
+        }
+    }
+
+    fn grid_of<S: Copy + Into<u32>>(&self, shades: &[S], blocked: impl Fn(u32, u32) -> bool) -> Grid {
+        let width = self.width as usize;
+        let index = |x: u32, y: u32| y as usize * width + x as usize;
+        let grid = match &self.opacities {
+            None => Grid::from_fn(self.width, self.height, |x, y| blocked(shades[index(x, y)].into(), 0)),
+            Some(opacities) => Grid::from_fn(self.width, self.height, |x, y| {
+                let at = index(x, y);
+                blocked(shades[at].into(), opacities.samples.get(at).unwrap_or(0))
+            }),
+        };
+        grid.expect("the sides were checked when the picture was made")
+    }
+
+    /// The number of columns, 1 to [`Grid::MAX_SIDE`].
+    #[must_use]
+    pub const fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// The number of rows, 1 to [`Grid::MAX_SIDE`].
+    #[must_use]
+    pub const fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// The shade of white pixels: the largest that the format allows, times the number of channels.
+    #[must_use]
+    pub const fn white(&self) -> u32 {
+        self.white
+    }
+
+    /// The shade of a pixel, 0 to [`white`](Self::white); `None` outside.
+    #[must_use]
+    pub fn shade(&self, x: u32, y: u32) -> Option<u32> {
+        self.shades.get(self.index(x, y)?)
+    }
+
+    /// The opacity of opaque pixels; `None` if all pixels of a picture of this kind are opaque.
+    #[must_use]
+    pub fn opaque(&self) -> Option<u32> {
+        self.opacities.as_ref().map(|opacities| opacities.opaque)
+    }
+
+    /// The opacity of a pixel, 0 to [`opaque`](Self::opaque); `None` outside, and where all are opaque.
+    #[must_use]
+    pub fn opacity(&self, x: u32, y: u32) -> Option<u32> {
+        self.opacities.as_ref()?.samples.get(self.index(x, y)?)
+    }
+
+    fn index(&self, x: u32, y: u32) -> Option<usize> {
+        (x < self.width && y < self.height).then(|| y as usize * self.width as usize + x as usize)
+    }
+}

@@ -1,0 +1,208 @@
+//! Reads PGM and PBM: the header, and binary pixels.
+//!
+//! The formats are those of the Netpbm manual pages `pbm` and `pgm`: the two letters of the kind, the width,
+//! the height and (PGM) the largest sample, with white space and comments between them; then one byte of
+//! white space, and the rows from the top. Files hold one picture here.
+
+use super::{Raster, RasterError, error::check_sides, plain, samples::Samples};
+use crate::text::quote;
+
+/// What the first two bytes say.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    PlainBitmap,
+    PlainGray,
+    Bitmap,
+    Gray,
+    Colours,
+}
+
+/// The kind of a file of the Netpbm family; `None` for others.
+pub(super) fn kind(bytes: &[u8]) -> Option<Kind> {
+    let kind = match bytes.get(..2)? {
+        b"P1" => Kind::PlainBitmap,
+        b"P2" => Kind::PlainGray,
+        b"P4" => Kind::Bitmap,
+        b"P5" => Kind::Gray,
+        b"P3" | b"P6" | b"P7" => Kind::Colours,
+        _ => return None,
+    };
+    bytes.get(2).is_none_or(|&byte| is_space(byte) || byte == b'#').then_some(kind)
+}
+
+/// Reads a file of this kind.
+pub(super) fn read(kind: Kind, bytes: &[u8]) -> Result<Raster, RasterError> {
+    let colours = || RasterError::Colours { found: quote(&bytes[..2.min(bytes.len())]) };
+    let mut cursor = Cursor { bytes, at: 2 };
+    let bitmap = match kind {
+        Kind::PlainBitmap | Kind::Bitmap => true,
+        Kind::PlainGray | Kind::Gray => false,
+        Kind::Colours => return Err(colours()),
+    };
+    let width = cursor.header_number("the width")?;
+    let height = cursor.header_number("the height")?;
+    let (width, height) = check_sides(width, height)?;
+    let white = if bitmap { 1 } else { cursor.maxval()? };
+    let mut shades = Samples::up_to(white);
+    match kind {
+        Kind::PlainBitmap => plain::bits(&mut cursor, width, height, &mut shades)?,
+        Kind::PlainGray => plain::samples(&mut cursor, width, height, white, &mut shades)?,
+        Kind::Bitmap => bits(cursor.pixels()?, width, height, &mut shades)?,
+        _ => samples(cursor.pixels()?, width, height, white, &mut shades)?,
+    }
+    Ok(Raster { width, height, white, shades, opacities: None })
+}
+
+/// Rows of bits, each padded to whole bytes, highest bit first; 1 is black.
+fn bits(bytes: &[u8], width: u32, height: u32, shades: &mut Samples) -> Result<(), RasterError> {
+    let row_bytes = width.div_ceil(8);
+    let pixels = check_length(bytes, u64::from(row_bytes) * u64::from(height))?;
+    for row in pixels.chunks_exact(row_bytes as usize) {
+        shades.extend((0..width as usize).map(|x| u32::from(row[x / 8] >> (7 - x % 8) & 1 == 0)))?;
+    }
+    Ok(())
+}
+
+/// Rows of samples, of two bytes where the largest needs them, the higher byte first.
+fn samples(
+    bytes: &[u8],
+    width: u32,
+    height: u32,
+    white: u32,
+    shades: &mut Samples,
+) -> Result<(), RasterError> {
+    let sample_bytes = if white > 0xff { 2 } else { 1 };
+    let pixels = check_length(bytes, u64::from(width) * u64::from(height) * sample_bytes)?;
+    if white > 0xff {
+        let pair = |pair: &[u8]| u32::from(u16::from_be_bytes([pair[0], pair[1]]));
+        check_samples(pixels.chunks_exact(2).map(pair), width, white)?;
+        shades.extend(pixels.chunks_exact(2).map(pair))?;
+    } else {
+        check_samples(pixels.iter().copied().map(u32::from), width, white)?;
+        shades.extend(pixels.iter().copied().map(u32::from))?;
+    }
+    Ok(())
+}
+
+/// Checks that no sample is more than the largest that the header states.
+fn check_samples(samples: impl Iterator<Item = u32>, width: u32, white: u32) -> Result<(), RasterError> {
+    // Of samples of whole bytes none can be.
+    if white == 0xff || white == 0xffff {
+        return Ok(());
+    }
+    let Some((at, sample)) = samples.enumerate().find(|&(_, sample)| sample > white) else {
+        return Ok(());
+    };
+    let place = format!("pixel ({}, {})", at % width as usize, at / width as usize);
+    Err(RasterError::Sample { place, max: white, found: sample.to_string() })
+}
+
+/// The pixels, if the file has as many bytes and at most white space after them.
+fn check_length(bytes: &[u8], expected: u64) -> Result<&[u8], RasterError> {
+    let unit = "bytes";
+    // On 32 bits too: what is longer than `usize` can say is longer than the file.
+    let parts = usize::try_from(expected).ok().and_then(|expected| bytes.split_at_checked(expected));
+    let (pixels, rest) = parts.ok_or(RasterError::Short { unit, expected, found: bytes.len() as u64 })?;
+    if rest.iter().all(|&byte| is_space(byte)) {
+        return Ok(pixels);
+    }
+    Err(RasterError::Long { unit, expected, found: format!("{} more", rest.len()) })
+}
+
+/// The white space of these formats.
+pub(super) const fn is_space(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t' | b'\n' | b'\r' | 0x0b | 0x0c)
+}
+
+/// A place in the file.
+pub(super) struct Cursor<'a> {
+    pub(super) bytes: &'a [u8],
+    pub(super) at: usize,
+}
+
+impl<'a> Cursor<'a> {
+    pub(super) fn peek(&self) -> Option<u8> {
+        self.bytes.get(self.at).copied()
+    }
+
+    /// Goes past white space, and past comments: from `#` to the end of the line.
+    pub(super) fn skip_space(&mut self) {
+        while let Some(byte) = self.peek() {
+            match byte {
+                b'#' => self.skip_line(),
+                _ if is_space(byte) => self.at += 1,
+                _ => break,
+            }
+        }
+    }
+
+    fn skip_line(&mut self) {
+        let rest = &self.bytes[self.at..];
+        let ends = |&byte: &u8| byte == b'\n' || byte == b'\r';
+        self.at += rest.iter().position(ends).map_or(rest.len(), |length| length + 1);
+    }
+
+    /// The digits from here on as a number, which stops growing where it is beyond all bounds.
+    pub(super) fn digits(&mut self) -> Option<u64> {
+        let start = self.at;
+        let mut number = 0_u64;
+        while let Some(digit) = self.peek().filter(u8::is_ascii_digit) {
+            number = number.saturating_mul(10).saturating_add(u64::from(digit - b'0'));
+            self.at += 1;
+        }
+        (self.at > start).then_some(number)
+    }
+
+    /// The next number of the header.
+    fn header_number(&mut self, expected: &'static str) -> Result<u64, RasterError> {
+        self.skip_space();
+        match self.digits() {
+            Some(number) => Ok(number),
+            None => Err(self.header_error(self.at, expected)),
+        }
+    }
+
+    /// The largest sample.
+    fn maxval(&mut self) -> Result<u32, RasterError> {
+        const EXPECTED: &str = "a maxval, the largest sample, of 1 to 65535";
+        self.skip_space();
+        let start = self.at;
+        match self.header_number(EXPECTED)? {
+            number @ 1..=0xffff => Ok(number as u32),
+            _ => Err(self.header_error(start, EXPECTED)),
+        }
+    }
+
+    /// What follows the one byte of white space, or the comment, after the header of a binary file.
+    fn pixels(mut self) -> Result<&'a [u8], RasterError> {
+        match self.peek() {
+            Some(b'#') => self.skip_line(),
+            Some(byte) if is_space(byte) => self.at += 1,
+            _ => return Err(self.header_error(self.at, "white space after the header")),
+        }
+        Ok(&self.bytes[self.at..])
+    }
+
+    fn header_error(&self, at: usize, expected: &'static str) -> RasterError {
+        let (line, column) = self.place(at);
+        RasterError::Header { line, column, expected, found: self.word(at) }
+    }
+
+    /// The line and the column, from 1.
+    pub(super) fn place(&self, at: usize) -> (usize, usize) {
+        let before = &self.bytes[..at];
+        let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
+        let start = before.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
+        (line, at - start + 1)
+    }
+
+    /// The word at a place, quoted for an error message.
+    pub(super) fn word(&self, at: usize) -> String {
+        let rest = &self.bytes[at..];
+        match rest.iter().position(|&byte| is_space(byte)) {
+            _ if rest.is_empty() => "the end of the file".to_owned(),
+            Some(0) => "white space".to_owned(),
+            end => quote(&rest[..end.unwrap_or(rest.len())]),
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! One number a pixel, in as few bytes as the largest needs.
+
+use std::collections::TryReserveError;
+
+/// Numbers in the order of the pixels, row by row.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Samples {
+    U8(Vec<u8>),
+    U16(Vec<u16>),
+    U32(Vec<u32>),
+}
+
+impl Samples {
+    /// No numbers yet, with room in each for `largest`.
+    pub(crate) const fn up_to(largest: u32) -> Self {
+        match largest {
+            0..=0xff => Self::U8(Vec::new()),
+            0x100..=0xffff => Self::U16(Vec::new()),
+            _ => Self::U32(Vec::new()),
+        }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Self::U8(all) => all.len(),
+            Self::U16(all) => all.len(),
+            Self::U32(all) => all.len(),
+        }
+    }
+
+    pub(crate) fn get(&self, at: usize) -> Option<u32> {
+        match self {
+            Self::U8(all) => all.get(at).copied().map(u32::from),
+            Self::U16(all) => all.get(at).copied().map(u32::from),
+            Self::U32(all) => all.get(at).copied(),
+        }
+    }
+
+    /// Adds numbers; none may be more than the largest that was named.
+    pub(crate) fn extend(
+        &mut self,
+        numbers: impl ExactSizeIterator<Item = u32>,
+    ) -> Result<(), TryReserveError> {
+        let more = numbers.len();
+        match self {
+            Self::U8(all) => {
+                all.try_reserve(more)?;
+                all.extend(numbers.map(|number| number as u8));
+            }
+            Self::U16(all) => {
+                all.try_reserve(more)?;
+                all.extend(numbers.map(|number| number as u16));
+            }
+            Self::U32(all) => {
+                all.try_reserve(more)?;
+                all.extend(numbers);
+            }
+        }
+        Ok(())
+    }
+}
