@@ -1,10 +1,11 @@
-//! Reads and writes maps as people have them: MovingAI maps and pictures; and scenarios. Features add
+//! Reads and writes maps as people have them: MovingAI maps, pictures, ROS maps; and scenarios. Features add
 //! PNG, saved indexes and search traces.
 //!
 //! | file | type | its grid |
 //! |---|---|---|
 //! | MovingAI `.map` | [`MapFile`] | `.`, `G` and `S` are free |
 //! | PGM and PBM, P1, P2, P4, P5; PNG | [`Raster`] | dark pixels are blocked, and those that are transparent, see [`ImageOptions`] |
+//! | ROS `map_server`: YAML and a picture | [`RosMap`] | occupied and unknown cells are blocked; a [`WorldFrame`] has the meters |
 //!
 //! **The key decision for MovingAI files: a parsed file keeps its bytes.** [`MapFile`] and [`Scenario`] hold
 //! the text from which they were parsed beside what the parser found in it. So writing gives back every byte:
@@ -23,11 +24,11 @@
 //!
 //! The formats of maps and scenarios are those of Sturtevant, *Benchmarks for Grid-Based Pathfinding* (2012);
 //! of PGM and PBM, those of the manual pages of Netpbm; of PNG, that of its specification (W3C, third
-//! edition), by the crate `png`.
+//! edition), by the crate `png`; of ROS maps, what the `map_server` of nav2 reads.
 //!
 //! | feature | adds | compiles in addition |
 //! |---|---|---|
-//! | none | [`MapFile`], [`Scenario`], [`Raster`] of PGM and PBM | `mediant-grid`, `thiserror` |
+//! | none | [`MapFile`], [`Scenario`], [`Raster`] of PGM and PBM, [`RosMap`] | `mediant-grid`, `thiserror` |
 //! | `index` | `IndexFile`: what an engine preprocessed, saved for later runs | `sha2`, `tempfile` |
 //! | `png` | PNG wherever there are pictures | `png` |
 //! | `trace` | `TraceWriter`: a search, for the Posthoc visualizer | `serde`, `serde_json` |
@@ -45,10 +46,12 @@ mod raster;
 mod read;
 #[cfg(doctest)]
 mod readme;
+mod ros;
 mod scenario;
 mod text;
 #[cfg(feature = "trace")]
 mod trace;
+mod world;
 
 pub use fraction::{Fraction, FractionError};
 #[cfg(feature = "index")]
@@ -56,6 +59,8 @@ pub use index::{IndexError, IndexFile, IndexKey, WriteError};
 pub use map::{MapError, MapFile};
 pub use raster::{ImageOptions, Raster, RasterError, RasterFormat, Unknown};
 pub use read::{MAX_FILE_BYTES, ReadError};
+pub use ros::{RosError, RosMap, RosMode, RosSettings};
 pub use scenario::{Instance, MapMismatch, Scenario, ScenarioError, scenario_tolerance};
 #[cfg(feature = "trace")]
 pub use trace::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
+pub use world::{WorldError, WorldFrame};

@@ -8,7 +8,9 @@ use std::{
 
 #[cfg(feature = "index")]
 use crate::index::error::IndexError;
-use crate::{map::error::MapError, raster::error::RasterError, scenario::error::ScenarioError};
+use crate::{
+    map::error::MapError, raster::error::RasterError, ros::error::RosError, scenario::error::ScenarioError,
+};
 
 /// The size of the largest file that is read, in bytes: twice that of the largest map, of [`Grid::MAX_SIDE`]
 /// rows and columns.
@@ -67,6 +69,22 @@ pub enum ReadError {
         path: PathBuf,
         /// What is wrong with it.
         source: RasterError,
+    },
+    /// The file is no YAML file of a ROS map.
+    #[error("{}: {source}", path.display())]
+    Ros {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: RosError,
+    },
+    /// The picture that the YAML file of a ROS map names cannot be read.
+    #[error("{}: the picture that the key `image` names: {source}", path.display())]
+    RosImage {
+        /// The YAML file.
+        path: PathBuf,
+        /// What is wrong with the picture.
+        source: Box<ReadError>,
     },
     /// The file is no scenario.
     #[error("{}: {source}", path.display())]

@@ -7,7 +7,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use mediant_formats::Raster;
+use mediant_formats::{Raster, RosMap};
 
 fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures")
@@ -54,6 +54,23 @@ fn pictures() {
             );
             let opacity = numbers.get(4 + cells + at).map(|&opacity| opacity as u32);
             assert_eq!(raster.opacity(x, y), opacity, "{name}: opacity of ({x}, {y})");
+        }
+    }
+}
+
+#[test]
+fn ros_maps() {
+    let files = files(&["yaml"]);
+    assert_eq!(files.len(), 5);
+    for path in files {
+        let map = RosMap::read(&path).unwrap_or_else(|error| panic!("{error}"));
+        let width = map.raster().width();
+        let numbers = numbers(&path);
+        assert_eq!(numbers.len() as u32, width * map.raster().height());
+        for (at, expected) in numbers.into_iter().enumerate() {
+            let (x, y) = (at as u32 % width, at as u32 / width);
+            let found = map.occupancy(x, y).map_or(-1, i64::from);
+            assert_eq!(found, expected, "{}: occupancy of ({x}, {y})", path.display());
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The tests of all formats, with every feature of the crate.
 
+mod damage;
 mod fixtures;
 mod fuzz;
 mod identity;
@@ -9,5 +10,7 @@ mod map;
 mod png_chunks;
 mod raster;
 mod read;
+mod ros;
 mod scenario;
 mod trace;
+mod world;
