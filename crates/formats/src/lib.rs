@@ -1,11 +1,20 @@
 //! Reads and writes maps as people have them: MovingAI maps, pictures, ROS maps; and scenarios. Features add
 //! PNG, saved indexes and search traces.
 //!
+//! [`read_map`] takes a file of any kind, told by its content, and gives a [`Grid`](mediant_grid::Grid):
+//!
 //! | file | type | its grid |
 //! |---|---|---|
 //! | MovingAI `.map` | [`MapFile`] | `.`, `G` and `S` are free |
 //! | PGM and PBM, P1, P2, P4, P5; PNG | [`Raster`] | dark pixels are blocked, and those that are transparent, see [`ImageOptions`] |
 //! | ROS `map_server`: YAML and a picture | [`RosMap`] | occupied and unknown cells are blocked; a [`WorldFrame`] has the meters |
+//!
+//! ```no_run
+//! use mediant_formats::{ImageOptions, read_map};
+//! let map = read_map("depot.yaml", &ImageOptions::default())?;
+//! let start = map.frame.and_then(|frame| frame.cell_at(1.25, -0.5));
+//! # Ok::<(), mediant_formats::ReadError>(())
+//! ```
 //!
 //! **The key decision for MovingAI files: a parsed file keeps its bytes.** [`MapFile`] and [`Scenario`] hold
 //! the text from which they were parsed beside what the parser found in it. So writing gives back every byte:
@@ -48,6 +57,7 @@ mod read;
 mod readme;
 mod ros;
 mod scenario;
+mod source;
 mod text;
 #[cfg(feature = "trace")]
 mod trace;
@@ -61,6 +71,7 @@ pub use raster::{ImageOptions, Raster, RasterError, RasterFormat, Unknown};
 pub use read::{MAX_FILE_BYTES, ReadError};
 pub use ros::{RosError, RosMap, RosMode, RosSettings};
 pub use scenario::{Instance, MapMismatch, Scenario, ScenarioError, scenario_tolerance};
+pub use source::{MapFormat, MapSource, read_map};
 #[cfg(feature = "trace")]
 pub use trace::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
 pub use world::{WorldError, WorldFrame};

@@ -86,6 +86,17 @@ pub enum ReadError {
         /// What is wrong with the picture.
         source: Box<ReadError>,
     },
+    /// The file is none of the kinds of maps, by its content and by its name.
+    #[error(
+        "{}: expected a map, a MovingAI `.map`, a PNG, PGM or PBM, or the YAML file of a ROS map, found \
+         {found}; is this the file that you meant? Convert other pictures to PNG", path.display()
+    )]
+    NoMap {
+        /// The file.
+        path: PathBuf,
+        /// How it begins, quoted.
+        found: String,
+    },
     /// The file is no scenario.
     #[error("{}: {source}", path.display())]
     Scenario {

@@ -67,6 +67,11 @@ impl Raster {
     /// The largest shade of white: of three channels of 16 bits.
     pub const MAX_WHITE: u32 = 3 * 0xffff;
 
+    /// Whether bytes begin as a picture does that [`parse`](Self::parse) reads, or tells what it is.
+    pub(crate) fn is_picture(bytes: &[u8]) -> bool {
+        bytes.starts_with(PNG_SIGNATURE) || netpbm::kind(bytes).is_some()
+    }
+
     /// Reads a PNG (feature `png`), PGM or PBM from its bytes.
     ///
     /// A PNG may have any kind of pixels, and may be interlaced; of an animated one the still picture is

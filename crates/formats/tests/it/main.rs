@@ -12,5 +12,6 @@ mod raster;
 mod read;
 mod ros;
 mod scenario;
+mod source;
 mod trace;
 mod world;
