@@ -71,8 +71,8 @@ pub struct Search {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Backward {
     No,
-    /// If the planner can.
-    Try(Vertex),
+    /// Once so many pairs were searched forward, if the planner can.
+    After(usize, Vertex),
     To(Vertex),
 }
 
@@ -99,9 +99,12 @@ impl Search {
         let wishes = request.into_wishes();
         let bound = if let Guarantee::Optimal(_) = guarantee { metric } else { &Metric::Euclidean };
         let ends = Ends::new(space, metric, bound, &wishes)?;
-        // Only forward a stopped search has a path that begins at the start.
+        // A search that may be stopped leads forward to one of the goals first, since only then the best so
+        // far begins at the start.
         let backward = match ends.only_start() {
-            Some(start) if wishes.tolerance > 0.0 && wishes.limits.are_none() => Backward::Try(start),
+            Some(start) if wishes.tolerance > 0.0 => {
+                Backward::After(usize::from(!wishes.limits.are_none()), start)
+            }
             _ => Backward::No,
         };
         let progress = Progress {
@@ -185,7 +188,10 @@ impl Search {
             }
         }
         let mut watch = Watch { progress: &mut self.progress, metric, observer };
-        if let Backward::Try(start) = self.backward {
+        if let Backward::After(pairs, start) = self.backward
+            && self.next == pairs
+            && !self.has_begun
+        {
             let goals: Vec<Vertex> = self.ends.pairs.iter().map(|pair| pair.query.goal).collect();
             let status = planner.begin_from(&goals, start, &mut watch);
             self.backward = status.map_or(Backward::No, |_| Backward::To(start));
@@ -201,21 +207,26 @@ impl Search {
         planner.proceed(&mut watch)
     }
 
+    /// Whether it leads from all goals to the start.
+    const fn is_backward(&self) -> bool {
+        matches!(self.backward, Backward::To(_))
+    }
+
     /// Goes on to the next pair.
     const fn leave(&mut self) {
-        self.next += 1;
+        self.next = if self.is_backward() { self.ends.pairs.len() } else { self.next + 1 };
         self.has_begun = false;
     }
 
     fn found(&mut self, pair: Pair, planner: &mut impl Planner) {
-        if let Backward::To(start) = self.backward {
-            self.next = self.ends.pairs.len();
-            let back = planner.path_to(start).map(Path::into_waypoints).unwrap_or_default();
-            let path = Path::new(back.into_iter().rev().collect());
-            self.found = Some(Found { cost: fixed_cost(&path), rank: pair.rank, path });
-            return;
-        }
-        if let Some(path) = planner.path_to(pair.query.goal) {
+        let path = match self.backward {
+            Backward::To(start) => planner.path_to(start).map(|path| {
+                let back = path.into_waypoints();
+                Path::new(back.into_iter().rev().collect())
+            }),
+            Backward::No | Backward::After(..) => planner.path_to(pair.query.goal),
+        };
+        if let Some(path) = path {
             let cost = fixed_cost(&path);
             if cost > self.progress.greatest {
                 return self.leave_beyond_limit(pair, planner);
@@ -234,7 +245,7 @@ impl Search {
         let least = self.current_bound(pair);
         self.beyond_limit = Some(self.beyond_limit.map_or(least, |known| known.min(least)));
         let distance = self.progress.nearest.0;
-        if self.partial.as_ref().is_none_or(|&(known, _)| distance < known) {
+        if !self.is_backward() && self.partial.as_ref().is_none_or(|&(known, _)| distance < known) {
             self.partial = Some((distance, self.path_to_nearest(planner)));
         }
         self.leave();
@@ -243,7 +254,7 @@ impl Search {
     /// The path to the vertex nearest to the goal.
     fn path_to_nearest(&self, planner: &mut impl Planner) -> Path {
         let start = self.ends.pairs.get(self.next).map(|pair| pair.query.start);
-        let path = if self.has_begun && self.backward == Backward::No {
+        let path = if self.has_begun && !self.is_backward() {
             planner.path_to(self.progress.nearest.1)
         } else {
             None
@@ -275,7 +286,9 @@ impl Search {
         }
         match (&self.found, &self.partial) {
             (Some(found), _) => found.path.clone(),
-            (None, Some((distance, path))) if *distance <= self.progress.nearest.0 => path.clone(),
+            (None, Some((distance, path))) if *distance <= self.progress.nearest.0 || self.is_backward() => {
+                path.clone()
+            }
             (None, _) => self.path_to_nearest(planner),
         }
     }
