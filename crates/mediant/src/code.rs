@@ -132,11 +132,7 @@ impl Error {
             Self::Hierarchy(error) => of_hierarchy(error),
             Self::Levels { .. } | Self::Side { .. } => ErrorCode::IndexOptions,
             Self::IndexFile(error) => of_index(error),
-            Self::Read(ReadError::Missing { .. }) => ErrorCode::FileMissing,
-            Self::Read(ReadError::Map { .. }) => ErrorCode::MapFormat,
-            Self::Read(ReadError::Scenario { .. }) => ErrorCode::ScenarioFormat,
-            Self::Read(ReadError::Index { source, .. }) => of_index(source),
-            Self::Read(_) => ErrorCode::FileUnreadable,
+            Self::Read(error) => of_read(error),
             Self::Write(_) => ErrorCode::FileUnwritable,
             Self::Grid(_) => ErrorCode::Other,
         }
@@ -202,6 +198,20 @@ const fn of_hierarchy(error: &HierarchyError) -> ErrorCode {
         HierarchyError::Bytes(_) => ErrorCode::IndexDamaged,
         HierarchyError::Size { .. } | HierarchyError::ChangedOutside { .. } => ErrorCode::IndexEdit,
         _ => ErrorCode::Other,
+    }
+}
+
+const fn of_read(error: &ReadError) -> ErrorCode {
+    match error {
+        ReadError::Missing { .. } => ErrorCode::FileMissing,
+        ReadError::Map { .. }
+        | ReadError::Raster { .. }
+        | ReadError::Ros { .. }
+        | ReadError::NoMap { .. } => ErrorCode::MapFormat,
+        ReadError::RosImage { source, .. } => of_read(source),
+        ReadError::Scenario { .. } => ErrorCode::ScenarioFormat,
+        ReadError::Index { source, .. } => of_index(source),
+        _ => ErrorCode::FileUnreadable,
     }
 }
 

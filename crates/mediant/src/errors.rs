@@ -1,6 +1,6 @@
 //! The errors inside an [`Error`](crate::Error), each with its fields.
 
-pub use mediant_formats::{IndexError, MapError, ReadError, WriteError};
+pub use mediant_formats::{IndexError, MapError, RasterError, ReadError, RosError, WriteError};
 pub use mediant_grid::{GridError, Mismatch};
 pub use mediant_hierarchy::HierarchyError;
 pub use mediant_moves::KError;

@@ -65,6 +65,7 @@ mod engine;
 mod erased;
 mod error;
 pub mod errors;
+pub mod files;
 mod heuristic;
 mod index;
 mod make;

@@ -2,7 +2,7 @@
 
 use std::{path::Path as FilePath, sync::Arc};
 
-use mediant_formats::MapFile;
+use mediant_formats::{ImageOptions, MapFile, WorldFrame, read_map};
 use mediant_grid::{Grid, GridError, MapId, Rectangle};
 
 use crate::error::Error;
@@ -31,12 +31,38 @@ pub struct Map {
 }
 
 impl Map {
-    /// Reads a `MovingAI` map file: `.`, `G` and `S` are free cells, all other characters blocked ones.
+    /// Reads a map file: a `MovingAI` map (`.`, `G` and `S` are free cells, all other characters blocked
+    /// ones), a PNG, PGM or PBM picture (pixels darker than half are blocked), or the YAML file of a ROS map
+    /// (unknown cells are blocked). [`open_with`](Self::open_with) has options, and the map's place in the
+    /// world.
     ///
     /// # Errors
     /// [`Error::Read`] for a file that is missing, cannot be read, or is no map.
     pub fn open(path: impl AsRef<FilePath>) -> Result<Self, Error> {
-        Ok(MapFile::read(path)?.to_grid().into())
+        Ok(read_map(path, &ImageOptions::default())?.grid.into())
+    }
+
+    /// Reads a map file as [`open`](Self::open) does, with options for pictures, and with its place in the
+    /// world if it is a ROS map.
+    ///
+    /// ```no_run
+    /// use mediant::{Map, files::{ImageOptions, Unknown}};
+    ///
+    /// let options = ImageOptions { unknown: Unknown::Free, ..ImageOptions::default() };
+    /// let (map, world) = Map::open_with("depot.yaml", &options)?;
+    /// let start = world.and_then(|world| world.cell_at(1.5, -2.0));
+    /// # let _ = (map, start);
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`open`](Self::open).
+    pub fn open_with(
+        path: impl AsRef<FilePath>,
+        options: &ImageOptions,
+    ) -> Result<(Self, Option<WorldFrame>), Error> {
+        let source = read_map(path, options)?;
+        Ok((source.grid.into(), source.frame))
     }
 
     /// The map with these rows from top to bottom, all of the same length: `.`, `G` and `S` are free cells,
