@@ -196,11 +196,6 @@ impl BitMatrix {
         let keep = !0_u64 >> (63 - (last - x).clamp(0, 63));
         last >= x && word(x) & keep != 0
     }
-
-    /// The matrix with rows and columns exchanged, in a frame of blocked bits.
-    pub(crate) fn transposed(&self) -> Self {
-        Self::from_bits(self.height, self.width, |y, x| self.get(x as i32, y as i32))
-    }
 }
 
 /// A row of a [`BitMatrix`], scanned for runs of bits 64 at a time.

@@ -61,8 +61,34 @@ impl Grid {
         blocked: impl FnMut(u32, u32) -> bool,
     ) -> Result<Self, GridError> {
         Self::check_size(u64::from(width), u64::from(height))?;
-        let rows = BitMatrix::from_bits(width, height, blocked);
-        Ok(Self { id: MapId::new(&rows), columns: rows.transposed(), rows })
+        Ok(Self::of(BitMatrix::from_bits(width, height, blocked)))
+    }
+
+    /// A map of `width` × `height` cells, 64 at a time: `word(x, y)` returns the cells of row y from column x
+    /// on, the first in the lowest bit, 1 = blocked. It is asked once for each row and each 64th column; bits
+    /// beyond the last column are ignored.
+    ///
+    /// ```
+    /// use mediant_grid::Grid;
+    /// let grid = Grid::from_words(70, 2, |x, y| if (x, y) == (64, 1) { 0b10 } else { 0 })?;
+    /// assert!(grid.is_blocked(65, 1) && grid.free_cells() == 139);
+    /// # Ok::<(), mediant_grid::GridError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`from_fn`](Self::from_fn).
+    pub fn from_words(
+        width: u32,
+        height: u32,
+        mut word: impl FnMut(u32, u32) -> u64,
+    ) -> Result<Self, GridError> {
+        Self::check_size(u64::from(width), u64::from(height))?;
+        Ok(Self::of(BitMatrix::from_words(width, height, true, |x, y| word(x as u32, y as u32))))
+    }
+
+    /// The map with these rows, which are of a size that maps have and in a frame of blocked bits.
+    pub(crate) fn of(rows: BitMatrix) -> Self {
+        Self { id: MapId::new(&rows), columns: rows.transposed(), rows }
     }
 
     /// A copy of this map with other cells in a rectangle: `blocked(x, y)` is asked once for each cell that

@@ -49,6 +49,7 @@ mod readme;
 mod rectangle;
 mod rules;
 pub mod sight;
+mod transpose;
 mod tree;
 mod vertex;
 
