@@ -14,6 +14,11 @@
 //! [`Placement::sweep`] is the only definition of the cells that a segment sweeps. Line of sight, the table
 //! and the masks are all derived from it.
 //!
+//! **Agents of a size** have maps of their own. [`Clearance`] measures once how far each cell is from the
+//! nearest obstacle, and makes the map of a disc of any radius from it; [`Grid::for_square`] makes that of an
+//! agent of n × n cells. Whatever searches a grid searches these too, and what the agent's paths are worth is
+//! proven for each placement and rule.
+//!
 //! What is not here: files (`mediant-formats`) and searches (`mediant-search`).
 //!
 //! ```
@@ -35,6 +40,7 @@
 
 mod ascii;
 mod bits;
+mod clearance;
 mod components;
 mod footprint;
 mod frame;
@@ -57,6 +63,7 @@ pub use ascii::{AsciiMap, draw};
 #[doc(hidden)]
 pub use bits::{BitIndex, load};
 pub use bits::{BitMatrix, BitRow};
+pub use clearance::{Clearance, Fit, Outside, SizeError};
 pub use components::{Components, Connectivity};
 #[doc(hidden)]
 pub use footprint::Footprint;

@@ -1,5 +1,7 @@
 //! The tests of the crate, in one binary: each binary is linked separately.
 
+mod agents;
+mod clearance;
 mod legality;
 mod polygon;
 mod rectangle;

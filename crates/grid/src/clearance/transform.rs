@@ -1,0 +1,50 @@
+//! Squared distances of all points of a lattice.
+
+use super::{
+    Outside,
+    columns::{self, BAND, NONE},
+    envelope::Envelope,
+    sites::Sites,
+};
+
+/// What a thread reuses from band to band.
+#[derive(Default)]
+struct Scratch {
+    upwards: columns::Distances,
+    envelope: Envelope,
+}
+
+/// The squared distance of each point to the nearest obstacle, row by row: for corner vertices in cells, for
+/// centers in half cells. [`u32::MAX`] stands for all that do not fit, and for none.
+///
+/// Linear time. With the feature `parallel` on all cores of rayon's current pool, with the same result.
+pub(super) fn squared_distances(sites: Sites<'_>) -> Box<[u32]> {
+    let (width, height) = sites.size();
+    // The row beyond the map: of centers, it is blocked itself. Vertices know their cells outside.
+    let outside = if sites.outside == Outside::Blocked { 0 } else { NONE };
+    let mut squared = vec![0; width * height].into_boxed_slice();
+    let band = |scratch: &mut Scratch, (band, (squared, beyond)): (usize, (&mut [u32], &columns::Beyond))| {
+        columns::for_each_row(sites, band, beyond, &mut scratch.upwards, |y, distances| {
+            let start = (y - band * BAND) * width;
+            scratch.envelope.row(sites, distances, &mut squared[start..start + width]);
+        });
+    };
+    let bands = 0..height.div_ceil(BAND);
+    #[cfg(feature = "parallel")]
+    {
+        use rayon::prelude::*;
+        let ends = bands.into_par_iter().map(|band| columns::ends(sites, band)).collect();
+        let beyond = columns::beyond(sites, ends, outside);
+        let parts = squared.par_chunks_mut(BAND * width).zip(&beyond).enumerate();
+        parts.for_each_init(Scratch::default, band);
+    }
+    #[cfg(not(feature = "parallel"))]
+    {
+        let ends = bands.map(|band| columns::ends(sites, band)).collect();
+        let beyond = columns::beyond(sites, ends, outside);
+        let mut scratch = Scratch::default();
+        let parts = squared.chunks_mut(BAND * width).zip(&beyond).enumerate();
+        parts.for_each(|part| band(&mut scratch, part));
+    }
+    squared
+}
