@@ -17,7 +17,7 @@
 //! **Agents of a size** have maps of their own. [`Clearance`] measures once how far each cell is from the
 //! nearest obstacle, and makes the map of a disc of any radius from it; [`Grid::for_square`] makes that of an
 //! agent of n × n cells. Whatever searches a grid searches these too, and what the agent's paths are worth is
-//! proven for each placement and rule.
+//! proven for each placement and rule. [`Clearance::widest`] finds paths that keep off walls.
 //!
 //! What is not here: files (`mediant-formats`) and searches (`mediant-search`).
 //!
@@ -63,7 +63,7 @@ pub use ascii::{AsciiMap, draw};
 #[doc(hidden)]
 pub use bits::{BitIndex, load};
 pub use bits::{BitMatrix, BitRow};
-pub use clearance::{Clearance, Fit, Outside, SizeError};
+pub use clearance::{Clearance, Fit, Outside, SizeError, Widest};
 pub use components::{Components, Connectivity};
 #[doc(hidden)]
 pub use footprint::Footprint;

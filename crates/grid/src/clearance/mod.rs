@@ -18,6 +18,7 @@ mod radii;
 mod sites;
 mod square;
 mod transform;
+mod widest;
 
 use std::sync::Arc;
 
@@ -25,6 +26,7 @@ use crate::{Grid, PlacementKind, Vertex};
 
 pub use exact::SizeError;
 pub use fit::{Fit, Outside};
+pub use widest::Widest;
 
 /// How far each cell of a map is from the nearest obstacle, and so which cells are free for discs of all
 /// radii.

@@ -6,3 +6,4 @@ mod legality;
 mod polygon;
 mod rectangle;
 mod sweep;
+mod widest;
