@@ -49,6 +49,7 @@ mod grid;
 mod grid_graph;
 mod identity;
 mod line_of_sight;
+mod obstruction;
 mod placement;
 #[cfg(doctest)]
 mod readme;
@@ -74,6 +75,7 @@ pub use grid::{Grid, GridError};
 pub use grid_graph::{GridGraph, MoveSet, Step};
 pub use identity::{Identity, MapId, Mismatch};
 pub use mediant_moves::Vector;
+pub use obstruction::Obstruction;
 pub use placement::{Centers, Corners, Placement, SweptCells};
 pub use rectangle::Rectangle;
 pub use rules::{CornerRule, DiagonalGap, PlacementKind, Rules};

@@ -1,6 +1,6 @@
 //! Sight in integers: whether a segment is free, and all that a vertex sees.
 //!
-//! [`line_of_sight`] tests one segment. A [`VisibilitySweep`] finds everything that a vertex sees among the
+//! [`line_of_sight`] tests one segment, [`segment_cells`] lists the cells that it meets. A [`VisibilitySweep`] finds everything that a vertex sees among the
 //! vertices of a set.
 //!
 //! The module also has the parts of both that the searches of this workspace are made of; they are hidden
@@ -10,6 +10,7 @@ mod interval;
 mod polygon;
 mod row_summary;
 mod runs;
+mod segment_cells;
 mod sweep;
 mod targets;
 
@@ -21,5 +22,6 @@ pub use polygon::PolygonCells;
 pub use row_summary::RowSummary;
 #[doc(hidden)]
 pub use runs::{Runs, Window, row_ahead};
+pub use segment_cells::{SegmentCells, segment_cells};
 pub use sweep::VisibilitySweep;
 pub use targets::{Quadrants, Targets};

@@ -5,5 +5,6 @@ mod clearance;
 mod legality;
 mod polygon;
 mod rectangle;
+mod segments;
 mod sweep;
 mod widest;
