@@ -79,7 +79,7 @@ impl Space {
     /// [`Error::Query`] for a start or goal that is blocked or outside the map.
     pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
         let query = Query::new(start, goal);
-        self.check(query)?;
+        self.check_query(query)?;
         let answer = self.planner(Choice::for_one_path(self.motion().k))?.find(query)?;
         Ok(answer.into_path())
     }

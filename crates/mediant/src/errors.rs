@@ -4,7 +4,7 @@ pub use mediant_formats::{IndexError, MapError, RasterError, ReadError, RosError
 pub use mediant_grid::{GridError, Mismatch};
 pub use mediant_hierarchy::HierarchyError;
 pub use mediant_moves::KError;
-pub use mediant_search::{JumpError, QueryError};
+pub use mediant_search::{BrokenPath, JoinError, JumpError, QueryError, SpacingError};
 pub use mediant_subgoal::SubgoalError;
 
 pub use crate::{names::UnknownName, setup_error::SetupError, text::TextError};

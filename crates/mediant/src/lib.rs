@@ -73,6 +73,7 @@ mod map;
 mod motion;
 mod names;
 mod option;
+mod path_check;
 mod planner;
 #[cfg(doctest)]
 mod readme;
@@ -96,12 +97,13 @@ pub use error::Error;
 pub use index::{Index, Origin};
 pub use map::Map;
 pub use mediant_grid::{
-    CornerRule, DiagonalGap, Grid, Identity, MapId, Mismatch, PlacementKind, Rectangle, Rules, Vertex,
+    CornerRule, DiagonalGap, Grid, Identity, MapId, Mismatch, Obstruction, PlacementKind, Rectangle, Rules,
+    Vertex,
 };
 pub use mediant_moves::{Cost, FiniteK, K};
 pub use mediant_search::{
-    Counters, End, Guarantee, Limit, Limits, NodeEvent, Observer, Outcome, Path, Query, QueryError, Request,
-    Smoothing, Stopped,
+    BrokenPath, Counters, End, Guarantee, Limit, Limits, NodeEvent, Observer, Outcome, Path, Query, QueryError,
+    Request, Smoothing, Stopped, Turn,
 };
 pub use mediant_subgoal::{Progress, Stage};
 pub use motion::Motion;

@@ -227,7 +227,7 @@ impl Space {
     }
 
     /// Checks the ends of a query.
-    pub(crate) fn check(&self, query: Query) -> Result<(), Error> {
+    pub(crate) fn check_query(&self, query: Query) -> Result<(), Error> {
         Ok(match self.placed() {
             Placed::Centers(layers) => query.check(&layers.free),
             Placed::Corners(layers) => query.check(&layers.free),

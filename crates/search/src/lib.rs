@@ -64,7 +64,7 @@ pub use heuristic::{Euclidean, Heuristic, Hk, SquaredEuclidean, Zero};
 pub use jps::{BlockJps, Jps, JpsPlus, JumpError, JumpTable};
 pub use observer::{Counters, NodeEvent, Observer};
 pub use outcome::{Guarantee, Outcome};
-pub use path::Path;
+pub use path::{BrokenPath, JoinError, Path, SpacingError, Turn};
 pub use planner::{Planner, Status};
 pub use query::{End, Query, QueryError};
 pub use request::{Limit, Limits, Request, Search, Stopped};

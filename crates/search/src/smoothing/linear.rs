@@ -2,6 +2,8 @@
 
 use mediant_grid::{FreeSpace, Placement, Vertex};
 
+use crate::path::{check, vertices};
+
 /// Replaces parts of a path by straight segments between vertices that see each other (Botea, Müller &
 /// Schaeffer 2004, 'Near Optimal Hierarchical Path-Finding', Section 3.3). From the start it follows the path
 /// as long as that is in sight, places a waypoint at the last vertex in sight, and continues from there. It
@@ -29,12 +31,12 @@ use mediant_grid::{FreeSpace, Placement, Vertex};
 #[must_use]
 pub fn smooth<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
     let corners = without_repetitions(waypoints);
-    if is_legal(space, &corners) { smooth_legal(space, &corners) } else { waypoints.to_vec() }
+    if check(space, &corners).is_ok() { smooth_legal(space, &corners) } else { waypoints.to_vec() }
 }
 
 /// [`smooth`], for a legal path without repeated waypoints.
 pub(super) fn smooth_legal<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
-    let all = vertices(waypoints);
+    let all: Vec<Vertex> = vertices(waypoints).collect();
     let mut path: Vec<Vertex> = all.first().copied().into_iter().collect();
     let mut last = 0;
     while last + 1 < all.len() {
@@ -60,31 +62,4 @@ pub(super) fn without_repetitions(waypoints: &[Vertex]) -> Vec<Vertex> {
     let mut path = waypoints.to_vec();
     path.dedup();
     path
-}
-
-/// Whether a path without repeated waypoints keeps the rules of motion.
-pub(super) fn is_legal<P: Placement>(space: &FreeSpace<P>, path: &[Vertex]) -> bool {
-    let at = |index: usize| path.get(index).copied();
-    let turns = |(index, &vertex): (usize, &Vertex)| {
-        space.may_turn(index.checked_sub(1).and_then(at), vertex, at(index + 1))
-    };
-    path.iter().all(|&at| space.id(at).is_some())
-        && path.windows(2).all(|ends| space.sees(ends[0], ends[1]))
-        && (path.len() < 2 || path.iter().enumerate().all(turns))
-}
-
-/// All vertices on a path.
-fn vertices(waypoints: &[Vertex]) -> Vec<Vertex> {
-    let mut all: Vec<Vertex> = waypoints.first().copied().into_iter().collect();
-    for ends in waypoints.windows(2) {
-        all.extend(between(ends[0], ends[1]).chain([ends[1]]));
-    }
-    all
-}
-
-/// The vertices strictly between two others on the straight segment that joins them.
-pub(super) fn between(from: Vertex, to: Vertex) -> impl DoubleEndedIterator<Item = Vertex> {
-    let d = from.to(to);
-    let parts = d.gcd().max(1) as i32;
-    (1..parts).map(move |part| Vertex::new(from.x + d.x / parts * part, from.y + d.y / parts * part))
 }

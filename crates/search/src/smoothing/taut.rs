@@ -5,7 +5,8 @@ use std::ops::Range;
 use mediant_grid::{FreeSpace, Placement, Vector, Vertex, sight::PolygonCells};
 use mediant_moves::Cost;
 
-use super::linear::{between, is_legal, smooth_legal, without_repetitions};
+use super::linear::{smooth_legal, without_repetitions};
+use crate::path::{between, check};
 
 /// Pulls a path taut, like a string: first [`smooth`](super::smooth), then waypoint by waypoint, until none
 /// can be left out or moved.
@@ -47,7 +48,7 @@ use super::linear::{between, is_legal, smooth_legal, without_repetitions};
 #[must_use]
 pub fn pull_taut<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
     let corners = without_repetitions(waypoints);
-    if !is_legal(space, &corners) {
+    if check(space, &corners).is_err() {
         return waypoints.to_vec();
     }
     let mut string = Taut { space, path: smooth_legal(space, &corners), cover: PolygonCells::default() };

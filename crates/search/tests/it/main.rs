@@ -11,6 +11,7 @@ mod heuristics;
 mod identity;
 mod kramm2018;
 mod open_list;
+mod path;
 mod queries;
 mod smoothing;
 mod snapshots;

@@ -1,0 +1,137 @@
+//! Paths: what they are made of (`steps.rs`), what can be measured on them (`measure.rs`), and whether they
+//! still hold on a map (`check.rs`).
+
+mod check;
+mod measure;
+mod steps;
+
+use std::fmt;
+
+use mediant_grid::Vertex;
+
+use self::steps::Segment;
+pub use self::{
+    check::BrokenPath,
+    measure::{SpacingError, Turn},
+};
+pub(crate) use self::{
+    check::check,
+    steps::{between, vertices},
+};
+
+/// A path: its waypoints and its length.
+///
+/// Two consecutive waypoints are joined by one move of N(k), taken once or several times in a row, or in
+/// any-angle paths by a straight legal segment. A path from a vertex to itself has that vertex as its only
+/// waypoint.
+///
+/// A path knows no map: its waypoints may be anywhere, and [`check`](Self::check) asks whether it holds on a
+/// map. Places on it are vertices, whole or not: between centers, (x, y) is the middle of cell (x, y), at
+/// corners its upper left corner. Between centers add ½ to both to have (0, 0) at the corner of the map.
+///
+/// Waypoints of maps are less than 2³¹ apart along each axis. Where they are not, [`moves`](Self::moves) and
+/// [`cells`](Self::cells) pass over the segment; all else is right there too.
+///
+/// ```
+/// use mediant_search::Path;
+/// let path = Path::new(vec![(0, 0).into(), (3, 0).into(), (5, 2).into()]);
+/// assert_eq!(path.vertices().count(), 6);
+/// assert_eq!(path.point_at(1.5), Some((1.5, 0.0)));
+/// assert_eq!(path.reversed().to_string(), "(5, 2) → (3, 0) → (0, 0)");
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Path {
+    waypoints: Vec<Vertex>,
+    cost: f64,
+}
+
+impl Path {
+    /// The path along these waypoints; its cost is the sum of the lengths of the segments between them.
+    #[must_use]
+    pub fn new(waypoints: Vec<Vertex>) -> Self {
+        // Not `sum`, which yields −0 for no segments.
+        let cost = waypoints.windows(2).fold(0.0, |cost, ends| cost + ends[0].distance(ends[1]));
+        Self { waypoints, cost }
+    }
+
+    /// The waypoints, start and goal included.
+    #[must_use]
+    pub fn waypoints(&self) -> &[Vertex] {
+        &self.waypoints
+    }
+
+    /// The waypoints, without a copy.
+    #[must_use]
+    pub fn into_waypoints(self) -> Vec<Vertex> {
+        self.waypoints
+    }
+
+    /// The Euclidean length in cells, recomputed from the waypoints rather than taken from the search's
+    /// fixed-point sum.
+    #[must_use]
+    pub const fn cost(&self) -> f64 {
+        self.cost
+    }
+
+    /// The path from its goal to its start. Its cost is summed up from there, so that it can differ from this
+    /// path's in the last bits.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        Self::new(self.waypoints.iter().rev().copied().collect())
+    }
+
+    /// This path and then another one, which begins where this one ends. If it goes straight on there, that
+    /// waypoint is left out; all others are kept. A path without waypoints adds nothing to another one.
+    ///
+    /// Two paths that hold on a map can meet at a closed gap that the whole may not pass:
+    /// [`check`](Self::check) tells.
+    ///
+    /// ```
+    /// use mediant_search::Path;
+    /// let path = |waypoints: &[(i32, i32)]| Path::new(waypoints.iter().map(|&at| at.into()).collect());
+    /// let whole = path(&[(0, 0), (2, 1)]).joined(&path(&[(2, 1), (6, 3), (6, 9)]))?;
+    /// assert_eq!(whole, path(&[(0, 0), (6, 3), (6, 9)]));
+    /// # Ok::<(), mediant_search::JoinError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`JoinError`] if the other path begins elsewhere.
+    pub fn joined(&self, other: &Self) -> Result<Self, JoinError> {
+        let (Some(&end), Some(&start)) = (self.waypoints.last(), other.waypoints.first()) else {
+            return Ok(if self.waypoints.is_empty() { other.clone() } else { self.clone() });
+        };
+        if end != start {
+            return Err(JoinError { end, start });
+        }
+        let mut waypoints = self.waypoints.clone();
+        let before = waypoints.len().checked_sub(2).and_then(|index| waypoints.get(index));
+        let ends = before.zip(other.waypoints.get(1));
+        if ends.is_some_and(|(&before, &after)| {
+            Segment::new(before, end).continues_in(&Segment::new(start, after))
+        }) {
+            waypoints.pop();
+        }
+        waypoints.extend_from_slice(other.waypoints.get(1..).unwrap_or_default());
+        Ok(Self::new(waypoints))
+    }
+}
+
+/// Two paths that cannot be joined: see [`Path::joined`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the path ends at {end}, and the other one begins at {start}: they must meet to be joined")]
+pub struct JoinError {
+    /// Where the first path ends.
+    pub end: Vertex,
+    /// Where the second one begins.
+    pub start: Vertex,
+}
+
+/// The waypoints, joined by arrows.
+impl fmt::Display for Path {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (at, waypoint) in self.waypoints.iter().enumerate() {
+            write!(f, "{}{waypoint}", if at == 0 { "" } else { " → " })?;
+        }
+        Ok(())
+    }
+}

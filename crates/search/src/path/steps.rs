@@ -1,0 +1,139 @@
+//! The segments of a path, and the moves, vertices and cells along them.
+
+use mediant_grid::{PlacementKind, Vector, Vertex, sight::segment_cells};
+use mediant_moves::{K, level};
+
+use super::Path;
+
+/// The straight piece between two waypoints. Waypoints may be anywhere, so displacements are 64 bits wide.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Segment {
+    pub(super) from: Vertex,
+    pub(super) to: Vertex,
+}
+
+impl Segment {
+    pub(super) const fn new(from: Vertex, to: Vertex) -> Self {
+        Self { from, to }
+    }
+
+    /// The displacement from start to end.
+    pub(super) fn by(&self) -> (i64, i64) {
+        (i64::from(self.to.x) - i64::from(self.from.x), i64::from(self.to.y) - i64::from(self.from.y))
+    }
+
+    pub(super) fn length(&self) -> f64 {
+        self.from.distance(self.to)
+    }
+
+    /// The determinant of two displacements, and their scalar product.
+    pub(super) fn det_and_dot(&self, next: &Self) -> (i128, i128) {
+        let ((a, b), (c, d)) = (self.by(), next.by());
+        let product = |a: i64, b: i64| i128::from(a) * i128::from(b);
+        (product(a, d) - product(b, c), product(a, c) + product(b, d))
+    }
+
+    /// Whether both have a length and the same direction.
+    pub(super) fn continues_in(&self, next: &Self) -> bool {
+        let (det, dot) = self.det_and_dot(next);
+        det == 0 && dot > 0
+    }
+
+    /// How many times its move is taken: the greatest common divisor of its displacement.
+    fn times(&self) -> i64 {
+        let (mut a, mut b) = (self.by().0.abs(), self.by().1.abs());
+        while b != 0 {
+            (a, b) = (b, a % b);
+        }
+        a
+    }
+
+    /// Its move, if it has a length and the move fits.
+    fn unit(&self) -> Option<Vector> {
+        let (times, (x, y)) = (self.times(), self.by());
+        let along = |by: i64| i32::try_from(by.checked_div(times)?).ok();
+        Some(Vector::new(along(x)?, along(y)?))
+    }
+}
+
+impl Path {
+    /// The segments that have a length.
+    pub(super) fn segments(&self) -> impl Iterator<Item = Segment> + Clone {
+        let segments = self.waypoints.windows(2).map(|ends| Segment::new(ends[0], ends[1]));
+        segments.filter(|segment| segment.from != segment.to)
+    }
+
+    /// The moves of the path, one after another: each segment is one vector of gcd 1, once or several times.
+    /// On a path over N(k) these are the moves of N(k).
+    ///
+    /// ```
+    /// use mediant_search::Path;
+    /// let path = Path::new(vec![(0, 0).into(), (4, 2).into(), (4, 3).into()]);
+    /// assert!(path.moves().eq([(2, 1), (2, 1), (0, 1)].map(Into::into)));
+    /// ```
+    pub fn moves(&self) -> impl Iterator<Item = Vector> {
+        let moves = self.segments().filter_map(|segment| Some((segment.unit()?, segment.times())));
+        moves.flat_map(|(unit, times)| (0..times).map(move |_| unit))
+    }
+
+    /// Every vertex on the path, in order: the waypoints and all vertices that its segments pass exactly
+    /// through. On a path over N(k) there is one after each move. Standing still counts once.
+    pub fn vertices(&self) -> impl Iterator<Item = Vertex> {
+        vertices(&self.waypoints)
+    }
+
+    /// Every cell that the path meets, as (x, y), in the order in which it does, and each time that it comes
+    /// back. What it meets is said by [`segment_cells`]: between centers all cells that it touches, and where
+    /// it passes exactly through a corner of cells all four; at corners the cells whose open interior it
+    /// meets, and none along a grid line. No cell comes twice in a row.
+    ///
+    /// ```
+    /// use mediant_search::Path;
+    /// use mediant_grid::PlacementKind;
+    /// let path = Path::new(vec![(0, 0).into(), (2, 0).into(), (3, 1).into()]);
+    /// assert!(path.cells(PlacementKind::Center).eq([(0, 0), (1, 0), (2, 0), (3, 0), (2, 1), (3, 1)]));
+    /// assert!(path.cells(PlacementKind::Corner).eq([(2, 0)]));
+    /// ```
+    pub fn cells(&self, placement: PlacementKind) -> impl Iterator<Item = (i32, i32)> {
+        let alone = self.waypoints.first().filter(|_| self.segments().next().is_none());
+        let alone = alone.map(|&at| Segment::new(at, at));
+        let segments = alone.into_iter().chain(self.segments());
+        let mut last = None;
+        segments
+            .flat_map(move |segment| segment_cells(placement, segment.from, segment.to))
+            .filter(move |&cell| last.replace(cell) != Some(cell))
+    }
+
+    /// Whether each segment of the path is a move of N(k), taken once or several times in a row: whether it
+    /// is a path over N(k). Smoothed paths and those at any angle are not, as a rule, at a finite k. Whether
+    /// the path holds on a map is another question: [`check`](Self::check).
+    ///
+    /// ```
+    /// use mediant_search::Path;
+    /// use mediant_moves::K;
+    /// let path = Path::new(vec![(0, 0).into(), (4, 2).into(), (4, 3).into()]);
+    /// assert!(path.is_over(K::N16) && !path.is_over(K::N8));
+    /// ```
+    #[must_use]
+    pub fn is_over(&self, k: K) -> bool {
+        let K::Finite(k) = k else { return true };
+        let is_of_k = |unit: Vector| level(unit).is_some_and(|level| level <= k.get());
+        self.segments().all(|segment| segment.unit().is_some_and(is_of_k))
+    }
+}
+
+/// All vertices on a path through these waypoints, without repetition in a row.
+pub(crate) fn vertices(waypoints: &[Vertex]) -> impl Iterator<Item = Vertex> {
+    let ends = waypoints.windows(2).filter(|ends| ends[0] != ends[1]);
+    let rest = ends.flat_map(|ends| between(ends[0], ends[1]).chain([ends[1]]));
+    waypoints.first().copied().into_iter().chain(rest)
+}
+
+/// The vertices strictly between two others on the straight segment that joins them.
+pub(crate) fn between(from: Vertex, to: Vertex) -> impl DoubleEndedIterator<Item = Vertex> {
+    let segment = Segment::new(from, to);
+    let (times, (x, y)) = (segment.times().max(1), segment.by());
+    // Between two numbers of 32 bits.
+    let along = move |from: i32, by: i64, part: i64| (i64::from(from) + by / times * part) as i32;
+    (1..times).map(move |part| Vertex::new(along(from.x, x, part), along(from.y, y, part)))
+}
