@@ -1,7 +1,7 @@
 //! Sight in integers: whether a segment is free, and all that a vertex sees.
 //!
-//! [`line_of_sight`] tests one segment, [`segment_cells`] lists the cells that it meets. A [`VisibilitySweep`] finds everything that a vertex sees among the
-//! vertices of a set.
+//! [`line_of_sight`] tests one segment, [`segment_cells`] lists the cells that it meets. A
+//! [`VisibilitySweep`] finds everything that a vertex sees among the vertices of a set.
 //!
 //! The module also has the parts of both that the searches of this workspace are made of; they are hidden
 //! from the documentation, because their arguments must fit together in ways that only their callers ensure.

@@ -85,8 +85,8 @@ impl BrokenPath {
 impl Path {
     /// Whether the path obeys the rules of motion on this map, at any angle: whether it still holds, for
     /// instance after the map was edited. It asks for sight along each segment, so it costs far less than a
-    /// search. Whether its segments are moves of N(k) is asked by [`is_over`](Self::is_over); whether there is
-    /// a shorter path, by a search.
+    /// search. [`is_over`](Self::is_over) asks whether its segments are moves of N(k). Whether there is a
+    /// shorter path, only a search tells.
     ///
     /// First it looks whether all waypoints are on the map and both ends are free, then at one segment after
     /// another from the start. Standing still, at a waypoint that repeats the one before, is allowed.

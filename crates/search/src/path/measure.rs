@@ -73,8 +73,8 @@ impl Path {
         Some(point((end.x, end.y)))
     }
 
-    /// Points along the path, `spacing` cells apart as measured along it: at 0, `spacing`, 2 `spacing`, … from
-    /// the start, and then its end. So start and end are always among them, and the last step is shorter
+    /// Points along the path, `spacing` cells apart as measured along it: at 0, `spacing`, 2 `spacing`, …
+    /// from the start, and then its end. So start and end are always among them, and the last step is shorter
     /// than the others unless the length is a multiple of `spacing`; a step below a billionth of `spacing`
     /// is left out. A path of length 0 has one point, one without waypoints none.
     ///
