@@ -1,5 +1,7 @@
 //! Reads and writes maps as people have them: MovingAI maps, pictures, ROS maps; and scenarios. Features add
 //! PNG, saved indexes and search traces.
+//! Reads and writes MovingAI maps and scenarios without loss. Features add saved indexes, search traces and
+//! pictures.
 //!
 //! [`read_map`] takes a file of any kind, told by its content, and gives a [`Grid`](mediant_grid::Grid):
 //!
@@ -40,18 +42,22 @@
 //! | none | [`MapFile`], [`Scenario`], [`Raster`] of PGM and PBM, [`RosMap`] | `mediant-grid`, `thiserror` |
 //! | `index` | `IndexFile`: what an engine preprocessed, saved for later runs | `sha2`, `tempfile` |
 //! | `png` | PNG wherever there are pictures | `png` |
+//! | `picture` | `Picture`: a map with paths, a field, a search, as PNG and SVG | `png` |
 //! | `trace` | `TraceWriter`: a search, for the Posthoc visualizer | `serde`, `serde_json` |
 //!
 //! No feature is on by default, and none changes what is there without it.
 //!
-//! What is not here: searches and engines. Indexes and traces are made of names, numbers and bytes. It is not
-//! checked whether a query's start or goal is free, since that depends on where the vertices are.
+//! What is not here: searches and engines. Indexes, traces and pictures are made of names, numbers and
+//! bytes. It is not checked whether a query's start or goal is free, since that depends on where the vertices
+//! are.
 
 mod fraction;
 #[cfg(feature = "index")]
 mod index;
 mod map;
 mod raster;
+#[cfg(feature = "picture")]
+mod picture;
 mod read;
 #[cfg(doctest)]
 mod readme;
@@ -68,6 +74,8 @@ pub use fraction::{Fraction, FractionError};
 pub use index::{IndexError, IndexFile, IndexKey, WriteError};
 pub use map::{MapError, MapFile};
 pub use raster::{ImageOptions, Raster, RasterError, RasterFormat, Unknown};
+#[cfg(feature = "picture")]
+pub use picture::{Picture, PictureError};
 pub use read::{MAX_FILE_BYTES, ReadError};
 pub use ros::{RosError, RosMap, RosMode, RosSettings};
 pub use scenario::{Instance, MapMismatch, Scenario, ScenarioError, scenario_tolerance};

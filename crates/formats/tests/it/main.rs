@@ -9,6 +9,7 @@ mod map;
 #[path = "../png_chunks.rs"]
 mod png_chunks;
 mod raster;
+mod picture;
 mod read;
 mod ros;
 mod scenario;
