@@ -88,11 +88,15 @@ fn map(picture: &Picture<'_>, layout: Layout, body: &mut String) -> bool {
     let tiles = Tiles::of(picture);
     let walls = if layout.cells > 1 { None } else { outlines(picture.grid, LONGEST_OUTLINE) };
     let is_plain = tiles.is_none() && walls.is_some();
+    // The last pixels of a map can lie across its border.
+    let reach = |pixels: u32| pixels / layout.cell * layout.cells;
+    let size = (reach(width), reach(height));
     let pixel = format!("{:.4}", 1.0 / layout.scale());
     _ = writeln!(
         body,
-        "<svg x=\"{MARGIN}\" y=\"{MARGIN}\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {columns} {rows}\" \
-         preserveAspectRatio=\"none\">"
+        "<svg x=\"{MARGIN}\" y=\"{MARGIN}\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {} {}\" \
+         preserveAspectRatio=\"none\">",
+        size.0, size.1
     );
     if let Some(walls) = walls {
         _ = writeln!(body, "<rect class=\"free\" width=\"{columns}\" height=\"{rows}\"/>");
@@ -112,9 +116,6 @@ fn map(picture: &Picture<'_>, layout: Layout, body: &mut String) -> bool {
         let pixel_a_cell =
             Layout { cell: 1, width: width / layout.cell, height: height / layout.cell, ..layout };
         let base = picture.base(tiles.as_ref(), pixel_a_cell, 0);
-        // The last pixels of a map can lie across its border.
-        let reach = |pixels: u32| pixels * layout.cells;
-        let size = (reach(base.width), reach(base.height));
         pixels((0.0, 0.0), size, |out| encode::png(&base, out), body);
     }
     let contours = contour::lines(picture);

@@ -158,6 +158,10 @@ fn a_large_map_shows_the_mean_of_cells() {
             [third, WALL]
         );
         let smaller = Pixels::of(&Picture::new(&grid, placement).largest_side(0));
+        // 64 pixels of 141 cells are a little more than the map.
+        let svg = Picture::new(&grid, placement).largest_side(0).svg();
+        assert!(svg.contains("width=\"64\" height=\"1\" viewBox=\"0 0 9024 141\""), "{svg}");
+        assert!(svg.contains("width=\"9024\" height=\"141\" preserve"), "{svg}");
         assert_eq!(smaller.width, 9000_u32.div_ceil(9000_u32.div_ceil(64)) + 2 * MARGIN);
     }
 }
