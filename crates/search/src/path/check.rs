@@ -45,7 +45,7 @@ pub enum BrokenPath {
     /// The path passes a closed gap, or starts or ends in a quadrant of one in which it may not.
     #[error("the path crosses a closed gap at waypoint {index}: {}", Way(*before, *at, *after))]
     Gap {
-        /// Which waypoint, from 0.
+        /// Which waypoint, from 0; the last one, where the path stands still there.
         index: usize,
         /// The waypoint.
         at: Vertex,
@@ -132,7 +132,6 @@ pub(crate) fn check<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) ->
         return Err(BrokenPath::Blocked { end, at });
     }
     let mut before = None;
-    let mut last = 0;
     for (ends, index) in waypoints.windows(2).zip(0..) {
         let (from, to) = (ends[0], ends[1]);
         if from == to {
@@ -142,10 +141,10 @@ pub(crate) fn check<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) ->
         if let Some(by) = space.obstruction(from, to) {
             return Err(BrokenPath::Segment { index, from, to, by });
         }
-        (before, last) = (Some(from), index + 1);
+        before = Some(from);
     }
     // A path that stays where it is does not leave any quadrant.
-    if before.is_some() { turn(space, (before, goal, None), last) } else { Ok(()) }
+    if before.is_some() { turn(space, (before, goal, None), waypoints.len() - 1) } else { Ok(()) }
 }
 
 fn turn<P: Placement>(
