@@ -1,7 +1,5 @@
 //! Reads and writes maps as people have them: MovingAI maps, pictures, ROS maps; and scenarios. Features add
-//! PNG, saved indexes and search traces.
-//! Reads and writes MovingAI maps and scenarios without loss. Features add saved indexes, search traces and
-//! pictures.
+//! PNG, saved indexes, search traces, and pictures of maps with paths.
 //!
 //! [`read_map`] takes a file of any kind, told by its content, and gives a [`Grid`](mediant_grid::Grid):
 //!
@@ -55,9 +53,9 @@ mod fraction;
 #[cfg(feature = "index")]
 mod index;
 mod map;
-mod raster;
 #[cfg(feature = "picture")]
 mod picture;
+mod raster;
 mod read;
 #[cfg(doctest)]
 mod readme;
@@ -73,9 +71,9 @@ pub use fraction::{Fraction, FractionError};
 #[cfg(feature = "index")]
 pub use index::{IndexError, IndexFile, IndexKey, WriteError};
 pub use map::{MapError, MapFile};
-pub use raster::{ImageOptions, Raster, RasterError, RasterFormat, Unknown};
 #[cfg(feature = "picture")]
 pub use picture::{Picture, PictureError};
+pub use raster::{ImageOptions, Raster, RasterError, RasterFormat, Unknown};
 pub use read::{MAX_FILE_BYTES, ReadError};
 pub use ros::{RosError, RosMap, RosMode, RosSettings};
 pub use scenario::{Instance, MapMismatch, Scenario, ScenarioError, scenario_tolerance};

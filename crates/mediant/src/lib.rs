@@ -102,8 +102,8 @@ pub use mediant_grid::{
 };
 pub use mediant_moves::{Cost, FiniteK, K};
 pub use mediant_search::{
-    BrokenPath, Counters, End, Guarantee, Limit, Limits, NodeEvent, Observer, Outcome, Path, Query, QueryError,
-    Request, Smoothing, Stopped, Turn,
+    BrokenPath, Counters, End, Guarantee, Limit, Limits, NodeEvent, Observer, Outcome, Path, Query,
+    QueryError, Request, Smoothing, Stopped, Turn,
 };
 pub use mediant_subgoal::{Progress, Stage};
 pub use motion::Motion;

@@ -6,10 +6,10 @@ mod fuzz;
 mod identity;
 mod index;
 mod map;
+mod picture;
 #[path = "../png_chunks.rs"]
 mod png_chunks;
 mod raster;
-mod picture;
 mod read;
 mod ros;
 mod scenario;
