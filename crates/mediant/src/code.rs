@@ -119,6 +119,7 @@ impl Error {
             Self::Grid(GridError::Size { .. }) => ErrorCode::MapSize,
             Self::Grid(GridError::Ragged { .. }) => ErrorCode::MapRagged,
             Self::Edit { .. } => ErrorCode::EditOutside,
+            Self::Size(_) => ErrorCode::Number,
             Self::Motion { .. } => ErrorCode::Motion,
             Self::K(_) => ErrorCode::K,
             Self::Name(_) => ErrorCode::UnknownName,

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use mediant_formats::{IndexError, ReadError, WriteError};
-use mediant_grid::{GridError, Mismatch, Rectangle};
+use mediant_grid::{GridError, Mismatch, Rectangle, SizeError};
 use mediant_hierarchy::HierarchyError;
 use mediant_moves::KError;
 use mediant_search::{JumpError, QueryError};
@@ -41,6 +41,9 @@ pub enum Error {
         /// The width and the height of the map.
         size: (u32, u32),
     },
+    /// An agent without a size.
+    #[error(transparent)]
+    Size(#[from] SizeError),
     /// Motion that no engine searches.
     #[error("no engine searches {motion}: choose a k from 2 to {max}, or corners for k = any")]
     Motion {

@@ -1,7 +1,7 @@
 //! The errors inside an [`Error`](crate::Error), each with its fields.
 
 pub use mediant_formats::{IndexError, MapError, RasterError, ReadError, RosError, WriteError};
-pub use mediant_grid::{GridError, Mismatch};
+pub use mediant_grid::{GridError, Mismatch, SizeError};
 pub use mediant_hierarchy::HierarchyError;
 pub use mediant_moves::KError;
 pub use mediant_search::{BrokenPath, JoinError, JumpError, QueryError, SpacingError};

@@ -57,6 +57,7 @@
 //!
 //! Clocks, threads (but for the feature `parallel`, which prepares subgoal graphs on all cores), and output.
 
+mod agent;
 mod capabilities;
 mod choice;
 mod code;
@@ -85,6 +86,7 @@ mod suite;
 mod table;
 mod text;
 
+pub use agent::WidestPath;
 pub use capabilities::Capabilities;
 pub use choice::Choice;
 pub use code::ErrorCode;
@@ -97,8 +99,8 @@ pub use error::Error;
 pub use index::{Index, Origin};
 pub use map::Map;
 pub use mediant_grid::{
-    CornerRule, DiagonalGap, Grid, Identity, MapId, Mismatch, Obstruction, PlacementKind, Rectangle, Rules,
-    Vertex,
+    Clearance, CornerRule, DiagonalGap, Fit, Grid, Identity, MapId, Mismatch, Obstruction, Outside,
+    PlacementKind, Rectangle, Rules, Vertex,
 };
 pub use mediant_moves::{Cost, FiniteK, K};
 pub use mediant_search::{

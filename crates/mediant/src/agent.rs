@@ -1,0 +1,114 @@
+//! Agents of a size, and paths that keep off walls.
+
+use std::sync::Arc;
+
+use mediant_grid::{Clearance, Fit, Outside, Vertex};
+use mediant_search::{Limits, Outcome, Path, Query};
+
+use crate::{choice::Choice, error::Error, map::Map, motion::Motion, space::Space};
+
+impl Map {
+    /// The map of a disc, whose radius is in cells: it is free where the disc fits. On each path over this
+    /// motion on that map the moving disc keeps its radius: it touches obstacles at most
+    /// ([guarantees](Clearance#guarantees)).
+    ///
+    /// For several radii make a [`clearance`](Self::clearance), which is measured once and also has looser
+    /// fits.
+    ///
+    /// ```
+    /// use mediant::{K, Map, Motion};
+    ///
+    /// let motion = Motion::centers(K::N8);
+    /// let map = Map::from_fn(40, 9, |x, y| x == 20 && y != 4)?;
+    /// assert!(map.for_disc(0.5, motion)?.path((2, 4), (38, 4))?.is_some());
+    /// assert!(map.for_disc(0.6, motion)?.path((2, 4), (38, 4))?.is_none());
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Size`] for a radius that is negative or not finite.
+    pub fn for_disc(&self, radius: f64, motion: Motion) -> Result<Self, Error> {
+        let fit = Fit::exact(motion.rules, motion.k);
+        Ok(self.clearance(fit, Outside::Blocked).for_disc(radius)?.into())
+    }
+
+    /// The map of an agent that occupies n × n cells. Its place is its top left cell: a cell is free if all
+    /// n × n cells from it on, to the right and down, are. What the moving square keeps free is said at
+    /// [`Grid::for_square`](mediant_grid::Grid::for_square).
+    ///
+    /// # Errors
+    /// [`Error::Size`] for n = 0.
+    pub fn for_square(&self, n: u32) -> Result<Self, Error> {
+        Ok(self.grid().for_square(n)?.into())
+    }
+
+    /// How far each cell is from the nearest obstacle, and the maps of discs of all radii.
+    #[must_use]
+    pub fn clearance(&self, fit: Fit, outside: Outside) -> Clearance {
+        Clearance::new(Arc::clone(self.grid()), fit, outside)
+    }
+}
+
+/// A path that keeps off walls: see [`Space::widest_path`].
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct WidestPath {
+    /// The path.
+    pub path: Path,
+    /// The radius, in cells, of the disc that keeps its distance to all obstacles along the path.
+    pub radius: f64,
+}
+
+impl Space {
+    /// Of all paths whose length is at most (1 + `surplus`) times that of the shortest, one that keeps off
+    /// walls farthest, measured where it comes nearest to one; and of these a shortest. With a surplus of 0 it
+    /// is a shortest path of the space; 0.1 allows 10 % more. `None` if there is no path.
+    ///
+    /// 'Keeps off' is exact: no path that is short enough lies on the map of a larger disc
+    /// ([`Clearance::widest`]). How far a path keeps off elsewhere is not promised. There is one search for
+    /// each of the discs that a bisection tries: about ten.
+    ///
+    /// ```
+    /// use mediant::{K, Map, Motion};
+    ///
+    /// // A wall with a gap of one cell on the straight way, and a wide opening below.
+    /// let map = Map::from_fn(20, 15, |x, y| x == 10 && y != 3 && y < 9)?;
+    /// let space = map.space(Motion::centers(K::N8))?;
+    /// let width = |surplus| Ok::<_, mediant::Error>(space.widest_path((2, 3), (18, 3), surplus)?.unwrap().radius);
+    /// assert_eq!((width(0.0)?, width(0.5)?, width(1.0)?), (0.5, 1.5, 2.5));
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Query`] for a start or goal that is blocked or outside the map, or a surplus that is negative
+    /// or not a number.
+    pub fn widest_path(
+        &self,
+        start: impl Into<Vertex>,
+        goal: impl Into<Vertex>,
+        surplus: f64,
+    ) -> Result<Option<WidestPath>, Error> {
+        let (start, goal) = (start.into(), goal.into());
+        let Motion { k, rules } = self.motion();
+        if surplus.is_nan() || surplus < 0.0 {
+            return Err(mediant_search::QueryError::CostLimit.into());
+        }
+        let Some(shortest) = self.path(start, goal)? else { return Ok(None) };
+        // Two paths of one length can have sums that differ in the last digits.
+        let greatest = shortest.cost() * (1.0 + surplus) * (1.0 + 1e-12);
+        let clearance = self.map().clearance(Fit::exact(rules, k), Outside::Blocked);
+        let at_ends = [start, goal].map(|at| clearance.largest_disc_at(rules.placement(), at).unwrap_or(0.0));
+        let widest = clearance.widest(at_ends[0].min(at_ends[1]), |grid| {
+            let space = Map::from(Arc::clone(grid)).space(self.motion())?;
+            if !(space.is_free(start) && space.is_free(goal)) {
+                return Ok::<_, Error>(None);
+            }
+            let request = Query::new(start, goal).within(Limits::new().cost(greatest));
+            Ok(match space.planner(Choice::for_one_path(k))?.find(request)? {
+                Outcome::Found(path) => Some(path),
+                _ => None,
+            })
+        })?;
+        Ok(widest.map(|widest| WidestPath { path: widest.found, radius: widest.radius }))
+    }
+}
