@@ -74,8 +74,9 @@ impl Space {
     /// // A wall with a gap of one cell on the straight way, and a wide opening below.
     /// let map = Map::from_fn(20, 15, |x, y| x == 10 && y != 3 && y < 9)?;
     /// let space = map.space(Motion::centers(K::N8))?;
-    /// let width = |surplus| Ok::<_, mediant::Error>(space.widest_path((2, 3), (17, 3), surplus)?.unwrap().radius);
-    /// assert_eq!((width(0.0)?, width(0.5)?, width(1.0)?), (0.5, 1.5, 2.5));
+    /// let shortest = space.widest_path((2, 3), (17, 3), 0.0)?.expect("there is a way");
+    /// let wider = space.widest_path((2, 3), (17, 3), 1.0)?.expect("there is a way");
+    /// assert_eq!((shortest.radius, wider.radius), (0.5, 2.5));
     /// # Ok::<(), mediant::Error>(())
     /// ```
     ///
