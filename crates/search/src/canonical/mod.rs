@@ -90,6 +90,7 @@ mod tests;
 pub(crate) use alternatives::{MoveTable, Requirements};
 pub(crate) use order::{natural, rank};
 pub use paper::PaperCanonical;
+pub(crate) use pattern_table::{PatternTable, pattern_at};
 pub use planner::Canonical;
 pub use pruning::Pruning;
 pub(crate) use pruning::{LocalRule, prunes};

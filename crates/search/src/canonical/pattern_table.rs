@@ -88,7 +88,7 @@ impl PatternTable {
 
 /// The pattern of cells around a vertex of the map.
 #[inline]
-pub(super) fn pattern_at<P: Placement>(graph: &GridGraph<P>, at: Vertex) -> usize {
+pub(crate) fn pattern_at<P: Placement>(graph: &GridGraph<P>, at: Vertex) -> usize {
     let rows = graph.grid().rows();
     P::pattern(rows.words(), rows.index(at.x, at.y), rows.bits_per_row())
 }

@@ -10,7 +10,7 @@ use super::{
     forced_cache::ForcedCache,
     forced_trees::ForcedTrees,
     order::natural,
-    pattern_table::pattern_at,
+    pattern_table::{PatternTable, pattern_at},
     rule::{CanonicalRule, ForcedLookup},
 };
 use crate::successors::ExpandedNode;
@@ -152,6 +152,14 @@ impl<P: Placement> Pruning<P> {
                     }
                 }
             }
+        }
+    }
+
+    /// The table of successors; for k ≤ 3.
+    pub(crate) fn table(&self) -> Option<&PatternTable> {
+        match &self.rule.lookup {
+            ForcedLookup::Table(table) => Some(table),
+            ForcedLookup::Trees(_) | ForcedLookup::Unknown => None,
         }
     }
 

@@ -7,6 +7,7 @@ mod common;
 mod events;
 mod exact;
 mod exhaustive;
+mod fields;
 mod heuristics;
 mod identity;
 mod kramm2018;

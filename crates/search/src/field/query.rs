@@ -1,0 +1,84 @@
+//! What a field is asked for, and what can be wrong with that.
+
+use mediant_grid::{FreeSpace, Placement, Vertex, VertexId};
+use mediant_moves::Cost;
+
+use crate::query::{Query, QueryError};
+
+/// What a field is to hold: its sources, and how far it reaches.
+///
+/// ```
+/// use mediant_search::FieldQuery;
+/// let [depot, yard] = [(0, 0), (7, 3)].map(Into::into);
+/// let range = FieldQuery::new(&[depot, yard]).within(6.0);
+/// assert_eq!(range.limit, 6.0);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct FieldQuery<'q> {
+    /// The vertices at distance 0. If there is none, the field is empty.
+    pub sources: &'q [Vertex],
+    /// The greatest distance in the field, in cells: it holds exactly the vertices that are as near or
+    /// nearer. Infinity is no limit.
+    pub limit: f64,
+    /// If not empty, the field ends at the farthest of these vertices: it holds exactly the vertices that are
+    /// as near as that one, or nearer. If there is no path to one of them, it ends nowhere.
+    pub until: &'q [Vertex],
+}
+
+impl<'q> FieldQuery<'q> {
+    /// All that can be reached from the sources.
+    #[must_use]
+    pub const fn new(sources: &'q [Vertex]) -> Self {
+        Self { sources, limit: f64::INFINITY, until: &[] }
+    }
+
+    /// The same within a distance, in cells: a movement range. (Over N(k), distances are compared in fixed
+    /// point, and the limit is rounded down to a multiple of 2⁻³² cells. Where a limit is the length of a
+    /// path with diagonal moves, add 2⁻³³ of itself, or it may just miss the end of that path.)
+    #[must_use]
+    pub const fn within(self, limit: f64) -> Self {
+        Self { limit, ..self }
+    }
+
+    /// The same up to the farthest of these vertices.
+    #[must_use]
+    pub const fn until(self, until: &'q [Vertex]) -> Self {
+        Self { until, ..self }
+    }
+
+    /// Checks sources, targets and limit. Returns the ids of the sources.
+    pub(super) fn check<P: Placement>(&self, space: &FreeSpace<P>) -> Result<Vec<VertexId>, FieldError> {
+        if self.limit.is_nan() || self.limit < 0.0 {
+            return Err(FieldError::Limit { limit: self.limit });
+        }
+        self.sources.iter().try_for_each(|&at| Query::new(at, at).check(space))?;
+        if let Some(&first) = self.sources.first() {
+            self.until.iter().try_for_each(|&at| Query::new(first, at).check(space))?;
+        }
+        Ok(self.sources.iter().filter_map(|&at| space.id(at)).collect())
+    }
+
+    /// The limit in fixed point, rounded down.
+    pub(super) fn fixed_limit(&self) -> Cost {
+        // A product with a power of two is exact. The cast saturates; the greatest cost stands for 'no path'.
+        let bits = (self.limit * (1_u64 << Cost::FRACTION_BITS) as f64) as u64;
+        Cost::from_bits(bits.min(Cost::MAX.to_bits() - 1))
+    }
+}
+
+/// What is wrong with a [`FieldQuery`].
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FieldError {
+    /// A source (called the start) or a vertex at which the field is to end (the goal) is blocked or outside
+    /// the map.
+    #[error(transparent)]
+    Query(#[from] QueryError),
+    /// The limit is negative or not a number.
+    #[error("the limit of a field is {limit}: choose a distance in cells from 0 on, or infinity")]
+    Limit {
+        /// The limit.
+        limit: f64,
+    },
+}

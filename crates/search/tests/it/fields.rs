@@ -1,0 +1,207 @@
+//! Distance fields over N(k) against Dijkstra's algorithm on the explicit graph, against each other, and
+//! against single queries.
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use std::sync::Arc;
+
+use mediant_grid::{
+    AsciiMap, Centers, CornerRule, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vertex,
+};
+use mediant_moves::{Cost, FiniteK};
+use mediant_oracle::{Explicit, Rng, describe, random_free_vertex, seeds, suite_grid, validate};
+use mediant_search::{
+    AStar, End, Field, FieldError, FieldQuery, Fields, Hk, Path, Planner, Pruning, Query, QueryError,
+};
+
+/// Checks a field with all its paths against the oracle. Returns the number of vertices in it.
+fn check_field<P: Placement>(
+    field: &Field<&GridGraph<P>>,
+    oracle: &Explicit,
+    sources: &[Vertex],
+    case: &dyn Fn(Vertex) -> String,
+) -> u64 {
+    let graph = field.graph();
+    let costs: Vec<_> = sources.iter().map(|&source| oracle.costs_from(source)).collect();
+    let mut known = 0;
+    for y in -1..=field.height() as i32 {
+        for at in (-1..=field.width() as i32).map(|x| Vertex::new(x, y)) {
+            let best = costs.iter().filter_map(|costs| costs.to(at)).min_by(f64::total_cmp);
+            let found = field.get(at).map(Cost::to_f64);
+            let is_equal = match (found, best) {
+                (Some(found), Some(best)) => (found - best).abs() <= 1e-9 * best,
+                (None, None) => true,
+                _ => false,
+            };
+            assert!(is_equal, "{found:?}, not {best:?}; {}", case(at));
+            known += u64::from(found.is_some());
+            let path = field.path_from(at);
+            assert_eq!(path.is_some(), found.is_some(), "{}", case(at));
+            let Some((path, found)) = path.zip(found) else { continue };
+            let last = *path.waypoints().last().unwrap();
+            assert!(sources.contains(&last), "{path} ends at no source; {}", case(at));
+            assert_eq!(field.nearest_source(at), Some(last));
+            let k = Some(graph.k());
+            let fault = validate(graph.grid(), graph.rules(), k, at, last, path.waypoints(), found);
+            assert_eq!(fault, Ok(()), "{path}; {}", case(at));
+            assert_eq!(field.direction(at).is_none(), found == 0.0);
+            assert_eq!(field.next(at), field.direction(at).map(|v| at + v));
+        }
+    }
+    let (all, listed) = (field.lengths().filter(|length| length.is_finite()).count(), field.iter().count());
+    assert_eq!([all as u64, listed as u64], [known; 2]);
+    assert!(field.iter().all(|(at, cost)| field.get(at) == Some(cost)));
+    known
+}
+
+/// Some sources on a map, their fields with and without limits, and some single queries.
+fn check<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> [u64; 2] {
+    let graph = &GridGraph::<P>::new(Arc::clone(grid), k, rule).unwrap();
+    let (rules, mut rng) = (graph.rules(), Rng::new(seed ^ 0xF1E1D));
+    let oracle = Explicit::new(grid, rules, Some(k));
+    let (mut fields, mut astar) = (Fields::new(graph), AStar::new(graph, Hk));
+    let mut sums = [0; 2];
+    for count in [1, 3] {
+        let mut free = || random_free_vertex(&mut rng, grid, P::KIND);
+        let sources: Vec<Vertex> = (0..count).filter_map(|_| free()).collect();
+        let (Some(&first), Some(far)) = (sources.first(), free()) else { return sums };
+        let case = |at| format!("k = {k}, sources {sources:?}; {}", describe(grid, rules, first, at, seed));
+        let query = FieldQuery::new(&sources);
+        let field = fields.field(query).unwrap();
+        assert_eq!(field.identity(), graph.identity());
+        sums[0] += check_field(&field, &oracle, &sources, &case);
+        let best = sources.iter().filter_map(|&source| {
+            let outcome = astar.solve(Query::new(far, source)).unwrap();
+            outcome.into_path().map(|path| path.cost())
+        });
+        let (best, found) = (best.min_by(f64::total_cmp), field.path_from(far));
+        let found = found.as_ref().map(Path::cost);
+        let is_equal = best.zip(found).map_or(best == found, |(a, b)| (a - b).abs() <= 1e-9 * a);
+        assert!(is_equal, "{found:?}, by a single query {best:?}; {}", case(far));
+
+        // Limits: at a distance, just below it, and at that of a vertex where the field may end early.
+        let Some(limit) = field.get(far) else { continue };
+        sums[1] += 1;
+        let within = |limit: Cost| -> Vec<_> { field.iter().filter(|&(_, cost)| cost <= limit).collect() };
+        let below = Cost::from_bits(limit.to_bits().saturating_sub(1));
+        for (query, limit) in [
+            (query.within(limit.to_f64()), limit),
+            (query.within(below.to_f64()), below),
+            (query.until(&[far]), limit),
+            (query.until(&[far, first]).within(below.to_f64()), below),
+        ] {
+            let range = fields.field(query).unwrap();
+            assert!(range.iter().eq(within(limit)), "within {limit} by {query:?}; {}", case(far));
+            let again = fields.field_in(query, range.clone()).unwrap();
+            assert!(again.costs() == range.costs(), "in memory that was used; {}", case(far));
+        }
+    }
+    sums
+}
+
+fn check_rules(grid: &Arc<Grid>, rules: Rules, k: FiniteK, seed: u64) -> [u64; 2] {
+    match rules {
+        Rules::Center(rule) => check::<Centers>(grid, rule, k, seed),
+        Rules::Corner(rule) => check::<Corners>(grid, rule, k, seed),
+    }
+}
+
+#[test]
+fn fields_hold_the_distances_of_the_explicit_graph() {
+    let mut sums = [0; 2];
+    for seed in seeds(24) {
+        let grid = Arc::new(suite_grid(seed).0);
+        for rules in Rules::ALL {
+            // Rules of large k take long to prepare.
+            for k in if seed % 8 == 0 { 2..=7 } else { 2..=5 } {
+                let [vertices, limits] = check_rules(&grid, rules, FiniteK::new(k).unwrap(), seed);
+                sums = [sums[0] + vertices, sums[1] + limits];
+            }
+        }
+    }
+    let maps = seeds(24).end;
+    assert!(sums[0] > 1_000 * maps && sums[1] > 10 * maps, "{sums:?}");
+}
+
+/// k = 8, and k = 9, where the pruning rule is not tabulated.
+#[test]
+fn fields_of_large_k() {
+    for (seed, k) in seeds(2).flat_map(|seed| [(seed, 8), (seed + 7, 9)]) {
+        let grid = Arc::new(suite_grid(seed).0);
+        for rules in [Rules::Center(CornerRule::Never), Rules::Corner(DiagonalGap::Closed)] {
+            check_rules(&grid, rules, FiniteK::new(k).unwrap(), seed);
+        }
+    }
+}
+
+/// All maps of nine cells: the smallest hold the oddest gaps.
+#[test]
+fn fields_on_every_map_of_nine_cells() {
+    let mut vertices = 0;
+    for cells in 0..1_u32 << 9 {
+        let grid = Arc::new(Grid::from_fn(3, 3, |x, y| cells >> (3 * y + x) & 1 == 1).unwrap());
+        for rules in Rules::ALL {
+            for k in [2, 3, 4].map(|k| FiniteK::new(k).unwrap()) {
+                vertices += check_rules(&grid, rules, k, cells.into())[0];
+            }
+        }
+    }
+    assert!(vertices > 50_000, "{vertices}");
+}
+
+#[test]
+fn odd_maps() {
+    for (width, height) in [(1, 1), (1, 90), (130, 1), (64, 2), (2, 65)] {
+        for blocked in [false, true] {
+            let grid = Arc::new(Grid::from_fn(width, height, |_, _| blocked).unwrap());
+            for rules in Rules::ALL {
+                check_rules(&grid, rules, FiniteK::N16, 7);
+            }
+        }
+    }
+}
+
+/// On open ground and over wide streets: runs, words and buckets.
+#[test]
+fn large_maps_by_distance() {
+    let grid = Arc::new(Grid::from_fn(300, 200, |_, _| false).unwrap());
+    for k in (2..=6).map(|k| FiniteK::new(k).unwrap()) {
+        let graph = GridGraph::<Corners>::new(Arc::clone(&grid), k, DiagonalGap::Open).unwrap();
+        let from = Vertex::new(37, 101);
+        let field = Fields::new(&graph).field(FieldQuery::new(&[from])).unwrap();
+        assert_eq!(field.iter().count(), 301 * 201);
+        assert!(field.iter().all(|(at, cost)| cost == graph.costs().distance(at.to(from))), "k = {k}");
+    }
+}
+
+#[test]
+fn what_is_wrong_with_a_field() {
+    let map = AsciiMap::parse("..\n.#").unwrap();
+    let graph = GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::N8, CornerRule::Never).unwrap();
+    let mut fields = Fields::new(&graph);
+    let [free, blocked, outside] = [(0, 0), (1, 1), (2, 0)].map(Vertex::from);
+    let (end, last) = (End::Start, Vertex::new(1, 1));
+    let refused = |error| Some(FieldError::Query(error));
+    let found = fields.field(FieldQuery::new(&[free, blocked])).err();
+    assert_eq!(found, refused(QueryError::Blocked { end, at: blocked }));
+    let found = fields.field(FieldQuery::new(&[outside])).err();
+    assert_eq!(found, refused(QueryError::Outside { end, at: outside, last }));
+    let found = fields.field(FieldQuery::new(&[free]).until(&[blocked])).err();
+    assert_eq!(found, refused(QueryError::Blocked { end: End::Goal, at: blocked }));
+    for limit in [f64::NAN, -1.0, -f64::MIN_POSITIVE, f64::NEG_INFINITY] {
+        let found = fields.field(FieldQuery::new(&[free]).within(limit)).err();
+        assert!(matches!(found, Some(FieldError::Limit { .. })), "{limit}");
+    }
+    // No source, an empty field; no distance, the sources alone.
+    assert_eq!(fields.field(FieldQuery::new(&[])).unwrap().iter().count(), 0);
+    for limit in [0.0, -0.0, 0.999] {
+        let field = fields.field(FieldQuery::new(&[free, free]).within(limit)).unwrap();
+        assert!(field.iter().eq([(free, Cost::ZERO)]));
+        assert_eq!(field.path_from(free).unwrap().waypoints(), [free]);
+        assert_eq!((field.direction(free), field.direction(outside)), (None, None));
+    }
+    // A rule of another map.
+    let other = Arc::new(Grid::from_fn(2, 2, |_, _| false).unwrap());
+    let other = GridGraph::<Centers>::new(other, FiniteK::N8, CornerRule::Never).unwrap();
+    assert!(Fields::with_pruning(&graph, Arc::new(Pruning::new(&other))).is_err());
+    assert!(Fields::with_pruning(&other, Arc::new(Pruning::new(&other))).is_ok());
+}
