@@ -61,7 +61,7 @@ pub use anya::Anya;
 pub use astar::{AStar, Dijkstra};
 pub use canonical::{Canonical, CanonicalRule, PaperCanonical, Pruning};
 pub use distances::Distances;
-pub use field::{Field, FieldError, FieldQuery, Fields};
+pub use field::{AnyAngleField, AnyAngleFields, Field, FieldError, FieldQuery, Fields};
 pub use heuristic::{Euclidean, Heuristic, Hk, SquaredEuclidean, Zero};
 pub use jps::{BlockJps, Jps, JpsPlus, JumpError, JumpTable};
 pub use observer::{Counters, NodeEvent, Observer};

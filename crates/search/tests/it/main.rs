@@ -1,6 +1,7 @@
 //! The tests of the search crate that see it from outside. One binary, so that it is linked once; what needs
 //! an allocator of its own is in `../scratch.rs`.
 
+mod any_angle_fields;
 mod anya;
 mod canonical;
 mod common;

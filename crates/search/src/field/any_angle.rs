@@ -1,0 +1,175 @@
+//! The exact any-angle field at corners.
+
+use std::{cmp::Reverse, collections::BinaryHeap, ops::Deref};
+
+use mediant_grid::{BitMatrix, Corners, DiagonalGap, FreeSpace, Identity, VertexId, sight::Ray};
+use mediant_moves::K;
+
+use super::{
+    cone::{Labels, Piece, Root, turns},
+    lengths::AnyAngleField,
+    query::{FieldError, FieldQuery},
+};
+
+/// Makes exact any-angle distance fields at corners, one after another.
+///
+/// ```
+/// use std::sync::Arc;
+/// use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace, Vertex};
+/// use mediant_search::{AnyAngleFields, FieldQuery};
+///
+/// let map = AsciiMap::parse("
+///     ....
+///     .##.
+///     ....
+/// ")?;
+/// let space = FreeSpace::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
+/// let field = AnyAngleFields::new(&space).field(FieldQuery::new(&[Vertex::new(0, 0)]))?;
+/// // Around the corner (3, 1) of the obstacle.
+/// let at = Vertex::new(4, 3);
+/// assert_eq!(field.next(at), Some(Vertex::new(3, 1)));
+/// assert_eq!(field.get(at), Some(10_f64.sqrt() + 5_f64.sqrt()));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// `S` is how it holds its free space: by reference, or by `Arc`. The fields hold it too.
+#[derive(Clone, Debug)]
+pub struct AnyAngleFields<S> {
+    space: S,
+    /// The convex corners of obstacles at which paths may bend.
+    corners: BitMatrix,
+    open: BinaryHeap<Reverse<(u64, u32)>>,
+    bends: Vec<(f64, VertexId)>,
+    pending: Vec<Piece>,
+}
+
+impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
+    /// Prepares what fields of a free space need: a bit a vertex.
+    #[must_use]
+    pub fn new(space: S) -> Self {
+        let corners = bends(&space);
+        Self { space, corners, open: BinaryHeap::new(), bends: Vec::new(), pending: Vec::new() }
+    }
+
+    /// What it belongs to: its map and rules, and k = ∞.
+    #[must_use]
+    pub fn identity(&self) -> Identity {
+        Identity { k: Some(K::Any), ..self.space.identity() }
+    }
+
+    /// The memory used beyond the free space, in bytes.
+    #[must_use]
+    pub fn memory_bytes(&self) -> usize {
+        let queued = self.open.capacity() * size_of::<Reverse<(u64, u32)>>();
+        let pieces = self.pending.capacity() * size_of::<Piece>();
+        size_of_val(self.corners.words()) + queued + pieces + self.bends.capacity() * size_of::<(f64, u32)>()
+    }
+
+    /// The length of a shortest any-angle path from every vertex to the nearest source.
+    ///
+    /// # Errors
+    /// [`FieldError`] for a source that is blocked or outside the map, or a limit that is none.
+    pub fn field(&mut self, query: FieldQuery<'_>) -> Result<AnyAngleField<S>, FieldError> {
+        let sources = query.check(&self.space)?;
+        let count = self.space.vertex_count();
+        let (mut lengths, mut toward) = (vec![f64::INFINITY; count], vec![0; count]);
+        self.open.clear();
+        for &id in &sources {
+            if let (Some(length), Some(toward)) = (lengths.get_mut(id.index()), toward.get_mut(id.index())) {
+                if *length > 0.0 {
+                    self.open.push(Reverse((0, id.0)));
+                }
+                (*length, *toward) = (0.0, id.0);
+            }
+        }
+        let targets: Vec<usize> =
+            query.until.iter().filter_map(|&at| self.space.id(at)).map(VertexId::index).collect();
+        let labels = Labels {
+            space: &self.space,
+            corners: &self.corners,
+            lengths: &mut lengths,
+            toward: &mut toward,
+            limit: query.limit,
+            bends: &mut self.bends,
+            pending: &mut self.pending,
+        };
+        settle(labels, &mut self.open, &targets);
+        if !targets.is_empty() {
+            let farthest = targets.iter().filter_map(|&id| lengths.get(id)).copied().fold(0.0, f64::max);
+            lengths
+                .iter_mut()
+                .filter(|length| **length > farthest)
+                .for_each(|length| *length = f64::INFINITY);
+        }
+        Ok(AnyAngleField::new(self.space.clone(), lengths, toward))
+    }
+}
+
+/// Settles the roots in the order of their distance, until all targets are final or none is left.
+fn settle(mut labels: Labels<'_>, open: &mut BinaryHeap<Reverse<(u64, u32)>>, targets: &[usize]) {
+    while let Some(Reverse((bits, id))) = open.pop() {
+        let (g, id) = (f64::from_bits(bits), VertexId(id));
+        let is_final = |&id: &usize| labels.lengths.get(id).is_some_and(|&length| length <= g);
+        if g > labels.limit || !targets.is_empty() && targets.iter().all(is_final) {
+            return;
+        }
+        let known = labels.lengths.get(id.index()).zip(labels.toward.get(id.index()));
+        let Some((_, &parent)) = known.filter(|&(&length, _)| length.to_bits() == bits) else { continue };
+        let root = Root { at: labels.space.vertex(id), id, g };
+        if parent == id.0 {
+            from_source(&mut labels, root);
+        } else {
+            from_bend(&mut labels, root, VertexId(parent));
+        }
+        open.extend(labels.bends.drain(..).map(|(length, id)| Reverse((length.to_bits(), id.0))));
+    }
+}
+
+/// Labels all that a source sees. From a closed gap a path leaves by the quadrant of the vertex's own cell.
+fn from_source(labels: &mut Labels<'_>, root: Root) {
+    if labels.space.is_closed_gap(root.at) {
+        if labels.space.grid().is_free(root.at.x, root.at.y) {
+            labels.in_cone(root, 1, Some(Ray::VERTICAL), None);
+            labels.along_line(root, 1);
+        }
+        return;
+    }
+    for down in [1, -1] {
+        labels.in_cone(root, down, None, None);
+    }
+    for right in [1, -1] {
+        labels.along_line(root, right);
+    }
+}
+
+/// Labels what taut paths reach that bend at a corner: what lies between straight on and the edge of the
+/// obstacle.
+fn from_bend(labels: &mut Labels<'_>, root: Root, parent: VertexId) {
+    let space = labels.space;
+    let from = space.vertex(parent);
+    let u = from.to(root.at);
+    let straight = (u.y != 0).then(|| Ray { dx: u.x, dy: u.y.abs() });
+    turns(space, root.at, from, |(x, y), to_horizontal| {
+        if to_horizontal {
+            let [left, right] = if x > 0 { [straight, None] } else { [None, straight] };
+            labels.in_cone(root, -y, left, right);
+            labels.along_line(root, x);
+        } else {
+            let vertical = Some(Ray::VERTICAL);
+            let [left, right] = if x > 0 { [straight, vertical] } else { [vertical, straight] };
+            labels.in_cone(root, y, left, right);
+        }
+    });
+}
+
+/// The vertices at which paths may bend: those that touch one blocked cell, or two that meet diagonally, if a
+/// path may pass between them.
+fn bends(space: &FreeSpace<Corners>) -> BitMatrix {
+    let grid = space.grid();
+    let is_open = space.rule() == DiagonalGap::Open;
+    space.vertex_set(|at| {
+        let cells = [(-1, -1), (0, -1), (-1, 0), (0, 0)];
+        let blocked = cells.into_iter().filter(|(x, y)| grid.is_blocked(at.x + x, at.y + y)).count();
+        blocked == 1 || blocked == 2 && is_open && grid.is_gap(at)
+    })
+}

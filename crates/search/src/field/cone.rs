@@ -1,0 +1,213 @@
+//! What a root of an any-angle field labels: the vertices of a cone, line by line.
+
+use mediant_grid::{
+    BitMatrix, Corners, FreeSpace, Vertex, VertexId,
+    sight::{Crossing, IntervalEnd, Ray, Side, row_ahead},
+};
+
+/// A source, or a corner of an obstacle at which paths bend.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Root {
+    pub(super) at: Vertex,
+    pub(super) id: VertexId,
+    /// Its distance to the nearest source.
+    pub(super) g: f64,
+}
+
+/// The part of a line that a root sees: an interval between two rays, its ends included.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece {
+    line: i32,
+    left: IntervalEnd,
+    right: IntervalEnd,
+}
+
+/// How much longer than the known distance of a vertex a path to it must be before what lies behind is left
+/// to others, in cells.
+///
+/// A path from the root crosses a line at a point x less than 1 from a vertex v of the interval. By the known
+/// path to v, x is at most d(v) + |vx| away; by the root it is at least g + |root v| − |vx|. If the second is
+/// larger for every |vx| < 1, no shortest path crosses there. That it is not decided to the last bit is what
+/// the proof in module `any_angle` needs: of two equally short paths, none is given up for the other.
+const MARGIN: f64 = 2.0;
+
+/// The labels of the vertices.
+pub(super) struct Labels<'s> {
+    pub(super) space: &'s FreeSpace<Corners>,
+    /// The corners at which paths may bend.
+    pub(super) corners: &'s BitMatrix,
+    /// By vertex number: the distance, infinity if none is known.
+    pub(super) lengths: &'s mut [f64],
+    /// By vertex number: the next root on the way to the source.
+    pub(super) toward: &'s mut [u32],
+    pub(super) limit: f64,
+    /// The corners that were reached by a shorter path than before, around which paths may bend.
+    pub(super) bends: &'s mut Vec<(f64, VertexId)>,
+    pub(super) pending: &'s mut Vec<Piece>,
+}
+
+/// Whether a path that comes to a corner along `u` may bend around one of its blocked cells. `turn` is called
+/// with the signs of the cell, seen from the corner, and whether the path turns towards the horizontal edge
+/// of the cell rather than the vertical one; it returns whether to look for more.
+pub(super) fn turns(
+    space: &FreeSpace<Corners>,
+    at: Vertex,
+    from: Vertex,
+    mut turn: impl FnMut((i32, i32), bool),
+) {
+    let u = from.to(at);
+    for (x, y) in [(-1, -1), (1, -1), (-1, 1), (1, 1)] {
+        if space.grid().is_free(at.x + (x - 1) / 2, at.y + (y - 1) / 2) {
+            continue;
+        }
+        if u.x * x >= 0 && u.y * y < 0 {
+            turn((x, y), true);
+        }
+        if u.x * x < 0 && u.y * y >= 0 {
+            turn((x, y), false);
+        }
+    }
+}
+
+impl Labels<'_> {
+    /// Labels a vertex that a root sees, if the path by the root is shorter. Returns whether a path may go on
+    /// from there, or past it, and be a shortest one.
+    #[inline]
+    fn label(&mut self, root: Root, at: Vertex, index: usize, length: f64) -> bool {
+        let (Some(known), Some(toward)) = (self.lengths.get_mut(index), self.toward.get_mut(index)) else {
+            return false;
+        };
+        let goes_on = length <= *known + MARGIN && length <= self.limit + MARGIN;
+        if length < *known && length <= self.limit {
+            if self.space.has_closed_gaps() && self.space.is_closed_gap(at) {
+                if self.space.may_turn(Some(root.at), at, None) {
+                    (*known, *toward) = (length, root.id.0);
+                }
+                return true;
+            }
+            (*known, *toward) = (length, root.id.0);
+            if self.corners.get(at.x, at.y) {
+                let mut bends = false;
+                turns(self.space, at, root.at, |_, _| bends = true);
+                if bends {
+                    self.bends.push((length, VertexId(index as u32)));
+                }
+            }
+        } else if !goes_on && self.space.has_closed_gaps() && self.space.is_closed_gap(at) {
+            // The known path may end here, but not go on.
+            return length <= self.limit + MARGIN;
+        }
+        goes_on
+    }
+
+    /// Labels the vertices on the horizontal line of a root, to one side.
+    pub(super) fn along_line(&mut self, root: Root, right: i32) {
+        let y = root.at.y;
+        let grid = self.space.grid();
+        let [above, below] = [-1, 1].map(|down| row_ahead(grid, y, down));
+        let (mut x, mut index) = (root.at.x, root.id.0);
+        loop {
+            let cell = x + (right - 1) / 2;
+            if above.is_blocked(cell) && below.is_blocked(cell) {
+                return;
+            }
+            x += right;
+            index = index.wrapping_add_signed(right);
+            let at = Vertex::new(x, y);
+            let length = root.g + f64::from(x.abs_diff(root.at.x));
+            if !self.label(root, at, index as usize, length) || self.space.is_closed_gap(at) {
+                return;
+            }
+        }
+    }
+
+    /// Labels what a root sees above or below it. `left` and `right` are the rays between which it looks;
+    /// `None` for the horizontal.
+    pub(super) fn in_cone(&mut self, root: Root, down: i32, left: Option<Ray>, right: Option<Ray>) {
+        let at = root.at;
+        let ahead = row_ahead(self.space.grid(), at.y, down);
+        let on_line = |ray| IntervalEnd::new(ray, at.x, 1);
+        let corner = |x| IntervalEnd::corner(x, at.x, 1);
+        // A ray that leads to the right leaves the vertex through the cell on its right.
+        let looks = |cell: i32| !ahead.is_blocked(cell);
+        let goes_left = left.is_none_or(|ray| ray.dx < 0) && looks(at.x - 1);
+        let goes_right = right.is_none_or(|ray| ray.dx > 0) && looks(at.x);
+        let start = if goes_left { ahead.run_start(at.x, 0) } else { at.x };
+        let end = if goes_right { ahead.first_blocked(at.x, i32::MAX) } else { at.x };
+        let clipped =
+            |end: IntervalEnd, side: Side, x: i32| if side.is_outside(end.here, x) { corner(x) } else { end };
+        let left = left.map_or(corner(start), |ray| clipped(on_line(ray), Side::Left, start));
+        let right = right.map_or(corner(end), |ray| clipped(on_line(ray), Side::Right, end));
+        if widens(left, right) {
+            self.pending.clear();
+            self.pending.push(Piece { line: at.y + down, left, right });
+            while let Some(piece) = self.pending.pop() {
+                if let Some(piece) = self.label_line(root, down, piece) {
+                    self.cross_row(root, down, piece);
+                }
+            }
+        }
+    }
+
+    /// Labels the vertices of an interval. Returns the part of it behind which there may be vertices whose
+    /// shortest path leads through it.
+    #[inline]
+    fn label_line(&mut self, root: Root, down: i32, piece: Piece) -> Option<Piece> {
+        let (first, last) = (piece.left.here.ceil(), piece.right.here.floor());
+        if first > last {
+            return Some(piece);
+        }
+        let n = (piece.line - root.at.y) * down;
+        let away = f64::from(n) * f64::from(n);
+        let row = self.space.id(Vertex::new(0, piece.line))?.index();
+        let mut alive: Option<(i32, i32)> = None;
+        for x in first..=last {
+            let aside = f64::from(x - root.at.x);
+            let length = root.g + (aside * aside + away).sqrt();
+            if self.label(root, Vertex::new(x, piece.line), row + x as usize, length) {
+                alive = Some((alive.map_or(x, |(low, _)| low), x));
+            }
+        }
+        let (low, high) = alive?;
+        let corner = |x| IntervalEnd::corner(x, root.at.x, n);
+        let left = if low > first { corner(low - 1) } else { piece.left };
+        let right = if high < last { corner(high + 1) } else { piece.right };
+        Some(Piece { left, right, ..piece })
+    }
+
+    /// Finds the parts of the next line that are seen through the runs of free cells ahead.
+    #[inline]
+    fn cross_row(&mut self, root: Root, down: i32, Piece { line, left, right }: Piece) {
+        let n = (line - root.at.y) * down;
+        let ahead = row_ahead(self.space.grid(), line, down);
+        let corner = |x: i32, n: i32| IntervalEnd::corner(x, root.at.x, n);
+        let (first, last) = (left.here.floor(), right.here.ceil());
+        let (low, high) = (left.next().floor().min(first), right.next().ceil().max(last));
+        let mut column = first;
+        loop {
+            column = ahead.first_free(column, last);
+            if column >= last {
+                return;
+            }
+            let start = if column == first { ahead.run_start(column, low) } else { column };
+            let stop = ahead.first_blocked(column, high);
+            let left = if start > first { corner(start, n) } else { left };
+            let right = if stop < last { corner(stop, n) } else { right };
+            let (next_left, next_right): (Crossing, Crossing) = (left.next(), right.next());
+            if next_left.floor() < stop && next_right.ceil() > start {
+                let is_wall = Side::Left.is_outside(next_left, start);
+                let left = if is_wall { corner(start, n + 1) } else { left.moved_to(next_left) };
+                let is_wall = Side::Right.is_outside(next_right, stop);
+                let right = if is_wall { corner(stop, n + 1) } else { right.moved_to(next_right) };
+                self.pending.push(Piece { line: line + down, left, right });
+            }
+            column = stop + 1;
+        }
+    }
+}
+
+/// Whether an interval has a length.
+fn widens(left: IntervalEnd, right: IntervalEnd) -> bool {
+    let (l, r) = (left.ray, right.ray);
+    i64::from(l.dx) * i64::from(r.dy) < i64::from(r.dx) * i64::from(l.dy)
+}

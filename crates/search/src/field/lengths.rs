@@ -1,0 +1,124 @@
+//! An any-angle field.
+
+use std::ops::Deref;
+
+use mediant_grid::{Corners, FreeSpace, Identity, Vertex, VertexId};
+use mediant_moves::K;
+
+use crate::path::Path;
+
+/// The length of a shortest any-angle path from every vertex to the nearest source, and the way there: what
+/// [`AnyAngleFields`](super::AnyAngleFields) makes. It takes twelve bytes a vertex.
+///
+/// **Precision.** A length is a sum of rounded square roots in `f64`, one for each straight part of a path:
+/// its relative error is at most 2⁻⁵² times one more than their number.
+///
+/// **Ties.** Of equally short paths that by the root that was settled first is kept; roots are settled in the
+/// order of their distance, then of their vertex number. So the result is the same on every platform.
+#[derive(Clone, Debug)]
+pub struct AnyAngleField<S> {
+    space: S,
+    /// By vertex number; infinity stands for 'not in the field'.
+    lengths: Vec<f64>,
+    /// By vertex number: the vertex where the path next bends or ends; a source's own.
+    toward: Vec<u32>,
+}
+
+impl<S> AnyAngleField<S> {
+    pub(super) const fn new(space: S, lengths: Vec<f64>, toward: Vec<u32>) -> Self {
+        Self { space, lengths, toward }
+    }
+
+    /// The distances by vertex number, row by row, in cells; infinity where a vertex is not in the field:
+    /// where it is blocked, cannot be reached, or is farther than the limit.
+    #[must_use]
+    pub fn lengths(&self) -> &[f64] {
+        &self.lengths
+    }
+
+    /// The memory used, in bytes, without that of the free space.
+    #[must_use]
+    pub fn memory_bytes(&self) -> usize {
+        self.lengths.capacity() * size_of::<f64>() + self.toward.capacity() * size_of::<u32>()
+    }
+}
+
+impl<S: Deref<Target = FreeSpace<Corners>>> AnyAngleField<S> {
+    /// What it belongs to: its map and rules, and k = ∞.
+    #[must_use]
+    pub fn identity(&self) -> Identity {
+        Identity { k: Some(K::Any), ..self.space.identity() }
+    }
+
+    /// The number of vertices in a row.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.space.grid().width() + 1
+    }
+
+    /// The number of rows of vertices.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.space.grid().height() + 1
+    }
+
+    /// The distance of a vertex in cells, 0 at a source; `None` when it is not in the field, or outside the
+    /// map.
+    #[must_use]
+    pub fn get(&self, at: Vertex) -> Option<f64> {
+        self.lengths.get(self.space.id(at)?.index()).copied().filter(|length| length.is_finite())
+    }
+
+    /// The vertices in the field, row by row, with their distances.
+    pub fn iter(&self) -> impl Iterator<Item = (Vertex, f64)> {
+        let rows = self.lengths.chunks_exact(self.width() as usize).zip(0..);
+        rows.flat_map(|(row, y)| {
+            let known = row.iter().zip(0..).filter(|(length, _)| length.is_finite());
+            known.map(move |(&length, x)| (Vertex::new(x, y), length))
+        })
+    }
+
+    /// The vertex in sight to which a shortest path from a vertex first leads: the source, or a corner of an
+    /// obstacle; `None` at a source, and where [`get`](Self::get) is `None`.
+    #[must_use]
+    pub fn next(&self, at: Vertex) -> Option<Vertex> {
+        self.get(at).filter(|&length| length > 0.0)?;
+        let next = self.toward.get(self.space.id(at)?.index())?;
+        Some(self.space.vertex(VertexId(*next)))
+    }
+
+    /// The direction to [`next`](Self::next): a vector (x, y) of length 1.
+    #[must_use]
+    pub fn direction(&self, at: Vertex) -> Option<(f64, f64)> {
+        let next = self.next(at)?;
+        let (v, length) = (at.to(next), at.distance(next));
+        Some((f64::from(v.x) / length, f64::from(v.y) / length))
+    }
+
+    /// A shortest path from a vertex to its nearest source, with waypoints where it bends; `None` where
+    /// [`get`](Self::get) is `None`.
+    #[must_use]
+    pub fn path_from(&self, at: Vertex) -> Option<Path> {
+        self.get(at)?;
+        let mut waypoints = vec![at];
+        let ahead = std::iter::successors(self.next(at), |&at| self.next(at));
+        for next in ahead {
+            // Where the path goes straight on, there is no waypoint.
+            if let [.., before, last] = waypoints[..] {
+                let (u, v) = (before.to(last), last.to(next));
+                if i64::from(u.x) * i64::from(v.y) == i64::from(u.y) * i64::from(v.x) {
+                    waypoints.pop();
+                }
+            }
+            waypoints.push(next);
+        }
+        Some(Path::new(waypoints))
+    }
+
+    /// The nearest source of a vertex: where [`path_from`](Self::path_from) ends.
+    #[must_use]
+    pub fn nearest_source(&self, at: Vertex) -> Option<Vertex> {
+        self.get(at)?;
+        std::iter::successors(Some(at), |&at| self.next(at)).last()
+    }
+}
