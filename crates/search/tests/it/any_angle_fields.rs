@@ -15,7 +15,7 @@ fn is_close(found: Option<f64>, best: Option<f64>) -> bool {
     found.zip(best).map_or(found == best, |(a, b)| (a - b).abs() <= 1e-9 * b)
 }
 
-/// Checks all distances and paths of a field. `best` is the true distance of a vertex. Returns the number of
+/// Checks all distances of a field, and every `every`-th path. `best` is the true distance of a vertex. Returns the number of
 /// vertices in the field.
 fn check_field(
     field: &AnyAngleField<&FreeSpace<Corners>>,
@@ -23,6 +23,7 @@ fn check_field(
     sources: &[Vertex],
     best: &mut dyn FnMut(Vertex) -> Option<f64>,
     case: &dyn Fn(Vertex) -> String,
+    every: usize,
 ) -> usize {
     let (width, height) = (field.width() as i32, field.height() as i32);
     let mut known = 0;
@@ -33,6 +34,9 @@ fn check_field(
         assert_eq!(path.is_some(), found.is_some(), "{}", case(at));
         let Some((path, found)) = path.zip(found) else { continue };
         known += 1;
+        if known % every != 0 {
+            continue;
+        }
         let last = *path.waypoints().last().unwrap();
         assert!(sources.contains(&last), "{path} ends at no source; {}", case(at));
         assert_eq!(field.nearest_source(at), Some(last));
@@ -62,7 +66,7 @@ fn check_all(grid: &Arc<Grid>, gap: DiagonalGap, counts: &[usize], seed: u64) ->
         let mut best = |at| costs.iter().filter_map(|costs| costs.to(at)).min_by(f64::total_cmp);
         let query = FieldQuery::new(&sources);
         let field = fields.field(query).unwrap();
-        known += check_field(&field, space, &sources, &mut best, &case);
+        known += check_field(&field, space, &sources, &mut best, &case, 1);
         let Some(limit) = field.get(far) else { continue };
         let all: Vec<_> = field.iter().collect();
         for (query, limit) in [
@@ -82,19 +86,19 @@ fn check_all(grid: &Arc<Grid>, gap: DiagonalGap, counts: &[usize], seed: u64) ->
 
 #[test]
 fn any_angle_fields_hold_the_distances_of_the_visibility_graph() {
-    let known: usize = seeds(150)
+    let known: usize = seeds(60)
         .map(|seed| {
             let grid = Arc::new(suite_grid(seed).0);
             GAPS.map(|gap| check_all(&grid, gap, &[1, 1, 3], seed)).iter().sum::<usize>()
         })
         .sum();
-    assert!(known as u64 > 150 * seeds(150).end, "{known} vertices");
+    assert!(known as u64 > 150 * seeds(60).end, "{known} vertices");
 }
 
 #[test]
 fn any_angle_fields_on_every_map_of_nine_cells() {
     let mut known = 0;
-    for (width, height, step) in [(3, 3, 1_usize), (4, 3, 5), (1, 9, 7), (9, 1, 7)] {
+    for (width, height, step) in [(3, 3, 1_usize), (4, 3, 13), (1, 9, 7), (9, 1, 7)] {
         for cells in (0..1_u32 << (width * height)).step_by(step) {
             let grid = Grid::from_fn(width, height, |x, y| cells >> (width * y + x) & 1 == 1).unwrap();
             let grid = Arc::new(grid);
@@ -125,7 +129,7 @@ fn any_angle_fields_agree_with_anya() {
             let mut anya = Anya::new(space);
             let mut best = |at| anya.solve(Query::new(source, at)).ok().and_then(|outcome| outcome.cost());
             let case = |at| describe(&grid, space.rules(), source, at, seed);
-            check_field(&field, space, &[source], &mut best, &case);
+            check_field(&field, space, &[source], &mut best, &case, 31);
         }
     }
 }

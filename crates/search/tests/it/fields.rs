@@ -7,10 +7,11 @@ use std::sync::Arc;
 use mediant_grid::{
     AsciiMap, Centers, CornerRule, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vertex,
 };
-use mediant_moves::{Cost, FiniteK};
+use mediant_moves::{Cost, FiniteK, K};
 use mediant_oracle::{Explicit, Rng, describe, random_free_vertex, seeds, suite_grid, validate};
 use mediant_search::{
-    AStar, End, Field, FieldError, FieldQuery, Fields, Hk, Path, Planner, Pruning, Query, QueryError,
+    AStar, CanonicalRule, End, Field, FieldError, FieldQuery, Fields, Hk, Path, Planner, Pruning, Query,
+    QueryError,
 };
 
 /// Checks a field with all its paths against the oracle. Returns the number of vertices in it.
@@ -54,11 +55,18 @@ fn check_field<P: Placement>(
 }
 
 /// Some sources on a map, their fields with and without limits, and some single queries.
-fn check<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -> [u64; 2] {
+fn check<P: Placement>(
+    grid: &Arc<Grid>,
+    canonical: &Arc<CanonicalRule<P>>,
+    rule: P::Rule,
+    seed: u64,
+) -> [u64; 2] {
+    let Some(K::Finite(k)) = canonical.identity().k else { panic!("a rule has a k") };
     let graph = &GridGraph::<P>::new(Arc::clone(grid), k, rule).unwrap();
     let (rules, mut rng) = (graph.rules(), Rng::new(seed ^ 0xF1E1D));
     let oracle = Explicit::new(grid, rules, Some(k));
-    let (mut fields, mut astar) = (Fields::new(graph), AStar::new(graph, Hk));
+    let pruning = Arc::new(Pruning::with_rule(graph, Arc::clone(canonical)).unwrap());
+    let (mut fields, mut astar) = (Fields::with_pruning(graph, pruning).unwrap(), AStar::new(graph, Hk));
     let mut sums = [0; 2];
     for count in [1, 3] {
         let mut free = || random_free_vertex(&mut rng, grid, P::KIND);
@@ -98,37 +106,54 @@ fn check<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) -
     sums
 }
 
-fn check_rules(grid: &Arc<Grid>, rules: Rules, k: FiniteK, seed: u64) -> [u64; 2] {
-    match rules {
-        Rules::Center(rule) => check::<Centers>(grid, rule, k, seed),
-        Rules::Corner(rule) => check::<Corners>(grid, rule, k, seed),
+/// Checks maps under one rule and k. The pruning rule takes long to prepare, so it is made once.
+fn check_maps(maps: &[(Arc<Grid>, u64)], rules: Rules, k: u32) -> [u64; 2] {
+    fn on<P: Placement>(maps: &[(Arc<Grid>, u64)], rule: P::Rule, k: u32) -> [u64; 2] {
+        let canonical = Arc::new(CanonicalRule::new(FiniteK::new(k).unwrap(), rule));
+        let sums = maps.iter().map(|(grid, seed)| check::<P>(grid, &canonical, rule, *seed));
+        sums.fold([0; 2], |[a, b], [c, d]| [a + c, b + d])
     }
+    match rules {
+        Rules::Center(rule) => on::<Centers>(maps, rule, k),
+        Rules::Corner(rule) => on::<Corners>(maps, rule, k),
+    }
+}
+
+fn suite(seeds: impl Iterator<Item = u64>) -> Vec<(Arc<Grid>, u64)> {
+    seeds.map(|seed| (Arc::new(suite_grid(seed).0), seed)).collect()
 }
 
 #[test]
 fn fields_hold_the_distances_of_the_explicit_graph() {
     let mut sums = [0; 2];
-    for seed in seeds(24) {
-        let grid = Arc::new(suite_grid(seed).0);
-        for rules in Rules::ALL {
-            // Rules of large k take long to prepare.
-            for k in if seed % 8 == 0 { 2..=7 } else { 2..=5 } {
-                let [vertices, limits] = check_rules(&grid, rules, FiniteK::new(k).unwrap(), seed);
-                sums = [sums[0] + vertices, sums[1] + limits];
-            }
+    let maps = suite(seeds(60));
+    for rules in Rules::ALL {
+        for (k, step) in [(2, 1), (3, 1), (4, 2), (5, 4)] {
+            let maps: Vec<_> = maps.iter().step_by(step).cloned().collect();
+            let [vertices, limits] = check_maps(&maps, rules, k);
+            sums = [sums[0] + vertices, sums[1] + limits];
         }
     }
-    let maps = seeds(24).end;
-    assert!(sums[0] > 1_000 * maps && sums[1] > 10 * maps, "{sums:?}");
+    let maps = maps.len() as u64;
+    assert!(sums[0] > 1_000 * maps && sums[1] > 15 * maps, "{sums:?} on {maps} maps");
 }
 
-/// k = 8, and k = 9, where the pruning rule is not tabulated.
 #[test]
 fn fields_of_large_k() {
-    for (seed, k) in seeds(2).flat_map(|seed| [(seed, 8), (seed + 7, 9)]) {
-        let grid = Arc::new(suite_grid(seed).0);
-        for rules in [Rules::Center(CornerRule::Never), Rules::Corner(DiagonalGap::Closed)] {
-            check_rules(&grid, rules, FiniteK::new(k).unwrap(), seed);
+    let (closed, always) = (Rules::Corner(DiagonalGap::Closed), Rules::Center(CornerRule::Always));
+    for (rules, k) in [(Rules::Corner(DiagonalGap::Open), 6), (always, 6), (closed, 7)] {
+        check_maps(&suite(seeds(4)), rules, k);
+    }
+}
+
+/// k = 9, where the pruning rule is not tabulated, and in longer runs k = 8, whose rule takes seconds.
+#[test]
+fn fields_of_the_largest_k() {
+    let maps = suite(seeds(3));
+    for rules in [Rules::Corner(DiagonalGap::Closed), Rules::Center(CornerRule::Never)] {
+        check_maps(&maps, rules, 9);
+        if maps.len() > 3 {
+            check_maps(&maps, rules, 8);
         }
     }
 }
@@ -136,13 +161,13 @@ fn fields_of_large_k() {
 /// All maps of nine cells: the smallest hold the oddest gaps.
 #[test]
 fn fields_on_every_map_of_nine_cells() {
+    let map = |cells: u32| Grid::from_fn(3, 3, |x, y| cells >> (3 * y + x) & 1 == 1).unwrap();
+    let maps: Vec<_> = (0..1 << 9).map(|cells| (Arc::new(map(cells)), cells.into())).collect();
+    let sample: Vec<_> = maps.iter().step_by(5).cloned().collect();
     let mut vertices = 0;
-    for cells in 0..1_u32 << 9 {
-        let grid = Arc::new(Grid::from_fn(3, 3, |x, y| cells >> (3 * y + x) & 1 == 1).unwrap());
-        for rules in Rules::ALL {
-            for k in [2, 3, 4].map(|k| FiniteK::new(k).unwrap()) {
-                vertices += check_rules(&grid, rules, k, cells.into())[0];
-            }
+    for rules in Rules::ALL {
+        for (maps, k) in [(&maps, 2), (&maps, 3), (&sample, 4)] {
+            vertices += check_maps(maps, rules, k)[0];
         }
     }
     assert!(vertices > 50_000, "{vertices}");
@@ -150,13 +175,13 @@ fn fields_on_every_map_of_nine_cells() {
 
 #[test]
 fn odd_maps() {
-    for (width, height) in [(1, 1), (1, 90), (130, 1), (64, 2), (2, 65)] {
-        for blocked in [false, true] {
-            let grid = Arc::new(Grid::from_fn(width, height, |_, _| blocked).unwrap());
-            for rules in Rules::ALL {
-                check_rules(&grid, rules, FiniteK::N16, 7);
-            }
-        }
+    let sizes = [(1, 1), (1, 90), (130, 1), (64, 2), (2, 65)];
+    let grids = sizes.iter().flat_map(|&(width, height)| {
+        [false, true].map(|blocked| (Arc::new(Grid::from_fn(width, height, |_, _| blocked).unwrap()), 7))
+    });
+    let maps: Vec<_> = grids.collect();
+    for rules in Rules::ALL {
+        check_maps(&maps, rules, 4);
     }
 }
 
