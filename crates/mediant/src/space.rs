@@ -6,7 +6,7 @@ use mediant_grid::{
     Centers, Corners, FreeSpace, GridGraph, Identity, Placement, PlacementKind, Rectangle, Rules, Vertex,
 };
 use mediant_moves::{FiniteK, K};
-use mediant_search::{Dijkstra, End, Query, QueryError, Wavefront, Zero};
+use mediant_search::{End, FieldError, FieldQuery, Fields, Query, QueryError, Wavefront};
 
 use crate::{
     configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion, setup::Setup,
@@ -243,7 +243,12 @@ fn distances<P: Placement>(
 ) -> Result<Vec<(Vertex, f64)>, Error> {
     Ok(match engine {
         Engine::Dijkstra => {
-            let costs = Dijkstra::new(&**graph, Zero).distances(start)?;
+            let costs =
+                Fields::new(&**graph).field(FieldQuery::new(&[start])).map_err(|error| match error {
+                    FieldError::Query(error) => Error::Query(error),
+                    // Nothing else was asked for that could be wrong.
+                    _ => SetupError::without_distances(engine).into(),
+                })?;
             costs.iter().map(|(at, cost)| (at, cost.to_f64())).collect()
         }
         Engine::Wavefront => {

@@ -5,12 +5,11 @@
 
 use std::ops::Deref;
 
-use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
+use mediant_grid::{GridGraph, Placement, Vertex};
 use mediant_moves::Cost;
 
 use crate::{
     best_first::BestFirst,
-    distances::{Distances, end_at_gaps},
     heuristic::{Heuristic, Zero},
     observer::{Observer, Unpaused},
     path::Path,
@@ -43,7 +42,8 @@ use crate::{
 /// Its scratch memory is 16 bytes a vertex.
 pub type AStar<G, H> = BestFirst<G, H, AllMoves>;
 
-/// Dijkstra's algorithm (1959): A* without a heuristic.
+/// Dijkstra's algorithm (1959): A* without a heuristic. For the distances of all vertices,
+/// [`Fields`](crate::Fields) are much faster.
 pub type Dijkstra<G> = AStar<G, Zero>;
 
 impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> AStar<G, H> {
@@ -106,24 +106,6 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> AStar<G, H> {
         query.check(&self.graph)?;
         let mut path = vec![query.start];
         Ok(self.extend(&mut path, query.goal, limit, observer)?.then(|| Path::new(path)))
-    }
-}
-
-impl<P: Placement, G: Deref<Target = GridGraph<P>>> Dijkstra<G> {
-    /// The cost of an optimal path from `start` to every vertex.
-    ///
-    /// # Errors
-    /// [`QueryError`] when the start is blocked or outside the map.
-    pub fn distances(&mut self, start: Vertex) -> Result<Distances<Cost>, QueryError> {
-        Query::new(start, start).check(&self.graph)?;
-        if let Some(id) = self.graph.id(start) {
-            self.flood(id);
-        }
-        let ids = (0..self.graph.vertex_count() as u32).map(VertexId);
-        let mut costs: Vec<Option<Cost>> = ids.map(|id| self.cost_to(id)).collect();
-        let arrived_by = |id| self.arrived_by(id);
-        end_at_gaps(&self.graph, start, &mut costs, arrived_by, |cost, step| cost + step.cost);
-        Ok(Distances::new(P::vertices(self.graph.grid()).0, costs))
     }
 }
 

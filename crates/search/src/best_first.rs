@@ -269,16 +269,6 @@ impl<G, H, S, N: ParentPointer> BestFirst<G, H, S, N> {
     {
         extend_back(&self.graph, &self.nodes, goal, waypoints);
     }
-
-    /// After a search, the cost of the best known path to a vertex.
-    pub(crate) fn cost_to(&self, id: VertexId) -> Option<Cost> {
-        self.nodes.get(id).map(|node| node.g)
-    }
-
-    /// The move by which that path arrives.
-    pub(crate) fn arrived_by(&self, id: VertexId) -> usize {
-        self.nodes.get(id).map_or(0, Node::arrived_by)
-    }
 }
 
 impl<P, G, H, S, N> Planner for BestFirst<G, H, S, N>

@@ -9,8 +9,8 @@ use crate::query::{Query, QueryError};
 ///
 /// ```
 /// use mediant_search::FieldQuery;
-/// let [depot, yard] = [(0, 0), (7, 3)].map(Into::into);
-/// let range = FieldQuery::new(&[depot, yard]).within(6.0);
+/// let sources = [(0, 0), (7, 3)].map(Into::into);
+/// let range = FieldQuery::new(&sources).within(6.0);
 /// assert_eq!(range.limit, 6.0);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -18,8 +18,8 @@ use mediant_grid::{
 use mediant_moves::{Cost, FiniteK};
 use mediant_oracle::describe;
 use mediant_search::{
-    BlockJps, Canonical, CanonicalRule, Dijkstra, Distances, Guarantee, Hk, Jps, JpsPlus, JumpTable, Outcome,
-    Path, Planner, Pruning, Query, Zero,
+    BlockJps, Canonical, CanonicalRule, Dijkstra, FieldQuery, Fields, Guarantee, Hk, Jps, JpsPlus, JumpTable,
+    Outcome, Path, Planner, Pruning, Query, Zero,
     parts::{BlockFinder, StepwiseFinder},
 };
 
@@ -35,8 +35,8 @@ struct Judge<'g, P: Placement> {
     vertices: Vec<Vertex>,
     /// By vertex number.
     legal: Vec<MoveSet>,
-    /// By index in `vertices`.
-    distances: Vec<Distances<Cost>>,
+    /// What Dijkstra's algorithm finds, by the indices of start and goal in `vertices`.
+    distances: Vec<Vec<Option<Cost>>>,
     compared: u64,
 }
 
@@ -45,9 +45,30 @@ impl<'g, P: Placement> Judge<'g, P> {
         let all = (0..grid_graph.vertex_count() as u32).map(|id| grid_graph.vertex(VertexId(id)));
         let legal = all.clone().map(|at| grid_graph.legal_moves(at)).collect();
         let vertices: Vec<Vertex> = all.filter(|&at| grid_graph.is_free(at)).collect();
+        let mut judge = Self { grid_graph, map, vertices, legal, distances: Vec::new(), compared: 0 };
         let mut dijkstra = Dijkstra::new(grid_graph, Zero);
-        let distances = vertices.iter().map(|&start| dijkstra.distances(start).unwrap()).collect();
-        Self { grid_graph, map, vertices, legal, distances, compared: 0 }
+        let mut distance = |start, goal| {
+            let outcome = dijkstra.solve(Query::new(start, goal)).unwrap();
+            outcome.path().map(|path| judge.cost(path, start, goal).unwrap())
+        };
+        let from = |&start: &Vertex| judge.vertices.iter().map(|&goal| distance(start, goal)).collect();
+        judge.distances = judge.vertices.iter().map(from).collect();
+        judge
+    }
+
+    /// Compares the fields of all vertices with the distances.
+    fn judge_fields(&mut self, mut fields: Fields<&GridGraph<P>, P>) {
+        let (grid_graph, map) = (self.grid_graph, self.map);
+        for (&start, distances) in self.vertices.iter().zip(&self.distances) {
+            let field = fields.field(FieldQuery::new(&[start])).unwrap();
+            for (&goal, &distance) in self.vertices.iter().zip(distances) {
+                let case = || describe(grid_graph.grid(), grid_graph.rules(), start, goal, map);
+                assert_eq!(field.get(goal), distance, "k = {}; {}", grid_graph.k(), case());
+                let path = field.path_from(goal);
+                let cost = path.map(|path| self.cost(&path, goal, start));
+                assert_eq!(cost, distance.map(Ok), "k = {}; {}", grid_graph.k(), case());
+            }
+        }
     }
 
     /// Compares all answers of an engine with the distances.
@@ -55,16 +76,15 @@ impl<'g, P: Placement> Judge<'g, P> {
         let k = self.grid_graph.k();
         assert_eq!(planner.guarantee(), Guarantee::Optimal(k), "{name}");
         for (&start, distances) in self.vertices.iter().zip(&self.distances) {
-            for &goal in &self.vertices {
+            for (&goal, &distance) in self.vertices.iter().zip(distances) {
                 let outcome = planner.solve(Query::new(start, goal)).unwrap();
                 let found = match &outcome {
                     Outcome::Found(path) => Some(self.cost(path, start, goal)),
                     _ => None,
                 };
                 assert!(
-                    found == distances.get(goal).map(Ok),
-                    "{name}, k = {k}: {outcome:?} costs {found:?}, Dijkstra {:?}; {}",
-                    distances.get(goal),
+                    found == distance.map(Ok),
+                    "{name}, k = {k}: {outcome:?} costs {found:?}, Dijkstra {distance:?}; {}",
                     describe(self.grid_graph.grid(), self.grid_graph.rules(), start, goal, self.map)
                 );
                 self.compared += 1;
@@ -105,6 +125,7 @@ fn compare<P: Placement>(map: u64, k: FiniteK, rule: P::Rule, canonical: &Arc<Ca
     let pruning = &Arc::new(Pruning::with_rule(grid_graph, Arc::clone(canonical)).unwrap());
     let mut judge = Judge::new(grid_graph, map);
     let (h, pruning) = (Hk, || Arc::clone(pruning));
+    judge.judge_fields(Fields::with_pruning(grid_graph, pruning()).unwrap());
     judge.judge("canonical", Canonical::with_pruning(grid_graph, pruning(), h).unwrap());
     let jps = || Jps::with_finder(grid_graph, pruning(), StepwiseFinder, h).unwrap();
     judge.judge("jps", jps());

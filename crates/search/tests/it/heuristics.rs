@@ -7,8 +7,8 @@ use mediant_grid::{Centers, Corners, DiagonalGap, Grid, GridGraph, Placement, Ru
 use mediant_moves::{Cost, FiniteK, Neighborhood};
 use mediant_oracle::{Explicit, Rng, describe, random_free_vertex, seeds, suite_grid, validate};
 use mediant_search::{
-    AStar, Counters, Dijkstra, Euclidean, Guarantee, Heuristic, Hk, NodeEvent, Observer, Outcome, Planner,
-    Query, SquaredEuclidean, Zero,
+    AStar, Counters, Euclidean, FieldQuery, Fields, Guarantee, Heuristic, Hk, NodeEvent, Observer, Outcome,
+    Planner, Query, SquaredEuclidean, Zero,
 };
 
 /// h_k at every other vertex, as on a checkerboard, and half of it at the others: a lower bound, but
@@ -247,7 +247,7 @@ fn check_within<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed:
     let grid_graph = GridGraph::<P>::new(Arc::clone(grid), k, rule).expect("k is in range");
     let (mut rng, mut seen) = (Rng::new(seed ^ 0x11111), [0; 2]);
     for (start, goal) in queries(grid, grid_graph.rules(), seed) {
-        let distances = Dijkstra::new(&grid_graph, Zero).distances(start).expect("a free start");
+        let distances = Fields::new(&grid_graph).field(FieldQuery::new(&[start])).expect("a free start");
         let best = distances.get(goal);
         let mut limits = vec![Cost::ZERO, Cost::MAX];
         if let Some(best) = best {
