@@ -63,9 +63,6 @@ const OPEN: u16 = 1 << 15;
 const SOURCE: u16 = OPEN - 1;
 
 impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
-    /// The binary logarithm of the width of buckets for k ≤ 3, in cells.
-    const WIDTH: u32 = 3;
-
     /// Prepares what fields on a grid graph need: its own [`Pruning`], and two bytes a vertex.
     #[must_use]
     pub fn new(graph: G) -> Self {
@@ -87,7 +84,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
         let has_table = pruning.as_ref().is_some_and(|pruning| pruning.table().is_some());
         let open = has_table.then(|| OpenGround::new(&graph));
         let longest = graph.steps().iter().map(|step| step.cost).max().unwrap_or(Cost::ZERO);
-        let width = if open.is_some() { Self::WIDTH } else { 0 };
+        let width = open.as_ref().map_or(0, |open| bucket_width(&graph, open));
         let arrived = vec![SOURCE; graph.vertex_count()].into_boxed_slice();
         Self { graph, pruning, open, scratch: Scratch { buckets: Buckets::new(width, longest), arrived } }
     }
@@ -163,6 +160,14 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
         }
         Field::new(self.graph.clone(), costs)
     }
+}
+
+/// The binary logarithm of the width of buckets for k ≤ 3, in cells: eight cells where most of the ground is
+/// open, two in noise, where paths that are followed far ahead are often given up
+/// (`docs/measurements/search.md`).
+fn bucket_width<P: Placement>(graph: &GridGraph<P>, open: &OpenGround) -> u32 {
+    let free = graph.grid().rows().words().iter().map(|word| word.count_zeros() as usize).sum::<usize>();
+    if 2 * open.count() >= free { 3 } else { 1 }
 }
 
 /// A search without a goal.

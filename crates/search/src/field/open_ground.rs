@@ -26,6 +26,11 @@ impl OpenGround {
         }
     }
 
+    /// The number of vertices near which there is no obstacle.
+    pub(super) fn count(&self) -> usize {
+        self.rows.words().iter().map(|word| word.count_zeros() as usize).sum()
+    }
+
     /// Whether no obstacle is near a vertex of the map.
     #[inline]
     pub(super) fn is_open(&self, at: Vertex) -> bool {
