@@ -17,6 +17,15 @@
 //!
 //! [`Smoothed`] makes the paths of any planner shorter, at any angle.
 //!
+//! A field has the distances of all vertices to the nearest of one or many sources, and the paths and
+//! directions there:
+//!
+//! | made by | field | distances | k |
+//! |---|---|---|---|
+//! | [`Fields`] | [`Field`] | over N(k), exact in fixed point | all |
+//! | [`AnyAngleFields`] | [`AnyAngleField`] | at any angle, at corners | ∞ |
+//! | [`Wavefront::distances`] | [`Distances`] | numbers of moves | all |
+//!
 //! **The key decision: costs are integers.** Open lists compare fixed-point sums
 //! ([`Cost`](mediant_moves::Cost)). So paths of equal length compare as equal, the heuristic [`Hk`] is
 //! consistent to the last bit, and the same query gives the same path and the same counts on every platform.

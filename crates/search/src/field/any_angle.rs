@@ -2,7 +2,9 @@
 
 use std::{cmp::Reverse, collections::BinaryHeap, ops::Deref};
 
-use mediant_grid::{BitMatrix, Corners, DiagonalGap, FreeSpace, Identity, VertexId, sight::Ray};
+use mediant_grid::{
+    BitMatrix, Corners, DiagonalGap, FreeSpace, Identity, Placement, VertexId, load, sight::Ray,
+};
 use mediant_moves::K;
 
 use super::{
@@ -165,11 +167,14 @@ fn from_bend(labels: &mut Labels<'_>, root: Root, parent: VertexId) {
 /// The vertices at which paths may bend: those that touch one blocked cell, or two that meet diagonally, if a
 /// path may pass between them.
 fn bends(space: &FreeSpace<Corners>) -> BitMatrix {
-    let grid = space.grid();
+    let cells = space.grid().rows();
     let is_open = space.rule() == DiagonalGap::Open;
-    space.vertex_set(|at| {
-        let cells = [(-1, -1), (0, -1), (-1, 0), (0, 0)];
-        let blocked = cells.into_iter().filter(|(x, y)| grid.is_blocked(at.x + x, at.y + y)).count();
-        blocked == 1 || blocked == 2 && is_open && grid.is_gap(at)
+    let (width, height) = Corners::vertices(space.grid());
+    BitMatrix::from_words(width, height, false, |x, y| {
+        let [nw, ne, sw, se] = [(-1, -1), (0, -1), (-1, 0), (0, 0)]
+            .map(|(dx, dy)| load(cells.words(), cells.index(x + dx, y + dy)));
+        let one = (nw ^ ne ^ sw ^ se) & !(nw & ne | sw & se);
+        let gap = (nw ^ ne) & !(nw ^ se) & !(ne ^ sw);
+        if is_open { one | gap } else { one }
     })
 }
