@@ -111,7 +111,8 @@ fn any_angle_fields_on_every_map_of_nine_cells() {
 /// Every vertex of larger maps against a query of Anya.
 #[test]
 fn any_angle_fields_agree_with_anya() {
-    for seed in seeds(6) {
+    // A query a vertex takes long.
+    for seed in 0..seeds(6).end.min(60) {
         let mut rng = Rng::new(seed);
         let grid = match seed % 6 {
             0 => noise(&mut rng, 90, 60, 5),
