@@ -88,7 +88,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> AStar<G, H> {
 
     /// After a search from its last waypoint, extends a path to a vertex that the search has reached.
     pub fn extend_to(&self, path: &mut Vec<Vertex>, to: Vertex) {
-        if let Some(to) = self.graph.id(to).filter(|&to| !path.is_empty() && self.cost_to(to).is_some()) {
+        if let Some(to) = self.graph.id(to).filter(|&to| !path.is_empty() && self.knows(to)) {
             self.extend_back(to, path);
         }
     }

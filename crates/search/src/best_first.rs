@@ -41,11 +41,10 @@ pub struct BestFirst<G, H, S, N = ()> {
     status: Status,
 }
 
-/// From where to where a search leads.
+/// Where a search leads, and how far.
 #[derive(Clone, Copy, Debug)]
 struct Aim {
-    /// `None` for a search that finds the distances of all vertices.
-    goal: Option<VertexId>,
+    goal: VertexId,
     /// Vertices through which every path costs more are not expanded.
     limit: Cost,
     /// Whether it is the second search, without pruning.
@@ -53,7 +52,7 @@ struct Aim {
 }
 
 impl Aim {
-    const NONE: Self = Self { goal: None, limit: Cost::MAX, is_retry: false };
+    const NONE: Self = Self { goal: VertexId(0), limit: Cost::MAX, is_retry: false };
 }
 
 impl<P, G, H, S, N> BestFirst<G, H, S, N>
@@ -120,17 +119,12 @@ where
         Self { graph, heuristic, successors, nodes, open, starts, aim, status }
     }
 
-    /// The goal; outside the map, where no move leads, if there is none.
-    fn goal_at(&self) -> Vertex {
-        self.aim.goal.map_or(Vertex::new(-1, -1), |goal| self.graph.vertex(goal))
-    }
-
     /// Makes the starts the only nodes that are known.
     fn begin_at(&mut self, aim: Aim, observer: &mut impl Observer) {
         self.aim = aim;
         self.status = Status::Searching;
-        let goal_at = self.goal_at();
         let Self { graph, heuristic, nodes, open, starts, .. } = self;
+        let goal_at = graph.vertex(aim.goal);
         nodes.start_search();
         open.clear();
         for &start in &*starts {
@@ -170,29 +164,21 @@ where
         self.status = Status::Unreachable;
         if let Some((start, goal)) = query.ends(&self.graph)? {
             self.set_start(start);
-            self.begin_at(Aim { goal: Some(goal), limit, is_retry: false }, observer);
+            self.begin_at(Aim { goal, limit, is_retry: false }, observer);
         }
         Ok(self.status)
     }
 
-    /// Searches all that can be reached, without a pause.
-    pub(crate) fn flood(&mut self, start: VertexId) {
-        self.set_start(start);
-        self.begin_at(Aim::NONE, &mut ());
-        self.status = self.run(&mut ());
-    }
-
-    /// Expands nodes until the goal is the best open node, or, without a goal, until none is open, or until
-    /// the observer pauses.
+    /// Expands nodes until the goal is the best open node, none is open, or the observer pauses.
     fn run(&mut self, observer: &mut impl Observer) -> Status {
-        let goal_at = self.goal_at();
         let Self { graph, heuristic, successors, nodes, open, aim, .. } = self;
         let Aim { goal, limit, .. } = *aim;
+        let goal_at = graph.vertex(goal);
         let (graph, heuristic, successors): (&GridGraph<P>, &H, &S) = (graph, heuristic, successors);
         let reopens = H::ADMISSIBLE || S::DEPEND_ON_ARRIVAL || graph.has_closed_gaps();
 
         loop {
-            if let Some(next) = open.get(0).filter(|next| Some(next.id()) != goal) {
+            if let Some(next) = open.get(0).filter(|next| next.id() != goal) {
                 let g = || nodes.get(next.id()).map_or(Cost::ZERO, |node| node.g);
                 if observer.pauses(if H::ADMISSIBLE { next.f() } else { g() }) {
                     return Status::Searching;
@@ -203,7 +189,7 @@ where
             };
             observer.percolated(swaps);
             let id = entry.id();
-            if Some(id) == goal {
+            if id == goal {
                 return Status::Found;
             }
             nodes.set_slot(id, Node::<N>::CLOSED);
@@ -262,6 +248,11 @@ where
 }
 
 impl<G, H, S, N: ParentPointer> BestFirst<G, H, S, N> {
+    /// Whether the search knows a path to a vertex.
+    pub(crate) fn knows(&self, id: VertexId) -> bool {
+        self.nodes.get(id).is_some()
+    }
+
     /// After a search, adds the waypoints of the best known path to a goal, without its start.
     pub(crate) fn extend_back<P: Placement>(&self, goal: VertexId, waypoints: &mut Vec<Vertex>)
     where
@@ -295,7 +286,7 @@ where
         self.starts.extend(starts.iter().filter_map(|&start| self.graph.id(start)));
         self.starts.sort_unstable();
         self.starts.dedup();
-        self.begin_at(Aim { goal: Some(goal), ..Aim::NONE }, observer);
+        self.begin_at(Aim { goal, ..Aim::NONE }, observer);
         Some(self.status)
     }
 
@@ -315,7 +306,7 @@ where
     }
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
-        let id = self.graph.id(at).filter(|&id| self.aim.goal.is_some() && self.nodes.get(id).is_some())?;
+        let id = self.graph.id(at).filter(|&id| self.knows(id))?;
         Some(trace_back(&self.graph, &self.nodes, id))
     }
 

@@ -53,7 +53,7 @@ pub trait Successors<P: Placement>: Debug {
     /// always do.)
     const DEPEND_ON_ARRIVAL: bool = true;
 
-    /// Calls `visit` with each successor of a node; `goal` is outside the map when the search has no goal.
+    /// Calls `visit` with each successor of a node, on the way to `goal`.
     /// Returns the number of vertices scanned, for [`Observer::scanned`](crate::Observer::scanned); 0 unless
     /// it jumps.
     fn for_each(
