@@ -66,6 +66,7 @@ mod engine;
 mod erased;
 mod error;
 pub mod errors;
+mod field;
 pub mod files;
 mod heuristic;
 mod index;
@@ -96,6 +97,7 @@ pub use configured::{
 };
 pub use engine::Engine;
 pub use error::Error;
+pub use field::{Field, Fields};
 pub use index::{Index, Origin};
 pub use map::Map;
 pub use mediant_grid::{

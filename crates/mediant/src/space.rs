@@ -6,7 +6,7 @@ use mediant_grid::{
     Centers, Corners, FreeSpace, GridGraph, Identity, Placement, PlacementKind, Rectangle, Rules, Vertex,
 };
 use mediant_moves::{FiniteK, K};
-use mediant_search::{End, FieldError, FieldQuery, Fields, Query, QueryError, Wavefront};
+use mediant_search::{End, Query, QueryError, Wavefront};
 
 use crate::{
     configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion, setup::Setup,
@@ -160,7 +160,8 @@ impl Space {
     }
 
     /// The vertices that can be reached from `start`, row by row, with their distances: in cells by
-    /// [`Engine::Dijkstra`], in moves by [`Engine::Wavefront`].
+    /// [`Engine::Dijkstra`], in moves by [`Engine::Wavefront`]. For more than one source, a limit, paths and
+    /// directions see [`field`](Self::field).
     ///
     /// ```
     /// use mediant::{Engine, K, Map, Motion};
@@ -179,10 +180,11 @@ impl Space {
         if !engine.capabilities().distances {
             return Err(SetupError::without_distances(engine).into());
         }
-        match (self.placed(), k.finite()) {
-            (Placed::Centers(layers), Some(k)) => distances(engine, layers.graph(k)?, start),
-            (Placed::Corners(layers), Some(k)) => distances(engine, layers.graph(k)?, start),
-            (_, None) => Err(SetupError::without_distances(engine).into()),
+        match (engine, self.placed(), k.finite()) {
+            (Engine::Dijkstra, ..) => Ok(self.field([start])?.iter().collect()),
+            (Engine::Wavefront, Placed::Centers(layers), Some(k)) => moves(layers.graph(k)?, start),
+            (Engine::Wavefront, Placed::Corners(layers), Some(k)) => moves(layers.graph(k)?, start),
+            _ => Err(SetupError::without_distances(engine).into()),
         }
     }
 
@@ -235,26 +237,8 @@ impl Space {
     }
 }
 
-/// The distances from a vertex on a grid graph.
-fn distances<P: Placement>(
-    engine: Engine,
-    graph: &Arc<GridGraph<P>>,
-    start: Vertex,
-) -> Result<Vec<(Vertex, f64)>, Error> {
-    Ok(match engine {
-        Engine::Dijkstra => {
-            let costs =
-                Fields::new(&**graph).field(FieldQuery::new(&[start])).map_err(|error| match error {
-                    FieldError::Query(error) => Error::Query(error),
-                    // Nothing else was asked for that could be wrong.
-                    _ => SetupError::without_distances(engine).into(),
-                })?;
-            costs.iter().map(|(at, cost)| (at, cost.to_f64())).collect()
-        }
-        Engine::Wavefront => {
-            let moves = Wavefront::new(&**graph).distances(start)?;
-            moves.iter().map(|(at, moves)| (at, f64::from(moves))).collect()
-        }
-        _ => return Err(SetupError::without_distances(engine).into()),
-    })
+/// The number of moves from a vertex to all others.
+fn moves<P: Placement>(graph: &Arc<GridGraph<P>>, start: Vertex) -> Result<Vec<(Vertex, f64)>, Error> {
+    let moves = Wavefront::new(&**graph).distances(start)?;
+    Ok(moves.iter().map(|(at, moves)| (at, f64::from(moves))).collect())
 }

@@ -1,0 +1,249 @@
+//! Distance fields in a space.
+
+use std::{fmt, sync::Arc};
+
+use mediant_grid::{Centers, Corners, FreeSpace, GridGraph, Identity, Vertex};
+use mediant_moves::FiniteK;
+use mediant_search::{
+    self as search, AnyAngleField, AnyAngleFields, FieldError, FieldQuery, Path, QueryError,
+};
+
+use crate::{
+    error::Error,
+    shared_rules::{Shared, pruning},
+    space::{Layers, Placed, Space},
+};
+
+/// The distance of every vertex to the nearest of one or many sources, with the paths and directions out of
+/// it: one goal for many agents, or what lies within reach. Over N(k) for every finite k, and exactly at any
+/// angle.
+///
+/// ```
+/// use mediant::{K, Map, Motion};
+///
+/// let space = Map::from_rows(["....", ".##.", "...."])?.space(Motion::centers(K::N8))?;
+/// let field = space.field([(0, 0), (3, 2)])?;
+/// assert_eq!((field.get((3, 0)), field.get((1, 1))), (Some(2.0), None));
+/// assert_eq!(field.next((3, 0)), Some((3, 1).into()));
+/// assert_eq!(field.path_from((3, 0)).map(|path| path.cost()), Some(2.0));
+/// # Ok::<(), mediant::Error>(())
+/// ```
+pub struct Field {
+    inner: Inner,
+}
+
+enum Inner {
+    Centers(search::Field<Arc<GridGraph<Centers>>>),
+    Corners(search::Field<Arc<GridGraph<Corners>>>),
+    AnyAngle(AnyAngleField<Arc<FreeSpace<Corners>>>),
+}
+
+/// Makes one field after another in a space, on scratch memory of its own: make one for each thread.
+pub struct Fields {
+    inner: Makers,
+}
+
+enum Makers {
+    Centers(search::Fields<Arc<GridGraph<Centers>>, Centers>),
+    Corners(search::Fields<Arc<GridGraph<Corners>>, Corners>),
+    AnyAngle(AnyAngleFields<Arc<FreeSpace<Corners>>>),
+}
+
+impl Space {
+    /// The distance of every vertex to the nearest source.
+    ///
+    /// # Errors
+    /// Those of [`Fields::field`].
+    pub fn field<V: Into<Vertex>>(&self, sources: impl IntoIterator<Item = V>) -> Result<Field, Error> {
+        self.fields()?.field(sources)
+    }
+
+    /// The distances of those vertices whose distance to the nearest source is at most `limit` cells: what
+    /// an agent can reach, if it goes no further.
+    ///
+    /// # Errors
+    /// Those of [`Fields::field_within`].
+    pub fn field_within<V: Into<Vertex>>(
+        &self,
+        sources: impl IntoIterator<Item = V>,
+        limit: f64,
+    ) -> Result<Field, Error> {
+        self.fields()?.field_within(sources, limit)
+    }
+
+    /// What makes fields in this space, one after another.
+    ///
+    /// # Errors
+    /// None that a space which exists can have.
+    pub fn fields(&self) -> Result<Fields, Error> {
+        let inner = match (self.placed(), self.motion().k.finite()) {
+            (Placed::Centers(layers), Some(k)) => Makers::Centers(lattice(layers, k)?),
+            (Placed::Corners(layers), Some(k)) => Makers::Corners(lattice(layers, k)?),
+            (Placed::Corners(layers), None) => {
+                Makers::AnyAngle(AnyAngleFields::new(Arc::clone(&layers.free)))
+            }
+            (Placed::Centers(_), None) => {
+                let (motion, max) = (self.motion(), GridGraph::<Centers>::MAX_K);
+                return Err(Error::Motion { motion, max });
+            }
+        };
+        Ok(Fields { inner })
+    }
+}
+
+/// What makes fields over N(k).
+fn lattice<P: Shared>(layers: &Layers<P>, k: FiniteK) -> Result<search::Fields<Arc<GridGraph<P>>, P>, Error> {
+    let graph = layers.graph(k)?;
+    Ok(search::Fields::with_pruning(Arc::clone(graph), pruning(graph)?)?)
+}
+
+impl Fields {
+    /// The distance of every vertex to the nearest source. Without a source it is empty.
+    ///
+    /// # Errors
+    /// [`Error::Query`] for the first source that is blocked or outside the map.
+    pub fn field<V: Into<Vertex>>(&mut self, sources: impl IntoIterator<Item = V>) -> Result<Field, Error> {
+        let sources: Vec<Vertex> = sources.into_iter().map(Into::into).collect();
+        self.make(FieldQuery::new(&sources))
+    }
+
+    /// The distances of those vertices whose distance to the nearest source is at most `limit` cells.
+    ///
+    /// # Errors
+    /// [`Error::Query`] for the first source that is blocked or outside the map, and for a limit that is
+    /// negative or not a number.
+    pub fn field_within<V: Into<Vertex>>(
+        &mut self,
+        sources: impl IntoIterator<Item = V>,
+        limit: f64,
+    ) -> Result<Field, Error> {
+        let sources: Vec<Vertex> = sources.into_iter().map(Into::into).collect();
+        self.make(FieldQuery::new(&sources).within(limit))
+    }
+
+    fn make(&mut self, query: FieldQuery<'_>) -> Result<Field, Error> {
+        let inner = match &mut self.inner {
+            Makers::Centers(fields) => fields.field(query).map(Inner::Centers),
+            Makers::Corners(fields) => fields.field(query).map(Inner::Corners),
+            Makers::AnyAngle(fields) => fields.field(query).map(Inner::AnyAngle),
+        };
+        let inner = inner.map_err(|error| match error {
+            FieldError::Query(error) => error,
+            _ => QueryError::CostLimit,
+        })?;
+        Ok(Field { inner })
+    }
+}
+
+/// The same expression for a field of each kind.
+macro_rules! of_each {
+    ($inner:expr, $field:ident => $value:expr) => {
+        match $inner {
+            Inner::Centers($field) => $value,
+            Inner::Corners($field) => $value,
+            Inner::AnyAngle($field) => $value,
+        }
+    };
+}
+
+impl Field {
+    /// The distance of a vertex to the nearest source, in cells; `None` if no path leads to one, if it is
+    /// beyond the limit, or if the vertex is blocked or outside the map.
+    #[must_use]
+    pub fn get(&self, at: impl Into<Vertex>) -> Option<f64> {
+        let at = at.into();
+        match &self.inner {
+            Inner::Centers(field) => field.get(at).map(|cost| cost.to_f64()),
+            Inner::Corners(field) => field.get(at).map(|cost| cost.to_f64()),
+            Inner::AnyAngle(field) => field.get(at),
+        }
+    }
+
+    /// The vertices that have a distance, row by row.
+    #[must_use]
+    pub fn iter(&self) -> Box<dyn Iterator<Item = (Vertex, f64)> + '_> {
+        match &self.inner {
+            Inner::Centers(field) => Box::new(field.iter().map(|(at, cost)| (at, cost.to_f64()))),
+            Inner::Corners(field) => Box::new(field.iter().map(|(at, cost)| (at, cost.to_f64()))),
+            Inner::AnyAngle(field) => Box::new(field.iter()),
+        }
+    }
+
+    /// The distances of all vertices, row by row: [`width`](Self::width) × [`height`](Self::height) numbers,
+    /// infinite where there is none.
+    #[must_use]
+    pub fn lengths(&self) -> Vec<f64> {
+        match &self.inner {
+            Inner::Centers(field) => field.lengths().collect(),
+            Inner::Corners(field) => field.lengths().collect(),
+            Inner::AnyAngle(field) => field.lengths().to_vec(),
+        }
+    }
+
+    /// The vertex to which the shortest path to the nearest source leads next: one move away, or at any angle
+    /// where it first bends. `None` at a source, and where there is no distance.
+    #[must_use]
+    pub fn next(&self, at: impl Into<Vertex>) -> Option<Vertex> {
+        let at = at.into();
+        of_each!(&self.inner, field => field.next(at))
+    }
+
+    /// The direction in which that path leaves a vertex, as a vector of length 1, x to the right and y down.
+    #[must_use]
+    pub fn direction(&self, at: impl Into<Vertex>) -> Option<(f64, f64)> {
+        let at = at.into();
+        let next = self.next(at)?;
+        let (dx, dy) = (f64::from(next.x) - f64::from(at.x), f64::from(next.y) - f64::from(at.y));
+        let length = at.distance(next);
+        Some((dx / length, dy / length))
+    }
+
+    /// The shortest path from a vertex to the nearest source; `None` where there is no distance.
+    #[must_use]
+    pub fn path_from(&self, at: impl Into<Vertex>) -> Option<Path> {
+        let at = at.into();
+        of_each!(&self.inner, field => field.path_from(at))
+    }
+
+    /// The source to which that path leads.
+    #[must_use]
+    pub fn nearest_source(&self, at: impl Into<Vertex>) -> Option<Vertex> {
+        let at = at.into();
+        of_each!(&self.inner, field => field.nearest_source(at))
+    }
+
+    /// The number of vertices in a row.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        of_each!(&self.inner, field => field.width())
+    }
+
+    /// The number of rows.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        of_each!(&self.inner, field => field.height())
+    }
+
+    /// What the field belongs to.
+    #[must_use]
+    pub fn identity(&self) -> Identity {
+        of_each!(&self.inner, field => field.identity())
+    }
+}
+
+impl fmt::Debug for Field {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Field").field("identity", &self.identity()).finish_non_exhaustive()
+    }
+}
+
+impl fmt::Debug for Fields {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let identity = match &self.inner {
+            Makers::Centers(fields) => fields.identity(),
+            Makers::Corners(fields) => fields.identity(),
+            Makers::AnyAngle(fields) => fields.identity(),
+        };
+        f.debug_struct("Fields").field("identity", &identity).finish_non_exhaustive()
+    }
+}
