@@ -65,6 +65,10 @@ pub(crate) enum Failure {
     DrawJsonl,
     #[error("--trace follows a single query: give --from and --to, or --limit 1")]
     TraceMany,
+    #[error("--trace follows a single search: give --from and --to once")]
+    TraceEnds,
+    #[error("--distances begin at one vertex: give --from once")]
+    DistancesEnds,
     #[error(
         "give --k to list the moves of a neighborhood, --ratio to find the smallest k for a bound, or both"
     )]

@@ -8,6 +8,7 @@ mod options;
 mod run;
 mod setup;
 mod value;
+mod wishes;
 
 use clap::{Parser, Subcommand};
 
@@ -18,6 +19,7 @@ pub(crate) use self::{
     moves::MovesArgs,
     run::{Format, RunArgs},
     value::MAX_K,
+    wishes::WishArgs,
 };
 
 /// Pathfinding on the 2^k neighborhoods of a grid: from the 4-connected grid (k = 2) towards any angle.
@@ -31,7 +33,7 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Answer queries on a map.
-    Run(RunArgs),
+    Run(Box<RunArgs>),
     /// Prepare an engine's index of a map, and save it.
     Build(BuildArgs),
     /// Show the moves of N(k), its radius and its bounds.

@@ -7,14 +7,15 @@ use std::{
 
 use clap::{ArgGroup, Args, ValueEnum};
 use mediant::{Engine, Setup};
-use mediant_grid::{Rules, Vertex};
+use mediant_grid::Rules;
 use mediant_moves::K;
 use mediant_search::Smoothing;
 
 use super::{
     options::AllOptions,
     setup::SetupArgs,
-    value::{one_of, parse_count, parse_vertex},
+    value::{one_of, parse_count},
+    wishes::WishArgs,
 };
 use crate::failure::Failure;
 
@@ -35,12 +36,8 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "N", conflicts_with_all = ["from", "to"])]
     #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_count(text, &NonZeroUsize::MAX))]
     pub(crate) limit: Option<NonZeroUsize>,
-    /// The start of a single query
-    #[arg(long, value_name = "X,Y", requires = "aim", allow_hyphen_values = true, value_parser = parse_vertex)]
-    pub(crate) from: Option<Vertex>,
-    /// The goal of a single query
-    #[arg(long, value_name = "X,Y", requires = "from", allow_hyphen_values = true, value_parser = parse_vertex)]
-    pub(crate) to: Option<Vertex>,
+    #[command(flatten)]
+    pub(crate) wishes: WishArgs,
 
     #[command(flatten)]
     pub(crate) setup: SetupArgs,
@@ -96,15 +93,21 @@ const RUN_HELP: &str = "\
 Times are of the query alone, on a warm planner: each query is first solved once without a clock, which also \
 counts expanded and generated nodes and heap percolations; the timed runs count nothing.
 
-For each path found the report gives a certificate: how much longer than the shortest any-angle path it is \
-at most, by the engine's guarantee and by the straight line between the ends. With --reference it also gives \
-how much longer it is.
+For each path found the report gives a certificate: how much longer than the shortest any-angle path between its ends \
+it is at most, by the engine's guarantee and by the straight line. With --reference it also gives how much \
+longer it is.
+
+--tolerance, --nearest, --snap and the limits hold for each query. What is near is measured by the length of \
+a path on an empty map, for --tolerance by the straight line. A search that a limit stops gives the best \
+path so far, and a lower bound on the cost of the path that was asked for. A deadline holds for each run of \
+a query, and the first run, which counts, gives the answer. hpa links its ends to their clusters before it \
+looks at a limit.
 
 For a builtin map without queries, the queries are those of its own scenario.
 
 A trace is JSON for the Posthoc visualizer: every event of the search, then the path found.
 
-Exit status: 0 if every query was answered (found or unreachable), 1 if any was an error, 2 for bad arguments, \
+Exit status: 0 if every query was answered (found, unreachable, nearest or stopped), 1 if any was an error, 2 for bad arguments, \
 or a file that cannot be read or written.
 
 Examples:
@@ -114,6 +117,9 @@ Examples:
   mediant run arena.map --from 1,11 --to 40,30 --engine anya --draw
   mediant run arena.map --scen arena.map.scen --engine subgoal --index arena.idx
   mediant run builtin:town --k 4 --placement corner --smooth --reference anya
+  mediant run arena.map --from 1,11 --to 40,30 --to 30,5 --to 8,40
+  mediant run arena.map --from 1,11 --to 40,30 --snap --nearest --tolerance 1.5
+  mediant run arena.map --scen arena.map.scen --max-nodes 1000 --max-cost 60 --deadline 0.5
   mediant run arena.map --from 1,11 --engine dijkstra --distances -";
 
 /// The engines whose paths are the shortest at any angle.
@@ -130,6 +136,19 @@ impl RunArgs {
         });
         setup.check()?;
         Ok(setup)
+    }
+
+    /// Checks that a single query has several ends only where that has a meaning.
+    pub(crate) const fn check_ends(&self) -> Result<(), Failure> {
+        if !self.wishes.has_several_ends() {
+            Ok(())
+        } else if self.trace.is_some() {
+            Err(Failure::TraceEnds)
+        } else if self.distances.is_some() {
+            Err(Failure::DistancesEnds)
+        } else {
+            Ok(())
+        }
     }
 
     /// The setup of `--reference`, under the same rules of motion; `None` without it.

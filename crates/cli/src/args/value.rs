@@ -53,6 +53,22 @@ pub(super) fn parse_count<N: FromStr<Err = ParseIntError> + Display>(
     })
 }
 
+/// Reads a whole number from 0 up.
+pub(super) fn parse_whole(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|error: ParseIntError| match error.kind() {
+        IntErrorKind::PosOverflow => format!("expected a whole number from 0 to {}", u64::MAX),
+        _ => "expected a whole number from 0 up".to_owned(),
+    })
+}
+
+/// Reads a number of these units, 0 or more.
+pub(super) fn parse_amount(text: &str, units: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(amount) if amount >= 0.0 && amount.is_finite() => Ok(amount),
+        _ => Err(format!("expected a number of {units}, 0 or more, such as 2.5")),
+    }
+}
+
 /// Reads a k that some engine may take.
 pub(super) fn parse_k(text: &str) -> Result<K, String> {
     let form = format!("choose a number from 2 to {MAX_K}, or any");
@@ -96,6 +112,14 @@ mod tests {
         assert_eq!(parse_vertex("-1, 3"), Ok(Vertex::new(-1, 3)));
         assert!(parse_vertex("3").is_err() && parse_vertex("3,").is_err() && parse_vertex("1,2,3").is_err());
         assert!(parse_vertex("99999999999,0").is_err());
+    }
+
+    #[test]
+    fn amounts_are_finite_and_not_negative() {
+        assert_eq!([parse_amount("2.5", "cells"), parse_amount("0", "cells")], [Ok(2.5), Ok(0.0)]);
+        for wrong in ["-1", "nan", "NaN", "inf", "1e999", "-1e-9", "two", ""] {
+            assert!(parse_amount(wrong, "cells").is_err(), "{wrong}");
+        }
     }
 
     #[test]

@@ -53,7 +53,7 @@ fn solve(setup: Setup, map: &Map, query: Query) -> Result<Option<Row>, Failure> 
     // centers.
     let at_corners = rules.placement() == PlacementKind::Corner;
     let bound = planner.guarantee().bound(rules).filter(|_| at_corners);
-    let Measured { outcome, counters, nanos } = Measured::new(&mut planner, query, REPEAT);
+    let Measured { outcome, counters, nanos } = Measured::new(&mut planner, || query.into(), REPEAT);
     let Ok(Outcome::Found(path)) = outcome else { return Ok(None) };
     let (cost, expanded) = (path.cost(), counters.expanded);
     Ok(Some(Row { rules, k, bound, cost, waypoints: path.into_waypoints(), expanded, nanos }))
@@ -113,7 +113,7 @@ fn picture(map: &Map, query: Query, rows: &[Row], screen: &mut Screen) -> io::Re
             canvas.path(&row.waypoints, stroke, ink);
         }
     }
-    canvas.ends(query);
+    canvas.ends(&[query.start], &[query.goal]);
     canvas.write(screen)?;
     let ground = map.theme.ground();
     let mut legend = String::new();

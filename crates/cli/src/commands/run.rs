@@ -33,12 +33,13 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     if args.draw && args.format == Format::Jsonl {
         return Err(Failure::DrawJsonl);
     }
+    args.check_ends()?;
     if args.index.is_some() {
         setup.index_version()?;
     }
     let map = Map::load(&args.map)?;
-    if let (Some(path), Some(from)) = (&args.distances, args.from) {
-        return distances::write(setup, &map, from, path, screen);
+    if let (Some(path), Some(from)) = (&args.distances, args.wishes.from.first()) {
+        return distances::write(setup, &map, *from, path, screen);
     }
     let queries = Queries::load(args, &map)?;
     if args.draw && queries.len() > 1 {
@@ -60,6 +61,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
         map: &map,
         scenario: queries.scenario_name(),
         queries: queries.len(),
+        wishes: &args.wishes,
         setup,
         options: EngineOption::ALL.map(|option| (option, index.value(option))).to_vec(),
         guarantee: planner.guarantee(),
@@ -84,7 +86,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     let finished = session.answer_all(&mut planner, &run)?;
     drop(report);
     if args.draw {
-        draw(setup, &map, &queries, &finished, screen)?;
+        draw(args, setup, &map, &queries, &finished, screen)?;
     }
     Ok(ending(&queries, finished))
 }
@@ -101,6 +103,7 @@ fn prepare(args: &RunArgs, setup: Setup, map: &Map) -> Result<(Space, Index), Fa
 
 /// Draws the map with the path of a single query.
 fn draw(
+    args: &RunArgs,
     setup: Setup,
     map: &Map,
     queries: &Queries,
@@ -110,7 +113,8 @@ fn draw(
     let Some(item) = queries.iter().next() else { return Ok(()) };
     let mut canvas = Canvas::fit(&map.file, map.theme, setup.rules.placement(), screen);
     canvas.path(&finished.path, Stroke::Solid, INKS.best);
-    canvas.ends(item.query);
+    let request = args.wishes.request(item.query);
+    canvas.ends(request.starts(), request.goals());
     writeln!(screen)?;
     canvas.write(screen)
 }

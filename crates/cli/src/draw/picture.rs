@@ -8,7 +8,6 @@ use std::io::{self, Write};
 use anstyle::{Reset, RgbColor};
 use mediant_formats::MapFile;
 use mediant_grid::{PlacementKind, Vertex};
-use mediant_search::Query;
 
 use super::{
     braille::{DOT_COLUMNS, DOT_ROWS, Glyph, Sheet, Stroke, steps},
@@ -74,10 +73,10 @@ impl Canvas {
         }
     }
 
-    /// Marks the start and the goal of a query.
-    pub(crate) fn ends(&mut self, query: Query) {
-        self.mark(query.start, START_MARK, INKS.start);
-        self.mark(query.goal, GOAL_MARK, INKS.goal);
+    /// Marks the starts and the goals of a query.
+    pub(crate) fn ends(&mut self, starts: &[Vertex], goals: &[Vertex]) {
+        starts.iter().for_each(|&at| self.mark(at, START_MARK, INKS.start));
+        goals.iter().for_each(|&at| self.mark(at, GOAL_MARK, INKS.goal));
     }
 
     /// Puts a character at a vertex.

@@ -4,10 +4,10 @@ use std::time::Duration;
 
 use mediant::{Engine, EngineOption, OptionValue, Setup};
 use mediant_grid::{Rules, Vertex};
-use mediant_search::{Counters, Guarantee, Path};
+use mediant_search::{Counters, Guarantee, Path, Request, Stopped};
 
 use super::queries::Item;
-use crate::map::Map;
+use crate::{args::WishArgs, map::Map};
 
 /// What is run: the map, the setup, and what its preparation took.
 pub(crate) struct Run<'r> {
@@ -16,6 +16,7 @@ pub(crate) struct Run<'r> {
     pub(crate) scenario: Option<&'r str>,
     /// The number of queries.
     pub(crate) queries: usize,
+    pub(crate) wishes: &'r WishArgs,
     pub(crate) setup: Setup,
     /// All options of the catalog, each with its value if the engine has one.
     pub(crate) options: Vec<(&'static EngineOption, Option<OptionValue>)>,
@@ -34,14 +35,26 @@ pub(crate) struct Run<'r> {
 #[derive(Clone, Debug)]
 pub(crate) struct Answer {
     pub(crate) item: Item,
-    /// The path, or `None` if there is none; or in words why the query cannot be answered.
-    pub(crate) found: Result<Option<Found>, String>,
+    /// What was asked.
+    pub(crate) request: Request,
+    /// The outcome, or in words why the query cannot be answered.
+    pub(crate) outcome: Result<Answered, String>,
     pub(crate) counters: Counters,
     /// The time of the query alone on a warm planner, the best of all repetitions; 0 for errors.
     pub(crate) nanos: u64,
 }
 
-/// A path, and what is known of the shortest any-angle path under the same rules.
+/// How a query was answered.
+#[derive(Clone, Debug)]
+pub(crate) enum Answered {
+    Found(Found),
+    /// There is no path; this one leads to the nearest vertex that can be reached.
+    Nearest(Path),
+    Unreachable,
+    Stopped(Stopped),
+}
+
+/// A path, and what is known of the shortest any-angle path between its ends under the same rules.
 #[derive(Clone, Debug)]
 pub(crate) struct Found {
     pub(crate) path: Path,
@@ -53,18 +66,36 @@ pub(crate) struct Found {
 }
 
 impl Answer {
-    /// The path, if one was found.
-    pub(crate) fn path(&self) -> Option<&Found> {
-        self.found.as_ref().ok()?.as_ref()
+    /// The path that was asked for, if it was found.
+    pub(crate) const fn found(&self) -> Option<&Found> {
+        match &self.outcome {
+            Ok(Answered::Found(found)) => Some(found),
+            _ => None,
+        }
+    }
+
+    /// The path, if there is one: that of a stopped search is the best so far.
+    pub(crate) const fn path(&self) -> Option<&Path> {
+        match &self.outcome {
+            Ok(Answered::Found(found)) => Some(&found.path),
+            Ok(Answered::Nearest(path)) => Some(path),
+            Ok(Answered::Stopped(stopped)) => Some(&stopped.best),
+            Ok(Answered::Unreachable) | Err(_) => None,
+        }
+    }
+
+    /// The start and the goal: of a path that was found its ends, else those of the query.
+    pub(crate) fn ends(&self) -> (Vertex, Vertex) {
+        let found = self.found().and_then(|found| ends(&found.path));
+        found.unwrap_or((self.item.query.start, self.item.query.goal))
     }
 }
 
 impl Found {
     /// Adds the certificate, which follows from the path and the guarantee of its engine.
     pub(crate) fn new(path: Path, guarantee: Guarantee, rules: Rules, any_angle: Option<f64>) -> Self {
-        let (cost, waypoints) = (path.cost(), path.waypoints());
-        let ends = waypoints.first().zip(waypoints.last());
-        let straight = ends.map_or(0.0, |(start, goal): (&Vertex, &Vertex)| start.distance(*goal));
+        let cost = path.cost();
+        let straight = ends(&path).map_or(0.0, |(start, goal)| start.distance(goal));
         // The rounded sum of a straight path's parts may be less than the straight line.
         let lower_bound = guarantee.lower_bound(rules, cost, straight).min(cost);
         Self { path, lower_bound, any_angle }
@@ -79,6 +110,11 @@ impl Found {
     pub(crate) fn ratio(&self) -> Option<f64> {
         self.any_angle.map(|best| ratio(self.path.cost(), best))
     }
+}
+
+/// The ends of a path.
+pub(crate) fn ends(path: &Path) -> Option<(Vertex, Vertex)> {
+    path.waypoints().first().copied().zip(path.waypoints().last().copied())
 }
 
 /// The ratio of two lengths; 1 if both are 0.

@@ -17,11 +17,11 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::{
-    answer::{Answer, Found, Run},
+    answer::{Answer, Answered, Found, Run},
     report::{Report, guarantee_name, smoothing_name},
     summary::Summary,
 };
-use crate::terminal::screen::Screen;
+use crate::{args::WishArgs, terminal::screen::Screen};
 
 /// Writes each record as it comes, and flushes often: an interrupted run loses the current query and the
 /// records of less than a second.
@@ -79,6 +79,9 @@ struct RunLine<'r> {
     /// The scenario's file name.
     scenario: Option<&'r str>,
     queries: usize,
+    /// Each wish that was named, by the name of its option, with `_` for `-` (`deadline_ms` for `--deadline`).
+    #[serde(flatten)]
+    wishes: WishFields,
     engine: &'static str,
     /// A number or "any".
     k: Value,
@@ -104,6 +107,33 @@ struct RunLine<'r> {
     version: &'static str,
 }
 
+/// The wishes of a run; only those that were named.
+#[derive(Debug, Serialize)]
+struct WishFields {
+    /// In cells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tolerance: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    nearest: Option<bool>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    snap: Option<bool>,
+    /// In cells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max_cost: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max_nodes: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    deadline_ms: Option<f64>,
+}
+
+impl From<&WishArgs> for WishFields {
+    fn from(wishes: &WishArgs) -> Self {
+        let &WishArgs { tolerance, nearest, snap, max_cost, max_nodes, deadline, .. } = wishes;
+        let (nearest, snap) = (nearest.then_some(true), snap.then_some(true));
+        Self { tolerance, nearest, snap, max_cost, max_nodes, deadline_ms: deadline }
+    }
+}
+
 impl<'r> From<&Run<'r>> for RunLine<'r> {
     fn from(run: &Run<'r>) -> Self {
         let setup = run.setup;
@@ -120,6 +150,7 @@ impl<'r> From<&Run<'r>> for RunLine<'r> {
             free_cells: grid.free_cells(),
             scenario: run.scenario,
             queries: run.queries,
+            wishes: run.wishes.into(),
             engine: setup.engine.kind().name(),
             k: match setup.k {
                 K::Finite(k) => k.get().into(),
@@ -159,7 +190,10 @@ fn json_of(option: &EngineOption, value: Option<OptionValue>) -> (String, Value)
 #[serde(rename_all = "lowercase")]
 enum Status {
     Found,
+    /// There is no path; the one here leads to the nearest vertex that can be reached.
+    Nearest,
     Unreachable,
+    Stopped,
     Error,
 }
 
@@ -169,24 +203,36 @@ enum Status {
 struct QueryLine<'a> {
     /// The number of the scenario's instance, from 0.
     index: usize,
+    /// The first waypoint, if found; else the first start that was asked for.
     start: [i32; 2],
+    /// The last waypoint, if found; else the first goal that was asked for.
     goal: [i32; 2],
+    /// All starts that were asked for; only in a run with wishes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    starts: Option<Vec<[i32; 2]>>,
+    /// All goals that were asked for; only in a run with wishes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    goals: Option<Vec<[i32; 2]>>,
     status: Status,
-    /// `null` unless found.
+    /// What stopped the search; only if the status is "stopped".
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stopped_by: Option<String>,
+    /// Of the path; `null` without one.
     cost: Option<f64>,
-    /// The waypoints; empty unless found.
+    /// The waypoints, of a stopped search those of the best path so far; empty without a path.
     path: Vec<[i32; 2]>,
-    /// The sum of the path's turning angles, in degrees (Hammoud 2023); `null` unless found.
+    /// The sum of the path's turning angles, in degrees (Hammoud 2023); `null` without a path.
     smoothness: Option<f64>,
     /// The length that the scenario gives: optimal for k = 3 at centers under `never`. `null` without a
     /// scenario.
     reference: Option<f64>,
-    /// The certificate: no path at any angle under the same rules is shorter than this; `null` unless found.
+    /// If found, the certificate: no path at any angle between its ends under the same rules is shorter. If
+    /// stopped, the path that was asked for is not shorter. Else `null`.
     lower_bound: Option<f64>,
     /// `cost / lower_bound`, at least 1; `null` unless found.
     bound: Option<f64>,
-    /// The length of the shortest any-angle path under the same rules; `null` without `--reference` or a
-    /// path.
+    /// The length of the shortest any-angle path between the ends of the path under the same rules; `null`
+    /// without `--reference`, or unless found.
     any_angle: Option<f64>,
     /// `cost / any_angle`; `null` if either is.
     ratio: Option<f64>,
@@ -211,27 +257,36 @@ struct QueryLine<'a> {
 
 impl<'a> From<&'a Answer> for QueryLine<'a> {
     fn from(answer: &'a Answer) -> Self {
-        let Answer { item, found, counters, nanos } = answer;
-        let (query, path) = (item.query, answer.path());
-        let [start, goal] = [query.start, query.goal].map(pair);
-        let waypoints = path.map_or(&[][..], |found| found.path.waypoints());
+        let Answer { item, request, outcome, counters, nanos } = answer;
+        let (found, path) = (answer.found(), answer.path());
+        let (start, goal) = answer.ends();
+        let has_wishes = request.as_query().is_none();
+        let stopped = match outcome {
+            Ok(Answered::Stopped(stopped)) => Some(stopped),
+            _ => None,
+        };
         Self {
             index: item.index,
-            start,
-            goal,
-            status: match found {
-                Ok(Some(_)) => Status::Found,
-                Ok(None) => Status::Unreachable,
+            start: pair(start),
+            goal: pair(goal),
+            starts: has_wishes.then(|| pairs(request.starts())),
+            goals: has_wishes.then(|| pairs(request.goals())),
+            status: match outcome {
+                Ok(Answered::Found(_)) => Status::Found,
+                Ok(Answered::Nearest(_)) => Status::Nearest,
+                Ok(Answered::Unreachable) => Status::Unreachable,
+                Ok(Answered::Stopped(_)) => Status::Stopped,
                 Err(_) => Status::Error,
             },
-            cost: path.map(|found| found.path.cost()),
-            path: waypoints.iter().copied().map(pair).collect(),
-            smoothness: path.map(|found| Path::smoothness(&found.path)),
+            stopped_by: stopped.map(|stopped| stopped.by.to_string()),
+            cost: path.map(Path::cost),
+            path: pairs(path.map_or(&[][..], Path::waypoints)),
+            smoothness: path.map(Path::smoothness),
             reference: item.reference,
-            lower_bound: path.map(|found| found.lower_bound),
-            bound: path.map(Found::bound),
-            any_angle: path.and_then(|found| found.any_angle),
-            ratio: path.and_then(Found::ratio),
+            lower_bound: found.map(|found| found.lower_bound).or(stopped.map(|stopped| stopped.lower_bound)),
+            bound: found.map(Found::bound),
+            any_angle: found.and_then(|found| found.any_angle),
+            ratio: found.and_then(Found::ratio),
             expanded: counters.expanded,
             generated: counters.generated,
             percolations: counters.percolations,
@@ -239,9 +294,14 @@ impl<'a> From<&'a Answer> for QueryLine<'a> {
             scanned: counters.scanned,
             fallbacks: counters.fallbacks,
             nanos: *nanos,
-            error: found.as_ref().err().map(String::as_str),
+            error: outcome.as_ref().err().map(String::as_str),
         }
     }
+}
+
+/// Vertices as `[x, y]`.
+fn pairs(vertices: &[Vertex]) -> Vec<[i32; 2]> {
+    vertices.iter().copied().map(pair).collect()
 }
 
 /// A vertex as `[x, y]`.

@@ -3,7 +3,7 @@
 use std::{hint::black_box, time::Instant};
 
 use mediant::Planner;
-use mediant_search::{Counters, Outcome, Query, QueryError};
+use mediant_search::{Counters, Outcome, QueryError, Request};
 
 /// The answer of a planner, with counts and time.
 pub(crate) struct Measured {
@@ -14,14 +14,14 @@ pub(crate) struct Measured {
 }
 
 impl Measured {
-    /// Solves a query once with counters, which warms the planner, then `repeat` times by the clock, without
-    /// counters.
-    pub(crate) fn new(planner: &mut Planner, query: Query, repeat: u32) -> Self {
+    /// Answers a request once with counters, which warms the planner, then `repeat` times by the clock,
+    /// without counters. Each time the request is made anew, since its deadline begins then.
+    pub(crate) fn new(planner: &mut Planner, request: impl Fn() -> Request, repeat: u32) -> Self {
         let mut counters = Counters::default();
-        let outcome = planner.find_observed(query, &mut counters);
+        let outcome = planner.find_observed(request(), &mut counters);
         let timed = |_| {
             let begin = Instant::now();
-            let outcome = black_box(planner.find(black_box(query)));
+            let outcome = black_box(planner.find(black_box(request())));
             let time = begin.elapsed();
             // The path is freed after the clock has stopped.
             drop(outcome);

@@ -17,6 +17,7 @@ use crate::{
 pub(crate) struct Item {
     /// The number of the instance, counted from 0; 0 for a single query.
     pub(crate) index: usize,
+    /// Its start and goal; of several the first.
     pub(crate) query: Query,
     /// The length that the scenario gives: optimal for k = 3 at centers under `never`.
     pub(crate) reference: Option<f64>,
@@ -31,8 +32,8 @@ pub(crate) enum Queries {
 impl Queries {
     /// The queries that the arguments name.
     pub(crate) fn load(args: &RunArgs, map: &Map) -> Result<Self, Failure> {
-        let path = match (&args.scen, args.from, args.to) {
-            (None, Some(from), Some(to)) => return Ok(Self::Single(Query::new(from, to))),
+        let path = match (&args.scen, args.wishes.from.first(), args.wishes.to.first()) {
+            (None, Some(&from), Some(&to)) => return Ok(Self::Single(Query::new(from, to))),
             (Some(path), ..) => path,
             (None, ..) if is_builtin(&args.map) => &args.map,
             (None, ..) => return Err(Failure::NoQueries),

@@ -2,10 +2,10 @@
 
 use mediant::Planner;
 use mediant_grid::Vertex;
-use mediant_search::{Outcome, Path};
+use mediant_search::{Outcome, Path, Query};
 
 use super::{
-    answer::{Answer, Found, Run},
+    answer::{Answer, Answered, Found, Run, ends},
     measure::Measured,
     queries::{Item, Queries},
     query_error::explain,
@@ -39,16 +39,16 @@ impl Session<'_> {
     /// Answers all queries and reports the answers.
     pub(crate) fn answer_all(mut self, planner: &mut Planner, run: &Run<'_>) -> Result<Finished, Failure> {
         self.report.begin(run)?;
-        let mut tally = Tally::default();
+        let mut tally = Tally::new(run.wishes);
         let (mut first_error, mut path) = (None, Vec::new());
         for item in self.queries.iter() {
             let answer = self.answer(planner, run, item)?;
             tally.add(&answer);
-            if let Err(error) = &answer.found {
+            if let Err(error) = &answer.outcome {
                 first_error.get_or_insert_with(|| (item.index, error.clone()));
             }
             path.clear();
-            path.extend(answer.path().into_iter().flat_map(|found| found.path.waypoints()));
+            path.extend(answer.path().into_iter().flat_map(Path::waypoints));
             self.report.query(answer)?;
             self.progress.tick();
         }
@@ -61,21 +61,30 @@ impl Session<'_> {
     /// Answers one query.
     fn answer(&mut self, planner: &mut Planner, run: &Run<'_>, item: Item) -> Result<Answer, Failure> {
         let (grid, rules) = (&*run.map.grid, run.setup.rules);
-        let Measured { outcome, counters, nanos } = Measured::new(planner, item.query, run.repeat);
+        let request = || run.wishes.request(item.query);
+        let Measured { outcome, counters, nanos } = Measured::new(planner, request, run.repeat);
         if let Some(TraceFile { path, out }) = self.trace.take() {
             let tracer = Tracer::new(out, grid, rules.placement());
             tracer
-                .and_then(|tracer| tracer.run(planner, item.query, &outcome))
+                .and_then(|tracer| tracer.run(planner, item.query, request(), &outcome))
                 .map_err(Failure::writing(path))?;
         }
-        // If this query cannot be answered, the other planner's error says so.
-        let any_angle = self.any_angle.as_mut().and_then(|planner| planner.find(item.query).ok());
-        let any_angle = any_angle.and_then(|outcome| outcome.path().map(Path::cost));
-        let found = match outcome {
-            Ok(Outcome::Found(path)) => Ok(Some(Found::new(path, run.guarantee, rules, any_angle))),
-            Ok(_) => Ok(None),
+        let outcome = match outcome {
+            Ok(Outcome::Found(path)) => {
+                let any_angle = self.any_angle(&path);
+                Ok(Answered::Found(Found::new(path, run.guarantee, rules, any_angle)))
+            }
+            Ok(Outcome::Nearest(path)) => Ok(Answered::Nearest(path)),
+            Ok(Outcome::Stopped(stopped)) => Ok(Answered::Stopped(stopped)),
+            Ok(_) => Ok(Answered::Unreachable),
             Err(error) => Err(explain(error, grid, rules.placement())),
         };
-        Ok(Answer { item, found, counters, nanos })
+        Ok(Answer { item, request: request(), outcome, counters, nanos })
+    }
+
+    /// The length of the shortest any-angle path between the ends of a path, with `--reference`.
+    fn any_angle(&mut self, path: &Path) -> Option<f64> {
+        let (planner, (start, goal)) = self.any_angle.as_mut().zip(ends(path))?;
+        planner.find(Query::new(start, goal)).ok()?.cost()
     }
 }

@@ -3,15 +3,23 @@
 use mediant_formats::scenario_tolerance;
 use serde::Serialize;
 
-use super::answer::{Answer, Found};
+use super::answer::{Answer, Answered, Found};
+use crate::args::WishArgs;
 
-/// The sums and means of a run: times and counts of the answered queries, costs of those with a path.
+/// The sums and means of a run: times and counts of the answered queries, costs of those whose path was
+/// found.
 #[derive(Clone, Debug, Serialize)]
 #[serde(tag = "type", rename = "summary")]
 pub(crate) struct Summary {
     pub(crate) queries: u64,
     pub(crate) found: u64,
+    /// Only with `--nearest`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) nearest: Option<u64>,
     pub(crate) unreachable: u64,
+    /// Only with limits.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) stopped: Option<u64>,
     pub(crate) errors: u64,
     pub(crate) total_nanos: u64,
     pub(crate) mean_nanos: f64,
@@ -34,7 +42,7 @@ pub(crate) struct Summary {
     /// How many times as long as the shortest any-angle paths they are; `null` without `--reference` or a
     /// path.
     pub(crate) ratio: Option<Ratios>,
-    /// `null` if no answered query has a reference.
+    /// `null` if no answered query can be compared with a reference.
     pub(crate) reference: Option<References>,
 }
 
@@ -47,10 +55,11 @@ pub(crate) struct Ratios {
     pub(crate) worst_index: usize,
 }
 
-/// How the costs compare with the scenario's lengths. No path counts as length 0, as in scenarios.
+/// How the costs of paths between the scenario's ends compare with its lengths. No path counts as length 0, as
+/// in scenarios.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct References {
-    /// The number of answered queries that have a reference.
+    /// The number of queries that are compared.
     pub(crate) compared: u64,
     /// The number of costs within [`scenario_tolerance`] of the reference.
     pub(crate) equal: u64,
@@ -67,7 +76,9 @@ pub(crate) struct References {
 pub(crate) struct Tally {
     nanos: Vec<u64>,
     found: u64,
+    nearest: Option<u64>,
     unreachable: u64,
+    stopped: Option<u64>,
     errors: u64,
     expanded: u64,
     generated: u64,
@@ -87,16 +98,25 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
+    /// No answers yet to queries with these wishes.
+    pub(crate) fn new(wishes: &WishArgs) -> Self {
+        let (nearest, stopped) = (wishes.nearest.then_some(0), wishes.has_limits().then_some(0));
+        Self { nearest, stopped, ..Self::default() }
+    }
+
     /// Adds an answer.
     pub(crate) fn add(&mut self, answer: &Answer) {
-        let found = match &answer.found {
-            Ok(found) => found.as_ref(),
+        let found = answer.found();
+        match &answer.outcome {
             Err(_) => {
                 self.errors += 1;
                 return;
             }
-        };
-        *(if found.is_some() { &mut self.found } else { &mut self.unreachable }) += 1;
+            Ok(Answered::Found(_)) => self.found += 1,
+            Ok(Answered::Unreachable) => self.unreachable += 1,
+            Ok(Answered::Nearest(_)) => *self.nearest.get_or_insert(0) += 1,
+            Ok(Answered::Stopped(_)) => *self.stopped.get_or_insert(0) += 1,
+        }
         let (index, counters) = (answer.item.index, &answer.counters);
         self.nanos.push(answer.nanos);
         self.expanded += counters.expanded;
@@ -110,7 +130,7 @@ impl Tally {
         self.cost += cost;
         self.bound.add(index, found.map(Found::bound));
         self.ratio.add(index, found.and_then(Found::ratio));
-        if let Some(reference) = answer.item.reference {
+        if let Some(reference) = answer.item.reference.filter(|_| is_comparable(answer)) {
             self.compare(index, cost, reference);
         }
     }
@@ -144,7 +164,9 @@ impl Tally {
         Summary {
             queries: answered + self.errors,
             found: self.found,
+            nearest: self.nearest,
             unreachable: self.unreachable,
+            stopped: self.stopped,
             errors: self.errors,
             total_nanos: total,
             mean_nanos: mean(total as f64, answered),
@@ -163,6 +185,13 @@ impl Tally {
             reference: (self.compared > 0).then_some(references),
         }
     }
+}
+
+/// Whether an answer is one to the scenario's own query: a path between its ends, or that there is none.
+fn is_comparable(answer: &Answer) -> bool {
+    let query = answer.item.query;
+    matches!(answer.outcome, Ok(Answered::Found(_) | Answered::Unreachable))
+        && answer.ends() == (query.start, query.goal)
 }
 
 /// Sums up ratios.
@@ -210,9 +239,10 @@ mod tests {
 
     /// The answer with a path of this length, right and then down; without one for `None`.
     fn answer(index: usize, cost: Option<i32>, reference: f64, nanos: u64) -> Answer {
-        let found = cost.map(|cost| {
+        let ends = Query::new((0, 0), (cost.unwrap_or(1) - 1, 1));
+        let outcome = cost.map_or(Answered::Unreachable, |cost| {
             let path = Path::new([(0, 0), (cost - 1, 0), (cost - 1, 1)].map(Vertex::from).to_vec());
-            Found { lower_bound: path.cost(), path, any_angle: None }
+            Answered::Found(Found { lower_bound: path.cost(), path, any_angle: None })
         });
         let counters = Counters {
             expanded: 10,
@@ -222,8 +252,8 @@ mod tests {
             scanned: 50,
             fallbacks: 60,
         };
-        let item = Item { index, query: Query::new((0, 0), (0, 0)), reference: Some(reference) };
-        Answer { item, found: Ok(found), counters, nanos }
+        let item = Item { index, query: ends, reference: Some(reference) };
+        Answer { item, request: ends.into(), outcome: Ok(outcome), counters, nanos }
     }
 
     #[test]
@@ -233,7 +263,7 @@ mod tests {
         tally.add(&answer(1, Some(9), 10.0, 1));
         tally.add(&answer(2, None, 0.0, 3));
         tally.add(&answer(3, Some(30_000), 30_000.2, 100));
-        tally.add(&Answer { found: Err("an end is blocked".to_owned()), ..answer(4, None, 1.0, 0) });
+        tally.add(&Answer { outcome: Err("an end is blocked".to_owned()), ..answer(4, None, 1.0, 0) });
         let summary = tally.finish();
         assert_eq!((summary.queries, summary.found, summary.unreachable, summary.errors), (5, 3, 1, 1));
         assert_eq!((summary.median_nanos, summary.max_nanos, summary.total_nanos), (3, 100, 108));
@@ -251,7 +281,7 @@ mod tests {
         assert_eq!((tally.bound.finish(), tally.ratio.finish()), (None, None));
         let with = |index, lower_bound, any_angle| {
             let mut answer = answer(index, Some(3), 3.0, 1);
-            if let Ok(Some(found)) = &mut answer.found {
+            if let Ok(Answered::Found(found)) = &mut answer.outcome {
                 (found.lower_bound, found.any_angle) = (lower_bound, any_angle);
             }
             answer

@@ -4,9 +4,10 @@ use std::io::{self, Write};
 
 use mediant::{Engine, OptionValue};
 use mediant_grid::{PlacementKind, Vertex};
+use mediant_search::{Limit, Stopped};
 
 use super::{
-    answer::{Answer, Found, Run},
+    answer::{Answer, Answered, Found, Run},
     report::{Report, guarantee_name, smoothing_name},
     summary::{Ratios, References, Summary},
 };
@@ -23,6 +24,8 @@ pub(crate) struct TableReport<'s> {
     screen: &'s mut Screen,
     queries: usize,
     from_scenario: bool,
+    /// Whether a query may be answered by another path than the one that was asked for.
+    may_differ: bool,
     /// Whether the engine finds paths of the lengths that scenarios give.
     is_reference: bool,
     /// The engine of `--reference`, or nothing.
@@ -43,6 +46,7 @@ impl<'s> TableReport<'s> {
             screen,
             queries: 0,
             from_scenario: false,
+            may_differ: false,
             is_reference: false,
             any_angle: "",
             may_fall_back: false,
@@ -55,21 +59,28 @@ impl<'s> TableReport<'s> {
     fn rows(&mut self) -> io::Result<()> {
         let few = self.queries <= Self::ROWS;
         let mut heads = vec![("index", Align::Right), ("start", Align::Left), ("goal", Align::Left)];
+        if self.may_differ {
+            heads.push(("answer", Align::Left));
+        }
         heads.push(("cost", Align::Right));
         if self.from_scenario {
             heads.push(("reference", Align::Right));
         }
-        heads.extend([("waypoints", Align::Right), ("expanded", Align::Right), ("time", Align::Right)]);
+        // There is not room for both columns in 80.
+        if !self.may_differ {
+            heads.push(("waypoints", Align::Right));
+        }
+        heads.extend([("expanded", Align::Right), ("time", Align::Right)]);
         let mut table =
             Table::new(if few { heads } else { vec![heads[0], heads[1], heads[2], ("error", Align::Left)] });
         for row in &self.rows {
-            table.row(if few { answer_cells(row, self.from_scenario) } else { error_cells(row) });
+            table.row(if few { self.answer_cells(row) } else { error_cells(row) });
         }
         table.write(self.screen)?;
         let mut gap = "\n";
         // What is wrong with a single query, stderr says.
         for row in self.rows.iter().filter(|_| few && self.queries > 1) {
-            if let Err(error) = &row.found {
+            if let Err(error) = &row.outcome {
                 writeln!(self.screen, "{gap}  {}: {error}", row.item.index)?;
                 gap = "";
             }
@@ -84,12 +95,45 @@ impl<'s> TableReport<'s> {
         Ok(())
     }
 
-    /// Writes the path of a single query, with its certificate.
+    /// The row of a query, if all have rows.
+    fn answer_cells(&self, row: &Answer) -> Vec<String> {
+        let (start, goal) = row.ends();
+        let mut cells = vec![row.item.index.to_string(), vertex(start), vertex(goal)];
+        let (answer, cost) = match &row.outcome {
+            Err(_) => ("error", None),
+            Ok(Answered::Unreachable) => ("unreachable", None),
+            Ok(Answered::Found(Found { path, .. })) => ("found", Some(format!("{:.4}", path.cost()))),
+            Ok(Answered::Nearest(path)) => ("nearest", Some(format!("{:.4}", path.cost()))),
+            Ok(Answered::Stopped(Stopped { lower_bound, .. })) => {
+                ("stopped", Some(format!("≥ {lower_bound:.4}")))
+            }
+        };
+        if self.may_differ {
+            cells.extend([answer.to_owned(), cost.unwrap_or_default()]);
+        } else {
+            cells.push(cost.unwrap_or_else(|| answer.to_owned()));
+        }
+        if self.from_scenario {
+            let reference = row.item.reference;
+            cells.push(reference.map_or_else(String::new, |reference| format!("{reference:.4}")));
+        }
+        if row.outcome.is_err() {
+            return cells;
+        }
+        if !self.may_differ {
+            cells.push(row.path().map_or_else(String::new, |path| path.waypoints().len().to_string()));
+        }
+        cells.push(grouped(row.counters.expanded));
+        cells.push(time(row.nanos as f64));
+        cells
+    }
+
+    /// Writes the path of a single query, and what is known of it.
     fn path(&mut self) -> io::Result<()> {
-        let Some((row, found)) = self.rows.first().and_then(|row| Some((row, row.path()?))) else {
+        let Some((row, path)) = self.rows.first().and_then(|row| Some((row, row.path()?))) else {
             return Ok(());
         };
-        let waypoints = found.path.waypoints();
+        let waypoints = path.waypoints();
         let last = waypoints.len().saturating_sub(1);
         let words = waypoints.iter().enumerate();
         let words = words.map(|(i, at)| format!("{}{}", vertex(*at), if i < last { " →" } else { "" }));
@@ -98,18 +142,18 @@ impl<'s> TableReport<'s> {
         if self.may_fall_back {
             writeln!(self.screen, "  plan  {}", left(row.counters.fallbacks))?;
         }
-        writeln!(self.screen, "  turns {:.1}° in all", found.path.smoothness())?;
-        let bound = found.bound();
-        let certificate = if bound > NO_LONGER {
-            format!("at most {} longer than the shortest path at any angle", excess(bound))
-        } else {
-            "no path at any angle is shorter".to_owned()
-        };
-        writeln!(self.screen, "  {certificate} (certificate)")?;
-        let Some((ratio, best)) = found.ratio().zip(found.any_angle) else { return Ok(()) };
-        let than =
-            if ratio > NO_LONGER { format!("{} longer than", excess(ratio)) } else { "as short as".into() };
-        writeln!(self.screen, "  {than} the one that {} finds, of length {best:.4}", self.any_angle)
+        writeln!(self.screen, "  turns {:.1}° in all", path.smoothness())?;
+        match &row.outcome {
+            Ok(Answered::Found(found)) => certificate(self.screen, found, self.any_angle),
+            Ok(Answered::Nearest(_)) => {
+                writeln!(
+                    self.screen,
+                    "  no way leads to the goal: the path ends at the nearest reachable vertex"
+                )
+            }
+            Ok(Answered::Stopped(stopped)) => stop(self.screen, stopped),
+            Ok(Answered::Unreachable) | Err(_) => Ok(()),
+        }
     }
 
     /// Writes how much longer than the shortest any-angle paths the paths are, or can be.
@@ -150,6 +194,7 @@ impl Report for TableReport<'_> {
         let setup = run.setup;
         self.queries = run.queries;
         self.from_scenario = run.scenario.is_some();
+        self.may_differ = run.wishes.nearest || run.wishes.has_limits();
         self.is_reference = setup.solves_scenarios();
         self.any_angle = run.reference.map_or("", Engine::name);
         self.may_fall_back = setup.engine.detour().is_some();
@@ -172,11 +217,18 @@ impl Report for TableReport<'_> {
         let rest = text.strip_prefix(name).unwrap_or_default();
         writeln!(self.screen, "{}{rest}", self.screen.paint(BOLD, name))?;
         let preparation = time(run.preparation.as_nanos() as f64);
-        writeln!(self.screen, "{} · prepared in {preparation}\n", guarantee_name(run.guarantee))
+        writeln!(self.screen, "{} · prepared in {preparation}", guarantee_name(run.guarantee))?;
+        let wishes = run.wishes.in_words();
+        if !wishes.is_empty() {
+            let words = wishes.join(" · ");
+            let words = words.split(' ').map(str::to_owned);
+            writeln!(self.screen, "{}", wrap("", words, self.screen.columns()))?;
+        }
+        writeln!(self.screen)
     }
 
     fn query(&mut self, answer: Answer) -> io::Result<()> {
-        let is_error = answer.found.is_err();
+        let is_error = answer.outcome.is_err();
         if self.rows.len() < Self::ROWS && (is_error || self.queries <= Self::ROWS) {
             self.rows.push(answer);
         } else if is_error {
@@ -195,16 +247,18 @@ impl Report for TableReport<'_> {
         if !self.rows.is_empty() {
             writeln!(self.screen)?;
         }
-        let Summary { queries, found, unreachable, errors, .. } = summary;
-        let errors = count(*errors, "error", "errors");
-        let counts = format!(
-            "{}: {} found, {} unreachable, {errors}",
-            grouped(*queries),
-            grouped(*found),
-            grouped(*unreachable)
-        );
-        self.fact("queries", &counts)?;
-        if found + unreachable == 0 {
+        let &Summary { queries, found, nearest, unreachable, stopped, errors, .. } = summary;
+        let counts = [
+            (Some(found), "found"),
+            (nearest, "nearest"),
+            (Some(unreachable), "unreachable"),
+            (stopped, "stopped"),
+        ];
+        let counts =
+            counts.into_iter().filter_map(|(number, name)| Some(format!("{} {name}", grouped(number?))));
+        let counts: Vec<String> = counts.chain([count(errors, "error", "errors")]).collect();
+        self.fact("queries", &format!("{}: {}", grouped(queries), counts.join(", ")))?;
+        if queries == errors {
             return Ok(());
         }
         let [median, mean, max] =
@@ -271,27 +325,34 @@ fn vertex(at: Vertex) -> String {
 
 /// The row of a query that could not be answered, if only those have rows.
 fn error_cells(row: &Answer) -> Vec<String> {
-    let error = row.found.as_ref().err().cloned().unwrap_or_default();
+    let error = row.outcome.as_ref().err().cloned().unwrap_or_default();
     vec![row.item.index.to_string(), vertex(row.item.query.start), vertex(row.item.query.goal), error]
 }
 
-/// The row of a query, if all have rows.
-fn answer_cells(row: &Answer, with_reference: bool) -> Vec<String> {
-    let item = row.item;
-    let mut cells = vec![item.index.to_string(), vertex(item.query.start), vertex(item.query.goal)];
-    cells.push(match &row.found {
-        Err(_) => "error".to_owned(),
-        Ok(None) => "unreachable".to_owned(),
-        Ok(Some(Found { path, .. })) => format!("{:.4}", path.cost()),
-    });
-    if with_reference {
-        cells.push(item.reference.map_or_else(String::new, |reference| format!("{reference:.4}")));
-    }
-    if row.found.is_err() {
-        return cells;
-    }
-    cells.push(row.path().map_or_else(String::new, |found| found.path.waypoints().len().to_string()));
-    cells.push(grouped(row.counters.expanded));
-    cells.push(time(row.nanos as f64));
-    cells
+/// Writes the certificate of a path, and how much longer than the path of `any_angle` it is.
+fn certificate(screen: &mut Screen, found: &Found, any_angle: &str) -> io::Result<()> {
+    let bound = found.bound();
+    let certificate = if bound > NO_LONGER {
+        format!("at most {} longer than the shortest path at any angle", excess(bound))
+    } else {
+        "no path at any angle is shorter".to_owned()
+    };
+    writeln!(screen, "  {certificate} (certificate)")?;
+    let Some((ratio, best)) = found.ratio().zip(found.any_angle) else { return Ok(()) };
+    let than =
+        if ratio > NO_LONGER { format!("{} longer than", excess(ratio)) } else { "as short as".into() };
+    writeln!(screen, "  {than} the one that {any_angle} finds, of length {best:.4}")
+}
+
+/// Writes what stopped a search, and what is known of the path that was asked for.
+fn stop(screen: &mut Screen, stopped: &Stopped) -> io::Result<()> {
+    let Stopped { by, best, lower_bound, .. } = stopped;
+    let by = match by {
+        Limit::Cost => " by --max-cost",
+        Limit::Expansions => " by --max-nodes",
+        Limit::Deadline => " by --deadline",
+        _ => "",
+    };
+    writeln!(screen, "  stopped{by}: this path is the best so far, of length {:.4}", best.cost())?;
+    writeln!(screen, "  the path that was asked for costs at least {lower_bound:.4}")
 }

@@ -9,7 +9,7 @@ use std::{
 use mediant::Planner;
 use mediant_formats::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
 use mediant_grid::{Grid, PlacementKind, Vertex};
-use mediant_search::{NodeEvent, Observer, Outcome, Path, Query, QueryError};
+use mediant_search::{NodeEvent, Observer, Outcome, Path, Query, QueryError, Request};
 
 /// The file of a trace.
 pub(crate) struct TraceFile<'s> {
@@ -20,8 +20,8 @@ pub(crate) struct TraceFile<'s> {
 /// Writes the events of one search.
 pub(crate) struct Tracer<'g, W: Write> {
     trace: TraceWriter<'g, W>,
-    /// The number of vertices in a row.
-    width: u32,
+    /// The number of vertices in a row, and of rows.
+    size: (u32, u32),
     /// The vertex that is being expanded.
     open: Option<TraceEvent>,
     /// The first error of the writer, after which nothing is written.
@@ -31,9 +31,10 @@ pub(crate) struct Tracer<'g, W: Write> {
 impl<'g, W: Write> Tracer<'g, W> {
     /// Begins a trace of a search on this map.
     pub(crate) fn new(out: W, grid: &'g Grid, placement: PlacementKind) -> io::Result<Self> {
-        let width = grid.width() + u32::from(placement == PlacementKind::Corner);
+        let more = u32::from(placement == PlacementKind::Corner);
+        let size = (grid.width() + more, grid.height() + more);
         let trace = TraceWriter::new(out, &TraceHeader { placement, map: Some(grid) })?;
-        Ok(Self { trace, width, open: None, written: Ok(()) })
+        Ok(Self { trace, size, open: None, written: Ok(()) })
     }
 
     /// Writes the search of a query whose answer is known. An invalid query makes a trace without events.
@@ -41,31 +42,40 @@ impl<'g, W: Write> Tracer<'g, W> {
         mut self,
         planner: &mut Planner,
         query: Query,
+        request: Request,
         answer: &Result<Outcome, QueryError>,
     ) -> io::Result<()> {
         if let Ok(outcome) = answer {
-            self.begin(query);
-            // The same query gives the same answer.
-            _ = planner.find_observed(query, &mut self);
+            self.begin(query, outcome);
+            // The same request gives the same answer.
+            _ = planner.find_observed(request, &mut self);
             self.end(outcome);
         }
         self.written?;
         self.trace.finish().map(|_| ())
     }
 
-    /// Writes the start and the goal.
-    fn begin(&mut self, query: Query) {
-        let (source, destination) = (self.at(query.start), self.at(query.goal));
-        self.write(TraceEventKind::Source, &TraceEvent { g: Some(0.0), ..source });
-        self.write(TraceEventKind::Destination, &destination);
+    /// Writes the start and the goal: those of the path, if it was found. A goal outside the map has no event.
+    fn begin(&mut self, query: Query, outcome: &Outcome) {
+        let start = path_of(outcome).and_then(|path| path.waypoints().first());
+        let goal = outcome.path().and_then(|path| path.waypoints().last());
+        let ends = [
+            (TraceEventKind::Source, *start.unwrap_or(&query.start), Some(0.0)),
+            (TraceEventKind::Destination, *goal.unwrap_or(&query.goal), None),
+        ];
+        for (kind, at, g) in ends {
+            if (0..self.size.0 as i32).contains(&at.x) && (0..self.size.1 as i32).contains(&at.y) {
+                self.write(kind, &TraceEvent { g, ..self.at(at) });
+            }
+        }
     }
 
-    /// Ends the trace with the waypoints of the path. So the visualizer shows the path as it is, even if it
+    /// Ends the trace with the waypoints of the path; of a stopped search's it is the best so far. So the visualizer shows the path as it is, even if it
     /// turns at a vertex that is not a node of the search.
     fn end(&mut self, outcome: &Outcome) {
         self.close();
         let mut last: Option<(TraceEvent, Vertex)> = None;
-        for &at in outcome.path().map_or(&[][..], Path::waypoints) {
+        for &at in path_of(outcome).map_or(&[][..], Path::waypoints) {
             let (parent, g) = last.map_or((None, 0.0), |(event, from)| {
                 (Some(event.id), event.g.unwrap_or(0.0) + from.distance(at))
             });
@@ -78,7 +88,7 @@ impl<'g, W: Write> Tracer<'g, W> {
     /// An event at a vertex, without anything else. Ids begin with 1, since the visualizer's path stops
     /// before the id 0.
     fn at(&self, at: Vertex) -> TraceEvent {
-        let id = at.y as u32 * self.width + at.x as u32 + 1;
+        let id = at.y as u32 * self.size.0 + at.x as u32 + 1;
         TraceEvent { id, parent: None, x: at.x, y: at.y, f: None, g: None }
     }
 
@@ -100,6 +110,14 @@ impl<'g, W: Write> Tracer<'g, W> {
         if let Some(event) = self.open.take() {
             self.write(TraceEventKind::Closing, &event);
         }
+    }
+}
+
+/// The path of an answer; of a stopped search the best so far.
+const fn path_of(outcome: &Outcome) -> Option<&Path> {
+    match outcome {
+        Outcome::Stopped(stopped) => Some(&stopped.best),
+        _ => outcome.path(),
     }
 }
 

@@ -6,7 +6,7 @@ use crate::common::{Files, Ran, check_mismatch, mediant, mediant_with, run};
 
 /// Runs a command line that fails before there is any output, and checks all that it says.
 #[track_caller]
-fn check(line: &str, message: &str) {
+pub(crate) fn check(line: &str, message: &str) {
     let Ran { status, stdout, stderr } = run(line);
     assert_eq!(
         (stderr.as_str(), stdout.as_str(), status),

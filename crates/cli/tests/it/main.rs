@@ -8,3 +8,4 @@ mod jsonl;
 mod subgoal;
 mod table;
 mod trace;
+mod wishes;

@@ -1,0 +1,172 @@
+//! The arguments that say what is asked: the ends of a single query, and what is wished beyond a path between
+//! the ends of each.
+
+use std::time::{Duration, Instant};
+
+use clap::Args;
+use mediant_grid::Vertex;
+use mediant_search::{Limits, Query, Request};
+
+use super::value::{parse_amount, parse_vertex, parse_whole};
+use crate::terminal::numbers::{count, time};
+
+/// Which path is asked for between which ends, and what stops the search for it.
+#[derive(Args, Debug)]
+pub(crate) struct WishArgs {
+    /// The start of a single query. Of several (repeat it), the one with the shortest path is taken
+    #[arg(long, value_name = "X,Y", requires = "aim", allow_hyphen_values = true, value_parser = parse_vertex)]
+    pub(crate) from: Vec<Vertex>,
+    /// The goal of a single query. Of several (repeat it), the one with the shortest path is taken
+    #[arg(long, value_name = "X,Y", requires = "from", allow_hyphen_values = true, value_parser = parse_vertex)]
+    pub(crate) to: Vec<Vertex>,
+    /// Let paths end at any free vertex at most so far from the goal, in a straight line
+    #[arg(long, value_name = "CELLS", conflicts_with_all = ["distances", "trace"])]
+    #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_amount(text, "cells"))]
+    pub(crate) tolerance: Option<f64>,
+    /// Where there is no way to the goal, find the path to the reachable vertex nearest to it
+    #[arg(long, conflicts_with_all = ["distances", "trace"])]
+    pub(crate) nearest: bool,
+    /// Move each start and goal that is blocked or outside the map to the free vertex nearest to it
+    #[arg(long, conflicts_with = "distances")]
+    pub(crate) snap: bool,
+    /// Stop a search once every path that is left costs more than this
+    #[arg(long, value_name = "CELLS", conflicts_with = "distances")]
+    #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_amount(text, "cells"))]
+    pub(crate) max_cost: Option<f64>,
+    /// Stop a search after N expanded nodes
+    #[arg(long, value_name = "N", conflicts_with = "distances")]
+    #[arg(allow_negative_numbers = true, value_parser = parse_whole)]
+    pub(crate) max_nodes: Option<u64>,
+    /// Stop a search after so many milliseconds
+    #[arg(long, value_name = "MS", conflicts_with_all = ["distances", "trace"])]
+    #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_amount(text, "milliseconds"))]
+    pub(crate) deadline: Option<f64>,
+}
+
+impl WishArgs {
+    /// The request for the path of a query. Its deadline runs from now on.
+    pub(crate) fn request(&self, query: Query) -> Request {
+        let mut request = if self.has_several_ends() {
+            Request::between(self.from.iter().copied(), self.to.iter().copied())
+        } else {
+            query.into()
+        };
+        if let Some(cells) = self.tolerance {
+            request = request.tolerance(cells);
+        }
+        if self.nearest {
+            request = request.nearest();
+        }
+        if self.snap {
+            request = request.snap();
+        }
+        if self.has_limits() {
+            request = request.within(self.limits());
+        }
+        request
+    }
+
+    fn limits(&self) -> Limits {
+        let mut limits = Limits::new();
+        if let Some(cells) = self.max_cost {
+            limits = limits.cost(cells);
+        }
+        if let Some(nodes) = self.max_nodes {
+            limits = limits.expansions(nodes);
+        }
+        if let Some(millis) = self.deadline {
+            let begin = Instant::now();
+            // So long that no duration holds it is no deadline.
+            let span = Duration::try_from_secs_f64(millis / 1e3).unwrap_or(Duration::MAX);
+            limits = limits.deadline(move || begin.elapsed() >= span);
+        }
+        limits
+    }
+
+    /// Whether a single query has more than one start or goal.
+    pub(crate) const fn has_several_ends(&self) -> bool {
+        self.from.len() > 1 || self.to.len() > 1
+    }
+
+    /// Whether a search may be stopped.
+    pub(crate) const fn has_limits(&self) -> bool {
+        self.max_cost.is_some() || self.max_nodes.is_some() || self.deadline.is_some()
+    }
+
+    /// The wishes in words, without the coordinates.
+    pub(crate) fn in_words(&self) -> Vec<String> {
+        let several = |ends: &[Vertex], name| (ends.len() > 1).then(|| format!("{} {name}", ends.len()));
+        let several = match (several(&self.from, "starts"), several(&self.to, "goals")) {
+            (Some(starts), Some(goals)) => Some(format!("from any of {starts} to any of {goals}")),
+            (Some(starts), None) => Some(format!("from any of {starts}")),
+            (None, goals) => goals.map(|goals| format!("to any of {goals}")),
+        };
+        let mut words: Vec<String> = several.into_iter().collect();
+        words.extend(self.tolerance.map(|cells| format!("within {} of the goal", of_cells(cells))));
+        words.extend(self.nearest.then(|| "if there is no way, to the nearest vertex".to_owned()));
+        words.extend(self.snap.then(|| "blocked ends moved to the nearest vertex".to_owned()));
+        let limits = [
+            self.max_cost.map(|cells| format!("cost {cells}")),
+            self.max_nodes.map(|nodes| count(nodes, "node", "nodes")),
+            self.deadline.map(|millis| time(millis * 1e6)),
+        ];
+        let limits: Vec<String> = limits.into_iter().flatten().collect();
+        words.extend(self.has_limits().then(|| format!("limits: {}", limits.join(", "))));
+        words
+    }
+}
+
+/// A number of cells in words.
+fn of_cells(cells: f64) -> String {
+    if cells == 1.0 { "1 cell".to_owned() } else { format!("{cells} cells") }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+    use crate::args::{Cli, Command};
+
+    fn wishes(options: &str) -> WishArgs {
+        let words = "mediant run builtin:cave".split(' ').chain(options.split_whitespace());
+        match Cli::try_parse_from(words).map(|cli| cli.command) {
+            Ok(Command::Run(run)) => run.wishes,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn a_query_without_wishes_stays_a_query() {
+        let query = Query::new((1, 2), (3, 4));
+        for options in ["", "--from 5,6 --to 7,8", "--every 2"] {
+            let wishes = wishes(options);
+            assert_eq!(wishes.request(query).as_query(), Some(query), "{options}");
+            assert_eq!(wishes.in_words(), [""; 0], "{options}");
+        }
+        for options in
+            ["--tolerance 0", "--nearest", "--snap", "--max-cost 1", "--max-nodes 0", "--deadline 9"]
+        {
+            let wishes = wishes(options);
+            assert_eq!(wishes.request(query).as_query(), None, "{options}");
+            assert_eq!(wishes.in_words().len(), 1, "{options}");
+        }
+    }
+
+    #[test]
+    fn several_ends_are_in_the_order_of_the_arguments() {
+        let wishes = wishes("--from 5,6 --from 1,1 --to 7,8 --to 0,0 --to 9,9");
+        let request = wishes.request(Query::new((5, 6), (7, 8)));
+        let at = |x, y| Vertex::new(x, y);
+        assert_eq!(request.starts(), [at(5, 6), at(1, 1)]);
+        assert_eq!(request.goals(), [at(7, 8), at(0, 0), at(9, 9)]);
+        assert_eq!(wishes.in_words(), ["from any of 2 starts to any of 3 goals"]);
+    }
+
+    #[test]
+    fn a_deadline_that_no_clock_reaches_is_none() {
+        let wishes = wishes("--deadline 1e300 --tolerance 1");
+        assert!(wishes.request(Query::new((0, 0), (1, 1))).as_query().is_none());
+        assert_eq!(wishes.in_words()[0], "within 1 cell of the goal");
+    }
+}
