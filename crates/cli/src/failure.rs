@@ -40,6 +40,15 @@ pub(crate) enum Failure {
     MisfitScenario { expected: String, found: String, end: mediant_search::End, at: Vertex, index: usize },
     #[error("there is no bundled map `{name}`; there are {known}")]
     NoSuchMap { name: String, known: String },
+    #[error("the map {map} has no place in the world: leave --world out, or give the YAML file of a ROS map")]
+    NoWorld { map: String },
+    #[error("({x}, {y}) is no vertex: write whole numbers, such as 3,14, or meters with --world")]
+    NoVertex { x: f64, y: f64 },
+    #[error(
+        "({x}, {y}) is outside the map, which lies between ({:.3}, {:.3}) and ({:.3}, {:.3}) in the world",
+        corners[0].0, corners[0].1, corners[1].0, corners[1].1
+    )]
+    OutsideWorld { x: f64, y: f64, corners: [(f64, f64); 2] },
     #[error("no queries: give --scen FILE, or --from X,Y and --to X,Y")]
     NoQueries,
     #[error("the scenario `{scenario}` has no instance: is it cut short?")]

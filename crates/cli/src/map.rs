@@ -2,43 +2,94 @@
 
 use std::{path::Path, sync::Arc};
 
-use mediant_formats::{MapFile, Scenario};
-use mediant_grid::Grid;
+use mediant::{Motion, files::WorldFrame};
+use mediant_formats::{MapFile, Scenario, read_map};
+use mediant_grid::{Grid, PlacementKind, Vertex};
 
-use crate::{builtin::Builtin, draw::theme::Theme, failure::Failure};
+use crate::{
+    args::{MapArgs, Place},
+    builtin::Builtin,
+    draw::theme::Theme,
+    failure::Failure,
+};
 
 /// A map with the name that reports give it.
 pub(crate) struct Map {
     /// The file's name, without its folders.
     pub(crate) name: String,
-    pub(crate) file: MapFile,
+    /// The map that is searched: the agent's.
     pub(crate) grid: Arc<Grid>,
+    /// The map as it was read.
+    pub(crate) ground: Arc<Grid>,
+    /// The radius of the agent in cells; 0 for a point.
+    pub(crate) radius: f64,
     pub(crate) theme: Theme,
+    /// Where it is in the world, if its file says so and the arguments are in meters.
+    pub(crate) frame: Option<WorldFrame>,
+    /// The characters of a MovingAI map.
+    tiles: Option<MapFile>,
 }
 
 impl Map {
     /// Reads a map file, or parses the bundled map that `builtin:NAME` names.
-    pub(crate) fn load(path: &Path) -> Result<Self, Failure> {
-        match Builtin::of_path(path) {
-            Some(builtin) => Self::bundled(builtin?),
-            None => Ok(Self::new(file_name(path), MapFile::read(path)?, Theme::Plain)),
+    pub(crate) fn load(args: &MapArgs) -> Result<Self, Failure> {
+        if let Some(builtin) = Builtin::of_path(&args.map) {
+            let map = Self::bundled(builtin?)?;
+            return if args.world { Err(Failure::NoWorld { map: map.name }) } else { Ok(map) };
         }
+        let (name, source) = (file_name(&args.map), read_map(&args.map, &args.image_options())?);
+        if args.world && source.frame.is_none() {
+            return Err(Failure::NoWorld { map: name });
+        }
+        let frame = source.frame.filter(|_| args.world);
+        Ok(Self { frame, ..Self::new(name, Arc::new(source.grid), source.tiles, Theme::Plain) })
     }
 
     /// Parses a bundled map.
     pub(crate) fn bundled(builtin: &Builtin) -> Result<Self, Failure> {
-        Ok(Self::new(builtin.map_name(), builtin.map()?, builtin.theme))
+        let file = builtin.map()?;
+        Ok(Self::new(builtin.map_name(), Arc::new(file.to_grid()), Some(file), builtin.theme))
     }
 
-    fn new(name: String, file: MapFile, theme: Theme) -> Self {
-        Self { name, grid: Arc::new(file.to_grid()), file, theme }
+    fn new(name: String, grid: Arc<Grid>, tiles: Option<MapFile>, theme: Theme) -> Self {
+        Self { name, ground: Arc::clone(&grid), grid, radius: 0.0, theme, frame: None, tiles }
     }
-}
 
-impl Map {
+    /// The map for the agent that the arguments name, which moves like this.
+    pub(crate) fn for_agent(mut self, args: &MapArgs, motion: Motion) -> Result<Self, Failure> {
+        if let Some(radius) = args.radius {
+            self.radius = self.frame.map_or(radius, |frame| radius / frame.resolution());
+            let map = mediant::Map::from(Arc::clone(&self.ground)).for_disc(self.radius, motion)?;
+            self.grid = Arc::clone(map.grid());
+        }
+        Ok(self)
+    }
+
     /// The map as the library searches it.
     pub(crate) fn to_library(&self) -> mediant::Map {
         mediant::Map::from(Arc::clone(&self.grid))
+    }
+
+    /// The map's characters: those of its file, or `.` and `@`.
+    pub(crate) fn tiles(&self) -> MapFile {
+        self.tiles.clone().unwrap_or_else(|| MapFile::from_grid(&self.ground))
+    }
+
+    /// The vertex at a place of the command line.
+    pub(crate) fn vertex(&self, placement: PlacementKind, place: Place) -> Result<Vertex, Failure> {
+        match (self.frame, place) {
+            (None, Place::Vertex(at)) => Ok(at),
+            (None, Place::Point(x, y)) => Err(Failure::NoVertex { x, y }),
+            (Some(frame), place) => {
+                let (x, y) = place.point();
+                let at = frame.vertex_at(placement, x, y);
+                at.ok_or_else(|| {
+                    let corners = [(0, frame.height()), (frame.width(), 0)]
+                        .map(|(x, y)| frame.point_of(PlacementKind::Corner, Vertex::new(x as i32, y as i32)));
+                    Failure::OutsideWorld { x, y, corners }
+                })
+            }
+        }
     }
 }
 

@@ -53,6 +53,8 @@ pub struct MapSource {
     pub frame: Option<WorldFrame>,
     /// The kind of the file.
     pub format: MapFormat,
+    /// The file itself, with its characters, if it is a MovingAI map.
+    pub tiles: Option<MapFile>,
 }
 
 /// Reads a map of any [kind](MapFormat). The options are for pictures; of a MovingAI map nothing depends on
@@ -66,21 +68,21 @@ pub fn read_map(path: impl AsRef<Path>, options: &ImageOptions) -> Result<MapSou
     let bytes = read_regular(path)?;
     let format = MapFormat::of(&bytes, path)
         .ok_or_else(|| ReadError::NoMap { path: path.to_owned(), found: quote(&bytes) })?;
-    let (grid, frame) = match format {
+    let (grid, frame, tiles) = match format {
         MapFormat::MovingAi => {
             let map = MapFile::from_bytes(bytes)
                 .map_err(|source| ReadError::Map { path: path.to_owned(), source })?;
-            (map.to_grid(), None)
+            (map.to_grid(), None, Some(map))
         }
         MapFormat::Picture => {
             let raster = Raster::parse(&bytes)
                 .map_err(|source| ReadError::Raster { path: path.to_owned(), source })?;
-            (raster.to_grid(options), None)
+            (raster.to_grid(options), None, None)
         }
         MapFormat::Ros => {
             let map = RosMap::from_yaml(path, &bytes)?;
-            (map.to_grid(options), Some(map.frame()))
+            (map.to_grid(options), Some(map.frame()), None)
         }
     };
-    Ok(MapSource { grid, frame, format })
+    Ok(MapSource { grid, frame, format, tiles })
 }

@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use clap::Args;
 use mediant::Setup;
 
-use super::{options::IndexOptions, setup::SetupArgs};
+use super::{map::MapArgs, options::IndexOptions, setup::SetupArgs};
 use crate::failure::Failure;
 
 #[derive(Args, Debug)]
 pub(crate) struct BuildArgs {
-    /// A MovingAI map file, or builtin:NAME (archipelago, cave, maze, town)
-    pub(crate) map: PathBuf,
+    #[command(flatten)]
+    pub(crate) map: MapArgs,
     #[command(flatten)]
     pub(crate) setup: SetupArgs,
     #[command(flatten)]

@@ -3,6 +3,7 @@
 mod build;
 mod demo;
 mod explain;
+mod map;
 mod moves;
 mod options;
 mod run;
@@ -16,9 +17,10 @@ pub(crate) use self::{
     build::BuildArgs,
     demo::DemoArgs,
     explain::explain,
+    map::MapArgs,
     moves::MovesArgs,
     run::{Format, RunArgs},
-    value::MAX_K,
+    value::{MAX_K, Place},
     wishes::WishArgs,
 };
 

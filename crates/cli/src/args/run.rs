@@ -12,6 +12,7 @@ use mediant_moves::K;
 use mediant_search::Smoothing;
 
 use super::{
+    map::MapArgs,
     options::AllOptions,
     setup::SetupArgs,
     value::{one_of, parse_count},
@@ -22,8 +23,8 @@ use crate::failure::Failure;
 #[derive(Args, Debug)]
 #[command(after_help = RUN_HELP, group(ArgGroup::new("aim").args(["to", "distances"])))]
 pub(crate) struct RunArgs {
-    /// A MovingAI map file, or builtin:NAME (archipelago, cave, maze, town)
-    pub(crate) map: PathBuf,
+    #[command(flatten)]
+    pub(crate) map: MapArgs,
 
     /// A MovingAI scenario file with the queries, or builtin:NAME
     #[arg(long, value_name = "FILE", conflicts_with_all = ["from", "to"])]

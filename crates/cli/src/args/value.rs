@@ -33,6 +33,37 @@ pub(super) fn parse_vertex(text: &str) -> Result<Vertex, String> {
     }
 }
 
+/// A place that an argument names.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Place {
+    /// Two whole numbers: a vertex, or a point in the world.
+    Vertex(Vertex),
+    /// Two numbers: a point in the world, in meters.
+    Point(f64, f64),
+}
+
+impl Place {
+    /// As a point in the world.
+    pub(crate) fn point(self) -> (f64, f64) {
+        match self {
+            Self::Vertex(at) => (f64::from(at.x), f64::from(at.y)),
+            Self::Point(x, y) => (x, y),
+        }
+    }
+}
+
+/// Reads `X,Y`: whole numbers, or meters with a point. What is neither is told of as if it were a vertex.
+pub(super) fn parse_place(text: &str) -> Result<Place, String> {
+    let error = match parse_vertex(text) {
+        Ok(at) => return Ok(Place::Vertex(at)),
+        Err(error) => error,
+    };
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+    let is_decimal = text.contains('.');
+    let point = text.split_once(',').and_then(|(x, y)| number(x).zip(number(y))).filter(|_| is_decimal);
+    point.map(|(x, y)| Place::Point(x, y)).ok_or(error)
+}
+
 /// Reads a coordinate.
 fn parse_coordinate(text: &str) -> Result<i32, String> {
     text.trim().parse().map_err(|error: ParseIntError| match error.kind() {

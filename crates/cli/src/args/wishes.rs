@@ -4,20 +4,31 @@
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use mediant_grid::Vertex;
+use mediant_grid::{PlacementKind, Vertex};
 use mediant_search::{Limits, Query, Request};
 
-use super::value::{parse_amount, parse_vertex, parse_whole};
-use crate::terminal::numbers::{count, time};
+use super::value::{Place, parse_amount, parse_place, parse_whole};
+use crate::{
+    failure::Failure,
+    map::Map,
+    terminal::numbers::{count, time},
+};
 
 /// Which path is asked for between which ends, and what stops the search for it.
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub(crate) struct WishArgs {
     /// The start of a single query. Of several (repeat it), the one with the shortest path is taken
-    #[arg(long, value_name = "X,Y", requires = "aim", allow_hyphen_values = true, value_parser = parse_vertex)]
-    pub(crate) from: Vec<Vertex>,
+    #[arg(id = "from", long = "from", value_name = "X,Y", requires = "aim")]
+    #[arg(allow_hyphen_values = true, value_parser = parse_place)]
+    from_places: Vec<Place>,
     /// The goal of a single query. Of several (repeat it), the one with the shortest path is taken
-    #[arg(long, value_name = "X,Y", requires = "from", allow_hyphen_values = true, value_parser = parse_vertex)]
+    #[arg(id = "to", long = "to", value_name = "X,Y", requires = "from")]
+    #[arg(allow_hyphen_values = true, value_parser = parse_place)]
+    to_places: Vec<Place>,
+    /// The vertices at the starts, once the map is known.
+    #[arg(skip)]
+    pub(crate) from: Vec<Vertex>,
+    #[arg(skip)]
     pub(crate) to: Vec<Vertex>,
     /// Let paths end at any free vertex at most so far from the goal, in a straight line
     #[arg(long, value_name = "CELLS", conflicts_with_all = ["distances", "trace"])]
@@ -44,6 +55,20 @@ pub(crate) struct WishArgs {
 }
 
 impl WishArgs {
+    /// Finds the vertices at the places that were named, and measures lengths in cells.
+    pub(crate) fn on(&self, map: &Map, placement: PlacementKind) -> Result<Self, Failure> {
+        let vertices = |places: &[Place]| -> Result<Vec<Vertex>, Failure> {
+            places.iter().map(|&place| map.vertex(placement, place)).collect()
+        };
+        let mut wishes = self.clone();
+        (wishes.from, wishes.to) = (vertices(&self.from_places)?, vertices(&self.to_places)?);
+        if let Some(frame) = map.frame {
+            let cells = |meters: f64| meters / frame.resolution();
+            (wishes.tolerance, wishes.max_cost) = (self.tolerance.map(cells), self.max_cost.map(cells));
+        }
+        Ok(wishes)
+    }
+
     /// The request for the path of a query. Its deadline runs from now on.
     pub(crate) fn request(&self, query: Query) -> Request {
         let mut request = if self.has_several_ends() {
@@ -85,7 +110,7 @@ impl WishArgs {
 
     /// Whether a single query has more than one start or goal.
     pub(crate) const fn has_several_ends(&self) -> bool {
-        self.from.len() > 1 || self.to.len() > 1
+        self.from_places.len() > 1 || self.to_places.len() > 1
     }
 
     /// Whether a search may be stopped.
@@ -131,7 +156,10 @@ mod tests {
     fn wishes(options: &str) -> WishArgs {
         let words = "mediant run builtin:cave".split(' ').chain(options.split_whitespace());
         match Cli::try_parse_from(words).map(|cli| cli.command) {
-            Ok(Command::Run(run)) => run.wishes,
+            Ok(Command::Run(run)) => {
+                let map = Map::load(&run.map).expect("a bundled map");
+                run.wishes.on(&map, PlacementKind::Center).expect("vertices")
+            }
             other => panic!("{other:?}"),
         }
     }

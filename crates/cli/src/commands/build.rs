@@ -19,7 +19,7 @@ pub(crate) fn build(args: &BuildArgs, screen: &mut Screen) -> Result<(), Failure
     let setup = args.setup()?;
     // A setup without an index is refused before anything is computed.
     setup.index_version()?;
-    let map = Map::load(&args.map)?;
+    let map = Map::load(&args.map)?.for_agent(&args.map, setup.motion())?;
     let progress = BuildProgress::new();
     let begin = Instant::now();
     let space = setup.space(&map.to_library())?;

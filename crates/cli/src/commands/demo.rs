@@ -107,7 +107,7 @@ fn k_sign(k: K) -> String {
 
 /// Draws the map with some of the paths, and says which is which.
 fn picture(map: &Map, query: Query, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
-    let mut canvas = Canvas::fit(&map.file, map.theme, PlacementKind::Corner, screen);
+    let mut canvas = Canvas::fit(&map.tiles(), map.theme, PlacementKind::Corner, screen);
     for row in rows {
         if let Some((stroke, ink)) = stroke(row) {
             canvas.path(&row.waypoints, stroke, ink);

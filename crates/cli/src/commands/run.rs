@@ -9,7 +9,7 @@ use std::{
 use mediant::{EngineOption, Index, Setup, Space};
 
 use crate::{
-    args::{Format, RunArgs},
+    args::{Format, RunArgs, WishArgs},
     draw::{braille::Stroke, picture::Canvas, theme::INKS},
     failure::{Ending, Failure},
     map::Map,
@@ -37,11 +37,12 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     if args.index.is_some() {
         setup.index_version()?;
     }
-    let map = Map::load(&args.map)?;
-    if let (Some(path), Some(from)) = (&args.distances, args.wishes.from.first()) {
+    let map = Map::load(&args.map)?.for_agent(&args.map, setup.motion())?;
+    let wishes = args.wishes.on(&map, setup.rules.placement())?;
+    if let (Some(path), Some(from)) = (&args.distances, wishes.from.first()) {
         return distances::write(setup, &map, *from, path, screen);
     }
-    let queries = Queries::load(args, &map)?;
+    let queries = Queries::load(args, &wishes, &map)?;
     if args.draw && queries.len() > 1 {
         return Err(Failure::DrawMany);
     }
@@ -61,7 +62,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
         map: &map,
         scenario: queries.scenario_name(),
         queries: queries.len(),
-        wishes: &args.wishes,
+        wishes: &wishes,
         setup,
         options: EngineOption::ALL.map(|option| (option, index.value(option))).to_vec(),
         guarantee: planner.guarantee(),
@@ -86,7 +87,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     let finished = session.answer_all(&mut planner, &run)?;
     drop(report);
     if args.draw {
-        draw(args, setup, &map, &queries, &finished, screen)?;
+        draw(&wishes, setup, &map, &queries, &finished, screen)?;
     }
     Ok(ending(&queries, finished))
 }
@@ -103,7 +104,7 @@ fn prepare(args: &RunArgs, setup: Setup, map: &Map) -> Result<(Space, Index), Fa
 
 /// Draws the map with the path of a single query.
 fn draw(
-    args: &RunArgs,
+    wishes: &WishArgs,
     setup: Setup,
     map: &Map,
     queries: &Queries,
@@ -111,9 +112,9 @@ fn draw(
     screen: &mut Screen,
 ) -> io::Result<()> {
     let Some(item) = queries.iter().next() else { return Ok(()) };
-    let mut canvas = Canvas::fit(&map.file, map.theme, setup.rules.placement(), screen);
+    let mut canvas = Canvas::fit(&map.tiles(), map.theme, setup.rules.placement(), screen);
     canvas.path(&finished.path, Stroke::Solid, INKS.best);
-    let request = args.wishes.request(item.query);
+    let request = wishes.request(item.query);
     canvas.ends(request.starts(), request.goals());
     writeln!(screen)?;
     canvas.write(screen)

@@ -5,7 +5,7 @@ use mediant_grid::{Grid, Vertex};
 use mediant_search::{End, Query};
 
 use crate::{
-    args::RunArgs,
+    args::{RunArgs, WishArgs},
     builtin::is_builtin,
     failure::Failure,
     map::{Map, load_scenario},
@@ -31,11 +31,11 @@ pub(crate) enum Queries {
 
 impl Queries {
     /// The queries that the arguments name.
-    pub(crate) fn load(args: &RunArgs, map: &Map) -> Result<Self, Failure> {
-        let path = match (&args.scen, args.wishes.from.first(), args.wishes.to.first()) {
+    pub(crate) fn load(args: &RunArgs, wishes: &WishArgs, map: &Map) -> Result<Self, Failure> {
+        let path = match (&args.scen, wishes.from.first(), wishes.to.first()) {
             (None, Some(&from), Some(&to)) => return Ok(Self::Single(Query::new(from, to))),
             (Some(path), ..) => path,
-            (None, ..) if is_builtin(&args.map) => &args.map,
+            (None, ..) if is_builtin(&args.map.map) => &args.map.map,
             (None, ..) => return Err(Failure::NoQueries),
         };
         let (name, scenario) = load_scenario(path)?;
@@ -93,7 +93,7 @@ fn check_names(instances: &[Instance], map: &Map) -> Result<(), Failure> {
         return Ok(());
     };
     let expected = named.map_file_name().to_owned();
-    if let Some((index, end, at)) = first_blocked(instances, &map.grid) {
+    if let Some((index, end, at)) = first_blocked(instances, &map.ground) {
         return Err(Failure::MisfitScenario { expected, found: map.name.clone(), end, at, index });
     }
     say_warning(&format!(
