@@ -7,7 +7,7 @@ use std::{
 };
 
 use mediant::{Engine, SetupError};
-use mediant_formats::{MapMismatch, ReadError};
+use mediant_formats::{MapMismatch, PictureError, ReadError};
 use mediant_grid::{PlacementKind, Vertex};
 
 use crate::terminal::message::say_error;
@@ -68,9 +68,11 @@ pub(crate) enum Failure {
     Library(#[from] mediant::Error),
     #[error("{}: cannot be written: {source}", path.display())]
     Write { path: PathBuf, source: io::Error },
+    #[error(transparent)]
+    Picture(#[from] PictureError),
     #[error("--draw shows a single query: give --from and --to, or --limit 1")]
     DrawMany,
-    #[error("--draw does not go with --format jsonl: leave it out, or choose --format table")]
+    #[error("--draw on the screen does not go with --format jsonl: give it a FILE, or choose --format table")]
     DrawJsonl,
     #[error("--trace follows a single query: give --from and --to, or --limit 1")]
     TraceMany,

@@ -63,9 +63,10 @@ pub(crate) struct RunArgs {
     /// A table for people, or one JSON object a line for programs
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
-    /// Draw the map and the path of a single query
-    #[arg(long)]
-    pub(crate) draw: bool,
+    /// Draw the map and the path of a single query: on the screen, or to a .png or .svg file, there also what
+    /// was searched
+    #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    pub(crate) draw: Option<Option<PathBuf>>,
     /// Write the events of a single query's search to this file, for the Posthoc visualizer
     #[arg(long, value_name = "FILE")]
     pub(crate) trace: Option<PathBuf>,
@@ -116,6 +117,8 @@ Examples:
   mediant run arena.map --scen arena.map.scen --k 5 --placement corner --format jsonl
   mediant run arena.map --from 1,11 --to 40,30 --draw
   mediant run arena.map --from 1,11 --to 40,30 --engine anya --draw
+  mediant run arena.map --from 1,11 --to 40,30 --draw path.svg
+  mediant run depot.yaml --world --radius 0.3 --from 0.5,0.5 --to 12.5,8 --draw path.png
   mediant run arena.map --scen arena.map.scen --engine subgoal --index arena.idx
   mediant run builtin:town --k 4 --placement corner --smooth --reference anya
   mediant run arena.map --from 1,11 --to 40,30 --to 30,5 --to 8,40

@@ -6,13 +6,13 @@ use std::{
     time::Instant,
 };
 
-use mediant::{EngineOption, Index, Setup, Space};
+use mediant::{EngineOption, Index, Request, Setup, Space};
 
 use crate::{
-    args::{Format, RunArgs, WishArgs},
-    draw::{braille::Stroke, picture::Canvas, theme::INKS},
+    args::{Format, RunArgs},
+    draw::{braille::Stroke, file, picture::Canvas, theme::INKS},
     failure::{Ending, Failure},
-    map::Map,
+    map::{Map, file_name},
     run::{
         answer::Run,
         distances,
@@ -23,15 +23,18 @@ use crate::{
         table::TableReport,
         trace::TraceFile,
     },
-    terminal::{numbers::count, progress::Progress, screen::Screen},
+    terminal::{numbers::count, progress::Progress, screen::Screen, text::printable},
 };
 
 /// Runs the command.
 pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure> {
     let setup = args.setup()?;
     let reference = args.reference(setup.rules)?;
-    if args.draw && args.format == Format::Jsonl {
+    if args.draw == Some(None) && args.format == Format::Jsonl {
         return Err(Failure::DrawJsonl);
+    }
+    if let Some(Some(file)) = &args.draw {
+        file::check_name(file)?;
     }
     args.check_ends()?;
     if args.index.is_some() {
@@ -43,7 +46,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
         return distances::write(setup, &map, *from, path, screen);
     }
     let queries = Queries::load(args, &wishes, &map)?;
-    if args.draw && queries.len() > 1 {
+    if args.draw.is_some() && queries.len() > 1 {
         return Err(Failure::DrawMany);
     }
     if args.trace.is_some() && queries.len() > 1 {
@@ -86,8 +89,17 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     };
     let finished = session.answer_all(&mut planner, &run)?;
     drop(report);
-    if args.draw {
-        draw(&wishes, setup, &map, &queries, &finished, screen)?;
+    match (&args.draw, queries.iter().next()) {
+        (Some(None), Some(item)) => draw(&wishes.request(item.query), setup, &map, &finished, screen)?,
+        (Some(Some(path)), Some(item)) => {
+            let drawing = file::Drawing { map: &map, setup, request: wishes.request(item.query), path };
+            drawing.write(&mut planner, &finished.path)?;
+            if args.format == Format::Table {
+                let name = file_name(path);
+                writeln!(screen, "  drawn {}", printable(&name))?;
+            }
+        }
+        _ => {}
     }
     Ok(ending(&queries, finished))
 }
@@ -102,19 +114,16 @@ fn prepare(args: &RunArgs, setup: Setup, map: &Map) -> Result<(Space, Index), Fa
     Ok((space, index.with_smoothing(setup.smoothing)))
 }
 
-/// Draws the map with the path of a single query.
+/// Draws the map with the path of a single query on the screen.
 fn draw(
-    wishes: &WishArgs,
+    request: &Request,
     setup: Setup,
     map: &Map,
-    queries: &Queries,
     finished: &Finished,
     screen: &mut Screen,
 ) -> io::Result<()> {
-    let Some(item) = queries.iter().next() else { return Ok(()) };
     let mut canvas = Canvas::fit(&map.tiles(), map.theme, setup.rules.placement(), screen);
     canvas.path(&finished.path, Stroke::Solid, INKS.best);
-    let request = wishes.request(item.query);
     canvas.ends(request.starts(), request.goals());
     writeln!(screen)?;
     canvas.write(screen)

@@ -32,7 +32,7 @@ pub(crate) fn write(
         Ok(found) => found,
         Err(Error::Query(error)) => {
             let placement = setup.rules.placement();
-            return Ok(Ending::QueryErrors(explain(error, &map.grid, placement)));
+            return Ok(Ending::QueryErrors(explain(error, map, placement)));
         }
         Err(error) => return Err(error.into()),
     };

@@ -9,8 +9,8 @@ use std::{
     time::{Duration, Instant},
 };
 
-use mediant::{Engine, EngineOption, Levels, OptionValue, ValueKind};
-use mediant_grid::{CornerRule, DiagonalGap, Rules, Vertex};
+use mediant::{Engine, EngineOption, Levels, OptionValue, ValueKind, files::WorldFrame};
+use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Rules, Vertex};
 use mediant_moves::K;
 use mediant_search::Path;
 use serde::Serialize;
@@ -30,13 +30,15 @@ pub(crate) struct Jsonl<'s> {
     /// How long lines may wait in the buffer.
     patience: Duration,
     flushed: Instant,
+    /// Where vertices are in the world.
+    world: Option<(WorldFrame, PlacementKind)>,
 }
 
 impl<'s> Jsonl<'s> {
     /// Lines that somebody watches on a terminal do not wait in the buffer.
     pub(crate) fn new(screen: &'s mut Screen, watched: bool) -> Self {
         let patience = if watched { Duration::ZERO } else { Duration::from_secs(1) };
-        Self { screen, patience, flushed: Instant::now() }
+        Self { screen, patience, flushed: Instant::now(), world: None }
     }
 
     fn line(&mut self, record: &impl Serialize) -> io::Result<()> {
@@ -53,12 +55,17 @@ impl<'s> Jsonl<'s> {
 
 impl Report for Jsonl<'_> {
     fn begin(&mut self, run: &Run<'_>) -> io::Result<()> {
+        self.world = run.map.frame.map(|frame| (frame, run.setup.rules.placement()));
         self.line(&RunLine::from(run))?;
         self.flush()
     }
 
     fn query(&mut self, answer: Answer) -> io::Result<()> {
-        self.line(&QueryLine::from(&answer))?;
+        let mut line = QueryLine::from(&answer);
+        line.world = self.world.zip(answer.path()).map(|((frame, placement), path)| {
+            path.waypoints().iter().map(|&at| frame.point_of(placement, at)).collect()
+        });
+        self.line(&line)?;
         if self.flushed.elapsed() >= self.patience { self.flush() } else { Ok(()) }
     }
 
@@ -75,7 +82,14 @@ struct RunLine<'r> {
     map: &'r str,
     width: u32,
     height: u32,
+    /// Of the agent's map.
     free_cells: u64,
+    /// The radius of the agent in cells; only with `--radius`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    radius: Option<f64>,
+    /// The side of a cell in meters; only with `--world`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    resolution: Option<f64>,
     /// The scenario's file name.
     scenario: Option<&'r str>,
     queries: usize,
@@ -148,6 +162,8 @@ impl<'r> From<&Run<'r>> for RunLine<'r> {
             width: grid.width(),
             height: grid.height(),
             free_cells: grid.free_cells(),
+            radius: Some(run.map.radius).filter(|&radius| radius > 0.0),
+            resolution: run.map.frame.map(|frame| frame.resolution()),
             scenario: run.scenario,
             queries: run.queries,
             wishes: run.wishes.into(),
@@ -221,6 +237,9 @@ struct QueryLine<'a> {
     cost: Option<f64>,
     /// The waypoints, of a stopped search those of the best path so far; empty without a path.
     path: Vec<[i32; 2]>,
+    /// The waypoints in the world, in meters; only with `--world`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    world: Option<Vec<(f64, f64)>>,
     /// The sum of the path's turning angles, in degrees (Hammoud 2023); `null` without a path.
     smoothness: Option<f64>,
     /// The length that the scenario gives: optimal for k = 3 at centers under `never`. `null` without a
@@ -281,6 +300,7 @@ impl<'a> From<&'a Answer> for QueryLine<'a> {
             stopped_by: stopped.map(|stopped| stopped.by.to_string()),
             cost: path.map(Path::cost),
             path: pairs(path.map_or(&[][..], Path::waypoints)),
+            world: None,
             smoothness: path.map(Path::smoothness),
             reference: item.reference,
             lower_bound: found.map(|found| found.lower_bound).or(stopped.map(|stopped| stopped.lower_bound)),

@@ -3,14 +3,27 @@
 use mediant_grid::{Centers, Corners, Grid, Placement, PlacementKind, Vertex};
 use mediant_search::QueryError;
 
-/// A query error in words; for a blocked end they name the nearest free vertex.
-pub(crate) fn explain(error: QueryError, grid: &Grid, placement: PlacementKind) -> String {
-    match error {
-        QueryError::Blocked { at, .. } => match nearest_free(grid, placement, at) {
-            Some(free) => format!("{error}; the nearest one is {free}"),
-            None => error.to_string(),
-        },
-        _ => error.to_string(),
+use crate::map::Map;
+
+/// A query error in words; for a blocked end they name the nearest free vertex, and the radius if that is the
+/// reason.
+pub(crate) fn explain(error: QueryError, map: &Map, placement: PlacementKind) -> String {
+    let QueryError::Blocked { end, at } = error else { return error.to_string() };
+    let reason = if map.radius > 0.0 && is_free(&map.ground, placement, at) {
+        format!("the {end} {at} is too near to an obstacle for a radius of {:.4} cells", map.radius)
+    } else {
+        error.to_string()
+    };
+    match nearest_free(&map.grid, placement, at) {
+        Some(free) => format!("{reason}; the nearest one is {free}"),
+        None => reason,
+    }
+}
+
+fn is_free(grid: &Grid, placement: PlacementKind, at: Vertex) -> bool {
+    match placement {
+        PlacementKind::Center => Centers::is_free(grid, at),
+        PlacementKind::Corner => Corners::is_free(grid, at),
     }
 }
 
@@ -19,11 +32,7 @@ pub(crate) fn explain(error: QueryError, grid: &Grid, placement: PlacementKind) 
 fn nearest_free(grid: &Grid, placement: PlacementKind, at: Vertex) -> Option<Vertex> {
     /// How far away it may be, in each coordinate.
     const REACH: i32 = 64;
-    let is_free = |v| match placement {
-        PlacementKind::Center => Centers::is_free(grid, v),
-        PlacementKind::Corner => Corners::is_free(grid, v),
-    };
     let around =
         (-REACH..=REACH).flat_map(|dy| (-REACH..=REACH).map(move |dx| Vertex::new(at.x + dx, at.y + dy)));
-    around.filter(|&v| is_free(v)).min_by_key(|&v| at.to(v).norm_squared())
+    around.filter(|&v| is_free(grid, placement, v)).min_by_key(|&v| at.to(v).norm_squared())
 }

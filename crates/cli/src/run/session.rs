@@ -77,7 +77,7 @@ impl Session<'_> {
             Ok(Outcome::Nearest(path)) => Ok(Answered::Nearest(path)),
             Ok(Outcome::Stopped(stopped)) => Ok(Answered::Stopped(stopped)),
             Ok(_) => Ok(Answered::Unreachable),
-            Err(error) => Err(explain(error, grid, rules.placement())),
+            Err(error) => Err(explain(error, run.map, rules.placement())),
         };
         Ok(Answer { item, request: request(), outcome, counters, nanos })
     }

@@ -2,9 +2,9 @@
 
 use std::io::{self, Write};
 
-use mediant::{Engine, OptionValue};
+use mediant::{Engine, OptionValue, files::WorldFrame};
 use mediant_grid::{PlacementKind, Vertex};
-use mediant_search::{Limit, Stopped};
+use mediant_search::{Limit, Path, Stopped};
 
 use super::{
     answer::{Answer, Answered, Found, Run},
@@ -32,6 +32,8 @@ pub(crate) struct TableReport<'s> {
     any_angle: &'static str,
     /// Whether the engine may leave its plan.
     may_fall_back: bool,
+    /// Where vertices are in the world.
+    world: Option<(WorldFrame, PlacementKind)>,
     rows: Vec<Answer>,
     /// The number of errors that have no row.
     more_errors: u64,
@@ -50,6 +52,7 @@ impl<'s> TableReport<'s> {
             is_reference: false,
             any_angle: "",
             may_fall_back: false,
+            world: None,
             rows: Vec::new(),
             more_errors: 0,
         }
@@ -143,6 +146,10 @@ impl<'s> TableReport<'s> {
             writeln!(self.screen, "  plan  {}", left(row.counters.fallbacks))?;
         }
         writeln!(self.screen, "  turns {:.1}° in all", path.smoothness())?;
+        if let Some((frame, placement)) = self.world {
+            let meters = path.cost() * frame.resolution();
+            writeln!(self.screen, "  world {meters:.3} m, {}", in_world(frame, placement, path))?;
+        }
         match &row.outcome {
             Ok(Answered::Found(found)) => certificate(self.screen, found, self.any_angle),
             Ok(Answered::Nearest(_)) => {
@@ -193,6 +200,7 @@ impl Report for TableReport<'_> {
     fn begin(&mut self, run: &Run<'_>) -> io::Result<()> {
         let setup = run.setup;
         self.queries = run.queries;
+        self.world = run.map.frame.map(|frame| (frame, setup.rules.placement()));
         self.from_scenario = run.scenario.is_some();
         self.may_differ = run.wishes.nearest || run.wishes.has_limits();
         self.is_reference = setup.solves_scenarios();
@@ -216,6 +224,11 @@ impl Report for TableReport<'_> {
         let text = wrap("", words.chain(problem), self.screen.columns());
         let rest = text.strip_prefix(name).unwrap_or_default();
         writeln!(self.screen, "{}{rest}", self.screen.paint(BOLD, name))?;
+        if run.map.radius > 0.0 {
+            let meters = run.map.frame.map(|frame| run.map.radius * frame.resolution());
+            let meters = meters.map_or_else(String::new, |meters| format!(" ({meters} m)"));
+            writeln!(self.screen, "a disc of radius {:.4} cells{meters}", run.map.radius)?;
+        }
         let preparation = time(run.preparation.as_nanos() as f64);
         writeln!(self.screen, "{} · prepared in {preparation}", guarantee_name(run.guarantee))?;
         let wishes = run.wishes.in_words();
@@ -355,4 +368,15 @@ fn stop(screen: &mut Screen, stopped: &Stopped) -> io::Result<()> {
     };
     writeln!(screen, "  stopped{by}: this path is the best so far, of length {:.4}", best.cost())?;
     writeln!(screen, "  the path that was asked for costs at least {lower_bound:.4}")
+}
+
+/// The ends of a path in the world, in meters.
+fn in_world(frame: WorldFrame, placement: PlacementKind, path: &Path) -> String {
+    let point = |at: &Vertex| {
+        let (x, y) = frame.point_of(placement, *at);
+        format!("({x:.3}, {y:.3})")
+    };
+    let waypoints = path.waypoints();
+    let ends = waypoints.first().zip(waypoints.last());
+    ends.map_or_else(String::new, |(start, goal)| format!("{} to {}", point(start), point(goal)))
 }

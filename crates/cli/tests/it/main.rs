@@ -9,3 +9,4 @@ mod subgoal;
 mod table;
 mod trace;
 mod wishes;
+mod world;

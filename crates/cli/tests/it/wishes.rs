@@ -306,6 +306,10 @@ fn the_examples_of_the_help_run() {
     let row = ".".repeat(49) + "\n";
     let map = files.add("arena.map", format!("type octile\nheight 49\nwidth 49\nmap\n{}", row.repeat(49)));
     files.add("arena.map.scen", "version 1\n0\tarena.map\t49\t49\t1\t11\t40\t30\t46.87\n");
+    let yaml = "image: depot.pgm\nresolution: 0.25\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n\
+                free_thresh: 0.196\n";
+    files.add("depot.yaml", yaml);
+    files.add("depot.pgm", format!("P2 60 40 255\n{}", "254\n".repeat(60 * 40)));
     let index = files.path("arena.idx");
     assert_eq!(mediant(&["build", &map, "--engine", "subgoal", "-o", &index]).status, Some(0));
     let help = run("run --help").stdout;
@@ -314,13 +318,15 @@ fn the_examples_of_the_help_run() {
     for example in examples.lines().map(str::trim).filter(|line| !line.is_empty()) {
         let words = example.strip_prefix("mediant ").expect("a command line").split(' ');
         let folder = files.path("");
-        let in_folder =
-            |word: &str| if word.starts_with("arena.") { folder.clone() + word } else { word.into() };
+        let in_folder = |word: &str| {
+            let is_file = ["arena.", "depot.", "path."].iter().any(|start| word.starts_with(start));
+            if is_file { folder.clone() + word } else { word.into() }
+        };
         let Ran { status, stderr, .. } = mediant(&words.map(in_folder).collect::<Vec<_>>());
         assert_eq!((stderr.as_str(), status), ("", Some(0)), "{example}");
         number += 1;
     }
-    assert_eq!(number, 10);
+    assert_eq!(number, 12);
 }
 
 #[test]

@@ -1,0 +1,57 @@
+//! Pictures in files.
+
+use std::path::Path;
+
+use mediant::{NodeEvent, Observer, Planner, Request, Setup};
+use mediant_formats::{Picture, PictureError};
+use mediant_grid::Vertex;
+
+use crate::{failure::Failure, map::Map};
+
+/// The picture of a single query.
+pub(crate) struct Drawing<'d> {
+    pub(crate) map: &'d Map,
+    pub(crate) setup: Setup,
+    pub(crate) request: Request,
+    pub(crate) path: &'d Path,
+}
+
+/// Checks that the name of a picture's file tells its format, before anything is computed.
+pub(crate) fn check_name(path: &Path) -> Result<(), Failure> {
+    let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
+    match extension.as_ref().and_then(|extension| extension.to_str()) {
+        Some("png" | "svg") => Ok(()),
+        _ => Err(PictureError::Extension { path: path.to_owned() }.into()),
+    }
+}
+
+impl Drawing<'_> {
+    /// Draws the map, the vertices that the search expands, and the path.
+    pub(crate) fn write(&self, planner: &mut Planner, waypoints: &[Vertex]) -> Result<(), Failure> {
+        let mut searched = Searched::default();
+        // What is wrong with a query was said already.
+        let _ = planner.find_observed(self.request.clone(), &mut searched);
+        let placement = self.setup.rules.placement();
+        let mut picture = Picture::new(&self.map.ground, placement).expanded(searched.expanded);
+        let start = waypoints.first().or(self.request.starts().first());
+        let goal = waypoints.last().or(self.request.goals().first());
+        if let Some((&start, &goal)) = start.zip(goal) {
+            picture = picture.start(start).goal(goal);
+        }
+        let points = waypoints.iter().map(|at| (f64::from(at.x), f64::from(at.y)));
+        let name = format!("{}, k = {}", self.setup.engine.kind(), self.setup.k);
+        Ok(picture.path(name, points).radius(self.map.radius).write_to(self.path)?)
+    }
+}
+
+/// Remembers what a search expands.
+#[derive(Default)]
+struct Searched {
+    expanded: Vec<Vertex>,
+}
+
+impl Observer for Searched {
+    fn expanded(&mut self, node: NodeEvent) {
+        self.expanded.push(node.at);
+    }
+}
