@@ -48,7 +48,8 @@ pub trait Planner {
 
     /// The best path that the search has found to a vertex: to the goal, once its status is
     /// [`Found`](Status::Found), and to each vertex that an observer was told to be
-    /// [reached](Observer::reached). `None` for others.
+    /// [reached](Observer::reached). `None` for others. A planner that needs the memory of its search to make
+    /// the path that it has found may know no other paths then.
     fn path_to(&mut self, at: Vertex) -> Option<Path>;
 
     /// What is guaranteed of the paths.

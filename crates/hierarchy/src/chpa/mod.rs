@@ -2,6 +2,7 @@
 
 mod checkpoints;
 mod codec;
+mod leg;
 mod planner;
 mod search;
 mod segments;

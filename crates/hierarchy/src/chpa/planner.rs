@@ -11,7 +11,7 @@ use mediant_search::{
     AStar, Guarantee, Heuristic, Observer, Path, Planner, Query, QueryError, Status, parts::SearchTree,
 };
 
-use super::{search::Search, segments::SegmentGraph};
+use super::{leg::OfLeg, search::Search, segments::SegmentGraph};
 use crate::{HierarchyError, check, waypoints::waypoints};
 
 /// CHPA* (Teleiša & Čalnerytė 2023): A* over segments finds checkpoints, A* over tiles finds a path from each
@@ -42,6 +42,8 @@ pub struct ChpaStar<G, I, H1, H2> {
     /// The checkpoints on it, then the goal.
     checkpoints: Vec<Vertex>,
     path: Vec<Vertex>,
+    /// The cost of that path.
+    length: Cost,
     query: Query,
     phase: Phase,
 }
@@ -116,6 +118,7 @@ where
             segments: Vec::new(),
             checkpoints: Vec::new(),
             path: Vec::new(),
+            length: Cost::ZERO,
             query: Query::new((0, 0), (0, 0)),
             phase: Phase::Over(Status::Unreachable),
             grid_graph,
@@ -172,6 +175,7 @@ where
         }
         self.path.clear();
         self.path.push(query.start);
+        self.length = Cost::ZERO;
         self.query = query;
         self.search(observer).begin();
         self.phase = Phase::Segments;
@@ -203,21 +207,12 @@ where
     }
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
-        let length = self.path.len();
-        match self.phase {
-            Phase::Over(Status::Found) if at == self.query.goal => {}
-            Phase::Segments | Phase::Tiles(_) if self.path.last() == Some(&at) => {}
-            Phase::Tiles(Leg { has_begun: true, .. }) => {
-                self.tile_search.extend_to(&mut self.path, at);
-                if self.path.len() == length {
-                    return None;
-                }
-            }
-            Phase::Over(_) | Phase::Segments | Phase::Tiles(_) => return None,
-        }
-        let path = path_along(&self.path);
-        self.path.truncate(length);
-        Some(path)
+        let length = match self.phase {
+            Phase::Over(Status::Found) if at == self.query.goal => self.path.len(),
+            Phase::Over(Status::Unreachable) => return None,
+            _ => 1 + self.path.iter().position(|&vertex| vertex == at)?,
+        };
+        Some(path_along(&self.path[..length]))
     }
 
     fn guarantee(&self) -> Guarantee {
@@ -266,7 +261,7 @@ where
     /// Phase 2: extends the path to the next checkpoint. The complete planner takes the next one that can be
     /// reached without a detour, and may take any to the last, the goal.
     fn extend(&mut self, leg: Leg, observer: &mut impl Observer) -> Result<Phase, QueryError> {
-        let Self { grid_graph, tile_search, checkpoints, path, fallback, .. } = self;
+        let Self { grid_graph, tile_search, checkpoints, path, length, fallback, .. } = self;
         let Leg { next, skip, has_begun } = leg;
         let (Some(&at), Some(&to)) = (path.last(), checkpoints.get(next)) else {
             return Ok(Phase::Over(Status::Found));
@@ -281,10 +276,17 @@ where
             };
             tile_search.begin_within(Query::new(at, to), limit, observer)?;
         }
-        Ok(match (tile_search.proceed(observer)?, *fallback) {
+        let status = tile_search.proceed(&mut OfLeg { observer, before: *length })?;
+        Ok(match (status, *fallback) {
             (Status::Searching, _) => Phase::Tiles(Leg { has_begun: true, ..leg }),
             (Status::Found, _) => {
+                let known = path.len();
                 tile_search.extend_to(path, to);
+                let costs = grid_graph.costs();
+                for ends in path[known - 1..].windows(2) {
+                    *length += costs.distance(ends[0].to(ends[1]));
+                    observer.reached(ends[1], *length);
+                }
                 Phase::Tiles(Leg { next: next + 1, skip: 1, has_begun: false })
             }
             (Status::Unreachable, FallbackPolicy::Paper) => {

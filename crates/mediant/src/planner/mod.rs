@@ -45,6 +45,7 @@ pub struct Planner {
     metric: Option<Metric>,
 }
 
+/// Makes a path shorter.
 impl Space {
     /// A planner of an engine, on an index of its own.
     ///

@@ -55,7 +55,8 @@ impl Planner {
         self.step_observed(expansions, &mut ())
     }
 
-    /// Continues the search by at most `expansions` expansions, and reports its events.
+    /// Continues the search by at most `expansions` expansions, and reports its events. The observer may
+    /// [pause](Observer::pauses) it before.
     ///
     /// # Errors
     /// Those of [`step`](Self::step).
@@ -78,13 +79,12 @@ impl Planner {
         self.finish_observed(&mut ())
     }
 
-    /// Continues the search until there is an answer, and reports its events.
-    pub(crate) fn finish_observed(&mut self, observer: &mut dyn Observer) -> Result<Outcome, QueryError> {
-        loop {
-            if let Some(answer) = self.step_observed(u64::MAX, observer)? {
-                return Ok(answer);
-            }
-        }
+    /// Continues the search until there is an answer, and reports its events. The observer cannot pause it.
+    pub(crate) fn finish_observed(&mut self, mut observer: &mut dyn Observer) -> Result<Outcome, QueryError> {
+        let Self { begun, search, metric, .. } = self;
+        let (Some(begun), Some(metric)) = (begun, metric) else { return Err(QueryError::NotBegun) };
+        let answer = begun.finish(&mut Dynamic(&mut **search), metric, &mut observer);
+        self.smoothed(answer)
     }
 
     /// The best path so far of the search that was begun: to a goal, if one was found, else to the vertex

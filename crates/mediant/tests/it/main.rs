@@ -7,6 +7,7 @@ mod identity;
 mod mistakes;
 mod odd_input;
 mod options;
+mod requests;
 mod subgoals;
 mod table;
 

@@ -3,8 +3,8 @@
 use std::num::NonZeroU32;
 
 use mediant::{
-    ConfiguredEngine, Engine, Error, ErrorCode as Code, FiniteK, Grid, HpaOptions, Index, K, Map, Motion,
-    Rectangle, Setup, Space,
+    ConfiguredEngine, Engine, Error, ErrorCode as Code, FiniteK, Grid, HpaOptions, Index, K, Limits, Map,
+    Motion, Query, Rectangle, Request, Setup, Space, Vertex,
 };
 use mediant_formats::{IndexFile, IndexKey};
 
@@ -45,6 +45,23 @@ fn in_maps_and_queries() -> Vec<Mistake> {
     ]
 }
 
+/// Mistakes in requests.
+fn in_requests() -> Vec<Mistake> {
+    let find = |request: Request| Ok(walkers().planner(Engine::AStar)?.find(request).map(drop)?);
+    let (none, start): ([Vertex; 0], _) = ([], [(0, 0)]);
+    let query = Query::new((0, 0), (1, 0));
+    let step = || Ok(walkers().planner(Engine::AStar)?.step(1).map(drop)?);
+    vec![
+        (Code::NoEnd, find(Request::between(none, start))),
+        (Code::NoEnd, find(Request::between(start, none).snap().nearest())),
+        (Code::Number, find(query.tolerance(f64::NAN))),
+        (Code::Number, find(query.within(Limits::new().cost(-1.0)))),
+        (Code::NotBegun, step()),
+        (Code::StartBlocked, find(Request::between([(0, 0), (6, 0)], start).nearest())),
+        (Code::GoalOutside, find(Query::new((0, 0), (9, 0)).tolerance(5.0).nearest())),
+    ]
+}
+
 /// Mistakes in engines and their indexes.
 fn in_engines_and_indexes() -> Vec<Mistake> {
     let space = walkers();
@@ -76,7 +93,8 @@ fn in_engines_and_indexes() -> Vec<Mistake> {
 
 #[test]
 fn each_mistake_has_its_code() {
-    let mistakes: Vec<Mistake> = in_maps_and_queries().into_iter().chain(in_engines_and_indexes()).collect();
+    let parts = [in_maps_and_queries(), in_requests(), in_engines_and_indexes()];
+    let mistakes: Vec<Mistake> = parts.into_iter().flatten().collect();
     // Those of other tests, of no call of the door, or of what only other versions do.
     let elsewhere = [Code::Mismatch, Code::GaveUp, Code::IndexEdit, Code::ScenarioFormat, Code::Other];
     let made: Vec<Code> = mistakes.iter().map(|(code, _)| *code).collect();
@@ -91,7 +109,7 @@ fn each_mistake_has_its_code() {
     }
 }
 
-/// Pinned: bindings and scripts rely on them. A new code comes at the end, none is changed.
+/// Pinned: bindings and scripts rely on them. A new code comes before `other`, none is changed.
 #[test]
 fn codes_keep_their_names() {
     let names = Code::ALL.map(Code::name).join(" ");
@@ -100,6 +118,6 @@ fn codes_keep_their_names() {
         "map-size map-ragged edit-outside k motion unknown-name setup-text engine-option engine-k \
          engine-rules engine-without mismatch start-blocked goal-blocked start-outside goal-outside gave-up \
          index-range index-options index-damaged index-engine index-edit file-missing file-unreadable \
-         file-unwritable map-format scenario-format other"
+         file-unwritable map-format scenario-format no-end number not-begun other"
     );
 }

@@ -24,6 +24,8 @@ pub(super) struct Pair {
 pub(super) struct Ends {
     /// Those that are connected, by their least cost, then by rank.
     pub(super) pairs: Vec<Pair>,
+    /// The first start.
+    pub(super) start: Vertex,
     /// Whether the goals are the vertices nearest to those of the request.
     pub(super) are_nearest: bool,
 }
@@ -49,7 +51,8 @@ impl Ends {
         }
         let starts = free_ends(space, metric, wishes, End::Start, &wishes.starts)?;
         let goals = free_ends(space, metric, wishes, End::Goal, &wishes.goals)?;
-        let mut ends = Self { pairs: Vec::new(), are_nearest: false };
+        let start = *starts.first().ok_or(QueryError::NoEnd { end: End::Start })?;
+        let mut ends = Self { pairs: Vec::new(), start, are_nearest: false };
         ends.add(space, bound, &starts, &goals);
         if ends.pairs.is_empty() && wishes.nearest {
             ends.are_nearest = true;

@@ -66,8 +66,8 @@ pub struct Stopped {
     /// The limit.
     pub by: Limit,
     /// The best so far: a path to a goal, if one was found and it was not yet known whether it is the best;
-    /// else the path to the vertex nearest to a goal among those that the search expanded, by h_k (at k = ∞
-    /// by the straight line), the first of several. At least the start.
+    /// else the path to the vertex nearest to a goal among those that the search expanded within the limit on
+    /// the cost, by h_k (at k = ∞ by the straight line), the first of several. At least the start.
     pub best: Path,
     /// A lower bound on the cost of the path that was sought, in cells: no path over N(k), by an engine of
     /// any-angle paths no legal path, is shorter. Up to the rounding of [`Cost`].
@@ -92,7 +92,8 @@ impl Limits {
         self
     }
 
-    /// The most expansions. The goal's is none.
+    /// The most expansions, as an observer counts them. The goal's is none. HPA* is not stopped while it
+    /// searches within clusters, before and after its search between them, and can make more there.
     #[must_use]
     pub fn expansions(mut self, count: u64) -> Self {
         self.expansions = Some(count);

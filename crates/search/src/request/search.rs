@@ -63,7 +63,8 @@ pub struct Search {
     partial: Option<(Cost, Path)>,
     /// The least lower bound of those pairs.
     beyond_limit: Option<Cost>,
-    answer: Option<Outcome>,
+    /// The answer, or why the planner gave up.
+    answer: Option<Result<Outcome, QueryError>>,
 }
 
 /// Whether a search leads from all goals at once to the only start: for a goal with a tolerance, where it
@@ -111,7 +112,9 @@ impl Search {
             greatest: wishes.limits.greatest_cost(),
             limits: wishes.limits,
             expansions: 0,
+            next_look: 0,
             step_end: 0,
+            is_step: false,
             known: Cost::MAX,
             least: Cost::ZERO,
             pause: None,
@@ -119,7 +122,7 @@ impl Search {
             nearest: (Cost::MAX, Vertex::new(0, 0)),
         };
         Ok(Self {
-            answer: ends.pairs.is_empty().then_some(Outcome::Unreachable),
+            answer: ends.pairs.is_empty().then_some(Ok(Outcome::Unreachable)),
             ends,
             guarantee,
             next: 0,
@@ -132,8 +135,9 @@ impl Search {
         })
     }
 
-    /// Makes at most `expansions` expansions. Returns the answer once it is there; `None` before. All steps
-    /// must be made on the same planner, which answers nothing else in between.
+    /// Makes at most `expansions` expansions; fewer if the observer pauses the search. Returns the answer once
+    /// it is there; `None` before. All steps must be made on the same planner, which answers nothing else in
+    /// between.
     ///
     /// # Errors
     /// [`QueryError::GaveUp`] by a planner that may fail.
@@ -145,28 +149,63 @@ impl Search {
         observer: &mut impl Observer,
     ) -> Result<Option<Outcome>, QueryError> {
         self.progress.step_end = self.progress.expansions.saturating_add(expansions);
+        self.progress.is_step = true;
+        self.run(planner, metric, observer)
+    }
+
+    /// Continues until the answer is there. The observer is not asked to pause.
+    ///
+    /// # Errors
+    /// Those of [`step`](Self::step).
+    pub fn finish(
+        &mut self,
+        planner: &mut impl Planner,
+        metric: &Metric,
+        observer: &mut impl Observer,
+    ) -> Result<Outcome, QueryError> {
+        (self.progress.step_end, self.progress.is_step) = (u64::MAX, false);
+        loop {
+            if let Some(answer) = self.run(planner, metric, observer)? {
+                return Ok(answer);
+            }
+        }
+    }
+
+    /// Searches until the answer is there, or the step is over.
+    fn run(
+        &mut self,
+        planner: &mut impl Planner,
+        metric: &Metric,
+        observer: &mut impl Observer,
+    ) -> Result<Option<Outcome>, QueryError> {
         while self.answer.is_none() {
             let Some(&pair) = self.pair() else {
                 self.conclude();
                 break;
             };
-            let status = self.search(pair, planner, metric, observer)?;
+            let status = match self.search(pair, planner, metric, observer) {
+                Ok(status) => status,
+                Err(error) => {
+                    self.answer = Some(Err(error));
+                    break;
+                }
+            };
             match (status, self.progress.pause.take()) {
                 (Status::Searching, None | Some(Pause::Step)) => return Ok(None),
                 (Status::Searching, Some(Pause::Limit(Limit::Cost))) => {
-                    self.leave_beyond_limit(pair, planner);
+                    self.leave_beyond_limit(self.current_bound(pair), planner);
                 }
                 (Status::Searching, Some(Pause::Limit(limit))) => self.stop(limit, planner),
                 (Status::Searching, Some(Pause::Beaten)) | (Status::Unreachable, _) => self.leave(),
                 (Status::Found, _) => self.found(pair, planner),
             }
         }
-        Ok(self.answer.clone())
+        self.answer.clone().transpose()
     }
 
     /// The pair to be searched, if the best path may lead between its ends.
     fn pair(&self) -> Option<&Pair> {
-        self.ends.pairs.get(self.next).filter(|pair| pair.least <= self.progress.known)
+        self.ends.pairs.get(self.next).filter(|pair| !self.progress.is_beaten(pair.least))
     }
 
     /// Begins or continues the search of a pair.
@@ -183,7 +222,9 @@ impl Search {
             self.progress.nearest = (metric.distance(query.start.to(query.goal)), query.start);
             self.progress.least = least;
             self.progress.pause = self.progress.reason();
-            if self.progress.pause.is_some_and(|pause| pause != Pause::Step) {
+            // The number of expansions does not forbid a path that takes none.
+            let waits = |pause| !matches!(pause, Pause::Step | Pause::Limit(Limit::Expansions));
+            if self.progress.pause.is_some_and(waits) {
                 return Ok(Status::Searching);
             }
         }
@@ -220,16 +261,16 @@ impl Search {
 
     fn found(&mut self, pair: Pair, planner: &mut impl Planner) {
         let path = match self.backward {
-            Backward::To(start) => planner.path_to(start).map(|path| {
-                let back = path.into_waypoints();
-                Path::new(back.into_iter().rev().collect())
-            }),
+            Backward::To(start) => planner.path_to(start).map(|path| path.reversed()),
             Backward::No | Backward::After(..) => planner.path_to(pair.query.goal),
         };
         if let Some(path) = path {
             let cost = fixed_cost(&path);
             if cost > self.progress.greatest {
-                return self.leave_beyond_limit(pair, planner);
+                // No search asks for a pause before it takes the goal: the path itself may be the first to
+                // cost more than the limit.
+                let least = if self.is_optimal() { cost } else { pair.least };
+                return self.leave_beyond_limit(least, planner);
             }
             let is_better = |known: &Found| (cost, pair.rank) < (known.cost, known.rank);
             if self.found.as_ref().is_none_or(is_better) {
@@ -240,9 +281,8 @@ impl Search {
         self.leave();
     }
 
-    /// Leaves a pair whose paths cost more than the limit.
-    fn leave_beyond_limit(&mut self, pair: Pair, planner: &mut impl Planner) {
-        let least = self.current_bound(pair);
+    /// Leaves a pair whose paths cost more than the limit, and at least `least`.
+    fn leave_beyond_limit(&mut self, least: Cost, planner: &mut impl Planner) {
         self.beyond_limit = Some(self.beyond_limit.map_or(least, |known| known.min(least)));
         let distance = self.progress.nearest.0;
         if !self.is_backward() && self.partial.as_ref().is_none_or(|&(known, _)| distance < known) {
@@ -253,36 +293,38 @@ impl Search {
 
     /// The path to the vertex nearest to the goal.
     fn path_to_nearest(&self, planner: &mut impl Planner) -> Path {
-        let start = self.ends.pairs.get(self.next).map(|pair| pair.query.start);
+        let start = self.ends.pairs.get(self.next).map_or(self.ends.start, |pair| pair.query.start);
         let path = if self.has_begun && !self.is_backward() {
             planner.path_to(self.progress.nearest.1)
         } else {
             None
         };
-        path.unwrap_or_else(|| Path::new(start.into_iter().collect()))
+        path.unwrap_or_else(|| Path::new(vec![start]))
     }
 
     fn stop(&mut self, by: Limit, planner: &mut impl Planner) {
         let (lower_bound, best) = (self.lower_bound(), self.best(planner));
-        self.answer = Some(Outcome::Stopped(Stopped { by, best, lower_bound }));
+        self.answer = Some(Ok(Outcome::Stopped(Stopped { by, best, lower_bound })));
     }
 
     /// Makes the answer after the last pair.
     fn conclude(&mut self) {
         let lower_bound = self.lower_bound();
-        self.answer = Some(match (self.found.take(), self.partial.take()) {
+        self.answer = Some(Ok(match (self.found.take(), self.partial.take()) {
             (Some(Found { path, .. }), _) if self.ends.are_nearest => Outcome::Nearest(path),
             (Some(Found { path, .. }), _) => Outcome::Found(path),
             (None, Some((_, best))) => Outcome::Stopped(Stopped { by: Limit::Cost, best, lower_bound }),
             (None, None) => Outcome::Unreachable,
-        });
+        }));
     }
 
     /// The best so far; see [`Stopped::best`].
     #[must_use]
     pub fn best(&self, planner: &mut impl Planner) -> Path {
-        if let Some(path) = self.answer.as_ref().and_then(Outcome::path) {
-            return path.clone();
+        match &self.answer {
+            Some(Ok(Outcome::Found(path) | Outcome::Nearest(path))) => return path.clone(),
+            Some(Ok(Outcome::Stopped(stopped))) => return stopped.best.clone(),
+            Some(Ok(Outcome::Unreachable) | Err(_)) | None => {}
         }
         match (&self.found, &self.partial) {
             (Some(found), _) => found.path.clone(),
@@ -299,10 +341,11 @@ impl Search {
         /// Costs are rounded sums.
         const ROUNDED: f64 = 1.0 - 1.0 / (1_u64 << 31) as f64;
         let pairs = &self.ends.pairs;
-        let least = if let Guarantee::Optimal(_) | Guarantee::OptimalAnyAngle = self.guarantee {
+        let least = if self.is_optimal() {
             let current = self.pair().map(|&pair| self.current_bound(pair));
             let later = pairs.get(self.next + 1).map(|pair| pair.least);
-            let found = self.found.as_ref().map(|found| found.cost);
+            // Once there is an answer, it has taken the path that was found, but not its cost.
+            let found = Some(self.progress.known).filter(|&known| known != Cost::MAX);
             [current, later, found, self.beyond_limit].into_iter().flatten().min()
         } else {
             pairs.first().map(|pair| pair.least)
@@ -312,12 +355,13 @@ impl Search {
 
     /// A lower bound on the paths of the pair that is searched.
     fn current_bound(&self, pair: Pair) -> Cost {
-        match self.guarantee {
-            Guarantee::Optimal(_) | Guarantee::OptimalAnyAngle if self.has_begun => {
-                self.progress.least.max(pair.least)
-            }
-            _ => pair.least,
-        }
+        let is_known = self.is_optimal() && self.has_begun;
+        if is_known { self.progress.least.max(pair.least) } else { pair.least }
+    }
+
+    /// Whether no path of the planner's kind is shorter than its paths.
+    const fn is_optimal(&self) -> bool {
+        matches!(self.guarantee, Guarantee::Optimal(_) | Guarantee::OptimalAnyAngle)
     }
 
     /// The number of expansions so far.

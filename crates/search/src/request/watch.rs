@@ -26,8 +26,13 @@ pub(super) struct Progress {
     pub(super) limits: Limits,
     /// All expansions, of all pairs.
     pub(super) expansions: u64,
+    /// After how many of them the deadline is looked at. Some planners make several expansions between two
+    /// pauses.
+    pub(super) next_look: u64,
     /// How many expansions there are when the step is over.
     pub(super) step_end: u64,
+    /// Whether the observer may pause the search, too.
+    pub(super) is_step: bool,
     /// The greatest cost that the request allows.
     pub(super) greatest: Cost,
     /// The cost of the best path that is known.
@@ -48,16 +53,26 @@ pub(super) struct Watch<'w, O> {
 }
 
 impl Progress {
+    /// Whether all paths that cost at least `least` are longer than the best path that is known. Equally long
+    /// paths at any angle may differ in their costs, which are sums of rounded lengths.
+    pub(super) const fn is_beaten(&self, least: Cost) -> bool {
+        let known = self.known.to_bits();
+        least.to_bits() > known.saturating_add(known >> 31)
+    }
+
     /// The reason to pause now, if there is one.
-    pub(super) fn reason(&self) -> Option<Pause> {
+    pub(super) fn reason(&mut self) -> Option<Pause> {
         let Self { expansions, .. } = *self;
         if self.least > self.greatest {
             return Some(Pause::Limit(Limit::Cost));
         }
-        if self.least > self.known {
+        if self.is_beaten(self.least) {
             return Some(Pause::Beaten);
         }
-        let looks = expansions.is_multiple_of(Limits::EXPANSIONS_PER_LOOK);
+        let looks = expansions >= self.next_look;
+        if looks {
+            self.next_look = expansions + Limits::EXPANSIONS_PER_LOOK;
+        }
         if let Some(limit) = self.limits.met(expansions, looks) {
             return Some(Pause::Limit(limit));
         }
@@ -73,7 +88,7 @@ impl<O: Observer> Observer for Watch<'_, O> {
 
     fn reached(&mut self, at: Vertex, g: Cost) {
         let distance = self.metric.distance(at.to(self.progress.goal));
-        if distance < self.progress.nearest.0 {
+        if distance < self.progress.nearest.0 && g <= self.progress.greatest {
             self.progress.nearest = (distance, at);
         }
         self.observer.reached(at, g);
@@ -82,7 +97,7 @@ impl<O: Observer> Observer for Watch<'_, O> {
     fn pauses(&mut self, least: Cost) -> bool {
         self.progress.least = least;
         self.progress.pause = self.progress.reason();
-        self.progress.pause.is_some() || self.observer.pauses(least)
+        self.progress.pause.is_some() || self.progress.is_step && self.observer.pauses(least)
     }
 
     fn generated(&mut self, node: NodeEvent) {
