@@ -137,7 +137,7 @@ pub const COMPILED: [Compiled; 4] = [
     Compiled {
         package: FORMATS,
         options: &["--no-default-features"],
-        never: &["serde", "sha2"],
+        never: &["png", "serde", "sha2"],
         reason: "a reader of `.map` files needs neither JSON nor hashes",
     },
     Compiled {

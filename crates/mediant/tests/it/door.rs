@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use mediant::{
     CornerRule, Counters, Engine, Error, Identity, K, Map, Motion, Observer, Origin, Outcome, Planner, Query,
-    QueryError, Rectangle, Rules, Setup, Space,
+    QueryError, Rectangle, Rules, Setup, Space, files::ImageOptions,
 };
 use mediant_formats::IndexFile;
 use mediant_oracle::{Rng, caves};
@@ -34,6 +34,33 @@ fn maps_are_made_in_many_ways() {
     let file = tempfile::Builder::new().suffix(".map").tempfile().expect("a file");
     std::fs::write(&file, "type octile\nheight 2\nwidth 3\nmap\n..@\n.TG\n").expect("it is written");
     assert_eq!(Map::open(file.path()).expect("a map").id(), from_rows.id());
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("it is written");
+        path
+    };
+    let picture = file("yard.pbm", "P1 3 2  001 010\n");
+    assert_eq!(Map::open(&picture).expect("a map").id(), from_rows.id());
+    let yaml = "image: yard.pbm\nresolution: 0.5\norigin: [-1, 2, 0]\nnegate: 0\noccupied_thresh: 0.65\n\
+                free_thresh: 0.25\n";
+    let (map, world) = Map::open_with(file("yard.yaml", yaml), &ImageOptions::default()).expect("a map");
+    assert_eq!(map.id(), from_rows.id());
+    let world = world.expect("a place in the world");
+    assert_eq!(
+        (world.cell_at(-0.9, 2.1), world.center_of((0, 1).into())),
+        (Some((0, 1).into()), (-0.75, 2.25))
+    );
+    let options = ImageOptions { invert: true, ..ImageOptions::default() };
+    assert!(
+        Map::open_with(&picture, &options)
+            .is_ok_and(|(map, world)| { map.is_blocked(0, 0) && !map.is_blocked(2, 0) && world.is_none() })
+    );
+    let code = |name: &str, text: &str| Map::open(file(name, text)).map_err(|error| error.code().name());
+    assert_eq!(code("cut.pgm", "P5 9 9 255\n"), Err("map-format"));
+    assert_eq!(code("no.yaml", &yaml.replace("yard", "none")), Err("file-missing"));
+    assert_eq!(code("half.yaml", "image: yard.pbm\n"), Err("map-format"));
+    assert_eq!(code("letter.txt", "Dear reader"), Err("map-format"));
     assert_eq!((from_rows.width(), from_rows.height()), (3, 2));
     assert!(from_rows.is_blocked(2, 0) && !from_rows.is_blocked(2, 1) && from_rows.is_blocked(3, 0));
     let grid = Arc::clone(from_rows.grid());

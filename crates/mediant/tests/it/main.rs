@@ -2,6 +2,7 @@
 
 mod catalog;
 mod door;
+mod field;
 mod hierarchies;
 mod identity;
 mod mistakes;

@@ -1,0 +1,138 @@
+//! Fields of a space are the distances of single paths; the same for maps of agents and widest paths.
+
+use mediant::{Engine, ErrorCode, Fit, K, Map, Motion, Outside, Query, Setup, Space, Vertex};
+use mediant_grid::Rules;
+use mediant_oracle::{Rng, random_grid};
+
+use super::{NEVER, OPEN};
+
+fn world(k: K, rules: Rules, seed: u64) -> (Space, Vec<Vertex>) {
+    on_map(Map::from(random_grid(seed).0), k, rules)
+}
+
+/// A space on a map, and its free vertices.
+fn on_map(map: Map, k: K, rules: Rules) -> (Space, Vec<Vertex>) {
+    let space = map.space(Motion::new(k, rules)).expect("a space");
+    let (width, height) = (space.map().width() as i32, space.map().height() as i32);
+    let all = (0..=height).flat_map(|y| (0..=width).map(move |x| Vertex::new(x, y)));
+    let free = all.filter(|&at| space.is_free(at)).collect();
+    (space, free)
+}
+
+fn some(rng: &mut Rng, free: &[Vertex]) -> Vertex {
+    free[rng.below(free.len() as u32) as usize]
+}
+
+#[test]
+fn a_field_is_the_distances_of_paths() {
+    for (k, rules) in [(K::N4, NEVER), (K::N8, NEVER), (K::N16, OPEN), (K::ANY, OPEN)] {
+        for seed in 0..8 {
+            let (space, free) = world(k, rules, seed);
+            if free.is_empty() {
+                continue;
+            }
+            let rng = &mut Rng::new(seed);
+            let sources = [some(rng, &free), some(rng, &free)];
+            let field = space.field(sources).expect("free sources");
+            let engine = if k == K::ANY { Engine::Anya } else { Engine::AStar };
+            let mut planner = space.planner(engine).expect("an engine");
+            let limit = field.iter().map(|(_, length)| length).fold(0.0, f64::max) / 2.0;
+            let near = space.field_within(sources, limit).expect("free sources");
+            for &at in &free {
+                let text = || format!("{}, seed {seed}: {at} to {sources:?}", space.motion());
+                let lengths = sources.map(|source| {
+                    planner.find(Query::new(at, source)).expect("free ends").cost().unwrap_or(f64::INFINITY)
+                });
+                let best = lengths[0].min(lengths[1]);
+                let found = field.get(at).unwrap_or(f64::INFINITY);
+                assert!(found == best || (found - best).abs() < 1e-8 * best, "{found}, {best}: {}", text());
+                assert_eq!(near.get(at).is_some(), field.get(at).is_some_and(|it| it <= limit), "{}", text());
+                let Some(path) = field.path_from(at) else { continue };
+                assert!((path.cost() - found).abs() <= 1e-8 * (1.0 + found), "{}", text());
+                assert_eq!(space.check(&path), Ok(()), "{}", text());
+                assert_eq!(path.waypoints().last().copied(), field.nearest_source(at), "{}", text());
+                assert_eq!(field.next(at).is_none(), sources.contains(&at), "{}", text());
+                assert!(
+                    field.direction(at).is_none_or(|(x, y)| (x.hypot(y) - 1.0).abs() < 1e-12),
+                    "{}",
+                    text()
+                );
+            }
+            assert_eq!(field.lengths().len() as u32, field.width() * field.height());
+            assert_eq!(field.lengths().iter().filter(|it| it.is_finite()).count(), field.iter().count());
+            assert_eq!(field.identity(), space.identity());
+        }
+    }
+}
+
+#[test]
+fn mistakes_of_fields_and_agents() {
+    let map = Map::from_rows(["..#"]).expect("a map");
+    let space = map.space(Motion::centers(K::N8)).expect("a space");
+    let code = |at: (i32, i32), limit| space.field_within([at], limit).map_err(|error| error.code()).err();
+    assert_eq!(code((0, 0), 1.0), None);
+    assert_eq!(code((2, 0), 1.0), Some(ErrorCode::StartBlocked));
+    assert_eq!(code((3, 0), 1.0), Some(ErrorCode::StartOutside));
+    assert_eq!(code((0, 0), -1.0), Some(ErrorCode::Number));
+    assert_eq!(code((0, 0), f64::NAN), Some(ErrorCode::Number));
+    let nowhere: [Vertex; 0] = [];
+    assert_eq!(space.field(nowhere).expect("no source").iter().count(), 0);
+    for radius in [-1.0, f64::NAN, f64::INFINITY] {
+        let error = map.for_disc(radius, space.motion()).expect_err("no radius");
+        assert_eq!(error.code(), ErrorCode::Number);
+    }
+    assert_eq!(map.for_square(0).expect_err("no square").code(), ErrorCode::Number);
+    assert_eq!(map.for_disc(0.0, space.motion()).expect("a map").id(), map.id());
+    let surplus = |surplus| space.widest_path((0, 0), (1, 0), surplus).map_err(|error| error.code());
+    assert_eq!(surplus(-0.1), Err(ErrorCode::Number));
+    assert_eq!(surplus(0.0).expect("a path").expect("a path").path.cost(), 1.0);
+}
+
+/// No path that is short enough lies on the map of a larger disc: all radii are tried.
+#[test]
+fn the_widest_path_is_the_widest() {
+    let mut wider = 0;
+    for seed in 0..40 {
+        let (k, rules) = [(K::N8, NEVER), (K::N16, OPEN), (K::ANY, OPEN)][seed as usize % 3];
+        let rng = &mut Rng::new(seed);
+        // A wall across, with a narrow and a wide opening, and a few blocked cells.
+        let map = Map::from_fn(24, 18, |x, y| x == 12 && y != 8 && y < 12 || rng.chance(2));
+        let (space, free) = on_map(map.expect("a map"), k, rules);
+        let (start, goal) = (some(rng, &free), some(rng, &free));
+        let surplus = [0.0, 0.1, 0.5][rng.below(3) as usize];
+        let text = format!("{}, seed {seed}: {start} to {goal}, {surplus}", space.motion());
+        let found = space.widest_path(start, goal, surplus).expect("free ends");
+        let shortest = space.path(start, goal).expect("free ends");
+        assert_eq!(found.is_some(), shortest.is_some(), "{text}");
+        let Some((found, shortest)) = found.zip(shortest) else { continue };
+        let limit = shortest.cost() * (1.0 + surplus) + 1e-9;
+        assert!(found.path.cost() <= limit && space.check(&found.path).is_ok(), "{text}");
+        let clearance = space.map().clearance(Fit::exact(rules, k), Outside::Blocked);
+        let is_possible = |radius: f64| {
+            let agent = Map::from(clearance.for_disc(radius).expect("a radius")).space(space.motion());
+            let path = agent.expect("a space").path(start, goal);
+            path.is_ok_and(|path| path.is_some_and(|path| path.cost() <= limit))
+        };
+        assert!(found.radius == 0.0 || is_possible(found.radius), "{text}");
+        assert!(
+            clearance.radii().into_iter().all(|radius| radius <= found.radius || !is_possible(radius)),
+            "{text}"
+        );
+        wider += usize::from(found.path.cost() > shortest.cost() + 1e-9);
+    }
+    assert!(wider > 2, "{wider} paths are wider than the shortest");
+}
+
+/// Every engine follows on the map of an agent.
+#[test]
+fn every_engine_takes_an_agents_map() {
+    let map = Map::from_fn(24, 16, |x, y| x == 12 && !(5..10).contains(&y)).expect("a map");
+    for (k, rules) in [(K::N8, NEVER), (K::ANY, OPEN)] {
+        let agent = map.for_disc(1.5, Motion::new(k, rules)).expect("a radius");
+        for setup in Setup::all(k, rules) {
+            let answer = setup.planner(&agent).expect("a setup").find(Query::new((4, 3), (20, 12)));
+            let path = answer.expect("free ends").into_path().unwrap_or_else(|| panic!("{setup}"));
+            assert_eq!(setup.space(&agent).expect("a space").check(&path), Ok(()), "{setup}");
+        }
+    }
+}
