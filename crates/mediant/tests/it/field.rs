@@ -7,11 +7,11 @@ use mediant_oracle::{Rng, random_grid};
 use super::{NEVER, OPEN};
 
 fn world(k: K, rules: Rules, seed: u64) -> (Space, Vec<Vertex>) {
-    on_map(Map::from(random_grid(seed).0), k, rules)
+    on_map(&Map::from(random_grid(seed).0), k, rules)
 }
 
 /// A space on a map, and its free vertices.
-fn on_map(map: Map, k: K, rules: Rules) -> (Space, Vec<Vertex>) {
+fn on_map(map: &Map, k: K, rules: Rules) -> (Space, Vec<Vertex>) {
     let space = map.space(Motion::new(k, rules)).expect("a space");
     let (width, height) = (space.map().width() as i32, space.map().height() as i32);
     let all = (0..=height).flat_map(|y| (0..=width).map(move |x| Vertex::new(x, y)));
@@ -97,7 +97,7 @@ fn the_widest_path_is_the_widest() {
         let rng = &mut Rng::new(seed);
         // A wall across, with a narrow and a wide opening, and a few blocked cells.
         let map = Map::from_fn(24, 18, |x, y| x == 12 && y != 8 && y < 12 || rng.chance(2));
-        let (space, free) = on_map(map.expect("a map"), k, rules);
+        let (space, free) = on_map(&map.expect("a map"), k, rules);
         let (start, goal) = (some(rng, &free), some(rng, &free));
         let surplus = [0.0, 0.1, 0.5][rng.below(3) as usize];
         let text = format!("{}, seed {seed}: {start} to {goal}, {surplus}", space.motion());

@@ -294,12 +294,7 @@ impl Search {
     /// The path to the vertex nearest to the goal.
     fn path_to_nearest(&self, planner: &mut impl Planner) -> Path {
         let start = self.ends.pairs.get(self.next).map_or(self.ends.start, |pair| pair.query.start);
-        let path = if self.has_begun && !self.is_backward() {
-            planner.path_to(self.progress.nearest.1)
-        } else {
-            None
-        };
-        path.unwrap_or_else(|| Path::new(vec![start]))
+        self.path_to(planner, self.progress.nearest.1).unwrap_or_else(|| Path::new(vec![start]))
     }
 
     fn stop(&mut self, by: Limit, planner: &mut impl Planner) {
@@ -333,6 +328,14 @@ impl Search {
             }
             (None, _) => self.path_to_nearest(planner),
         }
+    }
+
+    /// The best path that the search of the present pair has found to a vertex: see
+    /// [`Planner::path_to`]. `None` before the first step, and while one search leads from all goals to the
+    /// start.
+    #[must_use]
+    pub fn path_to(&self, planner: &mut impl Planner, at: Vertex) -> Option<Path> {
+        if self.has_begun && !self.is_backward() { planner.path_to(at) } else { None }
     }
 
     /// A lower bound on the cost of the answer, in cells; see [`Stopped::lower_bound`].
