@@ -32,7 +32,7 @@ pub(super) const PATHS: [Rgb; 8] = [
     [0xb3, 0xa5, 0x00],
 ];
 
-/// Paths over the colors of a field, which hold most blues and greens.
+/// Paths over the colors of a field or of what was searched, which hold most blues and greens.
 pub(super) const PATHS_IN_FIELD: [Rgb; 8] = [
     [0xd5, 0x2b, 0x1e],
     [0x00, 0x00, 0x00],

@@ -53,12 +53,17 @@ impl Layout {
         (self.thinnest() + 1.75 * above).min(9.0)
     }
 
+    /// Thicker where cells are large, and where the picture is.
     fn thinnest(&self) -> f64 {
-        (self.scale() / 11.0).clamp(2.25, 3.5)
+        (self.scale() / 11.0).clamp(2.25, 3.5).max((self.longer_side() / 450.0).min(5.0))
+    }
+
+    fn longer_side(&self) -> f64 {
+        f64::from(self.width.max(self.height))
     }
 
     /// The radius of the badges of start and goal.
     pub(super) fn badge(&self) -> f64 {
-        (self.scale() * 0.36).clamp(8.0, 12.0)
+        (self.scale() * 0.36).clamp(8.0, 12.0).max((self.longer_side() / 130.0).min(20.0))
     }
 }

@@ -136,7 +136,8 @@ impl Picture<'_> {
 
     /// The color of the path with this number.
     pub(super) fn path_color(&self, index: usize) -> Rgb {
-        let colors = if self.field.is_empty() { color::PATHS } else { color::PATHS_IN_FIELD };
+        let is_plain = self.field.is_empty() && self.expanded.is_empty();
+        let colors = if is_plain { color::PATHS } else { color::PATHS_IN_FIELD };
         colors[index % colors.len()]
     }
 
