@@ -56,6 +56,8 @@ fn entries(picture: &Picture<'_>) -> Vec<(Sample, String)> {
         .collect();
     let mut ends: Vec<_> = picture.ends().map(|(letter, _)| letter.name()).collect();
     ends.reverse();
+    // One sign stands for all starts.
+    ends.dedup();
     entries.extend(ends.into_iter().map(|name| (Sample::Badge(name), name.to_owned())));
     if !picture.expanded.is_empty() {
         entries

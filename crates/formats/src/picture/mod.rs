@@ -64,8 +64,8 @@ pub struct Picture<'g> {
     expanded: Vec<Vertex>,
     open: Vec<Vertex>,
     paths: Vec<Line>,
-    start: Option<Vertex>,
-    goal: Option<Vertex>,
+    starts: Vec<Vertex>,
+    goals: Vec<Vertex>,
     radius: f64,
     caption: String,
     largest_side: u32,
@@ -89,8 +89,8 @@ impl<'g> Picture<'g> {
             expanded: Vec::new(),
             open: Vec::new(),
             paths: Vec::new(),
-            start: None,
-            goal: None,
+            starts: Vec::new(),
+            goals: Vec::new(),
             radius: 0.0,
             caption: String::new(),
             largest_side: 4096,
@@ -138,13 +138,25 @@ impl<'g> Picture<'g> {
     /// The same picture with a badge S at this vertex.
     #[must_use]
     pub fn start(self, at: impl Into<Vertex>) -> Self {
-        Self { start: Some(at.into()), ..self }
+        self.starts([at])
+    }
+
+    /// The same picture with a badge S at each of these vertices.
+    #[must_use]
+    pub fn starts<V: Into<Vertex>>(self, at: impl IntoIterator<Item = V>) -> Self {
+        Self { starts: at.into_iter().map(Into::into).collect(), ..self }
     }
 
     /// The same picture with a badge G at this vertex, if it is not the start.
     #[must_use]
     pub fn goal(self, at: impl Into<Vertex>) -> Self {
-        Self { goal: Some(at.into()), ..self }
+        self.goals([at])
+    }
+
+    /// The same picture with a badge G at each of these vertices that is no start.
+    #[must_use]
+    pub fn goals<V: Into<Vertex>>(self, at: impl IntoIterator<Item = V>) -> Self {
+        Self { goals: at.into_iter().map(Into::into).collect(), ..self }
     }
 
     /// The same picture with the way of an agent of this radius, in cells, along each path. A radius that is
@@ -228,10 +240,11 @@ impl<'g> Picture<'g> {
 
     /// The ends that are marked, with their letters.
     fn ends(&self) -> impl Iterator<Item = (badge::Letter, (f64, f64))> {
-        let goal = self.goal.filter(|&goal| self.start != Some(goal));
-        let ends = [(badge::Letter::G, goal), (badge::Letter::S, self.start)];
+        let goals = self.goals.iter().filter(|goal| !self.starts.contains(goal));
+        let goals = goals.map(|&at| (badge::Letter::G, at));
+        let starts = self.starts.iter().map(|&at| (badge::Letter::S, at));
         let place = |at: Vertex| self.place((f64::from(at.x), f64::from(at.y)));
-        ends.into_iter().filter_map(move |(letter, at)| Some((letter, place(at?))))
+        goals.chain(starts).map(move |(letter, at)| (letter, place(at)))
     }
 }
 

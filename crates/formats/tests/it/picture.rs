@@ -317,3 +317,16 @@ fn files_are_written_by_the_end_of_their_names() {
     let error = picture.write_to(folder.path().join("none/a.png")).expect_err("there is no such folder");
     assert!(error.to_string().contains("cannot be written"), "{error}");
 }
+
+#[test]
+fn each_start_and_each_goal_has_a_badge() {
+    let grid = Grid::from_fn(30, 20, |_, _| false).expect("a small grid");
+    let picture = Picture::new(&grid, PlacementKind::Center)
+        .starts([(1, 1), (20, 4), (9, 9)])
+        .goals([(5, 15), (20, 4), (25, 15)]);
+    let svg = picture.svg();
+    // Two signs of the legend: it names each kind once.
+    assert_eq!(svg.matches("class=\"badge\"").count(), 3 + 2 + 2, "{svg}");
+    let [start, goal] = ["start", "goal"].map(|name| svg.matches(&format!(">{name}<")).count());
+    assert_eq!((start, goal), (1, 1), "{svg}");
+}
