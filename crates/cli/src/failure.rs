@@ -7,12 +7,12 @@ use std::{
 };
 
 use mediant::{Engine, SetupError};
-use mediant_formats::{MapMismatch, PictureError, ReadError};
+use mediant_formats::{MapMismatch, PictureError, ReadError, RosError};
 use mediant_grid::{PlacementKind, Vertex};
 
 use crate::terminal::message::say_error;
 
-/// Exit status 1: some query could not be answered.
+/// Exit status 1: some query could not be answered, or some path does not hold.
 const QUERY_ERROR: u8 = 1;
 /// Exit status 2: bad arguments, or a file that cannot be read.
 pub(crate) const FAILURE: u8 = 2;
@@ -24,6 +24,8 @@ pub(crate) enum Ending {
     Answered,
     /// Some query could not be answered; this says why.
     QueryErrors(String),
+    /// Some path does not hold; the output says which.
+    BrokenPaths,
 }
 
 /// Why a command cannot do what it was asked to.
@@ -68,8 +70,33 @@ pub(crate) enum Failure {
     Library(#[from] mediant::Error),
     #[error("{}: cannot be written: {source}", path.display())]
     Write { path: PathBuf, source: io::Error },
+    #[error("{}: there is no folder {}: make it first, or choose another one", path.display(), folder.display())]
+    NoFolder { path: PathBuf, folder: PathBuf },
+    #[error("{}: expected a name that ends in {known}", path.display())]
+    Extension { path: PathBuf, known: &'static str },
     #[error(transparent)]
     Picture(#[from] PictureError),
+    #[error("{}: line {line}: {problem}", path.display())]
+    PathFile { path: PathBuf, line: usize, problem: String },
+    #[error(
+        "{}: no path in it: give what `mediant run --format jsonl` prints of queries that have one, or a CSV \
+         with the columns x and y",
+        path.display()
+    )]
+    NoPaths { path: PathBuf },
+    #[error(
+        "the map {map} has no place in the world: give --resolution METERS, the side of a cell, or choose \
+         another format"
+    )]
+    NoResolution { map: String },
+    #[error("{option} is for a ROS map: leave it out, or give -o a name that ends in .yaml")]
+    NoRosMap { option: &'static str },
+    #[error("{}: would be overwritten, and the map is read from it: choose another name", path.display())]
+    SameFile { path: PathBuf },
+    #[error("{}: {source}", path.display())]
+    RosMap { path: PathBuf, source: RosError },
+    #[error("{0}")]
+    Save(io::Error),
     #[error("--draw shows a single query: give --from and --to, or --limit 1")]
     DrawMany,
     #[error("--draw on the screen does not go with --format jsonl: give it a FILE, or choose --format table")]
@@ -106,6 +133,7 @@ pub(crate) fn finish(ending: Result<Ending, Failure>) -> ExitCode {
             say_error(&text);
             ExitCode::from(QUERY_ERROR)
         }
+        Ok(Ending::BrokenPaths) => ExitCode::from(QUERY_ERROR),
         Err(Failure::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(failure) => {
             say_error(&failure.to_string());

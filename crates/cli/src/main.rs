@@ -16,12 +16,14 @@ use crate::{
 
 mod args;
 mod builtin;
+mod check;
 mod commands;
 mod draw;
 mod failure;
 mod map;
 mod run;
 mod terminal;
+mod write;
 
 fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
@@ -31,6 +33,9 @@ fn main() -> ExitCode {
     let mut screen = Screen::stdout();
     let ending = match cli.command {
         Command::Run(args) => commands::run::run(&args, &mut screen),
+        Command::Reach(args) => commands::reach::reach(&args, &mut screen),
+        Command::Check(args) => commands::check::check(&args, &mut screen),
+        Command::Convert(args) => commands::convert::convert(&args, &mut screen).map(|()| Ending::Answered),
         Command::Build(args) => commands::build::build(&args, &mut screen).map(|()| Ending::Answered),
         Command::Demo(args) => commands::demo::demo(&args, &mut screen).map(|()| Ending::Answered),
         Command::Engines => commands::engines::list(&mut screen).map(|()| Ending::Answered),

@@ -14,6 +14,7 @@ use crate::{
 };
 
 /// A map with the name that reports give it.
+#[derive(Clone)]
 pub(crate) struct Map {
     /// The file's name, without its folders.
     pub(crate) name: String,
@@ -26,6 +27,8 @@ pub(crate) struct Map {
     pub(crate) theme: Theme,
     /// Where it is in the world, if its file says so and the arguments are in meters.
     pub(crate) frame: Option<WorldFrame>,
+    /// Where it is in the world, if its file says so.
+    pub(crate) place: Option<WorldFrame>,
     /// The characters of a MovingAI map.
     tiles: Option<MapFile>,
 }
@@ -42,7 +45,8 @@ impl Map {
             return Err(Failure::NoWorld { map: name });
         }
         let frame = source.frame.filter(|_| args.world);
-        Ok(Self { frame, ..Self::new(name, Arc::new(source.grid), source.tiles, Theme::Plain) })
+        let place = source.frame;
+        Ok(Self { frame, place, ..Self::new(name, Arc::new(source.grid), source.tiles, Theme::Plain) })
     }
 
     /// Parses a bundled map.
@@ -52,13 +56,13 @@ impl Map {
     }
 
     fn new(name: String, grid: Arc<Grid>, tiles: Option<MapFile>, theme: Theme) -> Self {
-        Self { name, ground: Arc::clone(&grid), grid, radius: 0.0, theme, frame: None, tiles }
+        Self { name, ground: Arc::clone(&grid), grid, radius: 0.0, theme, frame: None, place: None, tiles }
     }
 
     /// The map for the agent that the arguments name, which moves like this.
     pub(crate) fn for_agent(mut self, args: &MapArgs, motion: Motion) -> Result<Self, Failure> {
         if let Some(radius) = args.radius {
-            self.radius = self.frame.map_or(radius, |frame| radius / frame.resolution());
+            self.radius = self.cells(radius);
             let map = mediant::Map::from(Arc::clone(&self.ground)).for_disc(self.radius, motion)?;
             self.grid = Arc::clone(map.grid());
         }
@@ -68,6 +72,11 @@ impl Map {
     /// The map as the library searches it.
     pub(crate) fn to_library(&self) -> mediant::Map {
         mediant::Map::from(Arc::clone(&self.grid))
+    }
+
+    /// A length of the command line in cells.
+    pub(crate) fn cells(&self, length: f64) -> f64 {
+        self.frame.map_or(length, |frame| length / frame.resolution())
     }
 
     /// The map's characters: those of its file, or `.` and `@`.

@@ -1,11 +1,15 @@
 //! The command line: the arguments of each command.
 
 mod build;
+mod check;
+mod convert;
 mod demo;
 mod explain;
 mod map;
+mod motion;
 mod moves;
 mod options;
+mod reach;
 mod run;
 mod setup;
 mod value;
@@ -15,10 +19,13 @@ use clap::{Parser, Subcommand};
 
 pub(crate) use self::{
     build::BuildArgs,
+    check::CheckArgs,
+    convert::ConvertArgs,
     demo::DemoArgs,
     explain::explain,
     map::MapArgs,
     moves::MovesArgs,
+    reach::ReachArgs,
     run::{Format, RunArgs},
     value::{MAX_K, Place},
     wishes::WishArgs,
@@ -36,6 +43,12 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Answer queries on a map.
     Run(Box<RunArgs>),
+    /// Find all that is within reach of one or many places.
+    Reach(ReachArgs),
+    /// Say whether paths hold on a map, and where not.
+    Check(CheckArgs),
+    /// Write a map in another format.
+    Convert(ConvertArgs),
     /// Prepare an engine's index of a map, and save it.
     Build(BuildArgs),
     /// Show the moves of N(k), its radius and its bounds.

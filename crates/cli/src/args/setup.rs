@@ -2,10 +2,13 @@
 
 use clap::{Args, ValueEnum};
 use mediant::{Engine, Setup};
-use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Rules};
+use mediant_grid::{PlacementKind, Rules};
 use mediant_moves::K;
 
-use super::value::{one_of, parse_k};
+use super::{
+    motion::RuleArgs,
+    value::{one_of, parse_k},
+};
 use crate::failure::Failure;
 
 /// The arguments of a setup but the engine's options.
@@ -21,20 +24,24 @@ pub(crate) struct SetupArgs {
     /// subgoal-theta and k = any
     #[arg(long, value_enum, hide_possible_values = true, value_name = "center|corner")]
     pub(crate) placement: Option<PlacementArg>,
-    /// At centers, whether a path may cut the corner of a blocked cell: never (the default), one (if the cell
-    /// across is free), always
-    #[arg(long, value_enum, hide_possible_values = true, value_name = "never|one|always")]
-    pub(crate) corners: Option<CornersArg>,
-    /// At corners, whether a path may pass between two blocked cells that touch diagonally: open (the
-    /// default), closed
-    #[arg(long, value_enum, hide_possible_values = true, value_name = "open|closed")]
-    pub(crate) gap: Option<GapArg>,
+    #[command(flatten)]
+    pub(crate) rules: RuleArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PlacementArg {
     Center,
     Corner,
+}
+
+impl PlacementArg {
+    /// The placement that it names.
+    pub(crate) const fn kind(self) -> PlacementKind {
+        match self {
+            Self::Center => PlacementKind::Center,
+            Self::Corner => PlacementKind::Corner,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -59,27 +66,7 @@ impl SetupArgs {
 
     /// The rules of motion. The rule of the other placement is an error.
     fn rules(&self, k: K) -> Result<Rules, Failure> {
-        let not_applicable =
-            |option, placement, other| Err(Failure::NotApplicable { option, placement, other });
-        let placement = match self.placement {
-            None => self.engine.capabilities().default_rules(k).placement(),
-            Some(PlacementArg::Center) => PlacementKind::Center,
-            Some(PlacementArg::Corner) => PlacementKind::Corner,
-        };
-        match placement {
-            PlacementKind::Center if self.gap.is_some() => not_applicable("--gap", "center", "corner"),
-            PlacementKind::Corner if self.corners.is_some() => {
-                not_applicable("--corners", "corner", "center")
-            }
-            PlacementKind::Center => Ok(Rules::Center(match self.corners {
-                None | Some(CornersArg::Never) => CornerRule::Never,
-                Some(CornersArg::One) => CornerRule::One,
-                Some(CornersArg::Always) => CornerRule::Always,
-            })),
-            PlacementKind::Corner => Ok(Rules::Corner(match self.gap {
-                None | Some(GapArg::Open) => DiagonalGap::Open,
-                Some(GapArg::Closed) => DiagonalGap::Closed,
-            })),
-        }
+        let default = || self.engine.capabilities().default_rules(k).placement();
+        self.rules.at(self.placement.map_or_else(default, PlacementArg::kind))
     }
 }

@@ -64,6 +64,16 @@ pub(super) fn parse_place(text: &str) -> Result<Place, String> {
     point.map(|(x, y)| Place::Point(x, y)).ok_or(error)
 }
 
+/// Reads `X,Y,YAW`: three finite numbers.
+pub(super) fn parse_pose(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Option<Vec<f64>> = text
+        .split(',')
+        .map(|part| part.trim().parse().ok().filter(|number: &f64| number.is_finite()))
+        .collect();
+    let pose = numbers.and_then(|numbers| numbers.try_into().ok());
+    pose.ok_or_else(|| "expected three numbers, such as -1.5,2,0: meters, meters and radians".to_owned())
+}
+
 /// Reads a coordinate.
 fn parse_coordinate(text: &str) -> Result<i32, String> {
     text.trim().parse().map_err(|error: ParseIntError| match error.kind() {
@@ -143,6 +153,14 @@ mod tests {
         assert_eq!(parse_vertex("-1, 3"), Ok(Vertex::new(-1, 3)));
         assert!(parse_vertex("3").is_err() && parse_vertex("3,").is_err() && parse_vertex("1,2,3").is_err());
         assert!(parse_vertex("99999999999,0").is_err());
+    }
+
+    #[test]
+    fn poses_are_three_finite_numbers() {
+        assert_eq!(parse_pose("-1.5, 2,0"), Ok([-1.5, 2.0, 0.0]));
+        for wrong in ["1,2", "1,2,3,4", "1,2,nan", "inf,0,0", "a,b,c", ""] {
+            assert!(parse_pose(wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

@@ -1,8 +1,7 @@
 //! `mediant run --distances`: the distances from one vertex to all others.
 
 use std::{
-    fs::File,
-    io::{self, BufWriter, Write},
+    io::{self, Write},
     path::Path,
 };
 
@@ -18,6 +17,7 @@ use crate::{
         screen::{BOLD, Screen},
         text::printable,
     },
+    write::write_file,
 };
 
 /// Writes the distances from a vertex to a file as CSV; for the path `-`, to the screen.
@@ -37,13 +37,11 @@ pub(crate) fn write(
         Err(error) => return Err(error.into()),
     };
     if path == Path::new("-") {
-        csv(&found, screen)?;
+        csv(found, screen)?;
         return Ok(Ending::Answered);
     }
-    let file = File::create(path).map_err(Failure::writing(path))?;
-    let mut file = BufWriter::new(file);
-    csv(&found, &mut file).and_then(|()| file.flush()).map_err(Failure::writing(path))?;
-    let furthest = found.iter().copied().fold((from, 0.0), |a, b| if b.1 > a.1 { b } else { a });
+    write_file(path, |file| csv(found.iter().copied(), file))?;
+    let furthest = furthest((from, 0.0), found.iter().copied());
     let name = file_name(path);
     let (vertices, (at, distance)) = (count(found.len() as u64, "vertex", "vertices"), furthest);
     let name = screen.paint(BOLD, printable(&name)).to_string();
@@ -51,13 +49,25 @@ pub(crate) fn write(
     Ok(Ending::Answered)
 }
 
+/// The first of the vertices that are furthest away; without a distance above 0 the one that is given.
+pub(crate) fn furthest(
+    from: (Vertex, f64),
+    distances: impl IntoIterator<Item = (Vertex, f64)>,
+) -> (Vertex, f64) {
+    distances.into_iter().fold(from, |a, b| if b.1 > a.1 { b } else { a })
+}
+
 /// Writes the distances, a line for each vertex.
-fn csv(distances: &[(Vertex, f64)], out: &mut impl Write) -> io::Result<()> {
+pub(crate) fn csv(
+    distances: impl IntoIterator<Item = (Vertex, f64)>,
+    out: &mut impl Write,
+) -> io::Result<()> {
     writeln!(out, "x,y,distance")?;
-    distances.iter().try_for_each(|(at, distance)| writeln!(out, "{},{},{}", at.x, at.y, rounded(*distance)))
+    let mut lines = distances.into_iter();
+    lines.try_for_each(|(at, distance)| writeln!(out, "{},{},{}", at.x, at.y, rounded(distance)))
 }
 
 /// Rounded to billionths of a cell, since a sum of rounded costs is not more exact.
-fn rounded(distance: f64) -> f64 {
+pub(crate) fn rounded(distance: f64) -> f64 {
     (distance * 1e9).round() / 1e9
 }

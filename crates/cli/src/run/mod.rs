@@ -5,7 +5,7 @@ pub(crate) mod distances;
 pub(crate) mod jsonl;
 pub(crate) mod measure;
 pub(crate) mod queries;
-mod query_error;
+pub(crate) mod query_error;
 pub(crate) mod report;
 pub(crate) mod session;
 pub(crate) mod summary;

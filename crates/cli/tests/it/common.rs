@@ -143,3 +143,44 @@ pub(crate) fn check_mismatch(error: &str, file: &str, [built, needed]: [&str; 2]
     assert!(of_search.ends_with(needed), "{error}, not {needed}");
     assert_eq!(advice, "use the saved index with what it was made for, or make a new one\n");
 }
+
+/// The examples in the help of a command, with the files of `add_example_files`: each is to succeed.
+#[track_caller]
+pub(crate) fn run_examples(files: &Files, command: &str, expected: usize) {
+    const ENDS: [&str; 10] =
+        [".map", ".yaml", ".png", ".pgm", ".pbm", ".svg", ".csv", ".npy", ".jsonl", ".scen"];
+    let help = run(&format!("{command} --help")).stdout;
+    let (_, examples) = help.split_once("\nExamples:\n").expect("examples");
+    let lines: Vec<&str> = examples.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    for example in &lines {
+        let words = example.strip_prefix("mediant ").expect("a command line").split(' ');
+        let in_folder = |word: &str| {
+            if ENDS.iter().any(|end| word.ends_with(end)) { files.path(word) } else { word.into() }
+        };
+        let Ran { status, stderr, .. } = mediant(&words.map(in_folder).collect::<Vec<_>>());
+        assert_eq!((stderr.as_str(), status), ("", Some(0)), "{example}");
+    }
+    assert_eq!(lines.len(), expected, "{examples}");
+}
+
+/// Adds `arena.map`, 49 × 49 cells, and `depot.yaml`, 60 × 40 cells of 5 cm, without walls.
+pub(crate) fn add_example_files(files: &Files) {
+    let row = ".".repeat(49) + "\n";
+    files.add("arena.map", format!("type octile\nheight 49\nwidth 49\nmap\n{}", row.repeat(49)));
+    let depot = files.add(
+        "depot.map",
+        format!("type octile\nheight 40\nwidth 60\nmap\n{}", (".".repeat(60) + "\n").repeat(40)),
+    );
+    succeeds(&format!(
+        "convert {depot} -o {} --resolution 0.05 --origin -0.5,-0.5,0",
+        files.path("depot.yaml")
+    ));
+}
+
+/// Runs a command line that succeeds without a word on stderr, and returns what it prints.
+#[track_caller]
+pub(crate) fn succeeds(line: &str) -> String {
+    let Ran { status, stdout, stderr } = run(line);
+    assert_eq!((stderr.as_str(), status), ("", Some(0)), "{line}");
+    stdout
+}

@@ -1,10 +1,13 @@
 //! The program, run as a user would.
 
 mod any_angle;
+mod check;
 mod common;
+mod convert;
 mod errors;
 mod hierarchy;
 mod jsonl;
+mod reach;
 mod subgoal;
 mod table;
 mod trace;

@@ -1,0 +1,51 @@
+//! The arguments of `mediant reach`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::{
+    map::MapArgs,
+    motion::MotionArgs,
+    value::{Place, parse_amount, parse_place},
+};
+
+#[derive(Args, Debug)]
+#[command(after_help = REACH_HELP)]
+pub(crate) struct ReachArgs {
+    #[command(flatten)]
+    pub(crate) map: MapArgs,
+
+    /// A source: a place from which distances are measured. Of several (repeat it) the nearest one counts
+    #[arg(long, value_name = "X,Y", required = true)]
+    #[arg(allow_hyphen_values = true, value_parser = parse_place)]
+    pub(crate) from: Vec<Place>,
+    /// Go no further than this, in cells (with --world in meters)
+    #[arg(long, value_name = "COST", allow_negative_numbers = true)]
+    #[arg(value_parser = |text: &str| parse_amount(text, "cells"))]
+    pub(crate) within: Option<f64>,
+    #[command(flatten)]
+    pub(crate) motion: MotionArgs,
+    /// Write the distances to this file (repeat it for several): .png and .svg are pictures, .csv has x, y
+    /// and distance of all that is reached, .npy is an array for NumPy; - prints the CSV
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Vec<PathBuf>,
+}
+
+const REACH_HELP: &str = "\
+Distances are those of the shortest paths over N(k); with k = any, at corners, those of the shortest paths \
+at any angle.
+
+Files have vertices and distances in cells, with --world too. The array has a row for each row of \
+vertices, and is infinite where nothing was reached. A picture shows the map that was read, also for an \
+agent with a radius.
+
+Exit status: 0, 1 if a source is blocked or outside the map, 2 for bad arguments, or a file that cannot be \
+read or written.
+
+Examples:
+  mediant reach builtin:cave --from 2,5 --within 40
+  mediant reach arena.map --from 1,11 --from 40,30 -o arena.png
+  mediant reach arena.map --from 1,11 --k any --gap closed -o arena.svg -o arena.csv -o arena.npy
+  mediant reach arena.map --from 1,11 --radius 1.5 --within 20 -o -
+  mediant reach depot.yaml --world --from 0.5,0.5 --within 1.5 --radius 0.1";

@@ -1,0 +1,67 @@
+//! What is wrong with a path.
+
+use std::fmt;
+
+use mediant::{BrokenPath, Path, Space};
+use mediant_grid::Vertex;
+use mediant_moves::K;
+
+/// What is wrong with a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Fault {
+    /// It does not hold on the map.
+    Broken(BrokenPath),
+    /// A segment is not made of moves of N(k).
+    Move { index: usize, from: Vertex, to: Vertex, k: K },
+}
+
+impl Fault {
+    /// What is found first: whether the path holds in a space, then whether it is over N(k).
+    pub(crate) fn of(path: &Path, space: &Space, over: K) -> Option<Self> {
+        if let Err(broken) = space.check(path) {
+            return Some(Self::Broken(broken));
+        }
+        if path.is_over(over) {
+            return None;
+        }
+        let segments = path.waypoints().windows(2).zip(0..);
+        let mut wrong = segments.filter(|(ends, _)| !Path::new(ends.to_vec()).is_over(over));
+        wrong.next().map(|(ends, index)| Self::Move { index, from: ends[0], to: ends[1], k: over })
+    }
+
+    /// The segment, from 0, with its ends.
+    pub(crate) const fn segment(&self) -> Option<(usize, Vertex, Vertex)> {
+        match *self {
+            Self::Broken(BrokenPath::Segment { index, from, to, .. })
+            | Self::Move { index, from, to, .. } => Some((index, from, to)),
+            Self::Broken(_) => None,
+        }
+    }
+
+    /// The blocked cell.
+    pub(crate) const fn cell(&self) -> Option<(i32, i32)> {
+        match self {
+            Self::Broken(BrokenPath::Segment { by, .. }) => by.cell(),
+            _ => None,
+        }
+    }
+
+    /// The number of waypoints to which the path can be followed.
+    pub(crate) const fn holds_up_to(&self) -> usize {
+        match self {
+            Self::Broken(broken) => broken.holds_up_to(),
+            Self::Move { index, .. } => *index + 1,
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Broken(broken) => broken.fmt(f),
+            Self::Move { index, from, to, k } => {
+                write!(f, "segment {index} of the path, from {from} to {to}, is not made of moves of N({k})")
+            }
+        }
+    }
+}

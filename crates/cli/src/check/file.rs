@@ -1,0 +1,255 @@
+//! Files with paths: the lines of `mediant run --format jsonl`, or CSV.
+
+use std::{
+    fs::{self, File},
+    io::{self, Read},
+    path::{Path, PathBuf},
+};
+
+use mediant::{Engine, Setup};
+use mediant_formats::{MAX_FILE_BYTES, ReadError};
+use mediant_grid::Vertex;
+use mediant_moves::K;
+use serde::Deserialize;
+use serde_json::Value;
+
+use crate::{args::Place, failure::Failure};
+
+/// A path of a file.
+#[derive(Debug)]
+pub(crate) struct Listed {
+    /// The index of its query; 0 for CSV.
+    pub(crate) index: usize,
+    pub(crate) waypoints: Waypoints,
+    /// What the line of the run says.
+    pub(crate) said: Option<Said>,
+}
+
+/// The waypoints of a path.
+#[derive(Debug)]
+pub(crate) enum Waypoints {
+    /// Vertices.
+    Vertices(Vec<Vertex>),
+    /// Places as on the command line, in the world if the arguments are in meters; each with its line.
+    Places(Vec<(usize, Place)>),
+}
+
+/// What the first line of a run says of all its paths.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Said {
+    pub(crate) setup: Setup,
+    /// The neighborhood whose moves make the segments of the paths.
+    pub(crate) over: K,
+}
+
+/// The lines of a run that are read; other keys are for others.
+#[derive(Debug, Deserialize)]
+#[serde(tag = "type", rename_all = "lowercase")]
+enum Line {
+    Run(RunLine),
+    Query {
+        index: usize,
+        #[serde(default)]
+        path: Vec<(i32, i32)>,
+    },
+    #[serde(other)]
+    Other,
+}
+
+#[derive(Debug, Deserialize)]
+struct RunLine {
+    engine: String,
+    k: Value,
+    placement: String,
+    corners: String,
+    gap: String,
+    #[serde(default)]
+    smooth: bool,
+}
+
+impl RunLine {
+    /// What the line says, or what is wrong with it.
+    fn said(&self) -> Result<Said, String> {
+        let k = self.k.as_str().map_or_else(|| self.k.to_string(), str::to_owned);
+        let rule = if self.placement == "corner" { &self.gap } else { &self.corners };
+        let setup = format!("{}:{k}:{rule}", self.engine).parse::<Setup>();
+        let setup = setup.map_err(|error| format!("the run: {error}"))?;
+        let is_straight = matches!(
+            setup.engine.kind(),
+            Engine::Theta | Engine::LazyTheta | Engine::SubgoalTheta | Engine::Anya
+        );
+        let over = if self.smooth || is_straight { K::Any } else { setup.k };
+        Ok(Said { setup, over })
+    }
+}
+
+/// Reads a file with paths; `-` is stdin.
+pub(crate) fn read(path: &Path) -> Result<Vec<Listed>, Failure> {
+    let bytes = bytes(path)?;
+    let is_json = bytes.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'{');
+    let mut paths = Vec::new();
+    let read = if is_json { jsonl(&bytes, &mut paths) } else { csv(&bytes, &mut paths) };
+    read.map_err(|(line, problem)| Failure::PathFile { path: shown(path), line, problem })?;
+    if paths.is_empty() { Err(Failure::NoPaths { path: shown(path) }) } else { Ok(paths) }
+}
+
+/// The name of a file for messages.
+pub(crate) fn shown(path: &Path) -> PathBuf {
+    if path == Path::new("-") { PathBuf::from("stdin") } else { path.to_owned() }
+}
+
+/// The content of a file. Pipes are welcome: paths are often piped.
+fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    let owned = || path.to_owned();
+    let unreadable = |source: io::Error| match source.kind() {
+        io::ErrorKind::NotFound => ReadError::Missing { path: owned() },
+        _ => ReadError::Unreadable { path: shown(path), source },
+    };
+    let mut bytes = Vec::new();
+    let read = if path == Path::new("-") {
+        io::stdin().lock().take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes)
+    } else {
+        if fs::metadata(path).map_err(unreadable)?.is_dir() {
+            return Err(ReadError::Directory { path: owned() }.into());
+        }
+        let file = File::open(path).map_err(unreadable)?;
+        file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes)
+    };
+    read.map_err(unreadable)?;
+    if bytes.len() as u64 > MAX_FILE_BYTES {
+        return Err(ReadError::TooLarge { path: shown(path) }.into());
+    }
+    Ok(bytes)
+}
+
+/// A line, from 1, and what is wrong with it.
+type Wrong = (usize, String);
+
+/// The lines that are not empty, with their numbers from 1.
+fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    let lines = bytes.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).zip(1..);
+    lines.filter(|(line, _)| !line.is_empty()).map(|(line, number)| (number, line))
+}
+
+/// Reads the lines of a run; of several runs in one file, each counts for the queries after it.
+fn jsonl(bytes: &[u8], paths: &mut Vec<Listed>) -> Result<(), Wrong> {
+    let mut said = None;
+    for (number, line) in lines(bytes) {
+        let wrong = |problem: String| (number, problem);
+        let line: Line = serde_json::from_slice(line).map_err(|error| {
+            let text = error.to_string();
+            // The line is one of the file, not that of the JSON text.
+            let what = text.split(" at line ").next().unwrap_or_default();
+            wrong(format!("expected a line of `mediant run --format jsonl`: {what}"))
+        })?;
+        match line {
+            Line::Run(run) => said = Some(run.said().map_err(wrong)?),
+            Line::Query { index, path } if !path.is_empty() => {
+                let waypoints = path.into_iter().map(Vertex::from).collect();
+                paths.push(Listed { index, waypoints: Waypoints::Vertices(waypoints), said });
+            }
+            Line::Query { .. } | Line::Other => {}
+        }
+    }
+    Ok(())
+}
+
+/// Reads the rows of one path.
+fn csv(bytes: &[u8], paths: &mut Vec<Listed>) -> Result<(), Wrong> {
+    let mut columns = (0, 1);
+    let mut places = Vec::new();
+    for ((number, line), row) in lines(bytes).zip(0..) {
+        let wrong = || {
+            let found: String = String::from_utf8_lossy(line).chars().take(40).collect();
+            (
+                number,
+                format!(
+                    "expected x,y in the columns {} and {}, found `{found}`",
+                    columns.0 + 1,
+                    columns.1 + 1
+                ),
+            )
+        };
+        // A byte order mark, which spreadsheets write.
+        let text = std::str::from_utf8(line).map_err(|_| wrong())?.trim_start_matches('\u{feff}');
+        let cells: Vec<&str> = text.split(',').map(|cell| cell.trim().trim_matches('"')).collect();
+        let named = |name: &str| cells.iter().position(|cell| cell.eq_ignore_ascii_case(name));
+        if let (0, Some(header)) = (row, named("x").zip(named("y"))) {
+            columns = header;
+            continue;
+        }
+        let value =
+            |column: usize| cells.get(column)?.parse::<f64>().ok().filter(|number| number.is_finite());
+        let (x, y) = value(columns.0).zip(value(columns.1)).ok_or_else(wrong)?;
+        places.push((number, place(x, y)));
+    }
+    if !places.is_empty() {
+        paths.push(Listed { index: 0, waypoints: Waypoints::Places(places), said: None });
+    }
+    Ok(())
+}
+
+/// Two numbers as a place: whole ones can be a vertex.
+fn place(x: f64, y: f64) -> Place {
+    let whole = |number: f64| (f64::from(number as i32) == number).then_some(number as i32);
+    whole(x).zip(whole(y)).map_or(Place::Point(x, y), |at| Place::Vertex(at.into()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn places(text: &str) -> Vec<Place> {
+        let mut paths = Vec::new();
+        csv(text.as_bytes(), &mut paths).expect(text);
+        match paths.remove(0).waypoints {
+            Waypoints::Places(places) => places.into_iter().map(|(_, place)| place).collect(),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn a_header_may_name_the_columns() {
+        let expected = [Place::Vertex(Vertex::new(3, 4)), Place::Vertex(Vertex::new(-5, 4))];
+        for text in [
+            "3,4\n-5,4\n",
+            "x,y\n3,4\n\n-5,4",
+            "\u{feff}X, Y\r\n3, 4\r\n-5, 4\r\n",
+            "y,t,x\n4,9,3\n4,,-5\n",
+            "\"x\",\"y\"\n3.000e+00,4.0\n-5.0,4\n",
+        ] {
+            assert_eq!(places(text), expected, "{text}");
+        }
+        assert_eq!(places("0.5,2\n"), [Place::Point(0.5, 2.0)]);
+    }
+
+    #[test]
+    fn the_line_of_a_wrong_row_is_named() {
+        for (text, line) in [("x,y\n1,2\n3\n", 3), ("1,2\nx,y\n", 2), ("nan,1\n", 1), ("\n\nhello", 3)] {
+            assert_eq!(csv(text.as_bytes(), &mut Vec::new()).unwrap_err().0, line, "{text}");
+        }
+    }
+
+    #[test]
+    fn paths_at_any_angle_are_over_no_finite_k() {
+        let said = |engine: &str, k: &str, placement: &str, smooth: bool| {
+            let line = RunLine {
+                engine: engine.to_owned(),
+                k: serde_json::from_str(k).expect("JSON"),
+                placement: placement.to_owned(),
+                corners: "one".to_owned(),
+                gap: "closed".to_owned(),
+                smooth,
+            };
+            line.said()
+        };
+        let five: K = "5".parse().expect("a k");
+        let plain = said("jps", "5", "center", false).expect("a run");
+        assert_eq!((plain.setup.to_string().as_str(), plain.over), ("jps:5:one", five));
+        assert_eq!(said("jps", "5", "corner", true).expect("a run").over, K::Any);
+        assert_eq!(said("theta", "5", "center", false).expect("a run").over, K::Any);
+        let anya = said("anya", "\"any\"", "corner", false).expect("a run");
+        assert_eq!((anya.setup.to_string().as_str(), anya.over), ("anya:any:closed", K::Any));
+        assert!(said("warp", "3", "center", false).is_err());
+    }
+}

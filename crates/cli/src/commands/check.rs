@@ -1,0 +1,189 @@
+//! `mediant check`: whether paths hold on a map, and where not.
+
+use std::{io, io::Write};
+
+use mediant::{Motion, Path, Space};
+use mediant_grid::PlacementKind;
+use mediant_moves::{FiniteK, K};
+use serde::Serialize;
+
+use crate::{
+    args::{CheckArgs, Format},
+    check::{
+        fault::Fault,
+        file::{Listed, Said, Waypoints, read, shown},
+    },
+    failure::{Ending, Failure},
+    map::Map,
+    terminal::{
+        numbers::grouped,
+        screen::{BOLD, Screen},
+        text::printable,
+    },
+};
+
+/// The line of a path in `--format jsonl`.
+#[derive(Debug, Serialize)]
+#[serde(tag = "type", rename = "path")]
+struct PathLine<'a> {
+    file: &'a str,
+    index: usize,
+    holds: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    holds_up_to: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    segment: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    from: Option<[i32; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    to: Option<[i32; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cell: Option<[i32; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<String>,
+}
+
+/// The last line in `--format jsonl`.
+#[derive(Debug, Serialize)]
+#[serde(tag = "type", rename = "summary")]
+struct SummaryLine<'a> {
+    map: &'a str,
+    paths: u64,
+    broken: u64,
+}
+
+/// How a path is to be checked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Rules {
+    /// The motion, which also says which map an agent has.
+    motion: Motion,
+    /// The neighborhood whose moves are to make the segments.
+    over: K,
+}
+
+impl Rules {
+    /// What the arguments say, else what the run says, else what is usual.
+    fn new(args: &CheckArgs, said: Option<Said>) -> Result<Self, Failure> {
+        let args = &args.motion;
+        let setup = said.map(|said| said.setup);
+        let over = args.k.or(said.map(|said| said.over)).unwrap_or(K::Any);
+        let placement = match (args.placement, setup) {
+            (None, Some(setup)) => setup.rules.placement(),
+            // A path between centers can be at any angle, too.
+            _ => args.placement_for(args.k.unwrap_or(K::Finite(FiniteK::N8))),
+        };
+        let given = args.rules.at(placement)?;
+        let is_given = args.rules.corners.is_some() || args.rules.gap.is_some();
+        let rules = match setup {
+            Some(setup) if !is_given && setup.rules.placement() == placement => setup.rules,
+            _ => given,
+        };
+        let k = args.k.or(setup.map(|setup| setup.k)).unwrap_or(K::Finite(FiniteK::N8));
+        Ok(Self { motion: Motion::new(k, rules), over })
+    }
+
+    /// The map of the agent that the arguments name, with the rules.
+    fn space(self, args: &CheckArgs, map: Map) -> Result<Space, Failure> {
+        let map = map.for_agent(&args.map, self.motion)?;
+        let Motion { k, rules, .. } = self.motion;
+        // Between centers no engine searches at any angle. For sight, every k is as good.
+        let is_searched = k != K::Any || rules.placement() == PlacementKind::Corner;
+        let k = if is_searched { k } else { K::Finite(FiniteK::N8) };
+        Ok(map.to_library().space(Motion::new(k, rules))?)
+    }
+}
+
+/// Runs the command.
+pub(crate) fn check(args: &CheckArgs, screen: &mut Screen) -> Result<Ending, Failure> {
+    let map = Map::load(&args.map)?;
+    let files = args.paths.iter().map(|path| Ok((shown(path).display().to_string(), read(path)?)));
+    let files = files.collect::<Result<Vec<_>, Failure>>()?;
+    let mut ready: Option<(Rules, Space)> = None;
+    let (mut paths, mut broken) = (0_u64, 0_u64);
+    for (file, listed) in &files {
+        for path in listed {
+            let rules = Rules::new(args, path.said)?;
+            let space = match ready.take() {
+                Some((of, space)) if of == rules => space,
+                _ => rules.space(args, map.clone())?,
+            };
+            let waypoints = vertices(file, path, rules, &map)?;
+            let fault = Fault::of(&Path::new(waypoints), &space, rules.over);
+            ready = Some((rules, space));
+            paths += 1;
+            broken += u64::from(fault.is_some());
+            match (args.format, fault) {
+                (Format::Jsonl, fault) => line(screen, &path_line(file, path.index, fault))?,
+                (Format::Table, Some(fault)) => say(screen, &map, (file, path.index), fault)?,
+                (Format::Table, None) => {}
+            }
+        }
+    }
+    match args.format {
+        Format::Jsonl => line(screen, &SummaryLine { map: &map.name, paths, broken })?,
+        Format::Table => summary(screen, &map, paths, broken)?,
+    }
+    Ok(if broken == 0 { Ending::Answered } else { Ending::BrokenPaths })
+}
+
+/// The waypoints of a path.
+fn vertices(file: &str, path: &Listed, rules: Rules, map: &Map) -> Result<Vec<mediant::Vertex>, Failure> {
+    match &path.waypoints {
+        Waypoints::Vertices(vertices) => Ok(vertices.clone()),
+        Waypoints::Places(places) => {
+            let placement = rules.motion.rules.placement();
+            let vertex = |&(line, place): &(usize, _)| {
+                map.vertex(placement, place).map_err(|error| Failure::PathFile {
+                    path: file.into(),
+                    line,
+                    problem: error.to_string(),
+                })
+            };
+            places.iter().map(vertex).collect()
+        }
+    }
+}
+
+/// The record of a path.
+fn path_line(file: &str, index: usize, fault: Option<Fault>) -> PathLine<'_> {
+    let segment = fault.and_then(|fault| fault.segment());
+    PathLine {
+        file,
+        index,
+        holds: fault.is_none(),
+        holds_up_to: fault.map(|fault| fault.holds_up_to()),
+        segment: segment.map(|(index, ..)| index),
+        from: segment.map(|(_, from, _)| [from.x, from.y]),
+        to: segment.map(|(.., to)| [to.x, to.y]),
+        cell: fault.and_then(|fault| fault.cell()).map(|(x, y)| [x, y]),
+        error: fault.map(|fault| fault.to_string()),
+    }
+}
+
+/// Writes a record.
+fn line(screen: &mut Screen, record: &impl Serialize) -> io::Result<()> {
+    serde_json::to_writer(&mut *screen, record)?;
+    screen.write_all(b"\n")
+}
+
+/// Says what is wrong with a path.
+fn say(screen: &mut Screen, map: &Map, (file, index): (&str, usize), fault: Fault) -> io::Result<()> {
+    write!(screen, "{}, path {index}: {fault}", printable(file))?;
+    if let (Some(frame), Some((x, y))) = (map.frame, fault.cell()) {
+        let (x, y) = frame.center_of((x, y).into());
+        write!(screen, ", whose center is at ({x:.3}, {y:.3}) m")?;
+    }
+    writeln!(screen)
+}
+
+/// Says how many paths hold.
+fn summary(screen: &mut Screen, map: &Map, paths: u64, broken: u64) -> io::Result<()> {
+    let name = screen.paint(BOLD, printable(&map.name)).to_string();
+    match (broken, paths) {
+        (0, 1) => writeln!(screen, "{name} · the path holds"),
+        (0, _) => writeln!(screen, "{name} · all {} paths hold", grouped(paths)),
+        (1, 1) => writeln!(screen, "{name} · the path does not hold"),
+        (1, _) => writeln!(screen, "{name} · 1 of {} paths does not hold", grouped(paths)),
+        _ => writeln!(screen, "{name} · {} of {} paths do not hold", grouped(broken), grouped(paths)),
+    }
+}

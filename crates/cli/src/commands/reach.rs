@@ -1,0 +1,142 @@
+//! `mediant reach`: what lies within a cost of one or many sources.
+
+use std::{
+    io::{self, Write},
+    path::Path,
+};
+
+use mediant::{Error, Field, Motion};
+use mediant_formats::Picture;
+use mediant_grid::Vertex;
+
+use crate::{
+    args::ReachArgs,
+    failure::{Ending, Failure},
+    map::Map,
+    run::{
+        distances::{csv, furthest, rounded},
+        query_error::explain,
+    },
+    terminal::{
+        numbers::{count, grouped},
+        screen::{BOLD, Screen},
+        text::printable,
+    },
+    write::{check_folder, extension, input::check_inputs, npy, write_file},
+};
+
+/// What is written to a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Form {
+    /// CSV on stdout.
+    Printed,
+    Csv,
+    Npy,
+    Picture,
+}
+
+impl Form {
+    /// The form that a file's name stands for.
+    fn of(path: &Path) -> Result<Self, Failure> {
+        if path == Path::new("-") {
+            return Ok(Self::Printed);
+        }
+        let form = match extension(path).as_str() {
+            "csv" => Self::Csv,
+            "npy" => Self::Npy,
+            "png" | "svg" => Self::Picture,
+            _ => {
+                return Err(Failure::Extension {
+                    path: path.to_owned(),
+                    known: ".png, .svg, .csv or .npy (- prints CSV)",
+                });
+            }
+        };
+        check_folder(path)?;
+        Ok(form)
+    }
+}
+
+/// Runs the command.
+pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Failure> {
+    let motion = args.motion.motion()?;
+    let outputs = args.output.iter().map(|path| Ok((path.as_path(), Form::of(path)?)));
+    let outputs = outputs.collect::<Result<Vec<_>, Failure>>()?;
+    let map = Map::load(&args.map)?.for_agent(&args.map, motion)?;
+    let written: Vec<&Path> =
+        outputs.iter().filter(|(_, form)| *form != Form::Printed).map(|(path, _)| *path).collect();
+    check_inputs(&args.map.map, &written)?;
+    let placement = motion.rules.placement();
+    let sources = args.from.iter().map(|&place| map.vertex(placement, place));
+    let sources = sources.collect::<Result<Vec<Vertex>, Failure>>()?;
+    let limit = args.within.map(|cost| map.cells(cost));
+    let space = map.to_library().space(motion)?;
+    let field = match limit {
+        Some(limit) => space.field_within(sources.iter().copied(), limit),
+        None => space.field(sources.iter().copied()),
+    };
+    let field = match field {
+        Ok(field) => field,
+        Err(Error::Query(error)) => {
+            return Ok(Ending::QueryErrors(explain(error, &map.grid, placement)));
+        }
+        Err(error) => return Err(error.into()),
+    };
+    for (path, form) in &outputs {
+        match form {
+            Form::Printed => csv(field.iter(), screen)?,
+            Form::Csv => write_file(path, |file| csv(field.iter(), file))?,
+            Form::Npy => {
+                let shape = (field.height(), field.width());
+                write_file(path, |file| npy::write(shape, field.lengths(), file))?;
+            }
+            Form::Picture => picture(&map, motion, &field, &sources).write_to(path)?,
+        }
+    }
+    // Who reads the CSV from stdout has no use for a summary in it.
+    if outputs.iter().all(|(_, form)| *form != Form::Printed) {
+        summary(&map, motion, &field, &sources, limit, screen)?;
+    }
+    Ok(Ending::Answered)
+}
+
+/// The map with the distances as colors.
+fn picture<'m>(map: &'m Map, motion: Motion, field: &Field, sources: &[Vertex]) -> Picture<'m> {
+    Picture::new(&map.ground, motion.rules.placement())
+        .field(|at| field.get(at))
+        .starts(sources.iter().copied())
+        .caption(format!("{}: {motion}", printable(&map.name)))
+}
+
+/// Writes how many vertices are reached, and which is the furthest.
+fn summary(
+    map: &Map,
+    motion: Motion,
+    field: &Field,
+    sources: &[Vertex],
+    limit: Option<f64>,
+    screen: &mut Screen,
+) -> io::Result<()> {
+    let Some(&first) = sources.first() else { return Ok(()) };
+    let from = match sources {
+        [_] => first.to_string(),
+        _ => format!("{} sources", grouped(sources.len() as u64)),
+    };
+    let meters = |cells: f64| map.frame.map(|frame| rounded(cells * frame.resolution()));
+    let how = limit.map_or_else(
+        || format!("reached from {from}"),
+        |limit| match meters(limit) {
+            Some(meters) => format!("within {meters} m of {from}"),
+            None => format!("within {limit} of {from}"),
+        },
+    );
+    let (at, distance) = furthest((first, 0.0), field.iter());
+    let vertices = count(field.iter().count() as u64, "vertex", "vertices");
+    let name = screen.paint(BOLD, printable(&map.name)).to_string();
+    write!(screen, "{name} · {motion} · {vertices} {how}, the furthest {at} at {distance:.4}")?;
+    if let (Some(frame), Some(meters)) = (map.frame, meters(distance)) {
+        let (x, y) = frame.point_of(motion.rules.placement(), at);
+        write!(screen, " cells: in the world ({x:.3}, {y:.3}) at {meters:.3} m")?;
+    }
+    writeln!(screen)
+}
