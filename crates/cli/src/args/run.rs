@@ -118,7 +118,7 @@ Examples:
   mediant run arena.map --from 1,11 --to 40,30 --draw
   mediant run arena.map --from 1,11 --to 40,30 --engine anya --draw
   mediant run arena.map --from 1,11 --to 40,30 --draw path.svg
-  mediant run depot.yaml --world --radius 0.3 --from 0.5,0.5 --to 12.5,8 --draw path.png
+  mediant run depot.yaml --world --radius 0.3 --from 0,0 --to 2,1 --draw path.png
   mediant run arena.map --scen arena.map.scen --engine subgoal --index arena.idx
   mediant run builtin:town --k 4 --placement corner --smooth --reference anya
   mediant run arena.map --from 1,11 --to 40,30 --to 30,5 --to 8,40

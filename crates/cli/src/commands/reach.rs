@@ -78,7 +78,7 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
     let field = match field {
         Ok(field) => field,
         Err(Error::Query(error)) => {
-            return Ok(Ending::QueryErrors(explain(error, &map.grid, placement)));
+            return Ok(Ending::QueryErrors(explain(error, &map, placement)));
         }
         Err(error) => return Err(error.into()),
     };

@@ -6,7 +6,11 @@ use mediant::{NodeEvent, Observer, Planner, Request, Setup};
 use mediant_formats::{Picture, PictureError};
 use mediant_grid::Vertex;
 
-use crate::{failure::Failure, map::Map};
+use crate::{
+    failure::Failure,
+    map::Map,
+    write::{check_folder, extension},
+};
 
 /// The picture of a single query.
 pub(crate) struct Drawing<'d> {
@@ -16,11 +20,11 @@ pub(crate) struct Drawing<'d> {
     pub(crate) path: &'d Path,
 }
 
-/// Checks that the name of a picture's file tells its format, before anything is computed.
+/// Checks, before anything is computed, that the name of a picture's file tells its format, and that its
+/// folder exists.
 pub(crate) fn check_name(path: &Path) -> Result<(), Failure> {
-    let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
-    match extension.as_ref().and_then(|extension| extension.to_str()) {
-        Some("png" | "svg") => Ok(()),
+    match extension(path).as_str() {
+        "png" | "svg" => check_folder(path),
         _ => Err(PictureError::Extension { path: path.to_owned() }.into()),
     }
 }
@@ -33,11 +37,13 @@ impl Drawing<'_> {
         let _ = planner.find_observed(self.request.clone(), &mut searched);
         let placement = self.setup.rules.placement();
         let mut picture = Picture::new(&self.map.ground, placement).expanded(searched.expanded);
-        let start = waypoints.first().or(self.request.starts().first());
-        let goal = waypoints.last().or(self.request.goals().first());
-        if let Some((&start, &goal)) = start.zip(goal) {
-            picture = picture.start(start).goal(goal);
-        }
+        // Where a path was found, its own ends count: those that were asked for may have been moved.
+        picture = match (waypoints.first(), waypoints.last()) {
+            (Some(&start), Some(&goal)) => picture.start(start).goal(goal),
+            _ => picture
+                .starts(self.request.starts().iter().copied())
+                .goals(self.request.goals().iter().copied()),
+        };
         let points = waypoints.iter().map(|at| (f64::from(at.x), f64::from(at.y)));
         let name = format!("{}, k = {}", self.setup.engine.kind(), self.setup.k);
         Ok(picture.path(name, points).radius(self.map.radius).write_to(self.path)?)

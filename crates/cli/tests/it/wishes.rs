@@ -4,7 +4,7 @@
 use serde_json::{Value, json};
 
 use crate::{
-    common::{Files, Ran, mediant, redact_times, run, told},
+    common::{Files, Ran, add_example_files, mediant, redact_times, run, run_examples, told},
     errors::check,
 };
 
@@ -303,30 +303,11 @@ fn the_table_says_what_was_asked_and_what_came_of_it() {
 #[test]
 fn the_examples_of_the_help_run() {
     let files = Files::new();
-    let row = ".".repeat(49) + "\n";
-    let map = files.add("arena.map", format!("type octile\nheight 49\nwidth 49\nmap\n{}", row.repeat(49)));
+    add_example_files(&files);
     files.add("arena.map.scen", "version 1\n0\tarena.map\t49\t49\t1\t11\t40\t30\t46.87\n");
-    let yaml = "image: depot.pgm\nresolution: 0.25\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n\
-                free_thresh: 0.196\n";
-    files.add("depot.yaml", yaml);
-    files.add("depot.pgm", format!("P2 60 40 255\n{}", "254\n".repeat(60 * 40)));
-    let index = files.path("arena.idx");
+    let (map, index) = (files.path("arena.map"), files.path("arena.idx"));
     assert_eq!(mediant(&["build", &map, "--engine", "subgoal", "-o", &index]).status, Some(0));
-    let help = run("run --help").stdout;
-    let (_, examples) = help.split_once("\nExamples:\n").expect("examples");
-    let mut number = 0;
-    for example in examples.lines().map(str::trim).filter(|line| !line.is_empty()) {
-        let words = example.strip_prefix("mediant ").expect("a command line").split(' ');
-        let folder = files.path("");
-        let in_folder = |word: &str| {
-            let is_file = ["arena.", "depot.", "path."].iter().any(|start| word.starts_with(start));
-            if is_file { folder.clone() + word } else { word.into() }
-        };
-        let Ran { status, stderr, .. } = mediant(&words.map(in_folder).collect::<Vec<_>>());
-        assert_eq!((stderr.as_str(), status), ("", Some(0)), "{example}");
-        number += 1;
-    }
-    assert_eq!(number, 12);
+    run_examples(&files, "run", 12);
 }
 
 #[test]

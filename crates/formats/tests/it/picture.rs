@@ -321,9 +321,11 @@ fn files_are_written_by_the_end_of_their_names() {
 #[test]
 fn each_start_and_each_goal_has_a_badge() {
     let grid = Grid::from_fn(30, 20, |_, _| false).expect("a small grid");
-    let picture = Picture::new(&grid, PlacementKind::Center)
-        .starts([(1, 1), (20, 4), (9, 9)])
-        .goals([(5, 15), (20, 4), (25, 15)]);
+    let picture = Picture::new(&grid, PlacementKind::Center).starts([(1, 1), (20, 4), (9, 9)]).goals([
+        (5, 15),
+        (20, 4),
+        (25, 15),
+    ]);
     let svg = picture.svg();
     // Two signs of the legend: it names each kind once.
     assert_eq!(svg.matches("class=\"badge\"").count(), 3 + 2 + 2, "{svg}");
