@@ -61,8 +61,8 @@ pub struct WidestPath {
 
 impl Space {
     /// Of all paths whose length is at most (1 + `surplus`) times that of the shortest, one that keeps off
-    /// walls farthest, measured where it comes nearest to one; and of these a shortest. With a surplus of 0 it
-    /// is a shortest path of the space; 0.1 allows 10 % more. `None` if there is no path.
+    /// walls farthest, measured where it comes nearest to one; and of these a shortest. With a surplus of 0
+    /// it is a shortest path of the space; 0.1 allows 10 % more. `None` if there is no path.
     ///
     /// 'Keeps off' is exact: no path that is short enough lies on the map of a larger disc
     /// ([`Clearance::widest`]). How far a path keeps off elsewhere is not promised. There is one search for

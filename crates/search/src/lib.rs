@@ -15,8 +15,8 @@
 //! | [`ThetaStar`], [`LazyThetaStar`] | any-angle | all |
 //! | [`Anya`] | optimal any-angle, at corners | ∞ |
 //!
-//! [`Smoothed`] makes the paths of any planner shorter, at any angle. A [`Search`] answers a [`Request`] by any
-//! planner: a query with several ends, a tolerance, limits, in steps.
+//! [`Smoothed`] makes the paths of any planner shorter, at any angle. A [`Search`] answers a [`Request`] by
+//! any planner: a query with several ends, a tolerance, limits, in steps.
 //!
 //! A field has the distances of all vertices to the nearest of one or many sources, and the paths and
 //! directions there:

@@ -1,16 +1,15 @@
 //! `mediant run`: answers queries on a map.
 
 use std::{
-    fs::File,
-    io::{self, BufWriter, IsTerminal, Write},
+    io::{self, IsTerminal, Write},
     time::Instant,
 };
 
-use mediant::{EngineOption, Index, Request, Setup, Space};
+use mediant::{EngineOption, Index, Setup, Space};
 
 use crate::{
     args::{Format, RunArgs},
-    draw::{braille::Stroke, file, picture::Canvas, theme::INKS},
+    draw::query::{Drawing, check_name},
     failure::{Ending, Failure},
     map::{Map, file_name},
     run::{
@@ -30,11 +29,10 @@ use crate::{
 pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure> {
     let setup = args.setup()?;
     let reference = args.reference(setup.rules)?;
-    if args.draw == Some(None) && args.format == Format::Jsonl {
-        return Err(Failure::DrawJsonl);
-    }
-    if let Some(Some(file)) = &args.draw {
-        file::check_name(file)?;
+    match &args.draw {
+        Some(None) if args.format == Format::Jsonl => return Err(Failure::DrawJsonl),
+        Some(Some(file)) => check_name(file)?,
+        _ => {}
     }
     args.check_ends()?;
     if args.index.is_some() {
@@ -55,11 +53,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     let begin = Instant::now();
     let (space, index) = prepare(args, setup, &map)?;
     let preparation = begin.elapsed();
-    let trace = args.trace.as_deref().map(|path| {
-        let file = File::create(path).map_err(Failure::writing(path))?;
-        Ok::<_, Failure>(TraceFile { path, out: BufWriter::new(file) })
-    });
-    let trace = trace.transpose()?;
+    let trace = args.trace.as_deref().map(TraceFile::create).transpose()?;
     let mut planner = index.planner();
     let run = Run {
         map: &map,
@@ -89,17 +83,15 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     };
     let finished = session.answer_all(&mut planner, &run)?;
     drop(report);
-    match (&args.draw, queries.iter().next()) {
-        (Some(None), Some(item)) => draw(&wishes.request(item.query), setup, &map, &finished, screen)?,
-        (Some(Some(path)), Some(item)) => {
-            let drawing = file::Drawing { map: &map, setup, request: wishes.request(item.query), path };
-            drawing.write(&mut planner, &finished.path)?;
-            if args.format == Format::Table {
-                let name = file_name(path);
-                writeln!(screen, "  drawn {}", printable(&name))?;
-            }
+    if let (Some(target), Some(item)) = (&args.draw, queries.iter().next()) {
+        let drawing = Drawing { map: &map, setup, request: wishes.request(item.query) };
+        match target {
+            None => drawing.on_screen(&finished.path, screen)?,
+            Some(path) => drawing.to_file(path, &mut planner, &finished.path)?,
         }
-        _ => {}
+        if let (Some(path), Format::Table) = (target, args.format) {
+            writeln!(screen, "  drawn {}", printable(&file_name(path)))?;
+        }
     }
     Ok(ending(&queries, finished))
 }
@@ -112,21 +104,6 @@ fn prepare(args: &RunArgs, setup: Setup, map: &Map) -> Result<(Space, Index), Fa
         Some(path) => space.load_for(setup.engine, path)?,
     };
     Ok((space, index.with_smoothing(setup.smoothing)))
-}
-
-/// Draws the map with the path of a single query on the screen.
-fn draw(
-    request: &Request,
-    setup: Setup,
-    map: &Map,
-    finished: &Finished,
-    screen: &mut Screen,
-) -> io::Result<()> {
-    let mut canvas = Canvas::fit(&map.tiles(), map.theme, setup.rules.placement(), screen);
-    canvas.path(&finished.path, Stroke::Solid, INKS.best);
-    canvas.ends(request.starts(), request.goals());
-    writeln!(screen)?;
-    canvas.write(screen)
 }
 
 /// What the program says and returns after the last query.

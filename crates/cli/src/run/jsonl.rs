@@ -93,7 +93,7 @@ struct RunLine<'r> {
     /// The scenario's file name.
     scenario: Option<&'r str>,
     queries: usize,
-    /// Each wish that was named, by the name of its option, with `_` for `-` (`deadline_ms` for `--deadline`).
+    /// Each wish that was named, by the name of its option, with `_` for `-`; `deadline_ms` for `--deadline`.
     #[serde(flatten)]
     wishes: WishFields,
     engine: &'static str,

@@ -55,8 +55,8 @@ pub(crate) struct Ratios {
     pub(crate) worst_index: usize,
 }
 
-/// How the costs of paths between the scenario's ends compare with its lengths. No path counts as length 0, as
-/// in scenarios.
+/// How the costs of paths between the scenario's ends compare with its lengths. No path counts as length 0,
+/// as in scenarios.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct References {
     /// The number of queries that are compared.

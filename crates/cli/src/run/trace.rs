@@ -11,10 +11,19 @@ use mediant_formats::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
 use mediant_grid::{Grid, PlacementKind, Vertex};
 use mediant_search::{NodeEvent, Observer, Outcome, Path, Query, QueryError, Request};
 
+use crate::failure::Failure;
+
 /// The file of a trace.
 pub(crate) struct TraceFile<'s> {
     pub(crate) path: &'s path::Path,
     pub(crate) out: BufWriter<File>,
+}
+
+impl<'s> TraceFile<'s> {
+    pub(crate) fn create(path: &'s path::Path) -> Result<Self, Failure> {
+        let file = File::create(path).map_err(Failure::writing(path))?;
+        Ok(Self { path, out: BufWriter::new(file) })
+    }
 }
 
 /// Writes the events of one search.
@@ -55,7 +64,7 @@ impl<'g, W: Write> Tracer<'g, W> {
         self.trace.finish().map(|_| ())
     }
 
-    /// Writes the start and the goal: those of the path, if it was found. A goal outside the map has no event.
+    /// Writes the start and the goal: those of the path, if found. A goal outside the map has no event.
     fn begin(&mut self, query: Query, outcome: &Outcome) {
         let start = path_of(outcome).and_then(|path| path.waypoints().first());
         let goal = outcome.path().and_then(|path| path.waypoints().last());
@@ -70,8 +79,8 @@ impl<'g, W: Write> Tracer<'g, W> {
         }
     }
 
-    /// Ends the trace with the waypoints of the path; of a stopped search's it is the best so far. So the visualizer shows the path as it is, even if it
-    /// turns at a vertex that is not a node of the search.
+    /// Ends the trace with the waypoints of the path, after a stopped search those of the best so far. So the
+    /// visualizer shows the path as it is, even if it turns at a vertex that is not a node of the search.
     fn end(&mut self, outcome: &Outcome) {
         self.close();
         let mut last: Option<(TraceEvent, Vertex)> = None;

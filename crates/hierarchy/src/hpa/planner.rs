@@ -54,7 +54,7 @@ pub struct HpaStar<G, I> {
     cells: Vec<Vertex>,
     straighten: Straighten,
     phase: Phase,
-    /// Searches within clusters while a path of an unfinished search is refined. Made when it is first needed.
+    /// Searches within clusters while a path of an unfinished search is refined. Made when first needed.
     second_tree: Option<SearchTree>,
 }
 

@@ -257,7 +257,7 @@ impl<P: Placement> Search<'_, P> {
         }
     }
 
-    /// Takes a step. Returns where it leads if no path to there is earlier; the vertex is then to be expanded.
+    /// Takes a step. Returns where it leads if no path to there is earlier: that vertex is to be expanded.
     #[inline]
     fn step(&mut self, head: Head, next: usize) -> Option<(Vertex, Cost)> {
         let step = self.graph.step(next);

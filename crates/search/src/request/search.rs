@@ -135,9 +135,9 @@ impl Search {
         })
     }
 
-    /// Makes at most `expansions` expansions; fewer if the observer pauses the search. Returns the answer once
-    /// it is there; `None` before. All steps must be made on the same planner, which answers nothing else in
-    /// between.
+    /// Makes at most `expansions` expansions; fewer if the observer pauses the search. Returns the answer
+    /// once it is there; `None` before. All steps must be made on the same planner, which answers nothing
+    /// else in between.
     ///
     /// # Errors
     /// [`QueryError::GaveUp`] by a planner that may fail.

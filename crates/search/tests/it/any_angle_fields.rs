@@ -15,8 +15,8 @@ fn is_close(found: Option<f64>, best: Option<f64>) -> bool {
     found.zip(best).map_or(found == best, |(a, b)| (a - b).abs() <= 1e-9 * b)
 }
 
-/// Checks all distances of a field, and every `every`-th path. `best` is the true distance of a vertex. Returns the number of
-/// vertices in the field.
+/// Checks all distances of a field, and every `every`-th path. `best` is the true distance of a vertex.
+/// Returns the number of vertices in the field.
 fn check_field(
     field: &AnyAngleField<&FreeSpace<Corners>>,
     space: &FreeSpace<Corners>,

@@ -362,8 +362,8 @@ fn a_tolerance_is_the_radius_of_a_disc() {
     });
 }
 
-/// Straight to one goal, around a corner to the other: both paths are 4 · √10 long, but the sum of two rounded
-/// lengths is not that of the whole.
+/// Straight to one goal, around a corner to the other: both paths are 4 · √10 long, but the sum of two
+/// rounded lengths is not that of the whole.
 #[test]
 fn paths_at_any_angle_can_be_equally_long_in_different_pieces() {
     let block = |x: u32, y: u32| x < 6 && y >= 2;

@@ -1,14 +1,19 @@
-//! Pictures in files.
+//! The picture of a single query: on the screen, or in a file.
 
-use std::path::Path;
+use std::{
+    io::{self, Write},
+    path::Path,
+};
 
 use mediant::{NodeEvent, Observer, Planner, Request, Setup};
 use mediant_formats::{Picture, PictureError};
 use mediant_grid::Vertex;
 
+use super::{braille::Stroke, picture::Canvas, theme::INKS};
 use crate::{
     failure::Failure,
     map::Map,
+    terminal::screen::Screen,
     write::{check_folder, extension},
 };
 
@@ -17,7 +22,6 @@ pub(crate) struct Drawing<'d> {
     pub(crate) map: &'d Map,
     pub(crate) setup: Setup,
     pub(crate) request: Request,
-    pub(crate) path: &'d Path,
 }
 
 /// Checks, before anything is computed, that the name of a picture's file tells its format, and that its
@@ -30,8 +34,23 @@ pub(crate) fn check_name(path: &Path) -> Result<(), Failure> {
 }
 
 impl Drawing<'_> {
-    /// Draws the map, the vertices that the search expands, and the path.
-    pub(crate) fn write(&self, planner: &mut Planner, waypoints: &[Vertex]) -> Result<(), Failure> {
+    /// Draws the map with the path on the screen.
+    pub(crate) fn on_screen(&self, waypoints: &[Vertex], screen: &mut Screen) -> io::Result<()> {
+        let placement = self.setup.rules.placement();
+        let mut canvas = Canvas::fit(&self.map.tiles(), self.map.theme, placement, screen);
+        canvas.path(waypoints, Stroke::Solid, INKS.best);
+        canvas.ends(self.request.starts(), self.request.goals());
+        writeln!(screen)?;
+        canvas.write(screen)
+    }
+
+    /// Draws the map, the vertices that the search expands, and the path to a file.
+    pub(crate) fn to_file(
+        &self,
+        path: &Path,
+        planner: &mut Planner,
+        waypoints: &[Vertex],
+    ) -> Result<(), Failure> {
         let mut searched = Searched::default();
         // What is wrong with a query was said already.
         let _ = planner.find_observed(self.request.clone(), &mut searched);
@@ -46,7 +65,7 @@ impl Drawing<'_> {
         };
         let points = waypoints.iter().map(|at| (f64::from(at.x), f64::from(at.y)));
         let name = format!("{}, k = {}", self.setup.engine.kind(), self.setup.k);
-        Ok(picture.path(name, points).radius(self.map.radius).write_to(self.path)?)
+        Ok(picture.path(name, points).radius(self.map.radius).write_to(path)?)
     }
 }
 
