@@ -37,7 +37,7 @@ impl fmt::Display for Competitor {
 /// A competitor made ready for the queries of one map. Only ours keep scratch memory: a baseline allocates it
 /// for each query, or hides it.
 pub(crate) enum Runner {
-    Ours(Planner, Preparation),
+    Ours(Box<Planner>, Preparation),
     Typed(Box<Typed>),
     Bools(BoolMap),
     Pathing(Box<PathingGrid>),
@@ -60,7 +60,7 @@ impl Runner {
                 let index = setup.prepare(&space)?;
                 let seconds = begin.elapsed().as_secs_f64();
                 let bytes = space.memory_bytes() + index.memory_bytes();
-                Self::Ours(index.planner(), Preparation { seconds, bytes })
+                Self::Ours(Box::new(index.planner()), Preparation { seconds, bytes })
             }
             Competitor::Typed(engine) => Self::Typed(Box::new(engine.planner(grid)?)),
             Competitor::Baseline(Baseline::Pathfinding) => Self::Bools(BoolMap::new(grid)),
