@@ -31,10 +31,11 @@ pub(super) struct Ends {
 }
 
 impl Ends {
-    /// The one start that all pairs have, if there are several pairs.
+    /// The one start that all pairs have, if there are several pairs, and it is no goal itself.
     pub(super) fn only_start(&self) -> Option<Vertex> {
-        let start = self.pairs.first()?.query.start;
-        (self.pairs.len() > 1 && self.pairs.iter().all(|pair| pair.query.start == start)).then_some(start)
+        let first = self.pairs.first().filter(|first| self.pairs.len() > 1 && first.least != Cost::ZERO)?;
+        let start = first.query.start;
+        self.pairs.iter().all(|pair| pair.query.start == start).then_some(start)
     }
 
     /// The pairs of a request. `metric` is h_k or the straight line, by which 'near' is measured; `bound` is
