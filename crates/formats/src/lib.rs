@@ -6,8 +6,8 @@
 //! | file | type | its grid |
 //! |---|---|---|
 //! | MovingAI `.map` | [`MapFile`] | `.`, `G` and `S` are free |
-//! | PGM and PBM, P1, P2, P4, P5; PNG | [`Raster`] | dark pixels are blocked, and those that are transparent, see [`ImageOptions`] |
-//! | ROS `map_server`: YAML and a picture | [`RosMap`] | occupied and unknown cells are blocked; a [`WorldFrame`] has the meters |
+//! | PGM and PBM, P1, P2, P4, P5; PNG | [`Raster`] | dark and transparent pixels are blocked: [`ImageOptions`] |
+//! | ROS `map_server`: YAML, picture | [`RosMap`] | occupied and unknown cells are blocked; meters: [`WorldFrame`] |
 //!
 //! ```no_run
 //! use mediant_formats::{ImageOptions, read_map};

@@ -41,7 +41,10 @@ pub enum ReadError {
         path: PathBuf,
     },
     /// The file is longer than [`MAX_FILE_BYTES`].
-    #[error("{}: expected at most {MAX_FILE_BYTES} bytes, found more; is this the file that you meant?", path.display())]
+    #[error(
+        "{}: expected at most {MAX_FILE_BYTES} bytes, found more; is this the file that you meant?",
+        path.display()
+    )]
     TooLarge {
         /// The file that was asked for.
         path: PathBuf,

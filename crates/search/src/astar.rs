@@ -11,7 +11,7 @@ use mediant_moves::Cost;
 use crate::{
     best_first::BestFirst,
     heuristic::{Heuristic, Zero},
-    observer::{Observer, Unpaused},
+    observer::{Observer, Part},
     path::Path,
     planner::{Planner, Status},
     query::{Query, QueryError},
@@ -76,7 +76,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> AStar<G, H> {
         observer: &mut impl Observer,
     ) -> Result<bool, QueryError> {
         let Some(&start) = path.last() else { return Ok(false) };
-        let mut observer = Unpaused(observer);
+        let mut observer = Part::new(observer);
         // h_k of a single move is its cost, so that no path beyond the limit reaches the goal.
         self.begin_within(Query::new(start, goal), limit, &mut observer)?;
         let found = self.proceed(&mut observer)? == Status::Found;

@@ -312,7 +312,8 @@ where
     }
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
-        let id = self.graph.id(at).filter(|&id| self.knows(id))?;
+        let has_begun = self.status != Status::Unreachable;
+        let id = self.graph.id(at).filter(|&id| has_begun && self.knows(id))?;
         Some(trace_back(&self.graph, &self.nodes, id))
     }
 

@@ -134,40 +134,61 @@ impl<O: Observer + ?Sized> Observer for &mut O {
     }
 }
 
-/// The observer of a search that runs to its end, or of a part of a search: it is neither asked to pause nor
-/// told what is reached.
+/// The observer of a part of a search, or of a whole one: it is told the events, but not what is reached, since
+/// what a part knows is a path of its own.
 #[derive(Debug)]
-pub struct Unpaused<'o, O>(pub &'o mut O);
+pub struct Part<'o, O> {
+    observer: &'o mut O,
+    least: Option<Cost>,
+}
 
-impl<O: Observer> Observer for Unpaused<'_, O> {
+impl<'o, O> Part<'o, O> {
+    /// Of a part that runs to its end: the observer is not asked to pause.
+    pub const fn new(observer: &'o mut O) -> Self {
+        Self { observer, least: None }
+    }
+
+    /// Of a part that the observer may pause. Whatever the part knows, no path of the whole search is cheaper
+    /// than `least`.
+    pub const fn pausing(observer: &'o mut O, least: Cost) -> Self {
+        Self { observer, least: Some(least) }
+    }
+}
+
+impl<O: Observer> Observer for Part<'_, O> {
     #[inline]
     fn expanded(&mut self, node: NodeEvent) {
-        self.0.expanded(node);
+        self.observer.expanded(node);
     }
 
     #[inline]
     fn generated(&mut self, node: NodeEvent) {
-        self.0.generated(node);
+        self.observer.generated(node);
     }
 
     #[inline]
     fn updated(&mut self, node: NodeEvent) {
-        self.0.updated(node);
+        self.observer.updated(node);
     }
 
     #[inline]
     fn percolated(&mut self, swaps: u32) {
-        self.0.percolated(swaps);
+        self.observer.percolated(swaps);
     }
 
     #[inline]
     fn scanned(&mut self, vertices: u32) {
-        self.0.scanned(vertices);
+        self.observer.scanned(vertices);
     }
 
     #[inline]
     fn fell_back(&mut self) {
-        self.0.fell_back();
+        self.observer.fell_back();
+    }
+
+    #[inline]
+    fn pauses(&mut self, _: Cost) -> bool {
+        self.least.is_some_and(|least| self.observer.pauses(least))
     }
 }
 

@@ -7,7 +7,7 @@
 //! - [`JumpPointSearch`] is jump point search with any [`JumpFinder`]; [`Theta`] is Theta* with any
 //!   [`SightCheck`].
 //! - [`Metric`] is the length of a displacement where no obstacle is in the way.
-//! - [`Unpaused`] is the observer of a part of a search.
+//! - [`Part`] is the observer of a part of a search.
 //! - [`HasFreeSpace`] is what a planner needs to be generic over grid graphs and free spaces.
 
 pub use crate::{
@@ -16,7 +16,7 @@ pub use crate::{
     jps::{BlockFinder, JumpFinder, JumpPointSearch, StepwiseFinder},
     metric::Metric,
     nodes::{Node, NodeStore},
-    observer::Unpaused,
+    observer::Part,
     open_list::{Entry, OpenList},
     parent::ParentPointer,
     search_tree::SearchTree,

@@ -3,7 +3,7 @@
 use mediant_grid::{Identity, Vertex};
 
 use crate::{
-    observer::{Observer, Unpaused},
+    observer::{Observer, Part},
     outcome::{Guarantee, Outcome},
     path::Path,
     query::{Query, QueryError},
@@ -48,8 +48,8 @@ pub trait Planner {
 
     /// The best path that the search has found to a vertex: to the goal, once its status is
     /// [`Found`](Status::Found), and to each vertex that an observer was told to be
-    /// [reached](Observer::reached). `None` for others. A planner that needs the memory of its search to make
-    /// the path that it has found may know no other paths then.
+    /// [reached](Observer::reached). `None` for others, and where there is no way. A planner that needs the
+    /// memory of its search to make the path that it has found may know no other paths then.
     fn path_to(&mut self, at: Vertex) -> Option<Path>;
 
     /// What is guaranteed of the paths.
@@ -63,7 +63,7 @@ pub trait Planner {
     /// # Errors
     /// [`QueryError`] when an end of the query is blocked or outside the map.
     fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
-        let mut observer = Unpaused(observer);
+        let mut observer = Part::new(observer);
         let status = match self.begin(query, &mut observer)? {
             Status::Searching => self.proceed(&mut observer)?,
             status => status,

@@ -170,7 +170,8 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Planner for Wavefront<G> {
     }
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
-        let id = self.graph.id(at).filter(|&id| self.goal.is_some() && self.nodes.get(id).is_some())?;
+        let has_begun = self.goal.is_some() && self.status != Status::Unreachable;
+        let id = self.graph.id(at).filter(|&id| has_begun && self.nodes.get(id).is_some())?;
         Some(trace_back(&self.graph, &self.nodes, id))
     }
 

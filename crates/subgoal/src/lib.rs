@@ -6,10 +6,13 @@
 //!
 //! | paper | here |
 //! |---|---|
-//! | Uras, Koenig & Hernández 2013, subgoal graphs of 8-connected grids | [`Centers`](mediant_grid::Centers), k = 2 and 3, [`Hierarchy::Levels`] |
-//! | Hormazábal, Díaz, Hernández & Baier 2017, Sub2-A*(k) | [`Corners`](mediant_grid::Corners), every k, [`Hierarchy::Levels`] |
+//! | Uras, Koenig & Hernández 2013, subgoal graphs | [`Centers`], k = 2 and 3, [`Hierarchy::Levels`] |
+//! | Hormazábal, Díaz, Hernández & Baier 2017, Sub2-A*(k) | [`Corners`], every k, [`Hierarchy::Levels`] |
 //! | Uras & Koenig 2015, Sub-Theta* | [`SubgoalTheta`] |
 //! | Uras & Koenig 2018, contraction hierarchies of subgoal graphs | [`Hierarchy::Contracted`], the default |
+//!
+//! [`Centers`]: mediant_grid::Centers
+//! [`Corners`]: mediant_grid::Corners
 //!
 //! ```
 //! use std::sync::Arc;

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::common::{Files, Ran, mediant, redact_times, run, told};
+use crate::common::{self, Files, Ran, mediant, run, told};
 
 /// A number in a record.
 fn number(record: &Value, name: &str) -> f64 {
@@ -146,9 +146,7 @@ fn smoothing_makes_paths_no_longer() {
 /// The output of a command line that succeeds, in 80 columns.
 #[track_caller]
 fn shown(line: &str) -> String {
-    let Ran { status, stdout, stderr } = run(line);
-    assert_eq!((stderr.as_str(), status), ("", Some(0)), "{line}");
-    let text = redact_times(&stdout);
+    let text = common::shown(line);
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
     text
 }

@@ -184,3 +184,9 @@ pub(crate) fn succeeds(line: &str) -> String {
     assert_eq!((stderr.as_str(), status), ("", Some(0)), "{line}");
     stdout
 }
+
+/// The output of a command line that succeeds, without times.
+#[track_caller]
+pub(crate) fn shown(line: &str) -> String {
+    redact_times(&succeeds(line))
+}

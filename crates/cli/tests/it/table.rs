@@ -1,14 +1,6 @@
 //! `--format table`, and the output of the other commands, pinned. Times are redacted.
 
-use crate::common::{Files, Ran, mediant, mediant_with, redact_times, run};
-
-/// The output of a command line that succeeds.
-#[track_caller]
-fn shown(line: &str) -> String {
-    let Ran { status, stdout, stderr } = run(line);
-    assert_eq!((stderr.as_str(), status), ("", Some(0)), "{line}");
-    redact_times(&stdout)
-}
+use crate::common::{Files, Ran, mediant, mediant_with, redact_times, shown};
 
 #[test]
 fn a_few_queries_are_all_listed() {

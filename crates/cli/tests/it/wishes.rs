@@ -4,7 +4,7 @@
 use serde_json::{Value, json};
 
 use crate::{
-    common::{Files, Ran, add_example_files, mediant, redact_times, run, run_examples, told},
+    common::{Files, Ran, add_example_files, mediant, run, run_examples, shown, told},
     errors::check,
 };
 
@@ -54,14 +54,6 @@ fn assert_close(a: f64, b: f64) {
 }
 
 const CAVE: &str = "run builtin:cave --from 2,5";
-
-/// What a single query prints, without times.
-#[track_caller]
-fn shown(line: &str) -> String {
-    let Ran { status, stdout, stderr } = run(line);
-    assert_eq!((stderr.as_str(), status), ("", Some(0)), "{line}");
-    redact_times(&stdout)
-}
 
 #[test]
 fn of_several_ends_those_with_the_shortest_path_are_taken() {

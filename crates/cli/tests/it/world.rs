@@ -67,7 +67,10 @@ fn a_disc_keeps_its_radius() {
     let Ran { stderr, status, .. } = run(&map, "--radius 1.5 --from 19,10 --to 34,10");
     assert_eq!(status, Some(1));
     assert!(
-        stderr.contains("the start (19, 10) is too near to an obstacle for a radius of 1.5000 cells; the nearest one is (18, 10)"),
+        stderr.contains(
+            "the start (19, 10) is too near to an obstacle for a radius of 1.5000 cells; the nearest one is \
+             (18, 10)"
+        ),
         "{stderr}"
     );
     let Ran { stdout, .. } = run(&map, "--world --radius 0.75 --from 0.25,8 --to 15.25,8");

@@ -68,7 +68,10 @@ pub(super) fn document(picture: &Picture<'_>) -> String {
     let lines: String = (0..picture.paths.len())
         .map(|index| {
             let ink = hex(picture.path_color(index));
-            format!(".p{index}{{fill:none;stroke:{ink};stroke-linejoin:round;stroke-linecap:round}}.d{index}{{fill:{ink}}}\n")
+            format!(
+                ".p{index}{{fill:none;stroke:{ink};stroke-linejoin:round;stroke-linecap:round}}\
+                 .d{index}{{fill:{ink}}}\n"
+            )
         })
         .collect();
     format!(

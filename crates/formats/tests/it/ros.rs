@@ -364,13 +364,15 @@ fn messages_of_files() {
     let (message, error) = read();
     assert_eq!(
         message,
-        "a.yaml: the picture that the key `image` names: a.pgm: no such file; check the path and the folder that you are in"
+        "a.yaml: the picture that the key `image` names: a.pgm: no such file; check the path \
+         and the folder that you are in"
     );
     assert!(matches!(error, ReadError::RosImage { .. }));
     fs::write(folder.path().join("a.pgm"), "P5 1 1 255 ").unwrap();
     assert_eq!(
         read().0,
-        "a.yaml: the picture that the key `image` names: a.pgm: expected 1 bytes of pixels after the header, found 0; is the file cut short, or a side in the header too large?"
+        "a.yaml: the picture that the key `image` names: a.pgm: expected 1 bytes of pixels \
+         after the header, found 0; is the file cut short, or a side in the header too large?"
     );
     fs::write(&path, YAML.replace("[-1, ", "[")).unwrap();
     let (message, error) = read();

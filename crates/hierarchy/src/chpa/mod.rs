@@ -2,7 +2,6 @@
 
 mod checkpoints;
 mod codec;
-mod leg;
 mod planner;
 mod search;
 mod segments;

@@ -8,10 +8,11 @@ use std::{
 use mediant_grid::{Centers, GridGraph, Identity, Rectangle, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{
-    AStar, Guarantee, Heuristic, Observer, Path, Planner, Query, QueryError, Status, parts::SearchTree,
+    AStar, Guarantee, Heuristic, Observer, Path, Planner, Query, QueryError, Status,
+    parts::{Part, SearchTree},
 };
 
-use super::{leg::OfLeg, search::Search, segments::SegmentGraph};
+use super::{search::Search, segments::SegmentGraph};
 use crate::{HierarchyError, check, waypoints::waypoints};
 
 /// CHPA* (Teleiša & Čalnerytė 2023): A* over segments finds checkpoints, A* over tiles finds a path from each
@@ -276,7 +277,8 @@ where
             };
             tile_search.begin_within(Query::new(at, to), limit, observer)?;
         }
-        let status = tile_search.proceed(&mut OfLeg { observer, before: *length })?;
+        // Whether this leg becomes part of the path is not known yet.
+        let status = tile_search.proceed(&mut Part::pausing(observer, *length))?;
         Ok(match (status, *fallback) {
             (Status::Searching, _) => Phase::Tiles(Leg { has_begun: true, ..leg }),
             (Status::Found, _) => {

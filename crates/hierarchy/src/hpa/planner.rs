@@ -6,7 +6,7 @@ use mediant_grid::{Centers, GridGraph, Identity, Rectangle, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{
     Guarantee, Observer, Path, Planner, Query, QueryError, Status,
-    parts::{SearchTree, Unpaused},
+    parts::{Part, SearchTree},
 };
 
 use super::{
@@ -171,7 +171,7 @@ where
         }
         let separates = |level: &Level| level.cluster_at(start) != level.cluster_at(goal);
         let top = self.index.levels.iter().rposition(separates).unwrap_or(0);
-        let direct = self.insert(query, top, &mut Unpaused(observer));
+        let direct = self.insert(query, top, &mut Part::new(observer));
         let query = AbstractQuery { start, goal, top, direct };
         self.phase = Phase::Search(query);
         Ok(self.search(query, true, observer))
@@ -189,7 +189,7 @@ where
             Status::Found => {
                 let level = &self.index.levels[query.top];
                 trace(level, &self.tree, query, level.goal_id(), query.goal, &mut self.abstract_path);
-                self.refine_all(query.top, &mut Unpaused(observer)).ok_or(DAMAGED)?;
+                self.refine_all(query.top, &mut Part::new(observer)).ok_or(DAMAGED)?;
                 self.phase = Phase::Found { goal: query.goal, is_direct: false };
                 Ok(Status::Found)
             }

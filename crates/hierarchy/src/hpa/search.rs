@@ -4,7 +4,7 @@ use mediant_grid::Vertex;
 use mediant_moves::Cost;
 use mediant_search::{
     NodeEvent, Observer, Status,
-    parts::{SearchTree, Unpaused},
+    parts::{Part, SearchTree},
 };
 
 use super::{
@@ -54,7 +54,7 @@ pub(crate) fn search(
     goal: Option<Goal<'_>>,
     observer: &mut impl Observer,
 ) -> bool {
-    let mut search = Search { level, bounds, tree, estimate, observer: &mut Unpaused(observer) };
+    let mut search = Search { level, bounds, tree, estimate, observer: &mut Part::new(observer) };
     search.begin(start, goal);
     search.run(goal) == Status::Found
 }

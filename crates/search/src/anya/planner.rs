@@ -116,6 +116,7 @@ impl<S: Deref<Target = FreeSpace<Corners>>> Planner for Anya<S> {
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
         match self.last.filter(|_| at == self.goal) {
             Some(root) => Some(self.frontier.path(root, at)),
+            None if self.status == Status::Unreachable => None,
             None => self.frontier.path_to_root(&self.space, at),
         }
     }

@@ -18,36 +18,30 @@ pub(super) fn nearest<P: Placement>(
     let (width, height) = P::vertices(space.grid());
     let (width, height) = (width as i32, height as i32);
     let mut best: Option<(Cost, Vec<Vertex>)> = None;
-    let reach = |best: &Option<(Cost, Vec<Vertex>)>| {
-        best.as_ref().map_or(i32::MAX, |(cost, _)| {
-            i32::try_from(cost.to_bits() >> Cost::FRACTION_BITS).unwrap_or(i32::MAX)
-        })
-    };
+    // Nothing that is farther along an axis, in whole cells, is as near as the best one.
+    let mut reach = i32::MAX;
+    let away = |from: i32, d: i32| [from - d, from + d].into_iter().take(if d == 0 { 1 } else { 2 });
     for dy in 0..to.y.max(height - 1 - to.y) + 1 {
-        if dy > reach(&best) {
+        if dy > reach {
             break;
         }
-        for y in [to.y - dy, to.y + dy].into_iter().take(if dy == 0 { 1 } else { 2 }) {
-            if !(0..height).contains(&y) {
-                continue;
-            }
+        for y in away(to.y, dy).filter(|y| (0..height).contains(y)) {
             for dx in 0..to.x.max(width - 1 - to.x) + 1 {
-                if dx > reach(&best) {
+                if dx > reach {
                     break;
                 }
-                let row = [to.x - dx, to.x + dx].map(|x| Vertex::new(x, y));
-                let mut found = row.into_iter().take(if dx == 0 { 1 } else { 2 });
-                let mut is_nearest = false;
-                for at in found.by_ref().filter(|&at| (0..width).contains(&at.x) && accepts(at)) {
-                    is_nearest = true;
+                let columns = away(to.x, dx).filter(|x| (0..width).contains(x));
+                let mut found = columns.map(|x| Vertex::new(x, y)).filter(|&at| accepts(at)).peekable();
+                if found.peek().is_some() {
                     let cost = metric.distance(Vector::new(dx, dy));
                     match &mut best {
                         Some((least, _)) if *least < cost => {}
-                        Some((least, vertices)) if *least == cost => vertices.push(at),
-                        _ => best = Some((cost, vec![at])),
+                        Some((least, vertices)) if *least == cost => vertices.extend(found),
+                        _ => {
+                            reach = i32::try_from(cost.to_bits() >> Cost::FRACTION_BITS).unwrap_or(i32::MAX);
+                            best = Some((cost, found.collect()));
+                        }
                     }
-                }
-                if is_nearest {
                     break;
                 }
             }

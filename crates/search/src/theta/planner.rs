@@ -108,7 +108,7 @@ where
     }
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
-        let id = self.graph.id(at)?;
+        let id = self.graph.id(at).filter(|_| self.status != Status::Unreachable)?;
         let is_closed = self.nodes.get(id)?.slot == Node::<Parents>::CLOSED;
         // The parent of an open node may be a guess.
         is_closed.then(|| self.path(self.ends[0], id))

@@ -2,8 +2,12 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Rules, Vertex};
-use mediant_search::{End, Query, QueryError};
+use mediant_grid::{AsciiMap, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, GridGraph, Rules, Vertex};
+use mediant_moves::FiniteK;
+use mediant_search::{
+    AStar, Anya, Canonical, End, Hk, Jps, LazyThetaStar, PaperCanonical, Planner, Query, QueryError, Status,
+    ThetaStar, Wavefront,
+};
 
 use crate::common::with_engines;
 
@@ -85,4 +89,30 @@ fn errors_say_what_to_do() {
         Some("the goal (4, -1) is outside the map, whose vertices run from (0, 0) to (3, 2)")
     );
     assert_eq!(text((1, 1), (0, 0)).as_deref(), Some("the start (1, 1) is blocked: choose a free vertex"));
+}
+
+/// After a query without an answer a planner knows no path, also not those of the query before.
+fn check_forgotten(planner: &mut impl Planner) {
+    let found = planner.solve(Query::new((0, 0), (2, 2)));
+    assert!(found.is_ok_and(|outcome| outcome.path().is_some()));
+    assert!(planner.path_to((2, 2).into()).is_some());
+    assert_eq!(planner.begin(Query::new((0, 0), (5, 2)), &mut ()), Ok(Status::Unreachable));
+    for at in [(0, 0), (2, 2), (1, 1), (5, 2), (9, 9)] {
+        assert_eq!(planner.path_to(at.into()), None, "{at:?}");
+    }
+}
+
+#[test]
+fn a_query_without_an_answer_leaves_no_path() {
+    let grid = Arc::new(AsciiMap::parse("..#..\n..#..\n").expect("a map").grid);
+    let graph = GridGraph::<Corners>::new(Arc::clone(&grid), FiniteK::N8, DiagonalGap::Open).expect("k = 3");
+    check_forgotten(&mut AStar::new(&graph, Hk));
+    check_forgotten(&mut Canonical::new(&graph, Hk));
+    check_forgotten(&mut PaperCanonical::new(&graph, Hk));
+    check_forgotten(&mut Jps::new(&graph, Hk));
+    check_forgotten(&mut Wavefront::new(&graph));
+    check_forgotten(&mut ThetaStar::new(&graph, Hk));
+    check_forgotten(&mut LazyThetaStar::new(&graph, Hk));
+    let space = FreeSpace::<Corners>::new(grid, DiagonalGap::Open);
+    check_forgotten(&mut Anya::new(&space));
 }
