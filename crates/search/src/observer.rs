@@ -134,8 +134,8 @@ impl<O: Observer + ?Sized> Observer for &mut O {
     }
 }
 
-/// The observer of a part of a search, or of a whole one: it is told the events, but not what is reached, since
-/// what a part knows is a path of its own.
+/// The observer of a part of a search, or of a whole one: it is told the events, but not what is reached,
+/// since what a part knows is a path of its own.
 #[derive(Debug)]
 pub struct Part<'o, O> {
     observer: &'o mut O,
