@@ -1,0 +1,289 @@
+"""The types of the compiled module. What each item does is in its docstring: `help(mediant.Grid)`."""
+
+import os
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any, Literal, SupportsFloat, SupportsIndex, final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Self, TypeAlias, TypedDict, Unpack
+
+Point: TypeAlias = Sequence[SupportsIndex] | NDArray[np.integer[Any]]
+"""A vertex: (row, column)."""
+
+Points: TypeAlias = Point | Sequence[Point] | NDArray[np.integer[Any]]
+"""One vertex, or several: an integer array of shape (n, 2)."""
+
+K: TypeAlias = SupportsIndex | Literal["any"]
+Placement: TypeAlias = Literal["center", "corner"]
+Corners: TypeAlias = Literal["never", "one", "always"]
+Gap: TypeAlias = Literal["open", "closed"]
+PathPoints: TypeAlias = Literal["waypoints", "vertices", "cells"]
+Status: TypeAlias = Literal["found", "unreachable", "nearest", "stopped", "invalid"]
+Limit: TypeAlias = Literal["cost", "expansions", "timeout"]
+Engine: TypeAlias = Literal[
+    "astar", "dijkstra", "wavefront", "canonical", "jps", "jps-block", "jps-plus", "theta", "lazy-theta",
+    "anya", "subgoal", "subgoal-theta", "hpa", "chpa",
+]
+Heuristic: TypeAlias = Literal["hk", "euclidean", "zero", "squared"]
+
+class Motion(TypedDict, total=False):
+    """How an agent moves."""
+
+    k: K
+    placement: Placement | None
+    corners: Corners | None
+    gap: Gap | None
+
+class Wishes(TypedDict, total=False):
+    """What is asked of a path beyond its ends."""
+
+    nearest: bool
+    tolerance: SupportsFloat
+    snap: bool
+    max_cost: SupportsFloat | None
+    max_expansions: SupportsIndex | None
+    timeout: SupportsFloat | None
+
+class Options(TypedDict, total=False):
+    """The options of engines. Each engine takes some of them."""
+
+    heuristic: Heuristic
+    variant: Literal["exact", "complete", "paper"]
+    jump_limit: SupportsIndex
+    keep_intermediate: bool
+    levels: SupportsIndex | Literal["all", "contracted"]
+    side: SupportsIndex
+    unstraightened: bool
+    second: Heuristic
+    step: SupportsIndex
+    detour: SupportsIndex
+    smooth: Literal["linear", "taut"] | None
+
+class FromGrid(Motion, Wishes, Options, total=False):
+    """All of them, with the engine."""
+
+    engine: Engine | None
+
+@final
+class Grid:
+    def __new__(
+        cls,
+        array: ArrayLike,
+        *,
+        above: SupportsFloat | None = None,
+        below: SupportsFloat | None = None,
+        values: Iterable[SupportsFloat] | None = None,
+    ) -> Self: ...
+    @staticmethod
+    def open(
+        path: str | os.PathLike[str],
+        *,
+        threshold: str | SupportsFloat = "0.5",
+        invert: bool = False,
+        unknown: Literal["blocked", "free"] = "blocked",
+    ) -> Grid: ...
+    @staticmethod
+    def from_rows(rows: Iterable[str]) -> Grid: ...
+    @property
+    def shape(self) -> tuple[int, int]: ...
+    @property
+    def world(self) -> World | None: ...
+    @property
+    def id(self) -> str: ...
+    def to_numpy(self) -> NDArray[np.bool_]: ...
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
+    def edit(self, at: Point, blocked: ArrayLike) -> Grid: ...
+    def is_free(self, point: Point, **motion: Unpack[Motion]) -> bool: ...
+    def connected(self, start: Point, goal: Point, **motion: Unpack[Motion]) -> bool: ...
+    def sees(self, start: Point, goal: Point, **motion: Unpack[Motion]) -> bool: ...
+    def check(self, path: ArrayLike, **motion: Unpack[Motion]) -> None: ...
+    def holds(self, path: ArrayLike, **motion: Unpack[Motion]) -> bool: ...
+    def path(
+        self, start: Points, goal: Points, *, points: PathPoints = "waypoints", **how: Unpack[FromGrid]
+    ) -> NDArray[np.int32] | None: ...
+    def distance(self, start: Points, goal: Points, **how: Unpack[FromGrid]) -> float: ...
+    def find(
+        self,
+        start: Points,
+        goal: Points,
+        *,
+        points: PathPoints = "waypoints",
+        counters: bool = False,
+        **how: Unpack[FromGrid],
+    ) -> Answer: ...
+    def engine(self, **motion: Unpack[Motion]) -> tuple[Engine, str]: ...
+    def prepare(
+        self,
+        engine: Engine | None = None,
+        *,
+        k: K = 3,
+        placement: Placement | None = None,
+        corners: Corners | None = None,
+        gap: Gap | None = None,
+        threads: SupportsIndex | None = None,
+        progress: Callable[[str, int, int], object] | None = None,
+        **options: Unpack[Options],
+    ) -> Index: ...
+    def load(self, path: str | os.PathLike[str], **options: Unpack[Options]) -> Index: ...
+    def index_from_bytes(self, data: bytes, **options: Unpack[Options]) -> Index: ...
+    def field(
+        self, sources: Points, *, limit: SupportsFloat | None = None, **motion: Unpack[Motion]
+    ) -> Field: ...
+    def distances(
+        self, sources: Points, *, limit: SupportsFloat | None = None, **motion: Unpack[Motion]
+    ) -> NDArray[np.float64]: ...
+    def reach(self, sources: Points, limit: SupportsFloat, **motion: Unpack[Motion]) -> NDArray[np.bool_]: ...
+    def flow(
+        self, sources: Points, *, limit: SupportsFloat | None = None, **motion: Unpack[Motion]
+    ) -> NDArray[np.float64]: ...
+    def clearance(
+        self, *, fit: Literal["centers", "whole-cells"] = "centers", outside: Literal["blocked", "open"] = "blocked"
+    ) -> NDArray[np.float64]: ...
+    def for_disc(
+        self,
+        radius: SupportsFloat,
+        *,
+        fit: Literal["centers", "whole-cells"] | None = None,
+        outside: Literal["blocked", "open"] = "blocked",
+        **motion: Unpack[Motion],
+    ) -> Grid: ...
+    def for_square(self, side: SupportsIndex) -> Grid: ...
+    def widest_path(
+        self,
+        start: Point,
+        goal: Point,
+        *,
+        surplus: SupportsFloat,
+        points: PathPoints = "waypoints",
+        **motion: Unpack[Motion],
+    ) -> tuple[NDArray[np.int32], float] | None: ...
+
+@final
+class Index:
+    @property
+    def grid(self) -> Grid: ...
+    @property
+    def engine(self) -> Engine: ...
+    @property
+    def k(self) -> int | Literal["any"]: ...
+    @property
+    def placement(self) -> Placement: ...
+    @property
+    def rule(self) -> Literal["never", "one", "always", "open", "closed"]: ...
+    @property
+    def setup(self) -> str: ...
+    @property
+    def origin(self) -> Literal["prepared", "loaded", "repaired", "unchanged"]: ...
+    @property
+    def guarantee(self) -> str: ...
+    @property
+    def bound(self) -> float | None: ...
+    @property
+    def memory_bytes(self) -> int: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
+    def path(
+        self, start: Points, goal: Points, *, points: PathPoints = "waypoints", **wishes: Unpack[Wishes]
+    ) -> NDArray[np.int32] | None: ...
+    def distance(self, start: Points, goal: Points, **wishes: Unpack[Wishes]) -> float: ...
+    def find(
+        self,
+        start: Points,
+        goal: Points,
+        *,
+        points: PathPoints = "waypoints",
+        counters: bool = False,
+        **wishes: Unpack[Wishes],
+    ) -> Answer: ...
+    def paths(
+        self,
+        starts: Points,
+        goals: Points,
+        *,
+        points: PathPoints = "waypoints",
+        threads: SupportsIndex | None = None,
+        progress: Callable[[int, int], object] | None = None,
+        invalid: Literal["raise", "none"] = "raise",
+        **wishes: Unpack[Wishes],
+    ) -> Paths: ...
+    def distances(
+        self,
+        starts: Points,
+        goals: Points,
+        *,
+        threads: SupportsIndex | None = None,
+        progress: Callable[[int, int], object] | None = None,
+        invalid: Literal["raise", "none"] = "raise",
+        **wishes: Unpack[Wishes],
+    ) -> NDArray[np.float64]: ...
+    def table(
+        self,
+        starts: Points,
+        goals: Points,
+        *,
+        threads: SupportsIndex | None = None,
+        progress: Callable[[int, int], object] | None = None,
+    ) -> NDArray[np.float64]: ...
+    def with_options(self, **options: Unpack[Options]) -> Index: ...
+    def repair(self, grid: Grid) -> Index: ...
+    def save(self, path: str | os.PathLike[str]) -> None: ...
+    def to_bytes(self) -> bytes: ...
+
+@final
+class Answer:
+    @property
+    def status(self) -> Status: ...
+    @property
+    def path(self) -> NDArray[np.int32] | None: ...
+    @property
+    def distance(self) -> float: ...
+    @property
+    def stopped_by(self) -> Limit | None: ...
+    @property
+    def best(self) -> NDArray[np.int32] | None: ...
+    @property
+    def lower_bound(self) -> float: ...
+    @property
+    def counters(self) -> dict[str, int] | None: ...
+
+@final
+class Paths(Sequence[NDArray[np.int32] | None]):
+    @property
+    def points(self) -> NDArray[np.int32]: ...
+    @property
+    def offsets(self) -> NDArray[np.int64]: ...
+    @property
+    def distances(self) -> NDArray[np.float64]: ...
+    @property
+    def statuses(self) -> NDArray[np.uint8]: ...
+    def __len__(self) -> int: ...
+    def __getitem__(self, index: SupportsIndex, /) -> NDArray[np.int32] | None: ...
+    def __iter__(self) -> Iterator[NDArray[np.int32] | None]: ...
+
+@final
+class Field:
+    @property
+    def shape(self) -> tuple[int, int]: ...
+    def distances(self) -> NDArray[np.float64]: ...
+    def flow(self) -> NDArray[np.float64]: ...
+    def next(self) -> NDArray[np.int32]: ...
+    def path_from(self, point: Point, *, points: PathPoints = "waypoints") -> NDArray[np.int32] | None: ...
+    def nearest_source(self, point: Point) -> tuple[int, int] | None: ...
+
+@final
+class World:
+    @property
+    def resolution(self) -> float: ...
+    @property
+    def origin(self) -> tuple[float, float, float]: ...
+    def vertex_at(self, x: SupportsFloat, y: SupportsFloat, *, placement: Placement = "center") -> tuple[int, int] | None: ...
+    def point_of(self, points: ArrayLike, *, placement: Placement = "center") -> NDArray[np.float64]: ...
+
+__version__: str
+
+def moves(k: K) -> NDArray[np.int32]: ...
+def bound(k: K, *, placement: Placement | None = None, corners: Corners | None = None, gap: Gap | None = None) -> float | None: ...
