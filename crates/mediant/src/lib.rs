@@ -82,6 +82,7 @@ mod names;
 mod option;
 mod path_check;
 mod planner;
+mod planners;
 #[cfg(doctest)]
 mod readme;
 mod setup;
@@ -119,6 +120,7 @@ pub use motion::Motion;
 pub use names::UnknownName;
 pub use option::{EngineOption, HeuristicName, Levels, OptionValue, UnknownLevels, ValueKind, Variant};
 pub use planner::Planner;
+pub use planners::{BatchProgress, Planners};
 pub use setup::Setup;
 pub use setup_error::SetupError;
 pub use space::Space;

@@ -3,7 +3,11 @@
 use mediant_grid::Vertex;
 use mediant_search::{End, Outcome, Query, QueryError};
 
-use crate::{error::Error, index::Index, planner::Planner};
+use crate::{
+    error::Error,
+    index::Index,
+    planners::{BatchProgress, Planners},
+};
 
 /// The lengths of the paths from several starts to several goals.
 ///
@@ -60,25 +64,13 @@ impl Index {
         for (end, ends) in [(End::Start, &starts), (End::Goal, &goals)] {
             ends.iter().try_for_each(|&at| self.space().check_end(end, at))?;
         }
-        let values = rows(self, &starts, &goals)?;
-        Ok(Table { goals: goals.len(), values: values.concat() })
+        let columns = goals.len();
+        let query = |index: usize| Query::new(starts[index / columns], goals[index % columns]);
+        let length = |outcome: Outcome| outcome.cost().unwrap_or(f64::INFINITY);
+        let (progress, planners) = (BatchProgress::default(), Planners::new(self.clone()));
+        let add = |chunk: &mut Vec<_>, answer: Result<Outcome, QueryError>| chunk.push(answer.map(length));
+        let chunks = planners.find_in_chunks(starts.len() * columns, query, &progress, add);
+        let values: Result<Vec<f64>, QueryError> = chunks.into_iter().flatten().collect();
+        Ok(Table { goals: columns, values: values? })
     }
-}
-
-#[cfg(feature = "parallel")]
-fn rows(index: &Index, starts: &[Vertex], goals: &[Vertex]) -> Result<Vec<Vec<f64>>, QueryError> {
-    use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
-    starts.par_iter().map_init(|| index.planner(), |planner, &start| row(planner, start, goals)).collect()
-}
-
-#[cfg(not(feature = "parallel"))]
-fn rows(index: &Index, starts: &[Vertex], goals: &[Vertex]) -> Result<Vec<Vec<f64>>, QueryError> {
-    let mut planner = index.planner();
-    starts.iter().map(|&start| row(&mut planner, start, goals)).collect()
-}
-
-/// The lengths of the paths from one start.
-fn row(planner: &mut Planner, start: Vertex, goals: &[Vertex]) -> Result<Vec<f64>, QueryError> {
-    let length = |outcome: Outcome| outcome.cost().unwrap_or(f64::INFINITY);
-    goals.iter().map(|&goal| planner.find(Query::new(start, goal)).map(length)).collect()
 }

@@ -1,6 +1,58 @@
-//! x
+//! The compiled part of the Python package `mediant`: arrays of NumPy in, arrays out, the library `mediant` in
+//! between. It has names, conversions and words, and no algorithm.
+//!
+//! - [`arguments`]: what a call was given: points, numbers, the keywords of motion, wishes and options. Each
+//!   mistake names its argument.
+//! - [`grid`], [`index`], [`field`], [`world`]: the classes. All are frozen, so threads share them.
+//! - [`arrays`]: maps from arrays, and arrays from paths.
+//! - [`background`]: the GIL is released wherever the library works; Ctrl-C is looked at while it does.
+//! - [`errors`]: the library's errors as exceptions.
+//!
+//! # Points
+//!
+//! Python has (row, column), the library (x, y). They are exchanged where a point comes in (`arguments`) and
+//! where it goes out (`arrays`), and in the text of an error (`errors`); nowhere else.
+//!
+//! # Time
+//!
+//! A query on an index of a small map takes microseconds: it runs on the caller's thread with the GIL
+//! released. What can take longer is watched. A search has a deadline that the library asks for every 64
+//! expansions, which looks at the clock, and every 20 ms for signals. What cannot be stopped from outside
+//! (preparation, fields, batches) runs on a thread of its own, and the caller's thread looks. If it is
+//! interrupted, batches stop, and the rest is finished for nothing and thrown away.
+//!
+//! Each call that works on all cores makes a pool of threads of its own. A process that was forked has no
+//! threads of its parent's, and would wait forever for those of a shared pool.
+
+mod answer;
+mod arguments;
+mod arrays;
+mod background;
+mod batch;
+mod errors;
+mod field;
+mod grid;
+mod index;
+mod keywords;
+mod world;
+
 use pyo3::prelude::*;
 
-/// The engines of the package `mediant`.
+/// The compiled part of the package.
 #[pymodule(gil_used = false)]
-mod _mediant {}
+mod _mediant {
+    #[pymodule_export]
+    use super::{
+        answer::Answer,
+        batch::Paths,
+        field::Field,
+        grid::Grid,
+        index::Index,
+        keywords::{bound, moves},
+        world::World,
+    };
+
+    #[pymodule_export]
+    #[expect(non_upper_case_globals, reason = "Python's name")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+}

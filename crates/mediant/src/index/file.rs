@@ -5,9 +5,13 @@ use std::path::Path as FilePath;
 
 use mediant_formats::{IndexError, IndexFile, IndexKey};
 
+use mediant_grid::Identity;
+use mediant_moves::K;
+
 use super::{Index, source::Source};
 use crate::{
-    configured::ConfiguredEngine, engine::Engine, error::Error, setup_error::SetupError, space::Space,
+    configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion,
+    setup_error::SetupError, space::Space,
 };
 
 impl Index {
@@ -32,6 +36,33 @@ impl Index {
         let engine = self.setup.engine.kind();
         let payload = self.prepared.to_bytes().ok_or_else(|| SetupError::without_index(engine))?;
         Ok(IndexFile::new(key(engine, &self.space)?, payload))
+    }
+}
+
+impl Map {
+    /// Reads an index that [`Index::save`] wrote for the same map, and makes its space: the file says which
+    /// rules and k it is for.
+    ///
+    /// # Errors
+    /// Those of [`Space::load`].
+    pub fn load(&self, path: impl AsRef<FilePath>) -> Result<Index, Error> {
+        let path = path.as_ref();
+        self.index(&IndexFile::read(path)?).map_err(|error| error.in_file(path))
+    }
+
+    /// The index that [`Index::to_bytes`] wrote for the same map, as [`load`](Self::load) reads it from a
+    /// file.
+    ///
+    /// # Errors
+    /// Those of [`Space::index_from_bytes`].
+    pub fn index_from_bytes(&self, bytes: Vec<u8>) -> Result<Index, Error> {
+        self.index(&IndexFile::from_bytes(bytes)?)
+    }
+
+    fn index(&self, file: &IndexFile) -> Result<Index, Error> {
+        let Identity { rules, k, .. } = file.key().identity();
+        // No engine saves an index for every k: whichever k is taken, the space refuses such a file.
+        self.space(Motion { k: k.unwrap_or(K::N8), rules })?.index(file, None)
     }
 }
 

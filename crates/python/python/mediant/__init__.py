@@ -20,6 +20,7 @@ from __future__ import annotations
 
 from ._mediant import Answer, Field, Grid, Index, Paths, World, __version__, bound, moves
 from .errors import (
+    ArgumentError,
     BrokenPathError,
     FileError,
     IndexFileError,
@@ -46,6 +47,7 @@ __all__ = [
     "N32",
     "N64",
     "Answer",
+    "ArgumentError",
     "BrokenPathError",
     "Field",
     "FileError",

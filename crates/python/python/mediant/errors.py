@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from ._mediant import Answer
 
 __all__ = [
+    "ArgumentError",
     "BrokenPathError",
     "FileError",
     "IndexFileError",
@@ -50,6 +51,10 @@ class MediantError(ValueError):
 
     def __reduce__(self) -> tuple[type[MediantError], tuple[str, str]]:
         return type(self), (str(self), self.code)
+
+
+class ArgumentError(MediantError):
+    """An argument with a value or shape that it cannot have. The text names it."""
 
 
 class MapError(MediantError):

@@ -1,0 +1,155 @@
+//! Planners that threads share, and many requests at once.
+
+use std::{
+    fmt,
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicBool, AtomicUsize, Ordering},
+    },
+};
+
+use mediant_search::{Outcome, QueryError, Request};
+
+use crate::{index::Index, planner::Planner};
+
+/// Planners on one index that any number of threads share: each query takes one that is idle, or makes one,
+/// and gives it back. There are as many as threads that ever searched at the same time.
+///
+/// ```
+/// use mediant::{Engine, K, Map, Motion, Planners, Query};
+///
+/// let space = Map::from_fn(9, 9, |x, y| x == 4 && y != 8)?.space(Motion::centers(K::N8))?;
+/// let planners = Planners::new(space.prepare(Engine::Subgoal)?);
+/// let queries: Vec<Query> = (0..9).map(|y| Query::new((0, y), (8, y))).collect();
+/// let answers = planners.find_all(&queries);
+/// assert_eq!(answers[8].as_ref().ok().and_then(|answer| answer.cost()), Some(8.0));
+/// assert_eq!(answers[0], planners.find(queries[0]));
+/// # Ok::<(), mediant::Error>(())
+/// ```
+pub struct Planners {
+    index: Index,
+    idle: Mutex<Vec<Planner>>,
+}
+
+/// How far a batch of requests is; any thread may look, and cancel the rest.
+#[derive(Debug, Default)]
+pub struct BatchProgress {
+    done: AtomicUsize,
+    is_cancelled: AtomicBool,
+}
+
+impl BatchProgress {
+    /// The number of requests that were answered.
+    #[must_use]
+    pub fn done(&self) -> usize {
+        self.done.load(Ordering::Relaxed)
+    }
+
+    /// Leaves out the requests that no thread has begun with. A request that takes long has
+    /// [limits](mediant_search::Limits::cancel) of its own.
+    pub fn cancel(&self) {
+        self.is_cancelled.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether it was cancelled.
+    #[must_use]
+    pub fn is_cancelled(&self) -> bool {
+        self.is_cancelled.load(Ordering::Relaxed)
+    }
+}
+
+impl Planners {
+    /// How many requests [`find_in_chunks`](Self::find_in_chunks) hands to a thread at once.
+    pub const CHUNK: usize = 256;
+
+    /// No planners yet, on this index.
+    #[must_use]
+    pub const fn new(index: Index) -> Self {
+        Self { index, idle: Mutex::new(Vec::new()) }
+    }
+
+    /// The index.
+    #[must_use]
+    pub const fn index(&self) -> &Index {
+        &self.index
+    }
+
+    /// Gives a planner to `work`.
+    pub fn with<T>(&self, work: impl FnOnce(&mut Planner) -> T) -> T {
+        let mut planner = self.idle().pop().unwrap_or_else(|| self.index.planner());
+        let result = work(&mut planner);
+        self.idle().push(planner);
+        result
+    }
+
+    fn idle(&self) -> std::sync::MutexGuard<'_, Vec<Planner>> {
+        // A thread that panics while it holds the lock leaves the list whole.
+        self.idle.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Answers a query or a request.
+    ///
+    /// # Errors
+    /// Those of [`Planner::find`].
+    pub fn find(&self, request: impl Into<Request>) -> Result<Outcome, QueryError> {
+        self.with(|planner| planner.find(request))
+    }
+
+    /// Answers many queries or requests, in their order; with the feature `parallel` on all cores. The
+    /// answers are the same on any number of threads.
+    pub fn find_all<R>(&self, requests: &[R]) -> Vec<Result<Outcome, QueryError>>
+    where
+        R: Clone + Into<Request> + Sync,
+    {
+        let (progress, add) = (BatchProgress::default(), |all: &mut Vec<_>, answer| all.push(answer));
+        let request = |index: usize| requests[index].clone();
+        self.find_in_chunks(requests.len(), request, &progress, add).into_iter().flatten().collect()
+    }
+
+    /// Answers the requests 0, 1, …, `count` − 1, and hands each answer to `add`, which adds it to the result
+    /// of its chunk: to a sum, or to flat arrays. The results come in the order of the chunks, each of
+    /// [`CHUNK`](Self::CHUNK) requests. After a cancellation some are cut short.
+    pub fn find_in_chunks<R, C>(
+        &self,
+        count: usize,
+        request: impl Fn(usize) -> R + Sync,
+        progress: &BatchProgress,
+        add: impl Fn(&mut C, Result<Outcome, QueryError>) + Sync,
+    ) -> Vec<C>
+    where
+        R: Into<Request>,
+        C: Default + Send,
+    {
+        in_order(count.div_ceil(Self::CHUNK), |chunk| {
+            let first = chunk * Self::CHUNK;
+            let mut result = C::default();
+            self.with(|planner| {
+                for index in first..count.min(first + Self::CHUNK) {
+                    if progress.is_cancelled() {
+                        break;
+                    }
+                    add(&mut result, planner.find(request(index)));
+                    progress.done.fetch_add(1, Ordering::Relaxed);
+                }
+            });
+            result
+        })
+    }
+}
+
+#[cfg(feature = "parallel")]
+fn in_order<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    use rayon::iter::{IntoParallelIterator, ParallelIterator};
+    (0..count).into_par_iter().map(&work).collect()
+}
+
+#[cfg(not(feature = "parallel"))]
+fn in_order<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    (0..count).map(work).collect()
+}
+
+impl fmt::Debug for Planners {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Planners").field("setup", &self.index.setup()).finish_non_exhaustive()
+    }
+}

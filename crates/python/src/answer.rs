@@ -1,0 +1,161 @@
+//! The answer to a query.
+
+use mediant::{Counters, Limit, Outcome, PlacementKind, Stopped};
+use numpy::PyArray2;
+use pyo3::{prelude::*, types::PyDict};
+
+use crate::{arrays::PathPoints, errors::made};
+
+/// The answer of `find`.
+///
+/// Attributes
+/// ----------
+/// status : str
+///     ``"found"``; ``"unreachable"``: there is no path; ``"nearest"``: there is none, and the path leads to the
+///     reachable vertex that is nearest to the goal; ``"stopped"``: a limit stopped the search.
+/// path : numpy.ndarray or None
+///     The path, shape (n, 2), int32: of a found or nearest answer.
+/// distance : float
+///     Its length in cells; ``inf`` if unreachable, ``nan`` if stopped.
+/// stopped_by : str or None
+///     The limit: ``"cost"``, ``"expansions"`` or ``"timeout"``.
+/// best : numpy.ndarray or None
+///     Of a stopped answer the best so far: a path to a goal, or to the vertex nearest to one.
+/// lower_bound : float
+///     No path is shorter. Of a found path its own length, where the engine guarantees that it is shortest,
+///     else 0.
+/// counters : dict or None
+///     The numbers of events of the search, if they were asked for.
+///
+/// Examples
+/// --------
+/// >>> import mediant
+/// >>> grid = mediant.Grid.from_rows(["...", "##.", "..."])
+/// >>> answer = grid.find((0, 0), (2, 0), k=2)
+/// >>> answer.status, answer.distance
+/// ('found', 6.0)
+#[pyclass(frozen, module = "mediant")]
+pub(crate) struct Answer {
+    /// What became of the query.
+    #[pyo3(get)]
+    status: &'static str,
+    /// The path, shape (n, 2).
+    #[pyo3(get)]
+    path: Option<Py<PyArray2<i32>>>,
+    /// The length of the path in cells.
+    #[pyo3(get)]
+    distance: f64,
+    /// The limit that stopped the search.
+    #[pyo3(get)]
+    stopped_by: Option<&'static str>,
+    /// The best path so far of a search that was stopped.
+    #[pyo3(get)]
+    best: Option<Py<PyArray2<i32>>>,
+    /// No path is shorter.
+    #[pyo3(get)]
+    lower_bound: f64,
+    /// The numbers of events of the search.
+    #[pyo3(get)]
+    counters: Option<Py<PyDict>>,
+}
+
+#[pymethods]
+impl Answer {
+    fn __repr__(&self) -> String {
+        let Self { status, distance, .. } = self;
+        format!("<mediant.Answer {status}, distance {distance}>")
+    }
+}
+
+/// The name of a limit.
+const fn limit_name(limit: Limit) -> &'static str {
+    match limit {
+        Limit::Cost => "cost",
+        Limit::Expansions => "expansions",
+        _ => "timeout",
+    }
+}
+
+/// The status of an outcome.
+pub(crate) const fn status(outcome: &Outcome) -> &'static str {
+    match outcome {
+        Outcome::Found(_) => "found",
+        Outcome::Nearest(_) => "nearest",
+        Outcome::Stopped(_) => "stopped",
+        _ => "unreachable",
+    }
+}
+
+impl Answer {
+    /// The answer with its arrays. `is_optimal` says whether the engine's paths are shortest.
+    pub(crate) fn new(
+        py: Python<'_>,
+        outcome: &Outcome,
+        points: PathPoints,
+        placement: PlacementKind,
+        (is_optimal, counters): (bool, Option<Counters>),
+    ) -> PyResult<Self> {
+        let path = outcome.path().map(|path| points.array(py, path, placement)).transpose()?;
+        let (stopped_by, best, lower_bound) = match outcome {
+            Outcome::Stopped(Stopped { by, best, lower_bound, .. }) => {
+                (Some(limit_name(*by)), Some(points.array(py, best, placement)?), *lower_bound)
+            }
+            Outcome::Found(path) if is_optimal => (None, None, path.cost()),
+            Outcome::Found(_) | Outcome::Nearest(_) => (None, None, 0.0),
+            _ => (None, None, f64::INFINITY),
+        };
+        Ok(Self {
+            status: status(outcome),
+            path: path.map(Bound::unbind),
+            distance: distance(outcome),
+            stopped_by,
+            best: best.map(Bound::unbind),
+            lower_bound,
+            counters: counters.map(|counters| in_dict(py, counters)).transpose()?,
+        })
+    }
+}
+
+/// The distance of an outcome: infinite where no path leads, nan where it is not known.
+pub(crate) fn distance(outcome: &Outcome) -> f64 {
+    match outcome {
+        Outcome::Unreachable => f64::INFINITY,
+        outcome => outcome.cost().unwrap_or(f64::NAN),
+    }
+}
+
+/// The path or distance of an outcome that a limit did not stop.
+///
+/// # Errors
+/// `LimitReached` with the answer.
+pub(crate) fn whole(
+    py: Python<'_>,
+    outcome: Outcome,
+    points: PathPoints,
+    placement: PlacementKind,
+) -> PyResult<Outcome> {
+    let Outcome::Stopped(Stopped { by, lower_bound, .. }) = &outcome else { return Ok(outcome) };
+    let text = format!(
+        "the search was stopped by its limit ({}): no path is shorter than {lower_bound:.3} cells; the best so \
+         far is in the error's answer",
+        limit_name(*by)
+    );
+    let answer = Answer::new(py, &outcome, points, placement, (false, None))?;
+    Err(made(py, "LimitReached", (text, "stopped", answer)))
+}
+
+/// The counters by name.
+fn in_dict(py: Python<'_>, counters: Counters) -> PyResult<Py<PyDict>> {
+    let dict = PyDict::new(py);
+    for (name, count) in [
+        ("expanded", counters.expanded),
+        ("generated", counters.generated),
+        ("updated", counters.updated),
+        ("percolations", counters.percolations),
+        ("scanned", counters.scanned),
+        ("fallbacks", counters.fallbacks),
+    ] {
+        dict.set_item(name, count)?;
+    }
+    Ok(dict.unbind())
+}

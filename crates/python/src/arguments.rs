@@ -1,0 +1,206 @@
+//! Points and numbers, as a call was given them. Each mistake names its argument.
+
+use mediant::Vertex;
+use numpy::{PyArrayDescrMethods, PyReadonlyArray2, PyUntypedArray, PyUntypedArrayMethods};
+use pyo3::{
+    exceptions::{PyOverflowError, PyTypeError},
+    prelude::*,
+    types::{PyBool, PyString, PyTuple},
+};
+
+use crate::errors::{argument, far_outside, wrong_type};
+
+/// What a point looks like.
+const POINT: &str = "a point (row, column) of two integers";
+/// What one or several points look like.
+const POINTS: &str = "a point (row, column), or an integer array of points with shape (n, 2)";
+
+/// One point, or several.
+pub(crate) enum Points {
+    One(Vertex),
+    Several(Vec<Vertex>),
+}
+
+impl Points {
+    /// The points of an argument.
+    pub(crate) fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        if let Some(at) = pair(name, value)? {
+            return Ok(Self::One(at));
+        }
+        let array = as_array(name, value)?;
+        match array.shape() {
+            [2] => Ok(Self::One(rows_of(name, &reshaped(&array)?)?[0])),
+            [_, 2] => Ok(Self::Several(rows_of(name, &array)?)),
+            [0] => Ok(Self::Several(Vec::new())),
+            shape => Err(argument(name, &format!("expected {POINTS}, found an array of shape {shape:?}"))),
+        }
+    }
+
+    pub(crate) fn as_slice(&self) -> &[Vertex] {
+        match self {
+            Self::One(at) => std::slice::from_ref(at),
+            Self::Several(all) => all,
+        }
+    }
+
+    pub(crate) fn into_vec(self) -> Vec<Vertex> {
+        match self {
+            Self::One(at) => vec![at],
+            Self::Several(all) => all,
+        }
+    }
+}
+
+/// The one point of an argument.
+pub(crate) fn point(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vertex> {
+    if let Some(at) = pair(name, value)? {
+        return Ok(at);
+    }
+    let array = as_array(name, value)?;
+    match array.shape() {
+        [2] => Ok(rows_of(name, &reshaped(&array)?)?[0]),
+        shape => Err(argument(name, &format!("expected {POINT}, found an array of shape {shape:?}"))),
+    }
+}
+
+/// The points of an argument with shape (n, 2), as a path is.
+pub(crate) fn path_points(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<Vertex>> {
+    let array = as_array(name, value)?;
+    match array.shape() {
+        [_, 2] => rows_of(name, &array),
+        shape => {
+            let wrong =
+                format!("expected an integer array of points with shape (n, 2), found shape {shape:?}");
+            Err(argument(name, &wrong))
+        }
+    }
+}
+
+/// The point of a tuple of two whole numbers, by far the most frequent form; `None` for any other form.
+fn pair(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Vertex>> {
+    let Ok(tuple) = value.cast::<PyTuple>() else { return Ok(None) };
+    if tuple.len() != 2 {
+        return Ok(None);
+    }
+    let (row, column) = (tuple.get_item(0)?, tuple.get_item(1)?);
+    match (row.extract::<i32>(), column.extract::<i32>()) {
+        (Ok(row), Ok(column)) => Ok(Some(Vertex::new(column, row))),
+        (Err(error), _) | (_, Err(error)) if error.is_instance_of::<PyOverflowError>(value.py()) => {
+            Err(far_outside(name))
+        }
+        _ => Ok(None),
+    }
+}
+
+/// The argument as an array of numbers.
+fn as_array<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyUntypedArray>> {
+    if value.is_none() || value.is_instance_of::<PyString>() {
+        return Err(wrong_type(name, POINTS, value));
+    }
+    let array = numpy_function(value.py(), "asarray")?.call1((value,));
+    let array = array.map_err(|_| argument(name, &format!("expected {POINTS}, found no array")))?;
+    let array = array.cast_into::<PyUntypedArray>().map_err(|_| wrong_type(name, POINTS, value))?;
+    let is_integer = matches!(array.dtype().kind(), b'i' | b'u');
+    if !is_integer && !array.is_empty() {
+        // Python's own numbers that are too large for NumPy's become objects.
+        if array.dtype().kind() == b'O' && is_all_integers(&array)? {
+            return Err(far_outside(name));
+        }
+        let dtype = array.dtype().to_string();
+        return Err(PyTypeError::new_err(format!("{name}: expected {POINTS}, found numbers of {dtype}")));
+    }
+    Ok(array)
+}
+
+/// Whether all objects of an array are Python's integers.
+fn is_all_integers(array: &Bound<'_, PyUntypedArray>) -> PyResult<bool> {
+    for item in array.getattr("flat")?.try_iter()? {
+        if !item?.is_instance_of::<pyo3::types::PyInt>() {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+/// The array of one point as one of several.
+fn reshaped<'py>(array: &Bound<'py, PyUntypedArray>) -> PyResult<Bound<'py, PyUntypedArray>> {
+    Ok(array.call_method1("reshape", ((1, 2),))?.cast_into()?)
+}
+
+/// The points of an integer array of shape (n, 2). Arrays of 32 and 64 bits are read where they are.
+fn rows_of(name: &str, array: &Bound<'_, PyUntypedArray>) -> PyResult<Vec<Vertex>> {
+    if array.is_empty() {
+        return Ok(Vec::new());
+    }
+    if let Ok(array) = array.extract::<PyReadonlyArray2<'_, i32>>() {
+        return Ok(array.as_array().rows().into_iter().map(|at| Vertex::new(at[1], at[0])).collect());
+    }
+    let wide;
+    let array = match array.extract::<PyReadonlyArray2<'_, i64>>() {
+        Ok(array) => array,
+        Err(_) => {
+            // Unsigned 64 bits may not fit; all other integers do.
+            if array.dtype().kind() == b'u' && array.call_method0("max")?.extract::<i64>().is_err() {
+                return Err(far_outside(name));
+            }
+            wide = array.call_method1("astype", ("int64",))?;
+            wide.extract::<PyReadonlyArray2<'_, i64>>()?
+        }
+    };
+    let narrow = |number: i64| i32::try_from(number).map_err(|_| far_outside(name));
+    let rows = array.as_array();
+    rows.rows().into_iter().map(|at| Ok(Vertex::new(narrow(at[1])?, narrow(at[0])?))).collect()
+}
+
+/// A function of NumPy.
+pub(crate) fn numpy_function<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    py.import("numpy")?.getattr(name)
+}
+
+/// A number.
+pub(crate) fn number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    value.extract().map_err(|_| wrong_type(name, "a number", value))
+}
+
+/// A number that is not negative, nor none.
+pub(crate) fn positive(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let found = number(name, value)?;
+    if found >= 0.0 {
+        return Ok(found);
+    }
+    Err(argument(name, &format!("expected a number of 0 or more, found {found}")))
+}
+
+/// A whole number of at least `least`.
+pub(crate) fn integer(name: &str, value: &Bound<'_, PyAny>, least: u64) -> PyResult<u64> {
+    let expected = || format!("expected an integer of {least} or more");
+    match value.extract::<u64>() {
+        Ok(found) if found >= least => Ok(found),
+        Ok(found) => Err(argument(name, &format!("{}, found {found}", expected()))),
+        Err(error) if error.is_instance_of::<PyOverflowError>(value.py()) => {
+            Err(argument(name, &format!("{}, found {value}", expected())))
+        }
+        Err(_) => Err(wrong_type(name, "an integer", value)),
+    }
+}
+
+/// True or false.
+pub(crate) fn flag(name: &str, value: &Bound<'_, PyAny>) -> PyResult<bool> {
+    if let Ok(value) = value.cast::<PyBool>() {
+        return Ok(value.is_true());
+    }
+    value.extract().map_err(|_| wrong_type(name, "True or False", value))
+}
+
+/// One of several words, each with its meaning.
+pub(crate) fn word<T: Copy>(name: &str, value: &Bound<'_, PyAny>, words: &[(&str, T)]) -> PyResult<T> {
+    let known = || words.iter().map(|(word, _)| format!("'{word}'")).collect::<Vec<_>>().join(", ");
+    let Ok(text) = value.cast::<PyString>() else {
+        return Err(wrong_type(name, &format!("one of {}", known()), value));
+    };
+    let text = text.to_string();
+    let found = words.iter().find(|(word, _)| *word == text);
+    found
+        .map(|&(_, meaning)| meaning)
+        .ok_or_else(|| argument(name, &format!("expected one of {}, found '{text}'", known())))
+}

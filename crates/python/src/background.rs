@@ -1,0 +1,107 @@
+//! Work with the GIL released, which Ctrl-C can end.
+
+use std::{
+    sync::{
+        Arc, Mutex, PoisonError,
+        mpsc::{self, RecvTimeoutError},
+    },
+    thread,
+    time::{Duration, Instant},
+};
+
+use mediant::{Limits, Space};
+use pyo3::prelude::*;
+
+/// How often signals are looked at.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// Up to this many cells, whatever is not a preparation takes a few milliseconds at most.
+const QUICK_CELLS: u64 = 1 << 16;
+
+/// Whether a search in a space can take so long that it is watched: more expansions, each of more moves, than
+/// can be made in about 20 ms.
+pub(crate) fn is_watched(space: &Space) -> bool {
+    let vertices = u64::from(space.map().width()) * u64::from(space.map().height());
+    let moves = space.motion().k.finite().map_or(16, |k| 1 << k.get().min(16));
+    vertices * moves > 1 << 21
+}
+
+/// Does work on a map of so many cells with the GIL released; on a large one on another thread, while this one
+/// looks at signals.
+pub(crate) fn detached<T: Send + 'static>(
+    py: Python<'_>,
+    cells: u64,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> PyResult<T> {
+    if cells <= QUICK_CELLS { Ok(py.detach(work)) } else { on_thread(py, work, |_| Ok(())) }
+}
+
+/// Does work on another thread, while this one looks at signals, and calls `look`. If either raises, the work
+/// goes on for nothing.
+pub(crate) fn on_thread<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce() -> T + Send + 'static,
+    mut look: impl FnMut(Python<'_>) -> PyResult<()>,
+) -> PyResult<T> {
+    let (sender, mut receiver) = mpsc::channel();
+    let worker = thread::Builder::new().name("mediant".to_owned()).spawn(move || {
+        // Nobody waits any more after an interruption.
+        let _ = sender.send(work());
+    })?;
+    loop {
+        let received;
+        (received, receiver) = py.detach(move || (receiver.recv_timeout(LOOK), receiver));
+        match received {
+            Ok(result) => return Ok(result),
+            Err(RecvTimeoutError::Timeout) => {
+                py.check_signals()?;
+                look(py)?;
+            }
+            // The work panicked: so does this, as a `PanicException`.
+            Err(RecvTimeoutError::Disconnected) => match worker.join() {
+                Err(panic) => std::panic::resume_unwind(panic),
+                Ok(()) => return Err(crate::errors::exception("MediantError", "the work was lost", "other")),
+            },
+        }
+    }
+}
+
+/// Does work in a pool of threads of its own: as many as asked for, or one for each core.
+pub(crate) fn in_pool<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> T {
+    match rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build() {
+        Ok(pool) => pool.install(work),
+        // The system gives no more threads: this one does it all.
+        Err(_) => work(),
+    }
+}
+
+/// What a watched search was interrupted by, if it was.
+#[derive(Clone, Default)]
+pub(crate) struct Interruption(Arc<Mutex<Option<PyErr>>>);
+
+impl Interruption {
+    /// The limits with a deadline: after `timeout` seconds, or when a signal's handler raises.
+    pub(crate) fn watch(&self, limits: Limits, timeout: Option<f64>) -> Limits {
+        let (begin, slot) = (Instant::now(), self.0.clone());
+        let next = Mutex::new(begin + LOOK);
+        limits.deadline(move || {
+            let now = Instant::now();
+            if timeout.is_some_and(|seconds| (now - begin).as_secs_f64() >= seconds) {
+                return true;
+            }
+            let mut next = next.lock().unwrap_or_else(PoisonError::into_inner);
+            if now < *next {
+                return false;
+            }
+            *next = now + LOOK;
+            let Err(error) = Python::attach(|py| py.check_signals()) else { return false };
+            *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
+            true
+        })
+    }
+
+    /// The exception of the signal.
+    pub(crate) fn take(&self) -> Option<PyErr> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+}

@@ -1,0 +1,128 @@
+//! The library's errors as the exceptions of `mediant.errors`.
+
+use mediant::{BrokenPath, Error, ErrorCode, QueryError, Vertex};
+use pyo3::{call::PyCallArgs, exceptions::PyTypeError, prelude::*, types::PyType};
+
+/// The class of the exception for a kind of mistake.
+const fn class(code: ErrorCode) -> &'static str {
+    match code {
+        ErrorCode::MapSize | ErrorCode::MapRagged | ErrorCode::EditOutside | ErrorCode::IndexEdit => {
+            "MapError"
+        }
+        ErrorCode::K
+        | ErrorCode::Motion
+        | ErrorCode::UnknownName
+        | ErrorCode::SetupText
+        | ErrorCode::EngineOption
+        | ErrorCode::EngineK
+        | ErrorCode::EngineRules
+        | ErrorCode::EngineWithout
+        | ErrorCode::IndexRange
+        | ErrorCode::IndexOptions => "OptionError",
+        ErrorCode::Mismatch => "MismatchError",
+        ErrorCode::StartBlocked
+        | ErrorCode::GoalBlocked
+        | ErrorCode::StartOutside
+        | ErrorCode::GoalOutside
+        | ErrorCode::GaveUp
+        | ErrorCode::NoEnd
+        | ErrorCode::Number
+        | ErrorCode::NotBegun => "QueryError",
+        ErrorCode::IndexDamaged | ErrorCode::IndexEngine => "IndexFileError",
+        ErrorCode::FileMissing => "MissingFileError",
+        ErrorCode::FileUnreadable
+        | ErrorCode::FileUnwritable
+        | ErrorCode::MapFormat
+        | ErrorCode::ScenarioFormat => "FileError",
+        _ => "MediantError",
+    }
+}
+
+/// The exception for an error of the library.
+pub(crate) fn raised(error: impl Into<Error>) -> PyErr {
+    let error = match error.into() {
+        Error::Query(error) => Error::Query(in_rows(error)),
+        error => error,
+    };
+    let code = error.code();
+    exception(class(code), &error.to_string(), code.name())
+}
+
+/// The exception for an argument that has a value which it cannot have.
+pub(crate) fn argument(name: &str, wrong: &str) -> PyErr {
+    exception("ArgumentError", &format!("{name}: {wrong}"), "argument")
+}
+
+/// The exception for an argument of another type.
+pub(crate) fn wrong_type(name: &str, expected: &str, found: &Bound<'_, PyAny>) -> PyErr {
+    let kind = found.get_type().name().map_or_else(|_| "another type".to_owned(), |name| name.to_string());
+    PyTypeError::new_err(format!("{name}: expected {expected}, found {kind}"))
+}
+
+/// The exception for an end whose numbers are larger than those of any map.
+pub(crate) fn far_outside(name: &str) -> PyErr {
+    let code = match name {
+        "start" | "starts" => "start-outside",
+        "goal" | "goals" => "goal-outside",
+        _ => "argument",
+    };
+    exception("QueryError", &format!("{name}: a row or column beyond that of any map"), code)
+}
+
+/// An exception of `mediant.errors`.
+pub(crate) fn exception(class: &str, message: &str, code: &str) -> PyErr {
+    Python::attach(|py| made(py, class, (message, code)))
+}
+
+/// The exception for a path that does not hold.
+pub(crate) fn broken(error: BrokenPath) -> PyErr {
+    let (message, holds_up_to) = (broken_in_rows(error).to_string(), error.holds_up_to());
+    Python::attach(|py| made(py, "BrokenPathError", (message, "broken-path", holds_up_to)))
+}
+
+/// The exception of this class, or the one that prevents it.
+pub(crate) fn made<'py>(py: Python<'py>, class: &str, arguments: impl PyCallArgs<'py>) -> PyErr {
+    let make = || -> PyResult<PyErr> {
+        let class = py.import("mediant.errors")?.getattr(class)?.cast_into::<PyType>()?;
+        Ok(PyErr::from_value(class.call1(arguments)?))
+    };
+    make().unwrap_or_else(|error| error)
+}
+
+/// (row, column) where the library writes (x, y).
+const fn swapped(at: Vertex) -> Vertex {
+    Vertex::new(at.y, at.x)
+}
+
+/// The error, with its points as (row, column).
+const fn in_rows(error: QueryError) -> QueryError {
+    match error {
+        QueryError::Outside { end, at, last } => {
+            QueryError::Outside { end, at: swapped(at), last: swapped(last) }
+        }
+        QueryError::Blocked { end, at } => QueryError::Blocked { end, at: swapped(at) },
+        error => error,
+    }
+}
+
+/// The error, with its points as (row, column).
+fn broken_in_rows(error: BrokenPath) -> BrokenPath {
+    use mediant::Obstruction;
+    match error {
+        BrokenPath::Outside { index, at } => BrokenPath::Outside { index, at: swapped(at) },
+        BrokenPath::Blocked { end, at } => BrokenPath::Blocked { end, at: swapped(at) },
+        BrokenPath::Segment { index, from, to, by } => {
+            let by = match by {
+                Obstruction::End { at } => Obstruction::End { at: swapped(at) },
+                Obstruction::Cell { x, y } => Obstruction::Cell { x: y, y: x },
+                Obstruction::Between { cells } => Obstruction::Between { cells: cells.map(|(x, y)| (y, x)) },
+                by => by,
+            };
+            BrokenPath::Segment { index, from: swapped(from), to: swapped(to), by }
+        }
+        BrokenPath::Gap { index, at, before, after } => {
+            BrokenPath::Gap { index, at: swapped(at), before: before.map(swapped), after: after.map(swapped) }
+        }
+        error => error,
+    }
+}

@@ -1,0 +1,177 @@
+//! Distance fields.
+
+use mediant::{PlacementKind, Vertex};
+use numpy::PyArray2;
+use pyo3::prelude::*;
+
+use crate::{
+    arguments::point as vertex,
+    arrays::{PathPoints, rows_array},
+};
+
+/// The distance of every vertex to the nearest of one or several sources, with the paths to it.
+///
+/// `Grid.field` makes it.
+///
+/// Attributes
+/// ----------
+/// shape : tuple of int
+///     The number of rows and columns of vertices: those of the map, at corners one more each.
+///
+/// Examples
+/// --------
+/// >>> import mediant
+/// >>> field = mediant.Grid.from_rows(["....", ".##.", "...."]).field([(0, 0), (2, 3)])
+/// >>> field.distances().round(1).tolist()
+/// [[0.0, 1.0, 2.0, 2.0], [1.0, inf, inf, 1.0], [2.0, 2.0, 1.0, 0.0]]
+/// >>> field.path_from((0, 3)).tolist()
+/// [[0, 3], [2, 3]]
+#[pyclass(frozen, module = "mediant")]
+pub(crate) struct Field {
+    inner: mediant::Field,
+    placement: PlacementKind,
+}
+
+impl Field {
+    pub(crate) const fn new(inner: mediant::Field, placement: PlacementKind) -> Self {
+        Self { inner, placement }
+    }
+
+    /// All vertices, row by row.
+    fn vertices(&self) -> impl Iterator<Item = Vertex> {
+        let (width, height) = (self.inner.width() as i32, self.inner.height() as i32);
+        (0..height).flat_map(move |y| (0..width).map(move |x| Vertex::new(x, y)))
+    }
+}
+
+#[pymethods]
+impl Field {
+    /// The number of rows and columns of vertices.
+    #[getter]
+    fn shape(&self) -> (u32, u32) {
+        (self.inner.height(), self.inner.width())
+    }
+
+    /// The distances of all vertices to the nearest source.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     The shape of the field, float64, in cells; ``inf`` where no path leads, or none within the limit.
+    ///
+    /// Examples
+    /// --------
+    /// See `Field`.
+    pub(crate) fn distances<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let lengths = py.detach(|| self.inner.lengths());
+        rows_array(py, lengths, self.inner.width() as usize)
+    }
+
+    /// The directions in which the shortest paths leave the vertices.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     The shape of the field and 2, float64: (row, column) vectors of length 1; 0 at sources, ``nan`` where
+    ///     no path leads.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> mediant.Grid.from_rows(["..."]).field((0, 2)).flow()[0].tolist()
+    /// [[0.0, 1.0], [0.0, 1.0], [0.0, 0.0]]
+    pub(crate) fn flow<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let direction = |at: Vertex| match self.inner.direction(at) {
+            Some((dx, dy)) => [dy, dx],
+            None if self.inner.get(at).is_some() => [0.0, 0.0],
+            None => [f64::NAN, f64::NAN],
+        };
+        let flat: Vec<f64> = py.detach(|| self.vertices().flat_map(direction).collect());
+        self.planes(rows_array(py, flat, 2)?)
+    }
+
+    /// The vertices to which the shortest paths lead next: one move away, or at any angle where the path first
+    /// bends.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     The shape of the field and 2, int32: (row, column); a source's own at sources, -1 where no path leads.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> mediant.Grid.from_rows(["..."]).field((0, 2)).next()[0].tolist()
+    /// [[0, 1], [0, 2], [0, 2]]
+    fn next<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let next = |at: Vertex| match self.inner.next(at) {
+            Some(next) => [next.y, next.x],
+            None if self.inner.get(at).is_some() => [at.y, at.x],
+            None => [-1, -1],
+        };
+        let flat: Vec<i32> = py.detach(|| self.vertices().flat_map(next).collect());
+        self.planes(rows_array(py, flat, 2)?)
+    }
+
+    /// The shortest path from a vertex to the nearest source.
+    ///
+    /// Parameters
+    /// ----------
+    /// point : tuple of int
+    ///     (row, column).
+    /// points : {"waypoints", "vertices", "cells"}
+    ///     What the array has: see `Grid.find`.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray or None
+    ///     Shape (n, 2), int32; None where no path leads, or the point is blocked or outside the map.
+    ///
+    /// Examples
+    /// --------
+    /// See `Field`.
+    #[pyo3(signature = (point, *, points = None))]
+    fn path_from<'py>(
+        &self,
+        point: &Bound<'py, PyAny>,
+        points: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
+        let (py, points) = (point.py(), PathPoints::read(points)?);
+        let path = self.inner.path_from(vertex("point", point)?);
+        path.map(|path| points.array(py, &path, self.placement)).transpose()
+    }
+
+    /// The source that is nearest to a vertex.
+    ///
+    /// Parameters
+    /// ----------
+    /// point : tuple of int
+    ///     (row, column).
+    ///
+    /// Returns
+    /// -------
+    /// tuple of int or None
+    ///     (row, column) of the source; None where no path leads.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> field = mediant.Grid.from_rows(["....."]).field([(0, 0), (0, 4)])
+    /// >>> field.nearest_source((0, 3))
+    /// (0, 4)
+    fn nearest_source(&self, point: &Bound<'_, PyAny>) -> PyResult<Option<(i32, i32)>> {
+        let source = self.inner.nearest_source(vertex("point", point)?);
+        Ok(source.map(|at| (at.y, at.x)))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<mediant.Field of {} × {} vertices>", self.inner.height(), self.inner.width())
+    }
+}
+
+impl Field {
+    /// An array of points, one for each vertex, in the shape of the field.
+    fn planes<'py>(&self, array: Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        array.call_method1("reshape", ((self.inner.height(), self.inner.width(), 2),))
+    }
+}

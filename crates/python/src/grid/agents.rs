@@ -1,0 +1,202 @@
+//! Agents of a size, and paths that keep off walls.
+
+use mediant::{Clearance, Fit, Outside, Vertex};
+use numpy::PyArray2;
+use pyo3::{prelude::*, types::PyDict};
+
+use super::Grid;
+use crate::{
+    arguments::{integer, point, positive, word},
+    arrays::{PathPoints, rows_array},
+    background::{in_pool, on_thread},
+    errors::raised,
+    keywords::{Keywords, Takes},
+};
+
+#[pymethods]
+impl Grid {
+    /// How far each cell is from the nearest obstacle.
+    ///
+    /// Parameters
+    /// ----------
+    /// fit : {"centers", "whole-cells"}
+    ///     From the center of the cell, or from its nearest point.
+    /// outside : {"blocked", "open"}
+    ///     Whether the outside of the map is an obstacle.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     Shape (rows, columns), float64, in cells: the distance to the nearest point of an obstacle; 0 in
+    ///     blocked cells, ``inf`` if there is no obstacle.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> mediant.Grid.from_rows(["...#."]).clearance(outside="open").tolist()
+    /// [[2.5, 1.5, 0.5, 0.0, 0.5]]
+    #[pyo3(signature = (*, fit = None, outside = None))]
+    fn clearance<'py>(
+        &self,
+        py: Python<'py>,
+        fit: Option<&Bound<'py, PyAny>>,
+        outside: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (fit, outside) = (read_fit(fit)?.unwrap_or(Fit::Centers), read_outside(outside)?);
+        let (width, height) = (self.map().width() as i32, self.map().height() as i32);
+        let distances = self.measured(py, (fit, outside), move |clearance| {
+            let vertices = (0..height).flat_map(|y| (0..width).map(move |x| Vertex::new(x, y)));
+            vertices.map(|at| clearance.distance(at)).collect::<Vec<f64>>()
+        })?;
+        rows_array(py, distances, width as usize)
+    }
+
+    /// The grid of a disc: free where the disc fits. The paths of its center are those of a point on that grid.
+    ///
+    /// Parameters
+    /// ----------
+    /// radius : float
+    ///     In cells.
+    /// fit : {"centers", "whole-cells"}, optional
+    ///     Whether the disc must fit around the center of a cell, or around all of its points. By default the
+    ///     looser one that keeps the radius along every path of the motion.
+    /// outside : {"blocked", "open"}
+    ///     Whether the disc may not stick out over the edge of the map, or may.
+    /// **motion
+    ///     As in `find`.
+    ///
+    /// Returns
+    /// -------
+    /// Grid
+    ///     With more blocked cells.
+    ///
+    /// Raises
+    /// ------
+    /// ArgumentError
+    ///     For a radius that is negative or no number.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> grid = mediant.Grid.from_rows([".....", "..#..", "....."])
+    /// >>> grid.for_disc(0.5).distance((0, 0), (0, 4))
+    /// 4.0
+    /// >>> grid.for_disc(0.6).is_free((0, 0))
+    /// False
+    #[pyo3(signature = (radius, *, fit = None, outside = None, **motion))]
+    fn for_disc<'py>(
+        &self,
+        radius: &Bound<'py, PyAny>,
+        fit: Option<&Bound<'py, PyAny>>,
+        outside: Option<&Bound<'py, PyAny>>,
+        motion: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Self> {
+        let motion = Keywords::read("for_disc", motion, Takes::MOTION)?.motion()?;
+        let fit = read_fit(fit)?.unwrap_or_else(|| Fit::exact(motion.rules, motion.k));
+        let (radius_given, outside) = (positive("radius", radius)?, read_outside(outside)?);
+        let measured = move |clearance: &Clearance| clearance.for_disc(radius_given);
+        let grid = self.measured(radius.py(), (fit, outside), measured)?;
+        Ok(Self::new(grid.map_err(raised)?.into(), self.shared.world))
+    }
+
+    /// The grid of an agent that covers side × side cells. Its place is its top left cell.
+    ///
+    /// Parameters
+    /// ----------
+    /// side : int
+    ///     The number of cells.
+    ///
+    /// Returns
+    /// -------
+    /// Grid
+    ///     Free where all its cells are.
+    ///
+    /// Raises
+    /// ------
+    /// ArgumentError
+    ///     For a side of 0.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> mediant.Grid.from_rows(["...", "..#"]).for_square(2).to_numpy().tolist()
+    /// [[False, True, True], [True, True, True]]
+    fn for_square(&self, py: Python<'_>, side: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let side = u32::try_from(integer("side", side, 1)?).unwrap_or(u32::MAX);
+        let map = py.detach(|| self.map().for_square(side)).map_err(raised)?;
+        Ok(Self::new(map, self.shared.world))
+    }
+
+    /// Of all paths that are not much longer than the shortest, one that keeps off walls farthest.
+    ///
+    /// Parameters
+    /// ----------
+    /// start, goal : tuple of int
+    ///     (row, column).
+    /// surplus : float
+    ///     How much longer it may be: 0.1 allows 10 % more.
+    /// points : {"waypoints", "vertices", "cells"}
+    ///     What the array has: see `find`.
+    /// **motion
+    ///     As in `find`.
+    ///
+    /// Returns
+    /// -------
+    /// tuple or None
+    ///     The path, shape (n, 2), int32, and the radius in cells of the disc that keeps its distance to all
+    ///     obstacles along it. None if there is no path.
+    ///
+    /// Raises
+    /// ------
+    /// QueryError
+    ///     For a start or goal that is blocked or outside the map.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> grid = mediant.Grid.from_rows(["." * 9] * 4 + ["....#...."] + ["." * 9] * 3)
+    /// >>> path, radius = grid.widest_path((3, 1), (3, 7), surplus=0.5)
+    /// >>> radius
+    /// 1.5
+    #[pyo3(signature = (start, goal, *, surplus, points = None, **motion))]
+    fn widest_path<'py>(
+        &self,
+        start: &Bound<'py, PyAny>,
+        goal: &Bound<'py, PyAny>,
+        surplus: &Bound<'py, PyAny>,
+        points: Option<&Bound<'py, PyAny>>,
+        motion: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Option<(Bound<'py, PyArray2<i32>>, f64)>> {
+        let (py, points) = (start.py(), PathPoints::read(points)?);
+        let space = self.moved("widest_path", py, motion)?;
+        let placement = space.motion().rules.placement();
+        let (start, goal) = (point("start", start)?, point("goal", goal)?);
+        let surplus = positive("surplus", surplus)?;
+        let work = move || in_pool(None, || space.widest_path(start, goal, surplus));
+        let widest = on_thread(py, work, |_| Ok(()))?.map_err(raised)?;
+        widest.map(|widest| Ok((points.array(py, &widest.path, placement)?, widest.radius))).transpose()
+    }
+}
+
+impl Grid {
+    /// What `of` takes from the measured clearance.
+    fn measured<T: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        (fit, outside): (Fit, Outside),
+        of: impl FnOnce(&Clearance) -> T + Send + 'static,
+    ) -> PyResult<T> {
+        let map = self.map().clone();
+        on_thread(py, move || in_pool(None, || of(&map.clearance(fit, outside))), |_| Ok(()))
+    }
+}
+
+fn read_fit(value: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Fit>> {
+    let Some(value) = value.filter(|value| !value.is_none()) else { return Ok(None) };
+    word("fit", value, &[("centers", Fit::Centers), ("whole-cells", Fit::WholeCells)]).map(Some)
+}
+
+fn read_outside(value: Option<&Bound<'_, PyAny>>) -> PyResult<Outside> {
+    let words = [("blocked", Outside::Blocked), ("open", Outside::Open)];
+    value.map_or(Ok(Outside::Blocked), |value| word("outside", value, &words))
+}

@@ -1,0 +1,186 @@
+//! Distance fields of a grid.
+
+use pyo3::{prelude::*, types::PyDict};
+
+use super::Grid;
+use crate::{
+    arguments::{Points, numpy_function, positive},
+    background::detached,
+    errors::raised,
+    field::Field,
+    keywords::{Keywords, Takes},
+};
+
+#[pymethods]
+impl Grid {
+    /// The distance of every vertex to the nearest source, with the paths to it.
+    ///
+    /// Parameters
+    /// ----------
+    /// sources : array_like of int
+    ///     A point (row, column), or several with shape (n, 2).
+    /// limit : float, optional
+    ///     How far to go, in cells.
+    /// **motion
+    ///     ``k``, ``placement``, ``corners`` and ``gap``, as in `find`.
+    ///
+    /// Returns
+    /// -------
+    /// Field
+    ///     Distances, directions and paths.
+    ///
+    /// Raises
+    /// ------
+    /// QueryError
+    ///     For a source that is blocked or outside the map.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> mediant.Grid.from_rows(["...", "..."]).field((0, 0)).path_from((1, 2)).tolist()
+    /// [[1, 2], [0, 1], [0, 0]]
+    #[pyo3(signature = (sources, *, limit = None, **motion))]
+    fn field(
+        &self,
+        sources: &Bound<'_, PyAny>,
+        limit: Option<&Bound<'_, PyAny>>,
+        motion: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Field> {
+        self.field_of("field", sources, limit, motion)
+    }
+
+    /// The distances of all vertices to the nearest source.
+    ///
+    /// Parameters
+    /// ----------
+    /// sources : array_like of int
+    ///     As in `field`.
+    /// limit : float, optional
+    ///     As in `field`.
+    /// **motion
+    ///     As in `find`.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     Shape (rows, columns), at corners (rows + 1, columns + 1); float64, in cells. ``inf`` where no path
+    ///     leads, or none within the limit.
+    ///
+    /// Raises
+    /// ------
+    /// QueryError
+    ///     As `field`.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> mediant.Grid.from_rows([".#.", "..."]).distances((0, 0), k=2).tolist()
+    /// [[0.0, inf, 4.0], [1.0, 2.0, 3.0]]
+    #[pyo3(signature = (sources, *, limit = None, **motion))]
+    fn distances<'py>(
+        &self,
+        sources: &Bound<'py, PyAny>,
+        limit: Option<&Bound<'py, PyAny>>,
+        motion: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.field_of("distances", sources, limit, motion)?.distances(sources.py())
+    }
+
+    /// The vertices that can be reached within a distance.
+    ///
+    /// Parameters
+    /// ----------
+    /// sources : array_like of int
+    ///     As in `field`.
+    /// limit : float
+    ///     How far to go, in cells.
+    /// **motion
+    ///     As in `find`.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     The shape of `distances`, bool.
+    ///
+    /// Raises
+    /// ------
+    /// QueryError
+    ///     As `field`.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> mediant.Grid.from_rows(["....", "...."]).reach((0, 0), 1.5).astype(int).tolist()
+    /// [[1, 1, 0, 0], [1, 1, 0, 0]]
+    #[pyo3(signature = (sources, limit, **motion))]
+    fn reach<'py>(
+        &self,
+        sources: &Bound<'py, PyAny>,
+        limit: &Bound<'py, PyAny>,
+        motion: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let field = self.field_of("reach", sources, Some(limit), motion)?;
+        numpy_function(sources.py(), "isfinite")?.call1((field.distances(sources.py())?,))
+    }
+
+    /// The directions in which the shortest paths lead to the nearest source: one goal for many agents.
+    ///
+    /// Parameters
+    /// ----------
+    /// sources : array_like of int
+    ///     As in `field`.
+    /// limit : float, optional
+    ///     As in `field`.
+    /// **motion
+    ///     As in `find`.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     The shape of `distances` and 2, float64: (row, column) vectors of length 1; 0 at sources, ``nan`` where
+    ///     no path leads.
+    ///
+    /// Raises
+    /// ------
+    /// QueryError
+    ///     As `field`.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> mediant.Grid.from_rows(["..", ".."]).flow((0, 0)).round(2).tolist()
+    /// [[[0.0, 0.0], [0.0, -1.0]], [[-1.0, 0.0], [-0.71, -0.71]]]
+    #[pyo3(signature = (sources, *, limit = None, **motion))]
+    fn flow<'py>(
+        &self,
+        sources: &Bound<'py, PyAny>,
+        limit: Option<&Bound<'py, PyAny>>,
+        motion: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.field_of("flow", sources, limit, motion)?.flow(sources.py())
+    }
+}
+
+impl Grid {
+    /// The field of a call.
+    fn field_of(
+        &self,
+        function: &str,
+        sources: &Bound<'_, PyAny>,
+        limit: Option<&Bound<'_, PyAny>>,
+        motion: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Field> {
+        let py = sources.py();
+        let motion = Keywords::read(function, motion, Takes::MOTION)?.motion()?;
+        let sources = Points::read("sources", sources)?.into_vec();
+        let limit =
+            limit.filter(|limit| !limit.is_none()).map(|limit| positive("limit", limit)).transpose()?;
+        let space = self.space(py, motion)?;
+        let work = move || match limit {
+            Some(limit) => space.field_within(sources, limit),
+            None => space.field(sources),
+        };
+        let field = detached(py, self.cells(), work)?.map_err(raised)?;
+        Ok(Field::new(field, motion.rules.placement()))
+    }
+}

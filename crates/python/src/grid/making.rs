@@ -1,0 +1,287 @@
+//! Grids from arrays, files and rows, and grids as values.
+
+use std::{
+    hash::{DefaultHasher, Hash, Hasher},
+    path::PathBuf,
+};
+
+use mediant::{
+    CornerRule, Identity, Map, Rectangle, Rules,
+    files::{Fraction, ImageOptions, Unknown, WorldFrame},
+};
+use pyo3::{
+    prelude::*,
+    types::{PyBytes, PyString, PyTuple},
+};
+
+use super::Grid;
+use crate::{
+    arguments::{flag, number, numpy_function, point, word},
+    arrays::{Criteria, cells_of, map_of, map_of_bits, patch, rows_array},
+    background::detached,
+    errors::{argument, exception, raised, wrong_type},
+    world::World,
+};
+
+#[pymethods]
+impl Grid {
+    #[new]
+    #[pyo3(signature = (array, *, above = None, below = None, values = None))]
+    fn of_array<'py>(
+        array: &Bound<'py, PyAny>,
+        above: Option<Bound<'py, PyAny>>,
+        below: Option<Bound<'py, PyAny>>,
+        values: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Self> {
+        Ok(Self::new(map_of(array, &Criteria { above, below, values })?, None))
+    }
+
+    /// Reads a map from a file: a MovingAI ``.map``, a PNG, PGM or PBM picture, or the YAML file of a ROS map.
+    /// The content decides which, not the name.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or os.PathLike
+    ///     The file.
+    /// threshold : float or str
+    ///     Of pictures: pixels darker than this part of white are blocked. Of ROS maps: cells occupied to more
+    ///     than 1 - threshold are. From 0 to 1.
+    /// invert : bool
+    ///     Takes a picture as a negative: light pixels are blocked.
+    /// unknown : {"blocked", "free"}
+    ///     What becomes of transparent pixels, and of the unknown cells of a ROS map.
+    ///
+    /// Returns
+    /// -------
+    /// Grid
+    ///     With its place in the `world`, if it is a ROS map.
+    ///
+    /// Raises
+    /// ------
+    /// MissingFileError
+    ///     For a file that does not exist. It is a FileNotFoundError, too.
+    /// FileError
+    ///     For a file that cannot be read, or is no map.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import pathlib, tempfile
+    /// >>> import mediant
+    /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "room.pgm"
+    /// >>> _ = file.write_text("P2 3 2 255  255 0 255  255 255 255")
+    /// >>> mediant.Grid.open(file).to_numpy().tolist()
+    /// [[False, True, False], [False, False, False]]
+    #[staticmethod]
+    #[pyo3(signature = (path, *, threshold = None, invert = None, unknown = None))]
+    fn open(
+        py: Python<'_>,
+        path: PathBuf,
+        threshold: Option<&Bound<'_, PyAny>>,
+        invert: Option<&Bound<'_, PyAny>>,
+        unknown: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let mut options = ImageOptions::default();
+        if let Some(threshold) = threshold {
+            options.threshold = fraction(threshold)?;
+        }
+        options.invert = invert.map_or(Ok(false), |invert| flag("invert", invert))?;
+        if let Some(unknown) = unknown {
+            let words = [("blocked", Unknown::Blocked), ("free", Unknown::Free)];
+            options.unknown = word("unknown", unknown, &words)?;
+        }
+        let (map, world) = detached(py, u64::MAX, move || Map::open_with(path, &options))?.map_err(raised)?;
+        Ok(Self::new(map, world))
+    }
+
+    /// The grid with these rows of text: ``.``, ``G`` and ``S`` are free cells, all other characters blocked.
+    ///
+    /// Parameters
+    /// ----------
+    /// rows : iterable of str
+    ///     From top to bottom, all of the same length.
+    ///
+    /// Returns
+    /// -------
+    /// Grid
+    ///     The map.
+    ///
+    /// Raises
+    /// ------
+    /// MapError
+    ///     For no rows, or rows of different lengths.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> mediant.Grid.from_rows(["..#", "..."]).shape
+    /// (2, 3)
+    #[staticmethod]
+    fn from_rows(rows: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let expected = "several rows of text";
+        if rows.is_instance_of::<PyString>() {
+            return Err(wrong_type("rows", expected, rows));
+        }
+        let items = rows.try_iter().map_err(|_| wrong_type("rows", expected, rows))?;
+        let items: Vec<String> = items
+            .map(|row| {
+                let row = row?;
+                row.extract().map_err(|_| wrong_type("rows", expected, &row))
+            })
+            .collect::<PyResult<_>>()?;
+        Ok(Self::new(Map::from_rows(items).map_err(raised)?, None))
+    }
+
+    /// The number of rows and columns.
+    #[getter]
+    fn shape(&self) -> (u32, u32) {
+        (self.map().height(), self.map().width())
+    }
+
+    /// Where the map is in the world; None if it was not said.
+    #[getter]
+    fn world(&self) -> Option<World> {
+        self.shared.world.map(|frame| World { frame })
+    }
+
+    /// A name of the content: the same for grids with the same cells.
+    #[getter]
+    fn id(&self) -> String {
+        let identity =
+            Identity { map: Some(self.map().id()), rules: Rules::Center(CornerRule::Never), k: None };
+        // The size and the digest.
+        identity.to_bytes()[..24].iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+
+    /// The cells as an array.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     Shape (rows, columns), bool: True where a cell is blocked. A new array each time.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> mediant.Grid.from_rows([".#"]).to_numpy().tolist()
+    /// [[False, True]]
+    fn to_numpy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let cells = py.detach(|| cells_of(self.map()));
+        rows_array(py, cells, self.map().width() as usize)
+    }
+
+    /// The cells for NumPy's functions.
+    #[pyo3(signature = (dtype = None, copy = None))]
+    fn __array__<'py>(
+        &self,
+        py: Python<'py>,
+        dtype: Option<&Bound<'py, PyAny>>,
+        copy: Option<bool>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        if copy == Some(false) {
+            return Err(argument("copy", "a grid has no array of its own: it can only be copied"));
+        }
+        let array = self.to_numpy(py)?;
+        dtype.map_or(Ok(array.clone()), |dtype| array.call_method1("astype", (dtype,)))
+    }
+
+    /// This grid with other cells in a rectangle. This one stays as it is.
+    ///
+    /// Parameters
+    /// ----------
+    /// at : tuple of int
+    ///     (row, column) of the rectangle's top left cell.
+    /// blocked : array_like of bool
+    ///     The new cells, shape (rows, columns) of the rectangle; True is blocked.
+    ///
+    /// Returns
+    /// -------
+    /// Grid
+    ///     The next version.
+    ///
+    /// Raises
+    /// ------
+    /// MapError
+    ///     For a rectangle that is not wholly on the map.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> grid = mediant.Grid.from_rows(["...", "..."])
+    /// >>> grid.edit((0, 1), [[True], [True]]).distance((0, 0), (0, 2))
+    /// inf
+    fn edit(&self, at: &Bound<'_, PyAny>, blocked: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let (at, (cells, rows, columns)) = (point("at", at)?, patch("blocked", blocked)?);
+        let (width, height) = (self.map().width() as usize, self.map().height() as usize);
+        let fits = |first: i32, count: usize, side: usize| {
+            usize::try_from(first).is_ok_and(|first| first < side && count <= side - first)
+        };
+        if !(fits(at.x, columns, width) && fits(at.y, rows, height)) {
+            let text = format!(
+                "at: a rectangle of {rows} × {columns} cells at ({}, {}) is not wholly on the map of \
+                 {height} × {width} cells",
+                at.y, at.x
+            );
+            return Err(exception("MapError", &text, "edit-outside"));
+        }
+        if cells.is_empty() {
+            return Ok(self.clone());
+        }
+        let (x, y) = (at.x as u32, at.y as u32);
+        let rectangle = Rectangle { x, y, width: columns as u32, height: rows as u32 };
+        let cell = |column: u32, row: u32| cells[(row - y) as usize * columns + (column - x) as usize];
+        Ok(Self::new(self.map().edit(rectangle, cell).map_err(raised)?, self.shared.world))
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        other.cast::<Self>().is_ok_and(|other| self == other.get())
+    }
+
+    fn __hash__(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.map().id().hash(&mut hasher);
+        hasher.finish()
+    }
+
+    /// By the bits of the cells and the place in the world, for pickle.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let (py, grid) = (slf.py(), slf.get());
+        let bits = numpy_function(py, "packbits")?.call1((grid.to_numpy(py)?,))?.call_method0("tobytes")?;
+        let (rows, columns) = grid.shape();
+        let world = grid.shared.world.map(|frame| (frame.resolution(), frame.origin()));
+        Ok((slf.get_type().getattr("_of_state")?, (bits, rows, columns, world).into_pyobject(py)?))
+    }
+
+    /// The grid of a state that `__reduce__` gave.
+    #[staticmethod]
+    fn _of_state(
+        bits: &Bound<'_, PyBytes>,
+        rows: u32,
+        columns: u32,
+        world: Option<(f64, [f64; 3])>,
+    ) -> PyResult<Self> {
+        let map = map_of_bits(bits.as_bytes(), rows, columns)?;
+        let frame = world.map(|(resolution, origin)| WorldFrame::new(resolution, origin, columns, rows));
+        let frame = frame.transpose().map_err(|error| argument("world", &error.to_string()))?;
+        Ok(Self::new(map, frame))
+    }
+
+    /// The map as a picture, for notebooks.
+    fn _repr_png_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("mediant._picture")?.call_method1("png_of", (slf,))
+    }
+
+    fn __repr__(&self) -> String {
+        let map = self.map();
+        let blocked = self.cells() - map.grid().free_cells();
+        format!("<mediant.Grid of {} × {} cells, {blocked} blocked>", map.height(), map.width())
+    }
+}
+
+/// The threshold of a picture.
+fn fraction(value: &Bound<'_, PyAny>) -> PyResult<Fraction> {
+    let read = match value.cast::<PyString>() {
+        Ok(text) => text.to_string().parse(),
+        Err(_) => Fraction::try_from(number("threshold", value)?),
+    };
+    read.map_err(|error| argument("threshold", &error.to_string()))
+}

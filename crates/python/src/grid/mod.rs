@@ -1,0 +1,154 @@
+//! Grids: maps, with the spaces and planners that were used last.
+
+mod agents;
+mod fields;
+mod making;
+mod motion;
+mod queries;
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use mediant::{Engine, Map, Motion, Planners, Setup, Space, files::WorldFrame};
+use pyo3::prelude::*;
+
+use crate::{
+    background::{detached, in_pool, on_thread},
+    errors::raised,
+    keywords::Keywords,
+};
+
+/// A map: which cells are blocked. Cell (row, column) is counted from the top left corner.
+///
+/// A grid never changes: `edit` makes another one. All threads can share it.
+///
+/// Parameters
+/// ----------
+/// array : array_like
+///     Shape (rows, columns). Of bool: True where a cell is blocked. Of numbers: with at least one of the
+///     criteria that follow, and blocked where one of them is met. It is read where it is, and not kept.
+/// above : float, optional
+///     Cells with a larger value are blocked.
+/// below : float, optional
+///     Cells with a smaller value are blocked.
+/// values : iterable of float, optional
+///     Cells with one of these values are blocked. ``nan`` among them stands for all that are no number.
+///
+/// Attributes
+/// ----------
+/// shape : tuple of int
+///     The number of rows and columns.
+/// world : World or None
+///     Where the map is in the world: of a ROS map.
+/// id : str
+///     A name of the content: the same for grids with the same cells.
+///
+/// Raises
+/// ------
+/// MapError
+///     For a side of 0, or of more than 32768 cells.
+/// ArgumentError
+///     For an array of another number of dimensions, or with values that are no number.
+/// TypeError
+///     For numbers without a criterion, and for arrays that hold neither numbers nor bool.
+///
+/// Examples
+/// --------
+/// >>> import numpy as np
+/// >>> import mediant
+/// >>> grid = mediant.Grid(np.array([[0, 0, 9], [0, 9, 0]]), above=5)
+/// >>> grid
+/// <mediant.Grid of 2 × 3 cells, 2 blocked>
+/// >>> mediant.Grid(np.array([[1, 2, 3]]), values={1, 3}).to_numpy().tolist()
+/// [[True, False, True]]
+#[pyclass(frozen, module = "mediant")]
+#[derive(Clone)]
+pub(crate) struct Grid {
+    shared: Arc<Shared>,
+}
+
+struct Shared {
+    map: Map,
+    world: Option<WorldFrame>,
+    spaces: Recent<Motion, Space>,
+    planners: Recent<Setup, Arc<Planners>>,
+}
+
+/// The values that were used last, by key.
+struct Recent<K, V>(Mutex<Vec<(K, V)>>);
+
+impl<K: PartialEq, V: Clone> Recent<K, V> {
+    /// How many are kept. Who asks for more in turn should prepare an index each.
+    const MOST: usize = 4;
+
+    const fn new() -> Self {
+        Self(Mutex::new(Vec::new()))
+    }
+
+    fn get(&self, key: &K) -> Option<V> {
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let at = kept.iter().position(|(known, _)| known == key)?;
+        kept[..=at].rotate_right(1);
+        Some(kept[0].1.clone())
+    }
+
+    fn put(&self, key: K, value: V) {
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.insert(0, (key, value));
+        kept.truncate(Self::MOST);
+    }
+}
+
+impl Grid {
+    pub(crate) fn new(map: Map, world: Option<WorldFrame>) -> Self {
+        let (spaces, planners) = (Recent::new(), Recent::new());
+        Self { shared: Arc::new(Shared { map, world, spaces, planners }) }
+    }
+
+    pub(crate) fn map(&self) -> &Map {
+        &self.shared.map
+    }
+
+    /// The number of cells.
+    fn cells(&self) -> u64 {
+        u64::from(self.map().width()) * u64::from(self.map().height())
+    }
+
+    /// The grid with this motion, kept for the next call.
+    fn space(&self, py: Python<'_>, motion: Motion) -> PyResult<Space> {
+        if let Some(space) = self.shared.spaces.get(&motion) {
+            return Ok(space);
+        }
+        let map = self.map().clone();
+        let space = detached(py, self.cells(), move || map.space(motion))?.map_err(raised)?;
+        self.shared.spaces.put(motion, space.clone());
+        Ok(space)
+    }
+
+    /// The planners of an engine, kept for the next call: of the one that was asked for, or of one that
+    /// prepares next to nothing.
+    fn planners(&self, py: Python<'_>, keywords: &Keywords) -> PyResult<Arc<Planners>> {
+        let motion = keywords.motion()?;
+        let setup = |engine: Engine| -> PyResult<Setup> {
+            let mut setup = Setup::new(keywords.configured(engine)?, motion.k, motion.rules);
+            setup.smoothing = keywords.smoothing;
+            Ok(setup)
+        };
+        let engine = keywords.engine.unwrap_or_else(|| mediant::Choice::for_one_path(motion.k).engine);
+        let setup = setup(engine)?;
+        if let Some(planners) = self.shared.planners.get(&setup) {
+            return Ok(planners);
+        }
+        let space = self.space(py, motion)?;
+        let work = move || in_pool(None, || setup.prepare(&space));
+        let index = on_thread(py, work, |_| Ok(()))?.map_err(raised)?;
+        let planners = Arc::new(Planners::new(index));
+        self.shared.planners.put(setup, Arc::clone(&planners));
+        Ok(planners)
+    }
+}
+
+impl PartialEq for Grid {
+    fn eq(&self, other: &Self) -> bool {
+        self.map() == other.map() && self.shared.world == other.shared.world
+    }
+}

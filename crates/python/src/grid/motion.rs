@@ -1,0 +1,195 @@
+//! What the rules of motion make of a grid.
+
+use mediant::Path;
+use pyo3::{prelude::*, types::PyDict};
+
+use super::Grid;
+use crate::{
+    arguments::{path_points, point as vertex},
+    errors::broken,
+    keywords::{Keywords, Takes},
+};
+
+#[pymethods]
+impl Grid {
+    /// Whether a path may begin or end on a vertex.
+    ///
+    /// Parameters
+    /// ----------
+    /// point : tuple of int
+    ///     (row, column).
+    /// **motion
+    ///     ``k``, ``placement``, ``corners`` and ``gap``, as in `find`.
+    ///
+    /// Returns
+    /// -------
+    /// bool
+    ///     False outside the map.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> mediant.Grid.from_rows([".#"]).is_free((0, 1))
+    /// False
+    #[pyo3(signature = (point, **motion))]
+    fn is_free(&self, point: &Bound<'_, PyAny>, motion: Option<&Bound<'_, PyDict>>) -> PyResult<bool> {
+        let at = vertex("point", point)?;
+        Ok(self.moved("is_free", point.py(), motion)?.is_free(at))
+    }
+
+    /// Whether there is a path from one vertex to another, in constant time.
+    ///
+    /// Parameters
+    /// ----------
+    /// start, goal : tuple of int
+    ///     (row, column).
+    /// **motion
+    ///     As in `find`.
+    ///
+    /// Returns
+    /// -------
+    /// bool
+    ///     False if one of them is blocked or outside the map.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> mediant.Grid.from_rows([".#."]).connected((0, 0), (0, 2))
+    /// False
+    #[pyo3(signature = (start, goal, **motion))]
+    fn connected(
+        &self,
+        start: &Bound<'_, PyAny>,
+        goal: &Bound<'_, PyAny>,
+        motion: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<bool> {
+        let ends = (vertex("start", start)?, vertex("goal", goal)?);
+        Ok(self.moved("connected", start.py(), motion)?.connected(ends.0, ends.1))
+    }
+
+    /// Whether the straight line between two vertices obeys the rules of motion.
+    ///
+    /// Parameters
+    /// ----------
+    /// start, goal : tuple of int
+    ///     (row, column).
+    /// **motion
+    ///     As in `find`.
+    ///
+    /// Returns
+    /// -------
+    /// bool
+    ///     Whether it is free.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> grid = mediant.Grid.from_rows(["...", ".#.", "..."])
+    /// >>> grid.sees((0, 0), (0, 2)), grid.sees((0, 0), (2, 2))
+    /// (True, False)
+    #[pyo3(signature = (start, goal, **motion))]
+    fn sees(
+        &self,
+        start: &Bound<'_, PyAny>,
+        goal: &Bound<'_, PyAny>,
+        motion: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<bool> {
+        let ends = (vertex("start", start)?, vertex("goal", goal)?);
+        Ok(self.moved("sees", start.py(), motion)?.sees(ends.0, ends.1))
+    }
+
+    /// Checks that a path obeys the rules of motion here, for instance after an edit. It costs far less than a
+    /// search.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : array_like of int
+    ///     Waypoints, shape (n, 2).
+    /// **motion
+    ///     As in `find`.
+    ///
+    /// Raises
+    /// ------
+    /// BrokenPathError
+    ///     If it does not hold. It says where, and up to which waypoint it can be followed.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> grid = mediant.Grid.from_rows(["....", "...."])
+    /// >>> try:
+    /// ...     grid.edit((0, 2), [[True]]).check(grid.path((0, 0), (0, 3)))
+    /// ... except mediant.BrokenPathError as error:
+    /// ...     print(error, error.holds_up_to)
+    /// segment 0 of the path, from (0, 0) to (0, 3), does not hold: cell (0, 2) is blocked 1
+    #[pyo3(signature = (path, **motion))]
+    fn check(&self, path: &Bound<'_, PyAny>, motion: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
+        let waypoints = Path::new(path_points("path", path)?);
+        self.moved("check", path.py(), motion)?.check(&waypoints).map_err(broken)
+    }
+
+    /// Whether a path obeys the rules of motion here.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : array_like of int
+    ///     Waypoints, shape (n, 2).
+    /// **motion
+    ///     As in `find`.
+    ///
+    /// Returns
+    /// -------
+    /// bool
+    ///     `check` says why not.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> grid = mediant.Grid.from_rows(["....", "...."])
+    /// >>> grid.holds([(0, 0), (0, 3)])
+    /// True
+    #[pyo3(signature = (path, **motion))]
+    fn holds(&self, path: &Bound<'_, PyAny>, motion: Option<&Bound<'_, PyDict>>) -> PyResult<bool> {
+        let waypoints = Path::new(path_points("path", path)?);
+        Ok(self.moved("holds", path.py(), motion)?.check(&waypoints).is_ok())
+    }
+
+    /// The engine that we would prepare for many paths, and why.
+    ///
+    /// Parameters
+    /// ----------
+    /// **motion
+    ///     As in `find`.
+    ///
+    /// Returns
+    /// -------
+    /// tuple of str
+    ///     The engine's name, and a sentence.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> mediant.Grid.from_rows(["...", "..."]).engine(k="any")[0]
+    /// 'subgoal'
+    #[pyo3(signature = (**motion))]
+    fn engine(
+        &self,
+        py: Python<'_>,
+        motion: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<(&'static str, &'static str)> {
+        let choice = self.moved("engine", py, motion)?.engine();
+        Ok((choice.engine.name(), choice.why))
+    }
+}
+
+impl Grid {
+    /// The grid with the motion of a call's keywords.
+    pub(super) fn moved(
+        &self,
+        function: &str,
+        py: Python<'_>,
+        motion: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<mediant::Space> {
+        self.space(py, Keywords::read(function, motion, Takes::MOTION)?.motion()?)
+    }
+}

@@ -1,0 +1,373 @@
+//! Paths in a grid, and what engines prepare of it.
+
+use std::{
+    path::PathBuf,
+    sync::{
+        Arc,
+        atomic::{AtomicUsize, Ordering},
+    },
+};
+
+use mediant::{Progress, Stage};
+use numpy::PyArray2;
+use pyo3::{prelude::*, types::PyDict};
+
+use super::Grid;
+use crate::{
+    answer::Answer,
+    background::{detached, in_pool, on_thread},
+    batch::{callback, read_threads},
+    errors::raised,
+    index::{Asked, Index},
+    keywords::{Keywords, Takes, read_engine},
+};
+
+#[pymethods]
+impl Grid {
+    /// A shortest path.
+    ///
+    /// The first call with some motion prepares a little; the grid keeps it for the next ones. For many paths
+    /// `prepare` an index.
+    ///
+    /// Parameters
+    /// ----------
+    /// start, goal : tuple of int
+    ///     (row, column); or several of each, shape (n, 2): the shortest path from any start to any goal.
+    /// points : {"waypoints", "vertices", "cells"}
+    ///     What the array has: see `find`.
+    /// **how
+    ///     Motion, wishes, the engine and its options: see `find`.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray or None
+    ///     Shape (n, 2), int32; None if there is no path.
+    ///
+    /// Raises
+    /// ------
+    /// QueryError
+    ///     For a start or goal that is blocked or outside the map.
+    /// OptionError
+    ///     For keywords that do not fit together.
+    /// LimitReached
+    ///     If a limit stopped the search.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> grid = mediant.Grid.from_rows(["....", ".##.", "...."])
+    /// >>> grid.path((0, 0), (2, 3)).tolist()
+    /// [[0, 0], [0, 3], [2, 3]]
+    /// >>> grid.path((0, 0), (3, 4), k="any").tolist()
+    /// [[0, 0], [1, 3], [3, 4]]
+    #[pyo3(signature = (start, goal, *, points = None, **how))]
+    fn path<'py>(
+        &self,
+        py: Python<'py>,
+        start: &Bound<'py, PyAny>,
+        goal: &Bound<'py, PyAny>,
+        points: Option<&Bound<'py, PyAny>>,
+        how: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
+        let keywords = Keywords::read("path", how, Takes::ALL)?;
+        let planners = self.planners(py, &keywords)?;
+        Asked { planners: &planners, start, goal, keywords }.path(py, points)
+    }
+
+    /// The length of a shortest path.
+    ///
+    /// Parameters
+    /// ----------
+    /// start, goal : tuple of int
+    ///     As in `path`.
+    /// **how
+    ///     As in `find`.
+    ///
+    /// Returns
+    /// -------
+    /// float
+    ///     In cells; ``inf`` if there is no path.
+    ///
+    /// Raises
+    /// ------
+    /// QueryError, OptionError, LimitReached
+    ///     As `path`.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> grid = mediant.Grid.from_rows(["....", ".##.", "...."])
+    /// >>> [round(grid.distance((0, 0), (2, 2), k=k), 3) for k in (2, 3, 4)]
+    /// [4.0, 4.0, 4.0]
+    #[pyo3(signature = (start, goal, **how))]
+    fn distance<'py>(
+        &self,
+        py: Python<'py>,
+        start: &Bound<'py, PyAny>,
+        goal: &Bound<'py, PyAny>,
+        how: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<f64> {
+        let keywords = Keywords::read("distance", how, Takes::ALL)?;
+        let planners = self.planners(py, &keywords)?;
+        Asked { planners: &planners, start, goal, keywords }.distance(py)
+    }
+
+    /// The whole answer to a query.
+    ///
+    /// Parameters
+    /// ----------
+    /// start, goal : tuple of int
+    ///     As in `path`.
+    /// points : {"waypoints", "vertices", "cells"}
+    ///     What arrays of paths have: the waypoints, joined by straight lines; each vertex at which a move ends;
+    ///     or each cell that the path touches.
+    /// counters : bool
+    ///     Whether to count the events of the search, which makes it slower.
+    /// k : int or "any"
+    ///     The neighborhood, of 2**k directions: 2 is 4 directions, 3 (the default) 8, 4 is 16, up to 12; "any"
+    ///     is every direction.
+    /// placement : {"center", "corner"}
+    ///     Whether paths lead between centers of cells (the default for a number k) or corners of cells (the
+    ///     default for "any"). Corner (row, column) is the top left one of cell (row, column).
+    /// corners : {"never", "one", "always"}
+    ///     At centers: where a move touches a corner of cells, both of the cells beside it must be free (the
+    ///     default), one of them, or none.
+    /// gap : {"open", "closed"}
+    ///     At corners: whether a path may pass where two blocked cells touch diagonally. It may by default.
+    /// nearest : bool
+    ///     If there is no path: the path to the reachable vertex that is nearest to the goal.
+    /// tolerance : float
+    ///     The path may end within this many cells of the goal.
+    /// snap : bool
+    ///     Moves a start or goal that is blocked to the nearest free vertex.
+    /// max_cost : float, optional
+    ///     The greatest length of a path, in cells.
+    /// max_expansions : int, optional
+    ///     The greatest number of expansions of the search.
+    /// timeout : float, optional
+    ///     The most seconds that the search may take.
+    /// engine : str, optional
+    ///     The engine; by default one that prepares next to nothing.
+    /// **options
+    ///     Options of the engine: see `prepare`.
+    ///
+    /// Returns
+    /// -------
+    /// Answer
+    ///     Path, length, and what stopped the search.
+    ///
+    /// Raises
+    /// ------
+    /// QueryError, OptionError
+    ///     As `path`.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> grid = mediant.Grid.from_rows(["..#.", "..#."])
+    /// >>> grid.find((0, 0), (0, 3)).status
+    /// 'unreachable'
+    /// >>> answer = grid.find((0, 0), (0, 3), nearest=True)
+    /// >>> answer.status, answer.path.tolist()
+    /// ('nearest', [[0, 0], [0, 1]])
+    /// >>> answer = grid.find((0, 0), (1, 1), max_cost=1)
+    /// >>> answer.status, answer.stopped_by
+    /// ('stopped', 'cost')
+    #[pyo3(signature = (start, goal, *, points = None, counters = false, **how))]
+    fn find<'py>(
+        &self,
+        py: Python<'py>,
+        start: &Bound<'py, PyAny>,
+        goal: &Bound<'py, PyAny>,
+        points: Option<&Bound<'py, PyAny>>,
+        counters: bool,
+        how: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Answer> {
+        let keywords = Keywords::read("find", how, Takes::ALL)?;
+        let planners = self.planners(py, &keywords)?;
+        Asked { planners: &planners, start, goal, keywords }.find(py, points, counters)
+    }
+
+    /// Prepares an index for many paths.
+    ///
+    /// Parameters
+    /// ----------
+    /// engine : str, optional
+    ///     The engine; by default the one that `Grid.engine` names.
+    /// k, placement, corners, gap
+    ///     Motion, as in `find`.
+    /// threads : int, optional
+    ///     The number of threads; by default one for each core.
+    /// progress : callable, optional
+    ///     Called now and then with the stage (``"edges"`` or ``"hierarchy"``), and the number of subgoals that
+    ///     it has finished and of all. Only subgoal graphs report progress.
+    /// heuristic : {"hk", "euclidean", "zero", "squared"}, optional
+    ///     The heuristic of the search.
+    /// variant : {"exact", "complete", "paper"}, optional
+    ///     The repaired engine or the published one.
+    /// levels : int, "all" or "contracted", optional
+    ///     Of subgoal graphs and clusters.
+    /// side : int, optional
+    ///     The side of a cluster or segment, in cells.
+    /// jump_limit, step, detour : int, optional
+    ///     Of jump point search and CHPA*.
+    /// keep_intermediate, unstraightened : bool, optional
+    ///     Of jump point search and HPA*.
+    /// second : str, optional
+    ///     The heuristic of the second phase of CHPA*.
+    /// smooth : {"linear", "taut"}, optional
+    ///     Shortens paths after the search; they are at any angle then.
+    ///
+    /// Returns
+    /// -------
+    /// Index
+    ///     For this grid and motion.
+    ///
+    /// Raises
+    /// ------
+    /// OptionError
+    ///     For an engine that does not take the motion or the options, or a map too large for its index.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> grid = mediant.Grid.from_rows(["....", ".##.", "...."])
+    /// >>> grid.prepare().engine, grid.prepare("jps", k=4).k
+    /// ('subgoal', 4)
+    #[pyo3(signature = (engine = None, *, threads = None, progress = None, **how))]
+    fn prepare<'py>(
+        &self,
+        py: Python<'py>,
+        engine: Option<&Bound<'py, PyAny>>,
+        threads: Option<&Bound<'py, PyAny>>,
+        progress: Option<&Bound<'py, PyAny>>,
+        how: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Index> {
+        let mut keywords = Keywords::read("prepare", how, Takes::PREPARATION)?;
+        keywords.engine = read_engine(engine)?;
+        let (threads, progress) = (read_threads(threads)?, callback(progress)?);
+        let space = self.space(py, keywords.motion()?)?;
+        let engine = keywords.configured(keywords.engine.unwrap_or_else(|| space.engine().engine))?;
+        let told = Arc::new(Told::default());
+        let teller = Arc::clone(&told);
+        let work = move || {
+            in_pool(threads, || space.prepare_with_progress(engine, &|progress| teller.tell(progress)))
+        };
+        let index = on_thread(py, work, |_| match (&progress, told.last()) {
+            (Some(progress), Some(last)) => progress.call1(last).map(drop),
+            _ => Ok(()),
+        })?;
+        let index = index.map_err(raised)?.with_smoothing(keywords.smoothing);
+        if let (Some(progress), Some(last)) = (&progress, told.last()) {
+            progress.call1(last)?;
+        }
+        Ok(Index::new(self.clone(), index))
+    }
+
+    /// Reads an index that `Index.save` wrote for the same map. The file says for which motion it is.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or os.PathLike
+    ///     The file.
+    /// **options
+    ///     Options of the engine, as in `prepare`.
+    ///
+    /// Returns
+    /// -------
+    /// Index
+    ///     The same as one prepared anew.
+    ///
+    /// Raises
+    /// ------
+    /// MissingFileError
+    ///     For a file that does not exist.
+    /// MismatchError
+    ///     For an index of another map.
+    /// IndexFileError
+    ///     For a file that is damaged, no index, or one of another version.
+    ///
+    /// Examples
+    /// --------
+    /// See `Index.save`.
+    #[pyo3(signature = (path, **options))]
+    fn load(&self, py: Python<'_>, path: PathBuf, options: Option<&Bound<'_, PyDict>>) -> PyResult<Index> {
+        let keywords = Keywords::read("load", options, Takes::OPTIONS)?;
+        let map = self.map().clone();
+        let index = detached(py, u64::MAX, move || map.load(path))?.map_err(raised)?;
+        self.with_options(index, &keywords)
+    }
+
+    /// The index of bytes that `Index.to_bytes` gave for the same map.
+    ///
+    /// Parameters
+    /// ----------
+    /// data : bytes
+    ///     The bytes.
+    /// **options
+    ///     Options of the engine, as in `prepare`.
+    ///
+    /// Returns
+    /// -------
+    /// Index
+    ///     The same as one prepared anew.
+    ///
+    /// Raises
+    /// ------
+    /// MismatchError, IndexFileError
+    ///     As `load`.
+    ///
+    /// Examples
+    /// --------
+    /// See `Index.to_bytes`.
+    #[pyo3(signature = (data, **options))]
+    fn index_from_bytes(
+        &self,
+        py: Python<'_>,
+        data: Vec<u8>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Index> {
+        let keywords = Keywords::read("index_from_bytes", options, Takes::OPTIONS)?;
+        let map = self.map().clone();
+        let index = detached(py, u64::MAX, move || map.index_from_bytes(data))?.map_err(raised)?;
+        self.with_options(index, &keywords)
+    }
+}
+
+impl Grid {
+    /// An index that was read, with the options of a call.
+    fn with_options(&self, index: mediant::Index, keywords: &Keywords) -> PyResult<Index> {
+        if !keywords.has_options() {
+            return Ok(Index::new(self.clone(), index));
+        }
+        let engine = keywords.configured(index.setup().engine.kind())?;
+        let index = index.with_options(engine).map_err(raised)?;
+        Ok(Index::new(self.clone(), index.with_smoothing(keywords.smoothing)))
+    }
+}
+
+/// What a preparation has told last.
+#[derive(Default)]
+struct Told {
+    /// 0 before the first stage.
+    stage: AtomicUsize,
+    done: AtomicUsize,
+    total: AtomicUsize,
+}
+
+impl Told {
+    const STAGES: [(Stage, &'static str); 2] = [(Stage::Edges, "edges"), (Stage::Hierarchy, "hierarchy")];
+
+    fn tell(&self, progress: Progress) {
+        let stage = Self::STAGES.iter().position(|&(stage, _)| stage == progress.stage).unwrap_or_default();
+        self.done.store(progress.done, Ordering::Relaxed);
+        self.total.store(progress.total, Ordering::Relaxed);
+        self.stage.store(stage + 1, Ordering::Relaxed);
+    }
+
+    fn last(&self) -> Option<(&'static str, usize, usize)> {
+        let stage = self.stage.load(Ordering::Relaxed).checked_sub(1)?;
+        let (_, name) = Self::STAGES.get(stage)?;
+        Some((name, self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed)))
+    }
+}

@@ -1,0 +1,327 @@
+//! The keywords of calls: motion, wishes, the engine and its options.
+
+use mediant::{
+    ConfiguredEngine, CornerRule, DiagonalGap, Engine, EngineOption, FiniteK, Guarantee, K, Limits, Motion,
+    OptionValue, PlacementKind, Query, Request, Rules, Smoothing, ValueKind,
+};
+use mediant_moves::Neighborhood;
+use numpy::PyArray2;
+use pyo3::{
+    exceptions::PyTypeError,
+    prelude::*,
+    types::{PyBool, PyDict, PyFloat, PyString},
+};
+
+use crate::{
+    arguments::{Points, flag, integer, positive, word},
+    arrays::points_array,
+    background::Interruption,
+    errors::{argument, raised, wrong_type},
+};
+
+const PLACEMENTS: [(&str, PlacementKind); 2] =
+    [("center", PlacementKind::Center), ("corner", PlacementKind::Corner)];
+const CORNERS: [(&str, CornerRule); 3] =
+    [("never", CornerRule::Never), ("one", CornerRule::One), ("always", CornerRule::Always)];
+const GAPS: [(&str, DiagonalGap); 2] = [("open", DiagonalGap::Open), ("closed", DiagonalGap::Closed)];
+
+/// Which keywords a call takes.
+#[derive(Clone, Copy)]
+pub(crate) struct Takes {
+    motion: bool,
+    wishes: bool,
+    engine: bool,
+    options: bool,
+}
+
+impl Takes {
+    pub(crate) const NONE: Self = Self { motion: false, wishes: false, engine: false, options: false };
+    pub(crate) const MOTION: Self = Self { motion: true, ..Self::NONE };
+    pub(crate) const WISHES: Self = Self { wishes: true, ..Self::NONE };
+    pub(crate) const OPTIONS: Self = Self { options: true, ..Self::NONE };
+    pub(crate) const PREPARATION: Self = Self { motion: true, ..Self::OPTIONS };
+    pub(crate) const ALL: Self = Self { motion: true, wishes: true, engine: true, options: true };
+}
+
+/// What the keywords of a call say.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Keywords {
+    k: Option<K>,
+    placement: Option<PlacementKind>,
+    corners: Option<CornerRule>,
+    gap: Option<DiagonalGap>,
+    pub(crate) engine: Option<Engine>,
+    options: Vec<(&'static EngineOption, OptionValue)>,
+    pub(crate) smoothing: Option<Smoothing>,
+    nearest: bool,
+    tolerance: Option<f64>,
+    snap: bool,
+    max_cost: Option<f64>,
+    max_expansions: Option<u64>,
+    timeout: Option<f64>,
+}
+
+impl Keywords {
+    /// Reads the keywords of a call; `function` is its name, for errors.
+    pub(crate) fn read(function: &str, given: Option<&Bound<'_, PyDict>>, takes: Takes) -> PyResult<Self> {
+        let mut keywords = Self::default();
+        for (name, value) in given.into_iter().flat_map(|given| given.iter()) {
+            let name = name.extract::<String>()?;
+            let is_known = takes.motion && keywords.read_motion(&name, &value)?
+                || takes.wishes && keywords.read_wish(&name, &value)?
+                || takes.engine && keywords.read_engine(&name, &value)?
+                || takes.options && keywords.read_option(&name, &value)?;
+            if !is_known {
+                let wrong = format!("{function}() got an unexpected keyword argument '{name}'");
+                return Err(PyTypeError::new_err(wrong));
+            }
+        }
+        Ok(keywords)
+    }
+
+    fn read_motion(&mut self, name: &str, value: &Bound<'_, PyAny>) -> PyResult<bool> {
+        let is_left_out = value.is_none();
+        match name {
+            "k" => self.k = Some(read_k(value)?),
+            "placement" if is_left_out => {}
+            "corners" if is_left_out => {}
+            "gap" if is_left_out => {}
+            "placement" => self.placement = Some(placement(value)?),
+            "corners" => self.corners = Some(word(name, value, &CORNERS)?),
+            "gap" => self.gap = Some(word(name, value, &GAPS)?),
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    fn read_wish(&mut self, name: &str, value: &Bound<'_, PyAny>) -> PyResult<bool> {
+        let is_left_out = value.is_none();
+        match name {
+            "nearest" => self.nearest = flag(name, value)?,
+            "snap" => self.snap = flag(name, value)?,
+            "tolerance" => {
+                self.tolerance = Some(positive(name, value)?).filter(|&tolerance| tolerance > 0.0);
+            }
+            "max_cost" | "max_expansions" | "timeout" if is_left_out => {}
+            "max_cost" => self.max_cost = Some(positive(name, value)?),
+            "max_expansions" => self.max_expansions = Some(integer(name, value, 0)?),
+            "timeout" => self.timeout = Some(positive(name, value)?),
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    fn read_engine(&mut self, name: &str, value: &Bound<'_, PyAny>) -> PyResult<bool> {
+        if name != "engine" {
+            return Ok(false);
+        }
+        self.engine = read_engine(Some(value))?;
+        Ok(true)
+    }
+
+    fn read_option(&mut self, name: &str, value: &Bound<'_, PyAny>) -> PyResult<bool> {
+        if name == "smooth" {
+            let words = [("linear", Smoothing::Linear), ("taut", Smoothing::Taut)];
+            self.smoothing = if value.is_none() { None } else { Some(word(name, value, &words)?) };
+            return Ok(true);
+        }
+        let Some(option) = EngineOption::ALL.into_iter().find(|option| option.name.replace('-', "_") == name)
+        else {
+            return Ok(false);
+        };
+        if value.is_none() {
+            return Ok(true);
+        }
+        let text = match option.kind {
+            ValueKind::Flag if flag(name, value)? => String::new(),
+            ValueKind::Flag => return Ok(true),
+            _ if value.is_instance_of::<PyBool>() => {
+                return Err(wrong_type(name, "a number or a name", value));
+            }
+            ValueKind::Number => integer(name, value, 1)?.to_string(),
+            _ if value.is_instance_of::<PyString>() => value.extract()?,
+            ValueKind::Levels => integer(name, value, 1)?.to_string(),
+            ValueKind::Heuristic | ValueKind::Variant => return Err(wrong_type(name, "a name", value)),
+        };
+        let value = option.parse(&text).map_err(|wrong| argument(name, &wrong))?;
+        self.options.push((option, value));
+        Ok(true)
+    }
+
+    /// How the agent moves. What was left out, the engine decides, if it takes only that.
+    pub(crate) fn motion(&self) -> PyResult<Motion> {
+        let capabilities = self.engine.unwrap_or_default().capabilities();
+        let k = self.k.unwrap_or(capabilities.default_k());
+        let rules = match (self.placement, self.corners, self.gap) {
+            (_, Some(_), Some(_)) | (Some(PlacementKind::Center), None, Some(_)) => {
+                return Err(argument("gap", "it is for placement='corner'; at centers there is corners="));
+            }
+            (Some(PlacementKind::Corner), Some(_), None) => {
+                return Err(argument("corners", "it is for placement='center'; at corners there is gap="));
+            }
+            (_, Some(corners), None) => Rules::Center(corners),
+            (_, None, Some(gap)) => Rules::Corner(gap),
+            (Some(PlacementKind::Center), ..) => Rules::Center(CornerRule::default()),
+            (Some(PlacementKind::Corner), ..) => Rules::Corner(DiagonalGap::default()),
+            (None, None, None) => capabilities.default_rules(k),
+        };
+        Ok(Motion::new(k, rules))
+    }
+
+    /// An engine with the options that were given.
+    pub(crate) fn configured(&self, engine: Engine) -> PyResult<ConfiguredEngine> {
+        let mut configured = ConfiguredEngine::from(engine);
+        for &(option, value) in &self.options {
+            configured.set(option, value).map_err(raised)?;
+        }
+        Ok(configured)
+    }
+
+    /// Whether options were given.
+    pub(crate) fn has_options(&self) -> bool {
+        !self.options.is_empty() || self.smoothing.is_some()
+    }
+
+    /// Whether no more is asked than a path from one vertex to another.
+    pub(crate) fn has_no_wishes(&self) -> bool {
+        let Self { nearest, snap, tolerance, .. } = self;
+        !nearest && !snap && tolerance.is_none() && !self.has_limits()
+    }
+
+    fn has_limits(&self) -> bool {
+        self.max_cost.is_some() || self.max_expansions.is_some() || self.timeout.is_some()
+    }
+
+    /// The request for a path between points. With an interruption it is watched.
+    pub(crate) fn request(&self, start: &Points, goal: &Points, watch: Option<&Interruption>) -> Request {
+        if let (Points::One(start), Points::One(goal), None, true) =
+            (start, goal, watch, self.has_no_wishes())
+        {
+            return Query::new(*start, *goal).into();
+        }
+        let between = Request::between(start.as_slice().iter().copied(), goal.as_slice().iter().copied());
+        let mut limits = self.limits();
+        if let Some(interruption) = watch {
+            limits = interruption.watch(limits, self.timeout);
+        }
+        self.wish(between, limits)
+    }
+
+    /// The limits on cost and expansions.
+    pub(crate) fn limits(&self) -> Limits {
+        let limits = self.max_cost.map_or(Limits::new(), |cost| Limits::new().cost(cost));
+        self.max_expansions.map_or(limits.clone(), |most| limits.expansions(most))
+    }
+
+    /// The time limit, in seconds.
+    pub(crate) const fn timeout(&self) -> Option<f64> {
+        self.timeout
+    }
+
+    /// The request with all wishes.
+    pub(crate) fn wish(&self, request: Request, limits: Limits) -> Request {
+        let request = request.within(limits).tolerance(self.tolerance.unwrap_or(0.0));
+        let request = if self.nearest { request.nearest() } else { request };
+        if self.snap { request.snap() } else { request }
+    }
+}
+
+/// An engine's name; `None` for `None`.
+pub(crate) fn read_engine(value: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Engine>> {
+    let Some(value) = value.filter(|value| !value.is_none()) else { return Ok(None) };
+    let Ok(name) = value.cast::<PyString>() else {
+        return Err(wrong_type("engine", "the name of an engine", value));
+    };
+    let name = name.to_string();
+    name.parse().map(Some).map_err(|error: mediant::UnknownName| raised(error))
+}
+
+/// Where the vertices are.
+pub(crate) fn placement(value: &Bound<'_, PyAny>) -> PyResult<PlacementKind> {
+    word("placement", value, &PLACEMENTS)
+}
+
+/// k: a number, or `"any"`, or infinity.
+fn read_k(value: &Bound<'_, PyAny>) -> PyResult<K> {
+    if value.cast::<PyString>().is_ok_and(|text| text == "any") {
+        return Ok(K::ANY);
+    }
+    if value.cast::<PyFloat>().is_ok_and(|number| number.value() == f64::INFINITY) {
+        return Ok(K::ANY);
+    }
+    if value.is_instance_of::<PyBool>() || value.is_instance_of::<PyString>() {
+        return Err(wrong_type("k", "an integer of 2 or more, or 'any'", value));
+    }
+    let number = u32::try_from(integer("k", value, 2)?).unwrap_or(u32::MAX);
+    Ok(K::Finite(FiniteK::new(number).map_err(raised)?))
+}
+
+/// The moves of N(k), as (row, column) differences in angular order.
+///
+/// Parameters
+/// ----------
+/// k : int
+///     The neighborhood has 2**k moves. From 2 to 12.
+///
+/// Returns
+/// -------
+/// numpy.ndarray
+///     Shape (2**k, 2), int32.
+///
+/// Raises
+/// ------
+/// OptionError
+///     For a k below 2 or above 12.
+///
+/// Examples
+/// --------
+/// >>> import mediant
+/// >>> mediant.moves(2).tolist()
+/// [[1, 0], [0, 1], [-1, 0], [0, -1]]
+/// >>> len(mediant.moves(mediant.N16))
+/// 16
+#[pyfunction]
+pub(crate) fn moves<'py>(k: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<i32>>> {
+    let finite = read_k(k)?.finite().filter(|k| k.get() <= 12);
+    let finite = finite.ok_or_else(|| argument("k", "expected an integer from 2 to 12"))?;
+    let neighborhood = Neighborhood::new(finite).map_err(raised)?;
+    let flat: Vec<i32> = (0..neighborhood.len())
+        .filter_map(|index| neighborhood.get(index))
+        .flat_map(|step| [step.y, step.x])
+        .collect();
+    points_array(k.py(), &flat)
+}
+
+/// How much longer than the shortest path at any angle a shortest path over N(k) can be.
+///
+/// Parameters
+/// ----------
+/// k : int or "any"
+///     The neighborhood.
+/// **motion
+///     ``placement``, ``corners`` and ``gap``, as in `Grid.find`.
+///
+/// Returns
+/// -------
+/// float or None
+///     The bound as a factor: 1.0824 is 8.24 %. None where none is proven.
+///
+/// Raises
+/// ------
+/// OptionError
+///     For a k below 2.
+///
+/// Examples
+/// --------
+/// >>> import mediant
+/// >>> [round(mediant.bound(k, placement="corner"), 4) for k in (2, 3, 4)]
+/// [1.4142, 1.0824, 1.0275]
+#[pyfunction]
+#[pyo3(signature = (k, **motion))]
+pub(crate) fn bound(k: &Bound<'_, PyAny>, motion: Option<&Bound<'_, PyDict>>) -> PyResult<Option<f64>> {
+    let mut keywords = Keywords::read("bound", motion, Takes::MOTION)?;
+    keywords.k = Some(read_k(k)?);
+    let Motion { k, rules, .. } = keywords.motion()?;
+    let guarantee = k.finite().map_or(Guarantee::OptimalAnyAngle, Guarantee::Optimal);
+    Ok(guarantee.bound(rules))
+}
