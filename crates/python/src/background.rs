@@ -9,7 +9,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use mediant::{Limits, Space};
+use mediant::{Index, Limits};
 use pyo3::prelude::*;
 
 /// How often signals are looked at.
@@ -18,12 +18,14 @@ const LOOK: Duration = Duration::from_millis(20);
 /// Up to this many cells, whatever is not a preparation takes a few milliseconds at most.
 const QUICK_CELLS: u64 = 1 << 16;
 
-/// Whether a search in a space can take so long that it is watched: more expansions, each of more moves, than
-/// can be made in about 20 ms.
-pub(crate) fn is_watched(space: &Space) -> bool {
-    let vertices = u64::from(space.map().width()) * u64::from(space.map().height());
-    let moves = space.motion().k.finite().map_or(16, |k| 1 << k.get().min(16));
-    vertices * moves > 1 << 21
+/// Whether a search on an index can take so long that it is watched: more expansions, each of more moves, than
+/// can be made in about 20 ms. What was prepared saves most of them.
+pub(crate) fn is_watched(index: &Index) -> bool {
+    let (map, setup) = (index.space().map(), index.setup());
+    let vertices = u64::from(map.width()) * u64::from(map.height());
+    let moves = setup.k.finite().map_or(16, |k| 1 << k.get().min(16));
+    let saved = if setup.index_version().is_ok() { 16 } else { 1 };
+    vertices * moves / saved > 1 << 21
 }
 
 /// Does work on a map of so many cells with the GIL released; on a large one on another thread, while this one

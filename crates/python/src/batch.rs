@@ -10,7 +10,7 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::{
     exceptions::PyIndexError,
     prelude::*,
-    types::{PySlice, PyTuple},
+    types::{PyList, PySlice, PyTuple},
 };
 
 use crate::{
@@ -50,7 +50,7 @@ const INVALID: u8 = 4;
 /// (2, [[0, 0], [1, 1]], None)
 /// >>> paths.offsets.tolist(), paths.statuses.tolist()
 /// ([0, 2, 2], [0, 1])
-#[pyclass(frozen, sequence, module = "mediant")]
+#[pyclass(frozen, module = "mediant")]
 pub(crate) struct Paths {
     /// The points of all paths, shape (m, 2).
     #[pyo3(get)]
@@ -72,16 +72,22 @@ impl Paths {
         self.distances.bind(py).len()
     }
 
-    fn __getitem__<'py>(&self, py: Python<'py>, index: isize) -> PyResult<Option<Bound<'py, PyAny>>> {
+    fn __getitem__<'py>(&self, index: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let py = index.py();
         let count = self.__len__(py)? as isize;
+        if let Ok(slice) = index.cast::<PySlice>() {
+            let range = slice.indices(count)?;
+            let numbers = (0..range.slicelength as isize).map(|at| range.start + at * range.step);
+            let paths: Vec<_> = numbers.map(|at| self.path(py, at)).collect::<PyResult<_>>()?;
+            return Ok(PyList::new(py, paths)?.into_any());
+        }
+        let index: isize =
+            index.extract().map_err(|_| wrong_type("index", "an integer or a slice", index))?;
         let at = if index < 0 { index + count } else { index };
         if !(0..count).contains(&at) {
             return Err(PyIndexError::new_err(format!("path {index} of {count}")));
         }
-        let offset = |at: isize| -> PyResult<isize> { self.offsets.bind(py).get_item(at)?.extract() };
-        let (first, end) = (offset(at)?, offset(at + 1)?);
-        let points = || self.points.bind(py).get_item(PySlice::new(py, first, end, 1));
-        (first < end).then(points).transpose()
+        Ok(self.path(py, at)?.into_pyobject(py)?)
     }
 
     /// By the four arrays, for pickle.
@@ -116,6 +122,16 @@ impl Paths {
     }
 }
 
+impl Paths {
+    /// One of the paths.
+    fn path<'py>(&self, py: Python<'py>, at: isize) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let offset = |at: isize| -> PyResult<isize> { self.offsets.bind(py).get_item(at)?.extract() };
+        let (first, end) = (offset(at)?, offset(at + 1)?);
+        let points = || self.points.bind(py).get_item(PySlice::new(py, first, end, 1));
+        (first < end).then(points).transpose()
+    }
+}
+
 /// How a batch runs.
 pub(crate) struct Batch<'py> {
     threads: Option<usize>,
@@ -146,7 +162,7 @@ impl<'py> Batch<'py> {
         let (count, planners, threads) = (queries.count(), Arc::clone(planners), self.threads);
         let (done, flag) = (Arc::new(BatchProgress::default()), Arc::new(AtomicBool::new(false)));
         // A search that takes long is ended by the flag, too.
-        let watch = is_watched(planners.index().space()).then(|| Arc::clone(&flag));
+        let watch = is_watched(planners.index()).then(|| Arc::clone(&flag));
         let progress = Arc::clone(&done);
         let work = move || {
             let request = |index| queries.request(index, watch.as_ref());

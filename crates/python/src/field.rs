@@ -164,6 +164,11 @@ impl Field {
         Ok(source.map(|at| (at.y, at.x)))
     }
 
+    /// The distances as a picture, for notebooks.
+    fn _repr_png_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("mediant._picture")?.call_method1("png_of_field", (slf,))
+    }
+
     fn __repr__(&self) -> String {
         format!("<mediant.Field of {} × {} vertices>", self.inner.height(), self.inner.width())
     }

@@ -88,7 +88,7 @@ impl Asked<'_, '_> {
     /// Answers it with the GIL released.
     fn outcome(&self, counts: bool) -> PyResult<(Outcome, Option<Counters>)> {
         let (start, goal) = (Points::read("start", self.start)?, Points::read("goal", self.goal)?);
-        let is_watched = self.keywords.timeout().is_some() || is_watched(self.planners.index().space());
+        let is_watched = self.keywords.timeout().is_some() || is_watched(self.planners.index());
         let interruption = is_watched.then(Interruption::default);
         let request = self.keywords.request(&start, &goal, interruption.as_ref());
         let answer = self.start.py().detach(|| {

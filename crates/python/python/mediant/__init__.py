@@ -1,7 +1,8 @@
 """Pathfinding on grids: 4, 8, 16, 32 and more directions, or any angle.
 
-Points are (row, column) everywhere, as in NumPy. A map is a 2-D array of bool, in which True is blocked; a path
-is an integer array of shape (n, 2), or None if there is none; distances are floats, infinite where no path leads.
+Points are (row, column) everywhere, as in NumPy. A map is a 2-D array of bool, in which True is blocked; a
+path is an integer array of shape (n, 2), or None if there is none; distances are floats, infinite where no
+path leads.
 
 Examples
 --------
