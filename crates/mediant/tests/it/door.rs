@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use mediant::{
-    CornerRule, Counters, Engine, Error, Identity, K, Map, Motion, Observer, Origin, Outcome, Planner, Query,
-    QueryError, Rectangle, Rules, Setup, Space, files::ImageOptions,
+    CornerRule, Counters, Engine, Error, ErrorCode, Identity, K, Map, Motion, Observer, Origin, Outcome,
+    Planner, Query, QueryError, Rectangle, Rules, Setup, Space, files::ImageOptions,
 };
 use mediant_formats::IndexFile;
 use mediant_oracle::{Rng, caves};
@@ -167,6 +167,33 @@ fn repaired_indexes_keep_their_shape() {
             space.index_from_bytes(bytes).expect("its bytes").repair(&larger).expect("the same motion");
         let anew = setup.prepare(&larger).expect("an index");
         assert_eq!(read.to_bytes().ok(), anew.to_bytes().ok(), "{text}");
+    }
+}
+
+/// A file says for which rules and k its index is: a map alone can read it.
+#[test]
+fn maps_read_indexes_of_any_motion() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("index");
+    let other = Map::from_fn(9, 5, |x, y| x == 4 && y != 0).expect("a map");
+    for text in
+        ["jps-plus:2", "subgoal:4:closed", "subgoal:any,levels=2", "subgoal-theta", "hpa,side=4", "chpa"]
+    {
+        let setup: Setup = text.parse().expect("a setup");
+        let index = setup.space(&map()).and_then(|space| setup.prepare(&space)).expect("an index");
+        index.save(&file).expect("a file");
+        let bytes = index.to_bytes().expect("bytes");
+        for read in [map().load(&file), map().index_from_bytes(bytes.clone())] {
+            let read = read.expect("the index of this map");
+            assert_eq!(
+                (read.identity(), read.to_bytes().ok()),
+                (index.identity(), Some(bytes.clone())),
+                "{text}"
+            );
+        }
+        let code = other.index_from_bytes(bytes).map_err(|error| error.code());
+        assert_eq!(code.err(), Some(ErrorCode::Mismatch), "{text}");
+        assert!(other.load(&file).is_err_and(|error| matches!(error, Error::InFile { .. })), "{text}");
     }
 }
 

@@ -8,6 +8,7 @@ mod identity;
 mod mistakes;
 mod odd_input;
 mod options;
+mod planners;
 mod requests;
 mod subgoals;
 mod table;
