@@ -11,8 +11,8 @@ use crate::{arrays::PathPoints, errors::made};
 /// Attributes
 /// ----------
 /// status : str
-///     ``"found"``; ``"unreachable"``: there is no path; ``"nearest"``: there is none, and the path leads to the
-///     reachable vertex that is nearest to the goal; ``"stopped"``: a limit stopped the search.
+///     ``"found"``; ``"unreachable"``: there is no path; ``"nearest"``: there is none, and the path leads to
+///     the reachable vertex that is nearest to the goal; ``"stopped"``: a limit stopped the search.
 /// path : numpy.ndarray or None
 ///     The path, shape (n, 2), int32: of a found or nearest answer.
 /// distance : float

@@ -18,8 +18,8 @@ const LOOK: Duration = Duration::from_millis(20);
 /// Up to this many cells, whatever is not a preparation takes a few milliseconds at most.
 const QUICK_CELLS: u64 = 1 << 16;
 
-/// Whether a search on an index can take so long that it is watched: more expansions, each of more moves, than
-/// can be made in about 20 ms. What was prepared saves most of them.
+/// Whether a search on an index can take so long that it is watched: more expansions, each of more moves,
+/// than can be made in about 20 ms. What was prepared saves most of them.
 pub(crate) fn is_watched(index: &Index) -> bool {
     let (map, setup) = (index.space().map(), index.setup());
     let vertices = u64::from(map.width()) * u64::from(map.height());
@@ -28,8 +28,8 @@ pub(crate) fn is_watched(index: &Index) -> bool {
     vertices * moves / saved > 1 << 21
 }
 
-/// Does work on a map of so many cells with the GIL released; on a large one on another thread, while this one
-/// looks at signals.
+/// Does work on a map of so many cells with the GIL released; on a large one on another thread, while this
+/// one looks at signals.
 pub(crate) fn detached<T: Send + 'static>(
     py: Python<'_>,
     cells: u64,

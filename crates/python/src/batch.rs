@@ -33,8 +33,8 @@ const INVALID: u8 = 4;
 /// points : numpy.ndarray
 ///     The points of all paths, one after the other: shape (m, 2), int32.
 /// offsets : numpy.ndarray
-///     Shape (n + 1,), int64: path i has the points from ``offsets[i]`` up to ``offsets[i + 1]``. Where there is
-///     no path the two are equal.
+///     Shape (n + 1,), int64: path i has the points from ``offsets[i]`` up to ``offsets[i + 1]``. Where there
+///     is no path the two are equal.
 /// distances : numpy.ndarray
 ///     Shape (n,), float64: lengths in cells; ``inf`` where no path leads, ``nan`` where a limit stopped the
 ///     search or an end is invalid.
@@ -283,12 +283,12 @@ struct Chunk {
 impl Chunk {
     fn add(
         &mut self,
-        answer: Result<Outcome, QueryError>,
+        answer: &Result<Outcome, QueryError>,
         points: Option<PathPoints>,
         placement: PlacementKind,
     ) {
         let known = self.points.len();
-        let (status, distance) = match &answer {
+        let (status, distance) = match answer {
             Ok(outcome) => {
                 if let (Some(points), Some(path)) = (points, outcome.path()) {
                     points.add(path, placement, &mut self.points);
@@ -341,7 +341,7 @@ fn chunks(
 ) -> PyResult<Vec<Chunk>> {
     let placement = planners.index().setup().rules.placement();
     let queries = pairs(starts, goals, keywords)?;
-    let add = move |chunk: &mut Chunk, answer| chunk.add(answer, points, placement);
+    let add = move |chunk: &mut Chunk, answer| chunk.add(&answer, points, placement);
     let chunks = batch.run(py, planners, queries, add)?;
     if batch.raises {
         check(&chunks)?;
@@ -397,7 +397,7 @@ pub(crate) fn table<'py>(
     let placement = planners.index().setup().rules.placement();
     let (starts, goals) = (starts.into_vec(), goals.into_vec());
     let shape = (starts.len(), goals.len());
-    let add = move |chunk: &mut Chunk, answer| chunk.add(answer, None, placement);
+    let add = move |chunk: &mut Chunk, answer| chunk.add(&answer, None, placement);
     let chunks = batch.run(py, planners, Queries::Table { starts, goals }, add)?;
     check(&chunks)?;
     PyArray1::from_vec(py, flat(&chunks, |chunk| &chunk.distances)).call_method1("reshape", (shape,))

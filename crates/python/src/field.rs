@@ -72,8 +72,8 @@ impl Field {
     /// Returns
     /// -------
     /// numpy.ndarray
-    ///     The shape of the field and 2, float64: (row, column) vectors of length 1; 0 at sources, ``nan`` where
-    ///     no path leads.
+    ///     The shape of the field and 2, float64: (row, column) vectors of length 1; 0 at sources, ``nan``
+    ///     where no path leads.
     ///
     /// Examples
     /// --------
@@ -87,16 +87,17 @@ impl Field {
             None => [f64::NAN, f64::NAN],
         };
         let flat: Vec<f64> = py.detach(|| self.vertices().flat_map(direction).collect());
-        self.planes(rows_array(py, flat, 2)?)
+        self.planes(&rows_array(py, flat, 2)?)
     }
 
-    /// The vertices to which the shortest paths lead next: one move away, or at any angle where the path first
-    /// bends.
+    /// The vertices to which the shortest paths lead next: one move away, or at any angle where the path
+    /// first bends.
     ///
     /// Returns
     /// -------
     /// numpy.ndarray
-    ///     The shape of the field and 2, int32: (row, column); a source's own at sources, -1 where no path leads.
+    ///     The shape of the field and 2, int32: (row, column); a source's own at sources, -1 where no path
+    ///     leads.
     ///
     /// Examples
     /// --------
@@ -110,7 +111,7 @@ impl Field {
             None => [-1, -1],
         };
         let flat: Vec<i32> = py.detach(|| self.vertices().flat_map(next).collect());
-        self.planes(rows_array(py, flat, 2)?)
+        self.planes(&rows_array(py, flat, 2)?)
     }
 
     /// The shortest path from a vertex to the nearest source.
@@ -130,7 +131,7 @@ impl Field {
     /// Examples
     /// --------
     /// See `Field`.
-    #[pyo3(signature = (point, *, points = None))]
+    #[pyo3(signature = (point, *, points = None), text_signature = "($self, point, *, points='waypoints')")]
     fn path_from<'py>(
         &self,
         point: &Bound<'py, PyAny>,
@@ -176,7 +177,7 @@ impl Field {
 
 impl Field {
     /// An array of points, one for each vertex, in the shape of the field.
-    fn planes<'py>(&self, array: Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    fn planes<'py>(&self, array: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         array.call_method1("reshape", ((self.inner.height(), self.inner.width(), 2),))
     }
 }

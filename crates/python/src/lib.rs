@@ -1,5 +1,5 @@
-//! The compiled part of the Python package `mediant`: arrays of NumPy in, arrays out, the library `mediant` in
-//! between. It has names, conversions and words, and no algorithm.
+//! The compiled part of the Python package `mediant`: arrays of NumPy in, arrays out, the library `mediant`
+//! in between. It has names, conversions and words, and no algorithm.
 //!
 //! - [`arguments`]: what a call was given: points, numbers, the keywords of motion, wishes and options. Each
 //!   mistake names its argument.
@@ -34,25 +34,5 @@ mod field;
 mod grid;
 mod index;
 mod keywords;
+mod module;
 mod world;
-
-use pyo3::prelude::*;
-
-/// The compiled part of the package.
-#[pymodule(gil_used = false)]
-mod _mediant {
-    #[pymodule_export]
-    use super::{
-        answer::Answer,
-        batch::Paths,
-        field::Field,
-        grid::Grid,
-        index::Index,
-        keywords::{bound, moves},
-        world::World,
-    };
-
-    #[pymodule_export]
-    #[expect(non_upper_case_globals, reason = "Python's name")]
-    const __version__: &str = env!("CARGO_PKG_VERSION");
-}

@@ -68,7 +68,7 @@ impl World {
     /// Examples
     /// --------
     /// See `World`.
-    #[pyo3(signature = (x, y, *, placement = None))]
+    #[pyo3(signature = (x, y, *, placement = None), text_signature = "($self, x, y, *, placement='center')")]
     fn vertex_at(
         &self,
         x: &Bound<'_, PyAny>,
@@ -96,7 +96,10 @@ impl World {
     /// Examples
     /// --------
     /// See `World`.
-    #[pyo3(signature = (points, *, placement = None))]
+    #[pyo3(
+        signature = (points, *, placement = None),
+        text_signature = "($self, points, *, placement='center')"
+    )]
     fn point_of<'py>(
         &self,
         points: &Bound<'py, PyAny>,

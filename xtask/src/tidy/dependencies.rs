@@ -22,7 +22,7 @@ const fn layer(package: &'static str, uses: &'static [&'static str], reason: &'s
 }
 
 /// The layers, lowest first, in four groups.
-const LAYERS: [Layer; 14] = [
+const LAYERS: [Layer; 15] = [
     // The mathematics and the map.
     Layer {
         foreign: false,
@@ -44,6 +44,11 @@ const LAYERS: [Layer; 14] = [
         "mediant-cli",
         &[MOVES, GRID, SEARCH, LIBRARY, FORMATS],
         "the program is thin: it shows what the library and the files hold",
+    ),
+    layer(
+        "mediant-python",
+        &[MOVES, LIBRARY],
+        "the package is thin: names, conversions and words on top of the library",
     ),
     // What proves it.
     layer(ORACLE, &[MOVES, GRID], "a reference that shares code with what it checks shares its errors"),

@@ -35,7 +35,10 @@ impl Grid {
     /// >>> import mediant
     /// >>> mediant.Grid.from_rows(["...#."]).clearance(outside="open").tolist()
     /// [[2.5, 1.5, 0.5, 0.0, 0.5]]
-    #[pyo3(signature = (*, fit = None, outside = None))]
+    #[pyo3(
+        signature = (*, fit = None, outside = None),
+        text_signature = "($self, *, fit='centers', outside='blocked')"
+    )]
     fn clearance<'py>(
         &self,
         py: Python<'py>,
@@ -51,7 +54,8 @@ impl Grid {
         rows_array(py, distances, width as usize)
     }
 
-    /// The grid of a disc: free where the disc fits. The paths of its center are those of a point on that grid.
+    /// The grid of a disc: free where the disc fits. The paths of its center are those of a point on that
+    /// grid.
     ///
     /// Parameters
     /// ----------
@@ -83,7 +87,10 @@ impl Grid {
     /// 4.0
     /// >>> grid.for_disc(0.6).is_free((0, 0))
     /// False
-    #[pyo3(signature = (radius, *, fit = None, outside = None, **motion))]
+    #[pyo3(
+        signature = (radius, *, fit = None, outside = None, **motion),
+        text_signature = "($self, radius, *, fit=None, outside='blocked', **motion)"
+    )]
     fn for_disc<'py>(
         &self,
         radius: &Bound<'py, PyAny>,
@@ -158,7 +165,10 @@ impl Grid {
     /// >>> path, radius = grid.widest_path((3, 1), (3, 7), surplus=0.5)
     /// >>> radius
     /// 1.5
-    #[pyo3(signature = (start, goal, *, surplus, points = None, **motion))]
+    #[pyo3(
+        signature = (start, goal, *, surplus, points = None, **motion),
+        text_signature = "($self, start, goal, *, surplus, points='waypoints', **motion)"
+    )]
     fn widest_path<'py>(
         &self,
         start: &Bound<'py, PyAny>,

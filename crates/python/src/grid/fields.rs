@@ -63,8 +63,8 @@ impl Grid {
     /// Returns
     /// -------
     /// numpy.ndarray
-    ///     Shape (rows, columns), at corners (rows + 1, columns + 1); float64, in cells. ``inf`` where no path
-    ///     leads, or none within the limit.
+    ///     Shape (rows, columns), at corners (rows + 1, columns + 1); float64, in cells. ``inf`` where no
+    ///     path leads, or none within the limit.
     ///
     /// Raises
     /// ------
@@ -137,8 +137,8 @@ impl Grid {
     /// Returns
     /// -------
     /// numpy.ndarray
-    ///     The shape of `distances` and 2, float64: (row, column) vectors of length 1; 0 at sources, ``nan`` where
-    ///     no path leads.
+    ///     The shape of `distances` and 2, float64: (row, column) vectors of length 1; 0 at sources, ``nan``
+    ///     where no path leads.
     ///
     /// Raises
     /// ------

@@ -36,16 +36,16 @@ impl Grid {
         Ok(Self::new(map_of(array, &Criteria { above, below, values })?, None))
     }
 
-    /// Reads a map from a file: a MovingAI ``.map``, a PNG, PGM or PBM picture, or the YAML file of a ROS map.
-    /// The content decides which, not the name.
+    /// Reads a map from a file: a MovingAI ``.map``, a PNG, PGM or PBM picture, or the YAML file of a ROS
+    /// map. The content decides which, not the name.
     ///
     /// Parameters
     /// ----------
     /// path : str or os.PathLike
     ///     The file.
     /// threshold : float or str
-    ///     Of pictures: pixels darker than this part of white are blocked. Of ROS maps: cells occupied to more
-    ///     than 1 - threshold are. From 0 to 1.
+    ///     Of pictures: pixels darker than this part of white are blocked. Of ROS maps: cells occupied to
+    ///     more than 1 - threshold are. From 0 to 1.
     /// invert : bool
     ///     Takes a picture as a negative: light pixels are blocked.
     /// unknown : {"blocked", "free"}
@@ -72,7 +72,10 @@ impl Grid {
     /// >>> mediant.Grid.open(file).to_numpy().tolist()
     /// [[False, True, False], [False, False, False]]
     #[staticmethod]
-    #[pyo3(signature = (path, *, threshold = None, invert = None, unknown = None))]
+    #[pyo3(
+        signature = (path, *, threshold = None, invert = None, unknown = None),
+        text_signature = "(path, *, threshold=0.5, invert=False, unknown='blocked')"
+    )]
     fn open(
         py: Python<'_>,
         path: PathBuf,

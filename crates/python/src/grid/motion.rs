@@ -98,8 +98,8 @@ impl Grid {
         Ok(self.moved("sees", start.py(), motion)?.sees(ends.0, ends.1))
     }
 
-    /// Checks that a path obeys the rules of motion here, for instance after an edit. It costs far less than a
-    /// search.
+    /// Checks that a path obeys the rules of motion here, for instance after an edit. It costs far less than
+    /// a search.
     ///
     /// Parameters
     /// ----------

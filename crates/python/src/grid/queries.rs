@@ -60,7 +60,10 @@ impl Grid {
     /// [[0, 0], [0, 3], [2, 3]]
     /// >>> grid.path((0, 0), (3, 4), k="any").tolist()
     /// [[0, 0], [1, 3], [3, 4]]
-    #[pyo3(signature = (start, goal, *, points = None, **how))]
+    #[pyo3(
+        signature = (start, goal, *, points = None, **how),
+        text_signature = "($self, start, goal, *, points='waypoints', **how)"
+    )]
     fn path<'py>(
         &self,
         py: Python<'py>,
@@ -119,13 +122,13 @@ impl Grid {
     /// start, goal : tuple of int
     ///     As in `path`.
     /// points : {"waypoints", "vertices", "cells"}
-    ///     What arrays of paths have: the waypoints, joined by straight lines; each vertex at which a move ends;
-    ///     or each cell that the path touches.
+    ///     What arrays of paths have: the waypoints, joined by straight lines; each vertex at which a move
+    ///     ends; or each cell that the path touches.
     /// counters : bool
     ///     Whether to count the events of the search, which makes it slower.
     /// k : int or "any"
-    ///     The neighborhood, of 2**k directions: 2 is 4 directions, 3 (the default) 8, 4 is 16, up to 12; "any"
-    ///     is every direction.
+    ///     The neighborhood, of 2**k directions: 2 is 4 directions, 3 (the default) 8, 4 is 16, up to 12;
+    ///     "any" is every direction.
     /// placement : {"center", "corner"}
     ///     Whether paths lead between centers of cells (the default for a number k) or corners of cells (the
     ///     default for "any"). Corner (row, column) is the top left one of cell (row, column).
@@ -173,7 +176,10 @@ impl Grid {
     /// >>> answer = grid.find((0, 0), (1, 1), max_cost=1)
     /// >>> answer.status, answer.stopped_by
     /// ('stopped', 'cost')
-    #[pyo3(signature = (start, goal, *, points = None, counters = false, **how))]
+    #[pyo3(
+        signature = (start, goal, *, points = None, counters = false, **how),
+        text_signature = "($self, start, goal, *, points='waypoints', counters=False, **how)"
+    )]
     fn find<'py>(
         &self,
         py: Python<'py>,
@@ -199,8 +205,8 @@ impl Grid {
     /// threads : int, optional
     ///     The number of threads; by default one for each core.
     /// progress : callable, optional
-    ///     Called now and then with the stage (``"edges"`` or ``"hierarchy"``), and the number of subgoals that
-    ///     it has finished and of all. Only subgoal graphs report progress.
+    ///     Called now and then with the stage (``"edges"`` or ``"hierarchy"``), and the number of subgoals
+    ///     that it has finished and of all. Only subgoal graphs report progress.
     /// heuristic : {"hk", "euclidean", "zero", "squared"}, optional
     ///     The heuristic of the search.
     /// variant : {"exact", "complete", "paper"}, optional

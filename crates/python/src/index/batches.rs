@@ -1,0 +1,161 @@
+//! Many paths on an index.
+
+use numpy::PyArray1;
+use pyo3::{prelude::*, types::PyDict};
+
+use super::Index;
+use crate::{
+    arguments::Points,
+    arrays::PathPoints,
+    batch::{self, Batch, Paths},
+    keywords::{Keywords, Takes},
+};
+
+#[pymethods]
+impl Index {
+    /// The shortest paths of many queries, on all cores.
+    ///
+    /// Parameters
+    /// ----------
+    /// starts, goals : array_like of int
+    ///     (row, column) points, shape (n, 2); one single point stands for all queries.
+    /// points : {"waypoints", "vertices", "cells"}
+    ///     What the arrays have: see `Grid.find`.
+    /// threads : int, optional
+    ///     The number of threads; by default one for each core. The answers are the same on any number.
+    /// progress : callable, optional
+    ///     Called now and then with the number of queries that were answered and of all.
+    /// invalid : {"raise", "none"}
+    ///     What to do with a query whose start or goal is blocked or outside the map: raise an error, or
+    ///     answer it with no path.
+    /// **wishes
+    ///     Of each query: see `Grid.find`.
+    ///
+    /// Returns
+    /// -------
+    /// Paths
+    ///     A sequence of arrays or None, in the order of the queries.
+    ///
+    /// Raises
+    /// ------
+    /// QueryError
+    ///     For the first query that is invalid.
+    /// ArgumentError
+    ///     For arrays of other shapes, or different lengths.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> index = mediant.Grid.from_rows(["....", ".##.", "...."]).prepare()
+    /// >>> [path.tolist() for path in index.paths((0, 0), [(0, 3), (2, 0)])]
+    /// [[[0, 0], [0, 3]], [[0, 0], [2, 0]]]
+    #[pyo3(
+        signature = (starts, goals, *, points = None, threads = None, progress = None, invalid = None, **wishes),
+        text_signature = "($self, starts, goals, *, points='waypoints', threads=None, progress=None, \
+            invalid='raise', **wishes)"
+    )]
+    #[expect(clippy::too_many_arguments, reason = "the keywords of a call in Python")]
+    fn paths<'py>(
+        &self,
+        py: Python<'py>,
+        starts: &Bound<'py, PyAny>,
+        goals: &Bound<'py, PyAny>,
+        points: Option<&Bound<'py, PyAny>>,
+        threads: Option<&Bound<'py, PyAny>>,
+        progress: Option<&Bound<'py, PyAny>>,
+        invalid: Option<&Bound<'py, PyAny>>,
+        wishes: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Paths> {
+        let keywords = Keywords::read("paths", wishes, Takes::WISHES)?;
+        let ends = (Points::read("starts", starts)?, Points::read("goals", goals)?);
+        let batch = Batch::read(threads, progress, invalid)?;
+        batch::paths(py, &self.planners, ends, PathPoints::read(points)?, (keywords, &batch))
+    }
+
+    /// The lengths of the shortest paths of many queries, on all cores.
+    ///
+    /// Parameters
+    /// ----------
+    /// starts, goals : array_like of int
+    ///     As in `paths`.
+    /// threads, progress, invalid
+    ///     As in `paths`.
+    /// **wishes
+    ///     As in `paths`.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     Shape (n,), float64: in cells; ``inf`` where no path leads, ``nan`` where an end is invalid or a
+    ///     limit stopped the search.
+    ///
+    /// Raises
+    /// ------
+    /// QueryError, ArgumentError
+    ///     As `paths`.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> index = mediant.Grid.from_rows(["....", ".##.", "...."]).prepare()
+    /// >>> index.distances((0, 0), [(0, 3), (2, 3)]).tolist()
+    /// [3.0, 5.0]
+    #[pyo3(
+        signature = (starts, goals, *, threads = None, progress = None, invalid = None, **wishes),
+        text_signature = "($self, starts, goals, *, threads=None, progress=None, invalid='raise', **wishes)"
+    )]
+    #[expect(clippy::too_many_arguments, reason = "the keywords of a call in Python")]
+    fn distances<'py>(
+        &self,
+        py: Python<'py>,
+        starts: &Bound<'py, PyAny>,
+        goals: &Bound<'py, PyAny>,
+        threads: Option<&Bound<'py, PyAny>>,
+        progress: Option<&Bound<'py, PyAny>>,
+        invalid: Option<&Bound<'py, PyAny>>,
+        wishes: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let keywords = Keywords::read("distances", wishes, Takes::WISHES)?;
+        let ends = (Points::read("starts", starts)?, Points::read("goals", goals)?);
+        let batch = Batch::read(threads, progress, invalid)?;
+        batch::distances(py, &self.planners, ends, (keywords, &batch))
+    }
+
+    /// The lengths of the shortest paths from each start to each goal, on all cores.
+    ///
+    /// Parameters
+    /// ----------
+    /// starts, goals : array_like of int
+    ///     (row, column) points, shapes (n, 2) and (m, 2).
+    /// threads, progress
+    ///     As in `paths`.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     Shape (n, m), float64: in cells; ``inf`` where no path leads.
+    ///
+    /// Raises
+    /// ------
+    /// QueryError
+    ///     For an end that is blocked or outside the map.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> index = mediant.Grid.from_rows(["....", ".##.", "...."]).prepare()
+    /// >>> index.table([(0, 0), (0, 1)], [(0, 3), (2, 0)]).tolist()
+    /// [[3.0, 2.0], [2.0, 3.0]]
+    #[pyo3(signature = (starts, goals, *, threads = None, progress = None))]
+    fn table<'py>(
+        &self,
+        py: Python<'py>,
+        starts: &Bound<'py, PyAny>,
+        goals: &Bound<'py, PyAny>,
+        threads: Option<&Bound<'py, PyAny>>,
+        progress: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let ends = (Points::read("starts", starts)?, Points::read("goals", goals)?);
+        batch::table(py, &self.planners, ends, &Batch::read(threads, progress, None)?)
+    }
+}

@@ -1,0 +1,210 @@
+//! One path on an index.
+
+use std::sync::Arc;
+
+use mediant::{Counters, Outcome, Planners};
+use numpy::PyArray2;
+use pyo3::{prelude::*, types::PyDict};
+
+use super::Index;
+use crate::{
+    answer::{self, Answer},
+    arguments::Points,
+    arrays::PathPoints,
+    background::{Interruption, is_watched},
+    errors::raised,
+    keywords::{Keywords, Takes},
+};
+
+/// A query on planners, as it was asked.
+pub(crate) struct Asked<'a, 'py> {
+    pub(crate) planners: &'a Arc<Planners>,
+    pub(crate) start: &'a Bound<'py, PyAny>,
+    pub(crate) goal: &'a Bound<'py, PyAny>,
+    pub(crate) keywords: Keywords,
+}
+
+impl Asked<'_, '_> {
+    /// Answers it with the GIL released.
+    fn outcome(&self, counts: bool) -> PyResult<(Outcome, Option<Counters>)> {
+        let (start, goal) = (Points::read("start", self.start)?, Points::read("goal", self.goal)?);
+        let is_watched = self.keywords.timeout().is_some() || is_watched(self.planners.index());
+        let interruption = is_watched.then(Interruption::default);
+        let request = self.keywords.request(&start, &goal, interruption.as_ref());
+        let answer = self.start.py().detach(|| {
+            if counts {
+                let find = |planner: &mut mediant::Planner| planner.find_counted(request);
+                return self.planners.with(find).map(|(outcome, counters)| (outcome, Some(counters)));
+            }
+            self.planners.find(request).map(|outcome| (outcome, None))
+        });
+        if let Some(error) = interruption.and_then(|interruption| interruption.take()) {
+            return Err(error);
+        }
+        answer.map_err(raised)
+    }
+
+    /// `path`.
+    pub(crate) fn path<'py>(
+        &self,
+        py: Python<'py>,
+        points: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
+        let points = PathPoints::read(points)?;
+        let placement = self.planners.index().setup().rules.placement();
+        let outcome = answer::whole(py, self.outcome(false)?.0, points, placement)?;
+        outcome.path().map(|path| points.array(py, path, placement)).transpose()
+    }
+
+    /// `distance`.
+    pub(crate) fn distance(&self, py: Python<'_>) -> PyResult<f64> {
+        let placement = self.planners.index().setup().rules.placement();
+        let outcome = answer::whole(py, self.outcome(false)?.0, PathPoints::Waypoints, placement)?;
+        Ok(answer::distance(&outcome))
+    }
+
+    /// `find`.
+    pub(crate) fn find(
+        &self,
+        py: Python<'_>,
+        points: Option<&Bound<'_, PyAny>>,
+        counters: bool,
+    ) -> PyResult<Answer> {
+        let points = PathPoints::read(points)?;
+        let setup = self.planners.index().setup();
+        let (outcome, counters) = self.outcome(counters)?;
+        let is_optimal = setup.optimal_over().is_some();
+        Answer::new(py, &outcome, points, setup.rules.placement(), (is_optimal, counters))
+    }
+}
+
+#[pymethods]
+impl Index {
+    /// A shortest path.
+    ///
+    /// Parameters
+    /// ----------
+    /// start, goal : tuple of int
+    ///     (row, column); or several of each, shape (n, 2): the shortest path from any start to any goal.
+    /// points : {"waypoints", "vertices", "cells"}
+    ///     What the array has: see `Grid.find`.
+    /// **wishes
+    ///     ``nearest``, ``tolerance``, ``snap`` and limits: see `Grid.find`.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray or None
+    ///     Shape (n, 2), int32; None if there is no path.
+    ///
+    /// Raises
+    /// ------
+    /// QueryError
+    ///     For a start or goal that is blocked or outside the map.
+    /// LimitReached
+    ///     If a limit stopped the search.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> index = mediant.Grid.from_rows(["....", ".##.", "...."]).prepare()
+    /// >>> index.path((0, 0), (2, 2), points="cells").tolist()
+    /// [[0, 0], [1, 0], [2, 0], [2, 1], [2, 2]]
+    #[pyo3(
+        signature = (start, goal, *, points = None, **wishes),
+        text_signature = "($self, start, goal, *, points='waypoints', **wishes)"
+    )]
+    fn path<'py>(
+        &self,
+        py: Python<'py>,
+        start: &Bound<'py, PyAny>,
+        goal: &Bound<'py, PyAny>,
+        points: Option<&Bound<'py, PyAny>>,
+        wishes: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
+        let keywords = Keywords::read("path", wishes, Takes::WISHES)?;
+        Asked { planners: &self.planners, start, goal, keywords }.path(py, points)
+    }
+
+    /// The length of a shortest path.
+    ///
+    /// Parameters
+    /// ----------
+    /// start, goal : tuple of int
+    ///     As in `path`.
+    /// **wishes
+    ///     As in `path`.
+    ///
+    /// Returns
+    /// -------
+    /// float
+    ///     In cells; ``inf`` if there is no path.
+    ///
+    /// Raises
+    /// ------
+    /// QueryError, LimitReached
+    ///     As `path`.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> mediant.Grid.from_rows(["....", ".##.", "...."]).prepare().distance((0, 0), (2, 3))
+    /// 5.0
+    #[pyo3(signature = (start, goal, **wishes))]
+    fn distance<'py>(
+        &self,
+        py: Python<'py>,
+        start: &Bound<'py, PyAny>,
+        goal: &Bound<'py, PyAny>,
+        wishes: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<f64> {
+        let keywords = Keywords::read("distance", wishes, Takes::WISHES)?;
+        Asked { planners: &self.planners, start, goal, keywords }.distance(py)
+    }
+
+    /// The whole answer to a query.
+    ///
+    /// Parameters
+    /// ----------
+    /// start, goal : tuple of int
+    ///     As in `path`.
+    /// points : {"waypoints", "vertices", "cells"}
+    ///     What arrays of paths have: see `Grid.find`.
+    /// counters : bool
+    ///     Whether to count the events of the search, which makes it slower.
+    /// **wishes
+    ///     As in `path`.
+    ///
+    /// Returns
+    /// -------
+    /// Answer
+    ///     Path, length, and what stopped the search.
+    ///
+    /// Raises
+    /// ------
+    /// QueryError
+    ///     As `path`.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> index = mediant.Grid.from_rows(["..#.", "..#."]).prepare("astar")
+    /// >>> answer = index.find((0, 0), (0, 3), nearest=True, counters=True)
+    /// >>> answer.status, answer.path.tolist(), answer.counters["expanded"] > 0
+    /// ('nearest', [[0, 0], [0, 1]], True)
+    #[pyo3(
+        signature = (start, goal, *, points = None, counters = false, **wishes),
+        text_signature = "($self, start, goal, *, points='waypoints', counters=False, **wishes)"
+    )]
+    fn find<'py>(
+        &self,
+        py: Python<'py>,
+        start: &Bound<'py, PyAny>,
+        goal: &Bound<'py, PyAny>,
+        points: Option<&Bound<'py, PyAny>>,
+        counters: bool,
+        wishes: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Answer> {
+        let keywords = Keywords::read("find", wishes, Takes::WISHES)?;
+        Asked { planners: &self.planners, start, goal, keywords }.find(py, points, counters)
+    }
+}

@@ -1,0 +1,169 @@
+//! Indexes with other options, for other maps, as files and bytes.
+
+use std::path::PathBuf;
+
+use mediant::Setup;
+use pyo3::{
+    prelude::*,
+    types::{PyBytes, PyDict, PyTuple},
+};
+
+use super::Index;
+use crate::{
+    background::{detached, in_pool, on_thread},
+    errors::{raised, wrong_type},
+    grid::Grid,
+    keywords::{Keywords, Takes},
+};
+
+#[pymethods]
+impl Index {
+    /// The same index for queries with other options of its engine, such as another heuristic or smoothing.
+    ///
+    /// Parameters
+    /// ----------
+    /// **options
+    ///     As in `Grid.prepare`. Those that are left out have their defaults.
+    ///
+    /// Returns
+    /// -------
+    /// Index
+    ///     It shares what is prepared with this one.
+    ///
+    /// Raises
+    /// ------
+    /// OptionError
+    ///     For options that the engine does not take, or that decide what is prepared, if this index has
+    ///     others.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> index = mediant.Grid.from_rows(["...", "..."]).prepare("astar")
+    /// >>> index.with_options(heuristic="euclidean").setup
+    /// 'astar:3:never,euclidean'
+    #[pyo3(signature = (**options))]
+    fn with_options(&self, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let keywords = Keywords::read("with_options", options, Takes::OPTIONS)?;
+        let index = self.planners.index().clone();
+        let engine = keywords.configured(index.setup().engine.kind())?;
+        let index = index.with_options(engine).map_err(raised)?.with_smoothing(keywords.smoothing);
+        Ok(Self::new(self.grid.clone(), index))
+    }
+
+    /// The index for an edited grid.
+    ///
+    /// Clusters and segments (``hpa``, ``chpa``) are repaired where the grids differ; the other engines'
+    /// indexes are prepared anew. `origin` says which it was. This index stays as it is.
+    ///
+    /// Parameters
+    /// ----------
+    /// grid : Grid
+    ///     The edited grid.
+    ///
+    /// Returns
+    /// -------
+    /// Index
+    ///     The same as one prepared anew.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> grid = mediant.Grid.from_rows(["....", "####", "...."])
+    /// >>> opened = grid.edit((1, 2), [[False]])
+    /// >>> grid.prepare("hpa").repair(opened).path((0, 0), (2, 0)) is not None
+    /// True
+    fn repair(&self, py: Python<'_>, grid: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let Ok(changed) = grid.cast::<Grid>() else { return Err(wrong_type("grid", "a Grid", grid)) };
+        let (changed, index) = (changed.get().clone(), self.planners.index().clone());
+        let map = changed.map().clone();
+        let work = move || {
+            let space = map.space(index.setup().motion())?;
+            in_pool(None, || index.repair(&space))
+        };
+        Ok(Self::new(changed, on_thread(py, work, |_| Ok(()))?.map_err(raised)?))
+    }
+
+    /// Writes the index to a file, for `Grid.load`. An older file there is replaced as a whole.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or os.PathLike
+    ///     The file.
+    ///
+    /// Raises
+    /// ------
+    /// OptionError
+    ///     For an engine whose index is not saved.
+    /// FileError
+    ///     If the operating system refuses.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import pathlib, tempfile
+    /// >>> import mediant
+    /// >>> grid = mediant.Grid.from_rows(["....", ".##.", "...."])
+    /// >>> file = pathlib.Path(tempfile.mkdtemp()) / "map.index"
+    /// >>> grid.prepare().save(file)
+    /// >>> grid.load(file).distance((0, 0), (2, 3))
+    /// 5.0
+    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        py.detach(|| self.planners.index().save(path)).map_err(raised)
+    }
+
+    /// The bytes of the index's file, for `Grid.index_from_bytes`.
+    ///
+    /// Returns
+    /// -------
+    /// bytes
+    ///     With a checksum; the map is not among them.
+    ///
+    /// Raises
+    /// ------
+    /// OptionError
+    ///     For an engine whose index is not saved.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> grid = mediant.Grid.from_rows(["....", ".##.", "...."])
+    /// >>> grid.index_from_bytes(grid.prepare().to_bytes()).engine
+    /// 'subgoal'
+    fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = py.detach(|| self.planners.index().to_bytes()).map_err(raised)?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    /// By the grid, the setup and the saved bytes, for pickle. An engine that saves nothing is prepared anew.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let (py, index) = (slf.py(), slf.get());
+        let bytes = match index.setup().index_version() {
+            Ok(_) => Some(index.to_bytes(py)?),
+            Err(_) => None,
+        };
+        let state = (index.grid.clone(), index.setup_text(), bytes).into_pyobject(py)?;
+        Ok((slf.get_type().getattr("_of_state")?, state))
+    }
+
+    /// The index of a state that `__reduce__` gave.
+    #[staticmethod]
+    fn _of_state(
+        py: Python<'_>,
+        grid: &Bound<'_, Grid>,
+        setup: &str,
+        bytes: Option<Vec<u8>>,
+    ) -> PyResult<Self> {
+        let setup: Setup = setup.parse().map_err(|error: mediant::TextError| raised(error))?;
+        let grid = grid.get().clone();
+        let map = grid.map().clone();
+        let work = move || match bytes {
+            None => setup.prepare(&setup.space(&map)?),
+            Some(bytes) => {
+                let index = map.index_from_bytes(bytes)?;
+                Ok(index.with_options(setup.engine)?.with_smoothing(setup.smoothing))
+            }
+        };
+        let index = detached(py, u64::MAX, work)?.map_err(raised)?;
+        Ok(Self::new(grid, index))
+    }
+}

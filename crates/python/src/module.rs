@@ -1,0 +1,22 @@
+//! The module that Python loads.
+
+use pyo3::prelude::*;
+
+/// The compiled part of the package.
+#[pymodule(gil_used = false)]
+mod _mediant {
+    #[pymodule_export]
+    use crate::{
+        answer::Answer,
+        batch::Paths,
+        field::Field,
+        grid::Grid,
+        index::Index,
+        keywords::{bound, moves},
+        world::World,
+    };
+
+    #[pymodule_export]
+    #[expect(non_upper_case_globals, reason = "Python's name")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+}
