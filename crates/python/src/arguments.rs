@@ -1,14 +1,16 @@
 //! Points and numbers, as a call was given them. Each mistake names its argument.
 
+use std::path::PathBuf;
+
 use mediant::Vertex;
 use numpy::{PyArrayDescrMethods, PyReadonlyArray2, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::{
     exceptions::{PyOverflowError, PyTypeError},
     prelude::*,
-    types::{PyBool, PyString, PyTuple},
+    types::{PyBool, PyBytes, PyInt, PyMemoryView, PyString, PyTuple},
 };
 
-use crate::errors::{argument, far_outside, wrong_type};
+use crate::errors::{argument, far_outside, instead, wrong_type};
 
 /// What a point looks like.
 const POINT: &str = "a point (row, column) of two integers";
@@ -82,14 +84,14 @@ fn pair(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Vertex>> {
     if tuple.len() != 2 {
         return Ok(None);
     }
-    let (row, column) = (tuple.get_item(0)?, tuple.get_item(1)?);
-    match (row.extract::<i32>(), column.extract::<i32>()) {
-        (Ok(row), Ok(column)) => Ok(Some(Vertex::new(column, row))),
-        (Err(error), _) | (_, Err(error)) if error.is_instance_of::<PyOverflowError>(value.py()) => {
-            Err(far_outside(name))
+    let mut at = [0; 2];
+    for (item, to) in tuple.iter_borrowed().zip(&mut at) {
+        if !item.is_exact_instance_of::<PyInt>() {
+            return Ok(None);
         }
-        _ => Ok(None),
+        *to = item.extract::<i32>().map_err(|_| far_outside(name))?;
     }
+    Ok(Some(Vertex::new(at[1], at[0])))
 }
 
 /// The argument as an array of numbers.
@@ -97,8 +99,9 @@ fn as_array<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, P
     if value.is_none() || value.is_instance_of::<PyString>() {
         return Err(wrong_type(name, POINTS, value));
     }
-    let array = numpy_function(value.py(), "asarray")?.call1((value,));
-    let array = array.map_err(|_| argument(name, &format!("expected {POINTS}, found no array")))?;
+    let wrong =
+        |cause| instead(value.py(), cause, argument(name, &format!("expected {POINTS}, found no array")));
+    let array = numpy_function(value.py(), "asarray")?.call1((value,)).map_err(wrong)?;
     let array = array.cast_into::<PyUntypedArray>().map_err(|_| wrong_type(name, POINTS, value))?;
     let is_integer = matches!(array.dtype().kind(), b'i' | b'u');
     if !is_integer && !array.is_empty() {
@@ -109,13 +112,24 @@ fn as_array<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, P
         let dtype = array.dtype().to_string();
         return Err(PyTypeError::new_err(format!("{name}: expected {POINTS}, found numbers of {dtype}")));
     }
-    Ok(array)
+    if is_whole(&array)? {
+        return Ok(array);
+    }
+    // The items of a packed record: only a copy can be read as numbers.
+    Ok(numpy_function(value.py(), "array")?.call1((array,))?.cast_into()?)
+}
+
+/// Whether the numbers of an array lie where numbers of their size may, and whole numbers apart.
+fn is_whole(array: &Bound<'_, PyUntypedArray>) -> PyResult<bool> {
+    let size = array.dtype().itemsize().max(1) as isize;
+    let is_apart = array.strides().iter().all(|stride| stride % size == 0);
+    Ok(is_apart && array.getattr("flags")?.getattr("aligned")?.is_truthy()?)
 }
 
 /// Whether all objects of an array are Python's integers.
 fn is_all_integers(array: &Bound<'_, PyUntypedArray>) -> PyResult<bool> {
     for item in array.getattr("flat")?.try_iter()? {
-        if !item?.is_instance_of::<pyo3::types::PyInt>() {
+        if !item?.is_instance_of::<PyInt>() {
             return Ok(false);
         }
     }
@@ -159,8 +173,16 @@ pub(crate) fn numpy_function<'py>(py: Python<'py>, name: &str) -> PyResult<Bound
 
 /// A number.
 pub(crate) fn number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
-    value.extract().map_err(|_| wrong_type(name, "a number", value))
+    let py = value.py();
+    value.extract().map_err(|cause: PyErr| {
+        let is_large = cause.is_instance_of::<PyOverflowError>(py);
+        let error = if is_large { argument(name, TOO_LARGE) } else { wrong_type(name, "a number", value) };
+        instead(py, cause, error)
+    })
 }
+
+/// What is wrong with a number that has no room.
+const TOO_LARGE: &str = "the number is too large";
 
 /// A number that is not negative, nor none.
 pub(crate) fn positive(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
@@ -173,32 +195,53 @@ pub(crate) fn positive(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
 
 /// A whole number of at least `least`.
 pub(crate) fn integer(name: &str, value: &Bound<'_, PyAny>, least: u64) -> PyResult<u64> {
-    let expected = || format!("expected an integer of {least} or more");
-    match value.extract::<u64>() {
-        Ok(found) if found >= least => Ok(found),
-        Ok(found) => Err(argument(name, &format!("{}, found {found}", expected()))),
-        Err(error) if error.is_instance_of::<PyOverflowError>(value.py()) => {
-            Err(argument(name, &format!("{}, found {value}", expected())))
+    let py = value.py();
+    if value.is_instance_of::<PyBool>() {
+        return Err(wrong_type(name, "an integer", value));
+    }
+    let expected = format!("expected an integer of {least} or more");
+    match value.extract::<i64>() {
+        Ok(found) => {
+            let fits = u64::try_from(found).ok().filter(|&found| found >= least);
+            fits.ok_or_else(|| argument(name, &format!("{expected}, found {found}")))
         }
-        Err(_) => Err(wrong_type(name, "an integer", value)),
+        Err(cause) if cause.is_instance_of::<PyOverflowError>(py) => {
+            Err(argument(name, &format!("{expected}, and below 2^63")))
+        }
+        Err(cause) => Err(instead(py, cause, wrong_type(name, "an integer", value))),
     }
 }
 
 /// True or false.
 pub(crate) fn flag(name: &str, value: &Bound<'_, PyAny>) -> PyResult<bool> {
-    if let Ok(value) = value.cast::<PyBool>() {
-        return Ok(value.is_true());
-    }
-    value.extract().map_err(|_| wrong_type(name, "True or False", value))
+    let wrong = |cause: PyErr| instead(value.py(), cause, wrong_type(name, "True or False", value));
+    value.extract().map_err(wrong)
+}
+
+/// A text.
+pub(crate) fn text(name: &str, expected: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
+    let wrong = |cause: PyErr| instead(value.py(), cause, wrong_type(name, expected, value));
+    value.extract().map_err(wrong)
+}
+
+/// The path of a file.
+pub(crate) fn file(name: &str, value: &Bound<'_, PyAny>) -> PyResult<PathBuf> {
+    let wrong = |cause: PyErr| instead(value.py(), cause, wrong_type(name, "the path of a file", value));
+    value.extract().map_err(wrong)
+}
+
+/// Bytes, or what has a buffer of bytes.
+pub(crate) fn bytes(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<u8>> {
+    let wrong = |cause: PyErr| instead(value.py(), cause, wrong_type(name, "bytes", value));
+    let view = PyMemoryView::from(value).map_err(wrong)?;
+    let bytes = view.call_method0("tobytes").map_err(wrong)?;
+    Ok(bytes.cast::<PyBytes>()?.as_bytes().to_vec())
 }
 
 /// One of several words, each with its meaning.
 pub(crate) fn word<T: Copy>(name: &str, value: &Bound<'_, PyAny>, words: &[(&str, T)]) -> PyResult<T> {
     let known = || words.iter().map(|(word, _)| format!("'{word}'")).collect::<Vec<_>>().join(", ");
-    let Ok(text) = value.cast::<PyString>() else {
-        return Err(wrong_type(name, &format!("one of {}", known()), value));
-    };
-    let text = text.to_string();
+    let text = text(name, &format!("one of {}", known()), value)?;
     let found = words.iter().find(|(word, _)| *word == text);
     found
         .map(|&(_, meaning)| meaning)

@@ -1,15 +1,20 @@
 //! Maps from arrays, and arrays from paths.
 
-use mediant::{Map, Path, PlacementKind, Vertex};
+use mediant::{Grid, Map, Path, PlacementKind, Vertex};
 use numpy::{
     PyArray1, PyArray2, PyArrayDescrMethods, PyReadonlyArray2, PyUntypedArray, PyUntypedArrayMethods,
     ToPyArray, ndarray::ArrayView2,
 };
-use pyo3::{exceptions::PyTypeError, prelude::*, types::PyList};
+use pyo3::{
+    exceptions::PyTypeError,
+    prelude::*,
+    types::{PyBytes, PyDict, PyFloat, PyInt, PyList},
+};
 
 use crate::{
     arguments::{number, numpy_function, word},
-    errors::{argument, raised, wrong_type},
+    background::detached,
+    errors::{argument, exception, instead, raised_for, wrong_type},
 };
 
 /// By what the cells of an array are blocked.
@@ -35,7 +40,8 @@ pub(crate) fn map_of<'py>(array: &Bound<'py, PyAny>, criteria: &Criteria<'py>) -
             map_of_bools("array", &blocked)
         }
         b'i' | b'u' | b'f' => Err(PyTypeError::new_err(format!(
-            "array: expected dtype bool (True is blocked), found {}: say which values are blocked, by above=, below= or values=",
+            "array: expected dtype bool (True is blocked), found {}: say which values are blocked, by above=, \
+             below= or values=",
             array.dtype()
         ))),
         _ => Err(PyTypeError::new_err(format!("array: expected numbers or bool, found {}", array.dtype()))),
@@ -45,12 +51,14 @@ pub(crate) fn map_of<'py>(array: &Bound<'py, PyAny>, criteria: &Criteria<'py>) -
 /// The argument as an array of two dimensions.
 pub(crate) fn plane<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyUntypedArray>> {
     let py = value.py();
-    let masked = py.import("numpy.ma")?.getattr("is_masked")?.call1((value,))?.is_truthy()?;
-    if masked {
+    let ma = py.import("numpy.ma")?;
+    let is_masked = value.is_instance(&ma.getattr("MaskedArray")?)?;
+    if is_masked && ma.getattr("is_masked")?.call1((value,))?.is_truthy()? {
         return Err(argument(name, "it is masked: fill it first, for instance by array.filled()"));
     }
-    let array = numpy_function(py, "asarray")?.call1((value,));
-    let array = array.map_err(|_| argument(name, "expected rows of the same length, found no array"))?;
+    let wrong =
+        |cause| instead(py, cause, argument(name, "expected rows of the same length, found no array"));
+    let array = numpy_function(py, "asarray")?.call1((value,)).map_err(wrong)?;
     let array = array.cast_into::<PyUntypedArray>().map_err(|_| wrong_type(name, "an array", value))?;
     if array.ndim() != 2 {
         let wrong = format!("expected an array of rows and columns, found one of shape {:?}", array.shape());
@@ -70,31 +78,28 @@ fn blocked<'py>(
     for (name, method, limit) in [("above", "__gt__", &criteria.above), ("below", "__lt__", &criteria.below)]
     {
         let Some(limit) = limit else { continue };
-        if number(name, limit)?.is_nan() {
-            return Err(argument(name, "expected a number, found nan"));
-        }
-        let limit = numpy_function(py, "float64")?.call1((limit,))?;
+        let limit = comparable(name, limit, array, name == "above")?;
         parts.push(array.call_method1(method, (limit,))?);
     }
     if let Some(values) = &criteria.values {
-        let items: Vec<Bound<'_, PyAny>> = values
-            .try_iter()
-            .map_err(|_| wrong_type("values", "several numbers", values))?
-            .collect::<PyResult<_>>()?;
-        for item in &items {
-            has_nan_value |= number("values", item)?.is_nan();
+        let wrong = |cause| instead(py, cause, wrong_type("values", "several numbers", values));
+        let mut items = Vec::new();
+        for item in values.try_iter().map_err(wrong)? {
+            let item = item?;
+            has_nan_value |= number("values", &item)?.is_nan();
+            items.extend(value_in(&item, array)?);
         }
-        parts.push(numpy_function(py, "isin")?.call1((array, PyList::new(py, items)?))?);
+        let items = numpy_function(py, "array")?.call1((PyList::new(py, items)?, array.dtype()))?;
+        parts.push(numpy_function(py, "isin")?.call1((array, items))?);
     }
     if array.dtype().kind() == b'f' {
         let is_nan = numpy_function(py, "isnan")?.call1((array,))?;
         if has_nan_value {
             parts.push(is_nan);
         } else if is_nan.call_method0("any")?.is_truthy()? {
-            return Err(argument(
-                "array",
-                "it has values that are no number (nan): name nan among values to have them blocked, or fill them",
-            ));
+            let wrong = "it has values that are no number (nan): name nan among values to have them blocked, or \
+                         fill them";
+            return Err(argument("array", wrong));
         }
     }
     let mut parts = parts.into_iter();
@@ -103,18 +108,92 @@ fn blocked<'py>(
     Ok(all.cast_into()?)
 }
 
-/// The map of an array of bool. Its bytes are read as numbers: a view of other bytes as bool may have any.
-fn map_of_bools(name: &str, array: &Bound<'_, PyUntypedArray>) -> PyResult<Map> {
-    let bytes = array.call_method1("view", ("uint8",))?;
-    let bytes = bytes.extract::<PyReadonlyArray2<'_, u8>>()?;
-    let cells = bytes.as_array();
-    let (rows, columns) = cells.dim();
-    let size = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
-    let wrong = |error: mediant::Error| {
-        let text = format!("{name}: {error}");
-        crate::errors::exception("MapError", &text, error.code().name())
+/// A limit in a form that compares exactly with the values of an array: with integers an integer, of which
+/// those above (or below) it are those above (or below) the limit.
+fn comparable<'py>(
+    name: &str,
+    limit: &Bound<'py, PyAny>,
+    array: &Bound<'py, PyUntypedArray>,
+    is_above: bool,
+) -> PyResult<Bound<'py, PyAny>> {
+    let py = limit.py();
+    if array.dtype().kind() != b'f' && limit.is_instance_of::<PyInt>() {
+        return Ok(limit.clone());
+    }
+    let number = number(name, limit)?;
+    if number.is_nan() {
+        return Err(argument(name, "expected a number, found nan"));
+    }
+    let float = PyFloat::new(py, number);
+    if array.dtype().kind() == b'f' || number.is_infinite() {
+        return Ok(float.into_any());
+    }
+    let whole = if is_above { number.floor() } else { number.ceil() };
+    PyFloat::new(py, whole).call_method0("__int__")
+}
+
+/// A value in the type of an array; `None` for one that no item of the array can have.
+fn value_in<'py>(
+    value: &Bound<'py, PyAny>,
+    array: &Bound<'py, PyUntypedArray>,
+) -> PyResult<Option<Bound<'py, PyAny>>> {
+    let (py, dtype) = (value.py(), array.dtype());
+    let float = number("values", value)?;
+    if dtype.kind() == b'f' {
+        return Ok(Some(PyFloat::new(py, float).into_any()));
+    }
+    let whole = match value.cast::<PyInt>() {
+        Ok(whole) => whole.clone().into_any(),
+        Err(_) if float.fract() != 0.0 || !float.is_finite() => return Ok(None),
+        Err(_) => PyFloat::new(py, float).call_method0("__int__")?,
     };
-    Map::from_fn(size(columns), size(rows), |x, y| cells[(y as usize, x as usize)] != 0).map_err(wrong)
+    let range = numpy_function(py, "iinfo")?.call1((dtype,))?;
+    let fits = whole.ge(range.getattr("min")?)? && whole.le(range.getattr("max")?)?;
+    Ok(fits.then_some(whole))
+}
+
+/// The map of an array of bool. NumPy packs eight cells into a byte; whatever is not 0 is true, since a view
+/// of other bytes as bool may have any.
+fn map_of_bools(name: &str, array: &Bound<'_, PyUntypedArray>) -> PyResult<Map> {
+    let side = |axis: usize| u32::try_from(array.shape()[axis]).unwrap_or(u32::MAX);
+    let (rows, columns) = (side(0), side(1));
+    let wrong = |error: mediant::Error| raised_for(name, error);
+    Grid::check_size(u64::from(columns), u64::from(rows)).map_err(|error| wrong(error.into()))?;
+    let (bits, cells) = (packed(array)?, u64::from(rows) * u64::from(columns));
+    detached(array.py(), cells, move || map_of_bits(&bits, rows, columns))?.map_err(wrong)
+}
+
+/// The rows of an array of bool in whole bytes each, the first cell in the lowest bit.
+fn packed(array: &Bound<'_, PyUntypedArray>) -> PyResult<Vec<u8>> {
+    let py = array.py();
+    let options = PyDict::new(py);
+    options.set_item("axis", 1)?;
+    options.set_item("bitorder", "little")?;
+    let bits = numpy_function(py, "packbits")?.call((array,), Some(&options))?.call_method0("tobytes")?;
+    Ok(bits.cast::<PyBytes>()?.as_bytes().to_vec())
+}
+
+/// The map of rows of whole bytes, the first cell in the lowest bit.
+pub(crate) fn map_of_bits(bits: &[u8], rows: u32, columns: u32) -> Result<Map, mediant::Error> {
+    let bytes_a_row = columns.div_ceil(8) as usize;
+    let word = |x: u32, y: u32| {
+        let (first, end) = (y as usize * bytes_a_row + x as usize / 8, (y as usize + 1) * bytes_a_row);
+        let bytes = bits.get(first..end.min(first + 8)).unwrap_or_default();
+        bytes.iter().rev().fold(0, |word, &byte| word << 8 | u64::from(byte))
+    };
+    Ok(Grid::from_words(columns, rows, word)?.into())
+}
+
+/// The bits of a map, as [`map_of_bits`] takes them.
+pub(crate) fn bits_of(map: &Map) -> Vec<u8> {
+    let bytes_a_row = map.width().div_ceil(8) as usize;
+    let mut bits = Vec::with_capacity(bytes_a_row * map.height() as usize);
+    for y in 0..map.height() as i32 {
+        let row = map.grid().rows().row(y);
+        let words = (0..map.width() as i32).step_by(64).map(|x| row.word(x).to_le_bytes());
+        bits.extend(words.flatten().take(bytes_a_row));
+    }
+    bits
 }
 
 /// The bool cells of an array that replace a part of a map, row by row, and its number of rows and columns.
@@ -173,8 +252,9 @@ fn add(points: impl Iterator<Item = Vertex>, to: &mut Vec<i32>) {
 
 /// A flat list of rows and columns as an array of shape (n, 2).
 pub(crate) fn points_array<'py>(py: Python<'py>, flat: &[i32]) -> PyResult<Bound<'py, PyArray2<i32>>> {
-    let view = ArrayView2::from_shape((flat.len() / 2, 2), flat);
-    Ok(view.map_err(|error| raised_shape(&error))?.to_pyarray(py))
+    let rows = flat.len() / 2;
+    let view = ArrayView2::from_shape((rows, 2), &flat[..2 * rows]);
+    Ok(view.map_err(|error| exception("MediantError", &error.to_string(), "other"))?.to_pyarray(py))
 }
 
 /// A flat list as an array of rows, which owns it.
@@ -187,29 +267,14 @@ pub(crate) fn rows_array<'py, T: numpy::Element>(
     PyArray1::from_vec(py, flat).call_method1("reshape", ((rows, columns),))
 }
 
-fn raised_shape(error: &numpy::ndarray::ShapeError) -> PyErr {
-    raised_text(&error.to_string())
-}
-
-fn raised_text(text: &str) -> PyErr {
-    crate::errors::exception("MediantError", text, "other")
-}
-
-/// The cells of a map, row by row.
-pub(crate) fn cells_of(map: &Map) -> Vec<bool> {
-    let (width, height) = (map.width() as i32, map.height() as i32);
-    (0..height).flat_map(|y| (0..width).map(move |x| map.is_blocked(x, y))).collect()
-}
-
-/// The map of bits, 8 cells a byte, row after row without padding, as `numpy.packbits` has them.
-pub(crate) fn map_of_bits(bits: &[u8], rows: u32, columns: u32) -> PyResult<Map> {
-    let cells = u64::from(rows) * u64::from(columns);
-    if bits.len() as u64 != cells.div_ceil(8) {
-        return Err(argument("bits", &format!("expected {} bytes, found {}", cells.div_ceil(8), bits.len())));
-    }
-    let bit = |x: u32, y: u32| {
-        let index = y as usize * columns as usize + x as usize;
-        bits[index / 8] >> (7 - index % 8) & 1 == 1
-    };
-    Map::from_fn(columns, rows, bit).map_err(raised)
+/// The cells of a map as an array of bool.
+pub(crate) fn cells_of<'py>(py: Python<'py>, map: &Map) -> PyResult<Bound<'py, PyAny>> {
+    let (rows, columns) = (map.height() as usize, map.width() as usize);
+    let bits = PyArray1::from_vec(py, py.detach(|| bits_of(map)));
+    let bits = bits.call_method1("reshape", ((rows, columns.div_ceil(8)),))?;
+    let options = PyDict::new(py);
+    options.set_item("axis", 1)?;
+    options.set_item("count", columns)?;
+    options.set_item("bitorder", "little")?;
+    numpy_function(py, "unpackbits")?.call((bits,), Some(&options))?.call_method1("view", ("bool",))
 }

@@ -1,7 +1,12 @@
 //! The library's errors as the exceptions of `mediant.errors`.
 
 use mediant::{BrokenPath, Error, ErrorCode, QueryError, Vertex};
-use pyo3::{call::PyCallArgs, exceptions::PyTypeError, prelude::*, types::PyType};
+use pyo3::{
+    call::PyCallArgs,
+    exceptions::{PyException, PyMemoryError, PyTypeError},
+    prelude::*,
+    types::PyType,
+};
 
 /// The class of the exception for a kind of mistake.
 const fn class(code: ErrorCode) -> &'static str {
@@ -57,6 +62,28 @@ pub(crate) fn argument(name: &str, wrong: &str) -> PyErr {
 pub(crate) fn wrong_type(name: &str, expected: &str, found: &Bound<'_, PyAny>) -> PyErr {
     let kind = found.get_type().name().map_or_else(|_| "another type".to_owned(), |name| name.to_string());
     PyTypeError::new_err(format!("{name}: expected {expected}, found {kind}"))
+}
+
+/// The exception that stands for another one, which it names as its cause. What is no mistake of an argument
+/// (Ctrl-C, an exit, no memory) stays as it is.
+pub(crate) fn instead(py: Python<'_>, cause: PyErr, error: PyErr) -> PyErr {
+    if !cause.is_instance_of::<PyException>(py) || cause.is_instance_of::<PyMemoryError>(py) {
+        return cause;
+    }
+    error.set_cause(py, Some(cause));
+    error
+}
+
+/// The exception for an error of the library about an argument that has another name than its own.
+pub(crate) fn raised_for(name: &str, error: impl Into<Error>) -> PyErr {
+    let error = error.into();
+    let (class, code) = (class(error.code()), error.code().name());
+    let text = match error {
+        // A field has sources, where the library speaks of starts.
+        Error::Query(error) => in_rows(error).to_string().replacen("the start", &format!("the {name}"), 1),
+        error => format!("{name}: {error}"),
+    };
+    exception(class, &text, code)
 }
 
 /// The exception for an end whose numbers are larger than those of any map.

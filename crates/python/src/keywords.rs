@@ -13,10 +13,10 @@ use pyo3::{
 };
 
 use crate::{
-    arguments::{Points, flag, integer, positive, word},
+    arguments::{Points, flag, integer, positive, text, word},
     arrays::points_array,
     background::Interruption,
-    errors::{argument, raised, wrong_type},
+    errors::{argument, instead, raised, raised_for, wrong_type},
 };
 
 const PLACEMENTS: [(&str, PlacementKind); 2] =
@@ -66,14 +66,17 @@ impl Keywords {
     pub(crate) fn read(function: &str, given: Option<&Bound<'_, PyDict>>, takes: Takes) -> PyResult<Self> {
         let mut keywords = Self::default();
         for (name, value) in given.into_iter().flat_map(|given| given.iter()) {
-            let name = name.extract::<String>()?;
+            let unknown = |name: &str| {
+                PyTypeError::new_err(format!("{function}() got an unexpected keyword argument '{name}'"))
+            };
+            let wrong = |cause| instead(value.py(), cause, unknown(&name.to_string()));
+            let name = name.extract::<String>().map_err(wrong)?;
             let is_known = takes.motion && keywords.read_motion(&name, &value)?
                 || takes.wishes && keywords.read_wish(&name, &value)?
                 || takes.engine && keywords.read_engine(&name, &value)?
                 || takes.options && keywords.read_option(&name, &value)?;
             if !is_known {
-                let wrong = format!("{function}() got an unexpected keyword argument '{name}'");
-                return Err(PyTypeError::new_err(wrong));
+                return Err(unknown(&name));
             }
         }
         Ok(keywords)
@@ -132,18 +135,18 @@ impl Keywords {
         if value.is_none() {
             return Ok(true);
         }
-        let text = match option.kind {
+        let given = match option.kind {
             ValueKind::Flag if flag(name, value)? => String::new(),
             ValueKind::Flag => return Ok(true),
             _ if value.is_instance_of::<PyBool>() => {
                 return Err(wrong_type(name, "a number or a name", value));
             }
             ValueKind::Number => integer(name, value, 1)?.to_string(),
-            _ if value.is_instance_of::<PyString>() => value.extract()?,
+            _ if value.is_instance_of::<PyString>() => text(name, "a name", value)?,
             ValueKind::Levels => integer(name, value, 1)?.to_string(),
             ValueKind::Heuristic | ValueKind::Variant => return Err(wrong_type(name, "a name", value)),
         };
-        let value = option.parse(&text).map_err(|wrong| argument(name, &wrong))?;
+        let value = option.parse(&given).map_err(|wrong| argument(name, &wrong))?;
         self.options.push((option, value));
         Ok(true)
     }
@@ -229,11 +232,8 @@ impl Keywords {
 /// An engine's name; `None` for `None`.
 pub(crate) fn read_engine(value: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Engine>> {
     let Some(value) = value.filter(|value| !value.is_none()) else { return Ok(None) };
-    let Ok(name) = value.cast::<PyString>() else {
-        return Err(wrong_type("engine", "the name of an engine", value));
-    };
-    let name = name.to_string();
-    name.parse().map(Some).map_err(|error: mediant::UnknownName| raised(error))
+    let name = text("engine", "the name of an engine", value)?;
+    name.parse().map(Some).map_err(|error: mediant::UnknownName| raised_for("engine", error))
 }
 
 /// Where the vertices are.

@@ -49,7 +49,7 @@ impl Grid {
         let (width, height) = (self.map().width() as i32, self.map().height() as i32);
         let distances = self.measured(py, (fit, outside), move |clearance| {
             let vertices = (0..height).flat_map(|y| (0..width).map(move |x| Vertex::new(x, y)));
-            vertices.map(|at| clearance.distance(at)).collect::<Vec<f64>>()
+            vertices.map(|cell| clearance.largest_disc(cell).unwrap_or(0.0)).collect::<Vec<f64>>()
         })?;
         rows_array(py, distances, width as usize)
     }

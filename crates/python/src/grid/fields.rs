@@ -6,7 +6,7 @@ use super::Grid;
 use crate::{
     arguments::{Points, numpy_function, positive},
     background::detached,
-    errors::raised,
+    errors::raised_for,
     field::Field,
     keywords::{Keywords, Takes},
 };
@@ -180,7 +180,7 @@ impl Grid {
             Some(limit) => space.field_within(sources, limit),
             None => space.field(sources),
         };
-        let field = detached(py, self.cells(), work)?.map_err(raised)?;
+        let field = detached(py, self.cells(), work)?.map_err(|error| raised_for("source", error))?;
         Ok(Field::new(field, motion.rules.placement()))
     }
 }

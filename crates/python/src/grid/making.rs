@@ -1,9 +1,6 @@
 //! Grids from arrays, files and rows, and grids as values.
 
-use std::{
-    hash::{DefaultHasher, Hash, Hasher},
-    path::PathBuf,
-};
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 use mediant::{
     CornerRule, Identity, Map, Rectangle, Rules,
@@ -16,10 +13,10 @@ use pyo3::{
 
 use super::Grid;
 use crate::{
-    arguments::{flag, number, numpy_function, point, word},
-    arrays::{Criteria, cells_of, map_of, map_of_bits, patch, rows_array},
+    arguments::{file, flag, number, point, text, word},
+    arrays::{Criteria, bits_of, cells_of, map_of, map_of_bits, patch},
     background::detached,
-    errors::{argument, exception, raised, wrong_type},
+    errors::{argument, exception, instead, raised, wrong_type},
     world::World,
 };
 
@@ -78,11 +75,12 @@ impl Grid {
     )]
     fn open(
         py: Python<'_>,
-        path: PathBuf,
+        path: &Bound<'_, PyAny>,
         threshold: Option<&Bound<'_, PyAny>>,
         invert: Option<&Bound<'_, PyAny>>,
         unknown: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
+        let path = file("path", path)?;
         let mut options = ImageOptions::default();
         if let Some(threshold) = threshold {
             options.threshold = fraction(threshold)?;
@@ -124,11 +122,12 @@ impl Grid {
         if rows.is_instance_of::<PyString>() {
             return Err(wrong_type("rows", expected, rows));
         }
-        let items = rows.try_iter().map_err(|_| wrong_type("rows", expected, rows))?;
+        let wrong = |cause| instead(rows.py(), cause, wrong_type("rows", expected, rows));
+        let items = rows.try_iter().map_err(wrong)?;
         let items: Vec<String> = items
             .map(|row| {
                 let row = row?;
-                row.extract().map_err(|_| wrong_type("rows", expected, &row))
+                text("rows", expected, &row)
             })
             .collect::<PyResult<_>>()?;
         Ok(Self::new(Map::from_rows(items).map_err(raised)?, None))
@@ -168,8 +167,7 @@ impl Grid {
     /// >>> mediant.Grid.from_rows([".#"]).to_numpy().tolist()
     /// [[False, True]]
     fn to_numpy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let cells = py.detach(|| cells_of(self.map()));
-        rows_array(py, cells, self.map().width() as usize)
+        cells_of(py, self.map())
     }
 
     /// The cells for NumPy's functions.
@@ -245,10 +243,10 @@ impl Grid {
         hasher.finish()
     }
 
-    /// By the bits of the cells and the place in the world, for pickle.
+    /// By the bits of the cells, row by row in whole bytes, and the place in the world, for pickle.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let (py, grid) = (slf.py(), slf.get());
-        let bits = numpy_function(py, "packbits")?.call1((grid.to_numpy(py)?,))?.call_method0("tobytes")?;
+        let bits = PyBytes::new(py, &py.detach(|| bits_of(grid.map())));
         let (rows, columns) = grid.shape();
         let world = grid.shared.world.map(|frame| (frame.resolution(), frame.origin()));
         Ok((slf.get_type().getattr("_of_state")?, (bits, rows, columns, world).into_pyobject(py)?))
@@ -262,7 +260,11 @@ impl Grid {
         columns: u32,
         world: Option<(f64, [f64; 3])>,
     ) -> PyResult<Self> {
-        let map = map_of_bits(bits.as_bytes(), rows, columns)?;
+        let expected = u64::from(rows) * u64::from(columns.div_ceil(8));
+        if bits.as_bytes().len() as u64 != expected {
+            return Err(argument("bits", &format!("expected {expected} bytes")));
+        }
+        let map = map_of_bits(bits.as_bytes(), rows, columns).map_err(raised)?;
         let frame = world.map(|(resolution, origin)| WorldFrame::new(resolution, origin, columns, rows));
         let frame = frame.transpose().map_err(|error| argument("world", &error.to_string()))?;
         Ok(Self::new(map, frame))

@@ -1,11 +1,8 @@
 //! Paths in a grid, and what engines prepare of it.
 
-use std::{
-    path::PathBuf,
-    sync::{
-        Arc,
-        atomic::{AtomicUsize, Ordering},
-    },
+use std::sync::{
+    Arc,
+    atomic::{AtomicUsize, Ordering},
 };
 
 use mediant::{Progress, Stage};
@@ -15,6 +12,7 @@ use pyo3::{prelude::*, types::PyDict};
 use super::Grid;
 use crate::{
     answer::Answer,
+    arguments::{bytes, file},
     background::{detached, in_pool, on_thread},
     batch::{callback, read_threads},
     errors::raised,
@@ -177,7 +175,7 @@ impl Grid {
     /// >>> answer.status, answer.stopped_by
     /// ('stopped', 'cost')
     #[pyo3(
-        signature = (start, goal, *, points = None, counters = false, **how),
+        signature = (start, goal, *, points = None, counters = None, **how),
         text_signature = "($self, start, goal, *, points='waypoints', counters=False, **how)"
     )]
     fn find<'py>(
@@ -186,7 +184,7 @@ impl Grid {
         start: &Bound<'py, PyAny>,
         goal: &Bound<'py, PyAny>,
         points: Option<&Bound<'py, PyAny>>,
-        counters: bool,
+        counters: Option<&Bound<'py, PyAny>>,
         how: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Answer> {
         let keywords = Keywords::read("find", how, Takes::ALL)?;
@@ -297,8 +295,13 @@ impl Grid {
     /// --------
     /// See `Index.save`.
     #[pyo3(signature = (path, **options))]
-    fn load(&self, py: Python<'_>, path: PathBuf, options: Option<&Bound<'_, PyDict>>) -> PyResult<Index> {
-        let keywords = Keywords::read("load", options, Takes::OPTIONS)?;
+    fn load(
+        &self,
+        py: Python<'_>,
+        path: &Bound<'_, PyAny>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Index> {
+        let (path, keywords) = (file("path", path)?, Keywords::read("load", options, Takes::OPTIONS)?);
         let map = self.map().clone();
         let index = detached(py, u64::MAX, move || map.load(path))?.map_err(raised)?;
         self.with_options(index, &keywords)
@@ -330,11 +333,11 @@ impl Grid {
     fn index_from_bytes(
         &self,
         py: Python<'_>,
-        data: Vec<u8>,
+        data: &Bound<'_, PyAny>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Index> {
         let keywords = Keywords::read("index_from_bytes", options, Takes::OPTIONS)?;
-        let map = self.map().clone();
+        let (map, data) = (self.map().clone(), bytes("data", data)?);
         let index = detached(py, u64::MAX, move || map.index_from_bytes(data))?.map_err(raised)?;
         self.with_options(index, &keywords)
     }

@@ -9,7 +9,7 @@ use pyo3::{prelude::*, types::PyDict};
 use super::Index;
 use crate::{
     answer::{self, Answer},
-    arguments::Points,
+    arguments::{Points, flag},
     arrays::PathPoints,
     background::{Interruption, is_watched},
     errors::raised,
@@ -68,9 +68,10 @@ impl Asked<'_, '_> {
         &self,
         py: Python<'_>,
         points: Option<&Bound<'_, PyAny>>,
-        counters: bool,
+        counters: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Answer> {
         let points = PathPoints::read(points)?;
+        let counters = counters.map_or(Ok(false), |value| flag("counters", value))?;
         let setup = self.planners.index().setup();
         let (outcome, counters) = self.outcome(counters)?;
         let is_optimal = setup.optimal_over().is_some();
@@ -192,7 +193,7 @@ impl Index {
     /// >>> answer.status, answer.path.tolist(), answer.counters["expanded"] > 0
     /// ('nearest', [[0, 0], [0, 1]], True)
     #[pyo3(
-        signature = (start, goal, *, points = None, counters = false, **wishes),
+        signature = (start, goal, *, points = None, counters = None, **wishes),
         text_signature = "($self, start, goal, *, points='waypoints', counters=False, **wishes)"
     )]
     fn find<'py>(
@@ -201,7 +202,7 @@ impl Index {
         start: &Bound<'py, PyAny>,
         goal: &Bound<'py, PyAny>,
         points: Option<&Bound<'py, PyAny>>,
-        counters: bool,
+        counters: Option<&Bound<'py, PyAny>>,
         wishes: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Answer> {
         let keywords = Keywords::read("find", wishes, Takes::WISHES)?;

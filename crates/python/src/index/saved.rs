@@ -1,7 +1,5 @@
 //! Indexes with other options, for other maps, as files and bytes.
 
-use std::path::PathBuf;
-
 use mediant::Setup;
 use pyo3::{
     prelude::*,
@@ -10,6 +8,7 @@ use pyo3::{
 
 use super::Index;
 use crate::{
+    arguments::file,
     background::{detached, in_pool, on_thread},
     errors::{raised, wrong_type},
     grid::Grid,
@@ -107,7 +106,8 @@ impl Index {
     /// >>> grid.prepare().save(file)
     /// >>> grid.load(file).distance((0, 0), (2, 3))
     /// 5.0
-    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+    fn save(&self, py: Python<'_>, path: &Bound<'_, PyAny>) -> PyResult<()> {
+        let path = file("path", path)?;
         py.detach(|| self.planners.index().save(path)).map_err(raised)
     }
 
