@@ -15,8 +15,8 @@ use pyo3::prelude::*;
 /// How often signals are looked at.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Up to this many cells, whatever is not a preparation takes a few milliseconds at most.
-const QUICK_CELLS: u64 = 1 << 16;
+/// Up to this many cells, whatever is not a preparation takes a few milliseconds.
+const QUICK_CELLS: u64 = 1 << 20;
 
 /// Whether a search on an index can take so long that it is watched: more expansions, each of more moves,
 /// than can be made in about 20 ms. What was prepared saves most of them.

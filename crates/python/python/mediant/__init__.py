@@ -12,7 +12,7 @@ Examples
 >>> blocked[:4, 4] = True
 >>> grid = mediant.Grid(blocked)
 >>> grid.path((0, 0), (0, 8)).tolist()
-[[0, 0], [3, 3], [4, 3], [4, 5], [3, 5], [0, 8]]
+[[0, 0], [3, 3], [4, 3], [4, 5], [1, 8], [0, 8]]
 >>> round(grid.distance((0, 0), (0, 8)), 3)
 12.485
 """

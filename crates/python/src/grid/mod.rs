@@ -139,8 +139,12 @@ impl Grid {
             return Ok(planners);
         }
         let space = self.space(py, motion)?;
-        let work = move || in_pool(None, || setup.prepare(&space));
-        let index = on_thread(py, work, |_| Ok(()))?.map_err(raised)?;
+        let index = if setup.index_version().is_err() {
+            detached(py, self.cells(), move || setup.prepare(&space))?
+        } else {
+            on_thread(py, move || in_pool(None, || setup.prepare(&space)), |_| Ok(()))?
+        };
+        let index = index.map_err(raised)?;
         let planners = Arc::new(Planners::new(index));
         self.shared.planners.put(setup, Arc::clone(&planners));
         Ok(planners)
