@@ -140,6 +140,10 @@ impl Planners {
 #[cfg(feature = "parallel")]
 fn in_order<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
     use rayon::iter::{IntoParallelIterator, ParallelIterator};
+    // A single piece of work needs no pool, and makes none.
+    if count <= 1 {
+        return (0..count).map(work).collect();
+    }
     (0..count).into_par_iter().map(&work).collect()
 }
 
