@@ -36,6 +36,16 @@ impl Choice {
         }
     }
 
+    /// For some paths in a space, without an index that takes long to prepare: block-based JPS at k = 2 and
+    /// 3, whose preparation takes a few milliseconds; else as for one path.
+    #[must_use]
+    pub fn for_some_paths(k: K) -> Self {
+        match k.finite().map(|k| k.get()) {
+            Some(2 | 3) => Self { engine: Engine::JpsBlock, why: "it reads the map by words of 64 cells" },
+            _ => Self::for_one_path(k),
+        }
+    }
+
     /// For many paths in a space.
     pub(crate) fn for_many_paths(space: &Space) -> Self {
         let (motion, map) = (space.motion(), space.map());

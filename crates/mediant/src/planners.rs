@@ -74,6 +74,21 @@ impl Planners {
         &self.index
     }
 
+    /// Whether a planner is idle, so that the next query makes none.
+    #[must_use]
+    pub fn is_ready(&self) -> bool {
+        !self.idle().is_empty()
+    }
+
+    /// Makes a planner if none is idle. It has scratch memory for all vertices of the map, which takes a
+    /// while on large ones; the next query has it then.
+    pub fn make_ready(&self) {
+        if !self.is_ready() {
+            let planner = self.index.planner();
+            self.idle().push(planner);
+        }
+    }
+
     /// Gives a planner to `work`.
     pub fn with<T>(&self, work: impl FnOnce(&mut Planner) -> T) -> T {
         let mut planner = self.idle().pop().unwrap_or_else(|| self.index.planner());

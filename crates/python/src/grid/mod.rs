@@ -133,7 +133,7 @@ impl Grid {
             setup.smoothing = keywords.smoothing;
             Ok(setup)
         };
-        let engine = keywords.engine.unwrap_or_else(|| mediant::Choice::for_one_path(motion.k).engine);
+        let engine = keywords.engine.unwrap_or_else(|| mediant::Choice::for_some_paths(motion.k).engine);
         let setup = setup(engine)?;
         if let Some(planners) = self.shared.planners.get(&setup) {
             return Ok(planners);

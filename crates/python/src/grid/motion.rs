@@ -99,7 +99,7 @@ impl Grid {
     }
 
     /// Checks that a path obeys the rules of motion here, for instance after an edit. It costs far less than
-    /// a search.
+    /// a search. It looks at lines of sight alone, not whether each line is a move of N(k).
     ///
     /// Parameters
     /// ----------
@@ -128,7 +128,7 @@ impl Grid {
         self.moved("check", path.py(), motion)?.check(&waypoints).map_err(broken)
     }
 
-    /// Whether a path obeys the rules of motion here.
+    /// Whether a path obeys the rules of motion here, as `check` has it.
     ///
     /// Parameters
     /// ----------

@@ -142,13 +142,14 @@ impl Grid {
     /// snap : bool
     ///     Moves a start or goal that is blocked to the nearest free vertex.
     /// max_cost : float, optional
-    ///     The greatest length of a path, in cells.
+    ///     The greatest length of a path, in cells. An engine that guarantees nothing may miss a path that is
+    ///     nearly as long.
     /// max_expansions : int, optional
     ///     The greatest number of expansions of the search.
     /// timeout : float, optional
     ///     The most seconds that the search may take.
     /// engine : str, optional
-    ///     The engine; by default one that prepares next to nothing.
+    ///     The engine; by default one that prepares the grid in milliseconds.
     /// **options
     ///     Options of the engine: see `prepare`.
     ///
@@ -204,7 +205,8 @@ impl Grid {
     ///     The number of threads; by default one for each core.
     /// progress : callable, optional
     ///     Called now and then with the stage (``"edges"`` or ``"hierarchy"``), and the number of subgoals
-    ///     that it has finished and of all. Only subgoal graphs report progress.
+    ///     that it has finished and of all: a hierarchy leaves the last ones as they are. Only subgoal graphs
+    ///     report progress.
     /// heuristic : {"hk", "euclidean", "zero", "squared"}, optional
     ///     The heuristic of the search.
     /// variant : {"exact", "complete", "paper"}, optional

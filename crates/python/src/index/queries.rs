@@ -11,7 +11,7 @@ use crate::{
     answer::{self, Answer},
     arguments::{Points, flag},
     arrays::PathPoints,
-    background::{Interruption, is_watched},
+    background::{Interruption, is_watched, on_thread},
     errors::raised,
     keywords::{Keywords, Takes},
 };
@@ -29,6 +29,10 @@ impl Asked<'_, '_> {
     fn outcome(&self, counts: bool) -> PyResult<(Outcome, Option<Counters>)> {
         let (start, goal) = (Points::read("start", self.start)?, Points::read("goal", self.goal)?);
         let is_watched = self.keywords.timeout().is_some() || is_watched(self.planners.index());
+        if is_watched && !self.planners.is_ready() {
+            let planners = Arc::clone(self.planners);
+            on_thread(self.start.py(), move || planners.make_ready(), |_| Ok(()))?;
+        }
         let interruption = is_watched.then(Interruption::default);
         let request = self.keywords.request(&start, &goal, interruption.as_ref());
         let answer = self.start.py().detach(|| {
