@@ -96,7 +96,10 @@ impl Space {
         }
         let Some(shortest) = self.path(start, goal)? else { return Ok(None) };
         // Two paths of one length can have sums that differ in the last digits.
-        let greatest = shortest.cost() * (1.0 + surplus) * (1.0 + 1e-12);
+        let greatest = match surplus {
+            f64::INFINITY => f64::INFINITY,
+            surplus => shortest.cost() * (1.0 + surplus) * (1.0 + 1e-12),
+        };
         let clearance = self.map().clearance(Fit::exact(rules, k), Outside::Blocked);
         let at_ends = [start, goal].map(|at| clearance.largest_disc_at(rules.placement(), at).unwrap_or(0.0));
         let widest = clearance.widest(at_ends[0].min(at_ends[1]), |grid| {

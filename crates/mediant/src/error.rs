@@ -81,7 +81,7 @@ pub enum Error {
     Hierarchy(HierarchyError),
     /// A saved index with other levels than the setup names.
     #[error(
-        "needs an index with {}, found one with {}; choose the levels that it has, or build it again",
+        "needs an index with {}, found one with {}; choose the levels that it has, or prepare it again",
         expected.in_words(),
         found.in_words()
     )]
@@ -94,7 +94,7 @@ pub enum Error {
     /// A saved index of clusters or segments of another size than the setup names.
     #[error(
         "needs an index whose clusters or segments have {expected} × {expected} cells, found one with \
-         {found} × {found}; choose the side that it has, or build it again"
+         {found} × {found}; choose the side that it has, or prepare it again"
     )]
     Side {
         /// The side of the setup, in cells.

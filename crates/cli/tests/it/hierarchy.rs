@@ -159,7 +159,7 @@ fn an_index_for_something_else_is_refused() {
     let files = Files::new();
     let clusters = built(&files, "hpa.idx", "builtin:cave --engine hpa --levels 2");
     let segments = built(&files, "chpa.idx", "builtin:cave --engine chpa --k 2");
-    let again = "or build it again";
+    let again = "or prepare it again";
     let levels = |named: &str| {
         let found = "found one with 2 levels; choose the levels that it has";
         format!("hpa.idx: needs an index with {named}, {found}, {again}")
@@ -175,7 +175,7 @@ fn an_index_for_something_else_is_refused() {
         (format!("--engine hpa --levels all --index {clusters}"), levels("5 levels")),
         (format!("--engine hpa --side 8 --index {clusters}"), side("hpa.idx", 8, 10)),
         (format!("--engine chpa --k 2 --side 4 --index {segments}"), side("chpa.idx", 4, 3)),
-        (format!("--engine chpa --index {clusters}"), format!("{other}, {again} with `mediant build`")),
+        (format!("--engine chpa --index {clusters}"), format!("{other}, or prepare it again")),
     ] {
         assert_eq!(refused(&files, &format!("run builtin:cave {options}")), format!("error: {message}\n"));
     }

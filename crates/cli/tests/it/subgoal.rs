@@ -71,7 +71,7 @@ fn an_index_says_which_levels_it_has() {
     for (levels, name) in [("1", "1 level"), ("all", "all levels")] {
         let message = format!(
             "error: cave.idx: needs an index with {name}, found one with 2 levels; choose the levels that \
-             it has, or build it again\n"
+             it has, or prepare it again\n"
         );
         assert_eq!(refused(&files, &format!("{line} {levels}")), message);
     }
@@ -99,7 +99,7 @@ fn an_index_for_something_else_is_refused() {
     let files = Files::new();
     let index = built(&files, "cave.idx", "builtin:cave --engine subgoal --placement corner");
     let refused = |options: &str| refused(&files, &format!("run {options} --index {index}"));
-    let again = "or build it again with `mediant build`";
+    let again = "or prepare it again";
     for (options, message) in [
         (
             "--engine subgoal-theta",
@@ -175,8 +175,8 @@ fn an_index_of_another_version_is_refused() {
     assert_eq!(
         saved("subgoal", version + 1, never, &payload),
         format!(
-            "error: other.idx: expected version {version} of the subgoal index, found version {}; build it \
-             again with `mediant build`\n",
+            "error: other.idx: expected version {version} of the subgoal index, found version {}; prepare it \
+             again\n",
             version + 1
         )
     );

@@ -9,22 +9,19 @@ use super::layout::{FORMAT_VERSION, NAME_FORM};
 #[non_exhaustive]
 pub enum IndexError {
     /// The bytes do not begin like an index.
-    #[error(
-        "expected an index as `mediant build` makes it, found {found} at its start; is this the file that \
-         you meant?"
-    )]
+    #[error("expected a saved index, found {found} at its start; is this the file that you meant?")]
     NotAnIndex {
         /// The first bytes, quoted.
         found: String,
     },
     /// The file has another version of the format.
-    #[error("expected an index of format version {FORMAT_VERSION}, found version {found}; {BUILD_AGAIN}")]
+    #[error("expected an index of format version {FORMAT_VERSION}, found version {found}; {PREPARE_AGAIN}")]
     Format {
         /// The version.
         found: u32,
     },
     /// The file has fewer or more bytes than its header states.
-    #[error("expected an index of {expected} bytes, found {found}; copy the file again, or {BUILD_AGAIN}")]
+    #[error("expected an index of {expected} bytes, found {found}; copy the file again, or {PREPARE_AGAIN}")]
     Length {
         /// The length that the header states, or that of an empty index if the header is cut short.
         expected: u64,
@@ -34,11 +31,11 @@ pub enum IndexError {
     /// The checksum is wrong: the bytes are not those that were saved.
     #[error(
         "expected the checksum that was saved with the index, found another: the file is damaged; copy it \
-         again, or {BUILD_AGAIN}"
+         again, or {PREPARE_AGAIN}"
     )]
     Damaged,
     /// The checksum is right, but a field of the header has a value that it cannot have.
-    #[error("expected {expected}, found {found}: another program wrote this index; {BUILD_AGAIN}")]
+    #[error("expected {expected}, found {found}: another program wrote this index; {PREPARE_AGAIN}")]
     Field {
         /// What the field can hold.
         expected: &'static str,
@@ -54,7 +51,7 @@ pub enum IndexError {
     /// The index was built by another engine.
     #[error(
         "expected an index of the engine {expected}, found one of {found}; choose that engine, or \
-         {BUILD_AGAIN}"
+         {PREPARE_AGAIN}"
     )]
     Engine {
         /// The engine that is to use the index.
@@ -63,7 +60,7 @@ pub enum IndexError {
         found: String,
     },
     /// The index was built by another version of the engine.
-    #[error("expected version {expected} of the {engine} index, found version {found}; {BUILD_AGAIN}")]
+    #[error("expected version {expected} of the {engine} index, found version {found}; {PREPARE_AGAIN}")]
     EngineVersion {
         /// The engine.
         engine: String,
@@ -73,8 +70,8 @@ pub enum IndexError {
         found: u32,
     },
     /// The index was built for another map, other rules of motion or another k.
-    #[error("{0} with `mediant build`")]
+    #[error(transparent)]
     Mismatch(#[from] Mismatch),
 }
 
-const BUILD_AGAIN: &str = "build it again with `mediant build`";
+const PREPARE_AGAIN: &str = "prepare it again";

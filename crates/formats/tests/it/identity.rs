@@ -65,17 +65,17 @@ fn what_a_file_is_for_word_by_word() {
     assert_eq!(
         refused("subgoal", 8),
         "expected an index of the engine subgoal, found one of jps-plus; \
-         choose that engine, or build it again with `mediant build`"
+         choose that engine, or prepare it again"
     );
     assert_eq!(
         refused("jps-plus", 8),
-        "expected version 8 of the jps-plus index, found version 7; build it again with `mediant build`"
+        "expected version 8 of the jps-plus index, found version 7; prepare it again"
     );
     assert_eq!(
         refused("jps-plus", 7),
         format!(
             "the saved index is for {own}; the space is for {other}: \
-             use the saved index with what it was made for, or make a new one with `mediant build`"
+             use the saved index with what it was made for, or make a new one"
         )
     );
 }

@@ -139,32 +139,29 @@ fn what_is_no_index_word_by_word() {
     let cases = [
         (
             refused(b"type octile\nheight 1"),
-            "expected an index as `mediant build` makes it, found `type oct` at its start; \
+            "expected a saved index, found `type oct` at its start; \
              is this the file that you meant?",
         ),
         (
             refused(b""),
-            "expected an index as `mediant build` makes it, found nothing at its start; \
+            "expected a saved index, found nothing at its start; \
              is this the file that you meant?",
         ),
-        (
-            forged(8, &[1]),
-            "expected an index of format version 2, found version 1; build it again with `mediant build`",
-        ),
+        (forged(8, &[1]), "expected an index of format version 2, found version 1; prepare it again"),
         (
             refused(&index().to_bytes()[..100]),
-            "expected an index of 154 bytes, found 100; copy the file again, or build it again with `mediant build`",
+            "expected an index of 154 bytes, found 100; copy the file again, or prepare it again",
         ),
         (
             IndexError::Damaged,
             "expected the checksum that was saved with the index, found another: the file is damaged; \
-             copy it again, or build it again with `mediant build`",
+             copy it again, or prepare it again",
         ),
         (
             forged(12, b"jps\0plus"),
             "expected an engine's name of 1 to 16 printable ASCII characters without blanks, \
              found `jps\\x00plus\\x00\\x00\\x00\\x00\\x00\\x00\\x00\\x00`: \
-             another program wrote this index; build it again with `mediant build`",
+             another program wrote this index; prepare it again",
         ),
     ];
     for (error, message) in cases {
@@ -176,10 +173,7 @@ fn what_is_no_index_word_by_word() {
     for (at, code) in [(32 + 24, 5), (32 + 28, 1)] {
         let text = forged(at, &[code]).to_string();
         assert!(text.starts_with("expected a map with the codes of its rules and k, found `"), "{text}");
-        assert!(
-            text.ends_with("another program wrote this index; build it again with `mediant build`"),
-            "{text}"
-        );
+        assert!(text.ends_with("another program wrote this index; prepare it again"), "{text}");
     }
 }
 
@@ -258,7 +252,7 @@ fn files_that_cannot_be_read() {
     assert_eq!(
         error.to_string(),
         format!(
-            "{}: expected an index of 154 bytes, found 140; copy the file again, or build it again with `mediant build`",
+            "{}: expected an index of 154 bytes, found 140; copy the file again, or prepare it again",
             path.display()
         )
     );

@@ -85,7 +85,11 @@ fn mistakes_of_fields_and_agents() {
     assert_eq!(map.for_disc(0.0, space.motion()).expect("a map").id(), map.id());
     let surplus = |surplus| space.widest_path((0, 0), (1, 0), surplus).map_err(|error| error.code());
     assert_eq!(surplus(-0.1), Err(ErrorCode::Number));
-    assert_eq!(surplus(0.0).expect("a path").expect("a path").path.cost(), 1.0);
+    for any in [0.0, f64::INFINITY] {
+        assert_eq!(surplus(any).expect("a path").expect("a path").path.cost(), 1.0);
+    }
+    let stays = space.widest_path((0, 0), (0, 0), f64::INFINITY).expect("free").expect("a path");
+    assert_eq!(stays.path.cost(), 0.0);
 }
 
 /// No path that is short enough lies on the map of a larger disc: all radii are tried.

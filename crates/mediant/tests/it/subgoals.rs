@@ -103,7 +103,7 @@ fn a_saved_subgoal_graph_has_the_levels_that_are_named() {
     ] {
         let error = with(built, asked).map(|_| ()).expect_err("another hierarchy");
         assert!(matches!(error, Error::Levels { .. }), "{error:?}");
-        let advice = "choose the levels that it has, or build it again";
+        let advice = "choose the levels that it has, or prepare it again";
         assert_eq!(error.to_string(), format!("{message}; {advice}"));
     }
     // As many levels as a number can say are all.

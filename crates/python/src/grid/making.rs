@@ -16,7 +16,7 @@ use crate::{
     arguments::{file, flag, number, point, text, word},
     arrays::{Criteria, bits_of, cells_of, map_of, map_of_bits, patch},
     background::detached,
-    errors::{argument, exception, instead, raised, wrong_type},
+    errors::{argument, exception, instead, raised, raised_for, wrong_type},
     world::World,
 };
 
@@ -130,7 +130,7 @@ impl Grid {
                 text("rows", expected, &row)
             })
             .collect::<PyResult<_>>()?;
-        Ok(Self::new(Map::from_rows(items).map_err(raised)?, None))
+        Ok(Self::new(Map::from_rows(items).map_err(|error| raised_for("rows", error))?, None))
     }
 
     /// The number of rows and columns.
