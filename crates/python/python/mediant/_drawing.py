@@ -1,0 +1,291 @@
+"""How `mediant.plot` draws with matplotlib, and what it makes of its arguments."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any, Union, cast
+
+import numpy as np
+
+from ._mediant import Field
+
+try:
+    import matplotlib.pyplot as plt
+    from matplotlib import colormaps
+    from matplotlib.colors import ListedColormap
+    from matplotlib.patches import Patch, Rectangle
+    from matplotlib.patheffects import Normal, Stroke
+    from matplotlib.ticker import MaxNLocator
+    from matplotlib.transforms import Affine2D
+except ImportError as error:
+    raise ImportError('mediant.plot needs matplotlib: pip install "mediant[plot]"') from error
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.image import AxesImage
+    from matplotlib.lines import Line2D
+    from matplotlib.quiver import Quiver
+    from numpy.typing import ArrayLike, NDArray
+    from typing_extensions import TypeAlias
+
+    from ._mediant import Grid, Paths, Placement, World
+
+    OnePath: TypeAlias = Union[ArrayLike, None]
+    SeveralPaths: TypeAlias = Union[OnePath, Iterable[OnePath], Mapping[str, OnePath], Paths]
+    Named: TypeAlias = list[tuple[Union[str, None], Union[NDArray[np.float64], None]]]
+
+COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "black")
+"""Of lines, one after another: the colors of Okabe and Ito, which the color-blind can tell apart."""
+
+STYLES: tuple[Any, ...] = ("solid", (0, (5, 1.5)), (0, (1.5, 1)), (0, (6, 1.5, 1.5, 1.5)))
+"""Of lines, one after another, so that lines differ in gray print too."""
+
+COLORMAP = ListedColormap(colormaps["cividis"](np.linspace(0.15, 1.0, 256)), name="distances")
+"""Of distances: near ones dark, but lighter than blocked cells. Lightness grows all the way, for gray print,
+and the color-blind see these colors as others do."""
+
+BLOCKED, BLOCKED_ON_FIELD = "0.25", "black"
+
+NOT_REACHED: dict[str, Any] = {"facecolor": "white", "edgecolor": "0.7", "hatch": "////", "linewidth": 0.0}
+
+ARROWS = 28
+"""The most arrows along a side."""
+
+
+class Canvas:
+    """Axes, with what says where a vertex is on them.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes or None
+        Where to draw; the current axes if None.
+    placement : {"center", "corner"}
+        Where the vertices of paths and of arrays are.
+    world : World or None
+        To draw in meters rather than in cells.
+    """
+
+    def __init__(self, ax: Axes | None, placement: Placement, world: World | None) -> None:
+        if placement not in ("center", "corner"):
+            raise ValueError(f'expected placement "center" or "corner", found {placement!r}')
+        self.ax = plt.gca() if ax is None else ax
+        self.placement = placement
+        self.world = world
+        self.to_axes = _from_corners(world)
+
+    def places(self, points: NDArray[Any]) -> NDArray[np.float64]:
+        """Vertices, (row, column), as (x, y) on the axes."""
+        corners = points[..., ::-1] + (0.5 if self.placement == "center" else 0.0)
+        places: NDArray[np.float64] = self.to_axes.transform(corners.reshape(-1, 2)).reshape(corners.shape)
+        return places
+
+    def image(self, array: NDArray[Any], look: Mapping[str, Any]) -> AxesImage:
+        """Draw an array with a square for each vertex, and show the map as a whole."""
+        height, width = array.shape
+        before = 0.0 if self.placement == "center" else 0.5
+        drawn = self.ax.imshow(array, extent=(-before, width - before, height - before, -before), **look)
+        drawn.set_transform(self.to_axes + self.ax.transData)
+        rows, columns = map_shape(array, self.placement)
+        x, y = self.to_axes.transform([(0, 0), (columns, 0), (0, rows), (columns, rows)]).T
+        self.ax.set_xlim(x.min(), x.max())
+        self.ax.set_ylim(*((y.max(), y.min()) if self.world is None else (y.min(), y.max())))
+        self.ax.set_aspect("equal")
+        if self.world is None:
+            for axis in (self.ax.xaxis, self.ax.yaxis):
+                axis.set_major_locator(MaxNLocator(integer=True, steps=[1, 2, 5, 10]))
+        self.ax.set_xlabel("column" if self.world is None else "x (m)")
+        self.ax.set_ylabel("row" if self.world is None else "y (m)")
+        return drawn
+
+    def cells(self, blocked: NDArray[np.bool_], look: Mapping[str, Any], *, on_field: bool) -> AxesImage:
+        """Draw the blocked cells, and the free ones too unless they lie on a field."""
+        colors = ["#ffffff00", BLOCKED_ON_FIELD] if on_field else ["white", BLOCKED]
+        box = self.ax.get_window_extent()
+        # Where there are more cells than pixels, the nearest cell of each pixel would drop thin walls.
+        sharp = blocked.shape[0] <= box.height and blocked.shape[1] <= box.width
+        smoothing = (
+            {"interpolation": "nearest"}
+            if sharp
+            else {"interpolation": "antialiased", "interpolation_stage": "rgba"}
+        )
+        at_centers = Canvas(self.ax, "center", self.world)
+        look = {"cmap": ListedColormap(colors), "vmin": 0, "vmax": 1, **smoothing, **look}
+        return at_centers.image(blocked.astype(np.uint8), look)
+
+    def distances(
+        self, distances: NDArray[np.float64], levels: ArrayLike | None, look: Mapping[str, Any]
+    ) -> AxesImage:
+        """Draw distances, hatched where there is none, with lines of equal distance."""
+        masked = np.ma.masked_invalid(distances)
+        drawn = self.image(masked, {"cmap": COLORMAP, "interpolation": "nearest", **look})
+        rows, columns = map_shape(distances, self.placement)
+        to_display = self.to_axes + self.ax.transData
+        behind = drawn.get_zorder() - 0.1
+        self.ax.add_patch(
+            Rectangle((0, 0), columns, rows, transform=to_display, zorder=behind, **NOT_REACHED)
+        )
+        drawn.set_clip_path(Rectangle((0, 0), columns, rows, transform=to_display))
+        if levels is not None:
+            x, y = np.moveaxis(self.places(np.moveaxis(np.indices(distances.shape), 0, -1)), -1, 0)
+            lines = self.ax.contour(x, y, masked, levels=levels, colors="white", linewidths=1.0)
+            lines.set(path_effects=[Stroke(linewidth=2.0, foreground="black", alpha=0.5), Normal()])
+        return drawn
+
+    def paths(self, named: Named, look: Mapping[str, Any]) -> list[Line2D]:
+        """Draw paths, each in a color and style of its own, with their ends."""
+        lines = []
+        ends: dict[tuple[float, ...], str] = {}
+        for number, (name, points) in enumerate(named):
+            if points is None or len(points) == 0:
+                continue
+            places = self.places(points)
+            line: dict[str, Any] = {"linewidth": 2.2, "label": name, "solid_joinstyle": "round", **look}
+            if not {"color", "c"} & look.keys():
+                line["color"] = COLORS[number % len(COLORS)]
+            if not {"linestyle", "ls"} & look.keys():
+                line["linestyle"] = STYLES[number % len(STYLES)]
+            # A pale rim keeps a line visible where it runs along a wall or over dark colors.
+            rim = Stroke(linewidth=line.get("lw", line["linewidth"]) + 1.8, foreground="white", alpha=0.9)
+            lines.extend(self.ax.plot(places[:, 0], places[:, 1], path_effects=[rim, Normal()], **line))
+            ends.setdefault(tuple(places[0]), "o")
+            ends.setdefault(tuple(places[-1]), "D")
+        for (x, y), marker in ends.items():
+            self.ax.plot(x, y, marker, color="black", markeredgecolor="white", markersize=7, zorder=3)
+        return lines
+
+    def arrows(self, directions: NDArray[np.float64], arrows: int, look: Mapping[str, Any]) -> Quiver:
+        """Draw directions, if need be only those of every few vertices."""
+        step = max(1, -(-max(directions.shape[:2]) // arrows))
+        some = slice(step // 2, None, step)
+        at = np.moveaxis(np.indices(directions.shape[:2]), 0, -1)[some, some]
+        directions = directions[some, some]
+        there = np.isfinite(directions).all(axis=-1) & directions.any(axis=-1)
+        tails = self.places(at[there])
+        vectors = self.places(at[there] + 0.75 * step * directions[there]) - tails
+        line: dict[str, Any] = {"angles": "xy", "scale_units": "xy", "scale": 1, "pivot": "mid"}
+        line.update(color="black", width=0.0018, headwidth=4.0, zorder=1.9)
+        line.update(path_effects=[Stroke(linewidth=1.2, foreground="white", alpha=0.7), Normal()])
+        return self.ax.quiver(*tails.T, *vectors.T, **{**line, **look})
+
+    def color_bar(self, image: AxesImage) -> None:
+        """Add the scale of the distances, as high as the map."""
+        beside = self.ax.inset_axes((1.02, 0.0, 0.03, 1.0))
+        self.ax.figure.colorbar(image, cax=beside, label="distance (cells)")
+
+    def legend(self, *, not_reached: bool) -> None:
+        """Name what was drawn above the map, where it hides nothing, in as many columns as fit."""
+        handles: list[Any] = list(self.ax.get_legend_handles_labels()[0])
+        if not_reached:
+            handles.append(Patch(label="not reached", **NOT_REACHED))
+        if not handles:
+            return
+        longest = max(len(str(handle.get_label())) for handle in handles)
+        inches = self.ax.get_window_extent().width / self.ax.figure.dpi
+        columns = max(1, min(len(handles), int(inches / (0.65 + 0.075 * longest))))
+        look: dict[str, Any] = {"frameon": False, "handlelength": 2.6, "columnspacing": 1.2}
+        self.ax.legend(handles=handles, ncol=columns, loc="lower left", bbox_to_anchor=(0.0, 1.0), **look)
+
+
+def new_axes(blocked: NDArray[np.bool_], world: World | None, *, color_bar: bool) -> Axes:
+    """Make axes in a figure that has the proportions of the map."""
+    rows, columns = blocked.shape
+    corners = _from_corners(world).transform([(0, 0), (columns, 0), (0, rows), (columns, rows)])
+    across, down = np.ptp(corners, axis=0)
+    width = 5.6
+    height = min(max(width * down / across, 1.2), 7.0) if across > 0 else width
+    size = (width + (1.6 if color_bar else 0.8), height + 0.9)
+    return plt.figure(figsize=size, layout="constrained").add_subplot()
+
+
+def to_blocked(grid: Grid | ArrayLike) -> NDArray[np.bool_]:
+    """Take a map as an array."""
+    blocked = np.asarray(grid, dtype=bool)
+    if blocked.ndim != 2:
+        raise ValueError(f"expected a map of shape (rows, columns), found shape {blocked.shape}")
+    return blocked
+
+
+def to_distances(field: Field | ArrayLike) -> NDArray[np.float64]:
+    """Take the distances of a field."""
+    distances = field.distances() if isinstance(field, Field) else np.asarray(field, dtype=np.float64)
+    if distances.ndim != 2:
+        raise ValueError(f"expected distances of shape (rows, columns), found shape {distances.shape}")
+    return distances
+
+
+def to_directions(flow: Field | ArrayLike) -> NDArray[np.float64]:
+    """Take the directions of a field."""
+    directions = flow.flow() if isinstance(flow, Field) else np.asarray(flow, dtype=np.float64)
+    if directions.ndim != 3 or directions.shape[2] != 2:
+        raise ValueError(f"expected directions of shape (rows, columns, 2), found shape {directions.shape}")
+    return directions
+
+
+def to_named(paths: SeveralPaths) -> Named:
+    """Take one path or several, with their names."""
+    if paths is None:
+        return []
+    if isinstance(paths, Mapping):
+        return [(name, _to_points(path)) for name, path in paths.items()]
+    several = list(cast("Iterable[Any]", paths))
+    if several and several[0] is not None and np.ndim(several[0]) == 1:
+        return [(None, _to_points(cast("ArrayLike", paths)))]
+    return [(None, _to_points(path)) for path in several]
+
+
+def _to_points(path: OnePath) -> NDArray[np.float64] | None:
+    if path is None:
+        return None
+    points = np.asarray(path, dtype=np.float64)
+    if points.ndim != 2 or points.shape[1] != 2:
+        raise ValueError(f"expected a path of shape (n, 2), found shape {points.shape}")
+    return points
+
+
+def map_shape(array: NDArray[Any], placement: Placement) -> tuple[int, int]:
+    """Give the shape of the map on which an array has a value for each vertex."""
+    more = 0 if placement == "center" else 1
+    return array.shape[0] - more, array.shape[1] - more
+
+
+def free_vertices(blocked: NDArray[np.bool_], placement: Placement) -> NDArray[np.bool_]:
+    """Say which vertices are free: at corners, those with a free cell beside them."""
+    if placement == "center":
+        return ~blocked
+    free = np.pad(~blocked, 1)
+    beside: NDArray[np.bool_] = free[1:, 1:] | free[1:, :-1] | free[:-1, 1:] | free[:-1, :-1]
+    return beside
+
+
+def check_on_map(blocked: NDArray[np.bool_], named: Named, placement: Placement) -> None:
+    """Raise an error for a path that leaves the map: most likely its placement is the other one."""
+    last = np.array(blocked.shape) - (1 if placement == "center" else 0)
+    for _, points in named:
+        if points is None:
+            continue
+        outside = points[((points < 0) | (points > last)).any(axis=1)]
+        if len(outside):
+            raise ValueError(
+                f"expected points from (0, 0) to ({last[0]}, {last[1]}) at placement={placement!r}, found "
+                f"({outside[0, 0]:g}, {outside[0, 1]:g}); pass the placement that the path was searched with"
+            )
+
+
+def check_shape(blocked: NDArray[np.bool_], array: NDArray[Any], placement: Placement) -> None:
+    """Raise an error for an array whose vertices are not those of the map at this placement."""
+    if map_shape(array, placement) != blocked.shape:
+        rows, columns = np.array(blocked.shape) + (0 if placement == "center" else 1)
+        raise ValueError(
+            f"expected an array of {rows} x {columns} vertices at placement={placement!r}, found "
+            f"{array.shape[0]} x {array.shape[1]}; pass the placement that it was made with"
+        )
+
+
+def _from_corners(world: World | None) -> Affine2D:
+    """Make the map from (columns, rows), counted from the map's top left corner, to the axes."""
+    if world is None:
+        return Affine2D().translate(-0.5, -0.5)
+    corners = np.array([(0, 0), (0, 1), (1, 0)])
+    zero, right, down = np.asarray(world.point_of(corners, placement="corner"))
+    (a, b), (c, d), (e, f) = right - zero, down - zero, zero
+    return Affine2D.from_values(a, b, c, d, e, f)
