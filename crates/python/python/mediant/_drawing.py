@@ -13,7 +13,7 @@ try:
     import matplotlib.pyplot as plt
     from matplotlib import colormaps
     from matplotlib.colors import ListedColormap
-    from matplotlib.patches import Patch, Rectangle
+    from matplotlib.patches import Patch, Polygon, Rectangle
     from matplotlib.patheffects import Normal, Stroke
     from matplotlib.ticker import MaxNLocator
     from matplotlib.transforms import Affine2D
@@ -48,6 +48,9 @@ BLOCKED, BLOCKED_ON_FIELD = "0.25", "black"
 
 NOT_REACHED: dict[str, Any] = {"facecolor": "white", "edgecolor": "0.7", "hatch": "////", "linewidth": 0.0}
 
+MARGIN = 0.012
+"""Around the map, as a share of its longer side."""
+
 ARROWS = 28
 """The most arrows along a side."""
 
@@ -80,19 +83,24 @@ class Canvas:
         return places
 
     def image(self, array: NDArray[Any], look: Mapping[str, Any]) -> AxesImage:
-        """Draw an array with a square for each vertex, and show the map as a whole."""
+        """Draw an array with a square for each vertex, and show the map as a whole, with its outline."""
         height, width = array.shape
         before = 0.0 if self.placement == "center" else 0.5
         drawn = self.ax.imshow(array, extent=(-before, width - before, height - before, -before), **look)
         drawn.set_transform(self.to_axes + self.ax.transData)
         rows, columns = map_shape(array, self.placement)
-        x, y = self.to_axes.transform([(0, 0), (columns, 0), (0, rows), (columns, rows)]).T
-        self.ax.set_xlim(x.min(), x.max())
-        self.ax.set_ylim(*((y.max(), y.min()) if self.world is None else (y.min(), y.max())))
+        outline = self.to_axes.transform([(0, 0), (columns, 0), (columns, rows), (0, rows)])
+        self.ax.add_patch(Polygon(outline, fill=False, edgecolor="0.5", linewidth=0.8, zorder=1.8))
+        # Some room, so that a path along the edge of the map, and its ends, are seen as a whole.
+        room = MARGIN * np.ptp(outline, axis=0).max()
+        (left, low), (right, high) = outline.min(axis=0) - room, outline.max(axis=0) + room
+        self.ax.set_xlim(left, right)
+        self.ax.set_ylim(*((high, low) if self.world is None else (low, high)))
         self.ax.set_aspect("equal")
         if self.world is None:
+            self.ax.spines[:].set_visible(False)
             for axis in (self.ax.xaxis, self.ax.yaxis):
-                axis.set_major_locator(MaxNLocator(integer=True, steps=[1, 2, 5, 10]))
+                axis.set_major_locator(MaxNLocator("auto", integer=True, steps=[1, 2, 5, 10]))
         self.ax.set_xlabel("column" if self.world is None else "x (m)")
         self.ax.set_ylabel("row" if self.world is None else "y (m)")
         return drawn
@@ -163,13 +171,15 @@ class Canvas:
         tails = self.places(at[there])
         vectors = self.places(at[there] + 0.75 * step * directions[there]) - tails
         line: dict[str, Any] = {"angles": "xy", "scale_units": "xy", "scale": 1, "pivot": "mid"}
-        line.update(color="black", width=0.0018, headwidth=4.0, zorder=1.9)
+        line.update(color="black", units="inches", width=0.0115, headwidth=4.0, zorder=1.9)
         line.update(path_effects=[Stroke(linewidth=1.2, foreground="white", alpha=0.7), Normal()])
         return self.ax.quiver(*tails.T, *vectors.T, **{**line, **look})
 
     def color_bar(self, image: AxesImage) -> None:
         """Add the scale of the distances, as high as the map."""
-        beside = self.ax.inset_axes((1.02, 0.0, 0.03, 1.0))
+        (left, right), (low, high) = self.ax.get_xlim(), self.ax.get_ylim()
+        longer = max(1.0, abs((high - low) / (right - left)))
+        beside = self.ax.inset_axes((1 + 0.02 * longer, 0.0, 0.03 * longer, 1.0))
         self.ax.figure.colorbar(image, cax=beside, label="distance (cells)")
 
     def legend(self, *, not_reached: bool) -> None:
@@ -179,11 +189,12 @@ class Canvas:
             handles.append(Patch(label="not reached", **NOT_REACHED))
         if not handles:
             return
-        longest = max(len(str(handle.get_label())) for handle in handles)
-        inches = self.ax.get_window_extent().width / self.ax.figure.dpi
-        columns = max(1, min(len(handles), int(inches / (0.65 + 0.075 * longest))))
+        # About as wide as texts of the usual size are.
+        wide = sum(0.62 + 0.075 * len(str(handle.get_label())) for handle in handles)
+        lines = np.ceil(wide / (self.ax.get_window_extent().width / self.ax.figure.dpi))
+        columns = int(np.ceil(len(handles) / lines))
         look: dict[str, Any] = {"frameon": False, "handlelength": 2.6, "columnspacing": 1.2}
-        self.ax.legend(handles=handles, ncol=columns, loc="lower left", bbox_to_anchor=(0.0, 1.0), **look)
+        self.ax.legend(handles=handles, ncol=columns, loc="lower center", bbox_to_anchor=(0.5, 1.0), **look)
 
 
 def new_axes(blocked: NDArray[np.bool_], world: World | None, *, color_bar: bool) -> Axes:
@@ -191,8 +202,8 @@ def new_axes(blocked: NDArray[np.bool_], world: World | None, *, color_bar: bool
     rows, columns = blocked.shape
     corners = _from_corners(world).transform([(0, 0), (columns, 0), (0, rows), (columns, rows)])
     across, down = np.ptp(corners, axis=0)
-    width = 5.6
-    height = min(max(width * down / across, 1.2), 7.0) if across > 0 else width
+    scale = min(5.6 / max(across, 1e-9), 6.4 / max(down, 1e-9))
+    width, height = max(across * scale, 2.8), max(down * scale, 1.2)
     size = (width + (1.6 if color_bar else 0.8), height + 0.9)
     return plt.figure(figsize=size, layout="constrained").add_subplot()
 

@@ -22,8 +22,20 @@ PathPoints: TypeAlias = Literal["waypoints", "vertices", "cells"]
 Status: TypeAlias = Literal["found", "unreachable", "nearest", "stopped", "invalid"]
 Limit: TypeAlias = Literal["cost", "expansions", "timeout"]
 Engine: TypeAlias = Literal[
-    "astar", "dijkstra", "wavefront", "canonical", "jps", "jps-block", "jps-plus", "theta", "lazy-theta",
-    "anya", "subgoal", "subgoal-theta", "hpa", "chpa",
+    "astar",
+    "dijkstra",
+    "wavefront",
+    "canonical",
+    "jps",
+    "jps-block",
+    "jps-plus",
+    "theta",
+    "lazy-theta",
+    "anya",
+    "subgoal",
+    "subgoal-theta",
+    "hpa",
+    "chpa",
 ]
 Heuristic: TypeAlias = Literal["hk", "euclidean", "zero", "squared"]
 
@@ -143,7 +155,10 @@ class Grid:
         self, sources: Points, *, limit: SupportsFloat | None = None, **motion: Unpack[Motion]
     ) -> NDArray[np.float64]: ...
     def clearance(
-        self, *, fit: Literal["centers", "whole-cells"] = "centers", outside: Literal["blocked", "open"] = "blocked"
+        self,
+        *,
+        fit: Literal["centers", "whole-cells"] = "centers",
+        outside: Literal["blocked", "open"] = "blocked",
     ) -> NDArray[np.float64]: ...
     def for_disc(
         self,
@@ -285,10 +300,14 @@ class World:
     def resolution(self) -> float: ...
     @property
     def origin(self) -> tuple[float, float, float]: ...
-    def vertex_at(self, x: SupportsFloat, y: SupportsFloat, *, placement: Placement = "center") -> tuple[int, int] | None: ...
+    def vertex_at(
+        self, x: SupportsFloat, y: SupportsFloat, *, placement: Placement = "center"
+    ) -> tuple[int, int] | None: ...
     def point_of(self, points: ArrayLike, *, placement: Placement = "center") -> NDArray[np.float64]: ...
 
 __version__: str
 
 def moves(k: K) -> NDArray[np.int32]: ...
-def bound(k: K, *, placement: Placement | None = None, corners: Corners | None = None, gap: Gap | None = None) -> float | None: ...
+def bound(
+    k: K, *, placement: Placement | None = None, corners: Corners | None = None, gap: Gap | None = None
+) -> float | None: ...
