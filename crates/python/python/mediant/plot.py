@@ -27,6 +27,7 @@ import numpy as np
 
 from ._drawing import (
     ARROWS,
+    COLORS,
     Canvas,
     check_on_map,
     check_shape,
@@ -48,7 +49,7 @@ if TYPE_CHECKING:
     from ._drawing import SeveralPaths
     from ._mediant import Field, Grid, Placement, World
 
-__all__ = ["field", "flow", "grid", "path", "show"]
+__all__ = ["COLORS", "field", "flow", "grid", "path", "show"]
 
 
 def show(
