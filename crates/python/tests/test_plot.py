@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import mediant
 import numpy as np
@@ -332,3 +333,15 @@ def test_the_package_alone_imports_no_matplotlib():
     program = "import sys, mediant; print('matplotlib' in sys.modules)"
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert run.stdout == "False\n"
+
+
+def test_the_figure_of_the_readme(tmp_path):
+    folder = Path(__file__).parent.parent / "figures"
+    subprocess.run([sys.executable, folder / "paths.py", tmp_path / "paths.png"], check=True)
+    drawn, committed = (plt.imread(at / "paths.png") for at in (tmp_path, folder))
+    # Versions of matplotlib draw texts a little differently, but the same map.
+    assert drawn.shape == pytest.approx(committed.shape, rel=0.03)
+    assert (drawn[..., :3].max(axis=-1) < 0.4).mean() == pytest.approx(
+        (committed[..., :3].max(axis=-1) < 0.4).mean(), rel=0.03
+    )
+    assert (folder / "paths.png").stat().st_size < 60_000
