@@ -115,10 +115,11 @@ def test_a_field_has_its_color_around_each_vertex_and_no_more_than_the_map(place
     half = SIDE // 2 * more
     middle[:] = squares[half : half + 6 * SIDE, half : half + 9 * SIDE]
     wrong = (abs(pixels - padded) > 2).any(axis=-1)
-    outline = np.zeros_like(wrong)
-    outline[SIDE - 2 : -SIDE + 2, SIDE - 2 : -SIDE + 2] = True
-    outline[SIDE + 2 : -SIDE - 2, SIDE + 2 : -SIDE - 2] = False
-    wrong &= ~outline
+    # But for the borders of squares, which old versions of matplotlib round otherwise, and for the outline.
+    borders = [(np.arange(size) - half + 2) % SIDE < 4 for size in wrong.shape]
+    outline = [abs(np.arange(size) + 0.5 - at) < 3 for size in wrong.shape for at in (SIDE, size - SIDE)]
+    wrong[borders[0] | outline[0] | outline[1]] = False
+    wrong[:, borders[1] | outline[2] | outline[3]] = False
     assert not wrong.any(), np.argwhere(wrong)[:5]
 
 
@@ -146,7 +147,7 @@ def test_distances_grow_lighter_all_the_way():
     assert lightness[0] > 0.15, "lighter than blocked cells"
 
 
-@pytest.mark.parametrize("wall", range(1, 2000, 133))
+@pytest.mark.parametrize("wall", range(50, 1950, 131))
 def test_a_wall_of_one_cell_stays_visible_on_a_map_with_more_cells_than_pixels(wall):
     blocked = np.zeros((2000, 2000), dtype=bool)
     blocked[:, wall] = True
@@ -154,7 +155,9 @@ def test_a_wall_of_one_cell_stays_visible_on_a_map_with_more_cells_than_pixels(w
     ax = figure.add_axes((0, 0, 1, 1))
     ax.set_axis_off()
     plot.grid(blocked, ax)
-    assert pixels_of(ax)[100:200].min(axis=(1, 2)).max() < 250
+    within = pixels_of(ax)[100:200, 10:-10]
+    assert (within.min(axis=(1, 2)) < 200).all()
+    assert (within == 255).all(axis=-1).sum() > 0.97 * 100 * 280
 
 
 def test_paths_along_the_edge_and_their_ends_are_seen_as_a_whole():
@@ -168,6 +171,10 @@ def test_paths_along_the_edge_and_their_ends_are_seen_as_a_whole():
     # The disc is as wide to the left of the vertex as to its right.
     assert (columns[start].min() + columns[start].max() + 1) / 2 == pytest.approx(left, abs=1)
     assert (rows[start].min() + rows[start].max() + 1) / 2 == pytest.approx(len(dark) - top, abs=1)
+    right, bottom = ax.transData.transform((8.5, 5.5))
+    goal = columns >= edge.x1 - 30
+    assert (columns[goal].min() + columns[goal].max() + 1) / 2 == pytest.approx(right, abs=1)
+    assert (rows[goal].min() + rows[goal].max() + 1) / 2 == pytest.approx(len(dark) - bottom, abs=1)
 
 
 def test_flow_points_to_the_next_vertex():
@@ -253,7 +260,7 @@ def test_in_the_world_cells_are_where_their_points_are(map_of_robot):
     assert not ax.yaxis_inverted()
 
 
-@pytest.mark.parametrize("shape", [(9, 12), (5, 60), (60, 5)])
+@pytest.mark.parametrize("shape", [(9, 12), (5, 60), (60, 5), (300, 200)])
 def test_show_in_one_call_names_its_paths_and_cuts_no_text(shape):
     blocked = np.zeros(shape, dtype=bool)
     blocked[1:4, 1:4] = True

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, Union, cast
 
 import numpy as np
 
 from ._mediant import Field
+from ._picture import shades_of_blocks
 
 try:
     import matplotlib.pyplot as plt
     from matplotlib import colormaps
-    from matplotlib.colors import ListedColormap
+    from matplotlib.colors import LinearSegmentedColormap, ListedColormap
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
     from matplotlib.patches import Patch, Polygon, Rectangle
     from matplotlib.patheffects import Normal, Stroke
     from matplotlib.ticker import MaxNLocator
@@ -82,13 +85,20 @@ class Canvas:
         places: NDArray[np.float64] = self.to_axes.transform(corners.reshape(-1, 2)).reshape(corners.shape)
         return places
 
-    def image(self, array: NDArray[Any], look: Mapping[str, Any]) -> AxesImage:
-        """Draw an array with a square for each vertex, and show the map as a whole, with its outline."""
-        height, width = array.shape
+    def image(
+        self, array: NDArray[Any], shape: tuple[int, int], look: Mapping[str, Any], block: int = 1
+    ) -> AxesImage:
+        """Draw an array on a map of this shape, with a square for each vertex or block of vertices.
+
+        It shows the map as a whole, with its outline, and nothing outside.
+        """
+        rows, columns = shape
+        height, width = array.shape[0] * block, array.shape[1] * block
         before = 0.0 if self.placement == "center" else 0.5
         drawn = self.ax.imshow(array, extent=(-before, width - before, height - before, -before), **look)
-        drawn.set_transform(self.to_axes + self.ax.transData)
-        rows, columns = map_shape(array, self.placement)
+        to_display = self.to_axes + self.ax.transData
+        drawn.set_transform(to_display)
+        drawn.set_clip_path(Rectangle((0, 0), columns, rows, transform=to_display))
         outline = self.to_axes.transform([(0, 0), (columns, 0), (columns, rows), (0, rows)])
         self.ax.add_patch(Polygon(outline, fill=False, edgecolor="0.5", linewidth=0.8, zorder=1.8))
         # Some room, so that a path along the edge of the map, and its ends, are seen as a whole.
@@ -107,32 +117,29 @@ class Canvas:
 
     def cells(self, blocked: NDArray[np.bool_], look: Mapping[str, Any], *, on_field: bool) -> AxesImage:
         """Draw the blocked cells, and the free ones too unless they lie on a field."""
-        colors = ["#ffffff00", BLOCKED_ON_FIELD] if on_field else ["white", BLOCKED]
+        colors = ["#00000000", BLOCKED_ON_FIELD] if on_field else ["white", BLOCKED]
+        rows, columns = blocked.shape
+        # Of cells smaller than pixels many would not be seen. The axes may yet shrink, to make room for text.
         box = self.ax.get_window_extent()
-        # Where there are more cells than pixels, the nearest cell of each pixel would drop thin walls.
-        sharp = blocked.shape[0] <= box.height and blocked.shape[1] <= box.width
-        smoothing = (
-            {"interpolation": "nearest"}
-            if sharp
-            else {"interpolation": "antialiased", "interpolation_stage": "rgba"}
-        )
-        at_centers = Canvas(self.ax, "center", self.world)
-        look = {"cmap": ListedColormap(colors), "vmin": 0, "vmax": 1, **smoothing, **look}
-        return at_centers.image(blocked.astype(np.uint8), look)
+        tall, wide = 0.7 * max(box.height, 2.0), 0.7 * max(box.width, 2.0)
+        block = max(1, math.ceil(rows / tall), math.ceil(columns / wide))
+        shades = shades_of_blocks(blocked, block)
+        colormap = LinearSegmentedColormap.from_list("cells", colors)
+        look = {"cmap": colormap, "vmin": 0, "vmax": 1, "interpolation": "nearest", **look}
+        return Canvas(self.ax, "center", self.world).image(shades, (rows, columns), look, block)
 
     def distances(
         self, distances: NDArray[np.float64], levels: ArrayLike | None, look: Mapping[str, Any]
     ) -> AxesImage:
         """Draw distances, hatched where there is none, with lines of equal distance."""
         masked = np.ma.masked_invalid(distances)
-        drawn = self.image(masked, {"cmap": COLORMAP, "interpolation": "nearest", **look})
         rows, columns = map_shape(distances, self.placement)
+        drawn = self.image(masked, (rows, columns), {"cmap": COLORMAP, "interpolation": "nearest", **look})
         to_display = self.to_axes + self.ax.transData
         behind = drawn.get_zorder() - 0.1
         self.ax.add_patch(
             Rectangle((0, 0), columns, rows, transform=to_display, zorder=behind, **NOT_REACHED)
         )
-        drawn.set_clip_path(Rectangle((0, 0), columns, rows, transform=to_display))
         if levels is not None:
             x, y = np.moveaxis(self.places(np.moveaxis(np.indices(distances.shape), 0, -1)), -1, 0)
             lines = self.ax.contour(x, y, masked, levels=levels, colors="white", linewidths=1.0)
@@ -205,7 +212,9 @@ def new_axes(blocked: NDArray[np.bool_], world: World | None, *, color_bar: bool
     scale = min(5.6 / max(across, 1e-9), 6.4 / max(down, 1e-9))
     width, height = max(across * scale, 2.8), max(down * scale, 1.2)
     size = (width + (1.6 if color_bar else 0.8), height + 0.9)
-    return plt.figure(figsize=size, layout="constrained").add_subplot()
+    # The layout is not exact where axes keep an aspect: without some room it cuts labels.
+    layout = ConstrainedLayoutEngine(w_pad=0.15, h_pad=0.1)
+    return plt.figure(figsize=size, layout=layout).add_subplot()
 
 
 def to_blocked(grid: Grid | ArrayLike) -> NDArray[np.bool_]:

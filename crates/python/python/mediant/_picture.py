@@ -56,9 +56,7 @@ def png_of(grid: Grid) -> bytes:
     """
     blocked = grid.to_numpy()
     block = _block(blocked)
-    shares = _mean_of_blocks(blocked, block)
-    # Shade 0 is for blocks that are free, 254 for blocks that are blocked as a whole: neither for any other.
-    shades = np.where(shares == 0, 0, np.where(shares == 1, 254, 90 + 100 * shares)).astype(np.uint8)
+    shades = (254 * shades_of_blocks(blocked, block)).round().astype(np.uint8)
     palette = np.vstack([np.linspace(FREE, BLOCKED, 255).round(), FRAME])
     return _png(_enlarged(shades, block), palette, frame=255)
 
@@ -112,11 +110,22 @@ def _starts(array: NDArray[Any], block: int) -> tuple[NDArray[np.intp], NDArray[
     return np.arange(0, rows, block), np.arange(0, columns, block)
 
 
+def shades_of_blocks(blocked: NDArray[np.bool_], block: int) -> NDArray[np.float64]:
+    """Give the shade of each block of block x block cells: 0 if it is free, 1 if it is blocked.
+
+    The shades of others are clearly between, and grow with the share of cells that are blocked.
+    """
+    shares = _mean_of_blocks(blocked, block)
+    return np.where((shares == 0) | (shares == 1), shares, 0.35 + 0.4 * shares)
+
+
 def _mean_of_blocks(array: NDArray[np.bool_], block: int) -> NDArray[np.float64]:
     if block == 1:
         return array.astype(np.float64)
     rows, columns = _starts(array, block)
-    sums = np.add.reduceat(np.add.reduceat(array, rows, axis=0, dtype=np.int64), columns, axis=1)
+    # In strips: 0.4 s for 18,000 x 12,000 cells, where `reduceat` takes 11 s.
+    strips = [array[row : row + block].view(np.uint8).sum(axis=0, dtype=np.uint32) for row in rows]
+    sums = np.add.reduceat(np.array(strips), columns, axis=1, dtype=np.int64)
     heights, widths = (np.diff(starts, append=side) for starts, side in zip((rows, columns), array.shape))
     means: NDArray[np.float64] = sums / np.outer(heights, widths)
     return means

@@ -130,7 +130,8 @@ def grid(
 ) -> AxesImage:
     """Draw a map: free cells white, blocked ones dark, each a sharp square.
 
-    A map that has more cells than the axes have pixels is smoothed instead, so that thin walls stay visible.
+    A map that has more cells than the axes have pixels is drawn in blocks of cells. A block that is blocked
+    in part is gray, far from white, so that a wall of one cell stays visible.
 
     Parameters
     ----------
