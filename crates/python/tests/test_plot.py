@@ -60,6 +60,13 @@ def centroid(mask):
     return (rows.mean() + 0.5) / SIDE, (columns.mean() + 0.5) / SIDE
 
 
+def is_within(figure):
+    """Whether a figure cuts nothing of what is drawn."""
+    around = figure.get_tightbbox()
+    width, height = figure.get_size_inches()
+    return around.x0 >= 0 and around.y0 >= 0 and around.x1 <= width and around.y1 <= height
+
+
 def test_cells_are_sharp_squares():
     blocked = np.random.default_rng(2).random((6, 9)) < 0.4
     ax = axes_of(6, 9)
@@ -278,9 +285,15 @@ def test_show_in_one_call_names_its_paths_and_cuts_no_text(shape):
     legend, box = ax.get_legend().get_window_extent(), ax.get_window_extent()
     assert legend.y0 >= box.y1 - 1, "the legend hides nothing"
     assert box.width > 150 or box.height > 150
-    around = figure.get_tightbbox()
-    width, height = figure.get_size_inches()
-    assert around.x0 >= 0 and around.y0 >= 0 and around.x1 <= width and around.y1 <= height
+    assert ax.yaxis_inverted(), "the first row is on top"
+    assert is_within(figure)
+
+
+@pytest.mark.parametrize("shape", [(1024, 1024), (300, 200), (9, 12), (1000, 3000)])
+def test_show_cuts_no_label(shape):
+    ax = plot.show(np.zeros(shape, dtype=bool), field=np.hypot(*np.indices(shape)))
+    ax.figure.canvas.draw()
+    assert is_within(ax.figure)
 
 
 def test_corners_are_free_beside_a_free_cell():

@@ -15,6 +15,7 @@ try:
     import matplotlib.pyplot as plt
     from matplotlib import colormaps
     from matplotlib.colors import LinearSegmentedColormap, ListedColormap
+    from matplotlib.figure import Figure
     from matplotlib.layout_engine import ConstrainedLayoutEngine
     from matplotlib.patches import Patch, Polygon, Rectangle
     from matplotlib.patheffects import Normal, Stroke
@@ -203,6 +204,11 @@ class Canvas:
         look: dict[str, Any] = {"frameon": False, "handlelength": 2.6, "columnspacing": 1.2}
         self.ax.legend(handles=handles, ncol=columns, loc="lower center", bbox_to_anchor=(0.5, 1.0), **look)
 
+    def settle(self) -> None:
+        """Lay the figure out once. With an aspect to keep, only the second round is good."""
+        if isinstance(self.ax.figure, Figure):
+            self.ax.figure.draw_without_rendering()
+
 
 def new_axes(blocked: NDArray[np.bool_], world: World | None, *, color_bar: bool) -> Axes:
     """Make axes in a figure that has the proportions of the map."""
@@ -212,7 +218,7 @@ def new_axes(blocked: NDArray[np.bool_], world: World | None, *, color_bar: bool
     scale = min(5.6 / max(across, 1e-9), 6.4 / max(down, 1e-9))
     width, height = max(across * scale, 2.8), max(down * scale, 1.2)
     size = (width + (1.6 if color_bar else 0.8), height + 0.9)
-    # The layout is not exact where axes keep an aspect: without some room it cuts labels.
+    # The layout is not exact where axes keep an aspect, and cuts labels without some room.
     layout = ConstrainedLayoutEngine(w_pad=0.15, h_pad=0.1)
     return plt.figure(figsize=size, layout=layout).add_subplot()
 

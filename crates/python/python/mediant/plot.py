@@ -106,8 +106,8 @@ def show(
     """
     blocked, named = to_blocked(grid), to_named(paths)
     check_on_map(blocked, named, placement)
-    if ax is None:
-        ax = new_axes(blocked, world, color_bar=field is not None)
+    own = ax is None
+    ax = new_axes(blocked, world, color_bar=field is not None) if ax is None else ax
     canvas = Canvas(ax, placement, world)
     not_reached = False
     if field is not None:
@@ -122,6 +122,8 @@ def show(
         canvas.arrows(directions, ARROWS, {})
     canvas.paths(named, {})
     canvas.legend(not_reached=not_reached)
+    if own:
+        canvas.settle()
     return ax
 
 
