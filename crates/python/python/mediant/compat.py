@@ -131,8 +131,9 @@ def _route(
             f"{each} of the other cells",
             "not-supported",
         )
-    # The fewest cells are not always those of a shortest path, so that they need an engine of their own.
-    engine: Engine | None = None if geometric or k == 2 else "wavefront"
+    # The fewest cells are not always those of a shortest path, so that they need an engine of their own. For
+    # one path on a new grid, canonical A* is fastest.
+    engine: Engine = "canonical" if geometric or k == 2 else "wavefront"
     answer = Grid(~same).find(first, last, k=k, corners="always", engine=engine, points="vertices")
     if answer.path is None:
         return [], math.inf
@@ -214,7 +215,7 @@ def astar_path(
     others = weights[blocked]
     if not np.all(others == math.inf):
         raise _not_uniform(each, others[others != math.inf][0], "infinite ones")
-    engine: Engine | None = "wavefront" if allow_diagonal else None
+    engine: Engine = "wavefront" if allow_diagonal else "canonical"
     path = Grid(blocked).path(
         first, last, k=3 if allow_diagonal else 2, corners="always", engine=engine, points="vertices"
     )
