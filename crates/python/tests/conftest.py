@@ -1,0 +1,16 @@
+"""What all tests share: seeds that are printed when a test fails."""
+
+import os
+
+import numpy as np
+import pytest
+
+SEED = int(os.environ.get("MEDIANT_SEED", "20250801"))
+
+
+@pytest.fixture
+def rng(request):
+    """A random generator of the test's own. `MEDIANT_SEED` sets another seed."""
+    numbers = [SEED, *request.node.name.encode()]
+    print(f"MEDIANT_SEED={SEED}")
+    return np.random.default_rng(numbers)

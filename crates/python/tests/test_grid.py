@@ -1,0 +1,250 @@
+"""Grids as values: made of arrays and files, edited, compared, pickled; rules of motion; the world."""
+
+from __future__ import annotations
+
+import pickle
+
+import mediant
+import numpy as np
+import pytest
+import slow
+
+
+def test_arrays_of_all_kinds(rng):
+    """True is blocked, whatever the layout of the array."""
+    blocked = slow.random_map(rng, 6, 11, 0.4)
+    wide = np.zeros((12, 33), dtype=bool)
+    wide[::2, ::3] = blocked
+    bytes_of = np.where(blocked, 7, 0).astype(np.uint8)
+    read_only = blocked.copy()
+    read_only.flags.writeable = False
+    record = np.zeros((6, 11), dtype=[("x", "i1"), ("blocked", "?"), ("y", "i4")])
+    record["blocked"] = blocked
+    for array in (
+        blocked,
+        blocked.tolist(),
+        np.asfortranarray(blocked),
+        wide[::2, ::3],
+        blocked[::-1, ::-1].copy()[::-1, ::-1],
+        bytes_of.view(bool),
+        read_only,
+        record["blocked"],
+        np.matrix(blocked),
+        np.ma.masked_array(blocked),
+    ):
+        grid = mediant.Grid(array)
+        assert grid.shape == (6, 11)
+        assert np.array_equal(grid.to_numpy(), blocked)
+        assert np.array_equal(np.asarray(grid), blocked)
+        assert repr(grid) == f"<mediant.Grid of 6 × 11 cells, {blocked.sum()} blocked>"
+    broadcast = mediant.Grid(np.broadcast_to(blocked[:1], (6, 11)))
+    assert np.array_equal(broadcast.to_numpy(), np.repeat(blocked[:1], 6, axis=0))
+
+
+@pytest.mark.parametrize("dtype", "i1 u1 i2 >i4 u8 i8 f2 f4 >f8 g".split())
+def test_criteria(rng, dtype):
+    """Above, below and values, alone and together, for all kinds of numbers."""
+    numbers = rng.integers(0, 9, (5, 12)).astype(dtype)
+    for above in (None, 5, 6.5):
+        for below in (None, 2, 1.5):
+            for values in (None, [4], {3, 4}, (7, 2.5), np.array([3, 1]), range(2)):
+                if above is below is values is None:
+                    continue
+                wanted = np.zeros(numbers.shape, dtype=bool)
+                for row, column in np.ndindex(numbers.shape):
+                    x = float(numbers[row, column])
+                    wanted[row, column] = (
+                        (above is not None and x > above)
+                        or (below is not None and x < below)
+                        or (values is not None and x in [float(v) for v in values])
+                    )
+                grid = mediant.Grid(numbers, above=above, below=below, values=values)
+                assert np.array_equal(grid.to_numpy(), wanted), (above, below, values)
+
+
+def test_criteria_are_exact():
+    """Integers are compared as integers."""
+    large = np.array([[2**53, 2**53 + 1, 2**53 + 2]])
+    for dtype in (np.int64, np.uint64):
+        assert mediant.Grid(large.astype(dtype), above=2**53).to_numpy().tolist() == [[False, True, True]]
+        assert mediant.Grid(large.astype(dtype), below=2**53 + 1).to_numpy().tolist() == [[True, False, False]]
+        assert mediant.Grid(large.astype(dtype), values=[2**53 + 1]).to_numpy().tolist() == [[False, True, False]]
+
+
+def test_nan():
+    numbers = np.array([[0.0, np.nan, np.inf]])
+    with pytest.raises(mediant.ArgumentError, match="array"):
+        mediant.Grid(numbers, above=5)
+    assert mediant.Grid(numbers, above=5, values=[np.nan]).to_numpy().tolist() == [[False, True, True]]
+    with pytest.raises(mediant.ArgumentError, match="above"):
+        mediant.Grid(numbers, above=np.nan)
+
+
+def test_masked():
+    with pytest.raises(mediant.ArgumentError, match="array"):
+        mediant.Grid(np.ma.masked_array([[True, False]], mask=[[True, False]]))
+
+
+def test_values(rng):
+    """Equality, hash, id and pickle go by the content."""
+    blocked = slow.random_map(rng, 7, 13, 0.4)
+    grid, same, other = mediant.Grid(blocked), mediant.Grid(blocked.tolist()), mediant.Grid(~blocked)
+    assert grid == same and grid is not same and grid != other and grid != blocked.tolist() and grid != None  # noqa: E711
+    assert (hash(grid), grid.id) == (hash(same), same.id) and grid.id != other.id
+    assert mediant.Grid(blocked.T).id != grid.id
+    for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1):
+        assert pickle.loads(pickle.dumps(grid, protocol)) == grid
+    grid.to_numpy()[:] = True
+    assert grid == same
+    rows = ["".join(".#"[cell] for cell in row) for row in blocked.astype(int)]
+    assert mediant.Grid.from_rows(rows) == mediant.Grid.from_rows(iter(rows)) == grid
+
+
+def test_edit(rng):
+    """A rectangle is replaced in a new grid; the old one stays."""
+    blocked = slow.random_map(rng, 8, 15, 0.3)
+    grid = mediant.Grid(blocked)
+    for _ in range(50):
+        row, column = (int(rng.integers(side)) for side in blocked.shape)
+        rows, columns = int(rng.integers(1, 9 - row)), int(rng.integers(1, 16 - column))
+        new = rng.random((columns, rows)).T < 0.4
+        wanted = grid.to_numpy()
+        wanted[row : row + rows, column : column + columns] = new
+        before, grid = grid, grid.edit((row, column), new)
+        assert np.array_equal(grid.to_numpy(), wanted)
+        assert before.edit((row, column), np.zeros((0, 3), dtype=bool)) == before
+    assert np.array_equal(mediant.Grid(blocked).to_numpy(), blocked)
+    for at, shape in [((0, 0), (9, 1)), ((0, 0), (1, 16)), ((7, 14), (2, 1)), ((-1, 0), (1, 1)), ((8, 0), (1, 1))]:
+        with pytest.raises(mediant.MapError, match="at"):
+            grid.edit(at, np.zeros(shape, dtype=bool))
+
+
+@pytest.mark.parametrize("rule", slow.RULES)
+def test_rules_of_motion(rng, rule):
+    """Free vertices, lines of sight and connected vertices, held to the slow rules."""
+    blocked = slow.random_map(rng, 7, 11, 0.3)
+    grid, oracle, how = mediant.Grid(blocked), slow.Slow(blocked, rule), slow.motion(rule)
+    rows, columns = oracle.shape
+    for row in range(-1, rows + 1):
+        for column in range(-1, columns + 1):
+            inside = 0 <= row < rows and 0 <= column < columns
+            assert grid.is_free((row, column), **how) == (inside and oracle.is_free((row, column)))
+    vertices, seen = oracle.vertices(), 0
+    for _ in range(800):
+        start, goal = (vertices[i] for i in rng.integers(len(vertices), size=2))
+        assert grid.sees(start, goal, **how) == oracle.sees(start, goal), (start, goal)
+        seen += oracle.sees(start, goal)
+    assert 50 < seen < 750
+    for k in (2, 3, 4):
+        source = next(at for at in vertices if oracle.is_free(at))
+        reached = np.isfinite(oracle.distances(k, [source])[0])
+        for at in vertices:
+            assert grid.connected(source, at, k=k, **how) == reached[at], (k, source, at)
+
+
+@pytest.mark.parametrize("rule", slow.RULES)
+def test_check(rng, rule):
+    """A path holds exactly if all its segments are legal; up to where is said."""
+    blocked = slow.random_map(rng, 6, 10, 0.15)
+    grid, oracle, how = mediant.Grid(blocked), slow.Slow(blocked, rule), {"k": "any", **slow.motion(rule)}
+    if rule[0] == "center":
+        how["k"] = 3
+    free = [at for at in oracle.vertices() if oracle.is_free(at)]
+    held = 0
+    for _ in range(400):
+        path = [free[i] for i in rng.integers(len(free), size=int(rng.integers(1, 4)))]
+        if rng.random() < 0.5:
+            path = [free[rng.integers(len(free))]]
+            for _ in range(3):
+                near = [at for at in free if at != path[-1] and oracle.sees(path[-1], at)]
+                if near:
+                    path.append(near[rng.integers(len(near))])
+        if len(set(path)) < len(path):
+            continue
+        wanted = oracle.is_path(path, how["k"]) is None
+        held += wanted
+        assert grid.holds(path, **how) == grid.holds(np.array(path), **how) == wanted, path
+        if wanted:
+            assert grid.check(path, **how) is None
+            continue
+        with pytest.raises(mediant.BrokenPathError) as caught:
+            grid.check(path, **how)
+        assert caught.value.code == "broken-path"
+        up_to = caught.value.holds_up_to
+        assert 0 <= up_to < len(path)
+        again = pickle.loads(pickle.dumps(caught.value))
+        assert (str(again), again.holds_up_to, again.code) == (str(caught.value), up_to, "broken-path")
+    assert held > 40
+
+
+def test_errors_say_row_and_column():
+    grid = mediant.Grid(np.zeros((3, 8), dtype=bool)).edit((1, 6), [[True]])
+    with pytest.raises(mediant.QueryError, match=r"start \(1, 6\).*blocked") as caught:
+        grid.path((1, 6), (0, 0))
+    assert caught.value.code == "start-blocked"
+    with pytest.raises(mediant.QueryError, match=r"goal \(6, 1\) is outside.*\(2, 7\)") as caught:
+        grid.path((0, 0), (6, 1))
+    assert caught.value.code == "goal-outside"
+    with pytest.raises(mediant.QueryError, match=r"query 1.*\(1, 6\)") as caught:
+        grid.prepare().paths((0, 0), [(0, 1), (1, 6)])
+    with pytest.raises(mediant.BrokenPathError, match=r"\(1, 6\)"):
+        grid.check([(1, 0), (1, 7)])
+    with pytest.raises(mediant.QueryError, match="3|8"):
+        grid.field((8, 3))
+
+
+def test_files(tmp_path):
+    """Pictures, rows first; a missing file is a FileNotFoundError, too."""
+    file = tmp_path / "room.pgm"
+    file.write_text("P2 4 2 255  255 0 90 255  255 255 255 10")
+    wanted = [[False, True, True, False], [False, False, False, True]]
+    for path in (file, str(file)):
+        assert mediant.Grid.open(path).to_numpy().tolist() == wanted
+    assert mediant.Grid.open(file, invert=True).to_numpy().tolist() == (~np.array(wanted)).tolist()
+    assert mediant.Grid.open(file, threshold=0.2).to_numpy().sum() == 2
+    assert mediant.Grid.open(file, threshold="1/5") == mediant.Grid.open(file, threshold=0.2)
+    (tmp_path / "a.map").write_text("type octile\nheight 2\nwidth 3\nmap\n.@.\nG.T\n")
+    assert mediant.Grid.open(tmp_path / "a.map") == mediant.Grid.from_rows([".@.", "G.T"])
+    with pytest.raises(FileNotFoundError) as caught:
+        mediant.Grid.open(tmp_path / "none.map")
+    assert isinstance(caught.value, mediant.FileError)
+    (tmp_path / "no.map").write_text("hello")
+    with pytest.raises(mediant.FileError):
+        mediant.Grid.open(tmp_path / "no.map")
+
+
+def test_world(tmp_path, rng):
+    """Vertices in meters and back: y goes up from the lower left corner, which is turned by an angle."""
+    (tmp_path / "room.pgm").write_text("P2 5 3 255 " + "254 " * 15)
+    lines = ["image: room.pgm", "resolution: 0.5", "origin: [1.0, -2.0, 0.3]", "negate: 0"]
+    (tmp_path / "room.yaml").write_text("\n".join([*lines, "occupied_thresh: 0.65", "free_thresh: 0.25", ""]))
+    grid = mediant.Grid.open(tmp_path / "room.yaml")
+    world = grid.world
+    assert (grid.shape, world.resolution, world.origin) == ((3, 5), 0.5, (1.0, -2.0, 0.3))
+    turn = np.array([[np.cos(0.3), -np.sin(0.3)], [np.sin(0.3), np.cos(0.3)]])
+    for placement, shift, rows, columns in (("center", 0.5, 3, 5), ("corner", 0, 4, 6)):
+        at = np.array([(r, c) for r in range(rows) for c in range(columns)])
+        flat = np.stack([at[:, 1] + shift, 3 - at[:, 0] - shift], axis=1) * 0.5
+        wanted = flat @ turn.T + [1, -2]
+        assert world.point_of(at, placement=placement) == pytest.approx(wanted, abs=1e-12)
+        assert world.point_of(at[4], placement=placement) == pytest.approx(wanted[4], abs=1e-12)
+        for vertex, local in zip(at.tolist(), flat):
+            x, y = turn @ (local + (0 if placement == "center" else 1e-3 * (0.75 - local))) + [1, -2]
+            assert world.vertex_at(x, y, placement=placement) == tuple(vertex)
+    assert world.vertex_at(-50, 3) is None
+    again = pickle.loads(pickle.dumps(grid))
+    assert again == grid and again.world.origin == world.origin
+    assert grid != mediant.Grid(grid.to_numpy())
+    assert grid.edit((0, 0), [[True]]).world.origin == world.origin == grid.for_square(1).world.origin
+
+
+def test_sizes():
+    for shape in ((0, 3), (3, 0), (40000, 1), (1, 40000)):
+        with pytest.raises(mediant.MapError, match="array"):
+            mediant.Grid(np.zeros(shape, dtype=bool))
+    assert mediant.Grid(np.zeros((1, 32768), dtype=bool)).distance((0, 0), (0, 32767)) == 32767
+    assert mediant.Grid(np.zeros((32768, 1), dtype=bool)).distance((0, 0), (32767, 0)) == 32767
+    with pytest.raises(mediant.MapError):
+        mediant.Grid.from_rows(["..", "."])
+    with pytest.raises(mediant.MapError):
+        mediant.Grid.from_rows([])
