@@ -1,0 +1,310 @@
+"""Indexes: saved, sent to other processes and threads, repaired; batches and tables."""
+
+from __future__ import annotations
+
+import multiprocessing
+import pickle
+import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor
+
+import mediant
+import numpy as np
+import pytest
+import slow
+
+SETUPS = [
+    ("astar", {"k": 4}),
+    ("canonical", {"k": 3, "placement": "corner", "gap": "closed"}),
+    ("jps", {"k": 2, "jump_limit": 4}),
+    ("jps-plus", {"k": 3, "corners": "one"}),
+    ("anya", {}),
+    ("subgoal", {"k": 3}),
+    ("subgoal", {"k": "any", "gap": "closed"}),
+    ("subgoal", {"k": 5, "placement": "corner", "levels": "contracted"}),
+    ("subgoal-theta", {"k": 3, "placement": "corner"}),
+    ("hpa", {"side": 6}),
+    ("chpa", {"smooth": "taut"}),
+]
+
+
+def example(rng, shape=(19, 33), count=200, density=0.25):
+    """A grid, starts and goals that are free cells, and so free corners."""
+    blocked = slow.random_map(rng, *shape, density)
+    free = np.argwhere(~blocked)
+    return mediant.Grid(blocked), *free[rng.integers(len(free), size=(2, count))]
+
+
+def assert_same(a, b):
+    """The same `Paths`."""
+    for name in ("points", "offsets", "distances", "statuses"):
+        first, second = getattr(a, name), getattr(b, name)
+        assert (first.dtype, first.shape) == (second.dtype, second.shape)
+        assert np.array_equal(first, second, equal_nan=name == "distances"), name
+
+
+@pytest.mark.parametrize("engine, how", SETUPS)
+def test_setups_travel(rng, tmp_path, engine, how):
+    """Saved and loaded, through bytes and through pickle: the same setup and the same answers."""
+    grid, starts, goals = example(rng)
+    index = grid.prepare(engine, **how)
+    paths = index.paths(starts, goals)
+    assert index.grid == grid and index.engine == engine and index.origin == "prepared"
+    again = pickle.loads(pickle.dumps(index))
+    assert again.grid == grid and again.engine == engine
+    # The text may name options that the first one left to their defaults; it does not change again.
+    assert pickle.loads(pickle.dumps(again)).setup == again.setup
+    assert_same(again.paths(starts, goals), paths)
+    options = {name: value for name, value in how.items() if name not in ("k", "placement", "corners", "gap")}
+    if index.memory_bytes and engine in ("jps-plus", "subgoal", "subgoal-theta", "hpa", "chpa"):
+        index.save(tmp_path / "index")
+        for loaded in (
+            grid.load(tmp_path / "index", **options),
+            grid.load(str(tmp_path / "index"), **options),
+            grid.index_from_bytes(index.to_bytes(), **options),
+        ):
+            assert (loaded.engine, loaded.origin) == (engine, "loaded")
+            assert_same(loaded.paths(starts, goals), paths)
+        with pytest.raises(mediant.MismatchError):
+            grid.edit((0, 0), ~grid.to_numpy()[:1, :1]).load(tmp_path / "index")
+        with pytest.raises(mediant.IndexFileError):
+            grid.index_from_bytes(index.to_bytes()[:-1])
+        damaged = bytearray(index.to_bytes())
+        damaged[len(damaged) // 2] ^= 4
+        with pytest.raises(mediant.MediantError):
+            grid.index_from_bytes(bytes(damaged))
+    else:
+        with pytest.raises(mediant.OptionError):
+            index.to_bytes()
+
+
+def test_missing_index(tmp_path):
+    grid = mediant.Grid.from_rows([".."])
+    with pytest.raises(FileNotFoundError):
+        grid.load(tmp_path / "none")
+    with pytest.raises(mediant.FileError):
+        grid.prepare().save(tmp_path / "no" / "folder")
+
+
+def answer(index, starts, goals):
+    """In another process: many on a pool of threads, a few, one, and what prepares anew."""
+    return (
+        index.paths(starts, goals),
+        index.paths(starts[:2], goals[:2]).distances,
+        index.distance(starts[0], goals[0]),
+        index.grid.prepare("hpa").distances(starts, goals),
+        index.grid.distances(starts[0]),
+        index.grid.path(starts[0], goals[0]),
+    )
+
+
+@pytest.mark.parametrize("method", ["spawn", "fork", "forkserver"])
+def test_processes(rng, method):
+    """A process that was started or forked after the module was used answers, too, and does not hang."""
+    if method not in multiprocessing.get_all_start_methods():
+        pytest.skip(f"no {method} here")
+    grid, starts, goals = example(rng, (70, 90), 3000)
+    index = grid.prepare()
+    here = answer(index, starts, goals)
+    with multiprocessing.get_context(method).Pool(2) as pool:
+        results = [pool.apply_async(answer, (index, starts, goals)) for _ in range(3)]
+        for result in results:
+            there = result.get(timeout=60)
+            assert_same(there[0], here[0])
+            assert all(np.array_equal(a, b) for a, b in zip(there[1:], here[1:]))
+
+
+def test_paths_as_sequence(rng):
+    grid, starts, goals = example(rng, density=0.4)
+    index = grid.prepare()
+    paths = index.paths(starts, goals)
+    assert len(paths) == 200 and repr(paths) == "<mediant.Paths of 200 queries>"
+    assert paths.offsets[0] == 0 and paths.offsets[-1] == len(paths.points)
+    none = 0
+    for i, path in enumerate(paths):
+        alone = index.path(starts[i], goals[i])
+        none += path is None
+        assert (path is None) == (alone is None) == bool(paths.statuses[i] == 1) == np.isinf(paths.distances[i])
+        if path is not None:
+            assert np.array_equal(path, alone) and np.array_equal(paths[i - 200], path)
+            assert path.dtype == np.int32
+            assert np.array_equal(paths.points[paths.offsets[i] : paths.offsets[i + 1]], path)
+        assert paths.distances[i] == index.distance(starts[i], goals[i])
+    assert 0 < none < 150
+    for part in (slice(3, 50, 7), slice(None), slice(None, None, -1), slice(150, 999), slice(5, 5)):
+        assert all(np.array_equal(a, b) for a, b in zip(paths[part], list(paths)[part]))
+        assert len(paths[part]) == len(range(200)[part])
+    for wrong in (200, -201, 2**31):
+        with pytest.raises(IndexError):
+            paths[wrong]
+    assert_same(pickle.loads(pickle.dumps(paths)), paths)
+
+
+def test_no_queries():
+    index = mediant.Grid.from_rows(["..."]).prepare()
+    for starts, goals in [([], []), (np.zeros((0, 2), dtype=int), []), ((0, 0), [])]:
+        paths = index.paths(starts, goals)
+        assert len(paths) == 0 and list(paths) == [] and paths.points.shape == (0, 2)
+        assert paths.offsets.tolist() == [0] and paths.statuses.shape == (0,)
+        assert index.distances(starts, goals).shape == (0,)
+        assert_same(pickle.loads(pickle.dumps(paths)), paths)
+    assert index.table([], [(0, 0)]).shape == (0, 1)
+    assert index.table([(0, 0)], []).shape == (1, 0)
+
+
+@pytest.mark.parametrize("engine, how", SETUPS)
+def test_threads_do_not_matter(rng, engine, how):
+    """On 1, 2, 3 and 8 threads the same arrays; distances and tables agree with them."""
+    grid, starts, goals = example(rng, count=2500)
+    index = grid.prepare(engine, threads=1, **how)
+    paths = index.paths(starts, goals, threads=1)
+    for threads in (2, 3, 8):
+        assert grid.prepare(engine, threads=threads, **how).setup == index.setup
+        assert_same(index.paths(starts, goals, threads=threads), paths)
+        assert np.array_equal(index.distances(starts, goals, threads=threads), paths.distances)
+    table = index.table(starts[:40], goals[:70])
+    assert table.shape == (40, 70)
+    assert np.array_equal(np.diagonal(table), paths.distances[:40])
+    assert table[3, 50] == index.distance(starts[3], goals[50])
+    one = index.paths(starts[0], goals, points="cells")
+    assert np.array_equal(one.distances, index.paths(np.repeat(starts[:1], 2500, axis=0), goals).distances)
+    alone = index.path(starts[0], goals[7], points="cells")
+    assert one[7] is None if alone is None else np.array_equal(one[7], alone)
+
+
+def test_shared_by_threads(rng):
+    """Eight threads ask one index and one grid at the same time."""
+    grid, starts, goals = example(rng, (60, 41), 400)
+    index = grid.prepare()
+    wanted = index.distances(starts, goals).tolist()
+    barrier = threading.Barrier(8)
+
+    def ask(number):
+        barrier.wait()
+        if number % 4 == 0:
+            return index.paths(starts, goals).distances.tolist()
+        if number % 4 == 1:
+            return [grid.distance(a, b, engine="jps") for a, b in zip(starts, goals)]
+        if number % 4 == 2:
+            return [index.find(a, b, counters=True).distance for a, b in zip(starts, goals)]
+        return [index.distance(a, b) for a, b in zip(starts, goals)]
+
+    with ThreadPoolExecutor(8) as pool:
+        for got in pool.map(ask, range(8)):
+            assert got == pytest.approx(wanted)
+
+
+def test_invalid_queries():
+    index = mediant.Grid.from_rows(["..#", "..."]).prepare()
+    starts, goals = [(0, 0), (0, 2), (0, 0), (0, 1)], [(1, 2), (0, 0), (7, 0), (0, 1)]
+    with pytest.raises(mediant.QueryError, match=r"query 1.*\(0, 2\)"):
+        index.paths(starts, goals)
+    with pytest.raises(mediant.QueryError, match=r"query 1"):
+        index.distances(starts, goals)
+    paths = index.paths(starts, goals, invalid="none")
+    assert paths.statuses.tolist() == [0, 4, 4, 0] and paths[1] is None
+    assert np.isnan(paths.distances).tolist() == [False, True, True, False]
+    assert paths[3].tolist()[0] == [0, 1]
+    with pytest.raises(mediant.ArgumentError, match="goals"):
+        index.paths(starts, goals[:3])
+
+
+def test_progress(rng):
+    """Called with growing numbers, and last with all; what it raises ends the call."""
+    grid, starts, goals = example(rng, (150, 130), 20000)
+    index, told = grid.prepare(), []
+    paths = index.paths(starts, goals, progress=lambda done, count: told.append((done, count)))
+    assert told == sorted(told) and told[-1] == (20000, 20000) and {count for _, count in told} == {20000}
+    for call in (index.paths, index.distances, index.table):
+        with pytest.raises(ZeroDivisionError):
+            call(starts[:300], goals[:300], progress=lambda done, count: 1 // 0)
+    assert_same(index.paths(starts, goals), paths)
+
+
+def test_progress_of_preparation():
+    """A long preparation tells its stages; what the callback raises ends it."""
+    blocked = np.random.default_rng(3).random((500, 700)) < 0.1
+    grid, told = mediant.Grid(blocked), []
+    grid.prepare("subgoal", k=3, progress=lambda *args: told.append(args))
+    stages = [stage for stage, _, _ in told]
+    assert set(stages) <= {"edges", "hierarchy"} and stages == sorted(stages)
+    assert all(0 < done <= total for _, done, total in told)
+    assert ("edges", told[0][2], told[0][2]) in told
+    with pytest.raises(KeyError):
+        grid.prepare("subgoal", k=3, progress=lambda *args: {}["no"])
+
+
+@pytest.mark.parametrize("engine, how", SETUPS)
+def test_repair(rng, engine, how):
+    """A repaired index answers as one prepared anew, and the old one as before."""
+    grid, starts, goals = example(rng)
+    index = grid.prepare(engine, **how)
+    before, kept = index.paths(starts, goals), grid.to_numpy()
+    for _ in range(4):
+        row, column = int(rng.integers(15)), int(rng.integers(28))
+        edited = index.grid.edit((row, column), rng.random((4, 5)) < 0.3)
+        repaired = index.repair(edited)
+        assert repaired.grid == edited and repaired.origin in ("repaired", "prepared", "unchanged")
+        new = edited.prepare(engine, **how)
+        assert repaired.setup == new.setup
+        assert_same(
+            repaired.paths(starts, goals, invalid="none"), new.paths(starts, goals, invalid="none")
+        )
+        assert np.array_equal(index.grid.to_numpy(), kept)
+        index, kept = repaired, edited.to_numpy()
+    assert_same(grid.prepare(engine, **how).paths(starts, goals), before)
+    assert index.repair(index.grid).origin == "unchanged" or engine not in ("hpa", "chpa")
+    assert grid.prepare("hpa").repair(edited).origin == "repaired"
+
+
+def test_repair_of_other_sizes():
+    index = mediant.Grid.from_rows(["..", ".."]).prepare("hpa")
+    other = mediant.Grid.from_rows(["...", "..."])
+    try:
+        assert index.repair(other).distance((0, 0), (1, 2)) == pytest.approx(1 + 2**0.5)
+    except mediant.MediantError as error:
+        assert error.code
+
+
+def test_with_options():
+    grid = mediant.Grid(np.zeros((9, 14), dtype=bool))
+    index = grid.prepare("astar", k=3)
+    assert index.with_options(heuristic="euclidean").setup == "astar:3:never,euclidean"
+    assert index.with_options().setup == index.setup
+    taut = index.with_options(smooth="taut")
+    assert taut.distance((0, 0), (8, 13)) < index.distance((0, 0), (8, 13))
+    with pytest.raises(mediant.OptionError):
+        index.with_options(side=4)
+    with pytest.raises(mediant.OptionError):
+        grid.prepare("hpa", side=4).with_options(side=5)
+
+
+def test_facts():
+    index = mediant.Grid(np.zeros((9, 14), dtype=bool)).prepare("subgoal", k=4, placement="corner")
+    assert (index.k, index.placement, index.rule) == (4, "corner", "open")
+    assert index.bound == pytest.approx(mediant.bound(4, placement="corner"))
+    assert index.memory_bytes > 0 and index.guarantee
+    anya = mediant.Grid(np.zeros((9, 14), dtype=bool)).prepare("anya")
+    assert (anya.k, anya.placement, anya.bound) == ("any", "corner", 1.0)
+
+
+def test_immutable():
+    index = mediant.Grid.from_rows(["..."]).prepare()
+    for thing, name in ((index, "engine"), (index.grid, "shape"), (index.find((0, 0), (0, 1)), "path")):
+        with pytest.raises((AttributeError, TypeError)):
+            setattr(thing, name, None)
+    with pytest.raises(TypeError):
+        type(index)()
+
+
+@pytest.mark.skipif(sys.flags.dev_mode, reason="counts references")
+def test_no_leaks(rng):
+    """Arrays go when nobody holds them."""
+    grid, starts, goals = example(rng, count=50)
+    index = grid.prepare()
+    counts = []
+    for _ in range(3):
+        for _ in range(50):
+            index.paths(starts, goals), index.path(starts[0], goals[0]), grid.distances(starts[0])
+        counts.append((sys.getrefcount(starts), sys.getrefcount(None) // 1000, sys.getrefcount(index)))
+    assert counts[1] == counts[2]
