@@ -49,6 +49,8 @@ def _strided(array):
 
 
 def _unaligned(array):
+    if array.dtype.hasobject:
+        return array
     raw = np.zeros(array.nbytes + 1, dtype="u1")[1:]
     part = raw.view(array.dtype).reshape(array.shape) if array.nbytes else array
     part[...] = array
@@ -126,9 +128,14 @@ BASES = [object, int, float, str, list, tuple, dict, bytes, set, np.ndarray]
 
 
 def _method(name, lie):
+    calls = iter(range(9))
+
     def method(self, *_, **__):
         if lie is EvilError:
             raise EvilError(name)
+        # A sequence without an end would be read without an end, by Python itself, too.
+        if name in ("__getitem__", "__next__") and next(calls, None) is None:
+            raise IndexError if name == "__getitem__" else StopIteration
         return lie
 
     return property(method) if name in ("shape", "dtype", "ndim", "_mask", "__array_interface__") else method

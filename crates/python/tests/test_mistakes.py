@@ -22,7 +22,7 @@ from hypothesis import strategies as st  # noqa: E402
 CALLS = [call for call in calls.all_calls() if call.parameters]
 COUNT = int(os.environ.get("MEDIANT_CALLS", "10000"))
 # Words of messages that stand for an argument.
-SYNONYMS = {"side": ["clusters"], "keep_intermediate": ["intermediate"], "gap": ["k = "], "corners": ["k = "]}
+SYNONYMS = {"rows": ["a map of"], "side": ["clusters"], "keep_intermediate": ["intermediate"], "gap": ["k = "], "corners": ["k = "]}
 
 
 @pytest.fixture(scope="module")
@@ -65,6 +65,7 @@ def test_mistakes(things, call):
         max_examples=max(1, COUNT * len(call.parameters) // sum(len(c.parameters) for c in CALLS)),
         deadline=None,
         database=None,
+        derandomize=True,
         suppress_health_check=list(HealthCheck),
     )
     @given(st.dictionaries(st.sampled_from([p.name for p in call.parameters]), mistakes.VALUES, min_size=1, max_size=2))
@@ -76,7 +77,8 @@ def test_mistakes(things, call):
         if error is not None:
             check_error(error, mistaken)
         clean = {name: plain(value) for name, value in mistaken.items()}
-        if all(value is not UNKNOWN for value in clean.values()):
+        # Numbers of NumPy have bytes, too.
+        if "data" not in mistaken and all(value is not UNKNOWN for value in clean.values()):
             wanted, wanted_error = outcome(things, call, {**arguments, **clean})
             assert type(error) is type(wanted_error), (error, wanted_error)
             assert same(result, wanted), (result, wanted)
@@ -148,7 +150,8 @@ def test_numbers_too_long_to_print(things, capfd):
         for parameter in call.parameters:
             for number in (10**5000, -(10**5000)):
                 _, error = outcome(things, call, {**things.good_call(call, [parameter.name]), parameter.name: number})
-                assert isinstance(error, (TypeError, mediant.MediantError, IndexError)), (call, parameter)
+                allowed = (type(None), TypeError, mediant.MediantError, IndexError)
+                assert isinstance(error, allowed), (call, parameter)
     assert capfd.readouterr() == ("", "")
 
 
