@@ -48,7 +48,8 @@ def _typed_dicts(tree):
         if isinstance(node, ast.ClassDef):
             bases = [base.id for base in node.bases if isinstance(base, ast.Name)]
             if "TypedDict" in bases or any(base in known for base in bases):
-                own = {item.target.id: ast.unparse(item.annotation) for item in node.body if hasattr(item, "target")}
+                items = [item for item in node.body if isinstance(item, ast.AnnAssign)]
+                own = {item.target.id: ast.unparse(item.annotation) for item in items}
                 inherited = {name: kind for base in bases for name, kind in known.get(base, {}).items()}
                 known[node.name] = {**inherited, **own}
     return known
@@ -89,8 +90,16 @@ def all_calls():
 
 
 # The engine that takes an option.
-TAKERS = {"jump_limit": "jps", "keep_intermediate": "jps", "levels": "subgoal", "side": "hpa", "variant": "canonical"}
-TAKERS.update({"unstraightened": "hpa", "second": "chpa", "step": "chpa", "detour": "chpa", "heuristic": "astar"})
+TAKERS = {
+    "jump_limit": "jps",
+    "keep_intermediate": "jps",
+    "levels": "subgoal",
+    "side": "hpa",
+    "variant": "canonical",
+}
+TAKERS.update(
+    {"unstraightened": "hpa", "second": "chpa", "step": "chpa", "detour": "chpa", "heuristic": "astar"}
+)
 
 
 class Things:
@@ -105,7 +114,9 @@ class Things:
         self.index.save(folder / "index")
         (folder / "room.pgm").write_text("P2 4 3 255 " + "254 " * 12)
         lines = ["image: room.pgm", "resolution: 0.5", "origin: [1, 2, 0]", "negate: 0"]
-        (folder / "room.yaml").write_text("\n".join([*lines, "occupied_thresh: 0.65", "free_thresh: 0.25", ""]))
+        (folder / "room.yaml").write_text(
+            "\n".join([*lines, "occupied_thresh: 0.65", "free_thresh: 0.25", ""])
+        )
         self.owners = {
             "Grid": self.grid,
             "Index": self.index,

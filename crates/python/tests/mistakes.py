@@ -17,9 +17,15 @@ class EvilError(Exception):
 
 NUMBERS = st.one_of(
     st.sampled_from([-1, 0, 1, 2, 3, 7, 2**31 - 1, 2**31, -(2**31) - 1, 2**63, 2**64, 10**400, -(10**400)]),
-    st.sampled_from([0.5, -0.5, -0.0, 1e300, 1e-300, float("nan"), float("inf"), float("-inf"), 1j, True, False]),
-    st.sampled_from([np.int8(-1), np.uint64(2**64 - 1), np.int64(3), np.float16(1), np.longdouble(2), np.bool_(True)]),
-    st.sampled_from([np.float64("nan"), np.datetime64("2020-01-01"), np.timedelta64(3, "s"), np.complex64(1)]),
+    st.sampled_from(
+        [0.5, -0.5, -0.0, 1e300, 1e-300, float("nan"), float("inf"), float("-inf"), 1j, True, False]
+    ),
+    st.sampled_from(
+        [np.int8(-1), np.uint64(2**64 - 1), np.int64(3), np.float16(1), np.longdouble(2), np.bool_(True)]
+    ),
+    st.sampled_from(
+        [np.float64("nan"), np.datetime64("2020-01-01"), np.timedelta64(3, "s"), np.complex64(1)]
+    ),
     st.builds(fractions.Fraction, st.integers(-9, 9), st.integers(1, 5)),
     st.builds(decimal.Decimal, st.integers(-9, 9)),
     st.integers(-40, 40),
@@ -27,18 +33,60 @@ NUMBERS = st.one_of(
 )
 OTHERS = st.one_of(
     st.none(),
-    st.sampled_from(["", "x", "any", "3", "never", "corner", "astar", "jps-plus", "\ud800", "\0", "ä" * 300, b"", b"x"]),
-    st.sampled_from([bytearray(b"abc"), memoryview(b"abcd"), (), [], {}, set(), frozenset({1}), {1: 2}, range(3), ...]),
-    st.sampled_from([int, str, object(), NotImplemented, np.ma.masked, np, len, [[]], [[1], [1, 2]], [None], ["a", "b"]]),
-    st.sampled_from([(1,), (1, 2, 3), ((1, 2),), (1.0, 2.0), (None, 1), ("1", "2"), [(1, 3), (0, 2**40)], (2**70, 1)]),
+    st.sampled_from(
+        ["", "x", "any", "3", "never", "corner", "astar", "jps-plus", "\ud800", "\0", "ä" * 300, b"", b"x"]
+    ),
+    st.sampled_from(
+        [bytearray(b"abc"), memoryview(b"abcd"), (), [], {}, set(), frozenset({1}), {1: 2}, range(3), ...]
+    ),
+    st.sampled_from(
+        [int, str, object(), NotImplemented, np.ma.masked, np, len, [[]], [[1], [1, 2]], [None], ["a", "b"]]
+    ),
+    st.sampled_from(
+        [(1,), (1, 2, 3), ((1, 2),), (1.0, 2.0), (None, 1), ("1", "2"), [(1, 3), (0, 2**40)], (2**70, 1)]
+    ),
     st.builds(lambda n: (i for i in range(n)), st.integers(0, 3)),
     st.lists(st.tuples(st.integers(-2, 9), st.integers(-2, 9)), max_size=3),
     st.tuples(st.integers(-2, 9), st.integers(-2, 9)),
 )
 
-DTYPES = ["?", "i1", "u1", "<i2", ">i2", "<i4", ">i4", "<u4", "<i8", ">i8", "<u8", "f2", "<f4", "f8", ">f8", "g", "c8"]
+DTYPES = [
+    "?",
+    "i1",
+    "u1",
+    "<i2",
+    ">i2",
+    "<i4",
+    ">i4",
+    "<u4",
+    "<i8",
+    ">i8",
+    "<u8",
+    "f2",
+    "<f4",
+    "f8",
+    ">f8",
+    "g",
+    "c8",
+]
 DTYPES += ["O", "S2", "U2", "M8[s]", "m8[s]", [("a", "i1"), ("p", "i4")], "V3"]
-SHAPES = [(), (0,), (1,), (2,), (3,), (0, 2), (2, 0), (1, 2), (2, 2), (3, 2), (2, 3), (4, 5), (6, 9), (1, 1, 2), (2, 2, 2)]
+SHAPES = [
+    (),
+    (0,),
+    (1,),
+    (2,),
+    (3,),
+    (0, 2),
+    (2, 0),
+    (1, 2),
+    (2, 2),
+    (3, 2),
+    (2, 3),
+    (4, 5),
+    (6, 9),
+    (1, 1, 2),
+    (2, 2, 2),
+]
 
 
 def _strided(array):
@@ -81,7 +129,9 @@ def _mapped(array):
 
 
 def _bool_view(array):
-    return np.asarray(np.where(array != 0, 6, 0).astype("u1")).view(bool) if array.dtype.kind in "biu" else array
+    return (
+        np.asarray(np.where(array != 0, 6, 0).astype("u1")).view(bool) if array.dtype.kind in "biu" else array
+    )
 
 
 LAYOUTS = {
@@ -93,11 +143,15 @@ LAYOUTS = {
     "field": _field,
     "read-only": _read_only,
     "transposed": lambda array: np.ascontiguousarray(array.T).T,
-    "broadcast": lambda array: np.broadcast_to(array[:1], array.shape) if array.ndim and len(array) else array,
+    "broadcast": lambda array: (
+        np.broadcast_to(array[:1], array.shape) if array.ndim and len(array) else array
+    ),
     "mapped": _mapped,
     "matrix": lambda array: np.matrix(array) if array.ndim == 2 and array.dtype.kind in "biuf" else array,
     "masked": lambda array: np.ma.masked_array(array, mask=False) if array.dtype.kind in "biuf" else array,
-    "with a mask": lambda array: np.ma.masked_array(array, mask=True) if array.dtype.kind in "biuf" else array,
+    "with a mask": lambda array: (
+        np.ma.masked_array(array, mask=True) if array.dtype.kind in "biuf" else array
+    ),
     "bool view": _bool_view,
 }
 
@@ -120,10 +174,54 @@ def arrays(draw):
     return LAYOUTS[draw(st.sampled_from(sorted(LAYOUTS)))](np.asarray(array))
 
 
-LIES = [None, -1, 0, 1, 3, 2**31, 2**62, 2**70, "x", 0.5, float("nan"), [], (1, 3), np.zeros((2, 2)), EvilError]
-MAGIC = ["__index__", "__int__", "__float__", "__len__", "__array__", "__iter__", "__getitem__", "__str__", "__repr__"]
-MAGIC += ["__bool__", "__fspath__", "__call__", "__eq__", "__hash__", "__contains__", "__next__", "__array_interface__"]
-MAGIC += ["__buffer__", "__array_struct__", "__array_ufunc__", "shape", "dtype", "ndim", "_mask", "__complex__"]
+LIES = [
+    None,
+    -1,
+    0,
+    1,
+    3,
+    2**31,
+    2**62,
+    2**70,
+    "x",
+    0.5,
+    float("nan"),
+    [],
+    (1, 3),
+    np.zeros((2, 2)),
+    EvilError,
+]
+MAGIC = [
+    "__index__",
+    "__int__",
+    "__float__",
+    "__len__",
+    "__array__",
+    "__iter__",
+    "__getitem__",
+    "__str__",
+    "__repr__",
+]
+MAGIC += [
+    "__bool__",
+    "__fspath__",
+    "__call__",
+    "__eq__",
+    "__hash__",
+    "__contains__",
+    "__next__",
+    "__array_interface__",
+]
+MAGIC += [
+    "__buffer__",
+    "__array_struct__",
+    "__array_ufunc__",
+    "shape",
+    "dtype",
+    "ndim",
+    "_mask",
+    "__complex__",
+]
 BASES = [object, int, float, str, list, tuple, dict, bytes, set, np.ndarray]
 
 

@@ -15,7 +15,8 @@ import numpy as np
 import scipy.sparse
 import scipy.sparse.csgraph
 
-RULES = [("center", "never"), ("center", "one"), ("center", "always"), ("corner", "open"), ("corner", "closed")]
+RULES = [("center", "never"), ("center", "one"), ("center", "always"), ("corner", "open")]
+RULES += [("corner", "closed")]
 
 
 def motion(rule):
@@ -42,7 +43,7 @@ def moves(k):
 
 
 def _spans(length, low, high):
-    """When a point that goes from 0 to `length` in unit time is strictly between low and high; None if never."""
+    """When a point going from 0 to `length` in unit time is strictly between low and high; None if never."""
     if length == 0:
         return (Fraction(0), Fraction(1)) if low < 0 < high else None
     first, last = sorted((Fraction(low) / length, Fraction(high) / length))
@@ -53,8 +54,8 @@ def _spans(length, low, high):
 def footprint(placement, dr, dc):
     """What a segment from (0, 0) to (dr, dc) needs.
 
-    Returns the cells whose interior it enters, the pairs of cells beside the corners that it passes through (at
-    centers) or beside the edges that it runs along (at corners), and the vertices that it passes through.
+    Returns the cells whose interior it enters, the pairs of cells beside the corners that it passes through
+    (at centers) or beside the edges that it runs along (at corners), and the vertices that it passes through.
     """
     half = Fraction(1, 2) if placement == "center" else Fraction(0)
     entered, beside, passed = [], [], []
@@ -72,8 +73,8 @@ def footprint(placement, dr, dc):
             passed.append((row, column))
             if placement == "center":
                 same = (dr > 0) == (dc > 0)
-                pair = [(row - 1, column), (row, column - 1)] if same else [(row - 1, column - 1), (row, column)]
-                beside.append(tuple(pair))
+                falling = ((row - 1, column), (row, column - 1))
+                beside.append(falling if same else ((row - 1, column - 1), (row, column)))
     if placement == "corner" and (dr == 0) != (dc == 0):
         for step in range(abs(dr + dc)):
             along = step if dr + dc > 0 else -1 - step
@@ -133,7 +134,8 @@ class Slow:
     def graph(self, k):
         """The graph of legal moves, as a matrix of lengths; its nodes are vertices in a quadrant."""
         vertices = [at for at in self.vertices() if self.is_free(at)]
-        states = {(at, q): i for i, (at, q) in enumerate((at, q) for at in vertices for q in self.quadrants(at))}
+        pairs = ((at, q) for at in vertices for q in self.quadrants(at))
+        states = {pair: i for i, pair in enumerate(pairs)}
         data, ends = [], []
         for start in vertices:
             if k == "any":
@@ -152,7 +154,8 @@ class Slow:
         return states, scipy.sparse.csr_matrix((data, (ends[:, 0], ends[:, 1])), shape=(size, size))
 
     def distances(self, k, sources):
-        """The distances of all vertices from each source; a path ends at a gap in the quadrant of its cell."""
+        """The distances of all vertices from each source."""
+        # A path ends at a closed gap in the quadrant of the vertex's own cell.
         states, graph = self.graph(k)
         own = {at: states.get((at, q)) for at, q in states if q in (None, (0, 0))}
         result = np.full((len(sources), *self.shape), np.inf)
@@ -168,7 +171,7 @@ class Slow:
     def is_path(self, path, k="any"):
         """Why an array is no path over N(k), if it is none."""
         path = [tuple(map(int, at)) for at in path]
-        for a, b in itertools.pairwise(path) if hasattr(itertools, "pairwise") else zip(path, path[1:]):
+        for a, b in zip(path, path[1:]):
             d = (b[0] - a[0], b[1] - a[1])
             times = math.gcd(*d)
             if times == 0 or (k != "any" and (d[0] // times, d[1] // times) not in moves(k)):

@@ -54,7 +54,7 @@ def check_steps(oracle, k, field, target):
         if wanted[at] == 0:
             assert after == at and (flow[at] == 0).all()
         else:
-            assert oracle.is_path([at, after], k if k == "any" else k) is None or oracle.name == "closed"
+            assert oracle.is_path([at, after], k) is None or oracle.name == "closed"
             assert math.dist(at, after) + wanted[after] == pytest.approx(wanted[at], abs=1e-7)
             straight = np.array(after) - at
             assert flow[at] == pytest.approx(straight / np.hypot(*straight), abs=1e-9)
@@ -90,7 +90,10 @@ def test_clearance(rng, seed):
     for outside in ("open", "blocked"):
         for fit in ("centers", "whole-cells"):
             wanted = slow_clearance(blocked, fit, outside)
-            assert grid.clearance(fit=fit, outside=outside) == pytest.approx(wanted, abs=1e-12), (fit, outside)
+            assert grid.clearance(fit=fit, outside=outside) == pytest.approx(wanted, abs=1e-12), (
+                fit,
+                outside,
+            )
     assert np.array_equal(grid.clearance(), grid.clearance(fit="centers", outside="blocked"))
 
 
@@ -129,9 +132,10 @@ def test_for_disc(rng, rule):
     for radius in (0, 0.5, 0.500001, 1, 1.5, math.sqrt(5), 2.5):
         for outside in ("open", "blocked"):
             for fit in ("centers", "whole-cells"):
-                # Exactly: squares are multiples of a quarter. This float is a little larger than the root of 5.
+                # Exactly: squares are multiples of a quarter, and sqrt(5) is a little too large.
                 squares = 4 * slow_clearance(blocked, fit, outside) ** 2
-                fits = np.vectorize(lambda square: round(square) >= 4 * Fraction(radius) ** 2)(squares)
+                least = math.ceil(4 * Fraction(radius) ** 2)
+                fits = np.round(squares) >= least
                 disc = grid.for_disc(radius, fit=fit, outside=outside, **slow.motion(rule))
                 assert np.array_equal(disc.to_numpy(), ~fits | blocked), (radius, outside, fit)
 
@@ -163,7 +167,9 @@ def nearest_obstacle(points, blocked):
     outside = np.min([points[:, 0], points[:, 1], rows - points[:, 0], columns - points[:, 1]], axis=0)
     cells = np.argwhere(blocked)
     beyond = np.maximum(np.maximum(cells - points[:, None], points[:, None] - cells - 1), 0)
-    return np.minimum(np.maximum(outside, 0), np.hypot(beyond[..., 0], beyond[..., 1]).min(axis=1, initial=np.inf))
+    return np.minimum(
+        np.maximum(outside, 0), np.hypot(beyond[..., 0], beyond[..., 1]).min(axis=1, initial=np.inf)
+    )
 
 
 def test_for_square(rng):

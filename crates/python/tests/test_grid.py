@@ -36,7 +36,7 @@ def test_arrays_of_all_kinds(rng):
         assert grid.shape == (6, 11)
         assert np.array_equal(grid.to_numpy(), blocked)
         assert np.array_equal(np.asarray(grid), blocked)
-        assert repr(grid) == f"<mediant.Grid of 6 × 11 cells, {blocked.sum()} blocked>"
+        assert repr(grid) == f"<mediant.Grid of 6 \u00d7 11 cells, {blocked.sum()} blocked>"
     broadcast = mediant.Grid(np.broadcast_to(blocked[:1], (6, 11)))
     assert np.array_equal(broadcast.to_numpy(), np.repeat(blocked[:1], 6, axis=0))
 
@@ -67,8 +67,12 @@ def test_criteria_are_exact():
     large = np.array([[2**53, 2**53 + 1, 2**53 + 2]])
     for dtype in (np.int64, np.uint64):
         assert mediant.Grid(large.astype(dtype), above=2**53).to_numpy().tolist() == [[False, True, True]]
-        assert mediant.Grid(large.astype(dtype), below=2**53 + 1).to_numpy().tolist() == [[True, False, False]]
-        assert mediant.Grid(large.astype(dtype), values=[2**53 + 1]).to_numpy().tolist() == [[False, True, False]]
+        assert mediant.Grid(large.astype(dtype), below=2**53 + 1).to_numpy().tolist() == [
+            [True, False, False]
+        ]
+        assert mediant.Grid(large.astype(dtype), values=[2**53 + 1]).to_numpy().tolist() == [
+            [False, True, False]
+        ]
 
 
 def test_nan():
@@ -114,7 +118,13 @@ def test_edit(rng):
         assert np.array_equal(grid.to_numpy(), wanted)
         assert before.edit((row, column), np.zeros((0, 1), dtype=bool)) == before
     assert np.array_equal(mediant.Grid(blocked).to_numpy(), blocked)
-    for at, shape in [((0, 0), (9, 1)), ((0, 0), (1, 16)), ((7, 14), (2, 1)), ((-1, 0), (1, 1)), ((8, 0), (1, 1))]:
+    for at, shape in [
+        ((0, 0), (9, 1)),
+        ((0, 0), (1, 16)),
+        ((7, 14), (2, 1)),
+        ((-1, 0), (1, 1)),
+        ((8, 0), (1, 1)),
+    ]:
         with pytest.raises(mediant.MapError, match="at"):
             grid.edit(at, np.zeros(shape, dtype=bool))
 
@@ -187,7 +197,7 @@ def test_errors_say_row_and_column():
         grid.prepare().paths((0, 0), [(0, 1), (1, 6)])
     with pytest.raises(mediant.BrokenPathError, match=r"\(1, 6\)"):
         grid.check([(1, 0), (1, 7)])
-    with pytest.raises(mediant.QueryError, match="3|8"):
+    with pytest.raises(mediant.QueryError, match=r"\(8, 3\)"):
         grid.field((8, 3))
 
 

@@ -124,7 +124,9 @@ def test_paths_as_sequence(rng):
     for i, path in enumerate(paths):
         alone = index.path(starts[i], goals[i])
         none += path is None
-        assert (path is None) == (alone is None) == bool(paths.statuses[i] == 1) == np.isinf(paths.distances[i])
+        assert (
+            (path is None) == (alone is None) == bool(paths.statuses[i] == 1) == np.isinf(paths.distances[i])
+        )
         if path is not None:
             assert np.array_equal(path, alone) and np.array_equal(paths[i - 200], path)
             assert path.dtype == np.int32
@@ -247,9 +249,7 @@ def test_repair(rng, engine, how):
         assert repaired.grid == edited and repaired.origin in ("repaired", "prepared", "unchanged")
         new = edited.prepare(engine, **how)
         assert repaired.setup == new.setup
-        assert_same(
-            repaired.paths(starts, goals, invalid="none"), new.paths(starts, goals, invalid="none")
-        )
+        assert_same(repaired.paths(starts, goals, invalid="none"), new.paths(starts, goals, invalid="none"))
         assert np.array_equal(index.grid.to_numpy(), kept)
         index, kept = repaired, edited.to_numpy()
     assert_same(grid.prepare(engine, **how).paths(starts, goals), before)

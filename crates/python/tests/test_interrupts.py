@@ -38,8 +38,8 @@ start, goal = (0, side - 1), (side - 1, side - 1)
 ends = [start, goal]
 """
 
-# What is prepared before the call, which is interrupted. The first search of a planner makes its scratch memory,
-# which cannot be interrupted: `first` may take longer.
+# What is prepared before the call, which is interrupted. The first search of a planner makes its scratch
+# memory, which cannot be interrupted: `first` may take longer.
 CALLS = {
     "first": ("index = grid.prepare('astar', k=5)", "index.path(start, goal)"),
     "astar": ("index = grid.prepare('astar', k=5)", "index.path(start, goal)"),
@@ -51,7 +51,10 @@ CALLS = {
     "timeout": ("index = grid.prepare('astar', k=5)", "index.path(start, goal, timeout=1000)"),
     "counters": ("index = grid.prepare('astar', k=5)", "index.find(start, goal, counters=True)"),
     "grid": ("grid.path((0, 0), (0, 0), k=5)", "grid.distance(start, goal, k=5)"),
-    "prepare": ("index = mediant.Grid(blocked[:64, :64]).prepare()", "grid.prepare('subgoal', k=4, placement='corner')"),
+    "prepare": (
+        "index = mediant.Grid(blocked[:64, :64]).prepare()",
+        "grid.prepare('subgoal', k=4, placement='corner')",
+    ),
     "prepare-jps": ("", "grid.prepare('jps-plus')"),
     "batch": ("index = grid.prepare('astar', k=4)", "index.paths([start] * 99, [goal] * 99)"),
     "small-batch": (
@@ -61,7 +64,10 @@ CALLS = {
     "table": ("index = grid.prepare('astar', k=4)", "index.table(ends, ends)"),
     "field": ("", "grid.field(start, k=6)"),
     "any-angle field": ("", "grid.field(start, k='any')"),
-    "space": ("", "mediant.Grid(blocked).is_free(start)\nwhile True: mediant.Grid(blocked[:9]).is_free(start)"),
+    "space": (
+        "",
+        "mediant.Grid(blocked).is_free(start)\nwhile True: mediant.Grid(blocked[:9]).is_free(start)",
+    ),
     "widest": ("", "grid.widest_path(start, goal, surplus=0.5, k=4)"),
 }
 
@@ -96,7 +102,9 @@ def test_interrupt(name, record_property):
     prepare, call = CALLS[name]
     call = textwrap.indent(call, "    ").strip()
     program = PROGRAM.format(setup=SETUP, prepare=prepare, call=call, delay=0.1, is_warm=name != "first")
-    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=False)
+    run = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=False
+    )
     assert run.returncode == 0, run.stderr
     what, seconds = json.loads(run.stdout)
     record_property("seconds", seconds)

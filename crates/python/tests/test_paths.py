@@ -48,7 +48,7 @@ def queries(rng, oracle, count):
 
 @pytest.mark.parametrize("trial", range(4))
 def test_all_engines(rng, trial):
-    """Each engine under each motion that it takes: shortest, or legal and not shorter; the same reachability."""
+    """Each engine under each motion that it takes: shortest, or legal and not shorter."""
     rows, columns = [(9, 15), (14, 6), (7, 21), (12, 11)][trial]
     blocked = slow.random_map(rng, rows, columns, [0.15, 0.3, 0.4, 0.3][trial])
     grid, taken, found = mediant.Grid(blocked), Counter(), Counter()
@@ -129,7 +129,7 @@ def cells_of(oracle, path):
 
 
 class CellRuns:
-    """Sets of cells, one for each segment, of which each segment's come in some order that does not matter."""
+    """Sets of cells, one for each segment, whose order does not matter."""
 
     def __init__(self, runs, alone):
         self.runs, self.alone = runs, alone
@@ -207,7 +207,12 @@ def test_nearest_and_snap(rng):
             wanted = min(distances[at] for at in reached if direct[at] < least + 1e-7)
             if oracle.is_free(goal):
                 answer = grid.find(start, goal, nearest=True, k=k)
-                assert answer.distance == pytest.approx(wanted, abs=1e-7), (k, start, goal, blocked.astype(int))
+                assert answer.distance == pytest.approx(wanted, abs=1e-7), (
+                    k,
+                    start,
+                    goal,
+                    blocked.astype(int),
+                )
                 statuses[answer.status] += 1
                 assert (answer.status == "found") == (least == 0)
             free = [at for at in oracle.vertices() if oracle.is_free(at)]

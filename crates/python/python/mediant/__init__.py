@@ -19,6 +19,8 @@ Examples
 
 from __future__ import annotations
 
+from typing import Final
+
 from ._mediant import Answer, Field, Grid, Index, Paths, World, __version__, bound, moves
 from .errors import (
     ArgumentError,
@@ -37,7 +39,7 @@ from .errors import (
 N4, N8, N16, N32, N64 = 2, 3, 4, 5, 6
 """The k of 4, 8, 16, 32 and 64 directions."""
 
-ANY = "any"
+ANY: Final = "any"
 """The k of any angle."""
 
 __all__ = [

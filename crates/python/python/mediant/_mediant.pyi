@@ -1,12 +1,14 @@
 """The types of the compiled module. What each item does is in its docstring: `help(mediant.Grid)`."""
 
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, Literal, SupportsFloat, SupportsIndex, final, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self, TypeAlias, TypedDict, Unpack
+
+__all__ = ["Answer", "Field", "Grid", "Index", "Paths", "World", "__version__", "bound", "moves"]
 
 Point: TypeAlias = Sequence[SupportsIndex] | NDArray[np.integer[Any]]
 """A vertex: (row, column)."""
@@ -91,7 +93,7 @@ class Grid:
     def open(
         path: str | os.PathLike[str],
         *,
-        threshold: str | SupportsFloat = "0.5",
+        threshold: str | SupportsFloat = 0.5,
         invert: bool = False,
         unknown: Literal["blocked", "free"] = "blocked",
     ) -> Grid: ...
@@ -281,6 +283,7 @@ class Paths:
     def __getitem__(self, index: SupportsIndex, /) -> NDArray[np.int32] | None: ...
     @overload
     def __getitem__(self, index: slice, /) -> list[NDArray[np.int32] | None]: ...
+    def __iter__(self) -> Iterator[NDArray[np.int32] | None]: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
 
 @final

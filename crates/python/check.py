@@ -1,0 +1,108 @@
+"""Tests the package in a fresh virtual environment: `python3 crates/python/check.py dist`.
+
+It takes a wheel, or the folder that has one. `--long` makes 300,000 mistaken calls instead of 10,000, `--cluster`
+tests Dask and Ray, too. `--keep` takes the environment of the last run. It ends at the first failure.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import time
+import venv
+
+HERE = pathlib.Path(__file__).resolve().parent
+ENVIRONMENT = HERE.parent.parent / "target" / "python-check"
+ALLOWED = HERE / "tests" / "typed" / "unchecked_by_runtime.txt"
+
+
+def run(title: str, command: list[str], **variables: str) -> None:
+    """Runs a command in the folder of the package; ends the program if it fails."""
+    print(f"== {title}: {' '.join(command[1:])}", flush=True)
+    begin = time.monotonic()
+    # The wheel is tested, not the sources: their folder is on no path.
+    environment = {
+        name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "MYPY"))
+    }
+    status = subprocess.run(command, cwd=HERE, env={**environment, **variables}, check=False).returncode
+    print(f"== {time.monotonic() - begin:.1f} s", flush=True)
+    if status != 0:
+        sys.exit(f"{title}: failed")
+
+
+def wheel_of(place: pathlib.Path) -> pathlib.Path:
+    """The wheel, or the newest one in the folder."""
+    wheels = sorted(place.glob("mediant-*.whl"), key=os.path.getmtime) if place.is_dir() else [place]
+    if not wheels or not wheels[-1].is_file():
+        sys.exit(
+            f"{place}: no wheel; make one by `python3 -m pip wheel --no-deps --wheel-dir dist ./crates/python`"
+        )
+    return wheels[-1].resolve()
+
+
+def prepare(wheel: pathlib.Path, extras: str, keep: bool) -> str:
+    """The interpreter of the environment, with the wheel and what its tests need."""
+    if ENVIRONMENT.exists() and not keep:
+        shutil.rmtree(ENVIRONMENT)
+    if not ENVIRONMENT.exists():
+        print(f"== A fresh environment of Python {sys.version.split()[0]}", flush=True)
+        venv.create(ENVIRONMENT, with_pip=True)
+    python = str(ENVIRONMENT / ("Scripts/python.exe" if os.name == "nt" else "bin/python"))
+    pip = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    run("The wheel and what its tests need", [*pip, f"{wheel}[{extras}]"])
+    run("The wheel itself", [*pip, "--force-reinstall", "--no-deps", str(wheel)])
+    return python
+
+
+def run_readme(python: str) -> None:
+    """Runs the Python examples of the README, one after the other in one program, each in a folder of its own."""
+    blocks = re.findall(
+        r"^```python\n(.*?)^```", (HERE / "README.md").read_text(encoding="utf-8"), re.S | re.M
+    )
+    folder = ENVIRONMENT / "readme"
+    folder.mkdir(exist_ok=True)
+    for number, block in enumerate(blocks, 1):
+        name = folder / f"example_{number}.py"
+        name.write_text(f"import os\nos.chdir({str(folder)!r})\n{block}", encoding="utf-8")
+        run(f"README, example {number} of {len(blocks)}", [python, str(name)], MPLBACKEND="agg")
+    if not blocks:
+        sys.exit("README.md: no examples found")
+
+
+def main() -> None:
+    """Does it all."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
+    parser.add_argument("wheel", type=pathlib.Path, help="a wheel, or the folder that has it")
+    parser.add_argument("--long", action="store_true", help="300,000 mistaken calls")
+    parser.add_argument("--cluster", action="store_true", help="test Dask and Ray, too")
+    parser.add_argument("--keep", action="store_true", help="take the environment of the last run")
+    wishes = parser.parse_args()
+    extras = "test,plot,batch" + (",dask,ray" if wishes.cluster else "")
+    python = prepare(wheel_of(wishes.wheel), extras, wishes.keep)
+    module = [python, "-m"]
+    is_new = sys.version_info >= (3, 10)
+    if is_new:
+        run("Style", [*module, "ruff", "check", "."])
+        run("Format", [*module, "ruff", "format", "--check", "."])
+        run("Types", [*module, "mypy", "--config-file", "pyproject.toml", "-p", "mediant"])
+        run(
+            "Types of a program",
+            [*module, "mypy", "--config-file", "pyproject.toml", "tests/typed/example.py"],
+        )
+        stubtest = ["mypy.stubtest", "mediant", "--mypy-config-file", "pyproject.toml"]
+        run("The stub", [*module, *stubtest, "--allowlist", str(ALLOWED)])
+    calls = "300000" if wishes.long else os.environ.get("MEDIANT_CALLS", "10000")
+    run("Tests and examples of docstrings", [*module, "pytest", "tests"], MEDIANT_CALLS=calls)
+    run_readme(python)
+    if wishes.cluster:
+        run("Clusters", [*module, "pytest", "tests/cluster"])
+    print("== All is well")
+
+
+if __name__ == "__main__":
+    main()
