@@ -1,7 +1,8 @@
 """Tests the package in a fresh virtual environment: `python3 crates/python/check.py dist`.
 
-It takes a wheel, or the folder that has one. `--long` makes 300,000 mistaken calls instead of 10,000, `--cluster`
-tests Dask and Ray, too. `--keep` takes the environment of the last run. It ends at the first failure.
+It takes a wheel, or the folder that has one. `--long` makes 300,000 mistaken calls instead of 10,000,
+`--cluster` tests Dask and Ray, too. `--keep` takes the environment of the last run. It ends at the first
+failure.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ ALLOWED = HERE / "tests" / "typed" / "unchecked_by_runtime.txt"
 
 
 def run(title: str, command: list[str], **variables: str) -> None:
-    """Runs a command in the folder of the package; ends the program if it fails."""
+    """Run a command in the folder of the package; end the program if it fails."""
     print(f"== {title}: {' '.join(command[1:])}", flush=True)
     begin = time.monotonic()
     # The wheel is tested, not the sources: their folder is on no path.
@@ -36,17 +37,15 @@ def run(title: str, command: list[str], **variables: str) -> None:
 
 
 def wheel_of(place: pathlib.Path) -> pathlib.Path:
-    """The wheel, or the newest one in the folder."""
+    """Find the wheel, or the newest one in the folder."""
     wheels = sorted(place.glob("mediant-*.whl"), key=os.path.getmtime) if place.is_dir() else [place]
     if not wheels or not wheels[-1].is_file():
-        sys.exit(
-            f"{place}: no wheel; make one by `python3 -m pip wheel --no-deps --wheel-dir dist ./crates/python`"
-        )
+        sys.exit(f"{place}: no wheel; see README.md how to make one")
     return wheels[-1].resolve()
 
 
 def prepare(wheel: pathlib.Path, extras: str, keep: bool) -> str:
-    """The interpreter of the environment, with the wheel and what its tests need."""
+    """Install the wheel and what its tests need; return the interpreter."""
     if ENVIRONMENT.exists() and not keep:
         shutil.rmtree(ENVIRONMENT)
     if not ENVIRONMENT.exists():
@@ -60,7 +59,7 @@ def prepare(wheel: pathlib.Path, extras: str, keep: bool) -> str:
 
 
 def run_readme(python: str) -> None:
-    """Runs the Python examples of the README, one after the other in one program, each in a folder of its own."""
+    """Run the Python examples of the README, each as a program of its own."""
     blocks = re.findall(
         r"^```python\n(.*?)^```", (HERE / "README.md").read_text(encoding="utf-8"), re.S | re.M
     )
@@ -75,7 +74,7 @@ def run_readme(python: str) -> None:
 
 
 def main() -> None:
-    """Does it all."""
+    """Do it all."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
     parser.add_argument("wheel", type=pathlib.Path, help="a wheel, or the folder that has it")
     parser.add_argument("--long", action="store_true", help="300,000 mistaken calls")
@@ -85,8 +84,7 @@ def main() -> None:
     extras = "test,plot,batch" + (",dask,ray" if wishes.cluster else "")
     python = prepare(wheel_of(wishes.wheel), extras, wishes.keep)
     module = [python, "-m"]
-    is_new = sys.version_info >= (3, 10)
-    if is_new:
+    if sys.version_info >= (3, 10):  # mypy runs on these.
         run("Style", [*module, "ruff", "check", "."])
         run("Format", [*module, "ruff", "format", "--check", "."])
         run("Types", [*module, "mypy", "--config-file", "pyproject.toml", "-p", "mediant"])
