@@ -81,7 +81,7 @@ def main() -> None:
     parser.add_argument("--cluster", action="store_true", help="test Dask and Ray, too")
     parser.add_argument("--keep", action="store_true", help="take the environment of the last run")
     wishes = parser.parse_args()
-    extras = "test,plot,batch" + (",dask,ray" if wishes.cluster else "")
+    extras = "test,plot,batch,dask" + (",ray" if wishes.cluster else "")
     python = prepare(wheel_of(wishes.wheel), extras, wishes.keep)
     module = [python, "-m"]
     if sys.version_info >= (3, 10):  # mypy runs on these.

@@ -61,6 +61,9 @@ def test_examples(name):
         pytest.importorskip("matplotlib").use("agg")
     if name.startswith("mediant.batch"):
         pytest.importorskip("pyarrow")
+    for cluster in ("dask", "ray"):
+        if name.startswith(f"mediant.batch.on_{cluster}"):
+            pytest.importorskip(cluster)
     output = []
     test = PARSER.get_doctest(TEXTS[name], {}, name, None, None)
     result = RUNNER(optionflags=FLAGS).run(test, out=output.append)
