@@ -106,8 +106,8 @@ def check_error(error, mistaken):
     if isinstance(error, mistakes.EvilError) or any(callable(value) for value in mistaken.values()):
         return
     assert isinstance(error, (TypeError, mediant.MediantError, IndexError)), repr(error)
-    if isinstance(error, (mediant.LimitReached, mediant.IndexFileError)):
-        return  # An answer, and what is wrong within a file or bytes.
+    if isinstance(error, (mediant.LimitReached, mediant.IndexFileError, mediant.FileError)):
+        return  # An answer, and what is wrong with a file, which is named, or within bytes.
     text = " ".join([str(error), *getattr(error, "__notes__", [])])
     names = [
         name for argument in mistaken for name in (argument, argument.rstrip("s"), argument.replace("_", " "))
