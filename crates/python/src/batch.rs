@@ -26,6 +26,9 @@ use crate::{
 const STATUSES: [&str; 5] = ["found", "unreachable", "nearest", "stopped", "invalid"];
 const INVALID: u8 = 4;
 
+/// The most distances in a table: of 16 GiB.
+const MOST_IN_TABLE: usize = 1 << 31;
+
 /// The answers of `Index.paths`, in the order of the queries: a sequence of arrays or None, in flat arrays.
 ///
 /// Attributes
@@ -397,6 +400,10 @@ pub(crate) fn table<'py>(
     let placement = planners.index().setup().rules.placement();
     let (starts, goals) = (starts.into_vec(), goals.into_vec());
     let shape = (starts.len(), goals.len());
+    if shape.0.checked_mul(shape.1).is_none_or(|count| count > MOST_IN_TABLE) {
+        let wrong = format!("a table of {} × {} distances: at most {MOST_IN_TABLE} fit", shape.0, shape.1);
+        return Err(argument("goals", &wrong));
+    }
     let add = move |chunk: &mut Chunk, answer| chunk.add(&answer, None, placement);
     let chunks = batch.run(py, planners, Queries::Table { starts, goals }, add)?;
     check(&chunks)?;

@@ -308,3 +308,10 @@ def test_no_leaks(rng):
             index.paths(starts, goals), index.path(starts[0], goals[0]), grid.distances(starts[0])
         counts.append((sys.getrefcount(starts), sys.getrefcount(None) // 1000, sys.getrefcount(index)))
     assert counts[1] == counts[2]
+
+
+def test_a_table_that_has_no_room():
+    index = mediant.Grid.from_rows(["..."]).prepare()
+    many = np.zeros((50_000, 2), dtype=np.int32)
+    with pytest.raises(mediant.ArgumentError, match=r"^goals: a table of 50000"):
+        index.table(many, many)

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use mediant::{
-    CornerRule, Counters, Engine, Error, ErrorCode, Identity, K, Map, Motion, Observer, Origin, Outcome,
-    Planner, Query, QueryError, Rectangle, Rules, Setup, Space, files::ImageOptions,
+    Choice, CornerRule, Counters, Engine, Error, ErrorCode, Identity, K, Map, Motion, Observer, Origin,
+    Outcome, Planner, Query, QueryError, Rectangle, Rules, Setup, Space, files::ImageOptions,
 };
 use mediant_formats::IndexFile;
 use mediant_oracle::{Rng, caves};
@@ -99,6 +99,9 @@ fn the_chosen_engine_finds_shortest_paths() {
                 space.motion(),
                 space.engine()
             );
+            for choice in [Choice::for_some_paths(k), Choice::for_one_path(k)] {
+                assert!((cost(choice.engine) - best).abs() < 1e-9, "{}: {choice}", space.motion());
+            }
             let now = space.path(query.start, query.goal).expect("both ends are free").expect("there is one");
             assert!((now.cost() - best).abs() < 1e-9, "{}", space.motion());
         }
