@@ -124,15 +124,16 @@ fn comparable<'py>(
     if number.is_nan() {
         return Err(argument(name, "expected a number, found nan"));
     }
-    let float = PyFloat::new(py, number);
     if array.dtype().kind() == b'f' || number.is_infinite() {
-        return Ok(float.into_any());
+        // An array of one, since NumPy would round a single number to the type of a smaller float.
+        return numpy_function(py, "array")?.call1((PyList::new(py, [number])?, "float64"));
     }
     let whole = if is_above { number.floor() } else { number.ceil() };
     PyFloat::new(py, whole).call_method0("__int__")
 }
 
-/// A value in the type of an array; `None` for one that no item of the array can have.
+/// A value in the type of an array, rounded to it (0.1 of 32 bits is not 0.1 of 64); `None` for one that no
+/// item of the array can have.
 fn value_in<'py>(
     value: &Bound<'py, PyAny>,
     array: &Bound<'py, PyUntypedArray>,
@@ -140,7 +141,9 @@ fn value_in<'py>(
     let (py, dtype) = (value.py(), array.dtype());
     let float = number("values", value)?;
     if dtype.kind() == b'f' {
-        return Ok(Some(PyFloat::new(py, float).into_any()));
+        let most = numpy_function(py, "finfo")?.call1((dtype,))?.getattr("max")?;
+        let fits = float.is_infinite() || float.abs() <= number("values", &most)?;
+        return Ok(fits.then(|| PyFloat::new(py, float).into_any()));
     }
     let whole = match value.cast::<PyInt>() {
         Ok(whole) => whole.clone().into_any(),

@@ -256,3 +256,12 @@ def test_sizes():
         mediant.Grid.from_rows(["..", "."])
     with pytest.raises(mediant.MapError):
         mediant.Grid.from_rows([])
+
+
+def test_small_floats_are_not_rounded_to():
+    a = np.array([[np.inf, 2048.0, 1.0]], "f2")
+    assert mediant.Grid(a, above=1e6).to_numpy().tolist() == [[True, False, False]]
+    assert mediant.Grid(a, below=2049).to_numpy().tolist() == [[False, True, True]]
+    assert not mediant.Grid(a, values=[1e6]).to_numpy().any()
+    assert mediant.Grid(a, values=[np.inf]).to_numpy().tolist() == [[True, False, False]]
+    assert mediant.Grid(np.array([[0.1]], "f4"), values=[0.1]).to_numpy().all()

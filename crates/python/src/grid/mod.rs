@@ -31,7 +31,8 @@ use crate::{
 /// below : float, optional
 ///     Cells with a smaller value are blocked.
 /// values : iterable of float, optional
-///     Cells with one of these values are blocked. ``nan`` among them stands for all that are no number.
+///     Cells with one of these values, in the array's type, are blocked. ``nan`` among them stands for all
+///     that are no number.
 ///
 /// Attributes
 /// ----------
