@@ -1,12 +1,12 @@
 //! The compiled part of the Python package `mediant`: arrays of NumPy in, arrays out, the library `mediant`
 //! in between. It has names, conversions and words, and no algorithm.
 //!
-//! - [`arguments`]: what a call was given: points, numbers, the keywords of motion, wishes and options. Each
+//! - `arguments`: what a call was given: points, numbers, the keywords of motion, wishes and options. Each
 //!   mistake names its argument.
-//! - [`grid`], [`index`], [`field`], [`world`]: the classes. All are frozen, so threads share them.
-//! - [`arrays`]: maps from arrays, and arrays from paths.
-//! - [`background`]: the GIL is released wherever the library works; Ctrl-C is looked at while it does.
-//! - [`errors`]: the library's errors as exceptions.
+//! - `grid`, `index`, `field`, `world`: the classes. All are frozen, so threads share them.
+//! - `arrays`: maps from arrays, and arrays from paths.
+//! - `background`: the GIL is released wherever the library works; Ctrl-C is looked at while it does.
+//! - `errors`: the library's errors as exceptions.
 //!
 //! # Points
 //!
