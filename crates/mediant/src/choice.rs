@@ -23,10 +23,10 @@ pub struct Choice {
 const MOST_CELLS_FOR_SUBGOALS: u64 = 1 << 22;
 
 impl Choice {
-    /// For a single path: an engine that prepares next to nothing. On four
-    /// maps of up to 1024 × 1024 cells, space and search together, canonical A* took 0.6 to 0.9 of the time
-    /// of A* at k = 3 and 0.7 to 1.1 at k = 2. From k = 4 on its preparation takes longer than A*; that of
-    /// block-based JPS makes it slower than A* at k = 3 already, by a factor of 1.2 to 2.2.
+    /// For a single path: an engine that prepares next to nothing. On four maps of up to 1024 × 1024 cells,
+    /// space and search together, canonical A* took 0.6 to 0.9 of the time of A* at k = 3 and 0.7 to 1.1 at
+    /// k = 2. From k = 4 on its preparation takes longer than A*; that of block-based JPS makes it slower
+    /// than A* at k = 3 already, by a factor of 1.2 to 2.2.
     #[must_use]
     pub fn for_one_path(k: K) -> Self {
         match k.finite().map(|k| k.get()) {
