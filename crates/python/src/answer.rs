@@ -22,8 +22,8 @@ use crate::{arrays::PathPoints, errors::made};
 /// best : numpy.ndarray or None
 ///     Of a stopped answer the best so far: a path to a goal, or to the vertex nearest to one.
 /// lower_bound : float
-///     No path is shorter. Of a found path its own length, where the engine guarantees that it is shortest,
-///     else 0.
+///     No path to the goal is shorter. Of a found path its own length where the engine guarantees that it is
+///     shortest, ``inf`` where there is no path, otherwise 0.
 /// counters : dict or None
 ///     The numbers of events of the search, if they were asked for.
 ///
@@ -101,7 +101,7 @@ impl Answer {
                 (Some(limit_name(*by)), Some(points.array(py, best, placement)?), *lower_bound)
             }
             Outcome::Found(path) if is_optimal => (None, None, path.cost()),
-            Outcome::Found(_) | Outcome::Nearest(_) => (None, None, 0.0),
+            Outcome::Found(_) => (None, None, 0.0),
             _ => (None, None, f64::INFINITY),
         };
         Ok(Self {

@@ -70,9 +70,11 @@ pub(crate) fn on_thread<T: Send + 'static>(
 
 /// Does work in a pool of threads of its own: as many as asked for, or one for each core.
 pub(crate) fn in_pool<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> T {
-    match rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build() {
+    let builder = rayon::ThreadPoolBuilder::new;
+    let pool = builder().num_threads(threads.unwrap_or(0)).build();
+    // Where the system gives no more threads, this one does it all.
+    match pool.or_else(|_| builder().num_threads(1).use_current_thread().build()) {
         Ok(pool) => pool.install(work),
-        // The system gives no more threads: this one does it all.
         Err(_) => work(),
     }
 }

@@ -1,17 +1,16 @@
 //! Many queries at once, on all cores.
 
-use std::sync::{
-    Arc,
-    atomic::{AtomicBool, Ordering},
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::Instant,
 };
 
 use mediant::{BatchProgress, Outcome, PlacementKind, Planners, Query, QueryError, Request, Vertex};
-use numpy::{PyArray1, PyArray2};
-use pyo3::{
-    exceptions::PyIndexError,
-    prelude::*,
-    types::{PyList, PySlice, PyTuple},
-};
+use numpy::PyArray1;
+use pyo3::{prelude::*, types::PyDict};
 
 use crate::{
     answer,
@@ -19,7 +18,8 @@ use crate::{
     arrays::{PathPoints, rows_array},
     background::{in_pool, is_watched, on_thread},
     errors::{argument, exception, raised, wrong_type},
-    keywords::Keywords,
+    keywords::{Keywords, Takes},
+    paths::Paths,
 };
 
 /// The statuses of answers, by number.
@@ -28,118 +28,6 @@ const INVALID: u8 = 4;
 
 /// The most distances in a table: of 16 GiB.
 const MOST_IN_TABLE: usize = 1 << 31;
-
-/// The answers of `Index.paths`, in the order of the queries: a sequence of arrays or None, in flat arrays.
-///
-/// Attributes
-/// ----------
-/// points : numpy.ndarray
-///     The points of all paths, one after the other: shape (m, 2), int32.
-/// offsets : numpy.ndarray
-///     Shape (n + 1,), int64: path i has the points from ``offsets[i]`` up to ``offsets[i + 1]``. Where there
-///     is no path the two are equal.
-/// distances : numpy.ndarray
-///     Shape (n,), float64: lengths in cells; ``inf`` where no path leads, ``nan`` where a limit stopped the
-///     search or an end is invalid.
-/// statuses : numpy.ndarray
-///     Shape (n,), uint8: 0 found, 1 unreachable, 2 nearest, 3 stopped, 4 invalid.
-///
-/// Examples
-/// --------
-/// >>> import mediant
-/// >>> index = mediant.Grid.from_rows(["..#.", "..#."]).prepare()
-/// >>> paths = index.paths([(0, 0), (0, 0)], [(1, 1), (0, 3)])
-/// >>> len(paths), paths[0].tolist(), paths[1]
-/// (2, [[0, 0], [1, 1]], None)
-/// >>> paths.offsets.tolist(), paths.statuses.tolist()
-/// ([0, 2, 2], [0, 1])
-#[pyclass(frozen, module = "mediant")]
-pub(crate) struct Paths {
-    /// The points of all paths, shape (m, 2).
-    #[pyo3(get)]
-    points: Py<PyAny>,
-    /// Where each path begins in the points, and where the last one ends.
-    #[pyo3(get)]
-    offsets: Py<PyArray1<i64>>,
-    /// The lengths in cells.
-    #[pyo3(get)]
-    distances: Py<PyArray1<f64>>,
-    /// What became of the queries, by number.
-    #[pyo3(get)]
-    statuses: Py<PyArray1<u8>>,
-}
-
-#[pymethods]
-impl Paths {
-    fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
-        self.distances.bind(py).len()
-    }
-
-    fn __getitem__<'py>(&self, index: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let py = index.py();
-        let count = self.__len__(py)? as isize;
-        if let Ok(slice) = index.cast::<PySlice>() {
-            let range = slice.indices(count)?;
-            let numbers = (0..range.slicelength as isize).map(|at| range.start + at * range.step);
-            let paths: Vec<_> = numbers.map(|at| self.path(py, at)).collect::<PyResult<_>>()?;
-            return Ok(PyList::new(py, paths)?.into_any());
-        }
-        let index: isize =
-            index.extract().map_err(|_| wrong_type("index", "an integer or a slice", index))?;
-        let at = if index < 0 { index + count } else { index };
-        if !(0..count).contains(&at) {
-            return Err(PyIndexError::new_err(format!("path {index} of {count}")));
-        }
-        Ok(self.path(py, at)?.into_pyobject(py)?)
-    }
-
-    fn __iter__<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        let builtins = slf.py().import("builtins")?;
-        let numbers = builtins.getattr("range")?.call1((slf.len()?,))?;
-        builtins.getattr("map")?.call1((slf.getattr("__getitem__")?, numbers))
-    }
-
-    /// By the four arrays, for pickle.
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let (py, paths) = (slf.py(), slf.get());
-        let arrays = (&paths.points, &paths.offsets, &paths.distances, &paths.statuses).into_pyobject(py)?;
-        Ok((slf.get_type().getattr("_of_arrays")?, arrays))
-    }
-
-    /// The answers with these arrays.
-    #[staticmethod]
-    fn _of_arrays(
-        points: Bound<'_, PyArray2<i32>>,
-        offsets: Bound<'_, PyArray1<i64>>,
-        distances: Bound<'_, PyArray1<f64>>,
-        statuses: Bound<'_, PyArray1<u8>>,
-    ) -> PyResult<Self> {
-        let count = distances.len()?;
-        if offsets.len()? != count + 1 || statuses.len()? != count {
-            return Err(argument("offsets", "expected one more than there are distances and statuses"));
-        }
-        Ok(Self {
-            points: points.into_any().unbind(),
-            offsets: offsets.unbind(),
-            distances: distances.unbind(),
-            statuses: statuses.unbind(),
-        })
-    }
-
-    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        Ok(format!("<mediant.Paths of {} queries>", self.__len__(py)?))
-    }
-}
-
-impl Paths {
-    /// One of the paths.
-    fn path<'py>(&self, py: Python<'py>, at: isize) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let offset = |at: isize| -> PyResult<isize> { self.offsets.bind(py).get_item(at)?.extract() };
-        let (first, end) = (offset(at)?, offset(at + 1)?);
-        let points = || self.points.bind(py).get_item(PySlice::new(py, first, end, 1));
-        (first < end).then(points).transpose()
-    }
-}
 
 /// How a batch runs.
 pub(crate) struct Batch<'py> {
@@ -213,68 +101,81 @@ pub(crate) fn callback<'py>(value: Option<&Bound<'py, PyAny>>) -> PyResult<Optio
     }
 }
 
-/// The queries of a batch.
-enum Queries {
-    /// From each start to the goal of the same number.
-    Pairs { starts: Vec<Vertex>, goals: Vec<Vertex>, keywords: Keywords },
-    /// From each start to each goal.
-    Table { starts: Vec<Vertex>, goals: Vec<Vertex> },
+/// The queries of a batch: from each start to the goal of the same number, or in a table to each goal.
+pub(crate) struct Queries {
+    starts: Vec<Vertex>,
+    goals: Vec<Vertex>,
+    is_table: bool,
+    keywords: Keywords,
 }
 
 impl Queries {
+    /// Pairs of a start and a goal. One single point stands for all queries.
+    pub(crate) fn pairs<'py>(
+        function: &str,
+        starts: &Bound<'py, PyAny>,
+        goals: &Bound<'py, PyAny>,
+        wishes: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Self> {
+        let keywords = Keywords::read(function, wishes, Takes::WISHES)?;
+        let (starts, goals) = (Points::read("starts", starts)?, Points::read("goals", goals)?);
+        let is_one = |ends: &Points| matches!(ends, Points::One(_));
+        let has_single = is_one(&starts) || is_one(&goals);
+        let (starts, goals) = (starts.into_vec(), goals.into_vec());
+        if starts.len() != goals.len() && !has_single {
+            let (expected, found) = (starts.len(), goals.len());
+            let wrong = format!("expected {expected} points, as many as starts, or one; found {found}");
+            return Err(argument("goals", &wrong));
+        }
+        Ok(Self { starts, goals, is_table: false, keywords })
+    }
+
+    /// From each start to each goal.
+    pub(crate) fn table(starts: &Bound<'_, PyAny>, goals: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let starts = Points::read("starts", starts)?.into_vec();
+        let goals = Points::read("goals", goals)?.into_vec();
+        let (rows, columns) = (starts.len(), goals.len());
+        if rows.checked_mul(columns).is_none_or(|count| count > MOST_IN_TABLE) {
+            let wrong = format!("a table of {rows} × {columns} distances: at most {MOST_IN_TABLE} fit");
+            return Err(argument("goals", &wrong));
+        }
+        Ok(Self { starts, goals, is_table: true, keywords: Keywords::default() })
+    }
+
     fn count(&self) -> usize {
-        match self {
-            Self::Pairs { starts, goals, .. } => {
-                starts.len().max(goals.len()) * usize::from(!starts.is_empty() && !goals.is_empty())
-            }
-            Self::Table { starts, goals } => starts.len() * goals.len(),
+        let (starts, goals) = (self.starts.len(), self.goals.len());
+        match (starts, goals) {
+            (0, _) | (_, 0) => 0,
+            _ if self.is_table => starts * goals,
+            _ => starts.max(goals),
         }
     }
 
+    fn query(&self, index: usize) -> Query {
+        let Self { starts, goals, .. } = self;
+        if self.is_table {
+            return Query::new(starts[index / goals.len()], goals[index % goals.len()]);
+        }
+        let at = |ends: &[Vertex]| ends[if ends.len() == 1 { 0 } else { index }];
+        Query::new(at(starts), at(goals))
+    }
+
+    /// A query with its wishes. The flag cancels it.
     fn request(&self, index: usize, watch: Option<&Arc<AtomicBool>>) -> Request {
-        let (query, keywords) = match self {
-            // One start or goal stands for all queries.
-            Self::Pairs { starts, goals, keywords } => {
-                let at = |ends: &[Vertex]| ends[if ends.len() == 1 { 0 } else { index }];
-                (Query::new(at(starts), at(goals)), Some(keywords))
-            }
-            Self::Table { starts, goals } => {
-                (Query::new(starts[index / goals.len()], goals[index % goals.len()]), None)
-            }
-        };
-        let has_no_wishes = keywords.is_none_or(Keywords::has_no_wishes);
-        if has_no_wishes && watch.is_none() {
+        let (query, keywords) = (self.query(index), &self.keywords);
+        if keywords.has_no_wishes() && watch.is_none() {
             return query.into();
         }
-        let limits = keywords.map(Keywords::limits).unwrap_or_default();
-        let limits = match watch {
-            Some(flag) => limits.cancel(Arc::clone(flag)),
-            None => limits,
-        };
-        let limits = match keywords.and_then(Keywords::timeout) {
-            Some(seconds) => {
-                let begin = std::time::Instant::now();
-                limits.deadline(move || begin.elapsed().as_secs_f64() >= seconds)
-            }
-            None => limits,
-        };
-        match keywords {
-            Some(keywords) => keywords.wish(query.into(), limits),
-            None => query.within(limits),
+        let mut limits = keywords.limits();
+        if let Some(flag) = watch {
+            limits = limits.cancel(Arc::clone(flag));
         }
+        if let Some(seconds) = keywords.timeout() {
+            let begin = Instant::now();
+            limits = limits.deadline(move || begin.elapsed().as_secs_f64() >= seconds);
+        }
+        keywords.wish(query.into(), limits)
     }
-}
-
-/// The pairs of starts and goals, of which one may stand for all.
-fn pairs(starts: Points, goals: Points, keywords: Keywords) -> PyResult<Queries> {
-    let is_one = |ends: &Points| matches!(ends, Points::One(_));
-    let (counts, ones) =
-        ((starts.as_slice().len(), goals.as_slice().len()), (is_one(&starts), is_one(&goals)));
-    if counts.0 != counts.1 && !ones.0 && !ones.1 {
-        let wrong = format!("expected {} points, as many as starts, or one; found {}", counts.0, counts.1);
-        return Err(argument("goals", &wrong));
-    }
-    Ok(Queries::Pairs { starts: starts.into_vec(), goals: goals.into_vec(), keywords })
 }
 
 /// The answers of some queries.
@@ -340,16 +241,15 @@ fn flat<T: Copy>(chunks: &[Chunk], values: impl Fn(&Chunk) -> &Vec<T>) -> Vec<T>
     all
 }
 
-/// The chunks of a batch of pairs.
+/// The answers of a batch, in chunks.
 fn chunks(
     py: Python<'_>,
     planners: &Arc<Planners>,
-    (starts, goals): (Points, Points),
+    queries: Queries,
     points: Option<PathPoints>,
-    (keywords, batch): (Keywords, &Batch<'_>),
+    batch: &Batch<'_>,
 ) -> PyResult<Vec<Chunk>> {
     let placement = planners.index().setup().rules.placement();
-    let queries = pairs(starts, goals, keywords)?;
     let add = move |chunk: &mut Chunk, answer| chunk.add(&answer, points, placement);
     let chunks = batch.run(py, planners, queries, add)?;
     if batch.raises {
@@ -362,11 +262,11 @@ fn chunks(
 pub(crate) fn paths(
     py: Python<'_>,
     planners: &Arc<Planners>,
-    ends: (Points, Points),
+    queries: Queries,
     points: PathPoints,
-    (keywords, batch): (Keywords, &Batch<'_>),
+    batch: &Batch<'_>,
 ) -> PyResult<Paths> {
-    let chunks = chunks(py, planners, ends, Some(points), (keywords, batch))?;
+    let chunks = chunks(py, planners, queries, Some(points), batch)?;
     let (points, offsets, distances, statuses) = py.detach(|| {
         let mut end = 0;
         let ends = chunks.iter().flat_map(|chunk| &chunk.lengths).map(|&length| {
@@ -385,14 +285,14 @@ pub(crate) fn paths(
     })
 }
 
-/// `Index.distances`.
+/// `Index.distances`, and `Index.table` as one row.
 pub(crate) fn distances<'py>(
     py: Python<'py>,
     planners: &Arc<Planners>,
-    ends: (Points, Points),
-    (keywords, batch): (Keywords, &Batch<'_>),
+    queries: Queries,
+    batch: &Batch<'_>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    let chunks = chunks(py, planners, ends, None, (keywords, batch))?;
+    let chunks = chunks(py, planners, queries, None, batch)?;
     Ok(PyArray1::from_vec(py, flat(&chunks, |chunk| &chunk.distances)))
 }
 
@@ -400,18 +300,9 @@ pub(crate) fn distances<'py>(
 pub(crate) fn table<'py>(
     py: Python<'py>,
     planners: &Arc<Planners>,
-    (starts, goals): (Points, Points),
+    queries: Queries,
     batch: &Batch<'_>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let placement = planners.index().setup().rules.placement();
-    let (starts, goals) = (starts.into_vec(), goals.into_vec());
-    let shape = (starts.len(), goals.len());
-    if shape.0.checked_mul(shape.1).is_none_or(|count| count > MOST_IN_TABLE) {
-        let wrong = format!("a table of {} × {} distances: at most {MOST_IN_TABLE} fit", shape.0, shape.1);
-        return Err(argument("goals", &wrong));
-    }
-    let add = move |chunk: &mut Chunk, answer| chunk.add(&answer, None, placement);
-    let chunks = batch.run(py, planners, Queries::Table { starts, goals }, add)?;
-    check(&chunks)?;
-    PyArray1::from_vec(py, flat(&chunks, |chunk| &chunk.distances)).call_method1("reshape", (shape,))
+    let shape = (queries.starts.len(), queries.goals.len());
+    distances(py, planners, queries, batch)?.call_method1("reshape", (shape,))
 }

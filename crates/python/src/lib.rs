@@ -4,6 +4,7 @@
 //! - `arguments`: what a call was given: points, numbers, the keywords of motion, wishes and options. Each
 //!   mistake names its argument.
 //! - `grid`, `index`, `field`, `world`: the classes. All are frozen, so threads share them.
+//! - `answer`, `paths`: what `find` and batches answer.
 //! - `arrays`: maps from arrays, and arrays from paths.
 //! - `background`: the GIL is released wherever the library works; Ctrl-C is looked at while it does.
 //! - `errors`: the library's errors as exceptions.
@@ -35,4 +36,5 @@ mod grid;
 mod index;
 mod keywords;
 mod module;
+mod paths;
 mod world;

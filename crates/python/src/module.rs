@@ -8,11 +8,11 @@ mod _mediant {
     #[pymodule_export]
     use crate::{
         answer::Answer,
-        batch::Paths,
         field::Field,
         grid::Grid,
         index::Index,
         keywords::{bound, moves},
+        paths::Paths,
         world::World,
     };
 

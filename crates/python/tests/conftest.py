@@ -14,3 +14,13 @@ def rng(request):
     numbers = [SEED, *request.node.name.encode()]
     print(f"MEDIANT_SEED={SEED}")
     return np.random.default_rng(numbers)
+
+
+@pytest.fixture
+def empty_cache():
+    """No index of another test is in the cache of `mediant.batch`."""
+    from mediant import batch
+
+    batch.cache.clear()
+    yield
+    batch.cache.clear()

@@ -17,30 +17,9 @@ import pyarrow.parquet as pq  # noqa: E402
 from mediant import batch  # noqa: E402
 from mediant.batch import _parts  # noqa: E402
 from mediant.batch._columns import narrow  # noqa: E402
+from tables import ENDS, MAPS, SEED, a_map, a_table  # noqa: E402
 
-ENDS = ("start_row", "start_column", "goal_row", "goal_column")
-SEED = 20_240_607
-
-
-@pytest.fixture(autouse=True)
-def empty_cache():
-    batch.cache.clear()
-    yield
-    batch.cache.clear()
-
-
-def a_map(seed, rows=24, columns=31, share=0.25):
-    return mediant.Grid(np.random.default_rng(seed).random((rows, columns)) < share)
-
-
-MAPS = {"a": a_map(1), "b": a_map(2, 17, 40), "c": a_map(3, 9, 9, 0.6)}
-
-
-def a_table(count, keys=tuple(MAPS), seed=SEED):
-    """Queries with ends that are free, blocked and outside."""
-    random = np.random.default_rng(seed)
-    ends = {name: random.integers(-1, 25, count) for name in ENDS}
-    return pa.table({"map": random.choice(keys, count), **ends, "tag": np.arange(count)})
+pytestmark = pytest.mark.usefixtures("empty_cache")
 
 
 def test_files_in(tmp_path):

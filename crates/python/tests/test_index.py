@@ -315,3 +315,15 @@ def test_a_table_that_has_no_room():
     many = np.zeros((50_000, 2), dtype=np.int32)
     with pytest.raises(mediant.ArgumentError, match=r"^goals: a table of 50000"):
         index.table(many, many)
+
+
+def test_points_of_a_packed_record():
+    """Its numbers lie closer than whole ones: they can be read as a copy only."""
+    index = mediant.Grid.from_rows(["....."] * 4).prepare()
+    record = np.zeros((2, 2), dtype=[("point", "<i4"), ("byte", "i1")])
+    record["point"] = [[0, 1], [3, 4]]
+    assert (
+        index.distances((0, 0), record["point"]).tolist()
+        == index.distances((0, 0), [[0, 1], [3, 4]]).tolist()
+    )
+    assert index.path((0, 0), record["point"][1]).tolist() == index.path((0, 0), (3, 4)).tolist()

@@ -63,8 +63,8 @@ impl Grid {
         goal: &Bound<'_, PyAny>,
         motion: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<bool> {
-        let ends = (vertex("start", start)?, vertex("goal", goal)?);
-        Ok(self.moved("connected", start.py(), motion)?.connected(ends.0, ends.1))
+        let (start_at, goal_at) = (vertex("start", start)?, vertex("goal", goal)?);
+        Ok(self.moved("connected", start.py(), motion)?.connected(start_at, goal_at))
     }
 
     /// Whether the straight line between two vertices obeys the rules of motion.
@@ -94,8 +94,8 @@ impl Grid {
         goal: &Bound<'_, PyAny>,
         motion: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<bool> {
-        let ends = (vertex("start", start)?, vertex("goal", goal)?);
-        Ok(self.moved("sees", start.py(), motion)?.sees(ends.0, ends.1))
+        let (start_at, goal_at) = (vertex("start", start)?, vertex("goal", goal)?);
+        Ok(self.moved("sees", start.py(), motion)?.sees(start_at, goal_at))
     }
 
     /// Checks that a path obeys the rules of motion here, for instance after an edit. It costs far less than

@@ -5,10 +5,9 @@ use pyo3::{prelude::*, types::PyDict};
 
 use super::Index;
 use crate::{
-    arguments::Points,
     arrays::PathPoints,
-    batch::{self, Batch, Paths},
-    keywords::{Keywords, Takes},
+    batch::{self, Batch, Queries},
+    paths::Paths,
 };
 
 #[pymethods]
@@ -66,10 +65,9 @@ impl Index {
         invalid: Option<&Bound<'py, PyAny>>,
         wishes: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Paths> {
-        let keywords = Keywords::read("paths", wishes, Takes::WISHES)?;
-        let ends = (Points::read("starts", starts)?, Points::read("goals", goals)?);
+        let queries = Queries::pairs("paths", starts, goals, wishes)?;
         let batch = Batch::read(threads, progress, invalid)?;
-        batch::paths(py, &self.planners, ends, PathPoints::read(points)?, (keywords, &batch))
+        batch::paths(py, &self.planners, queries, PathPoints::read(points)?, &batch)
     }
 
     /// The lengths of the shortest paths of many queries, on all cores.
@@ -115,10 +113,8 @@ impl Index {
         invalid: Option<&Bound<'py, PyAny>>,
         wishes: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let keywords = Keywords::read("distances", wishes, Takes::WISHES)?;
-        let ends = (Points::read("starts", starts)?, Points::read("goals", goals)?);
-        let batch = Batch::read(threads, progress, invalid)?;
-        batch::distances(py, &self.planners, ends, (keywords, &batch))
+        let queries = Queries::pairs("distances", starts, goals, wishes)?;
+        batch::distances(py, &self.planners, queries, &Batch::read(threads, progress, invalid)?)
     }
 
     /// The lengths of the shortest paths from each start to each goal, on all cores.
@@ -155,7 +151,7 @@ impl Index {
         threads: Option<&Bound<'py, PyAny>>,
         progress: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let ends = (Points::read("starts", starts)?, Points::read("goals", goals)?);
-        batch::table(py, &self.planners, ends, &Batch::read(threads, progress, None)?)
+        let queries = Queries::table(starts, goals)?;
+        batch::table(py, &self.planners, queries, &Batch::read(threads, progress, None)?)
     }
 }

@@ -38,8 +38,8 @@ def ray(
         A folder that all workers can write to. Each task writes a Parquet file to it, ``part-000000.parquet``
         and so on, in the order of the queries, and only the names come back.
     partition_rows : int, optional
-        The rows of a task. None: a quarter of what each task that can run at once gets, from 10,000 to
-        250,000.
+        The rows of a task. None: a quarter of what each task that can run at once gets, from 20,000 to
+        100,000.
     threads : int
         The threads of a task, and the CPUs that Ray reserves for it. A worker process of Ray runs one task at
         a time: with many large indexes, a few processes of many threads take less memory than many of one.
