@@ -86,9 +86,7 @@ impl Keywords {
         let is_left_out = value.is_none();
         match name {
             "k" => self.k = Some(read_k(value)?),
-            "placement" if is_left_out => {}
-            "corners" if is_left_out => {}
-            "gap" if is_left_out => {}
+            "placement" | "corners" | "gap" if is_left_out => {}
             "placement" => self.placement = Some(placement(value)?),
             "corners" => self.corners = Some(word(name, value, &CORNERS)?),
             "gap" => self.gap = Some(word(name, value, &GAPS)?),
