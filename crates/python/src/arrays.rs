@@ -1,6 +1,7 @@
 //! Maps from arrays, and arrays from paths.
 
 use mediant::{Grid, Map, Path, PlacementKind, Vertex};
+use mediant_formats::Picture;
 use numpy::{
     PyArray1, PyArray2, PyArrayDescrMethods, PyReadonlyArray2, PyUntypedArray, PyUntypedArrayMethods,
     ToPyArray, ndarray::ArrayView2,
@@ -268,6 +269,13 @@ pub(crate) fn rows_array<'py, T: numpy::Element>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let rows = flat.len() / columns.max(1);
     PyArray1::from_vec(py, flat).call_method1("reshape", ((rows, columns),))
+}
+
+/// A picture of bounded size as PNG, for notebooks.
+pub(crate) fn png_of<'py>(py: Python<'py>, picture: Picture<'_>) -> PyResult<Bound<'py, PyBytes>> {
+    let mut bytes = Vec::new();
+    py.detach(|| picture.largest_side(1024).write_png(&mut bytes))?;
+    Ok(PyBytes::new(py, &bytes))
 }
 
 /// The cells of a map as an array of bool.

@@ -1,12 +1,13 @@
 //! Distance fields.
 
-use mediant::{PlacementKind, Vertex};
+use mediant::{Map, PlacementKind, Vertex};
+use mediant_formats::Picture;
 use numpy::PyArray2;
-use pyo3::prelude::*;
+use pyo3::{prelude::*, types::PyBytes};
 
 use crate::{
     arguments::point as vertex,
-    arrays::{PathPoints, rows_array},
+    arrays::{PathPoints, png_of, rows_array},
 };
 
 /// The distance of every vertex to the nearest of one or several sources, with the paths to it.
@@ -30,11 +31,13 @@ use crate::{
 pub(crate) struct Field {
     inner: mediant::Field,
     placement: PlacementKind,
+    /// For pictures.
+    map: Map,
 }
 
 impl Field {
-    pub(crate) const fn new(inner: mediant::Field, placement: PlacementKind) -> Self {
-        Self { inner, placement }
+    pub(crate) const fn new(inner: mediant::Field, placement: PlacementKind, map: Map) -> Self {
+        Self { inner, placement, map }
     }
 
     /// All vertices, row by row.
@@ -168,8 +171,9 @@ impl Field {
     }
 
     /// The distances as a picture, for notebooks.
-    fn _repr_png_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("mediant._picture")?.call_method1("png_of_field", (slf,))
+    fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let picture = Picture::new(self.map.grid(), self.placement);
+        png_of(py, picture.field(|at| self.inner.get(at)))
     }
 
     fn __repr__(&self) -> String {

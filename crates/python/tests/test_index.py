@@ -327,3 +327,12 @@ def test_points_of_a_packed_record():
         == index.distances((0, 0), [[0, 1], [3, 4]]).tolist()
     )
     assert index.path((0, 0), record["point"][1]).tolist() == index.path((0, 0), (3, 4)).tolist()
+
+
+def test_an_invalid_query_is_named_by_its_number():
+    """Also beyond the first chunk of 256."""
+    index = mediant.Grid.from_rows(["..#"]).prepare()
+    goals = np.zeros((700, 2), dtype=np.int32)
+    goals[600] = (0, 2)
+    with pytest.raises(mediant.QueryError, match=r"^query 600: the goal \(0, 2\) is blocked"):
+        index.distances((0, 0), goals)

@@ -47,7 +47,7 @@ const LAYERS: [Layer; 15] = [
     ),
     layer(
         "mediant-python",
-        &[MOVES, LIBRARY],
+        &[MOVES, LIBRARY, FORMATS],
         "the package is thin: names, conversions and words on top of the library",
     ),
     // What proves it.

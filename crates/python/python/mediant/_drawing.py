@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, Union, cast
 import numpy as np
 
 from ._mediant import Field
-from ._picture import shades_of_blocks
 
 try:
     import matplotlib.pyplot as plt
@@ -124,7 +123,7 @@ class Canvas:
         box = self.ax.get_window_extent()
         tall, wide = 0.7 * max(box.height, 2.0), 0.7 * max(box.width, 2.0)
         block = max(1, math.ceil(rows / tall), math.ceil(columns / wide))
-        shades = shades_of_blocks(blocked, block)
+        shades = _shades_of_blocks(blocked, block)
         colormap = LinearSegmentedColormap.from_list("cells", colors)
         look = {"cmap": colormap, "vmin": 0, "vmax": 1, "interpolation": "nearest", **look}
         return Canvas(self.ax, "center", self.world).image(shades, (rows, columns), look, block)
@@ -315,3 +314,24 @@ def _from_corners(world: World | None) -> Affine2D:
     zero, right, down = np.asarray(world.point_of(corners, placement="corner"))
     (a, b), (c, d), (e, f) = right - zero, down - zero, zero
     return Affine2D.from_values(a, b, c, d, e, f)
+
+
+def _shades_of_blocks(blocked: NDArray[np.bool_], block: int) -> NDArray[np.float64]:
+    """Give the shade of each block of block x block cells: 0 if it is free, 1 if it is blocked.
+
+    The shades of others are clearly between, and grow with the share of cells that are blocked.
+    """
+    shares = _mean_of_blocks(blocked, block)
+    return np.where((shares == 0) | (shares == 1), shares, 0.35 + 0.4 * shares)
+
+
+def _mean_of_blocks(array: NDArray[np.bool_], block: int) -> NDArray[np.float64]:
+    if block == 1:
+        return array.astype(np.float64)
+    rows, columns = (np.arange(0, side, block) for side in array.shape)
+    # In strips: 0.4 s for 18,000 x 12,000 cells, where `reduceat` takes 11 s.
+    strips = [array[row : row + block].view(np.uint8).sum(axis=0, dtype=np.uint32) for row in rows]
+    sums = np.add.reduceat(np.array(strips), columns, axis=1, dtype=np.int64)
+    heights, widths = (np.diff(starts, append=side) for starts, side in zip((rows, columns), array.shape))
+    means: NDArray[np.float64] = sums / np.outer(heights, widths)
+    return means

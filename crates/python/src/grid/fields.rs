@@ -181,6 +181,6 @@ impl Grid {
             None => space.field(sources),
         };
         let field = detached(py, self.cells(), work)?.map_err(|error| raised_for("source", error))?;
-        Ok(Field::new(field, motion.rules.placement()))
+        Ok(Field::new(field, motion.rules.placement(), self.map().clone()))
     }
 }

@@ -3,9 +3,10 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use mediant::{
-    CornerRule, Identity, Map, Rectangle, Rules,
+    CornerRule, Identity, Map, PlacementKind, Rectangle, Rules,
     files::{Fraction, ImageOptions, Unknown, WorldFrame},
 };
+use mediant_formats::Picture;
 use pyo3::{
     prelude::*,
     types::{PyBytes, PyString, PyTuple},
@@ -14,7 +15,7 @@ use pyo3::{
 use super::Grid;
 use crate::{
     arguments::{file, flag, number, point, text, word},
-    arrays::{Criteria, bits_of, cells_of, map_of, map_of_bits, patch},
+    arrays::{Criteria, bits_of, cells_of, map_of, map_of_bits, patch, png_of},
     background::detached,
     errors::{argument, exception, instead, raised, raised_for, wrong_type},
     world::World,
@@ -271,8 +272,8 @@ impl Grid {
     }
 
     /// The map as a picture, for notebooks.
-    fn _repr_png_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("mediant._picture")?.call_method1("png_of", (slf,))
+    fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        png_of(py, Picture::new(self.map().grid(), PlacementKind::Center))
     }
 
     fn __repr__(&self) -> String {
