@@ -1,0 +1,209 @@
+// What the modules of the page say to each other. The modules are JavaScript with types in comments, which the
+// tests check against this file.
+
+import type { EngineInfo, Motion } from "./mediant/mediant.js";
+
+/** A cell, or a vertex: x to the right, y down, from 0. At centers a vertex is its cell; at corners it is the top left
+ *  corner of its cell. */
+export type Point = [number, number];
+
+export interface Rect { x: number; y: number; width: number; height: number }
+
+/** An engine with its motion: what one lane of a race runs. Of `corners` and `gap` the placement takes one. */
+export interface LaneSetup {
+  engine: string;
+  k: number | "any";
+  placement: "center" | "corner";
+  corners: "never" | "one" | "always";
+  gap: "open" | "closed";
+  smooth: "" | "linear" | "taut";
+}
+
+/** What lies over the map: the search as it spread, or one of the other pictures. */
+export type Overlay = "search" | "clearance" | "distances" | "flow" | "rules" | "none";
+
+/** Where a map came from. A map that was edited says so beside it. */
+export type MapSource =
+  | { kind: "bundled"; name: string }
+  | { kind: "generated"; name: string; side: number; seed: number }
+  | { kind: "file"; name: string }
+  | { kind: "empty"; width: number; height: number };
+
+/** What a change of the model touched. */
+export interface Change {
+  /** Another map: size, cells, ends. */
+  map?: boolean;
+  /** Cells in this rectangle. */
+  cells?: Rect;
+  ends?: boolean;
+  lanes?: boolean;
+  active?: boolean;
+  overlay?: boolean;
+  /** `nearest`, `radius`. */
+  wishes?: boolean;
+  agents?: boolean;
+}
+
+/** model/model.js: the scene, and the only place that changes it. Dispatches `change` with a `Change` as `detail`. */
+export interface Model extends EventTarget {
+  readonly width: number;
+  readonly height: number;
+  /** Row by row, 1 = blocked. Changed in place. */
+  readonly cells: Uint8Array;
+  /** Grows with every change of a cell, and with every map. */
+  readonly version: number;
+  readonly source: MapSource;
+  readonly edited: boolean;
+  readonly start: Point;
+  readonly goal: Point;
+  readonly lanes: readonly Readonly<LaneSetup>[];
+  /** The lane that the panels show and change. */
+  readonly active: number;
+  readonly overlay: Overlay;
+  /** If there is no way: lead to the reachable vertex nearest to the goal. */
+  readonly nearest: boolean;
+  /** The radius of the agent in cells; 0 for a point. */
+  readonly radius: number;
+  readonly agents: number;
+  /** Between `beginGesture` and `endGesture`: an end is dragged, or cells are drawn. */
+  readonly gesture: "" | "end" | "cells";
+
+  load(map: { width: number; height: number; cells: Uint8Array; source: MapSource; start?: Point; goal?: Point }): void;
+  /** All changes of cells until `endGesture` are one step of undo. */
+  beginGesture(kind: "end" | "cells"): void;
+  endGesture(): void;
+  /** Sets these cells (numbers y · width + x). */
+  paint(cells: Iterable<number>, blocked: boolean): void;
+  moveEnd(end: "start" | "goal", to: Point): void;
+  undo(): void;
+  redo(): void;
+  readonly canUndo: boolean;
+  readonly canRedo: boolean;
+  setLane(index: number, change: Partial<LaneSetup>): void;
+  setLanes(lanes: LaneSetup[]): void;
+  addLane(): void;
+  removeLane(index: number): void;
+  set(change: Partial<Pick<Model, "active" | "overlay" | "nearest" | "radius" | "agents">>): void;
+}
+
+/** The answer of a lane's engine. */
+export interface LaneAnswer {
+  start: Point;
+  goal: Point;
+  status: "found" | "unreachable" | "nearest" | "invalid";
+  /** Waypoints x, y, x, y, … in vertices of the lane's placement; empty if there is none. */
+  path: Int32Array;
+  length: number;
+  expanded: number;
+  generated: number;
+  /** Milliseconds of one query on a warm planner. */
+  ms: number;
+  /** `optimal(3)`, `suboptimal`, … */
+  guarantee: string;
+  optimal: boolean;
+  /** The certificate: no path at any angle is shorter than length / bound. */
+  bound: number | null;
+  /** The steps of the search (`Trace.steps` of the package), if they were recorded; there are `verticesPerRow` in a row. */
+  steps: Uint32Array | null;
+  verticesPerRow: number;
+  /** The length of a shortest path: at any angle (corners), or over the lane's N(k) (centers). Comes a little later. */
+  reference: { length: number; what: "any" | "k" } | null;
+  /** Why the query is invalid, as a sentence, with its code. */
+  error: { code: string; message: string } | null;
+}
+
+export interface LaneState {
+  phase: "starting" | "preparing" | "searching" | "done" | "cancelled" | "failed";
+  progress: { stage: string; done: number; total: number } | null;
+  /** Of a search under way: expansions so far. */
+  expanded: number;
+  /** Why it failed, as a sentence. */
+  message: string;
+  answer: LaneAnswer | null;
+  /** Whether the scene has changed since the answer. */
+  stale: boolean;
+  /** The index, once it is there. `ms`: how long it took. */
+  index: { ms: number; bytes: number; origin: string } | null;
+}
+
+/** search/lanes.js: follows the model; each lane has a worker of its own. Dispatches `change` with
+ *  `{ lane: number }` or `{ overlay: true }` as `detail`. */
+export interface Lanes extends EventTarget {
+  /** Fulfilled when the engines can be asked. */
+  readonly ready: Promise<void>;
+  /** One for each lane of the model. */
+  readonly list: readonly LaneState[];
+  /** All engines; empty before `ready`. */
+  readonly engines: readonly EngineInfo[];
+  /** The moves of N(k), x, y, … in angular order. */
+  moves(k: number): Promise<Int32Array>;
+  /** Why these do not go together, as a sentence; empty if they do. */
+  check(setup: LaneSetup): Promise<string>;
+  /** Stops a search or a preparation. */
+  cancel(index: number): void;
+  retry(index: number): void;
+  /** The map in these files (a ROS map is two files). Rejects with an `Error` whose message is a sentence. */
+  readMap(files: File[]): Promise<{ name: string; width: number; height: number; cells: Uint8Array }>;
+  /** The lane's search for the Posthoc visualizer. */
+  trace(index: number): Promise<Blob>;
+  picture(index: number, format: "png" | "svg"): Promise<Blob>;
+  /** What the overlay shows, for the active lane: one number for each vertex (or cell, for clearance). */
+  readonly field: {
+    kind: "clearance" | "distances" | "flow";
+    width: number; height: number; placement: "center" | "corner";
+    values: Float32Array;
+    /** dx, dy for each vertex, of kind flow. */
+    flow: Float32Array | null;
+    greatest: number;
+  } | null;
+  /** The cells where no agent of the model's radius fits, 1 = too narrow, walls included; null for a point. */
+  readonly tooNarrow: Uint8Array | null;
+}
+
+/** stage/player.js: how much of each search is shown. Dispatches `change`. */
+export interface Player extends EventTarget {
+  /** Same pace: so many expansions of each lane. Real time: what each lane had done after so many ms, slowed down. */
+  mode: "pace" | "time";
+  /** Expansions (or thousandths of the longest search's time) a second. */
+  speed: number;
+  readonly playing: boolean;
+  /** From 0 to `length`: expansions, or milliseconds. */
+  readonly position: number;
+  readonly length: number;
+  play(): void;
+  pause(): void;
+  toggle(): void;
+  /** One expansion on, or back. */
+  step(by: number): void;
+  seek(position: number): void;
+  /** How many of the lane's steps are shown. */
+  shown(lane: number): number;
+  /** Whether the lane has arrived, so that its path is shown. */
+  arrived(lane: number): boolean;
+}
+
+export type Tool = "move" | "draw" | "erase" | "fill" | "rectangle";
+
+/** stage/stage.js: the panes, one for each lane; pointer and keyboard on them. */
+export interface Stage {
+  tool: Tool;
+  fit(): void;
+  zoom(factor: number): void;
+  /** Milliseconds of the page's work in each frame of the last drag. */
+  readonly frames: readonly number[];
+  /** Milliseconds from the pointer's move to the painted path, of the last drag. */
+  readonly latencies: readonly number[];
+}
+
+/** search/walkers.js: agents that walk to the goal with the active lane's motion and engine. Dispatches `change`. */
+export interface Walkers extends EventTarget {
+  readonly walking: boolean;
+  /** Places in cells (fractions) of the drawn map, at the center of the agent. */
+  readonly list: readonly { x: number; y: number; path: Int32Array; state: "walking" | "arrived" | "stuck"; fresh: boolean }[];
+  /** `kept` and `replanned` since the last edit; `checks` in all. */
+  readonly counts: { walking: number; arrived: number; stuck: number; kept: number; replanned: number; ms: number };
+  start(count: number): void;
+  stop(): void;
+}
+
+export type { EngineInfo, Motion };
