@@ -1,0 +1,88 @@
+// Reads a map from files that were dropped or opened: which of them is the map, and whether it is too
+// large.
+
+/** @import { Grid } from "../../mediant/mediant.js" */
+/** @import { NamedBytes } from "./protocol.js" */
+import { MOST_CELLS } from "./protocol.js";
+
+/** A sentence for the user. */
+export class Refusal extends Error {
+  name = "Refusal";
+}
+
+const isRos = (/** @type {NamedBytes} */ { name }) => /\.ya?ml$/i.test(name);
+
+/**
+ * The map in these files.
+ * @param {Pick<typeof Grid, "read" | "size">} grids - What reads them.
+ * @param {NamedBytes[]} files
+ * @returns {{ name: string, width: number, height: number, cells: Uint8Array }}
+ */
+export function readMap(grids, files) {
+  const main = mainOf(files);
+  /** @type {Record<string, Uint8Array>} */
+  const others = {};
+  for (const file of files) {
+    if (file !== main) {
+      others[file.name] = file.bytes;
+    }
+  }
+  checkPicture(main, others);
+  const { name, bytes } = main;
+  const [width, height] = grids.size(name, bytes, others);
+  checkSize(name, width, height);
+  const grid = grids.read(name, bytes, others);
+  const cells = grid.cells();
+  grid.free();
+  return { name, width, height, cells };
+}
+
+/**
+ * @param {NamedBytes[]} files
+ * @returns {NamedBytes}
+ */
+function mainOf(files) {
+  const main = files.find(isRos) ?? files[0];
+  if (!main) {
+    throw new Refusal("No file was given.");
+  }
+  if (files.length > 1 && !isRos(main)) {
+    throw new Refusal("Open one map at a time. Only a ROS map is two files: a YAML file and its picture.");
+  }
+  return main;
+}
+
+/**
+ * A ROS map needs its picture beside it.
+ * @param {NamedBytes} main
+ * @param {Record<string, Uint8Array>} others
+ */
+function checkPicture(main, others) {
+  if (!isRos(main)) {
+    return;
+  }
+  const text = new TextDecoder().decode(main.bytes.subarray(0, 100_000));
+  const picture = /^\s*image\s*:\s*["']?([^"'#\r\n]+?)["']?\s*(#.*)?$/m.exec(text)?.[1].split(/[\\/]/).pop();
+  if (!picture || picture in others) {
+    return;
+  }
+  const names = Object.keys(others);
+  const found = names.length ? `, not ${names.join(", ")}` : "";
+  const { name } = main;
+  throw new Refusal(`${name} is a ROS map whose picture is ${picture}${found}: drop both files together.`);
+}
+
+/**
+ * @param {string} name
+ * @param {number} width
+ * @param {number} height
+ */
+export function checkSize(name, width, height) {
+  if (width * height > MOST_CELLS) {
+    const number = (/** @type {number} */ count) => count.toLocaleString("en");
+    throw new Refusal(
+      `${name} has ${width} × ${height} = ${number(width * height)} cells. This page takes at most ` +
+        `${number(MOST_CELLS)}, which is 4096 × 4096. The program and the Python package take larger maps.`,
+    );
+  }
+}

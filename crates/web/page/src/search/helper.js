@@ -1,0 +1,121 @@
+// The helper: a worker for all that is no lane's query. It reads files, tells the moves of N(k) and which
+// setups go together, and computes what lies over the map.
+
+/** @import { OverlayWish, Request } from "./protocol.js" */
+/** @import { Field } from "../../mediant/mediant.js" */
+import { Grid, checkSetup, initSync, moves } from "../../mediant/mediant.js";
+import { readMap } from "./files.js";
+import { motionOf, optionsOf, sentence, textOf } from "./protocol.js";
+import { edited, spaceOf } from "./session.js";
+
+const NO_MEMORY = "There is not enough memory for this. Take a smaller map.";
+
+/** The map of the overlays. @type {Grid | null} */
+let grid = null;
+
+/** @typedef {{ value: unknown, transfer: ArrayBuffer[] }} Reply */
+
+/**
+ * @param {Request} request
+ * @returns {Reply}
+ */
+function reply(request) {
+  switch (request.type) {
+    case "moves":
+      return { value: moves(request.k), transfer: [] };
+    case "check": {
+      const why = checkSetup(request.setup.engine, motionOf(request.setup), optionsOf(request.setup));
+      return { value: why ? sentence(why) : "", transfer: [] };
+    }
+    case "read": {
+      const map = readMap(Grid, request.files);
+      return { value: map, transfer: [/** @type {ArrayBuffer} */ (map.cells.buffer)] };
+    }
+    case "overlay": {
+      grid = edited(grid, request.news);
+      const value = { field: grid && fieldOf(grid, request), narrow: grid && narrowOf(grid, request) };
+      const arrays = [value.field?.values, value.field?.flow, value.narrow].filter((array) => !!array);
+      return { value, transfer: arrays.map((array) => /** @type {ArrayBuffer} */ (array.buffer)) };
+    }
+  }
+}
+
+/**
+ * What lies over the map, or null where there is nothing, as with a goal on a wall.
+ * @param {Grid} grid
+ * @param {OverlayWish} wish
+ */
+function fieldOf(grid, wish) {
+  const { kind, setup } = wish;
+  if (!kind) {
+    return null;
+  }
+  if (kind === "clearance") {
+    const values = Float32Array.from(grid.clearance());
+    const { width, height } = grid;
+    return { kind, width, height, placement: "center", values, flow: null, greatest: greatest(values) };
+  }
+  const space = spaceOf(grid, wish);
+  /** @type {Field | null} */
+  let field = null;
+  try {
+    if (!space.isFree(wish.goal)) {
+      return null;
+    }
+    field = space.field(wish.goal);
+    const { width, height } = field;
+    const values = Float32Array.from(field.distances());
+    const flow = kind === "flow" ? field.flow() : null;
+    return { kind, width, height, placement: setup.placement, values, flow, greatest: greatest(values) };
+  } finally {
+    field?.free();
+    space.free();
+  }
+}
+
+/**
+ * The greatest finite value.
+ * @param {Float32Array} values
+ */
+function greatest(values) {
+  let most = 0;
+  for (const value of values) {
+    if (value > most && value < Infinity) {
+      most = value;
+    }
+  }
+  return most;
+}
+
+/**
+ * The cells where the agent does not fit; null for a point.
+ * @param {Grid} grid
+ * @param {OverlayWish} wish
+ */
+function narrowOf(grid, { radius, setup, narrow }) {
+  if (!radius || !narrow) {
+    return null;
+  }
+  const fitted = grid.forDisc(radius, motionOf(setup));
+  const cells = fitted.cells();
+  fitted.free();
+  return cells;
+}
+
+/** @typedef {{ type: "start", module: WebAssembly.Module } | (Request & { id: number })} Message */
+
+onmessage = (/** @type {MessageEvent<Message>} */ { data }) => {
+  if (data.type === "start") {
+    initSync({ module: data.module });
+    postMessage({ id: 0 });
+    return;
+  }
+  try {
+    const { value, transfer } = reply(data);
+    postMessage({ id: data.id, value }, { transfer });
+  } catch (error) {
+    const isMistake = error instanceof Error && ["MediantError", "Refusal"].includes(error.name);
+    const refused = isMistake ? sentence(textOf(error)) : NO_MEMORY;
+    postMessage({ id: data.id, refused, broken: !isMistake });
+  }
+};

@@ -1,0 +1,91 @@
+// What a lane's worker writes for others: its search for the Posthoc visualizer, and a picture.
+
+/** @import { Grid, Index, Space } from "../../mediant/mediant.js" */
+/** @import { Ask, ToLane } from "./protocol.js" */
+/** @import { Say } from "./search.js" */
+/** @import { Session } from "./session.js" */
+import { Picture, Trace } from "../../mediant/mediant.js";
+import { textOf, sentence } from "./protocol.js";
+import { questionOf, sliced } from "./search.js";
+
+/** The most events of a trace: the visualizer holds no more, and the text takes 100 bytes for each. */
+const MOST_EVENTS = 2_000_000;
+const TOO_MANY = `the search has more than ${MOST_EVENTS.toLocaleString("en")} events: choose nearer ends`;
+
+/** @typedef {Extract<ToLane, { id: number }> & { type: "trace" | "picture" }} Order */
+
+/**
+ * Writes what was ordered, or says why not.
+ * @param {Session} session
+ * @param {Ask} ask - The lane's last query.
+ * @param {Order} order
+ * @param {Say} say
+ * @returns {Generator<void, void>}
+ */
+export function* write(session, ask, order, say) {
+  const { id } = order;
+  try {
+    const { index, space } = session;
+    if (!index || !space) {
+      throw new Error("the engine is not ready: wait for its answer");
+    }
+    const trace = new Trace(order.type === "trace");
+    const planner = index.planner();
+    try {
+      const between = () => {
+        if (order.type === "trace" && trace.expanded + trace.generated + trace.updated > MOST_EVENTS) {
+          throw new Error(TOO_MANY);
+        }
+      };
+      const { answer } = yield* sliced(planner, questionOf(ask), { pace: session.pace }, trace, between);
+      if (order.type === "trace") {
+        const text = trace.posthoc(planner, ask.start, ask.goal);
+        say({ type: "result", id, value: [text], kind: "application/json" });
+      } else {
+        say(picture(session, ask, order, trace, answer.path));
+      }
+    } finally {
+      planner.free();
+      trace.free();
+    }
+  } catch (error) {
+    if (error instanceof WebAssembly.RuntimeError) {
+      throw error;
+    }
+    say({ type: "refused", id, message: sentence(textOf(error)) });
+  }
+}
+
+/**
+ * @param {Session} session
+ * @param {Ask} ask
+ * @param {Extract<ToLane, { type: "picture" }>} order
+ * @param {Trace} trace
+ * @param {Int32Array | undefined} path
+ * @returns {Extract<import("./protocol.js").FromLane, { type: "result" }>}
+ */
+function picture(session, { setup, start, goal, radius }, { id, format, overlay }, trace, path) {
+  const space = /** @type {Space} */ (session.space);
+  const picture = new Picture(/** @type {Grid} */ (session.grid), setup.placement);
+  const field = overlay === "distances" || overlay === "flow" ? space.field(goal) : null;
+  try {
+    if (field) {
+      picture.field(field);
+    } else if (overlay === "search") {
+      picture.searched(trace);
+    }
+    if (path) {
+      picture.path(/** @type {Index} */ (session.index).setup, path);
+    }
+    picture.start(start);
+    picture.goal(goal);
+    if (radius) {
+      picture.radius(radius);
+    }
+    const value = format === "png" ? /** @type {Uint8Array<ArrayBuffer>} */ (picture.png()) : picture.svg();
+    return { type: "result", id, value: [value], kind: format === "png" ? "image/png" : "image/svg+xml" };
+  } finally {
+    field?.free();
+    picture.free();
+  }
+}

@@ -1,0 +1,150 @@
+// What lies over the map: the clearance, the distances to the goal or the directions to it, and where the
+// agent does not fit. It is computed in a worker of its own; the latest wish wins.
+
+/** @import { Change, LaneSetup, Lanes, Model, Point } from "../../types.js" */
+import { Helper } from "./assistant.js";
+import { Feed, buffersOf } from "./feed.js";
+import { motionKey } from "./protocol.js";
+
+/** A map of more cells leaves much memory behind. */
+const LARGE = 2 ** 21;
+/** What took longer than this (ms) is not computed at each stroke, but at most every so often. */
+const [QUICK, EVERY] = [25, 150];
+
+/** @param {Model} model */
+const isLarge = ({ width, height }) => width * height > LARGE;
+
+/**
+ * @typedef {object} Wished
+ * @property {string} field
+ * @property {string} narrow
+ * @property {"clearance" | "distances" | "flow" | ""} kind
+ * @property {Readonly<LaneSetup>} setup
+ * @property {number} radius
+ * @property {Point} goal
+ */
+
+const NOTHING = { field: "", narrow: "" };
+
+export class Overlay {
+  /** @type {Lanes["field"]} */
+  field = null;
+  /** @type {Uint8Array | null} */
+  tooNarrow = null;
+  #model;
+  #changed;
+  #helper = new Helper();
+  #feed;
+  /** What is shown, and what is being computed. */
+  #shown = NOTHING;
+  #isBusy = false;
+  /** How many maps there have been. */
+  #maps = 0;
+  #isLarge;
+  #took = 0;
+  #next = 0;
+  #timer = 0;
+
+  /**
+   * @param {Model} model
+   * @param {() => void} changed
+   */
+  constructor(model, changed) {
+    this.#model = model;
+    this.#changed = changed;
+    this.#feed = new Feed(model);
+    this.#isLarge = isLarge(model);
+  }
+
+  /** @param {Change} change */
+  note(change) {
+    this.#feed.note(change);
+    if (change.map) {
+      this.#maps++;
+      this.#clear();
+      // The memory of a worker never shrinks.
+      if (this.#isLarge) {
+        this.#helper.stop("Another map was loaded.");
+      }
+      this.#isLarge = isLarge(this.#model);
+    }
+    this.update();
+  }
+
+  /**
+   * What the scene asks for: each part as a text, so that equal wishes are equal texts.
+   * @returns {Wished}
+   */
+  #wish() {
+    const { overlay, lanes, active, radius, version, goal } = this.#model;
+    const kind = overlay === "clearance" || overlay === "distances" || overlay === "flow" ? overlay : "";
+    const setup = lanes[active];
+    const motion = setup ? motionKey(setup) : "";
+    const agent = `${version} ${radius} ${motion}`;
+    return {
+      field: setup && kind && (kind === "clearance" ? `${kind} ${version}` : `${kind} ${goal} ${agent}`),
+      narrow: setup && radius ? agent : "",
+      kind, setup, radius, goal,
+    };
+  }
+
+  /** Asks for what is not there yet, if it is time. */
+  update() {
+    const wish = this.#wish();
+    if (!wish.field && !wish.narrow) {
+      this.#clear();
+      return;
+    }
+    const isShown = wish.field === this.#shown.field && wish.narrow === this.#shown.narrow;
+    if (isShown || this.#isBusy) {
+      return;
+    }
+    const wait = this.#took > QUICK && this.#model.gesture ? this.#next - performance.now() : 0;
+    clearTimeout(this.#timer);
+    if (wait > 0) {
+      this.#timer = setTimeout(() => this.update(), wait);
+    } else {
+      this.#ask(wish);
+    }
+  }
+
+  /** @param {Wished} wish */
+  async #ask(wish) {
+    const { kind, setup, radius, goal } = wish;
+    const [needsField, needsNarrow] = [wish.field !== this.#shown.field, wish.narrow !== this.#shown.narrow];
+    const [news, map] = [this.#feed.take(), this.#maps];
+    const began = performance.now();
+    this.#isBusy = true;
+    const request = {
+      type: /** @type {const} */ ("overlay"), news, setup: { ...setup }, radius, goal,
+      kind: needsField ? kind : /** @type {const} */ (""), narrow: needsNarrow,
+    };
+    try {
+      const { field, narrow } = await this.#helper.ask(request, buffersOf(news));
+      if (map === this.#maps) {
+        this.field = needsField ? field : this.field;
+        this.tooNarrow = needsNarrow ? narrow : this.tooNarrow;
+        this.#shown = { field: wish.field, narrow: wish.narrow };
+      }
+    } catch {
+      // There is no field of this motion, or no memory for it. Nothing is shown; the lane says why.
+      this.#feed.reset();
+      [this.field, this.tooNarrow] = [null, null];
+      this.#shown = { field: wish.field, narrow: wish.narrow };
+    }
+    this.#isBusy = false;
+    this.#took = performance.now() - began;
+    this.#next = performance.now() + Math.max(EVERY, 2 * this.#took);
+    this.#changed();
+    this.update();
+  }
+
+  #clear() {
+    clearTimeout(this.#timer);
+    this.#shown = NOTHING;
+    if (this.field || this.tooNarrow) {
+      [this.field, this.tooNarrow] = [null, null];
+      this.#changed();
+    }
+  }
+}

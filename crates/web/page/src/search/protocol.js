@@ -1,0 +1,163 @@
+// What the page and its workers say to each other, and what both know of a setup. There is nothing here
+// that runs long: both sides import it.
+
+/** @import { Change, LaneAnswer, LaneSetup, LaneState, Motion, Point, Rect } from "../../types.js" */
+/** @import { EngineInfo, Options } from "../../mediant/mediant.js" */
+
+/**
+ * What a worker must be told before it has the model's map: nothing, the map, or the cells of a rectangle.
+ * @typedef {object} MapNews
+ * @property {{ width: number, height: number, cells: Uint8Array }} [map]
+ * @property {Rect & { cells: Uint8Array }} [patch]
+ */
+
+/**
+ * A query of a lane, with all that has changed since the last one.
+ * @typedef {object} Ask
+ * @property {"ask"} type
+ * @property {number} number - Grows; what comes back carries it.
+ * @property {MapNews} news
+ * @property {LaneSetup} setup
+ * @property {number} radius
+ * @property {Point} start
+ * @property {Point} goal
+ * @property {boolean} nearest
+ * @property {boolean} hurry - A gesture is under way: another query comes soon.
+ * @property {boolean} record - Whether to keep the steps of the search.
+ */
+
+/**
+ * What is to be done for one agent. If its path holds, it is kept. If not, or without one, the agent gets a
+ * path from the first of these places that has a way to the goal; without places, from one chosen at random.
+ * @typedef {object} Errand
+ * @property {number} agent
+ * @property {Int32Array | null} path
+ * @property {number[]} places - x, y, x, y, …
+ */
+
+/**
+ * @typedef {object} Walk
+ * @property {"walk"} type
+ * @property {number} id
+ * @property {Point} goal
+ * @property {boolean} nearest
+ * @property {number} seed
+ * @property {Errand[]} errands
+ */
+
+/**
+ * What became of an errand. `path` is null if there is no way; `kept` says that the old path holds.
+ * @typedef {{ agent: number, kept: boolean, path: Int32Array | null }} ErrandDone
+ */
+
+/**
+ * What a lane's worker is told.
+ * @typedef {{ type: "start", module: WebAssembly.Module } | Ask | Walk | { type: "cancel" }
+ *   | { type: "refine" } | { type: "trace", id: number }
+ *   | { type: "picture", id: number, format: "png" | "svg", overlay: string }} ToLane
+ */
+
+/**
+ * What a lane's worker says.
+ * @typedef {{ type: "ready", engines: EngineInfo[] }
+ *   | { type: "preparing", number: number }
+ *   | { type: "progress", number: number, stage: string, done: number, total: number }
+ *   | { type: "prepared", number: number, took: number, wasEdit: boolean, index: LaneState["index"] }
+ *   | { type: "searching", number: number, expanded: number }
+ *   | { type: "answer", number: number, answer: LaneAnswer, memory: number }
+ *   | { type: "timing", number: number, ms: number }
+ *   | { type: "reference", number: number, reference: LaneAnswer["reference"] }
+ *   | { type: "failed", number: number, message: string, broken: boolean }
+ *   | { type: "walked", id: number, done: ErrandDone[], ms: number, over: boolean }
+ *   | { type: "result", id: number, value: BlobPart[], kind: string }
+ *   | { type: "refused", id: number, message: string }} FromLane
+ */
+
+/**
+ * What the overlays of a scene follow from.
+ * @typedef {object} OverlayWish
+ * @property {MapNews} news
+ * @property {LaneSetup} setup
+ * @property {number} radius
+ * @property {Point} goal
+ * @property {"clearance" | "distances" | "flow" | ""} kind
+ * @property {boolean} narrow - Whether to tell where the agent does not fit.
+ */
+
+/** @typedef {{ name: string, bytes: Uint8Array }} NamedBytes */
+
+/**
+ * What the helper is asked.
+ * @typedef {{ type: "moves", k: number } | { type: "check", setup: LaneSetup }
+ *   | { type: "read", files: NamedBytes[] } | ({ type: "overlay" } & OverlayWish)} Request
+ */
+
+/** The most cells of a map that the page takes. */
+export const MOST_CELLS = 4096 * 4096;
+
+/**
+ * The motion of a setup, as the package has it.
+ * @param {Readonly<LaneSetup>} setup
+ * @returns {Motion}
+ */
+export function motionOf(setup) {
+  const { k, placement } = setup;
+  return placement === "center" ? { k, placement, corners: setup.corners } : { k, placement, gap: setup.gap };
+}
+
+/**
+ * The options of a setup's engine.
+ * @param {Readonly<LaneSetup>} setup
+ * @returns {Options}
+ */
+export function optionsOf(setup) {
+  return setup.smooth ? { smooth: setup.smooth } : {};
+}
+
+/**
+ * A text that is the same for equal motions.
+ * @param {Readonly<LaneSetup>} setup
+ */
+export function motionKey(setup) {
+  return `${setup.k} ${setup.placement} ${setup.placement === "center" ? setup.corners : setup.gap}`;
+}
+
+/**
+ * A text that is the same for setups that prepare and search the same.
+ * @param {Readonly<LaneSetup>} setup
+ */
+export function setupKey(setup) {
+  return `${setup.engine} ${motionKey(setup)} ${setup.smooth}`;
+}
+
+/**
+ * What a `change` of the model says.
+ * @param {Event} event
+ * @returns {Change}
+ */
+export function changeOf(event) {
+  return /** @type {CustomEvent<Change>} */ (event).detail;
+}
+
+/**
+ * What an error says.
+ * @param {unknown} error
+ */
+export function textOf(error) {
+  return error instanceof Error ? error.message : String(error);
+}
+
+/**
+ * A sentence from a text of the library, which begins with a small letter and has no period. The name of a
+ * file or an engine stays as it is.
+ * @param {string} text
+ */
+export function sentence(text) {
+  const trimmed = text.trim();
+  const first = /^[a-z]+ /.test(trimmed) ? trimmed.charAt(0).toUpperCase() : trimmed.charAt(0);
+  return first + trimmed.slice(1) + (/[.!?]$/.test(trimmed) ? "" : ".");
+}
+
+/** What a lane says when its engine met a mistake of its own. */
+export const BROKEN =
+  "The engine stopped by a mistake of its own. Take another engine, or change the scene and try again.";

@@ -1,0 +1,257 @@
+// A lane's query, in slices: the search with its steps, the time of one query, and the true optimum beside
+// it. Each is a generator that gives way after a few milliseconds, so that a newer query is never kept
+// waiting.
+
+/** @import { LaneAnswer, Point } from "../../types.js" */
+/** @import { Answer, Planner, Trace, Wishes } from "../../mediant/mediant.js" */
+/** @import { Ask, FromLane } from "./protocol.js" */
+/** @import { Session } from "./session.js" */
+import { Trace as NewTrace } from "../../mediant/mediant.js";
+import { sentence, textOf } from "./protocol.js";
+
+/** @typedef {(message: FromLane, transfer?: Transferable[]) => void} Say */
+/** @typedef {{ start: Point, goal: Point, wishes?: Wishes }} Question */
+
+/** Milliseconds of work between two looks at the messages. */
+const SLICE = 10;
+/** The most steps that are kept: 32 MB. */
+const MOST_STEPS = 8_000_000;
+/** A search that took longer (ms) is not run a second time for its time alone. */
+const MOST_AGAIN = 3000;
+/** A search that took less (ms) is repeated for its time. */
+const SHORT = 5;
+/** What may be done beside a gesture, in ms. */
+const LITTLE = 20;
+
+/**
+ * Runs a search to its end. Returns the answer, and the milliseconds of the search alone.
+ * @param {Planner} planner
+ * @param {Question} question
+ * @param {{ pace: number }} measured - How fast the last search went; written, too.
+ * @param {Trace} [trace]
+ * @param {() => void} [between] - Called after each slice.
+ * @returns {Generator<void, { answer: Answer, ms: number }>}
+ */
+export function* sliced(planner, { start, goal, wishes }, measured, trace, between) {
+  let began = performance.now();
+  planner.begin(start, goal, wishes);
+  let ms = performance.now() - began;
+  for (;;) {
+    const expansions = Math.max(100, Math.round(measured.pace * SLICE));
+    began = performance.now();
+    const answer = planner.step(expansions, trace);
+    const spent = performance.now() - began;
+    ms += spent;
+    between?.();
+    if (answer) {
+      return { answer, ms };
+    }
+    measured.pace = Math.min(measured.pace * 4, expansions / Math.max(spent, 0.1));
+    yield;
+  }
+}
+
+/** The steps of a search, taken out of the package's memory as they come. */
+class Recording {
+  trace = new NewTrace();
+  expanded = 0;
+  generated = 0;
+  #length = 0;
+  /** @type {Uint32Array[] | null} */
+  #parts;
+
+  /** @param {boolean} keeps */
+  constructor(keeps) {
+    this.#parts = keeps ? [] : null;
+  }
+
+  take() {
+    const { trace } = this;
+    this.expanded += trace.expanded;
+    this.generated += trace.generated;
+    if (this.#parts) {
+      const steps = trace.steps();
+      this.#parts.push(steps);
+      this.#length += steps.length;
+      if (this.#length > MOST_STEPS) {
+        this.#parts = null;
+      }
+    }
+    trace.clear();
+  }
+
+  /** All steps, or null if they were too many. */
+  steps() {
+    const parts = this.#parts;
+    if (!parts || parts.length === 1) {
+      return parts && parts[0];
+    }
+    const all = new Uint32Array(this.#length);
+    let at = 0;
+    for (const part of parts) {
+      all.set(part, at);
+      at += part.length;
+    }
+    return all;
+  }
+}
+
+/**
+ * Answers a query.
+ * @param {Session} session
+ * @param {Ask} ask
+ * @param {Say} say
+ * @returns {Generator<void, LaneAnswer>}
+ */
+export function* search(session, ask, say) {
+  const planner = /** @type {Planner} */ (session.planner);
+  const recording = new Recording(ask.record);
+  let told = performance.now();
+  const between = () => {
+    recording.take();
+    if (performance.now() - told > 100) {
+      told = performance.now();
+      say({ type: "searching", number: ask.number, expanded: recording.expanded });
+    }
+  };
+  const answer = emptyAnswer(session, ask);
+  try {
+    const found = yield* sliced(planner, questionOf(ask), session, recording.trace, between);
+    const { status, path, distance } = found.answer;
+    answer.status = status === "stopped" ? "unreachable" : status;
+    answer.path = path ?? answer.path;
+    answer.length = distance;
+    answer.expanded = recording.expanded;
+    answer.generated = recording.generated;
+    answer.steps = recording.steps();
+    answer.ms = repeated(planner, ask, found.ms);
+  } catch (error) {
+    answer.error = refusal(error);
+  } finally {
+    recording.trace.free();
+  }
+  return answer;
+}
+
+/**
+ * An answer that says invalid.
+ * @param {Session} session
+ * @param {Ask} ask
+ * @returns {LaneAnswer}
+ */
+function emptyAnswer(session, { start, goal, setup }) {
+  const { index, grid } = session;
+  return {
+    start, goal, status: "invalid", path: new Int32Array(0), length: Infinity,
+    expanded: 0, generated: 0, ms: 0, steps: null, reference: null, error: null,
+    guarantee: index?.guarantee ?? "", optimal: index?.optimal ?? false, bound: index?.bound ?? null,
+    verticesPerRow: (grid?.width ?? 0) + (setup.placement === "corner" ? 1 : 0),
+  };
+}
+
+/**
+ * What the library said against the query. Anything else is not for the user: it is thrown on.
+ * @param {unknown} error
+ */
+function refusal(error) {
+  if (error instanceof Error && error.name === "MediantError" && "code" in error && error.code !== "memory") {
+    return { code: String(error.code), message: sentence(textOf(error)) };
+  }
+  throw error;
+}
+
+/**
+ * @param {{ start: Point, goal: Point, nearest: boolean }} ask
+ * @returns {Question}
+ */
+export function questionOf({ start, goal, nearest }) {
+  return { start, goal, wishes: nearest ? { nearest } : undefined };
+}
+
+/**
+ * The time of one query, from repetitions if it is short: the clock counts tenths of a millisecond, and the
+ * recording takes time, too. The best of a few counts, as the browser makes code faster while it runs.
+ * @param {Planner} planner
+ * @param {Ask} ask
+ * @param {number} first - The time of the first.
+ */
+function repeated(planner, ask, first) {
+  if (first >= (ask.hurry ? 1 : SHORT)) {
+    return first;
+  }
+  const { start, goal, wishes } = questionOf(ask);
+  let best = Infinity;
+  for (let rounds = ask.hurry ? 1 : 3; rounds > 0; rounds--) {
+    const began = performance.now();
+    let [spent, times] = [0, 0];
+    for (let more = 1; spent < (ask.hurry ? 0.5 : 1); more *= 2) {
+      for (let i = 0; i < more; i++) {
+        planner.find(start, goal, wishes);
+      }
+      times += more;
+      spent = performance.now() - began;
+    }
+    best = Math.min(best, spent / times);
+  }
+  return best;
+}
+
+/**
+ * What follows an answer: its time without a recording, and the true optimum.
+ * @param {Session} session
+ * @param {Ask} ask
+ * @param {LaneAnswer} answer
+ * @param {boolean} timed - Whether the answer's time is good.
+ * @param {Say} say
+ * @returns {Generator<void, void>}
+ */
+export function* refine(session, ask, answer, timed, say) {
+  const { number, setup } = ask;
+  if (answer.status === "invalid") {
+    return;
+  }
+  const planner = /** @type {Planner} */ (session.planner);
+  if (!timed && !ask.hurry && answer.ms < MOST_AGAIN) {
+    const { ms } = yield* sliced(planner, questionOf(ask), session);
+    answer.ms = repeated(planner, ask, ms);
+    say({ type: "timing", number, ms: answer.ms });
+    yield;
+  }
+  if (answer.path.length && !(ask.hurry && session.judgment > LITTLE)) {
+    const length = yield* optimum(session, ask, answer);
+    const what = setup.placement === "corner" ? "any" : "k";
+    say({ type: "reference", number, reference: { length, what } });
+    yield;
+  }
+  if (!ask.hurry && answer.ms < SHORT) {
+    // By now the browser may have made the code faster.
+    say({ type: "timing", number, ms: Math.min(answer.ms, repeated(planner, ask, answer.ms)) });
+  }
+}
+
+/**
+ * Whether the time of an answer is that of a query alone.
+ * @param {Ask} ask
+ * @param {LaneAnswer} answer
+ */
+export const isTimed = (ask, answer) => !ask.hurry && answer.ms < SHORT;
+
+/**
+ * The length of a shortest path between the ends of the answer's path.
+ * @param {Session} session
+ * @param {Ask} ask
+ * @param {LaneAnswer} answer
+ * @returns {Generator<void, number>}
+ */
+function* optimum(session, ask, { path, length, guarantee }) {
+  if (guarantee === `optimal(${ask.setup.placement === "corner" ? "any" : ask.setup.k})`) {
+    return length;
+  }
+  const planner = session.judge(ask);
+  yield;
+  const start = /** @type {Point} */ ([path[0], path[1]]);
+  const goal = /** @type {Point} */ ([path[path.length - 2], path[path.length - 1]]);
+  const { answer, ms } = yield* sliced(planner, { start, goal }, session.judged);
+  session.judged.ms = ms;
+  return answer.distance;
+}
