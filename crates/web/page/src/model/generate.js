@@ -1,0 +1,72 @@
+// Maps from a seed: the same name, side and seed give the same map on every platform.
+
+import { findEnds } from "./ends.js";
+import { cave } from "./generate/cave.js";
+import { city } from "./generate/city.js";
+import { islands } from "./generate/islands.js";
+import { maze } from "./generate/maze.js";
+import { noise } from "./generate/noise.js";
+import { obstacles } from "./generate/obstacles.js";
+import { mix, Random } from "./generate/random.js";
+import { rooms } from "./generate/rooms.js";
+import { warehouse } from "./generate/warehouse.js";
+
+/** `title`: what a menu shows. `about`: what the map is, as a sentence. `side`: a side that suits it.
+ * @typedef {object} Generator
+ * @property {string} name
+ * @property {string} title
+ * @property {string} about
+ * @property {number} side
+ * @property {(side: number, random: Random) => Uint8Array} make */
+
+export const LEAST_SIDE = 32;
+export const MOST_SIDE = 4096;
+
+/** The sides that a menu offers. */
+export const SIDES = Object.freeze([64, 128, 256, 512, 1024, 2048, 4096]);
+
+/** @type {readonly Readonly<Generator>[]} */
+export const generators = Object.freeze([
+  {
+    name: "obstacles", title: "Obstacles", side: 256, make: obstacles,
+    about: "Triangles and other convex shapes on open ground: here k shows most.",
+  },
+  {
+    name: "city", title: "City", side: 256, make: city,
+    about: "Streets at angles, courts, parks and squares.",
+  },
+  { name: "rooms", title: "Rooms", side: 256, make: rooms, about: "Halls and chambers, joined by doors." },
+  { name: "cave", title: "Cave", side: 256, make: cave, about: "Smooth rock around chambers and passages." },
+  { name: "islands", title: "Islands", side: 512, make: islands, about: "The sea between coast lines." },
+  {
+    name: "warehouse", title: "Warehouse", side: 128, make: warehouse,
+    about: "Rows of shelves with aisles between them.",
+  },
+  {
+    name: "maze", title: "Maze", side: 128, make: maze((side) => 3 + 2 * Math.floor(side / 256)),
+    about: "Wide corridors with some loops.",
+  },
+  {
+    name: "narrow-maze", title: "Narrow maze", side: 128, make: maze(() => 1),
+    about: "Corridors one cell wide, with some loops.",
+  },
+  ...[10, 20, 30, 40].map((percent) => ({
+    name: `noise-${percent}`, title: `Random, ${percent} %`, side: 256, make: noise(percent),
+    about: `Each cell is blocked with a chance of ${percent} %.`,
+  })),
+]);
+
+/** A map with ends. Throws if there is no such generator, side or seed.
+ * @param {string} name @param {number} side @param {number} seed from 0 to 2³² - 1 */
+export function generate(name, side, seed) {
+  const index = generators.findIndex((generator) => generator.name === name);
+  if (index < 0) throw new RangeError(`There is no generated map "${name}".`);
+  if (!Number.isInteger(side) || side < LEAST_SIDE || side > MOST_SIDE) {
+    throw new RangeError(`The side of a generated map is a whole number from ${LEAST_SIDE} to ${MOST_SIDE}.`);
+  }
+  if (!Number.isInteger(seed) || seed < 0 || seed > 0xffff_ffff) {
+    throw new RangeError("The seed of a generated map is a whole number from 0 to 4294967295.");
+  }
+  const cells = generators[index].make(side, new Random(mix(seed) ^ side));
+  return { width: side, height: side, cells, ...findEnds(side, side, cells) };
+}

@@ -1,0 +1,16 @@
+// Islands: the sea between coast lines. Where the landscape is high is land, which is blocked.
+
+import { keepLargestPart } from "../ends.js";
+import { heights, levelOf } from "./heights.js";
+
+/** @typedef {import("./random.js").Random} Random */
+
+/** @param {number} side @param {Random} random */
+export function islands(side, random) {
+  const longest = Math.max(16, Math.floor(side / 6));
+  const land = heights(side, longest, random.next());
+  const level = levelOf(land, 40);
+  const cells = land.map((height) => (height > level ? 1 : 0));
+  keepLargestPart(side, side, cells);
+  return cells;
+}
