@@ -2,8 +2,9 @@
 
 /** @typedef {import("../../types.d.ts").Point} Point */
 
-/** How many of the last cells of a search are looked at for one with much room. */
-const CANDIDATES = 2000;
+/** The share of a search's cells, the last ones, where an end is looked for, and at how many of them. */
+const LATE = 0.4;
+const CANDIDATES = 4000;
 
 /** A breadth-first search over the edges of cells. It keeps what it has seen: so it can count parts. */
 class Spread {
@@ -86,15 +87,19 @@ function roomAround(cell, width, height, cells) {
   return room;
 }
 
-/** Of the last cells of a search, thus the farthest, the one with most room: an end in a nook looks odd.
+/** A cell far from where a search began: one of those that it reached late, far away also as the crow flies,
+ * and with much room, as an end in a nook looks odd.
  * @param {Spread} spread @param {number} count @param {Uint8Array} cells */
 function farthest({ queue, width, height }, count, cells) {
-  const candidates = Math.min(CANDIDATES, Math.ceil(count / 50));
+  const [x, y] = [queue[0] % width, Math.floor(queue[0] / width)];
+  const step = Math.ceil((count * LATE) / CANDIDATES);
   let best = queue[count - 1];
   let most = -1;
-  for (let i = count - 1; i >= count - candidates; i--) {
-    const room = roomAround(queue[i], width, height, cells);
-    if (room > most) [best, most] = [queue[i], room];
+  for (let i = count - 1; i >= count * (1 - LATE); i -= step) {
+    const cell = queue[i];
+    const square = (cell % width - x) ** 2 + (Math.floor(cell / width) - y) ** 2;
+    const score = square * (5 + roomAround(cell, width, height, cells));
+    if (score > most) [best, most] = [cell, score];
   }
   return best;
 }

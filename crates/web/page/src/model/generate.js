@@ -17,7 +17,10 @@ import { warehouse } from "./generate/warehouse.js";
  * @property {string} title
  * @property {string} about
  * @property {number} side
+ * @property {boolean} [endsInCorners] or else the ends are as far apart as the way between them is long
  * @property {(side: number, random: Random) => Uint8Array} make */
+
+/** @typedef {import("../../types.d.ts").Point} Point */
 
 export const LEAST_SIDE = 32;
 export const MOST_SIDE = 4096;
@@ -44,11 +47,11 @@ export const generators = Object.freeze([
   },
   {
     name: "maze", title: "Maze", side: 128, make: maze((side) => 3 + 2 * Math.floor(side / 256)),
-    about: "Wide corridors with some loops.",
+    about: "Wide corridors with some loops.", endsInCorners: true,
   },
   {
     name: "narrow-maze", title: "Narrow maze", side: 128, make: maze(() => 1),
-    about: "Corridors one cell wide, with some loops.",
+    about: "Corridors one cell wide, with some loops.", endsInCorners: true,
   },
   ...[10, 20, 30, 40].map((percent) => ({
     name: `noise-${percent}`, title: `Random, ${percent} %`, side: 256, make: noise(percent),
@@ -67,6 +70,22 @@ export function generate(name, side, seed) {
   if (!Number.isInteger(seed) || seed < 0 || seed > 0xffff_ffff) {
     throw new RangeError("The seed of a generated map is a whole number from 0 to 4294967295.");
   }
-  const cells = generators[index].make(side, new Random(mix(seed) ^ side));
-  return { width: side, height: side, cells, ...findEnds(side, side, cells) };
+  const { make, endsInCorners } = generators[index];
+  const cells = make(side, new Random(mix(seed) ^ side));
+  const ends = endsInCorners ? cornerEnds(side, cells) : findEnds(side, side, cells);
+  return { width: side, height: side, cells, ...ends };
+}
+
+/** The middles of the first free stretches of the diagonal from the top left and from the bottom right.
+ * @param {number} side @param {Uint8Array} cells
+ * @returns {{ start: Point, goal: Point }} */
+function cornerEnds(side, cells) {
+  const diagonal = Array.from({ length: side }, (_, i) => cells[i * (side + 1)]);
+  /** @param {number[]} values */
+  const middle = (values) => {
+    const first = values.indexOf(0);
+    return (first + values.indexOf(1, first) - 1) >> 1;
+  };
+  const [near, far] = [middle(diagonal), side - 1 - middle(diagonal.reverse())];
+  return { start: [near, near], goal: [far, far] };
 }

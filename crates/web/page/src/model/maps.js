@@ -48,7 +48,7 @@ export function titleOf(source) {
   }
 }
 
-/** The map of a source, with ends, ready for `Model.load`. Rejects with an `Error` whose message is a sentence.
+/** The map of a source, with ends, for `Model.load`. Rejects with an `Error` whose message is a sentence.
  * @param {MapSource} source
  * @returns {Promise<import("./model.js").NewMap>} */
 export async function loadMap(source) {
@@ -80,8 +80,8 @@ async function fetchBundled(name) {
   return { ...parseMap(await response.text()), start: map.start, goal: map.goal };
 }
 
-/** A bundled map's text, in the MovingAI format. It is parsed here, and not by the package as all other files are,
- * so that the first map is there before the package has been loaded.
+/** A bundled map's text, in the MovingAI format. It is parsed here, and not by the package as all other files
+ * are, so that the first map is there before the package has been loaded.
  * @param {string} text */
 export function parseMap(text) {
   const lines = text.split(/\r?\n/);

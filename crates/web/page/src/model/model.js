@@ -105,9 +105,7 @@ export class Model extends EventTarget {
   }
 
   endGesture() {
-    if (this.#depth === 0) return;
-    this.#depth--;
-    if (this.#depth > 0) return;
+    if (this.#depth === 0 || --this.#depth > 0) return;
     this.#commit();
     this.#gesture = "";
     this.#tell({ gesture: true });
@@ -197,7 +195,7 @@ export class Model extends EventTarget {
       agents: setups.whole(change.agents, 0, setups.MOST_AGENTS) ?? old.agents,
     };
     this.#settings = next;
-    /** @type {Change} */ const told = {};
+    const told = /** @type {Change} */ ({});
     if (next.active !== old.active) told.active = true;
     if (next.overlay !== old.overlay) told.overlay = true;
     if (next.nearest !== old.nearest || next.radius !== old.radius) told.wishes = true;
@@ -205,7 +203,7 @@ export class Model extends EventTarget {
     if (Object.keys(told).length > 0) this.#tell(told);
   }
 
-  /** Joins all changes that the work makes into one `change` event.
+  /** Joins all changes that the work makes into one event.
    * @param {() => void} work */
   batch(work) {
     this.#batches++;
@@ -241,7 +239,7 @@ export class Model extends EventTarget {
     return this.#stroke.count > 0 || !isSame(start, this.#start) || !isSame(goal, this.#goal);
   }
 
-  /** Makes the changes since the last step a step of undo. */
+  /** Makes what is pending a step of undo. */
   #commit() {
     if (!this.#isPending) return;
     const cells = this.#stroke.count > 0 ? compact(this.#stroke) : null;

@@ -2,6 +2,7 @@
 
 import { keepLargestPart } from "../ends.js";
 import { heights } from "./heights.js";
+import { root } from "./random.js";
 
 /** @typedef {import("./random.js").Random} Random */
 
@@ -34,28 +35,30 @@ function twice(side, cells, newSide) {
   return result;
 }
 
-/** Random rock, and what wear makes of it. Larger caves grow out of smaller ones.
- * @param {number} side @param {Random} random @returns {Uint8Array} */
-function rock(side, random) {
-  if (side > 160) {
+/** Random rock, and what wear makes of it. Large caves grow out of small ones: so they have large chambers.
+ * @param {number} side @param {number} first the largest side that does not grow out of a smaller one
+ * @param {Random} random @returns {Uint8Array} */
+function rock(side, first, random) {
+  if (side > first) {
     const half = (side + 1) >> 1;
-    let cells = twice(half, rock(half, random), side);
+    let cells = twice(half, rock(half, first, random), side);
     for (let i = 0; i < cells.length; i++) if (random.chance(6)) cells[i] ^= 1;
     for (let i = 0; i < 3; i++) cells = wear(side, cells);
     return cells;
   }
-  const density = heights(side, Math.max(16, side >> 2), random.next(), 8);
+  const density = heights(side, random.next(), Math.max(16, side >> 3), 8);
   let cells = new Uint8Array(side * side);
-  for (let i = 0; i < cells.length; i++) cells[i] = random.chance(36 + (density[i] >> 4)) ? 1 : 0;
+  for (let i = 0; i < cells.length; i++) cells[i] = random.chance(40 + ((density[i] * 13) >> 8)) ? 1 : 0;
   for (let i = 0; i < 5; i++) cells = wear(side, cells);
   return cells;
 }
 
 /** @param {number} side @param {Random} random */
 export function cave(side, random) {
-  let cells = rock(side, random);
-  for (let tries = 0; keepLargestPart(side, side, cells) * 4 < side * side && tries < 20; tries++) {
-    cells = rock(side, random);
+  const first = 32 + 8 * root(side);
+  let cells = rock(side, first, random);
+  for (let tries = 0; keepLargestPart(side, side, cells) * 9 < side * side * 4 && tries < 20; tries++) {
+    cells = rock(side, first, random);
   }
   return cells;
 }

@@ -1,5 +1,5 @@
-// A city: streets cut it into blocks at various angles, wide ones first. Most blocks are built on, some around
-// a court; some are parks with trees, some are squares.
+// A city: streets cut it into blocks at various angles, wide ones first. Most blocks are built on, some
+// around a court; some are parks with trees, some are squares.
 
 import { Board, halfPlane, UNIT } from "./board.js";
 import { root } from "./random.js";
@@ -92,9 +92,9 @@ class City {
     const [top, bottom, planes] = this.inside(block, UNIT);
     board.rows(planes, top, bottom, (y, x0, x1) => {
       for (let x = x0; x < x1; x++) {
-        if (!random.chance(9)) continue;
+        if (!random.chance(5)) continue;
         const size = random.between(1, 2);
-        board.rectangle(x, y, Math.min(x + size, x1), y + 1, 1);
+        board.rectangle(x, y, x + size, y + size, 1);
       }
     });
   }

@@ -1,4 +1,4 @@
-// A maze: corridors grown by a random walk that turns back at dead ends, with some walls opened again, so that
+// A maze: corridors grown by a random walk that turns back at dead ends. Some walls are opened again, so that
 // there are several ways.
 
 /** @typedef {import("./random.js").Random} Random */

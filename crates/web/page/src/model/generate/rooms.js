@@ -1,5 +1,5 @@
-// Rooms: a building of halls and chambers. Walls divide the place again and again, each with doors of its own,
-// so that every room can be reached.
+// Rooms: a building of halls and chambers. Walls divide the place again and again, each with doors of its
+// own, so that every room can be reached.
 
 import { Board } from "./board.js";
 import { root } from "./random.js";
@@ -16,7 +16,7 @@ class Building {
     this.random = random;
     /** The least inner side of a room. */
     this.room = 4 + Math.floor(root(side) / 3);
-    this.thickest = Math.max(1, Math.floor(side / 200));
+    this.thickest = 1 + Math.floor(side / 400);
   }
 
   /** Whether a wall whose first cells are at `place` meets no door at its two ends.

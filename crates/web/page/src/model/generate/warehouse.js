@@ -1,5 +1,5 @@
-// A warehouse: double rows of shelves with aisles between them, in halls whose shelves stand upright or across,
-// wide ways between the halls, and pallets along the docks.
+// A warehouse: double rows of shelves with aisles between them, in halls whose shelves stand upright or
+// across, wide ways between the halls, and pallets along the docks.
 
 import { Board } from "./board.js";
 import { root } from "./random.js";
