@@ -97,8 +97,8 @@ function farthest({ queue, width, height }, count, cells) {
   let most = -1;
   for (let i = count - 1; i >= count * (1 - LATE); i -= step) {
     const cell = queue[i];
-    const square = (cell % width - x) ** 2 + (Math.floor(cell / width) - y) ** 2;
-    const score = square * (5 + roomAround(cell, width, height, cells));
+    const [dx, dy] = [(cell % width) - x, Math.floor(cell / width) - y];
+    const score = (dx * dx + dy * dy) * (5 + roomAround(cell, width, height, cells));
     if (score > most) [best, most] = [cell, score];
   }
   return best;

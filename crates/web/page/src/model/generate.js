@@ -59,18 +59,24 @@ export const generators = Object.freeze([
   })),
 ]);
 
+/** Why there is no such map, as a sentence; empty if there is.
+ * @param {string} name @param {number} side @param {number} seed */
+export function whyNotGenerated(name, side, seed) {
+  if (!generators.some((generator) => generator.name === name)) return `There is no generated map "${name}".`;
+  if (!Number.isInteger(side) || side < LEAST_SIDE || side > MOST_SIDE) {
+    return `The side of a generated map is a whole number from ${LEAST_SIDE} to ${MOST_SIDE}.`;
+  }
+  const isSeed = Number.isInteger(seed) && seed >= 0 && seed <= 0xffff_ffff;
+  return isSeed ? "" : "The seed of a generated map is a whole number from 0 to 4294967295.";
+}
+
 /** A map with ends. Throws if there is no such generator, side or seed.
  * @param {string} name @param {number} side @param {number} seed from 0 to 2³² - 1 */
 export function generate(name, side, seed) {
-  const index = generators.findIndex((generator) => generator.name === name);
-  if (index < 0) throw new RangeError(`There is no generated map "${name}".`);
-  if (!Number.isInteger(side) || side < LEAST_SIDE || side > MOST_SIDE) {
-    throw new RangeError(`The side of a generated map is a whole number from ${LEAST_SIDE} to ${MOST_SIDE}.`);
-  }
-  if (!Number.isInteger(seed) || seed < 0 || seed > 0xffff_ffff) {
-    throw new RangeError("The seed of a generated map is a whole number from 0 to 4294967295.");
-  }
-  const { make, endsInCorners } = generators[index];
+  const generator = generators.find((entry) => entry.name === name);
+  const why = whyNotGenerated(name, side, seed);
+  if (generator === undefined || why !== "") throw new RangeError(why);
+  const { make, endsInCorners } = generator;
   const cells = make(side, new Random(mix(seed) ^ side));
   const ends = endsInCorners ? cornerEnds(side, cells) : findEnds(side, side, cells);
   return { width: side, height: side, cells, ...ends };

@@ -1,6 +1,6 @@
 // The maps that the page offers: bundled ones, which are files beside the page, and generated ones.
 
-import { generate, generators, SIDES } from "./generate.js";
+import { generate, generators, SIDES, whyNotGenerated } from "./generate.js";
 import { whyNoSize } from "./setups.js";
 
 export { generators, SIDES };
@@ -56,7 +56,7 @@ export async function loadMap(source) {
     case "bundled":
       return { source, ...(await fetchBundled(source.name)) };
     case "generated":
-      return { source, ...generate(source.name, source.side, source.seed) };
+      return { source, ...(await generateAside(source.name, source.side, source.seed)) };
     case "empty": {
       const { width, height } = source;
       const why = whyNoSize(width, height);
@@ -65,6 +65,30 @@ export async function loadMap(source) {
     }
     case "file":
       throw new Error(`The map ${source.name} is a file: open it from your disk.`);
+  }
+}
+
+/** From this side on, a generated map is made in a worker: it takes longer than a frame or two. */
+const LARGE_SIDE = 512;
+
+/** @param {string} name @param {number} side @param {number} seed
+ * @returns {Promise<ReturnType<typeof generate>>} */
+async function generateAside(name, side, seed) {
+  const why = whyNotGenerated(name, side, seed);
+  if (why !== "") throw new RangeError(why);
+  if (side < LARGE_SIDE || typeof Worker === "undefined") return generate(name, side, seed);
+  const worker = new Worker(new URL("./generate-worker.js", import.meta.url), { type: "module" });
+  try {
+    return await new Promise((resolve, reject) => {
+      worker.onmessage = ({ data }) => resolve(data);
+      worker.onerror = reject;
+      worker.postMessage({ name, side, seed });
+    });
+  } catch {
+    // The worker could not be loaded: the page makes the map itself.
+    return generate(name, side, seed);
+  } finally {
+    worker.terminate();
   }
 }
 

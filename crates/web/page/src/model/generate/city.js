@@ -47,8 +47,8 @@ function cut(block, random, half, askew) {
   let [longest, length] = [0, 0];
   block.forEach((p, i) => {
     const q = block[(i + 1) % block.length];
-    const square = (q.x - p.x) ** 2 + (q.y - p.y) ** 2;
-    if (square > length) [longest, length] = [i, square];
+    const [x, y] = [q.x - p.x, q.y - p.y];
+    if (x * x + y * y > length) [longest, length] = [i, x * x + y * y];
   });
   const [p, q] = [block[longest], block[(longest + 1) % block.length]];
   const along = random.between(38, 62);

@@ -46,7 +46,7 @@ function pallets(board, random, { x0, y0, x1, y1 }) {
 export function warehouse(side, random) {
   const board = new Board(side, 1);
   board.rectangle(1, 1, side - 1, side - 1, 0);
-  const docks = Math.max(9, Math.floor(side / 10));
+  const docks = Math.min(48, Math.max(9, Math.floor(side / 10)));
   const way = Math.max(4, Math.floor(root(side) / 4));
   pallets(board, random, { x0: 4, y0: 4, x1: docks - 2, y1: side - 4 });
   const length = 8 + Math.floor(root(side) / 3);

@@ -1,0 +1,8 @@
+// Generates one map aside, so that the page stays alive meanwhile.
+
+import { generate } from "./generate.js";
+
+addEventListener("message", ({ data: { name, side, seed } }) => {
+  const map = generate(name, side, seed);
+  postMessage(map, { transfer: [map.cells.buffer] });
+});
