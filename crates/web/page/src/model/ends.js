@@ -64,6 +64,12 @@ function largestPart(spread) {
   return best;
 }
 
+/** How many cells the largest connected part has.
+ * @param {number} width @param {number} height @param {Uint8Array} cells */
+export function sizeOfLargestPart(width, height, cells) {
+  return largestPart(new Spread(width, height, cells)).count;
+}
+
 /** Blocks all cells but those of the largest connected part. Returns how many are free.
  * @param {number} width @param {number} height @param {Uint8Array} cells */
 export function keepLargestPart(width, height, cells) {
