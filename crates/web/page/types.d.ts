@@ -42,6 +42,8 @@ export interface Change {
   /** `nearest`, `radius`. */
   wishes?: boolean;
   agents?: boolean;
+  /** A gesture began or ended. */
+  gesture?: boolean;
 }
 
 /** model/model.js: the scene, and the only place that changes it. Dispatches `change` with a `Change` as `detail`. */
@@ -68,7 +70,8 @@ export interface Model extends EventTarget {
   /** Between `beginGesture` and `endGesture`: an end is dragged, or cells are drawn. */
   readonly gesture: "" | "end" | "cells";
 
-  load(map: { width: number; height: number; cells: Uint8Array; source: MapSource; start?: Point; goal?: Point }): void;
+  load(map: { width: number; height: number; cells: Uint8Array; source: MapSource; start?: Point; goal?: Point;
+    edited?: boolean }): void;
   /** All changes of cells until `endGesture` are one step of undo. */
   beginGesture(kind: "end" | "cells"): void;
   endGesture(): void;
@@ -106,8 +109,8 @@ export interface LaneAnswer {
   /** The steps of the search (`Trace.steps` of the package), if they were recorded; there are `verticesPerRow` in a row. */
   steps: Uint32Array | null;
   verticesPerRow: number;
-  /** The length of a shortest path: at any angle (corners), or over the lane's N(k) (centers). Comes a little later. */
-  reference: { length: number; what: "any" | "k" } | null;
+  /** A shortest path: at any angle (corners), or over the lane's N(k) (centers). Comes a little later. */
+  reference: { length: number; path: Int32Array; what: "any" | "k" } | null;
   /** Why the query is invalid, as a sentence, with its code. */
   error: { code: string; message: string } | null;
 }

@@ -6,7 +6,7 @@
 /** @import { Errand, ErrandDone, Walk } from "./protocol.js" */
 /** @import { Say } from "./search.js" */
 /** @import { Session } from "./session.js" */
-import { random } from "./random.js";
+import { Random } from "../model/generate/random.js";
 import { questionOf, sliced } from "./search.js";
 
 /** Milliseconds of work between two looks at the messages. */
@@ -25,7 +25,7 @@ const REACH = 3;
  */
 export function* walk(session, { id, goal, nearest, seed, errands }, say) {
   const { serial } = session;
-  const next = random(seed);
+  const random = new Random(seed);
   const measured = { pace: session.pace };
   /** @type {ErrandDone[]} */
   let done = [];
@@ -39,7 +39,7 @@ export function* walk(session, { id, goal, nearest, seed, errands }, say) {
     if (session.serial !== serial || !session.space) {
       break;
     }
-    const one = oneErrand(session, errand, { goal, nearest, next, measured });
+    const one = oneErrand(session, errand, { goal, nearest, random, measured });
     for (let step = one.next(); ; step = one.next()) {
       if (step.done) {
         done.push({ agent: errand.agent, ...step.value });
@@ -64,10 +64,10 @@ export function* walk(session, { id, goal, nearest, seed, errands }, say) {
 /**
  * @param {Session} session
  * @param {Errand} errand
- * @param {{ goal: Point, nearest: boolean, next: () => number, measured: { pace: number } }} how
+ * @param {{ goal: Point, nearest: boolean, random: Random, measured: { pace: number } }} how
  * @returns {Generator<void, { kept: boolean, path: Int32Array | null }>}
  */
-function* oneErrand(session, { path, places }, { goal, nearest, next, measured }) {
+function* oneErrand(session, { path, places }, { goal, nearest, random, measured }) {
   const [space, planner] = [session.space, session.walker];
   if (!space || !planner) {
     return { kept: false, path: null };
@@ -75,7 +75,7 @@ function* oneErrand(session, { path, places }, { goal, nearest, next, measured }
   if (path && space.holds(path)) {
     return { kept: true, path: null };
   }
-  const start = placeToStart(space, places, { goal, nearest, next });
+  const start = placeToStart(space, places, { goal, nearest, random });
   if (!start) {
     return { kept: false, path: null };
   }
@@ -87,10 +87,10 @@ function* oneErrand(session, { path, places }, { goal, nearest, next, measured }
  * Where an agent can start, so that it arrives.
  * @param {Space} space
  * @param {number[]} places
- * @param {{ goal: Point, nearest: boolean, next: () => number }} how
+ * @param {{ goal: Point, nearest: boolean, random: Random }} how
  * @returns {Point | null}
  */
-function placeToStart(space, places, { goal, nearest, next }) {
+function placeToStart(space, places, { goal, nearest, random }) {
   const hasGoal = space.isFree(goal);
   if (!hasGoal && !nearest) {
     return null;
@@ -98,7 +98,7 @@ function placeToStart(space, places, { goal, nearest, next }) {
   /** @param {Point} at */
   const leads = (at) => space.isFree(at) && (!hasGoal || space.connected(at, goal));
   if (!places.length) {
-    return randomPlace(space, leads, next);
+    return randomPlace(space, leads, random);
   }
   // Without a way to the goal, a wish for the nearest place still leads somewhere.
   const isFree = (/** @type {Point} */ at) => space.isFree(at);
@@ -121,14 +121,14 @@ function placeToStart(space, places, { goal, nearest, next }) {
 /**
  * @param {Space} space
  * @param {(at: Point) => boolean} fits
- * @param {() => number} next
+ * @param {Random} random
  * @returns {Point | null}
  */
-function randomPlace(space, fits, next) {
+function randomPlace(space, fits, random) {
   const { width, height } = vertices(space);
   for (let i = 0; i < TRIES; i++) {
     /** @type {Point} */
-    const at = [Math.floor(next() * width), Math.floor(next() * height)];
+    const at = [random.below(width), random.below(height)];
     if (fits(at)) {
       return at;
     }

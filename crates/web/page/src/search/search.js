@@ -218,9 +218,9 @@ export function* refine(session, ask, answer, timed, say) {
     yield;
   }
   if (answer.path.length && !(ask.hurry && session.judgment > LITTLE)) {
-    const length = yield* optimum(session, ask, answer);
+    const best = yield* optimum(session, ask, answer);
     const what = setup.placement === "corner" ? "any" : "k";
-    say({ type: "reference", number, reference: { length, what } });
+    say({ type: "reference", number, reference: { ...best, what } });
     yield;
   }
   if (!ask.hurry && answer.ms < SHORT) {
@@ -237,15 +237,15 @@ export function* refine(session, ask, answer, timed, say) {
 export const isTimed = (ask, answer) => !ask.hurry && answer.ms < SHORT;
 
 /**
- * The length of a shortest path between the ends of the answer's path.
+ * A shortest path between the ends of the answer's path, and its length.
  * @param {Session} session
  * @param {Ask} ask
  * @param {LaneAnswer} answer
- * @returns {Generator<void, number>}
+ * @returns {Generator<void, { length: number, path: Int32Array }>}
  */
 function* optimum(session, ask, { path, length, guarantee }) {
   if (guarantee === `optimal(${ask.setup.placement === "corner" ? "any" : ask.setup.k})`) {
-    return length;
+    return { length, path };
   }
   const planner = session.judge(ask);
   yield;
@@ -253,5 +253,5 @@ function* optimum(session, ask, { path, length, guarantee }) {
   const goal = /** @type {Point} */ ([path[path.length - 2], path[path.length - 1]]);
   const { answer, ms } = yield* sliced(planner, { start, goal }, session.judged);
   session.judged.ms = ms;
-  return answer.distance;
+  return { length: answer.distance, path: answer.path ?? new Int32Array(0) };
 }
