@@ -1,0 +1,162 @@
+// What moves above the map: the path, start and goal, agents, the brush and the cell of the keyboard.
+
+import { DASHES } from "./colors.js";
+
+/** @typedef {import("../../types.d.ts").LaneAnswer} LaneAnswer */
+/** @typedef {import("../../types.d.ts").Point} Point */
+/** @typedef {import("../../types.d.ts").Rect} Rect */
+/** @typedef {import("./view.js").Frame} Frame */
+/** @typedef {import("./colors.js").Theme} Theme */
+
+/** The radius of the badges of start and goal, in pixels of the page. */
+const BADGE = 11;
+const FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, Helvetica, Arial, sans-serif';
+
+/** @param {CanvasRenderingContext2D} context @param {Frame} frame @param {ArrayLike<number>} points
+ *  @param {number} shift */
+function trace(context, frame, points, shift) {
+  context.beginPath();
+  for (let i = 0; i + 1 < points.length; i += 2) {
+    const x = frame.left + (points[i] + shift) * frame.scale;
+    const y = frame.top + (points[i + 1] + shift) * frame.scale;
+    if (i === 0) context.moveTo(x, y);
+    else context.lineTo(x, y);
+  }
+}
+
+/** The path of a lane: a rim in the color of the page, the lane's color and dashes, and dots where it turns.
+ *  `shift`: of a vertex from the corner of its cell. `radius`: of the agent, in cells.
+ *  @param {CanvasRenderingContext2D} context @param {Frame} frame @param {LaneAnswer} answer
+ *  @param {{ lane: number, shift: number, radius: number, isFaint: boolean }} look @param {Theme} theme */
+export function drawPath(context, frame, answer, look, theme) {
+  const { path } = answer;
+  if (path.length < 4) return;
+  const { dpr, scale } = frame;
+  const color = theme.lanes[look.lane % 4];
+  const width = Math.min(4.5, Math.max(2.75, 2.25 + scale / dpr / 12)) * dpr;
+  context.save();
+  context.lineJoin = "round";
+  context.lineCap = "round";
+  trace(context, frame, path, look.shift);
+  context.globalAlpha = look.isFaint ? 0.45 : 1;
+  if (look.radius > 0) {
+    context.save();
+    context.globalAlpha *= 0.24;
+    context.strokeStyle = color;
+    context.lineWidth = Math.max(width, 2 * look.radius * scale);
+    context.stroke();
+    context.restore();
+  }
+  context.strokeStyle = theme.css.page;
+  context.lineWidth = width + 2.75 * dpr;
+  context.stroke();
+  context.strokeStyle = color;
+  context.lineWidth = width;
+  const dashes = DASHES[look.lane % 4];
+  if (dashes.length > 0) {
+    context.lineCap = "butt";
+    context.setLineDash(dashes.map((length) => (length * width) / 3.5));
+  }
+  context.stroke();
+  context.setLineDash([]);
+  drawTurns(context, frame, path, look.shift, width, color, theme.css.page);
+  context.restore();
+}
+
+/** Dots at the waypoints, if they are well apart. @param {CanvasRenderingContext2D} context @param {Frame}
+ *  frame @param {Int32Array} path @param {number} shift @param {number} width @param {string} color @param
+ *  {string} rim */
+function drawTurns(context, frame, path, shift, width, color, rim) {
+  const { left, top, scale, dpr } = frame;
+  const first = Math.abs(path[2] - path[0]) + Math.abs(path[3] - path[1]);
+  const turns = path.length / 2 - 2;
+  const span = Math.hypot(path[path.length - 2] - path[0], path[path.length - 1] - path[1]) + first;
+  if (turns < 1 || scale < 7 * dpr || (span * scale) / turns < 14 * dpr) return;
+  context.beginPath();
+  for (let i = 2; i + 3 < path.length; i += 2) {
+    const [x, y] = [left + (path[i] + shift) * scale, top + (path[i + 1] + shift) * scale];
+    if (x < -9 || y < -9 || x > frame.width + 9 || y > frame.height + 9) continue;
+    context.moveTo(x + 0.95 * width, y);
+    context.arc(x, y, 0.95 * width, 0, 7);
+  }
+  context.fillStyle = color;
+  context.fill();
+  context.strokeStyle = rim;
+  context.lineWidth = 1.25 * dpr;
+  context.stroke();
+}
+
+/** A dotted line from where the path had to end to the goal that cannot be reached.
+ *  @param {CanvasRenderingContext2D} context @param {Frame} frame @param {LaneAnswer} answer
+ *  @param {number} shift @param {Theme} theme */
+export function drawMissing(context, frame, answer, shift, theme) {
+  const { path, goal } = answer;
+  const from = path.slice(-2);
+  if (from.length < 2) return;
+  context.save();
+  trace(context, frame, [from[0], from[1], goal[0], goal[1]], shift);
+  context.lineCap = "round";
+  for (const [color, width] of /** @type {[string, number][]} */ ([
+    [theme.css.page, 4.5], [theme.css.danger, 2],
+  ])) {
+    context.setLineDash([0.01 * frame.dpr, 6 * frame.dpr]);
+    context.lineWidth = width * frame.dpr;
+    context.strokeStyle = color;
+    context.stroke();
+  }
+  context.restore();
+}
+
+/** A badge with the letter of the figures. @param {CanvasRenderingContext2D} context @param {Frame} frame
+ *  @param {"S" | "G"} letter @param {Point} at @param {number} shift
+ *  @param {"" | "near" | "held"} state @param {Theme} theme */
+export function drawBadge(context, frame, letter, at, shift, state, theme) {
+  const { dpr } = frame;
+  const x = frame.left + (at[0] + shift) * frame.scale;
+  const y = frame.top + (at[1] + shift) * frame.scale;
+  const size = frame.width < 260 * dpr ? BADGE - 2 : BADGE;
+  const radius = (state === "" ? size : size + 2) * dpr;
+  if (state === "held") {
+    context.beginPath();
+    context.arc(x, y, radius + 6 * dpr, 0, 7);
+    context.globalAlpha = 0.25;
+    context.fillStyle = theme.css.focus;
+    context.fill();
+    context.globalAlpha = 1;
+  }
+  context.beginPath();
+  context.arc(x, y, radius, 0, 7);
+  context.fillStyle = letter === "S" ? theme.css.start : theme.css.goal;
+  context.fill();
+  context.lineWidth = 1.75 * dpr;
+  context.strokeStyle = theme.css.page;
+  context.stroke();
+  context.fillStyle = theme.css.page;
+  context.font = `700 ${Math.round(1.15 * radius)}px ${FONT}`;
+  context.textAlign = "center";
+  context.textBaseline = "alphabetic";
+  context.fillText(letter, x, y + 0.41 * radius);
+}
+
+/** The outline of cells: the brush, or a rectangle to come. @param {CanvasRenderingContext2D} context
+ *  @param {Frame} frame @param {Rect} rect @param {string} color @param {number} fill Opacity inside.
+ *  @param {Theme} theme */
+export function drawCells(context, frame, rect, color, fill, theme) {
+  const { dpr, scale } = frame;
+  const left = Math.round(frame.left + rect.x * scale);
+  const top = Math.round(frame.top + rect.y * scale);
+  const width = Math.max(2 * dpr, Math.round(frame.left + (rect.x + rect.width) * scale) - left);
+  const height = Math.max(2 * dpr, Math.round(frame.top + (rect.y + rect.height) * scale) - top);
+  if (fill > 0) {
+    context.globalAlpha = fill;
+    context.fillStyle = color;
+    context.fillRect(left, top, width, height);
+    context.globalAlpha = 1;
+  }
+  context.strokeStyle = theme.css.page;
+  context.lineWidth = 4 * dpr;
+  context.strokeRect(left, top, width, height);
+  context.strokeStyle = color;
+  context.lineWidth = 2 * dpr;
+  context.strokeRect(left, top, width, height);
+}
