@@ -102,10 +102,10 @@ export class Legend {
     this.key = "";
   }
 
-  /** @param {Overlay} overlay @param {Lanes["field"]} field @param {LaneSetup} setup @param {"" | "tiles" |
-   *  "marks"} search */
-  update(overlay, field, setup, search) {
-    const html = legendOf(overlay, field, setup, search);
+  /** @param {Overlay} overlay @param {Lanes["field"]} field @param {LaneSetup} setup
+   *  @param {{ search: "" | "tiles" | "marks", isBeaten: boolean }} shown */
+  update(overlay, field, setup, shown) {
+    const html = legendOf(overlay, field, setup, shown);
     if (html === this.key) return;
     this.key = html;
     this.root.innerHTML = html;
@@ -116,10 +116,13 @@ export class Legend {
 /** @param {number} value */
 const short = (value) => (value >= 100 ? value.toFixed(0) : String(Number(value.toPrecision(3))));
 
-/** @param {Overlay} overlay @param {Lanes["field"]} field @param {LaneSetup} setup @param {string} search */
-function legendOf(overlay, field, setup, search) {
+/** @param {Overlay} overlay @param {Lanes["field"]} field @param {LaneSetup} setup
+ *  @param {{ search: string, isBeaten: boolean }} shown */
+function legendOf(overlay, field, setup, { search, isBeaten }) {
   if (overlay === "search" && search) {
-    return `<span>expanded first</span><i class="stage-scale is-${search}"></i><span>last</span>
+    const what = setup.placement === "corner" ? "shortest at any angle" : "shortest over N(k)";
+    const optimum = isBeaten ? `<i class="stage-optimum"></i><span>${what}</span>` : "";
+    return `${optimum}<span>expanded first</span><i class="stage-scale is-${search}"></i><span>last</span>
       <i class="stage-tile"></i><span>open</span>`;
   }
   if (field && field.kind === overlay && overlay !== "flow") {

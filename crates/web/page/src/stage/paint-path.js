@@ -63,6 +63,36 @@ export function drawPath(context, frame, answer, look, theme) {
   context.restore();
 }
 
+/** The optimum, where the lane's path is longer: dotted, below that path.
+ *  @param {CanvasRenderingContext2D} context @param {Frame} frame @param {LaneAnswer} answer
+ *  @param {number} shift @param {Theme} theme */
+export function drawOptimum(context, frame, answer, shift, theme) {
+  if (!isBeaten(answer) || !answer.reference) return;
+  context.save();
+  trace(context, frame, answer.reference.path, shift);
+  dot(context, frame, theme.css.page, theme.css.reference);
+  context.restore();
+}
+
+/** Whether the optimum is shorter than the lane's path: by more than sums of roots differ by rounding.
+ *  @param {LaneAnswer} answer */
+export function isBeaten({ reference, length }) {
+  return !!reference && reference.length < length * (1 - 1e-9);
+}
+
+/** Dots along the path that was traced. @param {CanvasRenderingContext2D} context @param {Frame} frame
+ *  @param {string} rim @param {string} color */
+function dot(context, { dpr }, rim, color) {
+  context.lineCap = "round";
+  context.lineJoin = "round";
+  context.setLineDash([0.01 * dpr, 6 * dpr]);
+  for (const [style, width] of /** @type {[string, number][]} */ ([[rim, 4.5], [color, 2]])) {
+    context.lineWidth = width * dpr;
+    context.strokeStyle = style;
+    context.stroke();
+  }
+}
+
 /** Dots at the waypoints, if they are well apart. @param {CanvasRenderingContext2D} context @param {Frame}
  *  frame @param {Int32Array} path @param {number} shift @param {number} width @param {string} color @param
  *  {string} rim */
@@ -95,15 +125,7 @@ export function drawMissing(context, frame, answer, shift, theme) {
   if (from.length < 2) return;
   context.save();
   trace(context, frame, [from[0], from[1], goal[0], goal[1]], shift);
-  context.lineCap = "round";
-  for (const [color, width] of /** @type {[string, number][]} */ ([
-    [theme.css.page, 4.5], [theme.css.danger, 2],
-  ])) {
-    context.setLineDash([0.01 * frame.dpr, 6 * frame.dpr]);
-    context.lineWidth = width * frame.dpr;
-    context.strokeStyle = color;
-    context.stroke();
-  }
+  dot(context, frame, theme.css.page, theme.css.danger);
   context.restore();
 }
 

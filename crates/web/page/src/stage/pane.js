@@ -8,7 +8,7 @@ import { SearchHeat } from "./heat.js";
 import { Agents } from "./paint-agents.js";
 import { FieldPainter } from "./paint-field.js";
 import { Hatch, drawBorder, drawGridLines, mapBox } from "./paint-map.js";
-import { drawBadge, drawCells, drawMissing, drawPath } from "./paint-path.js";
+import { drawBadge, drawCells, drawMissing, drawOptimum, drawPath, isBeaten } from "./paint-path.js";
 import { Rules } from "./paint-rules.js";
 
 /** @typedef {import("./stage.js").Stage} Stage */
@@ -26,6 +26,8 @@ export class Pane {
   #hatch = new Hatch();
   #rules = new Rules();
   #agents = new Agents();
+  /** Whether the optimum is shorter than the path. */
+  #isBeaten = false;
   #dirty = { ground: true, walls: true, top: true, text: true };
   /** @type {Rect | null} */
   #patch = null;
@@ -187,6 +189,7 @@ export class Pane {
     if (answer && player.arrived(this.lane) && answer.status !== "invalid") {
       const look = { lane: this.lane, shift, radius: model.radius, isFaint: this.#isFaint(now) };
       if (answer.status === "nearest") drawMissing(context, frame, answer, shift, theme);
+      drawOptimum(context, frame, answer, shift, theme);
       drawPath(context, frame, answer, look, theme);
     }
     let isMoving = false;
@@ -247,7 +250,11 @@ export class Pane {
     const hasSearch = !!state?.answer?.steps?.length;
     const isHere = this.#isActive || model.overlay === "rules";
     const search = !hasSearch ? "" : this.#heat.isSparse ? "marks" : "tiles";
-    this.legend.update(isHere ? model.overlay : "none", lanes.field, setup, search);
+    const answer = state?.answer;
+    // The optimum comes a little after its answer: until then the legend stays as it is.
+    if (answer && (answer.reference || !answer.path.length)) this.#isBeaten = isBeaten(answer);
+    const words = { search, isBeaten: this.#isBeaten };
+    this.legend.update(isHere ? model.overlay : "none", lanes.field, setup, words);
     const label = `Map, lane ${this.lane + 1}: ${engineName(setup.engine)}, k = ${kText(setup.k)}`;
     if (this.surface.getAttribute("aria-label") !== label) this.surface.setAttribute("aria-label", label);
   }
