@@ -17,7 +17,8 @@
 
 const NAMES = [
   "page", "panel", "text", "muted", "line", "axis", "accent", "wall", "free", "grid-line", "expanded-first",
-  "expanded-last", "open", "start", "goal", "agent", "danger", "focus", "outside", "stage-wall-in-field",
+  "expanded-last", "open", "start", "goal", "agent", "danger", "reference", "focus", "outside",
+  "stage-wall-in-field",
 ];
 
 /** The figures' scale of a field: its lightness falls evenly, so that the order is seen without hues. */
