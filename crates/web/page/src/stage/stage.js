@@ -222,8 +222,8 @@ export class Stage extends EventTarget {
     const caption = this.panes[0].caption.button.offsetHeight || 36;
     let [best, columns] = [-1, 1];
     for (let n = count; n >= 1; n--) {
-      const rows = Math.ceil(count / n);
-      if (rows * n - count >= n) continue;
+      if (count % n) continue; // An empty place would stay.
+      const rows = count / n;
       const scale = this.view.scaleFor(width / n, Math.max(1, height / rows - caption));
       // Few columns only if the map gains: eyes compare more easily side by side.
       if (scale > best * 1.25) [best, columns] = [scale, n];
