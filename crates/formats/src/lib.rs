@@ -9,6 +9,8 @@
 //! | PGM and PBM, P1, P2, P4, P5; PNG | [`Raster`] | dark and transparent pixels are blocked: [`ImageOptions`] |
 //! | ROS `map_server`: YAML, picture | [`RosMap`] | occupied and unknown cells are blocked; meters: [`WorldFrame`] |
 //!
+//! [`read_map_with`] does so where files are not on a disk, and [`map_size_with`] only looks at the header.
+//!
 //! ```no_run
 //! use mediant_formats::{ImageOptions, read_map};
 //! let map = read_map("depot.yaml", &ImageOptions::default())?;
@@ -77,7 +79,7 @@ pub use raster::{ImageOptions, Raster, RasterError, RasterFormat, Unknown};
 pub use read::{MAX_FILE_BYTES, ReadError};
 pub use ros::{RosError, RosMap, RosMode, RosSettings};
 pub use scenario::{Instance, MapMismatch, Scenario, ScenarioError, scenario_tolerance};
-pub use source::{MapFormat, MapSource, read_map};
+pub use source::{MapFormat, MapSource, map_size_with, read_map, read_map_with};
 #[cfg(feature = "trace")]
 pub use trace::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
 pub use world::{WorldError, WorldFrame};

@@ -120,6 +120,13 @@ pub enum ReadError {
     },
 }
 
+impl ReadError {
+    /// This error of the picture that a YAML file names.
+    pub(crate) fn of_image(self, yaml: &Path) -> Self {
+        Self::RosImage { path: yaml.to_owned(), source: Box::new(self) }
+    }
+}
+
 /// The bytes of a regular file. A device or pipe is refused before it is opened, since opening a pipe may
 /// never return.
 pub(crate) fn read_regular(path: &Path) -> Result<Vec<u8>, ReadError> {

@@ -64,10 +64,35 @@ pub struct MapSource {
 /// [`ReadError`] for a file that is missing, cannot be read, or is no map; the same of the picture that a
 /// YAML file names.
 pub fn read_map(path: impl AsRef<Path>, options: &ImageOptions) -> Result<MapSource, ReadError> {
+    read_map_with(path, options, read_regular)
+}
+
+/// Reads a map as [`read_map`] does, from wherever its files are: `read` gives the bytes of the file with a
+/// path. It is asked for the map, and for the picture that a YAML file names, beside it.
+///
+/// ```
+/// use mediant_formats::{ImageOptions, ReadError, read_map_with};
+/// let files = [("room.pgm", "P2 2 1 255  254 0"), ("room.yaml", "image: room.pgm\nresolution: 1\n\
+///     origin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.25\n")];
+/// let map = read_map_with("room.yaml", &ImageOptions::default(), |path| {
+///     let file = files.iter().find(|(name, _)| path.as_os_str() == *name);
+///     let bytes = file.map(|(_, text)| text.as_bytes().to_vec());
+///     bytes.ok_or_else(|| ReadError::Missing { path: path.to_owned() })
+/// })?;
+/// assert!(map.grid.is_free(0, 0) && map.grid.is_blocked(1, 0));
+/// # Ok::<(), ReadError>(())
+/// ```
+///
+/// # Errors
+/// Those of `read`, and [`ReadError`] for what is no map.
+pub fn read_map_with(
+    path: impl AsRef<Path>,
+    options: &ImageOptions,
+    mut read: impl FnMut(&Path) -> Result<Vec<u8>, ReadError>,
+) -> Result<MapSource, ReadError> {
     let path = path.as_ref();
-    let bytes = read_regular(path)?;
-    let format = MapFormat::of(&bytes, path)
-        .ok_or_else(|| ReadError::NoMap { path: path.to_owned(), found: quote(&bytes) })?;
+    let bytes = read(path)?;
+    let format = format_of(path, &bytes)?;
     let (grid, frame, tiles) = match format {
         MapFormat::MovingAi => {
             let map = MapFile::from_bytes(bytes)
@@ -80,9 +105,47 @@ pub fn read_map(path: impl AsRef<Path>, options: &ImageOptions) -> Result<MapSou
             (raster.to_grid(options), None, None)
         }
         MapFormat::Ros => {
-            let map = RosMap::from_yaml(path, &bytes)?;
+            let map = RosMap::from_yaml(path, &bytes, read)?;
             (map.to_grid(options), Some(map.frame()), None)
         }
     };
     Ok(MapSource { grid, frame, format, tiles })
+}
+
+/// The width and the height, in cells, that the header of a map of any kind states: before the map is made,
+/// so that one that is too large can be refused. `read` is that of [`read_map_with`].
+///
+/// ```
+/// use mediant_formats::map_size_with;
+/// let header = |_: &std::path::Path| Ok(b"P5 30000 8000 255 ".to_vec());
+/// assert_eq!(map_size_with("hall.pgm", header)?, (30_000, 8_000));
+/// # Ok::<(), mediant_formats::ReadError>(())
+/// ```
+///
+/// # Errors
+/// Those of `read`, and [`ReadError`] for a header that is wrong, or states sides that no map has.
+pub fn map_size_with(
+    path: impl AsRef<Path>,
+    mut read: impl FnMut(&Path) -> Result<Vec<u8>, ReadError>,
+) -> Result<(u32, u32), ReadError> {
+    let path = path.as_ref();
+    let bytes = read(path)?;
+    let of_picture = |path: &Path, bytes: &[u8]| {
+        Raster::size(bytes).map_err(|source| ReadError::Raster { path: path.to_owned(), source })
+    };
+    match format_of(path, &bytes)? {
+        MapFormat::MovingAi => {
+            MapFile::size(&bytes).map_err(|source| ReadError::Map { path: path.to_owned(), source })
+        }
+        MapFormat::Picture => of_picture(path, &bytes),
+        MapFormat::Ros => {
+            let (_, image, bytes) = RosMap::files(path, &bytes, read)?;
+            of_picture(&image, &bytes).map_err(|error| error.of_image(path))
+        }
+    }
+}
+
+/// The kind of a file that is to be a map.
+fn format_of(path: &Path, bytes: &[u8]) -> Result<MapFormat, ReadError> {
+    MapFormat::of(bytes, path).ok_or_else(|| ReadError::NoMap { path: path.to_owned(), found: quote(bytes) })
 }

@@ -60,6 +60,14 @@ impl MapFile {
             .map_err(|source| ReadError::Map { path: path.to_owned(), source })
     }
 
+    /// The width and the height that the header states of a map that [`parse`](Self::parse) reads whole.
+    ///
+    /// # Errors
+    /// [`MapError`] for a header that is wrong.
+    pub fn size(bytes: &[u8]) -> Result<(u32, u32), MapError> {
+        parse::size(bytes)
+    }
+
     /// Makes the map of a grid: `.` for free and `@` for blocked cells, lines that end in LF.
     #[must_use]
     pub fn from_grid(grid: &Grid) -> Self {

@@ -5,6 +5,14 @@ use mediant_grid::Grid;
 use super::error::MapError;
 use crate::text::{Line, Lines, quote, quote_line, words};
 
+/// The width and the height that the header states.
+pub(super) fn size(text: &[u8]) -> Result<(u32, u32), MapError> {
+    if text.is_empty() {
+        return Err(MapError::Empty);
+    }
+    parse_header(&mut Lines::new(text))
+}
+
 /// The width of a map, and where each of its rows begins in the text.
 pub(super) fn map(text: &[u8]) -> Result<(u32, Vec<usize>), MapError> {
     if text.is_empty() {

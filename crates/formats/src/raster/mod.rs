@@ -94,6 +94,23 @@ impl Raster {
         }
     }
 
+    /// The width and the height that the header of a picture states, which [`parse`](Self::parse) reads whole.
+    ///
+    /// # Errors
+    /// [`RasterError`] for a header that is wrong, or states sides that no picture may have.
+    pub fn size(bytes: &[u8]) -> Result<(u32, u32), RasterError> {
+        if bytes.starts_with(PNG_SIGNATURE) {
+            #[cfg(feature = "png")]
+            return png::size(bytes);
+            #[cfg(not(feature = "png"))]
+            return Err(RasterError::PngIsOff);
+        }
+        match netpbm::kind(bytes) {
+            Some(kind) => netpbm::size(kind, bytes),
+            None => Err(RasterError::Unknown { found: quote(bytes) }),
+        }
+    }
+
     /// Reads a file.
     ///
     /// # Errors

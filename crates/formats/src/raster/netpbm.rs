@@ -30,19 +30,26 @@ pub(super) fn kind(bytes: &[u8]) -> Option<Kind> {
     bytes.get(2).is_none_or(|&byte| is_space(byte) || byte == b'#').then_some(kind)
 }
 
-/// Reads a file of this kind.
-pub(super) fn read(kind: Kind, bytes: &[u8]) -> Result<Raster, RasterError> {
-    let colours = || RasterError::Colours { found: quote(&bytes[..2.min(bytes.len())]) };
-    let mut cursor = Cursor { bytes, at: 2 };
-    let bitmap = match kind {
-        Kind::PlainBitmap | Kind::Bitmap => true,
-        Kind::PlainGray | Kind::Gray => false,
-        Kind::Colours => return Err(colours()),
-    };
+/// The sides that the header of a file of this kind states.
+pub(super) fn size(kind: Kind, bytes: &[u8]) -> Result<(u32, u32), RasterError> {
+    sides(kind, &mut Cursor { bytes, at: 2 })
+}
+
+/// The sides, which stand first in the header.
+fn sides(kind: Kind, cursor: &mut Cursor<'_>) -> Result<(u32, u32), RasterError> {
+    if kind == Kind::Colours {
+        return Err(RasterError::Colours { found: quote(&cursor.bytes[..2.min(cursor.bytes.len())]) });
+    }
     let width = cursor.header_number("the width")?;
     let height = cursor.header_number("the height")?;
-    let (width, height) = check_sides(width, height)?;
-    let white = if bitmap { 1 } else { cursor.maxval()? };
+    check_sides(width, height)
+}
+
+/// Reads a file of this kind.
+pub(super) fn read(kind: Kind, bytes: &[u8]) -> Result<Raster, RasterError> {
+    let mut cursor = Cursor { bytes, at: 2 };
+    let (width, height) = sides(kind, &mut cursor)?;
+    let white = if matches!(kind, Kind::PlainBitmap | Kind::Bitmap) { 1 } else { cursor.maxval()? };
     let mut shades = Samples::up_to(white);
     match kind {
         Kind::PlainBitmap => plain::bits(&mut cursor, width, height, &mut shades)?,

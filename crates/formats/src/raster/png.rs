@@ -34,9 +34,21 @@ impl From<DecodingError> for RasterError {
     }
 }
 
+/// What reads a PNG.
+fn decoder(bytes: &[u8]) -> Decoder<Cursor<&[u8]>> {
+    Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: DECODER_BYTES })
+}
+
+/// The sides that the header states.
+pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), RasterError> {
+    let mut decoder = decoder(bytes);
+    let header = decoder.read_header_info()?;
+    check_sides(u64::from(header.width), u64::from(header.height))
+}
+
 /// Reads a PNG row by row: the decoder keeps a row, and the samples grow with what was decoded.
 pub(super) fn read(bytes: &[u8]) -> Result<Raster, RasterError> {
-    let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: DECODER_BYTES });
+    let mut decoder = decoder(bytes);
     // Palettes become colours, and gray of less than 8 bits becomes gray of 8, which changes no fraction of
     // white: 255 is a multiple of 1, 3 and 15.
     decoder.set_transformations(Transformations::EXPAND);

@@ -83,16 +83,32 @@ impl RosMap {
     /// [`ReadError`] for a YAML file or a picture that is missing, cannot be read, or is wrong.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
         let path = path.as_ref();
-        Self::from_yaml(path, &read_regular(path)?)
+        Self::from_yaml(path, &read_regular(path)?, read_regular)
     }
 
-    /// The map whose YAML file has this path and this content.
-    pub(crate) fn from_yaml(path: &Path, yaml: &[u8]) -> Result<Self, ReadError> {
-        let wrong = |source| ReadError::Ros { path: path.to_owned(), source };
-        let settings = RosSettings::parse(yaml).map_err(wrong)?;
-        let raster = Raster::read(beside(path, &settings.image))
-            .map_err(|source| ReadError::RosImage { path: path.to_owned(), source: Box::new(source) })?;
-        Self::new(settings, raster).map_err(wrong)
+    /// The map whose YAML file has this path and this content; `read` gives the bytes of its picture.
+    pub(crate) fn from_yaml(
+        path: &Path,
+        yaml: &[u8],
+        read: impl FnMut(&Path) -> Result<Vec<u8>, ReadError>,
+    ) -> Result<Self, ReadError> {
+        let (settings, image, bytes) = Self::files(path, yaml, read)?;
+        let raster = Raster::parse(&bytes)
+            .map_err(|source| ReadError::Raster { path: image, source }.of_image(path))?;
+        Self::new(settings, raster).map_err(|source| ReadError::Ros { path: path.to_owned(), source })
+    }
+
+    /// The settings of a YAML file, and the path and the bytes of its picture.
+    pub(crate) fn files(
+        path: &Path,
+        yaml: &[u8],
+        mut read: impl FnMut(&Path) -> Result<Vec<u8>, ReadError>,
+    ) -> Result<(RosSettings, PathBuf, Vec<u8>), ReadError> {
+        let settings =
+            RosSettings::parse(yaml).map_err(|source| ReadError::Ros { path: path.to_owned(), source })?;
+        let image = beside(path, &settings.image);
+        let bytes = read(&image).map_err(|error| error.of_image(path))?;
+        Ok((settings, image, bytes))
     }
 
     /// Writes the YAML file, and the picture where the settings say: as PNG if its name ends in `.png` (and

@@ -1,8 +1,10 @@
 //! Maps of all kinds by one function.
 
-use std::fs;
+use std::{fs, path::Path};
 
-use mediant_formats::{ImageOptions, MapFile, MapFormat, Raster, RasterFormat, ReadError, read_map};
+use mediant_formats::{
+    ImageOptions, MapFile, MapFormat, Raster, RasterFormat, ReadError, map_size_with, read_map, read_map_with,
+};
 use mediant_oracle::random_grid;
 
 #[test]
@@ -69,4 +71,85 @@ fn the_name_tells_what_is_wrong() {
     assert!(read("empty", "").0.contains("found nothing"));
     let missing = read_map(folder.path().join("no"), &ImageOptions::default()).expect_err("missing");
     assert!(matches!(missing, ReadError::Missing { .. }));
+}
+
+/// A function that reads files in memory.
+fn in_memory<'a>(files: &'a [(&'a str, Vec<u8>)]) -> impl FnMut(&Path) -> Result<Vec<u8>, ReadError> + 'a {
+    move |path| {
+        let file = files.iter().find(|(name, _)| path == Path::new(name));
+        file.map(|(_, bytes)| bytes.clone()).ok_or_else(|| ReadError::Missing { path: path.to_owned() })
+    }
+}
+
+#[test]
+fn maps_in_memory_are_those_on_disk() {
+    let folder = tempfile::tempdir().unwrap();
+    let (grid, _) = random_grid(5);
+    let raster = Raster::from_grid(&grid).unwrap();
+    let picture = |format| {
+        let mut bytes = Vec::new();
+        raster.write(format, &mut bytes).unwrap();
+        bytes
+    };
+    let yaml = "image: sub/a.pgm\nresolution: 1\norigin: [2, 3, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.1\n";
+    let files = [
+        ("a.map", MapFile::from_grid(&grid).as_bytes().to_vec()),
+        ("a.png", picture(RasterFormat::Png)),
+        ("b.pgm", picture(RasterFormat::PlainPgm)),
+        ("a.pbm", picture(RasterFormat::Pbm)),
+        ("a.yaml", yaml.into()),
+        ("sub/a.pgm", picture(RasterFormat::Pgm)),
+    ];
+    fs::create_dir(folder.path().join("sub")).unwrap();
+    for (name, bytes) in &files {
+        fs::write(folder.path().join(name), bytes).unwrap();
+    }
+    let options = ImageOptions::default();
+    for (name, bytes) in &files {
+        let read = read_map_with(name, &options, in_memory(&files)).unwrap();
+        assert_eq!(read, read_map(folder.path().join(name), &options).unwrap(), "{name}");
+        assert_eq!(read.grid, grid, "{name}");
+        assert_eq!(map_size_with(name, in_memory(&files)).unwrap(), (grid.width(), grid.height()), "{name}");
+        // Of a file that is cut short, the size is known as long as the header is whole, and then the same.
+        for length in 0..bytes.len().min(200) {
+            let cut = [(*name, bytes[..length].to_vec()), ("sub/a.pgm", files[5].1.clone())];
+            if let Ok(size) = map_size_with(name, in_memory(&cut)) {
+                let is_whole_header = size == (grid.width(), grid.height());
+                // A number that is cut has fewer digits.
+                assert!(
+                    is_whole_header || size.1 < grid.height() || size.0 < grid.width(),
+                    "{name}, {length}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_missing_in_memory_is_named() {
+    let yaml = b"image: a.pgm\nresolution: 1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.1\n";
+    let files = [("maps/a.yaml", yaml.to_vec())];
+    let options = ImageOptions::default();
+    let missing = |error: &ReadError| match error {
+        ReadError::RosImage { source, .. } => {
+            matches!(&**source, ReadError::Missing { path } if path == Path::new("maps/a.pgm"))
+        }
+        _ => false,
+    };
+    assert!(missing(&read_map_with("maps/a.yaml", &options, in_memory(&files)).unwrap_err()));
+    assert!(missing(&map_size_with("maps/a.yaml", in_memory(&files)).unwrap_err()));
+    let none = read_map_with("b.map", &options, in_memory(&files)).unwrap_err();
+    assert!(matches!(none, ReadError::Missing { .. }));
+}
+
+#[test]
+fn sizes_are_checked_as_maps_are() {
+    let size = |name: &str, text: &str| map_size_with(name, in_memory(&[(name, text.into())]));
+    assert_eq!(size("a.map", "type octile\nheight 7\nwidth 32768\nmap\n").unwrap(), (32_768, 7));
+    assert!(matches!(size("a.map", "type octile\nheight 7\nwidth 32769\nmap\n"), Err(ReadError::Map { .. })));
+    assert!(matches!(size("a.map", ""), Err(ReadError::Map { .. })));
+    assert_eq!(size("a.pgm", "P5 16384 16384 255 ").unwrap(), (16_384, 16_384));
+    assert!(matches!(size("a.pgm", "P5 16384 16385 255 "), Err(ReadError::Raster { .. })));
+    assert!(matches!(size("a.pgm", "P6 2 2 255 "), Err(ReadError::Raster { .. })));
+    assert!(matches!(size("a.txt", "hello"), Err(ReadError::NoMap { .. })));
 }
