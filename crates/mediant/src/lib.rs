@@ -92,6 +92,8 @@ mod space;
 mod suite;
 mod table;
 mod text;
+#[cfg(feature = "trace")]
+mod trace;
 
 pub use agent::WidestPath;
 pub use capabilities::Capabilities;
@@ -126,3 +128,5 @@ pub use setup_error::SetupError;
 pub use space::Space;
 pub use table::Table;
 pub use text::TextError;
+#[cfg(feature = "trace")]
+pub use trace::Tracer;

@@ -2,7 +2,7 @@
 
 use std::{path::Path as FilePath, sync::Arc};
 
-use mediant_formats::{ImageOptions, MapFile, WorldFrame, read_map};
+use mediant_formats::{ImageOptions, MapFile, ReadError, WorldFrame, map_size_with, read_map, read_map_with};
 use mediant_grid::{Grid, GridError, MapId, Rectangle};
 
 use crate::error::Error;
@@ -63,6 +63,42 @@ impl Map {
     ) -> Result<(Self, Option<WorldFrame>), Error> {
         let source = read_map(path, options)?;
         Ok((source.grid.into(), source.frame))
+    }
+
+    /// Reads a map as [`open_with`](Self::open_with) does, where its files are not on a disk: `read` gives the
+    /// bytes of the file with a path. It is asked for the map, and for the picture that the YAML file of a ROS
+    /// map names.
+    ///
+    /// ```
+    /// use mediant::{Map, files::ImageOptions};
+    ///
+    /// let text = "type octile\nheight 1\nwidth 3\nmap\n.@.\n";
+    /// let (map, _) = Map::open_in("hall.map", &ImageOptions::default(), |_| Ok(text.into()))?;
+    /// assert!(map.is_blocked(1, 0));
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of `read`, and [`Error::Read`] for what is no map.
+    pub fn open_in(
+        path: impl AsRef<FilePath>,
+        options: &ImageOptions,
+        read: impl FnMut(&FilePath) -> Result<Vec<u8>, ReadError>,
+    ) -> Result<(Self, Option<WorldFrame>), Error> {
+        let source = read_map_with(path, options, read)?;
+        Ok((source.grid.into(), source.frame))
+    }
+
+    /// The width and the height, in cells, that the header of a map states: what a map of a file would have,
+    /// before it is made. `read` is that of [`open_in`](Self::open_in).
+    ///
+    /// # Errors
+    /// Those of `read`, and [`Error::Read`] for a header that is wrong.
+    pub fn size_in(
+        path: impl AsRef<FilePath>,
+        read: impl FnMut(&FilePath) -> Result<Vec<u8>, ReadError>,
+    ) -> Result<(u32, u32), Error> {
+        Ok(map_size_with(path, read)?)
     }
 
     /// The map with these rows from top to bottom, all of the same length: `.`, `G` and `S` are free cells,

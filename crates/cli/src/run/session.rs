@@ -11,7 +11,7 @@ use super::{
     query_error::explain,
     report::Report,
     summary::{Summary, Tally},
-    trace::{TraceFile, Tracer},
+    trace::TraceFile,
 };
 use crate::{failure::Failure, terminal::progress::Progress};
 
@@ -63,11 +63,8 @@ impl Session<'_> {
         let (grid, rules) = (&*run.map.grid, run.setup.rules);
         let request = || run.wishes.request(item.query);
         let Measured { outcome, counters, nanos } = Measured::new(planner, request, run.repeat);
-        if let Some(TraceFile { path, out }) = self.trace.take() {
-            let tracer = Tracer::new(out, grid, rules.placement());
-            tracer
-                .and_then(|tracer| tracer.run(planner, item.query, request(), &outcome))
-                .map_err(Failure::writing(path))?;
+        if let Some(trace) = self.trace.take() {
+            trace.write((grid, rules.placement()), planner, (item.query, request()), &outcome)?;
         }
         let outcome = match outcome {
             Ok(Outcome::Found(path)) => {

@@ -1,0 +1,145 @@
+//! The events of a search, for the Posthoc visualizer.
+
+use std::io::{self, Write};
+
+use mediant_formats::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
+use mediant_grid::{Grid, PlacementKind, Vertex};
+use mediant_search::{NodeEvent, Observer, Outcome, Path, Query};
+
+/// Writes the events of one search for the Posthoc visualizer, as an observer of that search or of one that
+/// was kept. First the search is made, since the trace [begins](Self::begin) with the ends of its path.
+///
+/// Needs the feature `trace`.
+///
+/// ```
+/// use mediant::{K, Map, Motion, Query, Tracer};
+///
+/// let space = Map::from_rows(["...", ".#."])?.space(Motion::centers(K::N8))?;
+/// let mut planner = space.planner(space.engine())?;
+/// let query = Query::new((0, 0), (2, 1));
+/// let answer = planner.find(query)?;
+/// let mut tracer = Tracer::new(Vec::new(), space.map().grid(), space.motion().rules.placement())?;
+/// tracer.begin(query, Some(&answer));
+/// // The same query gives the same answer.
+/// planner.find_observed(query, &mut tracer)?;
+/// tracer.end(Some(&answer));
+/// let json = String::from_utf8(tracer.finish()?)?;
+/// assert!(json.contains(r#"{"type":"source","id":1"#));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Tracer<'g, W: Write> {
+    trace: TraceWriter<'g, W>,
+    /// The number of vertices in a row, and of rows.
+    size: (u32, u32),
+    /// The vertex that is being expanded.
+    open: Option<TraceEvent>,
+    /// The first error of the writer, after which nothing is written.
+    written: io::Result<()>,
+}
+
+impl<'g, W: Write> Tracer<'g, W> {
+    /// Begins a trace of a search on this map.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn new(out: W, grid: &'g Grid, placement: PlacementKind) -> io::Result<Self> {
+        let more = u32::from(placement == PlacementKind::Corner);
+        let size = (grid.width() + more, grid.height() + more);
+        let trace = TraceWriter::new(out, &TraceHeader { placement, map: Some(grid) })?;
+        Ok(Self { trace, size, open: None, written: Ok(()) })
+    }
+
+    /// Writes the start and the goal: those of the path, if found. An end outside the map has no event. Without
+    /// an answer the search has not ended.
+    pub fn begin(&mut self, query: Query, answer: Option<&Outcome>) {
+        let start = answer.and_then(path_of).and_then(|path| path.waypoints().first());
+        let goal = answer.and_then(Outcome::path).and_then(|path| path.waypoints().last());
+        let ends = [
+            (TraceEventKind::Source, *start.unwrap_or(&query.start), Some(0.0)),
+            (TraceEventKind::Destination, *goal.unwrap_or(&query.goal), None),
+        ];
+        for (kind, at, g) in ends {
+            if (0..self.size.0 as i32).contains(&at.x) && (0..self.size.1 as i32).contains(&at.y) {
+                self.write(kind, &TraceEvent { g, ..self.at(at) });
+            }
+        }
+    }
+
+    /// Ends the trace with the waypoints of the path, after a stopped search those of the best so far. So the
+    /// visualizer shows the path as it is, even if it turns at a vertex that is not a node of the search.
+    pub fn end(&mut self, answer: Option<&Outcome>) {
+        self.close();
+        let mut last: Option<(TraceEvent, Vertex)> = None;
+        for &at in answer.and_then(path_of).map_or(&[][..], Path::waypoints) {
+            let (parent, g) = last.map_or((None, 0.0), |(event, from)| {
+                (Some(event.id), event.g.unwrap_or(0.0) + from.distance(at))
+            });
+            let event = TraceEvent { parent, g: Some(g), ..self.at(at) };
+            self.write(TraceEventKind::End, &event);
+            last = Some((event, at));
+        }
+    }
+
+    /// Ends the document, and gives the writer back.
+    ///
+    /// # Errors
+    /// The first of the writer.
+    pub fn finish(self) -> io::Result<W> {
+        self.written?;
+        self.trace.finish()
+    }
+
+    /// An event at a vertex, without anything else. Ids begin with 1, since the visualizer's path stops
+    /// before the id 0.
+    fn at(&self, at: Vertex) -> TraceEvent {
+        let id = at.y as u32 * self.size.0 + at.x as u32 + 1;
+        TraceEvent { id, parent: None, x: at.x, y: at.y, f: None, g: None }
+    }
+
+    /// An event of a node of the search.
+    fn node(&self, node: NodeEvent) -> TraceEvent {
+        let parent = node.parent.map(|parent| self.at(parent).id);
+        TraceEvent { parent, f: Some(node.f.to_f64()), g: Some(node.g.to_f64()), ..self.at(node.at) }
+    }
+
+    /// Writes an event, unless an error came before.
+    fn write(&mut self, kind: TraceEventKind, event: &TraceEvent) {
+        if self.written.is_ok() {
+            self.written = self.trace.event(kind, event);
+        }
+    }
+
+    /// Ends the expansion of the vertex that is being expanded, if there is one.
+    fn close(&mut self) {
+        if let Some(event) = self.open.take() {
+            self.write(TraceEventKind::Closing, &event);
+        }
+    }
+}
+
+/// The path of an answer; of a stopped search the best so far.
+const fn path_of(outcome: &Outcome) -> Option<&Path> {
+    match outcome {
+        Outcome::Stopped(stopped) => Some(&stopped.best),
+        _ => outcome.path(),
+    }
+}
+
+impl<W: Write> Observer for Tracer<'_, W> {
+    fn expanded(&mut self, node: NodeEvent) {
+        self.close();
+        let event = self.node(node);
+        self.write(TraceEventKind::Expanding, &event);
+        self.open = Some(event);
+    }
+
+    fn generated(&mut self, node: NodeEvent) {
+        let event = self.node(node);
+        self.write(TraceEventKind::Generating, &event);
+    }
+
+    fn updated(&mut self, node: NodeEvent) {
+        let event = self.node(node);
+        self.write(TraceEventKind::Updating, &event);
+    }
+}
