@@ -3,14 +3,12 @@
 use mediant_grid::{Identity, Vertex};
 use mediant_search::{Guarantee, Observer, Outcome, Path, Planner as Search, Query, QueryError, Status};
 
-/// A search that can be `dyn`. Observers are `dyn` too, so that each search is compiled only twice: with and
-/// without an observer. An observed search costs a dynamic call for each event.
+/// A search that can be `dyn`. Observers are `dyn` too, so that each search is compiled only twice: without
+/// an observer, and in steps with one. An observed search costs dynamic calls for each event; at once it is
+/// made by [`Dynamic`], of steps without a pause.
 pub(crate) trait Erased {
     /// [`Search::solve`].
     fn solve(&mut self, query: Query) -> Result<Outcome, QueryError>;
-
-    /// [`Search::solve_observed`].
-    fn solve_observed(&mut self, query: Query, observer: &mut dyn Observer) -> Result<Outcome, QueryError>;
 
     /// [`Search::begin`].
     fn begin(&mut self, query: Query, observer: &mut dyn Observer) -> Result<Status, QueryError>;
@@ -34,14 +32,6 @@ pub(crate) trait Erased {
 impl<S: Search> Erased for S {
     fn solve(&mut self, query: Query) -> Result<Outcome, QueryError> {
         Search::solve(self, query)
-    }
-
-    fn solve_observed(
-        &mut self,
-        query: Query,
-        mut observer: &mut dyn Observer,
-    ) -> Result<Outcome, QueryError> {
-        Search::solve_observed(self, query, &mut observer)
     }
 
     fn begin(&mut self, query: Query, mut observer: &mut dyn Observer) -> Result<Status, QueryError> {

@@ -65,9 +65,9 @@ impl Map {
         Ok((source.grid.into(), source.frame))
     }
 
-    /// Reads a map as [`open_with`](Self::open_with) does, where its files are not on a disk: `read` gives the
-    /// bytes of the file with a path. It is asked for the map, and for the picture that the YAML file of a ROS
-    /// map names.
+    /// Reads a map as [`open_with`](Self::open_with) does, where its files are not on a disk: `read` gives
+    /// the bytes of the file with a path. It is asked for the map, and for the picture that the YAML file of
+    /// a ROS map names.
     ///
     /// ```
     /// use mediant::{Map, files::ImageOptions};

@@ -49,8 +49,8 @@ impl<'g, W: Write> Tracer<'g, W> {
         Ok(Self { trace, size, open: None, written: Ok(()) })
     }
 
-    /// Writes the start and the goal: those of the path, if found. An end outside the map has no event. Without
-    /// an answer the search has not ended.
+    /// Writes the start and the goal: those of the path, if found. An end outside the map has no event.
+    /// Without an answer the search has not ended.
     pub fn begin(&mut self, query: Query, answer: Option<&Outcome>) {
         let start = answer.and_then(path_of).and_then(|path| path.waypoints().first());
         let goal = answer.and_then(Outcome::path).and_then(|path| path.waypoints().last());

@@ -1,5 +1,7 @@
 //! The answer to a query, and what is guaranteed of it.
 
+use std::fmt;
+
 use mediant_grid::{CornerRule, Rules};
 use mediant_moves::{BOUND_WITHOUT_CORNER_CUTTING, FiniteK, bound_at_centers, bound_at_corners};
 
@@ -60,6 +62,18 @@ pub enum Guarantee {
     OptimalAnyAngle,
     /// Nothing.
     Suboptimal,
+}
+
+/// As `optimal(3)`, `at most optimal(3)`, `optimal(any)` or `suboptimal`.
+impl fmt::Display for Guarantee {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Optimal(k) => f.pad(&format!("optimal({k})")),
+            Self::AtMost(k) => f.pad(&format!("at most optimal({k})")),
+            Self::OptimalAnyAngle => f.pad("optimal(any)"),
+            Self::Suboptimal => f.pad("suboptimal"),
+        }
+    }
 }
 
 impl Guarantee {

@@ -18,7 +18,7 @@ use serde_json::Value;
 
 use super::{
     answer::{Answer, Answered, Found, Run},
-    report::{Report, guarantee_name, smoothing_name},
+    report::{Report, smoothing_name},
     summary::Summary,
 };
 use crate::{args::WishArgs, terminal::screen::Screen};
@@ -179,7 +179,7 @@ impl<'r> From<&Run<'r>> for RunLine<'r> {
             smooth: setup.smoothing.is_some(),
             smoothing: setup.smoothing.map(smoothing_name),
             any_angle: run.reference.map(Engine::name),
-            guarantee: guarantee_name(run.guarantee),
+            guarantee: run.guarantee.to_string(),
             repeat: run.repeat,
             preprocess_ns: run.preparation.as_nanos() as u64,
             index_bytes: run.memory_bytes,

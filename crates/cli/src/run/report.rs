@@ -2,7 +2,7 @@
 
 use std::io;
 
-use mediant_search::{Guarantee, Smoothing};
+use mediant_search::Smoothing;
 
 use super::{
     answer::{Answer, Run},
@@ -19,16 +19,6 @@ pub(crate) trait Report {
 
     /// Reports the summary.
     fn end(&mut self, summary: &Summary) -> io::Result<()>;
-}
-
-/// The name of a guarantee: `optimal(3)`, `at most optimal(3)`, `optimal(any)` or `suboptimal`.
-pub(super) fn guarantee_name(guarantee: Guarantee) -> String {
-    match guarantee {
-        Guarantee::Optimal(k) => format!("optimal({k})"),
-        Guarantee::AtMost(k) => format!("at most optimal({k})"),
-        Guarantee::OptimalAnyAngle => "optimal(any)".to_owned(),
-        Guarantee::Suboptimal => "suboptimal".to_owned(),
-    }
 }
 
 /// The name of a smoothing, as `--smooth` takes it.

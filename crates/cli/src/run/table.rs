@@ -8,7 +8,7 @@ use mediant_search::{Limit, Path, Stopped};
 
 use super::{
     answer::{Answer, Answered, Found, Run},
-    report::{Report, guarantee_name, smoothing_name},
+    report::{Report, smoothing_name},
     summary::{Ratios, References, Summary},
 };
 use crate::terminal::{
@@ -230,7 +230,7 @@ impl Report for TableReport<'_> {
             writeln!(self.screen, "a disc of radius {:.4} cells{meters}", run.map.radius)?;
         }
         let preparation = time(run.preparation.as_nanos() as f64);
-        writeln!(self.screen, "{} · prepared in {preparation}", guarantee_name(run.guarantee))?;
+        writeln!(self.screen, "{} · prepared in {preparation}", run.guarantee)?;
         let wishes = run.wishes.in_words();
         if !wishes.is_empty() {
             let words = wishes.join(" · ");

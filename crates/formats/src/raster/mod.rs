@@ -94,7 +94,8 @@ impl Raster {
         }
     }
 
-    /// The width and the height that the header of a picture states, which [`parse`](Self::parse) reads whole.
+    /// The width and the height that the header of a picture states, which [`parse`](Self::parse) reads
+    /// whole.
     ///
     /// # Errors
     /// [`RasterError`] for a header that is wrong, or states sides that no picture may have.

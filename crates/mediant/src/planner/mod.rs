@@ -5,11 +5,13 @@ mod steps;
 use std::fmt;
 
 use mediant_grid::Identity;
-use mediant_search::{Counters, Guarantee, Observer, Outcome, QueryError, Request, Search, parts::Metric};
+use mediant_search::{
+    Counters, Guarantee, Observer, Outcome, Planner as _, QueryError, Request, Search, parts::Metric,
+};
 
 use crate::{
     configured::ConfiguredEngine,
-    erased::Erased,
+    erased::{Dynamic, Erased},
     error::Error,
     index::Index,
     make::{self, Smoother},
@@ -145,7 +147,8 @@ impl Planner {
             return self.finish_observed(observer);
         };
         self.begun = None;
-        let answer = self.search.solve_observed(query, observer);
+        let mut observer = observer;
+        let answer = Dynamic(&mut *self.search).solve_observed(query, &mut observer);
         self.smoothed(answer)
     }
 
