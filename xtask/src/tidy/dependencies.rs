@@ -22,7 +22,7 @@ const fn layer(package: &'static str, uses: &'static [&'static str], reason: &'s
 }
 
 /// The layers, lowest first, in four groups.
-const LAYERS: [Layer; 15] = [
+const LAYERS: [Layer; 16] = [
     // The mathematics and the map.
     Layer {
         foreign: false,
@@ -47,6 +47,11 @@ const LAYERS: [Layer; 15] = [
     ),
     layer(
         "mediant-python",
+        &[MOVES, LIBRARY, FORMATS],
+        "the package is thin: names, conversions and words on top of the library",
+    ),
+    layer(
+        "mediant-web",
         &[MOVES, LIBRARY, FORMATS],
         "the package is thin: names, conversions and words on top of the library",
     ),

@@ -1,0 +1,228 @@
+//! Points, numbers and bytes, as a call was given them. Each mistake names its argument.
+
+use js_sys::{Array, Int32Array, Uint8Array, Uint8ClampedArray};
+use mediant::Vertex;
+use wasm_bindgen::{JsCast, convert::TryFromJsValue, prelude::*};
+
+use crate::errors::{argument, coded, no_memory, wrong_type};
+
+/// What a point looks like.
+const POINT: &str = "a point [x, y] of two integers";
+/// What one or several points look like.
+const POINTS: &str = "a point [x, y], an array of points, or an Int32Array of x, y, …";
+
+/// One point, or several.
+pub(crate) enum Points {
+    One(Vertex),
+    Several(Vec<Vertex>),
+}
+
+impl Points {
+    /// The points of an argument.
+    pub(crate) fn read(name: &str, value: &JsValue) -> Result<Self, JsValue> {
+        let Some(array) = value.dyn_ref::<Array>() else {
+            let Some(flat) = value.dyn_ref::<Int32Array>() else {
+                return Err(wrong_type(name, POINTS, value));
+            };
+            let several = flat_points(name, flat)?;
+            return Ok(if let [at] = several[..] { Self::One(at) } else { Self::Several(several) });
+        };
+        if array.length() == 2 {
+            let first = item(array, 0)?;
+            // By far the most frequent form.
+            if first.as_f64().is_some() || !first.is_object() {
+                let (x, y) = (coordinate(name, &first)?, coordinate(name, &item(array, 1)?)?);
+                return Ok(Self::One(Vertex::new(x, y)));
+            }
+        }
+        let mut several = Vec::new();
+        for index in 0..array.length() {
+            let value = item(array, index)?;
+            several.push(match (value.dyn_ref::<Array>(), value.dyn_ref::<Int32Array>()) {
+                (Some(at), _) if at.length() == 2 => pair(name, at)?,
+                (_, Some(at)) if at.length() == 2 => Vertex::new(at.get_index(0), at.get_index(1)),
+                _ => return Err(wrong_type(name, POINTS, &value)),
+            });
+        }
+        Ok(Self::Several(several))
+    }
+
+    pub(crate) fn into_vec(self) -> Vec<Vertex> {
+        match self {
+            Self::One(at) => vec![at],
+            Self::Several(all) => all,
+        }
+    }
+
+    pub(crate) fn as_slice(&self) -> &[Vertex] {
+        match self {
+            Self::One(at) => std::slice::from_ref(at),
+            Self::Several(all) => all,
+        }
+    }
+}
+
+/// An item of an array, which may be a proxy that throws.
+fn item(array: &Array, index: u32) -> Result<JsValue, JsValue> {
+    js_sys::Reflect::get_u32(array, index)
+}
+
+/// The one point of an argument.
+pub(crate) fn point(name: &str, value: &JsValue) -> Result<Vertex, JsValue> {
+    if let Some(array) = value.dyn_ref::<Array>().filter(|array| array.length() == 2) {
+        return pair(name, array);
+    }
+    if let Some(flat) = value.dyn_ref::<Int32Array>().filter(|flat| flat.length() == 2) {
+        return Ok(Vertex::new(flat.get_index(0), flat.get_index(1)));
+    }
+    Err(wrong_type(name, POINT, value))
+}
+
+/// The points of a path.
+pub(crate) fn path_points(name: &str, value: &JsValue) -> Result<Vec<Vertex>, JsValue> {
+    match value.dyn_ref::<Int32Array>() {
+        Some(flat) => flat_points(name, flat),
+        None => Err(wrong_type(name, "an Int32Array of x, y, …", value)),
+    }
+}
+
+fn flat_points(name: &str, flat: &Int32Array) -> Result<Vec<Vertex>, JsValue> {
+    let numbers = flat.length() as usize;
+    if numbers % 2 != 0 {
+        return Err(argument(
+            name,
+            &format!("expected an even number of coordinates x, y, …, found {numbers}"),
+        ));
+    }
+    let mut flat_copy = room(numbers, 0, name)?;
+    // A detached array has no numbers, and throws if it is copied.
+    if numbers > 0 {
+        flat.copy_to(&mut flat_copy);
+    }
+    Ok(flat_copy.chunks_exact(2).map(|at| Vertex::new(at[0], at[1])).collect())
+}
+
+/// The point of an array of two.
+fn pair(name: &str, array: &Array) -> Result<Vertex, JsValue> {
+    Ok(Vertex::new(coordinate(name, &item(array, 0)?)?, coordinate(name, &item(array, 1)?)?))
+}
+
+fn coordinate(name: &str, value: &JsValue) -> Result<i32, JsValue> {
+    let found = value.as_f64().ok_or_else(|| wrong_type(name, POINT, value))?;
+    if found.fract() != 0.0 || !found.is_finite() {
+        return Err(wrong_type(name, POINT, value));
+    }
+    if found < f64::from(i32::MIN) || found > f64::from(i32::MAX) {
+        return Err(far_outside(name));
+    }
+    Ok(found as i32)
+}
+
+/// The error for an end whose numbers are larger than those of any map.
+fn far_outside(name: &str) -> JsValue {
+    let code = match name {
+        "start" => "start-outside",
+        "goal" => "goal-outside",
+        _ => "argument",
+    };
+    coded(code, &format!("{name}: an x or y beyond that of any map"))
+}
+
+/// A number.
+pub(crate) fn number(name: &str, value: &JsValue) -> Result<f64, JsValue> {
+    value.as_f64().ok_or_else(|| wrong_type(name, "a number", value))
+}
+
+/// A number that is not negative, nor none.
+pub(crate) fn positive(name: &str, value: &JsValue) -> Result<f64, JsValue> {
+    let found = number(name, value)?;
+    if found >= 0.0 {
+        return Ok(found);
+    }
+    Err(argument(name, &format!("expected a number of 0 or more, found {found}")))
+}
+
+/// The largest integer up to which a number of JavaScript tells all integers apart.
+const LARGEST: f64 = 9_007_199_254_740_991.0;
+
+/// A whole number of at least `least`.
+pub(crate) fn integer(name: &str, value: &JsValue, least: u32) -> Result<u64, JsValue> {
+    let found = value.as_f64().ok_or_else(|| wrong_type(name, "an integer", value))?;
+    if found.fract() == 0.0 && found >= f64::from(least) && found <= LARGEST {
+        return Ok(found as u64);
+    }
+    Err(argument(name, &format!("expected an integer of {least} or more, found {found}")))
+}
+
+/// A whole number of 32 bits; what is larger is the largest of them.
+pub(crate) fn integer_32(name: &str, value: &JsValue, least: u32) -> Result<u32, JsValue> {
+    Ok(u32::try_from(integer(name, value, least)?).unwrap_or(u32::MAX))
+}
+
+/// True or false.
+pub(crate) fn flag(name: &str, value: &JsValue) -> Result<bool, JsValue> {
+    value.as_bool().ok_or_else(|| wrong_type(name, "true or false", value))
+}
+
+/// A text.
+pub(crate) fn text(name: &str, expected: &str, value: &JsValue) -> Result<String, JsValue> {
+    value.as_string().ok_or_else(|| wrong_type(name, expected, value))
+}
+
+/// A copy of bytes.
+pub(crate) fn bytes(name: &str, value: &JsValue) -> Result<Vec<u8>, JsValue> {
+    if let Some(array) = value.dyn_ref::<Uint8Array>() {
+        let mut copy = room(array.length() as usize, 0, name)?;
+        if !copy.is_empty() {
+            array.copy_to(&mut copy);
+        }
+        return Ok(copy);
+    }
+    if let Some(array) = value.dyn_ref::<Uint8ClampedArray>() {
+        let mut copy = room(array.length() as usize, 0, name)?;
+        if !copy.is_empty() {
+            array.copy_to(&mut copy);
+        }
+        return Ok(copy);
+    }
+    Err(wrong_type(name, "a Uint8Array", value))
+}
+
+/// A vector of this length, or the error that there is no memory for it.
+pub(crate) fn room<T: Clone>(length: usize, value: T, what: &str) -> Result<Vec<T>, JsValue> {
+    let mut made = Vec::new();
+    made.try_reserve_exact(length).map_err(|_| no_memory(what))?;
+    made.resize(length, value);
+    Ok(made)
+}
+
+/// One of several words, each with its meaning.
+pub(crate) fn word<T: Copy>(name: &str, value: &JsValue, words: &[(&str, T)]) -> Result<T, JsValue> {
+    let known = || words.iter().map(|(word, _)| format!("'{word}'")).collect::<Vec<_>>().join(", ");
+    let Some(text) = value.as_string() else {
+        return Err(wrong_type(name, &format!("one of {}", known()), value));
+    };
+    let found = words.iter().find(|(word, _)| *word == text);
+    found
+        .map(|&(_, meaning)| meaning)
+        .ok_or_else(|| argument(name, &format!("expected one of {}, found '{text}'", known())))
+}
+
+#[wasm_bindgen]
+extern "C" {
+    /// An object of one of our classes, as far as is known.
+    type Ours;
+
+    #[wasm_bindgen(method, catch, js_name = __share)]
+    fn share(this: &Ours) -> Result<JsValue, JsValue>;
+}
+
+/// The object of one of our classes. It is not taken away from the caller: what is read is a second handle.
+pub(crate) fn object<T: TryFromJsValue>(name: &str, class: &str, value: &JsValue) -> Result<T, JsValue> {
+    let wrong = || wrong_type(name, &format!("a {class} that was not freed"), value);
+    if !value.is_object() {
+        return Err(wrong());
+    }
+    let shared = value.unchecked_ref::<Ours>().share().map_err(|_| wrong())?;
+    T::try_from_js_value(shared).map_err(|_| wrong())
+}

@@ -1,0 +1,56 @@
+//! Agents of a size.
+
+use js_sys::Float64Array;
+use mediant::{Fit, Outside, Vertex};
+use wasm_bindgen::prelude::*;
+
+use super::Grid;
+use crate::{
+    arguments::{integer_32, positive, room},
+    errors::raised,
+    keywords::{Keywords, Takes},
+};
+
+#[wasm_bindgen]
+impl Grid {
+    /// How far the center of each cell is from the nearest obstacle, in cells, row by row: 0 in blocked
+    /// cells. The outside of the map is an obstacle.
+    pub fn clearance(&self) -> Result<Float64Array, JsValue> {
+        let (width, height) = (self.map.width() as usize, self.map.height() as usize);
+        let mut distances = room(width * height, 0.0, "the array of distances")?;
+        let clearance = self.map.clearance(Fit::Centers, Outside::Blocked);
+        for (y, row) in distances.chunks_exact_mut(width).enumerate() {
+            for (x, distance) in row.iter_mut().enumerate() {
+                *distance = clearance.largest_disc(Vertex::new(x as i32, y as i32)).unwrap_or(0.0);
+            }
+        }
+        Ok(Float64Array::from(&distances[..]))
+    }
+
+    /// The grid of a disc, whose radius is in cells: free where the disc fits. The paths of its center are
+    /// those of a point on that grid, and on each path over this motion the disc keeps its radius.
+    ///
+    /// @throws MediantError `number` for a radius that is not finite.
+    #[wasm_bindgen(js_name = forDisc)]
+    pub fn for_disc(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "number")] radius: &JsValue,
+        #[wasm_bindgen(unchecked_optional_param_type = "Motion")] motion: &JsValue,
+    ) -> Result<Self, JsValue> {
+        let motion = Keywords::read("motion", motion, Takes::MOTION)?.motion()?;
+        let map = self.map.for_disc(positive("radius", radius)?, motion);
+        Ok(Self::new(map.map_err(raised)?))
+    }
+
+    /// The grid of an agent that covers n × n cells. Its place is its top left cell: free where all its cells
+    /// are.
+    ///
+    /// @throws MediantError `argument` for n = 0.
+    #[wasm_bindgen(js_name = forSquare)]
+    pub fn for_square(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "number")] n: &JsValue,
+    ) -> Result<Self, JsValue> {
+        Ok(Self::new(self.map.for_square(integer_32("n", n, 1)?).map_err(raised)?))
+    }
+}

@@ -1,0 +1,194 @@
+//! Maps.
+
+mod agents;
+mod queries;
+mod reading;
+
+use std::{cell::RefCell, rc::Rc};
+
+use js_sys::{Array, Uint8Array};
+use mediant::{Grid as Bits, Map, Rectangle};
+use wasm_bindgen::{JsCast, prelude::*};
+
+use self::queries::Last;
+use crate::{
+    arguments::{bytes, integer, integer_32, room, text},
+    errors::{argument, raised, wrong_type},
+    keywords::{Keywords, Takes},
+    space::Space,
+};
+
+/// A map: a rectangle of cells, each free or blocked. Cell (x, y) is in column x from the left and row y from
+/// the top, both from 0. Everything outside is blocked.
+///
+/// A grid never changes: `edit` makes another one.
+///
+/// ```js
+/// const grid = Grid.fromRows(["...#....", ".#.#.##.", ".#...#.."]);
+/// grid.path([0, 0], [7, 0]); // Int32Array [0, 0, 2, 0, 2, 2, …]
+/// ```
+#[wasm_bindgen]
+pub struct Grid {
+    pub(crate) map: Map,
+    last: Rc<RefCell<Option<Last>>>,
+}
+
+impl Grid {
+    pub(crate) fn new(map: Map) -> Self {
+        Self { map, last: Rc::default() }
+    }
+}
+
+#[wasm_bindgen]
+impl Grid {
+    /// The map with these cells, row by row; what is not 0 is blocked.
+    ///
+    /// @throws MediantError `map-size` for a side of 0 or above 32,768, `argument` for another number of
+    /// cells.
+    #[wasm_bindgen(constructor)]
+    pub fn from_cells(
+        #[wasm_bindgen(unchecked_param_type = "number")] width: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] height: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Uint8Array | Uint8ClampedArray")] blocked: &JsValue,
+    ) -> Result<Self, JsValue> {
+        let (width, height) = (integer("width", width, 0)?, integer("height", height, 0)?);
+        Bits::check_size(width, height).map_err(raised)?;
+        let cells = cells_of(blocked, width * height)?;
+        let (width, height) = (width as u32, height as u32);
+        let map = Map::from_fn(width, height, |x, y| cells[y as usize * width as usize + x as usize] != 0);
+        Ok(Self::new(map.map_err(raised)?))
+    }
+
+    /// The map with these rows from top to bottom, all of the same length: `.`, `G` and `S` are free cells,
+    /// all other characters blocked ones.
+    ///
+    /// @throws MediantError `map-ragged` for rows of different lengths, `map-size` for no rows or too long
+    /// ones.
+    #[wasm_bindgen(js_name = fromRows)]
+    pub fn from_rows(
+        #[wasm_bindgen(unchecked_param_type = "readonly string[]")] rows: &JsValue,
+    ) -> Result<Self, JsValue> {
+        let expected = "an array of texts";
+        let Some(array) = rows.dyn_ref::<Array>() else { return Err(wrong_type("rows", expected, rows)) };
+        let mut rows = Vec::new();
+        for index in 0..array.length() {
+            rows.push(text("rows", expected, &js_sys::Reflect::get_u32(array, index)?)?);
+        }
+        Ok(Self::new(Map::from_rows(rows).map_err(raised)?))
+    }
+
+    /// The number of columns.
+    #[wasm_bindgen(getter)]
+    pub fn width(&self) -> u32 {
+        self.map.width()
+    }
+
+    /// The number of rows.
+    #[wasm_bindgen(getter)]
+    pub fn height(&self) -> u32 {
+        self.map.height()
+    }
+
+    /// The identity of the map: the same for all maps with the same cells.
+    #[wasm_bindgen(getter)]
+    pub fn id(&self) -> String {
+        self.map.id().to_string()
+    }
+
+    /// The cells, row by row; 1 is blocked.
+    pub fn cells(&self) -> Result<Uint8Array, JsValue> {
+        let (width, height) = (self.map.width() as usize, self.map.height() as usize);
+        let mut cells = room(width * height, 0, "the array of cells")?;
+        for (y, row) in cells.chunks_exact_mut(width).enumerate() {
+            for (x, cell) in row.iter_mut().enumerate() {
+                *cell = u8::from(self.map.is_blocked(x as i32, y as i32));
+            }
+        }
+        Ok(Uint8Array::from(&cells[..]))
+    }
+
+    /// Whether a cell is blocked; those outside the map are.
+    #[wasm_bindgen(js_name = isBlocked)]
+    pub fn is_blocked(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "number")] x: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] y: &JsValue,
+    ) -> Result<bool, JsValue> {
+        let (x, y) = (crate::arguments::number("x", x)?, crate::arguments::number("y", y)?);
+        let is_inside = |at: f64, size: u32| at >= 0.0 && at < f64::from(size);
+        let is_inside = is_inside(x, self.map.width()) && is_inside(y, self.map.height());
+        Ok(!is_inside || self.map.is_blocked(x as i32, y as i32))
+    }
+
+    /// This map with other cells in a rectangle, which are given row by row; what is not 0 is blocked. Cells
+    /// of the rectangle beyond the map are left out. This map stays as it is.
+    ///
+    /// @throws MediantError `edit-outside` for a rectangle that lies outside the map as a whole.
+    pub fn edit(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "number")] x: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] y: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] width: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] height: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Uint8Array | Uint8ClampedArray")] blocked: &JsValue,
+    ) -> Result<Self, JsValue> {
+        let edit = Edit::read([x, y, width, height], blocked)?;
+        Ok(Self::new(self.map.edit(edit.at, |x, y| edit.is_blocked(x, y)).map_err(raised)?))
+    }
+
+    /// This map with rules of motion: what is searched. By default eight directions between the centers of
+    /// cells, without cutting corners.
+    ///
+    /// ```js
+    /// const space = grid.space({ k: "any" }); // any direction, between the corners of cells
+    /// ```
+    ///
+    /// @throws MediantError `motion` where no engine searches: k above 12, and centers at any angle.
+    pub fn space(
+        &self,
+        #[wasm_bindgen(unchecked_optional_param_type = "Motion")] motion: &JsValue,
+    ) -> Result<Space, JsValue> {
+        let motion = Keywords::read("motion", motion, Takes::MOTION)?.motion()?;
+        Space::of(&self.map, motion)
+    }
+
+    /// A second handle to the same map, for arguments of calls.
+    #[wasm_bindgen(js_name = __share, skip_typescript)]
+    pub fn share(&self) -> Self {
+        Self { map: self.map.clone(), last: Rc::clone(&self.last) }
+    }
+}
+
+/// The cells of an argument, of which there must be so many.
+fn cells_of(blocked: &JsValue, expected: u64) -> Result<Vec<u8>, JsValue> {
+    let cells = bytes("blocked", blocked)?;
+    if cells.len() as u64 != expected {
+        let wrong = format!("expected width × height = {expected} cells, found {}", cells.len());
+        return Err(argument("blocked", &wrong));
+    }
+    Ok(cells)
+}
+
+/// Other cells in a rectangle.
+pub(crate) struct Edit {
+    pub(crate) at: Rectangle,
+    cells: Vec<u8>,
+}
+
+impl Edit {
+    /// Reads the arguments of an edit.
+    pub(crate) fn read([x, y, width, height]: [&JsValue; 4], blocked: &JsValue) -> Result<Self, JsValue> {
+        let (x, y) = (integer_32("x", x, 0)?, integer_32("y", y, 0)?);
+        let (width, height) = (integer("width", width, 0)?, integer("height", height, 0)?);
+        let cells = cells_of(blocked, width.saturating_mul(height))?;
+        // A side is larger only if the other one is 0.
+        let [width, height] = [width, height].map(|side| u32::try_from(side).unwrap_or(u32::MAX));
+        Ok(Self { at: Rectangle { x, y, width, height }, cells })
+    }
+
+    /// Whether a cell of the rectangle is to be blocked.
+    pub(crate) fn is_blocked(&self, x: u32, y: u32) -> bool {
+        let at = (y - self.at.y) as usize * self.at.width as usize + (x - self.at.x) as usize;
+        self.cells.get(at).is_some_and(|&cell| cell != 0)
+    }
+}

@@ -1,0 +1,106 @@
+//! What an engine prepared.
+
+use js_sys::Uint8Array;
+use mediant::{Index as Inner, Origin};
+use wasm_bindgen::prelude::*;
+
+use crate::{arguments::object, errors::raised, memory, planner::Planner, space::Space};
+
+/// What an engine prepared in a space: `Space.prepare`, `Space.load` and `repair` make it. It never changes;
+/// any number of planners share it.
+#[wasm_bindgen]
+pub struct Index {
+    pub(crate) inner: Inner,
+}
+
+#[wasm_bindgen]
+impl Index {
+    /// The engine.
+    #[wasm_bindgen(getter)]
+    pub fn engine(&self) -> String {
+        self.inner.setup().engine.kind().name().to_owned()
+    }
+
+    /// The engine, k, rule and options in one text: the same text, the same answers.
+    #[wasm_bindgen(getter)]
+    pub fn setup(&self) -> String {
+        self.inner.setup().to_string()
+    }
+
+    /// What is guaranteed of its paths: `"optimal(3)"`, `"optimal(any)"`, `"at-most(3)"`, `"suboptimal"`.
+    #[wasm_bindgen(getter)]
+    pub fn guarantee(&self) -> String {
+        self.inner.setup().guarantee().to_string()
+    }
+
+    /// Whether its paths are shortest over its k.
+    #[wasm_bindgen(getter)]
+    pub fn optimal(&self) -> bool {
+        self.inner.setup().optimal_over().is_some()
+    }
+
+    /// How much longer than the shortest path at any angle its paths can be, as a factor: 1.08 is 8 %.
+    /// Undefined where nothing is proven.
+    #[wasm_bindgen(getter)]
+    pub fn bound(&self) -> Option<f64> {
+        let setup = self.inner.setup();
+        setup.guarantee().bound(setup.rules)
+    }
+
+    /// The memory that it uses beyond the space, in bytes.
+    #[wasm_bindgen(getter, js_name = memoryBytes)]
+    pub fn memory_bytes(&self) -> f64 {
+        self.inner.memory_bytes() as f64
+    }
+
+    /// How it came about.
+    #[wasm_bindgen(
+        getter,
+        unchecked_return_type = "\"prepared\" | \"loaded\" | \"repaired\" | \"unchanged\""
+    )]
+    pub fn origin(&self) -> String {
+        let name = match self.inner.origin() {
+            Origin::Loaded => "loaded",
+            Origin::Repaired => "repaired",
+            Origin::Unchanged => "unchanged",
+            _ => "prepared",
+        };
+        name.to_owned()
+    }
+
+    /// The space that it belongs to.
+    #[wasm_bindgen(getter)]
+    pub fn space(&self) -> Space {
+        Space { inner: self.inner.space().clone() }
+    }
+
+    /// A planner on this index, with scratch memory of its own.
+    ///
+    /// @throws MediantError `memory` if there is no room for it.
+    pub fn planner(&self) -> Result<Planner, JsValue> {
+        self.space().check_room("the planner", memory::PLANNER)?;
+        Ok(Planner::new(self.inner.planner()))
+    }
+
+    /// The index for a changed map of the same rules and k, which gives the same answers as one prepared
+    /// anew. Clusters and segments are repaired where the maps differ; what other engines prepare is prepared
+    /// anew. This index stays as it is.
+    ///
+    /// @throws MediantError `mismatch` for a space of other rules or another k.
+    pub fn repair(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Space")] space: &JsValue,
+    ) -> Result<Index, JsValue> {
+        let space: Space = object("space", "Space", space)?;
+        space.check_room("the index", memory::INDEX)?;
+        Ok(Self { inner: self.inner.repair(&space.inner).map_err(raised)? })
+    }
+
+    /// The index as bytes, for `Space.load`.
+    ///
+    /// @throws MediantError `engine-without` for an engine whose index is not saved.
+    #[wasm_bindgen(js_name = toBytes)]
+    pub fn to_bytes(&self) -> Result<Uint8Array, JsValue> {
+        Ok(Uint8Array::from(&self.inner.to_bytes().map_err(raised)?[..]))
+    }
+}

@@ -1,0 +1,102 @@
+//! What needs no map.
+
+use js_sys::{Array, Int32Array};
+use mediant::{ConfiguredEngine, Engine, Guarantee, Motion, Setup};
+use mediant_moves::Neighborhood;
+use wasm_bindgen::{JsCast, prelude::*};
+
+use crate::{
+    answer::object_of,
+    errors::{argument, raised},
+    keywords::{Keywords, Takes, key, read_engine, read_k},
+    types::JsEngines,
+};
+
+/// The moves of N(k) in angular order: x, y, …, 2^k of them.
+///
+/// ```js
+/// moves(2); // Int32Array [0, 1, …]
+/// ```
+///
+/// @throws MediantError `k` for a k below 2, `argument` for one above 12.
+#[wasm_bindgen]
+pub fn moves(#[wasm_bindgen(unchecked_param_type = "number")] k: &JsValue) -> Result<Int32Array, JsValue> {
+    let finite = read_k(k)?.finite().filter(|k| k.get() <= 12);
+    let finite = finite.ok_or_else(|| argument("k", "expected an integer from 2 to 12"))?;
+    let neighborhood = Neighborhood::new(finite).map_err(raised)?;
+    let steps = (0..neighborhood.len()).filter_map(|index| neighborhood.get(index));
+    let flat: Vec<i32> = steps.flat_map(|step| [step.x, step.y]).collect();
+    Ok(Int32Array::from(&flat[..]))
+}
+
+/// How much longer than the shortest path at any angle a shortest path over N(k) can be, as a factor: 1.0824
+/// is 8.24 %. Undefined where none is proven.
+///
+/// @throws MediantError `k` for a k below 2.
+#[wasm_bindgen]
+pub fn bound(
+    #[wasm_bindgen(unchecked_param_type = "Motion")] motion: &JsValue,
+) -> Result<Option<f64>, JsValue> {
+    let Motion { k, rules, .. } = Keywords::read("motion", motion, Takes::MOTION)?.motion()?;
+    let guarantee = k.finite().map_or(Guarantee::OptimalAnyAngle, Guarantee::Optimal);
+    Ok(guarantee.bound(rules))
+}
+
+/// All engines, with what each can do.
+#[wasm_bindgen]
+pub fn engines() -> JsEngines {
+    let all: Array = Engine::ALL.into_iter().map(info).collect();
+    all.unchecked_into()
+}
+
+fn texts(all: impl IntoIterator<Item = String>) -> JsValue {
+    all.into_iter().map(JsValue::from).collect::<Array>().into()
+}
+
+fn info(engine: Engine) -> JsValue {
+    let can = engine.capabilities();
+    let options = ConfiguredEngine::from(engine).options().into_iter();
+    object_of([
+        ("name", Some(engine.name().into())),
+        ("placements", Some(texts(can.placements.iter().map(ToString::to_string)))),
+        ("maxK", Some(can.max_k.map_or(JsValue::NULL, Into::into))),
+        ("any", Some(can.any.into())),
+        ("guarantee", Some(can.guarantee.into())),
+        ("paper", Some(can.paper.into())),
+        ("index", Some(can.index.is_some().into())),
+        ("options", Some(texts(options.map(key).chain(["smooth".to_owned()])))),
+    ])
+}
+
+/// Why an engine does not go together with a motion and options, in a sentence; undefined if it does.
+///
+/// ```js
+/// checkSetup("anya", { k: 3 }); // "anya searches every direction, not those of k = 3: leave k out, or say any"
+/// ```
+///
+/// @throws MediantError `unknown-name` for an engine that does not exist.
+#[wasm_bindgen(js_name = checkSetup)]
+pub fn check_setup(
+    #[wasm_bindgen(unchecked_param_type = "string")] engine: &JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Motion")] motion: &JsValue,
+    #[wasm_bindgen(unchecked_optional_param_type = "Options")] options: &JsValue,
+) -> Result<Option<String>, JsValue> {
+    let Some(engine) = read_engine(engine)? else {
+        return Err(crate::errors::wrong_type("engine", "the name of an engine", engine));
+    };
+    let options = Keywords::read("options", options, Takes::OPTIONS)?;
+    let mut motion = Keywords::read("motion", motion, Takes::MOTION)?;
+    motion.engine = Some(engine);
+    let motion = motion.motion()?;
+    let configured = match options.try_configured(engine) {
+        Ok(configured) => configured,
+        Err(wrong) => return Ok(Some(wrong.to_string())),
+    };
+    Ok(Setup::new(configured, motion.k, motion.rules).check().err().map(|wrong| wrong.to_string()))
+}
+
+/// The version of the package.
+#[wasm_bindgen]
+pub fn version() -> String {
+    env!("CARGO_PKG_VERSION").to_owned()
+}

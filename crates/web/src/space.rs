@@ -1,0 +1,287 @@
+//! Spaces: maps with rules of motion.
+
+use std::cell::RefCell;
+
+use js_sys::{Function, JsString};
+use mediant::{Map, Motion, Path, Planner, Progress, Setup, Space as Inner, Stage};
+use wasm_bindgen::{JsCast, prelude::*};
+
+use crate::{
+    answer,
+    arguments::{Points, bytes, path_points, point, positive},
+    errors::{broken, raised, raised_for, wrong_type},
+    field::Field,
+    grid::{Edit, Grid},
+    index::Index,
+    keywords::{Keywords, Takes, read_engine},
+    memory,
+    types::{JsChoice, JsMotion},
+};
+
+/// A map with rules of motion and a k: what can be searched. It never changes.
+#[wasm_bindgen]
+pub struct Space {
+    pub(crate) inner: Inner,
+}
+
+/// The planner of a setup on a map.
+pub(crate) fn planner(setup: Setup, map: &Map) -> Result<Planner, JsValue> {
+    setup.check().map_err(raised)?;
+    let space = Space::of(map, setup.motion())?;
+    space.check_room("the search", memory::INDEX + memory::PLANNER)?;
+    Ok(setup.prepare(&space.inner).map_err(raised)?.planner())
+}
+
+/// The most vertices that a map can have.
+fn vertices(map: &Map) -> u64 {
+    (u64::from(map.width()) + 1) * (u64::from(map.height()) + 1)
+}
+
+impl Space {
+    /// A map with rules of motion.
+    pub(crate) fn of(map: &Map, motion: Motion) -> Result<Self, JsValue> {
+        memory::check("the space", vertices(map), memory::SPACE)?;
+        Ok(Self { inner: map.space(motion).map_err(raised)? })
+    }
+
+    /// Checks that there is room for so many bytes a vertex.
+    pub(crate) fn check_room(&self, what: &str, bytes: u64) -> Result<(), JsValue> {
+        memory::check(what, vertices(self.inner.map()), bytes)
+    }
+}
+
+#[wasm_bindgen]
+impl Space {
+    /// The map.
+    #[wasm_bindgen(getter)]
+    pub fn grid(&self) -> Grid {
+        Grid::new(self.inner.map().clone())
+    }
+
+    /// The rules of motion and the k, in full.
+    #[wasm_bindgen(getter)]
+    pub fn motion(&self) -> JsMotion {
+        answer::motion(self.inner.motion())
+    }
+
+    /// Whether a path may stand on this vertex; false outside the map.
+    #[wasm_bindgen(js_name = isFree)]
+    pub fn is_free(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Point")] at: &JsValue,
+    ) -> Result<bool, JsValue> {
+        Ok(self.inner.is_free(point("at", at)?))
+    }
+
+    /// Whether there is a path from one vertex to another, in constant time.
+    pub fn connected(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Point")] from: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Point")] to: &JsValue,
+    ) -> Result<bool, JsValue> {
+        Ok(self.inner.connected(point("from", from)?, point("to", to)?))
+    }
+
+    /// Whether the straight segment between two vertices obeys the rules of motion.
+    pub fn sees(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Point")] from: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Point")] to: &JsValue,
+    ) -> Result<bool, JsValue> {
+        Ok(self.inner.sees(point("from", from)?, point("to", to)?))
+    }
+
+    /// Whether a path, x, y, …, obeys the rules of motion, at any angle: whether it still holds after an
+    /// edit.
+    pub fn holds(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Int32Array")] path: &JsValue,
+    ) -> Result<bool, JsValue> {
+        Ok(self.inner.check(&Path::new(path_points("path", path)?)).is_ok())
+    }
+
+    /// Throws what is wrong with a path that does not hold: the segment, and the first blocked cell on it.
+    ///
+    /// @throws MediantError `broken-path`.
+    pub fn check(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Int32Array")] path: &JsValue,
+    ) -> Result<(), JsValue> {
+        self.inner.check(&Path::new(path_points("path", path)?)).map_err(|error| broken(&error))
+    }
+
+    /// The engine that we would take for many paths, and why, in a sentence.
+    pub fn engine(&self) -> JsChoice {
+        let choice = self.inner.engine();
+        answer::object_of([("engine", Some(choice.engine.name().into())), ("why", Some(choice.why.into()))])
+    }
+
+    /// The same rules and k on an edited map: see `Grid.edit`. This space stays as it is.
+    ///
+    /// @throws MediantError as `Grid.edit`.
+    pub fn edit(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "number")] x: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] y: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] width: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] height: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Uint8Array | Uint8ClampedArray")] blocked: &JsValue,
+    ) -> Result<Self, JsValue> {
+        let edit = Edit::read([x, y, width, height], blocked)?;
+        let map = self.inner.map().edit(edit.at, |x, y| edit.is_blocked(x, y)).map_err(raised)?;
+        Self::of(&map, self.inner.motion())
+    }
+
+    /// Prepares what an engine needs; by default the engine that `engine()` names. `progress` is called with
+    /// a stage (`"edges"` or `"hierarchy"`), and how much of it is done of all.
+    ///
+    /// ```js
+    /// const index = space.prepare("subgoal");
+    /// const path = index.planner().find([0, 0], [9, 9]).path;
+    /// ```
+    ///
+    /// @throws MediantError `engine-…` for an engine that does not take the motion or the options;
+    /// `index-range` for a map that is too large for the index; what `progress` throws.
+    pub fn prepare(
+        &self,
+        #[wasm_bindgen(unchecked_optional_param_type = "string")] engine: &JsValue,
+        #[wasm_bindgen(unchecked_optional_param_type = "Options")] options: &JsValue,
+        #[wasm_bindgen(
+            unchecked_optional_param_type = "(stage: string, done: number, total: number) => void"
+        )]
+        progress: &JsValue,
+    ) -> Result<Index, JsValue> {
+        let engine = read_engine(engine)?.unwrap_or_else(|| self.inner.engine().engine);
+        let keywords = Keywords::read("options", options, Takes::OPTIONS)?;
+        let configured = keywords.configured(engine)?;
+        let listener = match progress.dyn_ref::<Function>() {
+            Some(function) => Some(function.clone()),
+            None if progress.is_undefined() || progress.is_null() => None,
+            None => return Err(wrong_type("progress", "a function", progress)),
+        };
+        self.check_room("the index", memory::INDEX)?;
+        let listening = Listening::begin(listener);
+        let index = self.inner.prepare_with_progress(configured, &tell);
+        listening.end()?;
+        Ok(Index { inner: index.map_err(raised)?.with_smoothing(keywords.smoothing) })
+    }
+
+    /// The index of bytes that `Index.toBytes` gave for the same map and motion.
+    ///
+    /// @throws MediantError `mismatch` for the index of another map or motion, `index-damaged` and
+    /// `index-engine` for bytes that are no whole index, or one of another version.
+    pub fn load(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Uint8Array")] index: &JsValue,
+        #[wasm_bindgen(unchecked_optional_param_type = "Options")] options: &JsValue,
+    ) -> Result<Index, JsValue> {
+        let keywords = Keywords::read("options", options, Takes::OPTIONS)?;
+        let mut index = self.inner.index_from_bytes(bytes("bytes", index)?).map_err(raised)?;
+        if keywords.has_options() {
+            let configured = keywords.configured(index.setup().engine.kind())?;
+            index = index.with_options(configured).map_err(raised)?.with_smoothing(keywords.smoothing);
+        }
+        Ok(Index { inner: index })
+    }
+
+    /// The distance of every vertex to the nearest source, up to a limit in cells if there is one.
+    ///
+    /// ```js
+    /// const field = space.field([0, 0]);
+    /// field.get([3, 0]); // 3
+    /// ```
+    ///
+    /// @throws MediantError `start-blocked`, `start-outside` for a source that is blocked or outside the map.
+    pub fn field(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Points")] sources: &JsValue,
+        #[wasm_bindgen(unchecked_optional_param_type = "number")] limit: &JsValue,
+    ) -> Result<Field, JsValue> {
+        let sources = Points::read("sources", sources)?;
+        self.check_room("the field", memory::FIELD)?;
+        let sources = sources.as_slice().iter().copied();
+        let field = if limit.is_undefined() || limit.is_null() {
+            self.inner.field(sources)
+        } else {
+            self.inner.field_within(sources, positive("limit", limit)?)
+        };
+        Ok(Field::new(field.map_err(|error| raised_for("source", error))?))
+    }
+
+    /// Of all paths whose length is at most (1 + `surplus`) times that of the shortest, one that keeps off
+    /// walls farthest, measured where it comes nearest to one; undefined if there is no path. A surplus of
+    /// 0.1 allows 10 % more.
+    ///
+    /// @throws MediantError as `Planner.find`.
+    #[wasm_bindgen(js_name = widestPath, unchecked_return_type = "WidestPath | undefined")]
+    pub fn widest_path(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Point")] start: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Point")] goal: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] surplus: &JsValue,
+    ) -> Result<JsValue, JsValue> {
+        let (start, goal) = (point("start", start)?, point("goal", goal)?);
+        let surplus = positive("surplus", surplus)?;
+        self.check_room("the path", memory::SPACE + memory::PLANNER)?;
+        let widest = self.inner.widest_path(start, goal, surplus).map_err(raised)?;
+        Ok(widest.map_or(JsValue::UNDEFINED, |widest| {
+            answer::object_of([
+                ("path", Some(answer::flat(&widest.path).into())),
+                ("distance", Some(widest.path.cost().into())),
+                ("radius", Some(widest.radius.into())),
+            ])
+        }))
+    }
+
+    /// A second handle to the same space, for arguments of calls.
+    #[wasm_bindgen(js_name = __share, skip_typescript)]
+    pub fn share(&self) -> Self {
+        Self { inner: self.inner.clone() }
+    }
+}
+
+thread_local! {
+    /// Who listens to the preparations that run, the last one first: the library's listener must be able to
+    /// go to other threads, and a function of JavaScript is not. What a listener has thrown stands beside it.
+    static LISTENERS: RefCell<Vec<Listener>> = const { RefCell::new(Vec::new()) };
+}
+
+type Listener = (Option<Function>, Option<JsValue>);
+
+/// A preparation that somebody listens to.
+struct Listening;
+
+impl Listening {
+    fn begin(listener: Option<Function>) -> Self {
+        LISTENERS.with_borrow_mut(|listeners| listeners.push((listener, None)));
+        Self
+    }
+
+    /// Ends it.
+    ///
+    /// # Errors
+    /// What the listener has thrown.
+    fn end(self) -> Result<(), JsValue> {
+        let listener = LISTENERS.with_borrow_mut(Vec::pop);
+        listener.and_then(|(_, thrown)| thrown).map_or(Ok(()), Err)
+    }
+}
+
+/// Tells the one that listens. Once it has thrown, it is told no more.
+fn tell(progress: Progress) {
+    let listener = LISTENERS.with_borrow(|listeners| listeners.last().cloned());
+    let Some((Some(function), None)) = listener else { return };
+    let stage = match progress.stage {
+        Stage::Edges => "edges",
+        _ => "hierarchy",
+    };
+    let [done, total] = [progress.done, progress.total].map(|count| JsValue::from(count as f64));
+    let called = function.call3(&JsValue::UNDEFINED, &JsString::from(stage), &done, &total);
+    if let Err(thrown) = called {
+        LISTENERS.with_borrow_mut(|listeners| {
+            if let Some(last) = listeners.last_mut() {
+                last.1 = Some(thrown);
+            }
+        });
+    }
+}

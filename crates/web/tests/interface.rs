@@ -1,0 +1,250 @@
+//! The interface as JavaScript sees it, under node.
+#![cfg(target_arch = "wasm32")]
+
+mod js;
+
+use js::{call, class, get, json, numbers, ok, text, thrown};
+use js_sys::{Array, Function, Reflect, Uint8Array, Uint32Array};
+use mediant_web::{Grid, Picture, Trace};
+use wasm_bindgen::{JsCast, JsValue};
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+const NONE: JsValue = JsValue::UNDEFINED;
+
+/// A map whose way from (0, 0) to (7, 0) is 11 long.
+fn grid() -> JsValue {
+    grid_of(r#"["...#....", ".#.#.##.", ".#...#.."]"#)
+}
+
+fn grid_of(rows: &str) -> JsValue {
+    Grid::from_rows(&json(rows)).unwrap_or_else(|error| panic!("{}", text(&error))).into()
+}
+
+fn at(x: i32, y: i32) -> JsValue {
+    Array::of2(&x.into(), &y.into()).into()
+}
+
+fn bytes(all: &[u8]) -> JsValue {
+    Uint8Array::from(all).into()
+}
+
+fn planner(grid: &JsValue, motion: &str, engine: &str) -> JsValue {
+    let space = ok(grid, "space", &[json(motion)]);
+    ok(&ok(&space, "prepare", &[engine.into()]), "planner", &[])
+}
+
+#[test]
+fn paths_at_once() {
+    let grid = grid();
+    let way = [0, 0, 2, 0, 2, 2, 4, 2, 4, 0, 7, 0];
+    assert_eq!(numbers(&ok(&grid, "path", &[at(0, 0), at(7, 0)])), way);
+    // Again, on what the grid has kept; with other forms of points; and with other motion.
+    let flat = js_sys::Int32Array::from(&[7, 0][..]).into();
+    assert_eq!(numbers(&ok(&grid, "path", &[at(0, 0), flat])), way);
+    let any = numbers(&ok(&grid, "path", &[at(0, 0), at(8, 3), json(r#"{"k": "any"}"#)]));
+    assert_eq!((&any[..2], &any[any.len() - 2..]), (&[0, 0][..], &[8, 3][..]));
+    let several = ok(&grid, "path", &[json("[[0, 0], [6, 0]]"), json("[[7, 0], [4, 0]]")]);
+    assert_eq!(numbers(&several), [6, 0, 7, 0]);
+    let closed = grid_of(r#"["..#."]"#);
+    assert!(ok(&closed, "path", &[at(0, 0), at(3, 0)]).is_undefined());
+    let nearest = json(r#"{"nearest": true, "engine": "astar", "heuristic": "euclidean"}"#);
+    assert_eq!(numbers(&ok(&closed, "path", &[at(0, 0), at(3, 0), nearest])), [0, 0, 1, 0]);
+    let stopped = json(r#"{"maxExpansions": 1}"#);
+    assert_eq!(thrown(&grid, "path", &[at(0, 0), at(7, 0), stopped]), "MediantError stopped");
+}
+
+#[test]
+fn grids() {
+    let grid = grid();
+    assert_eq!((get(&grid, "width").as_f64(), get(&grid, "height").as_f64()), (Some(8.0), Some(3.0)));
+    let cells: Uint8Array = ok(&grid, "cells", &[]).unchecked_into();
+    let same = Grid::from_cells(&8.into(), &3.into(), &cells).map(JsValue::from).expect("a grid");
+    assert_eq!(get(&grid, "id"), get(&same, "id"));
+    let edited = ok(&grid, "edit", &[3.into(), 0.into(), 1.into(), 1.into(), bytes(&[0])]);
+    assert_eq!(ok(&edited, "isBlocked", &[3.into(), 0.into()]), JsValue::FALSE);
+    assert_eq!(ok(&grid, "isBlocked", &[3.into(), 0.into()]), JsValue::TRUE);
+    assert_eq!(ok(&grid, "isBlocked", &[f64::NAN.into(), 0.into()]), JsValue::TRUE);
+    let map = ok(&grid, "toMap", &[]).as_string().expect("a text");
+    let read = ok(&class(&grid), "read", &["a.map".into(), bytes(map.as_bytes())]);
+    assert_eq!(get(&grid, "id"), get(&read, "id"));
+    let clearance: js_sys::Float64Array = ok(&grid, "clearance", &[]).unchecked_into();
+    assert_eq!(clearance.to_vec()[..4], [0.5, 0.5, 0.5, 0.0]);
+    let disc = ok(&grid, "forDisc", &[0.6.into()]);
+    assert_eq!(ok(&disc, "isBlocked", &[0.into(), 0.into()]), JsValue::TRUE);
+    assert_eq!(ok(&ok(&grid, "forSquare", &[2.into()]), "isBlocked", &[0.into(), 0.into()]), JsValue::TRUE);
+}
+
+#[test]
+fn files_in_memory() {
+    let class = class(&grid());
+    let yaml = "image: room.pgm\nresolution: 0.5\norigin: [1, 2, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.25\n";
+    let pgm = bytes(b"P2 2 1 255  254 0");
+    let files = js_sys::Object::new();
+    Reflect::set(&files, &"room.pgm".into(), &pgm).expect("an object");
+    let arguments = ["maps/room.yaml".into(), bytes(yaml.as_bytes()), files.into()];
+    let room = ok(&class, "read", &arguments);
+    assert_eq!(Uint8Array::from(ok(&room, "cells", &[])).to_vec(), [0, 1]);
+    assert_eq!(Array::from(&ok(&class, "size", &arguments)).join(","), "2,1");
+    assert_eq!(thrown(&class, "read", &arguments[..2]), "MediantError file-missing");
+    let inverted =
+        ok(&class, "read", &["x".into(), pgm, NONE, json(r#"{"invert": true, "threshold": 0.3}"#)]);
+    assert_eq!(Uint8Array::from(ok(&inverted, "cells", &[])).to_vec(), [1, 0]);
+    // The size of a map that nobody could make here.
+    let huge = bytes(b"P5 16384 16384 255 ");
+    assert_eq!(Array::from(&ok(&class, "size", &["x".into(), huge.clone()])).join(","), "16384,16384");
+    assert_eq!(thrown(&class, "read", &["x".into(), huge]), "MediantError map-format");
+}
+
+#[test]
+fn spaces_and_indexes() {
+    let grid = grid();
+    let space = ok(&grid, "space", &[json(r#"{"k": 3}"#)]);
+    let motion = js_sys::JSON::stringify(&get(&space, "motion")).expect("JSON");
+    assert_eq!(motion, r#"{"k":3,"placement":"center","corners":"never"}"#);
+    // What a space says of its motion makes the same space.
+    ok(&grid, "space", &[get(&space, "motion")]);
+    assert_eq!(ok(&space, "isFree", &[at(3, 0)]), JsValue::FALSE);
+    assert_eq!(ok(&space, "sees", &[at(0, 0), at(2, 0)]), JsValue::TRUE);
+    assert_eq!(ok(&space, "connected", &[at(0, 0), at(7, 2)]), JsValue::TRUE);
+    let path = ok(&grid, "path", &[at(0, 0), at(7, 0)]);
+    assert_eq!(ok(&space, "holds", std::slice::from_ref(&path)), JsValue::TRUE);
+    let block = [2.into(), 1.into(), 1.into(), 1.into(), bytes(&[1])];
+    let edited = ok(&space, "edit", &block);
+    assert_eq!(ok(&edited, "holds", std::slice::from_ref(&path)), JsValue::FALSE);
+    assert_eq!(thrown(&edited, "check", &[path]), "MediantError broken-path");
+    assert_eq!(get(&ok(&space, "engine", &[]), "engine"), "subgoal");
+    // Prepared, heard, saved, loaded, repaired.
+    let heard = Array::new();
+    let listener = Function::new_with_args("heard", "return stage => heard.push(stage)");
+    let listener = listener.call1(&NONE, &heard).expect("a function");
+    let index = ok(&space, "prepare", &[NONE, NONE, listener]);
+    assert!(heard.length() > 0 && heard.get(0) == "edges");
+    assert_eq!(
+        (get(&index, "setup"), get(&index, "guarantee")),
+        ("subgoal:3:never".into(), "optimal(3)".into())
+    );
+    let loaded = ok(&space, "load", &[ok(&index, "toBytes", &[])]);
+    assert_eq!(get(&loaded, "origin"), "loaded");
+    assert_eq!(thrown(&edited, "load", &[ok(&index, "toBytes", &[])]), "MediantError mismatch");
+    let hpa = ok(&space, "prepare", &["hpa".into(), json(r#"{"side": 4}"#)]);
+    let repaired = ok(&hpa, "repair", std::slice::from_ref(&edited));
+    assert_eq!((get(&repaired, "origin"), get(&repaired, "optimal")), ("repaired".into(), JsValue::FALSE));
+    let answer = ok(&ok(&repaired, "planner", &[]), "find", &[at(0, 0), at(7, 0)]);
+    assert_eq!(get(&answer, "status"), "unreachable");
+    let other = ok(&grid, "space", &[json(r#"{"k": 2}"#)]);
+    assert_eq!(thrown(&hpa, "repair", &[other]), "MediantError mismatch");
+    // What a listener throws comes out, and the space is as it was.
+    let throws = Function::new_no_args("throw new Error('enough')").into();
+    let error = call(&space, "prepare", &[NONE, NONE, throws]).expect_err("the listener throws");
+    assert_eq!(get(&error, "message"), "enough");
+    ok(&space, "prepare", &[]);
+}
+
+#[test]
+fn steps_and_traces() {
+    let grid = grid();
+    let planner = planner(&grid, "{}", "astar");
+    let trace = JsValue::from(Trace::new(&JsValue::TRUE).expect("a trace"));
+    let at_once = ok(&planner, "find", &[at(0, 0), at(7, 0), NONE, trace.clone()]);
+    let steps = Uint32Array::from(ok(&trace, "steps", &[])).to_vec();
+    let expanded = steps.iter().filter(|&step| step % 2 == 1).count();
+    assert_eq!(get(&trace, "expanded").as_f64(), Some(expanded as f64));
+    assert_eq!((steps[0], steps[1]), (0, 1), "the start is generated, then expanded");
+    let tail = Uint32Array::from(ok(&trace, "steps", &[2.into()])).to_vec();
+    assert_eq!(tail, steps[2..]);
+    // The same in steps.
+    let text = ok(&trace, "posthoc", &[planner.clone(), at(0, 0), at(7, 0)]).as_string().expect("a text");
+    assert!(text.contains(r#"{"type":"source","id":1,"#) && text.contains(r#""type":"end""#));
+    js_sys::JSON::parse(&text).expect("the trace is JSON");
+    ok(&trace, "clear", &[]);
+    ok(&planner, "begin", &[at(0, 0), at(7, 0)]);
+    let (mut lower, mut count) = (0.0, 0.0);
+    let answer = loop {
+        let answer = ok(&planner, "step", &[1.into(), trace.clone()]);
+        if !answer.is_undefined() {
+            break answer;
+        }
+        let now = get(&planner, "lowerBound").as_f64().expect("a number");
+        assert!(now >= lower && ok(&planner, "best", &[]).is_object());
+        lower = now;
+        count += 1.0;
+        assert_eq!(get(&planner, "expansions").as_f64(), Some(count));
+    };
+    assert_eq!(numbers(&get(&answer, "path")), numbers(&get(&at_once, "path")));
+    assert_eq!(Uint32Array::from(ok(&trace, "steps", &[])).to_vec(), steps);
+    assert!(!ok(&planner, "pathTo", &[at(2, 2)]).is_undefined());
+    // Finished, stopped, not begun.
+    ok(&planner, "begin", &[at(0, 0), at(7, 0)]);
+    assert_eq!(get(&ok(&planner, "finish", &[]), "distance").as_f64(), Some(11.0));
+    let stopped = ok(&planner, "find", &[at(0, 0), at(7, 0), json(r#"{"maxExpansions": 2}"#)]);
+    assert_eq!(
+        (get(&stopped, "status"), get(&stopped, "stoppedBy")),
+        ("stopped".into(), "expansions".into())
+    );
+    assert!(get(&stopped, "distance").as_f64().is_some_and(f64::is_nan) && get(&stopped, "best").is_object());
+    let late = ok(&planner, "find", &[at(0, 0), at(7, 0), json(r#"{"timeout": 0}"#)]);
+    assert_eq!(get(&late, "stoppedBy"), "timeout");
+    let fresh = self::planner(&grid, "{}", "jps");
+    assert_eq!(thrown(&fresh, "step", &[1.into()]), "MediantError not-begun");
+    // A trace is of one size of map.
+    let corners = self::planner(&grid, r#"{"placement": "corner"}"#, "astar");
+    assert_eq!(thrown(&corners, "find", &[at(0, 0), at(1, 0), NONE, trace.clone()]), "MediantError mismatch");
+    let plain = JsValue::from(Trace::new(&NONE).expect("a trace"));
+    assert_eq!(thrown(&plain, "posthoc", &[planner, at(0, 0), at(7, 0)]), "MediantError argument");
+}
+
+#[test]
+fn fields_and_pictures() {
+    let grid = grid();
+    let space = ok(&grid, "space", &[]);
+    let field = ok(&space, "field", &[at(0, 0)]);
+    assert_eq!(ok(&field, "get", &[at(7, 0)]).as_f64(), Some(11.0));
+    assert_eq!(Array::from(&ok(&field, "next", &[at(7, 0)])).join(","), "6,0");
+    assert!(ok(&field, "next", &[at(0, 0)]).is_undefined());
+    assert_eq!(numbers(&ok(&field, "pathFrom", &[at(7, 0)]))[..2], [7, 0]);
+    let flow = js_sys::Float32Array::from(ok(&field, "flow", &[])).to_vec();
+    assert_eq!((flow.len(), &flow[..4]), (48, &[0.0, 0.0, -1.0, 0.0][..]));
+    let near = ok(&space, "field", &[at(0, 0), 1.5.into()]);
+    assert_eq!(ok(&near, "get", &[at(2, 0)]).as_f64(), Some(f64::INFINITY));
+    assert_eq!(thrown(&space, "field", &[at(3, 0)]), "MediantError start-blocked");
+    let widest = ok(&space, "widestPath", &[at(0, 0), at(7, 0), 0.5.into()]);
+    assert_eq!((get(&widest, "radius").as_f64(), get(&widest, "distance").as_f64()), (Some(0.5), Some(11.0)));
+
+    let trace = JsValue::from(Trace::new(&NONE).expect("a trace"));
+    ok(&planner(&grid, "{}", "astar"), "find", &[at(0, 0), at(7, 0), NONE, trace.clone()]);
+    let picture = JsValue::from(Picture::new(&grid, &"center".into()).expect("a picture"));
+    ok(&picture, "field", std::slice::from_ref(&field));
+    ok(&picture, "searched", &[trace.clone()]);
+    ok(&picture, "path", &["way".into(), ok(&grid, "path", &[at(0, 0), at(7, 0)])]);
+    ok(&picture, "start", &[at(0, 0)]);
+    ok(&picture, "goal", &[json("[[7, 0], [7, 2]]")]);
+    ok(&picture, "caption", &["a picture".into()]);
+    ok(&picture, "radius", &[0.3.into()]);
+    ok(&picture, "largestSide", &[500.into()]);
+    let svg = ok(&picture, "svg", &[]).as_string().expect("a text");
+    assert!(svg.starts_with("<svg") && svg.contains("a picture") && svg.contains("way"));
+    assert_eq!(Uint8Array::from(ok(&picture, "png", &[])).to_vec()[1..4], *b"PNG");
+    let corners = JsValue::from(Picture::new(&grid, &"corner".into()).expect("a picture"));
+    assert_eq!(thrown(&corners, "field", &[field]), "MediantError mismatch");
+    assert_eq!(thrown(&corners, "searched", &[trace]), "MediantError mismatch");
+}
+
+#[test]
+fn what_needs_no_map() {
+    let moves = mediant_web::moves(&2.into()).expect("moves").to_vec();
+    assert_eq!(moves.len(), 8);
+    let bound = mediant_web::bound(&json(r#"{"k": 3, "placement": "corner"}"#)).expect("a bound");
+    assert!(bound.is_some_and(|bound| (bound - 1.0824).abs() < 1e-4));
+    let engines = Array::from(&mediant_web::engines());
+    assert_eq!(engines.length(), 14);
+    let jps = engines.iter().find(|engine| get(engine, "name") == "jps").expect("jps");
+    assert_eq!(Array::from(&get(&jps, "options")).join(","), "heuristic,jumpLimit,keepIntermediate,smooth");
+    let check = |engine: &str, motion: &str| {
+        mediant_web::check_setup(&engine.into(), &json(motion), &NONE).map_err(|error| text(&error))
+    };
+    assert_eq!(check("astar", "{}"), Ok(None));
+    assert!(
+        check("anya", r#"{"k": 3}"#).is_ok_and(|why| why.is_some_and(|why| why.contains("every direction")))
+    );
+    assert!(check("astar2", "{}").is_err_and(|error| error.starts_with("MediantError unknown-name")));
+}

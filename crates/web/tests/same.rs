@@ -1,0 +1,123 @@
+//! The same paths and counts on every platform: one function over all setups and the maps of the shared
+//! suite, and one table of digests. `cargo test` checks it natively, and under node in WebAssembly.
+//!
+//! A change of an engine that changes its paths or its counts changes the table: the failure prints the new
+//! one.
+
+use mediant::{CornerRule, DiagonalGap, Engine, K, Map, Outcome, Query, Rules, Setup};
+use mediant_oracle::{Rng, caves, maze, noise, random_free_vertex, rooms, suite_grid};
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test;
+
+/// The seeds of the maps.
+const SEEDS: std::ops::Range<u64> = 0..20;
+/// The neighborhoods and the rules, of which each map has one pair.
+const KS: [K; 4] = [K::N4, K::N8, K::N16, K::ANY];
+const RULES: [Rules; 5] = [
+    Rules::Center(CornerRule::Never),
+    Rules::Corner(DiagonalGap::Open),
+    Rules::Corner(DiagonalGap::Closed),
+    Rules::Center(CornerRule::One),
+    Rules::Center(CornerRule::Always),
+];
+/// The queries on each map with each setup.
+const QUERIES: usize = 2;
+
+/// A digest of what an engine answered, and of how many queries.
+type Row = (&'static str, u64, u64);
+
+/// What every platform finds.
+const EXPECTED: [Row; 14] = [
+    ("astar", 0x3d56_eb4b_53f4_3c19, 168),
+    ("dijkstra", 0x4dbe_ae31_28fa_7f5b, 28),
+    ("wavefront", 0x2679_c4ef_36ad_8486, 28),
+    ("canonical", 0x1ff7_3243_612b_300a, 112),
+    ("jps", 0x5916_c023_b964_df7f, 140),
+    ("jps-block", 0x825a_5b7d_5912_2668, 90),
+    ("jps-plus", 0x92b3_e750_ef7e_378b, 72),
+    ("theta", 0x35ff_fe45_8b38_45e3, 112),
+    ("lazy-theta", 0xb5c5_8f98_7086_095f, 84),
+    ("anya", 0xf349_7278_f027_bdc3, 8),
+    ("subgoal", 0x151c_9528_56f9_223d, 110),
+    ("subgoal-theta", 0x21bb_3646_a116_7baa, 40),
+    ("hpa", 0x1f2e_ab71_0e82_1128, 72),
+    ("chpa", 0x3eab_8a9f_86f9_3910, 88),
+];
+
+/// The map of a seed: of the suite, or every fourth time a larger one.
+fn map(seed: u64) -> Map {
+    let rng = &mut Rng::new(seed);
+    let (width, height) = (70, 50);
+    let grid = match seed % 16 {
+        3 => noise(rng, width, height, 25),
+        7 => rooms(rng, width, height),
+        11 => maze(rng, width, height),
+        15 => caves(rng, width, height),
+        _ => suite_grid(seed).0,
+    };
+    grid.into()
+}
+
+/// FNV-1a of 64 bits.
+struct Digest(u64);
+
+impl Digest {
+    fn add(&mut self, bytes: &[u8]) {
+        for &byte in bytes {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+}
+
+/// Adds what a setup answers on a map to the digest of its engine.
+fn answer(setup: Setup, map: &Map, seed: u64, (digest, asked): (&mut Digest, &mut u64)) {
+    let Ok(mut planner) = setup.planner(map) else { return };
+    let mut rng = Rng::new(seed);
+    let mut free = || random_free_vertex(&mut rng, map.grid(), setup.rules.placement());
+    for _ in 0..QUERIES {
+        let (Some(start), Some(goal)) = (free(), free()) else { return };
+        digest.add(format!("{setup} {seed} {start} {goal}").as_bytes());
+        match planner.find_counted(Query::new(start, goal)) {
+            Ok((Outcome::Found(path), counters)) => {
+                let points = path.waypoints().iter().flat_map(|at| [at.x, at.y]);
+                points.for_each(|number| digest.add(&number.to_le_bytes()));
+                digest.add(&path.cost().to_bits().to_le_bytes());
+                digest.add(format!("{counters:?}").as_bytes());
+            }
+            other => digest.add(format!("{other:?}").as_bytes()),
+        }
+        *asked += 1;
+    }
+}
+
+/// The table as it is on this platform.
+fn table() -> Vec<Row> {
+    let mut rows: Vec<_> =
+        Engine::ALL.iter().map(|engine| (*engine, Digest(0xcbf2_9ce4_8422_2325), 0)).collect();
+    for seed in SEEDS {
+        let map = map(seed);
+        // 4 and 5 have no common divisor, so that each k meets each rule.
+        let (k, rules) = (KS[seed as usize % KS.len()], RULES[seed as usize % RULES.len()]);
+        for setup in Setup::all(k, rules) {
+            let engine = setup.engine.kind();
+            if let Some((_, digest, asked)) = rows.iter_mut().find(|(of, ..)| *of == engine) {
+                answer(setup, &map, seed, (digest, asked));
+            }
+        }
+    }
+    rows.into_iter().map(|(engine, digest, asked)| (engine.name(), digest.0, asked)).collect()
+}
+
+#[cfg_attr(target_arch = "wasm32", wasm_bindgen_test)]
+#[cfg_attr(not(target_arch = "wasm32"), test)]
+fn the_same_paths_and_counts_on_every_platform() {
+    let found = table();
+    let lines: String = found
+        .iter()
+        .map(|(name, digest, asked)| format!("    (\"{name}\", {digest:#018x}, {asked}),\n"))
+        .collect();
+    assert!(
+        found == EXPECTED,
+        "the paths or the counts differ from those that are written here; found:\n{lines}"
+    );
+}
