@@ -1,0 +1,139 @@
+// Starts the page: the scene, the engines, the stage and the panels.
+
+import { decode } from "./model/link.js";
+import { loadMap } from "./model/maps.js";
+import { Model } from "./model/model.js";
+import { Bounds } from "./panels/bounds.js";
+import { changes, part } from "./panels/dom.js";
+import { EnginePanel } from "./panels/engine.js";
+import { Files } from "./panels/files.js";
+import { startHelp } from "./panels/help.js";
+import { drawIcons } from "./panels/icons.js";
+import { startK } from "./panels/k.js";
+import { startKeys } from "./panels/keys.js";
+import { MapsMenu } from "./panels/maps-menu.js";
+import { startMenus } from "./panels/menu.js";
+import { banner, say, sentence } from "./panels/message.js";
+import { PlaybackBar } from "./panels/playback.js";
+import { FIRST_LANE } from "./panels/presets.js";
+import { RacePanel } from "./panels/race.js";
+import { openScene } from "./panels/scenes.js";
+import { Setups } from "./panels/setups.js";
+import { AgentsPanel, ShowPanel } from "./panels/show.js";
+import { startTabs } from "./panels/tabs.js";
+import { startTheme } from "./panels/theme.js";
+import { ToolBar } from "./panels/tools.js";
+import { Lanes } from "./search/lanes.js";
+import { Walkers } from "./search/walkers.js";
+import { Player } from "./stage/player.js";
+import { Stage } from "./stage/stage.js";
+
+/** What this browser lacks, as a sentence; empty if it has all that is needed. */
+function missing() {
+  const hint = "A current browser is needed.";
+  if (typeof WebAssembly !== "object") {
+    return `This browser has no WebAssembly: the engines are made of it. ${hint}`;
+  }
+  if (!hasModuleWorkers()) return `This browser has no module workers: the engines run in them. ${hint}`;
+  return "";
+}
+
+function hasModuleWorkers() {
+  if (typeof Worker !== "function") return false;
+  let isAsked = false;
+  // A browser that knows modules asks for the type.
+  const options = /** @type {WorkerOptions} */ ({ get type() { isAsked = true; return "module"; } });
+  try {
+    new Worker(new URL("search/protocol.js", import.meta.url), options).terminate();
+  } catch {
+    return false;
+  }
+  return isAsked;
+}
+
+/** Loads the scene of the link. Returns whether there is one that could be loaded. @param {Model} model */
+async function loadLink(model) {
+  if (location.hash.length < 2) return false;
+  try {
+    await openScene(decode(location.hash), model);
+    return true;
+  } catch (error) {
+    say(sentence(error), { kind: "error", key: "link" });
+    return false;
+  }
+}
+
+/** The scene of the link, or else the one of the first sight. @param {Model} model */
+async function firstScene(model) {
+  if (await loadLink(model)) return;
+  model.setLanes([{ ...FIRST_LANE }]);
+  try {
+    model.load(await loadMap({ kind: "bundled", name: "archipelago" }));
+  } catch (error) {
+    say(sentence(error), { kind: "error", key: "map" });
+  }
+}
+
+/** Marks when the first path has been painted, for measurements. @param {Lanes} lanes */
+function markFirstPath(lanes) {
+  let isMarked = false;
+  changes(lanes, () => {
+    const isThere = lanes.list.some(({ phase, answer }) => phase === "done" && answer && answer.path.length > 0);
+    if (isMarked || !isThere) return;
+    isMarked = true;
+    // The answer is drawn in the next frame, which is painted before the one after it.
+    requestAnimationFrame(() => requestAnimationFrame(() => performance.mark("first-path")));
+  });
+}
+
+/** Keeps the page for the time without a network. */
+function keepOffline() {
+  const isLocal = ["localhost", "127.0.0.1", "[::1]"].includes(location.hostname);
+  if (!("serviceWorker" in navigator) || !(location.protocol === "https:" || isLocal)) return;
+  addEventListener("load", () => {
+    navigator.serviceWorker.register("./offline.js", { updateViaCache: "none" }).catch(() => {});
+  });
+}
+
+/** @param {Model} model @param {() => void} help */
+function startParts(model, help) {
+  const lanes = new Lanes(model);
+  markFirstPath(lanes);
+  const player = new Player(lanes);
+  const walkers = new Walkers(model, lanes);
+  const stage = new Stage(part("stage", HTMLElement), model, lanes, player, walkers);
+  const setups = new Setups(model, lanes);
+  const bounds = new Bounds();
+  // For tests, and for the console.
+  Object.assign(globalThis, { mediant: { model, lanes, player, stage, walkers } });
+
+  startK(model, lanes, setups, bounds);
+  new EnginePanel(model, lanes, setups);
+  new RacePanel(model, lanes);
+  new PlaybackBar(player);
+  new ShowPanel(model);
+  new AgentsPanel(model, walkers);
+  new MapsMenu(model);
+  new Files(model, lanes);
+  const tools = new ToolBar(model, stage);
+  startKeys({ model, player, stage, tools, setups, help });
+  const failed = (/** @type {unknown} */ error) => say(sentence(error), { kind: "error", key: "engines" });
+  lanes.ready.then(() => bounds.load()).catch(failed);
+  addEventListener("hashchange", () => loadLink(model));
+}
+
+async function start() {
+  drawIcons(document);
+  startTheme();
+  startTabs();
+  const help = startHelp();
+  startMenus(document);
+  const why = missing();
+  if (why) return banner(why);
+  const model = new Model();
+  await firstScene(model);
+  return startParts(model, help);
+}
+
+keepOffline();
+start().catch((error) => banner(`The page could not start: ${sentence(error)}`));

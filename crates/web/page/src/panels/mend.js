@@ -1,0 +1,106 @@
+// Makes engine and motion go together: when one is chosen, the other follows.
+
+import { engineName, kText } from "./words.js";
+
+/** @typedef {import("../../types").LaneSetup} LaneSetup */
+/** @typedef {import("../../types").EngineInfo} EngineInfo */
+
+/** What takes the place of an engine that does not take the motion. @type {Record<string, string>} */
+const INSTEAD = { "jps-block": "jps", "jps-plus": "jps", "subgoal-theta": "theta" };
+
+/** Engines that at centers take k = 2, and k = 3 under corners never. */
+const NARROW_AT_CENTERS = ["subgoal", "hpa", "chpa"];
+
+/**
+ * Whether the engine takes this motion.
+ * @param {EngineInfo} engine
+ * @param {LaneSetup} setup
+ */
+export function takes(engine, setup) {
+  const { k, placement, corners } = setup;
+  if (!engine.placements.includes(placement)) return false;
+  if (k === "any") return engine.any && placement === "corner";
+  if (engine.maxK === null || engine.maxK === undefined || k > engine.maxK) return false;
+  if (placement === "corner" || !NARROW_AT_CENTERS.includes(engine.name)) return true;
+  return k === 2 || (k === 3 && corners === "never");
+}
+
+/**
+ * The setup with the change, mended: a chosen engine changes the motion, a chosen motion changes the engine.
+ * `said` tells what was mended, as a sentence.
+ * @param {LaneSetup} wanted
+ * @param {Partial<LaneSetup>} change
+ * @param {readonly EngineInfo[]} engines
+ * @returns {{ setup: LaneSetup, said: string }}
+ */
+export function mended(wanted, change, engines) {
+  const setup = { ...wanted, ...change };
+  const engine = engines.find(({ name }) => name === setup.engine);
+  if (!engine || takes(engine, setup)) return { setup, said: "" };
+  return change.engine === undefined ? withEngine(setup, change, engines) : withMotion(setup, engine);
+}
+
+/** @param {LaneSetup} setup @param {EngineInfo} engine */
+function withMotion(setup, engine) {
+  const [only] = engine.placements;
+  const mended = { ...setup };
+  const name = engineName(engine.name);
+  const said = [];
+  if (only && !engine.placements.includes(setup.placement)) {
+    mended.placement = only === "center" ? "center" : "corner";
+    said.push(`${name} has its vertices at ${mended.placement}s.`);
+  }
+  const most = engine.maxK ?? null;
+  if (most === null) mended.k = "any";
+  else if (setup.k === "any" && !(engine.any && mended.placement === "corner")) mended.k = 3;
+  else if (setup.k !== "any" && setup.k > most) mended.k = most;
+  if (mended.placement === "center" && NARROW_AT_CENTERS.includes(engine.name)) {
+    if (mended.k !== 2) Object.assign(mended, { k: 3, corners: "never" });
+    if (mended.corners !== setup.corners) said.push(`At centers ${name} takes corner rule never at k = 3.`);
+  }
+  if (mended.k !== setup.k) {
+    said.push(`${name} takes ${kRange(engine, mended)}: k is ${kText(mended.k)} now.`);
+  }
+  return { setup: mended, said: said.join(" ") };
+}
+
+/** @param {EngineInfo} engine @param {LaneSetup} setup */
+function kRange(engine, setup) {
+  if (engine.maxK === null || engine.maxK === undefined) return "k = ∞ only";
+  const most = setup.placement === "center" && NARROW_AT_CENTERS.includes(engine.name) ? 3 : engine.maxK;
+  return `k from 2 to ${most}${setup.placement === "center" && engine.any ? " at centers" : ""}`;
+}
+
+/** @param {LaneSetup} setup @param {Partial<LaneSetup>} change @param {readonly EngineInfo[]} engines */
+function withEngine(setup, change, engines) {
+  const mended = { ...setup };
+  const name = engineName(setup.engine);
+  if (setup.k === "any" && change.placement === "center") {
+    mended.k = 3;
+    const { setup: finite } = mendedEngine(mended, engines);
+    return { setup: finite, said: "k = ∞ has its vertices at corners: k is 3 now." };
+  }
+  if (setup.k === "any") {
+    mended.placement = "corner";
+    const engine = engines.find((engine) => engine.name === setup.engine);
+    if (!engine?.any) mended.engine = "anya";
+    const moved = setup.placement === "corner" ? "" : " at corners";
+    const subject = mended.engine === setup.engine ? "k = ∞ needs" : `${name} takes a finite k.`;
+    const said = mended.engine === setup.engine
+      ? `${subject} vertices at corners.`
+      : `${subject} Anya searches every angle${moved}. ${name} is back when k is finite again.`;
+    return { setup: mended, said };
+  }
+  const { setup: other } = mendedEngine(mended, engines);
+  const instead = engineName(other.engine);
+  return { setup: other, said: `${name} does not take this motion. ${instead} searches it instead.` };
+}
+
+/** @param {LaneSetup} setup @param {readonly EngineInfo[]} engines */
+function mendedEngine(setup, engines) {
+  for (const name of [setup.engine, INSTEAD[setup.engine] ?? "astar", "astar"]) {
+    const engine = engines.find((engine) => engine.name === name);
+    if (engine && takes(engine, setup)) return { setup: { ...setup, engine: name } };
+  }
+  return { setup };
+}

@@ -1,0 +1,149 @@
+// One lane of the race: a row of the table.
+
+import { h, setText } from "./dom.js";
+import { laneMark } from "./figures.js";
+import { iconButton } from "./icons.js";
+import { cells, count, engineName, excess, kText, more, motionText, over, size, time } from "./words.js";
+
+/** @typedef {import("../../types").LaneState} LaneState */
+/** @typedef {import("../../types").LaneSetup} LaneSetup */
+/** @typedef {{ name: string, title: string, value: ((lane: LaneState) => number | undefined) | null,
+ *   text: (lane: LaneState, setup: LaneSetup) => string }} Column */
+
+/** @param {LaneState} lane */
+function lengthText({ answer }) {
+  if (answer?.status === "unreachable") return "no path";
+  return answer && answer.path.length > 0 ? cells(answer.length) : "";
+}
+/** Lengths of different promise are compared only if they are whole ways. @param {LaneState} lane */
+const length = (lane) => (lane.answer?.status === "found" ? lane.answer.length : undefined);
+/** @param {LaneState} lane */
+const certificate = ({ answer }) => (answer?.status === "found" ? answer.bound ?? undefined : undefined);
+
+/** @type {readonly Column[]} */
+export const COLUMNS = [
+  { name: "k", title: "The number of moves is 2 to the k", value: null, text: (_, setup) => kText(setup.k) },
+  { name: "Expansions", title: "Vertices taken from the open list", value: ({ answer }) => answer?.expanded,
+    text: ({ answer }) => (answer ? count(answer.expanded) : "") },
+  { name: "Length", title: "In cells", value: length,
+    text: lengthText },
+  { name: "Excess", title: "How much longer the path is than the shortest", value: ({ answer }) =>
+    (answer?.reference?.what === "any" ? excess(answer) : undefined),
+  text: ({ answer }, setup) => {
+    const ratio = excess(answer);
+    const what = answer?.reference?.what === "k" ? ` over N(${setup.k})` : "";
+    return ratio === undefined ? "" : `${more(ratio)}${what}`;
+  } },
+  { name: "Certificate", title: "Proven: at most so much longer than the shortest path at any angle",
+    value: certificate,
+    text: (lane) => (certificate(lane) === undefined ? "" : `≤ ${over(certificate(lane) ?? 1)}`) },
+  { name: "Time", title: "Of one query on a warm planner", value: ({ answer }) => answer?.ms,
+    text: ({ answer }) => (answer && !answer.error ? time(answer.ms) : "") },
+  { name: "Index", title: "What the engine prepared, once for the map", value: null,
+    text: ({ index }) => (index && index.bytes > 0 ? `${time(index.ms)}, ${size(index.bytes)}` : "–") },
+];
+
+export class RaceRow {
+  #index;
+  #model;
+  #lanes;
+  #radio;
+  #name = h("span", { class: "race-engine" });
+  #motion = h("span", { class: "race-motion muted small" });
+  #status = h("p", { class: "race-status small", hidden: true });
+  #progress = h("progress", { hidden: true });
+  #cells = COLUMNS.map(({ name }) => h("td", { role: "cell", "data-label": name }));
+  #cancel;
+  #retry;
+  #remove;
+  /** @type {HTMLTableRowElement} */
+  element;
+
+  /**
+   * @param {number} index
+   * @param {import("../../types").Model} model
+   * @param {import("../../types").Lanes} lanes
+   */
+  constructor(index, model, lanes) {
+    this.#index = index;
+    this.#model = model;
+    this.#lanes = lanes;
+    this.#radio = h("input", { type: "radio", name: "active-lane", class: "sr-only",
+      change: () => model.set({ active: index }) });
+    this.#cancel = iconButton("stop", `Cancel lane ${index + 1}`, () => lanes.cancel(index));
+    this.#retry = iconButton("retry", `Start lane ${index + 1} again`, () => lanes.retry(index));
+    this.#remove = iconButton("close", `Remove lane ${index + 1}`, () => model.removeLane(index));
+    const label = h("label", { class: "race-lane" }, this.#radio, laneMark(index),
+      h("span", { class: "race-names" }, this.#name, this.#motion));
+    this.element = h("tr", { role: "row" },
+      h("th", { scope: "row", role: "rowheader" }, label, this.#status, this.#progress),
+      ...this.#cells,
+      h("td", { role: "cell", class: "race-actions" }, this.#cancel, this.#retry, this.#remove));
+    this.element.addEventListener("click", (event) => {
+      if (!(event.target instanceof Element) || event.target.closest("button")) return;
+      if (model.active !== index) model.set({ active: index });
+    });
+  }
+
+  /** @param {Map<string, number>} best the least value of each column */
+  show(best) {
+    const setup = this.#model.lanes[this.#index];
+    const lane = this.#lanes.list[this.#index];
+    if (!setup || !lane) return;
+    const active = this.#model.active === this.#index;
+    this.element.classList.toggle("active", active && this.#model.lanes.length > 1);
+    this.element.classList.toggle("stale", lane.stale);
+    this.#radio.checked = active;
+    this.#radio.setAttribute("aria-label",
+      `Lane ${this.#index + 1}: ${engineName(setup.engine)}, k = ${kText(setup.k)}, ${motionText(setup)}`);
+    setText(this.#name, engineName(setup.engine));
+    setText(this.#motion, motionText(setup));
+    COLUMNS.forEach((column, at) => this.#showCell(column, at, setup, lane, best));
+    this.#showStatus(lane);
+    this.#remove.hidden = this.#model.lanes.length < 2;
+  }
+
+  /** @param {Column} column @param {number} at @param {LaneSetup} setup @param {LaneState} lane
+   *  @param {Map<string, number>} best */
+  #showCell({ name, value, text }, at, setup, lane, best) {
+    const cell = this.#cells[at];
+    if (!cell) return;
+    const least = best.get(name);
+    const own = value?.(lane);
+    const wins = least !== undefined && own !== undefined && own <= least * 1.000001 + 1e-9;
+    cell.classList.toggle("best", wins);
+    setText(cell, text(lane, setup) || "–");
+    if (wins) cell.title = "The best of the race";
+    else cell.removeAttribute("title");
+  }
+
+  /** @param {LaneState} lane */
+  #showStatus(lane) {
+    const busy = lane.phase === "preparing" || lane.phase === "searching" || lane.phase === "starting";
+    const text = statusText(lane);
+    setText(this.#status, text);
+    this.#status.hidden = text === "";
+    this.#status.classList.toggle("error", lane.phase === "failed" || lane.answer?.error !== null && !busy);
+    const progress = lane.phase === "preparing" ? lane.progress : null;
+    this.#progress.hidden = !progress;
+    if (progress) {
+      this.#progress.max = Math.max(progress.total, 1);
+      this.#progress.value = progress.done;
+      this.#progress.setAttribute("aria-label", progress.stage);
+    }
+    this.#cancel.hidden = lane.phase !== "preparing" && lane.phase !== "searching";
+    this.#retry.hidden = lane.phase !== "cancelled" && lane.phase !== "failed";
+  }
+}
+
+/** @param {LaneState} lane */
+function statusText({ phase, progress, expanded, message, answer }) {
+  if (phase === "failed") return message || "The engine stopped.";
+  if (phase === "cancelled") return message || "Cancelled.";
+  if (phase === "starting") return "Starting…";
+  if (phase === "preparing") return progress ? `Preparing: ${progress.stage}` : "Preparing…";
+  if (phase === "searching") return expanded > 0 ? `Searching: ${count(expanded)} expansions` : "";
+  if (answer?.error) return answer.error.message;
+  if (answer?.status === "unreachable") return "There is no path to the goal.";
+  return answer?.status === "nearest" ? "No way to the goal: the path ends at the nearest vertex." : "";
+}

@@ -1,0 +1,93 @@
+// The answer of the active lane in three numbers and a sentence.
+
+import { h, part } from "./dom.js";
+import { announce } from "./message.js";
+import { cells, count, excess, more, over } from "./words.js";
+
+/** @typedef {import("../../types").LaneSetup} LaneSetup */
+/** @typedef {import("../../types").LaneState} LaneState */
+
+/**
+ * @param {LaneSetup} setup
+ * @param {LaneState | null} lane
+ * @param {number | null | undefined} bound of this k and motion; undefined if it is not known yet
+ */
+export function readout(setup, lane, bound) {
+  const answer = lane?.answer ?? null;
+  const list = part("readout", HTMLElement);
+  list.classList.toggle("stale", lane?.stale ?? false);
+  const reference = answer?.reference?.what === "k" ? `over N(${setup.k})` : "over any angle";
+  list.replaceChildren(
+    figure("Length", lengthText(lane), answer && answer.path.length ? "cells" : ""),
+    figure("Excess", excessText(lane), reference),
+    figure("Certificate", certificate(lane), "at most"),
+  );
+  part("worth", HTMLElement).textContent = worth(setup, bound);
+  tell(lane);
+}
+
+/** @param {string} name @param {string} value @param {string} unit */
+function figure(name, value, unit) {
+  const what = value === "–" ? "" : unit;
+  return h("div", {}, h("dt", {}, name),
+    h("dd", { class: "value" }, value), h("dd", { class: "unit muted" }, what));
+}
+
+/** @param {LaneState | null} lane */
+function lengthText(lane) {
+  const answer = lane?.answer;
+  if (!answer) return "–";
+  if (answer.status === "unreachable") return "no path";
+  return answer.path.length ? cells(answer.length) : "–";
+}
+
+/** @param {LaneState | null} lane */
+function excessText(lane) {
+  const ratio = excess(lane?.answer ?? null);
+  return ratio === undefined ? "–" : more(ratio);
+}
+
+/** @param {LaneState | null} lane */
+function certificate(lane) {
+  const bound = lane?.answer?.bound;
+  return typeof bound === "number" && lane?.answer?.status === "found" ? more(bound) : "–";
+}
+
+/** What this k is worth on any map, as a sentence. @param {LaneSetup} setup
+ *  @param {number | null | undefined} bound */
+function worth(setup, bound) {
+  if (setup.k === "any") return "N(∞): no path at any angle is shorter, on any map.";
+  if (bound === undefined) return "";
+  if (bound === null) return `N(${setup.k}): there is no bound if corners are always cut.`;
+  return `N(${setup.k}): at most ${over(bound)} longer than the shortest path at any angle, on any map.`;
+}
+
+/** The sentence that was said last. */
+let said = "";
+/** @type {ReturnType<typeof setTimeout> | undefined} */
+let waiting;
+
+/** Says the answer to screen readers, once it has come to rest. @param {LaneState | null} lane */
+function tell(lane) {
+  if (!lane || lane.stale || lane.phase !== "done") return;
+  const text = sentence(lane);
+  clearTimeout(waiting);
+  if (text === said) return;
+  waiting = setTimeout(() => {
+    said = text;
+    announce(text);
+  }, 700);
+}
+
+/** @param {LaneState} lane */
+function sentence({ answer }) {
+  if (!answer) return "";
+  if (answer.error) return answer.error.message;
+  const expanded = `${count(answer.expanded)} expansions`;
+  if (answer.status === "unreachable") return `There is no path. ${expanded}.`;
+  const ratio = excess(answer);
+  const what = answer.reference?.what === "k" ? "its neighborhood" : "any angle";
+  const above = ratio === undefined ? "" : `, ${over(ratio)} over the shortest at ${what}`;
+  const found = answer.status === "nearest" ? "No way to the goal; to the nearest vertex" : "Found";
+  return `${found}: ${cells(answer.length)} cells${above}, ${expanded}.`;
+}

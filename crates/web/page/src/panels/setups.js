@@ -1,0 +1,54 @@
+// Changes the setup of the active lane, for all panels. It remembers what was wished for: an engine that made
+// way for a k is back as soon as the k allows it.
+
+import { changes } from "./dom.js";
+import { mended } from "./mend.js";
+import { dismiss, say } from "./message.js";
+
+/** @typedef {import("../../types").LaneSetup} LaneSetup */
+
+export class Setups {
+  /** What was wished for, and what it was mended to, by lane. @type {Map<number, [LaneSetup, LaneSetup]>} */
+  #wishes = new Map();
+  #model;
+  #lanes;
+  #isMine = false;
+
+  /** @param {import("../../types").Model} model @param {import("../../types").Lanes} lanes */
+  constructor(model, lanes) {
+    this.#model = model;
+    this.#lanes = lanes;
+    // What was said of a setup holds until somebody else changes it.
+    changes(model, ({ lanes }) => lanes && !this.#isMine && dismiss("mend"));
+  }
+
+  /** Changes the active lane. @param {Partial<LaneSetup>} change */
+  change(change) {
+    const index = this.#model.active;
+    const now = this.#model.lanes[index];
+    if (!now) return;
+    const [wish, made] = this.#wishes.get(index) ?? [now, now];
+    const wanted = same(made, now) ? wish : { ...now };
+    const { setup, said } = mended(wanted, change, this.#lanes.engines);
+    const remembered = change.engine === undefined ? { ...wanted, ...change } : setup;
+    this.#wishes.set(index, [remembered, setup]);
+    this.#isMine = true;
+    this.#model.setLane(index, setup);
+    this.#isMine = false;
+    if (said) say(said, { key: "mend" });
+    else dismiss("mend");
+  }
+
+  /** One k up or down; after 12 comes ∞. @param {1 | -1} by */
+  stepK(by) {
+    const k = this.#model.lanes[this.#model.active]?.k ?? 3;
+    const at = Math.min(13, Math.max(2, (k === "any" ? 13 : k) + by));
+    this.change({ k: at === 13 ? "any" : at });
+  }
+}
+
+/** @param {LaneSetup} a @param {Readonly<LaneSetup>} b */
+function same(a, b) {
+  return a.engine === b.engine && a.k === b.k && a.placement === b.placement && a.corners === b.corners
+    && a.gap === b.gap && a.smooth === b.smooth;
+}

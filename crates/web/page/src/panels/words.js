@@ -1,0 +1,140 @@
+// The words and numbers of the panels: names of engines, what a guarantee means, units.
+
+/** @typedef {import("../../types").LaneSetup} LaneSetup */
+/** @typedef {import("../../types").LaneAnswer} LaneAnswer */
+
+/** @type {Record<string, { name: string, how: string }>} */
+const ENGINES = {
+  astar: {
+    name: "A*",
+    how: "Expands the vertex with the least cost so far plus distance over N(k) to the goal.",
+  },
+  dijkstra: {
+    name: "Dijkstra",
+    how: "Expands the vertices in the order of their cost, in all directions alike.",
+  },
+  wavefront: {
+    name: "Wavefront",
+    how: "Spreads ring by ring, and counts moves rather than length.",
+  },
+  canonical: {
+    name: "Canonical A*",
+    how: "A* that follows one of the paths that differ only in the order of their moves.",
+  },
+  jps: {
+    name: "JPS",
+    how: "Jumps over the vertices at which no shortest path turns.",
+  },
+  "jps-block": {
+    name: "Block-based JPS",
+    how: "JPS that looks at 64 vertices at once, by operations on a word.",
+  },
+  "jps-plus": {
+    name: "JPS+",
+    how: "JPS with the length of every jump prepared in a table.",
+  },
+  theta: {
+    name: "Theta*",
+    how: "A* in which the parent may be any vertex that is seen: paths at any angle.",
+  },
+  "lazy-theta": {
+    name: "Lazy Theta*",
+    how: "Theta* that tests whether a vertex is seen only when it expands it.",
+  },
+  anya: {
+    name: "Anya",
+    how: "Searches intervals of grid lines that a root sees: every angle, exactly.",
+  },
+  subgoal: {
+    name: "Subgoal graph",
+    how: "Searches the corners at which shortest paths turn, from a prepared graph.",
+  },
+  "subgoal-theta": {
+    name: "Sub-Theta*",
+    how: "Theta* over a prepared subgoal graph.",
+  },
+  hpa: {
+    name: "HPA*",
+    how: "Plans over prepared clusters of the map, then refines the plan down to cells.",
+  },
+  chpa: {
+    name: "CHPA*",
+    how: "Plans checkpoints over segments of the map, then searches from one to the next.",
+  },
+};
+
+/** @param {string} engine */
+export const engineName = (engine) => ENGINES[engine]?.name ?? engine;
+
+/** A sentence of the library with the engines' names as people write them. @param {string} text */
+export function withNames(text) {
+  const keys = Object.keys(ENGINES).sort((a, b) => b.length - a.length);
+  const pattern = new RegExp(`(?<![\\w-])(${keys.join("|")})(?![\\w-])`, "gi");
+  return text.replace(pattern, (key) => engineName(key.toLowerCase()));
+}
+
+/** How the engine works, in a sentence. @param {string} engine */
+export const engineHow = (engine) => ENGINES[engine]?.how ?? "";
+
+/** @param {number | "any"} k */
+export const kText = (k) => (k === "any" ? "∞" : String(k));
+
+/** What the engine promises, in a sentence.
+ *  @param {LaneSetup} setup @param {string} guarantee of the engine's table */
+export function promise(setup, guarantee) {
+  if (guarantee === "suboptimal") return "Its paths may be longer than the shortest.";
+  if (setup.smooth) return "Smoothing leaves N(k): the path is at most as long as before.";
+  if (guarantee === "optimal(any)" || setup.k === "any") return "No legal path at any angle is shorter.";
+  if (guarantee === "optimal(k)") return `No path over N(${setup.k}) is shorter.`;
+  return setup.k === 2 ? "No path over N(2) is shorter." : "It is optimal at k = 2 only.";
+}
+
+/** Where the vertices are and what the rule allows, in short. @param {LaneSetup} setup */
+export function motionText(setup) {
+  const rule = setup.placement === "center"
+    ? { never: "never cut", one: "cut one", always: "cut always" }[setup.corners]
+    : { open: "gaps open", closed: "gaps closed" }[setup.gap];
+  const smooth = setup.smooth ? `, smoothed ${setup.smooth}` : "";
+  return `${setup.placement === "center" ? "centers" : "corners"}, ${rule}${smooth}`;
+}
+
+const WHOLE = new Intl.NumberFormat("en", { maximumFractionDigits: 0 });
+const TWO = new Intl.NumberFormat("en", { minimumFractionDigits: 2, maximumFractionDigits: 2 });
+
+/** @param {number} count */
+export const count = (count) => WHOLE.format(count);
+
+/** A length in cells. @param {number} cells */
+export const cells = (cells) => TWO.format(cells);
+
+/** A ratio as percent above one. @param {number} ratio @returns {string} */
+export function over(ratio) {
+  const percent = Math.max(0, (ratio - 1) * 100);
+  // A little is not nothing. What is less than rounding leaves is nothing.
+  const text = percent > 1e-7 && percent < 0.005 ? percent.toPrecision(1) : TWO.format(percent);
+  return `${Number(text) === 0 ? "0" : text} %`;
+}
+
+/** A ratio as percent, with its sign. @param {number} ratio */
+export const more = (ratio) => (over(ratio) === "0 %" ? "0 %" : `+${over(ratio)}`);
+
+/** A time, with three digits that count. @param {number} ms */
+export function time(ms) {
+  if (ms < 1) return `${(ms * 1000).toPrecision(ms < 0.01 ? 2 : 3)} µs`;
+  if (ms < 1000) return `${ms.toPrecision(3)} ms`;
+  return `${(ms / 1000).toPrecision(3)} s`;
+}
+
+/** @param {number} bytes */
+export function size(bytes) {
+  if (bytes < 1000) return `${bytes} B`;
+  if (bytes < 1e6) return `${(bytes / 1e3).toPrecision(3)} kB`;
+  return `${(bytes / 1e6).toPrecision(3)} MB`;
+}
+
+/** How much longer than the reference the answer is, as a ratio; undefined if it is not known.
+ *  @param {LaneAnswer | null} answer */
+export function excess(answer) {
+  if (!answer?.reference || answer.status !== "found" || answer.reference.length <= 0) return undefined;
+  return answer.length / answer.reference.length;
+}
