@@ -49,6 +49,26 @@ pub enum Error {
         /// The command.
         command: String,
     },
+    /// What a chore needs, and this machine lacks.
+    #[error("{what}; {mend}")]
+    Lacking {
+        /// What is not there.
+        what: String,
+        /// How to get it.
+        mend: String,
+    },
+    /// A file that became too large.
+    #[error("{what} has {bytes} bytes, at most {limit}: {reason}")]
+    Large {
+        /// The file, and how it was packed.
+        what: String,
+        /// Its size.
+        bytes: usize,
+        /// The most that it may have.
+        limit: usize,
+        /// Why.
+        reason: &'static str,
+    },
 }
 
 impl Error {

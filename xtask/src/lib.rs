@@ -1,8 +1,8 @@
 //! The chores of the workspace: what `cargo xtask` does.
 //!
 //! **The key decision: chores are Rust, and thin.** No shell script, so that they run on every system that
-//! Rust runs on; and no engine, so that `cargo xtask tidy` compiles none. `download`, `tidy`, `package` and
-//! `ci` are modules here; the rules of `tidy` are an ordinary test as well. `verify`, `compare` and
+//! Rust runs on; and no engine, so that `cargo xtask tidy` compiles none. `download`, `tidy`, `package`,
+//! `web` and `ci` are modules here; the rules of `tidy` are an ordinary test as well. `verify`, `compare` and
 //! `reproduce-tables` run engines: they are programs of `mediant-bench` and `mediant-papers`, to which
 //! [`program`] hands all arguments on.
 //!
@@ -17,5 +17,6 @@ pub mod package;
 pub mod program;
 pub mod project;
 pub mod tidy;
+pub mod web;
 
 pub use error::Error;

@@ -7,7 +7,7 @@ use clap::{Args, Parser, Subcommand};
 use xtask::{
     ci, download, package,
     program::{COMPARE, REPRODUCE, VERIFY},
-    tidy,
+    tidy, web,
 };
 
 /// The chores of the Mediant workspace
@@ -34,6 +34,8 @@ enum Task {
     Ci,
     /// Package the published crates, and compile them in an empty folder from their packages alone
     Package,
+    /// Build the npm package and the page that shows it: target/web/package and target/web/page
+    Web,
 }
 
 /// Arguments that another program reads, `--help` among them.
@@ -54,6 +56,7 @@ fn main() -> ExitCode {
         Task::Tidy => tidy::run().map(done),
         Task::Ci => ci::run().map(done),
         Task::Package => package::run().map(done),
+        Task::Web => web::run().map(done),
     };
     outcome.unwrap_or_else(|error| {
         eprintln!("error: {error}");

@@ -1,0 +1,137 @@
+//! What builds the package: Rust for WebAssembly, and the program `wasm-bindgen`.
+
+use std::{
+    env, fs,
+    path::{Path, PathBuf},
+    process::{Command, Stdio},
+};
+
+use mediant_sets::root;
+use serde_json::Value;
+
+use crate::{Error, ci::step, project};
+
+const TARGET: &str = "wasm32-unknown-unknown";
+
+/// Installs the standard library for WebAssembly, unless it is there.
+pub(super) fn provide_target() -> Result<(), Error> {
+    if has_target() {
+        return Ok(());
+    }
+    let mut rustup = Command::new("rustup");
+    let done = step(rustup.args(["target", "add", TARGET]), &format!("rustup target add {TARGET}"));
+    if done.is_ok() && has_target() {
+        return Ok(());
+    }
+    Err(Error::Lacking {
+        what: format!("this Rust cannot compile for {TARGET}"),
+        mend: format!(
+            "`rustup target add {TARGET}` gets it (rustup is at https://rustup.rs), or the package of your \
+             system that has Rust's standard library for WebAssembly"
+        ),
+    })
+}
+
+fn has_target() -> bool {
+    let mut rustc = Command::new(env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
+    let output = rustc.args(["--print", "target-libdir", "--target", TARGET]).output();
+    output.is_ok_and(|output| {
+        let folder = String::from_utf8_lossy(&output.stdout).trim().to_owned();
+        output.status.success() && fs::read_dir(folder).is_ok_and(|mut files| files.next().is_some())
+    })
+}
+
+/// The program `wasm-bindgen` of exactly the version that `Cargo.lock` has of the crate: the two speak a
+/// language of their own, which changes with every version. It is looked for on the path, then in
+/// `target/tools`, where it is otherwise installed.
+pub(super) fn wasm_bindgen() -> Result<PathBuf, Error> {
+    let lock = root().join("Cargo.lock");
+    let text = fs::read_to_string(&lock).map_err(Error::at(&lock))?;
+    let version = locked(&text, "wasm-bindgen").ok_or_else(|| Error::Lacking {
+        what: "Cargo.lock has no crate wasm-bindgen".to_owned(),
+        mend: "`cargo update --workspace` adds it".to_owned(),
+    })?;
+    let tools = root().join("target/tools");
+    let own = tools.join("bin").join(format!("wasm-bindgen{}", env::consts::EXE_SUFFIX));
+    for program in [PathBuf::from("wasm-bindgen"), own.clone()] {
+        if is_of(&program, version) {
+            return Ok(program);
+        }
+    }
+    install(&tools, version);
+    if is_of(&own, version) {
+        return Ok(own);
+    }
+    Err(Error::Lacking {
+        what: format!("there is no program wasm-bindgen {version}, neither on PATH nor in target/tools/bin"),
+        mend: format!("`cargo install wasm-bindgen-cli --version {version}` gets it"),
+    })
+}
+
+/// The version of a crate in a `Cargo.lock`.
+fn locked<'a>(lock: &'a str, name: &str) -> Option<&'a str> {
+    let at = lock.find(&format!("\nname = \"{name}\"\n"))?;
+    lock[at..].lines().find_map(|line| line.strip_prefix("version = \"")?.strip_suffix('"'))
+}
+
+fn is_of(program: &Path, version: &str) -> bool {
+    let output = Command::new(program).arg("--version").stderr(Stdio::null()).output();
+    output.is_ok_and(|output| {
+        String::from_utf8_lossy(&output.stdout).split_whitespace().nth(1) == Some(version)
+    })
+}
+
+/// Installs the program. First with the crates that its authors tested it with; a registry that lacks one of
+/// them may have a later one. Whether it worked is seen by the program itself.
+fn install(tools: &Path, version: &str) {
+    for locked in [&["--locked"][..], &[]] {
+        let mut command = project::cargo();
+        command.args(["install", "wasm-bindgen-cli", "--force", "--version", version]).args(locked);
+        // A few seconds of its time are worth less than minutes of optimizing it.
+        command.args(["--profile", "dev"]).env("CARGO_PROFILE_DEV_OPT_LEVEL", "1");
+        let shown = format!("cargo install wasm-bindgen-cli --version {version} {}", locked.join(" "));
+        if step(command.arg("--root").arg(tools), shown.trim_end()).is_ok() {
+            return;
+        }
+    }
+}
+
+/// Compiles the crate to WebAssembly, and returns the module.
+pub(super) fn compile(package: &str) -> Result<PathBuf, Error> {
+    let arguments = ["build", "--package", package, "--lib", "--target", TARGET, "--profile", profile()?];
+    println!("$ cargo {}", arguments.join(" "));
+    // Cargo itself says where the module is: the folder depends on the user's settings.
+    let shown = [&arguments[..], &["--message-format", "json-render-diagnostics"]].concat();
+    let messages = project::run_cargo(&shown)?;
+    let mut modules = messages.lines().filter_map(|line| {
+        let message: Value = serde_json::from_str(line).ok()?;
+        let files = message.get("filenames")?.as_array()?;
+        files
+            .iter()
+            .filter_map(Value::as_str)
+            .find(|file| file.ends_with("mediant_web.wasm"))
+            .map(PathBuf::from)
+    });
+    modules.next_back().ok_or_else(|| Error::Step { command: format!("cargo {}", arguments.join(" ")) })
+}
+
+/// The profile for what is downloaded, where the workspace has it.
+fn profile() -> Result<&'static str, Error> {
+    let manifest = root().join("Cargo.toml");
+    let text = fs::read_to_string(&manifest).map_err(Error::at(&manifest))?;
+    Ok(if text.contains("[profile.web]") { "web" } else { "release" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::locked;
+
+    #[test]
+    fn versions_in_a_lock() {
+        let lock = "version = 4\n\n[[package]]\nname = \"wasm-bindgen-macro\"\nversion = \"0.2.1\"\n\n\
+                    [[package]]\nname = \"wasm-bindgen\"\nversion = \"0.2.130\"\n";
+        assert_eq!(locked(lock, "wasm-bindgen"), Some("0.2.130"));
+        assert_eq!(locked(lock, "wasm-bindgen-macro"), Some("0.2.1"));
+        assert_eq!(locked(lock, "wasm"), None);
+    }
+}
