@@ -14,17 +14,17 @@ export const PAGE = fileURLToPath(new URL("../../target/web/page", import.meta.u
 
 /** @type {Record<string, string>} */
 const TYPES = {
-    ".css": "text/css; charset=utf-8",
-    ".html": "text/html; charset=utf-8",
-    ".js": "text/javascript; charset=utf-8",
-    ".json": "application/json",
-    ".map": "text/plain; charset=utf-8",
-    ".md": "text/markdown; charset=utf-8",
-    ".mjs": "text/javascript; charset=utf-8",
-    ".png": "image/png",
-    ".svg": "image/svg+xml",
-    ".wasm": "application/wasm",
-    ".webmanifest": "application/manifest+json",
+  ".css": "text/css; charset=utf-8",
+  ".html": "text/html; charset=utf-8",
+  ".js": "text/javascript; charset=utf-8",
+  ".json": "application/json",
+  ".map": "text/plain; charset=utf-8",
+  ".md": "text/markdown; charset=utf-8",
+  ".mjs": "text/javascript; charset=utf-8",
+  ".png": "image/png",
+  ".svg": "image/svg+xml",
+  ".wasm": "application/wasm",
+  ".webmanifest": "application/manifest+json",
 };
 
 /**
@@ -34,31 +34,31 @@ const TYPES = {
  * @returns {Promise<{ path: string, size: number } | number | string>} a string is the address to go to
  */
 async function find(folder, address) {
-    let name;
-    try {
-        name = decodeURIComponent(address.split(/[?#]/, 1)[0]);
-    } catch {
-        return 400;
+  let name;
+  try {
+    name = decodeURIComponent(address.split(/[?#]/, 1)[0]);
+  } catch {
+    return 400;
+  }
+  const path = join(folder, normalize(`/${name}`));
+  // What lies outside of the folder is not there, whatever the address says.
+  if (name.includes("\0") || (path !== folder && !path.startsWith(folder + sep))) {
+    return 404;
+  }
+  try {
+    const found = await stat(path);
+    if (!found.isDirectory()) {
+      return found.isFile() ? { path, size: found.size } : 404;
     }
-    const path = join(folder, normalize(`/${name}`));
-    // What lies outside of the folder is not there, whatever the address says.
-    if (name.includes("\0") || (path !== folder && !path.startsWith(folder + sep))) {
-        return 404;
+    if (!name.endsWith("/")) {
+      // Without the slash, the addresses in the page would mean other files.
+      return `./${encodeURIComponent(name.split("/").at(-1) ?? "")}/`;
     }
-    try {
-        const found = await stat(path);
-        if (!found.isDirectory()) {
-            return found.isFile() ? { path, size: found.size } : 404;
-        }
-        if (!name.endsWith("/")) {
-            // Without the slash, the addresses in the page would mean other files.
-            return `./${encodeURIComponent(name.split("/").at(-1) ?? "")}/`;
-        }
-        const index = join(path, "index.html");
-        return { path: index, size: (await stat(index)).size };
-    } catch {
-        return 404;
-    }
+    const index = join(path, "index.html");
+    return { path: index, size: (await stat(index)).size };
+  } catch {
+    return 404;
+  }
 }
 
 /**
@@ -68,27 +68,27 @@ async function find(folder, address) {
  * @param {import("node:http").ServerResponse} response
  */
 async function answer(folder, request, response) {
-    /** @type {Record<string, string | number>} */
-    const headers = { "cache-control": "no-cache", "x-content-type-options": "nosniff" };
-    const fail = (/** @type {number} */ status, /** @type {string} */ text) => {
-        response.writeHead(status, { ...headers, "content-type": "text/plain; charset=utf-8" }).end(text);
-    };
-    if (request.method !== "GET" && request.method !== "HEAD") {
-        return fail(405, "This server only gives files.");
+  /** @type {Record<string, string | number>} */
+  const headers = { "cache-control": "no-cache", "x-content-type-options": "nosniff" };
+  const fail = (/** @type {number} */ status, /** @type {string} */ text) => {
+    response.writeHead(status, { ...headers, "content-type": "text/plain; charset=utf-8" }).end(text);
+  };
+  if (request.method !== "GET" && request.method !== "HEAD") {
+    return fail(405, "This server only gives files.");
+  }
+  const found = await find(folder, request.url ?? "/");
+  if (typeof found === "string") {
+    response.writeHead(301, { ...headers, location: found }).end();
+  } else if (typeof found === "number") {
+    fail(found, found === 404 ? "There is no such file." : "The address is malformed.");
+  } else {
+    const type = TYPES[extname(found.path)] ?? "application/octet-stream";
+    response.writeHead(200, { ...headers, "content-type": type, "content-length": found.size });
+    if (request.method === "HEAD") {
+      return response.end();
     }
-    const found = await find(folder, request.url ?? "/");
-    if (typeof found === "string") {
-        response.writeHead(301, { ...headers, location: found }).end();
-    } else if (typeof found === "number") {
-        fail(found, found === 404 ? "There is no such file." : "The address is malformed.");
-    } else {
-        const type = TYPES[extname(found.path)] ?? "application/octet-stream";
-        response.writeHead(200, { ...headers, "content-type": type, "content-length": found.size });
-        if (request.method === "HEAD") {
-            return response.end();
-        }
-        createReadStream(found.path).on("error", () => response.destroy()).pipe(response);
-    }
+    createReadStream(found.path).on("error", () => response.destroy()).pipe(response);
+  }
 }
 
 /**
@@ -97,44 +97,44 @@ async function answer(folder, request, response) {
  * @returns {Promise<{ address: string, close: () => Promise<void> }>}
  */
 export function serve({ folder = PAGE, port = 0, host = "127.0.0.1" } = {}) {
-    const root = resolve(folder);
-    const server = createServer((request, response) => void answer(root, request, response));
-    return new Promise((started, failed) => {
-        server.once("error", failed);
-        server.listen(port, host, () => {
-            const at = server.address();
-            const used = typeof at === "object" && at ? at.port : port;
-            const close = () =>
-                new Promise((/** @type {(value: void) => void} */ closed) => {
-                    server.close(() => closed());
-                    server.closeAllConnections();
-                });
-            started({ address: `http://${host === "127.0.0.1" ? "localhost" : host}:${used}/`, close });
+  const root = resolve(folder);
+  const server = createServer((request, response) => void answer(root, request, response));
+  return new Promise((started, failed) => {
+    server.once("error", failed);
+    server.listen(port, host, () => {
+      const at = server.address();
+      const used = typeof at === "object" && at ? at.port : port;
+      const close = () =>
+        new Promise((/** @type {(value: void) => void} */ closed) => {
+          server.close(() => closed());
+          server.closeAllConnections();
         });
+      started({ address: `http://${host === "127.0.0.1" ? "localhost" : host}:${used}/`, close });
     });
+  });
 }
 
 async function main() {
-    const { values, positionals } = parseArgs({
-        allowPositionals: true,
-        options: { port: { type: "string", default: "8080" }, host: { type: "string", default: "127.0.0.1" } },
-    });
-    const folder = resolve(positionals[0] ?? PAGE);
-    if (!(await stat(join(folder, "index.html")).catch(() => null))) {
-        throw new Error(`${folder} has no page: \`cargo xtask web\` makes one`);
-    }
-    const port = Number(values.port);
-    if (!Number.isInteger(port) || port < 0 || port > 65535) {
-        throw new Error(`--port ${values.port}: ports are numbers from 0 to 65535`);
-    }
-    const { address } = await serve({ folder, port, host: values.host });
-    console.log(`${folder} is at ${address} (end with Ctrl+C)`);
+  const { values, positionals } = parseArgs({
+    allowPositionals: true,
+    options: { port: { type: "string", default: "8080" }, host: { type: "string", default: "127.0.0.1" } },
+  });
+  const folder = resolve(positionals[0] ?? PAGE);
+  if (!(await stat(join(folder, "index.html")).catch(() => null))) {
+    throw new Error(`${folder} has no page: \`cargo xtask web\` makes one`);
+  }
+  const port = Number(values.port);
+  if (!Number.isInteger(port) || port < 0 || port > 65535) {
+    throw new Error(`--port ${values.port}: ports are numbers from 0 to 65535`);
+  }
+  const { address } = await serve({ folder, port, host: values.host });
+  console.log(`${folder} is at ${address} (end with Ctrl+C)`);
 }
 
 if (process.argv[1] && import.meta.url === pathToFileURL(process.argv[1]).href) {
-    main().catch((error) => {
-        const taken = error.code === "EADDRINUSE" ? "another program has this port; --port 0 takes any" : error.message;
-        console.error(`error: ${taken}`);
-        process.exitCode = 1;
-    });
+  main().catch((error) => {
+    const taken = error.code === "EADDRINUSE" ? "another program has this port; --port 0 takes any" : error.message;
+    console.error(`error: ${taken}`);
+    process.exitCode = 1;
+  });
 }

@@ -14,33 +14,33 @@ const CACHE = OURS + VERSION;
 
 /** Fetches all files of this version. */
 async function store() {
-    const listed = await fetch("files.json", { cache: "no-store" });
-    const { version, files } = await listed.json();
-    if (version !== VERSION) {
-        throw new Error(`The server has version ${version} of the page and the service worker of ${VERSION}.`);
-    }
-    const cache = await caches.open(CACHE);
-    await Promise.all(
-        Object.entries(files).map(async ([path, integrity]) => {
-            // A digest that differs is a failure of the request.
-            const response = await fetch(path, { cache: "no-cache", integrity });
-            if (!response.ok) {
-                throw new Error(`${path}: ${response.status}`);
-            }
-            // Made anew: browsers refuse to show a page from a response that was redirected.
-            const type = response.headers.get("content-type") ?? "application/octet-stream";
-            const kept = new Response(await response.arrayBuffer(), { headers: { "content-type": type } });
-            await cache.put(path, kept);
-        }),
-    );
+  const listed = await fetch("files.json", { cache: "no-store" });
+  const { version, files } = await listed.json();
+  if (version !== VERSION) {
+    throw new Error(`The server has version ${version} of the page and the service worker of ${VERSION}.`);
+  }
+  const cache = await caches.open(CACHE);
+  await Promise.all(
+    Object.entries(files).map(async ([path, integrity]) => {
+      // A digest that differs is a failure of the request.
+      const response = await fetch(path, { cache: "no-cache", integrity });
+      if (!response.ok) {
+        throw new Error(`${path}: ${response.status}`);
+      }
+      // Made anew: browsers refuse to show a page from a response that was redirected.
+      const type = response.headers.get("content-type") ?? "application/octet-stream";
+      const kept = new Response(await response.arrayBuffer(), { headers: { "content-type": type } });
+      await cache.put(path, kept);
+    }),
+  );
 }
 
 /** Removes the caches of other versions, and serves the windows that were opened before this one was there. */
 async function takeOver() {
-    const names = await caches.keys();
-    const old = names.filter((name) => name.startsWith(OURS) && name !== CACHE);
-    await Promise.all(old.map((name) => caches.delete(name)));
-    await worker.clients.claim();
+  const names = await caches.keys();
+  const old = names.filter((name) => name.startsWith(OURS) && name !== CACHE);
+  await Promise.all(old.map((name) => caches.delete(name)));
+  await worker.clients.claim();
 }
 
 /**
@@ -48,27 +48,27 @@ async function takeOver() {
  * @param {Request} request
  */
 async function answer(request) {
-    const { waiting } = worker.registration;
-    if (request.mode === "navigate" && waiting && (await worker.clients.matchAll()).length < 2) {
-        waiting.postMessage("take over");
-        return new Response("", { headers: { refresh: "0" } });
-    }
-    const address = new URL(request.url);
-    const path = address.pathname.endsWith("/") ? `${address.pathname}index.html` : address.pathname;
-    const cache = await caches.open(CACHE);
-    return (await cache.match(path, { ignoreSearch: true })) ?? fetch(request);
+  const { waiting } = worker.registration;
+  if (request.mode === "navigate" && waiting && (await worker.clients.matchAll()).length < 2) {
+    waiting.postMessage("take over");
+    return new Response("", { headers: { refresh: "0" } });
+  }
+  const address = new URL(request.url);
+  const path = address.pathname.endsWith("/") ? `${address.pathname}index.html` : address.pathname;
+  const cache = await caches.open(CACHE);
+  return (await cache.match(path, { ignoreSearch: true })) ?? fetch(request);
 }
 
 worker.addEventListener("install", (event) => event.waitUntil(store()));
 worker.addEventListener("activate", (event) => event.waitUntil(takeOver()));
 worker.addEventListener("message", (event) => {
-    if (event.data === "take over") {
-        worker.skipWaiting();
-    }
+  if (event.data === "take over") {
+    worker.skipWaiting();
+  }
 });
 worker.addEventListener("fetch", (event) => {
-    const { request } = event;
-    if (request.method === "GET" && request.url.startsWith(worker.registration.scope)) {
-        event.respondWith(answer(request));
-    }
+  const { request } = event;
+  if (request.method === "GET" && request.url.startsWith(worker.registration.scope)) {
+    event.respondWith(answer(request));
+  }
 });

@@ -1,0 +1,174 @@
+// Times the package in node beside the program, on the same queries: `node crates/web/check/compare.mjs`.
+//
+// It needs `cargo xtask web`, `cargo build --release -p mediant-cli`, and the sets dao, room and street of
+// `cargo xtask download`. It writes the table of docs/measurements/web.md and its figure. Measure on a machine
+// that does nothing else. Options: `--queries 100`, `--repeat 3`, `--program PATH`, `--dry` to write nothing.
+
+import { execFileSync } from "node:child_process";
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
+import { cpus, loadavg } from "node:os";
+import { join } from "node:path";
+import { parseArgs } from "node:util";
+import { pathToFileURL } from "node:url";
+import { figure, mean } from "./compare/figure.mjs";
+import { table } from "./compare/table.mjs";
+import { PACKAGE, ROOT } from "./places.mjs";
+
+/** Milliseconds of queries before the first that is timed. */
+const WARM = 500;
+/** A large map of a game, rooms, and a city. */
+const MAPS = ["dao/orz900d", "room/16room_000", "street/Berlin_0_1024"];
+/** @type {{ engine: string, k: number | "any" }[]} */
+const SETUPS = [
+  { engine: "astar", k: 3 },
+  { engine: "jps-block", k: 3 },
+  { engine: "subgoal", k: 3 },
+  { engine: "canonical", k: 5 },
+  { engine: "anya", k: "any" },
+  { engine: "subgoal", k: "any" },
+];
+
+/**
+ * One engine on one map. Times are nanoseconds of a query, the mean; those of preparation are milliseconds.
+ * @typedef {object} Result
+ * @property {string} map
+ * @property {string} size
+ * @property {string} engine
+ * @property {number | "any"} k
+ * @property {number} queries
+ * @property {number} native
+ * @property {number} wasm
+ * @property {number} nativePrepare
+ * @property {number} wasmPrepare
+ */
+
+const { values } = parseArgs({
+  options: {
+    queries: { type: "string", default: "100" },
+    repeat: { type: "string", default: "3" },
+    program: { type: "string", default: join(ROOT, "target/release/mediant") },
+    dry: { type: "boolean", default: false },
+  },
+});
+const repeat = Number(values.repeat);
+
+/** @param {string} path @param {string} how it is made */
+function need(path, how) {
+  if (existsSync(path)) return path;
+  console.error(`error: ${path} is not there: ${how}`);
+  return process.exit(2);
+}
+
+/** How the program runs this setup on an even sample of the map's scenario. @param {string} file */
+function native(file, /** @type {string} */ engine, /** @type {number | "any"} */ k) {
+  const instances = readFileSync(`${file}.scen`, "utf8").trim().split("\n").length - 1;
+  const every = Math.max(1, Math.floor(instances / Number(values.queries)));
+  const words = ["run", file, "--scen", `${file}.scen`, "--every", `${every}`, "--engine", engine, "--k", `${k}`];
+  const text = execFileSync(values.program, [...words, "--repeat", `${repeat}`, "--format", "jsonl"], {
+    encoding: "utf8",
+    maxBuffer: 1 << 28,
+  });
+  const lines = text.trim().split("\n").map((line) => JSON.parse(line));
+  return { run: lines[0], queries: lines.filter(({ type }) => type === "query") };
+}
+
+/**
+ * Prepares an engine twice, on a grid that was never searched; returns the index and the shorter time.
+ * @param {any} mediant @param {string} file @param {string} engine @param {number | "any"} k
+ */
+function prepare(mediant, file, engine, k) {
+  let [index, best] = [null, Infinity];
+  for (let run = 0; run < 2; run += 1) {
+    const grid = mediant.Grid.read(file, readFileSync(file));
+    const from = performance.now();
+    index = grid.space({ k }).prepare(engine);
+    best = Math.min(best, performance.now() - from);
+  }
+  return { index, ms: best };
+}
+
+/**
+ * The mean of the same queries by the package, each the best of some runs.
+ * @param {any} index @param {ReturnType<typeof native>} record
+ */
+function wasm(index, record) {
+  const planner = index.planner();
+  // V8 optimizes what has run often. A page that answers queries has come there after a moment.
+  const from = performance.now();
+  do {
+    for (const { start, goal } of record.queries) planner.find(start, goal);
+  } while (performance.now() - from < WARM);
+  let total = 0;
+  for (const query of record.queries) {
+    check(query, planner.find(query.start, query.goal), index.setup);
+    let best = Infinity;
+    for (let run = 0; run < repeat; run += 1) {
+      const begin = performance.now();
+      planner.find(query.start, query.goal);
+      best = Math.min(best, performance.now() - begin);
+    }
+    total += best;
+  }
+  return (total / record.queries.length) * 1e6;
+}
+
+/** The package must give the very path that the program gives. */
+function check(/** @type {any} */ query, /** @type {any} */ answer, /** @type {string} */ setup) {
+  const same = answer.status === query.status && String(answer.path ?? "") === String(query.path?.flat() ?? "");
+  if (same && (answer.status !== "found" || answer.distance === query.cost)) return;
+  const shown = `${setup} ${query.start} to ${query.goal}`;
+  throw new Error(`${shown}: the program finds ${query.cost}, the package ${answer.distance}`);
+}
+
+/** @returns {Promise<Result[]>} */
+async function measure() {
+  const mediant = await import(pathToFileURL(join(PACKAGE, "mediant.js")).href);
+  await mediant.default({ module_or_path: readFileSync(join(PACKAGE, "mediant_bg.wasm")) });
+  const results = [];
+  for (const map of MAPS) {
+    const file = join(ROOT, "benchdata/cache", `${map}.map`);
+    need(file, "cargo xtask download --set dao room street");
+    const grid = mediant.Grid.read(file, readFileSync(file));
+    for (const { engine, k } of SETUPS) {
+      const record = native(file, engine, k);
+      const { index, ms } = prepare(mediant, file, engine, k);
+      const result = {
+        map: map.split("/")[1],
+        size: `${grid.width} × ${grid.height}`,
+        engine,
+        k,
+        queries: record.queries.length,
+        native: record.queries.reduce((sum, { nanos }) => sum + nanos, 0) / record.queries.length,
+        wasm: wasm(index, record),
+        nativePrepare: record.run.preprocess_ns / 1e6,
+        wasmPrepare: ms,
+      };
+      results.push(result);
+      const ratio = (result.wasm / result.native).toFixed(2);
+      console.log(`${map} ${engine}:${k}: ${(result.native / 1e3).toFixed(2)} µs, in node × ${ratio}`);
+    }
+  }
+  return results;
+}
+
+async function main() {
+  need(values.program, "cargo build --release -p mediant-cli");
+  need(PACKAGE, "cargo xtask web");
+  if (loadavg()[0] > 0.7) console.log(`The machine is busy (load ${loadavg()[0].toFixed(2)}): times will be off`);
+  const results = await measure();
+  const day = new Date().toLocaleDateString("en-GB", { day: "numeric", month: "long", year: "numeric" });
+  const machine = `${day}, ${cpus()[0]?.model.trim()}, node ${process.versions.node}, V8 ${process.versions.v8}.`;
+  const text = table(results, machine);
+  const greatest = Math.max(...results.map(({ wasm, native }) => wasm / native));
+  const all = mean(results.map(({ wasm, native }) => wasm / native));
+  console.log(`${text}\nRatio: geometric mean ${all.toFixed(2)}, greatest ${greatest.toFixed(2)}`);
+  if (values.dry) return;
+  const page = join(ROOT, "docs/measurements/web.md");
+  const [before, rest] = readFileSync(page, "utf8").split("<!-- table of compare.mjs -->\n");
+  const after = rest?.split("<!-- end of the table -->\n")[1] ?? "";
+  const marked = `<!-- table of compare.mjs -->\n${text}<!-- end of the table -->\n`;
+  writeFileSync(page, `${before}${marked}${after}`);
+  writeFileSync(join(ROOT, "docs/measurements/figures/web-native.svg"), figure(results));
+}
+
+await main();
