@@ -5,6 +5,7 @@
 //! any web server takes. What it needs besides Rust is had from Cargo. There is no bundler: the page is what
 //! `crates/web/page` holds, with the package and the maps beside it.
 
+mod modules;
 mod page;
 mod parts;
 mod tools;

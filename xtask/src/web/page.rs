@@ -7,7 +7,10 @@ use mediant_sets::root;
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
-use super::parts::{self, File, write_folder};
+use super::{
+    modules,
+    parts::{self, File, write_folder},
+};
 use crate::Error;
 
 /// The service worker; it is not in its own list.
@@ -28,6 +31,7 @@ pub(super) fn write(package: &Path, page: &Path) -> Result<String, Error> {
     )?;
     take(package, "mediant/", is_run, &mut files)?;
     take(&root().join("crates/cli/maps"), "maps/", |path| path.ends_with(".map"), &mut files)?;
+    modules::announce(&mut files);
     let version = finish(&mut files)?;
     write_folder(page, &files)?;
     Ok(version)

@@ -99,10 +99,18 @@ fn install(tools: &Path, version: &str) {
 /// Compiles the crate to WebAssembly, and returns the module.
 pub(super) fn compile(package: &str) -> Result<PathBuf, Error> {
     let arguments = ["build", "--package", package, "--lib", "--target", TARGET, "--profile", profile()?];
-    println!("$ cargo {}", arguments.join(" "));
+    let shown = format!("cargo {}", arguments.join(" "));
+    println!("$ {shown}");
+    let mut cargo = project::cargo();
     // Cargo itself says where the module is: the folder depends on the user's settings.
-    let shown = [&arguments[..], &["--message-format", "json-render-diagnostics"]].concat();
-    let messages = project::run_cargo(&shown)?;
+    cargo.args(arguments).args(["--message-format", "json-render-diagnostics"]).stderr(Stdio::inherit());
+    if let Some(registry) = registry() {
+        // Messages of panics name files; where those lie on this machine is nobody's business.
+        cargo.env("CARGO_ENCODED_RUSTFLAGS", format!("--remap-path-prefix={}=crates.io", registry.display()));
+    }
+    let output = cargo.output().ok().filter(|output| output.status.success());
+    let messages = output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned());
+    let messages = messages.ok_or_else(|| Error::Step { command: shown.clone() })?;
     let mut modules = messages.lines().filter_map(|line| {
         let message: Value = serde_json::from_str(line).ok()?;
         let files = message.get("filenames")?.as_array()?;
@@ -112,7 +120,13 @@ pub(super) fn compile(package: &str) -> Result<PathBuf, Error> {
             .find(|file| file.ends_with("mediant_web.wasm"))
             .map(PathBuf::from)
     });
-    modules.next_back().ok_or_else(|| Error::Step { command: format!("cargo {}", arguments.join(" ")) })
+    modules.next_back().ok_or(Error::Step { command: shown })
+}
+
+/// The folder of the sources that cargo downloaded.
+fn registry() -> Option<PathBuf> {
+    let home = env::var_os("CARGO_HOME").map(PathBuf::from);
+    Some(home.or_else(|| Some(env::home_dir()?.join(".cargo")))?.join("registry").join("src"))
 }
 
 /// The profile for what is downloaded, where the workspace has it.
