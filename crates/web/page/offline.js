@@ -3,7 +3,7 @@
 // A page is of one version, all of it. The build lists every file of a version with its digest in files.json,
 // and writes the version into this file. A browser that finds this file changed fetches the whole list into a
 // cache of its own; one file that is not as listed ends that, and the old version stays. The new one takes
-// over when no window shows the old one any more: at the next reload, if there is one window.
+// over when no window shows the old one any more, or when the only window is loaded anew.
 
 const VERSION = "";
 
@@ -44,19 +44,38 @@ async function takeOver() {
 }
 
 /**
- * Answers from the cache, or from the network what is not in the list.
- * @param {Request} request
+ * Whether this reload is of the only window, so that a new version can take over. Browsers that do not say what
+ * is reloaded let the new version wait until all windows are closed.
+ * @param {FetchEvent} event
  */
-async function answer(request) {
-  const { waiting } = worker.registration;
-  if (request.mode === "navigate" && waiting && (await worker.clients.matchAll()).length < 2) {
-    waiting.postMessage("take over");
-    return new Response("", { headers: { refresh: "0" } });
+async function isLastOfOld({ request, replacesClientId }) {
+  if (request.mode !== "navigate" || !worker.registration.waiting) return false;
+  const { isReloadNavigation } = /** @type {Request & { isReloadNavigation?: boolean }} */ (request);
+  const windows = await worker.clients.matchAll({ includeUncontrolled: true, type: "window" });
+  if (windows.length > 1) return false;
+  return isReloadNavigation || windows.some(({ id }) => id === replacesClientId);
+}
+
+/** A page that loads itself anew; a header cannot do that where the address has a `#`. */
+const AGAIN = "<!doctype html><title>Mediant</title><script>location.reload()</script>";
+/** Whether a new version was told to take over. */
+let isLeaving = false;
+
+/**
+ * Answers from the cache, or from the network what is not in the list.
+ * @param {FetchEvent} event
+ */
+async function answer(event) {
+  isLeaving ||= await isLastOfOld(event);
+  if (isLeaving && event.request.mode === "navigate") {
+    // The new version cannot begin while this one answers: the window asks again, until it gets that one.
+    worker.registration.waiting?.postMessage("take over");
+    return new Response(AGAIN, { headers: { "content-type": "text/html" } });
   }
-  const address = new URL(request.url);
+  const address = new URL(event.request.url);
   const path = address.pathname.endsWith("/") ? `${address.pathname}index.html` : address.pathname;
   const cache = await caches.open(CACHE);
-  return (await cache.match(path, { ignoreSearch: true })) ?? fetch(request);
+  return (await cache.match(path, { ignoreSearch: true })) ?? fetch(event.request);
 }
 
 worker.addEventListener("install", (event) => event.waitUntil(store()));
@@ -69,6 +88,6 @@ worker.addEventListener("message", (event) => {
 worker.addEventListener("fetch", (event) => {
   const { request } = event;
   if (request.method === "GET" && request.url.startsWith(worker.registration.scope)) {
-    event.respondWith(answer(request));
+    event.respondWith(answer(event));
   }
 });

@@ -1,0 +1,112 @@
+// Ends that are dragged: the path follows within a frame, on maps as large as those of games.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { badge, generate, lanes, place, quantile, scene, setLanes } from "../act.mjs";
+import { picture, settled, Site } from "../browser.mjs";
+
+const site = new Site();
+const FRAME = 16;
+
+/**
+ * Drags the goal through the map for about two seconds, as a hand does, and returns what the page measured.
+ * @param {import("playwright-core").Page} page
+ */
+async function dragThrough(page) {
+  const { width, height } = await scene(page);
+  const at = await badge(page, "goal");
+  const from = await place(page, ...at);
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  for (let step = 1; step <= 120; step += 1) {
+    const turn = (step / 120) * 2 * Math.PI;
+    const x = Math.round(width * (0.5 + 0.4 * Math.cos(turn)));
+    const y = Math.round(height * (0.5 + 0.4 * Math.sin(2 * turn)));
+    const to = await place(page, x, y);
+    await page.mouse.move(to.x, to.y);
+    await page.waitForTimeout(10);
+  }
+  await page.mouse.up();
+  await settled(page);
+  return page.evaluate(() => {
+    const { frames, latencies } = /** @type {any} */ (globalThis).mediant.stage;
+    return { frames: [...frames], latencies: [...latencies] };
+  });
+}
+
+for (const [name, side, setup] of /** @type {const} */ ([
+  ["rooms", 512, { engine: "jps-block" }],
+  ["city", 512, { engine: "jps-block", placement: "corner" }],
+  ["cave", 1024, { engine: "subgoal" }],
+])) {
+  const title = `${name} of ${side} × ${side} cells, ${setup.engine}`;
+  test(`${title}: frames of a drag take less than ${FRAME} ms`, async (t) => {
+    const page = await site.open();
+    await setLanes(page, setup);
+    await generate(page, name, side);
+    await settled(page, 60_000);
+    // As everywhere, code that has run a little is faster.
+    await dragThrough(page);
+    const { frames, latencies } = await dragThrough(page);
+    const [work, delay] = [quantile(frames, 0.95), quantile(latencies, 0.95)];
+    t.diagnostic(`${frames.length} frames, p95 ${work.toFixed(2)} ms, greatest ${Math.max(...frames).toFixed(2)} ms`);
+    t.diagnostic(`pointer to path: median ${quantile(latencies, 0.5).toFixed(1)} ms, p95 ${delay.toFixed(1)} ms`);
+    assert.ok(frames.length > 30, `only ${frames.length} frames were drawn`);
+    assert.ok(latencies.length > 20, `only ${latencies.length} paths were drawn`);
+    assert.ok(work < FRAME, `the page works ${work} ms in a frame`);
+    await picture(page, `drag-${side}-${setup.engine}-${setup.placement ?? "center"}`);
+  });
+}
+
+test("both ends can be dragged, and the path ends where they are", async () => {
+  const page = await site.open();
+  for (const end of /** @type {const} */ (["start", "goal"])) {
+    const from = await badge(page, end);
+    const { width, height, [end]: before } = await scene(page);
+    const [x, y] = await page.evaluate(([width, height]) => {
+      const { cells } = /** @type {any} */ (globalThis).mediant.model;
+      // A free cell among free cells, in the middle of the map.
+      const isOpen = (/** @type {number} */ at) =>
+        [0, 1, -1, width, -width, width + 1, -width - 1].every((by) => cells[at + by] === 0);
+      const middle = Math.floor(height / 2) * width + Math.floor(width / 2);
+      let at = middle;
+      while (!isOpen(at)) at += 1;
+      return [at % width, Math.floor(at / width)];
+    }, [width, height]);
+    const [a, b] = [await place(page, ...from), await place(page, x, y)];
+    await page.mouse.move(a.x, a.y);
+    await page.mouse.down();
+    await page.mouse.move((a.x + b.x) / 2, (a.y + b.y) / 2);
+    await page.mouse.move(b.x, b.y);
+    await page.mouse.up();
+    await settled(page);
+    const { [end]: after, start, goal } = await scene(page);
+    assert.notDeepEqual(after, before);
+    assert.ok(Math.hypot(after[0] - x - 0.5, after[1] - y - 0.5) < 1.5, `${after} is far from ${x}, ${y}`);
+    const [{ answer }] = await lanes(page);
+    assert.equal(answer.status, "found");
+    assert.deepEqual(answer.path.slice(0, 2), start);
+    assert.deepEqual(answer.path.slice(-2), goal);
+    // The ends of a drag are one step back.
+    await page.getByRole("button", { name: "Undo" }).click();
+    assert.deepEqual((await scene(page))[end], before);
+    await page.getByRole("button", { name: "Redo" }).click();
+    assert.deepEqual((await scene(page))[end], after);
+    await settled(page);
+  }
+});
+
+test("a drag beyond the map, and with the other button, breaks nothing", async () => {
+  const page = await site.open();
+  const from = await place(page, ...(await badge(page, "goal")));
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  for (const [x, y] of [[-50, -50], [5000, 20], [700, 5000], [from.x, from.y]]) await page.mouse.move(x, y);
+  await page.mouse.down({ button: "right" });
+  await page.mouse.up({ button: "right" });
+  await page.keyboard.press("Escape");
+  await page.mouse.up();
+  await settled(page);
+  const { start, goal, width, height } = await scene(page);
+  for (const [x, y] of [start, goal]) assert.ok(x >= 0 && y >= 0 && x <= width && y <= height);
+});

@@ -1,0 +1,101 @@
+// Walls: drawn, erased, filled, taken back.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { drag, emptyRows, lanes, loadRows, place, rows, scene, setLanes } from "../act.mjs";
+import { picture, settled, Site } from "../browser.mjs";
+
+const site = new Site();
+
+/** A window with an empty map of 20 × 12 cells, ends at its left and right. */
+async function open() {
+  const page = await site.open();
+  await setLanes(page, { engine: "astar" });
+  await loadRows(page, emptyRows(20, 12), [1, 6], [18, 6]);
+  return page;
+}
+
+/** @param {import("playwright-core").Page} page @param {string} name */
+const tool = (page, name) => page.getByRole("button", { name, exact: true }).click();
+/** @param {string[]} map */
+const walls = (map) => map.join("").split("#").length - 1;
+/** @param {import("playwright-core").Page} page */
+const lengthNow = async (page) => (await settled(page), (await lanes(page))[0].answer.length);
+
+test("a drawn wall is a line of cells without gaps, and the path goes around it", async () => {
+  const page = await open();
+  assert.equal(await lengthNow(page), 17);
+  await tool(page, "Draw");
+  assert.equal(await page.getByRole("button", { name: "Draw", exact: true }).getAttribute("aria-pressed"), "true");
+  await drag(page, [[10, 0], [10, 9]], 3);
+  const map = await rows(page);
+  for (let y = 0; y <= 9; y += 1) assert.equal(map[y][10], "#", `row ${y}: ${map[y]}`);
+  assert.ok((await lengthNow(page)) > 20);
+  await picture(page, "edit-drawn");
+
+  await tool(page, "Erase");
+  await drag(page, [[10, 6], [10, 6]]);
+  assert.equal((await rows(page))[6][10], ".");
+  assert.equal(await lengthNow(page), 17);
+});
+
+test("a rectangle, and a fill", async () => {
+  const page = await open();
+  await tool(page, "Rectangle");
+  await drag(page, [[5, 2], [8, 4]]);
+  const map = await rows(page);
+  assert.ok(walls(map) === 12 || walls(map) === 10, map.join("\n"));
+  for (const [x, y] of [[5, 2], [8, 2], [5, 4], [8, 4]]) assert.equal(map[y][x], "#");
+
+  await tool(page, "Fill");
+  const inside = await place(page, 0, 0);
+  await page.mouse.click(inside.x, inside.y);
+  const filled = await rows(page);
+  assert.ok(walls(filled) > 200, `the fill takes the connected area:\n${filled.join("\n")}`);
+  await page.getByRole("button", { name: "Undo" }).click();
+  assert.deepEqual(await rows(page), map);
+});
+
+test("each stroke is one step of undo and redo", async () => {
+  const page = await open();
+  const undo = page.getByRole("button", { name: "Undo" });
+  const redo = page.getByRole("button", { name: "Redo" });
+  const states = [await rows(page)];
+  await tool(page, "Draw");
+  for (const x of [4, 7, 13]) {
+    await drag(page, [[x, 1], [x, 5], [x, 8]]);
+    states.push(await rows(page));
+  }
+  const lengths = [await lengthNow(page)];
+  for (const state of [...states].reverse().slice(1)) {
+    await undo.click();
+    assert.deepEqual(await rows(page), state);
+  }
+  for (const state of states.slice(1)) {
+    await page.keyboard.press("Control+Shift+Z");
+    assert.deepEqual(await rows(page), state);
+  }
+  lengths.push(await lengthNow(page));
+  assert.equal(lengths[0], lengths[1]);
+  await page.keyboard.press("Control+Z");
+  assert.deepEqual(await rows(page), states[2]);
+  assert.equal((await scene(page)).canRedo, true);
+  assert.equal(await redo.isEnabled(), true);
+});
+
+test("many edits, while four engines search", async () => {
+  const page = await open();
+  await setLanes(page, { engine: "jps-block" }, { engine: "subgoal" }, { engine: "hpa" }, { engine: "anya", k: "any", placement: "corner" });
+  await settled(page);
+  await tool(page, "Draw");
+  for (let x = 3; x < 17; x += 2) await drag(page, [[x, x % 4 === 1 ? 0 : 2], [x, x % 4 === 1 ? 9 : 11]], 4);
+  await settled(page);
+  const answers = await lanes(page);
+  for (const { answer, phase, message } of answers) {
+    assert.equal(phase, "done", message);
+    assert.equal(answer.status, "found");
+  }
+  assert.ok(Math.abs(answers[0].answer.length - answers[1].answer.length) < 1e-6);
+  assert.ok(answers[2].answer.length >= answers[0].answer.length - 1e-6);
+  await picture(page, "edit-four-engines");
+});

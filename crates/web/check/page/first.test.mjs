@@ -1,0 +1,57 @@
+// The first sight: fast, from one server, and what the package answers.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { lanes, rows, scene } from "../act.mjs";
+import { picture, Site } from "../browser.mjs";
+import { lengthOf, load } from "../truth.mjs";
+
+const site = new Site();
+
+/** Milliseconds from the first request to the first path, in a window that has nothing stored. */
+async function firstPath() {
+  const page = await site.open({ start: false });
+  await page.waitForFunction(() => performance.getEntriesByName("first-path").length > 0);
+  const time = await page.evaluate(() => performance.getEntriesByName("first-path")[0].startTime);
+  await page.close();
+  return time;
+}
+
+test("the first path is there within a second of a cold load", async (t) => {
+  // The first load of all also starts processes of the browser.
+  const times = [await firstPath(), await firstPath(), await firstPath()];
+  t.diagnostic(`first path after ${times.map((time) => time.toFixed(0)).join(", ")} ms`);
+  assert.ok(Math.min(...times) < 1000, `${times}`);
+});
+
+test("the page shows the path that the package finds", async () => {
+  const page = await site.open();
+  const mediant = await load();
+  const { lanes: setups, start, goal } = await scene(page);
+  const [{ answer }] = await lanes(page);
+  assert.equal(answer.status, "found");
+  const length = lengthOf(mediant, await rows(page), setups[0], start, goal);
+  assert.ok(Math.abs(answer.length - length) < 1e-9, `${answer.length}, ${length}`);
+  assert.match((await page.locator("#readout").textContent()) ?? "", new RegExp(length.toFixed(2)));
+  await page.waitForFunction(() => /** @type {any} */ (globalThis).mediant.lanes.list[0].answer.reference);
+  await picture(page, "first");
+});
+
+test("the page says what it is", async () => {
+  const page = await site.open();
+  assert.match(await page.title(), /Mediant/);
+  assert.equal(await page.locator("h1").count(), 1);
+  assert.ok((await page.locator("meta[name=description]").getAttribute("content"))?.length);
+  for (const role of /** @type {const} */ (["banner", "main"])) {
+    assert.equal(await page.getByRole(role).count(), 1, role);
+  }
+});
+
+test("help opens and closes", async () => {
+  const page = await site.open();
+  await page.getByRole("button", { name: "Help" }).click();
+  await page.getByRole("dialog").waitFor();
+  await picture(page, "help");
+  await page.keyboard.press("Escape");
+  await page.getByRole("dialog").waitFor({ state: "hidden" });
+});

@@ -1,0 +1,89 @@
+// The knob k, at all its values.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { lanes, rows, scene, setLanes } from "../act.mjs";
+import { picture, settled, Site } from "../browser.mjs";
+import { lengthOf, load } from "../truth.mjs";
+
+const site = new Site();
+
+test("the slider goes through all k to ∞, and paths get shorter as k grows", async () => {
+  const page = await site.open();
+  const mediant = await load();
+  await setLanes(page, { engine: "astar", placement: "corner" });
+  const slider = page.getByRole("slider", { name: /^k,/ });
+  await slider.focus();
+  await page.keyboard.press("Home");
+  let last = Infinity;
+  const map = await rows(page);
+  const [from, to] = await slider.evaluate((input) => {
+    const { min, max } = /** @type {HTMLInputElement} */ (input);
+    return [Number(min), Number(max)];
+  });
+  assert.equal(to - from, 11, "k is 2 to 12, then ∞");
+  for (let at = from; at <= to; at += 1) {
+    await settled(page);
+    const { lanes: setups, start, goal } = await scene(page);
+    const k = at === to ? "any" : at;
+    assert.equal(setups[0].k, k);
+    assert.match((await page.locator("#k-number").textContent()) ?? "", at === to ? /∞/ : new RegExp(`${at}$`));
+    const [{ answer }] = await lanes(page);
+    assert.equal(answer.status, "found");
+    const truth = lengthOf(mediant, map, setups[0], start, goal);
+    assert.ok(Math.abs(answer.length - truth) < 1e-9, `k = ${k}: ${answer.length}, not ${truth}`);
+    assert.ok(answer.length <= last + 1e-9, `k = ${k}: ${answer.length} is longer than ${last}`);
+    last = answer.length;
+    if ([2, 3, 5].includes(at) || at === to) await picture(page, `k-${k}`);
+    await page.keyboard.press("ArrowRight");
+  }
+});
+
+test("the brackets change k, the number of moves is said", async () => {
+  const page = await site.open();
+  await page.keyboard.press("]");
+  assert.equal((await scene(page)).lanes[0].k, 4);
+  await page.getByText("16 moves").first().waitFor();
+  await page.keyboard.press("[");
+  await page.getByText("8 moves").first().waitFor();
+});
+
+test("every engine answers, with what the package finds", async () => {
+  const page = await site.open();
+  const mediant = await load();
+  const map = await rows(page);
+  const select = page.getByRole("combobox", { name: "Engine" });
+  const names = await select.locator("option").evaluateAll((options) => options.map((option) => /** @type {HTMLOptionElement} */ (option).value));
+  assert.deepEqual([...names].sort(), mediant.engines().map((/** @type {any} */ { name }) => name).sort());
+  for (const name of names) {
+    await select.selectOption(name);
+    await settled(page);
+    const { lanes: setups, start, goal } = await scene(page);
+    assert.equal(setups[0].engine, name);
+    const [{ answer, phase, message }] = await lanes(page);
+    assert.equal(phase, "done", `${name}: ${message}`);
+    const truth = lengthOf(mediant, map, setups[0], start, goal);
+    assert.ok(Math.abs(answer.length - truth) < 1e-9, `${name}: ${answer.length}, not ${truth}`);
+  }
+});
+
+test("rules of motion change the answer, and what does not go together says why", async () => {
+  const page = await site.open();
+  await setLanes(page, { engine: "astar" });
+  for (const rule of ["always", "one", "never"]) {
+    await page.getByRole("group", { name: "Corner cutting" }).getByText(rule, { exact: true }).click();
+    await settled(page);
+    assert.equal((await scene(page)).lanes[0].corners, rule);
+  }
+  await page.getByRole("group", { name: "Vertices" }).getByText("corners", { exact: true }).click();
+  for (const rule of ["closed", "open"]) {
+    await page.getByRole("group", { name: "Gaps" }).getByText(rule, { exact: true }).click();
+    await settled(page);
+    assert.equal((await scene(page)).lanes[0].gap, rule);
+  }
+  await page.getByRole("group", { name: "Smoothing" }).getByText("taut", { exact: true }).click();
+  await settled(page);
+  assert.equal((await scene(page)).lanes[0].smooth, "taut");
+  const [{ answer }] = await lanes(page);
+  assert.equal(answer.status, "found");
+});

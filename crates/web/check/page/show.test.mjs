@@ -1,0 +1,115 @@
+// What lies over the map, and agents who walk on it.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { drag, emptyRows, loadRows, place, setLanes } from "../act.mjs";
+import { picture, settled, Site } from "../browser.mjs";
+
+/** @typedef {import("playwright-core").Page} Page */
+
+const site = new Site();
+
+/** The colors in the middle of the first pane, so that a test sees whether something else is drawn.
+ *  @param {Page} page */
+const colors = (page) => page.locator(".stage").screenshot().then((bytes) => bytes.toString("base64"));
+
+test("each overlay shows something else", async () => {
+  const page = await site.open();
+  const show = page.getByRole("combobox", { name: "Show", exact: true });
+  const seen = new Set();
+  const overlays = await show.locator("option").evaluateAll((options) =>
+    options.map((option) => /** @type {HTMLOptionElement} */ (option).value));
+  assert.deepEqual([...overlays].sort(), ["clearance", "distances", "flow", "none", "rules", "search"]);
+  for (const placement of ["center", "corner"]) {
+    await setLanes(page, { placement });
+    for (const overlay of overlays) {
+      await show.selectOption(overlay);
+      await settled(page);
+      if (["clearance", "distances", "flow"].includes(overlay)) {
+        await page.waitForFunction((kind) => /** @type {any} */ (globalThis).mediant.lanes.field?.kind === kind, overlay);
+        const { values, size } = await page.evaluate(() => {
+          const { values, width, height } = /** @type {any} */ (globalThis).mediant.lanes.field;
+          return { values: values.length, size: width * height };
+        });
+        assert.equal(values, size);
+      }
+      await page.waitForTimeout(250);
+      seen.add(await colors(page));
+      await picture(page, `show-${overlay}-${placement}`);
+    }
+  }
+  assert.equal(seen.size, 2 * overlays.length);
+});
+
+test("a disc as the agent: cells that are too narrow are shown, and its path keeps away from walls", async () => {
+  const page = await site.open();
+  const radius = page.getByRole("slider", { name: "Agent radius" });
+  await radius.focus();
+  for (let step = 0; step < 4; step += 1) await page.keyboard.press("ArrowRight");
+  await settled(page);
+  await page.waitForFunction(() => /** @type {any} */ (globalThis).mediant.lanes.tooNarrow);
+  assert.equal(await page.evaluate(() => /** @type {any} */ (globalThis).mediant.model.radius), 1);
+  await picture(page, "radius");
+});
+
+/** @param {Page} page */
+const agents = (page) =>
+  page.evaluate(() => {
+    const { walkers, model } = /** @type {any} */ (globalThis).mediant;
+    const { width, cells } = model;
+    const list = walkers.list.map((/** @type {any} */ { x, y, state }) => ({
+      x, y, state, isInWall: cells[Math.floor(y) * width + Math.floor(x)] === 1,
+    }));
+    return { walking: walkers.walking, counts: { ...walkers.counts }, list };
+  });
+
+test("agents walk to the goal; who is not affected by a new wall keeps its way", async (t) => {
+  const page = await site.open();
+  await setLanes(page, { engine: "jps-block" });
+  await loadRows(page, emptyRows(36, 20), [1, 10], [33, 10]);
+  await page.getByRole("spinbutton", { name: "Number" }).fill("30");
+  await page.getByRole("button", { name: "Walk" }).click();
+  await page.waitForFunction(() => /** @type {any} */ (globalThis).mediant.walkers.counts.walking > 20);
+  const before = await agents(page);
+  assert.equal(before.list.length, 30);
+  await page.waitForTimeout(300);
+  const later = await agents(page);
+  const moved = later.list.filter(({ x, y }, at) => Math.hypot(x - before.list[at].x, y - before.list[at].y) > 0.1);
+  assert.ok(moved.length > 10, `${moved.length} of 30 moved`);
+  await page.getByRole("button", { name: "Draw", exact: true }).click();
+  await drag(page, [[24, 5], [24, 16]], 8);
+  await page.waitForFunction(() => {
+    const { counts } = /** @type {any} */ (globalThis).mediant.walkers;
+    return counts.kept + counts.replanned > 0;
+  });
+  const { counts } = await agents(page);
+  t.diagnostic(`${counts.kept} kept their way, ${counts.replanned} replanned, ${counts.ms.toFixed(2)} ms`);
+  await picture(page, "agents");
+  // Everyone arrives, and nobody walks through the wall.
+  for (let look = 0; look < 60; look += 1) {
+    const { list, counts } = await agents(page);
+    for (const { x, y, isInWall } of list) assert.ok(!isInWall, `an agent is in a wall at ${x}, ${y}`);
+    if (counts.walking === 0) break;
+    await page.waitForTimeout(250);
+  }
+  assert.ok((await agents(page)).counts.arrived > 0);
+  await page.getByRole("button", { name: /^(Stop|Walk)$/ }).click();
+});
+
+test("zoom and pan: the map stays under the pointer", async () => {
+  const page = await site.open();
+  const before = await place(page, 20, 10);
+  await page.mouse.move(before.x, before.y);
+  await page.mouse.wheel(0, -400);
+  await page.waitForTimeout(200);
+  const after = await place(page, 20, 10);
+  const [left, right] = [await place(page, 0, 0), await place(page, 10, 0)];
+  assert.ok(right.x - left.x > 150, "zoomed in");
+  assert.ok(Math.hypot(after.x - before.x, after.y - before.y) < 3, `${JSON.stringify([before, after])}`);
+  await page.getByRole("button", { name: "Zoom out" }).click();
+  await page.getByRole("button", { name: "Zoom in" }).click();
+  await page.getByRole("button", { name: "Fit the map" }).click();
+  await page.waitForTimeout(200);
+  const fitted = await place(page, 20, 10);
+  assert.ok(Math.hypot(fitted.x - before.x, fitted.y - before.y) < 1);
+});
