@@ -87,7 +87,9 @@ async function answer(folder, request, response) {
     if (request.method === "HEAD") {
       return response.end();
     }
-    createReadStream(found.path).on("error", () => response.destroy()).pipe(response);
+    createReadStream(found.path)
+      .on("error", () => response.destroy())
+      .pipe(response);
   }
 }
 
@@ -133,7 +135,8 @@ async function main() {
 
 if (process.argv[1] && import.meta.url === pathToFileURL(process.argv[1]).href) {
   main().catch((error) => {
-    const taken = error.code === "EADDRINUSE" ? "another program has this port; --port 0 takes any" : error.message;
+    const taken =
+      error.code === "EADDRINUSE" ? "another program has this port; --port 0 takes any" : error.message;
     console.error(`error: ${taken}`);
     process.exitCode = 1;
   });

@@ -35,7 +35,7 @@ enum Task {
     /// Package the published crates, and compile them in an empty folder from their packages alone
     Package,
     /// Build the npm package and the page that shows it: target/web/package and target/web/page
-    Web,
+    Web(web::Options),
 }
 
 /// Arguments that another program reads, `--help` among them.
@@ -56,7 +56,7 @@ fn main() -> ExitCode {
         Task::Tidy => tidy::run().map(done),
         Task::Ci => ci::run().map(done),
         Task::Package => package::run().map(done),
-        Task::Web => web::run().map(done),
+        Task::Web(options) => web::run(options).map(done),
     };
     outcome.unwrap_or_else(|error| {
         eprintln!("error: {error}");

@@ -16,8 +16,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use clap::Args;
 use flate2::{Compression, write::GzEncoder};
 use mediant_sets::root;
+use serde::Deserialize;
 
 use crate::{
     Error,
@@ -31,20 +33,32 @@ const CRATE: &str = "mediant-web";
 /// What the module may weigh when it was compressed as web servers do, in bytes.
 const LARGEST: usize = 600_000;
 
-/// Builds both folders.
+/// The options of `cargo xtask web`.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub struct Options {
+    /// Only provide what builds them: Rust for WebAssembly, and the program wasm-bindgen
+    #[arg(long)]
+    pub tools: bool,
+}
+
+/// Builds both folders, or only provides the tools.
 ///
 /// # Errors
 /// [`Error::Lacking`] if the target or the program `wasm-bindgen` cannot be had, [`Error::Step`] for a command
 /// that failed, [`Error::Io`] for a file, [`Error::Large`] if the module weighs too much.
-pub fn run() -> Result<(), Error> {
+pub fn run(options: Options) -> Result<(), Error> {
+    tools::provide_target()?;
+    let program = tools::wasm_bindgen()?;
+    if options.tools {
+        println!("wasm-bindgen: {}", program.display());
+        return Ok(());
+    }
     let crates = project::packages()?;
     let found = crates.iter().find(|package| package.name == CRATE);
     let found = found.ok_or_else(|| Error::Lacking {
         what: format!("the workspace has no crate {CRATE}"),
         mend: "run this in a clone of the whole project".to_owned(),
     })?;
-    tools::provide_target()?;
-    let program = tools::wasm_bindgen()?;
     let module = tools::compile(CRATE)?;
 
     let web = root().join("target/web");
@@ -71,42 +85,34 @@ fn bind(program: &Path, module: &Path, out: &Path) -> Result<(), Error> {
     step(command.arg(out).arg(module), "wasm-bindgen --target web --out-name mediant …")
 }
 
-/// The files of the package: those that `wasm-bindgen` wrote, what is to be known of them, and the licence.
+/// The files that `package.json` names, and itself. They lie beside it, or `wasm-bindgen` wrote them.
 fn package_files(package: &Package, bound: &Path) -> Result<Vec<File>, Error> {
-    let mut files = parts::read_folder(bound)?;
     let folder = root().join("crates/web");
-    for name in ["README.md", "LICENSE"] {
-        files.push(File::read(&folder.join(name), name)?);
+    let about = File::read(&folder.join("package.json"), "package.json")?;
+    let names = named(&about.bytes, &package.version)?;
+    let mut files = vec![about];
+    for name in &names {
+        let written = bound.join(name);
+        files.push(File::read(&if written.is_file() { written } else { folder.join(name) }, name)?);
     }
-    let mut named: Vec<&str> = files.iter().map(|file| &*file.path).collect();
-    named.sort_unstable();
-    let about = about(&package.version, &named);
-    files.push(File { path: "package.json".to_owned(), bytes: about.into_bytes() });
     Ok(files)
 }
 
-/// The `package.json`, as text: of what is exported, programs take the first that they know.
-fn about(version: &str, files: &[&str]) -> String {
-    format!(
-        r#"{{
-  "name": "mediant",
-  "version": "{version}",
-  "description": "Pathfinding on grids in 4, 8, 16, 32, … directions or at any angle, in WebAssembly",
-  "license": "MIT",
-  "keywords": ["pathfinding", "grid", "a-star", "any-angle", "jps", "wasm"],
-  "type": "module",
-  "main": "mediant.js",
-  "types": "mediant.d.ts",
-  "exports": {{
-    ".": {{ "types": "./mediant.d.ts", "default": "./mediant.js" }},
-    "./mediant_bg.wasm": "./mediant_bg.wasm",
-    "./package.json": "./package.json"
-  }},
-  "sideEffects": false,
-  "files": {files:?}
-}}
-"#
-    )
+/// The files that a `package.json` names, if its version is that of the crates.
+fn named(about: &[u8], version: &str) -> Result<Vec<String>, Error> {
+    #[derive(Deserialize)]
+    struct About {
+        version: String,
+        files: Vec<String>,
+    }
+    let wrong =
+        |mend: String| Error::Lacking { what: "crates/web/package.json is not as it must be".into(), mend };
+    let about: About = serde_json::from_slice(about).map_err(|error| wrong(error.to_string()))?;
+    if about.version == version {
+        Ok(about.files)
+    } else {
+        Err(wrong(format!("its version is {}, that of the crates {version}", about.version)))
+    }
 }
 
 /// Prints what the module weighs.
@@ -125,4 +131,17 @@ fn report(package: &Path) -> Result<(), Error> {
         });
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::named;
+
+    #[test]
+    fn the_package_has_the_version_of_the_crates() {
+        let about = br#"{"name": "mediant", "version": "0.1.0", "files": ["mediant.js"]}"#;
+        assert_eq!(named(about, "0.1.0").unwrap(), ["mediant.js"]);
+        assert!(named(about, "0.2.0").unwrap_err().to_string().contains("0.1.0, that of the crates 0.2.0"));
+        assert!(named(b"{", "0.1.0").is_err());
+    }
 }

@@ -8,15 +8,12 @@ import { settled } from "./browser.mjs";
 /** A map of these rows, `#` for a wall, in place of the one that is there.
  *  @param {Page} page @param {string[]} rows @param {Point} start @param {Point} goal */
 export async function loadRows(page, rows, start, goal) {
-  await page.evaluate(
-    ([rows, start, goal]) => {
-      const cells = Uint8Array.from([...rows.join("")], (cell) => (cell === "#" ? 1 : 0));
-      const source = { kind: "file", name: "test.map" };
-      const { model } = /** @type {any} */ (globalThis).mediant;
-      model.load({ width: rows[0].length, height: rows.length, cells, source, start, goal });
-    },
-    /** @type {[string[], Point, Point]} */ ([rows, start, goal]),
-  );
+  await page.evaluate(([rows, start, goal]) => {
+    const cells = Uint8Array.from([...rows.join("")], (cell) => (cell === "#" ? 1 : 0));
+    const source = { kind: "file", name: "test.map" };
+    const { model } = /** @type {any} */ (globalThis).mediant;
+    model.load({ width: rows[0].length, height: rows.length, cells, source, start, goal });
+  }, /** @type {[string[], Point, Point]} */ ([rows, start, goal]));
   await settled(page);
 }
 
@@ -25,14 +22,11 @@ export const emptyRows = (width, height) => Array.from({ length: height }, () =>
 
 /** A generated map. @param {Page} page @param {string} name @param {number} side @param {number} [seed] */
 export async function generate(page, name, side, seed = 1) {
-  await page.evaluate(
-    async ([name, side, seed]) => {
-      const maps = await import(new URL("src/model/maps.js", location.href).href);
-      const { model } = /** @type {any} */ (globalThis).mediant;
-      model.load(await maps.loadMap({ kind: "generated", name, side, seed }));
-    },
-    /** @type {[string, number, number]} */ ([name, side, seed]),
-  );
+  await page.evaluate(async ([name, side, seed]) => {
+    const maps = await import(new URL("src/model/maps.js", location.href).href);
+    const { model } = /** @type {any} */ (globalThis).mediant;
+    model.load(await maps.loadMap({ kind: "generated", name, side, seed }));
+  }, /** @type {[string, number, number]} */ ([name, side, seed]));
 }
 
 /** The map as rows. @param {Page} page @returns {Promise<string[]>} */
@@ -49,10 +43,25 @@ export const scene = (page) =>
     const { model } = /** @type {any} */ (globalThis).mediant;
     const { width, height, version, source, edited, start, goal, lanes, active } = model;
     const { overlay, nearest, radius, agents, canUndo, canRedo } = model;
-    return JSON.parse(JSON.stringify({
-      width, height, version, source, edited, start, goal, lanes, active, overlay, nearest, radius, agents,
-      canUndo, canRedo,
-    }));
+    return JSON.parse(
+      JSON.stringify({
+        width,
+        height,
+        version,
+        source,
+        edited,
+        start,
+        goal,
+        lanes,
+        active,
+        overlay,
+        nearest,
+        radius,
+        agents,
+        canUndo,
+        canRedo,
+      }),
+    );
   });
 
 /** The lanes with their answers, without the steps. @param {Page} page @returns {Promise<any[]>} */
@@ -78,9 +87,10 @@ export async function setLanes(page, ...setups) {
 /** Where the center of a cell is in the window, or another place of the map.
  *  @param {Page} page @param {number} x @param {number} y @param {number} [lane] */
 export const place = (page, x, y, lane = 0) =>
-  page.evaluate(([lane, x, y]) => /** @type {any} */ (globalThis).mediant.stage.place(lane, x, y), [
-    lane, x + 0.5, y + 0.5,
-  ]);
+  page.evaluate(
+    ([lane, x, y]) => /** @type {any} */ (globalThis).mediant.stage.place(lane, x, y),
+    [lane, x + 0.5, y + 0.5],
+  );
 
 /** Drags the pointer over these cells. @param {Page} page @param {Point[]} cells @param {number} [steps] */
 export async function drag(page, cells, steps = 6) {
@@ -109,7 +119,8 @@ export async function drop(page, ...files) {
     for (const { name, bytes } of list) transfer.items.add(new File([new Uint8Array(bytes)], name));
     return transfer;
   }, list);
-  for (const event of ["dragenter", "dragover", "drop"]) await page.dispatchEvent("main", event, { dataTransfer });
+  for (const event of ["dragenter", "dragover", "drop"])
+    await page.dispatchEvent("main", event, { dataTransfer });
 }
 
 /** The messages over the stage. @param {Page} page @returns {Promise<string[]>} */
@@ -123,7 +134,8 @@ export async function message(page, pattern) {
 }
 
 /** Whether a text is a whole sentence for people. It may begin with the name of a file. @param {string} text */
-export const isSentence = (text) => /^\S.{8,}[.!?]$/s.test(text.trim()) && !/undefined|NaN|\[object/.test(text);
+export const isSentence = (text) =>
+  /^\S.{8,}[.!?]$/s.test(text.trim()) && !/undefined|NaN|\[object/.test(text);
 
 /** The value below which this share of the numbers lies. @param {number[]} numbers @param {number} share */
 export function quantile(numbers, share) {

@@ -12,8 +12,14 @@ import { chromium as program, PAGE, SCREENSHOTS } from "./places.mjs";
 /** @typedef {import("playwright-core").BrowserContext} Context */
 
 const FLAGS = [
-  "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-  "--disable-background-networking", "--disable-component-update", "--disable-sync",
+  "--headless",
+  "--no-sandbox",
+  "--disable-gpu",
+  "--disable-quic",
+  "--no-first-run",
+  "--disable-background-networking",
+  "--disable-component-update",
+  "--disable-sync",
 ];
 
 /** How a window is opened. @typedef {import("playwright-core").BrowserContextOptions} Look */
@@ -79,7 +85,8 @@ export class Site {
     page.on("console", (message) => {
       const kind = message.type();
       const isOwn = message.text().includes("registration blocked by Playwright");
-      if ((kind === "error" || kind === "warning") && !isOwn) note(`${kind}: ${message.text()} ${message.location().url}`);
+      if ((kind === "error" || kind === "warning") && !isOwn)
+        note(`${kind}: ${message.text()} ${message.location().url}`);
     });
     page.on("pageerror", (error) => note(`error: ${error.stack ?? error.message}`));
     page.on("request", (request) => {
@@ -108,7 +115,8 @@ export async function settled(page, timeout = 20_000) {
   await page.waitForFunction(
     () => {
       const { lanes, model } = /** @type {any} */ (globalThis).mediant ?? {};
-      const ended = (/** @type {any} */ lane) => ["done", "failed", "cancelled"].includes(lane.phase) && !lane.stale;
+      const ended = (/** @type {any} */ lane) =>
+        ["done", "failed", "cancelled"].includes(lane.phase) && !lane.stale;
       return lanes && lanes.list.length === model.lanes.length && lanes.list.every(ended);
     },
     undefined,

@@ -63,12 +63,26 @@ function need(path, how) {
 function native(file, /** @type {string} */ engine, /** @type {number | "any"} */ k) {
   const instances = readFileSync(`${file}.scen`, "utf8").trim().split("\n").length - 1;
   const every = Math.max(1, Math.floor(instances / Number(values.queries)));
-  const words = ["run", file, "--scen", `${file}.scen`, "--every", `${every}`, "--engine", engine, "--k", `${k}`];
+  const words = [
+    "run",
+    file,
+    "--scen",
+    `${file}.scen`,
+    "--every",
+    `${every}`,
+    "--engine",
+    engine,
+    "--k",
+    `${k}`,
+  ];
   const text = execFileSync(values.program, [...words, "--repeat", `${repeat}`, "--format", "jsonl"], {
     encoding: "utf8",
     maxBuffer: 1 << 28,
   });
-  const lines = text.trim().split("\n").map((line) => JSON.parse(line));
+  const lines = text
+    .trim()
+    .split("\n")
+    .map((line) => JSON.parse(line));
   return { run: lines[0], queries: lines.filter(({ type }) => type === "query") };
 }
 
@@ -114,7 +128,8 @@ function wasm(index, record) {
 
 /** The package must give the very path that the program gives. */
 function check(/** @type {any} */ query, /** @type {any} */ answer, /** @type {string} */ setup) {
-  const same = answer.status === query.status && String(answer.path ?? "") === String(query.path?.flat() ?? "");
+  const same =
+    answer.status === query.status && String(answer.path ?? "") === String(query.path?.flat() ?? "");
   if (same && (answer.status !== "found" || answer.distance === query.cost)) return;
   const shown = `${setup} ${query.start} to ${query.goal}`;
   throw new Error(`${shown}: the program finds ${query.cost}, the package ${answer.distance}`);
@@ -154,7 +169,8 @@ async function measure() {
 async function main() {
   need(values.program, "cargo build --release -p mediant-cli");
   need(PACKAGE, "cargo xtask web");
-  if (loadavg()[0] > 0.7) console.log(`The machine is busy (load ${loadavg()[0].toFixed(2)}): times will be off`);
+  if (loadavg()[0] > 0.7)
+    console.log(`The machine is busy (load ${loadavg()[0].toFixed(2)}): times will be off`);
   const results = await measure();
   const day = new Date().toLocaleDateString("en-GB", { day: "numeric", month: "long", year: "numeric" });
   const machine = `${day}, ${cpus()[0]?.model.trim()}, node ${process.versions.node}, V8 ${process.versions.v8}.`;

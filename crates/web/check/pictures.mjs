@@ -43,12 +43,21 @@ export function png(width, height, pixels, palette) {
   head.writeUInt32BE(height, 4);
   head.set([8, palette ? 3 : 0, 0, 0, 0], 8);
   const lines = Buffer.alloc((width + 1) * height);
-  for (let y = 0; y < height; y += 1) lines.set(pixels.subarray(y * width, (y + 1) * width), y * (width + 1) + 1);
-  const parts = [chunk("IHDR", head), chunk("IDAT", deflateSync(lines, { level: 9 })), chunk("IEND", Buffer.alloc(0))];
+  for (let y = 0; y < height; y += 1)
+    lines.set(pixels.subarray(y * width, (y + 1) * width), y * (width + 1) + 1);
+  const parts = [
+    chunk("IHDR", head),
+    chunk("IDAT", deflateSync(lines, { level: 9 })),
+    chunk("IEND", Buffer.alloc(0)),
+  ];
   if (palette) parts.splice(1, 0, chunk("PLTE", palette));
   return Buffer.concat([Buffer.from("\x89PNG\r\n\x1a\n", "latin1"), ...parts]);
 }
 
 /** A map as a picture: walls black. @param {string[]} rows */
 export const pngOf = (rows) =>
-  png(rows[0].length, rows.length, Uint8Array.from([...rows.join("")], (cell) => (cell === "#" ? 0 : 255)));
+  png(
+    rows[0].length,
+    rows.length,
+    Uint8Array.from([...rows.join("")], (cell) => (cell === "#" ? 0 : 255)),
+  );

@@ -20,6 +20,9 @@ export function lengthOf(mediant, rows, setup, start, goal) {
   const { engine, k, placement, corners, gap } = setup;
   const rule = placement === "center" ? { corners } : { gap };
   const cells = rows.map((row) => row.replaceAll("#", "@"));
-  const planner = mediant.Grid.fromRows(cells).space({ k, placement, ...rule }).prepare(engine).planner();
+  const planner = mediant.Grid.fromRows(cells)
+    .space({ k, placement, ...rule })
+    .prepare(engine)
+    .planner();
   return planner.find(start, goal).distance;
 }

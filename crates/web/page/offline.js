@@ -35,7 +35,7 @@ async function store() {
   );
 }
 
-/** Removes the caches of other versions, and serves the windows that were opened before this one was there. */
+/** Removes the caches of other versions, and serves windows that were opened before this one was there. */
 async function takeOver() {
   const names = await caches.keys();
   const old = names.filter((name) => name.startsWith(OURS) && name !== CACHE);
@@ -44,13 +44,14 @@ async function takeOver() {
 }
 
 /**
- * Whether this reload is of the only window, so that a new version can take over. Browsers that do not say what
- * is reloaded let the new version wait until all windows are closed.
+ * Whether this reload is of the only window, so that a new version can take over. Browsers that do not say
+ * what is reloaded let the new version wait until all windows are closed.
  * @param {FetchEvent} event
  */
-async function isLastOfOld({ request, replacesClientId }) {
-  if (request.mode !== "navigate" || !worker.registration.waiting) return false;
-  const { isReloadNavigation } = /** @type {Request & { isReloadNavigation?: boolean }} */ (request);
+async function isLastOfOld(event) {
+  if (event.request.mode !== "navigate" || !worker.registration.waiting) return false;
+  const { isReloadNavigation } = /** @type {Request & { isReloadNavigation?: boolean }} */ (event.request);
+  const { replacesClientId } = /** @type {FetchEvent & { replacesClientId?: string }} */ (event);
   const windows = await worker.clients.matchAll({ includeUncontrolled: true, type: "window" });
   if (windows.length > 1) return false;
   return isReloadNavigation || windows.some(({ id }) => id === replacesClientId);

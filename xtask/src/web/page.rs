@@ -39,7 +39,7 @@ pub(super) fn write(package: &Path, page: &Path) -> Result<String, Error> {
 
 /// Whether a browser needs this file of the package, or its licence wants it there.
 fn is_run(path: &str) -> bool {
-    !path.ends_with(".d.ts") && !["README.md", "package.json"].contains(&path)
+    !path.ends_with(".d.ts") && !["README.md", "package.json", "node.js"].contains(&path)
 }
 
 fn take(

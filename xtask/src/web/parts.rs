@@ -20,16 +20,7 @@ impl File {
     }
 }
 
-/// All files of a folder and of those in it, sorted by their paths; hidden ones are left out.
-pub(super) fn read_folder(folder: &Path) -> Result<Vec<File>, Error> {
-    let mut files = Vec::new();
-    for path in list(folder)? {
-        files.push(File::read(&folder.join(&path), &path)?);
-    }
-    Ok(files)
-}
-
-/// The paths of [`read_folder`].
+/// The paths of all files of a folder and of those in it, sorted; hidden ones are left out.
 pub(super) fn list(folder: &Path) -> Result<Vec<String>, Error> {
     let mut paths = Vec::new();
     walk(folder, "", &mut paths)?;

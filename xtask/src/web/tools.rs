@@ -12,6 +12,8 @@ use serde_json::Value;
 use crate::{Error, ci::step, project};
 
 const TARGET: &str = "wasm32-unknown-unknown";
+/// The profile for what is downloaded.
+const PROFILE: &str = "web";
 
 /// Installs the standard library for WebAssembly, unless it is there.
 pub(super) fn provide_target() -> Result<(), Error> {
@@ -98,7 +100,7 @@ fn install(tools: &Path, version: &str) {
 
 /// Compiles the crate to WebAssembly, and returns the module.
 pub(super) fn compile(package: &str) -> Result<PathBuf, Error> {
-    let arguments = ["build", "--package", package, "--lib", "--target", TARGET, "--profile", profile()?];
+    let arguments = ["build", "--package", package, "--lib", "--target", TARGET, "--profile", PROFILE];
     let shown = format!("cargo {}", arguments.join(" "));
     println!("$ {shown}");
     let mut cargo = project::cargo();
@@ -127,13 +129,6 @@ pub(super) fn compile(package: &str) -> Result<PathBuf, Error> {
 fn registry() -> Option<PathBuf> {
     let home = env::var_os("CARGO_HOME").map(PathBuf::from);
     Some(home.or_else(|| Some(env::home_dir()?.join(".cargo")))?.join("registry").join("src"))
-}
-
-/// The profile for what is downloaded, where the workspace has it.
-fn profile() -> Result<&'static str, Error> {
-    let manifest = root().join("Cargo.toml");
-    let text = fs::read_to_string(&manifest).map_err(Error::at(&manifest))?;
-    Ok(if text.contains("[profile.web]") { "web" } else { "release" })
 }
 
 #[cfg(test)]

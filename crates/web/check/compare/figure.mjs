@@ -35,7 +35,8 @@ text{fill:#e6edf3}
 `;
 
 /** The geometric mean. @param {number[]} values */
-export const mean = (values) => Math.exp(values.reduce((sum, value) => sum + Math.log(value), 0) / values.length);
+export const mean = (values) =>
+  Math.exp(values.reduce((sum, value) => sum + Math.log(value), 0) / values.length);
 
 /** A mark that tells a map from the others without its color: a disc, a square, a triangle. */
 function mark(/** @type {number} */ series, /** @type {number} */ x, /** @type {number} */ y) {
@@ -46,7 +47,8 @@ function mark(/** @type {number} */ series, /** @type {number} */ x, /** @type {
 }
 
 /** @param {string} name @param {string} text @param {number} x @param {number} y @param {string} [more] */
-const words = (name, text, x, y, more = "") => `<text class="${name}" x="${x}" y="${y}"${more}>${text}</text>`;
+const words = (name, text, x, y, more = "") =>
+  `<text class="${name}" x="${x}" y="${y}"${more}>${text}</text>`;
 
 /** @param {Result[]} results */
 export function figure(results) {
@@ -67,7 +69,12 @@ export function figure(results) {
     `<style>${STYLE}</style>`,
     `<rect class="page" x="0" y="0" width="${WIDTH}" height="${height}"/>`,
     words("title", title, 16, 24),
-    words("muted", "time of a query in WebAssembly over that of the native program; the bar is the mean", 16, 42),
+    words(
+      "muted",
+      "time of a query in WebAssembly over that of the native program; the bar is the mean",
+      16,
+      42,
+    ),
   ];
   for (let value = 0; value <= most; value += 0.5) {
     const x = place(value);

@@ -21,9 +21,15 @@ export function table(results, machine) {
     // Times below a tenth of a millisecond say nothing of a preparation that happens once.
     const isPrepared = nativePrepare >= 0.1;
     const cells = [
-      `${map}, ${size}`, engine, k === "any" ? "∞" : k, queries,
-      digits(native / 1e3), digits(wasm / 1e3), (wasm / native).toFixed(2),
-      isPrepared ? digits(nativePrepare) : "–", isPrepared ? digits(wasmPrepare) : "–",
+      `${map}, ${size}`,
+      engine,
+      k === "any" ? "∞" : k,
+      queries,
+      digits(native / 1e3),
+      digits(wasm / 1e3),
+      (wasm / native).toFixed(2),
+      isPrepared ? digits(nativePrepare) : "–",
+      isPrepared ? digits(wasmPrepare) : "–",
       isPrepared ? (wasmPrepare / nativePrepare).toFixed(2) : "–",
     ];
     rows.push(`| ${cells.join(" | ")} |`);

@@ -2,7 +2,16 @@
 
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, symlinkSync, writeFileSync } from "node:fs";
+import {
+  existsSync,
+  mkdirSync,
+  mkdtempSync,
+  readFileSync,
+  rmSync,
+  statSync,
+  symlinkSync,
+  writeFileSync,
+} from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
@@ -61,7 +70,10 @@ test("mistakes are errors with a sentence, never a panic", async () => {
   ];
   for (const mistake of mistakes) {
     assert.throws(mistake, (error) => {
-      assert.ok(error instanceof Error && !(error instanceof WebAssembly.RuntimeError), `${mistake}: ${error}`);
+      assert.ok(
+        error instanceof Error && !(error instanceof WebAssembly.RuntimeError),
+        `${mistake}: ${error}`,
+      );
       assert.ok(error.message.length > 10, `${mistake}: ${error.message}`);
       return true;
     });

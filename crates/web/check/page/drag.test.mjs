@@ -49,8 +49,12 @@ for (const [name, side, setup] of /** @type {const} */ ([
     await dragThrough(page);
     const { frames, latencies } = await dragThrough(page);
     const [work, delay] = [quantile(frames, 0.95), quantile(latencies, 0.95)];
-    t.diagnostic(`${frames.length} frames, p95 ${work.toFixed(2)} ms, greatest ${Math.max(...frames).toFixed(2)} ms`);
-    t.diagnostic(`pointer to path: median ${quantile(latencies, 0.5).toFixed(1)} ms, p95 ${delay.toFixed(1)} ms`);
+    t.diagnostic(
+      `${frames.length} frames, p95 ${work.toFixed(2)} ms, greatest ${Math.max(...frames).toFixed(2)} ms`,
+    );
+    t.diagnostic(
+      `pointer to path: median ${quantile(latencies, 0.5).toFixed(1)} ms, p95 ${delay.toFixed(1)} ms`,
+    );
     assert.ok(frames.length > 30, `only ${frames.length} frames were drawn`);
     assert.ok(latencies.length > 20, `only ${latencies.length} paths were drawn`);
     assert.ok(work < FRAME, `the page works ${work} ms in a frame`);
@@ -63,16 +67,19 @@ test("both ends can be dragged, and the path ends where they are", async () => {
   for (const end of /** @type {const} */ (["start", "goal"])) {
     const from = await badge(page, end);
     const { width, height, [end]: before } = await scene(page);
-    const [x, y] = await page.evaluate(([width, height]) => {
-      const { cells } = /** @type {any} */ (globalThis).mediant.model;
-      // A free cell among free cells, in the middle of the map.
-      const isOpen = (/** @type {number} */ at) =>
-        [0, 1, -1, width, -width, width + 1, -width - 1].every((by) => cells[at + by] === 0);
-      const middle = Math.floor(height / 2) * width + Math.floor(width / 2);
-      let at = middle;
-      while (!isOpen(at)) at += 1;
-      return [at % width, Math.floor(at / width)];
-    }, [width, height]);
+    const [x, y] = await page.evaluate(
+      ([width, height]) => {
+        const { cells } = /** @type {any} */ (globalThis).mediant.model;
+        // A free cell among free cells, in the middle of the map.
+        const isOpen = (/** @type {number} */ at) =>
+          [0, 1, -1, width, -width, width + 1, -width - 1].every((by) => cells[at + by] === 0);
+        const middle = Math.floor(height / 2) * width + Math.floor(width / 2);
+        let at = middle;
+        while (!isOpen(at)) at += 1;
+        return [at % width, Math.floor(at / width)];
+      },
+      [width, height],
+    );
     const [a, b] = [await place(page, ...from), await place(page, x, y)];
     await page.mouse.move(a.x, a.y);
     await page.mouse.down();
@@ -101,7 +108,13 @@ test("a drag beyond the map, and with the other button, breaks nothing", async (
   const from = await place(page, ...(await badge(page, "goal")));
   await page.mouse.move(from.x, from.y);
   await page.mouse.down();
-  for (const [x, y] of [[-50, -50], [5000, 20], [700, 5000], [from.x, from.y]]) await page.mouse.move(x, y);
+  for (const [x, y] of [
+    [-50, -50],
+    [5000, 20],
+    [700, 5000],
+    [from.x, from.y],
+  ])
+    await page.mouse.move(x, y);
   await page.mouse.down({ button: "right" });
   await page.mouse.up({ button: "right" });
   await page.keyboard.press("Escape");

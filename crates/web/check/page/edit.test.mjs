@@ -26,15 +26,28 @@ test("a drawn wall is a line of cells without gaps, and the path goes around it"
   const page = await open();
   assert.equal(await lengthNow(page), 17);
   await tool(page, "Draw");
-  assert.equal(await page.getByRole("button", { name: "Draw", exact: true }).getAttribute("aria-pressed"), "true");
-  await drag(page, [[10, 0], [10, 9]], 3);
+  assert.equal(
+    await page.getByRole("button", { name: "Draw", exact: true }).getAttribute("aria-pressed"),
+    "true",
+  );
+  await drag(
+    page,
+    [
+      [10, 0],
+      [10, 9],
+    ],
+    3,
+  );
   const map = await rows(page);
   for (let y = 0; y <= 9; y += 1) assert.equal(map[y][10], "#", `row ${y}: ${map[y]}`);
   assert.ok((await lengthNow(page)) > 20);
   await picture(page, "edit-drawn");
 
   await tool(page, "Erase");
-  await drag(page, [[10, 6], [10, 6]]);
+  await drag(page, [
+    [10, 6],
+    [10, 6],
+  ]);
   assert.equal((await rows(page))[6][10], ".");
   assert.equal(await lengthNow(page), 17);
 });
@@ -42,10 +55,19 @@ test("a drawn wall is a line of cells without gaps, and the path goes around it"
 test("a rectangle, and a fill", async () => {
   const page = await open();
   await tool(page, "Rectangle");
-  await drag(page, [[5, 2], [8, 4]]);
+  await drag(page, [
+    [5, 2],
+    [8, 4],
+  ]);
   const map = await rows(page);
   assert.ok(walls(map) === 12 || walls(map) === 10, map.join("\n"));
-  for (const [x, y] of [[5, 2], [8, 2], [5, 4], [8, 4]]) assert.equal(map[y][x], "#");
+  for (const [x, y] of [
+    [5, 2],
+    [8, 2],
+    [5, 4],
+    [8, 4],
+  ])
+    assert.equal(map[y][x], "#");
 
   await tool(page, "Fill");
   const inside = await place(page, 0, 0);
@@ -63,7 +85,11 @@ test("each stroke is one step of undo and redo", async () => {
   const states = [await rows(page)];
   await tool(page, "Draw");
   for (const x of [4, 7, 13]) {
-    await drag(page, [[x, 1], [x, 5], [x, 8]]);
+    await drag(page, [
+      [x, 1],
+      [x, 5],
+      [x, 8],
+    ]);
     states.push(await rows(page));
   }
   const lengths = [await lengthNow(page)];
@@ -85,10 +111,24 @@ test("each stroke is one step of undo and redo", async () => {
 
 test("many edits, while four engines search", async () => {
   const page = await open();
-  await setLanes(page, { engine: "jps-block" }, { engine: "subgoal" }, { engine: "hpa" }, { engine: "anya", k: "any", placement: "corner" });
+  await setLanes(
+    page,
+    { engine: "jps-block" },
+    { engine: "subgoal" },
+    { engine: "hpa" },
+    { engine: "anya", k: "any", placement: "corner" },
+  );
   await settled(page);
   await tool(page, "Draw");
-  for (let x = 3; x < 17; x += 2) await drag(page, [[x, x % 4 === 1 ? 0 : 2], [x, x % 4 === 1 ? 9 : 11]], 4);
+  for (let x = 3; x < 17; x += 2)
+    await drag(
+      page,
+      [
+        [x, x % 4 === 1 ? 0 : 2],
+        [x, x % 4 === 1 ? 9 : 11],
+      ],
+      4,
+    );
   await settled(page);
   const answers = await lanes(page);
   for (const { answer, phase, message } of answers) {

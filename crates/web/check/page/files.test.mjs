@@ -10,15 +10,35 @@ import { movingai, pgm, pngOf, ros } from "../pictures.mjs";
 import { ROOT } from "../places.mjs";
 
 const site = new Site();
-const MAP = ["..........", ".####.....", "....#..##.", "....#..#..", "..........", ".#######..", ".........."];
+const MAP = [
+  "..........",
+  ".####.....",
+  "....#..##.",
+  "....#..#..",
+  "..........",
+  ".#######..",
+  "..........",
+];
 
 /** @type {[string, { name: string, bytes: Uint8Array | string }[]][]} */
 const WHOLE_MAPS = [
   ["a MovingAI map", [{ name: "a.map", bytes: movingai(MAP) }]],
   ["a PNG", [{ name: "a.png", bytes: pngOf(MAP) }]],
   ["a PGM", [{ name: "a.pgm", bytes: pgm(MAP) }]],
-  ["a ROS map", [{ name: "a.yaml", bytes: ros("a.pgm") }, { name: "a.pgm", bytes: pgm(MAP) }]],
-  ["a ROS map, its picture first", [{ name: "a.pgm", bytes: pgm(MAP) }, { name: "a.yaml", bytes: ros("a.pgm") }]],
+  [
+    "a ROS map",
+    [
+      { name: "a.yaml", bytes: ros("a.pgm") },
+      { name: "a.pgm", bytes: pgm(MAP) },
+    ],
+  ],
+  [
+    "a ROS map, its picture first",
+    [
+      { name: "a.pgm", bytes: pgm(MAP) },
+      { name: "a.yaml", bytes: ros("a.pgm") },
+    ],
+  ],
 ];
 
 test("maps are dropped", async () => {
@@ -64,16 +84,31 @@ const WHOLE = pngOf(MAP);
 /** @type {[string, { name: string, bytes: Uint8Array | string }[]][]} */
 const BROKEN = [
   ["an empty map", [{ name: "a.map", bytes: "" }]],
-  ["a map with another number of rows", [{ name: "a.map", bytes: movingai(MAP).replace("height 7", "height 9") }]],
-  ["a map of huge size by its header", [{ name: "a.map", bytes: movingai(MAP).replace("height 7", "height 999999999") }]],
+  [
+    "a map with another number of rows",
+    [{ name: "a.map", bytes: movingai(MAP).replace("height 7", "height 9") }],
+  ],
+  [
+    "a map of huge size by its header",
+    [{ name: "a.map", bytes: movingai(MAP).replace("height 7", "height 999999999") }],
+  ],
   ["a PNG that was cut off", [{ name: "a.png", bytes: WHOLE.subarray(0, WHOLE.length / 2) }]],
   ["a PNG that is none", [{ name: "a.png", bytes: "<svg/>" }]],
   ["a PGM of huge size by its header", [{ name: "a.pgm", bytes: "P5\n4000000000 4000000000\n255\n" }]],
   ["a ROS map without its picture", [{ name: "a.yaml", bytes: ros("a.pgm") }]],
-  ["a YAML file of something else", [{ name: "a.yaml", bytes: "name: value\n" }, { name: "a.pgm", bytes: pgm(MAP) }]],
+  [
+    "a YAML file of something else",
+    [
+      { name: "a.yaml", bytes: "name: value\n" },
+      { name: "a.pgm", bytes: pgm(MAP) },
+    ],
+  ],
   ["a scene that is no scene", [{ name: "a.json", bytes: "{}" }]],
   ["a scene that is no JSON", [{ name: "a.json", bytes: "{" }]],
-  ["a scene of a wrong kind", [{ name: "a.json", bytes: '{"format":"mediant scene","version":1,"map":7,"rows":[]}' }]],
+  [
+    "a scene of a wrong kind",
+    [{ name: "a.json", bytes: '{"format":"mediant scene","version":1,"map":7,"rows":[]}' }],
+  ],
   ["a file of another kind", [{ name: "a.exe", bytes: "MZ" }]],
 ];
 

@@ -11,14 +11,27 @@ const site = new Site();
 
 /** All text that is said of the lanes. @param {Page} page */
 const said = async (page) =>
-  (await page.locator(".race-status:visible, .stage-note:visible").allTextContents()).map((text) => text.trim());
+  (await page.locator(".race-status:visible, .stage-note:visible").allTextContents()).map((text) =>
+    text.trim(),
+  );
 
 test("a map without a free cell", async () => {
   const page = await site.open();
-  await loadRows(page, Array.from({ length: 6 }, () => "#".repeat(9)), [0, 0], [8, 5]);
+  await loadRows(
+    page,
+    Array.from({ length: 6 }, () => "#".repeat(9)),
+    [0, 0],
+    [8, 5],
+  );
   const texts = await said(page);
   assert.ok(texts.length > 0 && texts.every(isSentence), texts.join(" | "));
-  await setLanes(page, { engine: "subgoal" }, { engine: "jps-plus" }, { engine: "hpa" }, { engine: "anya", k: "any", placement: "corner" });
+  await setLanes(
+    page,
+    { engine: "subgoal" },
+    { engine: "jps-plus" },
+    { engine: "hpa" },
+    { engine: "anya", k: "any", placement: "corner" },
+  );
   await settled(page);
   for (const { phase, answer, message } of await lanes(page)) {
     assert.ok(phase === "done" ? answer.status !== "found" : isSentence(message), `${phase} ${message}`);
@@ -37,7 +50,13 @@ test("maps of one cell, of one row, and of one column", async () => {
     [["...................."], [0, 0], [19, 0]],
     [Array.from({ length: 20 }, () => "."), [0, 0], [0, 19]],
   ])) {
-    await setLanes(page, { engine: "astar" }, { engine: "jps-block" }, { engine: "subgoal" }, { engine: "chpa" });
+    await setLanes(
+      page,
+      { engine: "astar" },
+      { engine: "jps-block" },
+      { engine: "subgoal" },
+      { engine: "chpa" },
+    );
     await loadRows(page, rows, start, goal);
     for (const { answer } of await lanes(page)) {
       assert.equal(answer.status, "found");
@@ -65,8 +84,14 @@ test("ends in walls, and goals that cannot be reached, with and without the near
 
   for (const nearest of [true, false]) {
     await page.getByRole("checkbox", { name: /^Nearest/ }).setChecked(nearest);
-    for (const [end, at] of /** @type {const} */ ([["goal", [9, 4]], ["start", [9, 2]]])) {
-      await page.evaluate(([end, at]) => /** @type {any} */ (globalThis).mediant.model.moveEnd(end, at), [end, at]);
+    for (const [end, at] of /** @type {const} */ ([
+      ["goal", [9, 4]],
+      ["start", [9, 2]],
+    ])) {
+      await page.evaluate(
+        ([end, at]) => /** @type {any} */ (globalThis).mediant.model.moveEnd(end, at),
+        [end, at],
+      );
       await settled(page);
       for (const { phase, answer } of await lanes(page)) {
         assert.equal(phase, "done");
@@ -113,14 +138,19 @@ for (const [what, phase, name, side, setup] of /** @type {const} */ ([
     const pause = await longestPause(page, async () => {
       await setLanes(page, setup);
       await page.waitForFunction(
-        (phase) => /** @type {any} */ (globalThis).mediant.lanes.list[0].phase === phase, phase, { timeout: 60_000 });
+        (phase) => /** @type {any} */ (globalThis).mediant.lanes.list[0].phase === phase,
+        phase,
+        { timeout: 60_000 },
+      );
       await page.waitForTimeout(300);
       await picture(page, `busy-${phase}`);
     });
     t.diagnostic(`the longest time without a frame: ${pause.toFixed(0)} ms`);
     assert.ok(pause < 1500, `no frame for ${pause} ms`);
     await page.getByRole("button", { name: "Cancel lane 1" }).click();
-    await page.waitForFunction(() => /** @type {any} */ (globalThis).mediant.lanes.list[0].phase === "cancelled");
+    await page.waitForFunction(
+      () => /** @type {any} */ (globalThis).mediant.lanes.list[0].phase === "cancelled",
+    );
     const [text] = await said(page);
     assert.ok(/cancel/i.test(text), text);
     // What was cancelled can be asked again, or for something else.

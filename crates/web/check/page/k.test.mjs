@@ -27,7 +27,10 @@ test("the slider goes through all k to ∞, and paths get shorter as k grows", a
     const { lanes: setups, start, goal } = await scene(page);
     const k = at === to ? "any" : at;
     assert.equal(setups[0].k, k);
-    assert.match((await page.locator("#k-number").textContent()) ?? "", at === to ? /∞/ : new RegExp(`${at}$`));
+    assert.match(
+      (await page.locator("#k-number").textContent()) ?? "",
+      at === to ? /∞/ : new RegExp(`${at}$`),
+    );
     const [{ answer }] = await lanes(page);
     assert.equal(answer.status, "found");
     const truth = lengthOf(mediant, map, setups[0], start, goal);
@@ -53,8 +56,16 @@ test("every engine answers, with what the package finds", async () => {
   const mediant = await load();
   const map = await rows(page);
   const select = page.getByRole("combobox", { name: "Engine" });
-  const names = await select.locator("option").evaluateAll((options) => options.map((option) => /** @type {HTMLOptionElement} */ (option).value));
-  assert.deepEqual([...names].sort(), mediant.engines().map((/** @type {any} */ { name }) => name).sort());
+  const names = await select
+    .locator("option")
+    .evaluateAll((options) => options.map((option) => /** @type {HTMLOptionElement} */ (option).value));
+  assert.deepEqual(
+    [...names].sort(),
+    mediant
+      .engines()
+      .map((/** @type {any} */ { name }) => name)
+      .sort(),
+  );
   for (const name of names) {
     await select.selectOption(name);
     await settled(page);

@@ -40,9 +40,15 @@ test("Tab goes through all controls and comes around", async () => {
   assert.match(seen[0], /Skip/);
   assert.ok(seen.length > 20 && seen.length < 100, seen.join("\n"));
   for (const id of ["#open", "#share", "#theme", "#k-slider", "Zoom in", "Map, lane 1"]) {
-    assert.ok(seen.some((at) => at.includes(id)), `${id} is not reached:\n${seen.join("\n")}`);
+    assert.ok(
+      seen.some((at) => at.includes(id)),
+      `${id} is not reached:\n${seen.join("\n")}`,
+    );
   }
-  assert.ok(seen.every((at) => at.endsWith("true")), `the focus is on something unseen:\n${seen.join("\n")}`);
+  assert.ok(
+    seen.every((at) => at.endsWith("true")),
+    `the focus is on something unseen:\n${seen.join("\n")}`,
+  );
 });
 
 test("the focus is seen", async () => {
@@ -54,7 +60,9 @@ test("the focus is seen", async () => {
       const { outlineStyle, outlineWidth, boxShadow } = getComputedStyle(element);
       const after = getComputedStyle(element, "::after");
       const isFramed = after.content !== "none" && Number.parseFloat(after.borderTopWidth) >= 1;
-      return (outlineStyle !== "none" && Number.parseFloat(outlineWidth) >= 1) || boxShadow !== "none" || isFramed;
+      return (
+        (outlineStyle !== "none" && Number.parseFloat(outlineWidth) >= 1) || boxShadow !== "none" || isFramed
+      );
     });
     assert.ok(ring, `${selector} shows no focus`);
   }
@@ -90,7 +98,13 @@ test("walls are drawn and ends are put by keys", async () => {
   await page.keyboard.press("g");
   await settled(page);
   const { start, goal } = await scene(page);
-  assert.deepEqual([start, goal], [[2, 0], [9, 7]]);
+  assert.deepEqual(
+    [start, goal],
+    [
+      [2, 0],
+      [9, 7],
+    ],
+  );
   await picture(page, "keyboard");
   await page.keyboard.press("Control+z");
   await page.keyboard.press("Control+z");

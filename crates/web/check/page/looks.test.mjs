@@ -8,7 +8,12 @@ import { picture, settled, Site } from "../browser.mjs";
 /** @typedef {import("playwright-core").Page} Page */
 
 const site = new Site();
-const SIZES = /** @type {const} */ ([[380, 760], [820, 1180], [1440, 900], [2560, 1440]]);
+const SIZES = /** @type {const} */ ([
+  [380, 760],
+  [820, 1180],
+  [1440, 900],
+  [2560, 1440],
+]);
 
 for (const colorScheme of /** @type {const} */ (["light", "dark"])) {
   for (const [width, height] of SIZES) {
@@ -17,17 +22,24 @@ for (const colorScheme of /** @type {const} */ (["light", "dark"])) {
       await page.waitForTimeout(200);
       await picture(page, `looks-${width}-${colorScheme}`);
       const { scroll, inner } = await page.evaluate(() => ({
-        scroll: document.documentElement.scrollWidth, inner: innerWidth,
+        scroll: document.documentElement.scrollWidth,
+        inner: innerWidth,
       }));
       assert.ok(scroll <= inner, `the page is ${scroll} wide in a window of ${inner}`);
       const cut = await page.evaluate(() => {
         const all = [...document.querySelectorAll("button, input, select, summary, output, h1, h2")];
-        const isShown = (/** @type {Element} */ element) => element.checkVisibility() && !element.closest(".sr-only") &&
-          !element.matches(".sr-only, [type=file]") && element.getBoundingClientRect().width > 1;
-        return all.filter(isShown).filter((element) => {
-          const { left, right } = element.getBoundingClientRect();
-          return left < -1 || right > innerWidth + 1;
-        }).map((element) => element.outerHTML.slice(0, 80));
+        const isShown = (/** @type {Element} */ element) =>
+          element.checkVisibility() &&
+          !element.closest(".sr-only") &&
+          !element.matches(".sr-only, [type=file]") &&
+          element.getBoundingClientRect().width > 1;
+        return all
+          .filter(isShown)
+          .filter((element) => {
+            const { left, right } = element.getBoundingClientRect();
+            return left < -1 || right > innerWidth + 1;
+          })
+          .map((element) => element.outerHTML.slice(0, 80));
       });
       assert.deepEqual(cut, []);
       const map = await page.locator(".stage-surface, .stage canvas").first().boundingBox();
@@ -50,7 +62,12 @@ test("the theme is switched and kept", async () => {
 });
 
 test("by touch: an end is dragged, walls are drawn, two fingers zoom", async () => {
-  const look = { viewport: { width: 390, height: 800 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 };
+  const look = {
+    viewport: { width: 390, height: 800 },
+    hasTouch: true,
+    isMobile: true,
+    deviceScaleFactor: 2,
+  };
   const page = await site.open(look);
   await setLanes(page, { engine: "astar" });
   await loadRows(page, emptyRows(20, 14), [2, 7], [15, 7]);
@@ -73,14 +90,19 @@ test("by touch: an end is dragged, walls are drawn, two fingers zoom", async () 
   await settled(page);
   assert.equal((await lanes(page))[0].answer.status, "found");
   const walls = await page.evaluate(() =>
-    /** @type {any} */ (globalThis).mediant.model.cells.reduce((/** @type {number} */ sum, /** @type {number} */ cell) => sum + cell, 0));
+    /** @type {any} */ (globalThis).mediant.model.cells.reduce(
+      (/** @type {number} */ sum, /** @type {number} */ cell) => sum + cell,
+      0,
+    ),
+  );
   assert.ok(walls >= 8, `${walls} walls`);
 
   const width = async () => (await place(page, 10, 5)).x - (await place(page, 0, 5)).x;
   const before = await width();
   const middle = await place(page, 10, 6);
   const fingers = (/** @type {number} */ apart) => [
-    { x: middle.x - apart, y: middle.y, id: 1 }, { x: middle.x + apart, y: middle.y, id: 2 },
+    { x: middle.x - apart, y: middle.y, id: 1 },
+    { x: middle.x + apart, y: middle.y, id: 2 },
   ];
   await touch("touchStart", ...fingers(30));
   for (const apart of [40, 60, 80]) await touch("touchMove", ...fingers(apart));
@@ -95,23 +117,41 @@ test("every control has a name", async () => {
   await page.locator("#maps > summary").click();
   const session = await page.context().newCDPSession(page);
   const { nodes } = await session.send("Accessibility.getFullAXTree");
-  const roles = ["button", "slider", "combobox", "checkbox", "radio", "spinbutton", "textbox", "link", "tab", "img", "application", "DisclosureTriangle"];
+  const roles = [
+    "button",
+    "slider",
+    "combobox",
+    "checkbox",
+    "radio",
+    "spinbutton",
+    "textbox",
+    "link",
+    "tab",
+    "img",
+    "application",
+    "DisclosureTriangle",
+  ];
   const controls = nodes.filter(({ ignored, role }) => !ignored && roles.includes(role?.value));
   const unnamed = controls.filter(({ name }) => !name?.value?.trim());
-  assert.deepEqual(unnamed.map(({ role, backendDOMNodeId }) => `${role?.value} ${backendDOMNodeId}`), []);
+  assert.deepEqual(
+    unnamed.map(({ role, backendDOMNodeId }) => `${role?.value} ${backendDOMNodeId}`),
+    [],
+  );
   assert.ok(controls.length > 40, `${controls.length} controls`);
   await picture(page, "map-menu");
 });
 
 /** The contrast of two colors, as WCAG 2 defines it. @param {number[]} a @param {number[]} b */
 function contrast(a, b) {
-  const [light, dark] = [a, b].map((color) => {
-    const [red, green, blue] = color.map((value) => {
-      const part = value / 255;
-      return part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4;
-    });
-    return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
-  }).sort((one, other) => other - one);
+  const [light, dark] = [a, b]
+    .map((color) => {
+      const [red, green, blue] = color.map((value) => {
+        const part = value / 255;
+        return part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4;
+      });
+      return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+    })
+    .sort((one, other) => other - one);
   return (light + 0.05) / (dark + 0.05);
 }
 
@@ -120,16 +160,29 @@ for (const colorScheme of /** @type {const} */ (["light", "dark"])) {
     const page = await site.open({ colorScheme });
     const token = (/** @type {string} */ name) =>
       page.evaluate((name) => {
-        const context = /** @type {CanvasRenderingContext2D} */ (document.createElement("canvas").getContext("2d"));
+        const context = /** @type {CanvasRenderingContext2D} */ (
+          document.createElement("canvas").getContext("2d")
+        );
         context.fillStyle = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
         context.fillRect(0, 0, 1, 1);
         return [...context.getImageData(0, 0, 1, 1).data.slice(0, 3)];
       }, `--${name}`);
     for (const [front, back, least] of /** @type {const} */ ([
-      ["text", "page", 7], ["text", "panel", 7], ["muted", "page", 4.5], ["muted", "panel", 4.5],
-      ["danger", "page", 4.5], ["on-accent", "accent", 4.5], ["focus", "page", 3], ["accent", "page", 3],
-      ["control-line", "page", 3], ["wall", "free", 2], ["reference", "page", 3],
-      ["lane-0", "free", 3], ["lane-1", "free", 3], ["lane-2", "free", 3], ["lane-3", "free", 2.5],
+      ["text", "page", 7],
+      ["text", "panel", 7],
+      ["muted", "page", 4.5],
+      ["muted", "panel", 4.5],
+      ["danger", "page", 4.5],
+      ["on-accent", "accent", 4.5],
+      ["focus", "page", 3],
+      ["accent", "page", 3],
+      ["control-line", "page", 3],
+      ["wall", "free", 2],
+      ["reference", "page", 3],
+      ["lane-0", "free", 3],
+      ["lane-1", "free", 3],
+      ["lane-2", "free", 3],
+      ["lane-3", "free", 2.5],
     ])) {
       const found = contrast(await token(front), await token(back));
       assert.ok(found >= least, `--${front} on --${back}: ${found.toFixed(2)}, at least ${least}`);

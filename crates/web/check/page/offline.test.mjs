@@ -18,8 +18,7 @@ after(() => rmSync(folder, { recursive: true }));
 const site = new Site(folder);
 
 /** Waits until the page is kept for use without a network. @param {Page} page */
-const kept = (page) =>
-  page.waitForFunction(() => navigator.serviceWorker.controller?.state === "activated");
+const kept = (page) => page.waitForFunction(() => navigator.serviceWorker.controller?.state === "activated");
 
 /** Gives the server another version of the page, as the build does. @param {string} title */
 function publish(title) {
@@ -88,7 +87,10 @@ test("a version whose files are not as listed is not taken", async () => {
   await kept(page);
   const title = await page.title();
   publish("Half of a version");
-  writeFileSync(join(folder, "src/main.js"), `${readFileSync(join(folder, "src/main.js"), "utf8")}\n// changed\n`);
+  writeFileSync(
+    join(folder, "src/main.js"),
+    `${readFileSync(join(folder, "src/main.js"), "utf8")}\n// changed\n`,
+  );
   const state = await page.evaluate(async () => {
     const registration = await navigator.serviceWorker.getRegistration();
     await registration?.update().catch(() => {});

@@ -26,13 +26,15 @@ const player = (page) =>
     const { player, lanes } = /** @type {any} */ (globalThis).mediant;
     const { mode, playing, position, length } = player;
     const each = lanes.list.map((/** @type {any} */ _, /** @type {number} */ lane) => ({
-      shown: player.shown(lane), arrived: player.arrived(lane),
+      shown: player.shown(lane),
+      arrived: player.arrived(lane),
     }));
     return { mode, playing, position, length, each };
   });
 
 /** @param {Page} page @param {string | RegExp} name */
-const press = (page, name) => page.getByRole("group", { name: "Playback" }).getByRole("button", { name }).click();
+const press = (page, name) =>
+  page.getByRole("group", { name: "Playback" }).getByRole("button", { name }).click();
 
 test("four lanes side by side, with one row each", async () => {
   const page = await open();
@@ -116,10 +118,16 @@ test("lanes are added, chosen and removed", async () => {
   assert.equal((await scene(page)).active, 1);
   await page.getByRole("combobox", { name: "Engine" }).selectOption("dijkstra");
   await settled(page);
-  assert.deepEqual((await scene(page)).lanes.map((/** @type {any} */ lane) => lane.engine), ["astar", "dijkstra"]);
+  assert.deepEqual(
+    (await scene(page)).lanes.map((/** @type {any} */ lane) => lane.engine),
+    ["astar", "dijkstra"],
+  );
   await page.getByRole("button", { name: "Remove lane 1" }).click();
   await settled(page);
-  assert.deepEqual((await scene(page)).lanes.map((/** @type {any} */ lane) => lane.engine), ["dijkstra"]);
+  assert.deepEqual(
+    (await scene(page)).lanes.map((/** @type {any} */ lane) => lane.engine),
+    ["dijkstra"],
+  );
 });
 
 test("every race that is offered runs", async () => {

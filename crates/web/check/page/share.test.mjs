@@ -21,11 +21,20 @@ async function all(page) {
 /** A scene that differs from the first in everything. @param {Page} page */
 async function change(page) {
   await page.getByRole("button", { name: "Draw", exact: true }).click();
-  await drag(page, [[20, 3], [22, 30]], 10);
-  await setLanes(page,
+  await drag(
+    page,
+    [
+      [20, 3],
+      [22, 30],
+    ],
+    10,
+  );
+  await setLanes(
+    page,
     { engine: "jps", placement: "corner", k: 4, gap: "closed" },
     { engine: "canonical", corners: "always", k: 5, smooth: "taut" },
-    { engine: "anya", k: "any", placement: "corner" });
+    { engine: "anya", k: "any", placement: "corner" },
+  );
   await page.evaluate(() => {
     /** @type {any} */ (globalThis).mediant.model.set({ active: 1, nearest: true, overlay: "clearance" });
   });
@@ -94,7 +103,11 @@ test("the map, pictures and the search are saved", async () => {
   const page = await site.open();
   const map = await save(page, /^Map/);
   assert.match(map.name, /\.map$/);
-  const saved = map.text.trim().split("\n").slice(4).map((row) => row.replaceAll("@", "#"));
+  const saved = map.text
+    .trim()
+    .split("\n")
+    .slice(4)
+    .map((row) => row.replaceAll("@", "#"));
   assert.deepEqual(saved, await rows(page));
   const png = await save(page, /PNG/);
   assert.equal(png.bytes.subarray(1, 4).toString("latin1"), "PNG");

@@ -11,14 +11,19 @@ const site = new Site();
 
 /** The colors in the middle of the first pane, so that a test sees whether something else is drawn.
  *  @param {Page} page */
-const colors = (page) => page.locator(".stage").screenshot().then((bytes) => bytes.toString("base64"));
+const colors = (page) =>
+  page
+    .locator(".stage")
+    .screenshot()
+    .then((bytes) => bytes.toString("base64"));
 
 test("each overlay shows something else", async () => {
   const page = await site.open();
   const show = page.getByRole("combobox", { name: "Show", exact: true });
   const seen = new Set();
-  const overlays = await show.locator("option").evaluateAll((options) =>
-    options.map((option) => /** @type {HTMLOptionElement} */ (option).value));
+  const overlays = await show
+    .locator("option")
+    .evaluateAll((options) => options.map((option) => /** @type {HTMLOptionElement} */ (option).value));
   assert.deepEqual([...overlays].sort(), ["clearance", "distances", "flow", "none", "rules", "search"]);
   for (const placement of ["center", "corner"]) {
     await setLanes(page, { placement });
@@ -26,7 +31,10 @@ test("each overlay shows something else", async () => {
       await show.selectOption(overlay);
       await settled(page);
       if (["clearance", "distances", "flow"].includes(overlay)) {
-        await page.waitForFunction((kind) => /** @type {any} */ (globalThis).mediant.lanes.field?.kind === kind, overlay);
+        await page.waitForFunction(
+          (kind) => /** @type {any} */ (globalThis).mediant.lanes.field?.kind === kind,
+          overlay,
+        );
         const { values, size } = await page.evaluate(() => {
           const { values, width, height } = /** @type {any} */ (globalThis).mediant.lanes.field;
           return { values: values.length, size: width * height };
@@ -58,7 +66,10 @@ const agents = (page) =>
     const { walkers, model } = /** @type {any} */ (globalThis).mediant;
     const { width, cells } = model;
     const list = walkers.list.map((/** @type {any} */ { x, y, state }) => ({
-      x, y, state, isInWall: cells[Math.floor(y) * width + Math.floor(x)] === 1,
+      x,
+      y,
+      state,
+      isInWall: cells[Math.floor(y) * width + Math.floor(x)] === 1,
     }));
     return { walking: walkers.walking, counts: { ...walkers.counts }, list };
   });
@@ -74,10 +85,19 @@ test("agents walk to the goal; who is not affected by a new wall keeps its way",
   assert.equal(before.list.length, 30);
   await page.waitForTimeout(300);
   const later = await agents(page);
-  const moved = later.list.filter(({ x, y }, at) => Math.hypot(x - before.list[at].x, y - before.list[at].y) > 0.1);
+  const moved = later.list.filter(
+    ({ x, y }, at) => Math.hypot(x - before.list[at].x, y - before.list[at].y) > 0.1,
+  );
   assert.ok(moved.length > 10, `${moved.length} of 30 moved`);
   await page.getByRole("button", { name: "Draw", exact: true }).click();
-  await drag(page, [[24, 5], [24, 16]], 8);
+  await drag(
+    page,
+    [
+      [24, 5],
+      [24, 16],
+    ],
+    8,
+  );
   await page.waitForFunction(() => {
     const { counts } = /** @type {any} */ (globalThis).mediant.walkers;
     return counts.kept + counts.replanned > 0;

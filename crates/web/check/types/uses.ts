@@ -1,0 +1,166 @@
+// A use of all that the package has, for the compiler. No line of it runs.
+
+import init, {
+  Field,
+  Grid,
+  Index,
+  Picture,
+  Planner,
+  Space,
+  Trace,
+  bound,
+  checkSetup,
+  engines,
+  initSync,
+  moves,
+  version,
+  type Answer,
+  type EngineInfo,
+  type How,
+  type ImageOptions,
+  type MediantError,
+  type Motion,
+  type Options,
+  type Point,
+  type Points,
+  type WholeMotion,
+  type WidestPath,
+  type Wishes,
+} from "mediant";
+
+const bytes = new Uint8Array();
+await init({ module_or_path: bytes });
+initSync({ module: bytes });
+
+const text: string = version();
+const all: EngineInfo[] = engines();
+const able = all.map(
+  ({ name, placements, maxK, any, guarantee, paper, index, options }) =>
+    `${name} ${placements.join()} ${maxK ?? "any"} ${any} ${guarantee} ${paper} ${index} ${options.join()}`,
+);
+const star: Int32Array = moves(4);
+
+const motion: Motion = { k: 3, placement: "center", corners: "one" };
+const any: Motion = { k: "any", gap: "closed" };
+const factor: number | undefined = bound(motion);
+const why: string | undefined = checkSetup("anya", any, { smooth: "taut" });
+
+const picture: ImageOptions = { threshold: 0.3, invert: true, unknown: "free" };
+const read = Grid.read("map.yaml", bytes, { "map.pgm": bytes }, picture);
+const [width, height]: [number, number] | Int32Array | number[] = Grid.size("map.png", bytes);
+const rows = Grid.fromRows(["..", ".#"]);
+const grid = new Grid(2, 2, new Uint8Array(4)).edit(0, 0, 1, 1, Uint8Array.of(1));
+const clearance: Float64Array = grid.clearance();
+const smaller: Grid = grid.forDisc(1.5, any).forSquare(2);
+const facts = [grid.width, grid.height, grid.id, grid.cells().length, grid.isBlocked(0, 1), grid.toMap()];
+
+const from: Point = [0, 0];
+const to: Points = [
+  [1, 1],
+  [2, 2],
+];
+const how: How = { ...motion, engine: "jps", nearest: true, heuristic: "euclidean" };
+const path: Int32Array | undefined = rows.path(from, Int32Array.of(1, 1, 2, 2), how);
+
+using space: Space = read.space(motion);
+const whole: WholeMotion = space.motion;
+const { engine, why: because } = space.engine();
+const seen: boolean[] = [space.isFree(from), space.connected(from, [1, 1]), space.sees(from, [1, 1])];
+if (path && space.holds(path)) space.check(path);
+const edited: Space = space.edit(0, 0, 1, 1, new Uint8Array(1));
+const widest: WidestPath | undefined = space.widestPath(from, [1, 1], 0.2);
+if (widest) facts.push(widest.path.length, widest.distance, widest.radius);
+
+const options: Options = {
+  heuristic: "hk",
+  variant: "paper",
+  jumpLimit: 3,
+  keepIntermediate: true,
+  levels: "all",
+  side: 8,
+  unstraightened: true,
+  second: "zero",
+  step: 2,
+  detour: 1.5,
+  smooth: "linear",
+};
+const index: Index = space.prepare("hpa", options, (stage: string, done: number, of: number) => {
+  facts.push(stage, done / of);
+});
+const loaded: Index = edited.load(index.toBytes(), options);
+const repaired: Index = index.repair(edited);
+facts.push(index.engine, index.setup, index.guarantee, index.optimal, index.bound ?? 0, index.memoryBytes);
+facts.push(loaded.origin === "loaded", repaired.space.grid.width);
+
+const wishes: Wishes = {
+  nearest: true,
+  snap: true,
+  tolerance: 1,
+  maxCost: 10,
+  maxExpansions: 100,
+  timeout: 5,
+};
+const planner: Planner = index.planner();
+const trace = new Trace(true);
+const answer: Answer = planner.find(from, to, wishes, trace);
+if (answer.status === "stopped") facts.push(answer.stoppedBy ?? "", answer.best?.length ?? 0);
+facts.push(answer.distance, answer.lowerBound, answer.path?.length ?? 0);
+planner.begin(from, to, wishes);
+let next: Answer | undefined;
+while (!(next = planner.step(10, trace)))
+  facts.push(planner.best()?.length ?? 0, planner.pathTo(from)?.length ?? 0);
+const last: Answer = planner.finish(trace);
+facts.push(
+  planner.lowerBound,
+  planner.expansions,
+  trace.steps(3).length,
+  trace.posthoc(planner, from, [1, 1]),
+);
+facts.push(trace.expanded, trace.generated, trace.scanned, trace.updated);
+trace.clear();
+
+const field: Field = space.field(to, 10);
+const arrays: [Float64Array, Float32Array] = [field.distances(), field.flow()];
+facts.push(
+  field.width,
+  field.height,
+  field.get(from),
+  field.next(from)?.[0] ?? 0,
+  field.pathFrom(from)?.length ?? 0,
+);
+
+const drawing = new Picture(grid, "corner");
+drawing.field(field);
+drawing.searched(trace);
+drawing.path("name", star);
+drawing.start(from);
+drawing.goal(to);
+drawing.radius(0.5);
+drawing.caption("text");
+drawing.largestSide(512);
+const files: [Uint8Array, string] = [drawing.png(), drawing.svg()];
+
+try {
+  grid.path(from, [9, 9]);
+} catch (error) {
+  const { name, code, message } = error as MediantError;
+  facts.push(name, code, message);
+}
+planner.free();
+export {
+  able,
+  arrays,
+  because,
+  clearance,
+  engine,
+  factor,
+  facts,
+  files,
+  height,
+  last,
+  next,
+  seen,
+  smaller,
+  text,
+};
+export { whole, why, width };
