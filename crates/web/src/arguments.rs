@@ -88,7 +88,7 @@ pub(crate) fn path_points(name: &str, value: &JsValue) -> Result<Vec<Vertex>, Js
 
 fn flat_points(name: &str, flat: &Int32Array) -> Result<Vec<Vertex>, JsValue> {
     let numbers = flat.length() as usize;
-    if numbers % 2 != 0 {
+    if !numbers.is_multiple_of(2) {
         return Err(argument(
             name,
             &format!("expected an even number of coordinates x, y, …, found {numbers}"),

@@ -185,8 +185,8 @@ impl Planner {
         Ok(self.state()?.inner.best().as_ref().map(flat))
     }
 
-    /// The path by which the search that was begun has reached a vertex; undefined where it has not, and
-    /// without a search.
+    /// The path by which the search that was begun has reached a vertex, until it has answered; undefined
+    /// where it has not, and without a search.
     #[wasm_bindgen(js_name = pathTo)]
     pub fn path_to(
         &self,

@@ -149,7 +149,7 @@ impl Trace {
             }
             let at = |step: &u32| Vertex::new((step / 2 % width) as i32, (step / 2 / width) as i32);
             let is_open =
-                |step: &&u32| *step % 2 == 0 && is_expanded.get(**step as usize / 2) == Some(&false);
+                |step: &&u32| step.is_multiple_of(2) && is_expanded.get(**step as usize / 2) == Some(&false);
             let expanded = events.steps.iter().filter(|&step| step % 2 == 1).map(at).collect();
             Ok(Some((expanded, events.steps.iter().filter(is_open).map(at).collect())))
         })?

@@ -1,10 +1,12 @@
-//! The types of plain objects, for TypeScript.
+//! The types of plain objects, for TypeScript. The reference in the first line is for the `[Symbol.dispose]`
+//! that wasm-bindgen declares, which older settings of TypeScript do not know.
 
 use js_sys::Int32Array;
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
-const TYPES: &str = r#"
+const TYPES: &str = r#"/// <reference lib="esnext.disposable" />
+
 /** A vertex: x to the right, y down, whole numbers from 0. */
 export type Point = readonly [x: number, y: number];
 

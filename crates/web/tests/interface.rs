@@ -167,12 +167,13 @@ fn steps_and_traces() {
         let now = get(&planner, "lowerBound").as_f64().expect("a number");
         assert!(now >= lower && ok(&planner, "best", &[]).is_object());
         lower = now;
+        assert_eq!(numbers(&ok(&planner, "pathTo", &[at(0, 0)])), [0, 0]);
+        assert!(ok(&planner, "pathTo", &[at(7, 2)]).is_undefined(), "it is far away");
         count += 1.0;
         assert_eq!(get(&planner, "expansions").as_f64(), Some(count));
     };
     assert_eq!(numbers(&get(&answer, "path")), numbers(&get(&at_once, "path")));
     assert_eq!(Uint32Array::from(ok(&trace, "steps", &[])).to_vec(), steps);
-    assert!(!ok(&planner, "pathTo", &[at(2, 2)]).is_undefined());
     // Finished, stopped, not begun.
     ok(&planner, "begin", &[at(0, 0), at(7, 0)]);
     assert_eq!(get(&ok(&planner, "finish", &[]), "distance").as_f64(), Some(11.0));

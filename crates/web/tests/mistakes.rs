@@ -109,7 +109,7 @@ fn objects_that_were_freed_and_arrays_that_were_detached() {
     let index = ok(&ok(&grid, "space", &[]), "prepare", &["hpa".into()]);
     let space = ok(&other, "space", &[]);
     ok(&space, "free", &[]);
-    assert_eq!(thrown(&index, "repair", &[space.clone()]), "TypeError ");
+    assert_eq!(thrown(&index, "repair", std::slice::from_ref(&space)), "TypeError ");
     assert!(call(&space, "isFree", &[json("[0, 0]")]).is_err());
     // An index outlives its grid.
     ok(&grid, "free", &[]);

@@ -253,8 +253,8 @@ export class Pane {
     const answer = state?.answer;
     // The optimum comes a little after its answer: until then the legend stays as it is.
     if (answer && (answer.reference || !answer.path.length)) this.#isBeaten = isBeaten(answer);
-    const words = { search, isBeaten: this.#isBeaten };
-    this.legend.update(isHere ? model.overlay : "none", lanes.field, setup, words);
+    const { legend } = this;
+    legend.update(isHere ? model.overlay : "none", lanes.field, setup, { search, isBeaten: this.#isBeaten });
     const label = `Map, lane ${this.lane + 1}: ${engineName(setup.engine)}, k = ${kText(setup.k)}`;
     if (this.surface.getAttribute("aria-label") !== label) this.surface.setAttribute("aria-label", label);
   }
