@@ -111,7 +111,7 @@ export const badge = (page, end) =>
     return [model[end][0] - shift, model[end][1] - shift];
   }, end);
 
-/** Drops files on the page. @param {Page} page @param {{ name: string, bytes: Uint8Array | string }[]} files */
+/** Drops files. @param {Page} page @param {{ name: string, bytes: Uint8Array | string }[]} files */
 export async function drop(page, ...files) {
   const list = files.map(({ name, bytes }) => ({ name, bytes: Array.from(Buffer.from(bytes)) }));
   const dataTransfer = await page.evaluateHandle((list) => {
@@ -133,7 +133,7 @@ export async function message(page, pattern) {
   return (await found.first().textContent()) ?? "";
 }
 
-/** Whether a text is a whole sentence for people. It may begin with the name of a file. @param {string} text */
+/** Whether a text is a sentence for people. It may begin with the name of a file. @param {string} text */
 export const isSentence = (text) =>
   /^\S.{8,}[.!?]$/s.test(text.trim()) && !/undefined|NaN|\[object/.test(text);
 

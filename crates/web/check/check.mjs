@@ -36,7 +36,7 @@ function isInstalled() {
   });
 }
 
-/** Installs the dev dependencies, unless they are there. No program of theirs runs while they are installed. */
+/** Installs the dev dependencies, unless they are there. No program of theirs runs meanwhile. */
 function install() {
   if (isInstalled()) return true;
   console.log("== npm install: playwright-core, typescript");

@@ -1,8 +1,8 @@
 // Times the package in node beside the program, on the same queries: `node crates/web/check/compare.mjs`.
 //
 // It needs `cargo xtask web`, `cargo build --release -p mediant-cli`, and the sets dao, room and street of
-// `cargo xtask download`. It writes the table of docs/measurements/web.md and its figure. Measure on a machine
-// that does nothing else. Options: `--queries 100`, `--repeat 3`, `--program PATH`, `--dry` to write nothing.
+// `cargo xtask download`. It writes the table of docs/measurements/web.md and its figure. Measure while the
+// machine does nothing else. Options: `--queries 100`, `--repeat 3`, `--program PATH`, `--dry` to write nothing.
 
 import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
@@ -173,7 +173,8 @@ async function main() {
     console.log(`The machine is busy (load ${loadavg()[0].toFixed(2)}): times will be off`);
   const results = await measure();
   const day = new Date().toLocaleDateString("en-GB", { day: "numeric", month: "long", year: "numeric" });
-  const machine = `${day}, ${cpus()[0]?.model.trim()}, node ${process.versions.node}, V8 ${process.versions.v8}.`;
+  const { node, v8 } = process.versions;
+  const machine = `${day}, ${cpus()[0]?.model.trim()}, node ${node}, V8 ${v8}.`;
   const text = table(results, machine);
   const greatest = Math.max(...results.map(({ wasm, native }) => wasm / native));
   const all = mean(results.map(({ wasm, native }) => wasm / native));

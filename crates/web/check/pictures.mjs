@@ -3,8 +3,10 @@
 import { deflateSync } from "node:zlib";
 
 /** @param {string[]} rows `#` is a wall */
-export const movingai = (rows) =>
-  `type octile\nheight ${rows.length}\nwidth ${rows[0].length}\nmap\n${rows.join("\n").replaceAll("#", "@")}\n`;
+export const movingai = (rows) => {
+  const head = `type octile\nheight ${rows.length}\nwidth ${rows[0].length}\nmap`;
+  return `${head}\n${rows.join("\n").replaceAll("#", "@")}\n`;
+};
 
 /** A gray picture: walls black. @param {string[]} rows */
 export const pgm = (rows) => {
@@ -14,7 +16,8 @@ export const pgm = (rows) => {
 
 /** A map of ROS that names its picture. @param {string} picture */
 export const ros = (picture) =>
-  `image: ${picture}\nresolution: 0.05\norigin: [0.0, 0.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n`;
+  `image: ${picture}\nresolution: 0.05\norigin: [0.0, 0.0, 0.0]\nnegate: 0\n` +
+  "occupied_thresh: 0.65\nfree_thresh: 0.196\n";
 
 const CRC = Uint32Array.from({ length: 256 }, (_, byte) => {
   let crc = byte;

@@ -14,7 +14,8 @@ export async function load() {
 
 /**
  * The length of a path for a lane of the page.
- * @param {any} mediant @param {string[]} rows @param {any} setup @param {number[]} start @param {number[]} goal
+ * @param {any} mediant @param {string[]} rows @param {any} setup
+ * @param {number[]} start @param {number[]} goal
  */
 export function lengthOf(mediant, rows, setup, start, goal) {
   const { engine, k, placement, corners, gap } = setup;

@@ -10,16 +10,16 @@ const FRAME = 16;
 
 /**
  * Drags the goal through the map for about two seconds, as a hand does, and returns what the page measured.
- * @param {import("playwright-core").Page} page
+ * @param {import("playwright-core").Page} page @param {number} [steps]
  */
-async function dragThrough(page) {
+async function dragThrough(page, steps = 120) {
   const { width, height } = await scene(page);
   const at = await badge(page, "goal");
   const from = await place(page, ...at);
   await page.mouse.move(from.x, from.y);
   await page.mouse.down();
-  for (let step = 1; step <= 120; step += 1) {
-    const turn = (step / 120) * 2 * Math.PI;
+  for (let step = 1; step <= steps; step += 1) {
+    const turn = (step / steps) * 2 * Math.PI;
     const x = Math.round(width * (0.5 + 0.4 * Math.cos(turn)));
     const y = Math.round(height * (0.5 + 0.4 * Math.sin(2 * turn)));
     const to = await place(page, x, y);
@@ -46,7 +46,7 @@ for (const [name, side, setup] of /** @type {const} */ ([
     await generate(page, name, side);
     await settled(page, 60_000);
     // As everywhere, code that has run a little is faster.
-    await dragThrough(page);
+    await dragThrough(page, 40);
     const { frames, latencies } = await dragThrough(page);
     const [work, delay] = [quantile(frames, 0.95), quantile(latencies, 0.95)];
     t.diagnostic(

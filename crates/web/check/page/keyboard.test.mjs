@@ -16,7 +16,8 @@ const focused = (page) =>
     if (!element || element === document.body) return "";
     const { width, height } = element.getBoundingClientRect();
     const label = element.getAttribute("aria-label") ?? element.textContent?.trim().slice(0, 30);
-    return `${element.tagName.toLowerCase()}${element.id ? `#${element.id}` : ""} ${label} ${width > 0 && height > 0}`;
+    const id = element.id ? `#${element.id}` : "";
+    return `${element.tagName.toLowerCase()}${id} ${label} ${width > 0 && height > 0}`;
   });
 
 /** Presses Tab until the element has the focus. @param {Page} page @param {string} selector */

@@ -48,7 +48,7 @@ async function linkOf(page) {
   return page.evaluate(() => navigator.clipboard.readText());
 }
 
-/** @param {Page} page @param {RegExp} what @returns {Promise<{ name: string, text: string, bytes: Buffer }>} */
+/** What a download holds, and its name. @param {Page} page @param {RegExp} what */
 async function save(page, what) {
   await page.locator("#save > summary").click();
   const [download] = await Promise.all([

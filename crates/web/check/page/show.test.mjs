@@ -49,7 +49,7 @@ test("each overlay shows something else", async () => {
   assert.equal(seen.size, 2 * overlays.length);
 });
 
-test("a disc as the agent: cells that are too narrow are shown, and its path keeps away from walls", async () => {
+test("a disc as the agent: what is too narrow is shown, and its path keeps away from walls", async () => {
   const page = await site.open();
   const radius = page.getByRole("slider", { name: "Agent radius" });
   await radius.focus();
