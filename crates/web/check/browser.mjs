@@ -110,7 +110,7 @@ export class Site {
   }
 }
 
-/** Waits until every lane has answered for the scene as it is. @param {Page} page @param {number} [timeout] */
+/** Waits until every lane has answered for the scene. @param {Page} page @param {number} [timeout] */
 export async function settled(page, timeout = 20_000) {
   await page.waitForFunction(
     () => {

@@ -64,7 +64,7 @@ function main() {
     console.error("error: there is no package or no page in target/web: `cargo xtask web` makes them");
     process.exit(2);
   }
-  const files = tests("package");
+  const files = [...tests("."), ...tests("package")];
   if (!install()) {
     notRun.push("types and the page: npm cannot install playwright-core and typescript here");
   } else {

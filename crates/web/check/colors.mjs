@@ -69,7 +69,8 @@ export function quantized(data, count) {
   const places = new Map();
   exact.forEach(([color], place) => places.set(color, place));
   boxes.forEach((box, at) => box.forEach(([color]) => places.set(color, exact.length + at)));
-  const palette = [...exact.map(([color]) => [0, 1, 2].map((channel) => part(color, channel))), ...boxes.map(mean)];
+  const parts = exact.map(([color]) => [0, 1, 2].map((channel) => part(color, channel)));
+  const palette = [...parts, ...boxes.map(mean)];
   const indices = new Uint8Array(data.length / 4);
   for (let at = 0; at < indices.length; at += 1) {
     const color = (data[4 * at] << 16) | (data[4 * at + 1] << 8) | data[4 * at + 2];

@@ -2,7 +2,7 @@
 //
 // It needs `cargo xtask web`, `cargo build --release -p mediant-cli`, and the sets dao, room and street of
 // `cargo xtask download`. It writes the table of docs/measurements/web.md and its figure. Measure while the
-// machine does nothing else. Options: `--queries 100`, `--repeat 3`, `--program PATH`, `--dry` to write nothing.
+// machine does nothing else. Options: `--queries 100`, `--repeat 3`, `--program PATH`, `--dry` (write nothing).
 
 import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";

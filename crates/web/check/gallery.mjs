@@ -20,7 +20,8 @@ const FOLDER = join(ROOT, "docs/web");
 const [MOST, MOST_IN_ALL] = [300_000, 1_500_000];
 
 /** @param {Page} page @param {string} name */
-const race = (page, name) => page.getByRole("combobox", { name: "Set up a race" }).selectOption({ label: name });
+const race = (page, name) =>
+  page.getByRole("combobox", { name: "Set up a race" }).selectOption({ label: name });
 /** @param {Page} page @param {number} share of the whole search */
 const at = (page, share) =>
   page.evaluate((share) => {
@@ -102,8 +103,13 @@ const PICTURES = [
       await setLanes(page, { engine: "anya", k: "any", placement: "corner" });
       await loadRows(page, emptyRows(48, 30), [3, 15], [44, 15]);
       await page.getByRole("button", { name: "Draw", exact: true }).click();
-      for (const [x, from, to] of [[12, 4, 26], [22, 0, 20], [22, 24, 29], [34, 8, 29]]) {
-        await drag(page, [[x, from], [x, to]], 12); // prettier-ignore
+      for (const walls of ["12 4 26", "22 0 20", "22 24 29", "34 8 29"]) {
+        const [x, from, to] = walls.split(" ").map(Number);
+        const ends = /** @type {[number, number][]} */ ([
+          [x, from],
+          [x, to],
+        ]);
+        await drag(page, ends, 12);
       }
     },
   },
