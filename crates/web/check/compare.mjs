@@ -2,7 +2,8 @@
 //
 // It needs `cargo xtask web`, `cargo build --release -p mediant-cli`, and the sets dao, room and street of
 // `cargo xtask download`. It writes the table of docs/measurements/web.md and its figure. Measure while the
-// machine does nothing else. Options: `--queries 100`, `--repeat 3`, `--program PATH`, `--dry` (write nothing).
+// machine does nothing else. Options: `--queries 100`, `--repeat 5`, `--program PATH`,
+// `--dry` to write nothing.
 
 import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
@@ -29,7 +30,7 @@ const SETUPS = [
 ];
 
 /**
- * One engine on one map. Times are nanoseconds of a query, the mean; those of preparation are milliseconds.
+ * One engine on one map. Times are nanoseconds of a query, the mean.
  * @typedef {object} Result
  * @property {string} map
  * @property {string} size
@@ -38,14 +39,12 @@ const SETUPS = [
  * @property {number} queries
  * @property {number} native
  * @property {number} wasm
- * @property {number} nativePrepare
- * @property {number} wasmPrepare
  */
 
 const { values } = parseArgs({
   options: {
     queries: { type: "string", default: "100" },
-    repeat: { type: "string", default: "3" },
+    repeat: { type: "string", default: "5" },
     program: { type: "string", default: join(ROOT, "target/release/mediant") },
     dry: { type: "boolean", default: false },
   },
@@ -83,37 +82,22 @@ function native(file, /** @type {string} */ engine, /** @type {number | "any"} *
     .trim()
     .split("\n")
     .map((line) => JSON.parse(line));
-  return { run: lines[0], queries: lines.filter(({ type }) => type === "query") };
-}
-
-/**
- * Prepares an engine twice, on a grid that was never searched; returns the index and the shorter time.
- * @param {any} mediant @param {string} file @param {string} engine @param {number | "any"} k
- */
-function prepare(mediant, file, engine, k) {
-  let [index, best] = [null, Infinity];
-  for (let run = 0; run < 2; run += 1) {
-    const grid = mediant.Grid.read(file, readFileSync(file));
-    const from = performance.now();
-    index = grid.space({ k }).prepare(engine);
-    best = Math.min(best, performance.now() - from);
-  }
-  return { index, ms: best };
+  return lines.filter(({ type }) => type === "query");
 }
 
 /**
  * The mean of the same queries by the package, each the best of some runs.
- * @param {any} index @param {ReturnType<typeof native>} record
+ * @param {any} index @param {any[]} queries
  */
-function wasm(index, record) {
+function wasm(index, queries) {
   const planner = index.planner();
   // V8 optimizes what has run often. A page that answers queries has come there after a moment.
   const from = performance.now();
   do {
-    for (const { start, goal } of record.queries) planner.find(start, goal);
+    for (const { start, goal } of queries) planner.find(start, goal);
   } while (performance.now() - from < WARM);
   let total = 0;
-  for (const query of record.queries) {
+  for (const query of queries) {
     check(query, planner.find(query.start, query.goal), index.setup);
     let best = Infinity;
     for (let run = 0; run < repeat; run += 1) {
@@ -123,7 +107,7 @@ function wasm(index, record) {
     }
     total += best;
   }
-  return (total / record.queries.length) * 1e6;
+  return (total / queries.length) * 1e6;
 }
 
 /** The package must give the very path that the program gives. */
@@ -145,18 +129,16 @@ async function measure() {
     need(file, "cargo xtask download --set dao room street");
     const grid = mediant.Grid.read(file, readFileSync(file));
     for (const { engine, k } of SETUPS) {
-      const record = native(file, engine, k);
-      const { index, ms } = prepare(mediant, file, engine, k);
+      const queries = native(file, engine, k);
+      const index = grid.space({ k }).prepare(engine);
       const result = {
         map: map.split("/")[1],
         size: `${grid.width} × ${grid.height}`,
         engine,
         k,
-        queries: record.queries.length,
-        native: record.queries.reduce((sum, { nanos }) => sum + nanos, 0) / record.queries.length,
-        wasm: wasm(index, record),
-        nativePrepare: record.run.preprocess_ns / 1e6,
-        wasmPrepare: ms,
+        queries: queries.length,
+        native: queries.reduce((sum, { nanos }) => sum + nanos, 0) / queries.length,
+        wasm: wasm(index, queries),
       };
       results.push(result);
       const ratio = (result.wasm / result.native).toFixed(2);

@@ -13,24 +13,18 @@ export function table(results, machine) {
   const rows = [
     machine,
     "",
-    "| map | engine | k | queries | native, µs | node, µs | ratio | prepare, native, ms | node, ms | ratio |",
-    "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|",
+    "| map | engine | k | queries | native, µs | node, µs | ratio |",
+    "|---|---|--:|--:|--:|--:|--:|",
   ];
-  for (const result of results) {
-    const { map, size, engine, k, queries, native, wasm, nativePrepare, wasmPrepare } = result;
-    // Times below a tenth of a millisecond say nothing of a preparation that happens once.
-    const isPrepared = nativePrepare >= 0.1;
+  for (const { map, size, engine, k, queries, native, wasm } of results) {
+    const times = [native / 1e3, wasm / 1e3].map(digits);
     const cells = [
       `${map}, ${size}`,
       engine,
       k === "any" ? "∞" : k,
       queries,
-      digits(native / 1e3),
-      digits(wasm / 1e3),
+      ...times,
       (wasm / native).toFixed(2),
-      isPrepared ? digits(nativePrepare) : "–",
-      isPrepared ? digits(wasmPrepare) : "–",
-      isPrepared ? (wasmPrepare / nativePrepare).toFixed(2) : "–",
     ];
     rows.push(`| ${cells.join(" | ")} |`);
   }
