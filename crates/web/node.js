@@ -1,4 +1,4 @@
-// The package in node, where a module's neighbor is read rather than fetched: `init()` needs no argument there.
+// The package in node, where files are read, not fetched: `init()` needs no argument there.
 import { readFileSync } from "node:fs";
 import init from "./mediant.js";
 

@@ -8,10 +8,10 @@ import { generate, generators, whyNotGenerated } from "../page/src/model/generat
 import { Random, root } from "../page/src/model/generate/random.js";
 import { digestOf } from "../page/src/model/scene.js";
 
-const SEED = Number(process.env.SEED ?? Date.now() % 1_000_000);
+const SEED = Number(process.env.SEED ?? 1);
 
-/** The digests of the maps of side 64 and of side 333, both of seed 1. Links hold only name, side and seed of a
- * map: when a generator changes, its maps in old links are lost. */
+/** The digests of the maps of side 64 and of side 333, both of seed 1. Links hold only name, side and seed of
+ * a map: when a generator changes, its maps in old links are lost. */
 const DIGESTS = {
   obstacles: ["NraQUA", "wWjNbw"],
   city: ["EeL-1Q", "8wYpAQ"],

@@ -78,7 +78,7 @@ async function firstScene(model) {
 function markFirstPath(lanes) {
   let isMarked = false;
   changes(lanes, () => {
-    const isThere = lanes.list.some(({ phase, answer }) => phase === "done" && answer && answer.path.length > 0);
+    const isThere = lanes.list.some(({ phase, answer }) => phase === "done" && answer?.path.length);
     if (isMarked || !isThere) return;
     isMarked = true;
     // The answer is drawn in the next frame, which is painted before the one after it.
