@@ -215,7 +215,7 @@ fn fields_and_pictures() {
     ok(&planner(&grid, "{}", "astar"), "find", &[at(0, 0), at(7, 0), NONE, trace.clone()]);
     let picture = JsValue::from(Picture::new(&grid, &"center".into()).expect("a picture"));
     ok(&picture, "field", std::slice::from_ref(&field));
-    ok(&picture, "searched", &[trace.clone()]);
+    ok(&picture, "searched", std::slice::from_ref(&trace));
     ok(&picture, "path", &["way".into(), ok(&grid, "path", &[at(0, 0), at(7, 0)])]);
     ok(&picture, "start", &[at(0, 0)]);
     ok(&picture, "goal", &[json("[[7, 0], [7, 2]]")]);

@@ -1,39 +1,48 @@
 //! The modules of the page, announced in its head.
 //!
 //! A browser sees what a module imports once it has the module. Over a graph of some depth that is one wait for
-//! the network after another. So the head lists all modules that `src/main.js` imports, of themselves or by
-//! others, and the engines, and all are fetched at once. The sources of the page need no such list to work.
+//! the network after another. So the head lists the engines and all modules that it starts, with what they
+//! import, of themselves or by others. They are listed in the order in which they are started: what starts the
+//! first worker comes before the many that it can do without. The sources of the page need no such list to work.
 
-use std::{collections::BTreeSet, path::Path};
+use std::path::Path;
 
 use super::parts::File;
 
 const HEAD: &str = "index.html";
-const FIRST: &str = "src/main.js";
 const ENGINES: &str = "mediant/mediant_bg.wasm";
-/// The element that starts the page.
-const SCRIPT: &str = "<script type=\"module\" src=\"src/main.js\">";
+/// How an element begins that starts a module.
+const SCRIPT: &str = "<script type=\"module\"";
 
-/// Writes the list before the element that starts the page, if there is one.
+/// Writes the list before the first element that starts a module, if there is one.
 pub(super) fn announce(files: &mut [File]) {
-    let mut found = BTreeSet::new();
-    follow(files, FIRST, &mut found);
-    found.remove(FIRST);
+    let Some(head) = files.iter().position(|file| file.path == HEAD) else { return };
+    let text = String::from_utf8_lossy(&files[head].bytes).into_owned();
+    let Some(at) = text.find(SCRIPT) else { return };
+    let started: Vec<&str> = text.lines().filter_map(started).collect();
+    let mut found = Vec::new();
+    for path in &started {
+        follow(files, path, &mut found);
+    }
+    found.retain(|path| !started.contains(&&**path));
     // As `fetch` in a module asks for it; anything else would be fetched a second time.
     let mut links = format!("<link rel=\"preload\" href=\"{ENGINES}\" as=\"fetch\" crossorigin>\n");
     links.extend(found.iter().map(|path| format!("<link rel=\"modulepreload\" href=\"{path}\">\n")));
-    for head in files.iter_mut().filter(|file| file.path == HEAD) {
-        let text = String::from_utf8_lossy(&head.bytes);
-        head.bytes = text.replacen(SCRIPT, &format!("{links}{SCRIPT}"), 1).into_bytes();
-    }
+    files[head].bytes = [&text[..at], &links, &text[at..]].concat().into_bytes();
+}
+
+/// The module that a line of the head starts.
+fn started(line: &str) -> Option<&str> {
+    line.trim().strip_prefix(SCRIPT)?.split_once("src=\"")?.1.split_once('"').map(|(path, _)| path)
 }
 
 /// Adds a module and all that it imports.
-fn follow(files: &[File], path: &str, found: &mut BTreeSet<String>) {
+fn follow(files: &[File], path: &str, found: &mut Vec<String>) {
     let Some(file) = files.iter().find(|file| file.path == path) else { return };
-    if !found.insert(path.to_owned()) {
+    if found.iter().any(|known| known == path) {
         return;
     }
+    found.push(path.to_owned());
     let text = String::from_utf8_lossy(&file.bytes);
     for import in text.lines().filter_map(imported) {
         follow(files, &beside(path, import), found);
@@ -71,7 +80,7 @@ fn beside(module: &str, relative: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{File, SCRIPT, announce, imported};
+    use super::{File, announce, imported};
 
     #[test]
     fn lines_that_import() {
@@ -85,22 +94,26 @@ mod tests {
     }
 
     #[test]
-    fn all_that_main_imports_is_announced_once() {
+    fn all_that_is_imported_is_announced_once_in_the_order_of_the_scripts() {
         let file = |path: &str, text: &str| File { path: path.to_owned(), bytes: text.into() };
+        let head = "<script type=\"module\" async src=\"src/warm.js\"></script>\n\
+            <script type=\"module\" src=\"src/main.js\"></script>\n";
         let mut files = [
-            file("index.html", SCRIPT),
+            file("index.html", &format!("<meta>\n{head}")),
             file("src/main.js", "import { a } from \"./a/a.js\";\nimport { b } from \"./b.js\";"),
             file("src/a/a.js", "import { b } from \"../b.js\";"),
             file("src/b.js", "import { a } from \"./a/a.js\";\nimport m from \"../mediant/mediant.js\";"),
             file("src/c.js", ""),
+            file("src/warm.js", "import { d } from \"./d.js\";"),
+            file("src/d.js", ""),
             file("mediant/mediant.js", ""),
         ];
         announce(&mut files);
         let text = String::from_utf8_lossy(&files[0].bytes).into_owned();
-        let links = ["mediant/mediant.js", "src/a/a.js", "src/b.js"]
+        let links = ["src/d.js", "src/a/a.js", "src/b.js", "mediant/mediant.js"]
             .map(|path| format!("<link rel=\"modulepreload\" href=\"{path}\">\n"));
-        let (engines, rest) = text.split_once('\n').unwrap();
+        let (engines, rest) = text.strip_prefix("<meta>\n").unwrap().split_once('\n').unwrap();
         assert!(engines.contains("as=\"fetch\" crossorigin"), "{engines}");
-        assert_eq!(rest, links.concat() + SCRIPT);
+        assert_eq!(rest, links.concat() + head);
     }
 }
