@@ -83,14 +83,15 @@ fn is_of(program: &Path, version: &str) -> bool {
     })
 }
 
-/// Installs the program. First with the crates that its authors tested it with; a registry that lacks one of
+/// Installs the program, and the one that runs tests. First with the crates that its authors tested it with; a registry that lacks one of
 /// them may have a later one. Whether it worked is seen by the program itself.
 fn install(tools: &Path, version: &str) {
     for locked in [&["--locked"][..], &[]] {
         let mut command = project::cargo();
         command.args(["install", "wasm-bindgen-cli", "--force", "--version", version]).args(locked);
         // A few seconds of its time are worth less than minutes of optimizing it.
-        command.args(["--profile", "dev"]).env("CARGO_PROFILE_DEV_OPT_LEVEL", "1");
+        command.args(["--profile", "dev", "--bin", "wasm-bindgen", "--bin", "wasm-bindgen-test-runner"]);
+        command.env("CARGO_PROFILE_DEV_OPT_LEVEL", "1").env("CARGO_PROFILE_DEV_DEBUG", "false");
         let shown = format!("cargo install wasm-bindgen-cli --version {version} {}", locked.join(" "));
         if step(command.arg("--root").arg(tools), shown.trim_end()).is_ok() {
             return;

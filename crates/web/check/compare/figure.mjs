@@ -86,7 +86,7 @@ export function figure(results) {
     `<line class="axis" x1="${LEFT}" y1="${bottom}" x2="${RIGHT}" y2="${bottom}"/>`,
     `<line class="limit" x1="${limit}" y1="${TOP - 8}" x2="${limit}" y2="${bottom}"/>`,
     words("muted", "times as long as native", RIGHT, bottom + 38, ' text-anchor="end"'),
-    words("muted", `our limit, ${LIMIT}`, limit + 6, bottom - 6),
+    words("muted", `our limit, ${LIMIT}`, limit + 6, TOP + 4),
   );
   maps.forEach((map, series) => {
     const x = LEFT + series * 170;
