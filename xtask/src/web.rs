@@ -1,9 +1,9 @@
 //! `cargo xtask web`: the npm package `mediant`, and the page that shows it.
 //!
-//! It compiles `mediant-web` to WebAssembly, has the program `wasm-bindgen` write its JavaScript, and puts two
-//! folders together, in `target/web`: `package`, which `npm publish` and `npm install` take, and `page`, which
-//! any web server takes. What it needs besides Rust is had from Cargo. There is no bundler: the page is what
-//! `crates/web/page` holds, with the package and the maps beside it.
+//! It compiles `mediant-web` to WebAssembly, has the program `wasm-bindgen` write its JavaScript, and puts
+//! two folders together, in `target/web`: `package`, which `npm publish` and `npm install` take, and `page`,
+//! which any web server takes. What it needs besides Rust is had from Cargo. There is no bundler: the page is
+//! what `crates/web/page` holds, with the package and the maps beside it.
 
 mod modules;
 mod page;
@@ -44,8 +44,8 @@ pub struct Options {
 /// Builds both folders, or only provides the tools.
 ///
 /// # Errors
-/// [`Error::Lacking`] if the target or the program `wasm-bindgen` cannot be had, [`Error::Step`] for a command
-/// that failed, [`Error::Io`] for a file, [`Error::Large`] if the module weighs too much.
+/// [`Error::Lacking`] if the target or the program `wasm-bindgen` cannot be had, [`Error::Step`] for a
+/// command that failed, [`Error::Io`] for a file, [`Error::Large`] if the module weighs too much.
 pub fn run(options: Options) -> Result<(), Error> {
     tools::provide_target()?;
     let program = tools::wasm_bindgen()?;

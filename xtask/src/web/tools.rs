@@ -83,8 +83,8 @@ fn is_of(program: &Path, version: &str) -> bool {
     })
 }
 
-/// Installs the program, and the one that runs tests. First with the crates that its authors tested it with; a registry that lacks one of
-/// them may have a later one. Whether it worked is seen by the program itself.
+/// Installs the program, and the one that runs tests. First with the crates that its authors tested it with;
+/// a registry that lacks one of them may have a later one. Whether it worked is seen by the program itself.
 fn install(tools: &Path, version: &str) {
     for locked in [&["--locked"][..], &[]] {
         let mut command = project::cargo();

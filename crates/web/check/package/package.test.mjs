@@ -12,7 +12,7 @@ import {
   symlinkSync,
   writeFileSync,
 } from "node:fs";
-import { tmpdir } from "node:os";
+import { homedir, tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 import { PACKAGE, ROOT } from "../places.mjs";
@@ -33,7 +33,7 @@ test("the module is small, and has no path of the machine that built it", () => 
   const bytes = readFileSync(join(PACKAGE, "mediant_bg.wasm"));
   assert.ok(statSync(join(PACKAGE, "mediant_bg.wasm")).size < 3_000_000);
   const text = bytes.toString("latin1");
-  for (const path of ["/home/", "/Users/", ".cargo/registry", ".rustup/"]) {
+  for (const path of [homedir(), ".cargo/registry", ".rustup/", "registry/src/"]) {
     const at = text.indexOf(path);
     assert.equal(at, -1, `the module holds ${text.slice(at - 40, at + 60)}`);
   }
