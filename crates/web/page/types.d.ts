@@ -187,9 +187,12 @@ export interface Player extends EventTarget {
 
 export type Tool = "move" | "draw" | "erase" | "fill" | "rectangle";
 
-/** stage/stage.js: the panes, one for each lane; pointer and keyboard on them. */
-export interface Stage {
+/** stage/stage.js: the panes, one for each lane; pointer and keyboard on them. Dispatches `tool` when another tool is
+ *  taken, and `say` with a sentence as `detail` about the keyboard's cell. */
+export interface Stage extends EventTarget {
   tool: Tool;
+  /** Where a point of the map, in cells, is in the window, in CSS pixels. */
+  place(lane: number, x: number, y: number): { x: number; y: number };
   fit(): void;
   zoom(factor: number): void;
   /** Milliseconds of the page's work in each frame of the last drag. */
@@ -198,11 +201,21 @@ export interface Stage {
   readonly latencies: readonly number[];
 }
 
+export interface Walker {
+  x: number;
+  y: number;
+  /** What is left of its path, in vertices. */
+  path: Int32Array;
+  state: "walking" | "arrived" | "stuck";
+  /** Whether it has just planned anew. */
+  fresh: boolean;
+}
+
 /** search/walkers.js: agents that walk to the goal with the active lane's motion and engine. Dispatches `change`. */
 export interface Walkers extends EventTarget {
   readonly walking: boolean;
   /** Places in cells (fractions) of the drawn map, at the center of the agent. */
-  readonly list: readonly { x: number; y: number; path: Int32Array; state: "walking" | "arrived" | "stuck"; fresh: boolean }[];
+  readonly list: readonly Walker[];
   /** `kept` and `replanned` since the last edit; `checks` in all. */
   readonly counts: { walking: number; arrived: number; stuck: number; kept: number; replanned: number; ms: number };
   start(count: number): void;
