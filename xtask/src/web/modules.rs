@@ -1,9 +1,9 @@
 //! The modules of the page, announced in its head.
 //!
 //! A browser sees what a module imports once it has the module. Over a graph of some depth that is one wait
-//! for the network after another. So the head lists the engines and all modules that it starts, with what they
-//! import, of themselves or by others. They are listed in the order in which they are started: what starts the
-//! first worker comes before the many that it can do without. The sources of the page need no such list.
+//! for the network after another. So the head lists the engines and all modules that it starts, with what
+//! they import, of themselves or by others. They are listed in the order in which they are started: what
+//! starts the first worker comes before the many that it can do without. The sources need no such list.
 
 use std::path::Path;
 

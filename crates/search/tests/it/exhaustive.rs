@@ -1,8 +1,8 @@
 //! Every map of 4 × 4 cells, from every vertex to every other, k = 3, 4, 5, all five rules: the canonical and
 //! jump point family against Dijkstra, exactly, in integer costs.
 //!
-//! By default on every 127th map; with `MEDIANT_EXHAUSTIVE=1` on all 65,536, with `MEDIANT_EXHAUSTIVE=3` on every
-//! third.
+//! By default on every 127th map; with `MEDIANT_EXHAUSTIVE=1` on all 65,536, with `MEDIANT_EXHAUSTIVE=3` on
+//! every third.
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use std::{
@@ -35,8 +35,8 @@ struct Sample {
     corners: [u64; 3],
 }
 
-/// The default sample first. Its steps are odd, so that the maps of each differ in all cells. The rules of a placement
-/// do not matter: which vertices are free does not depend on them.
+/// The default sample first. Their steps are odd, so that the maps of each differ in all cells. The rules of a
+/// placement do not matter: which vertices are free does not depend on them.
 const SAMPLES: [Sample; 3] = [
     Sample { every: 127, centers: [205_164, 136_776, 136_776], corners: [1_194_354, 796_236, 796_236] },
     Sample {
