@@ -35,8 +35,8 @@ struct Sample {
     corners: [u64; 3],
 }
 
-/// The default sample first. Their steps are odd, so that the maps of each differ in all cells. The rules of a
-/// placement do not matter: which vertices are free does not depend on them.
+/// The default sample first. Their steps are odd, so that the maps of each differ in all cells. The rules of
+/// a placement do not matter: which vertices are free does not depend on them.
 const SAMPLES: [Sample; 3] = [
     Sample { every: 127, centers: [205_164, 136_776, 136_776], corners: [1_194_354, 796_236, 796_236] },
     Sample {
