@@ -61,8 +61,9 @@ pub enum SetupError {
     },
     /// Vertices at centers, for an engine that takes them only for small k.
     #[error(
-        "at centers {engine} needs k = 2, or k = 3 under corners never, found k = {k} under {rules}: \
+        "at centers {engine} takes k = 2, or k = 3 with corners never, not k = {k} with {}: \
          choose one of these,{} or another engine",
+        rules.to_string().trim_start_matches("center, "),
         if engine.capabilities().placements.contains(&PlacementKind::Corner) { " placement corner," } else { "" }
     )]
     Centers {

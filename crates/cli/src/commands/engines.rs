@@ -16,7 +16,7 @@ use crate::{
 /// How to read the table.
 const NOTES: &str = "\
 `both` is center and corner. optimal(k) at k = any: no legal path is shorter.
-At centers subgoal, hpa and chpa take k = 2, and k = 3 under corners never.";
+At centers subgoal, hpa and chpa take k = 2, and k = 3 with corners never.";
 
 /// Runs the command.
 pub(crate) fn list(screen: &mut Screen) -> Result<(), Failure> {

@@ -212,7 +212,7 @@ fn an_index_for_something_else_is_refused() {
 fn options_that_an_engine_does_not_take_are_refused() {
     let files = Files::new();
     let choose = "leave it out, or choose";
-    let small = "found k = 3 under center, corners one: choose one of these, or another engine";
+    let small = "not k = 3 with corners one: choose one of these, or another engine";
     for (options, message) in [
         ("--side 3", "astar takes no side: leave it out, or choose hpa, chpa".to_owned()),
         ("--engine subgoal --side 3", "subgoal takes no side: leave it out, or choose hpa, chpa".to_owned()),
@@ -245,8 +245,8 @@ fn options_that_an_engine_does_not_take_are_refused() {
             "--engine jps --heuristic squared",
             "jps takes no heuristic that overestimates: leave it out, or choose astar, chpa".to_owned(),
         ),
-        ("--engine hpa --corners one", format!("at centers hpa needs k = 2, or k = 3 under corners never, {small}")),
-        ("--engine chpa --corners one", format!("at centers chpa needs k = 2, or k = 3 under corners never, {small}")),
+        ("--engine hpa --corners one", format!("at centers hpa takes k = 2, or k = 3 with corners never, {small}")),
+        ("--engine chpa --corners one", format!("at centers chpa takes k = 2, or k = 3 with corners never, {small}")),
         ("--engine hpa --k 4", "hpa needs a k from 2 to 3, found 4".to_owned()),
         ("--engine chpa --k any", "chpa needs a k from 2 to 3; for any choose anya, subgoal".to_owned()),
         (

@@ -257,12 +257,12 @@ fn setups_without_a_subgoal_graph_are_refused() {
         ),
         (
             "--engine subgoal --k 4",
-            "at centers subgoal needs k = 2, or k = 3 under corners never, found k = 4 under center, corners never: \
+            "at centers subgoal takes k = 2, or k = 3 with corners never, not k = 4 with corners never: \
              choose one of these, placement corner, or another engine",
         ),
         (
             "--engine subgoal --corners one",
-            "at centers subgoal needs k = 2, or k = 3 under corners never, found k = 3 under center, corners one: \
+            "at centers subgoal takes k = 2, or k = 3 with corners never, not k = 3 with corners one: \
              choose one of these, placement corner, or another engine",
         ),
         (

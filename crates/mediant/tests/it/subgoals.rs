@@ -49,7 +49,7 @@ fn subgoal_graphs_at_centers_are_for_small_k() {
     let said = "subgoal:3:one".parse::<Setup>().expect_err("corners are cut").to_string();
     assert!(
         said.ends_with(
-            "at centers subgoal needs k = 2, or k = 3 under corners never, found k = 3 under center, corners one: \
+            "at centers subgoal takes k = 2, or k = 3 with corners never, not k = 3 with corners one: \
              choose one of these, placement corner, or another engine"
         ),
         "{said}"

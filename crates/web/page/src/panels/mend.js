@@ -8,7 +8,7 @@ import { engineName, kText } from "./words.js";
 /** What takes the place of an engine that does not take the motion. @type {Record<string, string>} */
 const INSTEAD = { "jps-block": "jps", "jps-plus": "jps", "subgoal-theta": "theta" };
 
-/** Engines that at centers take k = 2, and k = 3 under corners never. */
+/** Engines that at centers take k = 2, and k = 3 with corners never. */
 const NARROW_AT_CENTERS = ["subgoal", "hpa", "chpa"];
 
 /**
