@@ -26,7 +26,8 @@ const WORDS = [
   ["k, N(k)", "N(k) is the neighborhood of 2ᵏ moves: N(2) is 4-connected, N(3) 8-connected, N(∞) has every "
     + "direction."],
   ["mediant", "The sum of two neighboring moves. N(k + 1) has one between every two moves of N(k)."],
-  ["excess", "How much longer a path is than the shortest path at any angle."],
+  ["excess", "How much longer a path is than the shortest path at any angle; at centers, than the shortest "
+    + "over N(k)."],
   ["certificate", "What is proven of this one path: it is at most so much longer than the shortest at any "
     + "angle."],
   ["expansion", "The search takes a vertex from its open list and looks at its successors."],

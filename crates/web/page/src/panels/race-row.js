@@ -20,11 +20,21 @@ const length = (lane) => (lane.answer?.status === "found" ? lane.answer.length :
 /** @param {LaneState} lane */
 const certificate = ({ answer }) => (answer?.status === "found" ? answer.bound ?? undefined : undefined);
 
+/** A query that was refused has no search: it must not win by doing nothing.
+ *  @param {LaneState} lane */
+const searched = ({ answer }) => (answer && !answer.error ? answer : undefined);
+/** @param {number | undefined} value @param {(value: number) => string} text */
+const shown = (value, text) => (value === undefined ? "" : text(value));
+/** A number is not parted from its unit at the end of a line. @param {string} text */
+const whole = (text) => text.replace(" ", "\u00a0");
+/** @param {number} bound */
+const atMost = (bound) => (bound === 1 ? over(bound) : `≤ ${over(bound)}`);
+
 /** @type {readonly Column[]} */
 export const COLUMNS = [
   { name: "k", title: "The number of moves is 2 to the k", value: null, text: (_, setup) => kText(setup.k) },
-  { name: "Expansions", title: "Vertices taken from the open list", value: ({ answer }) => answer?.expanded,
-    text: ({ answer }) => (answer ? count(answer.expanded) : "") },
+  { name: "Expansions", title: "Vertices taken from the open list",
+    value: (lane) => searched(lane)?.expanded, text: (lane) => shown(searched(lane)?.expanded, count) },
   { name: "Length", title: "In cells", value: length,
     text: lengthText },
   { name: "Excess", title: "How much longer the path is than the shortest", value: ({ answer }) =>
@@ -36,11 +46,12 @@ export const COLUMNS = [
   } },
   { name: "Certificate", title: "Proven: at most so much longer than the shortest path at any angle",
     value: certificate,
-    text: (lane) => (certificate(lane) === undefined ? "" : `≤ ${over(certificate(lane) ?? 1)}`) },
-  { name: "Time", title: "Of one query on a warm planner", value: ({ answer }) => answer?.ms,
-    text: ({ answer }) => (answer && !answer.error ? time(answer.ms) : "") },
+    text: (lane) => shown(certificate(lane), atMost) },
+  { name: "Time", title: "Of one query on a warm planner",
+    value: (lane) => searched(lane)?.ms, text: (lane) => shown(searched(lane)?.ms, time) },
   { name: "Index", title: "What the engine prepared, once for the map", value: null,
-    text: ({ index }) => (index && index.bytes > 0 ? `${time(index.ms)}, ${size(index.bytes)}` : "–") },
+    text: ({ index }) =>
+      (index && index.bytes > 0 ? `${whole(time(index.ms))}, ${whole(size(index.bytes))}` : "–") },
 ];
 
 export class RaceRow {

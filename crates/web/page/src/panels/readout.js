@@ -79,6 +79,9 @@ function tell(lane) {
   }, 700);
 }
 
+/** @param {number} ratio */
+const apart = (ratio) => (more(ratio).startsWith("−") ? `${over(2 - ratio)} under` : `${over(ratio)} over`);
+
 /** @param {LaneState} lane */
 function sentence({ answer }) {
   if (!answer) return "";
@@ -86,8 +89,8 @@ function sentence({ answer }) {
   const expanded = `${count(answer.expanded)} expansions`;
   if (answer.status === "unreachable") return `There is no path. ${expanded}.`;
   const ratio = excess(answer);
-  const what = answer.reference?.what === "k" ? "its neighborhood" : "any angle";
-  const above = ratio === undefined ? "" : `, ${over(ratio)} over the shortest at ${what}`;
+  const what = answer.reference?.what === "k" ? "over N(k)" : "at any angle";
+  const above = ratio === undefined ? "" : `, ${apart(ratio)} the shortest ${what}`;
   const found = answer.status === "nearest" ? "No way to the goal; to the nearest vertex" : "Found";
   return `${found}: ${cells(answer.length)} cells${above}, ${expanded}.`;
 }

@@ -115,8 +115,13 @@ export function over(ratio) {
   return `${Number(text) === 0 ? "0" : text} %`;
 }
 
-/** A ratio as percent, with its sign. @param {number} ratio */
-export const more = (ratio) => (over(ratio) === "0 %" ? "0 %" : `+${over(ratio)}`);
+/** A ratio as percent, with its sign: a path that leaves N(k) may be shorter than the shortest over N(k).
+ *  @param {number} ratio */
+export function more(ratio) {
+  const isLess = ratio < 1;
+  const text = over(isLess ? 2 - ratio : ratio);
+  return text === "0 %" ? text : `${isLess ? "−" : "+"}${text}`;
+}
 
 /** A time, with three digits that count. @param {number} ms */
 export function time(ms) {
