@@ -120,9 +120,9 @@ const short = (value) => (value >= 100 ? value.toFixed(0) : String(Number(value.
  *  @param {{ search: string, isBeaten: boolean }} shown */
 function legendOf(overlay, field, setup, { search, isBeaten }) {
   if (overlay === "search" && search) {
-    const what = setup.placement === "corner" ? "shortest at any angle" : "shortest over N(k)";
-    const optimum = isBeaten ? `<i class="stage-optimum"></i><span>${what}</span>` : "";
-    return `${optimum}<span>expanded first</span><i class="stage-scale is-${search}"></i><span>last</span>
+    const what = setup.placement === "corner" ? "at any angle" : "over N(k)";
+    const optimum = isBeaten ? `<i class="stage-optimum"></i><span>shortest<b> ${what}</b></span>` : "";
+    return `${optimum}<span>expanded<b> first</b></span><i class="stage-scale is-${search}"></i><b>last</b>
       <i class="stage-tile"></i><span>open</span>`;
   }
   if (field && field.kind === overlay && overlay !== "flow") {
