@@ -126,7 +126,7 @@ export function* search(session, ask, say) {
     answer.steps = recording.steps();
     answer.ms = repeated(planner, ask, found.ms);
   } catch (error) {
-    answer.error = refusal(error);
+    answer.error = refusal(error, ask);
   } finally {
     recording.trace.free();
   }
@@ -152,12 +152,30 @@ function emptyAnswer(session, { start, goal, setup }) {
 /**
  * What the library said against the query. Anything else is not for the user: it is thrown on.
  * @param {unknown} error
+ * @param {Ask} ask
  */
-function refusal(error) {
+function refusal(error, ask) {
   if (error instanceof Error && error.name === "MediantError" && "code" in error && error.code !== "memory") {
-    return { code: String(error.code), message: sentence(textOf(error)) };
+    const code = String(error.code);
+    return { code, message: tooNarrow(code, ask) || sentence(textOf(error)) };
   }
   throw error;
+}
+
+/**
+ * The library knows the map for the agent only, on which a place that is too narrow is blocked. The user sees
+ * a free cell there.
+ * @param {string} code
+ * @param {Ask} ask
+ */
+function tooNarrow(code, { start, goal, radius }) {
+  const place = { "start-blocked": start, "goal-blocked": goal }[code];
+  if (!radius || !place) {
+    return "";
+  }
+  const end = place === start ? "start" : "goal";
+  return `An agent of radius ${radius} does not fit at the ${end} (${place.join(", ")}): ` +
+    `move the ${end}, or make the agent smaller.`;
 }
 
 /**
