@@ -60,7 +60,7 @@ async function randomModel(random) {
   model.setLanes(Array.from({ length: random.between(1, 4) }, () => randomLane(random)));
   model.set({
     active: random.below(4), overlay: random.pick(OVERLAYS), nearest: random.chance(50),
-    radius: random.pick([0, 0.5, 1.125, 1000]), agents: random.pick([0, 3, 10_000]),
+    radius: random.pick([0, 0.5, 1.125, 1000]), agents: random.pick([0, 3, 400]),
   });
   return model;
 }

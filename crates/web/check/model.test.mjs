@@ -182,7 +182,7 @@ test("lanes: 1 to 4, known fields; numbers are brought into their bounds", () =>
   assert.throws(() => model.setLanes([]), RangeError);
   model.set({ active: 9, radius: -1, agents: 1e9, overlay: "nothing", nearest: 1 });
   const { active, radius, agents, overlay, nearest } = model;
-  assert.deepEqual([active, radius, agents, overlay, nearest], [0, 0, 10_000, "search", false]);
+  assert.deepEqual([active, radius, agents, overlay, nearest], [0, 0, 400, "search", false]);
 });
 
 test("undo keeps within its memory and forgets the oldest steps first", () => {

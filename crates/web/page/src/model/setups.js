@@ -8,7 +8,7 @@ export const MOST_LANES = 4;
 /** The largest k that the lattice engines take. Beyond it there is only "any". */
 export const LARGEST_K = 12;
 export const LARGEST_RADIUS = 1000;
-export const MOST_AGENTS = 10_000;
+export const MOST_AGENTS = 400;
 
 /** The page's limit: 4096 × 4096. */
 export const MOST_CELLS = 16_777_216;

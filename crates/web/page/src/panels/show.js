@@ -1,13 +1,11 @@
 // What lies over the map, with its legend; and the agents.
 
+import { MOST_AGENTS } from "../model/setups.js";
 import { changes, eachFrame, field, h, part, select, setText } from "./dom.js";
 import { icon, setIcon } from "./icons.js";
 import { count, time } from "./words.js";
 
 /** @typedef {import("../../types").Overlay} Overlay */
-
-/** The most agents that walk. */
-const MOST = 400;
 
 /** @type {Record<Overlay, string>} */
 const NAMES = {
@@ -60,7 +58,8 @@ export class ShowPanel {
 export class AgentsPanel {
   #model;
   #walkers;
-  #number = h("input", { type: "number", min: 1, max: MOST, step: 1, value: 12, inputmode: "numeric" });
+  #number = h("input",
+    { type: "number", min: 1, max: MOST_AGENTS, step: 1, value: 12, inputmode: "numeric" });
   #walk = h("button", { type: "button" }, icon("walk"), h("span", {}, "Walk"));
   #counts = h("p", { class: "small agents-counts", role: "status" });
 
@@ -71,7 +70,7 @@ export class AgentsPanel {
     if (model.agents > 0) this.#number.value = String(model.agents);
     this.#walk.addEventListener("click", () => this.#toggle());
     this.#number.addEventListener("change", () => {
-      const agents = Math.min(MOST, Math.max(1, Math.round(Number(this.#number.value) || 1)));
+      const agents = Math.min(MOST_AGENTS, Math.max(1, Math.round(Number(this.#number.value) || 1)));
       this.#number.value = String(agents);
       if (walkers.walking) model.set({ agents });
     });

@@ -5,11 +5,11 @@
 /** @import { ErrandDone, FromLane } from "./protocol.js" */
 /** @import { Agent } from "./agent.js" */
 /** @import { Lanes } from "./lanes.js" */
+import { MOST_AGENTS } from "../model/setups.js";
 import { errandOf, mayWalk, need, newAgent, take } from "./agent.js";
 import { changeOf, motionKey, setupKey } from "./protocol.js";
 import { advance, meets, offsetOf } from "./walk.js";
 
-const MOST = 400;
 /** How long an agent that has got another way is marked, and how long it stays at the goal, in ms. */
 const [FRESH, REST] = [700, 1000];
 /** How long we wait for another worker, in ms. */
@@ -86,7 +86,7 @@ export class Walkers extends EventTarget {
 
   /** @param {number} count */
   start(count) {
-    this.#wanted = Math.max(0, Math.min(MOST, Math.floor(count)));
+    this.#wanted = Math.max(0, Math.min(MOST_AGENTS, Math.floor(count)));
     if (!this.#wanted) {
       this.stop();
       return;
