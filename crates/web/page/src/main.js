@@ -15,7 +15,7 @@ import { MapsMenu } from "./panels/maps-menu.js";
 import { startMenus } from "./panels/menu.js";
 import { banner, say, sentence } from "./panels/message.js";
 import { PlaybackBar } from "./panels/playback.js";
-import { FIRST_LANE } from "./panels/presets.js";
+import { FIRST_SIGHT } from "./panels/presets.js";
 import { RacePanel } from "./panels/race.js";
 import { openScene } from "./panels/scenes.js";
 import { Setups } from "./panels/setups.js";
@@ -66,7 +66,7 @@ async function loadLink(model) {
 /** The scene of the link, or else the one of the first sight. @param {Model} model */
 async function firstScene(model) {
   if (await loadLink(model)) return;
-  model.setLanes([{ ...FIRST_LANE }]);
+  model.setLanes([{ ...FIRST_SIGHT }]);
   try {
     model.load(await loadMap({ kind: "bundled", name: "archipelago" }));
   } catch (error) {

@@ -34,7 +34,8 @@ export function startK(model, lanes, setups, bounds) {
     showValue(slider, setup);
     star.show(setup.k);
     const known = bounds.of(setup);
-    worth.show(setup, known, lanes.list[model.active] ?? null, model.version);
+    worth.show(setup, known, lanes.list[model.active] ?? null,
+      `${model.version} ${model.radius}`);
     readout(setup, lanes.list[model.active] ?? null, known.get(setup.k));
   });
   changes(model, show);
@@ -105,7 +106,7 @@ class Star {
 
 /** The bars over the slider: the bound of each k, and the excess of the paths that were seen. */
 class Worth {
-  /** The excess by k, of the map and ends of now. @type {Map<number | "any", number>} */
+  /** The excess by k, of the scene of now. @type {Map<number | "any", number>} */
   #seen = new Map();
   #key = "";
   #drawn = "";
@@ -114,12 +115,12 @@ class Worth {
    * @param {LaneSetup} setup
    * @param {Map<number | "any", number | null>} bounds
    * @param {import("../../types").LaneState | null} lane
-   * @param {number} version
+   * @param {string} scene the map, and the agent on it
    */
-  show(setup, bounds, lane, version) {
+  show(setup, bounds, lane, scene) {
     const answer = lane && !lane.stale ? lane.answer : null;
     const ends = answer ? `${answer.start} ${answer.goal}` : this.#key.split("|")[2] ?? "";
-    const key = `${setup.placement} ${setup.corners} ${setup.gap}|${version}|${ends}`;
+    const key = `${setup.placement} ${setup.corners} ${setup.gap} ${setup.smooth}|${scene}|${ends}`;
     if (key !== this.#key) this.#seen.clear();
     this.#key = key;
     if (answer?.reference?.what === "any" && answer.status === "found" && answer.reference.length > 0) {

@@ -29,4 +29,4 @@ export const PRESETS = [
 ];
 
 /** The lane of the first sight. */
-export const FIRST_LANE = CORNERS;
+export const FIRST_SIGHT = CORNERS;
