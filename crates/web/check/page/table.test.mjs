@@ -1,0 +1,91 @@
+// What the table of lanes and the captions say: who wins, what is proven, and names that can be read.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { emptyRows, loadRows, messages, scene, setLanes } from "../act.mjs";
+import { settled, Site } from "../browser.mjs";
+
+/** @typedef {import("playwright-core").Page} Page */
+
+const site = new Site();
+
+/** @param {Page} page @param {number} lane @param {string} column */
+const cell = (page, lane, column) =>
+  page.locator("#race tbody tr").nth(lane).locator(`td[data-label="${column}"]`);
+
+test("what was refused wins nothing", async () => {
+  const page = await site.open();
+  // The goal is in a wall for centers, and on its edge for corners.
+  await loadRows(page, ["....", "....", "...#"], [0, 0], [3, 2]);
+  await setLanes(page, {}, { placement: "corner" });
+  await settled(page);
+  await page.getByText("blocked").first().waitFor();
+  for (const column of ["Expansions", "Time"]) {
+    assert.equal(await cell(page, 0, column).textContent(), "–", column);
+  }
+  assert.equal(await page.locator("#race td.best").count(), 0);
+});
+
+test("an optimal path at any angle is certified with 0 %, one that leaves N(k) may be shorter", async () => {
+  const page = await site.open();
+  await loadRows(page, emptyRows(12, 12), [0, 0], [9, 4]);
+  await setLanes(page, { engine: "theta" }, { engine: "anya", k: "any", placement: "corner" });
+  await settled(page);
+  await page.waitForFunction(() => {
+    const { list } = /** @type {any} */ (globalThis).mediant.lanes;
+    return list.every((/** @type {any} */ lane) => lane.answer?.reference);
+  });
+  await page.waitForTimeout(100);
+  assert.equal(await cell(page, 1, "Certificate").textContent(), "0 %");
+  // √97 instead of 5 + 4 √2.
+  assert.equal(await cell(page, 0, "Excess").textContent(), "−7.58 % over N(3)");
+});
+
+test("where the agent does not fit, the sentence says so", async () => {
+  const page = await site.open();
+  await loadRows(page, emptyRows(12, 12), [0, 0], [6, 6]);
+  await setLanes(page, {});
+  await page.evaluate(() => /** @type {any} */ (globalThis).mediant.model.set({ radius: 2 }));
+  await settled(page);
+  await page
+    .getByText("An agent of radius 2 does not fit at the start (0, 0): move the start, or make")
+    .first()
+    .waitFor();
+  assert.deepEqual(await messages(page), []);
+});
+
+for (const [width, height] of /** @type {const} */ ([
+  [1440, 900],
+  [1100, 760],
+  [380, 760],
+])) {
+  test(`${width} pixels: four engines are told by their captions, and no lane is out of reach`, async () => {
+    const page = await site.open({ viewport: { width, height } });
+    await setLanes(
+      page,
+      ...["theta", "lazy-theta", "subgoal", "anya"].map((engine) => {
+        const k = engine === "anya" ? "any" : 3;
+        return { engine, k, placement: "corner" };
+      }),
+    );
+    await settled(page);
+    assert.equal((await scene(page)).lanes.length, 4);
+    await page.waitForTimeout(300);
+    const found = await page.evaluate(() => {
+      const box = (/** @type {Element | null} */ element) => element?.getBoundingClientRect();
+      const names = [...document.querySelectorAll(".stage-engine")].map((name) => box(name)?.width ?? 0);
+      const panes = [...document.querySelectorAll(".stage-pane")];
+      const pane = panes.find((pane) => pane.querySelector(".stage-optimum"));
+      const part = (/** @type {string} */ name) => box(pane?.querySelector(name) ?? null);
+      const [length, legend] = [part(".stage-length"), part(".stage-legend")];
+      const scroll = document.querySelector(".race-scroll");
+      const hidden = scroll ? scroll.scrollWidth - scroll.clientWidth : 0;
+      const covered = length && legend?.width && legend.top < length.bottom ? length.right - legend.left : 0;
+      return { names, hidden, covered };
+    });
+    // "Anya" takes 34 pixels.
+    for (const name of found.names) assert.ok(name > 30, `${found.names}`);
+    assert.ok(found.covered <= 0, `the legend covers ${found.covered} pixels of the length`);
+    assert.ok(found.hidden <= 0, `${found.hidden} pixels of the table are hidden`);
+  });
+}
