@@ -41,6 +41,14 @@ test("an optimal path at any angle is certified with 0 %, one that leaves N(k) m
   assert.equal(await cell(page, 0, "Excess").textContent(), "−7.58 % over N(3)");
 });
 
+test("a caption is read out in parts", async () => {
+  const page = await site.open();
+  await loadRows(page, emptyRows(12, 12), [0, 0], [9, 4]);
+  await setLanes(page, {});
+  await settled(page);
+  await page.getByRole("button", { name: "A*, k = 3, 10.66", exact: true }).waitFor();
+});
+
 test("where the agent does not fit, the sentence says so", async () => {
   const page = await site.open();
   await loadRows(page, emptyRows(12, 12), [0, 0], [6, 6]);

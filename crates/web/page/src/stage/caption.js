@@ -69,6 +69,7 @@ export class Caption {
     this.status = element("span", "stage-status", this.button);
     this.bar = element("span", "stage-progress", this.button);
     this.lane = -1;
+    this.name = "";
   }
 
   /** @param {number} lane @param {LaneSetup} setup @param {LaneState | undefined} state @param {boolean}
@@ -83,6 +84,11 @@ export class Caption {
     say(this.length, isKnown ? cells(answer.length) : "");
     const status = state ? statusOf(state) : "starting";
     say(this.status, status);
+    // The parts of the caption are set apart by space alone: read out, "k = 3" and "74.43" were one number.
+    const name = [engineName(setup.engine), this.k.textContent, this.length.textContent, status]
+      .filter(Boolean).join(", ");
+    if (this.name !== name) this.button.setAttribute("aria-label", name);
+    this.name = name;
     this.button.classList.toggle("is-wrong", !!state && sentenceOf(state) !== "");
     this.button.setAttribute("aria-pressed", String(isActive));
     const progress = state?.phase === "preparing" ? state.progress : null;
