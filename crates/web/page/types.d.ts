@@ -99,8 +99,9 @@ export interface LaneAnswer {
   length: number;
   expanded: number;
   generated: number;
-  /** Milliseconds of one query on a warm planner. */
+  /** Milliseconds of one query on a warm planner, once it has settled: the first runs include the browser's compiler. */
   ms: number;
+  settled: boolean;
   /** `optimal(3)`, `suboptimal`, … */
   guarantee: string;
   optimal: boolean;

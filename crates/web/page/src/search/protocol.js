@@ -65,7 +65,7 @@
  *   | { type: "prepared", number: number, took: number, wasEdit: boolean, index: LaneState["index"] }
  *   | { type: "searching", number: number, expanded: number }
  *   | { type: "answer", number: number, answer: LaneAnswer, memory: number }
- *   | { type: "timing", number: number, ms: number }
+ *   | { type: "timing", number: number, ms: number, settled: boolean }
  *   | { type: "reference", number: number, reference: LaneAnswer["reference"] }
  *   | { type: "failed", number: number, message: string, broken: boolean }
  *   | { type: "walked", id: number, done: ErrandDone[], ms: number, over: boolean }

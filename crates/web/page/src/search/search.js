@@ -125,6 +125,7 @@ export function* search(session, ask, say) {
     answer.generated = recording.generated;
     answer.steps = recording.steps();
     answer.ms = repeated(planner, ask, found.ms);
+    answer.settled = ask.hurry || answer.ms >= MOST_AGAIN;
   } catch (error) {
     answer.error = refusal(error, ask);
   } finally {
@@ -143,7 +144,7 @@ function emptyAnswer(session, { start, goal, setup }) {
   const { index, grid } = session;
   return {
     start, goal, status: "invalid", path: new Int32Array(0), length: Infinity,
-    expanded: 0, generated: 0, ms: 0, steps: null, reference: null, error: null,
+    expanded: 0, generated: 0, ms: 0, settled: true, steps: null, reference: null, error: null,
     guarantee: index?.guarantee ?? "", optimal: index?.optimal ?? false, bound: index?.bound ?? null,
     verticesPerRow: (grid?.width ?? 0) + (setup.placement === "corner" ? 1 : 0),
   };
@@ -232,7 +233,7 @@ export function* refine(session, ask, answer, timed, say) {
   if (!timed && !ask.hurry && answer.ms < MOST_AGAIN) {
     const { ms } = yield* sliced(planner, questionOf(ask), session);
     answer.ms = repeated(planner, ask, ms);
-    say({ type: "timing", number, ms: answer.ms });
+    say({ type: "timing", number, ms: answer.ms, settled: answer.ms >= SHORT });
     yield;
   }
   if (answer.path.length && !(ask.hurry && session.judgment > LITTLE)) {
@@ -243,7 +244,8 @@ export function* refine(session, ask, answer, timed, say) {
   }
   if (!ask.hurry && answer.ms < SHORT) {
     // By now the browser may have made the code faster.
-    say({ type: "timing", number, ms: Math.min(answer.ms, repeated(planner, ask, answer.ms)) });
+    const ms = Math.min(answer.ms, repeated(planner, ask, answer.ms));
+    say({ type: "timing", number, ms, settled: true });
   }
 }
 

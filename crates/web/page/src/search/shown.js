@@ -85,6 +85,7 @@ export class Shown {
     }
     if (message.type === "timing") {
       answer.ms = message.ms;
+      answer.settled = message.settled;
     } else {
       answer.reference = message.reference;
     }
