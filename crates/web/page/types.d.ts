@@ -1,15 +1,20 @@
-// What the modules of the page say to each other. The modules are JavaScript with types in comments, which the
-// tests check against this file.
+// What the modules of the page say to each other. The modules are JavaScript with types in comments, which
+// the tests check against this file.
 
 import type { EngineInfo, Motion } from "./mediant/mediant.js";
 
-/** A cell, or a vertex: x to the right, y down, from 0. At centers a vertex is its cell; at corners it is the top left
- *  corner of its cell. */
+/** A cell, or a vertex: x to the right, y down, from 0. At centers a vertex is its cell; at corners it is
+ *  the top left corner of its cell. */
 export type Point = [number, number];
 
-export interface Rect { x: number; y: number; width: number; height: number }
+export interface Rect {
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+}
 
-/** An engine with its motion: what one lane of a race runs. Of `corners` and `gap` the placement takes one. */
+/** An engine with its motion: what a lane of a race runs. Of `corners` and `gap` the placement takes one. */
 export interface LaneSetup {
   engine: string;
   k: number | "any";
@@ -46,7 +51,8 @@ export interface Change {
   gesture?: boolean;
 }
 
-/** model/model.js: the scene, and the only place that changes it. Dispatches `change` with a `Change` as `detail`. */
+/** model/model.js: the scene, and the only place that changes it. Dispatches `change` with a `Change` as
+ *  `detail`. */
 export interface Model extends EventTarget {
   readonly width: number;
   readonly height: number;
@@ -70,8 +76,15 @@ export interface Model extends EventTarget {
   /** Between `beginGesture` and `endGesture`: an end is dragged, or cells are drawn. */
   readonly gesture: "" | "end" | "cells";
 
-  load(map: { width: number; height: number; cells: Uint8Array; source: MapSource; start?: Point; goal?: Point;
-    edited?: boolean }): void;
+  load(map: {
+    width: number;
+    height: number;
+    cells: Uint8Array;
+    source: MapSource;
+    start?: Point;
+    goal?: Point;
+    edited?: boolean;
+  }): void;
   /** All changes of cells until `endGesture` are one step of undo. */
   beginGesture(kind: "end" | "cells"): void;
   endGesture(): void;
@@ -99,7 +112,8 @@ export interface LaneAnswer {
   length: number;
   expanded: number;
   generated: number;
-  /** Milliseconds of one query on a warm planner, once it has settled: the first runs include the browser's compiler. */
+  /** Milliseconds of one query on a warm planner, once it has settled: the first runs include the browser's
+   *  compiler. */
   ms: number;
   settled: boolean;
   /** `optimal(3)`, `suboptimal`, … */
@@ -107,7 +121,8 @@ export interface LaneAnswer {
   optimal: boolean;
   /** The certificate: no path at any angle is shorter than length / bound. */
   bound: number | null;
-  /** The steps of the search (`Trace.steps` of the package), if they were recorded; there are `verticesPerRow` in a row. */
+  /** The steps of the search (`Trace.steps` of the package), if they were recorded; there are
+   *  `verticesPerRow` in a row. */
   steps: Uint32Array | null;
   verticesPerRow: number;
   /** A shortest path: at any angle (corners), or over the lane's N(k) (centers). Comes a little later. */
@@ -154,19 +169,22 @@ export interface Lanes extends EventTarget {
   /** What the overlay shows, for the active lane: one number for each vertex (or cell, for clearance). */
   readonly field: {
     kind: "clearance" | "distances" | "flow";
-    width: number; height: number; placement: "center" | "corner";
+    width: number;
+    height: number;
+    placement: "center" | "corner";
     values: Float32Array;
     /** dx, dy for each vertex, of kind flow. */
     flow: Float32Array | null;
     greatest: number;
   } | null;
-  /** The cells where no agent of the model's radius fits, 1 = too narrow, walls included; null for a point. */
+  /** Where no agent of the model's radius fits: 1 = too narrow, walls included; null for a point. */
   readonly tooNarrow: Uint8Array | null;
 }
 
 /** stage/player.js: how much of each search is shown. Dispatches `change`. */
 export interface Player extends EventTarget {
-  /** Same pace: so many expansions of each lane. Real time: what each lane had done after so many ms, slowed down. */
+  /** Same pace: so many expansions of each lane. Real time: what each lane had done after so many ms,
+   *  slowed down. */
   mode: "pace" | "time";
   /** Expansions (or thousandths of the longest search's time) a second. */
   speed: number;
@@ -188,8 +206,8 @@ export interface Player extends EventTarget {
 
 export type Tool = "move" | "draw" | "erase" | "fill" | "rectangle";
 
-/** stage/stage.js: the panes, one for each lane; pointer and keyboard on them. Dispatches `tool` when another tool is
- *  taken, and `say` with a sentence as `detail` about the keyboard's cell. */
+/** stage/stage.js: the panes, one for each lane; pointer and keyboard on them. Dispatches `tool` when
+ *  another tool is taken, and `say` with a sentence as `detail` about the keyboard's cell. */
 export interface Stage extends EventTarget {
   tool: Tool;
   /** Where a point of the map, in cells, is in the window, in CSS pixels. */
@@ -212,13 +230,21 @@ export interface Walker {
   fresh: boolean;
 }
 
-/** search/walkers.js: agents that walk to the goal with the active lane's motion and engine. Dispatches `change`. */
+/** search/walkers.js: agents that walk to the goal with the active lane's motion and engine. Dispatches
+ *  `change`. */
 export interface Walkers extends EventTarget {
   readonly walking: boolean;
   /** Places in cells (fractions) of the drawn map, at the center of the agent. */
   readonly list: readonly Walker[];
   /** `kept` and `replanned` since the last edit; `checks` in all. */
-  readonly counts: { walking: number; arrived: number; stuck: number; kept: number; replanned: number; ms: number };
+  readonly counts: {
+    walking: number;
+    arrived: number;
+    stuck: number;
+    kept: number;
+    replanned: number;
+    ms: number;
+  };
   start(count: number): void;
   stop(): void;
 }
