@@ -159,7 +159,13 @@ test("the model takes a copy of the cells, clamps ends, and refuses what is no m
   assert.throws(() => model.load({ ...map, width: 7 }), /6|7/);
   assert.throws(() => model.load({ ...map, width: 0, height: 0, cells: new Uint8Array(0) }), RangeError);
   assert.throws(() => model.load({ ...map, width: 8192, height: 4096 }), /too large/);
+  assert.throws(() => model.load(empty(4096, 4097)), /too large/);
+  assert.throws(() => model.load(empty(32_769, 1)), /1 to 32768/);
   assert.equal(stateOf(model), before);
+  for (const [width, height] of [[4096, 4096], [32_768, 1], [1, 1]]) {
+    model.load(empty(width, height));
+    assert.deepEqual([model.width, model.height], [width, height]);
+  }
 });
 
 test("lanes: 1 to 4, known fields; numbers are brought into their bounds", () => {
