@@ -92,6 +92,40 @@ export const place = (page, x, y, lane = 0) =>
     [lane, x + 0.5, y + 0.5],
   );
 
+/** The colors that a pane shows at these places of the map, in cells: all its layers on each other.
+ *  @param {Page} page @param {Point[]} places @param {number} [lane] @returns {Promise<number[][]>} */
+export const colorsAt = (page, places, lane = 0) =>
+  page.evaluate(
+    async ([places, lane]) => {
+      // What has changed is drawn in the next frame.
+      for (let frame = 0; frame < 2; frame += 1) await new Promise(requestAnimationFrame);
+      const pane = /** @type {any} */ (globalThis).mediant.stage.panes[lane];
+      const { left, top, scale, width, height } = pane.frame;
+      const all = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true });
+      if (!all) throw new Error("no canvas");
+      for (const layer of pane.root.querySelectorAll("canvas")) all.drawImage(layer, 0, 0);
+      const { data } = all.getImageData(0, 0, width, height);
+      return places.map(([x, y]) => {
+        const [column, row] = [Math.floor(left + x * scale), Math.floor(top + y * scale)];
+        return Array.from(data.subarray(4 * (row * width + column), 4 * (row * width + column) + 3));
+      });
+    },
+    /** @type {[Point[], number]} */ ([places, lane]),
+  );
+
+/** A color of the theme. @param {Page} page @param {string} name @returns {Promise<number[]>} */
+export const token = (page, name) =>
+  page.evaluate((name) => {
+    const canvas = document.createElement("canvas");
+    const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+    context.fillStyle = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+    context.fillRect(0, 0, 1, 1);
+    return [...context.getImageData(0, 0, 1, 1).data.slice(0, 3)];
+  }, `--${name}`);
+
+/** Whether colors are the same, but for smoothing. @param {number[]} a @param {number[]} b */
+export const isColor = (a, b) => a.every((part, i) => Math.abs(part - b[i]) <= 24);
+
 /** Drags the pointer over these cells. @param {Page} page @param {Point[]} cells @param {number} [steps] */
 export async function drag(page, cells, steps = 6) {
   const places = [];

@@ -13,17 +13,25 @@ export async function load() {
 }
 
 /**
+ * The space of a lane of the page.
+ * @param {any} mediant @param {string[]} rows @param {any} setup @param {number} [radius] of the agent
+ */
+export function spaceOf(mediant, rows, { k, placement, corners, gap }, radius = 0) {
+  const motion = { k, placement, ...(placement === "center" ? { corners } : { gap }) };
+  const grid = mediant.Grid.fromRows(rows.map((row) => row.replaceAll("#", "@")));
+  return (radius ? grid.forDisc(radius, motion) : grid).space(motion);
+}
+
+/**
  * The length of a path for a lane of the page.
  * @param {any} mediant @param {string[]} rows @param {any} setup
- * @param {number[]} start @param {number[]} goal
+ * @param {number[]} start @param {number[]} goal @param {number} [radius] of the agent
  */
-export function lengthOf(mediant, rows, setup, start, goal) {
-  const { engine, k, placement, corners, gap } = setup;
-  const rule = placement === "center" ? { corners } : { gap };
-  const cells = rows.map((row) => row.replaceAll("#", "@"));
-  const planner = mediant.Grid.fromRows(cells)
-    .space({ k, placement, ...rule })
-    .prepare(engine)
-    .planner();
-  return planner.find(start, goal).distance;
+export function lengthOf(mediant, rows, setup, start, goal, radius = 0) {
+  const { engine, smooth } = setup;
+  const space = spaceOf(mediant, rows, setup, radius);
+  return space
+    .prepare(engine, smooth ? { smooth } : {})
+    .planner()
+    .find(start, goal).distance;
 }

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { badge, emptyRows, lanes, loadRows, place, scene, setLanes } from "../act.mjs";
+import { badge, emptyRows, lanes, loadRows, place, scene, setLanes, token } from "../act.mjs";
 import { picture, settled, Site } from "../browser.mjs";
 
 /** @typedef {import("playwright-core").Page} Page */
@@ -158,15 +158,6 @@ function contrast(a, b) {
 for (const colorScheme of /** @type {const} */ (["light", "dark"])) {
   test(`${colorScheme}: text and controls have enough contrast`, async () => {
     const page = await site.open({ colorScheme });
-    const token = (/** @type {string} */ name) =>
-      page.evaluate((name) => {
-        const context = /** @type {CanvasRenderingContext2D} */ (
-          document.createElement("canvas").getContext("2d")
-        );
-        context.fillStyle = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-        context.fillRect(0, 0, 1, 1);
-        return [...context.getImageData(0, 0, 1, 1).data.slice(0, 3)];
-      }, `--${name}`);
     for (const [front, back, least] of /** @type {const} */ ([
       ["text", "page", 7],
       ["text", "panel", 7],
@@ -184,7 +175,7 @@ for (const colorScheme of /** @type {const} */ (["light", "dark"])) {
       ["lane-2", "free", 3],
       ["lane-3", "free", 2.5],
     ])) {
-      const found = contrast(await token(front), await token(back));
+      const found = contrast(await token(page, front), await token(page, back));
       assert.ok(found >= least, `--${front} on --${back}: ${found.toFixed(2)}, at least ${least}`);
     }
   });

@@ -1,0 +1,204 @@
+// What the canvases show, at the places of the map where it must be.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { colorsAt, emptyRows, isColor, lanes, loadRows, setLanes, token } from "../act.mjs";
+import { settled, Site } from "../browser.mjs";
+import { load, spaceOf } from "../truth.mjs";
+
+/** @typedef {import("playwright-core").Page} Page */
+/** @typedef {[number, number]} Point */
+
+const site = new Site();
+const [WIDTH, HEIGHT] = [12, 8];
+
+/** A window with a map of 12 × 8 cells. @param {object[]} setups */
+async function open(...setups) {
+  const page = await site.open();
+  await show(page, "none");
+  await loadRows(page, emptyRows(WIDTH, HEIGHT), [1, 4], [10, 4]);
+  await setLanes(page, ...setups);
+  await settled(page);
+  return page;
+}
+
+/** @param {Page} page @param {string} overlay */
+const show = (page, overlay) =>
+  page.evaluate((overlay) => /** @type {any} */ (globalThis).mediant.model.set({ overlay }), overlay);
+
+/** Calls a method of the model. @param {Page} page @param {string} name @param {any[]} values */
+const call = (page, name, ...values) =>
+  page.evaluate(([name, values]) => /** @type {any} */ (globalThis).mediant.model[name](...values), [
+    name,
+    values,
+  ]);
+
+/** Places along a way, so many on each leg. @param {number[]} path @param {number} shift
+ *  @param {number} count */
+function along(path, shift, count) {
+  /** @type {Point[]} */
+  const places = [];
+  for (let i = 0; i + 3 < path.length; i += 2) {
+    for (let n = 1; n < count; n += 1) {
+      const at = (/** @type {number} */ c) => path[c] + ((path[c + 2] - path[c]) * n) / count + shift;
+      places.push([at(i), at(i + 1)]);
+    }
+  }
+  return places;
+}
+
+/** Which share of places has a color. @param {Page} page @param {Point[]} places @param {string} name
+ *  @param {number} [lane] */
+async function share(page, places, name, lane = 0) {
+  const [color, found] = [await token(page, name), await colorsAt(page, places, lane)];
+  return found.filter((one) => isColor(one, color)).length / places.length;
+}
+
+test("a path goes through centers of cells, or along the lines between them; ends lie on it", async () => {
+  const page = await open({ engine: "astar" });
+  for (const [placement, y] of /** @type {const} */ ([
+    ["center", 4.5],
+    ["corner", 4],
+  ])) {
+    await setLanes(page, { placement });
+    await settled(page);
+    const row = (/** @type {number} */ y) =>
+      [2.3, 4.6, 6.2, 8.7].map((x) => /** @type {Point} */ ([x, y]));
+    assert.equal(await share(page, row(y), "lane-0"), 1, `the path at ${placement}s`);
+    for (const beside of [y - 0.5, y + 0.5]) assert.equal(await share(page, row(beside), "lane-0"), 0);
+    const shift = y - 4;
+    // The letter is in the middle of the badge.
+    const pixel = await page.evaluate(() => 1 / /** @type {any} */ (globalThis).mediant.stage.view.scale);
+    for (const [name, x] of /** @type {const} */ ([
+      ["start", 1],
+      ["goal", 10],
+    ]))
+      for (const side of [-8, 8])
+        assert.equal(await share(page, [[x + shift + side * pixel, y]], name), 1, `${name} at ${placement}s`);
+  }
+});
+
+test("walls are where cells are blocked, also after an edit and its undo", async () => {
+  const page = await open({ engine: "astar" });
+  const cell = 2 * WIDTH + 3;
+  /** @type {Point[]} */
+  const inside = [[3.2, 2.2], [3.8, 2.8], [3.5, 2.5]];
+  /** @type {Point[]} */
+  const beside = [[2.8, 2.5], [4.2, 2.5], [3.5, 1.8], [3.5, 3.2]];
+  for (const [act, isWall] of /** @type {[() => Promise<void>, boolean][]} */ ([
+    [async () => {}, false],
+    [() => call(page, "paint", [cell], true), true],
+    [() => call(page, "undo"), false],
+    [() => call(page, "redo"), true],
+  ])) {
+    await act();
+    assert.equal(await share(page, inside, "wall"), Number(isWall));
+    assert.equal(await share(page, beside, "free"), 1);
+  }
+});
+
+test("each pane draws the path of its lane, and the optimum where that is shorter", async () => {
+  const page = await open({ k: 2, placement: "corner" }, { engine: "anya", k: "any", placement: "corner" });
+  await call(page, "moveEnd", "start", [1, 1]);
+  await call(page, "moveEnd", "goal", [10, 6]);
+  await settled(page);
+  await page.waitForFunction(() => {
+    const { list } = /** @type {any} */ (globalThis).mediant.lanes;
+    return list.every((/** @type {any} */ lane) => lane.answer.reference);
+  });
+  const [steps, straight] = (await lanes(page)).map(({ answer }) => along(answer.path, 0, 400));
+  assert.ok((await share(page, steps, "lane-0", 0)) > 0.6);
+  assert.ok((await share(page, straight, "lane-1", 1)) > 0.4, "dashed");
+  assert.ok((await share(page, steps, "lane-1", 1)) < 0.1);
+  assert.ok((await share(page, straight, "lane-0", 0)) < 0.2);
+  assert.ok((await share(page, straight, "reference", 0)) > 0.1, "the optimum is dotted below");
+  assert.equal(await share(page, straight, "reference", 1), 0, "an optimal path has none");
+});
+
+test("as much of the search is drawn as the player shows, and the path at its end", async () => {
+  const page = await open({ engine: "dijkstra", k: 3 });
+  await show(page, "search");
+  /** @type {Point[]} */
+  const centers = [];
+  for (let y = 0; y < HEIGHT; y += 1) for (let x = 0; x < WIDTH; x += 1) centers.push([x + 0.5, y + 0.5]);
+  const free = await token(page, "free");
+  for (const position of [0, 1, 2, 9, 20]) {
+    const seen = await page.evaluate((position) => {
+      const { player, lanes } = /** @type {any} */ (globalThis).mediant;
+      player.seek(position);
+      const { steps } = lanes.list[0].answer;
+      let [count, end] = [0, 0];
+      for (; end < steps.length && (count += steps[end] & 1) <= position; end += 1);
+      const shown = position === 0 ? [] : steps.slice(0, end);
+      return Array.from(shown, (/** @type {number} */ step) => step >>> 1);
+    }, position);
+    const colors = await colorsAt(page, centers);
+    const ends = [4 * WIDTH + 1, 4 * WIDTH + 10];
+    colors.forEach((color, at) => {
+      if (!ends.includes(at))
+        assert.equal(!isColor(color, free), seen.includes(at), `vertex ${at} after ${position} expansions`);
+    });
+    assert.equal(await share(page, [[5.2, 4.5]], "lane-0"), 0, `no path after ${position} expansions`);
+  }
+  await page.evaluate(() => {
+    const { player } = /** @type {any} */ (globalThis).mediant;
+    player.seek(player.length);
+  });
+  assert.equal(await share(page, [[5.2, 4.5]], "lane-0"), 1);
+});
+
+test("canvases follow the theme of the page and of the system", async () => {
+  const page = await open({ engine: "astar" });
+  await call(page, "paint", [2 * WIDTH + 3], true);
+  const seen = async () => {
+    const found = await colorsAt(page, [[3.5, 2.5], [6.5, 2.5], [5.2, 4.5]]);
+    for (const [at, name] of ["wall", "free", "lane-0"].entries())
+      assert.ok(isColor(found[at], await token(page, name)), `${name}: ${found[at]}`);
+    return String(found[1]);
+  };
+  const light = await seen();
+  await page.emulateMedia({ colorScheme: "dark" });
+  const dark = await seen();
+  assert.notEqual(dark, light);
+  const button = page.getByRole("button", { name: /^Theme/ });
+  await button.click();
+  assert.equal(await seen(), light);
+  await button.click();
+  assert.equal(await seen(), dark);
+});
+
+test("fields are of the active lane's motion, of the goal, the map and the agent as they are", async () => {
+  const page = await open({ k: 2 }, { k: 3, corners: "always" });
+  const mediant = await load();
+  await show(page, "distances");
+  for (const [act, what] of /** @type {[() => Promise<void>, string][]} */ ([
+    [async () => {}, "lane 1"],
+    [() => call(page, "set", { active: 1 }), "lane 2"],
+    [() => call(page, "moveEnd", "goal", [7, 2]), "another goal"],
+    [() => call(page, "paint", [2 * WIDTH + 3, 3 * WIDTH + 3, 4 * WIDTH + 3], true), "a wall"],
+    [() => call(page, "set", { radius: 1 }), "a disc"],
+  ])) {
+    await act();
+    const { rows, setup, goal, radius } = await page.evaluate(() => {
+      const { cells, lanes, active, goal, radius } = /** @type {any} */ (globalThis).mediant.model;
+      const text = Array.from(cells, (cell) => (cell ? "#" : ".")).join("");
+      return { rows: text.match(/.{12}/g) ?? [], setup: lanes[active], goal, radius };
+    });
+    const truth = Array.from(spaceOf(mediant, rows, setup, radius).field(goal).distances(), Math.fround);
+    await page.waitForFunction((truth) => {
+      const { field } = /** @type {any} */ (globalThis).mediant.lanes;
+      const isSame = (/** @type {number} */ value, /** @type {number} */ at) =>
+        truth[at] === null ? value === Infinity : value === truth[at];
+      return field?.kind === "distances" && field.values.every(isSame);
+    }, truth.map((value) => (value === Infinity ? null : value)), { timeout: 10_000 }).catch(() => {
+      assert.fail(`${what}: the distances are others than the package's`);
+    });
+    const active = await page.evaluate(() => /** @type {any} */ (globalThis).mediant.model.active);
+    // A disc does not fit along the border, which is hatched in all panes.
+    if (radius > 0) continue;
+    /** @type {Point[]} */
+    const far = [[0.2, 0.8], [0.3, 6.2]];
+    assert.ok((await share(page, far, "free", active)) < 1, `${what}: colors in the active pane`);
+    assert.equal(await share(page, far, "free", 1 - active), 1, `${what}: none in the other`);
+  }
+});
