@@ -2,8 +2,9 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { badge, generate, lanes, place, quantile, scene, setLanes } from "../act.mjs";
+import { badge, generate, lanes, place, quantile, rows, scene, setLanes } from "../act.mjs";
 import { picture, settled, Site } from "../browser.mjs";
+import { lengthOf, load } from "../truth.mjs";
 
 const site = new Site();
 const FRAME = 16;
@@ -101,6 +102,56 @@ test("both ends can be dragged, and the path ends where they are", async () => {
     assert.deepEqual((await scene(page))[end], after);
     await settled(page);
   }
+});
+
+test("of many changes the last one wins, and no answer of another scene is called fresh", async () => {
+  const page = await site.open();
+  await setLanes(page, { engine: "dijkstra" });
+  await generate(page, "rooms", 256);
+  await settled(page, 60_000);
+  const { fresh, stale, wrong } = await page.evaluate(async () => {
+    const { model, lanes } = /** @type {any} */ (globalThis).mediant;
+    const seen = { fresh: 0, stale: 0, wrong: 0 };
+    const look = () => {
+      const { answer, stale, phase } = lanes.list[0];
+      if (!answer || phase !== "done") return;
+      const isOfNow = `${answer.start} ${answer.goal}` === `${model.start} ${model.goal}`;
+      if (stale) seen.stale += 1;
+      else if (isOfNow) seen.fresh += 1;
+      else seen.wrong += 1;
+    };
+    lanes.addEventListener("change", look);
+    model.beginGesture("end");
+    for (let move = 0; move < 120; move += 1) {
+      model.moveEnd("goal", [20 + move, 30 + (move % 7)]);
+      // A turn of the browser, so that answers come in between.
+      await new Promise((done) => setTimeout(done, move % 5));
+    }
+    model.endGesture();
+    lanes.removeEventListener("change", look);
+    return seen;
+  });
+  assert.equal(wrong, 0, `${wrong} answers of other ends were called fresh`);
+  assert.ok(stale + fresh > 0, "no answer came while the end was dragged");
+  await settled(page);
+  assert.deepEqual((await lanes(page))[0].answer.goal, (await scene(page)).goal);
+
+  // The same of setups: each change gives up the search under way.
+  await generate(page, "rooms", 64);
+  const seen = await page.evaluate(async () => {
+    const { model } = /** @type {any} */ (globalThis).mediant;
+    for (let change = 0; change < 90; change += 1) {
+      model.setLane(0, { k: 2 + (change % 4), engine: change % 3 ? "astar" : "dijkstra" });
+      await new Promise((done) => setTimeout(done, change % 9));
+    }
+    return model.lanes[0];
+  });
+  await settled(page);
+  const mediant = await load();
+  const ends = await scene(page);
+  const truth = lengthOf(mediant, await rows(page), seen, ends.start, ends.goal);
+  const [{ answer }] = await lanes(page);
+  assert.ok(Math.abs(answer.length - truth) < 1e-9, `${answer.length}, not ${truth}`);
 });
 
 test("a drag beyond the map, and with the other button, breaks nothing", async () => {
