@@ -128,11 +128,27 @@ async function longestPause(page, run) {
 }
 
 for (const [what, phase, name, side, setup] of /** @type {const} */ ([
-  ["a long search", "searching", "cave", 2048, { engine: "theta", placement: "corner" }],
+  ["a long search", "searching", "cave", 1024, { engine: "dijkstra", k: 12, placement: "corner" }],
   ["a long preparation", "preparing", "noise-20", 1024, { engine: "subgoal", k: "any", placement: "corner" }],
 ])) {
   test(`${what} is cancelled, and the page answers meanwhile`, async (t) => {
-    const page = await site.open();
+    const context = await site.context();
+    await context.addInitScript(() => {
+      /** What workers said. @type {string[]} */
+      const heard = [];
+      const Own = Worker;
+      Object.assign(globalThis, {
+        heard,
+        Worker: class extends Own {
+          /** @param {string | URL} address @param {WorkerOptions} [options] */
+          constructor(address, options) {
+            super(address, options);
+            this.addEventListener("message", ({ data }) => heard.push(data.type));
+          }
+        },
+      });
+    });
+    const page = await site.open({ context });
     await generate(page, name, side);
     await settled(page, 60_000);
     const pause = await longestPause(page, async () => {
@@ -153,6 +169,12 @@ for (const [what, phase, name, side, setup] of /** @type {const} */ ([
     );
     const [text] = await said(page);
     assert.ok(/cancel/i.test(text), text);
+    // The worker works no more: a search would tell each tenth of a second how far it is.
+    await page.waitForTimeout(300);
+    await page.evaluate(() => /** @type {any} */ (globalThis).heard.splice(0));
+    await page.waitForTimeout(500);
+    const heard = await page.evaluate(() => /** @type {any} */ (globalThis).heard);
+    assert.deepEqual(heard, [], "a cancelled lane works on");
     // What was cancelled can be asked again, or for something else.
     await setLanes(page, { engine: "jps-block" });
     await settled(page, 60_000);
