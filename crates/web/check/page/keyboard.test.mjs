@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { emptyRows, lanes, loadRows, rows, scene, setLanes } from "../act.mjs";
+import { colorsAt, emptyRows, isColor, lanes, loadRows, rows, scene, setLanes, token } from "../act.mjs";
 import { picture, settled, Site } from "../browser.mjs";
 
 /** @typedef {import("playwright-core").Page} Page */
@@ -129,4 +129,37 @@ test("k, the engine, the race, the map: all by keys", async () => {
   await page.keyboard.press("Escape");
   assert.equal(await page.locator("#maps").getAttribute("open"), null);
   assert.match(await focused(page), /^summary/);
+});
+
+test("the cell of the keyboard is drawn and said, goes far with Shift, and Escape leaves a stroke", async () => {
+  const page = await site.open();
+  await setLanes(page, { engine: "astar" });
+  await loadRows(page, emptyRows(24, 12), [1, 10], [22, 10]);
+  await page.evaluate(() => {
+    const { stage, model } = /** @type {any} */ (globalThis).mediant;
+    model.set({ overlay: "none" });
+    stage.addEventListener("say", (/** @type {CustomEvent} */ { detail }) => {
+      Object.assign(globalThis, { said: detail });
+    });
+  });
+  const said = () => page.evaluate(() => /** @type {any} */ (globalThis).said);
+  await tabTo(page, ".stage-surface");
+  for (let press = 0; press < 8; press += 1) await page.keyboard.press("ArrowUp");
+  assert.equal(await said(), "Cell 1, 2: free.");
+  await page.keyboard.press("Shift+ArrowRight");
+  assert.equal(await said(), "Cell 9, 2: free.");
+  // The frame of the cell, and the cell beside it.
+  const [on, beside] = await colorsAt(page, [[9.5, 2.5], [10.5, 2.5]]);
+  assert.ok(isColor(beside, await token(page, "free")), `${beside}`);
+  assert.ok(!isColor(on, beside), `the cell of the keyboard is not seen: ${on}`);
+  await page.keyboard.down("Enter");
+  await page.keyboard.press("Shift+ArrowRight");
+  assert.equal((await rows(page))[2], `${".".repeat(9)}${"#".repeat(9)}${".".repeat(6)}`);
+  assert.equal(await said(), "Cell 17, 2: wall.");
+  await page.keyboard.press("Escape");
+  await page.keyboard.up("Enter");
+  assert.deepEqual(await rows(page), emptyRows(24, 12), "Escape leaves everything as it was");
+  // The cell stays in the map.
+  for (let press = 0; press < 3; press += 1) await page.keyboard.press("Shift+ArrowRight");
+  assert.match(await said(), /^Cell 23, 2:/);
 });
