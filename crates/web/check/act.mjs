@@ -126,14 +126,15 @@ export const token = (page, name) =>
 /** Whether colors are the same, but for smoothing. @param {number[]} a @param {number[]} b */
 export const isColor = (a, b) => a.every((part, i) => Math.abs(part - b[i]) <= 24);
 
-/** Drags the pointer over these cells. @param {Page} page @param {Point[]} cells @param {number} [steps] */
-export async function drag(page, cells, steps = 6) {
+/** Drags the pointer over these cells.
+ *  @param {Page} page @param {Point[]} cells @param {number} [steps] @param {"left" | "right"} [button] */
+export async function drag(page, cells, steps = 6, button = "left") {
   const places = [];
   for (const [x, y] of cells) places.push(await place(page, x, y));
   await page.mouse.move(places[0].x, places[0].y);
-  await page.mouse.down();
+  await page.mouse.down({ button });
   for (const { x, y } of places.slice(1)) await page.mouse.move(x, y, { steps });
-  await page.mouse.up();
+  await page.mouse.up({ button });
 }
 
 /** Where an end's badge is: at its cell's center, or at a corner of cells.

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { drag, emptyRows, lanes, loadRows, place, rows, scene, setLanes } from "../act.mjs";
+import { badge, drag, emptyRows, lanes, loadRows, place, rows, scene, setLanes } from "../act.mjs";
 import { picture, settled, Site } from "../browser.mjs";
 
 const site = new Site();
@@ -60,7 +60,7 @@ test("a rectangle, and a fill", async () => {
     [8, 4],
   ]);
   const map = await rows(page);
-  assert.ok(walls(map) === 12 || walls(map) === 10, map.join("\n"));
+  assert.equal(walls(map), 12, map.join("\n"));
   for (const [x, y] of [
     [5, 2],
     [8, 2],
@@ -76,6 +76,49 @@ test("a rectangle, and a fill", async () => {
   assert.ok(walls(filled) > 200, `the fill takes the connected area:\n${filled.join("\n")}`);
   await page.getByRole("button", { name: "Undo" }).click();
   assert.deepEqual(await rows(page), map);
+});
+
+test("Shift and the other button do the opposite of a tool", async () => {
+  const page = await open();
+  await tool(page, "Draw");
+  const stroke = /** @type {[number, number][]} */ ([[4, 2], [9, 2]]);
+  const row = async () => (await rows(page))[2].slice(3, 11);
+  await drag(page, stroke);
+  assert.equal(await row(), ".######.");
+  await page.keyboard.down("Shift");
+  await drag(page, stroke);
+  await page.keyboard.up("Shift");
+  assert.equal(await row(), "........");
+  await tool(page, "Erase");
+  await page.keyboard.down("Shift");
+  await drag(page, stroke);
+  await page.keyboard.up("Shift");
+  assert.equal(await row(), ".######.");
+  await tool(page, "Draw");
+  await drag(page, stroke, 6, "right");
+  assert.equal(await row(), "........");
+});
+
+test("an end lands on the cell or the corner under the pointer; Escape puts it back", async () => {
+  const page = await open();
+  for (const placement of ["center", "corner"]) {
+    await setLanes(page, { placement });
+    await settled(page);
+    const shift = placement === "corner" ? 0.5 : 0;
+    await drag(page, [await badge(page, "goal"), [12 - shift, 3 - shift]]);
+    assert.deepEqual((await scene(page)).goal, [12, 3], placement);
+    const [from, to] = [await place(page, ...(await badge(page, "goal"))), await place(page, 5, 9)];
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    await page.mouse.move(to.x, to.y, { steps: 4 });
+    assert.notDeepEqual((await scene(page)).goal, [12, 3], placement);
+    await page.keyboard.press("Escape");
+    assert.deepEqual((await scene(page)).goal, [12, 3], placement);
+    await page.mouse.up();
+    assert.deepEqual((await scene(page)).goal, [12, 3], placement);
+    await page.keyboard.press("Control+z");
+    assert.deepEqual((await scene(page)).goal, [18, 6], "the drag before is one step of undo");
+  }
 });
 
 test("each stroke is one step of undo and redo", async () => {
