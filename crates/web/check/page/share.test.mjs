@@ -71,6 +71,19 @@ test("a link opens the same scene with the same lengths in another browser", asy
   assert.equal(await linkOf(other), link);
 });
 
+test("the address holds what was shared, and another link in the same window opens its scene", async () => {
+  const page = await site.open(READS);
+  await change(page);
+  const [expected, link] = [await all(page), await linkOf(page)];
+  assert.equal(page.url(), link);
+  const other = await site.open(READS);
+  const hash = link.slice(link.indexOf("#"));
+  await other.evaluate((hash) => (location.hash = hash), hash);
+  await other.waitForFunction(() => /** @type {any} */ (globalThis).mediant.model.lanes.length === 3);
+  await settled(other);
+  assert.deepEqual(await all(other), expected);
+});
+
 test("a link that was cut or changed is refused in a sentence, and the page works", async () => {
   const page = await site.open(READS);
   await change(page);
