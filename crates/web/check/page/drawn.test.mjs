@@ -66,7 +66,17 @@ test("a path goes through centers of cells, or along the lines between them; end
       [2.3, 4.6, 6.2, 8.7].map((x) => /** @type {Point} */ ([x, y]));
     assert.equal(await share(page, row(y), "lane-0"), 1, `the path at ${placement}s`);
     for (const beside of [y - 0.5, y + 0.5]) assert.equal(await share(page, row(beside), "lane-0"), 0);
+    await call(page, "moveEnd", "start", [5, 1]);
+    await call(page, "moveEnd", "goal", [5, 6]);
+    await settled(page);
+    const column = (/** @type {number} */ x) =>
+      [2.3, 3.6, 4.7].map((y) => /** @type {Point} */ ([x, y]));
     const shift = y - 4;
+    assert.equal(await share(page, column(5 + shift), "lane-0"), 1, `the path down at ${placement}s`);
+    for (const beside of [4.5, 5.5]) assert.equal(await share(page, column(beside + shift), "lane-0"), 0);
+    await call(page, "undo");
+    await call(page, "undo");
+    await settled(page);
     // The letter is in the middle of the badge.
     const pixel = await page.evaluate(() => 1 / /** @type {any} */ (globalThis).mediant.stage.view.scale);
     for (const [name, x] of /** @type {const} */ ([

@@ -152,5 +152,5 @@ test("the bundled maps are whole", async () => {
   await drop(page, { name: "maze.map", bytes: readFileSync(join(ROOT, "crates/cli/maps/maze.map")) });
   await message(page, /maze\.map/);
   await settled(page);
-  assert.equal((await lanes(page))[0].phase, "done");
+  assert.equal((await lanes(page))[0].answer.status, "found");
 });

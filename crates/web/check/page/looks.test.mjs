@@ -107,7 +107,8 @@ test("by touch: an end is dragged, walls are drawn, two fingers zoom", async () 
   await touch("touchStart", ...fingers(30));
   for (const apart of [40, 60, 80]) await touch("touchMove", ...fingers(apart));
   await touch("touchEnd");
-  await page.waitForTimeout(100);
+  // Events of fingers come with the next frame.
+  for (let look = 0; look < 40 && (await width()) <= before * 1.5; look += 1) await page.waitForTimeout(50);
   assert.ok((await width()) > before * 1.5, "two fingers zoom in");
   await picture(page, "touch");
 });
