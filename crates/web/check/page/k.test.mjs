@@ -47,8 +47,36 @@ test("the brackets change k, the number of moves is said", async () => {
   await page.keyboard.press("]");
   assert.equal((await scene(page)).lanes[0].k, 4);
   await page.getByText("16 moves").first().waitFor();
+  const star = (/** @type {number} */ count) =>
+    page.waitForFunction((count) => document.querySelectorAll("#star .move").length === count, count);
+  await star(16);
   await page.keyboard.press("[");
   await page.getByText("8 moves").first().waitFor();
+  await star(8);
+});
+
+test("an engine that made way for ∞ is back when k is finite; what k is worth is the package's", async () => {
+  const page = await site.open();
+  const mediant = await load();
+  await setLanes(page, { engine: "jps-block", placement: "corner", gap: "closed" });
+  const slider = page.getByRole("slider", { name: /^k,/ });
+  await slider.focus();
+  await page.keyboard.press("End");
+  assert.equal((await scene(page)).lanes[0].engine, "anya");
+  await page.keyboard.press("ArrowLeft");
+  for (let k = 12; k >= 2; k -= 1) {
+    const bound = mediant.bound({ k, placement: "corner", gap: "closed" });
+    const percent = ((bound - 1) * 100).toFixed(2);
+    await page.waitForFunction(
+      (text) => document.querySelector("#worth")?.textContent?.startsWith(text),
+      `N(${k}): at most ${Number(percent) === 0 ? "" : percent}`,
+    );
+    if (k <= 3) {
+      const { engine, gap } = (await scene(page)).lanes[0];
+      assert.deepEqual([engine, gap], ["jps-block", "closed"]);
+    }
+    await page.keyboard.press("ArrowLeft");
+  }
 });
 
 test("every engine answers, with what the package finds", async () => {
