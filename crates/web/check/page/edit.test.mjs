@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { badge, drag, emptyRows, lanes, loadRows, place, rows, scene, setLanes } from "../act.mjs";
+import { badge, drag, emptyRows, generate, lanes, loadRows, place, rows, scene, setLanes } from "../act.mjs";
 import { picture, settled, Site } from "../browser.mjs";
 
 const site = new Site();
@@ -150,6 +150,41 @@ test("each stroke is one step of undo and redo", async () => {
   assert.deepEqual(await rows(page), states[2]);
   assert.equal((await scene(page)).canRedo, true);
   assert.equal(await redo.isEnabled(), true);
+});
+
+test("the memory of an engine does not grow with edits", async () => {
+  const context = await site.context();
+  await context.addInitScript(() => {
+    /** The memory that workers told last, in bytes. */
+    const memory = { last: 0 };
+    const Own = Worker;
+    Object.assign(globalThis, {
+      memory,
+      Worker: class extends Own {
+        /** @param {string | URL} address @param {WorkerOptions} [options] */
+        constructor(address, options) {
+          super(address, options);
+          this.addEventListener("message", ({ data }) => {
+            if (data.type === "answer") memory.last = data.memory;
+          });
+        }
+      },
+    });
+  });
+  const page = await site.open({ context });
+  await setLanes(page, { engine: "astar" });
+  await generate(page, "rooms", 512);
+  await settled(page, 60_000);
+  const seen = [];
+  for (let edit = 0; edit < 90; edit += 1) {
+    await page.evaluate((edit) => {
+      /** @type {any} */ (globalThis).mediant.model.paint([edit], edit % 2 === 0);
+      /** @type {any} */ (globalThis).mediant.model.moveEnd("goal", [500, 400 + edit]);
+    }, edit);
+    await settled(page);
+    seen.push(await page.evaluate(() => /** @type {any} */ (globalThis).memory.last));
+  }
+  assert.ok(seen[9] > 0 && seen[89] < 1.5 * seen[9], `${seen[9]} bytes, then ${seen[89]}`);
 });
 
 test("many edits, while four engines search", async () => {
