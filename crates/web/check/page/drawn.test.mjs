@@ -125,6 +125,20 @@ test("each pane draws the path of its lane, and the optimum where that is shorte
   assert.equal(await share(page, straight, "reference", 1), 0, "an optimal path has none");
 });
 
+test("from the nearest vertex a dotted line leads to the goal that cannot be reached", async () => {
+  const page = await open({ engine: "astar" });
+  const wall = Array.from({ length: HEIGHT }, (_, y) => y * WIDTH + 7);
+  await call(page, "paint", wall, true);
+  await call(page, "set", { nearest: true });
+  await settled(page);
+  assert.deepEqual((await lanes(page))[0].answer.path.slice(-2), [6, 4]);
+  const line = along([7, 4, 9, 4], 0.5, 300);
+  assert.ok((await share(page, line, "danger")) > 0.1);
+  await call(page, "paint", wall.slice(0, 1), false);
+  await settled(page);
+  assert.equal(await share(page, line, "danger"), 0);
+});
+
 test("as much of the search is drawn as the player shows, and the path at its end", async () => {
   const page = await open({ engine: "dijkstra", k: 3 });
   await show(page, "search");

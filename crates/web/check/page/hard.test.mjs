@@ -177,6 +177,11 @@ for (const [what, phase, name, side, setup] of /** @type {const} */ ([
     const heard = await page.evaluate(() => /** @type {any} */ (globalThis).heard);
     assert.deepEqual(heard, [], "a cancelled lane works on");
     // What was cancelled can be asked again, or for something else.
+    await page.getByRole("button", { name: "Start lane 1 again" }).click();
+    await page.waitForFunction(() => {
+      const { phase } = /** @type {any} */ (globalThis).mediant.lanes.list[0];
+      return phase === "searching" || phase === "preparing";
+    });
     await setLanes(page, { engine: "jps-block" });
     await settled(page, 60_000);
     const [{ answer }] = await lanes(page);

@@ -131,7 +131,7 @@ test("k, the engine, the race, the map: all by keys", async () => {
   assert.match(await focused(page), /^summary/);
 });
 
-test("the cell of the keyboard is drawn and said, goes far with Shift, and Escape leaves a stroke", async () => {
+test("the cell of the keyboard is drawn and said, Shift goes far, Escape leaves a stroke", async () => {
   const page = await site.open();
   await setLanes(page, { engine: "astar" });
   await loadRows(page, emptyRows(24, 12), [1, 10], [22, 10]);
