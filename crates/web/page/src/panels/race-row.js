@@ -3,7 +3,10 @@
 import { h, setText } from "./dom.js";
 import { laneMark } from "./figures.js";
 import { iconButton } from "./icons.js";
-import { cells, count, engineName, excess, kText, more, motionText, over, size, time } from "./words.js";
+import {
+  cells, count, engineName, excess, kText, more, motionText,
+  over, size, time, withNames
+} from "./words.js";
 
 /** @typedef {import("../../types").LaneState} LaneState */
 /** @typedef {import("../../types").LaneSetup} LaneSetup */
@@ -152,7 +155,7 @@ export class RaceRow {
 
 /** @param {LaneState} lane */
 function statusText({ phase, progress, expanded, message, answer }) {
-  if (phase === "failed") return message || "The engine stopped.";
+  if (phase === "failed") return withNames(message) || "The engine stopped.";
   if (phase === "cancelled") return message || "Cancelled.";
   if (phase === "starting") return "Starting…";
   if (phase === "preparing") return progress ? `Preparing: ${progress.stage}` : "Preparing…";

@@ -66,11 +66,12 @@ const ENGINES = {
 /** @param {string} engine */
 export const engineName = (engine) => ENGINES[engine]?.name ?? engine;
 
-/** A sentence of the library with the engines' names as people write them. @param {string} text */
+/** A sentence of the library with the engines' names, and ∞, as people write them. @param {string} text */
 export function withNames(text) {
   const keys = Object.keys(ENGINES).sort((a, b) => b.length - a.length);
   const pattern = new RegExp(`(?<![\\w-])(${keys.join("|")})(?![\\w-])`, "gi");
-  return text.replace(pattern, (key) => engineName(key.toLowerCase()));
+  const named = text.replace(pattern, (key) => engineName(key.toLowerCase()));
+  return named.replace(/\bk = any\b/g, "k = ∞");
 }
 
 /** How the engine works, in a sentence. @param {string} engine */

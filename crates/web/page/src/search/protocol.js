@@ -148,12 +148,12 @@ export function textOf(error) {
 }
 
 /**
- * A sentence from a text of the library, which begins with a small letter and has no period. The name of a
- * file or an engine stays as it is.
+ * A sentence from a text of the library, which begins with a small letter, has no period, and marks what is
+ * to be typed as documentation does. The name of a file or an engine stays as it is.
  * @param {string} text
  */
 export function sentence(text) {
-  const trimmed = text.trim();
+  const trimmed = text.trim().replaceAll("`", '"');
   const first = /^[a-z]+ /.test(trimmed) ? trimmed.charAt(0).toUpperCase() : trimmed.charAt(0);
   return first + trimmed.slice(1) + (/[.!?]$/.test(trimmed) ? "" : ".");
 }

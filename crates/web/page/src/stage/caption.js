@@ -1,7 +1,7 @@
 // The caption of a pane: the lane's mark, engine, k, length and how it stands; and the sentences and the
 // legend that lie over its map.
 
-import { cells, count, engineName, kText } from "../panels/words.js";
+import { cells, count, engineName, kText, withNames } from "../panels/words.js";
 import { DASHES } from "./colors.js";
 
 /** @typedef {import("../../types.d.ts").LaneSetup} LaneSetup */
@@ -50,7 +50,7 @@ function statusOf({ phase, progress, expanded, answer, message }) {
 
 /** What the pane says in a sentence, if anything is wrong. @param {LaneState} state */
 export function sentenceOf({ phase, answer, message }) {
-  if (phase === "failed" || phase === "cancelled") return message;
+  if (phase === "failed" || phase === "cancelled") return withNames(message);
   if (phase !== "done" || !answer) return "";
   if (answer.status === "invalid") return answer.error?.message ?? "The query is invalid.";
   return answer.status === "unreachable" ? "No path leads to the goal." : "";
@@ -131,9 +131,9 @@ function legendOf(overlay, field, setup, { search, isBeaten }) {
     return `${optimum}<span>expanded<b> first</b></span><i class="stage-scale is-${search}"></i><b>last</b>
       <i class="stage-tile"></i><span>open</span>`;
   }
-  if (field && field.kind === overlay && overlay !== "flow") {
-    const what = overlay === "distances" ? "distance" : "clearance";
-    return `<span>${what} 0</span><i class="stage-scale"></i>
+  if (field && field.kind === overlay) {
+    const what = overlay === "clearance" ? "clearance" : "distance";
+    return `<span>${what} 0</span><i class="stage-scale is-${overlay}"></i>
       <span>${short(field.greatest)}</span>`;
   }
   if (overlay !== "rules") return "";
