@@ -174,21 +174,27 @@ test("as much of the search is drawn as the player shows, and the path at its en
 test("canvases follow the theme of the page and of the system", async () => {
   const page = await open({ engine: "astar" });
   await call(page, "paint", [2 * WIDTH + 3], true);
-  const seen = async () => {
-    const found = await colorsAt(page, [[3.5, 2.5], [6.5, 2.5], [5.2, 4.5]]);
-    for (const [at, name] of ["wall", "free", "lane-0"].entries())
-      assert.ok(isColor(found[at], await token(page, name)), `${name}: ${found[at]}`);
-    return String(found[1]);
+  // Waits until the canvases have the colors of the theme: the browser tells of a change when it will.
+  const seen = async (other = "") => {
+    for (let look = 0; ; look += 1) {
+      const found = await colorsAt(page, [[3.5, 2.5], [6.5, 2.5], [5.2, 4.5]]);
+      const colors = await Promise.all(["wall", "free", "lane-0"].map((name) => token(page, name)));
+      const isDone = String(found[1]) !== other && found.every((color, at) => isColor(color, colors[at]));
+      if (isDone) return String(found[1]);
+      if (look === 50) return `${found.join(" ")}, not ${colors.join(" ")}`;
+      await page.waitForTimeout(100);
+    }
   };
   const light = await seen();
   await page.emulateMedia({ colorScheme: "dark" });
-  const dark = await seen();
-  assert.notEqual(dark, light);
+  const dark = await seen(light);
+  // A color as numbers, not a sentence of what was awaited.
+  for (const color of [light, dark]) assert.match(color, /^\d+,\d+,\d+$/);
   const button = page.getByRole("button", { name: /^Theme/ });
   await button.click();
-  assert.equal(await seen(), light);
+  assert.equal(await seen(dark), light);
   await button.click();
-  assert.equal(await seen(), dark);
+  assert.equal(await seen(light), dark);
 });
 
 test("fields are of the active lane's motion, of the goal, the map and the agent as they are", async () => {
