@@ -4,8 +4,7 @@ import { h, setText } from "./dom.js";
 import { laneMark } from "./figures.js";
 import { iconButton } from "./icons.js";
 import {
-  cells, count, engineName, excess, kText, more, motionText,
-  over, size, time, withNames
+  cells, count, engineName, excess, kText, more, motionText, over, size, time, withNames,
 } from "./words.js";
 
 /** @typedef {import("../../types").LaneState} LaneState */
