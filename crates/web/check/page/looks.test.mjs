@@ -84,6 +84,8 @@ test("by touch: an end is dragged, walls are drawn, two fingers zoom", async () 
   assert.deepEqual((await scene(page)).goal, [10, 3]);
 
   await page.getByRole("button", { name: /^Draw( walls|$)/ }).tap();
+  // The browser makes a click of a tap when it will: before it, a finger would move the map.
+  await page.waitForFunction(() => /** @type {any} */ (globalThis).mediant.stage.tool === "draw");
   await touch("touchStart", await place(page, 6, 2));
   for (let y = 3; y <= 10; y += 1) await touch("touchMove", await place(page, 6, y));
   await touch("touchEnd");
