@@ -7,7 +7,7 @@ import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { drag, emptyRows, generate, loadRows, setLanes } from "./act.mjs";
-import { launch, settled } from "./browser.mjs";
+import { launch, settled as answered } from "./browser.mjs";
 import { quantized } from "./colors.mjs";
 import { png } from "./pictures.mjs";
 import { ROOT } from "./places.mjs";
@@ -18,6 +18,16 @@ import { serve } from "../serve.mjs";
 
 const FOLDER = join(ROOT, "docs/web");
 const [MOST, MOST_IN_ALL] = [300_000, 1_500_000];
+
+/** Until all lanes have answered, and their times have settled. @param {Page} page */
+async function settled(page) {
+  await answered(page);
+  await page.waitForFunction(() =>
+    /** @type {any} */ (globalThis).mediant.lanes.list.every(
+      (/** @type {any} */ lane) => !lane.answer || lane.answer.settled,
+    ),
+  );
+}
 
 /** @param {Page} page @param {string} name */
 const race = (page, name) =>
