@@ -77,7 +77,8 @@ fn grids() {
 #[test]
 fn files_in_memory() {
     let class = class(&grid());
-    let yaml = "image: room.pgm\nresolution: 0.5\norigin: [1, 2, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.25\n";
+    let yaml = "image: room.pgm\nresolution: 0.5\norigin: [1, 2, 0]\nnegate: 0\n\
+        occupied_thresh: 0.65\nfree_thresh: 0.25\n";
     let pgm = bytes(b"P2 2 1 255  254 0");
     let files = js_sys::Object::new();
     Reflect::set(&files, &"room.pgm".into(), &pgm).expect("an object");

@@ -91,7 +91,8 @@ fn maps_in_memory_are_those_on_disk() {
         raster.write(format, &mut bytes).unwrap();
         bytes
     };
-    let yaml = "image: sub/a.pgm\nresolution: 1\norigin: [2, 3, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.1\n";
+    let yaml = "image: sub/a.pgm\nresolution: 1\norigin: [2, 3, 0]\nnegate: 0\n\
+        occupied_thresh: 0.65\nfree_thresh: 0.1\n";
     let files = [
         ("a.map", MapFile::from_grid(&grid).as_bytes().to_vec()),
         ("a.png", picture(RasterFormat::Png)),
