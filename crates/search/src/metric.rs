@@ -45,7 +45,10 @@ impl Metric {
             Self::Hk(costs) => costs.distance(v),
             // A displacement has at most 2¹⁵ · √2 cells, so truncation takes off more than the root's
             // rounding can add.
-            Self::Euclidean => Cost::from_bits((v.norm() * (1_u64 << Cost::FRACTION_BITS) as f64) as u64),
+            Self::Euclidean => {
+                // Signed, as processors convert at once.
+                Cost::from_bits((v.norm() * (1_u64 << Cost::FRACTION_BITS) as f64) as i64 as u64)
+            }
         }
     }
 

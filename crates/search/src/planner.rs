@@ -18,7 +18,8 @@ use crate::{
 /// **A search in steps.** [`begin`](Self::begin) begins the search for an answer, [`proceed`](Self::proceed)
 /// continues it until it is finished or its observer [pauses](Observer::pauses) it, and
 /// [`path_to`](Self::path_to) gives paths to what it has reached. [`solve`](Self::solve) is these three
-/// without a pause. The events of a search are the same however often it is paused.
+/// without a pause. The events of a search are the same however often it is paused. A planner that looks its
+/// answers up, as hub labels do, has them once it has begun, and tells no events.
 pub trait Planner {
     /// Begins the search for an answer, and forgets the last one. Without a search it already knows that
     /// there is no path, or finds one that is plain to see.
@@ -78,6 +79,16 @@ pub trait Planner {
     /// [`QueryError`] when an end of the query is blocked or outside the map.
     fn solve(&mut self, query: Query) -> Result<Outcome, QueryError> {
         self.solve_observed(query, &mut ())
+    }
+
+    /// The length of the path that [`solve`](Self::solve) would find, in cells; `None` if there is none. A
+    /// planner that knows it without the path saves the path; its length may then differ from that of the
+    /// path by a factor of 1 + 2⁻³¹ (see [`Cost`](mediant_moves::Cost)).
+    ///
+    /// # Errors
+    /// Those of [`solve`](Self::solve).
+    fn distance(&mut self, query: Query) -> Result<Option<f64>, QueryError> {
+        Ok(self.solve(query)?.cost())
     }
 }
 

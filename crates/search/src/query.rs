@@ -97,6 +97,9 @@ pub enum QueryError {
         /// Why the planner may fail.
         why: &'static str,
     },
+    /// Goals that were prepared for another map, other rules or another k.
+    #[error("the goals are not those of this map, its rules and this k: prepare them for it")]
+    OtherGoals,
     /// A request without a start, or without a goal.
     #[error("the request has no {end}: name at least one")]
     NoEnd {

@@ -13,6 +13,7 @@ mod runs;
 mod segment_cells;
 mod sweep;
 mod targets;
+mod visitor;
 
 pub use crate::line_of_sight::{line_of_sight, line_of_sight_under};
 #[doc(hidden)]

@@ -7,6 +7,7 @@ use super::{
     row_summary::RowSummary,
     runs::row_ahead,
     targets::{Quadrants, Targets},
+    visitor::{RunsOf, TargetsOf, Visitor},
 };
 
 /// Finds the corners of obstacles that a vertex sees. It holds the scratch memory of [`seen`](Self::seen).
@@ -46,16 +47,24 @@ pub struct VisibilitySweep {
 
 /// An interval of a line that is seen. Its ends differ.
 #[derive(Clone, Copy, Debug)]
-struct Piece {
-    line: i32,
-    left: Edge,
-    right: Edge,
+pub(super) struct Piece {
+    pub(super) line: i32,
+    pub(super) left: Edge,
+    pub(super) right: Edge,
+}
+
+impl Piece {
+    /// Its first and last column of vertices; it may have none.
+    #[inline]
+    pub(super) const fn columns(&self) -> (i32, i32) {
+        (self.left.end.here.ceil(), self.right.end.here.floor())
+    }
 }
 
 /// An end of an interval.
 #[derive(Clone, Copy, Debug)]
-struct Edge {
-    end: IntervalEnd,
+pub(super) struct Edge {
+    pub(super) end: IntervalEnd,
     /// Whether the end follows a vertical wall. Then it stays in its column, and becomes a ray where the wall
     /// ends.
     is_wall: bool,
@@ -72,7 +81,7 @@ impl Edge {
 
     /// The end on the line that is `lines` lines further on, if nothing is in the way.
     #[inline]
-    const fn after(&self, lines: i32) -> Self {
+    pub(super) const fn after(&self, lines: i32) -> Self {
         Self { end: self.end.moved_to(self.end.after(lines)), ..*self }
     }
 
@@ -87,7 +96,6 @@ impl Edge {
 struct Half<'t> {
     space: &'t FreeSpace<Corners>,
     summary: &'t RowSummary,
-    marks: Targets<'t>,
     from: Vertex,
     /// 1 for the half below, −1 for the one above.
     down: i32,
@@ -117,30 +125,87 @@ impl VisibilitySweep {
             return;
         }
         let marks = marks.into();
-        for down in [1, -1] {
-            let (left, right) = (quadrants.contains(-1, down), quadrants.contains(1, down));
-            if left || right {
-                let half = Half { space, summary, marks, from, down };
-                self.pending.clear();
-                self.pending.extend(half.first(left, right));
-                while let Some(piece) = self.pending.pop() {
-                    half.follow(piece, &mut self.pending, &mut found);
+        self.sweep(space, summary, from, quadrants, &mut TargetsOf { marks, from, found: &mut found });
+        for right in [1, -1] {
+            if quadrants.contains_horizontal(right) {
+                let (x, is_mark) = along_line(space, marks, from, right);
+                let at = Vertex::new(x, from.y);
+                if is_mark && (!space.has_closed_gaps() || space.sees(from, at)) {
+                    found(at);
                 }
             }
         }
+    }
+
+    /// Calls `run` with every run of vertices on one horizontal line that the vertex `from` sees in these
+    /// quadrants: the line, and its first and last column. Runs may share vertices. A vertex that is not free
+    /// sees nothing.
+    ///
+    /// Along the horizontal line through `from` a run ends at the nearest of `marks`. A vertex that is seen
+    /// only between two obstacles which both touch the line of sight may be missed. Under closed gaps the
+    /// last vertex of a run may be a gap that cannot be entered from there. For the rest, see
+    /// [`seen`](Self::seen).
+    pub fn runs<'m>(
+        &mut self,
+        space: &'m FreeSpace<Corners>,
+        summary: &'m RowSummary,
+        marks: impl Into<Targets<'m>>,
+        from: Vertex,
+        quadrants: Quadrants,
+        mut run: impl FnMut(i32, i32, i32),
+    ) {
+        if !space.is_free(from) {
+            return;
+        }
+        self.sweep(space, summary, from, quadrants, &mut RunsOf { run: &mut run });
+        let marks = marks.into();
         for right in [1, -1] {
             if quadrants.contains_horizontal(right) {
-                let mark = along_line(space, marks, from, right);
-                if let Some(at) = mark.filter(|&at| !space.has_closed_gaps() || space.sees(from, at)) {
-                    found(at);
+                let (mut end, _) = along_line(space, marks, from, right);
+                if space.has_closed_gaps() {
+                    let is_gap = |x| space.is_closed_gap(Vertex::new(x, from.y));
+                    let mut x = from.x;
+                    while x != end {
+                        x += right;
+                        if is_gap(x) {
+                            end = x;
+                        }
+                    }
+                }
+                if end != from.x {
+                    run(from.y, end.min(from.x + right), end.max(from.x + right));
+                }
+            }
+        }
+    }
+
+    /// Follows all intervals above and below a vertex.
+    fn sweep<'m>(
+        &mut self,
+        space: &'m FreeSpace<Corners>,
+        summary: &'m RowSummary,
+        from: Vertex,
+        quadrants: Quadrants,
+        visitor: &mut impl Visitor<'m>,
+    ) {
+        for down in [1, -1] {
+            let (left, right) = (quadrants.contains(-1, down), quadrants.contains(1, down));
+            if left || right {
+                let half = Half { space, summary, from, down };
+                self.pending.clear();
+                self.pending.extend(half.first(left, right));
+                while let Some(piece) = self.pending.pop() {
+                    half.follow(piece, &mut self.pending, visitor);
                 }
             }
         }
     }
 }
 
-/// The nearest target to the right (`right` = 1) or to the left (−1) that is seen along the horizontal line.
-fn along_line(space: &FreeSpace<Corners>, marks: Targets<'_>, from: Vertex, right: i32) -> Option<Vertex> {
+/// How far a vertex sees along the horizontal line to the right (`right` = 1) or to the left (−1), closed
+/// gaps aside: the column of the nearest target, or of the last vertex before an edge that is closed, and
+/// whether it is a target.
+fn along_line(space: &FreeSpace<Corners>, marks: Targets<'_>, from: Vertex, right: i32) -> (i32, bool) {
     let [above, below] = [1, -1].map(|down| row_ahead(space.grid(), from.y, -down));
     let [same, opposite] = [marks.same, marks.opposite].map(|marks| marks.row(from.y));
     let mut x = from.x;
@@ -160,16 +225,16 @@ fn along_line(space: &FreeSpace<Corners>, marks: Targets<'_>, from: Vertex, righ
         };
         let (edge, mark) = (closed.trailing_zeros(), marked.trailing_zeros());
         if mark < edge {
-            return Some(Vertex::new(x + right * (mark as i32 + 1), from.y));
+            return (x + right * (mark as i32 + 1), true);
         }
         if edge < 64 {
-            return None;
+            return (x + right * edge as i32, false);
         }
         x += right * 64;
     }
 }
 
-impl Half<'_> {
+impl<'t> Half<'t> {
     /// The interval of the first line that is seen, to the left, to the right or both.
     fn first(&self, left: bool, right: bool) -> Option<Piece> {
         let (x, ahead) = (self.from.x, self.ahead(self.from.y));
@@ -183,23 +248,23 @@ impl Half<'_> {
     }
 
     /// The row of cells beyond a line.
-    fn ahead(&self, line: i32) -> BitRow<'_> {
+    fn ahead(&self, line: i32) -> BitRow<'t> {
         row_ahead(self.space.grid(), line, self.down)
     }
 
     /// Follows an interval from line to line until it ends. Where it splits, all parts but the first are
     /// added to `pending`.
-    fn follow(&self, mut piece: Piece, pending: &mut Vec<Piece>, found: &mut impl FnMut(Vertex)) {
+    fn follow<V: Visitor<'t>>(&self, mut piece: Piece, pending: &mut Vec<Piece>, visitor: &mut V) {
         let mut ahead = self.ahead(piece.line);
-        let mut marks = [self.marks.same, self.marks.opposite].map(|marks| marks.row(piece.line));
+        let mut line = visitor.line(piece.line);
         loop {
             self.end_walls(&mut piece, ahead);
             if piece.line % RowSummary::LINES == 0
                 && let Some(next) = self.leap(piece)
             {
-                self.report_ends(piece, marks, found);
+                visitor.band(piece, self.down, line);
                 ahead = ahead.below(self.down * RowSummary::LINES);
-                marks = marks.map(|marks| marks.below(self.down * RowSummary::LINES));
+                line = V::below(line, self.down * RowSummary::LINES);
                 piece = next;
                 continue;
             }
@@ -207,7 +272,7 @@ impl Half<'_> {
             let (first, last) = (piece.left.end.here.floor(), piece.right.end.here.ceil());
             let (low, high) = (first.min(left.end.here.floor()), last.max(right.end.here.ceil()));
             if ahead.first_blocked(first, last) == last {
-                self.report_ends(piece, marks, found);
+                visitor.between_free_cells(piece, self.down, line);
                 let (start, end) = (ahead.run_start(first, low), ahead.first_blocked(last, high));
                 if low < start {
                     left = Edge::wall(start);
@@ -220,7 +285,7 @@ impl Half<'_> {
                 }
                 piece = Piece { line: piece.line + self.down, left, right };
             } else {
-                self.report(piece, marks, found);
+                visitor.interval(piece, self.down, line);
                 let mut goes_on = None;
                 let mut from = first;
                 while from < last {
@@ -242,7 +307,7 @@ impl Half<'_> {
                 piece = part;
             }
             ahead = ahead.below(self.down);
-            marks = marks.map(|marks| marks.below(self.down));
+            line = V::below(line, self.down);
         }
     }
 
@@ -322,63 +387,10 @@ impl Half<'_> {
         let widens = i64::from(l.dx) * i64::from(r.dy) < i64::from(r.dx) * i64::from(l.dy);
         widens.then_some(Piece { line: piece.line + self.down, left, right })
     }
-
-    /// Reports the targets of an interval whose cells beyond the line are all free. The cells before the line
-    /// are free too, so that only the ends of the interval can be corners of obstacles.
-    #[inline]
-    fn report_ends(&self, piece: Piece, marks: [BitRow<'_>; 2], found: &mut impl FnMut(Vertex)) {
-        for edge in [piece.left, piece.right] {
-            let x = edge.end.here.floor();
-            if edge.end.here.is_vertex() && self.is_marked(x, marks) {
-                found(Vertex::new(x, piece.line));
-            }
-        }
-    }
-
-    /// Whether the vertex in column x is a target, given the rows of targets of its line.
-    #[inline]
-    fn is_marked(&self, x: i32, [same, opposite]: [BitRow<'_>; 2]) -> bool {
-        match (x - self.from.x) * self.down {
-            0 => same.is_blocked(x) || opposite.is_blocked(x),
-            1.. => same.is_blocked(x),
-            _ => opposite.is_blocked(x),
-        }
-    }
-
-    /// Reports the targets of an interval.
-    fn report(&self, piece: Piece, marks: [BitRow<'_>; 2], found: &mut impl FnMut(Vertex)) {
-        let (x, line) = (self.from.x, piece.line);
-        let (first, last) = (piece.left.end.here.ceil(), piece.right.end.here.floor());
-        let [left, right] = if self.down > 0 { [marks[1], marks[0]] } else { marks };
-        if first < x {
-            report(left, line, first, last.min(x - 1), found);
-        }
-        if first <= x && x <= last && self.is_marked(x, marks) {
-            found(Vertex::new(x, line));
-        }
-        if last > x {
-            report(right, line, first.max(x + 1), last, found);
-        }
-    }
 }
 
 /// Whether the interval still has a length: a ray at one end may have met the wall at the other.
 #[inline]
 const fn widens([left, right]: [Edge; 2]) -> bool {
     left.end.here.floor() < right.end.here.ceil()
-}
-
-/// Reports the targets of a row from column `first` to column `last`.
-#[inline]
-fn report(marks: BitRow<'_>, line: i32, first: i32, last: i32, found: &mut impl FnMut(Vertex)) {
-    let mut from = first;
-    while from <= last {
-        let width = (last - from + 1).min(64);
-        let mut bits = marks.word(from) & (!0 >> (64 - width));
-        while bits != 0 {
-            found(Vertex::new(from + bits.trailing_zeros() as i32, line));
-            bits &= bits - 1;
-        }
-        from += 64;
-    }
 }

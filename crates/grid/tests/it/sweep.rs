@@ -110,3 +110,67 @@ fn a_fan_finds_what_is_in_sight() {
     }
     assert!(counts[0] > 400_000 && counts[1] > 40_000, "{counts:?}");
 }
+
+/// Compares the runs from some vertices with the lines of sight to all. Returns the number of vertices in
+/// runs, and of those that are seen.
+fn check_runs(space: &FreeSpace<Corners>, seed: u64, rng: &mut Rng) -> [u64; 2] {
+    let grid = space.grid();
+    let summary = RowSummary::new(grid);
+    let marks = space.vertex_set(|at| is_corner(grid, at) && !space.is_closed_gap(at));
+    let rules = Rules::Corner(space.rule());
+    let (mut sweep, mut counts) = (VisibilitySweep::default(), [0, 0]);
+    for _ in 0..8 {
+        let Some(from) = random_free_vertex(rng, grid, rules.placement()) else { break };
+        let (x, y) = [(1, 1), (1, -1), (-1, 1), (-1, -1)][rng.below(4) as usize];
+        let quadrants = if rng.chance(30) { Quadrants::ALL } else { Quadrants::only(x, y) };
+        if space.is_closed_gap(from) {
+            continue;
+        }
+        let mut found = Vec::new();
+        sweep.runs(space, &summary, &marks, from, quadrants, |line, first, last| {
+            assert!(first <= last, "an empty run: {}", describe(grid, rules, from, from, seed));
+            found.extend((first..=last).map(|x| Vertex::new(x, line)));
+        });
+        found.sort();
+        found.dedup();
+        assert!(!found.contains(&from), "it sees itself: {}", describe(grid, rules, from, from, seed));
+        for line in 0..=grid.height() as i32 {
+            for at in (0..=grid.width() as i32).map(|x| Vertex::new(x, line)).filter(|&at| at != from) {
+                let d = from.to(at);
+                let steps = d.gcd() as i32;
+                let on_ray = |i| from + mediant_grid::Vector::new(d.x / steps * i, d.y / steps * i);
+                let case = || describe(grid, rules, from, at, seed);
+                let is_found = found.binary_search(&at).is_ok();
+                // The last vertex of a run may be a gap that cannot be entered from here.
+                let is_seen = space.is_free(at) && space.sees(from, at);
+                assert!(is_seen || !is_found || space.is_closed_gap(at), "{at} is not seen: {}", case());
+                let is_asked = quadrants == Quadrants::ALL || d.x * x >= 0 && d.y * y >= 0;
+                assert!(is_asked || !is_found, "{at} is in another quadrant: {}", case());
+                // Along the border of a quadrant the cells on its inner side count alone, and behind a corner
+                // on the ray another one may be the end.
+                let is_behind = (1..steps).any(|i| is_corner(grid, on_ray(i)));
+                let is_border = d.x == 0 && quadrants != Quadrants::ALL;
+                let may_be_missed = is_behind || is_border || space.is_closed_gap(at);
+                assert!(is_found || !is_seen || !is_asked || may_be_missed, "{at} is not found: {}", case());
+                counts[0] += u64::from(is_found);
+                counts[1] += u64::from(is_seen);
+            }
+        }
+    }
+    counts
+}
+
+#[test]
+fn runs_hold_what_is_in_sight() {
+    let mut counts = [0, 0];
+    for seed in seeds(60) {
+        let grid = Arc::new(draw(seed));
+        for gap in [DiagonalGap::Open, DiagonalGap::Closed] {
+            let space = FreeSpace::<Corners>::new(Arc::clone(&grid), gap);
+            let [found, seen] = check_runs(&space, seed, &mut Rng::new(seed));
+            counts[0] += found;
+            counts[1] += seen;
+        }
+    }
+    assert!(counts[0] > 80_000 && counts[1] > counts[0], "{counts:?}");
+}

@@ -157,6 +157,13 @@ where
         })
     }
 
+    fn distance(&mut self, query: Query) -> Result<Option<f64>, QueryError> {
+        match self.smoothing {
+            Some(_) => Ok(self.solve(query)?.cost()),
+            None => self.planner.distance(query),
+        }
+    }
+
     fn guarantee(&self) -> Guarantee {
         let guarantee = self.planner.guarantee();
         if self.smoothing.is_some() { guarantee.smoothed() } else { guarantee }

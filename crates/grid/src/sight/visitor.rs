@@ -1,0 +1,138 @@
+//! What a visibility sweep does with the intervals that it follows: it looks for targets, or for all
+//! vertices.
+
+use crate::{BitRow, Vertex};
+
+use super::{row_summary::RowSummary, sweep::Piece, targets::Targets};
+
+/// What a sweep looks for in the intervals that it follows.
+pub(super) trait Visitor<'m> {
+    /// What it knows of a line.
+    type Line: Copy;
+
+    /// What it knows of line `y`.
+    fn line(&self, y: i32) -> Self::Line;
+
+    /// The same of the line that is `lines` lines below.
+    fn below(line: Self::Line, lines: i32) -> Self::Line;
+
+    /// An interval whose cells beyond the line are all free, as are those before it.
+    fn between_free_cells(&mut self, piece: Piece, down: i32, line: Self::Line);
+
+    /// Any other interval.
+    fn interval(&mut self, piece: Piece, down: i32, line: Self::Line);
+
+    /// Intervals of this and further lines, on to the next band of rows; all cells on the way are free.
+    fn band(&mut self, piece: Piece, down: i32, line: Self::Line);
+}
+
+/// Looks for targets.
+pub(super) struct TargetsOf<'m, 'f, F> {
+    pub(super) marks: Targets<'m>,
+    pub(super) from: Vertex,
+    pub(super) found: &'f mut F,
+}
+
+impl<'m, F: FnMut(Vertex)> Visitor<'m> for TargetsOf<'m, '_, F> {
+    type Line = [BitRow<'m>; 2];
+
+    fn line(&self, y: i32) -> Self::Line {
+        [self.marks.same, self.marks.opposite].map(|marks| marks.row(y))
+    }
+
+    #[inline]
+    fn below(line: Self::Line, lines: i32) -> Self::Line {
+        line.map(|marks| marks.below(lines))
+    }
+
+    /// Only the ends of the interval can be corners of obstacles.
+    #[inline]
+    fn between_free_cells(&mut self, piece: Piece, down: i32, marks: Self::Line) {
+        for edge in [piece.left, piece.right] {
+            let x = edge.end.here.floor();
+            if edge.end.here.is_vertex() && self.is_marked(x, down, marks) {
+                (self.found)(Vertex::new(x, piece.line));
+            }
+        }
+    }
+
+    fn interval(&mut self, piece: Piece, down: i32, marks: Self::Line) {
+        let (x, line) = (self.from.x, piece.line);
+        let (first, last) = piece.columns();
+        let [left, right] = if down > 0 { [marks[1], marks[0]] } else { marks };
+        if first < x {
+            report(left, line, first, last.min(x - 1), self.found);
+        }
+        if first <= x && x <= last && self.is_marked(x, down, marks) {
+            (self.found)(Vertex::new(x, line));
+        }
+        if last > x {
+            report(right, line, first.max(x + 1), last, self.found);
+        }
+    }
+
+    #[inline]
+    fn band(&mut self, piece: Piece, down: i32, marks: Self::Line) {
+        self.between_free_cells(piece, down, marks);
+    }
+}
+
+impl<F> TargetsOf<'_, '_, F> {
+    /// Whether the vertex in column x is a target, given the rows of targets of its line.
+    #[inline]
+    fn is_marked(&self, x: i32, down: i32, [same, opposite]: [BitRow<'_>; 2]) -> bool {
+        match (x - self.from.x) * down {
+            0 => same.is_blocked(x) || opposite.is_blocked(x),
+            1.. => same.is_blocked(x),
+            _ => opposite.is_blocked(x),
+        }
+    }
+}
+
+/// Looks for all vertices.
+pub(super) struct RunsOf<'f, F> {
+    pub(super) run: &'f mut F,
+}
+
+impl<F: FnMut(i32, i32, i32)> Visitor<'_> for RunsOf<'_, F> {
+    type Line = ();
+
+    fn line(&self, _: i32) {}
+
+    fn below((): (), _: i32) {}
+
+    #[inline]
+    fn between_free_cells(&mut self, piece: Piece, _: i32, (): ()) {
+        let (first, last) = piece.columns();
+        if first <= last {
+            (self.run)(piece.line, first, last);
+        }
+    }
+
+    #[inline]
+    fn interval(&mut self, piece: Piece, down: i32, (): ()) {
+        self.between_free_cells(piece, down, ());
+    }
+
+    fn band(&mut self, piece: Piece, down: i32, (): ()) {
+        for lines in 0..RowSummary::LINES {
+            let [left, right] = [piece.left, piece.right].map(|edge| edge.after(lines));
+            self.between_free_cells(Piece { line: piece.line + down * lines, left, right }, down, ());
+        }
+    }
+}
+
+/// Reports the targets of a row from column `first` to column `last`.
+#[inline]
+fn report(marks: BitRow<'_>, line: i32, first: i32, last: i32, found: &mut impl FnMut(Vertex)) {
+    let mut from = first;
+    while from <= last {
+        let width = (last - from + 1).min(64);
+        let mut bits = marks.word(from) & (!0 >> (64 - width));
+        while bits != 0 {
+            found(Vertex::new(from + bits.trailing_zeros() as i32, line));
+            bits &= bits - 1;
+        }
+        from += 64;
+    }
+}
