@@ -7,9 +7,10 @@ mod taut;
 use mediant_grid::{FreeSpace, Grid, Placement, PlacementKind, Vector, Vertex};
 use mediant_moves::{FiniteK, K};
 
-use self::{
+use self::taut::TautDepartures;
+pub(crate) use self::{
     octile::{OctileBends, OctileDepartures},
-    taut::{ConvexCorner, TautDepartures},
+    taut::{ConvexCorner, SideDepartures},
 };
 use crate::cones::share_cone;
 

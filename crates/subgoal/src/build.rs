@@ -1,16 +1,13 @@
 //! Building a graph: its edges, then its hierarchy.
 
-use std::{
-    num::NonZeroU32,
-    sync::atomic::{AtomicUsize, Ordering},
-};
-
 use mediant_grid::{FreeSpace, Identity, Vertex};
 use mediant_moves::K;
 
 use crate::{
     arc::UpwardArc,
     bends::BendRule,
+    chunks::in_chunks,
+    codec::LEAST_CODE,
     contract::{ContractedGraph, Contraction, SubgoalGeometry},
     error::SubgoalError,
     graph::{MAX_ARCS, SubgoalGraph},
@@ -41,19 +38,54 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
         hierarchy: Hierarchy,
         progress: &(impl Fn(Progress) + Sync),
     ) -> Result<Self, SubgoalError> {
-        P::check(space, k)?;
         let hierarchy = match hierarchy {
-            // The bytes of a graph have the same code for both.
-            Hierarchy::Levels(NonZeroU32::MAX) => Hierarchy::AllLevels,
+            // The bytes of a graph have no code for so many.
+            Hierarchy::Levels(levels) if levels.get() >= LEAST_CODE => Hierarchy::AllLevels,
             other => other,
         };
+        let ground = Ground::new(space, k, hierarchy)?;
+        let contracted = ground.contracted(space, hierarchy, progress);
+        ground.into_graph(space, hierarchy, &contracted)
+    }
+}
+
+/// What every subgoal graph is built on.
+pub(crate) struct Ground<P: SubgoalPlacement> {
+    pub(crate) subgoals: Subgoals,
+    pub(crate) metric: Metric,
+    tables: P::Tables,
+    pub(crate) k: K,
+    pub(crate) criterion: EdgeCriterion,
+}
+
+impl<P: SubgoalPlacement> Ground<P> {
+    pub(crate) fn new(space: &FreeSpace<P>, k: K, hierarchy: Hierarchy) -> Result<Self, SubgoalError> {
+        P::check(space, k)?;
         let metric = Metric::new(k)?;
-        let (marks, tables) = P::prepare(space);
-        let subgoals = Subgoals::new(marks);
-        let total = subgoals.len();
-        let criterion = P::edge_criterion(k, hierarchy);
-        let context =
-            BuildContext { space, subgoals: &subgoals, tables: &tables, metric: &metric, k, criterion };
+        let marks = P::subgoals(space);
+        let tables = P::tables(space, &marks);
+        Ok(Self {
+            subgoals: Subgoals::new(marks),
+            metric,
+            tables,
+            k,
+            criterion: P::edge_criterion(k, hierarchy),
+        })
+    }
+
+    pub(crate) fn context<'m>(&'m self, space: &'m FreeSpace<P>) -> BuildContext<'m, P> {
+        let Self { subgoals, metric, tables, k, criterion } = self;
+        BuildContext { space, subgoals, tables, metric, k: *k, criterion: *criterion }
+    }
+
+    /// Finds the edges, and builds a hierarchy on them.
+    pub(crate) fn contracted(
+        &self,
+        space: &FreeSpace<P>,
+        hierarchy: Hierarchy,
+        progress: &(impl Fn(Progress) + Sync),
+    ) -> ContractedGraph {
+        let (context, total) = (self.context(space), self.subgoals.len());
         let edges = find_edges(context, &|done| progress(Progress { stage: Stage::Edges, done, total }));
         let mut contraction = Contraction::new(total, &edges, context);
         let mut report = |done| progress(Progress { stage: Stage::Hierarchy, done, total });
@@ -68,14 +100,24 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
                 }
             }
         }
-        let contracted = contraction.finish();
+        contraction.finish()
+    }
+
+    pub(crate) fn into_graph(
+        self,
+        space: &FreeSpace<P>,
+        hierarchy: Hierarchy,
+        contracted: &ContractedGraph,
+    ) -> Result<SubgoalGraph<P>, SubgoalError> {
+        let Self { subgoals, metric, tables, k, criterion } = self;
         let count = contracted.arcs.iter().map(Vec::len).sum();
         if count > MAX_ARCS as usize {
             return Err(SubgoalError::Arcs { count, most: MAX_ARCS });
         }
-        let (offsets, arcs) = pack(&contracted);
+        let (offsets, arcs) = pack(contracted);
         let identity = Identity { k: Some(k), ..space.identity() };
-        let graph = Self { identity, subgoals, tables, metric, k, criterion, hierarchy, offsets, arcs };
+        let graph =
+            SubgoalGraph { identity, subgoals, tables, metric, k, criterion, hierarchy, offsets, arcs };
         graph.with_costs(space)
     }
 }
@@ -119,33 +161,14 @@ fn find_edges<P: EdgeFinder>(
     context: BuildContext<'_, P>,
     progress: &(impl Fn(usize) + Sync),
 ) -> Vec<(u32, u32)> {
-    /// Subgoals that one thread handles at a time.
-    const CHUNK: usize = 64;
-    let count = context.subgoals.len();
-    let done = AtomicUsize::new(0);
-    let chunk = |scratch: &mut P::Scratch, chunk: usize| {
-        let ids = chunk * CHUNK..count.min((chunk + 1) * CHUNK);
+    let chunks = in_chunks(context.subgoals.len(), P::Scratch::default, progress, |scratch, ids| {
         let mut edges = Vec::new();
-        for id in ids.clone() {
-            let from = id as u32;
+        for from in ids {
             P::edges_from(context, scratch, context.subgoals.vertex(from), EdgeKind::Graph, |to, _| {
                 edges.push((from, to));
             });
         }
-        let done = done.fetch_add(ids.len(), Ordering::Relaxed) + ids.len();
-        progress(done);
         edges
-    };
-    let chunks = 0..count.div_ceil(CHUNK);
-    #[cfg(feature = "parallel")]
-    let edges: Vec<_> = {
-        use rayon::prelude::*;
-        chunks.into_par_iter().map_init(P::Scratch::default, chunk).collect()
-    };
-    #[cfg(not(feature = "parallel"))]
-    let edges: Vec<_> = {
-        let mut scratch = P::Scratch::default();
-        chunks.map(|number| chunk(&mut scratch, number)).collect()
-    };
-    edges.concat()
+    });
+    chunks.concat()
 }

@@ -5,15 +5,25 @@ use mediant_grid::{BitIndex, BitMatrix, Centers, CornerRule, FreeSpace, Grid, Ve
 use mediant_moves::{Cost, FiniteK, K};
 
 use crate::{
-    clearance::{ClearanceBits, DiagonalClearance, zeros_after, zeros_before},
+    bends::{OctileBends, OctileDepartures},
+    clearance::{ClearanceBits, DiagonalClearance, convex_corners, zeros_after, zeros_before},
     error::SubgoalError,
+    graph::SubgoalGraph,
     hierarchy::Hierarchy,
-    placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, SubgoalPlacement},
+    placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, Run, SubgoalPlacement},
 };
 
 impl SubgoalPlacement for Centers {}
 
 impl EdgeFinder for Centers {
+    fn is_outdone(_: &FreeSpace<Self>, _: &SubgoalGraph<Self>) -> bool {
+        false
+    }
+
+    const SHARES_SIGHT: bool = false;
+
+    const SIDES: u32 = 1;
+
     type Scratch = ();
     type Tables = ClearanceBits;
 
@@ -25,8 +35,12 @@ impl EdgeFinder for Centers {
         }
     }
 
-    fn prepare(space: &FreeSpace<Self>) -> (BitMatrix, ClearanceBits) {
-        ClearanceBits::new(space.grid())
+    fn subgoals(space: &FreeSpace<Self>) -> BitMatrix {
+        convex_corners(space.grid().rows())
+    }
+
+    fn tables(space: &FreeSpace<Self>, subgoals: &BitMatrix) -> ClearanceBits {
+        ClearanceBits::new(space.grid(), subgoals)
     }
 
     fn edge_criterion(_: K, _: Hierarchy) -> EdgeCriterion {
@@ -49,12 +63,64 @@ impl EdgeFinder for Centers {
         let diagonally = k == K::Finite(FiniteK::N8);
         let costs =
             (metric.distance(Vector::new(1, 0)), metric.distance(Vector::new(1, i32::from(diagonally))));
-        EdgeSearch { grid: space.grid(), clearance: tables, from, kind, costs, visit }.run(diagonally);
+        EdgeSearch { grid: space.grid(), clearance: tables, from, kind, costs, visit, run: |_| {} }
+            .run(diagonally);
+    }
+
+    type Departures = OctileDepartures;
+
+    const SORTED: bool = false;
+
+    fn bend_bits(space: &FreeSpace<Self>, at: Vertex, _: u32) -> u32 {
+        OctileBends::at(space.grid(), at).bits()
+    }
+
+    #[inline]
+    fn departures(k: K, bits: u32, arrival: Vector) -> OctileDepartures {
+        match k {
+            K::Finite(FiniteK::N8) if arrival != Vector::new(0, 0) => {
+                OctileBends::from_bits(bits).after(arrival)
+            }
+            _ => OctileDepartures::ALL,
+        }
+    }
+
+    /// The half octant.
+    fn class(edge: Vector) -> u32 {
+        OctileDepartures::class(edge)
+    }
+
+    #[inline]
+    fn allows(departures: OctileDepartures, _: impl Fn() -> Vector, class: u32) -> bool {
+        departures.allows_class(class)
+    }
+
+    /// Their classes, a bit for each.
+    fn summary(_: u32, edges: impl Iterator<Item = Vector>) -> u32 {
+        edges.fold(0, |classes, edge| classes | 1 << Self::class(edge))
+    }
+
+    #[inline]
+    fn leads_on(k: K, bits: u32, arrival: Vector, summary: u32) -> bool {
+        Self::departures(k, bits, arrival).allows_any(summary)
+    }
+
+    fn side(_: &FreeSpace<Self>, _: Vertex, edge: Vector) -> (u32, f64) {
+        (0, Self::class(edge).into())
+    }
+
+    fn runs_to(context: BuildContext<'_, Self>, (): &mut (), subgoal: Vertex, mut run: impl FnMut(Run)) {
+        let BuildContext { space, tables, k, .. } = context;
+        let (from, kind, costs) = (subgoal, EdgeKind::Query, (Cost::ZERO, Cost::ZERO));
+        // Paths that begin or end at a subgoal have no other edge there.
+        run(Run { first: subgoal, length: 1, is_column: false, is_right: false });
+        EdgeSearch { grid: space.grid(), clearance: tables, from, kind, costs, visit: |_, _| {}, run }
+            .run(k == K::Finite(FiniteK::N8));
     }
 }
 
 /// The search for the subgoals that are directly reachable from a cell.
-struct EdgeSearch<'g, F> {
+struct EdgeSearch<'g, F, R> {
     grid: &'g Grid,
     clearance: &'g ClearanceBits,
     from: Vertex,
@@ -63,6 +129,8 @@ struct EdgeSearch<'g, F> {
     costs: (Cost, Cost),
     /// Called with the displacement and the cost of each subgoal found, and of some blocked cells.
     visit: F,
+    /// Called with the cells before them, each once: those that are directly reachable from the cell.
+    run: R,
 }
 
 /// The cells a·u + b·v, with a, b ≥ 1, between two adjacent moves u and v, of which u is an axis move.
@@ -85,7 +153,18 @@ struct Cone {
     b: i32,
 }
 
-impl<F: FnMut(Vector, Cost)> EdgeSearch<'_, F> {
+impl<F: FnMut(Vector, Cost), R: FnMut(Run)> EdgeSearch<'_, F, R> {
+    /// Reports the cells from `u` to `length` · `u` beyond a cell, where u is an axis move.
+    #[inline]
+    fn report(&mut self, is_row: bool, (x, y): (i32, i32), u: i32, length: i32) {
+        if length > 0 {
+            let start = if u > 0 { 1 } else { -length };
+            let (x, y) = if is_row { (x + start, y) } else { (x, y + start) };
+            let first = self.from + Vector::new(x, y);
+            (self.run)(Run { first, length, is_column: !is_row, is_right: false });
+        }
+    }
+
     fn run(mut self, diagonally: bool) {
         let [right, left] = [1, -1].map(|x| self.axis(true, x));
         let [down, up] = [1, -1].map(|y| self.axis(false, y));
@@ -99,6 +178,9 @@ impl<F: FnMut(Vector, Cost)> EdgeSearch<'_, F> {
                     continue;
                 }
                 let DiagonalClearance { free: b, meets_subgoal } = self.clearance.diagonal(self.from, (x, y));
+                for steps in 1..=b {
+                    self.report(true, (x * (steps - 1), y * steps), x, 1);
+                }
                 if meets_subgoal {
                     (self.visit)(Vector::new(x * (b + 1), y * (b + 1)), self.costs.1 * (b + 1) as u32);
                 }
@@ -118,6 +200,7 @@ impl<F: FnMut(Vector, Cost)> EdgeSearch<'_, F> {
         if self.kind.includes(to) {
             (self.visit)(to, self.costs.0 * (free + 1) as u32);
         }
+        self.report(is_row, (0, 0), u, free);
         free
     }
 
@@ -136,10 +219,13 @@ impl<F: FnMut(Vector, Cost)> EdgeSearch<'_, F> {
             at = at.offset(step);
             let word = load(stops, at.offset(if AHEAD { 1 } else { -64 }));
             let zeros = if AHEAD { word.trailing_zeros() } else { word.leading_zeros() } as i32;
-            if zeros >= a {
-                continue;
-            }
-            let free = if zeros < 64 { zeros } else { free_beyond::<AHEAD>(stops, at, a) };
+            let free = match zeros {
+                _ if zeros >= a => a,
+                64 => free_beyond::<AHEAD>(stops, at, a),
+                _ => zeros,
+            };
+            let start = if is_row { (v.0 * row, v.1 * row) } else { (v.1 * row, v.0 * row) };
+            self.report(is_row, start, u, free);
             if free == a {
                 continue;
             }
@@ -199,7 +285,8 @@ mod tests {
     fn check(grid: &Grid, k: FiniteK, rule: CornerRule, every: usize, seed: u64) -> usize {
         let space = FreeSpace::<Centers>::new(Arc::new(grid.clone()), rule);
         let metric = Metric::new(K::Finite(k)).expect("a small k");
-        let (marks, tables) = Centers::prepare(&space);
+        let marks = Centers::subgoals(&space);
+        let tables = Centers::tables(&space, &marks);
         let subgoals = Subgoals::new(marks);
         let context = BuildContext {
             space: &space,

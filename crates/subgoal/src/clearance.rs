@@ -33,18 +33,20 @@ impl EdgeTables for ClearanceBits {
 }
 
 impl ClearanceBits {
-    /// The subgoals of a map, and its clearance bits.
-    pub(crate) fn new(grid: &Grid) -> (BitMatrix, Self) {
-        let [(marks, rows), (_, columns)] = [grid.rows(), grid.columns()].map(|cells| {
-            let marks = convex_corners(cells);
-            let stops = BitMatrix::from_words(cells.width(), cells.height(), true, |x, y| {
+    /// The clearance bits of a map with these subgoals.
+    pub(crate) fn new(grid: &Grid, subgoals: &BitMatrix) -> Self {
+        let stops = |cells: &BitMatrix, marks: &BitMatrix| {
+            BitMatrix::from_words(cells.width(), cells.height(), true, |x, y| {
                 let at = cells.index(x, y);
                 load(cells.words(), at) | load(marks.words(), at)
-            });
-            (marks, stops)
-        });
-        let diagonals = diagonals(grid.rows(), &marks);
-        (marks, Self { rows, columns, diagonals })
+            })
+        };
+        let (cells, turned) = (grid.rows(), grid.columns());
+        Self {
+            rows: stops(cells, subgoals),
+            columns: stops(turned, &convex_corners(turned)),
+            diagonals: diagonals(cells, subgoals),
+        }
     }
 
     /// Blocked cells and subgoals along an axis, and the place of a cell there.
@@ -97,7 +99,7 @@ pub(crate) fn zeros_before(words: &[u64], mut at: BitIndex) -> i32 {
 
 /// The free cells at convex corners of obstacles (Uras, Koenig & Hernández 2013): a diagonal neighbor is
 /// blocked, and the two cells beside both are free.
-fn convex_corners(cells: &BitMatrix) -> BitMatrix {
+pub(crate) fn convex_corners(cells: &BitMatrix) -> BitMatrix {
     BitMatrix::from_words(cells.width(), cells.height(), false, |x, y| {
         let word = |dx, dy| load(cells.words(), cells.index(x + dx, y + dy));
         let [up, down, left, right] = [word(0, -1), word(0, 1), word(-1, 0), word(1, 0)];

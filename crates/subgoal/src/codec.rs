@@ -16,6 +16,7 @@ use crate::{
     error::SubgoalError,
     graph::{MAX_ARCS, SubgoalGraph},
     hierarchy::Hierarchy,
+    labels::{HubLabels, PreparedSubgoals},
     placement::{EdgeCriterion, SubgoalPlacement},
     subgoals::Subgoals,
 };
@@ -23,7 +24,7 @@ use mediant_search::parts::Metric;
 
 impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// The version of the format that [`to_bytes`](Self::to_bytes) writes.
-    pub const VERSION: u32 = 2;
+    pub const VERSION: u32 = 3;
 
     /// What does not follow from the map, for [`from_bytes`](Self::from_bytes).
     #[must_use]
@@ -60,12 +61,18 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
         let bytes = after_identity(bytes, identity)?;
         P::check(space, k)?;
         let metric = Metric::new(k)?;
-        let (marks, tables) = P::prepare(space);
+        let marks = P::subgoals(space);
+        let tables = P::tables(space, &marks);
         let subgoals = Subgoals::new(marks);
         let (words, rest) = bytes.as_chunks::<4>();
         let mut numbers = words.iter().map(|&word| u32::from_le_bytes(word));
         let header = numbers.next().zip(numbers.next()).zip(numbers.next());
         let ((hierarchy, count), total) = header.ok_or(SubgoalError::Bytes("they are too few"))?;
+        match hierarchy {
+            LABELS => return Err(SubgoalError::Bytes("they are hub labels, no graph")),
+            NOTHING => return Err(SubgoalError::Bytes("they say that there is no graph")),
+            _ => {}
+        }
         let hierarchy = named(hierarchy);
         if count as usize != subgoals.len() {
             return Err(SubgoalError::Bytes("they are for another number of subgoals"));
@@ -107,7 +114,7 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
 }
 
 /// The bytes behind the identity with which they begin, if that is the expected one.
-fn after_identity(bytes: &[u8], expected: Identity) -> Result<&[u8], SubgoalError> {
+pub(crate) fn after_identity(bytes: &[u8], expected: Identity) -> Result<&[u8], SubgoalError> {
     let (found, rest) = Identity::split_from(bytes)
         .ok_or(SubgoalError::Bytes("they do not begin with what they belong to"))?;
     found.check_equal("the subgoal graph", ("the space", expected))?;
@@ -154,6 +161,43 @@ fn read_arcs(
     }
     Ok(arcs.into_boxed_slice())
 }
+
+impl<P: SubgoalPlacement> PreparedSubgoals<P> {
+    /// What does not follow from the map, for [`from_bytes`](Self::from_bytes): the bytes of the labels,
+    /// those of the graph, or of neither only what they would belong to, and a code.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        match self {
+            Self::Labels(labels) => labels.to_bytes(),
+            Self::Contracted(graph) => graph.to_bytes(),
+            Self::Nothing(identity) => [&identity.to_bytes()[..], &NOTHING.to_le_bytes()].concat(),
+        }
+    }
+
+    /// What [`to_bytes`](Self::to_bytes) wrote for the same free space and k. A graph may have levels.
+    ///
+    /// # Errors
+    /// Those of [`HubLabels::from_bytes`] and [`SubgoalGraph::from_bytes`].
+    pub fn from_bytes(space: &FreeSpace<P>, k: impl Into<K>, bytes: &[u8]) -> Result<Self, SubgoalError> {
+        let k = k.into();
+        let identity = Identity { k: Some(k), ..space.identity() };
+        let rest = after_identity(bytes, identity)?;
+        match rest.split_first_chunk().map(|(&code, rest)| (u32::from_le_bytes(code), rest)) {
+            Some((LABELS, _)) => HubLabels::from_bytes(space, k, bytes).map(Self::Labels),
+            Some((NOTHING, [])) => P::check(space, k).map(|()| Self::Nothing(identity)),
+            _ => SubgoalGraph::from_bytes(space, k, bytes).map(Self::Contracted),
+        }
+    }
+}
+
+/// The code of [hub labels](crate::HubLabels), which are no graph.
+pub(crate) const LABELS: u32 = u32::MAX - 1;
+
+/// The code where [nothing](PreparedSubgoals::Nothing) was kept.
+const NOTHING: u32 = u32::MAX - 2;
+
+/// The least code of what has no number of levels.
+pub(crate) const LEAST_CODE: u32 = NOTHING;
 
 const fn code(hierarchy: Hierarchy) -> u32 {
     match hierarchy {

@@ -1,16 +1,19 @@
 //! Subgoals and edges at corners, for N(k) and at any angle.
 
 use mediant_grid::{
-    BitMatrix, Corners, FreeSpace, Placement, Vertex, load,
+    BitMatrix, Corners, FreeSpace, Placement, Vector, Vertex, load,
     sight::{Quadrants, RowSummary, Targets, VisibilitySweep},
 };
 use mediant_moves::{Cost, K};
 
 use crate::{
+    bends::{ConvexCorner, SideDepartures},
     direct_reachability::DirectFilter,
     error::SubgoalError,
+    graph::SubgoalGraph,
     hierarchy::Hierarchy,
-    placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, EdgeTables, SubgoalPlacement},
+    placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, EdgeTables, Run, SubgoalPlacement},
+    worth,
 };
 
 /// Scratch memory for finding edges at corners.
@@ -39,6 +42,14 @@ impl EdgeTables for SightTables {
 impl SubgoalPlacement for Corners {}
 
 impl EdgeFinder for Corners {
+    fn is_outdone(space: &FreeSpace<Self>, graph: &SubgoalGraph<Self>) -> bool {
+        worth::is_outdone(space, graph)
+    }
+
+    const SHARES_SIGHT: bool = true;
+
+    const SIDES: u32 = 2;
+
     type Scratch = CornerScratch;
     type Tables = SightTables;
 
@@ -49,31 +60,15 @@ impl EdgeFinder for Corners {
     /// The subgoals are the convex corners of obstacles: vertices that touch one blocked cell, or two that
     /// meet diagonally, if a path may pass between them. (Hormazábal et al. 2017: a corner of an obstacle
     /// that a path can pass along a diagonal.)
-    fn prepare(space: &FreeSpace<Self>) -> (BitMatrix, SightTables) {
-        let cells = space.grid().rows();
-        let (width, height) = Self::vertices(space.grid());
-        let gaps_open = !Self::closes_gaps(space.rule());
-        let around = |x, y| {
-            [(-1, -1), (0, -1), (-1, 0), (0, 0)]
-                .map(|(dx, dy)| load(cells.words(), cells.index(x + dx, y + dy)))
-        };
-        let convex = |[nw, ne, sw, se]: [u64; 4]| {
-            let odd = nw ^ ne ^ sw ^ se;
-            let one = odd & !(nw & ne | sw & se);
-            let two = (nw ^ ne) & !(nw ^ se) & !(ne ^ sw);
-            if gaps_open { one | two } else { one }
-        };
-        let made = |marks: &dyn Fn([u64; 4]) -> u64| {
-            BitMatrix::from_words(width, height, false, |x, y| marks(around(x, y)))
-        };
+    fn subgoals(space: &FreeSpace<Self>) -> BitMatrix {
+        marks(space, |convex, _| convex)
+    }
+
+    fn tables(space: &FreeSpace<Self>, _: &BitMatrix) -> SightTables {
         // A taut path arrives and leaves through the quadrants beside that of the blocked cell.
-        let same = |cells: [u64; 4]| convex(cells) & (cells[1] | cells[2]);
-        let opposite = |cells: [u64; 4]| convex(cells) & (cells[0] | cells[3]);
-        let tables = SightTables {
-            row_summary: RowSummary::new(space.grid()),
-            tangents: [made(&same), made(&opposite)],
-        };
-        (made(&convex), tables)
+        let same = marks(space, |convex, [_, ne, sw, _]| convex & (ne | sw));
+        let opposite = marks(space, |convex, [nw, _, _, se]| convex & (nw | se));
+        SightTables { row_summary: RowSummary::new(space.grid()), tangents: [same, opposite] }
     }
 
     fn edge_criterion(k: K, hierarchy: Hierarchy) -> EdgeCriterion {
@@ -132,4 +127,79 @@ impl EdgeFinder for Corners {
             (K::Any, None) => {}
         }
     }
+
+    type Departures = SideDepartures;
+
+    const SORTED: bool = true;
+
+    fn bend_bits(space: &FreeSpace<Self>, at: Vertex, side: u32) -> u32 {
+        ConvexCorner::at(space.grid(), at).bits(side)
+    }
+
+    #[inline]
+    fn departures(_: K, bits: u32, arrival: Vector) -> SideDepartures {
+        SideDepartures::new(bits, arrival)
+    }
+
+    fn class(_: Vector) -> u32 {
+        0
+    }
+
+    #[inline]
+    fn allows(departures: SideDepartures, edge: impl Fn() -> Vector, _: u32) -> bool {
+        departures.allows(edge())
+    }
+
+    /// The [half plane](SideDepartures::half_plane) of arrivals from which a path may leave along the first
+    /// edge: where it may not, it may not leave along any.
+    fn summary(bits: u32, mut edges: impl Iterator<Item = Vector>) -> u32 {
+        let first = edges.next();
+        first.map_or(SideDepartures::NO_ARRIVALS, |first| SideDepartures::half_plane(bits, first))
+    }
+
+    #[inline]
+    fn leads_on(_: K, _: u32, arrival: Vector, summary: u32) -> bool {
+        SideDepartures::is_in(arrival, summary)
+    }
+
+    fn side(space: &FreeSpace<Self>, at: Vertex, edge: Vector) -> (u32, f64) {
+        ConvexCorner::at(space.grid(), at).side_and_slope(edge)
+    }
+
+    fn runs_to(
+        context: BuildContext<'_, Self>,
+        scratch: &mut CornerScratch,
+        subgoal: Vertex,
+        mut visit: impl FnMut(Run),
+    ) {
+        let BuildContext { space, tables: SightTables { row_summary, tangents }, .. } = context;
+        let [same, opposite] = tangents;
+        let Vertex { x, y } = subgoal;
+        // The quadrants from which a taut path comes, to the left and to the right.
+        let tangent = if same.get(x, y) { 1 } else { -1 };
+        for (is_right, sign) in [(false, -1), (true, 1)] {
+            let quadrant = Quadrants::only(sign, sign * tangent);
+            let targets = Targets { same, opposite };
+            scratch.sweep.runs(space, row_summary, targets, subgoal, quadrant, |line, first, last| {
+                let length = last - first + 1;
+                visit(Run { first: Vertex::new(first, line), length, is_column: false, is_right });
+            });
+        }
+    }
+}
+
+/// Some of the convex corners of obstacles: `some` is handed which of 64 vertices are such corners, and which
+/// of the cells to the north-west, north-east, south-west and south-east of each are blocked.
+fn marks(space: &FreeSpace<Corners>, some: impl Fn(u64, [u64; 4]) -> u64) -> BitMatrix {
+    let cells = space.grid().rows();
+    let (width, height) = Corners::vertices(space.grid());
+    let gaps_open = !Corners::closes_gaps(space.rule());
+    BitMatrix::from_words(width, height, false, |x, y| {
+        let around @ [nw, ne, sw, se] = [(-1, -1), (0, -1), (-1, 0), (0, 0)]
+            .map(|(dx, dy)| load(cells.words(), cells.index(x + dx, y + dy)));
+        let odd = nw ^ ne ^ sw ^ se;
+        let one = odd & !(nw & ne | sw & se);
+        let two = (nw ^ ne) & !(nw ^ se) & !(ne ^ sw);
+        some(if gaps_open { one | two } else { one }, around)
+    })
 }

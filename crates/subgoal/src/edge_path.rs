@@ -5,12 +5,9 @@
 //! is taken whose two legs are free. If neither's are, the path follows the line of sight.
 
 use mediant_grid::{FreeSpace, Placement, PlacementKind, Vector, Vertex};
-use mediant_moves::{Decomposition, K, decompose};
+use mediant_moves::{Decomposition, FiniteK, K, decompose};
 
-use crate::{
-    graph::SubgoalGraph,
-    placement::{EdgeCriterion, SubgoalPlacement},
-};
+use crate::placement::EdgeCriterion;
 
 /// Writes the path between two vertices to `waypoints`, if an optimal path of the empty grid is free: then no
 /// search is needed. Returns whether it is.
@@ -90,22 +87,29 @@ fn elbows(start: Vertex, parts: Decomposition) -> [Vertex; 2] {
     })
 }
 
-/// Extends a path to a vertex, along an edge.
-pub(crate) fn extend<P: SubgoalPlacement>(
+/// Extends a path over N(k) to a vertex, along an edge; an empty one begins there.
+pub(crate) fn extend<P: Placement>(
     waypoints: &mut Vec<Vertex>,
     space: &FreeSpace<P>,
-    graph: &SubgoalGraph<P>,
+    (k, criterion): (K, EdgeCriterion),
     to: Vertex,
 ) {
-    let Some(&from) = waypoints.last() else { return };
+    let Some(&from) = waypoints.last() else { return waypoints.push(to) };
     if from == to {
         return;
     }
-    let K::Finite(k) = graph.k else { return push(waypoints, to) };
+    let K::Finite(k) = k else { return push(waypoints, to) };
+    if criterion == EdgeCriterion::Direct && k == FiniteK::N8 {
+        // Both ends are directly reachable, so every optimal path of the empty grid is free.
+        let elbow = from + octile_elbow(from.to(to));
+        if elbow != from && elbow != to {
+            push(waypoints, elbow);
+        }
+        return push(waypoints, to);
+    }
     let Some(parts) = decompose(from.to(to), k) else { return };
     let [first, second] = elbows(from, parts);
-    let elbow = match graph.criterion {
-        // Both ends are directly reachable, so every optimal path of the empty grid is free.
+    let elbow = match criterion {
         EdgeCriterion::Direct => Some(first),
         _ if first == from || first == to => Some(to),
         EdgeCriterion::Taut => {
@@ -120,6 +124,17 @@ pub(crate) fn extend<P: SubgoalPlacement>(
     if waypoints.last() != Some(&to) {
         push(waypoints, to);
     }
+}
+
+/// The first of the two [elbows](elbows) over N(3), without a decomposition.
+#[inline]
+fn octile_elbow(v: Vector) -> Vector {
+    let (x, y) = v.abs();
+    let shorter = x.min(y) as i32;
+    // The moves of a quadrant in angular order: an axis move, the diagonal, the other axis move.
+    let begins_on_x = (v.x > 0) != (v.y > 0);
+    let diagonal = Vector::new(v.x.signum() * shorter, v.y.signum() * shorter);
+    if (x > y) == begins_on_x { v - diagonal } else { diagonal }
 }
 
 /// Follows a line of sight by moves that sweep no more cells than the line does (Kramm 2018, Lemma 13): the
@@ -137,6 +152,7 @@ fn along_line(waypoints: &mut Vec<Vertex>, parts: Decomposition) {
 }
 
 /// Adds a waypoint; it replaces the last one if the path goes straight on there.
+#[inline]
 pub(crate) fn push(waypoints: &mut Vec<Vertex>, to: Vertex) {
     if let [.., before, last] = waypoints[..] {
         let (v, w) = (before.to(last), last.to(to));
@@ -145,4 +161,24 @@ pub(crate) fn push(waypoints: &mut Vec<Vertex>, to: Vertex) {
         }
     }
     waypoints.push(to);
+}
+
+#[cfg(test)]
+mod tests {
+    use mediant_grid::{Vector, Vertex};
+    use mediant_moves::{FiniteK, decompose};
+
+    use super::{elbows, octile_elbow};
+
+    #[test]
+    fn the_elbow_over_n3_is_that_of_the_decomposition() {
+        for (x, y) in (-5..=5).flat_map(|x| (-5..=5).map(move |y| (x, y))).filter(|&at| at != (0, 0)) {
+            let (v, start) = (Vector::new(x, y), Vertex::new(0, 0));
+            let parts = decompose(v, FiniteK::N8).expect("a small displacement");
+            let (expected, found) = (elbows(start, parts)[0], start + octile_elbow(v));
+            let ends = [start, start + v];
+            let is_straight = ends.contains(&expected) && ends.contains(&found);
+            assert!(expected == found || is_straight, "{v:?}: {expected:?}, {found:?}");
+        }
+    }
 }

@@ -26,6 +26,28 @@ pub enum SubgoalError {
         /// The most that a graph can have.
         most: u32,
     },
+    /// There are no hub labels: the contraction hierarchy has a core.
+    #[error(
+        "this map has no hub labels: the contraction leaves a core of {core} of {subgoals} subgoals; prepare \
+         the contraction hierarchy, or leave the choice to the map"
+    )]
+    Core {
+        /// The subgoals of the core.
+        core: usize,
+        /// All subgoals.
+        subgoals: usize,
+    },
+    /// Hub labels would take more memory than they may.
+    #[error(
+        "the hub labels take more than {most} bytes: allow more memory, or prepare a contraction hierarchy"
+    )]
+    Memory {
+        /// The bytes that they may take.
+        most: usize,
+    },
+    /// There are too many hub labels, or their costs are too large.
+    #[error("the hub labels are more than their format can hold: prepare a contraction hierarchy")]
+    Labels,
     /// The graph belongs to another map, placement, rule of motion or k.
     #[error(transparent)]
     Mismatch(#[from] Mismatch),

@@ -75,6 +75,17 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
         (0..self.subgoals() as u32).filter(|&id| self.is_core(id)).map(|id| self.up(id).len()).sum()
     }
 
+    /// Whether its core is small, or a small share of its subgoals. On noise the core is large, and every
+    /// search passes it.
+    pub(crate) fn has_small_core(&self) -> bool {
+        /// The most subgoals of a core that is small whatever its share.
+        const FEW: usize = 256;
+        /// A core of at most one in so many subgoals is a small share.
+        const SHARE: usize = 16;
+        let core = self.core();
+        core <= FEW || core <= self.subgoals() / SHARE
+    }
+
     /// The neighborhood.
     #[must_use]
     pub const fn k(&self) -> K {

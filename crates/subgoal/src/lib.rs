@@ -2,7 +2,8 @@
 //!
 //! A shortest path goes around obstacles at their convex corners, the *subgoals*, and between them as on an
 //! empty grid. A [`SubgoalGraph`] joins subgoals by edges, once for each map. A planner joins the start and
-//! the goal of a query to the graph, searches it, and turns its edges into moves.
+//! the goal of a query to the graph, searches it, and turns its edges into moves. With [`HubLabels`] nothing
+//! is searched: the distance is looked up, and the path is followed from subgoal to subgoal.
 //!
 //! | paper | here |
 //! |---|---|
@@ -10,6 +11,7 @@
 //! | Hormazábal, Díaz, Hernández & Baier 2017, Sub2-A*(k) | [`Corners`], every k, [`Hierarchy::Levels`] |
 //! | Uras & Koenig 2015, Sub-Theta* | [`SubgoalTheta`] |
 //! | Uras & Koenig 2018, contraction hierarchies of subgoal graphs | [`Hierarchy::Contracted`], the default |
+//! | Du, Shen & Cheema 2023, Euclidean hub labels | [`HubLabels`], every k; labels of subgoals, not of regions |
 //!
 //! [`Centers`]: mediant_grid::Centers
 //! [`Corners`]: mediant_grid::Corners
@@ -66,16 +68,25 @@
 //! scanning the bits of rows, columns and diagonals. The work follows what is visible, not 2^k. Times, and
 //! what became of the claims of Hormazábal et al., are in `docs/measurements/subgoal.md`.
 //!
+//! # Hub labels
+//!
+//! [`PreparedSubgoals::within`] makes [`HubLabels`] of the contraction where they fit in a budget of memory,
+//! and keeps the contraction where they do not. A label is a list of hubs with distances; the distance
+//! between two subgoals is the least sum over a common hub. What start and goal see is stored as well, so
+//! that neither end needs geometry. Which hubs, what a query does not read, and why no shortest path is lost
+//! is told in `labels/mod.rs`. [`Goals`] answer one start to many goals, and the nearest of many.
+//!
 //! # What this crate does not do
 //!
 //! It reads and writes no files: a graph is converted to bytes and back. It does not repair a graph when the
 //! map changes: a planner refuses the graph of another map. It uses one thread, unless the feature `parallel`
-//! is on; then it finds edges in rayon's current pool.
+//! is on; then it finds edges and contracts subgoals in rayon's current pool. The graph is the same.
 
 mod arc;
 mod bends;
 mod build;
 mod centers;
+mod chunks;
 mod clearance;
 mod codec;
 mod cones;
@@ -87,17 +98,21 @@ mod edge_path;
 mod error;
 mod graph;
 mod hierarchy;
+mod labels;
 mod placement;
 mod planner;
 mod progress;
 #[cfg(doctest)]
 mod readme;
+mod seen;
 mod subgoals;
 mod theta;
+mod worth;
 
 pub use error::SubgoalError;
 pub use graph::SubgoalGraph;
 pub use hierarchy::Hierarchy;
+pub use labels::{Goals, HubLabelSearch, HubLabels, PreparedSubgoals};
 pub use placement::SubgoalPlacement;
 pub use planner::SubgoalAStar;
 pub use progress::{Progress, Stage};

@@ -4,7 +4,7 @@ use mediant_grid::{BitMatrix, FreeSpace, Placement, Vector, Vertex};
 use mediant_moves::{Cost, K};
 use mediant_search::parts::Metric;
 
-use crate::{error::SubgoalError, hierarchy::Hierarchy, subgoals::Subgoals};
+use crate::{error::SubgoalError, graph::SubgoalGraph, hierarchy::Hierarchy, subgoals::Subgoals};
 
 /// A placement that has subgoal graphs: [`Corners`](mediant_grid::Corners) has them for every k,
 /// [`Centers`](mediant_grid::Centers) for k = 2 and 3.
@@ -15,6 +15,17 @@ pub trait SubgoalPlacement: EdgeFinder {}
 /// Finds subgoals and edges. Public as [`SubgoalPlacement`] builds on it, but it cannot be named outside of
 /// this crate.
 pub trait EdgeFinder: Placement {
+    /// Whether an engine that prepares nothing is faster than a graph that was made of the space.
+    fn is_outdone(space: &FreeSpace<Self>, graph: &SubgoalGraph<Self>) -> bool
+    where
+        Self: SubgoalPlacement;
+
+    /// Whether subgoals, and what each vertex sees of them, are the same for every k.
+    const SHARES_SIGHT: bool;
+
+    /// From how many sides paths come to a subgoal and bend there: 1 if all are alike.
+    const SIDES: u32;
+
     /// Scratch memory of [`edges_from`](Self::edges_from).
     type Scratch: Default + Send;
 
@@ -24,8 +35,11 @@ pub trait EdgeFinder: Placement {
     /// Whether this free space has subgoal graphs for this k.
     fn check(space: &FreeSpace<Self>, k: K) -> Result<(), SubgoalError>;
 
-    /// The subgoals, a bit for each vertex in a frame of zeros, and the tables.
-    fn prepare(space: &FreeSpace<Self>) -> (BitMatrix, Self::Tables);
+    /// The subgoals, a bit for each vertex in a frame of zeros.
+    fn subgoals(space: &FreeSpace<Self>) -> BitMatrix;
+
+    /// What makes finding edges fast.
+    fn tables(space: &FreeSpace<Self>, subgoals: &BitMatrix) -> Self::Tables;
 
     /// Which subgoals an edge joins.
     fn edge_criterion(k: K, hierarchy: Hierarchy) -> EdgeCriterion;
@@ -38,6 +52,58 @@ pub trait EdgeFinder: Placement {
         kind: EdgeKind,
         visit: impl FnMut(u32, Cost),
     );
+
+    /// How paths bend that leave a subgoal.
+    type Departures: Copy;
+
+    /// Whether the edges that leave a side of a subgoal are sorted such that those that a path may take come
+    /// first.
+    const SORTED: bool;
+
+    /// How paths bend at a side of a subgoal, in at most four bits.
+    fn bend_bits(space: &FreeSpace<Self>, at: Vertex, side: u32) -> u32;
+
+    /// The directions in which a path may leave a side of a subgoal at which it arrived along an edge.
+    fn departures(k: K, bits: u32, arrival: Vector) -> Self::Departures;
+
+    /// What of an edge is worth keeping beside it, in four bits.
+    fn class(edge: Vector) -> u32;
+
+    /// Whether a path may leave along an edge of a class.
+    fn allows(departures: Self::Departures, edge: impl Fn() -> Vector, class: u32) -> bool;
+
+    /// What tells whether a path may leave along any of the sorted edges of a side.
+    fn summary(bits: u32, edges: impl Iterator<Item = Vector>) -> u32;
+
+    /// Whether a path that arrives along an edge may leave along any of those with this summary.
+    fn leads_on(k: K, bits: u32, arrival: Vector, summary: u32) -> bool;
+
+    /// The side from which paths come that leave a subgoal along an edge, and the edge's place among those of
+    /// this side.
+    fn side(space: &FreeSpace<Self>, at: Vertex, edge: Vector) -> (u32, f64);
+
+    /// Calls `visit` with the vertices of which the edges of a query lead to a subgoal. Runs may share
+    /// vertices; those from which another edge leads to the same side of the subgoal may be missing.
+    fn runs_to(
+        context: BuildContext<'_, Self>,
+        scratch: &mut Self::Scratch,
+        subgoal: Vertex,
+        visit: impl FnMut(Run),
+    );
+}
+
+/// A run of vertices along a row or a column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Run {
+    /// The vertex with the least coordinates.
+    pub(crate) first: Vertex,
+    /// The number of vertices.
+    pub(crate) length: i32,
+    /// Whether it is part of a column.
+    pub(crate) is_column: bool,
+    /// At corners, whether it lies to the right of the subgoal, or on its vertical on the side of the
+    /// quadrant that taut paths pass to the right.
+    pub(crate) is_right: bool,
 }
 
 /// What follows from a map alone and makes finding edges fast.

@@ -234,7 +234,7 @@ where
         let (space, graph) = (space.free_space(), &**graph);
         waypoints.clear();
         waypoints.push(start);
-        let mut to = |at: Vertex| extend(waypoints, space, graph, at);
+        let mut to = |at: Vertex| extend(waypoints, space, (graph.k, graph.criterion), at);
         arcs.clear();
         let mut at = meeting;
         while let Some((parent, ParentEdge { middle, .. })) = forward.parent(at) {

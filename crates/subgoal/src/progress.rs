@@ -18,4 +18,8 @@ pub enum Stage {
     Edges,
     /// Building the hierarchy, one subgoal after another.
     Hierarchy,
+    /// Finding what each vertex sees.
+    Sight,
+    /// Finding the labels of each subgoal.
+    Labels,
 }

@@ -8,13 +8,14 @@ pub(crate) struct Subgoals {
     marks: BitMatrix,
     /// The number of subgoals before each word of the marks.
     before: Box<[u32]>,
-    vertices: Box<[Vertex]>,
+    /// Their coordinates: 16 bits hold each, since no map has more than 2¹⁵ cells along a side.
+    places: Box<[[u16; 2]]>,
 }
 
 impl Subgoals {
     /// The subgoals that are marked by a bit for each vertex, in a frame of zeros.
     pub(crate) fn new(marks: BitMatrix) -> Self {
-        let mut vertices = Vec::new();
+        let mut places = Vec::new();
         for y in 0..marks.height() as i32 {
             let row = marks.row(y);
             for x in (0..marks.width() as i32).step_by(64) {
@@ -22,7 +23,7 @@ impl Subgoals {
                 // Bits beyond the row's end belong to the frame or to the next row.
                 bits &= !0 >> (64 - (marks.width() as i32 - x).min(64));
                 while bits != 0 {
-                    vertices.push(Vertex::new(x + bits.trailing_zeros() as i32, y));
+                    places.push([x as u16 + bits.trailing_zeros() as u16, y as u16]);
                     bits &= bits - 1;
                 }
             }
@@ -34,12 +35,12 @@ impl Subgoals {
             before
         };
         let before = marks.words().iter().map(counted).collect();
-        Self { marks, before, vertices: vertices.into_boxed_slice() }
+        Self { marks, before, places: places.into_boxed_slice() }
     }
 
     /// The number of subgoals.
     pub(crate) const fn len(&self) -> usize {
-        self.vertices.len()
+        self.places.len()
     }
 
     /// A bit for each vertex, in a frame of zeros.
@@ -50,7 +51,8 @@ impl Subgoals {
     /// The vertex of subgoal `id`.
     #[inline]
     pub(crate) fn vertex(&self, id: u32) -> Vertex {
-        self.vertices[id as usize]
+        let [x, y] = self.places[id as usize];
+        Vertex::new(x.into(), y.into())
     }
 
     /// The number of the subgoal at a vertex, if there is one.
@@ -67,7 +69,7 @@ impl Subgoals {
 
     /// The memory used, in bytes.
     pub(crate) fn memory_bytes(&self) -> usize {
-        let Self { marks, before, vertices } = self;
-        size_of_val(marks.words()) + size_of_val(&**before) + size_of_val(&**vertices)
+        let Self { marks, before, places } = self;
+        size_of_val(marks.words()) + size_of_val(&**before) + size_of_val(&**places)
     }
 }

@@ -11,7 +11,7 @@ pub(crate) struct OctileBends {
 
 impl OctileBends {
     /// The bends at a cell of a map.
-    pub(super) fn at(grid: &Grid, at: Vertex) -> Self {
+    pub(crate) fn at(grid: &Grid, at: Vertex) -> Self {
         let cells = [(1, 1), (-1, 1), (-1, -1), (1, -1)];
         let blocked = |(x, y): (i32, i32)| u32::from(grid.is_blocked(at.x + x, at.y + y));
         Self { blocked: cells.into_iter().rev().fold(0, |bits, cell| 2 * bits + blocked(cell)) }
@@ -19,9 +19,18 @@ impl OctileBends {
 
     /// How a shortest path may leave that arrives by `v`, along which the cell is directly h_3-reachable.
     #[inline]
-    pub(super) fn after(self, v: Vector) -> OctileDepartures {
-        let from = direction(v);
-        OctileDepartures { allowed: (0..16).fold(0, |bits, to| bits | u32::from(self.allow(from, to)) << to) }
+    pub(crate) fn after(self, v: Vector) -> OctileDepartures {
+        OctileDepartures { allowed: ALLOWED[(self.blocked & 15) as usize][(direction(v) & 15) as usize] }
+    }
+
+    /// The blocked cells that touch it diagonally, a bit for each.
+    pub(crate) const fn bits(self) -> u32 {
+        self.blocked
+    }
+
+    /// The cell with these bits.
+    pub(crate) const fn from_bits(blocked: u32) -> Self {
+        Self { blocked }
     }
 
     /// Whether a shortest path can arrive in one direction and leave in another, if the subgoals at both ends
@@ -48,16 +57,50 @@ impl OctileBends {
 
 /// The directions in which a path may leave.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct OctileDepartures {
+pub struct OctileDepartures {
     /// A bit for each half octant.
-    allowed: u32,
+    allowed: u16,
 }
 
+/// By the blocked cells and the direction of arrival: the directions in which a path may leave.
+const ALLOWED: [[u16; 16]; 16] = {
+    let mut allowed = [[0; 16]; 16];
+    let mut i = 0;
+    while i < 16 * 16 * 16 {
+        let (blocked, from, to) = (i / 256, i / 16 % 16, i % 16);
+        if (OctileBends { blocked: blocked as u32 }).allow(from as i32, to as i32) {
+            allowed[blocked][from] |= 1 << to;
+        }
+        i += 1;
+    }
+    allowed
+};
+
 impl OctileDepartures {
+    /// Every direction.
+    pub(crate) const ALL: Self = Self { allowed: !0 };
+
     /// Whether the path may leave by `w`, along which a subgoal is directly h_3-reachable.
     #[inline]
-    pub(super) fn allows(self, w: Vector) -> bool {
-        self.allowed >> (direction(w) & 15) & 1 == 1
+    pub(crate) fn allows(self, w: Vector) -> bool {
+        self.allows_class(Self::class(w))
+    }
+
+    /// The class of an edge: its half octant.
+    pub(crate) fn class(w: Vector) -> u32 {
+        (direction(w) & 15) as u32
+    }
+
+    /// Whether the path may leave along an edge of one of these classes, a bit for each.
+    #[inline]
+    pub(crate) const fn allows_any(self, classes: u32) -> bool {
+        self.allowed as u32 & classes != 0
+    }
+
+    /// Whether the path may leave along an edge of a class.
+    #[inline]
+    pub(crate) const fn allows_class(self, class: u32) -> bool {
+        self.allowed >> class & 1 == 1
     }
 }
 
@@ -97,7 +140,8 @@ mod tests {
             let k = K::Finite(FiniteK::N8);
             let space = FreeSpace::<Centers>::new(Arc::new(grid.clone()), CornerRule::Never);
             let metric = Metric::new(k).expect("a small k");
-            let (marks, tables) = Centers::prepare(&space);
+            let marks = Centers::subgoals(&space);
+            let tables = Centers::tables(&space, &marks);
             let subgoals = Subgoals::new(marks);
             let context = BuildContext {
                 space: &space,

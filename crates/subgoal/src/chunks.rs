@@ -1,0 +1,36 @@
+//! Work on all subgoals, in chunks: on all cores with the feature `parallel`, with the same result.
+
+use std::{
+    ops::Range,
+    sync::atomic::{AtomicUsize, Ordering},
+};
+
+/// Subgoals that one thread handles at a time.
+const CHUNK: usize = 64;
+
+/// What `work` makes of each chunk of the numbers below `count`, in order.
+pub(crate) fn in_chunks<S, T: Send>(
+    count: usize,
+    scratch: impl Fn() -> S + Send + Sync,
+    progress: &(impl Fn(usize) + Sync),
+    work: impl Fn(&mut S, Range<u32>) -> T + Send + Sync,
+) -> Vec<T> {
+    let done = AtomicUsize::new(0);
+    let chunk = |scratch: &mut S, chunk: usize| {
+        let ids = chunk * CHUNK..count.min((chunk + 1) * CHUNK);
+        let made = work(scratch, ids.start as u32..ids.end as u32);
+        progress(done.fetch_add(ids.len(), Ordering::Relaxed) + ids.len());
+        made
+    };
+    let chunks = 0..count.div_ceil(CHUNK);
+    #[cfg(feature = "parallel")]
+    {
+        use rayon::prelude::*;
+        chunks.into_par_iter().map_init(scratch, chunk).collect()
+    }
+    #[cfg(not(feature = "parallel"))]
+    {
+        let mut scratch = scratch();
+        chunks.map(|number| chunk(&mut scratch, number)).collect()
+    }
+}

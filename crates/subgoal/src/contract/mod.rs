@@ -1,0 +1,184 @@
+//! Contracting the subgoals of a graph: by levels, one after another, or by priority, in rounds.
+//!
+//! To contract a subgoal is to remove it, and to add a shortcut between two neighbors where every other path
+//! is longer than the one over it. A search for a *witness*, a path that is as short, is cut off after some
+//! work: then the shortcut is superfluous, and as long as the path over the subgoal. So distances stay,
+//! however little is searched.
+
+mod evaluate;
+mod priority;
+mod rounds;
+#[cfg(test)]
+mod tests;
+mod witness;
+
+use mediant_grid::{Vector, Vertex};
+
+use self::witness::{WitnessGraph, WitnessSearch};
+use crate::{arc::NONE, bends::BendRule};
+
+/// An arc of the overlay graph, which holds the subgoals that are not contracted yet: an edge or a shortcut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct OverlayArc {
+    pub(crate) cost: u128,
+    pub(crate) to: u32,
+    /// The contracted subgoal that a shortcut passes; [`NONE`] for an edge.
+    pub(crate) middle: u32,
+    /// The end of the first edge of the path that the arc stands for.
+    pub(crate) first: u32,
+    /// The beginning of its last edge.
+    pub(crate) last: u32,
+}
+
+/// The geometry of the subgoals that are contracted.
+pub(crate) trait SubgoalGeometry {
+    /// The vertex of a subgoal.
+    fn vertex(&self, id: u32) -> Vertex;
+
+    /// How the paths whose distances are kept may bend at a subgoal; `None` if nothing is known.
+    fn bends(&self, id: u32) -> Option<BendRule>;
+
+    /// The cost from one subgoal to another where no obstacle is in the way: the least that a path can cost.
+    fn distance(&self, from: u32, to: u32) -> u128;
+}
+
+/// A graph whose subgoals are contracted one after another. The distances between those that remain do not
+/// change.
+pub(crate) struct Contraction<G> {
+    /// The arcs of a contracted subgoal are those that it had when it was contracted.
+    arcs: Vec<Vec<OverlayArc>>,
+    contracted: Vec<bool>,
+    order: Vec<u32>,
+    geometry: G,
+    /// The subgoals of the current round, which are contracted in the order of their numbers.
+    in_round: Vec<bool>,
+}
+
+/// Scratch memory for finding shortcuts.
+#[derive(Default)]
+struct ShortcutFinder {
+    witness: WitnessSearch,
+    /// The displacements along the first edges of a subgoal's arcs.
+    steps: Vec<Vector>,
+    /// The numbers of the arcs by which a path may go on that arrives by one arc.
+    onward: Vec<u32>,
+}
+
+/// The shortcuts that contracting a subgoal takes: pairs of its arcs, by their numbers.
+type Shortcuts = Vec<(u32, u32)>;
+
+/// The graph after contraction.
+pub(crate) struct ContractedGraph {
+    /// The arcs of a contracted subgoal to those that were contracted later or not at all; the arcs of each
+    /// of the others to one another.
+    pub(crate) arcs: Vec<Vec<OverlayArc>>,
+    /// Which subgoals were contracted.
+    pub(crate) contracted: Vec<bool>,
+    /// Those that were contracted, first contracted first.
+    #[allow(dead_code, reason = "for labels that are ranked by it")]
+    pub(crate) order: Vec<u32>,
+}
+
+impl<G: SubgoalGeometry> Contraction<G> {
+    pub(crate) fn new(count: usize, edges: &[(u32, u32)], geometry: G) -> Self {
+        let mut arcs: Vec<Vec<OverlayArc>> = vec![Vec::new(); count];
+        for &(a, b) in edges {
+            let cost = geometry.distance(a, b);
+            arcs[a as usize].push(OverlayArc { cost, to: b, middle: NONE, first: b, last: a });
+            arcs[b as usize].push(OverlayArc { cost, to: a, middle: NONE, first: a, last: b });
+        }
+        let [contracted, in_round] = [(); 2].map(|()| vec![false; count]);
+        Self { arcs, contracted, order: Vec::new(), geometry, in_round }
+    }
+
+    pub(crate) fn finish(self) -> ContractedGraph {
+        ContractedGraph { arcs: self.arcs, contracted: self.contracted, order: self.order }
+    }
+
+    /// Makes the next level. In the order of their numbers, contracts all subgoals that need no shortcut, or
+    /// only shortcuts between subgoals that are h_k-reachable from one another. Returns whether there was
+    /// one.
+    pub(crate) fn contract_level(&mut self, progress: &mut dyn FnMut(usize)) -> bool {
+        let mut finder = ShortcutFinder::default();
+        let mut any = false;
+        for id in 0..self.arcs.len() as u32 {
+            progress(id as usize);
+            if self.contracted[id as usize] {
+                continue;
+            }
+            let shortcuts = self.find_shortcuts(&mut finder, id, u64::MAX);
+            if self.shortcuts_are_reachable(id, &shortcuts) {
+                self.contract(id, &shortcuts);
+                any = true;
+            }
+        }
+        any
+    }
+
+    fn shortcuts_are_reachable(&self, id: u32, shortcuts: &Shortcuts) -> bool {
+        let around = &self.arcs[id as usize];
+        shortcuts.iter().all(|&(p, q)| {
+            let (p, q) = (around[p as usize], around[q as usize]);
+            p.cost + q.cost == self.geometry.distance(p.to, q.to)
+        })
+    }
+
+    /// Finds the pairs of neighbors between which every path is longer than the one over the subgoal, as far
+    /// as witness searches that scan `limit` arcs each can tell.
+    fn find_shortcuts(&self, finder: &mut ShortcutFinder, id: u32, limit: u64) -> Shortcuts {
+        let Self { arcs, geometry, in_round, .. } = self;
+        let ShortcutFinder { witness, steps, onward } = finder;
+        let mut shortcuts = Vec::new();
+        let around = &arcs[id as usize];
+        let (at, bends) = (geometry.vertex(id), geometry.bends(id));
+        steps.clear();
+        steps.extend(around.iter().map(|arc| at.to(geometry.vertex(arc.first))));
+        let graph = WitnessGraph { arcs, in_round, without: id };
+        for (i, p) in around.iter().enumerate() {
+            let departures = bends.map(|bends| bends.after(-steps[i]));
+            let may_pass = |step: Vector| departures.is_none_or(|departures| departures.allows(step));
+            onward.clear();
+            onward.extend((i + 1..around.len()).filter(|&j| may_pass(steps[j])).map(|j| j as u32));
+            if onward.is_empty() {
+                continue;
+            }
+            let targets = onward.iter().map(|&j| &around[j as usize]);
+            witness.start(arcs.len(), p.to, targets.map(|q| (q.to, p.cost + q.cost)));
+            witness.run(&graph, limit, |from, to| geometry.distance(from, to));
+            let needed = onward.iter().filter(|&&j| !witness.has_witness(around[j as usize].to));
+            shortcuts.extend(needed.map(|&j| (i as u32, j)));
+        }
+        shortcuts
+    }
+
+    /// Contracts a subgoal: removes the arcs that lead to it, and adds its shortcuts.
+    fn contract(&mut self, id: u32, shortcuts: &Shortcuts) {
+        let mut around = std::mem::take(&mut self.arcs[id as usize]);
+        around.shrink_to_fit();
+        for arc in &around {
+            let back = &mut self.arcs[arc.to as usize];
+            if let Some(number) = back.iter().position(|back| back.to == id) {
+                back.swap_remove(number);
+            }
+        }
+        for &(p, q) in shortcuts {
+            let (p, q) = (around[p as usize], around[q as usize]);
+            let cost = p.cost + q.cost;
+            self.add(p.to, OverlayArc { cost, to: q.to, middle: id, first: p.last, last: q.last });
+            self.add(q.to, OverlayArc { cost, to: p.to, middle: id, first: q.last, last: p.last });
+        }
+        self.arcs[id as usize] = around;
+        self.contracted[id as usize] = true;
+        self.order.push(id);
+    }
+
+    /// Adds a shortcut, unless there is an arc that costs no more; it replaces one that costs more.
+    fn add(&mut self, from: u32, arc: OverlayArc) {
+        let arcs = &mut self.arcs[from as usize];
+        match arcs.iter_mut().find(|known| known.to == arc.to) {
+            Some(known) if known.cost <= arc.cost => {}
+            Some(known) => *known = arc,
+            None => arcs.push(arc),
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! Searches for paths that make a shortcut superfluous.
+
+use std::{cmp::Reverse, collections::BinaryHeap};
+
+use super::OverlayArc;
+
+/// Searches for paths that avoid a subgoal: witnesses that it needs no shortcut.
+#[derive(Default)]
+pub(super) struct WitnessSearch {
+    nodes: Vec<WitnessNode>,
+    generation: u32,
+    queue: BinaryHeap<Reverse<(u128, u32)>>,
+    /// The targets without a witness, each with the most that one may cost; some of those with one.
+    targets: Vec<(u32, u128)>,
+    /// The number of targets without a witness.
+    left: usize,
+    /// The largest cost that a witness may have.
+    max_cost: u128,
+    /// The number of arcs that all searches scanned.
+    pub(super) arcs_scanned: u64,
+}
+
+#[derive(Clone, Copy, Default)]
+struct WitnessNode {
+    cost: u128,
+    /// The most that a witness may cost, if this is a target.
+    bound: u128,
+    /// The last search that reached it.
+    generation: u32,
+    /// The last search that had it as a target without a witness.
+    target: u32,
+}
+
+/// What a witness search goes through.
+pub(super) struct WitnessGraph<'c> {
+    pub(super) arcs: &'c [Vec<OverlayArc>],
+    /// The subgoals of the current round.
+    pub(super) in_round: &'c [bool],
+    /// The subgoal that witnesses avoid.
+    pub(super) without: u32,
+}
+
+impl WitnessGraph<'_> {
+    /// The cost of an arc; one more if it leads to a subgoal that is contracted before the one to avoid.
+    fn cost(&self, arc: &OverlayArc) -> u128 {
+        arc.cost + u128::from(arc.to < self.without && self.in_round[arc.to as usize])
+    }
+}
+
+impl WitnessSearch {
+    /// Starts a search from a subgoal to targets, each with the most that a witness may cost.
+    pub(super) fn start(&mut self, count: usize, from: u32, targets: impl Iterator<Item = (u32, u128)>) {
+        self.nodes.resize(count, WitnessNode::default());
+        self.generation = self.generation.wrapping_add(1);
+        if self.generation == 0 {
+            self.nodes.fill(WitnessNode::default());
+            self.generation = 1;
+        }
+        self.queue.clear();
+        self.targets.clear();
+        self.targets.extend(targets);
+        self.max_cost = 0;
+        for &(to, bound) in &self.targets {
+            let node = &mut self.nodes[to as usize];
+            (node.bound, node.target) = (bound, self.generation);
+            self.max_cost = self.max_cost.max(bound);
+        }
+        self.left = self.targets.len();
+        self.reach(from, 0);
+    }
+
+    fn reach(&mut self, at: u32, cost: u128) {
+        let node = &mut self.nodes[at as usize];
+        if node.generation != self.generation || cost < node.cost {
+            (node.cost, node.generation) = (cost, self.generation);
+            if node.target == self.generation && cost <= node.bound {
+                node.target = 0;
+                self.left -= 1;
+            }
+            self.queue.push(Reverse((cost, at)));
+        }
+    }
+
+    /// Dijkstra's algorithm, until every target has a witness or `limit` arcs are scanned. Skips subgoals
+    /// from which the straight line to every target that is left, at the cost `distance`, is too long.
+    pub(super) fn run(&mut self, graph: &WitnessGraph<'_>, limit: u64, distance: impl Fn(u32, u32) -> u128) {
+        let limit = self.arcs_scanned.saturating_add(limit);
+        while self.left > 0 && self.arcs_scanned < limit {
+            let Some(Reverse((cost, at))) = self.queue.pop() else { return };
+            if self.left < self.targets.len() {
+                let Self { nodes, targets, generation, .. } = self;
+                targets.retain(|&(to, _)| nodes[to as usize].target == *generation);
+                self.max_cost = targets.iter().map(|&(_, bound)| bound).max().unwrap_or(0);
+            }
+            if cost > self.max_cost {
+                return;
+            }
+            if cost > self.nodes[at as usize].cost {
+                continue;
+            }
+            self.arcs_scanned += 1;
+            if cost > 0 && !self.targets.iter().any(|&(to, bound)| cost + distance(at, to) <= bound) {
+                continue;
+            }
+            let around = &graph.arcs[at as usize];
+            self.arcs_scanned += around.len() as u64;
+            for arc in around {
+                let cost = cost + graph.cost(arc);
+                if arc.to != graph.without && cost <= self.max_cost {
+                    self.reach(arc.to, cost);
+                }
+            }
+        }
+    }
+
+    /// Whether a target has a witness.
+    pub(super) fn has_witness(&self, to: u32) -> bool {
+        self.nodes[to as usize].target != self.generation
+    }
+}

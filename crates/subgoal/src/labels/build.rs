@@ -1,0 +1,197 @@
+//! Building hub labels within a budget of memory.
+
+use std::{marker::PhantomData, sync::Arc};
+
+use mediant_grid::{FreeSpace, Identity};
+use mediant_moves::K;
+
+use super::{
+    Geometry, HubLabels,
+    merge::{Label, merge},
+    pack::{Packed, in_cells},
+    whole::keep_whole,
+};
+use crate::{
+    build::Ground,
+    contract::{ContractedGraph, SubgoalGeometry},
+    error::SubgoalError,
+    graph::SubgoalGraph,
+    hierarchy::Hierarchy,
+    placement::{BuildContext, SubgoalPlacement},
+    progress::{Progress, Stage},
+    seen::SeenIndex,
+};
+
+/// Subgoals prepared within a budget of memory: hub labels where they fit, a contraction hierarchy where they
+/// do not. Both give optimal paths.
+#[derive(Clone, Debug)]
+pub enum PreparedSubgoals<P: SubgoalPlacement> {
+    /// Hub labels.
+    Labels(HubLabels<P>),
+    /// A contraction hierarchy.
+    Contracted(SubgoalGraph<P>),
+    /// Neither, and what they would belong to: the contraction left a large core, an engine that prepares
+    /// nothing is faster, and nothing was kept.
+    Nothing(Identity),
+}
+
+impl<P: SubgoalPlacement> PreparedSubgoals<P> {
+    /// Prepares a free space for paths over N(k), or at any angle. `most` is the memory that labels may take,
+    /// in bytes; a contraction hierarchy takes what it needs.
+    ///
+    /// # Errors
+    /// [`SubgoalError`] if the placement has no subgoal graph for this k and rule, or if it would be too
+    /// large.
+    pub fn within(
+        space: &FreeSpace<P>,
+        k: impl Into<K>,
+        most: usize,
+        progress: &(impl Fn(Progress) + Sync),
+    ) -> Result<Self, SubgoalError> {
+        Self::new(space, k.into(), None, most, progress)
+    }
+
+    /// [`within`](Self::within), beside the hub labels of the same free space for another k: at corners it
+    /// shares with them all but the labels.
+    ///
+    /// # Errors
+    /// Those of [`within`](Self::within), and [`SubgoalError::Mismatch`] for labels of another free space.
+    pub fn beside(
+        labels: &HubLabels<P>,
+        space: &FreeSpace<P>,
+        k: impl Into<K>,
+        most: usize,
+        progress: &(impl Fn(Progress) + Sync),
+    ) -> Result<Self, SubgoalError> {
+        Self::new(space, k.into(), Some(labels), most, progress)
+    }
+
+    fn new(
+        space: &FreeSpace<P>,
+        k: K,
+        beside: Option<&HubLabels<P>>,
+        most: usize,
+        progress: &(impl Fn(Progress) + Sync),
+    ) -> Result<Self, SubgoalError> {
+        let shared = shared(space, beside)?;
+        let ground = Ground::new(space, k, Hierarchy::Contracted)?;
+        let contracted = ground.contracted(space, Hierarchy::Contracted, progress);
+        if let Ok(parts) = parts(space, &ground, shared, &contracted, most, progress) {
+            return Ok(Self::Labels(HubLabels::from_parts(space, ground, parts)));
+        }
+        let graph = ground.into_graph(space, Hierarchy::Contracted, &contracted)?;
+        Ok(if P::is_outdone(space, &graph) {
+            Self::Nothing(graph.identity())
+        } else {
+            Self::Contracted(graph)
+        })
+    }
+}
+
+impl<P: SubgoalPlacement> HubLabels<P> {
+    /// The hub labels of a free space for paths over N(k), or at any angle. `most` is the memory that they
+    /// may take, in bytes.
+    ///
+    /// # Errors
+    /// [`SubgoalError`] if the placement has no subgoal graph for this k and rule; [`SubgoalError::Core`] if
+    /// the contraction leaves a core, [`SubgoalError::Memory`] if the labels take more than `most` bytes.
+    pub fn within(
+        space: &FreeSpace<P>,
+        k: impl Into<K>,
+        most: usize,
+        progress: &(impl Fn(Progress) + Sync),
+    ) -> Result<Self, SubgoalError> {
+        Self::new(space, k.into(), None, most, progress)
+    }
+
+    /// [`within`](Self::within) for another k of the same free space: at corners it shares with these all but
+    /// the labels.
+    ///
+    /// # Errors
+    /// Those of [`within`](Self::within), and [`SubgoalError::Mismatch`] for another free space.
+    pub fn for_k(
+        &self,
+        space: &FreeSpace<P>,
+        k: impl Into<K>,
+        most: usize,
+        progress: &(impl Fn(Progress) + Sync),
+    ) -> Result<Self, SubgoalError> {
+        Self::new(space, k.into(), Some(self), most, progress)
+    }
+
+    fn new(
+        space: &FreeSpace<P>,
+        k: K,
+        beside: Option<&Self>,
+        most: usize,
+        progress: &(impl Fn(Progress) + Sync),
+    ) -> Result<Self, SubgoalError> {
+        let shared = shared(space, beside)?;
+        let ground = Ground::new(space, k, Hierarchy::Contracted)?;
+        let contracted = ground.contracted(space, Hierarchy::Contracted, progress);
+        let parts = parts(space, &ground, shared, &contracted, most, progress)?;
+        Ok(Self::from_parts(space, ground, parts))
+    }
+
+    fn from_parts(
+        space: &FreeSpace<P>,
+        ground: Ground<P>,
+        (geometry, packed): (Arc<Geometry>, Packed),
+    ) -> Self {
+        let Ground { metric, criterion, k, .. } = ground;
+        let identity = Identity { k: Some(k), ..space.identity() };
+        Self { identity, geometry, metric, k, criterion, packed, placement: PhantomData }
+    }
+}
+
+/// What labels for another k share with these, if they belong to a free space.
+fn shared<'s, P: SubgoalPlacement>(
+    space: &FreeSpace<P>,
+    beside: Option<&'s HubLabels<P>>,
+) -> Result<Option<&'s Arc<Geometry>>, SubgoalError> {
+    beside.map_or(Ok(()), |labels| labels.check(space))?;
+    Ok(beside.filter(|_| P::SHARES_SIGHT).map(|labels| &labels.geometry))
+}
+
+/// What depends on the map, and the labels.
+fn parts<P: SubgoalPlacement>(
+    space: &FreeSpace<P>,
+    ground: &Ground<P>,
+    shared: Option<&Arc<Geometry>>,
+    contracted: &ContractedGraph,
+    most: usize,
+    progress: &(impl Fn(Progress) + Sync),
+) -> Result<(Arc<Geometry>, Packed), SubgoalError> {
+    let core = contracted.contracted.iter().filter(|&is_contracted| !is_contracted).count();
+    if core > 0 {
+        return Err(SubgoalError::Core { core, subgoals: contracted.contracted.len() });
+    }
+    let (context, total) = (ground.context(space), ground.subgoals.len());
+    let report = |stage| move |done| progress(Progress { stage, done, total });
+    let more = || SubgoalError::Memory { most };
+    let geometry = match shared {
+        Some(geometry) => Arc::clone(geometry),
+        None => {
+            let rest = most.checked_sub(ground.subgoals.memory_bytes()).ok_or_else(more)?;
+            let seen = SeenIndex::new(context, rest, &report(Stage::Sight)).ok_or_else(more)?;
+            Arc::new(Geometry { subgoals: ground.subgoals.clone(), seen })
+        }
+    };
+    let rest = most.checked_sub(geometry.memory_bytes()).ok_or_else(more)?;
+    let labels = whole_labels(context, contracted, rest / size_of::<u64>(), &mut report(Stage::Labels));
+    let labels = labels.ok_or_else(more)?;
+    let packed = Packed::new(context, &labels).ok_or(SubgoalError::Labels)?;
+    if packed.memory_bytes() <= rest { Ok((geometry, packed)) } else { Err(more()) }
+}
+
+/// The labels of all subgoals; `None` if there are more than `most`.
+pub(super) fn whole_labels<P: SubgoalPlacement>(
+    context: BuildContext<'_, P>,
+    contracted: &ContractedGraph,
+    most: usize,
+    progress: &mut dyn FnMut(usize),
+) -> Option<Vec<Vec<Label>>> {
+    let mut labels = merge(contracted, &context, in_cells(context), most, progress)?;
+    keep_whole(&mut labels, |from, to| context.distance(from, to));
+    Some(labels)
+}

@@ -1,0 +1,368 @@
+//! The join of two ends: the subgoals over which their shortest path leads.
+//!
+//! An end is joined to 20 to 130 subgoals on most maps. That is more work than their labels: shortest paths
+//! lead on over a few of them only. So the steps that look at all of them are short loops without branches,
+//! which could not be predicted.
+
+use mediant_grid::{FreeSpace, Vector, Vertex};
+use mediant_moves::{Cost, FiniteK, K};
+
+use super::{HubLabels, pack::MOST_COST_BITS};
+use crate::placement::SubgoalPlacement;
+
+/// Where the shortest path between two ends turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Meeting {
+    pub(super) cost: Cost,
+    pub(super) hub: u32,
+    /// The subgoals at which the path leaves the start, and arrives at the goal.
+    pub(super) first: u32,
+    pub(super) last: u32,
+}
+
+impl Meeting {
+    /// What costs more than any path.
+    const NONE: Self = Self { cost: Cost::from_bits(1 << MOST_COST_BITS), hub: 0, first: 0, last: 0 };
+}
+
+/// Scratch memory: 16 bytes a subgoal.
+#[derive(Debug)]
+pub(super) struct Join {
+    ends: [Candidates; 2],
+    hubs: Hubs,
+}
+
+/// The slots that an end of a query is joined to.
+#[derive(Debug)]
+struct Candidates {
+    slots: Vec<u32>,
+    /// Their displacements from the end.
+    steps: Vec<(i32, i32)>,
+    /// Lower bounds on the costs of paths over them, in cells.
+    bounds: Vec<f32>,
+    count: usize,
+    /// The numbers of those over which paths lead on.
+    leading: Vec<u32>,
+}
+
+/// The cheapest known ways from the start to hubs.
+#[derive(Debug)]
+struct Hubs {
+    ways: Vec<Way>,
+    /// The number of the query, in the bits above the costs.
+    query: u64,
+}
+
+/// The cheapest known way to a hub.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    /// Its cost, below the number of the query, which descends: so what earlier queries left is more than any
+    /// cost, and nothing has to be cleared.
+    cost: u64,
+    /// The subgoal at which it leaves the start.
+    first: u32,
+}
+
+impl Way {
+    /// What costs more than any way.
+    const NONE: Self = Self { cost: FIRST_QUERY << MOST_COST_BITS, first: 0 };
+
+    /// Takes the cheaper way, without a branch.
+    #[inline]
+    fn take(&mut self, cost: u64, first: u32) {
+        self.first = if cost < self.cost { first } else { self.first };
+        self.cost = cost.min(self.cost);
+    }
+}
+
+/// The largest number of a query. What the last one left, less the number of this one, plus a path's cost
+/// must not overflow.
+const FIRST_QUERY: u64 = (1 << (u64::BITS - MOST_COST_BITS - 1)) - 1;
+
+impl Join {
+    pub(super) fn new<P: SubgoalPlacement>(index: &HubLabels<P>) -> Self {
+        let room = index.geometry.seen.most + 1;
+        let hubs = Hubs { ways: vec![Way::NONE; index.subgoals()], query: FIRST_QUERY };
+        Self { ends: [Candidates::new(room), Candidates::new(room)], hubs }
+    }
+
+    /// Where the shortest path from start to goal that bends at a subgoal turns; `None` if there is none.
+    pub(super) fn meeting<P: SubgoalPlacement>(
+        &mut self,
+        index: &HubLabels<P>,
+        space: &FreeSpace<P>,
+        [start, goal]: [Vertex; 2],
+    ) -> Option<Meeting> {
+        let Self { ends: [departures, arrivals], hubs } = self;
+        departures.find(index, space, start);
+        let leading = departures.find_leading(index);
+        hubs.start();
+        hubs.join(index, departures);
+        for &i in &departures.leading[..leading] {
+            hubs.write(index, departures, i as usize);
+        }
+        arrivals.find(index, space, goal);
+        let leading = arrivals.find_leading(index);
+        arrivals.find_bounds(index.k, goal.to(start));
+        // The one with the least bound first: then most others need not be read.
+        arrivals.leading_first(leading);
+        let mut best = Meeting::NONE;
+        for &i in &arrivals.leading[..leading] {
+            if arrivals.bounds[i as usize] < above(best.cost) {
+                hubs.read(index, arrivals, i as usize, &mut best);
+            }
+        }
+        hubs.meet(index, arrivals, &mut best);
+        (best != Meeting::NONE).then_some(best)
+    }
+}
+
+impl Join {
+    /// Finds the hubs of an end, and the least costs of paths to them.
+    pub(super) fn hubs_of<P: SubgoalPlacement>(
+        &mut self,
+        index: &HubLabels<P>,
+        space: &FreeSpace<P>,
+        end: Vertex,
+        found: &mut Vec<(u32, u64)>,
+    ) {
+        let Self { ends: [candidates, _], hubs } = self;
+        candidates.find(index, space, end);
+        let leading = candidates.find_leading(index);
+        let leading = &candidates.leading[..leading];
+        hubs.start();
+        hubs.join(index, candidates);
+        leading.iter().for_each(|&i| hubs.write(index, candidates, i as usize));
+        // Again, to take each hub once.
+        found.clear();
+        let base = hubs.base();
+        let mut take = |hub: u32| {
+            let way = &mut hubs.ways[hub as usize];
+            if (base..base + (1 << MOST_COST_BITS)).contains(&way.cost) {
+                found.push((hub, way.cost - base));
+                *way = Way::NONE;
+            }
+        };
+        candidates.slots[..candidates.count].iter().for_each(|slot| take(slot / P::SIDES));
+        for &i in leading {
+            index.visit(candidates.slots[i as usize], candidates.steps[i as usize], |hub, _| take(hub));
+        }
+    }
+}
+
+impl Candidates {
+    fn new(room: usize) -> Self {
+        let (slots, leading) = (vec![0; room], vec![0; room]);
+        Self { slots, steps: vec![(0, 0); room], bounds: vec![0.0; room], count: 0, leading }
+    }
+
+    /// Looks up what an end sees.
+    #[inline]
+    fn find<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>, space: &FreeSpace<P>, end: Vertex) {
+        self.count = index.geometry.seen.slots(end, &mut self.slots);
+        if space.is_closed_gap(end) {
+            self.keep_legal(index, space, end);
+        }
+        for (slot, step) in self.slots[..self.count].iter().zip(&mut self.steps) {
+            let v = end.to(index.geometry.subgoals.vertex(slot / P::SIDES));
+            *step = (v.x, v.y);
+        }
+    }
+
+    /// A path leaves a closed gap through the quadrant of the vertex's own cell.
+    #[cold]
+    fn keep_legal<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>, space: &FreeSpace<P>, end: Vertex) {
+        let mut kept = 0;
+        for i in 0..self.count {
+            let at = index.geometry.subgoals.vertex(self.slots[i] / P::SIDES);
+            self.slots[kept] = self.slots[i];
+            kept += usize::from(space.may_turn(None, end, Some(at)) && space.sees(end, at));
+        }
+        self.count = kept;
+    }
+
+    /// Finds the candidates over which shortest paths can lead on to other subgoals. Returns their number.
+    #[inline]
+    fn find_leading<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>) -> usize {
+        let mut count = 0;
+        for ((slot, &(x, y)), i) in self.slots[..self.count].iter().zip(&self.steps).zip(0..) {
+            let side = index.packed.sides[*slot as usize];
+            self.leading[count] = i;
+            count += usize::from(P::leads_on(index.k, side.bends(), Vector::new(x, y), side.edges));
+        }
+        count
+    }
+
+    /// Finds bounds on the costs of paths to the other end, which is at `other` from here.
+    #[inline]
+    fn find_bounds(&mut self, k: K, other: Vector) {
+        let bounds = self.bounds[..self.count].iter_mut().zip(&self.steps);
+        let (x, y) = (other.x, other.y);
+        match k {
+            K::Finite(FiniteK::N4) => {
+                bounds.for_each(|(bound, v)| *bound = manhattan(*v) + manhattan((x - v.0, y - v.1)));
+            }
+            K::Finite(FiniteK::N8) => {
+                bounds.for_each(|(bound, v)| *bound = octile(*v) + octile((x - v.0, y - v.1)));
+            }
+            _ => bounds.for_each(|(bound, v)| *bound = straight(*v) + straight((x - v.0, y - v.1))),
+        }
+    }
+
+    /// Puts the leading one with the least bound first.
+    #[inline]
+    fn leading_first(&mut self, leading: usize) {
+        let bounds = &self.bounds;
+        let bound = |&i: &u32| bounds[i as usize];
+        let leading = &mut self.leading[..leading];
+        let least =
+            (1..leading.len()).fold(0, |a, b| if bound(&leading[b]) < bound(&leading[a]) { b } else { a });
+        if least > 0 {
+            leading.swap(0, least);
+        }
+    }
+}
+
+/// Less than 1 by more than the relative error of a bound in single precision.
+const BELOW: f32 = 1.0 - 1e-6;
+
+#[inline]
+fn manhattan((x, y): (i32, i32)) -> f32 {
+    (x.abs() + y.abs()) as f32 * BELOW
+}
+
+#[inline]
+fn octile((x, y): (i32, i32)) -> f32 {
+    let (x, y) = (x.abs(), y.abs());
+    // Half of √2 − 1 is with the sum, half with the difference.
+    ((x + y) as f32 * 0.707_106_77 + (x - y).abs() as f32 * 0.292_893_2) * BELOW
+}
+
+/// Not more than h_k for any k.
+#[inline]
+fn straight((x, y): (i32, i32)) -> f32 {
+    let (x, y) = (x as f32, y as f32);
+    (x * x + y * y).sqrt() * BELOW
+}
+
+/// At least a cost, in cells.
+#[inline]
+fn above(cost: Cost) -> f32 {
+    cost.to_bits() as i64 as f32 * ((1.0 + 1e-6) / (1_u64 << Cost::FRACTION_BITS) as f32)
+}
+
+impl Hubs {
+    fn start(&mut self) {
+        if self.query == 0 {
+            self.ways.fill(Way::NONE);
+            self.query = FIRST_QUERY;
+        }
+        self.query -= 1;
+    }
+
+    /// The number that is added to the costs of this query.
+    #[inline]
+    const fn base(&self) -> u64 {
+        self.query << MOST_COST_BITS
+    }
+
+    /// Writes the costs from the start to the subgoals that it is joined to.
+    #[inline]
+    fn join<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>, ends: &Candidates) {
+        let base = self.base();
+        for (slot, &step) in ends.slots[..ends.count].iter().zip(&ends.steps) {
+            let id = slot / P::SIDES;
+            self.ways[id as usize].take(base + index.cost(step), id);
+        }
+    }
+
+    /// Reads the costs of paths over the subgoals that the goal is joined to, if their bounds allow.
+    #[inline]
+    fn meet<P: SubgoalPlacement>(&self, index: &HubLabels<P>, ends: &Candidates, best: &mut Meeting) {
+        let (base, limit) = (self.base(), above(best.cost));
+        let (mut least, mut found) = (best.cost.to_bits(), None);
+        let bounded = ends.slots[..ends.count].iter().zip(&ends.steps).zip(&ends.bounds);
+        for ((slot, &step), _) in bounded.filter(|(_, bound)| **bound < limit) {
+            let id = slot / P::SIDES;
+            let sum = self.ways[id as usize].cost - base + index.cost(step);
+            if sum < least {
+                (least, found) = (sum, Some(id));
+            }
+        }
+        if let Some(id) = found {
+            *best = Meeting {
+                cost: Cost::from_bits(least),
+                hub: id,
+                first: self.ways[id as usize].first,
+                last: id,
+            };
+        }
+    }
+
+    /// Writes the costs from the start to the hubs of a candidate.
+    #[inline]
+    fn write<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>, ends: &Candidates, i: usize) {
+        let (base, subgoal) = (self.base(), ends.slots[i] / P::SIDES);
+        let ways = &mut self.ways;
+        index.visit(ends.slots[i], ends.steps[i], |hub, cost| {
+            if let Some(way) = ways.get_mut(hub as usize) {
+                way.take(base + cost, subgoal);
+            }
+        });
+    }
+
+    /// Reads the costs of paths over the hubs of a candidate to the goal.
+    #[inline]
+    fn read<P: SubgoalPlacement>(
+        &self,
+        index: &HubLabels<P>,
+        ends: &Candidates,
+        i: usize,
+        best: &mut Meeting,
+    ) {
+        let (base, ways) = (self.base(), &self.ways);
+        let (mut least, mut found) = (best.cost.to_bits(), None);
+        index.visit(ends.slots[i], ends.steps[i], |hub, cost| {
+            let sum = ways.get(hub as usize).map_or(u64::MAX, |way| way.cost - base + cost);
+            if sum < least {
+                (least, found) = (sum, Some(hub));
+            }
+        });
+        if let Some(hub) = found {
+            let (first, last) = (self.ways[hub as usize].first, ends.slots[i] / P::SIDES);
+            *best = Meeting { cost: Cost::from_bits(least), hub, first, last };
+        }
+    }
+}
+
+impl<P: SubgoalPlacement> HubLabels<P> {
+    /// The cost of the line from an end to a subgoal.
+    #[inline]
+    fn cost(&self, (x, y): (i32, i32)) -> u64 {
+        self.metric.estimate(Vector::new(x, y)).to_bits()
+    }
+
+    /// Visits the hubs to which a shortest path can lead on over a slot, and the costs of these paths.
+    #[inline]
+    fn visit(&self, slot: u32, step: (i32, i32), mut visit: impl FnMut(u32, u64)) {
+        let packed = &self.packed;
+        let g = self.cost(step);
+        let side = packed.sides[slot as usize];
+        let departures = P::departures(self.k, side.bends(), Vector::new(step.0, step.1));
+        let groups = packed.groups(slot, 1);
+        let mut begin = packed.begin(groups.start);
+        let subgoals = &self.geometry.subgoals;
+        let at = subgoals.vertex(slot / P::SIDES);
+        for group in &packed.groups[groups] {
+            let end = group.end();
+            if P::allows(departures, || at.to(subgoals.vertex(group.to)), group.class()) {
+                for &label in &packed.labels[begin..end] {
+                    visit(packed.hub(label), g + packed.cost(label));
+                }
+            } else if P::SORTED {
+                return;
+            }
+            begin = end;
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! Distances to many goals at once.
+
+use mediant_grid::{FreeSpace, Identity, Vertex};
+use mediant_moves::Cost;
+use mediant_search::{End, QueryError};
+
+use super::{HubLabels, join::Join};
+use crate::{edge_path::direct_path, placement::SubgoalPlacement};
+
+/// Goals that many starts ask for: the hubs of each, sorted by hub. Made by [`HubLabels::goals`].
+#[derive(Clone, Debug)]
+pub struct Goals {
+    identity: Identity,
+    goals: Vec<Vertex>,
+    /// By hub, the number of its first entry.
+    first: Vec<u32>,
+    /// The cost from the hub to a goal, and the number of the goal; of each hub the nearest goal first.
+    entries: Vec<(u64, u32)>,
+}
+
+impl Goals {
+    /// The goals, in the order in which they were given.
+    #[must_use]
+    pub fn vertices(&self) -> &[Vertex] {
+        &self.goals
+    }
+
+    /// The goals whose paths lead over a hub.
+    #[inline]
+    fn over(&self, hub: u32) -> &[(u64, u32)] {
+        let [first, end] = [hub, hub + 1].map(|hub| self.first[hub as usize] as usize);
+        &self.entries[first..end]
+    }
+}
+
+impl<P: SubgoalPlacement> HubLabels<P> {
+    /// Prepares goals that many starts ask for. This takes about two queries for each goal.
+    ///
+    /// # Errors
+    /// [`QueryError`] for the first goal that is blocked or outside the map; [`QueryError::OtherGoals`] for
+    /// the space of another map or other rules.
+    pub fn goals(
+        &self,
+        space: &FreeSpace<P>,
+        goals: impl IntoIterator<Item = Vertex>,
+    ) -> Result<Goals, QueryError> {
+        self.check(space).map_err(|_| QueryError::OtherGoals)?;
+        let goals: Vec<Vertex> = goals.into_iter().collect();
+        let mut join = Join::new(self);
+        let (mut hubs, mut all) = (Vec::new(), Vec::new());
+        for (&goal, number) in goals.iter().zip(0..) {
+            End::Goal.check(space, goal)?;
+            join.hubs_of(self, space, goal, &mut hubs);
+            all.extend(hubs.iter().map(|&(hub, cost)| (hub, cost, number)));
+        }
+        let (first, entries) = by_hub(&all, self.subgoals());
+        Ok(Goals { identity: self.identity, goals, first, entries })
+    }
+}
+
+/// The entries (hub, cost, goal) sorted by hub, the least of each hub first: by hub the number of its first
+/// entry, and the entries without the hub.
+fn by_hub(all: &[(u32, u64, u32)], hubs: usize) -> (Vec<u32>, Vec<(u64, u32)>) {
+    let mut first = vec![0_u32; hubs + 1];
+    for &(hub, ..) in all {
+        first[hub as usize + 1] += 1;
+    }
+    for hub in 0..hubs {
+        first[hub + 1] += first[hub];
+    }
+    let (mut next, mut entries) = (first.clone(), vec![(0, 0); all.len()]);
+    for &(hub, cost, goal) in all {
+        let [first, at] = [&first, &next].map(|of| of[hub as usize] as usize);
+        entries[at] = (cost, goal);
+        if entries[at] < entries[first] {
+            entries.swap(first, at);
+        }
+        next[hub as usize] += 1;
+    }
+    (first, entries)
+}
+
+/// Scratch memory for distances to many goals.
+#[derive(Debug, Default)]
+pub(super) struct ToMany {
+    hubs: Vec<(u32, u64)>,
+    waypoints: Vec<Vertex>,
+}
+
+impl ToMany {
+    /// Finds the hubs of a start.
+    fn start<P: SubgoalPlacement>(
+        &mut self,
+        (labels, space): (&HubLabels<P>, &FreeSpace<P>),
+        join: &mut Join,
+        start: Vertex,
+        goals: &Goals,
+    ) -> Result<(), QueryError> {
+        if goals.identity != labels.identity {
+            return Err(QueryError::OtherGoals);
+        }
+        End::Start.check(space, start)?;
+        join.hubs_of(labels, space, start, &mut self.hubs);
+        Ok(())
+    }
+
+    /// Writes the distance from a start to each goal.
+    pub(super) fn distances<P: SubgoalPlacement>(
+        &mut self,
+        index: (&HubLabels<P>, &FreeSpace<P>),
+        join: &mut Join,
+        start: Vertex,
+        goals: &Goals,
+        distances: &mut Vec<Option<Cost>>,
+    ) -> Result<(), QueryError> {
+        self.start(index, join, start, goals)?;
+        distances.clear();
+        distances.resize(goals.goals.len(), None);
+        for &(hub, cost) in &self.hubs {
+            for &(rest, goal) in goals.over(hub) {
+                let sum = Cost::from_bits(cost + rest);
+                let known = &mut distances[goal as usize];
+                *known = Some(known.map_or(sum, |known| known.min(sum)));
+            }
+        }
+        for (&goal, known) in goals.goals.iter().zip(distances) {
+            if let Some(cost) = self.direct(index, [start, goal], *known) {
+                *known = Some(cost);
+            }
+        }
+        Ok(())
+    }
+
+    /// The nearest goal and its distance: of several the first.
+    pub(super) fn nearest<P: SubgoalPlacement>(
+        &mut self,
+        index: (&HubLabels<P>, &FreeSpace<P>),
+        join: &mut Join,
+        start: Vertex,
+        goals: &Goals,
+    ) -> Result<Option<(usize, Cost)>, QueryError> {
+        self.start(index, join, start, goals)?;
+        let over = |&(hub, cost): &(u32, u64)| {
+            let &(rest, goal) = goals.over(hub).first()?;
+            Some((Cost::from_bits(cost + rest), goal))
+        };
+        let mut best = self.hubs.iter().filter_map(over).min();
+        for (&goal, number) in goals.goals.iter().zip(0..) {
+            if let Some(cost) = self.direct(index, [start, goal], best.map(|(cost, _)| cost)) {
+                // What was summed up over subgoals on the line may be cut off.
+                best = match best {
+                    Some((_, other)) if other == number => Some((cost, number)),
+                    Some(known) => Some(known.min((cost, number))),
+                    None => Some((cost, number)),
+                };
+            }
+        }
+        Ok(best.map(|(cost, goal)| (goal as usize, cost)))
+    }
+
+    /// The cost of the direct path, if there is one and it may cost no more than a known path.
+    #[inline]
+    fn direct<P: SubgoalPlacement>(
+        &mut self,
+        (labels, space): (&HubLabels<P>, &FreeSpace<P>),
+        [start, goal]: [Vertex; 2],
+        known: Option<Cost>,
+    ) -> Option<Cost> {
+        /// What is cut off a path over subgoals on a line: less than 1 for each of two lines and labels.
+        const CUT_OFF: u64 = 4;
+        let v = start.to(goal);
+        let may_be_less =
+            known.is_none_or(|known| labels.metric.estimate(v).to_bits() <= known.to_bits() + CUT_OFF);
+        let is_direct = may_be_less
+            && space.connected(start, goal)
+            && (start == goal || direct_path(space, labels.k, start, goal, &mut self.waypoints));
+        is_direct.then(|| labels.metric.distance(v))
+    }
+}

@@ -1,0 +1,124 @@
+//! Hub labels: the end of the search.
+//!
+//! The label of a subgoal is a list of *hubs*, other subgoals, with the cost of a path to each. The first and
+//! the last subgoal of any shortest path have a hub in common that is on such a path. So a distance is the
+//! least sum over two lists, and nothing is searched (Abraham, Delling, Goldberg & Werneck 2011; for
+//! any-angle paths Du, Shen & Cheema 2023, who keep labels for regions of cells; here they are kept for
+//! subgoals alone).
+//!
+//! # Which hubs
+//!
+//! Those of the contraction hierarchy: h is a hub of c if it is the highest subgoal on all shortest paths
+//! between them. On the shortest paths between two subgoals the highest subgoal is a hub of both
+//! ([`merge`]). The graph has taut edges only, so it need not have shortest paths between subgoals that no
+//! shortest path of a query passes one after the other; their labels may be missing, or longer. Costs are
+//! compared as in the contraction, by (h_k, Euclidean length).
+//!
+//! # A query
+//!
+//! What start and goal see is looked up ([`SeenIndex`]). Each subgoal that the start sees writes the costs to
+//! its hubs into an array, and each that the goal sees reads them ([`join`]). What is not read, and why no
+//! shortest path is lost:
+//!
+//! - *Bends.* A path from the start over c goes on along an edge. If the bend at c is not taut, it is no
+//!   shortest path. The labels of a subgoal are grouped by the first edge of their paths. The edges on one
+//!   side of a corner are sorted by their angle to its wall, so the groups that a path may follow are the
+//!   first ones. The lexicographically shortest path is taut, so it survives; its cost h_k is exact.
+//! - *Bounds.* A path over c costs at least h(s, c) + h(c, t). Once a path is known that costs no more, the
+//!   labels of c need not be read. The subgoals with the least bound at both ends go first: most often they
+//!   give a path that is nearly as short as the shortest.
+//!
+//! # The path
+//!
+//! A group knows the next subgoal on the way to its hubs, and this subgoal has the same hub ([`whole`]). A
+//! byte beside each label says which of that subgoal's labels it is ([`chain`]).
+
+mod build;
+mod chain;
+mod codec;
+mod join;
+mod many;
+mod merge;
+mod pack;
+mod planner;
+#[cfg(test)]
+mod tests;
+mod whole;
+
+use std::sync::Arc;
+
+use mediant_grid::{Identity, Mismatch};
+use mediant_moves::K;
+use mediant_search::parts::{HasFreeSpace, Metric};
+
+pub(crate) use self::codec::{Reader, Writer};
+use self::pack::Packed;
+pub use self::{build::PreparedSubgoals, many::Goals, planner::HubLabelSearch};
+use crate::{
+    placement::{EdgeCriterion, SubgoalPlacement},
+    seen::SeenIndex,
+    subgoals::Subgoals,
+};
+
+/// What depends on the map and its rules, and at corners not on k.
+#[derive(Clone, Debug)]
+pub(crate) struct Geometry {
+    pub(crate) subgoals: Subgoals,
+    pub(crate) seen: SeenIndex,
+}
+
+impl Geometry {
+    fn memory_bytes(&self) -> usize {
+        self.subgoals.memory_bytes() + self.seen.memory_bytes()
+    }
+}
+
+/// Hub labels of a subgoal graph, with an index of what each vertex sees: queries without a search. It is
+/// immutable, and any number of planners can share it.
+#[derive(Clone, Debug)]
+pub struct HubLabels<P: SubgoalPlacement> {
+    identity: Identity,
+    geometry: Arc<Geometry>,
+    metric: Metric,
+    k: K,
+    criterion: EdgeCriterion,
+    packed: Packed,
+    placement: std::marker::PhantomData<P>,
+}
+
+impl<P: SubgoalPlacement> HubLabels<P> {
+    /// The number of subgoals.
+    #[must_use]
+    pub fn subgoals(&self) -> usize {
+        self.geometry.subgoals.len()
+    }
+
+    /// The number of labels: hubs of all subgoals, without each subgoal itself.
+    #[must_use]
+    pub const fn labels(&self) -> usize {
+        self.packed.labels.len()
+    }
+
+    /// The neighborhood.
+    #[must_use]
+    pub const fn k(&self) -> K {
+        self.k
+    }
+
+    /// What it belongs to: the map and the rules of motion of its free space, and its k.
+    #[must_use]
+    pub const fn identity(&self) -> Identity {
+        self.identity
+    }
+
+    /// The memory used, in bytes. What labels for several k share counts for each.
+    #[must_use]
+    pub fn memory_bytes(&self) -> usize {
+        self.geometry.memory_bytes() + self.packed.memory_bytes()
+    }
+
+    /// Checks that they are the labels of a free space.
+    pub(crate) fn check(&self, space: &(impl HasFreeSpace + ?Sized)) -> Result<(), Mismatch> {
+        self.identity.check("the hub labels", ("the space", space.identity()))
+    }
+}

@@ -1,0 +1,247 @@
+//! The labels as a query reads them.
+
+use mediant_grid::{FreeSpace, Vector, Vertex};
+use mediant_moves::K;
+
+use super::{
+    Reader, Writer,
+    chain::Chains,
+    merge::{CutOff, Label},
+};
+use crate::{
+    placement::{BuildContext, EdgeCriterion, EdgeFinder},
+    subgoals::Subgoals,
+};
+
+/// One side of a subgoal: where its groups begin, and what is known of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Side {
+    /// 16 times the number of its first group, plus how paths bend here.
+    first: u32,
+    /// What tells whether a path may leave along any of its edges.
+    pub(crate) edges: u32,
+}
+
+impl Side {
+    /// A side of a subgoal whose edges are these.
+    fn new<P: EdgeFinder>(
+        space: &FreeSpace<P>,
+        first: usize,
+        (at, side): (Vertex, u32),
+        edges: impl Iterator<Item = Vector>,
+    ) -> Option<Self> {
+        let first = u32::try_from(first).ok().filter(|&first| first < 1 << 28)?;
+        let bends = P::bend_bits(space, at, side);
+        Some(Self { first: first << 4 | bends, edges: P::summary(bends, edges) })
+    }
+
+    /// What comes after the last side.
+    const fn last(groups: usize) -> Self {
+        Self { first: (groups as u32) << 4, edges: 0 }
+    }
+
+    /// How paths bend here.
+    #[inline]
+    pub(crate) const fn bends(self) -> u32 {
+        self.first & 15
+    }
+}
+
+/// The labels of a side whose paths begin with the same edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Group {
+    /// The subgoal to which the edge leads.
+    pub(crate) to: u32,
+    /// 16 times one more than the number of its last label, plus the [class](EdgeFinder::class) of the edge.
+    /// Its first label comes after the last one of the group before.
+    bits: u32,
+}
+
+impl Group {
+    /// What comes before the first group.
+    const BEFORE: Self = Self { to: 0, bits: 0 };
+
+    fn new(to: u32, class: u32, end: usize) -> Option<Self> {
+        let end = u32::try_from(end).ok().filter(|&end| end < 1 << 28)?;
+        Some(Self { to, bits: end << 4 | class })
+    }
+
+    #[inline]
+    pub(crate) const fn end(self) -> usize {
+        (self.bits >> 4) as usize
+    }
+
+    #[inline]
+    pub(crate) const fn class(self) -> u32 {
+        self.bits & 15
+    }
+}
+
+/// All labels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Packed {
+    /// By slot, and one more that ends the last.
+    pub(crate) sides: Box<[Side]>,
+    /// The first one has no labels: so each has one before it.
+    pub(crate) groups: Box<[Group]>,
+    /// The hub, and in the lowest [`cost_bits`](Self::cost_bits) the cost.
+    pub(crate) labels: Box<[u64]>,
+    /// For each label, which of the next subgoal's labels leads on to its hub: see [`chain`](super::chain).
+    pub(crate) following: Box<[u8]>,
+    pub(crate) cost_bits: u32,
+}
+
+/// The costs of paths take at most this many bits, so that a search can use those above.
+pub(super) const MOST_COST_BITS: u32 = 56;
+
+/// The bits that remain for costs where this many hubs are numbered.
+fn cost_bits_of(count: usize) -> u32 {
+    (count.max(2) as u32 - 1).leading_zeros() + (u64::BITS - u32::BITS)
+}
+
+/// The largest cost in so many bits.
+fn most_cost(cost_bits: u32) -> u64 {
+    (1 << cost_bits.min(MOST_COST_BITS)) - 1
+}
+
+impl Packed {
+    /// Packs the labels of all subgoals; `None` if a cost is too large.
+    pub(super) fn new<P: EdgeFinder>(context: BuildContext<'_, P>, labels: &[Vec<Label>]) -> Option<Self> {
+        let cost_bits = cost_bits_of(labels.len());
+        let (most, cost_of) = (most_cost(cost_bits), in_cells(context));
+        let total = labels.iter().map(Vec::len).sum();
+        let mut sides = Vec::with_capacity(labels.len() * P::SIDES as usize + 1);
+        let mut groups = vec![Group::BEFORE];
+        let mut packed = Vec::with_capacity(total);
+        let mut sorted = Vec::new();
+        for (own, id) in labels.iter().zip(0..) {
+            let at = context.subgoals.vertex(id);
+            sorted.clear();
+            sorted.extend(own.iter().map(|label| {
+                let edge = at.to(context.subgoals.vertex(label.next));
+                (P::side(context.space, at, edge), edge, label)
+            }));
+            sorted.sort_unstable_by(|((side, slope), _, label), ((other_side, other), _, other_label)| {
+                side.cmp(other_side)
+                    .then(slope.total_cmp(other))
+                    .then((label.next, label.hub).cmp(&(other_label.next, other_label.hub)))
+            });
+            for side in 0..P::SIDES {
+                let first = groups.len();
+                let begin = sorted.partition_point(|&((other, _), ..)| other < side);
+                let end = sorted.partition_point(|&((other, _), ..)| other <= side);
+                for same in sorted[begin..end].chunk_by(|(.., a), (.., b)| a.next == b.next) {
+                    for (.., label) in same {
+                        let cost = Some(cost_of(label.cost())).filter(|&cost| cost <= most)?;
+                        packed.push(u64::from(label.hub) << cost_bits | cost);
+                    }
+                    let (_, edge, label) = same.first()?;
+                    groups.push(Group::new(label.next, P::class(*edge), packed.len())?);
+                }
+                let edges = sorted[begin..end].iter().map(|&(_, edge, _)| edge);
+                sides.push(Side::new(context.space, first, (at, side), edges)?);
+            }
+        }
+        sides.push(Side::last(groups.len()));
+        let (sides, groups, labels) = (sides.into(), groups.into(), packed.into());
+        let packed = Self { sides, groups, labels, following: Box::default(), cost_bits };
+        let following = Chains::<P>::new(&packed, context.subgoals, context.k).following();
+        Some(Self { following, ..packed })
+    }
+
+    pub(super) fn write(&self, out: &mut Writer) {
+        let slots = self.sides.len() as u32 - 1;
+        out.part32((0..slots as usize).map(|slot| self.groups(slot as u32, 1).len() as u32));
+        out.part32(self.groups[1..].iter().map(|group| group.to));
+        out.part32((1..self.groups.len()).map(|group| (self.groups[group].end() - self.begin(group)) as u32));
+        out.part64(&self.labels);
+        out.part8(&self.following);
+    }
+
+    /// The labels that were written for these subgoals; `None` if there are none of them.
+    pub(super) fn read<P: EdgeFinder>(
+        reader: &mut Reader<'_>,
+        space: &FreeSpace<P>,
+        subgoals: &Subgoals,
+        cost_bits: u32,
+    ) -> Option<Self> {
+        let count = subgoals.len();
+        let (counts, to, lengths) = (reader.part32()?, reader.part32()?, reader.part32()?);
+        let (labels, following) = (reader.part64()?, reader.part8()?);
+        if counts.len() != count * P::SIDES as usize
+            || to.len() != lengths.len()
+            || following.len() != labels.len()
+            || cost_bits != cost_bits_of(count)
+            || labels.iter().any(|label| (label >> cost_bits) as usize >= count)
+            || labels.iter().any(|label| label & ((1 << cost_bits) - 1) > most_cost(cost_bits))
+        {
+            return None;
+        }
+        let mut rest = to.zip(lengths);
+        let (mut sides, mut groups) = (Vec::with_capacity(counts.len() + 1), vec![Group::BEFORE]);
+        let (mut end, mut edges) = (0_usize, Vec::new());
+        for (slot, of) in (0..).zip(counts) {
+            let at = subgoals.vertex(slot / P::SIDES);
+            let first = groups.len();
+            edges.clear();
+            for _ in 0..of {
+                let (to, length) = rest.next().filter(|&(to, _)| (to as usize) < count)?;
+                let edge = at.to(subgoals.vertex(to));
+                end = end.checked_add(length as usize)?;
+                groups.push(Group::new(to, P::class(edge), end)?);
+                edges.push(edge);
+            }
+            sides.push(Side::new(space, first, (at, slot % P::SIDES), edges.iter().copied())?);
+        }
+        sides.push(Side::last(groups.len()));
+        let is_whole = rest.next().is_none() && end == labels.len();
+        let (sides, groups) = (sides.into(), groups.into());
+        is_whole.then_some(Self { sides, groups, labels, following, cost_bits })
+    }
+
+    /// The numbers of the groups of the slots from `slot` on, `count` of them.
+    #[inline]
+    pub(crate) fn groups(&self, slot: u32, count: u32) -> std::ops::Range<usize> {
+        let [first, end] = [slot, slot + count].map(|slot| (self.sides[slot as usize].first >> 4) as usize);
+        first..end
+    }
+
+    /// The number of the first label of a group.
+    #[inline]
+    pub(crate) fn begin(&self, group: usize) -> usize {
+        self.groups[group - 1].end()
+    }
+
+    /// The number of the first label of a subgoal.
+    #[inline]
+    pub(crate) fn first_label<P: EdgeFinder>(&self, id: u32) -> usize {
+        self.begin((self.sides[(id * P::SIDES) as usize].first >> 4) as usize)
+    }
+
+    /// The hub of a label.
+    #[inline]
+    pub(crate) const fn hub(&self, label: u64) -> u32 {
+        (label >> self.cost_bits) as u32
+    }
+
+    /// The cost of the path to the hub of a label.
+    #[inline]
+    pub(crate) const fn cost(&self, label: u64) -> u64 {
+        label & ((1 << self.cost_bits) - 1)
+    }
+
+    /// The memory used, in bytes.
+    pub(crate) const fn memory_bytes(&self) -> usize {
+        let Self { sides, groups, labels, following, .. } = self;
+        size_of_val(&**sides) + size_of_val(&**groups) + size_of_val(&**labels) + size_of_val(&**following)
+    }
+}
+
+/// What takes the cost in units of [`Cost`](mediant_moves::Cost) from that by which the contraction compares.
+pub(super) fn in_cells<P: EdgeFinder>(context: BuildContext<'_, P>) -> CutOff {
+    match (context.criterion, context.k) {
+        (EdgeCriterion::Direct, _) => |cost| cost as u64,
+        (EdgeCriterion::Taut, K::Any) => |cost| (cost >> 32) as u64,
+        (EdgeCriterion::Taut, K::Finite(_)) => |cost| (cost >> 64) as u64,
+    }
+}

@@ -1,0 +1,210 @@
+//! Optimal paths by hub labels.
+
+use std::ops::Deref;
+
+use mediant_grid::{Identity, Mismatch, PlacementKind, Vertex};
+use mediant_moves::{Cost, FiniteK, K};
+use mediant_search::{Guarantee, Observer, Path, Planner, Query, QueryError, Status, parts::HasFreeSpace};
+
+use super::{
+    HubLabels,
+    chain::Chains,
+    join::{Join, Meeting},
+    many::{Goals, ToMany},
+};
+use crate::{
+    edge_path::{direct_path, extend},
+    placement::SubgoalPlacement,
+};
+
+/// Optimal paths over N(k), or at any angle, by hub labels: no search is needed.
+///
+/// If an optimal path of the empty grid is free, it is the answer. Otherwise the labels tell over which
+/// subgoals the shortest path leads. Scratch memory: 12 bytes a subgoal.
+///
+/// `S` and `I` are how the planner holds the free space and its labels: by reference or by `Arc`.
+///
+/// **Ties.** Of equally short paths it takes the first found: subgoals in the order of their numbers, but
+/// those with the least bound first; hubs in the order of the labels. The same query gives the same path each
+/// time and on every platform. An observer is told of nothing: there are no nodes, and no steps between which
+/// to pause.
+#[derive(Debug)]
+pub struct HubLabelSearch<S, I> {
+    space: S,
+    labels: I,
+    join: Join,
+    waypoints: Vec<Vertex>,
+    /// Scratch memory: the subgoals from the hub to the goal, in the other direction.
+    chain: Vec<Vertex>,
+    answer: Option<(Query, Answer)>,
+    to_many: ToMany,
+}
+
+/// What is known of a query that was answered.
+#[derive(Clone, Copy, Debug)]
+enum Answer {
+    /// The waypoints are a path that is plain to see.
+    Direct,
+    /// The path turns over these subgoals.
+    Over(Meeting),
+}
+
+impl<S, I, P> HubLabelSearch<S, I>
+where
+    P: SubgoalPlacement,
+    S: Deref<Target: HasFreeSpace<Placement = P>>,
+    I: Deref<Target = HubLabels<P>>,
+{
+    /// A planner with scratch memory for `labels`, which must be those of `space`.
+    ///
+    /// # Errors
+    /// [`Mismatch`] for the labels of another map or other rules than those of `space`, or, if that is a grid
+    /// graph, of another k.
+    pub fn new(space: S, labels: I) -> Result<Self, Mismatch> {
+        labels.check(&*space)?;
+        let join = Join::new(&*labels);
+        let (waypoints, chain, to_many) = (Vec::new(), Vec::new(), ToMany::default());
+        Ok(Self { space, labels, join, waypoints, chain, answer: None, to_many })
+    }
+
+    /// The cost of a shortest path, without the path; `None` if there is none.
+    ///
+    /// # Errors
+    /// [`QueryError`] when an end of the query is blocked or outside the map.
+    pub fn cost(&mut self, query: Query) -> Result<Option<Cost>, QueryError> {
+        let (space, labels) = (self.space.free_space(), &*self.labels);
+        if query.ends(space)?.is_none() {
+            return Ok(None);
+        }
+        let Query { start, goal, .. } = query;
+        if start == goal {
+            return Ok(Some(Cost::ZERO));
+        }
+        if direct_path(space, labels.k, start, goal, &mut self.waypoints) {
+            return Ok(Some(labels.metric.distance(start.to(goal))));
+        }
+        Ok(self.meeting(query)?.map(|meeting| meeting.cost))
+    }
+
+    /// Writes the cost of a shortest path from a start to each goal, `None` where there is no path. This
+    /// takes far less than a query for each.
+    ///
+    /// # Errors
+    /// [`QueryError`] for a start that is blocked or outside the map.
+    pub fn distances(
+        &mut self,
+        start: Vertex,
+        goals: &Goals,
+        distances: &mut Vec<Option<Cost>>,
+    ) -> Result<(), QueryError> {
+        let index = (&*self.labels, self.space.free_space());
+        self.to_many.distances(index, &mut self.join, start, goals, distances)
+    }
+
+    /// The number of the nearest goal, the first of several, and its distance; `None` if there is no way to
+    /// any.
+    ///
+    /// # Errors
+    /// [`QueryError`] for a start that is blocked or outside the map.
+    pub fn nearest(&mut self, start: Vertex, goals: &Goals) -> Result<Option<(usize, Cost)>, QueryError> {
+        let index = (&*self.labels, self.space.free_space());
+        self.to_many.nearest(index, &mut self.join, start, goals)
+    }
+
+    /// Where the shortest path between connected ends turns; `None` if there is no path.
+    fn meeting(&mut self, Query { start, goal, .. }: Query) -> Result<Option<Meeting>, QueryError> {
+        let (space, labels) = (self.space.free_space(), &*self.labels);
+        let meeting = self.join.meeting(labels, space, [start, goal]);
+        // Cells that touch diagonally are connected, but N(2) may hold no path between them.
+        let may_be_none = P::KIND == PlacementKind::Center && labels.k == K::Finite(FiniteK::N4);
+        match meeting {
+            None if !may_be_none => Err(QueryError::GaveUp { why: DAMAGED }),
+            meeting => Ok(meeting),
+        }
+    }
+
+    /// Writes the path over a meeting point to `waypoints`; `false` if the labels are damaged.
+    fn write(&mut self, Query { start, goal, .. }: Query, meeting: Meeting) -> bool {
+        let Self { space, labels, waypoints, chain, .. } = self;
+        let (space, labels) = (space.free_space(), &**labels);
+        let mut to = |at: Vertex| extend(waypoints, space, (labels.k, labels.criterion), at);
+        let Meeting { hub, first, last, .. } = meeting;
+        let (vertex, mut is_whole) = (|id: u32| labels.geometry.subgoals.vertex(id), true);
+        to(start);
+        to(vertex(first));
+        let chains = Chains::<P>::new(&labels.packed, &labels.geometry.subgoals, labels.k);
+        is_whole &= chains.visit(start, first, hub, &mut to).is_some();
+        chain.clear();
+        is_whole &= chains.visit(goal, last, hub, |at| chain.push(at)).is_some();
+        // The last of the chain is the hub, at which the path is already.
+        chain.iter().rev().skip(1).for_each(|&at| to(at));
+        to(vertex(last));
+        to(goal);
+        is_whole
+    }
+}
+
+/// Why a planner gives up.
+const DAMAGED: &str = "the hub labels are damaged: prepare them again";
+
+impl<S, I, P> Planner for HubLabelSearch<S, I>
+where
+    P: SubgoalPlacement,
+    S: Deref<Target: HasFreeSpace<Placement = P>>,
+    I: Deref<Target = HubLabels<P>>,
+{
+    fn begin(&mut self, query: Query, _: &mut impl Observer) -> Result<Status, QueryError> {
+        self.answer = None;
+        let (space, labels) = (self.space.free_space(), &*self.labels);
+        if query.ends(space)?.is_none() {
+            return Ok(Status::Unreachable);
+        }
+        let Query { start, goal, .. } = query;
+        let is_direct = if start == goal {
+            self.waypoints.clear();
+            self.waypoints.push(start);
+            true
+        } else {
+            direct_path(space, labels.k, start, goal, &mut self.waypoints)
+        };
+        let answer = if is_direct { Some(Answer::Direct) } else { self.meeting(query)?.map(Answer::Over) };
+        self.answer = answer.map(|answer| (query, answer));
+        Ok(if self.answer.is_some() { Status::Found } else { Status::Unreachable })
+    }
+
+    fn proceed(&mut self, _: &mut impl Observer) -> Result<Status, QueryError> {
+        Ok(if self.answer.is_some() { Status::Found } else { Status::Unreachable })
+    }
+
+    fn path_to(&mut self, at: Vertex) -> Option<Path> {
+        let (query, answer) = self.answer?;
+        if at == query.start {
+            return Some(Path::new(vec![at]));
+        }
+        if at != query.goal {
+            return None;
+        }
+        if let Answer::Over(meeting) = answer {
+            self.waypoints.clear();
+            if !self.write(query, meeting) {
+                return None;
+            }
+        }
+        Some(Path::new(self.waypoints.clone()))
+    }
+
+    fn distance(&mut self, query: Query) -> Result<Option<f64>, QueryError> {
+        Ok(self.cost(query)?.map(Cost::to_f64))
+    }
+
+    fn guarantee(&self) -> Guarantee {
+        match self.labels.k {
+            K::Finite(k) => Guarantee::Optimal(k),
+            K::Any => Guarantee::OptimalAnyAngle,
+        }
+    }
+
+    fn identity(&self) -> Identity {
+        self.labels.identity()
+    }
+}

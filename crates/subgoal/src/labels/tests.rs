@@ -1,0 +1,267 @@
+//! The labels themselves: what every pair of subgoals shares, and where each label leads.
+
+use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, Vertex};
+use mediant_moves::{FiniteK, K};
+use mediant_oracle::{Explicit, describe, on_all_cores, random_grid, seeds};
+
+use super::{
+    HubLabels, build::whole_labels, chain::Chains, join::Join, merge::Label, pack::Packed, whole::keep_whole,
+};
+use crate::{
+    arc::NONE,
+    build::Ground,
+    contract::{ContractedGraph, OverlayArc, SubgoalGeometry},
+    hierarchy::Hierarchy,
+    placement::{BuildContext, EdgeCriterion, SubgoalPlacement},
+};
+
+/// What a query reads of a label: the cost over N(k), or of the line.
+fn length(k: K, criterion_is_taut: bool, cost: u128) -> f64 {
+    match (criterion_is_taut, k) {
+        (false, _) => cost as f64 / 2_f64.powi(32),
+        (true, K::Any) => cost as f64 / 2_f64.powi(64),
+        (true, K::Finite(_)) => (cost >> 64) as f64 / 2_f64.powi(32),
+    }
+}
+
+/// The numbers of pairs with a path, of those whose labels are exact, and of labels.
+type Counts = [usize; 3];
+
+struct Merged<'t, P: SubgoalPlacement> {
+    space: &'t FreeSpace<P>,
+    ground: Ground<P>,
+    contracted: ContractedGraph,
+    labels: Vec<Vec<Label>>,
+    k: K,
+    seed: u64,
+}
+
+impl<'t, P: SubgoalPlacement> Merged<'t, P> {
+    fn new(space: &'t FreeSpace<P>, k: K, seed: u64) -> Self {
+        let ground = Ground::new(space, k, Hierarchy::Contracted).expect("there is a graph");
+        let contracted = ground.contracted(space, Hierarchy::Contracted, &|_| {});
+        let labels = whole_labels(ground.context(space), &contracted, usize::MAX, &mut |_| {});
+        let labels = labels.expect("there is no core");
+        Self { space, ground, contracted, labels, k, seed }
+    }
+
+    fn is_taut(&self) -> bool {
+        self.ground.criterion == EdgeCriterion::Taut
+    }
+
+    fn of(&self, id: u32, hub: u32) -> Option<&Label> {
+        self.labels[id as usize].iter().find(|label| label.hub == hub)
+    }
+
+    fn vertex(&self, id: u32) -> Vertex {
+        self.ground.subgoals.vertex(id)
+    }
+
+    fn case(&self, a: u32, b: u32) -> String {
+        let map = describe(self.space.grid(), self.space.rules(), self.vertex(a), self.vertex(b), self.seed);
+        format!("k = {}; {map}", self.k)
+    }
+
+    /// Each label leads to its hub, edge by edge, and costs what these edges cost.
+    fn check_paths(&self) -> usize {
+        let context = self.ground.context(self.space);
+        for (own, id) in self.labels.iter().zip(0..) {
+            assert!(own.windows(2).all(|two| two[0].hub < two[1].hub), "not sorted: {}", self.case(id, id));
+            for label in own {
+                let case = || format!("{label:?}; {}", self.case(id, label.hub));
+                assert_ne!(label.hub, id, "{}", case());
+                let (mut at, mut rest, mut sum) = (id, label.cost() + 1, 0);
+                while at != label.hub {
+                    let next = self.of(at, label.hub).unwrap_or_else(|| panic!("at {at}: {}", case()));
+                    assert!(next.cost() < rest, "{next:?} at {at}: {}", case());
+                    let edge = self.arc_cost(context, at, next.next);
+                    (rest, sum, at) = (next.cost(), sum + edge, next.next);
+                }
+                assert!(sum <= label.cost(), "{sum}: {}", case());
+            }
+        }
+        self.labels.iter().map(Vec::len).sum()
+    }
+
+    /// The cost of an edge of the graph, which must exist.
+    fn arc_cost(&self, context: BuildContext<'_, P>, a: u32, b: u32) -> u128 {
+        let arcs = |from: u32, to: u32| {
+            let is_edge = move |arc: &&OverlayArc| arc.to == to && arc.middle == NONE;
+            self.contracted.arcs[from as usize].iter().find(is_edge).map(|arc| arc.cost)
+        };
+        let stored = arcs(a, b).or_else(|| arcs(b, a));
+        // A better shortcut may have taken the place of an edge.
+        let sees = self.space.sees(self.vertex(a), self.vertex(b));
+        assert!(stored.is_some() || sees, "no edge: {}", self.case(a, b));
+        let distance = context.distance(a, b);
+        assert!(stored.is_none_or(|stored| stored == distance), "{}", self.case(a, b));
+        distance
+    }
+
+    /// The least sum over a common hub is never less than the distance; it is the distance where a shortest
+    /// path between the two can be part of a longer one.
+    fn check_pairs(&self) -> Counts {
+        let count = self.labels.len() as u32;
+        let explicit = Explicit::new(self.space.grid(), self.space.rules(), self.k.finite());
+        let mut counts = [0, 0, self.check_paths()];
+        for a in 0..count {
+            let costs = explicit.costs_from(self.vertex(a));
+            for b in 0..count {
+                let own = |id: u32| {
+                    let itself = Label::new(id, id, 0);
+                    self.labels[id as usize].iter().copied().chain([itself]).collect::<Vec<_>>()
+                };
+                let others = own(b);
+                let common = own(a).into_iter().flat_map(|one| {
+                    others
+                        .iter()
+                        .filter(move |other| other.hub == one.hub)
+                        .map(move |other| one.cost() + other.cost())
+                });
+                let found = common.min().map(|cost| length(self.k, self.is_taut(), cost));
+                let expected = costs.to(self.vertex(b));
+                let case = || format!("{found:?}, {expected:?}; {}", self.case(a, b));
+                let Some(expected) = expected else {
+                    assert_eq!(found, None, "{}", case());
+                    continue;
+                };
+                counts[0] += 1;
+                let is_exact = found.is_some_and(|found| (found - expected).abs() < 1e-6);
+                counts[1] += usize::from(is_exact);
+                assert!(found.is_none_or(|found| found > expected - 1e-6), "{}", case());
+                if !self.is_taut() || self.is_part(a, b, costs.path_to(self.vertex(b)).as_deref()) {
+                    assert!(is_exact, "{}", case());
+                }
+            }
+        }
+        counts
+    }
+
+    /// Whether the shortest path between two subgoals that are not joined by a line leaves and arrives along
+    /// edges that a taut path can follow; then the graph has it.
+    fn is_part(&self, a: u32, b: u32, path: Option<&[Vertex]>) -> bool {
+        let Some(path) = path.filter(|_| self.k == K::Any && a != b) else { return false };
+        let taut = |at: Vertex, other: Vertex| {
+            let v = at.to(other);
+            let corner = [(1, 1), (1, -1), (-1, 1), (-1, -1)]
+                .into_iter()
+                .find(|&(x, y)| self.space.grid().is_blocked(at.x + (x - 1) / 2, at.y + (y - 1) / 2));
+            // Not into the quadrant across from the blocked cell.
+            corner.is_some_and(|(x, y)| v.x * v.y * x * y <= 0)
+        };
+        taut(path[0], path[1]) && taut(path[path.len() - 1], path[path.len() - 2])
+    }
+}
+
+fn check<P: SubgoalPlacement>(seed: u64, rule: P::Rule, k: K) -> Counts {
+    let grid = random_grid(seed).0;
+    if grid.width() * grid.height() > 150 {
+        return [0; 3];
+    }
+    let space = FreeSpace::<P>::new(std::sync::Arc::new(grid), rule);
+    Merged::new(&space, k, seed).check_pairs()
+}
+
+#[test]
+fn every_pair_has_a_common_hub_and_every_label_leads_to_its_hub() {
+    let k = |k: u32| K::Finite(FiniteK::new(k).expect("at least 2"));
+    let of = |seed: u64| {
+        let gap = [DiagonalGap::Open, DiagonalGap::Closed][seed as usize % 2];
+        [
+            check::<Corners>(seed, gap, K::Any),
+            check::<Corners>(seed, gap, k(2 + seed as u32 % 5)),
+            check::<Centers>(seed, CornerRule::Never, k(2)),
+            check::<Centers>(seed, CornerRule::Never, k(3)),
+        ]
+    };
+    let mut all = on_all_cores(seeds(60), of);
+    // Here some labels lead nowhere after merging.
+    all.extend([402, 1235].map(of));
+    let sums = [0, 1, 2, 3]
+        .map(|case| [0, 1, 2].map(|part| all.iter().map(|counts| counts[case][part]).sum::<usize>()));
+    let maps = seeds(60).end as usize;
+    assert!(
+        sums.iter().all(|&[pairs, exact, labels]| exact > 40 * maps && pairs >= exact && labels > 6 * maps),
+        "{sums:?}"
+    );
+}
+
+/// What leads to a label that was dropped is dropped, too; so is what costs less than its edges.
+#[test]
+fn labels_that_lead_nowhere_are_dropped_one_after_another() {
+    let label = Label::new;
+    let chain = |of_last: Option<Label>, first| {
+        let mut labels = vec![vec![first], vec![label(4, 2, 30)], vec![label(4, 3, 20)], vec![], vec![]];
+        labels[3].extend(of_last);
+        keep_whole(&mut labels, |_, _| 10);
+        labels.iter().map(Vec::len).collect::<Vec<_>>()
+    };
+    let whole = Some(label(4, 4, 10));
+    assert_eq!(chain(whole, label(4, 1, 40)), [1, 1, 1, 1, 0]);
+    assert_eq!(chain(whole, label(4, 1, 41)), [1, 1, 1, 1, 0], "the way that it leads costs less");
+    assert_eq!(chain(whole, label(4, 1, 39)), [0, 1, 1, 1, 0], "it costs less than its way");
+    assert_eq!(chain(None, label(4, 1, 40)), [0, 0, 0, 0, 0]);
+    assert_eq!(chain(Some(label(4, 4, 11)), label(4, 1, 40)), [0, 0, 0, 1, 0]);
+}
+
+/// Each hub of an end comes once, with the least cost.
+#[test]
+fn the_hubs_of_an_end_are_found_once() {
+    let grid = mediant_oracle::rooms(&mut mediant_oracle::Rng::new(5), 30, 30);
+    let space = FreeSpace::<Corners>::new(std::sync::Arc::new(grid), DiagonalGap::Open);
+    let labels = HubLabels::within(&space, K::Any, usize::MAX, &|_| {}).expect("there is memory");
+    let (mut join, mut hubs, mut total) = (Join::new(&labels), Vec::new(), 0);
+    for at in (0..30).map(|i| Vertex::new(i, (7 * i) % 31)).filter(|&at| space.is_free(at)) {
+        join.hubs_of(&labels, &space, at, &mut hubs);
+        let (found, times) =
+            (hubs.iter().map(|&(hub, _)| hub).collect::<std::collections::BTreeSet<_>>(), hubs.len());
+        assert_eq!(found.len(), times, "a hub comes twice at {at}");
+        total += times;
+    }
+    assert!(total > 300, "{total}");
+}
+
+/// The bytes beside labels lead on as a search does, and most labels that need one have one.
+fn check_chains<P: SubgoalPlacement>(grid: &Grid, rule: P::Rule, k: K) -> [usize; 3] {
+    let space = FreeSpace::<P>::new(std::sync::Arc::new(grid.clone()), rule);
+    let labels = HubLabels::within(&space, k, usize::MAX, &|_| {}).expect("there is memory");
+    let (packed, subgoals) = (&labels.packed, &labels.geometry.subgoals);
+    let searched = Packed { following: vec![u8::MAX; packed.labels.len()].into(), ..packed.clone() };
+    let [with, without] = [packed, &searched].map(|packed| Chains::<P>::new(packed, subgoals, k));
+    let mut counts = [0; 3];
+    for id in 0..subgoals.len() as u32 {
+        let range = packed.first_label::<P>(id)..packed.begin(packed.groups(id * P::SIDES, P::SIDES).end);
+        counts[2] = counts[2].max(range.len());
+        for label in range {
+            let (hub, at) = (packed.hub(packed.labels[label]), subgoals.vertex(id));
+            let way = |chains: &Chains<'_, P>| {
+                let mut way = Vec::new();
+                chains.visit(at, id, hub, |at| way.push(at)).map(|()| way)
+            };
+            let found = way(&with).unwrap_or_else(|| panic!("no way from {id} to {hub}, k = {k}"));
+            assert_eq!(found.last(), Some(&subgoals.vertex(hub)));
+            assert_eq!(Some(&found), way(&without).as_ref(), "from {id} to {hub}, k = {k}");
+            counts[0] += usize::from(found.len() > 1);
+            counts[1] += usize::from(packed.following[label] != u8::MAX);
+        }
+    }
+    counts
+}
+
+#[test]
+fn bytes_beside_labels_lead_on_as_a_search_does() {
+    let grid = mediant_oracle::rooms(&mut mediant_oracle::Rng::new(5), 60, 60);
+    let noise = mediant_oracle::noise(&mut mediant_oracle::Rng::new(5), 130, 130, 26);
+    let k = |k: u32| K::Finite(FiniteK::new(k).expect("at least 2"));
+    for [on, bytes, most] in [
+        check_chains::<Corners>(&grid, DiagonalGap::Open, K::Any),
+        check_chains::<Corners>(&grid, DiagonalGap::Closed, k(5)),
+        check_chains::<Centers>(&grid, CornerRule::Never, k(3)),
+        check_chains::<Centers>(&grid, CornerRule::Never, k(2)),
+    ] {
+        assert!(on > 1000 && bytes == on && most < 255, "{bytes} bytes of {on} labels, {most} of a subgoal");
+    }
+    // Here some subgoals have more labels than a byte can tell apart.
+    let [on, bytes, most] = check_chains::<Corners>(&noise, DiagonalGap::Closed, K::Any);
+    assert!(bytes < on && 2 * bytes > on && most > 256, "{bytes} bytes of {on} labels, {most} of a subgoal");
+}

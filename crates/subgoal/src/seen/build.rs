@@ -1,0 +1,214 @@
+//! Building a seen index.
+
+use std::collections::HashMap;
+
+use mediant_grid::{FreeSpace, Placement, Vertex};
+
+use super::{Entry, SIDE, SeenIndex, Tile};
+use crate::{
+    chunks::in_chunks,
+    placement::{BuildContext, EdgeFinder, Run},
+};
+
+/// The mask of all vertices.
+const FULL: u64 = !0;
+/// The number of the mask of no vertex.
+const EMPTY: u16 = 1;
+
+/// Which vertices of a tile are joined to a slot.
+#[derive(Clone, Copy, Debug)]
+struct Link {
+    tile: u32,
+    slot: u32,
+    mask: u64,
+}
+
+impl SeenIndex {
+    /// Finds what each vertex is joined to; `None` if the index would take more than `most` bytes. Meanwhile
+    /// it takes about four times as much.
+    pub(crate) fn new<P: EdgeFinder>(
+        context: BuildContext<'_, P>,
+        most: usize,
+        progress: &(impl Fn(usize) + Sync),
+    ) -> Option<Self> {
+        Self::with_masks(context, most, usize::from(u16::MAX) + 1, progress)
+    }
+
+    /// [`new`](Self::new) with at most so many masks; those within one row, the full and the empty one must
+    /// have room.
+    fn with_masks<P: EdgeFinder>(
+        context: BuildContext<'_, P>,
+        most: usize,
+        most_masks: usize,
+        progress: &(impl Fn(usize) + Sync),
+    ) -> Option<Self> {
+        let (width, height) = P::vertices(context.space.grid());
+        let [columns, rows] = [width, height].map(|side| side.div_ceil(SIDE as u32));
+        let count = columns as usize * rows as usize;
+        let mut links = links(context, (columns, count), progress);
+        let free = free_vertices(context.space, columns, count);
+        for link in links.iter_mut().flatten() {
+            let free = free[link.tile as usize];
+            link.mask = if link.mask & free == free { FULL } else { link.mask & free };
+        }
+        let total: usize = links.iter().map(Vec::len).sum();
+        if size_of::<Entry>() * total + size_of::<Tile>() * count > most {
+            return None;
+        }
+        Some(Self::of_links(&links, columns, count, most_masks))
+    }
+
+    /// The index of links in the order of their slots.
+    fn of_links(links: &[Vec<Link>], columns: u32, count: usize, most_masks: usize) -> Self {
+        let (masks, numbers) = dictionary(links, most_masks);
+        let (tiles, entries) = entries(links, &numbers, count);
+        let most = tiles.windows(2).map(|ends| (ends[1].first - ends[0].first) as usize).max().unwrap_or(0);
+        Self { columns, tiles: tiles.into(), entries: entries.into(), masks: masks.into(), most }
+    }
+}
+
+/// The tiles and their entries: counted, then written.
+fn entries(links: &[Vec<Link>], numbers: &HashMap<u64, u16>, count: usize) -> (Vec<Tile>, Vec<Entry>) {
+    let mut tiles = vec![Tile::default(); count + 1];
+    // By tile, one more than the last slot; 0 for none.
+    let mut last = vec![0; count];
+    for link in links.iter().flatten() {
+        let tile = link.tile as usize;
+        if last[tile] == 0 {
+            tiles[tile].slot = link.slot;
+        }
+        for_entries(link, &mut last[tile], numbers, |_| tiles[tile + 1].first += 1);
+    }
+    for tile in 0..count {
+        tiles[tile + 1].first += tiles[tile].first;
+    }
+    last.fill(0);
+    let mut next: Vec<u32> = tiles.iter().map(|tile| tile.first).collect();
+    let mut entries = vec![Entry { after: 0, mask: 0 }; next[count] as usize];
+    for link in links.iter().flatten() {
+        let tile = link.tile as usize;
+        for_entries(link, &mut last[tile], numbers, |entry| {
+            entries[next[tile] as usize] = entry;
+            next[tile] += 1;
+        });
+    }
+    (tiles, entries)
+}
+
+/// Visits the entries of a link. `last` is one more than the slot before it in its tile; 0 for none.
+fn for_entries(link: &Link, last: &mut u32, numbers: &HashMap<u64, u16>, mut visit: impl FnMut(Entry)) {
+    let mut after = if *last == 0 { 0 } else { link.slot + 1 - *last };
+    *last = link.slot + 1;
+    while after > u32::from(u16::MAX) {
+        visit(Entry { after: u16::MAX, mask: EMPTY });
+        after -= u32::from(u16::MAX);
+    }
+    let mut add = |mask: u16| visit(Entry { after: std::mem::take(&mut after) as u16, mask });
+    match numbers.get(&link.mask) {
+        Some(&number) => add(number),
+        None => rows_of(link.mask).filter_map(|row| numbers.get(&row)).for_each(|&number| add(number)),
+    }
+}
+
+/// The links of all subgoals, in the order of their slots.
+fn links<P: EdgeFinder>(
+    context: BuildContext<'_, P>,
+    (columns, count): (u32, usize),
+    progress: &(impl Fn(usize) + Sync),
+) -> Vec<Vec<Link>> {
+    let scratch = || (P::Scratch::default(), [Marks::new(count), Marks::new(count)]);
+    in_chunks(context.subgoals.len(), scratch, progress, |(scratch, sides), ids| {
+        let mut links = Vec::new();
+        for id in ids {
+            let subgoal = context.subgoals.vertex(id);
+            P::runs_to(context, scratch, subgoal, |run| sides[usize::from(run.is_right)].add(columns, run));
+            for (side, marks) in (0..).zip(&mut *sides) {
+                marks.take(|tile, mask| links.push(Link { tile, slot: id * P::SIDES + side, mask }));
+            }
+        }
+        links
+    })
+}
+
+/// The free vertices of each tile.
+fn free_vertices<P: Placement>(space: &FreeSpace<P>, columns: u32, count: usize) -> Vec<u64> {
+    let (width, height) = P::vertices(space.grid());
+    let mut free = vec![0; count];
+    for y in 0..height as i32 {
+        for x in (0..width as i32).filter(|&x| space.is_free(Vertex::new(x, y))) {
+            free[((y / SIDE) as u32 * columns + (x / SIDE) as u32) as usize] |=
+                1_u64 << (SIDE * (y % SIDE) + x % SIDE);
+        }
+    }
+    free
+}
+
+/// The parts of a mask in each row.
+fn rows_of(mask: u64) -> impl Iterator<Item = u64> {
+    (0..SIDE).map(move |row| mask & 0xFF << (SIDE * row)).filter(|&row| row != 0)
+}
+
+/// The masks of a map, and their numbers: the full one, the empty one, the others by frequency. If there are
+/// more than `most`, all that lie within one row come next, and the rarest are left out.
+fn dictionary(links: &[Vec<Link>], most: usize) -> (Vec<u64>, HashMap<u64, u16>) {
+    let mut all: Vec<u64> =
+        links.iter().flatten().map(|link| link.mask).filter(|&mask| mask != FULL).collect();
+    all.sort_unstable();
+    let mut counted: Vec<(usize, u64)> =
+        all.chunk_by(|a, b| a == b).map(|same| (same.len(), same[0])).collect();
+    counted.sort_unstable_by_key(|&(count, mask)| (std::cmp::Reverse(count), mask));
+    let mut masks = vec![FULL, 0];
+    if masks.len() + counted.len() > most {
+        masks.extend((0..SIDE).flat_map(|row| (1..=0xFF).map(move |bits: u64| bits << (SIDE * row))));
+    }
+    let is_row = |mask: u64| masks.len() > 2 && rows_of(mask).count() == 1;
+    let others: Vec<u64> = counted.iter().map(|&(_, mask)| mask).filter(|&mask| !is_row(mask)).collect();
+    masks.extend(others.into_iter().take(most - masks.len()));
+    let numbers = masks.iter().zip(0..=u16::MAX).map(|(&mask, number)| (mask, number)).collect();
+    (masks, numbers)
+}
+
+/// The vertices that are joined to one side of a subgoal, by tile.
+#[derive(Debug)]
+struct Marks {
+    masks: Vec<u64>,
+    touched: Vec<u32>,
+}
+
+impl Marks {
+    fn new(count: usize) -> Self {
+        Self { masks: vec![0; count], touched: Vec::new() }
+    }
+
+    fn add(&mut self, columns: u32, run: Run) {
+        let Run { first: Vertex { x, y }, length, is_column, .. } = run;
+        let (mut at, end) = if is_column { (y, y + length) } else { (x, x + length) };
+        while at < end {
+            let next = end.min((at / SIDE + 1) * SIDE);
+            let (low, count) = (at % SIDE, next - at);
+            let (x, y, mask) = if is_column {
+                let column = 0x0101_0101_0101_0101 >> (64 - SIDE * count);
+                (x, at, column << (SIDE * low + x % SIDE))
+            } else {
+                (at, y, (0xFF_u64 >> (SIDE - count)) << (SIDE * (y % SIDE) + low))
+            };
+            let tile = (y / SIDE) as u32 * columns + (x / SIDE) as u32;
+            let known = &mut self.masks[tile as usize];
+            if *known == 0 {
+                self.touched.push(tile);
+            }
+            *known |= mask;
+            at = next;
+        }
+    }
+
+    /// Gives the masks, and forgets them.
+    fn take(&mut self, mut visit: impl FnMut(u32, u64)) {
+        for tile in self.touched.drain(..) {
+            visit(tile, std::mem::take(&mut self.masks[tile as usize]));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
