@@ -10,12 +10,14 @@ use std::{
     cell::Cell,
 };
 
-use common::{GAPS, HIERARCHIES, graph, k, levels, space};
+use common::{GAPS, HIERARCHIES, graph, k, labels, levels, space};
 use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Identity, Vertex};
 use mediant_moves::K;
 use mediant_oracle::{Rng, caves};
 use mediant_search::{Outcome, Planner, Query};
-use mediant_subgoal::{Hierarchy, SubgoalAStar, SubgoalGraph, SubgoalPlacement, SubgoalTheta};
+use mediant_subgoal::{
+    Hierarchy, HubLabelSearch, HubLabels, SubgoalAStar, SubgoalGraph, SubgoalPlacement, SubgoalTheta,
+};
 
 thread_local! {
     static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
@@ -89,6 +91,24 @@ fn check<P: SubgoalPlacement>(rule: P::Rule, k: K) {
             "A*, {case}"
         );
     }
+    let (labels, case) = (labels(&space, k), format!("labels, k = {k}, {rule:?}"));
+    let planner = || HubLabelSearch::new(&space, &labels).expect("the labels are for this space");
+    assert_eq!(most_allocations(&case, planner(), &queries), 0, "{case}");
+    let mut planner = planner();
+    let goals = labels.goals(&space, queries.iter().map(|query| query.goal).take(50)).expect("they are free");
+    let mut distances = Vec::new();
+    let mut ask = || {
+        let before = ALLOCATIONS.get();
+        for query in &queries {
+            let distance = planner.cost(*query).expect("both ends are free");
+            planner.distances(query.start, &goals, &mut distances).expect("the start is free");
+            let nearest = planner.nearest(query.start, &goals).expect("the start is free");
+            assert!(distance.is_none() || nearest.is_some() || !goals.vertices().contains(&query.goal));
+        }
+        ALLOCATIONS.get() - before
+    };
+    ask();
+    assert_eq!(ask(), 0, "distances, {case}");
 }
 
 #[test]
@@ -126,5 +146,32 @@ fn huge_counts_allocate_nothing_huge() {
         let bytes = graph(&space, k(3), hierarchy).to_bytes();
         let (is_ok, taken) = allocated(&bytes);
         assert!(is_ok && taken < most + 4 * bytes.len(), "{taken} bytes for {}", bytes.len());
+    }
+}
+
+/// The same of hub labels: the counts of their parts, and of the labels of each group.
+#[test]
+fn huge_counts_of_labels_allocate_nothing_huge() {
+    let space = space::<Corners>(&caves(&mut Rng::new(7), 60, 50), DiagonalGap::Open);
+    let bytes = labels(&space, k(3)).to_bytes();
+    let allocated = |bytes: &[u8]| {
+        let before = BYTES.get();
+        let result = HubLabels::from_bytes(&space, k(3), bytes);
+        (result.is_ok(), BYTES.get() - before)
+    };
+    let (is_ok, most) = allocated(&bytes);
+    assert!(is_ok && most > bytes.len() && most < 20 * bytes.len(), "{most} for {}", bytes.len());
+    for count in
+        [1 << 20, 1 << 30, 1 << 32, 1 << 61, 1 << 62, u64::MAX / 4, u64::MAX / 8, u64::MAX - 1, u64::MAX]
+    {
+        let mut at = Identity::BYTES + 8;
+        for width in [4, 4, 8, 4, 4, 4, 8] {
+            let mut huge = bytes[..bytes.len() - 8].to_vec();
+            let known = u64::from_le_bytes(huge[at..at + 8].try_into().expect("eight bytes"));
+            huge[at..at + 8].copy_from_slice(&count.to_le_bytes());
+            let (is_ok, taken) = allocated(&common::with_checksum(huge));
+            assert!(!is_ok && taken <= most, "{count} at {at}: {taken} bytes, {most} for the labels");
+            at += 8 + (width * known as usize).next_multiple_of(8);
+        }
     }
 }

@@ -3,9 +3,10 @@
 
 use std::{num::NonZeroU32, sync::Arc};
 
-use mediant_grid::{DiagonalGap, FreeSpace, Grid, Identity, Placement};
-use mediant_moves::{FiniteK, K};
-use mediant_subgoal::{Hierarchy, SubgoalGraph, SubgoalPlacement};
+use mediant_grid::{DiagonalGap, FreeSpace, Grid, Identity, Placement, Vertex};
+use mediant_moves::{Cost, FiniteK, K};
+use mediant_search::parts::Metric;
+use mediant_subgoal::{Hierarchy, HubLabels, SubgoalGraph, SubgoalPlacement};
 
 pub(crate) const GAPS: [DiagonalGap; 2] = [DiagonalGap::Open, DiagonalGap::Closed];
 
@@ -41,4 +42,34 @@ pub(crate) fn graph<P: SubgoalPlacement>(
     hierarchy: Hierarchy,
 ) -> SubgoalGraph<P> {
     SubgoalGraph::new(space, k, hierarchy).expect("there is a graph for this k")
+}
+
+/// Hub labels, however much memory they take.
+pub(crate) fn labels<P: SubgoalPlacement>(space: &FreeSpace<P>, k: K) -> HubLabels<P> {
+    HubLabels::within(space, k, usize::MAX, &|_| {}).expect("there are labels for this k")
+}
+
+/// The length of a path whose straight parts are free, in fixed point.
+pub(crate) fn length(k: K, waypoints: &[Vertex]) -> Cost {
+    let metric = Metric::new(k).expect("a small k");
+    waypoints.windows(2).fold(Cost::ZERO, |sum, part| sum + metric.distance(part[0].to(part[1])))
+}
+
+/// The bytes with the checksum that they should have, as `labels/codec.rs` says.
+pub(crate) fn with_checksum(mut bytes: Vec<u8>) -> Vec<u8> {
+    let step = |sum: u64, word: u64| (sum ^ word).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(29);
+    let word = |bytes: &[u8]| {
+        let mut word = [0; 8];
+        word[..bytes.len()].copy_from_slice(bytes);
+        u64::from_le_bytes(word)
+    };
+    let whole = bytes.len() / 32 * 32;
+    let mut sums = [1_u64, 2, 3, 4];
+    for (place, part) in bytes[..whole].chunks(8).enumerate() {
+        sums[place % 4] = step(sums[place % 4], word(part));
+    }
+    let mut sum = sums.into_iter().fold(bytes.len() as u64, step);
+    sum = bytes[whole..].chunks(8).fold(sum, |sum, part| step(sum, word(part)));
+    bytes.extend(step(sum, sum >> 32).to_le_bytes());
+    bytes
 }

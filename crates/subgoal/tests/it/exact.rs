@@ -131,7 +131,7 @@ impl<'t, P: SubgoalPlacement> Suite<'t, P> {
 
 /// Free vertices of a map, as ends of queries: some convex corners, some where two blocked cells meet, some
 /// of all.
-fn ends(grid: &Grid, corners: &[Vertex], seed: u64) -> Vec<Vertex> {
+pub(crate) fn ends(grid: &Grid, corners: &[Vertex], seed: u64) -> Vec<Vertex> {
     let mut rng = Rng::new(seed ^ 0x5AB6);
     let (width, height) = (grid.width() as i32, grid.height() as i32);
     let vertices = (0..=height).flat_map(|y| (0..=width).map(move |x| Vertex::new(x, y)));
@@ -223,7 +223,7 @@ fn check_rules_explicitly(grid: &Grid, rules: Rules, k: K, hierarchy: Hierarchy,
 }
 
 /// The rules under which there are subgoal graphs for this k.
-fn rules_of(k: K) -> impl Iterator<Item = Rules> {
+pub(crate) fn rules_of(k: K) -> impl Iterator<Item = Rules> {
     let at_centers = match k.finite().map(FiniteK::get) {
         Some(2) => &[CornerRule::Never, CornerRule::One, CornerRule::Always][..],
         Some(3) => &[CornerRule::Never],

@@ -1,9 +1,11 @@
 //! The tests of subgoal graphs from outside, in one program.
 
 mod common;
+mod contraction;
 mod exact;
 mod identity;
 mod index;
+mod labels;
 mod reachability;
 mod shared;
 mod snapshots;

@@ -1,0 +1,217 @@
+//! Distances to many goals at once are those of one query each.
+
+use std::collections::BTreeSet;
+
+use mediant_grid::{AsciiMap, Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, Vertex};
+use mediant_moves::{Cost, K};
+use mediant_oracle::{Rng, caves, on_all_cores, rooms, seeds};
+use mediant_search::{End, Planner, Query, QueryError};
+use mediant_subgoal::{HubLabelSearch, HubLabels, SubgoalPlacement};
+
+use super::exact::is_equal;
+use crate::common::{GAPS, k, labels, space};
+
+fn free<P: SubgoalPlacement>(space: &FreeSpace<P>) -> Vec<Vertex> {
+    let (width, height) = P::vertices(space.grid());
+    let all = (0..height as i32).flat_map(|y| (0..width as i32).map(move |x| Vertex::new(x, y)));
+    all.filter(|&at| space.is_free(at)).collect()
+}
+
+/// Random goals, some twice, some equal to the start. Returns the numbers of goals with and without a path.
+fn check<P: SubgoalPlacement>(grid: &Grid, k: K, rule: P::Rule, seed: u64) -> [usize; 2] {
+    let (space, mut rng, mut counts) = (space::<P>(grid, rule), Rng::new(seed), [0, 0]);
+    let (labels, free) = (labels(&space, k), free(&space));
+    let mut planner = HubLabelSearch::new(&space, &labels).expect("the labels are for this space");
+    let mut at_once = vec![None; 99];
+    for _ in 0..4 {
+        let mut pick = || rng.pick(&free).copied();
+        let mut goals: Vec<Vertex> = (0..12).filter_map(|_| pick()).collect();
+        goals.extend(goals.clone().iter().step_by(3));
+        let prepared = labels.goals(&space, goals.iter().copied()).expect("the goals are free");
+        assert_eq!(prepared.vertices(), goals);
+        let starts = [pick(), pick(), goals.get(4).copied()];
+        for start in starts.into_iter().flatten() {
+            let case = |goal| format!("from {start} to {goal}, k = {k}, {}, seed {seed}", space.rules());
+            planner.distances(start, &prepared, &mut at_once).expect("the start is free");
+            let nearest = planner.nearest(start, &prepared).expect("the start is free");
+            let each: Vec<Option<Cost>> = goals
+                .iter()
+                .map(|&goal| planner.cost(Query::new(start, goal)).expect("both ends are free"))
+                .collect();
+            assert_eq!(at_once.len(), each.len());
+            for ((own, other), &goal) in each.iter().zip(&at_once).zip(&goals) {
+                let is_same = own.zip(*other).map_or(own == other, |(a, b)| is_equal(k, a, b));
+                assert!(is_same, "{own:?}, with others {other:?}; {}", case(goal));
+                counts[usize::from(own.is_some())] += 1;
+            }
+            // Ties: the first of the nearest.
+            let least = at_once.iter().zip(0..).filter_map(|(cost, number)| Some((number, (*cost)?)));
+            let least = least.min_by_key(|&(number, cost)| (cost, number));
+            let is_same = match (least, nearest) {
+                (Some((a, least)), Some((b, cost))) => {
+                    is_equal(k, least, cost) && (a == b || k == K::Any && goals[a] != goals[b])
+                }
+                (least, nearest) => least.is_none() && nearest.is_none(),
+            };
+            assert!(is_same, "{least:?}, {nearest:?}; {}", case(start));
+        }
+    }
+    counts
+}
+
+#[test]
+fn many_goals_at_once_are_as_far_as_each() {
+    let of = |seed: u64| {
+        let mut rng = Rng::new(seed);
+        let (width, height) = (5 + rng.below(40), 5 + rng.below(40));
+        let grid = if seed.is_multiple_of(2) {
+            caves(&mut rng, width, height)
+        } else {
+            rooms(&mut rng, width, height)
+        };
+        let gap = GAPS[seed as usize / 2 % 2];
+        let any = [k(2), k(3), k(4), k(6), K::Any][seed as usize % 5];
+        let [a, b] = check::<Corners>(&grid, any, gap, seed);
+        let [c, d] =
+            check::<Centers>(&grid, k(2), [CornerRule::Always, CornerRule::Never][seed as usize % 2], seed);
+        let [e, f] = check::<Centers>(&grid, k(3), CornerRule::Never, seed);
+        [a + c + e, b + d + f]
+    };
+    let counts = on_all_cores(seeds(40), of);
+    let [unreachable, found] = [0, 1].map(|part| counts.iter().map(|counts| counts[part]).sum::<usize>());
+    let maps = seeds(40).end as usize;
+    assert!(unreachable > 15 * maps && found > 100 * maps, "{unreachable}, {found}");
+}
+
+const HALL: &str = "
+    a..#...d
+    .#.#.##.
+    b..#.##.
+    .#.#...c
+    ...#####
+    s.......
+";
+
+/// Four goals as far as one another, in any order: the first is the nearest.
+#[test]
+fn of_equally_near_goals_the_first_is_the_nearest() {
+    let grid =
+        Grid::from_fn(9, 9, |x, y| [(2, 2), (6, 2), (2, 6), (6, 6)].contains(&(x, y))).expect("a valid size");
+    for k in [k(2), k(3), k(5), K::Any] {
+        let space = space::<Centers>(&grid, CornerRule::Never);
+        let corners = FreeSpace::<Corners>::new(space.grid().clone(), DiagonalGap::Open);
+        let labels = labels(&corners, k);
+        let mut planner = HubLabelSearch::new(&corners, &labels).expect("the labels are for this space");
+        // From the middle of the left side; the first two behind obstacles, the others plain to see.
+        let start = Vertex::new(4, 4);
+        let goals: Vec<Vertex> = [(1, 1), (7, 1), (1, 7), (7, 7), (4, 8), (8, 4)].map(Vertex::from).into();
+        let cost = |planner: &mut HubLabelSearch<_, _>, goal| {
+            planner.cost(Query::new(start, goal)).expect("both ends are free").expect("there is a path")
+        };
+        let costs: Vec<Cost> = goals.iter().map(|&goal| cost(&mut planner, goal)).collect();
+        for turn in 0..goals.len() {
+            let (mut turned, mut costs) = (goals.clone(), costs.clone());
+            turned.rotate_left(turn);
+            costs.rotate_left(turn);
+            let prepared = labels.goals(&corners, turned).expect("the goals are free");
+            let least = costs.iter().min().copied();
+            let expected = costs.iter().position(|&cost| Some(cost) == least).zip(least);
+            assert_eq!(planner.nearest(start, &prepared), Ok(expected), "k = {k}, turn {turn}: {costs:?}");
+        }
+    }
+}
+
+#[test]
+fn no_goals_unreachable_goals_and_wrong_ones() {
+    let map = AsciiMap::parse(HALL).expect("the drawing is a map");
+    let mark = |name| map.mark(name).expect("it is drawn");
+    let space = space::<Centers>(&map.grid, CornerRule::Never);
+    let labels = labels(&space, k(3));
+    let mut planner = HubLabelSearch::new(&space, &labels).expect("the labels are for this space");
+    let (start, mut distances) = (mark('s'), vec![None; 3]);
+    let none = labels.goals(&space, []).expect("no goal is wrong");
+    assert_eq!(planner.distances(start, &none, &mut distances), Ok(()));
+    assert_eq!((distances.len(), planner.nearest(start, &none)), (0, Ok(None)));
+    let closed = labels.goals(&space, [mark('d'), mark('c'), mark('d')]).expect("the goals are free");
+    assert_eq!(planner.distances(start, &closed, &mut distances), Ok(()));
+    assert_eq!((&distances[..], planner.nearest(start, &closed)), (&[None; 3][..], Ok(None)));
+    let mixed =
+        labels.goals(&space, [mark('d'), mark('a'), start, mark('b'), start]).expect("the goals are free");
+    assert_eq!(planner.nearest(start, &mixed), Ok(Some((2, Cost::ZERO))));
+    planner.distances(start, &mixed, &mut distances).expect("the start is free");
+    assert_eq!((distances[0], distances[2], distances[4]), (None, Some(Cost::ZERO), Some(Cost::ZERO)));
+    assert_eq!(distances[1].zip(distances[3]).map(|(a, b)| a > b), Some(true));
+    let outside = Vertex::new(-1, 3);
+    for wrong in [outside, Vertex::new(3, 0), Vertex::new(i32::MAX, 0), Vertex::new(8, 0)] {
+        let is_error = |end: End, result: Result<(), QueryError>| match result {
+            Err(QueryError::Outside { end: of, at, .. } | QueryError::Blocked { end: of, at }) => {
+                of == end && at == wrong
+            }
+            _ => false,
+        };
+        let goals = labels.goals(&space, [start, wrong, outside]).map(|_| ());
+        assert!(is_error(End::Goal, goals), "{goals:?}");
+        let at_once = planner.distances(wrong, &mixed, &mut distances);
+        assert!(is_error(End::Start, at_once), "{at_once:?}");
+        let nearest = planner.nearest(wrong, &mixed).map(|_| ());
+        assert!(is_error(End::Start, nearest), "{nearest:?}");
+        assert!(is_error(End::Start, planner.cost(Query::new(wrong, start)).map(|_| ())));
+        assert!(is_error(End::Goal, planner.solve(Query::new(start, wrong)).map(|_| ())));
+    }
+}
+
+/// More queries than a planner can number: each answers as a planner that is new.
+#[test]
+fn a_planner_answers_the_thousandth_query_as_the_first() {
+    for (seed, k) in (0..).zip([k(2), k(3), k(5), K::Any]) {
+        let mut rng = Rng::new(seed);
+        let space = space::<Corners>(&rooms(&mut rng, 30, 22), GAPS[seed as usize % 2]);
+        let (labels, free) = (labels(&space, k), free(&space));
+        let planner = || HubLabelSearch::new(&space, &labels).expect("the labels are for this space");
+        let (mut old, mut ends, mut over) = (planner(), BTreeSet::new(), 0);
+        let goals = labels.goals(&space, free.iter().copied().step_by(29)).expect("the goals are free");
+        for turn in 0..700 {
+            let [start, goal] = [0, 1].map(|_| *rng.pick(&free).expect("some are free"));
+            ends.insert((start, goal));
+            let query = Query::new(start, goal);
+            let (found, expected) = (old.solve(query), planner().solve(query));
+            assert_eq!(found, expected, "query {turn}: {query:?}, k = {k}");
+            over += usize::from(
+                expected.is_ok_and(|outcome| outcome.path().is_some_and(|p| p.waypoints().len() > 3)),
+            );
+            if rng.chance(20) {
+                let (mut distances, mut others) = (Vec::new(), Vec::new());
+                old.distances(start, &goals, &mut distances).expect("the start is free");
+                planner().distances(start, &goals, &mut others).expect("the start is free");
+                assert_eq!(distances, others, "query {turn}: from {start}, k = {k}");
+                assert_eq!(old.nearest(start, &goals), planner().nearest(start, &goals), "query {turn}");
+            }
+        }
+        assert!(over > 300 && ends.len() > 600, "{over} of {}", ends.len());
+    }
+}
+
+/// What a planner was made for it says; goals of other labels are no use, and no panic.
+#[test]
+fn goals_of_other_labels_are_refused() {
+    let small = space::<Corners>(&rooms(&mut Rng::new(1), 9, 9), DiagonalGap::Open);
+    let large = space::<Corners>(&rooms(&mut Rng::new(2), 40, 30), DiagonalGap::Open);
+    let goals = |space: &FreeSpace<Corners>, labels: &HubLabels<Corners>| {
+        labels.goals(space, free(space).into_iter().step_by(7)).expect("the goals are free")
+    };
+    let (of_small, of_large) = (labels(&small, k(3)), labels(&large, k(3)));
+    let (few, many) = (goals(&small, &of_small), goals(&large, &of_large));
+    for (space, own, other) in [(&small, &of_small, &many), (&large, &of_large, &few)] {
+        let mut planner = HubLabelSearch::new(space, own).expect("the labels are for this space");
+        let start = free(space)[0];
+        let refused = planner.distances(start, other, &mut Vec::new());
+        assert_eq!(refused, Err(QueryError::OtherGoals));
+        assert_eq!(planner.nearest(start, other), Err(QueryError::OtherGoals));
+    }
+    // Another space than that of the labels, and another k.
+    let refused = of_small.goals(&large, free(&large));
+    assert_eq!(refused.map(|_| ()), Err(QueryError::OtherGoals));
+    let of_k = labels(&small, k(4));
+    let mut planner = HubLabelSearch::new(&small, &of_k).expect("the labels are for this space");
+    assert_eq!(planner.nearest(free(&small)[0], &few), Err(QueryError::OtherGoals));
+}

@@ -1,0 +1,7 @@
+//! Hub labels from outside.
+
+mod bytes;
+mod exact;
+mod far;
+mod many;
+mod shared;
