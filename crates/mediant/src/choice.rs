@@ -18,9 +18,9 @@ pub struct Choice {
     pub why: &'static str,
 }
 
-/// The most cells of a map for which subgoal graphs pay on nearly every kind of map. On 4096 × 4096 cells the
-/// engines that prepare nothing are as fast or faster (`docs/performance.md`, 'How it grows').
-const MOST_CELLS_FOR_SUBGOALS: u64 = 1 << 22;
+/// The most cells of a map that was measured: up to there subgoals pay on nearly every kind of map
+/// (`docs/performance.md`, 'How it grows'), and where they do not, another engine searches.
+const MOST_CELLS_FOR_SUBGOALS: u64 = 1 << 24;
 
 impl Choice {
     /// For a single path: an engine that prepares next to nothing. On four maps of up to 1024 × 1024 cells,
@@ -52,7 +52,8 @@ impl Choice {
         let takes_subgoals = Setup::new(Engine::Subgoal, motion.k, motion.rules).check().is_ok();
         let cells = u64::from(map.width()) * u64::from(map.height());
         if takes_subgoals && cells <= MOST_CELLS_FOR_SUBGOALS {
-            let why = "it prepares the map once; then it finds most shortest paths in tens of microseconds";
+            let why =
+                "it prepares the map once; with hub labels it then finds most paths in a few microseconds";
             return Self { engine: Engine::Subgoal, why };
         }
         match motion.k.finite().map(|k| k.get()) {

@@ -131,7 +131,7 @@ impl Error {
             Self::Subgoal(error) => of_subgoal(error),
             Self::InFile { source, .. } => source.code(),
             Self::Hierarchy(error) => of_hierarchy(error),
-            Self::Levels { .. } | Self::Side { .. } => ErrorCode::IndexOptions,
+            Self::Levels { .. } | Self::Side { .. } | Self::Memory { .. } => ErrorCode::IndexOptions,
             Self::IndexFile(error) => of_index(error),
             Self::Read(error) => of_read(error),
             Self::Write(_) => ErrorCode::FileUnwritable,
@@ -144,6 +144,7 @@ const fn of_setup(error: &SetupError) -> ErrorCode {
     match error {
         SetupError::Option { .. }
         | SetupError::DetourAsPublished { .. }
+        | SetupError::MemoryWithoutLabels { .. }
         | SetupError::OtherEngine { .. }
         | SetupError::OtherVariant { .. } => ErrorCode::EngineOption,
         SetupError::K { .. } | SetupError::NeedsFiniteK { .. } | SetupError::NeedsAny { .. } => {
@@ -161,6 +162,7 @@ const fn of_query(error: &QueryError) -> ErrorCode {
         QueryError::Blocked { end: End::Start, .. } => ErrorCode::StartBlocked,
         QueryError::Blocked { end: End::Goal, .. } => ErrorCode::GoalBlocked,
         QueryError::GaveUp { .. } => ErrorCode::GaveUp,
+        QueryError::OtherGoals => ErrorCode::Mismatch,
         QueryError::NoEnd { .. } => ErrorCode::NoEnd,
         QueryError::Tolerance | QueryError::CostLimit => ErrorCode::Number,
         QueryError::NotBegun => ErrorCode::NotBegun,
@@ -181,7 +183,10 @@ const fn of_subgoal(error: &SubgoalError) -> ErrorCode {
     match error {
         SubgoalError::Centers { .. } => ErrorCode::EngineRules,
         SubgoalError::K(_) => ErrorCode::EngineK,
-        SubgoalError::Arcs { .. } => ErrorCode::IndexRange,
+        SubgoalError::Arcs { .. }
+        | SubgoalError::Core { .. }
+        | SubgoalError::Memory { .. }
+        | SubgoalError::Labels => ErrorCode::IndexRange,
         SubgoalError::Mismatch(_) => ErrorCode::Mismatch,
         SubgoalError::Bytes(_) => ErrorCode::IndexDamaged,
         _ => ErrorCode::Other,

@@ -11,10 +11,10 @@ use mediant_hierarchy::{Clustering, FallbackPolicy, SegmentGraph};
 use crate::{
     engine::Engine,
     option::{
-        EngineOption, HeuristicName, Levels, OptionValue, Variant,
+        EngineOption, HeuristicName, Levels, Memory, OptionValue, Variant,
         description::{
-            DETOUR, HEURISTIC, JUMP_LIMIT, KEEP_INTERMEDIATE, LEVELS, SECOND, SIDE, STEP, UNSTRAIGHTENED,
-            VARIANT,
+            DETOUR, HEURISTIC, JUMP_LIMIT, KEEP_INTERMEDIATE, LEVELS, MEMORY, SECOND, SIDE, STEP,
+            UNSTRAIGHTENED, VARIANT,
         },
     },
     setup_error::SetupError,
@@ -26,8 +26,8 @@ use crate::{
 /// use std::num::NonZeroU32;
 /// use mediant::{ConfiguredEngine, Engine, JumpOptions};
 ///
-/// let engine = ConfiguredEngine::Jps(JumpOptions { jump_limit: NonZeroU32::new(16), ..JumpOptions::default() });
-/// assert_eq!(engine.kind(), Engine::Jps);
+/// let engine = ConfiguredEngine::Jps(JumpOptions { jump_limit: NonZeroU32::new(16), ..JumpOptions::default()
+/// }); assert_eq!(engine.kind(), Engine::Jps);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "each variant is documented as an `Engine`")]
@@ -43,7 +43,7 @@ pub enum ConfiguredEngine {
     LazyTheta(GuidedOptions),
     Anya,
     Subgoal(SubgoalOptions),
-    SubgoalTheta(SubgoalOptions),
+    SubgoalTheta(SubgoalThetaOptions),
     Hpa(HpaOptions),
     Chpa(ChpaOptions),
 }
@@ -84,11 +84,24 @@ pub struct JpsPlusOptions {
     pub keep_intermediate: bool,
 }
 
-/// Options of the searches on subgoal graphs.
+/// Options of subgoals.
+///
+/// Whatever they are, paths are optimal. If no levels are named, the map decides: hub labels if they fit in
+/// `memory`, else a contraction hierarchy; where that would be slow, as on noise, nothing is kept, and
+/// another engine searches ([`Index::searched_by`](crate::Index::searched_by)).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct SubgoalOptions {
-    /// The levels of the graph; by default a contraction hierarchy, or 2 levels for Sub-Theta*, which needs
-    /// levels.
+    /// The levels of the graph, a contraction hierarchy, or hub labels; by default the map decides.
+    pub levels: Option<Levels>,
+    /// The memory that hub labels may take. By default that of [`Memory::for_labels_of`] if no levels are
+    /// named, and as much as they need if [`Levels::Labels`] are named.
+    pub memory: Option<Memory>,
+}
+
+/// Options of Sub-Theta*.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct SubgoalThetaOptions {
+    /// The levels of the graph; 2 by default.
     pub levels: Option<Levels>,
 }
 
@@ -142,7 +155,7 @@ impl From<Engine> for ConfiguredEngine {
             Engine::LazyTheta => Self::LazyTheta(GuidedOptions::default()),
             Engine::Anya => Self::Anya,
             Engine::Subgoal => Self::Subgoal(SubgoalOptions::default()),
-            Engine::SubgoalTheta => Self::SubgoalTheta(SubgoalOptions::default()),
+            Engine::SubgoalTheta => Self::SubgoalTheta(SubgoalThetaOptions::default()),
             Engine::Hpa => Self::Hpa(HpaOptions::default()),
             Engine::Chpa => Self::Chpa(ChpaOptions::default()),
         }
@@ -191,7 +204,10 @@ impl ConfiguredEngine {
                 (&HEURISTIC, Slot::Heuristic(&mut own.heuristic)),
                 (&KEEP_INTERMEDIATE, Slot::Flag(&mut own.keep_intermediate)),
             ],
-            Self::Subgoal(own) | Self::SubgoalTheta(own) => vec![(&LEVELS, Slot::Levels(&mut own.levels))],
+            Self::Subgoal(own) => {
+                vec![(&LEVELS, Slot::Levels(&mut own.levels)), (&MEMORY, Slot::Memory(&mut own.memory))]
+            }
+            Self::SubgoalTheta(own) => vec![(&LEVELS, Slot::Levels(&mut own.levels))],
             Self::Hpa(own) => vec![
                 (&LEVELS, Slot::Levels(&mut own.levels)),
                 (&SIDE, Slot::Number(&mut own.side)),
@@ -279,12 +295,20 @@ impl ConfiguredEngine {
                 OptionValue::Levels(Levels::Contracted) if kind != Engine::Subgoal => {
                     return refused(option, "contraction hierarchy", &|kind| kind == Engine::Subgoal);
                 }
+                OptionValue::Levels(Levels::Labels) if kind != Engine::Subgoal => {
+                    return refused(option, "hub labels", &|kind| kind == Engine::Subgoal);
+                }
                 _ => {}
             }
         }
         match self {
             Self::Chpa(ChpaOptions { variant: Some(Variant::Paper), detour: Some(_), .. }) => {
                 Err(SetupError::DetourAsPublished { engine: kind })
+            }
+            Self::Subgoal(SubgoalOptions { levels: Some(levels), memory: Some(_) })
+                if levels != Levels::Labels =>
+            {
+                Err(SetupError::MemoryWithoutLabels { levels })
             }
             _ => Ok(()),
         }
@@ -316,11 +340,12 @@ impl ConfiguredEngine {
         }
     }
 
-    /// The levels of the subgoal graph or of the clusters; `None` for an engine that has no levels.
+    /// The levels of the subgoal graph or of the clusters; `None` for an engine that has no levels, and for
+    /// subgoals if the map decides.
     #[must_use]
     pub fn levels(self) -> Option<Levels> {
         match self {
-            Self::Subgoal(own) => Some(own.levels.unwrap_or(Levels::Contracted)),
+            Self::Subgoal(own) => own.levels,
             Self::SubgoalTheta(own) => Some(own.levels.unwrap_or(Levels::Number(TWO))),
             Self::Hpa(HpaOptions { levels: Some(levels @ Levels::Number(_)), .. }) => Some(levels),
             Self::Hpa(HpaOptions { levels, side, .. }) => {
@@ -395,6 +420,7 @@ enum Slot<'e> {
     Heuristic(&'e mut Option<HeuristicName>),
     Variant(&'e mut Option<Variant>),
     Levels(&'e mut Option<Levels>),
+    Memory(&'e mut Option<Memory>),
 }
 
 impl Slot<'_> {
@@ -406,6 +432,7 @@ impl Slot<'_> {
             Self::Heuristic(name) => name.map(OptionValue::Heuristic),
             Self::Variant(variant) => variant.map(OptionValue::Variant),
             Self::Levels(levels) => levels.map(OptionValue::Levels),
+            Self::Memory(memory) => memory.map(OptionValue::Memory),
         }
     }
 
@@ -417,6 +444,7 @@ impl Slot<'_> {
             (Self::Heuristic(slot), OptionValue::Heuristic(name)) => *slot = Some(name),
             (Self::Variant(slot), OptionValue::Variant(variant)) => *slot = Some(variant),
             (Self::Levels(slot), OptionValue::Levels(levels)) => *slot = Some(levels),
+            (Self::Memory(slot), OptionValue::Memory(memory)) => *slot = Some(memory),
             _ => return false,
         }
         true

@@ -10,6 +10,9 @@ pub(crate) trait Erased {
     /// [`Search::solve`].
     fn solve(&mut self, query: Query) -> Result<Outcome, QueryError>;
 
+    /// [`Search::distance`].
+    fn distance(&mut self, query: Query) -> Result<Option<f64>, QueryError>;
+
     /// [`Search::begin`].
     fn begin(&mut self, query: Query, observer: &mut dyn Observer) -> Result<Status, QueryError>;
 
@@ -32,6 +35,10 @@ pub(crate) trait Erased {
 impl<S: Search> Erased for S {
     fn solve(&mut self, query: Query) -> Result<Outcome, QueryError> {
         Search::solve(self, query)
+    }
+
+    fn distance(&mut self, query: Query) -> Result<Option<f64>, QueryError> {
+        Search::distance(self, query)
     }
 
     fn begin(&mut self, query: Query, mut observer: &mut dyn Observer) -> Result<Status, QueryError> {

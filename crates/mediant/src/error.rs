@@ -9,7 +9,13 @@ use mediant_moves::KError;
 use mediant_search::{JumpError, QueryError};
 use mediant_subgoal::SubgoalError;
 
-use crate::{motion::Motion, names::UnknownName, option::Levels, setup_error::SetupError, text::TextError};
+use crate::{
+    motion::Motion,
+    names::UnknownName,
+    option::{Levels, Memory},
+    setup_error::SetupError,
+    text::TextError,
+};
 
 /// Why something cannot be made, read, written, or asked.
 ///
@@ -83,13 +89,13 @@ pub enum Error {
     #[error(
         "needs an index with {}, found one with {}; choose the levels that it has, or prepare it again",
         expected.in_words(),
-        found.in_words()
+        found.map_or_else(|| "no subgoals".to_owned(), Levels::in_words)
     )]
     Levels {
         /// The levels of the setup.
         expected: Levels,
-        /// The levels of the index.
-        found: Levels,
+        /// The levels of the index; `None` for one of subgoals that kept [none](crate::Index::searched_by).
+        found: Option<Levels>,
     },
     /// A saved index of clusters or segments of another size than the setup names.
     #[error(
@@ -101,6 +107,16 @@ pub enum Error {
         expected: u32,
         /// The side of the index, in cells.
         found: u32,
+    },
+    /// A saved index with hub labels that take more memory than the setup allows.
+    #[error(
+        "needs hub labels of at most {most}, found {found} in the index; allow more memory, or prepare it again"
+    )]
+    Memory {
+        /// What the setup allows.
+        most: Memory,
+        /// What the labels take.
+        found: Memory,
     },
     /// Bytes that are no saved index, or one of another engine or version.
     #[error(transparent)]

@@ -20,9 +20,10 @@
 //! ```
 //!
 //! A query can have wishes ([`Request`]): several ends, a tolerance, the nearest reachable vertex, limits. A
-//! search can go on [in steps](Planner#a-search-in-steps). A [`Field`] has the distances of all vertices, a
-//! [`Table`] those from many to many; a [`Map`] can be that of a disc or a square; a [`Path`] says whether it
-//! still holds ([`Space::check`]).
+//! search can go on [in steps](Planner#a-search-in-steps). [`Planner::distance`] measures without the path,
+//! [`Planner::distances`] and [`Planner::nearest`] to many [`Goals`]. A [`Field`] has the distances of all
+//! vertices, a [`Table`] those from many to many; a [`Map`] can be that of a disc or a square; a [`Path`]
+//! says whether it still holds ([`Space::check`]).
 //!
 //! Handles own what they need: no lifetime and no type parameter reaches the user. Maps, spaces and indexes
 //! never change, their clones share them, and all threads may use them. Every error has a stable
@@ -73,6 +74,7 @@ mod error;
 pub mod errors;
 mod field;
 pub mod files;
+mod goals;
 mod heuristic;
 mod index;
 mod make;
@@ -101,11 +103,12 @@ pub use choice::Choice;
 pub use code::ErrorCode;
 pub use configured::{
     CanonicalOptions, ChpaOptions, ConfiguredEngine, GuidedOptions, HpaOptions, JpsPlusOptions, JumpOptions,
-    SubgoalOptions,
+    SubgoalOptions, SubgoalThetaOptions,
 };
 pub use engine::Engine;
 pub use error::Error;
 pub use field::{Field, Fields};
+pub use goals::Goals;
 pub use index::{Index, Origin};
 pub use map::Map;
 pub use mediant_grid::{
@@ -120,7 +123,10 @@ pub use mediant_search::{
 pub use mediant_subgoal::{Progress, Stage};
 pub use motion::Motion;
 pub use names::UnknownName;
-pub use option::{EngineOption, HeuristicName, Levels, OptionValue, UnknownLevels, ValueKind, Variant};
+pub use option::{
+    EngineOption, HeuristicName, Levels, Memory, OptionValue, UnknownLevels, UnknownMemory, ValueKind,
+    Variant,
+};
 pub use planner::Planner;
 pub use planners::{BatchProgress, Planners};
 pub use setup::Setup;

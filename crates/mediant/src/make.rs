@@ -13,12 +13,13 @@ use mediant_search::{
     Path, Planner as Search, Smoothing, SquaredEuclidean, ThetaStar, Wavefront, Zero,
     parts::{HasFreeSpace, JumpFinder, JumpPointSearch, StepwiseFinder},
 };
-use mediant_subgoal::{SubgoalAStar, SubgoalGraph, SubgoalPlacement, SubgoalTheta};
+use mediant_subgoal::{HubLabelSearch, SubgoalAStar, SubgoalGraph, SubgoalPlacement, SubgoalTheta};
 
 use crate::{
     configured::{ChpaOptions, ConfiguredEngine},
     erased::Erased,
     error::Error,
+    goals::ToGoals,
     heuristic::Admissible,
     index::{InFreeSpace, Index, OnGridGraph, Prepared},
     option::HeuristicName,
@@ -36,7 +37,7 @@ fn boxed(search: impl Search + Send + 'static) -> Boxed {
 
 /// The search of an index's planners.
 pub(crate) fn search(index: &Index) -> Result<Boxed, Error> {
-    let setup = index.setup();
+    let setup = index.search_setup();
     match &index.prepared {
         Prepared::Centers(graph, OnGridGraph::Clusters(clusters)) => {
             let search = HpaStar::new(Arc::clone(graph), Arc::clone(clusters))?;
@@ -48,9 +49,28 @@ pub(crate) fn search(index: &Index) -> Result<Boxed, Error> {
         Prepared::Corners(graph, parts) => on_graph(setup, graph, parts),
         Prepared::FreeCenters(space, InFreeSpace::Subgoals(graph)) => subgoal(setup, space, graph),
         Prepared::FreeCorners(space, InFreeSpace::Subgoals(graph)) => subgoal(setup, space, graph),
+        Prepared::FreeCenters(space, InFreeSpace::Labels(labels)) => {
+            Ok(boxed(HubLabelSearch::new(Arc::clone(space), Arc::clone(labels))?))
+        }
+        Prepared::FreeCorners(space, InFreeSpace::Labels(labels)) => {
+            Ok(boxed(HubLabelSearch::new(Arc::clone(space), Arc::clone(labels))?))
+        }
         Prepared::FreeCorners(space, InFreeSpace::Nothing) => Ok(boxed(Anya::new(Arc::clone(space)))),
         Prepared::FreeCenters(_, InFreeSpace::Nothing) => Err(not_prepared(setup)),
     }
+}
+
+/// What asks for many goals at once on an index with hub labels; `None` for others.
+pub(crate) fn to_goals(index: &Index) -> Result<Option<Box<dyn ToGoals + Send>>, Error> {
+    Ok(match &index.prepared {
+        Prepared::FreeCenters(space, InFreeSpace::Labels(labels)) => {
+            Some(Box::new(HubLabelSearch::new(Arc::clone(space), Arc::clone(labels))?))
+        }
+        Prepared::FreeCorners(space, InFreeSpace::Labels(labels)) => {
+            Some(Box::new(HubLabelSearch::new(Arc::clone(space), Arc::clone(labels))?))
+        }
+        _ => None,
+    })
 }
 
 /// Smooths a path.

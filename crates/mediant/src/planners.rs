@@ -152,8 +152,9 @@ impl Planners {
     }
 }
 
+/// What `work` makes of each number below `count`; with the feature `parallel` on all cores.
 #[cfg(feature = "parallel")]
-fn in_order<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
+pub(crate) fn in_order<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
     use rayon::iter::{IntoParallelIterator, ParallelIterator};
     // A single piece of work needs no pool, and makes none.
     if count <= 1 {
@@ -162,8 +163,9 @@ fn in_order<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
     (0..count).into_par_iter().map(&work).collect()
 }
 
+/// What `work` makes of each number below `count`.
 #[cfg(not(feature = "parallel"))]
-fn in_order<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
+pub(crate) fn in_order<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
     (0..count).map(work).collect()
 }
 

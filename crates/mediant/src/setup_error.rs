@@ -3,7 +3,7 @@
 use mediant_grid::{PlacementKind, Rules};
 use mediant_moves::{FiniteK, K};
 
-use crate::engine::Engine;
+use crate::{engine::Engine, option::Levels};
 
 /// The error for a setup whose parts do not fit together.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -81,6 +81,12 @@ pub enum SetupError {
     DetourAsPublished {
         /// The engine.
         engine: Engine,
+    },
+    /// Memory for hub labels, with levels that are no hub labels.
+    #[error("memory is for hub labels, not for {}: leave out the one or the other", levels.in_words())]
+    MemoryWithoutLabels {
+        /// The levels.
+        levels: Levels,
     },
     /// Options of another engine than that of the index.
     #[error("this index is of {known}: give options of {known}, or prepare {engine}")]

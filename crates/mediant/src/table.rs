@@ -6,7 +6,7 @@ use mediant_search::{End, Outcome, Query, QueryError};
 use crate::{
     error::Error,
     index::Index,
-    planners::{BatchProgress, Planners},
+    planners::{BatchProgress, Planners, in_order},
 };
 
 /// The lengths of the paths from several starts to several goals.
@@ -50,7 +50,8 @@ impl Table {
 
 impl Index {
     /// The lengths of the paths from each start to each goal, as the engine's planners find them: a query for
-    /// each pair. With the feature `parallel` on all cores.
+    /// each pair, or, with hub labels, far less ([`goals`](Self::goals)). With the feature `parallel` on all
+    /// cores.
     ///
     /// # Errors
     /// [`Error::Query`] for the first end that is blocked or outside the map, and where the engine gives up.
@@ -65,6 +66,12 @@ impl Index {
             ends.iter().try_for_each(|&at| self.space().check_end(end, at))?;
         }
         let columns = goals.len();
+        if self.prepared.has_labels() && self.setup().smoothing.is_none() {
+            let (goals, planners) = (self.goals(goals)?, Planners::new(self.clone()));
+            let row = |row: usize| planners.with(|planner| planner.distances(starts[row], &goals));
+            let rows: Result<Vec<Vec<f64>>, Error> = in_order(starts.len(), row).into_iter().collect();
+            return Ok(Table { goals: columns, values: rows?.concat() });
+        }
         let query = |index: usize| Query::new(starts[index / columns], goals[index % columns]);
         let length = |outcome: Outcome| outcome.cost().unwrap_or(f64::INFINITY);
         let (progress, planners) = (BatchProgress::default(), Planners::new(self.clone()));

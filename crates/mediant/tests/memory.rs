@@ -6,7 +6,7 @@ use std::{
     sync::atomic::{AtomicUsize, Ordering},
 };
 
-use mediant::{Engine, K, Map, Motion, Planner, Query};
+use mediant::{ConfiguredEngine, Engine, K, Levels, Map, Motion, Planner, Query};
 
 /// The bytes that are allocated, by all threads.
 static BYTES: AtomicUsize = AtomicUsize::new(0);
@@ -79,7 +79,12 @@ fn eight_planners_share_one_index() {
     ] {
         let space = map.space(Motion::centers(k)).expect("a space");
         space.make_ready(engine).expect("it takes the motion");
-        let (index, bytes) = kept(|| space.prepare(engine).expect("an index"));
+        let mut configured = ConfiguredEngine::from(engine);
+        if let ConfiguredEngine::Subgoal(own) = &mut configured {
+            // Left to itself, it keeps nothing of such a map.
+            own.levels = Some(Levels::Contracted);
+        }
+        let (index, bytes) = kept(|| space.prepare(configured).expect("an index"));
         let stated = index.memory_bytes() as usize;
         assert!(
             stated <= bytes + 4096 && bytes <= stated + stated / 8 + 8192,

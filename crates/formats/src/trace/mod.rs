@@ -75,8 +75,8 @@ pub struct TraceEvent {
 /// ```
 /// use mediant_formats::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
 /// use mediant_grid::PlacementKind;
-/// let mut trace = TraceWriter::new(Vec::new(), &TraceHeader { placement: PlacementKind::Center, map: None })?;
-/// let start = TraceEvent { id: 7, parent: None, x: 3, y: 1, f: Some(2.5), g: Some(0.0) };
+/// let mut trace = TraceWriter::new(Vec::new(), &TraceHeader { placement: PlacementKind::Center, map: None
+/// })?; let start = TraceEvent { id: 7, parent: None, x: 3, y: 1, f: Some(2.5), g: Some(0.0) };
 /// trace.event(TraceEventKind::Source, &start)?;
 /// trace.event(TraceEventKind::Expanding, &start)?;
 /// let text = String::from_utf8(trace.finish()?)?;

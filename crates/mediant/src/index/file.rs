@@ -5,8 +5,9 @@ use std::path::Path as FilePath;
 
 use mediant_formats::{IndexError, IndexFile, IndexKey};
 
-use mediant_grid::Identity;
+use mediant_grid::{Corners, Identity};
 use mediant_moves::K;
+use mediant_subgoal::PreparedSubgoals;
 
 use super::{Index, source::Source};
 use crate::{
@@ -34,7 +35,12 @@ impl Index {
 
     fn file(&self) -> Result<IndexFile, Error> {
         let engine = self.setup.engine.kind();
-        let payload = self.prepared.to_bytes().ok_or_else(|| SetupError::without_index(engine))?;
+        let payload = match self.substitute {
+            // The placement makes no difference.
+            Some(_) => Some(PreparedSubgoals::<Corners>::Nothing(self.identity()).to_bytes()),
+            None => self.prepared.to_bytes(),
+        };
+        let payload = payload.ok_or_else(|| SetupError::without_index(engine))?;
         Ok(IndexFile::new(key(engine, &self.space)?, payload))
     }
 }
@@ -113,7 +119,11 @@ impl Space {
             }
         };
         file.check(&key(engine.kind(), self)?)?;
-        Index::from_source(self, engine, Source { bytes: Some(file.payload()), progress: &|_| {} })
+        Index::from_source(
+            self,
+            engine,
+            Source { bytes: Some(file.payload()), beside: None, progress: &|_| {} },
+        )
     }
 }
 

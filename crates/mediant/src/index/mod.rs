@@ -11,13 +11,15 @@ mod subgoals;
 use std::{num::NonZeroU32, sync::Arc};
 
 use mediant_grid::{FreeSpace, GridGraph, Identity};
+use mediant_moves::K;
 use mediant_search::{JumpTable, Smoothing, parts::BlockFinder};
-use mediant_subgoal::{Progress, SubgoalPlacement};
+use mediant_subgoal::{HubLabels, Progress, SubgoalPlacement};
 
 pub(crate) use self::parts::{InFreeSpace, OnGridGraph, Prepared};
 use self::source::Source;
 use crate::{
     configured::ConfiguredEngine,
+    engine::Engine,
     error::Error,
     motion::Motion,
     option::{
@@ -30,8 +32,8 @@ use crate::{
     space::{Layers, Placed, Space},
 };
 
-/// What an engine prepares in a space before the first query: nothing, a pruning rule, a jump table, a
-/// subgoal graph, clusters or segments. It never changes; all threads can share it, and clones do.
+/// What an engine prepares in a space before the first query: nothing, a pruning rule, a jump table, hub
+/// labels, a subgoal graph, clusters or segments. It never changes; all threads can share it, and clones do.
 /// [`planner`](Self::planner) makes the planners on it.
 ///
 /// ```
@@ -52,6 +54,8 @@ pub struct Index {
     origin: Origin,
     /// What is searched, and what is prepared for it.
     pub(crate) prepared: Prepared,
+    /// The engine that searches in place of the setup's, which kept nothing.
+    substitute: Option<Engine>,
 }
 
 /// How an index came about.
@@ -98,7 +102,7 @@ impl Index {
         engine: ConfiguredEngine,
         progress: &(dyn Fn(Progress) + Sync),
     ) -> Result<Self, Error> {
-        Self::from_source(space, engine, Source { bytes: None, progress })
+        Self::from_source(space, engine, Source { bytes: None, beside: None, progress })
     }
 
     /// Prepares a new index, or reads a saved one.
@@ -106,41 +110,44 @@ impl Index {
         let Motion { k, rules } = space.motion();
         let setup = Setup::new(engine, k, rules);
         setup.check()?;
-        let prepared = match space.placed() {
-            Placed::Centers(layers) => match setup.engine {
-                ConfiguredEngine::Hpa(_) => {
-                    let graph = layers.graph(setup.finite_k()?)?;
-                    let clusters = hierarchies::clusters(setup.engine, graph, source)?;
-                    Prepared::Centers(Arc::clone(graph), OnGridGraph::Clusters(clusters))
-                }
-                ConfiguredEngine::Chpa(own) => {
-                    let graph = layers.graph(setup.finite_k()?)?;
-                    let segments = hierarchies::segments(own, graph, source)?;
-                    Prepared::Centers(Arc::clone(graph), OnGridGraph::Segments(segments))
-                }
-                _ => match in_free_space(setup, &layers.free, source)? {
-                    Some(parts) => Prepared::FreeCenters(Arc::clone(&layers.free), parts),
-                    None => {
-                        let (graph, parts) = on_grid_graph(setup, layers, source)?;
-                        Prepared::Centers(graph, parts)
-                    }
-                },
-            },
-            Placed::Corners(layers) => match in_free_space(setup, &layers.free, source)? {
-                Some(parts) => Prepared::FreeCorners(Arc::clone(&layers.free), parts),
-                None => {
-                    let (graph, parts) = on_grid_graph(setup, layers, source)?;
-                    Prepared::Corners(graph, parts)
-                }
-            },
+        let (prepared, substitute) = match prepared(setup, space, source)? {
+            Some(prepared) => (prepared, None),
+            None => {
+                let engine = subgoals::substitute(k);
+                let source = Source { bytes: None, ..source };
+                let prepared = prepared(Setup { engine: engine.into(), ..setup }, space, source)?;
+                (prepared.ok_or_else(|| SetupError::without_index(engine))?, Some(engine))
+            }
         };
         prepared.check_shape(setup.engine)?;
         let space = space.clone();
         if source.bytes.is_none() {
-            return Ok(Self { space, setup, origin: Origin::Prepared, prepared });
+            return Ok(Self { space, setup, origin: Origin::Prepared, prepared, substitute });
         }
         let setup = Setup { engine: prepared.with_shape(engine)?, ..setup };
-        Ok(Self { space, setup, origin: Origin::Loaded, prepared })
+        Ok(Self { space, setup, origin: Origin::Loaded, prepared, substitute })
+    }
+
+    /// The index for another k, with the same map, rules, options and smoothing. Hub labels at corners share
+    /// what does not depend on k, most of the work and often most of the memory: the other k costs its labels
+    /// alone. All else is prepared anew.
+    ///
+    /// ```
+    /// use mediant::{Engine, K, Map, Motion};
+    ///
+    /// let space = Map::from_fn(40, 30, |x, _| x == 20)?.space(Motion::corners(K::ANY))?;
+    /// let any = space.prepare(Engine::Subgoal)?;
+    /// let coarse = any.for_k(K::N8)?;
+    /// assert_eq!(coarse.space().motion(), Motion::corners(K::N8));
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Map::space`](crate::Map::space) and [`Space::prepare`].
+    pub fn for_k(&self, k: K) -> Result<Self, Error> {
+        let space = self.space.map().space(Motion { k, ..self.space.motion() })?;
+        let source = Source { bytes: None, beside: Some(&self.prepared), progress: &|_| {} };
+        Ok(Self::from_source(&space, self.setup.engine, source)?.with_smoothing(self.setup.smoothing))
     }
 
     /// The same index for planners with other options of its engine, such as another heuristic.
@@ -180,6 +187,23 @@ impl Index {
         self.setup
     }
 
+    /// The engine of its planners. It is that of the [`setup`](Self::setup), but for subgoals of a map on
+    /// which they would be slow, as on noise: nothing is kept of them there, and the best engine that
+    /// prepares nothing searches. Its paths are as good: the setup's guarantee holds.
+    #[must_use]
+    pub const fn searched_by(&self) -> Engine {
+        match self.substitute {
+            Some(engine) => engine,
+            None => self.setup.engine.kind(),
+        }
+    }
+
+    /// The setup of its planners' searches: with the engine that [searches](Self::searched_by).
+    pub(crate) fn search_setup(&self) -> Setup {
+        let engine = self.substitute.map_or(self.setup.engine, ConfiguredEngine::from);
+        Setup { engine, ..self.setup }
+    }
+
     /// How it came about: [`repair`](Self::repair) says so what could be repaired.
     #[must_use]
     pub const fn origin(&self) -> Origin {
@@ -206,19 +230,60 @@ impl Index {
     }
 }
 
-/// What an engine prepares of a free space; `None` for one that searches the grid graph.
+/// What a setup's engine prepares of a space; `None` if subgoals kept nothing.
+fn prepared(setup: Setup, space: &Space, source: Source<'_>) -> Result<Option<Prepared>, Error> {
+    Ok(Some(match space.placed() {
+        Placed::Centers(layers) => match setup.engine {
+            ConfiguredEngine::Hpa(_) => {
+                let graph = layers.graph(setup.finite_k()?)?;
+                let clusters = hierarchies::clusters(setup.engine, graph, source)?;
+                Prepared::Centers(Arc::clone(graph), OnGridGraph::Clusters(clusters))
+            }
+            ConfiguredEngine::Chpa(own) => {
+                let graph = layers.graph(setup.finite_k()?)?;
+                let segments = hierarchies::segments(own, graph, source)?;
+                Prepared::Centers(Arc::clone(graph), OnGridGraph::Segments(segments))
+            }
+            engine if searches_free_space(engine) => {
+                let parts = in_free_space(setup, &layers.free, source, None)?;
+                return Ok(parts.map(|parts| Prepared::FreeCenters(Arc::clone(&layers.free), parts)));
+            }
+            _ => {
+                let (graph, parts) = on_grid_graph(setup, layers, source)?;
+                Prepared::Centers(graph, parts)
+            }
+        },
+        Placed::Corners(layers) => {
+            if searches_free_space(setup.engine) {
+                let beside = source.beside.and_then(Prepared::labels);
+                let parts = in_free_space(setup, &layers.free, source, beside)?;
+                return Ok(parts.map(|parts| Prepared::FreeCorners(Arc::clone(&layers.free), parts)));
+            }
+            let (graph, parts) = on_grid_graph(setup, layers, source)?;
+            Prepared::Corners(graph, parts)
+        }
+    }))
+}
+
+/// Whether an engine searches the free space, not the grid graph.
+const fn searches_free_space(engine: ConfiguredEngine) -> bool {
+    matches!(
+        engine,
+        ConfiguredEngine::Anya | ConfiguredEngine::Subgoal(_) | ConfiguredEngine::SubgoalTheta(_)
+    )
+}
+
+/// What an engine prepares of a free space; `None` if subgoals kept nothing.
 fn in_free_space<P: SubgoalPlacement>(
     setup: Setup,
     space: &FreeSpace<P>,
     source: Source<'_>,
+    beside: Option<&HubLabels<P>>,
 ) -> Result<Option<InFreeSpace<P>>, Error> {
-    Ok(match setup.engine {
-        ConfiguredEngine::Anya => Some(InFreeSpace::Nothing),
-        ConfiguredEngine::Subgoal(_) | ConfiguredEngine::SubgoalTheta(_) => {
-            Some(InFreeSpace::Subgoals(subgoals::graph(setup, space, source)?))
-        }
-        _ => None,
-    })
+    match setup.engine {
+        ConfiguredEngine::Anya => Ok(Some(InFreeSpace::Nothing)),
+        _ => subgoals::subgoals(setup, space, source, beside),
+    }
 }
 
 /// The grid graph, and what an engine prepares of it, if it takes either placement.

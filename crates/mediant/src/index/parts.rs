@@ -5,14 +5,14 @@ use std::{num::NonZeroU32, sync::Arc};
 use mediant_grid::{Centers, Corners, FreeSpace, GridGraph};
 use mediant_hierarchy::{ClusterGraph, Clustering, SegmentGraph};
 use mediant_search::{JumpTable, Pruning, parts::BlockFinder};
-use mediant_subgoal::{SubgoalGraph, SubgoalPlacement};
+use mediant_subgoal::{HubLabels, SubgoalGraph, SubgoalPlacement};
 
 use super::shape;
 use crate::{
-    configured::ConfiguredEngine,
+    configured::{ConfiguredEngine, SubgoalOptions},
     error::Error,
     option::{
-        Levels, OptionValue,
+        Levels, Memory, OptionValue,
         description::{LEVELS, SIDE},
     },
     setup::Setup,
@@ -56,17 +56,26 @@ pub(crate) enum InFreeSpace<P: SubgoalPlacement> {
     Nothing,
     /// A subgoal graph.
     Subgoals(Arc<SubgoalGraph<P>>),
+    /// Hub labels.
+    Labels(Arc<HubLabels<P>>),
 }
 
 impl Prepared {
+    /// Hub labels at corners: those for another k can share some of them.
+    pub(super) fn labels(&self) -> Option<&HubLabels<Corners>> {
+        match self {
+            Self::FreeCorners(_, InFreeSpace::Labels(labels)) => Some(labels),
+            _ => None,
+        }
+    }
+
     /// The bytes of a saved index; `None` where there is nothing to save.
     pub(super) fn to_bytes(&self) -> Option<Vec<u8>> {
         match self {
             Self::Centers(_, parts) => parts.to_bytes(),
             Self::Corners(_, parts) => parts.to_bytes(),
-            Self::FreeCenters(_, InFreeSpace::Subgoals(graph)) => Some(graph.to_bytes()),
-            Self::FreeCorners(_, InFreeSpace::Subgoals(graph)) => Some(graph.to_bytes()),
-            Self::FreeCenters(_, InFreeSpace::Nothing) | Self::FreeCorners(_, InFreeSpace::Nothing) => None,
+            Self::FreeCenters(_, parts) => parts.to_bytes(),
+            Self::FreeCorners(_, parts) => parts.to_bytes(),
         }
     }
 
@@ -75,9 +84,8 @@ impl Prepared {
         match self {
             Self::Centers(_, parts) => parts.memory_bytes(),
             Self::Corners(_, parts) => parts.memory_bytes(),
-            Self::FreeCenters(_, InFreeSpace::Subgoals(graph)) => graph.memory_bytes(),
-            Self::FreeCorners(_, InFreeSpace::Subgoals(graph)) => graph.memory_bytes(),
-            Self::FreeCenters(_, InFreeSpace::Nothing) | Self::FreeCorners(_, InFreeSpace::Nothing) => 0,
+            Self::FreeCenters(_, parts) => parts.memory_bytes(),
+            Self::FreeCorners(_, parts) => parts.memory_bytes(),
         }
     }
 
@@ -90,23 +98,58 @@ impl Prepared {
                 (NonZeroU32::new(levels).map(Levels::Number), Some(side))
             }
             Self::Centers(_, OnGridGraph::Segments(graph)) => (None, Some(graph.side())),
-            Self::FreeCenters(_, InFreeSpace::Subgoals(graph)) => (Some(graph.hierarchy().into()), None),
-            Self::FreeCorners(_, InFreeSpace::Subgoals(graph)) => (Some(graph.hierarchy().into()), None),
+            Self::FreeCenters(_, parts) => (parts.levels(), None),
+            Self::FreeCorners(_, parts) => (parts.levels(), None),
             _ => (None, None),
         }
     }
 
-    /// Checks that it has the levels and the side that an engine's options name.
+    /// Whether it has hub labels.
+    pub(crate) const fn has_labels(&self) -> bool {
+        matches!(
+            self,
+            Self::FreeCenters(_, InFreeSpace::Labels(_)) | Self::FreeCorners(_, InFreeSpace::Labels(_))
+        )
+    }
+
+    /// The memory that its hub labels take, and that which they may take if the user names none.
+    fn memory_of_labels(&self) -> Option<(Memory, Memory)> {
+        let (grid, bytes) = match self {
+            Self::FreeCenters(space, InFreeSpace::Labels(labels)) => (space.grid(), labels.memory_bytes()),
+            Self::FreeCorners(space, InFreeSpace::Labels(labels)) => (space.grid(), labels.memory_bytes()),
+            _ => return None,
+        };
+        Some((Memory::new(bytes as u64)?, Memory::for_labels_of(grid.width(), grid.height())))
+    }
+
+    /// Checks that it has the levels and the side that an engine's options name, and that its labels take no
+    /// more memory than they may.
     pub(super) fn check_shape(&self, engine: ConfiguredEngine) -> Result<(), Error> {
         let (levels, side) = self.shape();
+        if let ConfiguredEngine::Subgoal(SubgoalOptions { memory: Some(most), .. }) = engine
+            && let Some((found, _)) = self.memory_of_labels().filter(|&(found, _)| found > most)
+        {
+            return Err(Error::Memory { most, found });
+        }
         shape::check(engine, levels, side)
     }
 
-    /// The engine with the levels and the side that are prepared, named or not.
+    /// The engine with the levels and the side that are prepared, named or not. Of hub labels the memory is
+    /// named instead, if they take more than by default: on another map there may be none.
     pub(super) fn with_shape(&self, mut engine: ConfiguredEngine) -> Result<ConfiguredEngine, SetupError> {
         let (levels, side) = self.shape();
-        if let Some(levels) = levels.filter(|&levels| levels != Levels::Contracted) {
+        if let Some(levels) = levels.filter(|&levels| levels != Levels::Labels) {
             engine.set(&LEVELS, OptionValue::Levels(levels))?;
+            if let ConfiguredEngine::Subgoal(own) = &mut engine {
+                own.memory = None;
+            }
+        }
+        if let (ConfiguredEngine::Subgoal(own), Some((bytes, default))) =
+            (&mut engine, self.memory_of_labels())
+            && own.levels.is_none()
+            && bytes > default
+        {
+            own.memory = own.memory.or(Some(bytes));
         }
         if let Some(side) = side.and_then(NonZeroU32::new) {
             engine.set(&SIDE, OptionValue::Number(side))?;
@@ -128,6 +171,32 @@ impl Prepared {
             return Err(SetupError::OtherVariant { engine }.into());
         }
         Ok(())
+    }
+}
+
+impl<P: SubgoalPlacement> InFreeSpace<P> {
+    fn to_bytes(&self) -> Option<Vec<u8>> {
+        match self {
+            Self::Nothing => None,
+            Self::Subgoals(graph) => Some(graph.to_bytes()),
+            Self::Labels(labels) => Some(labels.to_bytes()),
+        }
+    }
+
+    fn memory_bytes(&self) -> usize {
+        match self {
+            Self::Nothing => 0,
+            Self::Subgoals(graph) => graph.memory_bytes(),
+            Self::Labels(labels) => labels.memory_bytes(),
+        }
+    }
+
+    fn levels(&self) -> Option<Levels> {
+        match self {
+            Self::Nothing => None,
+            Self::Subgoals(graph) => Some(graph.hierarchy().into()),
+            Self::Labels(_) => Some(Levels::Labels),
+        }
     }
 }
 

@@ -48,7 +48,7 @@ impl Index {
         let Some(prepared) = repaired else {
             return Ok(Self { setup: self.setup, ..Self::new(changed, self.setup.engine, &|_| {})? });
         };
-        Ok(Self { space: changed.clone(), setup: self.setup, origin: Origin::Repaired, prepared })
+        Ok(Self { space: changed.clone(), origin: Origin::Repaired, prepared, ..self.clone() })
     }
 
     /// The cells that differ from those of a changed map; `None` if its size differs.

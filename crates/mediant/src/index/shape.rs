@@ -30,11 +30,10 @@ pub(super) fn check(
     {
         return Err(Error::Side { expected: expected.get(), found });
     }
-    let Some(found) = levels else { return Ok(()) };
     let (is_named, expected) = match engine {
-        ConfiguredEngine::Subgoal(own) => (own.levels.is_some(), engine.levels()),
+        ConfiguredEngine::Subgoal(own) => (own.levels.is_some(), own.levels),
         ConfiguredEngine::SubgoalTheta(own) => {
-            (own.levels.is_some() || found == Levels::Contracted, engine.levels())
+            (own.levels.is_some() || levels == Some(Levels::Contracted), engine.levels())
         }
         ConfiguredEngine::Hpa(own) => {
             // How many `all` levels are depends on the side.
@@ -44,7 +43,9 @@ pub(super) fn check(
         _ => (false, None),
     };
     match expected {
-        Some(expected) if is_named && same(expected) != same(found) => Err(Error::Levels { expected, found }),
+        Some(expected) if is_named && levels.map(same) != Some(same(expected)) => {
+            Err(Error::Levels { expected, found: levels })
+        }
         _ => Ok(()),
     }
 }

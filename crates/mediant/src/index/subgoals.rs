@@ -1,23 +1,71 @@
-//! Subgoal graphs, computed or read from bytes.
+//! Subgoal graphs and hub labels, computed or read from bytes.
 
 use std::sync::Arc;
 
 use mediant_grid::FreeSpace;
-use mediant_subgoal::{SubgoalGraph, SubgoalPlacement};
+use mediant_moves::K;
+use mediant_subgoal::{HubLabels, PreparedSubgoals, SubgoalGraph, SubgoalPlacement};
 
-use super::source::Source;
-use crate::{error::Error, option::Levels, setup::Setup};
+use super::{parts::InFreeSpace, source::Source};
+use crate::{
+    choice::Choice,
+    configured::{ConfiguredEngine, SubgoalOptions},
+    engine::Engine,
+    error::Error,
+    option::{Levels, Memory},
+    setup::Setup,
+};
 
-/// The subgoal graph of a setup.
-pub(super) fn graph<P: SubgoalPlacement>(
+/// The subgoals of a setup; `None` where nothing was kept, since the [`substitute`] is faster. They share
+/// what they can with hub labels for another k, which are `beside`.
+pub(super) fn subgoals<P: SubgoalPlacement>(
     setup: Setup,
     space: &FreeSpace<P>,
     source: Source<'_>,
-) -> Result<Arc<SubgoalGraph<P>>, Error> {
-    if let Some(bytes) = source.bytes {
-        return Ok(Arc::new(SubgoalGraph::from_bytes(space, setup.k, bytes)?));
-    }
-    let hierarchy = setup.engine.levels().unwrap_or(Levels::Contracted).into();
-    let progress = |step| (source.progress)(step);
-    Ok(Arc::new(SubgoalGraph::with_progress(space, setup.k, hierarchy, &progress)?))
+    beside: Option<&HubLabels<P>>,
+) -> Result<Option<InFreeSpace<P>>, Error> {
+    let (k, progress) = (setup.k, |step| (source.progress)(step));
+    // Sub-Theta* searches graphs alone.
+    let ConfiguredEngine::Subgoal(SubgoalOptions { levels, memory }) = setup.engine else {
+        let hierarchy = setup.engine.levels().and_then(Levels::hierarchy).unwrap_or_default();
+        let graph = match source.bytes {
+            None => SubgoalGraph::with_progress(space, k, hierarchy, &progress)?,
+            Some(bytes) => SubgoalGraph::from_bytes(space, k, bytes)?,
+        };
+        return Ok(Some(InFreeSpace::Subgoals(Arc::new(graph))));
+    };
+    let most = |default: Memory| memory.unwrap_or(default).as_usize();
+    let prepared = match (source.bytes, levels) {
+        (Some(bytes), _) => PreparedSubgoals::from_bytes(space, k, bytes)?,
+        (None, None) => {
+            let grid = space.grid();
+            let most = most(Memory::for_labels_of(grid.width(), grid.height()));
+            match beside {
+                None => PreparedSubgoals::within(space, k, most, &progress)?,
+                Some(labels) => PreparedSubgoals::beside(labels, space, k, most, &progress)?,
+            }
+        }
+        (None, Some(levels)) => match levels.hierarchy() {
+            Some(hierarchy) => {
+                PreparedSubgoals::Contracted(SubgoalGraph::with_progress(space, k, hierarchy, &progress)?)
+            }
+            None => {
+                let most = most(Memory::MAX);
+                PreparedSubgoals::Labels(match beside {
+                    None => HubLabels::within(space, k, most, &progress)?,
+                    Some(labels) => labels.for_k(space, k, most, &progress)?,
+                })
+            }
+        },
+    };
+    Ok(match prepared {
+        PreparedSubgoals::Labels(labels) => Some(InFreeSpace::Labels(Arc::new(labels))),
+        PreparedSubgoals::Contracted(graph) => Some(InFreeSpace::Subgoals(Arc::new(graph))),
+        PreparedSubgoals::Nothing(_) => None,
+    })
+}
+
+/// The engine that searches where no subgoals were kept: the best that prepares nothing.
+pub(super) fn substitute(k: K) -> Engine {
+    Choice::for_some_paths(k).engine
 }

@@ -9,8 +9,8 @@ use super::value::{OptionValue, ValueKind};
 /// ```
 /// use mediant::{ConfiguredEngine, Engine, EngineOption, Setup};
 ///
-/// let limit = EngineOption::ALL.into_iter().find(|option| option.name == "jump-limit").ok_or("no such option")?;
-/// let mut engine = ConfiguredEngine::from(Engine::Jps);
+/// let limit = EngineOption::ALL.into_iter().find(|option| option.name == "jump-limit").ok_or("no such
+/// option")?; let mut engine = ConfiguredEngine::from(Engine::Jps);
 /// engine.set(limit, limit.parse("16")?)?;
 /// assert_eq!("jps,limit=16".parse::<Setup>()?.engine, engine);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -86,7 +86,7 @@ pub(crate) static KEEP_INTERMEDIATE: EngineOption = EngineOption {
     samples: &[""],
 };
 
-/// The levels of a subgoal graph or of clusters.
+/// The levels of a subgoal graph or of clusters, or hub labels.
 pub(crate) static LEVELS: EngineOption = EngineOption {
     name: "levels",
     noun: "levels",
@@ -94,10 +94,25 @@ pub(crate) static LEVELS: EngineOption = EngineOption {
     key: Some("levels"),
     is_index_option: true,
     help: "The number of levels of the subgoal graph (1 is the graph without a hierarchy) or of the \
-           clusters, or all. A contraction hierarchy by default for subgoal, 2 levels for subgoal-theta, 3 \
-           levels for hpa; with --index, those of the index",
+           clusters, or all; for subgoal also labels (hub labels) or contracted (a contraction hierarchy). By \
+           default hub labels for subgoal if they fit in --memory, else a contraction hierarchy; 2 levels for \
+           subgoal-theta, 3 for hpa; with --index, those of the index",
     phrase: "{}",
-    samples: &["1", "2", "all"],
+    samples: &["1", "2", "all", "contracted", "labels"],
+};
+
+/// The memory that hub labels may take.
+pub(crate) static MEMORY: EngineOption = EngineOption {
+    name: "memory",
+    noun: "memory for hub labels",
+    kind: ValueKind::Memory,
+    key: Some("memory"),
+    is_index_option: true,
+    help: "The memory that the hub labels of subgoal may take, as 8MB. 48 bytes a cell by default, but at \
+           least 32MB and at most 1GB. A map whose labels take more has a contraction hierarchy, and the \
+           same paths",
+    phrase: "at most {} for labels",
+    samples: &["1kB"],
 };
 
 /// The side of clusters or segments.
@@ -172,18 +187,20 @@ impl EngineOption {
     /// | `exact`, `complete`, `paper` | `--variant` | the repaired or the published variant |
     /// | `limit=N` | `--jump-limit` | jumps of at most N steps |
     /// | `intermediate` | `--keep-intermediate` | intermediate jump points are kept |
-    /// | `levels=N`, `levels=all` | `--levels` | the levels of a subgoal graph or of clusters |
+    /// | `levels=N`, `levels=all`, `levels=contracted`, `levels=labels` | `--levels` | the levels of a subgoal graph or of clusters, or hub labels |
+    /// | `memory=8MB` | `--memory` | the memory that hub labels may take |
     /// | `side=N` | `--side` | the side of a cluster or segment, in cells |
     /// | `unstraightened` | `--unstraightened` | paths through clusters are not straightened |
     /// | `second=NAME` | `--second` | the heuristic of the second phase |
     /// | `step=N` | `--step` | a checkpoint every N segments |
     /// | `detour=N` | `--detour` | how many times h_k the path to a checkpoint may cost |
-    pub const ALL: [&'static Self; 10] = [
+    pub const ALL: [&'static Self; 11] = [
         &HEURISTIC,
         &VARIANT,
         &JUMP_LIMIT,
         &KEEP_INTERMEDIATE,
         &LEVELS,
+        &MEMORY,
         &SIDE,
         &UNSTRAIGHTENED,
         &SECOND,
@@ -220,7 +237,10 @@ impl EngineOption {
             (None, _) => self.names().join(", "),
             (Some(key), ValueKind::Flag) => key.to_owned(),
             (Some(key), ValueKind::Number) => format!("{key}=N"),
-            (Some(key), ValueKind::Levels) => format!("{key}=N, {key}=all"),
+            (Some(key), ValueKind::Levels) => {
+                ["N", "all", "contracted", "labels"].map(|value| format!("{key}={value}")).join(", ")
+            }
+            (Some(key), ValueKind::Memory) => format!("{key}=BYTES"),
             (Some(key), ValueKind::Heuristic | ValueKind::Variant) => {
                 format!("{key}={}", self.noun.split(' ').next_back().unwrap_or_default().to_uppercase())
             }

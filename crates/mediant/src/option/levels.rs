@@ -1,10 +1,11 @@
-//! The levels of a subgoal graph or of clusters.
+//! The levels of a subgoal graph or of clusters, and what subgoals have instead.
 
 use std::{fmt, num::NonZeroU32, str::FromStr};
 
 use mediant_subgoal::Hierarchy;
 
-/// The levels of a subgoal graph or of clusters. As text a number, `all` or `contracted`.
+/// The levels of a subgoal graph or of clusters. As text a number, `all`, `contracted`
+/// or `labels`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Levels {
     /// At most this many; 1 is a graph without a hierarchy.
@@ -13,34 +14,39 @@ pub enum Levels {
     All,
     /// A contraction hierarchy instead of levels; only subgoal graphs have one.
     Contracted,
+    /// Hub labels instead of levels: queries without a search; only subgoals have them.
+    Labels,
 }
 
 /// The error for a text that is no [`Levels`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("expected a whole number from 1 to {}, or all", u32::MAX)]
+#[error("expected a whole number from 1 to {}, all, contracted or labels", u32::MAX)]
 pub struct UnknownLevels {
     /// What was found.
     pub found: String,
 }
 
 impl Levels {
-    /// In words: `a contraction hierarchy`, `1 level`, `2 levels`, `all levels`.
+    /// In words: `a contraction hierarchy`, `hub labels`, `1 level`, `2 levels`, `all levels`.
     #[must_use]
     pub fn in_words(self) -> String {
         match self {
             Self::Contracted => "a contraction hierarchy".to_owned(),
+            Self::Labels => "hub labels".to_owned(),
             Self::Number(NonZeroU32::MIN) => "1 level".to_owned(),
             Self::Number(_) | Self::All => format!("{self} levels"),
         }
     }
 }
 
-impl From<Levels> for Hierarchy {
-    fn from(levels: Levels) -> Self {
-        match levels {
-            Levels::Number(number) => Self::Levels(number),
-            Levels::All => Self::AllLevels,
-            Levels::Contracted => Self::Contracted,
+impl Levels {
+    /// The hierarchy of a subgoal graph; `None` for hub labels, which are no graph.
+    pub(crate) const fn hierarchy(self) -> Option<Hierarchy> {
+        match self {
+            Self::Number(number) => Some(Hierarchy::Levels(number)),
+            Self::All => Some(Hierarchy::AllLevels),
+            Self::Contracted => Some(Hierarchy::Contracted),
+            Self::Labels => None,
         }
     }
 }
@@ -61,6 +67,7 @@ impl fmt::Display for Levels {
             Self::Number(number) => number.fmt(f),
             Self::All => f.pad("all"),
             Self::Contracted => f.pad("contracted"),
+            Self::Labels => f.pad("labels"),
         }
     }
 }
@@ -72,6 +79,7 @@ impl FromStr for Levels {
         match text {
             "all" => Ok(Self::All),
             "contracted" => Ok(Self::Contracted),
+            "labels" => Ok(Self::Labels),
             _ => text.parse().map(Self::Number).map_err(|_| UnknownLevels { found: text.to_owned() }),
         }
     }

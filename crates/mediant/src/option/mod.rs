@@ -2,8 +2,10 @@
 
 pub(crate) mod description;
 mod levels;
+mod memory;
 mod value;
 
 pub use description::EngineOption;
 pub use levels::{Levels, UnknownLevels};
+pub use memory::{Memory, UnknownMemory};
 pub use value::{HeuristicName, OptionValue, ValueKind, Variant};

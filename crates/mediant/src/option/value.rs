@@ -5,7 +5,10 @@ use std::{
     num::{IntErrorKind, NonZeroU32, ParseIntError},
 };
 
-use super::levels::{Levels, UnknownLevels};
+use super::{
+    levels::{Levels, UnknownLevels},
+    memory::{Memory, UnknownMemory},
+};
 use crate::names::{UnknownName, names};
 
 /// The heuristic that guides a search.
@@ -48,8 +51,10 @@ pub enum ValueKind {
     Heuristic,
     /// The name of a variant.
     Variant,
-    /// A number of levels, `all` or `contracted`.
+    /// A number of levels, `all`, `contracted` or `labels`.
     Levels,
+    /// An amount of memory.
+    Memory,
 }
 
 /// The value of an option.
@@ -65,6 +70,8 @@ pub enum OptionValue {
     Variant(Variant),
     /// Levels.
     Levels(Levels),
+    /// An amount of memory.
+    Memory(Memory),
 }
 
 impl ValueKind {
@@ -83,6 +90,9 @@ impl ValueKind {
             Self::Levels => {
                 text.parse().map(OptionValue::Levels).map_err(|wrong: UnknownLevels| wrong.to_string())
             }
+            Self::Memory => {
+                text.parse().map(OptionValue::Memory).map_err(|wrong: UnknownMemory| wrong.to_string())
+            }
         }
     }
 
@@ -91,7 +101,7 @@ impl ValueKind {
         match self {
             Self::Heuristic => HeuristicName::ALL.map(HeuristicName::name).to_vec(),
             Self::Variant => Variant::ALL.map(Variant::name).to_vec(),
-            Self::Flag | Self::Number | Self::Levels => Vec::new(),
+            Self::Flag | Self::Number | Self::Levels | Self::Memory => Vec::new(),
         }
     }
 }
@@ -105,6 +115,7 @@ impl fmt::Display for OptionValue {
             Self::Heuristic(name) => name.fmt(f),
             Self::Variant(variant) => variant.fmt(f),
             Self::Levels(levels) => levels.fmt(f),
+            Self::Memory(memory) => memory.fmt(f),
         }
     }
 }

@@ -6,13 +6,14 @@ use std::fmt;
 
 use mediant_grid::Identity;
 use mediant_search::{
-    Counters, Guarantee, Observer, Outcome, Planner as _, QueryError, Request, Search, parts::Metric,
+    Counters, Guarantee, Observer, Outcome, Planner as _, Query, QueryError, Request, Search, parts::Metric,
 };
 
 use crate::{
     configured::ConfiguredEngine,
     erased::{Dynamic, Erased},
     error::Error,
+    goals::Asked,
     index::Index,
     make::{self, Smoother},
     map::Map,
@@ -45,6 +46,8 @@ pub struct Planner {
     begun: Option<Search>,
     /// Of the space's k; made when it is first needed.
     metric: Option<Metric>,
+    /// What asks for prepared goals.
+    pub(crate) asked: Asked,
 }
 
 /// Makes a path shorter.
@@ -101,6 +104,7 @@ impl Index {
             index: self.clone(),
             begun: None,
             metric: None,
+            asked: Asked::default(),
         }
     }
 }
@@ -130,6 +134,29 @@ impl Planner {
         self.begun = None;
         let answer = self.search.solve(query);
         self.smoothed(answer)
+    }
+
+    /// The length of the path that [`find`](Self::find) finds, in cells; `None` if there is none. On hub
+    /// labels this takes less time than the path, and the length may differ from the path's by one part in
+    /// 2³¹ (see [`Cost`](mediant_moves::Cost)). A planner that smooths its paths measures the smoothed one.
+    ///
+    /// ```
+    /// use mediant::{Engine, K, Map, Motion, Query};
+    ///
+    /// let space = Map::from_fn(9, 9, |x, y| x == 4 && y != 8)?.space(Motion::corners(K::ANY))?;
+    /// let mut planner = space.planner(Engine::Subgoal)?;
+    /// assert_eq!(planner.distance(Query::new((0, 0), (4, 3)))?, Some(5.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`find`](Self::find).
+    pub fn distance(&mut self, query: Query) -> Result<Option<f64>, QueryError> {
+        if self.smooth.is_some() {
+            return Ok(self.find(query)?.cost());
+        }
+        self.begun = None;
+        self.search.distance(query)
     }
 
     /// Answers a query and reports the events of the search.

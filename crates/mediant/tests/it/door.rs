@@ -310,8 +310,10 @@ fn an_index_takes_the_options_that_it_serves() {
             let index = one.prepare(&space).expect("it fits");
             match index.with_options(other.engine) {
                 Err(error) => {
-                    let is_right =
-                        matches!(error, Error::Setup(_) | Error::Levels { .. } | Error::Side { .. });
+                    let is_right = matches!(
+                        error,
+                        Error::Setup(_) | Error::Levels { .. } | Error::Side { .. } | Error::Memory { .. }
+                    );
                     assert!(is_right, "{one}, {other}: {error}");
                     assert!(one != other, "{one}");
                     refused += 1;

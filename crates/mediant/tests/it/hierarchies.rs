@@ -204,7 +204,7 @@ fn a_saved_graph_has_the_levels_and_the_side_that_are_named() {
         assert_eq!(made, (built.levels(), built.side().map(NonZeroU32::get)), "{asked}");
     }
     let number = |n| Levels::Number(NonZeroU32::new(n).expect("a level"));
-    let levels = |expected, found| Error::Levels { expected: number(expected), found: number(found) };
+    let levels = |expected, found| Error::Levels { expected: number(expected), found: Some(number(found)) };
     for (built, asked, error) in [
         ("hpa,levels=1", "hpa,levels=2", levels(2, 1)),
         ("hpa,side=5,levels=2", "hpa,levels=all", levels(6, 2)),

@@ -3,8 +3,10 @@
 mod catalog;
 mod door;
 mod field;
+mod goals;
 mod hierarchies;
 mod identity;
+mod labels;
 mod mistakes;
 mod odd_input;
 mod options;
@@ -13,7 +15,7 @@ mod requests;
 mod subgoals;
 mod table;
 
-use mediant::{Error, Index, Map, Planner, Setup};
+use mediant::{EngineOption, Error, Index, Levels, Map, OptionValue, Planner, Setup};
 use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Rules};
 use mediant_moves::FiniteK;
 
@@ -56,6 +58,14 @@ fn read(setup: Setup, map: &Map, bytes: Vec<u8>) -> Result<Index, Error> {
 /// The bytes of a new index.
 fn build(setup: Setup, map: &Map) -> Result<Vec<u8>, Error> {
     index(setup, map)?.to_bytes()
+}
+
+/// The levels of an index.
+fn levels(index: &Index) -> Option<Levels> {
+    match index.value(EngineOption::ALL.into_iter().find(|option| option.name == "levels")?)? {
+        OptionValue::Levels(levels) => Some(levels),
+        _ => None,
+    }
 }
 
 /// A planner on the small map.

@@ -1,6 +1,6 @@
 //! Options: which engines take them, and how they are read, written and reported.
 
-use mediant::{ConfiguredEngine, Engine, EngineOption, OptionValue, SetupError, ValueKind};
+use mediant::{ConfiguredEngine, Engine, EngineOption, Memory, OptionValue, Setup, SetupError, ValueKind};
 
 use super::{NEVER, k, setup};
 
@@ -14,6 +14,7 @@ fn every_engine_takes_the_options_that_it_says() {
             let text = match option.kind {
                 ValueKind::Flag => "",
                 ValueKind::Number | ValueKind::Levels => "7",
+                ValueKind::Memory => "8MB",
                 ValueKind::Heuristic => "zero",
                 ValueKind::Variant => "paper",
             };
@@ -34,9 +35,9 @@ fn every_engine_takes_the_options_that_it_says() {
             }
         }
     }
-    // The engines that take heuristic, variant, jump limit, intermediate jump points, levels, side and
-    // unstraightened; second, step and detour.
-    assert_eq!(pairs, 8 + 2 + 2 + 3 + 3 + 2 + 1 + 3);
+    // The engines that take heuristic, variant, jump limit, intermediate jump points, levels, memory, side
+    // and unstraightened; second, step and detour.
+    assert_eq!(pairs, 8 + 2 + 2 + 3 + 3 + 1 + 2 + 1 + 3);
 }
 
 #[test]
@@ -55,7 +56,8 @@ fn wrong_values_are_refused_in_words() {
         ("step", "0", "expected a whole number from 1 up"),
         ("step", "x", "expected a whole number from 1 up"),
         ("side", "5000000000", "expected a whole number from 1 to 4294967295"),
-        ("levels", "none", "expected a whole number from 1 to 4294967295, or all"),
+        ("levels", "none", "expected a whole number from 1 to 4294967295, all, contracted or labels"),
+        ("memory", "8 MB", "expected a whole number of bytes from 1 up, also as 500kB, 8MB or 1GB"),
         ("heuristic", "best", "expected one of hk, euclidean, zero, squared, found `best`"),
         ("unstraightened", "yes", "expected no value"),
     ] {
@@ -77,7 +79,9 @@ fn reports_say_what_each_option_is() {
         described("jps,limit=16,intermediate"),
         "heuristic hk, jumps up to 16, intermediate jump points kept"
     );
-    assert_eq!(described("subgoal"), "a contraction hierarchy");
+    assert_eq!(described("subgoal"), "");
+    assert_eq!(described("subgoal,levels=contracted"), "a contraction hierarchy");
+    assert_eq!(described("subgoal,levels=labels,memory=8000kB"), "hub labels, at most 8MB for labels");
     assert_eq!(described("hpa,levels=1,unstraightened"), "1 level, side 10, paths not straightened");
     assert_eq!(
         described("chpa,squared"),
@@ -87,11 +91,61 @@ fn reports_say_what_each_option_is() {
 }
 
 #[test]
-fn only_subgoal_graphs_have_a_contraction_hierarchy() {
-    assert_eq!(setup("subgoal,levels=contracted").engine.levels(), setup("subgoal").engine.levels());
-    let said = "hpa,levels=contracted".parse::<mediant::Setup>().expect_err("clusters have levels");
-    assert!(
-        said.to_string().ends_with("hpa takes no contraction hierarchy: leave it out, or choose subgoal")
-    );
-    assert!(mediant::Setup::new(Engine::Hpa, k(3), NEVER).check().is_ok());
+fn only_subgoals_have_a_contraction_hierarchy_and_hub_labels() {
+    let said = |text: &str| text.parse::<Setup>().expect_err("levels alone").to_string();
+    for engine in ["hpa", "subgoal-theta"] {
+        for (levels, name) in [("contracted", "contraction hierarchy"), ("labels", "hub labels")] {
+            let said = said(&format!("{engine},levels={levels}"));
+            let expected = format!("{engine} takes no {name}: leave it out, or choose subgoal");
+            assert!(said.ends_with(&expected), "{said}");
+        }
+    }
+    let said = said("subgoal,levels=2,memory=8MB");
+    let expected = "memory is for hub labels, not for 2 levels: leave out the one or the other";
+    assert!(said.ends_with(expected), "{said}");
+    assert!(Setup::new(Engine::Hpa, k(3), NEVER).check().is_ok());
+}
+
+#[test]
+fn amounts_of_memory_are_read_and_written() {
+    let read = |text: &str| text.parse::<Memory>().map(Memory::bytes).ok();
+    for (text, bytes) in [
+        ("1", 1),
+        ("999", 999),
+        ("1000", 1000),
+        ("500kB", 500_000),
+        ("8MB", 8_000_000),
+        ("1GB", 1_000_000_000),
+        ("18446744073GB", 18_446_744_073_000_000_000),
+        ("18446744073709551615", u64::MAX),
+    ] {
+        assert_eq!(read(text), Some(bytes), "{text}");
+    }
+    for text in [
+        "",
+        "0",
+        "0MB",
+        "MB",
+        "+8MB",
+        "-1",
+        "8 MB",
+        "8mb",
+        "8Mb",
+        "8MiB",
+        "1.5GB",
+        "1e6",
+        "8MBMB",
+        "18446744074GB",
+        "٣",
+    ] {
+        assert_eq!(read(text), None, "{text}");
+    }
+    for (bytes, text) in
+        [(1, "1"), (1000, "1kB"), (1_500_000, "1500kB"), (8_000_000, "8MB"), (2_000_000_000, "2GB")]
+    {
+        assert_eq!(Memory::new(bytes).map(|memory| memory.to_string()).as_deref(), Some(text));
+    }
+    let default = |width, height| Memory::for_labels_of(width, height).bytes();
+    let of_maps = [default(1, 1), default(1000, 1000), default(2048, 2048), default(8192, 8192)];
+    assert_eq!(of_maps, [32_000_000, 48_000_000, 3 << 26, 1_000_000_000]);
 }

@@ -2,21 +2,13 @@
 
 use std::sync::{Arc, Mutex};
 
-use mediant::{Engine, EngineOption, Error, Index, Levels, OptionValue, Progress, Setup, SetupError, Stage};
+use mediant::{Engine, Error, Levels, Progress, Setup, SetupError, Stage};
 use mediant_grid::{Centers, GridGraph, PlacementKind, Rules};
 use mediant_moves::{FiniteK, K};
 use mediant_search::Query;
 use mediant_subgoal::{Hierarchy, SubgoalGraph};
 
-use super::{build, index, k, map, read, setup};
-
-/// The levels of an index.
-fn levels(index: &Index) -> Option<Levels> {
-    match index.value(EngineOption::ALL.into_iter().find(|option| option.name == "levels")?)? {
-        OptionValue::Levels(levels) => Some(levels),
-        _ => None,
-    }
-}
+use super::{build, index, k, levels, map, read, setup};
 
 /// Whether the engine of a setup searches a subgoal graph.
 fn is_subgoal(setup: &Setup) -> bool {
@@ -70,12 +62,14 @@ fn a_saved_subgoal_graph_is_as_good_as_a_new_one() {
                 let saved = read(setup, &map(), bytes).unwrap_or_else(|error| panic!("{setup}: {error}"));
                 assert_eq!(saved.planner().find_counted(query), new.planner().find_counted(query), "{setup}");
                 assert_eq!(saved.memory_bytes(), new.memory_bytes(), "{setup}");
-                assert_eq!([&new, &saved].map(levels), [setup.engine.levels(); 2], "{setup}");
+                assert_eq!(levels(&new), levels(&saved), "{setup}");
+                let named = setup.engine.levels();
+                assert!(named.is_none_or(|named| levels(&new) == Some(named)), "{setup}");
                 setups += 1;
             }
         }
     }
-    assert_eq!(setups, 5 * (2 * 4 + 3 + 1) + 4 * 2 * 3);
+    assert_eq!(setups, 5 * (2 * 4 + 3 + 1) + 4 * 2 * 3 + 12 * 3);
 }
 
 #[test]
@@ -95,9 +89,19 @@ fn a_saved_subgoal_graph_has_the_levels_that_are_named() {
     }
     for (built, asked, message) in [
         (
-            "subgoal",
+            "subgoal,levels=contracted",
             "subgoal,levels=1",
             "needs an index with 1 level, found one with a contraction hierarchy",
+        ),
+        (
+            "subgoal",
+            "subgoal,levels=contracted",
+            "needs an index with a contraction hierarchy, found one with hub labels",
+        ),
+        (
+            "subgoal,levels=2",
+            "subgoal,levels=labels",
+            "needs an index with hub labels, found one with 2 levels",
         ),
         ("subgoal,levels=2", "subgoal,levels=all", "needs an index with all levels, found one with 2 levels"),
     ] {
@@ -109,11 +113,11 @@ fn a_saved_subgoal_graph_has_the_levels_that_are_named() {
     // As many levels as a number can say are all.
     let most = index(setup("subgoal:3:open,levels=4294967295"), &map()).expect("an index");
     assert_eq!(levels(&most), Some(Levels::All));
-    for text in ["1", "7", "all", "contracted"] {
+    for text in ["1", "7", "all", "contracted", "labels"] {
         assert_eq!(text.parse::<Levels>().map(|levels| levels.to_string()), Ok(text.to_owned()));
     }
     let said = "0".parse::<Levels>().expect_err("there is one level at least").to_string();
-    assert_eq!(said, "expected a whole number from 1 to 4294967295, or all");
+    assert_eq!(said, "expected a whole number from 1 to 4294967295, all, contracted or labels");
 }
 
 #[test]
@@ -128,7 +132,7 @@ fn progress_is_reported() {
         told.into_inner().expect("nobody panics")
     };
     let steps = told("subgoal");
-    for stage in [Stage::Edges, Stage::Hierarchy] {
+    for stage in [Stage::Edges, Stage::Hierarchy, Stage::Sight, Stage::Labels] {
         let steps: Vec<&Progress> = steps.iter().filter(|step| step.stage == stage).collect();
         assert!(!steps.is_empty() && steps.iter().all(|step| step.done <= step.total), "{steps:?}");
     }

@@ -37,8 +37,11 @@ fn check(k: K, rules: Rules, seed: u64) {
             assert_eq!(table.row(row).len(), goals.len());
             for (column, &goal) in goals.iter().enumerate() {
                 let cost = planner.find(Query::new(start, goal)).expect("free ends").cost();
-                let expected = Some(cost.unwrap_or(f64::INFINITY));
-                assert_eq!(table.get(row, column), expected, "{setup}, seed {seed}: {start} to {goal}");
+                let expected = cost.unwrap_or(f64::INFINITY);
+                let found = table.get(row, column).expect("a cell of the table");
+                // Hub labels round lengths otherwise than paths.
+                let is_same = found == expected || (found - expected).abs() < 1e-9 * expected;
+                assert!(is_same, "{setup}, seed {seed}: {start} to {goal}: {found}, {expected}");
             }
         }
         assert_eq!((table.get(0, 4), table.get(3, 0), table.row(3).len()), (None, None, 0));

@@ -1,0 +1,204 @@
+//! From one start to many goals: all distances, or the nearest goal.
+
+use std::{fmt, sync::Arc};
+
+use mediant_grid::{Identity, Vertex};
+use mediant_moves::Cost;
+use mediant_search::{End, Query, QueryError, Request, parts::HasFreeSpace};
+use mediant_subgoal::{HubLabelSearch, HubLabels, SubgoalPlacement};
+
+use crate::{
+    error::Error,
+    index::{InFreeSpace, Index, Prepared},
+    make,
+    planner::Planner,
+};
+
+/// Goals that many starts ask for, prepared for the indexes of one map, rules and k: made by
+/// [`Index::goals`], asked by [`Planner::distances`] and [`Planner::nearest`]. Clones share them, and all
+/// threads may use them.
+///
+/// ```
+/// use mediant::{Engine, K, Map, Motion};
+///
+/// let space = Map::from_fn(9, 9, |x, y| x == 4 && y != 8)?.space(Motion::corners(K::ANY))?;
+/// let index = space.prepare(Engine::Subgoal)?;
+/// let hotels = index.goals([(9, 0), (0, 9), (3, 4)])?;
+/// let mut planner = index.planner();
+/// assert_eq!(planner.nearest((0, 0), &hotels)?, Some((2, 5.0)));
+/// assert_eq!(planner.distances((0, 0), &hotels)?[1..], [9.0, 5.0]);
+/// # Ok::<(), mediant::Error>(())
+/// ```
+#[derive(Clone)]
+pub struct Goals(Arc<Inner>);
+
+struct Inner {
+    identity: Identity,
+    vertices: Vec<Vertex>,
+    /// By hub, if the index has hub labels.
+    by_hub: Option<mediant_subgoal::Goals>,
+}
+
+impl Goals {
+    /// The goals, in the order in which they were given.
+    #[must_use]
+    pub fn vertices(&self) -> &[Vertex] {
+        &self.0.vertices
+    }
+
+    /// What they belong to: the map, rules and k of their index.
+    #[must_use]
+    pub fn identity(&self) -> Identity {
+        self.0.identity
+    }
+}
+
+impl fmt::Debug for Goals {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Inner { identity, vertices, by_hub } = &*self.0;
+        let mut fields = f.debug_struct("Goals");
+        fields.field("identity", identity).field("goals", &vertices.len());
+        fields.field("by_hub", &by_hub.is_some()).finish()
+    }
+}
+
+impl Index {
+    /// Prepares goals for its planners. With hub labels this takes about two queries for each goal, and each
+    /// start then far less than a query for each goal; with other indexes a start takes a query for each
+    /// goal.
+    ///
+    /// # Errors
+    /// [`Error::Query`] for the first goal that is blocked or outside the map.
+    pub fn goals<G: Into<Vertex>>(&self, goals: impl IntoIterator<Item = G>) -> Result<Goals, Error> {
+        let vertices: Vec<Vertex> = goals.into_iter().map(Into::into).collect();
+        vertices.iter().try_for_each(|&at| self.space().check_end(End::Goal, at))?;
+        let all = vertices.iter().copied();
+        let by_hub = match &self.prepared {
+            Prepared::FreeCenters(space, InFreeSpace::Labels(labels)) => Some(labels.goals(space, all)?),
+            Prepared::FreeCorners(space, InFreeSpace::Labels(labels)) => Some(labels.goals(space, all)?),
+            _ => None,
+        };
+        Ok(Goals(Arc::new(Inner { identity: self.identity(), vertices, by_hub })))
+    }
+}
+
+/// Distances to many goals by hub labels.
+pub(crate) trait ToGoals {
+    /// [`HubLabelSearch::distances`].
+    fn distances(
+        &mut self,
+        start: Vertex,
+        goals: &mediant_subgoal::Goals,
+        distances: &mut Vec<Option<Cost>>,
+    ) -> Result<(), QueryError>;
+
+    /// [`HubLabelSearch::nearest`].
+    fn nearest(
+        &mut self,
+        start: Vertex,
+        goals: &mediant_subgoal::Goals,
+    ) -> Result<Option<(usize, Cost)>, QueryError>;
+}
+
+impl<S, P> ToGoals for HubLabelSearch<Arc<S>, Arc<HubLabels<P>>>
+where
+    P: SubgoalPlacement,
+    S: HasFreeSpace<Placement = P>,
+{
+    fn distances(
+        &mut self,
+        start: Vertex,
+        goals: &mediant_subgoal::Goals,
+        distances: &mut Vec<Option<Cost>>,
+    ) -> Result<(), QueryError> {
+        self.distances(start, goals, distances)
+    }
+
+    fn nearest(
+        &mut self,
+        start: Vertex,
+        goals: &mediant_subgoal::Goals,
+    ) -> Result<Option<(usize, Cost)>, QueryError> {
+        self.nearest(start, goals)
+    }
+}
+
+/// How a planner asks for prepared goals.
+#[derive(Default)]
+pub(crate) struct Asked {
+    /// Made when it is first needed.
+    search: Option<Box<dyn ToGoals + Send>>,
+    costs: Vec<Option<Cost>>,
+}
+
+impl Planner {
+    /// The lengths of the paths from a start to each goal, in cells: infinite where there is no way. With hub
+    /// labels they are found together, in far less time than a query for each takes.
+    ///
+    /// # Errors
+    /// [`Error::Mismatch`] for goals of another map, rule or k; [`Error::Query`] for a start that is blocked
+    /// or outside the map, and where the engine gives up.
+    pub fn distances(&mut self, start: impl Into<Vertex>, goals: &Goals) -> Result<Vec<f64>, Error> {
+        let start = start.into();
+        if let Some((by_hub, Asked { search: Some(search), costs })) = self.by_hub(start, goals)? {
+            search.distances(start, by_hub, costs)?;
+            return Ok(costs.iter().map(|cost| cost.map_or(f64::INFINITY, Cost::to_f64)).collect());
+        }
+        let mut distance = |&goal: &Vertex| -> Result<f64, Error> {
+            Ok(self.distance(Query::new(start, goal))?.unwrap_or(f64::INFINITY))
+        };
+        goals.vertices().iter().map(&mut distance).collect()
+    }
+
+    /// The number of the goal to which the path is the shortest, the first of several, and the length of that
+    /// path in cells; `None` if there is no way to any. With hub labels this takes one to two queries, also
+    /// for a thousand goals.
+    ///
+    /// # Errors
+    /// Those of [`distances`](Self::distances).
+    pub fn nearest(
+        &mut self,
+        start: impl Into<Vertex>,
+        goals: &Goals,
+    ) -> Result<Option<(usize, f64)>, Error> {
+        let start = start.into();
+        if let Some((by_hub, Asked { search: Some(search), .. })) = self.by_hub(start, goals)? {
+            let nearest = search.nearest(start, by_hub)?;
+            return Ok(nearest.map(|(goal, cost)| (goal, cost.to_f64())));
+        }
+        if goals.vertices().is_empty() {
+            return Ok(None);
+        }
+        if self.index().setup().smoothing.is_some() {
+            // The nearest by smoothed paths is not always that by the paths of the search.
+            let lengths = self.distances(start, goals)?.into_iter().enumerate();
+            return Ok(lengths
+                .min_by(|(_, a), (_, b)| a.total_cmp(b))
+                .filter(|(_, least)| least.is_finite()));
+        }
+        let found = self.find(Request::between([start], goals.vertices().iter().copied()))?.into_path();
+        let end = |path: &mediant_search::Path| path.waypoints().last().copied();
+        Ok(found.and_then(|path| {
+            let end = end(&path)?;
+            Some((goals.vertices().iter().position(|&goal| goal == end)?, path.cost()))
+        }))
+    }
+
+    /// The goals by hub, and what asks for them; `None` where that is not what the planner's paths measure.
+    fn by_hub<'g>(
+        &mut self,
+        start: Vertex,
+        goals: &'g Goals,
+    ) -> Result<Option<(&'g mediant_subgoal::Goals, &mut Asked)>, Error> {
+        let index = self.index();
+        index.identity().check("the index", ("the goals", goals.identity()))?;
+        index.space().check_end(End::Start, start)?;
+        let Some(by_hub) = goals.0.by_hub.as_ref().filter(|_| index.setup().smoothing.is_none()) else {
+            return Ok(None);
+        };
+        if self.asked.search.is_none() {
+            self.asked.search = make::to_goals(self.index())?;
+        }
+        Ok(Some((by_hub, &mut self.asked)))
+    }
+}
