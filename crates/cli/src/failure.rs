@@ -107,6 +107,10 @@ pub(crate) enum Failure {
     TraceEnds,
     #[error("--distances begin at one vertex: give --from once")]
     DistancesEnds,
+    #[error("no {ends}: give {option} X,Y, or {option}-file a file with one x,y a line")]
+    NoEnds { ends: &'static str, option: &'static str },
+    #[error("--distance is for one start and one goal: for several there is mediant table")]
+    DistanceEnds,
     #[error(
         "give --k to list the moves of a neighborhood, --ratio to find the smallest k for a bound, or both"
     )]

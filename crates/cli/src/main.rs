@@ -33,6 +33,7 @@ fn main() -> ExitCode {
     let mut screen = Screen::stdout();
     let ending = match cli.command {
         Command::Run(args) => commands::run::run(&args, &mut screen),
+        Command::Table(args) => commands::table::table(&args, &mut screen),
         Command::Reach(args) => commands::reach::reach(&args, &mut screen),
         Command::Check(args) => commands::check::check(&args, &mut screen),
         Command::Convert(args) => commands::convert::convert(&args, &mut screen).map(|()| Ending::Answered),

@@ -12,6 +12,7 @@ mod options;
 mod reach;
 mod run;
 mod setup;
+mod table;
 mod value;
 mod wishes;
 
@@ -27,7 +28,8 @@ pub(crate) use self::{
     moves::MovesArgs,
     reach::ReachArgs,
     run::{Format, RunArgs},
-    value::{MAX_K, Place},
+    table::{TableArgs, TableFormat},
+    value::{MAX_K, Place, parse_place},
     wishes::WishArgs,
 };
 
@@ -43,6 +45,8 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Answer queries on a map.
     Run(Box<RunArgs>),
+    /// Measure the paths from many starts to many goals, or to the nearest of them.
+    Table(Box<TableArgs>),
     /// Find all that is within reach of one or many places.
     Reach(ReachArgs),
     /// Say whether paths hold on a map, and where not.
@@ -62,7 +66,7 @@ pub(crate) enum Command {
 #[cfg(test)]
 mod tests {
     use clap::CommandFactory;
-    use mediant::{ConfiguredEngine, Engine};
+    use mediant::{ConfiguredEngine, Engine, Memory};
 
     use super::*;
 
@@ -80,12 +84,14 @@ mod tests {
             argument.get_help().unwrap().to_string()
         };
         let engine = |kind: Engine| ConfiguredEngine::from(kind);
-        for kind in [Engine::Subgoal, Engine::SubgoalTheta, Engine::Hpa] {
-            let name = engine(kind).levels().unwrap().in_words().replacen("a c", "A c", 1);
-            let by = if kind == Engine::Subgoal { "by default".to_owned() } else { format!("for {kind}") };
-            let name = format!("{name} {by}");
-            assert!(help("levels").contains(&name), "{name}: {}", help("levels"));
+        assert_eq!(engine(Engine::Subgoal).levels(), None, "the map decides");
+        for (kind, by) in [(Engine::SubgoalTheta, "2 levels for"), (Engine::Hpa, "3 for")] {
+            let name = format!("{by} {kind}");
+            let levels = engine(kind).levels().unwrap().to_string();
+            assert!(help("levels").contains(&name) && by.starts_with(&levels), "{name}: {}", help("levels"));
         }
+        let least = Memory::for_labels_of(1, 1).to_string();
+        assert!(help("memory").contains(&format!("at least {least}")), "{}", help("memory"));
         for (kind, by) in [(Engine::Hpa, "10 by default for hpa"), (Engine::Chpa, "3 for chpa")] {
             assert!(
                 by.contains(&engine(kind).side().unwrap().to_string()) && help("side").contains(by),

@@ -73,7 +73,10 @@ fn flag(option: &'static EngineOption) -> Arg {
     match option.kind {
         ValueKind::Flag => arg.action(ArgAction::SetTrue),
         ValueKind::Number => arg.value_name("N").allow_negative_numbers(true).value_parser(checked),
-        ValueKind::Levels => arg.value_name("N|all").allow_negative_numbers(true).value_parser(checked),
+        ValueKind::Memory => arg.value_name("BYTES").value_parser(checked),
+        ValueKind::Levels => {
+            arg.value_name("N|all|contracted|labels").allow_negative_numbers(true).value_parser(checked)
+        }
         ValueKind::Heuristic | ValueKind::Variant => {
             let name = if option.kind == ValueKind::Variant { "VARIANT" } else { "HEURISTIC" };
             arg.value_name(name).value_parser(PossibleValuesParser::new(option.names()))

@@ -124,6 +124,7 @@ Examples:
   mediant run arena.map --from 1,11 --to 40,30 --to 30,5 --to 8,40
   mediant run arena.map --from 1,11 --to 40,30 --snap --nearest --tolerance 1.5
   mediant run arena.map --scen arena.map.scen --max-nodes 1000 --max-cost 60 --deadline 0.5
+  mediant run arena.map --scen arena.map.scen --engine subgoal --memory 8MB --distance
   mediant run arena.map --from 1,11 --engine dijkstra --distances -";
 
 /// The engines whose paths are the shortest at any angle.
@@ -150,6 +151,8 @@ impl RunArgs {
             Err(Failure::TraceEnds)
         } else if self.distances.is_some() {
             Err(Failure::DistancesEnds)
+        } else if self.wishes.distance {
+            Err(Failure::DistanceEnds)
         } else {
             Ok(())
         }

@@ -53,7 +53,7 @@ impl Place {
 }
 
 /// Reads `X,Y`: whole numbers, or meters with a point. What is neither is told of as if it were a vertex.
-pub(super) fn parse_place(text: &str) -> Result<Place, String> {
+pub(crate) fn parse_place(text: &str) -> Result<Place, String> {
     let error = match parse_vertex(text) {
         Ok(at) => return Ok(Place::Vertex(at)),
         Err(error) => error,

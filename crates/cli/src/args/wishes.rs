@@ -30,6 +30,10 @@ pub(crate) struct WishArgs {
     pub(crate) from: Vec<Vertex>,
     #[arg(skip)]
     pub(crate) to: Vec<Vertex>,
+    /// Measure the path of each query without making it: with hub labels this takes less time
+    #[arg(long, conflicts_with_all = ["tolerance", "nearest", "snap", "max_cost", "max_nodes", "deadline"])]
+    #[arg(conflicts_with_all = ["distances", "draw", "trace"])]
+    pub(crate) distance: bool,
     /// Let paths end at any free vertex at most so far from the goal, in a straight line
     #[arg(long, value_name = "CELLS", conflicts_with_all = ["distances", "trace"])]
     #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_amount(text, "cells"))]
@@ -128,6 +132,7 @@ impl WishArgs {
         };
         let mut words: Vec<String> = several.into_iter().collect();
         words.extend(self.tolerance.map(|cells| format!("within {} of the goal", of_cells(cells))));
+        words.extend(self.distance.then(|| "lengths without paths".to_owned()));
         words.extend(self.nearest.then(|| "if there is no way, to the nearest vertex".to_owned()));
         words.extend(self.snap.then(|| "blocked ends moved to the nearest vertex".to_owned()));
         let limits = [

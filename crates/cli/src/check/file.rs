@@ -99,7 +99,7 @@ pub(crate) fn shown(path: &Path) -> PathBuf {
 }
 
 /// The content of a file. Pipes are welcome: paths are often piped.
-fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     let owned = || path.to_owned();
     let unreadable = |source: io::Error| match source.kind() {
         io::ErrorKind::NotFound => ReadError::Missing { path: owned() },
@@ -126,7 +126,7 @@ fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
 type Wrong = (usize, String);
 
 /// The lines that are not empty, with their numbers from 1.
-fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+pub(crate) fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     let lines = bytes.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii).zip(1..);
     lines.filter(|(line, _)| !line.is_empty()).map(|(line, number)| (number, line))
 }

@@ -6,6 +6,7 @@ use crate::{
     args::BuildArgs,
     failure::Failure,
     map::{Map, file_name},
+    run::report::falls_back,
     terminal::{
         numbers::{grouped, time},
         progress::BuildProgress,
@@ -26,7 +27,8 @@ pub(crate) fn build(args: &BuildArgs, screen: &mut Screen) -> Result<(), Failure
     let built = space.prepare_with_progress(setup.engine, &|step| progress.tell(step));
     let took = begin.elapsed();
     progress.clear();
-    built?.save(&args.output)?;
+    let built = built?;
+    built.save(&args.output)?;
     let size = grouped(fs::metadata(&args.output)?.len());
     let name = file_name(&args.output);
     let name = screen.paint(BOLD, printable(&name)).to_string();
@@ -37,5 +39,8 @@ pub(crate) fn build(args: &BuildArgs, screen: &mut Screen) -> Result<(), Failure
         setup.engine.kind(),
         printable(&map.name)
     )?;
+    if built.searched_by() != setup.engine.kind() {
+        writeln!(screen, "{}", falls_back(setup.engine.kind(), built.searched_by()))?;
+    }
     Ok(())
 }

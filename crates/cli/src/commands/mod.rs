@@ -8,3 +8,4 @@ pub(crate) mod engines;
 pub(crate) mod moves;
 pub(crate) mod reach;
 pub(crate) mod run;
+pub(crate) mod table;

@@ -61,6 +61,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
         queries: queries.len(),
         wishes: &wishes,
         setup,
+        searched_by: index.searched_by(),
         options: EngineOption::ALL.map(|option| (option, index.value(option))).to_vec(),
         guarantee: planner.guarantee(),
         reference: args.reference,

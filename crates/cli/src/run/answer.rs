@@ -18,6 +18,8 @@ pub(crate) struct Run<'r> {
     pub(crate) queries: usize,
     pub(crate) wishes: &'r WishArgs,
     pub(crate) setup: Setup,
+    /// The engine that searches: the setup's, or another one where subgoals would be slow.
+    pub(crate) searched_by: Engine,
     /// All options of the catalog, each with its value if the engine has one.
     pub(crate) options: Vec<(&'static EngineOption, Option<OptionValue>)>,
     pub(crate) guarantee: Guarantee,
@@ -57,7 +59,10 @@ pub(crate) enum Answered {
 /// A path, and what is known of the shortest any-angle path between its ends under the same rules.
 #[derive(Clone, Debug)]
 pub(crate) struct Found {
-    pub(crate) path: Path,
+    /// `None` if only its length was asked for.
+    pub(crate) path: Option<Path>,
+    /// Its length, in cells.
+    pub(crate) cost: f64,
     /// The certificate: no any-angle path is shorter than this, by the engine's guarantee and by the straight
     /// line.
     pub(crate) lower_bound: f64,
@@ -77,16 +82,21 @@ impl Answer {
     /// The path, if there is one: that of a stopped search is the best so far.
     pub(crate) const fn path(&self) -> Option<&Path> {
         match &self.outcome {
-            Ok(Answered::Found(found)) => Some(&found.path),
+            Ok(Answered::Found(found)) => found.path.as_ref(),
             Ok(Answered::Nearest(path)) => Some(path),
             Ok(Answered::Stopped(stopped)) => Some(&stopped.best),
             Ok(Answered::Unreachable) | Err(_) => None,
         }
     }
 
+    /// The length of the path, if there is one.
+    pub(crate) fn cost(&self) -> Option<f64> {
+        self.found().map(|found| found.cost).or_else(|| self.path().map(Path::cost))
+    }
+
     /// The start and the goal: of a path that was found its ends, else those of the query.
     pub(crate) fn ends(&self) -> (Vertex, Vertex) {
-        let found = self.found().and_then(|found| ends(&found.path));
+        let found = self.found().and_then(|found| ends(found.path.as_ref()?));
         found.unwrap_or((self.item.query.start, self.item.query.goal))
     }
 }
@@ -94,21 +104,32 @@ impl Answer {
 impl Found {
     /// Adds the certificate, which follows from the path and the guarantee of its engine.
     pub(crate) fn new(path: Path, guarantee: Guarantee, rules: Rules, any_angle: Option<f64>) -> Self {
-        let cost = path.cost();
         let straight = ends(&path).map_or(0.0, |(start, goal)| start.distance(goal));
+        let measured = Self::measured(path.cost(), straight, guarantee, rules, any_angle);
+        Self { path: Some(path), ..measured }
+    }
+
+    /// A path of which only the length is known, and the straight line between its ends.
+    pub(crate) fn measured(
+        cost: f64,
+        straight: f64,
+        guarantee: Guarantee,
+        rules: Rules,
+        any_angle: Option<f64>,
+    ) -> Self {
         // The rounded sum of a straight path's parts may be less than the straight line.
         let lower_bound = guarantee.lower_bound(rules, cost, straight).min(cost);
-        Self { path, lower_bound, any_angle }
+        Self { path: None, cost, lower_bound, any_angle }
     }
 
     /// The path is at most this many times as long as the shortest any-angle path; at least 1.
     pub(crate) fn bound(&self) -> f64 {
-        ratio(self.path.cost(), self.lower_bound)
+        ratio(self.cost, self.lower_bound)
     }
 
     /// The path is this many times as long as the shortest any-angle path.
     pub(crate) fn ratio(&self) -> Option<f64> {
-        self.any_angle.map(|best| ratio(self.path.cost(), best))
+        self.any_angle.map(|best| ratio(self.cost, best))
     }
 }
 

@@ -32,13 +32,15 @@ pub(crate) struct Jsonl<'s> {
     flushed: Instant,
     /// Where vertices are in the world.
     world: Option<(WorldFrame, PlacementKind)>,
+    /// Whether only the lengths of paths are asked for.
+    only_lengths: bool,
 }
 
 impl<'s> Jsonl<'s> {
     /// Lines that somebody watches on a terminal do not wait in the buffer.
     pub(crate) fn new(screen: &'s mut Screen, watched: bool) -> Self {
         let patience = if watched { Duration::ZERO } else { Duration::from_secs(1) };
-        Self { screen, patience, flushed: Instant::now(), world: None }
+        Self { screen, patience, flushed: Instant::now(), world: None, only_lengths: false }
     }
 
     fn line(&mut self, record: &impl Serialize) -> io::Result<()> {
@@ -56,12 +58,16 @@ impl<'s> Jsonl<'s> {
 impl Report for Jsonl<'_> {
     fn begin(&mut self, run: &Run<'_>) -> io::Result<()> {
         self.world = run.map.frame.map(|frame| (frame, run.setup.rules.placement()));
+        self.only_lengths = run.wishes.distance;
         self.line(&RunLine::from(run))?;
         self.flush()
     }
 
     fn query(&mut self, answer: Answer) -> io::Result<()> {
         let mut line = QueryLine::from(&answer);
+        if self.only_lengths {
+            line.path = None;
+        }
         line.world = self.world.zip(answer.path()).map(|((frame, placement), path)| {
             path.waypoints().iter().map(|&at| frame.point_of(placement, at)).collect()
         });
@@ -97,13 +103,17 @@ struct RunLine<'r> {
     #[serde(flatten)]
     wishes: WishFields,
     engine: &'static str,
+    /// The engine that searches. It is `engine`, but for subgoals of a map on which they would be slow: there
+    /// it is one that prepares nothing.
+    searched_by: &'static str,
     /// A number or "any".
     k: Value,
     placement: String,
     corners: String,
     gap: String,
     /// All options by name, with `_` for `-`. The value of a flag is true or false; levels are a number,
-    /// "all" or "contracted"; an option that the engine does not take is false or `null`.
+    /// "all", "contracted" or "labels", those of the index; memory is a number of bytes. An option that the
+    /// engine does not take, or that is left out and has no default, is false or `null`.
     #[serde(flatten)]
     options: BTreeMap<String, Value>,
     smooth: bool,
@@ -128,6 +138,8 @@ struct WishFields {
     #[serde(skip_serializing_if = "Option::is_none")]
     tolerance: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    distance: Option<bool>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     nearest: Option<bool>,
     #[serde(skip_serializing_if = "Option::is_none")]
     snap: Option<bool>,
@@ -142,9 +154,9 @@ struct WishFields {
 
 impl From<&WishArgs> for WishFields {
     fn from(wishes: &WishArgs) -> Self {
-        let &WishArgs { tolerance, nearest, snap, max_cost, max_nodes, deadline, .. } = wishes;
-        let (nearest, snap) = (nearest.then_some(true), snap.then_some(true));
-        Self { tolerance, nearest, snap, max_cost, max_nodes, deadline_ms: deadline }
+        let &WishArgs { distance, tolerance, nearest, snap, max_cost, max_nodes, deadline, .. } = wishes;
+        let [distance, nearest, snap] = [distance, nearest, snap].map(|wish| wish.then_some(true));
+        Self { distance, tolerance, nearest, snap, max_cost, max_nodes, deadline_ms: deadline }
     }
 }
 
@@ -168,6 +180,7 @@ impl<'r> From<&Run<'r>> for RunLine<'r> {
             queries: run.queries,
             wishes: run.wishes.into(),
             engine: setup.engine.kind().name(),
+            searched_by: run.searched_by.name(),
             k: match setup.k {
                 K::Finite(k) => k.get().into(),
                 K::Any => K::Any.to_string().into(),
@@ -196,6 +209,7 @@ fn json_of(option: &EngineOption, value: Option<OptionValue>) -> (String, Value)
         Some(OptionValue::Number(number) | OptionValue::Levels(Levels::Number(number))) => {
             number.get().into()
         }
+        Some(OptionValue::Memory(memory)) => memory.bytes().into(),
         Some(value) => value.to_string().into(),
     };
     (option.name.replace('-', "_"), value)
@@ -235,12 +249,15 @@ struct QueryLine<'a> {
     stopped_by: Option<String>,
     /// Of the path; `null` without one.
     cost: Option<f64>,
-    /// The waypoints, of a stopped search those of the best path so far; empty without a path.
-    path: Vec<[i32; 2]>,
+    /// The waypoints, of a stopped search those of the best path so far; empty without a path; not with
+    /// `--distance`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    path: Option<Vec<[i32; 2]>>,
     /// The waypoints in the world, in meters; only with `--world`.
     #[serde(skip_serializing_if = "Option::is_none")]
     world: Option<Vec<(f64, f64)>>,
-    /// The sum of the path's turning angles, in degrees (Hammoud 2023); `null` without a path.
+    /// The sum of the path's turning angles, in degrees (Hammoud 2023); `null` without a path, and with
+    /// `--distance`.
     smoothness: Option<f64>,
     /// The length that the scenario gives: optimal for k = 3 at centers under `never`. `null` without a
     /// scenario.
@@ -298,8 +315,8 @@ impl<'a> From<&'a Answer> for QueryLine<'a> {
                 Err(_) => Status::Error,
             },
             stopped_by: stopped.map(|stopped| stopped.by.to_string()),
-            cost: path.map(Path::cost),
-            path: pairs(path.map_or(&[][..], Path::waypoints)),
+            cost: answer.cost(),
+            path: Some(pairs(path.map_or(&[][..], Path::waypoints))),
             world: None,
             smoothness: path.map(Path::smoothness),
             reference: item.reference,

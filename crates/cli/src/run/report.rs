@@ -2,6 +2,7 @@
 
 use std::io;
 
+use mediant::Engine;
 use mediant_search::Smoothing;
 
 use super::{
@@ -19,6 +20,11 @@ pub(crate) trait Report {
 
     /// Reports the summary.
     fn end(&mut self, summary: &Summary) -> io::Result<()>;
+}
+
+/// That another engine searches in place of the one that was asked for.
+pub(crate) fn falls_back(engine: Engine, searched_by: Engine) -> String {
+    format!("{engine} falls back to {searched_by}: on this map its graph would be slower than no index")
 }
 
 /// The name of a smoothing, as `--smooth` takes it.

@@ -62,13 +62,28 @@ impl Session<'_> {
     fn answer(&mut self, planner: &mut Planner, run: &Run<'_>, item: Item) -> Result<Answer, Failure> {
         let (grid, rules) = (&*run.map.grid, run.setup.rules);
         let request = || run.wishes.request(item.query);
+        if run.wishes.distance {
+            let (Measured { counters, nanos, .. }, length) =
+                Measured::distance(planner, item.query, run.repeat);
+            let outcome = match length {
+                Ok(Some(cost)) => {
+                    let Query { start, goal, .. } = item.query;
+                    let (straight, any_angle) = (start.distance(goal), self.any_angle((start, goal)));
+                    let found = Found::measured(cost, straight, run.guarantee, rules, any_angle);
+                    Ok(Answered::Found(found))
+                }
+                Ok(None) => Ok(Answered::Unreachable),
+                Err(error) => Err(explain(error, run.map, rules.placement())),
+            };
+            return Ok(Answer { item, request: request(), outcome, counters, nanos });
+        }
         let Measured { outcome, counters, nanos } = Measured::new(planner, request, run.repeat);
         if let Some(trace) = self.trace.take() {
             trace.write((grid, rules.placement()), planner, (item.query, request()), &outcome)?;
         }
         let outcome = match outcome {
             Ok(Outcome::Found(path)) => {
-                let any_angle = self.any_angle(&path);
+                let any_angle = ends(&path).and_then(|ends| self.any_angle(ends));
                 Ok(Answered::Found(Found::new(path, run.guarantee, rules, any_angle)))
             }
             Ok(Outcome::Nearest(path)) => Ok(Answered::Nearest(path)),
@@ -80,8 +95,7 @@ impl Session<'_> {
     }
 
     /// The length of the shortest any-angle path between the ends of a path, with `--reference`.
-    fn any_angle(&mut self, path: &Path) -> Option<f64> {
-        let (planner, (start, goal)) = self.any_angle.as_mut().zip(ends(path))?;
-        planner.find(Query::new(start, goal)).ok()?.cost()
+    fn any_angle(&mut self, (start, goal): (Vertex, Vertex)) -> Option<f64> {
+        self.any_angle.as_mut()?.find(Query::new(start, goal)).ok()?.cost()
     }
 }

@@ -1,6 +1,7 @@
 //! The summary of a run.
 
 use mediant_formats::scenario_tolerance;
+use mediant_search::Path;
 use serde::Serialize;
 
 use super::answer::{Answer, Answered, Found};
@@ -34,7 +35,7 @@ pub(crate) struct Summary {
     pub(crate) fallbacks: u64,
     /// `null` if no path was found.
     pub(crate) mean_cost: Option<f64>,
-    /// `null` if no path was found.
+    /// `null` if no path was found, and with `--distance`.
     pub(crate) mean_smoothness: Option<f64>,
     /// The certificates: how many times as long as the shortest any-angle paths the paths are at most. `null`
     /// if no path was found.
@@ -87,6 +88,8 @@ pub(crate) struct Tally {
     scanned: u64,
     fallbacks: u64,
     cost: f64,
+    /// The paths that were found and made.
+    made: u64,
     smoothness: f64,
     bound: RatioTally,
     ratio: RatioTally,
@@ -125,8 +128,9 @@ impl Tally {
         self.updated += counters.updated;
         self.scanned += counters.scanned;
         self.fallbacks += counters.fallbacks;
-        self.smoothness += found.map_or(0.0, |found| found.path.smoothness());
-        let cost = found.map_or(0.0, |found| found.path.cost());
+        self.made += u64::from(found.is_some_and(|found| found.path.is_some()));
+        self.smoothness += answer.path().filter(|_| found.is_some()).map_or(0.0, Path::smoothness);
+        let cost = found.map_or(0.0, |found| found.cost);
         self.cost += cost;
         self.bound.add(index, found.map(Found::bound));
         self.ratio.add(index, found.and_then(Found::ratio));
@@ -179,7 +183,7 @@ impl Tally {
             mean_scanned: mean(self.scanned as f64, answered),
             fallbacks: self.fallbacks,
             mean_cost: (self.found > 0).then(|| mean(self.cost, self.found)),
-            mean_smoothness: (self.found > 0).then(|| mean(self.smoothness, self.found)),
+            mean_smoothness: (self.made > 0).then(|| mean(self.smoothness, self.made)),
             bound: self.bound.finish(),
             ratio: self.ratio.finish(),
             reference: (self.compared > 0).then_some(references),
@@ -232,7 +236,7 @@ fn median(sorted: &[u64]) -> u64 {
 #[cfg(test)]
 mod tests {
     use mediant_grid::Vertex;
-    use mediant_search::{Counters, Path, Query};
+    use mediant_search::{Counters, Query};
 
     use super::*;
     use crate::run::queries::Item;
@@ -242,7 +246,8 @@ mod tests {
         let ends = Query::new((0, 0), (cost.unwrap_or(1) - 1, 1));
         let outcome = cost.map_or(Answered::Unreachable, |cost| {
             let path = Path::new([(0, 0), (cost - 1, 0), (cost - 1, 1)].map(Vertex::from).to_vec());
-            Answered::Found(Found { lower_bound: path.cost(), path, any_angle: None })
+            let cost = path.cost();
+            Answered::Found(Found { lower_bound: cost, cost, path: Some(path), any_angle: None })
         });
         let counters = Counters {
             expanded: 10,

@@ -8,7 +8,7 @@ use mediant_search::{Limit, Path, Stopped};
 
 use super::{
     answer::{Answer, Answered, Found, Run},
-    report::{Report, smoothing_name},
+    report::{Report, falls_back, smoothing_name},
     summary::{Ratios, References, Summary},
 };
 use crate::terminal::{
@@ -26,6 +26,8 @@ pub(crate) struct TableReport<'s> {
     from_scenario: bool,
     /// Whether a query may be answered by another path than the one that was asked for.
     may_differ: bool,
+    /// Whether only the lengths of paths are asked for.
+    only_lengths: bool,
     /// Whether the engine finds paths of the lengths that scenarios give.
     is_reference: bool,
     /// The engine of `--reference`, or nothing.
@@ -49,6 +51,7 @@ impl<'s> TableReport<'s> {
             queries: 0,
             from_scenario: false,
             may_differ: false,
+            only_lengths: false,
             is_reference: false,
             any_angle: "",
             may_fall_back: false,
@@ -56,6 +59,11 @@ impl<'s> TableReport<'s> {
             rows: Vec::new(),
             more_errors: 0,
         }
+    }
+
+    /// Whether there is a column for the numbers of waypoints.
+    const fn has_waypoints(&self) -> bool {
+        !self.may_differ && !self.only_lengths
     }
 
     /// Writes the table of queries or errors.
@@ -70,7 +78,7 @@ impl<'s> TableReport<'s> {
             heads.push(("reference", Align::Right));
         }
         // There is not room for both columns in 80.
-        if !self.may_differ {
+        if self.has_waypoints() {
             heads.push(("waypoints", Align::Right));
         }
         heads.extend([("expanded", Align::Right), ("time", Align::Right)]);
@@ -105,7 +113,7 @@ impl<'s> TableReport<'s> {
         let (answer, cost) = match &row.outcome {
             Err(_) => ("error", None),
             Ok(Answered::Unreachable) => ("unreachable", None),
-            Ok(Answered::Found(Found { path, .. })) => ("found", Some(format!("{:.4}", path.cost()))),
+            Ok(Answered::Found(Found { cost, .. })) => ("found", Some(format!("{cost:.4}"))),
             Ok(Answered::Nearest(path)) => ("nearest", Some(format!("{:.4}", path.cost()))),
             Ok(Answered::Stopped(Stopped { lower_bound, .. })) => {
                 ("stopped", Some(format!("≥ {lower_bound:.4}")))
@@ -123,7 +131,7 @@ impl<'s> TableReport<'s> {
         if row.outcome.is_err() {
             return cells;
         }
-        if !self.may_differ {
+        if self.has_waypoints() {
             cells.push(row.path().map_or_else(String::new, |path| path.waypoints().len().to_string()));
         }
         cells.push(grouped(row.counters.expanded));
@@ -133,8 +141,12 @@ impl<'s> TableReport<'s> {
 
     /// Writes the path of a single query, and what is known of it.
     fn path(&mut self) -> io::Result<()> {
-        let Some((row, path)) = self.rows.first().and_then(|row| Some((row, row.path()?))) else {
-            return Ok(());
+        let Some(row) = self.rows.first() else { return Ok(()) };
+        let Some(path) = row.path() else {
+            // Of a path that was only measured there is the certificate.
+            let Some(found) = row.found() else { return Ok(()) };
+            writeln!(self.screen)?;
+            return certificate(self.screen, found, self.any_angle);
         };
         let waypoints = path.waypoints();
         let last = waypoints.len().saturating_sub(1);
@@ -203,6 +215,7 @@ impl Report for TableReport<'_> {
         self.world = run.map.frame.map(|frame| (frame, setup.rules.placement()));
         self.from_scenario = run.scenario.is_some();
         self.may_differ = run.wishes.nearest || run.wishes.has_limits();
+        self.only_lengths = run.wishes.distance;
         self.is_reference = setup.solves_scenarios();
         self.any_angle = run.reference.map_or("", Engine::name);
         self.may_fall_back = setup.engine.detour().is_some();
@@ -224,6 +237,9 @@ impl Report for TableReport<'_> {
         let text = wrap("", words.chain(problem), self.screen.columns());
         let rest = text.strip_prefix(name).unwrap_or_default();
         writeln!(self.screen, "{}{rest}", self.screen.paint(BOLD, name))?;
+        if run.searched_by != setup.engine.kind() {
+            writeln!(self.screen, "{}", falls_back(setup.engine.kind(), run.searched_by))?;
+        }
         if run.map.radius > 0.0 {
             let meters = run.map.frame.map(|frame| run.map.radius * frame.resolution());
             let meters = meters.map_or_else(String::new, |meters| format!(" ({meters} m)"));
@@ -286,8 +302,10 @@ impl Report for TableReport<'_> {
         if self.may_fall_back {
             self.fact("plans", &left(summary.fallbacks))?;
         }
-        if let (Some(cost), Some(smoothness)) = (summary.mean_cost, summary.mean_smoothness) {
-            self.fact("paths", &format!("mean cost {cost:.4}, smoothness {smoothness:.1}°"))?;
+        if let Some(cost) = summary.mean_cost {
+            let smoothness = summary.mean_smoothness;
+            let turns = smoothness.map_or_else(String::new, |mean| format!(", smoothness {mean:.1}°"));
+            self.fact("paths", &format!("mean cost {cost:.4}{turns}"))?;
         }
         self.ratios("any angle", summary.bound, "at most ", "certified")?;
         let found = format!("found by {}", self.any_angle);

@@ -73,6 +73,8 @@ impl BuildProgress {
         let doing = match stage {
             Stage::Edges => "edges",
             Stage::Hierarchy => "hierarchy",
+            Stage::Sight => "sight",
+            Stage::Labels => "labels",
         };
         let bar = || {
             let bar = ProgressBar::new(total as u64).with_style(style(SUBGOALS)).with_message(doing);

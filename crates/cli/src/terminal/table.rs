@@ -1,6 +1,9 @@
 //! Tables whose columns line up.
 
-use std::io::{self, Write};
+use std::{
+    borrow::Cow,
+    io::{self, Write},
+};
 
 use anstyle::Style;
 
@@ -23,14 +26,15 @@ struct Row {
 
 /// A table whose columns are as wide as their widest cell.
 pub(crate) struct Table {
-    heads: Vec<(&'static str, Align)>,
+    heads: Vec<(Cow<'static, str>, Align)>,
     rows: Vec<Row>,
 }
 
 impl Table {
     /// A table with these heads and no rows.
-    pub(crate) fn new(heads: impl Into<Vec<(&'static str, Align)>>) -> Self {
-        Self { heads: heads.into(), rows: Vec::new() }
+    pub(crate) fn new<H: Into<Cow<'static, str>>>(heads: impl IntoIterator<Item = (H, Align)>) -> Self {
+        let heads = heads.into_iter().map(|(head, align)| (head.into(), align)).collect();
+        Self { heads, rows: Vec::new() }
     }
 
     /// Adds a row; missing cells at its end are empty.
@@ -65,7 +69,7 @@ impl Table {
             }
             line.trim_end().to_owned()
         };
-        let head = line(&mut self.heads.iter().map(|&(head, _)| head));
+        let head = line(&mut self.heads.iter().map(|(head, _)| &**head));
         writeln!(screen, "  {}", screen.paint(BOLD, head))?;
         for Row { lead, style, cells } in &self.rows {
             let row = line(&mut cells.iter().map(String::as_str));

@@ -147,8 +147,8 @@ pub(crate) fn check_mismatch(error: &str, file: &str, [built, needed]: [&str; 2]
 /// The examples in the help of a command, with the files of `add_example_files`: each is to succeed.
 #[track_caller]
 pub(crate) fn run_examples(files: &Files, command: &str, expected: usize) {
-    const ENDS: [&str; 11] =
-        [".idx", ".map", ".yaml", ".png", ".pgm", ".pbm", ".svg", ".csv", ".npy", ".jsonl", ".scen"];
+    const ENDS: [&str; 12] =
+        [".idx", ".txt", ".map", ".yaml", ".png", ".pgm", ".pbm", ".svg", ".csv", ".npy", ".jsonl", ".scen"];
     let help = run(&format!("{command} --help")).stdout;
     let (_, examples) = help.split_once("\nExamples:\n").expect("examples");
     let lines: Vec<&str> = examples.lines().map(str::trim).filter(|line| !line.is_empty()).collect();

@@ -7,6 +7,7 @@ mod convert;
 mod errors;
 mod hierarchy;
 mod jsonl;
+mod many;
 mod reach;
 mod subgoal;
 mod table;

@@ -18,12 +18,15 @@ fn answers(queries: &[Value]) -> Vec<[Value; 3]> {
 fn a_saved_graph_gives_the_same_answers() {
     let files = Files::new();
     for (options, levels) in [
-        ("--engine subgoal", "contracted".into()),
-        ("--engine subgoal --k 2 --corners always", "contracted".into()),
+        ("--engine subgoal", "labels".into()),
+        ("--engine subgoal --k 2 --corners always", "labels".into()),
+        ("--engine subgoal --levels contracted", "contracted".into()),
+        ("--engine subgoal --memory 1kB", "contracted".into()),
+        ("--engine subgoal --levels labels", "labels".into()),
         ("--engine subgoal --levels 1", 1.into()),
         ("--engine subgoal --placement corner --k 4 --gap closed --levels 2", 2.into()),
         ("--engine subgoal --placement corner --k 8 --levels all", "all".into()),
-        ("--engine subgoal --k any", "contracted".into()),
+        ("--engine subgoal --k any", "labels".into()),
         ("--engine subgoal --k any --gap closed --levels 2", 2.into()),
         ("--engine subgoal-theta --k 5", 2.into()),
         ("--engine subgoal-theta --levels all", "all".into()),
@@ -68,7 +71,7 @@ fn an_index_says_which_levels_it_has() {
     let (run, ..) = told(&format!("run builtin:cave --engine subgoal --index {index}"));
     assert_eq!(run["levels"], 2);
     let line = format!("run builtin:cave --engine subgoal --index {index} --levels");
-    for (levels, name) in [("1", "1 level"), ("all", "all levels")] {
+    for (levels, name) in [("1", "1 level"), ("all", "all levels"), ("labels", "hub labels")] {
         let message = format!(
             "error: cave.idx: needs an index with {name}, found one with 2 levels; choose the levels that \
              it has, or prepare it again\n"
@@ -82,10 +85,7 @@ fn an_index_says_which_levels_it_has() {
         "{text}"
     );
     let text = shown("run builtin:cave --engine subgoal --k any --limit 1");
-    assert!(
-        text.contains("\nsubgoal, a contraction hierarchy · k = any · corner, gap open\noptimal(any) · "),
-        "{text}"
-    );
+    assert!(text.contains("\nsubgoal, hub labels · k = any · corner, gap open\noptimal(any) · "), "{text}");
     let stdout = shown(&format!("build builtin:cave --engine subgoal -o {index}"));
     assert!(
         stdout.starts_with("cave.idx · subgoal of cave.map · ")
@@ -282,8 +282,8 @@ fn setups_without_a_subgoal_graph_are_refused() {
         refused(
             &format!("--engine subgoal --levels {levels}"),
             &format!(
-                "invalid value '{levels}' for '--levels <N|all>': expected a whole number from 1 to \
-                 4294967295, or all; see --help"
+                "invalid value '{levels}' for '--levels <N|all|contracted|labels>': expected a whole number from 1 to \
+                 4294967295, all, contracted or labels; see --help"
             ),
         );
     }

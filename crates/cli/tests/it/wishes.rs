@@ -299,7 +299,7 @@ fn the_examples_of_the_help_run() {
     files.add("arena.map.scen", "version 1\n0\tarena.map\t49\t49\t1\t11\t40\t30\t46.87\n");
     let (map, index) = (files.path("arena.map"), files.path("arena.idx"));
     assert_eq!(mediant(&["build", &map, "--engine", "subgoal", "-o", &index]).status, Some(0));
-    run_examples(&files, "run", 12);
+    run_examples(&files, "run", 13);
 }
 
 #[test]

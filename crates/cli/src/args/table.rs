@@ -1,0 +1,85 @@
+//! The arguments of `mediant table`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use mediant::Setup;
+
+use super::{
+    map::MapArgs,
+    options::AllOptions,
+    setup::SetupArgs,
+    value::{Place, parse_place},
+};
+use crate::failure::Failure;
+
+#[derive(Args, Debug)]
+#[command(after_help = TABLE_HELP)]
+#[command(mut_arg("engine", |arg| arg.default_value("subgoal")))]
+pub(crate) struct TableArgs {
+    #[command(flatten)]
+    pub(crate) map: MapArgs,
+
+    /// A start (repeat it for several)
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = parse_place)]
+    pub(crate) from: Vec<Place>,
+    /// A goal (repeat it for several)
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = parse_place)]
+    pub(crate) to: Vec<Place>,
+    /// A file with more starts, one x,y a line; - is stdin
+    #[arg(long, value_name = "FILE")]
+    pub(crate) from_file: Option<PathBuf>,
+    /// A file with more goals, one x,y a line; - is stdin
+    #[arg(long, value_name = "FILE")]
+    pub(crate) to_file: Option<PathBuf>,
+    /// Find only the nearest goal of each start
+    #[arg(long)]
+    pub(crate) nearest: bool,
+
+    #[command(flatten)]
+    pub(crate) setup: SetupArgs,
+    #[command(flatten)]
+    pub(crate) options: AllOptions,
+    /// Load the engine's index from a file that `mediant build` wrote, instead of preparing it
+    #[arg(long, value_name = "FILE")]
+    pub(crate) index: Option<PathBuf>,
+    /// A table for people, one JSON object a line, or CSV
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: TableFormat,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum TableFormat {
+    #[default]
+    Table,
+    Jsonl,
+    Csv,
+}
+
+const TABLE_HELP: &str = "\
+With hub labels (engine subgoal, the default, on most maps) all goals of a start are measured together, in far \
+less time than a query for each takes. With other engines each pair is a query.
+
+Lengths are in cells. The table shows what fits on the screen; jsonl and csv have everything. CSV has a line for \
+each pair: start_x, start_y, goal_x, goal_y and distance, empty if there is no way. With --format jsonl: a line \
+{\"type\": \"table\"} with \"starts\" and \"goals\", how many there are, then a line {\"type\": \"row\"} for each \
+start, with \"start\" and \"distances\" (null: no way), with --nearest \"goal\", \"number\" (of the goal, from 0) \
+and \"distance\"; last a line {\"type\": \"summary\"} with \"nanos\", the time of all.
+
+Exit status: 0, 1 if a start or goal is blocked or outside the map, 2 for bad arguments, or a file that cannot be \
+read.
+
+Examples:
+  mediant table builtin:town --from 10,3 --from 58,18 --to 6,6 --to 60,29
+  mediant table arena.map --from-file homes.txt --to-file hotels.txt --nearest --format csv
+  mediant table arena.map --k any --from 1,11 --to-file goals.txt --index arena.idx --format jsonl";
+
+impl TableArgs {
+    /// The setup that the arguments ask for.
+    pub(crate) fn setup(&self) -> Result<Setup, Failure> {
+        let mut setup = self.setup.without_options()?;
+        self.options.choose(&mut setup.engine)?;
+        setup.check()?;
+        Ok(setup)
+    }
+}

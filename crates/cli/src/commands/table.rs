@@ -1,0 +1,296 @@
+//! `mediant table`: the lengths of paths from many starts to many goals.
+
+use std::{
+    io::{self, Write},
+    path::Path,
+    time::{Duration, Instant},
+};
+
+use mediant::{EngineOption, Error, Index, Setup, ValueKind};
+use mediant_grid::Vertex;
+use serde::Serialize;
+
+use crate::{
+    args::{Place, TableArgs, TableFormat, parse_place},
+    check::file::{bytes, lines, shown},
+    failure::{Ending, Failure},
+    map::Map,
+    run::{distances::rounded, query_error::explain, report::falls_back},
+    terminal::{
+        numbers::{count, time},
+        screen::{BOLD, Screen},
+        table::{Align, Table},
+        text::printable,
+    },
+};
+
+/// Runs the command.
+pub(crate) fn table(args: &TableArgs, screen: &mut Screen) -> Result<Ending, Failure> {
+    let setup = args.setup()?;
+    if args.index.is_some() {
+        setup.index_version()?;
+    }
+    let map = Map::load(&args.map)?.for_agent(&args.map, setup.motion())?;
+    let starts = ends(&map, setup, (&args.from, args.from_file.as_deref()), ("starts", "--from"))?;
+    let goals = ends(&map, setup, (&args.to, args.to_file.as_deref()), ("goals", "--to"))?;
+    let begin = Instant::now();
+    let space = setup.space(&map.to_library())?;
+    let index = match &args.index {
+        None => space.prepare(setup.engine)?,
+        Some(path) => space.load_for(setup.engine, path)?,
+    };
+    let preparation = begin.elapsed();
+    let begin = Instant::now();
+    let measured = match measure(args.nearest, &index, &starts, &goals) {
+        Ok(measured) => measured,
+        Err(Error::Query(error)) => {
+            return Ok(Ending::QueryErrors(explain(error, &map, setup.rules.placement())));
+        }
+        Err(error) => return Err(error.into()),
+    };
+    let report =
+        Report { map: &map, index: &index, starts, goals, measured, preparation, took: begin.elapsed() };
+    match args.format {
+        TableFormat::Table => report.table(screen)?,
+        TableFormat::Jsonl => report.jsonl(screen)?,
+        TableFormat::Csv => report.csv(screen)?,
+    }
+    Ok(Ending::Answered)
+}
+
+/// The starts or the goals: those that were named, then those of a file.
+fn ends(
+    map: &Map,
+    setup: Setup,
+    (named, file): (&[Place], Option<&Path>),
+    (ends, option): (&'static str, &'static str),
+) -> Result<Vec<Vertex>, Failure> {
+    let mut places = named.to_vec();
+    if let Some(path) = file {
+        for (line, text) in lines(&bytes(path)?) {
+            let place = std::str::from_utf8(text).map_err(|error| error.to_string()).and_then(parse_place);
+            let wrong = |problem| Failure::PathFile { path: shown(path), line, problem };
+            places.push(place.map_err(wrong)?);
+        }
+    }
+    if places.is_empty() {
+        return Err(Failure::NoEnds { ends, option });
+    }
+    places.into_iter().map(|place| map.vertex(setup.rules.placement(), place)).collect()
+}
+
+/// What was measured, for each start.
+enum Measured {
+    /// The lengths to all goals; infinite where there is no way.
+    All(mediant::Table),
+    /// The number of the nearest goal, and the length.
+    Nearest(Vec<Option<(usize, f64)>>),
+}
+
+fn measure(nearest: bool, index: &Index, starts: &[Vertex], goals: &[Vertex]) -> Result<Measured, Error> {
+    if !nearest {
+        return index.table(starts.iter().copied(), goals.iter().copied()).map(Measured::All);
+    }
+    let goals = index.goals(goals.iter().copied())?;
+    let mut planner = index.planner();
+    let nearest = starts.iter().map(|&start| planner.nearest(start, &goals));
+    nearest.collect::<Result<_, Error>>().map(Measured::Nearest)
+}
+
+/// What there is to report.
+struct Report<'r> {
+    map: &'r Map,
+    index: &'r Index,
+    starts: Vec<Vertex>,
+    goals: Vec<Vertex>,
+    measured: Measured,
+    preparation: Duration,
+    took: Duration,
+}
+
+/// The first line of jsonl: what is measured.
+#[derive(Serialize)]
+#[serde(tag = "type", rename = "table")]
+struct TableLine<'r> {
+    /// The map's file name.
+    map: &'r str,
+    /// The setup as text.
+    setup: String,
+    engine: &'static str,
+    /// The engine that searches, as in the line of a run.
+    searched_by: &'static str,
+    starts: usize,
+    goals: usize,
+    /// The time to prepare the index, or to load it.
+    preprocess_ns: u64,
+    /// The memory of the search space and the index, beyond the map.
+    index_bytes: u64,
+}
+
+/// The line of a start.
+#[derive(Serialize)]
+#[serde(tag = "type", rename = "row")]
+struct RowLine {
+    start: [i32; 2],
+    #[serde(flatten)]
+    found: RowFound,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum RowFound {
+    All {
+        /// `null` where there is no way.
+        distances: Vec<Option<f64>>,
+    },
+    /// All are `null` if there is no way to any goal.
+    Nearest { goal: Option<[i32; 2]>, number: Option<usize>, distance: Option<f64> },
+}
+
+/// The last line.
+#[derive(Serialize)]
+#[serde(tag = "type", rename = "summary")]
+struct SummaryLine {
+    /// The time to measure everything.
+    nanos: u64,
+}
+
+impl Report<'_> {
+    fn jsonl(&self, screen: &mut Screen) -> io::Result<()> {
+        let Self { map, index, starts, goals, measured, preparation, took } = self;
+        let setup = index.setup();
+        let head = TableLine {
+            map: &map.name,
+            setup: setup.to_string(),
+            engine: setup.engine.kind().name(),
+            searched_by: index.searched_by().name(),
+            starts: starts.len(),
+            goals: goals.len(),
+            preprocess_ns: preparation.as_nanos() as u64,
+            index_bytes: index.space().memory_bytes() + index.memory_bytes(),
+        };
+        line(screen, &head)?;
+        for (row, start) in starts.iter().enumerate() {
+            let found = match measured {
+                Measured::All(table) => {
+                    RowFound::All { distances: table.row(row).iter().map(|&length| finite(length)).collect() }
+                }
+                Measured::Nearest(nearest) => {
+                    let nearest = nearest.get(row).copied().flatten();
+                    RowFound::Nearest {
+                        goal: nearest.map(|(goal, _)| [goals[goal].x, goals[goal].y]),
+                        number: nearest.map(|(goal, _)| goal),
+                        distance: nearest.map(|(_, length)| length),
+                    }
+                }
+            };
+            line(screen, &RowLine { start: [start.x, start.y], found })?;
+        }
+        line(screen, &SummaryLine { nanos: took.as_nanos() as u64 })
+    }
+
+    fn csv(&self, screen: &mut Screen) -> io::Result<()> {
+        writeln!(screen, "start_x,start_y,goal_x,goal_y,distance")?;
+        for (row, start) in self.starts.iter().enumerate() {
+            match &self.measured {
+                Measured::All(table) => {
+                    for (goal, &length) in self.goals.iter().zip(table.row(row)) {
+                        let length =
+                            finite(length).map_or_else(String::new, |length| rounded(length).to_string());
+                        writeln!(screen, "{},{},{},{},{length}", start.x, start.y, goal.x, goal.y)?;
+                    }
+                }
+                Measured::Nearest(nearest) => match nearest.get(row).copied().flatten() {
+                    Some((goal, length)) => {
+                        let (goal, length) = (self.goals[goal], rounded(length));
+                        writeln!(screen, "{},{},{},{},{length}", start.x, start.y, goal.x, goal.y)?;
+                    }
+                    None => writeln!(screen, "{},{},,,", start.x, start.y)?,
+                },
+            }
+        }
+        Ok(())
+    }
+
+    /// For people: as many starts and goals as fit.
+    fn table(&self, screen: &mut Screen) -> io::Result<()> {
+        self.head(screen)?;
+        let (columns, heads) = match &self.measured {
+            Measured::All(_) => {
+                let columns = self.goals.len().min((screen.columns().saturating_sub(16) / 14).max(1));
+                let goals = self.goals[..columns].iter().map(|&goal| (vertex(goal), Align::Right));
+                (columns, [("start".to_owned(), Align::Left)].into_iter().chain(goals).collect())
+            }
+            Measured::Nearest(_) => {
+                let heads = [("start", Align::Left), ("nearest goal", Align::Left), ("length", Align::Right)];
+                (self.goals.len(), heads.map(|(head, align)| (head.to_owned(), align)).to_vec())
+            }
+        };
+        let mut table = Table::new::<String>(heads);
+        for (row, &start) in self.starts.iter().enumerate().take(ROWS) {
+            table.row([vertex(start)].into_iter().chain(self.cells(row, columns)).collect::<Vec<_>>());
+        }
+        table.write(screen)?;
+        let more = [
+            (self.starts.len().saturating_sub(ROWS), "more start", "more starts"),
+            (self.goals.len() - columns, "more goal", "more goals"),
+        ];
+        let more = more.into_iter().filter(|&(number, ..)| number > 0);
+        let more: Vec<String> = more.map(|(number, one, many)| count(number as u64, one, many)).collect();
+        if more.is_empty() {
+            return Ok(());
+        }
+        writeln!(screen, "  … and {}; --format csv shows all", more.join(", "))
+    }
+
+    /// What is measured, and how long that took.
+    fn head(&self, screen: &mut Screen) -> io::Result<()> {
+        let (setup, searched_by) = (self.index.setup(), self.index.searched_by());
+        let name = screen.paint(BOLD, printable(&self.map.name)).to_string();
+        let made = EngineOption::ALL.into_iter().find(|option| option.kind == ValueKind::Levels);
+        let made = made.and_then(|option| Some(option.describe(self.index.value(option)?)));
+        let made = made.map_or_else(String::new, |made| format!(" · {made}"));
+        writeln!(screen, "{name} · {setup}{made}")?;
+        if searched_by != setup.engine.kind() {
+            writeln!(screen, "{}", falls_back(setup.engine.kind(), searched_by))?;
+        }
+        let starts = count(self.starts.len() as u64, "start", "starts");
+        let goals = count(self.goals.len() as u64, "goal", "goals");
+        let [preparation, took] = [self.preparation, self.took].map(|span| time(span.as_nanos() as f64));
+        writeln!(screen, "{starts}, {goals} · prepared in {preparation} · measured in {took}\n")
+    }
+
+    /// What the table shows of a start.
+    fn cells(&self, row: usize, columns: usize) -> Vec<String> {
+        let shown =
+            |length| finite(length).map_or_else(|| "no way".to_owned(), |length| format!("{length:.4}"));
+        match &self.measured {
+            Measured::All(table) => {
+                table.row(row).iter().take(columns).map(|&length| shown(length)).collect()
+            }
+            Measured::Nearest(nearest) => match nearest.get(row).copied().flatten() {
+                Some((goal, length)) => vec![vertex(self.goals[goal]), shown(length)],
+                None => vec!["no way to any".to_owned()],
+            },
+        }
+    }
+}
+
+/// The most rows of a table for people.
+const ROWS: usize = 20;
+
+/// Writes a record as a line.
+fn line(screen: &mut Screen, record: &impl Serialize) -> io::Result<()> {
+    serde_json::to_writer(&mut *screen, record)?;
+    screen.write_all(b"\n")
+}
+
+/// A length; `None` where there is no way.
+fn finite(length: f64) -> Option<f64> {
+    Some(length).filter(|length| length.is_finite())
+}
+
+/// A vertex as `(x, y)`.
+fn vertex(at: Vertex) -> String {
+    format!("({}, {})", at.x, at.y)
+}
