@@ -9,7 +9,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use mediant::{Index, Limits};
+use mediant::{EngineOption, Index, Levels, Limits, OptionValue, ValueKind};
 use pyo3::prelude::*;
 
 /// How often signals are looked at.
@@ -18,13 +18,33 @@ const LOOK: Duration = Duration::from_millis(20);
 /// Up to this many cells, whatever is not a preparation takes a few milliseconds.
 const QUICK_CELLS: u64 = 1 << 20;
 
+/// The levels of an index, or what it has instead, if it has any.
+pub(crate) fn levels(index: &Index) -> Option<Levels> {
+    let option = EngineOption::ALL.into_iter().find(|option| option.kind == ValueKind::Levels)?;
+    match index.value(option) {
+        Some(OptionValue::Levels(levels)) => Some(levels),
+        _ => None,
+    }
+}
+
+/// Whether hub labels answer: in microseconds on a map of any size.
+pub(crate) fn has_labels(index: &Index) -> bool {
+    levels(index) == Some(Levels::Labels) && index.setup().smoothing.is_none()
+}
+
 /// Whether a search on an index can take so long that it is watched: more expansions, each of more moves,
-/// than can be made in about 20 ms. What was prepared saves most of them.
-pub(crate) fn is_watched(index: &Index) -> bool {
+/// than can be made in about 20 ms. What was prepared saves most of them. A plain query is one from a vertex
+/// to another without wishes.
+pub(crate) fn is_watched(index: &Index, is_plain: bool) -> bool {
+    if is_plain && has_labels(index) {
+        return false;
+    }
     let (map, setup) = (index.space().map(), index.setup());
     let vertices = u64::from(map.width()) * u64::from(map.height());
     let moves = setup.k.finite().map_or(16, |k| 1 << k.get().min(16));
-    let saved = if setup.index_version().is_ok() { 16 } else { 1 };
+    // An engine that searches in place of the setup's has prepared nothing.
+    let is_prepared = setup.index_version().is_ok() && index.searched_by() == setup.engine.kind();
+    let saved = if is_prepared { 16 } else { 1 };
     vertices * moves / saved > 1 << 21
 }
 

@@ -1,16 +1,21 @@
 //! Many queries at once, on all cores.
 
+mod goals;
+
 use std::{
     sync::{
         Arc,
-        atomic::{AtomicBool, Ordering},
+        atomic::{AtomicBool, AtomicUsize, Ordering},
     },
     time::Instant,
 };
 
-use mediant::{BatchProgress, Outcome, PlacementKind, Planners, Query, QueryError, Request, Vertex};
+use mediant::{Error, Index, Outcome, PlacementKind, Planner, Planners, Query, QueryError, Request, Vertex};
 use numpy::PyArray1;
 use pyo3::{prelude::*, types::PyDict};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+
+pub(crate) use self::goals::{NearestArrays, nearest, table};
 
 use crate::{
     answer,
@@ -36,6 +41,23 @@ pub(crate) struct Batch<'py> {
     raises: bool,
 }
 
+/// The questions of a batch: 0, 1, …, `count` − 1.
+#[derive(Clone, Copy)]
+struct Numbered {
+    count: usize,
+    /// How many a thread gets at once.
+    chunk: usize,
+    /// How many queries each stands for, to those who look at the progress.
+    queries: usize,
+}
+
+impl Numbered {
+    /// One query each.
+    const fn queries(count: usize) -> Self {
+        Self { count, chunk: Planners::CHUNK, queries: 1 }
+    }
+}
+
 impl<'py> Batch<'py> {
     /// The keywords of a batch. By default a query with an invalid end is an error.
     pub(crate) fn read(
@@ -48,35 +70,50 @@ impl<'py> Batch<'py> {
         Ok(Self { threads: read_threads(threads)?, progress: callback(progress)?, raises })
     }
 
-    /// Answers the queries from 0 up to `count`, and adds each answer to its chunk.
+    /// Has all questions answered: `answer` adds the answer to that of this number to its chunk. The flag
+    /// ends a search that takes long. `Planners::find_in_chunks` would do, if all answers were paths.
     fn run<C: Default + Send + 'static>(
         &self,
         py: Python<'py>,
         planners: &Arc<Planners>,
-        queries: Queries,
-        add: impl Fn(&mut C, Result<Outcome, QueryError>) + Send + Sync + 'static,
+        all: Numbered,
+        answer: impl Fn(&mut C, &mut Planner, usize, &Arc<AtomicBool>) + Send + Sync + 'static,
     ) -> PyResult<Vec<C>> {
-        let (count, planners, threads) = (queries.count(), Arc::clone(planners), self.threads);
-        let (done, flag) = (Arc::new(BatchProgress::default()), Arc::new(AtomicBool::new(false)));
-        // A search that takes long is ended by the flag, too.
-        let watch = is_watched(planners.index()).then(|| Arc::clone(&flag));
-        let progress = Arc::clone(&done);
+        let (done, flag) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicBool::new(false)));
+        let (planners, threads) = (Arc::clone(planners), self.threads);
+        let (counter, cancelled) = (Arc::clone(&done), Arc::clone(&flag));
+        let Numbered { count, chunk, queries } = all;
         let work = move || {
-            let request = |index| queries.request(index, watch.as_ref());
-            let find = || planners.find_in_chunks(count, request, &progress, add);
-            if count <= Planners::CHUNK { find() } else { in_pool(threads, find) }
+            let answer_chunk = |number: usize| {
+                let (first, mut result) = (number * chunk, C::default());
+                planners.with(|planner| {
+                    for index in first..count.min(first + chunk) {
+                        if cancelled.load(Ordering::Relaxed) {
+                            break;
+                        }
+                        answer(&mut result, planner, index, &cancelled);
+                        counter.fetch_add(queries, Ordering::Relaxed);
+                    }
+                });
+                result
+            };
+            let chunks = count.div_ceil(chunk);
+            // A single piece of work needs no pool.
+            if chunks <= 1 {
+                return (0..chunks).map(answer_chunk).collect();
+            }
+            in_pool(threads, || (0..chunks).into_par_iter().map(answer_chunk).collect())
         };
         let tell = |done: usize| match &self.progress {
-            Some(progress) => progress.call1((done, count)).map(drop),
+            Some(progress) => progress.call1((done, count * queries)).map(drop),
             None => Ok(()),
         };
-        let result = on_thread(py, work, |_| tell(done.done()));
+        let result = on_thread(py, work, |_| tell(done.load(Ordering::Relaxed)));
         if result.is_err() {
-            done.cancel();
             flag.store(true, Ordering::Relaxed);
         }
         let chunks = result?;
-        tell(count)?;
+        tell(count * queries)?;
         Ok(chunks)
     }
 }
@@ -160,6 +197,11 @@ impl Queries {
         Query::new(at(starts), at(goals))
     }
 
+    /// Whether their searches are watched.
+    fn are_watched(&self, index: &Index) -> bool {
+        is_watched(index, self.keywords.has_no_wishes())
+    }
+
     /// A query with its wishes. The flag cancels it.
     fn request(&self, index: usize, watch: Option<&Arc<AtomicBool>>) -> Request {
         let (query, keywords) = (self.query(index), &self.keywords);
@@ -187,73 +229,68 @@ struct Chunk {
     distances: Vec<f64>,
     statuses: Vec<u8>,
     /// The first query of the chunk that is invalid.
-    invalid: Option<(usize, QueryError)>,
+    invalid: Option<(usize, Error)>,
 }
 
 impl Chunk {
-    fn add(
+    fn add_path(
         &mut self,
-        answer: &Result<Outcome, QueryError>,
-        points: Option<PathPoints>,
-        placement: PlacementKind,
+        index: usize,
+        answer: Result<Outcome, QueryError>,
+        (points, placement): (PathPoints, PlacementKind),
     ) {
         let known = self.points.len();
-        let (status, distance) = match answer {
-            Ok(outcome) => {
-                if let (Some(points), Some(path)) = (points, outcome.path()) {
-                    points.add(path, placement, &mut self.points);
-                }
-                let name = answer::status(outcome);
-                let status = STATUSES.iter().position(|&status| status == name).unwrap_or_default();
-                (status as u8, answer::distance(outcome))
+        let status = answer.as_ref().map_or(INVALID, |outcome| {
+            if let Some(path) = outcome.path() {
+                points.add(path, placement, &mut self.points);
             }
-            Err(error) => {
-                self.invalid.get_or_insert((self.statuses.len(), *error));
-                (INVALID, f64::NAN)
-            }
-        };
+            let name = answer::status(outcome);
+            STATUSES.iter().position(|&status| status == name).unwrap_or_default() as u8
+        });
         self.statuses.push(status);
-        self.distances.push(distance);
-        if points.is_some() {
-            self.lengths.push(((self.points.len() - known) / 2) as u32);
-        }
+        self.lengths.push(((self.points.len() - known) / 2) as u32);
+        self.add_distance(index, answer.map(|outcome| answer::distance(&outcome)));
+    }
+
+    fn add_distance(&mut self, index: usize, answer: Result<f64, QueryError>) {
+        self.distances.push(answer.unwrap_or_else(|error| {
+            self.invalid.get_or_insert((index, error.into()));
+            f64::NAN
+        }));
     }
 }
 
-/// The first invalid query of all, as an exception.
-fn check(chunks: &[Chunk]) -> PyResult<()> {
-    let invalid = chunks.iter().zip(0..).find_map(|(chunk, number)| {
-        chunk.invalid.map(|(index, error)| (number * Planners::CHUNK + index, error))
-    });
-    let Some((index, error)) = invalid else { return Ok(()) };
+/// The error of a query, or another part of a call, that has this number.
+fn numbered(part: &str, number: usize, error: Error) -> PyErr {
     let one = raised(error);
     Python::attach(|py| {
-        let code: String = one.value(py).getattr("code")?.extract()?;
-        let text = format!("query {index}: {}", one.value(py));
-        Err(exception("QueryError", &text, &code))
+        let code: String = match one.value(py).getattr("code").and_then(|code| code.extract()) {
+            Ok(code) => code,
+            Err(error) => return error,
+        };
+        exception("QueryError", &format!("{part} {number}: {}", one.value(py)), &code)
     })
 }
 
+/// The first invalid query of all, as an exception.
+fn check(invalid: impl Iterator<Item = Option<(usize, Error)>>) -> PyResult<()> {
+    match invalid.flatten().next() {
+        Some((number, error)) => Err(numbered("query", number, error)),
+        None => Ok(()),
+    }
+}
+
 /// All values of the chunks, one after the other.
-fn flat<T: Copy>(chunks: &[Chunk], values: impl Fn(&Chunk) -> &Vec<T>) -> Vec<T> {
+fn flat<C, T: Copy>(chunks: &[C], values: impl Fn(&C) -> &Vec<T>) -> Vec<T> {
     let mut all = Vec::with_capacity(chunks.iter().map(|chunk| values(chunk).len()).sum());
     chunks.iter().for_each(|chunk| all.extend_from_slice(values(chunk)));
     all
 }
 
-/// The answers of a batch, in chunks.
-fn chunks(
-    py: Python<'_>,
-    planners: &Arc<Planners>,
-    queries: Queries,
-    points: Option<PathPoints>,
-    batch: &Batch<'_>,
-) -> PyResult<Vec<Chunk>> {
-    let placement = planners.index().setup().rules.placement();
-    let add = move |chunk: &mut Chunk, answer| chunk.add(&answer, points, placement);
-    let chunks = batch.run(py, planners, queries, add)?;
+/// The chunks of answers, if none of them is an error that is raised.
+fn checked(mut chunks: Vec<Chunk>, batch: &Batch<'_>) -> PyResult<Vec<Chunk>> {
     if batch.raises {
-        check(&chunks)?;
+        check(chunks.iter_mut().map(|chunk| chunk.invalid.take()))?;
     }
     Ok(chunks)
 }
@@ -266,7 +303,14 @@ pub(crate) fn paths(
     points: PathPoints,
     batch: &Batch<'_>,
 ) -> PyResult<Paths> {
-    let chunks = chunks(py, planners, queries, Some(points), batch)?;
+    let index = planners.index();
+    let (placement, is_watched) = (index.setup().rules.placement(), queries.are_watched(index));
+    let all = Numbered::queries(queries.count());
+    let answer = move |chunk: &mut Chunk, planner: &mut Planner, index: usize, flag: &Arc<AtomicBool>| {
+        let found = planner.find(queries.request(index, is_watched.then_some(flag)));
+        chunk.add_path(index, found, (points, placement));
+    };
+    let chunks = checked(batch.run(py, planners, all, answer)?, batch)?;
     let (points, offsets, distances, statuses) = py.detach(|| {
         let mut end = 0;
         let ends = chunks.iter().flat_map(|chunk| &chunk.lengths).map(|&length| {
@@ -285,24 +329,26 @@ pub(crate) fn paths(
     })
 }
 
-/// `Index.distances`, and `Index.table` as one row.
+/// `Index.distances`, and `Index.table` as one row. Paths are made only where a query has wishes, or is
+/// watched.
 pub(crate) fn distances<'py>(
     py: Python<'py>,
     planners: &Arc<Planners>,
     queries: Queries,
     batch: &Batch<'_>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    let chunks = chunks(py, planners, queries, None, batch)?;
-    Ok(PyArray1::from_vec(py, flat(&chunks, |chunk| &chunk.distances)))
-}
-
-/// `Index.table`.
-pub(crate) fn table<'py>(
-    py: Python<'py>,
-    planners: &Arc<Planners>,
-    queries: Queries,
-    batch: &Batch<'_>,
-) -> PyResult<Bound<'py, PyAny>> {
-    let shape = (queries.starts.len(), queries.goals.len());
-    distances(py, planners, queries, batch)?.call_method1("reshape", (shape,))
+    let is_watched = queries.are_watched(planners.index());
+    let is_plain = queries.keywords.has_no_wishes() && !is_watched;
+    let all = Numbered::queries(queries.count());
+    let answer = move |chunk: &mut Chunk, planner: &mut Planner, index: usize, flag: &Arc<AtomicBool>| {
+        let found = if is_plain {
+            planner.distance(queries.query(index)).map(|distance| distance.unwrap_or(f64::INFINITY))
+        } else {
+            let request = queries.request(index, is_watched.then_some(flag));
+            planner.find(request).map(|outcome| answer::distance(&outcome))
+        };
+        chunk.add_distance(index, found);
+    };
+    let chunks = checked(batch.run(py, planners, all, answer)?, batch)?;
+    Ok(PyArray1::from_vec(py, py.detach(|| flat(&chunks, |chunk| &chunk.distances))))
 }

@@ -141,7 +141,7 @@ impl Keywords {
             }
             ValueKind::Number => integer(name, value, 1)?.to_string(),
             _ if value.is_instance_of::<PyString>() => text(name, "a name", value)?,
-            ValueKind::Levels => integer(name, value, 1)?.to_string(),
+            ValueKind::Levels | ValueKind::Memory => integer(name, value, 1)?.to_string(),
             ValueKind::Heuristic | ValueKind::Variant => return Err(wrong_type(name, "a name", value)),
         };
         let value = option.parse(&given).map_err(|wrong| argument(name, &wrong))?;

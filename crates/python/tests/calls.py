@@ -94,6 +94,7 @@ TAKERS = {
     "jump_limit": "jps",
     "keep_intermediate": "jps",
     "levels": "subgoal",
+    "memory": "subgoal",
     "side": "hpa",
     "variant": "canonical",
 }

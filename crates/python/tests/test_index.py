@@ -22,6 +22,7 @@ SETUPS = [
     ("subgoal", {"k": 3}),
     ("subgoal", {"k": "any", "gap": "closed"}),
     ("subgoal", {"k": 5, "placement": "corner", "levels": "contracted"}),
+    ("subgoal", {"k": 4, "placement": "corner", "levels": "labels", "smooth": "taut"}),
     ("subgoal-theta", {"k": 3, "placement": "corner"}),
     ("hpa", {"side": 6}),
     ("chpa", {"smooth": "taut"}),
@@ -131,7 +132,7 @@ def test_paths_as_sequence(rng):
             assert np.array_equal(path, alone) and np.array_equal(paths[i - 200], path)
             assert path.dtype == np.int32
             assert np.array_equal(paths.points[paths.offsets[i] : paths.offsets[i + 1]], path)
-        assert paths.distances[i] == index.distance(starts[i], goals[i])
+        assert paths.distances[i] == pytest.approx(index.distance(starts[i], goals[i]), rel=1e-9)
     assert 0 < none < 150
     for part in (slice(3, 50, 7), slice(None), slice(None, None, -1), slice(150, 999), slice(5, 5)):
         assert all(np.array_equal(a, b) for a, b in zip(paths[part], list(paths)[part]))
@@ -160,14 +161,17 @@ def test_threads_do_not_matter(rng, engine, how):
     grid, starts, goals = example(rng, count=2500)
     index = grid.prepare(engine, threads=1, **how)
     paths = index.paths(starts, goals, threads=1)
+    distances = index.distances(starts, goals, threads=1)
+    assert distances == pytest.approx(paths.distances, rel=1e-9)
     for threads in (2, 3, 8):
         assert grid.prepare(engine, threads=threads, **how).setup == index.setup
         assert_same(index.paths(starts, goals, threads=threads), paths)
-        assert np.array_equal(index.distances(starts, goals, threads=threads), paths.distances)
+        assert np.array_equal(index.distances(starts, goals, threads=threads), distances)
     table = index.table(starts[:40], goals[:70])
     assert table.shape == (40, 70)
-    assert np.array_equal(np.diagonal(table), paths.distances[:40])
-    assert table[3, 50] == index.distance(starts[3], goals[50])
+    assert np.diagonal(table) == pytest.approx(paths.distances[:40], rel=1e-9)
+    assert table[3, 50] == pytest.approx(index.distance(starts[3], goals[50]), rel=1e-9)
+    assert np.array_equal(index.table(starts[:40], goals[:70], threads=3), table)
     one = index.paths(starts[0], goals, points="cells")
     assert np.array_equal(one.distances, index.paths(np.repeat(starts[:1], 2500, axis=0), goals).distances)
     alone = index.path(starts[0], goals[7], points="cells")
@@ -217,7 +221,7 @@ def test_progress(rng):
     index, told = grid.prepare(), []
     paths = index.paths(starts, goals, progress=lambda done, count: told.append((done, count)))
     assert told == sorted(told) and told[-1] == (20000, 20000) and {count for _, count in told} == {20000}
-    for call in (index.paths, index.distances, index.table):
+    for call in (index.paths, index.distances, index.table, index.nearest):
         with pytest.raises(ZeroDivisionError):
             call(starts[:300], goals[:300], progress=lambda done, count: 1 // 0)
     assert_same(index.paths(starts, goals), paths)
@@ -229,7 +233,8 @@ def test_progress_of_preparation():
     grid, told = mediant.Grid(blocked), []
     grid.prepare("subgoal", k=3, progress=lambda *args: told.append(args))
     stages = [stage for stage, _, _ in told]
-    assert set(stages) <= {"edges", "hierarchy"} and stages == sorted(stages)
+    order = ["edges", "hierarchy", "sight", "labels"]
+    assert stages == sorted(stages, key=order.index)
     assert all(0 < done <= total for _, done, total in told)
     assert ("edges", told[0][2], told[0][2]) in told
     with pytest.raises(KeyError):

@@ -60,6 +60,12 @@ CALLS = {
         "index.distances(np.zeros((9_000_000, 2), dtype=int), (1, 1))",
     ),
     "table": ("index = grid.prepare('astar', k=4)", "index.table(ends, ends)"),
+    "table of labels": (
+        "index = mediant.Grid(blocked[:300, :300]).prepare('subgoal', levels='labels')\n"
+        "ends = np.argwhere(~blocked[:300, :300])[:20_000]\nindex.table(ends[:9], ends[:9])",
+        "index.table(ends, ends)",
+    ),
+    "nearest": ("index = grid.prepare('astar', k=4)", "index.nearest(ends, ends[::-1][:1])"),
     "field": ("", "grid.field(start, k=6)"),
     "any-angle field": ("", "grid.field(start, k='any')"),
     "space": (
@@ -141,6 +147,7 @@ RELEASED = {
     "find": lambda grid: grid.prepare("dijkstra", k=4).find((0, 0), (1499, 1499), counters=True),
     "paths": lambda grid: grid.prepare("dijkstra").paths([(0, 0)] * 3, [(1499, 1499)] * 3),
     "prepare": lambda grid: grid.prepare("jps-plus"),
+    "nearest": lambda grid: grid.prepare("dijkstra").nearest([(0, 0)] * 3, (1499, 1499)),
     "field": lambda grid: grid.field((0, 0), k=5),
     "distances": lambda grid: grid.distances((0, 0), k=4),
     "clearance": lambda grid: [grid.clearance() for _ in range(4)],

@@ -66,7 +66,8 @@ class Options(TypedDict, total=False):
     variant: Literal["exact", "complete", "paper"]
     jump_limit: SupportsIndex
     keep_intermediate: bool
-    levels: SupportsIndex | Literal["all", "contracted"]
+    levels: SupportsIndex | Literal["all", "contracted", "labels"]
+    memory: SupportsIndex | str
     side: SupportsIndex
     unstraightened: bool
     second: Heuristic
@@ -194,6 +195,10 @@ class Index:
     @property
     def rule(self) -> Literal["never", "one", "always", "open", "closed"]: ...
     @property
+    def levels(self) -> int | Literal["all", "contracted", "labels"] | None: ...
+    @property
+    def searched_by(self) -> Engine: ...
+    @property
     def setup(self) -> str: ...
     @property
     def origin(self) -> Literal["prepared", "loaded", "repaired", "unchanged"]: ...
@@ -246,6 +251,15 @@ class Index:
         threads: SupportsIndex | None = None,
         progress: Callable[[int, int], object] | None = None,
     ) -> NDArray[np.float64]: ...
+    def nearest(
+        self,
+        starts: Points,
+        goals: Points,
+        *,
+        threads: SupportsIndex | None = None,
+        progress: Callable[[int, int], object] | None = None,
+        invalid: Literal["raise", "none"] = "raise",
+    ) -> tuple[NDArray[np.int64], NDArray[np.float64]]: ...
     def with_options(self, **options: Unpack[Options]) -> Index: ...
     def repair(self, grid: Grid) -> Index: ...
     def save(self, path: str | os.PathLike[str]) -> None: ...

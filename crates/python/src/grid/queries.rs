@@ -204,15 +204,19 @@ impl Grid {
     /// threads : int, optional
     ///     The number of threads; by default one for each core.
     /// progress : callable, optional
-    ///     Called now and then with the stage (``"edges"`` or ``"hierarchy"``), and the number of subgoals
-    ///     that it has finished and of all: a hierarchy leaves the last ones as they are. Only subgoal graphs
-    ///     report progress.
+    ///     Called now and then with the stage (``"edges"``, ``"hierarchy"``, ``"sight"`` or ``"labels"``),
+    ///     and the number of subgoals that it has finished and of all: a hierarchy leaves the last ones as
+    ///     they are. Only the engines on subgoals report progress.
     /// heuristic : {"hk", "euclidean", "zero", "squared"}, optional
     ///     The heuristic of the search.
     /// variant : {"exact", "complete", "paper"}, optional
     ///     The repaired engine or the published one.
-    /// levels : int, "all" or "contracted", optional
-    ///     Of subgoal graphs and clusters.
+    /// levels : int, "all", "contracted" or "labels", optional
+    ///     Of subgoal graphs and clusters. ``subgoal`` has hub labels by default if they fit in `memory`,
+    ///     else a contraction hierarchy; `Index.levels` says which.
+    /// memory : int or str, optional
+    ///     The memory that the hub labels of ``subgoal`` may take: a number of bytes, or a text as ``"8MB"``.
+    ///     By default 48 bytes a cell, but at least 32 MB and at most 1 GB.
     /// side : int, optional
     ///     The side of a cluster or segment, in cells.
     /// jump_limit, step, detour : int, optional
@@ -367,7 +371,12 @@ struct Told {
 }
 
 impl Told {
-    const STAGES: [(Stage, &'static str); 2] = [(Stage::Edges, "edges"), (Stage::Hierarchy, "hierarchy")];
+    const STAGES: [(Stage, &'static str); 4] = [
+        (Stage::Edges, "edges"),
+        (Stage::Hierarchy, "hierarchy"),
+        (Stage::Sight, "sight"),
+        (Stage::Labels, "labels"),
+    ];
 
     fn tell(&self, progress: Progress) {
         let stage = Self::STAGES.iter().position(|&(stage, _)| stage == progress.stage).unwrap_or_default();

@@ -6,11 +6,11 @@ mod saved;
 
 use std::sync::Arc;
 
-use mediant::{Guarantee, Index as Prepared, K, Planners, Setup};
+use mediant::{Guarantee, Index as Prepared, K, Levels, Planners, Setup};
 use pyo3::prelude::*;
 
 pub(crate) use self::queries::Asked;
-use crate::grid::Grid;
+use crate::{background::levels, grid::Grid};
 
 /// What an engine prepared of a grid: paths in microseconds.
 ///
@@ -29,6 +29,13 @@ use crate::grid::Grid;
 ///     Where the vertices are.
 /// rule : {"never", "one", "always", "open", "closed"}
 ///     The rule at corners of cells, or at gaps.
+/// levels : int, "all", "contracted", "labels" or None
+///     The levels of its subgoal graph or clusters, or what it has instead: a contraction hierarchy or hub
+///     labels. None for an index without any.
+/// searched_by : str
+///     The engine that searches: `engine`, but for subgoals of a map on which they would be slow, as on
+///     noise. Nothing is kept of them there, and the best engine that prepares nothing searches. Its paths
+///     are as good.
 /// setup : str
 ///     All of it and the options in one text: the same text, the same answers.
 /// origin : {"prepared", "loaded", "repaired", "unchanged"}
@@ -102,6 +109,22 @@ impl Index {
     #[getter]
     fn rule(&self) -> String {
         self.setup().rule_name()
+    }
+
+    /// The levels of its subgoal graph or clusters, or what it has instead.
+    #[getter]
+    fn levels<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        Ok(match levels(self.planners.index()) {
+            Some(Levels::Number(number)) => Some(number.get().into_pyobject(py)?.into_any()),
+            Some(levels) => Some(levels.to_string().into_pyobject(py)?.into_any()),
+            None => None,
+        })
+    }
+
+    /// The engine that searches.
+    #[getter]
+    fn searched_by(&self) -> &'static str {
+        self.planners.index().searched_by().name()
     }
 
     /// The engine, k, rule and options in one text.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant::{Counters, Outcome, Planners};
+use mediant::{Counters, Outcome, Planners, Query};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 
@@ -25,16 +25,31 @@ pub(crate) struct Asked<'a, 'py> {
 }
 
 impl Asked<'_, '_> {
+    /// The ends.
+    fn ends(&self) -> PyResult<(Points, Points)> {
+        Ok((Points::read("start", self.start)?, Points::read("goal", self.goal)?))
+    }
+
+    /// The query, if no more is asked than a path from one vertex to another.
+    fn plain(&self, (start, goal): &(Points, Points)) -> Option<Query> {
+        match (start, goal) {
+            (Points::One(start), Points::One(goal)) if self.keywords.has_no_wishes() => {
+                Some(Query::new(*start, *goal))
+            }
+            _ => None,
+        }
+    }
+
     /// Answers it with the GIL released.
-    fn outcome(&self, counts: bool) -> PyResult<(Outcome, Option<Counters>)> {
-        let (start, goal) = (Points::read("start", self.start)?, Points::read("goal", self.goal)?);
-        let is_watched = self.keywords.timeout().is_some() || is_watched(self.planners.index());
+    fn outcome(&self, ends: &(Points, Points), counts: bool) -> PyResult<(Outcome, Option<Counters>)> {
+        let is_plain = self.plain(ends).is_some();
+        let is_watched = self.keywords.timeout().is_some() || is_watched(self.planners.index(), is_plain);
         if is_watched && !self.planners.is_ready() {
             let planners = Arc::clone(self.planners);
             on_thread(self.start.py(), move || planners.make_ready(), |_| Ok(()))?;
         }
         let interruption = is_watched.then(Interruption::default);
-        let request = self.keywords.request(&start, &goal, interruption.as_ref());
+        let request = self.keywords.request(&ends.0, &ends.1, interruption.as_ref());
         let answer = self.start.py().detach(|| {
             if counts {
                 let find = |planner: &mut mediant::Planner| planner.find_counted(request);
@@ -56,14 +71,19 @@ impl Asked<'_, '_> {
     ) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
         let points = PathPoints::read(points)?;
         let placement = self.planners.index().setup().rules.placement();
-        let outcome = answer::whole(py, self.outcome(false)?.0, points, placement)?;
+        let outcome = answer::whole(py, self.outcome(&self.ends()?, false)?.0, points, placement)?;
         outcome.path().map(|path| points.array(py, path, placement)).transpose()
     }
 
-    /// `distance`.
+    /// `distance`. It makes no path where it needs none.
     pub(crate) fn distance(&self, py: Python<'_>) -> PyResult<f64> {
-        let placement = self.planners.index().setup().rules.placement();
-        let outcome = answer::whole(py, self.outcome(false)?.0, PathPoints::Waypoints, placement)?;
+        let (ends, index) = (self.ends()?, self.planners.index());
+        if let Some(query) = self.plain(&ends).filter(|_| !is_watched(index, true)) {
+            let distance = py.detach(|| self.planners.with(|planner| planner.distance(query)));
+            return Ok(distance.map_err(raised)?.unwrap_or(f64::INFINITY));
+        }
+        let placement = index.setup().rules.placement();
+        let outcome = answer::whole(py, self.outcome(&ends, false)?.0, PathPoints::Waypoints, placement)?;
         Ok(answer::distance(&outcome))
     }
 
@@ -77,7 +97,7 @@ impl Asked<'_, '_> {
         let points = PathPoints::read(points)?;
         let counters = counters.map_or(Ok(false), |value| flag("counters", value))?;
         let setup = self.planners.index().setup();
-        let (outcome, counters) = self.outcome(counters)?;
+        let (outcome, counters) = self.outcome(&self.ends()?, counters)?;
         let is_optimal = setup.optimal_over().is_some();
         Answer::new(py, &outcome, points, setup.rules.placement(), (is_optimal, counters))
     }
@@ -142,7 +162,8 @@ impl Index {
     /// Returns
     /// -------
     /// float
-    ///     In cells; ``inf`` if there is no path.
+    ///     In cells; ``inf`` if there is no path. Hub labels measure without the path: the length may differ
+    ///     from that of the path by a factor of 1 + 2**-31.
     ///
     /// Raises
     /// ------
