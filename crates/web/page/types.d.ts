@@ -142,7 +142,15 @@ export interface LaneState {
   /** Whether the scene has changed since the answer. */
   stale: boolean;
   /** The index, once it is there. `ms`: how long it took. */
-  index: { ms: number; bytes: number; origin: string } | null;
+  index: {
+    ms: number;
+    bytes: number;
+    origin: string;
+    /** `"labels"`: hub labels answer, and no search is shown. */
+    levels: number | string | undefined;
+    /** The engine that searches, if the lane's kept nothing. */
+    searchedBy: string;
+  } | null;
 }
 
 /** search/lanes.js: follows the model; each lane has a worker of its own. Dispatches `change` with

@@ -122,7 +122,7 @@ fn coordinate(name: &str, value: &JsValue) -> Result<i32, JsValue> {
 fn far_outside(name: &str) -> JsValue {
     let code = match name {
         "start" => "start-outside",
-        "goal" => "goal-outside",
+        "goal" | "goals" => "goal-outside",
         _ => "argument",
     };
     coded(code, &format!("{name}: an x or y beyond that of any map"))

@@ -1,10 +1,17 @@
 //! What an engine prepared.
 
 use js_sys::Uint8Array;
-use mediant::{Index as Inner, Origin};
+use mediant::{EngineOption, Index as Inner, Levels, OptionValue, Origin, ValueKind};
 use wasm_bindgen::prelude::*;
 
-use crate::{arguments::object, errors::raised, memory, planner::Planner, space::Space};
+use crate::{
+    arguments::{Points, object},
+    errors::raised,
+    goals::Goals,
+    memory,
+    planner::Planner,
+    space::Space,
+};
 
 /// What an engine prepared in a space: `Space.prepare`, `Space.load` and `repair` make it. It never changes;
 /// any number of planners share it.
@@ -19,6 +26,29 @@ impl Index {
     #[wasm_bindgen(getter)]
     pub fn engine(&self) -> String {
         self.inner.setup().engine.kind().name().to_owned()
+    }
+
+    /// The engine that searches: `engine`, but for subgoals of a map on which they would be slow, as on
+    /// noise. Nothing is kept of them there, and the best engine that prepares nothing searches. Its paths
+    /// are as good.
+    #[wasm_bindgen(getter, js_name = searchedBy)]
+    pub fn searched_by(&self) -> String {
+        self.inner.searched_by().name().to_owned()
+    }
+
+    /// The levels of its subgoal graph or clusters, or what it has instead: `"contracted"`, a contraction
+    /// hierarchy, or `"labels"`, hub labels. Undefined for an index without any.
+    #[wasm_bindgen(
+        getter,
+        unchecked_return_type = "number | \"all\" | \"contracted\" | \"labels\" | undefined"
+    )]
+    pub fn levels(&self) -> JsValue {
+        let option = EngineOption::ALL.into_iter().find(|option| option.kind == ValueKind::Levels);
+        match option.and_then(|option| self.inner.value(option)) {
+            Some(OptionValue::Levels(Levels::Number(number))) => number.get().into(),
+            Some(OptionValue::Levels(levels)) => levels.to_string().into(),
+            _ => JsValue::UNDEFINED,
+        }
     }
 
     /// The engine, k, rule and options in one text: the same text, the same answers.
@@ -80,6 +110,24 @@ impl Index {
     pub fn planner(&self) -> Result<Planner, JsValue> {
         self.space().check_room("the planner", memory::PLANNER)?;
         Ok(Planner::new(self.inner.planner()))
+    }
+
+    /// Prepares goals that many starts ask for. With hub labels this takes about two queries for each
+    /// goal, and each start then far less than a query for each goal; on other indexes it takes as long.
+    ///
+    /// ```js
+    /// const hotels = index.goals([[9, 0], [0, 9], [3, 4]]);
+    /// const distances = index.planner().distances([0, 0], hotels);
+    /// ```
+    ///
+    /// @throws MediantError `goal-blocked`, `goal-outside` for the first goal that is blocked or outside the
+    /// map.
+    pub fn goals(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Points")] goals: &JsValue,
+    ) -> Result<Goals, JsValue> {
+        let goals = Points::read("goals", goals)?.into_vec();
+        Ok(Goals { inner: self.inner.goals(goals).map_err(raised)? })
     }
 
     /// The index for a changed map of the same rules and k, which gives the same answers as one prepared

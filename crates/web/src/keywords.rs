@@ -157,7 +157,7 @@ impl Keywords {
             ValueKind::Flag => return Ok(true),
             ValueKind::Number => integer(name, value, 1)?.to_string(),
             _ if value.is_string() => text(name, "a name", value)?,
-            ValueKind::Levels => integer(name, value, 1)?.to_string(),
+            ValueKind::Levels | ValueKind::Memory => integer(name, value, 1)?.to_string(),
             ValueKind::Heuristic | ValueKind::Variant => return Err(wrong_type(name, "a name", value)),
         };
         let value = option.parse(&given).map_err(|wrong| argument(name, &wrong))?;

@@ -3,8 +3,8 @@
 //!
 //! - `arguments`: what a call was given: points, numbers, bytes, objects of our classes; `keywords`: objects
 //!   of motion, wishes and options. Each mistake names its argument.
-//! - `grid`, `space`, `index`, `planner`, `trace` with `posthoc`, `field`, `picture`: the classes; `module`:
-//!   what needs no map.
+//! - `grid`, `space`, `index`, `goals`, `planner`, `trace` with `posthoc`, `field`, `picture`: the classes;
+//!   `module`: what needs no map.
 //! - `answer`: what goes out; `types`: the types of plain objects, for `mediant.d.ts`.
 //! - `errors`: the library's errors as those of JavaScript; `memory`: whether there is room.
 //! - `clock`: the time, which the library does not read.
@@ -35,6 +35,7 @@ mod arguments;
 mod clock;
 mod errors;
 mod field;
+mod goals;
 mod grid;
 mod index;
 mod keywords;
@@ -48,6 +49,7 @@ mod trace;
 mod types;
 
 pub use field::Field;
+pub use goals::Goals;
 pub use grid::Grid;
 pub use index::Index;
 pub use module::{bound, check_setup, engines, moves, version};

@@ -5,14 +5,15 @@ use std::{
     rc::Rc,
 };
 
-use js_sys::Int32Array;
-use mediant::{Outcome, Planner as Inner, QueryError, Space};
+use js_sys::{Float64Array, Int32Array};
+use mediant::{Outcome, Planner as Inner, Query, QueryError, Space};
 use wasm_bindgen::prelude::*;
 
 use crate::{
-    answer::{answer, flat},
+    answer::{answer, flat, object_of},
     arguments::{Points, integer, object, point},
     errors::{argument, raised},
+    goals::Goals,
     keywords::{Keywords, Takes},
     trace::Trace,
     types::JsAnswer,
@@ -59,6 +60,13 @@ impl Planner {
             .map_err(|_| argument("planner", "it is searching: wait until it has ended"))
     }
 
+    /// The planner, to be asked something else than it was asked last, which it forgets.
+    fn idle(&self) -> Result<RefMut<'_, State>, JsValue> {
+        let mut state = self.state()?;
+        state.last = None;
+        Ok(state)
+    }
+
     /// What it searched last.
     pub(crate) fn searched(&self) -> Result<Searched, JsValue> {
         let state = self.state()?;
@@ -92,6 +100,11 @@ impl State {
     }
 }
 
+/// The goals of an argument.
+fn goals_of(goals: &JsValue) -> Result<Goals, JsValue> {
+    object("goals", "Goals", goals)
+}
+
 /// The trace of an argument that may be left out.
 fn trace_of(trace: &JsValue) -> Result<Option<Trace>, JsValue> {
     if trace.is_undefined() || trace.is_null() {
@@ -117,8 +130,7 @@ impl Planner {
         let keywords = Keywords::read("wishes", wishes, Takes::WISHES)?;
         let (start, goal) = (Points::read("start", start)?, Points::read("goal", goal)?);
         let trace = trace_of(trace)?;
-        let mut state = self.state()?;
-        state.last = None;
+        let mut state = self.idle()?;
         let request = keywords.request(&start, &goal);
         let outcome = match trace {
             None => state.inner.find(request),
@@ -128,6 +140,51 @@ impl Planner {
             }
         };
         state.answered(outcome)
+    }
+
+    /// The length in cells of the path that `find` finds; `Infinity` if there is none. Hub labels measure
+    /// without the path: the length may differ from that of the path by a factor of 1 + 2^-31.
+    ///
+    /// @throws MediantError as `find`.
+    pub fn distance(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Point")] start: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Point")] goal: &JsValue,
+    ) -> Result<f64, JsValue> {
+        let query = Query::new(point("start", start)?, point("goal", goal)?);
+        Ok(self.idle()?.inner.distance(query).map_err(raised)?.unwrap_or(f64::INFINITY))
+    }
+
+    /// The lengths in cells of the paths to each of many goals, in their order; `Infinity` where none leads.
+    /// With hub labels they are found together, in far less time than a query for each takes.
+    ///
+    /// @throws MediantError as `find`; `mismatch` for goals of another map or motion.
+    pub fn distances(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Point")] start: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Goals")] goals: &JsValue,
+    ) -> Result<Float64Array, JsValue> {
+        let (start, goals) = (point("start", start)?, goals_of(goals)?);
+        let distances = self.idle()?.inner.distances(start, &goals.inner).map_err(raised)?;
+        Ok(Float64Array::from(&distances[..]))
+    }
+
+    /// The goal to which the path is shortest, by its number, with hub labels the first of several; undefined
+    /// if there is no way to any. With hub labels this takes one to two queries, also for a thousand
+    /// goals.
+    ///
+    /// @throws MediantError as `distances`.
+    #[wasm_bindgen(unchecked_return_type = "NearestGoal | undefined")]
+    pub fn nearest(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Point")] start: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Goals")] goals: &JsValue,
+    ) -> Result<JsValue, JsValue> {
+        let (start, goals) = (point("start", start)?, goals_of(goals)?);
+        let nearest = self.idle()?.inner.nearest(start, &goals.inner).map_err(raised)?;
+        Ok(nearest.map_or(JsValue::UNDEFINED, |(goal, distance)| {
+            object_of([("goal", Some((goal as u32).into())), ("distance", Some(distance.into()))])
+        }))
     }
 
     /// Begins a search, and forgets the last one. Nothing is expanded yet.
@@ -141,9 +198,7 @@ impl Planner {
     ) -> Result<(), JsValue> {
         let keywords = Keywords::read("wishes", wishes, Takes::WISHES)?;
         let (start, goal) = (Points::read("start", start)?, Points::read("goal", goal)?);
-        let mut state = self.state()?;
-        state.last = None;
-        state.inner.begin(keywords.request(&start, &goal)).map_err(raised)
+        self.idle()?.inner.begin(keywords.request(&start, &goal)).map_err(raised)
     }
 
     /// Continues the search by at most so many expansions. The answer once it is there, else undefined.

@@ -133,7 +133,7 @@ impl Space {
     }
 
     /// Prepares what an engine needs; by default the engine that `engine()` names. `progress` is called with
-    /// a stage (`"edges"` or `"hierarchy"`), and how much of it is done of all.
+    /// a stage (`"edges"`, `"hierarchy"`, `"sight"` or `"labels"`), and how much of it is done of all.
     ///
     /// ```js
     /// const index = space.prepare("subgoal");
@@ -273,7 +273,9 @@ fn tell(progress: Progress) {
     let Some((Some(function), None)) = listener else { return };
     let stage = match progress.stage {
         Stage::Edges => "edges",
-        _ => "hierarchy",
+        Stage::Hierarchy => "hierarchy",
+        Stage::Sight => "sight",
+        Stage::Labels => "labels",
     };
     let [done, total] = [progress.done, progress.total].map(|count| JsValue::from(count as f64));
     let called = function.call3(&JsValue::UNDEFINED, &JsString::from(stage), &done, &total);

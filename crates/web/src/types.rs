@@ -57,8 +57,16 @@ export interface Options {
   readonly jumpLimit?: number;
   /** Keeps intermediate jump points. */
   readonly keepIntermediate?: boolean;
-  /** The levels of subgoal graphs and of clusters. */
-  readonly levels?: number | "all" | "contracted";
+  /**
+   * The levels of subgoal graphs and of clusters; for `"subgoal"` also a contraction hierarchy or hub labels.
+   * By default it has hub labels if they fit in `memory`, else a contraction hierarchy.
+   */
+  readonly levels?: number | "all" | "contracted" | "labels";
+  /**
+   * The memory that hub labels may take: bytes, or a text as `"8MB"`. By default 48 bytes a cell, but at least
+   * 32 MB and at most 1 GB.
+   */
+  readonly memory?: number | string;
   /** The side of a cluster or segment, in cells. */
   readonly side?: number;
   /** Leaves out the straightening of HPA*. */
@@ -119,6 +127,14 @@ export interface WidestPath {
   readonly distance: number;
   /** The radius in cells of the disc that keeps its distance to all obstacles along it. */
   readonly radius: number;
+}
+
+/** What `Planner.nearest` finds. */
+export interface NearestGoal {
+  /** The number of the goal. */
+  readonly goal: number;
+  /** The length of the path to it, in cells. */
+  readonly distance: number;
 }
 
 /** What an engine can do. */

@@ -196,6 +196,62 @@ fn steps_and_traces() {
 }
 
 #[test]
+fn labels_and_goals() {
+    let grid = grid();
+    let space = ok(&grid, "space", &[json("{}")]);
+    let prepare = |engine: &str, options: &str| ok(&space, "prepare", &[engine.into(), json(options)]);
+    for (engine, options, levels, searched_by) in [
+        ("subgoal", "{}", "labels".into(), "subgoal"),
+        ("subgoal", r#"{"memory": "8MB"}"#, "labels".into(), "subgoal"),
+        ("subgoal", r#"{"levels": "labels", "memory": 8000000}"#, "labels".into(), "subgoal"),
+        ("subgoal", r#"{"memory": 1}"#, "contracted".into(), "subgoal"),
+        ("subgoal", r#"{"levels": 2}"#, 2.into(), "subgoal"),
+        ("hpa", r#"{"levels": 1}"#, 1.into(), "hpa"),
+        ("astar", "{}", NONE, "astar"),
+    ] {
+        let index = prepare(engine, options);
+        assert_eq!(
+            (get(&index, "levels"), get(&index, "searchedBy")),
+            (levels, searched_by.into()),
+            "{options}"
+        );
+        let planner = ok(&index, "planner", &[]);
+        assert_eq!(
+            ok(&planner, "distance", &[at(0, 0), at(7, 0)]).as_f64(),
+            Some(11.0),
+            "{engine} {options}"
+        );
+        let goals = ok(&index, "goals", &[json("[[7, 0], [2, 0], [0, 0], [0, 2]]")]);
+        assert_eq!(get(&goals, "length").as_f64(), Some(4.0));
+        assert_eq!(numbers(&ok(&goals, "points", &[])), [7, 0, 2, 0, 0, 0, 0, 2]);
+        let distances = js_sys::Float64Array::from(ok(&planner, "distances", &[at(0, 0), goals.clone()]));
+        assert_eq!(distances.to_vec(), [11.0, 2.0, 0.0, 2.0], "{engine} {options}");
+        let nearest = ok(&planner, "nearest", &[at(2, 1), goals.clone()]);
+        assert_eq!((get(&nearest, "goal"), get(&nearest, "distance")), (1.into(), 1.into()));
+        ok(&goals, "free", &[]);
+        assert_eq!(thrown(&planner, "nearest", &[at(2, 1), goals]), "TypeError ");
+    }
+    let refused = [NONE, json(r#"{"levels": "labels", "memory": 1}"#)];
+    assert_eq!(thrown(&space, "prepare", &refused), "MediantError index-range");
+    // Where no path leads, and no goal.
+    let closed = ok(&grid_of(r#"["..#.", "..#."]"#), "space", &[]);
+    let index = ok(&closed, "prepare", &[]);
+    let (planner, goals) = (ok(&index, "planner", &[]), ok(&index, "goals", &[at(3, 0)]));
+    assert_eq!(ok(&planner, "distance", &[at(0, 0), at(3, 0)]).as_f64(), Some(f64::INFINITY));
+    assert!(ok(&planner, "nearest", &[at(0, 0), goals.clone()]).is_undefined());
+    assert!(ok(&planner, "nearest", &[at(0, 0), ok(&index, "goals", &[json("[]")])]).is_undefined());
+    // Mistakes.
+    assert_eq!(thrown(&index, "goals", &[json("[[0, 0], [2, 0]]")]), "MediantError goal-blocked");
+    assert_eq!(thrown(&index, "goals", &[json("[[0, 1e300]]")]), "MediantError goal-outside");
+    assert_eq!(thrown(&planner, "distance", &[at(2, 0), at(0, 0)]), "MediantError start-blocked");
+    assert_eq!(thrown(&planner, "distances", &[at(0, 9), goals.clone()]), "MediantError start-outside");
+    assert_eq!(thrown(&planner, "nearest", &[at(2, 0), goals.clone()]), "MediantError start-blocked");
+    assert_eq!(thrown(&planner, "distances", &[at(0, 0), json("[[3, 0]]")]), "TypeError ");
+    let other = ok(&prepare("subgoal", "{}"), "planner", &[]);
+    assert_eq!(thrown(&other, "distances", &[at(0, 0), goals]), "MediantError mismatch");
+}
+
+#[test]
 fn fields_and_pictures() {
     let grid = grid();
     let space = ok(&grid, "space", &[]);

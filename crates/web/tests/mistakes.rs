@@ -214,10 +214,11 @@ fn odd_values_everywhere() {
     let trace = JsValue::from(Trace::new(&JsValue::TRUE).expect("a trace"));
     let picture = JsValue::from(Picture::new(&grid, &"corner".into()).expect("a picture"));
     ok(&picture, "largestSide", &[64.into()]);
-    let ours = [&grid, &space, &planner, &trace, &field].map(Clone::clone);
+    let goals = ok(&index, "goals", &[json("[[8, 3], [0, 0]]")]);
+    let ours = [&grid, &space, &planner, &trace, &field, &goals].map(Clone::clone);
     let odd: Vec<JsValue> = odd_values().into_iter().chain(ours).collect();
     let class = class(&grid);
-    let objects = [&grid, &class, &space, &index, &planner, &field, &trace, &picture];
+    let objects = [&grid, &class, &space, &index, &planner, &field, &trace, &picture, &goals];
     let mut calls = 0_u32;
     for object in objects {
         for method in methods(object) {

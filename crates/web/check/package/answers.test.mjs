@@ -35,6 +35,40 @@ test("a lower bound holds: the length of a shortest path, nothing where the engi
   assert.deepEqual([...stopped.best.slice(0, 2)], START);
 });
 
+test("distances and nearest goals are those of single queries; labels expand nothing", () => {
+  const free = [];
+  for (let v = 0; v < grid.width * grid.height; v += 1) {
+    const at = /** @type {[number, number]} */ ([v % grid.width, Math.floor(v / grid.width)]);
+    if (!grid.isBlocked(...at)) free.push(at);
+  }
+  for (const motion of [{}, { k: 4, placement: "corner" }, { k: "any" }]) {
+    for (const options of [{}, { levels: "contracted" }, { memory: 1 }]) {
+      const index = grid.space(motion).prepare("subgoal", options);
+      const planner = index.planner();
+      const what = JSON.stringify([motion, options]);
+      assert.equal(index.levels, options.memory || options.levels ? "contracted" : "labels", what);
+      const goals = index.goals(free.filter((_, at) => at % 3 === 0));
+      const list = [...goals.points()];
+      for (const start of free) {
+        const distances = planner.distances(start, goals);
+        assert.ok(distances instanceof Float64Array && distances.length === goals.length);
+        distances.forEach((distance, at) => {
+          const goal = /** @type {[number, number]} */ (list.slice(2 * at, 2 * at + 2));
+          const trace = new mediant.Trace();
+          const found = planner.find(start, goal, undefined, trace);
+          assert.ok(Math.abs(found.distance - distance) < 1e-8, `${what}: ${start} to ${goal}`);
+          assert.ok(Math.abs(planner.distance(start, goal) - distance) < 1e-8);
+          if (index.levels === "labels") assert.deepEqual([trace.expanded, trace.steps().length], [0, 0]);
+        });
+        const { goal, distance } = planner.nearest(start, goals);
+        assert.ok(Math.abs(distance - Math.min(...distances)) < 1e-8, what);
+        assert.ok(Math.abs(distances[goal] - distance) < 1e-8, what);
+      }
+      goals.free();
+    }
+  }
+});
+
 test("wishes: nearest, snap, a greatest cost", () => {
   const walled = mediant.Grid.fromRows(["..#.", "..#.", "..#."]).space().prepare("astar").planner();
   const no = walled.find(START, [3, 0]);

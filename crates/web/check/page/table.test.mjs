@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { emptyRows, loadRows, messages, scene, setLanes } from "../act.mjs";
+import { emptyRows, lanes, loadRows, messages, scene, setLanes } from "../act.mjs";
 import { settled, Site } from "../browser.mjs";
 
 /** @typedef {import("playwright-core").Page} Page */
@@ -39,6 +39,36 @@ test("an optimal path at any angle is certified with 0 %, one that leaves N(k) m
   assert.equal(await cell(page, 1, "Certificate").textContent(), "0 %");
   // √97 instead of 5 + 4 √2.
   assert.equal(await cell(page, 0, "Excess").textContent(), "−7.58 % over N(3)");
+});
+
+test("hub labels expand nothing, and the page says so", async () => {
+  const page = await site.open();
+  await loadRows(page, ["........", "..####..", "........"], [3, 0], [4, 2]);
+  await setLanes(page, { engine: "subgoal" }, {});
+  await settled(page);
+  await page.waitForTimeout(100);
+  const [labels, searched] = await lanes(page);
+  assert.deepEqual([labels.index.levels, labels.index.searchedBy], ["labels", "subgoal"]);
+  assert.deepEqual([labels.answer.expanded, labels.answer.events], [0, 0]);
+  assert.deepEqual([searched.index.levels, searched.index.searchedBy], [undefined, "astar"]);
+  assert.ok(Math.abs(labels.answer.length - searched.answer.length) < 1e-9);
+  assert.equal(await cell(page, 0, "Expansions").textContent(), "no search");
+  assert.equal(await page.locator(".stage-legend").first().textContent(), "no search: hub labels");
+  // It wins no race of expansions; it arrives at once, and in real time when its time is over.
+  const best = (/** @type {number} */ lane) =>
+    cell(page, lane, "Expansions").evaluate((element) => element.classList.contains("best"));
+  assert.equal(await best(0), false);
+  const arrived = await page.evaluate(() => {
+    const { player } = /** @type {any} */ (globalThis).mediant;
+    const seen = [];
+    for (const mode of ["pace", "time"]) {
+      player.mode = mode;
+      player.seek(0);
+      seen.push(player.arrived(0), player.arrived(1));
+    }
+    return seen;
+  });
+  assert.deepEqual(arrived, [true, false, false, false]);
 });
 
 test("a caption is read out in parts", async () => {

@@ -2,6 +2,7 @@
 
 import init, {
   Field,
+  Goals,
   Grid,
   Index,
   Picture,
@@ -20,6 +21,7 @@ import init, {
   type ImageOptions,
   type MediantError,
   type Motion,
+  type NearestGoal,
   type Options,
   type Point,
   type Points,
@@ -77,6 +79,7 @@ const options: Options = {
   jumpLimit: 3,
   keepIntermediate: true,
   levels: "all",
+  memory: "8MB",
   side: 8,
   unstraightened: true,
   second: "zero",
@@ -90,6 +93,7 @@ const index: Index = space.prepare("hpa", options, (stage: string, done: number,
 const loaded: Index = edited.load(index.toBytes(), options);
 const repaired: Index = index.repair(edited);
 facts.push(index.engine, index.setup, index.guarantee, index.optimal, index.bound ?? 0, index.memoryBytes);
+facts.push(index.levels ?? "none", index.searchedBy);
 facts.push(loaded.origin === "loaded", repaired.space.grid.width);
 
 const wishes: Wishes = {
@@ -118,6 +122,13 @@ facts.push(
 );
 facts.push(trace.expanded, trace.generated, trace.scanned, trace.updated);
 trace.clear();
+
+const hotels: Goals = index.goals(to);
+const far: Float64Array = planner.distances(from, hotels);
+const near: NearestGoal | undefined = planner.nearest(from, hotels);
+facts.push(planner.distance(from, [1, 1]), far.length, near?.goal ?? -1, near?.distance ?? Infinity);
+facts.push(hotels.length, hotels.points().length);
+hotels.free();
 
 const field: Field = space.field(to, 10);
 const arrays: [Float64Array, Float32Array] = [field.distances(), field.flow()];

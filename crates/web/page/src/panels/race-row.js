@@ -4,7 +4,7 @@ import { h, setText } from "./dom.js";
 import { laneMark } from "./figures.js";
 import { iconButton } from "./icons.js";
 import {
-  cells, count, engineName, excess, kText, more, motionText, over, size, time, withNames,
+  cells, count, engineName, excess, hasNoSearch, kText, more, motionText, over, size, time, withNames,
 } from "./words.js";
 
 /** @typedef {import("../../types").LaneState} LaneState */
@@ -25,6 +25,8 @@ const certificate = ({ answer }) => (answer?.status === "found" ? answer.bound ?
 /** A query that was refused has no search: it must not win by doing nothing.
  *  @param {LaneState} lane */
 const searched = ({ answer }) => (answer && !answer.error ? answer : undefined);
+/** Labels win no race of searches. @param {LaneState} lane */
+const expansions = (lane) => (hasNoSearch(lane) ? undefined : searched(lane)?.expanded);
 /** A first time is mostly the browser's compiler: it must not be compared. @param {LaneState} lane */
 const settled = (lane) => (searched(lane)?.settled ? searched(lane)?.ms : undefined);
 /** @param {number | undefined} value @param {(value: number) => string} text */
@@ -37,8 +39,9 @@ const atMost = (bound) => (bound === 1 ? over(bound) : `≤ ${over(bound)}`);
 /** @type {readonly Column[]} */
 export const COLUMNS = [
   { name: "k", title: "The number of moves is 2 to the k", value: null, text: (_, setup) => kText(setup.k) },
-  { name: "Expansions", title: "Vertices taken from the open list",
-    value: (lane) => searched(lane)?.expanded, text: (lane) => shown(searched(lane)?.expanded, count) },
+  { name: "Expansions", title: "Vertices taken from the open list; hub labels need no search",
+    value: expansions,
+    text: (lane) => (hasNoSearch(lane) ? "no search" : shown(expansions(lane), count)) },
   { name: "Length", title: "In cells", value: length,
     text: lengthText },
   { name: "Excess", title: "How much longer the path is than the shortest", value: ({ answer }) =>
@@ -115,7 +118,7 @@ export class RaceRow {
     setText(this.#name, engineName(setup.engine));
     setText(this.#motion, motionText(setup));
     COLUMNS.forEach((column, at) => this.#showCell(column, at, setup, lane, best));
-    this.#showStatus(lane);
+    this.#showStatus(lane, setup);
     this.#remove.hidden = this.#model.lanes.length < 2;
   }
 
@@ -133,10 +136,10 @@ export class RaceRow {
     else cell.removeAttribute("title");
   }
 
-  /** @param {LaneState} lane */
-  #showStatus(lane) {
+  /** @param {LaneState} lane @param {LaneSetup} setup */
+  #showStatus(lane, setup) {
     const busy = lane.phase === "preparing" || lane.phase === "searching" || lane.phase === "starting";
-    const text = statusText(lane);
+    const text = statusText(lane, setup);
     setText(this.#status, text);
     this.#status.hidden = text === "";
     this.#status.classList.toggle("error", lane.phase === "failed" || lane.answer?.error !== null && !busy);
@@ -152,8 +155,8 @@ export class RaceRow {
   }
 }
 
-/** @param {LaneState} lane */
-function statusText({ phase, progress, expanded, message, answer }) {
+/** @param {LaneState} lane @param {LaneSetup} setup */
+function statusText({ phase, progress, expanded, message, answer, index }, { engine }) {
   if (phase === "failed") return withNames(message) || "The engine stopped.";
   if (phase === "cancelled") return message || "Cancelled.";
   if (phase === "starting") return "Starting…";
@@ -161,5 +164,7 @@ function statusText({ phase, progress, expanded, message, answer }) {
   if (phase === "searching") return expanded > 0 ? `Searching: ${count(expanded)} expansions` : "";
   if (answer?.error) return answer.error.message;
   if (answer?.status === "unreachable") return "There is no path to the goal.";
-  return answer?.status === "nearest" ? "No way to the goal: the path ends at the nearest vertex." : "";
+  if (answer?.status === "nearest") return "No way to the goal: the path ends at the nearest vertex.";
+  const isReplaced = answer && index && index.searchedBy !== engine;
+  return isReplaced ? `${engineName(index.searchedBy)} searches: subgoals would be slow on this map.` : "";
 }

@@ -2,7 +2,7 @@
 
 import { h, part } from "./dom.js";
 import { announce } from "./message.js";
-import { cells, count, excess, more, over } from "./words.js";
+import { cells, count, excess, hasNoSearch, more, over } from "./words.js";
 
 /** @typedef {import("../../types").LaneSetup} LaneSetup */
 /** @typedef {import("../../types").LaneState} LaneState */
@@ -83,11 +83,12 @@ function tell(lane) {
 const apart = (ratio) => (more(ratio).startsWith("−") ? `${over(2 - ratio)} under` : `${over(ratio)} over`);
 
 /** @param {LaneState} lane */
-function sentence({ answer }) {
+function sentence(lane) {
+  const { answer } = lane;
   if (!answer) return "";
   if (answer.error) return answer.error.message;
-  const expanded = `${count(answer.expanded)} expansions`;
-  if (answer.status === "unreachable") return `There is no path. ${expanded}.`;
+  const expanded = hasNoSearch(lane) ? "no search" : `${count(answer.expanded)} expansions`;
+  if (answer.status === "unreachable") return `There is no path; ${expanded}.`;
   const ratio = excess(answer);
   const what = answer.reference?.what === "k" ? "over N(k)" : "at any angle";
   const above = ratio === undefined ? "" : `, ${apart(ratio)} the shortest ${what}`;

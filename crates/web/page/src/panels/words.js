@@ -2,6 +2,7 @@
 
 /** @typedef {import("../../types").LaneSetup} LaneSetup */
 /** @typedef {import("../../types").LaneAnswer} LaneAnswer */
+/** @typedef {import("../../types").LaneState} LaneState */
 
 /** @type {Record<string, { name: string, how: string }>} */
 const ENGINES = {
@@ -47,7 +48,8 @@ const ENGINES = {
   },
   subgoal: {
     name: "Subgoal graph",
-    how: "Searches the corners at which shortest paths turn, from a prepared graph.",
+    how: "Joins two prepared labels, lists of corners at which shortest paths turn, without a search. "
+      + "Where labels would take too much memory, it searches a prepared graph.",
   },
   "subgoal-theta": {
     name: "Sub-Theta*",
@@ -76,6 +78,11 @@ export function withNames(text) {
 
 /** How the engine works, in a sentence. @param {string} engine */
 export const engineHow = (engine) => ENGINES[engine]?.how ?? "";
+
+/** Whether hub labels answered: they expand nothing, and nothing can be replayed.
+ *  @param {LaneState | null | undefined} lane */
+export const hasNoSearch = (lane) =>
+  lane?.index?.levels === "labels" && !!lane.answer && !lane.answer.error && lane.answer.expanded === 0;
 
 /** @param {number | "any"} k */
 export const kText = (k) => (k === "any" ? "∞" : String(k));

@@ -4,6 +4,7 @@
 
 /** @import { LaneAnswer } from "../../types.js" */
 /** @import { Ask, FromLane, ToLane, Walk } from "./protocol.js" */
+/** @import { Index } from "../../mediant/mediant.js" */
 /** @import { Order } from "./output.js" */
 import { engines, initSync } from "../../mediant/mediant.js";
 import { walk } from "./crowd.js";
@@ -60,6 +61,10 @@ function* answerTo(ask) {
   refining = refine(session, ask, answer, last.timed, say);
 }
 
+/** @param {Index} index */
+const factsOf = ({ memoryBytes, origin, levels, searchedBy }) =>
+  ({ bytes: memoryBytes, origin, levels, searchedBy });
+
 /** @param {Ask} ask */
 function prepare(ask) {
   const { number } = ask;
@@ -74,8 +79,8 @@ function prepare(ask) {
     }
   });
   const { index } = session;
-  const known = index && ms !== null ? { ms, bytes: index.memoryBytes, origin: index.origin } : null;
   const { wasEdit } = session;
+  const known = index && ms !== null ? { ms, ...factsOf(index) } : null;
   say({ type: "prepared", number, took: performance.now() - began, wasEdit, index: known });
 }
 

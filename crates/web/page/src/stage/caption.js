@@ -109,7 +109,7 @@ export class Legend {
   }
 
   /** @param {Overlay} overlay @param {Lanes["field"]} field @param {LaneSetup} setup
-   *  @param {{ search: "" | "tiles" | "marks", isBeaten: boolean }} shown */
+   *  @param {{ search: "" | "tiles" | "marks" | "labels", isBeaten: boolean }} shown */
   update(overlay, field, setup, shown) {
     const html = legendOf(overlay, field, setup, shown);
     if (html === this.key) return;
@@ -128,6 +128,7 @@ function legendOf(overlay, field, setup, { search, isBeaten }) {
   if (overlay === "search" && search) {
     const what = setup.placement === "corner" ? "at any angle" : "over N(k)";
     const optimum = isBeaten ? `<i class="stage-optimum"></i><span>shortest<b> ${what}</b></span>` : "";
+    if (search === "labels") return `${optimum}<span>no search: hub labels</span>`;
     return `${optimum}<span>expanded<b> first</b></span><i class="stage-scale is-${search}"></i><b>last</b>
       <i class="stage-tile"></i><span>open</span>`;
   }

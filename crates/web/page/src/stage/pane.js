@@ -2,7 +2,7 @@
 // `ground`: free cells, colors of the search or of a field. `walls`: grid lines, walls, lines and glyphs.
 // `top`: marks, path, agents, start and goal, and the cursor.
 
-import { engineName, kText } from "../panels/words.js";
+import { engineName, hasNoSearch, kText } from "../panels/words.js";
 import { Caption, Legend, element, sentenceOf } from "./caption.js";
 import { SearchHeat } from "./heat.js";
 import { Agents } from "./paint-agents.js";
@@ -249,7 +249,8 @@ export class Pane {
     this.note.hidden = sentence === "";
     const hasSearch = !!state?.answer?.steps?.length;
     const isHere = this.#isActive || model.overlay === "rules";
-    const search = !hasSearch ? "" : this.#heat.isSparse ? "marks" : "tiles";
+    const searched = !hasSearch ? "" : this.#heat.isSparse ? "marks" : "tiles";
+    const search = hasNoSearch(state) ? "labels" : searched;
     const answer = state?.answer;
     // The optimum comes a little after its answer: until then the legend stays as it is.
     if (answer && (answer.reference || !answer.path.length)) this.#isBeaten = isBeaten(answer);

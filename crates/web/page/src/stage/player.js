@@ -138,7 +138,10 @@ export class Player extends EventTarget {
   /** @param {number} lane */
   arrived(lane) {
     const answer = this.#lanes.list[lane]?.answer;
-    return !!answer && this.#done(lane) >= expansions(answer);
+    if (!answer) return false;
+    const done = this.#done(lane);
+    // A lane without expansions arrives when its time is over, too.
+    return done === Infinity || (this.#mode === "pace" && done >= expansions(answer));
   }
 
   /** How many expansions of the lane are shown. @param {number} lane */
