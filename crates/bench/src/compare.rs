@@ -25,7 +25,8 @@ use crate::{
 pub struct Options {
     /// Our engines: ENGINE[:K[:RULE]][,OPTION…], RULE one of never, one, always (centers), open, closed
     /// (corners), OPTION one of euclidean, zero, squared, paper, limit=N, intermediate, levels=N, levels=all,
-    /// side=N, unstraightened, second=NAME, step=N, detour=N, smooth, taut
+    /// levels=contracted, levels=labels, memory=BYTES, side=N, unstraightened, second=NAME, step=N, detour=N,
+    /// smooth, taut
     #[arg(long, value_name = "SETUP", num_args = 1.., default_value = "astar")]
     engines: Vec<Setup>,
     /// Only these maps
@@ -37,7 +38,8 @@ pub struct Options {
     /// The timed passes of each competitor over a map, of which the median counts
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=999))]
     passes: u32,
-    /// Also time those of our engines that have a typed planner here as such, to see what the library adds
+    /// Also time those of our engines that have a typed planner here as such (subgoal with
+    /// levels=contracted), to see what the library adds
     #[arg(long)]
     typed: bool,
     /// A folder that holds the archives (SET-map.zip, SET-scen.zip) of sets that were not downloaded

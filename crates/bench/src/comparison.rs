@@ -34,20 +34,27 @@ pub struct PreparationRatio {
     pub bytes: Option<f64>,
 }
 
+/// How much slower one machine was than another on a map: the time of each baseline here divided by its time
+/// there, the geometric mean over both baselines. The times are in the same unit. `None` if one is missing.
+pub fn machine_ratio(
+    here: impl Fn(Baseline) -> Option<f64>,
+    there: impl Fn(Baseline) -> Option<f64>,
+) -> Option<f64> {
+    let ratios: Option<Vec<f64>> =
+        Baseline::ALL.into_iter().map(|baseline| Some(here(baseline)? / there(baseline)?)).collect();
+    geometric_mean(&ratios?)
+}
+
 impl Comparison {
     /// Compares a timing with the reference timings of its map. `None` for a map without them, or a record
     /// without both baselines.
     #[must_use]
     pub fn new(references: &ReferenceTimings, record: &MapRecord, timing: &Timing) -> Option<Self> {
         let row = references.map(&record.map)?;
-        let here_by_there = |baseline: Baseline| {
-            let here = record.timings.iter().find(|timing| timing.competitor == baseline.name())?.micros;
-            Some(here / (*row.micros.get(baseline.name())?)?)
+        let here = |baseline: Baseline| {
+            Some(record.timings.iter().find(|timing| timing.competitor == baseline.name())?.micros)
         };
-        let scale = geometric_mean(&[
-            here_by_there(Baseline::Pathfinding)?,
-            here_by_there(Baseline::GridPathfinding)?,
-        ])?;
+        let scale = machine_ratio(here, |baseline| *row.micros.get(baseline.name())?)?;
         let ratio = |program: &str| Some(timing.micros / ((*row.micros.get(program)?)? * scale));
         let ratios = references.programs.iter().map(|program| ratio(&program.name)).collect();
         let preparation = |program: &str| {
@@ -68,7 +75,7 @@ mod tests {
     use crate::Preparation;
 
     fn timing(competitor: &str, micros: f64) -> Timing {
-        let preparation = Some(Preparation { seconds: 0.016, bytes: 540_000 });
+        let preparation = Some(Preparation { seconds: 0.016, bytes: 540_000, ..Preparation::default() });
         Timing {
             competitor: competitor.to_owned(),
             micros,

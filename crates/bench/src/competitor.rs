@@ -5,6 +5,7 @@ use std::{fmt, sync::Arc, time::Instant};
 use grid_pathfinding::PathingGrid;
 use grid_util::point::Point;
 use mediant::{Error, Map, Planner, Setup};
+use mediant_grid::Grid;
 use mediant_search::{Outcome, Query, QueryError};
 
 use crate::{
@@ -18,6 +19,9 @@ use crate::{
 pub enum Competitor {
     /// One of our engines.
     Ours(Setup),
+    /// One of our engines, which is asked for the length of the path alone. It shares the index of the same
+    /// setup before it, if that is asked for paths.
+    Distance(Setup),
     /// The same engine as a planner of the typed crates, without the library.
     Typed(TypedEngine),
     /// Another crate.
@@ -28,6 +32,7 @@ impl fmt::Display for Competitor {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Ours(setup) => setup.fmt(f),
+            Self::Distance(setup) => write!(f, "distance of {setup}"),
             Self::Typed(engine) => engine.fmt(f),
             Self::Baseline(baseline) => f.pad(baseline.name()),
         }
@@ -38,6 +43,7 @@ impl fmt::Display for Competitor {
 /// for each query, or hides it.
 pub(crate) enum Runner {
     Ours(Box<Planner>, Preparation),
+    Distance(Box<Planner>, Preparation),
     Typed(Box<Typed>),
     Bools(BoolMap),
     Pathing(Box<PathingGrid>),
@@ -48,19 +54,37 @@ pub(crate) enum Answer {
     Outcome(Outcome),
     Cells(Option<(Vec<(u16, u16)>, Length)>),
     Points(Option<Vec<Point>>),
+    Length(Option<f64>),
+}
+
+/// A planner on an index of its own.
+fn prepared(setup: Setup, grid: &Arc<Grid>) -> Result<(Box<Planner>, Preparation), Error> {
+    let begin = Instant::now();
+    let space = setup.space(&Map::from(Arc::clone(grid)))?;
+    let index = setup.prepare(&space)?;
+    let seconds = begin.elapsed().as_secs_f64();
+    Ok((Box::new(index.planner()), Preparation::of(&space, &index, seconds)))
 }
 
 impl Runner {
-    pub(crate) fn new(competitor: Competitor, problem: &Problem) -> Result<Self, Error> {
+    /// `others` are ready already: where one has the index that is needed, it is shared.
+    pub(crate) fn new(competitor: Competitor, problem: &Problem, others: &[Self]) -> Result<Self, Error> {
         let grid = &problem.grid;
         Ok(match competitor {
             Competitor::Ours(setup) => {
-                let begin = Instant::now();
-                let space = setup.space(&Map::from(Arc::clone(grid)))?;
-                let index = setup.prepare(&space)?;
-                let seconds = begin.elapsed().as_secs_f64();
-                let bytes = space.memory_bytes() + index.memory_bytes();
-                Self::Ours(Box::new(index.planner()), Preparation { seconds, bytes })
+                let (planner, preparation) = prepared(setup, grid)?;
+                Self::Ours(planner, preparation)
+            }
+            Competitor::Distance(setup) => {
+                let shared = |other: &Self| match other {
+                    Self::Ours(planner, preparation) if planner.index().setup() == setup => {
+                        Some((Box::new(planner.index().planner()), *preparation))
+                    }
+                    _ => None,
+                };
+                let (planner, preparation) =
+                    others.iter().find_map(shared).map_or_else(|| prepared(setup, grid), Ok)?;
+                Self::Distance(planner, preparation)
             }
             Competitor::Typed(engine) => Self::Typed(Box::new(engine.planner(grid)?)),
             Competitor::Baseline(Baseline::Pathfinding) => Self::Bools(BoolMap::new(grid)),
@@ -71,7 +95,7 @@ impl Runner {
     /// The preparation before the first query; `None` for a baseline.
     pub(crate) fn preparation(&self) -> Option<Preparation> {
         match self {
-            Self::Ours(_, preparation) => Some(*preparation),
+            Self::Ours(_, preparation) | Self::Distance(_, preparation) => Some(*preparation),
             Self::Typed(_) | Self::Bools(_) | Self::Pathing(_) => None,
         }
     }
@@ -79,6 +103,7 @@ impl Runner {
     pub(crate) fn solve(&mut self, query: Query) -> Result<Answer, QueryError> {
         Ok(match self {
             Self::Ours(planner, _) => Answer::Outcome(planner.find(query)?),
+            Self::Distance(planner, _) => Answer::Length(planner.distance(query)?),
             Self::Typed(planner) => Answer::Outcome(planner.solve(query)?),
             Self::Bools(map) => Answer::Cells(map.solve(query)),
             Self::Pathing(pathing) => Answer::Points(solve_on(pathing, query)),
@@ -91,6 +116,7 @@ impl Answer {
     pub(crate) fn cost(&self) -> Option<f64> {
         match self {
             Self::Outcome(outcome) => outcome.path().map(mediant_search::Path::cost),
+            Self::Length(length) => *length,
             Self::Cells(path) => path.as_ref().map(|(_, length)| length.0),
             Self::Points(path) => path.as_ref().map(|points| {
                 let step =

@@ -9,8 +9,8 @@
 //! Nothing is timed before it is checked: a path of the wrong length is an error, not a result.
 //!
 //! * [`Problem`]: a map of a benchmark set with the queries of its scenario.
-//! * [`Competitor`]: one of our engines in a [`Setup`](mediant::Setup), the same as a
-//!   typed planner ([`TypedEngine`]), or a baseline.
+//! * [`Competitor`]: one of our engines in a [`Setup`](mediant::Setup), asked for paths or for their lengths
+//!   alone; the same as a typed planner ([`TypedEngine`]); or a baseline.
 //! * [`measure`]: checks and times competitors side by side; [`MapRecord`]: the times.
 //! * [`Study`]: runs setups on the queries of one map; [`Run`]: the answers of one of them, with all counts
 //!   of its searches.
@@ -26,6 +26,7 @@ pub mod compare;
 mod comparison;
 mod competitor;
 mod measure;
+mod preparation;
 mod problem;
 #[cfg(doctest)]
 mod readme;
@@ -35,9 +36,10 @@ mod typed;
 pub mod verify;
 
 pub use baseline::Baseline;
-pub use comparison::{Comparison, PreparationRatio};
+pub use comparison::{Comparison, PreparationRatio, machine_ratio};
 pub use competitor::Competitor;
-pub use measure::{MapRecord, MeasureError, Preparation, Timing, measure};
+pub use measure::{MapRecord, MeasureError, Timing, measure};
+pub use preparation::{Kept, Preparation};
 pub use problem::{Problem, ProblemError};
 pub use reference_timings::{
     MapTimings, Preprocessing, Published, PublishedRow, ReferenceProgram, ReferenceTimings,

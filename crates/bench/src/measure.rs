@@ -10,7 +10,7 @@ use mediant_report::stats::median;
 use mediant_search::QueryError;
 use serde::Serialize;
 
-use crate::{Baseline, Competitor, Problem, competitor::Runner};
+use crate::{Baseline, Competitor, Preparation, Problem, competitor::Runner};
 
 /// The times of all competitors on one map.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -38,15 +38,6 @@ pub struct Timing {
     pub mean_cost: f64,
     /// The preparation before the first query; `None` for a baseline.
     pub preparation: Option<Preparation>,
-}
-
-/// The preparation of one of our engines before its first query: its search space and index.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Preparation {
-    /// The time in seconds, measured once.
-    pub seconds: f64,
-    /// The memory in bytes, without the map.
-    pub bytes: u64,
 }
 
 /// A competitor that could not be measured, or gave a wrong answer.
@@ -111,15 +102,15 @@ pub fn measure(
     competitors: &[Competitor],
     passes: usize,
 ) -> Result<MapRecord, MeasureError> {
-    let prepare = |&competitor: &Competitor| {
-        Runner::new(competitor, problem).map_err(|source| MeasureError::Engine {
+    let mut runners: Vec<Runner> = Vec::with_capacity(competitors.len());
+    for &competitor in competitors {
+        let runner = Runner::new(competitor, problem, &runners);
+        runners.push(runner.map_err(|source| MeasureError::Engine {
             competitor: competitor.to_string(),
             map: problem.name.clone(),
             source: source.into(),
-        })
-    };
-    let mut runners: Vec<Runner> = competitors.iter().map(prepare).collect::<Result<_, _>>()?;
-
+        })?);
+    }
     let mut optima: Vec<(Optimum, Vec<f64>)> = Vec::new();
     let mut timings = Vec::with_capacity(competitors.len());
     for (runner, &competitor) in runners.iter_mut().zip(competitors) {
@@ -156,7 +147,9 @@ const SCENARIOS: Optimum = (K::Finite(FiniteK::N8), Rules::Center(CornerRule::Ne
 fn promise(competitor: Competitor) -> Option<Optimum> {
     match competitor {
         Competitor::Typed(engine) => promise(Competitor::Ours(engine.setup())),
-        Competitor::Ours(setup) => setup.optimal_over().map(|k| (k, setup.rules)),
+        Competitor::Ours(setup) | Competitor::Distance(setup) => {
+            setup.optimal_over().map(|k| (k, setup.rules))
+        }
         Competitor::Baseline(Baseline::Pathfinding) => Some(SCENARIOS),
         Competitor::Baseline(Baseline::GridPathfinding) => None,
     }

@@ -63,6 +63,8 @@ pub struct Answer {
     pub cost: f64,
     /// The number of its moves, if it is a path over N(k).
     pub moves: u32,
+    /// The number of its waypoints, with both ends.
+    pub waypoints: u32,
     /// The sum of its turning angles in degrees: PS of Hammoud & Lupin 2023, Eq. 1.
     pub smoothness: f64,
     /// The counts of the search.
@@ -73,7 +75,8 @@ impl Answer {
     fn new(path: &Path, counters: Counters) -> Self {
         let step = |ends: &[Vertex]| ends[0].to(ends[1]).gcd();
         let moves = path.waypoints().windows(2).map(step).sum();
-        Self { cost: path.cost(), moves, smoothness: path.smoothness(), counters }
+        let waypoints = u32::try_from(path.waypoints().len()).unwrap_or(u32::MAX);
+        Self { cost: path.cost(), moves, waypoints, smoothness: path.smoothness(), counters }
     }
 }
 
@@ -136,8 +139,7 @@ impl<'a> Study<'a> {
             }
         };
         let (index, index_seconds) = self.index.insert(index);
-        let bytes = space.memory_bytes() + index.memory_bytes();
-        let preparation = Preparation { seconds: *space_seconds + *index_seconds, bytes };
+        let preparation = Preparation::of(space, index, *space_seconds + *index_seconds);
         Ok((index.clone().with_smoothing(setup.smoothing).planner(), preparation))
     }
 }
@@ -184,6 +186,7 @@ mod tests {
                 };
                 let answer = answer.expect("a path");
                 assert_eq!((answer.cost, answer.counters), (path.cost(), counters), "{text}");
+                assert_eq!(answer.waypoints as usize, path.waypoints().len(), "{text}");
             }
             assert_eq!(run.micros, None);
             let bytes = space.memory_bytes() + index.memory_bytes();

@@ -6,7 +6,7 @@ use mediant::{Error, Setup};
 use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, GridGraph};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{AStar, Anya, BlockJps, Hk, Outcome, Planner, Query, QueryError};
-use mediant_subgoal::{Hierarchy, SubgoalAStar, SubgoalGraph};
+use mediant_subgoal::{Hierarchy, HubLabelSearch, HubLabels, SubgoalAStar, SubgoalGraph, SubgoalPlacement};
 
 /// An engine that is also measured as a typed planner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -19,6 +19,8 @@ pub struct TypedEngine {
 enum Kind {
     AStar,
     JpsBlock,
+    Labels,
+    AnyAngleLabels,
     Subgoal,
     AnyAngleSubgoal,
     Anya,
@@ -38,8 +40,10 @@ impl TypedEngine {
         let engine = match setup.to_string().as_str() {
             "astar:3:never" => Kind::AStar,
             "jps-block:3:never" => Kind::JpsBlock,
-            "subgoal:3:never" => Kind::Subgoal,
-            "subgoal:any:open" => Kind::AnyAngleSubgoal,
+            "subgoal:3:never,levels=labels" => Kind::Labels,
+            "subgoal:any:open,levels=labels" => Kind::AnyAngleLabels,
+            "subgoal:3:never,levels=contracted" => Kind::Subgoal,
+            "subgoal:any:open,levels=contracted" => Kind::AnyAngleSubgoal,
             "anya:any:open" => Kind::Anya,
             _ => return None,
         };
@@ -60,6 +64,11 @@ impl TypedEngine {
         Ok(match self.engine {
             Kind::AStar => Typed::AStar(AStar::new(graph()?, Hk)),
             Kind::JpsBlock => Typed::JpsBlock(BlockJps::new(graph()?, Hk)?),
+            Kind::Labels => {
+                let space = Arc::new(FreeSpace::<Centers>::new(Arc::clone(grid), never));
+                Typed::Labels(labels(space, K::N8)?)
+            }
+            Kind::AnyAngleLabels => Typed::AnyAngleLabels(labels(corners(), K::Any)?),
             Kind::Subgoal => {
                 let space = Arc::new(FreeSpace::<Centers>::new(Arc::clone(grid), never));
                 let subgoals = SubgoalGraph::new(&space, K::N8, Hierarchy::Contracted)?;
@@ -78,11 +87,20 @@ impl TypedEngine {
 type Graph = Arc<GridGraph<Centers>>;
 type Free<P> = Arc<FreeSpace<P>>;
 type OnSubgoals<P> = SubgoalAStar<Free<P>, Arc<SubgoalGraph<P>>, P>;
+type OnLabels<P> = HubLabelSearch<Free<P>, Arc<HubLabels<P>>>;
+
+/// A planner on the hub labels of a space.
+fn labels<P: SubgoalPlacement>(space: Free<P>, k: K) -> Result<OnLabels<P>, Error> {
+    let labels = HubLabels::within(&space, k, usize::MAX, &|_| {})?;
+    Ok(HubLabelSearch::new(space, Arc::new(labels))?)
+}
 
 /// A planner whose type the compiler knows.
 pub(crate) enum Typed {
     AStar(AStar<Graph, Hk>),
     JpsBlock(BlockJps<Graph, Hk, Centers>),
+    Labels(OnLabels<Centers>),
+    AnyAngleLabels(OnLabels<Corners>),
     Subgoal(OnSubgoals<Centers>),
     AnyAngleSubgoal(OnSubgoals<Corners>),
     Anya(Anya<Free<Corners>>),
@@ -93,6 +111,8 @@ impl Typed {
         match self {
             Self::AStar(planner) => planner.solve(query),
             Self::JpsBlock(planner) => planner.solve(query),
+            Self::Labels(planner) => planner.solve(query),
+            Self::AnyAngleLabels(planner) => planner.solve(query),
             Self::Subgoal(planner) => planner.solve(query),
             Self::AnyAngleSubgoal(planner) => planner.solve(query),
             Self::Anya(planner) => planner.solve(query),

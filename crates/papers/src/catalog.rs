@@ -1,9 +1,9 @@
 //! The list of the experiments.
 
 use crate::{
-    Error, compared, engines,
+    Error, central64, compared, engines,
     experiment::{Experiment, Page},
-    growth, hammoud, hierarchies, hormazabal, kramm, rivera, teleisa,
+    growth, hammoud, hierarchies, hormazabal, kramm, memory, rivera, teleisa,
 };
 
 /// All experiments, in the order in which they run and stand on the pages.
@@ -22,7 +22,8 @@ pub(crate) const EXPERIMENTS: &[Experiment] = &[
     growth::GROWTH,
     hierarchies::HPA,
     compared::PROGRAMS,
-    compared::CENTRAL64,
+    memory::MEMORY,
+    central64::CENTRAL64,
 ];
 
 /// The experiments of these names, or of the pages of these names; all for none.

@@ -7,8 +7,8 @@
 //! against the committed records, and a later run is compared number by number (`--check`).
 //!
 //! A module for each paper holds its experiments; what compares the engines beyond the papers is in
-//! `engines`, `growth`, `hierarchies` and `compared`. Modules called `pages` draw, from records alone. To add
-//! an experiment: a module with an `Experiment`, and its line in `catalog`.
+//! `engines`, `growth`, `hierarchies`, `compared`, `memory` and `central64`. Modules called `pages` draw,
+//! from records alone. To add an experiment: a module with an `Experiment`, and its line in `catalog`.
 //!
 //! What is not here: how a query is timed (`mediant-bench`), what records, tables and charts are
 //! (`mediant-report`), and where the maps come from (`mediant-sets`).
@@ -19,6 +19,7 @@
 )]
 
 mod catalog;
+mod central64;
 mod check;
 mod compared;
 mod context;
@@ -31,11 +32,13 @@ mod hierarchies;
 mod hormazabal;
 mod kramm;
 mod maps;
+mod memory;
 mod pages;
 mod records;
 mod reproduce;
 mod rivera;
 mod setups;
+mod side_by_side;
 mod teleisa;
 #[cfg(test)]
 mod tests;

@@ -150,12 +150,12 @@ mod tests {
 
     fn answer(cost: f64, expanded: u64) -> Option<Answer> {
         let counters = Counters { expanded, percolations: 10 * expanded, ..Counters::default() };
-        Some(Answer { cost, moves: 3, smoothness: 45.0, counters })
+        Some(Answer { cost, moves: 3, waypoints: 2, smoothness: 45.0, counters })
     }
 
     #[test]
     fn sums_are_over_queries() {
-        let preparation = |seconds, bytes| Preparation { seconds, bytes };
+        let preparation = |seconds, bytes| Preparation { seconds, bytes, ..Preparation::default() };
         let first = Run {
             answers: vec![answer(11.0, 4), None, answer(30.0, 8)],
             micros: Some(2.0),

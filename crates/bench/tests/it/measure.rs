@@ -26,9 +26,12 @@ fn scenario(rng: &mut Rng, grid: &Grid, count: usize) -> Scenario {
 const EXACT: [&str; 6] =
     ["dijkstra", "canonical,euclidean", "jps,limit=4", "jps-block,intermediate", "jps-plus", "subgoal"];
 
-/// The last competitors: any-angle paths between corners. The first three are optimal.
+/// The competitors after these: any-angle paths between corners. The first three are optimal.
 const ANY_ANGLE: [&str; 5] =
     ["anya:any:open", "anya:any:open,taut", "subgoal:any:open", "theta:3:open", "astar:3:open,smooth"];
+
+/// The last competitors: the lengths alone, of the scenarios' problem and at any angle.
+const DISTANCES: [&str; 2] = ["subgoal", "subgoal:any:open"];
 
 fn competitors() -> Vec<Competitor> {
     let setups =
@@ -36,7 +39,9 @@ fn competitors() -> Vec<Competitor> {
     let setups = setups.iter().map(|setup| Competitor::Ours(setup.parse().expect("a setup")));
     let exact = EXACT.map(|setup| Competitor::Ours(setup.parse().expect("a setup")));
     let any_angle = ANY_ANGLE.map(|setup| Competitor::Ours(setup.parse().expect("a setup")));
-    setups.chain(Baseline::ALL.map(Competitor::Baseline)).chain(exact).chain(any_angle).collect()
+    let distances = DISTANCES.map(|setup| Competitor::Distance(setup.parse().expect("a setup")));
+    let baselines = Baseline::ALL.map(Competitor::Baseline);
+    setups.chain(baselines).chain(exact).chain(any_angle).chain(distances).collect()
 }
 
 #[test]
@@ -52,7 +57,7 @@ fn all_competitors_answer_all_queries() {
         let problem = Problem::new("made", "test", grid, &scenario, 1).expect("a problem");
         let record =
             measure(&problem, &competitors(), 2).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
-        assert_eq!((record.instances, record.timings.len()), (problem.len(), 19), "seed {seed}");
+        assert_eq!((record.instances, record.timings.len()), (problem.len(), 21), "seed {seed}");
         for timing in &record.timings {
             assert_eq!(timing.passes.len(), 2, "seed {seed}");
             // What baselines prepare is not measured.
@@ -69,11 +74,13 @@ fn all_competitors_answer_all_queries() {
         // shorter than the shortest under `Always`.
         assert!(cost(1) >= cost(0) - 1e-6 && cost(2) <= cost(0) + 1e-6, "seed {seed}");
         assert!(cost(3) <= cost(0) + 1e-6 && cost(7) >= cost(3) - 1e-6, "seed {seed}");
-        // Competitor 4 has the gap rule of the last five.
+        // Competitor 4 has the gap rule of the five at any angle.
         let best = cost(14);
         assert!([15, 16].into_iter().all(|i| (cost(i) - best).abs() < 1e-9), "seed {seed}");
         assert!(cost(17) >= best - 1e-9, "seed {seed}");
         assert!((best - 1e-9..=cost(4) + 1e-9).contains(&cost(18)), "seed {seed}");
+        // Labels round lengths to fractions of 2⁻³¹.
+        assert!((cost(19) - cost(0)).abs() < 1e-8 && (cost(20) - best).abs() < 1e-8, "seed {seed}");
         queries += problem.len();
     }
     assert_eq!(
@@ -103,7 +110,8 @@ fn wrong_lengths_are_found() {
         measure(&problem, &[competitor], 1)
     };
     let astar = Competitor::Ours("astar".parse().expect("a setup"));
-    for competitor in [astar, Competitor::Baseline(Baseline::Pathfinding)] {
+    let distance = Competitor::Distance("subgoal".parse().expect("a setup"));
+    for competitor in [astar, distance, Competitor::Baseline(Baseline::Pathfinding)] {
         assert!(check(5.0, competitor).is_ok());
         for wrong in [4.99, 5.01] {
             match check(wrong, competitor) {

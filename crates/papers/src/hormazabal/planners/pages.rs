@@ -58,8 +58,8 @@ pub(in crate::hormazabal) fn show(record: &Record) -> Section {
     section.heading("The planners");
     section.text(
         "Without smoothing, smoothed (one pass, a straight line where two points of the path see each other) \
-         and pulled taut. `subgoal` is the project's contraction hierarchy on the same graph, which the \
-         paper does not have.",
+         and pulled taut. `subgoal` is the project's contraction hierarchy on the same graph \
+         (`levels=contracted`), which the paper does not have.",
     );
     section.table(&table(record));
     section.heading("Published and here");
