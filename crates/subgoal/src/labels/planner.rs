@@ -20,7 +20,7 @@ use crate::{
 /// Optimal paths over N(k), or at any angle, by hub labels: no search is needed.
 ///
 /// If an optimal path of the empty grid is free, it is the answer. Otherwise the labels tell over which
-/// subgoals the shortest path leads. Scratch memory: 12 bytes a subgoal.
+/// subgoals the shortest path leads. Scratch memory: 16 bytes a subgoal.
 ///
 /// `S` and `I` are how the planner holds the free space and its labels: by reference or by `Arc`.
 ///
