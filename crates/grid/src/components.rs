@@ -30,9 +30,17 @@ pub enum Connectivity {
 #[derive(Clone, Debug)]
 pub struct Components {
     width: u32,
-    /// The component of each cell, row by row; [`NONE`](Self::NONE) for blocked cells.
-    labels: Box<[u32]>,
+    labels: Labels,
     count: u32,
+}
+
+/// The component of each cell, row by row, in as few bytes as the number of components takes; their largest
+/// number for blocked cells. Most maps take one byte a cell.
+#[derive(Clone, Debug)]
+enum Labels {
+    One(Box<[u8]>),
+    Two(Box<[u16]>),
+    Four(Box<[u32]>),
 }
 
 /// A run of free cells in one row: columns `first` to `last`.
@@ -44,8 +52,6 @@ struct Run {
 }
 
 impl Components {
-    const NONE: u32 = u32::MAX;
-
     /// The components of a grid.
     #[must_use]
     pub fn new(grid: &Grid, connectivity: Connectivity) -> Self {
@@ -69,12 +75,11 @@ impl Components {
             rows.push(runs);
         }
         let (names, count) = sets.names();
-        let mut labels = vec![Self::NONE; grid.width() as usize * grid.height() as usize].into_boxed_slice();
-        for (runs, cells) in rows.iter().zip(labels.chunks_exact_mut(grid.width() as usize)) {
-            for run in runs {
-                cells[run.first as usize..=run.last as usize].fill(names[run.label as usize]);
-            }
-        }
+        let labels = match count {
+            0..=0xFF => Labels::One(labels(grid, &rows, |run| names[run as usize] as u8, u8::MAX)),
+            0x100..=0xFFFF => Labels::Two(labels(grid, &rows, |run| names[run as usize] as u16, u16::MAX)),
+            _ => Labels::Four(labels(grid, &rows, |run| names[run as usize], u32::MAX)),
+        };
         Self { width: grid.width(), labels, count }
     }
 
@@ -85,7 +90,11 @@ impl Components {
     }
 
     pub(crate) fn memory_bytes(&self) -> usize {
-        size_of_val(&*self.labels)
+        match &self.labels {
+            Labels::One(labels) => size_of_val(&**labels),
+            Labels::Two(labels) => size_of_val(&**labels),
+            Labels::Four(labels) => size_of_val(&**labels),
+        }
     }
 
     /// The component of a cell, numbered from 0 in row-major order of their first cells; `None` for blocked
@@ -95,9 +104,27 @@ impl Components {
         if cell.x as u32 >= self.width || cell.y < 0 {
             return None;
         }
-        let label = *self.labels.get(cell.y as usize * self.width as usize + cell.x as usize)?;
-        (label != Self::NONE).then_some(label)
+        let at = cell.y as usize * self.width as usize + cell.x as usize;
+        let label = match &self.labels {
+            Labels::One(labels) => u32::from(*labels.get(at)?),
+            Labels::Two(labels) => u32::from(*labels.get(at)?),
+            Labels::Four(labels) => *labels.get(at)?,
+        };
+        // The label of blocked cells is no component: they are numbered from 0.
+        (label < self.count).then_some(label)
     }
+}
+
+/// A label for each cell: that of its run, or `blocked`.
+fn labels<L: Copy>(grid: &Grid, rows: &[Vec<Run>], name: impl Fn(u32) -> L, blocked: L) -> Box<[L]> {
+    let width = grid.width() as usize;
+    let mut labels = vec![blocked; width * grid.height() as usize].into_boxed_slice();
+    for (runs, cells) in rows.iter().zip(labels.chunks_exact_mut(width)) {
+        for run in runs {
+            cells[run.first as usize..=run.last as usize].fill(name(run.label));
+        }
+    }
+    labels
 }
 
 /// The runs of free cells in row y.

@@ -8,8 +8,8 @@
 //! found anew each time that a search expands it. Single steps come from a table over the cells around the
 //! vertex. Longer moves come from masks over the rows of cells that they sweep; the masks are arranged as a
 //! tree of mediants, in which one blocked cell excludes a whole cone of moves. So a map takes two bits a
-//! cell, one of them in a transposed copy. A grid graph adds four bytes a cell for the components, and the
-//! masks.
+//! cell, one of them in a transposed copy. A grid graph adds one byte a cell for the components, or two or
+//! four where there are many, and the masks.
 //!
 //! [`Placement::sweep`] is the only definition of the cells that a segment sweeps. Line of sight, the table
 //! and the masks are all derived from it.

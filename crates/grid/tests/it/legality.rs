@@ -243,6 +243,25 @@ fn flood(grid: &Grid, connectivity: Connectivity) -> std::collections::HashMap<V
 }
 
 /// Runs of free cells that end at, begin at and go over the boundaries of words.
+/// Free cells apart from each other: as many components as the labels of one size can name, and one more.
+#[test]
+fn components_are_numbered_however_many_there_are() {
+    for (columns, rows) in [(255, 1), (256, 1), (257, 1), (255, 257), (256, 256), (257, 256)] {
+        let grid =
+            Grid::from_fn(2 * columns, 2 * rows, |x, y| x % 2 == 1 || y % 2 == 1).expect("a valid size");
+        let components = Components::new(&grid, Connectivity::Four);
+        assert_eq!(components.count(), columns * rows);
+        for (x, y) in (0..2 * rows).flat_map(|y| (0..2 * columns).map(move |x| (x, y))) {
+            let expected = (x % 2 == 0 && y % 2 == 0).then_some(y / 2 * columns + x / 2);
+            assert_eq!(
+                components.of(Vertex::new(x as i32, y as i32)),
+                expected,
+                "{columns} × {rows}, ({x}, {y})"
+            );
+        }
+    }
+}
+
 #[test]
 fn components_of_wide_maps_are_those_of_flooding() {
     for seed in 0..60 {
