@@ -7,6 +7,7 @@
 //! - [`JumpPointSearch`] is jump point search with any [`JumpFinder`]; [`Theta`] is Theta* with any
 //!   [`SightCheck`].
 //! - [`Metric`] is the length of a displacement where no obstacle is in the way.
+//! - [`follow_line`] turns a line of sight into moves of N(k).
 //! - [`Part`] is the observer of a part of a search.
 //! - [`HasFreeSpace`] is what a planner needs to be generic over grid graphs and free spaces.
 
@@ -14,6 +15,7 @@ pub use crate::{
     astar::AllMoves,
     best_first::BestFirst,
     jps::{BlockFinder, JumpFinder, JumpPointSearch, StepwiseFinder},
+    line_path::{along_line, elbows, follow_line, leg_is_free, legs_are_free, push_waypoint},
     metric::Metric,
     nodes::{Node, NodeStore},
     observer::Part,

@@ -9,14 +9,14 @@ use mediant_grid::{Identity, Mismatch, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{
     Guarantee, Observer, Path, Planner, Query, QueryError, Status,
-    parts::{HasFreeSpace, SearchTree},
+    parts::{HasFreeSpace, SearchTree, push_waypoint},
 };
 
 use self::{
     descent::Descent,
     search::{Search, Unpacking, Waypoint, may_join},
 };
-use crate::{arc::NONE, edge_path::push, graph::SubgoalGraph, placement::SubgoalPlacement};
+use crate::{arc::NONE, graph::SubgoalGraph, placement::SubgoalPlacement};
 
 /// Sub-Theta* (Uras & Koenig 2015, 'Speeding-up any-angle path-planning on grids'): Theta* over a subgoal
 /// graph. On [`Levels`] of 2 it is the Sub2-Theta* with which Hormazábal et al. 2017 compare Sub2-A*(k).
@@ -182,7 +182,7 @@ fn path(bends: &[Waypoint], last: u32, goal: Vertex) -> Path {
     let back = || Waypoint::back(bends, last).map(|waypoint| waypoint.at);
     let mut waypoints = Vec::with_capacity(back().count() + 1);
     waypoints.push(goal);
-    back().for_each(|at| push(&mut waypoints, at));
+    back().for_each(|at| push_waypoint(&mut waypoints, at));
     waypoints.reverse();
     Path::new(waypoints)
 }
