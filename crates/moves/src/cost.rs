@@ -168,5 +168,24 @@ mod table {
             }
             self.costs[index] * y + self.costs[index + 1] * x
         }
+
+        /// h_k of a displacement that need not be whole, with coordinates below 2¹⁶ in magnitude: in cells,
+        /// off by less than 2⁻³⁴.
+        #[must_use]
+        #[inline]
+        pub fn distance_f64(&self, x: f64, y: f64) -> f64 {
+            // In fixed point, where the rounds are exact. Truncation moves each coordinate, and so h_k, by
+            // less than 2⁻³⁶; the two products and their sum are each rounded by at most 2⁻³⁷.
+            const ONE: f64 = (1_u64 << 36) as f64;
+            let [mut x, mut y] = [x, y].map(|distance| (distance.abs() * ONE) as u64);
+            let mut index = 0;
+            for _ in 0..self.depth {
+                let beyond = x > y;
+                index = 2 * index + usize::from(beyond);
+                (x, y) = if beyond { (x - y, y) } else { (x, y - x) };
+            }
+            let [x, y] = [x, y].map(|times| times as f64 / ONE);
+            self.costs[index].to_f64() * y + self.costs[index + 1].to_f64() * x
+        }
     }
 }

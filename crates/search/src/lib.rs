@@ -13,7 +13,7 @@
 //! | [`Jps`] | optimal over N(k) | all |
 //! | [`BlockJps`], [`JpsPlus`] | optimal over N(k) | 2, 3 |
 //! | [`ThetaStar`], [`LazyThetaStar`] | any-angle | all |
-//! | [`Anya`] | optimal any-angle, at corners | ∞ |
+//! | [`Anya`] | optimal over N(k), or any-angle; at corners | all, ∞ |
 //!
 //! [`Smoothed`] makes the paths of any planner shorter, at any angle. A [`Search`] answers a [`Request`] by
 //! any planner: a query with several ends, a tolerance, limits, in steps.
@@ -68,7 +68,7 @@ mod theta;
 mod trace;
 mod wavefront;
 
-pub use anya::Anya;
+pub use anya::{Anya, EuclideanNorm, LatticeNorm, Norm};
 pub use astar::{AStar, Dijkstra};
 pub use canonical::{Canonical, CanonicalRule, PaperCanonical, Pruning};
 pub use distances::Distances;

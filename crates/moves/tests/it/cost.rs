@@ -156,3 +156,22 @@ fn cost_table_max_k_is_the_last_that_keeps_the_costs_convex() {
     assert!(detours(19).iter().any(|&excess| excess < 0), "k = 19 bends inwards");
     assert!(CostTable::new(k(19)).is_err() && CostTable::new(FiniteK::MAX_MOVES).is_err());
 }
+
+/// h_k of eighths against an eighth of h_k: a norm is homogeneous.
+#[test]
+fn distances_of_displacements_that_are_not_whole() {
+    let mut random = Random::new();
+    let seed = random.seed;
+    for n in 2..=18 {
+        let table = table(n);
+        for _ in 0..2_000 {
+            let v = random.vector(19);
+            let exact = table.distance(v).to_f64() / 8.0;
+            let found = table.distance_f64(f64::from(v.x) / 8.0, f64::from(v.y) / 8.0);
+            assert!(
+                (found - exact).abs() <= 2f64.powi(-34),
+                "k = {n}, {v:?}: {found}, not {exact}; seed {seed}"
+            );
+        }
+    }
+}

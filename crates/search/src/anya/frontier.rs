@@ -1,20 +1,22 @@
-//! The memory of a search: roots, nodes, the open list.
+//! The memory of a search: roots, nodes, the open list. It grows with the search, not with the map.
 
 use std::{cmp::Reverse, collections::BinaryHeap};
 
 use mediant_grid::{Corners, FreeSpace, Vertex, sight::Ray};
-use mediant_moves::Cost;
 
+use super::{history::RootHistory, norm::Norm};
 use crate::path::Path;
 
 /// The start, or a vertex at which paths turn.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Root {
+pub(super) struct Root<L> {
     pub(super) at: Vertex,
     /// The length of the best known path to it.
-    pub(super) g: f64,
+    pub(super) g: L,
     /// The number of the root before it; its own for the start.
     parent: u32,
+    /// Whether no shorter path to its vertex was found since it became a root.
+    pub(super) is_current: bool,
 }
 
 /// A search node: the part of a line that a root sees.
@@ -29,43 +31,36 @@ pub(super) struct Node {
     pub(super) right: Ray,
 }
 
-/// The best root at a vertex, and the search in which it became one.
-#[derive(Clone, Copy, Debug, Default)]
-struct RootEntry {
-    generation: u32,
-    root: u32,
-}
-
 /// The roots and nodes of a search, with its open list. The next [`start`](Self::start) clears it and keeps
 /// the memory.
 #[derive(Clone, Debug)]
-pub(super) struct Frontier {
-    roots: Vec<Root>,
-    /// The root history: for each vertex its best root.
-    best_roots: Box<[RootEntry]>,
-    generation: u32,
+pub(super) struct Frontier<N: Norm> {
+    norm: N,
+    roots: Vec<Root<N::Length>>,
+    history: RootHistory,
     nodes: Vec<Node>,
     open: BinaryHeap<Reverse<Entry>>,
+    /// Scratch memory for a path: its bends, the goal first, and its waypoints.
+    bends: Vec<Vertex>,
+    waypoints: Vec<Vertex>,
 }
 
-/// An entry of the open list, ordered by f, then by h (nearer to the goal first), then by the age of the
-/// node.
+/// An entry of the open list, ordered by its norm's [priority](Norm::priority), then by the age of the node.
 ///
-/// The bits of non-negative floats are ordered like the floats; h has the precision of an `f32`. The order is
-/// total, and the same on every platform, since IEEE 754 defines sums, products, quotients and roots exactly.
+/// The order is total, and the same on every platform, since IEEE 754 defines sums, products, quotients and
+/// roots exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Entry(u128);
 
 impl Entry {
     #[inline]
-    fn new(f: f64, h: f64, number: u32) -> Self {
-        let h = (h as f32).to_bits();
-        Self(u128::from(f.to_bits()) << 64 | u128::from(h) << 32 | u128::from(number))
+    fn new((f, tie): (u64, u32), number: u32) -> Self {
+        Self(u128::from(f) << 64 | u128::from(tie) << 32 | u128::from(number))
     }
 
     #[inline]
-    const fn f(self) -> f64 {
-        f64::from_bits((self.0 >> 64) as u64)
+    const fn f(self) -> u64 {
+        (self.0 >> 64) as u64
     }
 
     #[inline]
@@ -74,44 +69,39 @@ impl Entry {
     }
 }
 
-/// A length in fixed point, rounded down.
-pub(super) fn fixed(length: f64) -> Cost {
-    const ONE: f64 = (1_u64 << Cost::FRACTION_BITS) as f64;
-    Cost::from_bits((length * ONE) as u64)
-}
-
-impl Frontier {
-    /// A frontier for vertex ids below `vertices`.
-    pub(super) fn new(vertices: usize) -> Self {
+impl<N: Norm> Frontier<N> {
+    /// An empty frontier for a map of so many columns and rows of vertices.
+    pub(super) fn new(norm: N, columns: u32, rows: u32) -> Self {
         Self {
+            norm,
             roots: Vec::new(),
-            best_roots: vec![RootEntry::default(); vertices].into_boxed_slice(),
-            generation: 0,
+            history: RootHistory::new(columns, rows),
             nodes: Vec::new(),
             open: BinaryHeap::new(),
+            bends: Vec::new(),
+            waypoints: Vec::new(),
         }
+    }
+
+    /// What it measures by.
+    pub(super) const fn norm(&self) -> &N {
+        &self.norm
     }
 
     /// Forgets the last search, in constant time (but for one call in 2³²), and makes a vertex the first
     /// root, number 0.
-    pub(super) fn start(&mut self, space: &FreeSpace<Corners>, at: Vertex) {
+    pub(super) fn start(&mut self, at: Vertex) {
         self.roots.clear();
         self.nodes.clear();
         self.open.clear();
-        self.generation = self.generation.wrapping_add(1);
-        if self.generation == 0 {
-            self.best_roots.fill(RootEntry::default());
-            self.generation = 1;
-        }
-        self.roots.push(Root { at, g: 0.0, parent: 0 });
-        if let Some(id) = space.id(at) {
-            self.best_roots[id.index()] = RootEntry { generation: self.generation, root: 0 };
-        }
+        self.history.clear();
+        self.roots.push(Root { at, g: N::ZERO, parent: 0, is_current: true });
+        self.history.set(at, 0);
     }
 
     /// The root with this number.
     #[inline]
-    pub(super) fn root(&self, number: u32) -> Root {
+    pub(super) fn root(&self, number: u32) -> Root<N::Length> {
         self.roots[number as usize]
     }
 
@@ -124,34 +114,35 @@ impl Frontier {
     /// as short. (Paths that go on from there are no shorter than by that other path. If they are as short,
     /// they are taut by it too, and so among its nodes.)
     #[inline]
-    pub(super) fn add_root(&mut self, space: &FreeSpace<Corners>, parent: u32, at: Vertex) -> Option<u32> {
-        let id = space.id(at)?;
+    pub(super) fn add_root(&mut self, parent: u32, at: Vertex) -> Option<u32> {
         let from = self.root(parent);
-        let g = from.g + from.at.distance(at);
-        let best = &mut self.best_roots[id.index()];
-        if best.generation == self.generation {
-            let known = self.roots[best.root as usize];
+        let g = from.g + self.norm.length(from.at.to(at));
+        if let Some(best) = self.history.get(at) {
+            let known = &mut self.roots[best as usize];
             if known.g <= g {
-                return (known.g == g && known.parent == parent).then_some(best.root);
+                return (known.g == g && known.parent == parent).then_some(best);
             }
+            known.is_current = false;
         }
         let number = self.roots.len() as u32;
-        *best = RootEntry { generation: self.generation, root: number };
-        self.roots.push(Root { at, g, parent });
+        self.roots.push(Root { at, g, parent, is_current: true });
+        self.history.set(at, number);
         Some(number)
     }
 
-    /// Puts a node on the open list.
+    /// Puts a node on the open list, with a lower bound on what is left from its root. Returns its f.
     #[inline]
-    pub(super) fn push(&mut self, node: Node, f: f64, h: f64) {
+    pub(super) fn push(&mut self, node: Node, h: N::Bound) -> u64 {
         let number = self.nodes.len() as u32;
+        let priority = N::priority(self.root(node.root).g, h);
         self.nodes.push(node);
-        self.open.push(Reverse(Entry::new(f, h, number)));
+        self.open.push(Reverse(Entry::new(priority, number)));
+        priority.0
     }
 
     /// The best node and its f.
     #[inline]
-    pub(super) fn best(&self) -> Option<(f64, Node)> {
+    pub(super) fn best(&self) -> Option<(u64, Node)> {
         let Reverse(entry) = self.open.peek()?;
         Some((entry.f(), self.nodes[entry.number() as usize]))
     }
@@ -162,35 +153,33 @@ impl Frontier {
         self.open.pop();
     }
 
-    /// Whether no shorter path to the root's vertex was found since it became a root.
-    pub(super) fn is_current(&self, space: &FreeSpace<Corners>, number: u32) -> bool {
-        space.id(self.root(number).at).is_some_and(|id| self.best_roots[id.index()].root == number)
-    }
-
     /// The best known path to a root.
-    pub(super) fn path_to_root(&self, space: &FreeSpace<Corners>, at: Vertex) -> Option<Path> {
-        let best = self.best_roots[space.id(at)?.index()];
-        let root = (best.generation == self.generation).then(|| self.roots.get(best.root as usize))??;
-        Some(if best.root == 0 { Path::new(vec![at]) } else { self.path(root.parent, at) })
+    pub(super) fn path_to_root(&mut self, space: &FreeSpace<Corners>, at: Vertex) -> Option<Path> {
+        space.id(at)?;
+        let best = self.history.get(at)?;
+        Some(match best {
+            0 => Path::new(vec![at]),
+            _ => self.path(space, self.root(best).parent, at),
+        })
     }
 
     /// The path to the goal by a root that sees it. Allocates nothing but its waypoints.
-    pub(super) fn path(&self, last: u32, goal: Vertex) -> Path {
-        let roots =
-            std::iter::successors(Some(last), |&number| (number != 0).then(|| self.root(number).parent));
-        let mut waypoints = Vec::with_capacity(roots.clone().count() + 1);
-        waypoints.push(goal);
-        for at in roots.map(|number| self.root(number).at) {
-            // Where the path goes straight on, there is no waypoint.
-            if let [.., before, last] = waypoints[..] {
-                let (u, v) = (at.to(last), last.to(before));
-                if i64::from(u.x) * i64::from(v.y) == i64::from(u.y) * i64::from(v.x) {
-                    waypoints.pop();
-                }
+    pub(super) fn path(&mut self, space: &FreeSpace<Corners>, last: u32, goal: Vertex) -> Path {
+        let Self { roots, bends, waypoints, norm, .. } = self;
+        bends.clear();
+        waypoints.clear();
+        bends.push(goal);
+        let parent = |&number: &u32| (number != 0).then(|| roots[number as usize].parent);
+        for at in std::iter::successors(Some(last), parent).map(|number| roots[number as usize].at) {
+            // Where the path goes straight on, there is no bend.
+            if let [.., before, last] = bends[..]
+                && at.to(last).det(last.to(before)) == 0
+            {
+                bends.pop();
             }
-            waypoints.push(at);
+            bends.push(at);
         }
-        waypoints.reverse();
-        Path::new(waypoints)
+        norm.waypoints(space, bends, waypoints);
+        Path::new(waypoints.clone())
     }
 }

@@ -3,11 +3,12 @@
 use std::ops::Deref;
 
 use mediant_grid::{Corners, FreeSpace, Identity, Vertex};
-use mediant_moves::K;
+use mediant_moves::{CostTable, FiniteK, KError};
 
 use super::{
     cone::Successor,
-    frontier::{Frontier, fixed},
+    frontier::Frontier,
+    norm::{EuclideanNorm, LatticeNorm, Norm},
     search::Search,
 };
 use crate::{
@@ -18,11 +19,12 @@ use crate::{
     query::{Query, QueryError},
 };
 
-/// Anya on a map: shortest paths at any angle.
+/// Anya on a map: shortest paths at any angle ([`new`](Self::new)), or over N(k) ([`over`](Self::over)).
 ///
 /// ```
 /// use std::sync::Arc;
 /// use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace};
+/// use mediant_moves::FiniteK;
 /// use mediant_search::{Anya, Planner, Query};
 ///
 /// let map = AsciiMap::parse("
@@ -35,16 +37,21 @@ use crate::{
 /// let path = outcome.path().ok_or("there is a way")?;
 /// assert_eq!(path.waypoints(), [(0, 1), (1, 2), (4, 3)].map(Into::into));
 /// assert_eq!(path.cost(), 2.0_f64.sqrt() + 10.0_f64.sqrt());
+///
+/// let outcome = Anya::over(&space, FiniteK::N8)?.solve(Query::new((0, 1), (4, 3)))?;
+/// let path = outcome.path().ok_or("there is a way")?;
+/// assert_eq!(path.waypoints(), [(0, 1), (2, 3), (4, 3)].map(Into::into));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// `S` is how the planner holds the free space: by reference, or, where both belong in one struct, by `Arc`.
-/// Its scratch memory is 8 bytes a vertex, and 40 for each node and 24 for each root of the largest search.
+/// Its scratch memory grows with the searches, not with the map: 40 bytes for each node and 24 for each root
+/// (48 over N(k)) of the largest, and 2 KB for each block of 16 × 16 vertices in which any had a root.
 /// The events of its search name the roots of nodes, so the expansions of one root differ in f alone.
 #[derive(Clone, Debug)]
-pub struct Anya<S> {
+pub struct Anya<S, N: Norm = EuclideanNorm> {
     space: S,
-    frontier: Frontier,
+    frontier: Frontier<N>,
     /// The successors of the node under expansion.
     next: Vec<Successor>,
     goal: Vertex,
@@ -54,10 +61,26 @@ pub struct Anya<S> {
 }
 
 impl<S: Deref<Target = FreeSpace<Corners>>> Anya<S> {
-    /// A planner with scratch memory for a map.
+    /// A planner of paths at any angle, on a map.
     #[must_use]
     pub fn new(space: S) -> Self {
-        let frontier = Frontier::new(space.vertex_count());
+        Self::with_norm(space, EuclideanNorm)
+    }
+}
+
+impl<S: Deref<Target = FreeSpace<Corners>>> Anya<S, LatticeNorm> {
+    /// A planner of paths over N(k), on a map.
+    ///
+    /// # Errors
+    /// [`KError::TooLarge`] above [`CostTable::MAX_K`].
+    pub fn over(space: S, k: FiniteK) -> Result<Self, KError> {
+        Ok(Self::with_norm(space, LatticeNorm::new(k, CostTable::new(k)?)))
+    }
+}
+
+impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Anya<S, N> {
+    fn with_norm(space: S, norm: N) -> Self {
+        let frontier = Frontier::new(norm, space.grid().width() + 1, space.grid().height() + 1);
         let (goal, status) = (Vertex::new(0, 0), Status::default());
         Self { space, frontier, next: Vec::new(), goal, last: None, status }
     }
@@ -68,9 +91,9 @@ impl<S: Deref<Target = FreeSpace<Corners>>> Anya<S> {
         let mut search = Search { space, frontier, goal: *goal, observer, next };
         loop {
             let Some((f, node)) = search.frontier.best() else { return Status::Unreachable };
-            let is_current = search.frontier.is_current(search.space, node.root);
+            let is_current = search.frontier.root(node.root).is_current;
             let is_last = is_current && search.reaches_goal(node);
-            if is_current && !is_last && search.observer.pauses(fixed(f)) {
+            if is_current && !is_last && search.observer.pauses(N::cost_of_priority(f)) {
                 return Status::Searching;
             }
             search.frontier.pop();
@@ -83,21 +106,22 @@ impl<S: Deref<Target = FreeSpace<Corners>>> Anya<S> {
             }
             let root = search.frontier.root(node.root);
             let parent = search.frontier.parent(node.root);
-            search.observer.expanded(NodeEvent { at: root.at, parent, g: fixed(root.g), f: fixed(f) });
-            search.observer.reached(root.at, fixed(root.g));
+            let (g, f) = (N::cost(root.g), N::cost_of_priority(f));
+            search.observer.expanded(NodeEvent { at: root.at, parent, g, f });
+            search.observer.reached(root.at, g);
             search.expand(node);
         }
     }
 }
 
-impl<S: Deref<Target = FreeSpace<Corners>>> Planner for Anya<S> {
+impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Planner for Anya<S, N> {
     fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
         self.status = Status::Unreachable;
         let ends = query.ends(&self.space)?;
         (self.goal, self.last) = (query.goal, None);
         let Self { space, frontier, next, goal, .. } = self;
         if ends.is_some() && query.start == query.goal {
-            frontier.start(space, query.start);
+            frontier.start(query.start);
             self.status = Status::Found;
         } else if ends.is_some() {
             Search { space, frontier, goal: *goal, observer, next }.start(query.start);
@@ -115,17 +139,17 @@ impl<S: Deref<Target = FreeSpace<Corners>>> Planner for Anya<S> {
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
         match self.last.filter(|_| at == self.goal) {
-            Some(root) => Some(self.frontier.path(root, at)),
+            Some(root) => Some(self.frontier.path(&self.space, root, at)),
             None if self.status == Status::Unreachable => None,
             None => self.frontier.path_to_root(&self.space, at),
         }
     }
 
     fn guarantee(&self) -> Guarantee {
-        Guarantee::OptimalAnyAngle
+        self.frontier.norm().k().finite().map_or(Guarantee::OptimalAnyAngle, Guarantee::Optimal)
     }
 
     fn identity(&self) -> Identity {
-        Identity { k: Some(K::Any), ..self.space.identity() }
+        Identity { k: Some(self.frontier.norm().k()), ..self.space.identity() }
     }
 }

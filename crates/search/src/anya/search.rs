@@ -7,24 +7,25 @@ use mediant_grid::{
 
 use super::{
     cone::{Cone, Successor},
-    frontier::{Frontier, Node, fixed},
+    frontier::{Frontier, Node},
+    norm::{Interval, Norm},
 };
 use crate::observer::{NodeEvent, Observer};
 
 /// A search.
-pub(super) struct Search<'s, O> {
+pub(super) struct Search<'s, N: Norm, O> {
     pub(super) space: &'s FreeSpace<Corners>,
-    pub(super) frontier: &'s mut Frontier,
+    pub(super) frontier: &'s mut Frontier<N>,
     pub(super) goal: Vertex,
     pub(super) observer: &'s mut O,
     /// Scratch memory for the successors of one node.
     pub(super) next: &'s mut Vec<Successor>,
 }
 
-impl<O: Observer> Search<'_, O> {
+impl<N: Norm, O: Observer> Search<'_, N, O> {
     /// Forgets the last search and queues the nodes that the start sees.
     pub(super) fn start(&mut self, at: Vertex) {
-        self.frontier.start(self.space, at);
+        self.frontier.start(at);
         let grid = self.space.grid();
         // From a closed gap a path leaves into the quadrant of the vertex's own cell.
         let gap = self.space.is_closed_gap(at);
@@ -97,34 +98,16 @@ impl<O: Observer> Search<'_, O> {
         let root = self.frontier.root(node.root);
         let n = (node.line - root.at.y).abs();
         let [left, right] = [node.left, node.right].map(|ray| ray.column(root.at.x, n));
-        let h = self.estimate(root.at, node.line, left, right);
-        self.add(node, root.g + h, h);
+        let interval = Interval { root: root.at, line: node.line, left, right };
+        self.add(node, self.frontier.norm().bound_through(interval, self.goal));
     }
 
-    /// Puts a node on the open list, with its f and h.
-    fn add(&mut self, node: Node, f: f64, h: f64) {
-        self.frontier.push(node, f, h);
+    /// Puts a node on the open list, with its h.
+    fn add(&mut self, node: Node, h: N::Bound) {
+        let f = self.frontier.push(node, h);
         let root = self.frontier.root(node.root);
-        let parent = self.frontier.parent(node.root);
-        self.observer.generated(NodeEvent { at: root.at, parent, g: fixed(root.g), f: fixed(f) });
-    }
-
-    /// The length of a shortest path from the root through the interval to the goal, or to its mirror image
-    /// where the goal lies on this side of the line (Harabor et al. 2016, Section 4.3).
-    #[inline]
-    fn estimate(&self, root: Vertex, line: i32, left: f64, right: f64) -> f64 {
-        let (x, y) = (f64::from(root.x), f64::from(root.y));
-        let line = f64::from(line);
-        let (goal_x, away, beyond) =
-            (f64::from(self.goal.x), (line - y).abs(), (f64::from(self.goal.y) - line).abs());
-        let straight = x + (goal_x - x) * away / (away + beyond);
-        let through = straight.max(left).min(right);
-        let length = |dx: f64, dy: f64| (dx * dx + dy * dy).sqrt();
-        if through == straight {
-            length(goal_x - x, away + beyond)
-        } else {
-            length(through - x, away) + length(goal_x - through, beyond)
-        }
+        let (parent, f) = (self.frontier.parent(node.root), N::cost_of_priority(f));
+        self.observer.generated(NodeEvent { at: root.at, parent, g: N::cost(root.g), f });
     }
 
     /// Queues the flat node at the next vertex beyond `from`, on the line of a root, at which a path may turn
@@ -164,9 +147,10 @@ impl<O: Observer> Search<'_, O> {
         let x = from.x + right * if is_goal { to_goal } else { steps };
         let start = self.frontier.root(root);
         let dx = x - start.at.x;
-        let h = f64::from(dx.abs()) + Vertex::new(x, from.y).distance(self.goal);
+        let (norm, at) = (self.frontier.norm(), Vertex::new(x, from.y));
+        let h = norm.bound(start.at.to(at)) + norm.bound(at.to(self.goal));
         let left = Ray { dx, dy: 1 };
-        self.add(Node { root, line: from.y, left, right: left }, start.g + h, h);
+        self.add(Node { root, line: from.y, left, right: left }, h);
     }
 
     /// Queues the successors of a flat node: paths that turn up or down at its vertex, and the next flat node
@@ -185,7 +169,7 @@ impl<O: Observer> Search<'_, O> {
             if !strip.is_blocked(passed) || strip.is_blocked(entered) {
                 continue;
             }
-            let Some(number) = self.frontier.add_root(self.space, node.root, at) else { continue };
+            let Some(number) = self.frontier.add_root(node.root, at) else { continue };
             let far = if right > 0 { strip.first_blocked(at.x, i32::MAX) } else { strip.run_start(at.x, 0) };
             let far = Ray { dx: far - at.x, dy: 1 };
             let (left, right) = if right > 0 { (Ray::VERTICAL, far) } else { (far, Ray::VERTICAL) };
@@ -245,7 +229,7 @@ impl<O: Observer> Search<'_, O> {
         // Between two obstacles everything is hidden.
         let end = if is_closed_gap { IntervalEnd::standing(x) } else { end };
         self.add_hidden(cone, x, side, (far, limit), end);
-        if let Some(number) = self.frontier.add_root(self.space, cone.number, at) {
+        if let Some(number) = self.frontier.add_root(cone.number, at) {
             self.push_flat(number, at, side.sign());
         }
     }
@@ -294,7 +278,7 @@ impl<O: Observer> Search<'_, O> {
             return;
         }
         let at = Vertex::new(x, cone.line);
-        let Some(root) = self.frontier.add_root(self.space, cone.number, at) else { return };
+        let Some(root) = self.frontier.add_root(cone.number, at) else { return };
         let to = |column: i32| IntervalEnd::corner(column, x, 1);
         let near = if side.is_inside(next, limit) { to(limit) } else { end.moved_to(next) };
         let (left, right) = match side {

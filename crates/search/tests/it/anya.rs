@@ -1,10 +1,12 @@
-//! Anya against the visibility graph, on seeded random maps, on all small ones, and on odd cases.
+//! Anya against the visibility graph, and over N(k) against Dijkstra on explicit graphs: on seeded random
+//! maps, on all small ones, and on odd cases.
 
 use std::sync::Arc;
 
-use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace, Grid, PlacementKind, Rules, Vertex};
-use mediant_oracle::{Rng, Visibility, describe, random_free_vertex, seeds, suite_grid, validate};
-use mediant_search::{Anya, Counters, Guarantee, Outcome, Planner, Query, QueryError};
+use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace, Grid, Identity, PlacementKind, Rules, Vertex};
+use mediant_moves::{FiniteK, K};
+use mediant_oracle::{Explicit, Rng, Visibility, describe, random_free_vertex, seeds, suite_grid, validate};
+use mediant_search::{Anya, Counters, Guarantee, Norm, Outcome, Planner, Query, QueryError};
 
 const GAPS: [DiagonalGap; 2] = [DiagonalGap::Open, DiagonalGap::Closed];
 
@@ -27,37 +29,87 @@ fn is_taut(grid: &Grid, waypoints: &[Vertex]) -> bool {
     })
 }
 
-#[track_caller]
-fn check(grid: &Grid, rules: Rules, query: Query, outcome: &Outcome, expected: Option<f64>, seed: u64) {
-    let Query { start, goal, .. } = query;
-    let case = || describe(grid, rules, start, goal, seed);
-    match (outcome, expected) {
-        (Outcome::Unreachable, None) => {}
-        (Outcome::Found(path), Some(best)) => {
-            let cost = path.cost();
-            assert!((cost - best).abs() <= 1e-9 * best, "cost {cost}, best {best}; {}", case());
-            let fault = validate(grid, rules, None, start, goal, path.waypoints(), cost);
-            assert_eq!(fault, Ok(()), "{:?}; {}", path.waypoints(), case());
-            assert!(is_taut(grid, path.waypoints()), "{:?} is not taut; {}", path.waypoints(), case());
+/// Starts, each with its goals.
+type Queries = [(Vertex, Vec<Vertex>)];
+
+/// Checks all queries against the costs from their starts. Returns how many had a path, and how many had
+/// none.
+fn check<N: Norm>(
+    mut anya: Anya<&FreeSpace<Corners>, N>,
+    grid: &Grid,
+    (queries, seed): (&Queries, u64),
+    costs: impl Fn(Vertex, &[Vertex]) -> Vec<Option<f64>>,
+) -> [u64; 2] {
+    let Identity { rules, k, .. } = anya.identity();
+    let k = k.and_then(K::finite);
+    assert_eq!(anya.guarantee(), k.map_or(Guarantee::OptimalAnyAngle, Guarantee::Optimal));
+    let mut answers = [0, 0];
+    for (start, goals) in queries {
+        for (&goal, expected) in goals.iter().zip(costs(*start, goals)) {
+            let case = || format!("k = {k:?}; {}", describe(grid, rules, *start, goal, seed));
+            let outcome = anya.solve(Query::new(*start, goal)).expect("both ends are free");
+            match (&outcome, expected) {
+                (Outcome::Unreachable, None) => {}
+                (Outcome::Found(path), Some(best)) => {
+                    let (cost, waypoints) = (path.cost(), path.waypoints());
+                    assert!((cost - best).abs() <= 1e-9 * best, "cost {cost}, best {best}; {}", case());
+                    let fault = validate(grid, rules, k, *start, goal, waypoints, cost);
+                    assert_eq!(fault, Ok(()), "{waypoints:?}; {}", case());
+                    let is_taut = k.is_some() || is_taut(grid, waypoints);
+                    assert!(is_taut, "{waypoints:?} is not taut; {}", case());
+                }
+                (outcome, best) => panic!("{outcome:?}, best {best:?}; {}", case()),
+            }
+            answers[usize::from(outcome.path().is_none())] += 1;
         }
-        _ => panic!("{outcome:?}, best {expected:?}; {}", case()),
     }
+    answers
 }
 
-/// Checks every start with its goals. Returns how many queries had a path, and how many had none.
-fn check_all(grid: &Arc<Grid>, gap: DiagonalGap, queries: &[(Vertex, Vec<Vertex>)], seed: u64) -> [u64; 2] {
+/// Checks all queries at any angle, against the visibility graph.
+fn check_any(grid: &Arc<Grid>, gap: DiagonalGap, queries: &Queries, seed: u64) -> [u64; 2] {
     let visibility = Visibility::new(grid, gap);
     let graph = visibility.over(None);
     let space = FreeSpace::<Corners>::new(Arc::clone(grid), gap);
-    let mut anya = Anya::new(&space);
-    let mut answers = [0, 0];
-    for (start, goals) in queries {
-        let costs = graph.costs_from(*start);
-        for &goal in goals {
-            let query = Query::new(*start, goal);
-            let outcome = anya.solve(query).expect("both ends are free");
-            check(grid, Rules::Corner(gap), query, &outcome, costs.to(goal), seed);
-            answers[usize::from(outcome.path().is_none())] += 1;
+    check(Anya::new(&space), grid, (queries, seed), |start, goals| {
+        let costs = graph.costs_from(start);
+        goals.iter().map(|&goal| costs.to(goal)).collect()
+    })
+}
+
+/// Checks all queries over N(k), against Dijkstra on the graph of all its moves.
+fn check_over(k: FiniteK, grid: &Arc<Grid>, gap: DiagonalGap, queries: &Queries, seed: u64) -> [u64; 2] {
+    let graph = Explicit::new(grid, Rules::Corner(gap), Some(k));
+    let space = FreeSpace::<Corners>::new(Arc::clone(grid), gap);
+    check(Anya::over(&space, k).expect("a small k"), grid, (queries, seed), |start, goals| {
+        let costs = graph.costs_from(start);
+        goals.iter().map(|&goal| costs.to(goal)).collect()
+    })
+}
+
+/// From each start of a few to some goals each, all random.
+fn random_queries(grid: &Grid, mut rng: Rng, starts: usize, goals: usize) -> Vec<(Vertex, Vec<Vertex>)> {
+    let mut free = || random_free_vertex(&mut rng, grid, PlacementKind::Corner);
+    (0..starts).filter_map(|_| Some((free()?, (0..goals).filter_map(|_| free()).collect()))).collect()
+}
+
+/// Calls `check` with each `step`-th map of this size under both gap rules, and from every free vertex to
+/// every other. Returns the sum of the answers.
+fn on_all_maps(
+    (width, height, step): (u32, u32, usize),
+    check: impl Fn(&Arc<Grid>, DiagonalGap, &Queries, u64) -> [u64; 2],
+) -> u64 {
+    let mut answers = 0;
+    for cells in (0..1_u32 << (width * height)).step_by(step) {
+        let grid = Grid::from_fn(width, height, |x, y| cells >> (width * y + x) & 1 == 1);
+        let grid = Arc::new(grid.expect("a valid size"));
+        for gap in GAPS {
+            let space = FreeSpace::<Corners>::new(Arc::clone(&grid), gap);
+            let vertices =
+                (0..=height as i32).flat_map(|y| (0..=width as i32).map(move |x| Vertex::new(x, y)));
+            let free: Vec<Vertex> = vertices.filter(|&at| space.is_free(at)).collect();
+            let pairs: Vec<_> = free.iter().map(|&start| (start, free.clone())).collect();
+            answers += check(&grid, gap, &pairs, u64::from(cells)).into_iter().sum::<u64>();
         }
     }
     answers
@@ -69,11 +121,8 @@ fn anya_costs_what_the_visibility_graph_says() {
     for seed in seeds(400) {
         let grid = Arc::new(suite_grid(seed).0);
         for gap in GAPS {
-            let mut rng = Rng::new(seed ^ 0xA17A);
-            let mut free = || random_free_vertex(&mut rng, &grid, PlacementKind::Corner);
-            let queries: Vec<(Vertex, Vec<Vertex>)> =
-                (0..3).filter_map(|_| Some((free()?, (0..5).filter_map(|_| free()).collect()))).collect();
-            let [some, none] = check_all(&grid, gap, &queries, seed);
+            let queries = random_queries(&grid, Rng::new(seed ^ 0xA17A), 3, 5);
+            let [some, none] = check_any(&grid, gap, &queries, seed);
             (found, unreachable) = (found + some, unreachable + none);
         }
     }
@@ -81,27 +130,50 @@ fn anya_costs_what_the_visibility_graph_says() {
     assert!(found > 15 * maps && unreachable > maps, "{found} found, {unreachable} unreachable");
 }
 
-/// Every map of 3 × 3 cells, and of 4 × 3 in a sample, from every vertex to every other, under both gap
-/// rules.
+/// Every map of 3 × 3 cells, and others in a sample, from every vertex to every other, under both gap rules.
 #[test]
 fn anya_is_exact_on_every_map_of_nine_cells() {
-    let mut queries = 0;
-    for (width, height, step) in [(3, 3, 1_usize), (4, 3, 13), (1, 9, 7), (9, 1, 7)] {
-        for cells in (0..1_u32 << (width * height)).step_by(step) {
-            let grid = Grid::from_fn(width, height, |x, y| cells >> (width * y + x) & 1 == 1);
-            let grid = Arc::new(grid.expect("a valid size"));
-            for gap in GAPS {
-                let space = FreeSpace::<Corners>::new(Arc::clone(&grid), gap);
-                let vertices =
-                    (0..=height as i32).flat_map(|y| (0..=width as i32).map(move |x| Vertex::new(x, y)));
-                let free: Vec<Vertex> = vertices.filter(|&at| space.is_free(at)).collect();
-                let pairs: Vec<_> = free.iter().map(|&start| (start, free.clone())).collect();
-                let [found, unreachable] = check_all(&grid, gap, &pairs, u64::from(cells));
-                queries += found + unreachable;
-            }
+    let sizes = [(3, 3, 1), (4, 3, 13), (1, 9, 7), (9, 1, 7)];
+    let queries = sizes.map(|size| on_all_maps(size, check_any)).into_iter().sum::<u64>();
+    assert_eq!(queries, 360_524);
+}
+
+#[test]
+fn anya_over_n_k_costs_what_dijkstra_says() {
+    let (mut found, mut unreachable) = (0, 0);
+    for seed in seeds(120) {
+        let grid = Arc::new(suite_grid(seed).0);
+        for (k, gap) in (2..=8).flat_map(|k| GAPS.map(|gap| (k, gap))) {
+            let queries = random_queries(&grid, Rng::new(seed ^ 0xA17B ^ u64::from(k) << 32), 2, 4);
+            let k = FiniteK::new(k).expect("k is at least 2");
+            let [some, none] = check_over(k, &grid, gap, &queries, seed);
+            (found, unreachable) = (found + some, unreachable + none);
         }
     }
-    assert_eq!(queries, 360_524);
+    let maps = seeds(120).end;
+    assert!(found > 50 * maps && unreachable > 3 * maps, "{found} found, {unreachable} unreachable");
+}
+
+/// The same over N(k).
+#[test]
+fn anya_over_n_k_is_exact_on_every_map_of_nine_cells() {
+    const SIZES: [(u32, (u32, u32, usize)); 10] = [
+        (2, (3, 3, 1)),
+        (2, (4, 3, 31)),
+        (2, (9, 1, 7)),
+        (3, (3, 3, 1)),
+        (3, (4, 3, 31)),
+        (3, (1, 9, 7)),
+        (4, (3, 3, 1)),
+        (4, (4, 3, 61)),
+        (5, (3, 3, 3)),
+        (5, (4, 3, 61)),
+    ];
+    let queries = SIZES.map(|(k, size)| {
+        let k = FiniteK::new(k).expect("k is at least 2");
+        on_all_maps(size, |grid, gap, queries, seed| check_over(k, grid, gap, queries, seed))
+    });
+    assert_eq!(queries.into_iter().sum::<u64>(), 745_672);
 }
 
 fn solve(drawing: &str, gap: DiagonalGap, start: (i32, i32), goal: (i32, i32)) -> Option<f64> {
