@@ -108,7 +108,7 @@ impl Space {
                 return Ok::<_, Error>(None);
             }
             let request = Query::new(start, goal).within(Limits::new().cost(greatest));
-            Ok(match space.planner(Choice::for_one_path(k))?.find(request)? {
+            Ok(match space.planner(Choice::for_one_path(self.motion()))?.find(request)? {
                 Outcome::Found(path) => Some(path),
                 _ => None,
             })

@@ -2,7 +2,7 @@
 
 use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, GridGraph, PlacementKind, Rules};
 use mediant_hierarchy::{ClusterGraph, SegmentGraph};
-use mediant_moves::{FiniteK, K};
+use mediant_moves::K;
 use mediant_search::JumpTable;
 use mediant_subgoal::SubgoalGraph;
 
@@ -16,10 +16,12 @@ use crate::{engine::Engine, option::Variant};
 pub struct Capabilities {
     /// The placements that it takes.
     pub placements: &'static [PlacementKind],
-    /// The largest finite k that it takes; the smallest is 2. `None` for an engine that takes no finite k.
-    pub max_k: Option<u32>,
+    /// The largest finite k that it takes; the smallest is 2.
+    pub max_k: u32,
     /// Whether it takes k = ∞.
     pub any: bool,
+    /// The k that it searches over where none is chosen: 3, but ∞ for Anya.
+    pub default_k: K,
     /// Whether it searches the grid graph, rather than the free space alone.
     pub grid_graph: bool,
     /// Its guarantee, for a table. `optimal(k)` at k = ∞ means that no legal path is shorter.
@@ -41,8 +43,9 @@ impl Capabilities {
     /// A search that is optimal over N(k) and has no saved index.
     const SEARCH: Self = Self {
         placements: &[PlacementKind::Center, PlacementKind::Corner],
-        max_k: Some(GridGraph::<Centers>::MAX_K),
+        max_k: GridGraph::<Centers>::MAX_K,
         any: false,
+        default_k: K::N8,
         grid_graph: true,
         guarantee: "optimal(k)",
         paper: "",
@@ -51,12 +54,6 @@ impl Capabilities {
         distances: false,
         index: None,
     };
-
-    /// The default k: 3, or ∞ for an engine that takes no finite k.
-    #[must_use]
-    pub const fn default_k(self) -> K {
-        if self.max_k.is_some() { K::Finite(FiniteK::N8) } else { K::Any }
-    }
 
     /// The default rules: `never` at centers; `open` at corners for an engine that takes only corners, and
     /// for k = ∞.
@@ -80,7 +77,7 @@ impl Engine {
             Capabilities { grid_graph: false, index: Some(SubgoalGraph::<Corners>::VERSION), ..search };
         let hierarchy = Capabilities {
             placements: &[PlacementKind::Center],
-            max_k: Some(3),
+            max_k: 3,
             guarantee: "suboptimal",
             ..search
         };
@@ -94,10 +91,10 @@ impl Engine {
                 Capabilities { paper: "Rivera 2017", variants: &[Variant::Exact, Variant::Paper], ..search }
             }
             Self::Jps => Capabilities { paper: "Harabor 2011, Hammoud 2023", ..search },
-            Self::JpsBlock => Capabilities { paper: "Harabor 2014", max_k: Some(3), ..search },
+            Self::JpsBlock => Capabilities { paper: "Harabor 2014", max_k: 3, ..search },
             Self::JpsPlus => Capabilities {
                 paper: "Harabor 2014",
-                max_k: Some(JumpTable::MAX_K),
+                max_k: JumpTable::MAX_K,
                 index: Some(JumpTable::VERSION),
                 ..search
             },
@@ -105,10 +102,9 @@ impl Engine {
             Self::LazyTheta => Capabilities { paper: "Nash 2010", ..theta },
             Self::Anya => Capabilities {
                 placements: &[PlacementKind::Corner],
-                max_k: None,
                 any: true,
+                default_k: K::Any,
                 grid_graph: false,
-                guarantee: "optimal(any)",
                 paper: "Harabor 2016",
                 ..search
             },

@@ -1,6 +1,6 @@
 //! Which engine we would take, and a path by it at once.
 
-use mediant_grid::Vertex;
+use mediant_grid::{PlacementKind, Vertex};
 use mediant_moves::K;
 use mediant_search::{Path, Query};
 
@@ -22,27 +22,48 @@ pub struct Choice {
 /// (`docs/performance.md`, 'How it grows'), and where they do not, another engine searches.
 const MOST_CELLS_FOR_SUBGOALS: u64 = 1 << 24;
 
+/// Block-based JPS, for more than one path at k = 2 and 3.
+const BLOCKS: Choice = Choice { engine: Engine::JpsBlock, why: "it reads the map by words of 64 cells" };
+
+/// Whether Anya searches this motion: every k at corners.
+fn is_for_anya(motion: Motion) -> bool {
+    motion.k == K::Any || motion.rules.placement() == PlacementKind::Corner
+}
+
 impl Choice {
-    /// For a single path: an engine that prepares next to nothing. On four maps of up to 1024 × 1024 cells,
-    /// space and search together, canonical A* took 0.6 to 0.9 of the time of A* at k = 3 and 0.7 to 1.1 at
-    /// k = 2. From k = 4 on its preparation takes longer than A*; that of block-based JPS makes it slower
-    /// than A* at k = 3 already, by a factor of 1.2 to 2.2.
+    /// For a single path: an engine that prepares next to nothing.
+    ///
+    /// At corners it is Anya for every k. It needs no grid graph either. Its queries alone, on two maps of
+    /// games and one of rooms, took 0.1 to 0.95 of the time of canonical A* at k = 2 and 3, 0.04 to 0.23 of
+    /// that of A* at k = 4, and about 0.01 to 0.08 at k = 7. On 512 × 512 random cells, a tenth of them
+    /// blocked, they took 10 to 14 times as long as canonical A* at k = 2 and 3, 2.4 times as long as A* at
+    /// k = 4, and a quarter of its time at k = 7.
+    ///
+    /// At centers, on four maps of up to 1024 × 1024 cells, space and search together, canonical A* took 0.6
+    /// to 0.9 of the time of A* at k = 3 and 0.7 to 1.1 at k = 2. From k = 4 on its preparation takes longer
+    /// than A*; that of block-based JPS makes it slower than A* at k = 3 already, by a factor of 1.2 to 2.2.
     #[must_use]
-    pub fn for_one_path(k: K) -> Self {
-        match k.finite().map(|k| k.get()) {
-            None => Self { engine: Engine::Anya, why: "it prepares nothing" },
+    pub fn for_one_path(motion: Motion) -> Self {
+        if is_for_anya(motion) {
+            return Self { engine: Engine::Anya, why: "it prepares nothing" };
+        }
+        match motion.k.finite().map(|k| k.get()) {
             Some(2 | 3) => Self { engine: Engine::Canonical, why: "it prepares next to nothing" },
-            Some(_) => Self { engine: Engine::AStar, why: "it prepares nothing" },
+            _ => Self { engine: Engine::AStar, why: "it prepares nothing" },
         }
     }
 
     /// For some paths in a space, without an index that takes long to prepare: block-based JPS at k = 2 and
     /// 3, whose preparation takes a few milliseconds; else as for one path.
+    ///
+    /// Between corners, on the four maps of [`for_one_path`](Self::for_one_path), a query of block-based JPS
+    /// took 0.16 to 0.7 of the time of Anya at k = 3. At k = 4 Anya took 0.2 to 0.65 of the time of jump
+    /// point search on three of them, and 1.4 times as long on the random one; with k its time hardly grows.
     #[must_use]
-    pub fn for_some_paths(k: K) -> Self {
-        match k.finite().map(|k| k.get()) {
-            Some(2 | 3) => Self { engine: Engine::JpsBlock, why: "it reads the map by words of 64 cells" },
-            _ => Self::for_one_path(k),
+    pub fn for_some_paths(motion: Motion) -> Self {
+        match motion.k.finite().map(|k| k.get()) {
+            Some(2 | 3) => BLOCKS,
+            _ => Self::for_one_path(motion),
         }
     }
 
@@ -60,7 +81,10 @@ impl Choice {
             None => {
                 Self { engine: Engine::Anya, why: "on maps this large it is as fast as prepared engines" }
             }
-            Some(2 | 3) => Self { engine: Engine::JpsBlock, why: "it reads the map by words of 64 cells" },
+            Some(2 | 3) => BLOCKS,
+            Some(_) if is_for_anya(motion) => {
+                Self { engine: Engine::Anya, why: "from k = 4 on it is faster than engines that jump" }
+            }
             Some(4 | 5) => Self { engine: Engine::Jps, why: "for these k jumping is faster than A*" },
             Some(_) => Self { engine: Engine::Canonical, why: "for large k pruning is faster than jumping" },
         }
@@ -92,7 +116,7 @@ impl Space {
     pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
         let query = Query::new(start, goal);
         self.check_query(query)?;
-        let answer = self.planner(Choice::for_one_path(self.motion().k))?.find(query)?;
+        let answer = self.planner(Choice::for_one_path(self.motion()))?.find(query)?;
         Ok(answer.into_path())
     }
 }

@@ -147,9 +147,7 @@ const fn of_setup(error: &SetupError) -> ErrorCode {
         | SetupError::MemoryWithoutLabels { .. }
         | SetupError::OtherEngine { .. }
         | SetupError::OtherVariant { .. } => ErrorCode::EngineOption,
-        SetupError::K { .. } | SetupError::NeedsFiniteK { .. } | SetupError::NeedsAny { .. } => {
-            ErrorCode::EngineK
-        }
+        SetupError::K { .. } | SetupError::NeedsFiniteK { .. } => ErrorCode::EngineK,
         SetupError::Placement { .. } | SetupError::Centers { .. } => ErrorCode::EngineRules,
         SetupError::Without { .. } => ErrorCode::EngineWithout,
     }

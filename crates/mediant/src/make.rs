@@ -8,6 +8,7 @@ use std::{num::NonZeroU32, sync::Arc};
 
 use mediant_grid::{Centers, FreeSpace, GridGraph, Placement};
 use mediant_hierarchy::{ChpaStar, HpaStar, SegmentGraph};
+use mediant_moves::K;
 use mediant_search::{
     AStar, Anya, BlockJps, Canonical, Euclidean, Heuristic, Hk, Jps, JpsPlus, LazyThetaStar, PaperCanonical,
     Path, Planner as Search, Smoothing, SquaredEuclidean, ThetaStar, Wavefront, Zero,
@@ -55,7 +56,10 @@ pub(crate) fn search(index: &Index) -> Result<Boxed, Error> {
         Prepared::FreeCorners(space, InFreeSpace::Labels(labels)) => {
             Ok(boxed(HubLabelSearch::new(Arc::clone(space), Arc::clone(labels))?))
         }
-        Prepared::FreeCorners(space, InFreeSpace::Nothing) => Ok(boxed(Anya::new(Arc::clone(space)))),
+        Prepared::FreeCorners(space, InFreeSpace::Nothing) => match setup.k {
+            K::Any => Ok(boxed(Anya::new(Arc::clone(space)))),
+            K::Finite(k) => Ok(boxed(Anya::over(Arc::clone(space), k)?)),
+        },
         Prepared::FreeCenters(_, InFreeSpace::Nothing) => Err(not_prepared(setup)),
     }
 }

@@ -1,6 +1,6 @@
 //! Setups: an engine with all that a planner needs besides a map.
 
-use mediant_grid::{Centers, CornerRule, GridGraph, PlacementKind, Rules};
+use mediant_grid::{CornerRule, PlacementKind, Rules};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{Guarantee, Smoothing};
 
@@ -16,7 +16,7 @@ use crate::{
 /// An engine with its options, its k and rules of motion, and how its paths are smoothed.
 ///
 /// As text `ENGINE[:K[:RULE]][,OPTION…]`:
-/// - K is a number or `any`. Left out, it is 3, or `any` for an engine that takes only that.
+/// - K is a number or `any`. Left out, it is 3, or `any` for Anya.
 /// - RULE is `never`, `one` or `always` at centers, `open` or `closed` at corners. Left out, it is `never`,
 ///   or `open` for K = `any` and for an engine that takes only corners. So `astar` solves the scenario files'
 ///   own problem.
@@ -62,7 +62,7 @@ impl Setup {
     }
 
     fn needs_finite_k(&self) -> SetupError {
-        let max = self.capabilities().max_k.unwrap_or(GridGraph::<Centers>::MAX_K);
+        let max = self.capabilities().max_k;
         let others = Engine::names_where(|engine| engine.capabilities().any);
         SetupError::NeedsFiniteK { engine: self.engine.kind(), max, others }
     }
@@ -81,10 +81,10 @@ impl Setup {
         self.engine.check()?;
         let (engine, k, rules) = (self.engine.kind(), self.k, self.rules);
         let capabilities = self.capabilities();
-        match (k, capabilities.max_k) {
-            (K::Finite(k), Some(max)) if k.get() > max => return Err(SetupError::K { engine, max, k }),
-            (K::Finite(k), None) => return Err(SetupError::NeedsAny { engine, k }),
-            (K::Any, Some(_)) if !capabilities.any => return Err(self.needs_finite_k()),
+        let max = capabilities.max_k;
+        match k {
+            K::Finite(k) if k.get() > max => return Err(SetupError::K { engine, max, k }),
+            K::Any if !capabilities.any => return Err(self.needs_finite_k()),
             _ => {}
         }
         let placement = rules.placement();
@@ -109,13 +109,13 @@ impl Setup {
     /// The guarantee of the planner's paths.
     #[must_use]
     pub fn guarantee(&self) -> Guarantee {
-        use Engine::{Anya, Chpa, Hpa, LazyTheta, SubgoalTheta, Theta, Wavefront};
+        use Engine::{Chpa, Hpa, LazyTheta, SubgoalTheta, Theta, Wavefront};
         let unsmoothed = match (self.engine.kind(), self.k) {
             (Theta | LazyTheta | SubgoalTheta | Hpa | Chpa, _) => Guarantee::Suboptimal,
             _ if self.engine.heuristic() == Some(HeuristicName::SquaredEuclidean) => Guarantee::Suboptimal,
             (Wavefront, k) if k != K::N4 => Guarantee::Suboptimal,
             _ if self.engine.variant() == Some(Variant::Paper) => Guarantee::Suboptimal,
-            (Anya, _) | (_, K::Any) => Guarantee::OptimalAnyAngle,
+            (_, K::Any) => Guarantee::OptimalAnyAngle,
             (_, K::Finite(k)) => Guarantee::Optimal(k),
         };
         if self.smoothing.is_some() { unsmoothed.smoothed() } else { unsmoothed }

@@ -39,14 +39,6 @@ pub enum SetupError {
         /// The engines that take k = ∞.
         others: String,
     },
-    /// A finite k, for an engine that takes only k = ∞.
-    #[error("{engine} searches every direction, not those of k = {k}: leave k out, or say any")]
-    NeedsAny {
-        /// The engine.
-        engine: Engine,
-        /// The k of the setup.
-        k: FiniteK,
-    },
     /// A placement that the engine does not take.
     #[error("{engine} needs placement {needed}; for {placement} choose {others}")]
     Placement {

@@ -56,7 +56,7 @@ impl FromStr for Setup {
             .parse()
             .map_err(|_| error(format!("the engines are {}", Engine::ALL.map(Engine::name).join(", "))))?;
         let capabilities = engine.capabilities();
-        let k = parts.next().map_or(Ok(capabilities.default_k()), |k| {
+        let k = parts.next().map_or(Ok(capabilities.default_k), |k| {
             k.parse().map_err(|_| error(format!("K is {}", k_range(capabilities))))
         })?;
         let rules = parts.next().map_or(Ok(capabilities.default_rules(k)), |rule| {
@@ -77,10 +77,7 @@ impl FromStr for Setup {
 
 /// The k that an engine takes, in words.
 fn k_range(capabilities: Capabilities) -> String {
-    match capabilities.max_k {
-        None => "any".to_owned(),
-        Some(max) => format!("a number from 2 to {max}{}", if capabilities.any { ", or any" } else { "" }),
-    }
+    format!("a number from 2 to {}{}", capabilities.max_k, if capabilities.any { ", or any" } else { "" })
 }
 
 /// The rules of motion with the corner rule or gap rule of this name.

@@ -60,7 +60,7 @@ pub(crate) enum GapArg {
 impl SetupArgs {
     /// The setup without the engine's options. It may be one that [`Setup::check`] refuses.
     pub(super) fn without_options(&self) -> Result<Setup, Failure> {
-        let k = self.k.unwrap_or(self.engine.capabilities().default_k());
+        let k = self.k.unwrap_or(self.engine.capabilities().default_k);
         Ok(Setup::new(self.engine, k, self.rules(k)?))
     }
 

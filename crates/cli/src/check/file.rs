@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use mediant::{Engine, Setup};
+use mediant::Setup;
 use mediant_formats::{MAX_FILE_BYTES, ReadError};
 use mediant_grid::Vertex;
 use mediant_moves::K;
@@ -74,11 +74,7 @@ impl RunLine {
         let rule = if self.placement == "corner" { &self.gap } else { &self.corners };
         let setup = format!("{}:{k}:{rule}", self.engine).parse::<Setup>();
         let setup = setup.map_err(|error| format!("the run: {error}"))?;
-        let is_straight = matches!(
-            setup.engine.kind(),
-            Engine::Theta | Engine::LazyTheta | Engine::SubgoalTheta | Engine::Anya
-        );
-        let over = if self.smooth || is_straight { K::Any } else { setup.k };
+        let over = if self.smooth { K::Any } else { setup.paths() };
         Ok(Said { setup, over })
     }
 }
@@ -250,6 +246,7 @@ mod tests {
         assert_eq!(said("theta", "5", "center", false).expect("a run").over, K::Any);
         let anya = said("anya", "\"any\"", "corner", false).expect("a run");
         assert_eq!((anya.setup.to_string().as_str(), anya.over), ("anya:any:closed", K::Any));
+        assert_eq!(said("anya", "5", "corner", false).expect("a run").over, five);
         assert!(said("warp", "3", "center", false).is_err());
     }
 }

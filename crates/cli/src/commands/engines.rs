@@ -3,7 +3,6 @@
 use std::io::Write;
 
 use mediant::{Capabilities, Engine};
-use mediant_moves::K;
 
 use crate::{
     failure::Failure,
@@ -28,9 +27,8 @@ pub(crate) fn list(screen: &mut Screen) -> Result<(), Failure> {
             [one] => one.to_string(),
             _ => "both".to_owned(),
         };
-        let ks = [max_k.map(|max| format!("2–{max}")), any.then(|| K::Any.to_string())];
-        let ks: Vec<String> = ks.into_iter().flatten().collect();
-        table.row([engine.name(), &placement, &ks.join(", "), guarantee, paper].map(str::to_owned));
+        let ks = format!("2–{max_k}{}", if any { ", any" } else { "" });
+        table.row([engine.name(), &placement, &ks, guarantee, paper].map(str::to_owned));
     }
     table.write(screen)?;
     Ok(writeln!(screen, "\n{NOTES}")?)

@@ -45,6 +45,21 @@ fn anya_needs_no_more_than_its_name() {
     assert_eq!(told("run builtin:town --engine theta").0["placement"], "center");
 }
 
+/// Over N(k) Anya's paths are as long as those of A*.
+#[test]
+fn anya_takes_a_finite_k() {
+    for k in [2, 5, 12] {
+        let (run, found, _) = told(&format!("run builtin:town --engine anya --k {k}"));
+        assert_eq!((&run["k"], &run["placement"]), (&k.into(), &"corner".into()));
+        assert_eq!(run["guarantee"], format!("optimal({k})"));
+        let (_, best, _) = told(&format!("run builtin:town --placement corner --k {k}"));
+        assert_eq!((found.len(), best.len()), (22, 22));
+        for (found, best) in found.iter().zip(&best) {
+            assert!((number(found, "cost") - number(best, "cost")).abs() < 1e-9, "{found}, {best}");
+        }
+    }
+}
+
 /// The certificates of each engine are true of the shortest any-angle paths under the same rules.
 #[test]
 fn certificates_hold() {
@@ -53,6 +68,7 @@ fn certificates_hold() {
         ("--k 2", Some(2.0_f64.sqrt())),
         ("--k 3", Some(1.0824)),
         ("--k 5 --engine jps --gap closed", Some(1.0132)),
+        ("--k 5 --engine anya --gap closed", Some(1.0132)),
         ("--k 3 --smooth", Some(1.0824)),
         ("--k 4 --smooth=taut --gap closed", Some(1.0276)),
         ("--engine theta", None),
@@ -189,12 +205,11 @@ fn refused(line: &str, message: &str) {
 fn what_does_not_go_together_is_refused() {
     let centers = "astar, dijkstra, wavefront, canonical, jps, jps-block, jps-plus, theta, lazy-theta, subgoal, hpa, chpa";
     for (options, message) in [
-        ("--engine anya --k 5", "anya searches every direction, not those of k = 5: leave k out, or say any"),
+        ("--engine theta --k any", "theta needs a k from 2 to 12; for any choose anya, subgoal"),
         (
             "--engine anya --placement center",
             &format!("anya needs placement corner; for center choose {centers}"),
         ),
-        ("--engine theta --k any", "theta needs a k from 2 to 12; for any choose anya, subgoal"),
         (
             "--engine anya --corners one",
             "--corners does not apply to --placement corner: leave it out, or choose --placement center",

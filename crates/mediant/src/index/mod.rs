@@ -113,7 +113,7 @@ impl Index {
         let (prepared, substitute) = match prepared(setup, space, source)? {
             Some(prepared) => (prepared, None),
             None => {
-                let engine = subgoals::substitute(k);
+                let engine = subgoals::substitute(space.motion());
                 let source = Source { bytes: None, ..source };
                 let prepared = prepared(Setup { engine: engine.into(), ..setup }, space, source)?;
                 (prepared.ok_or_else(|| SetupError::without_index(engine))?, Some(engine))

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use mediant_grid::FreeSpace;
-use mediant_moves::K;
 use mediant_subgoal::{HubLabels, PreparedSubgoals, SubgoalGraph, SubgoalPlacement};
 
 use super::{parts::InFreeSpace, source::Source};
@@ -12,6 +11,7 @@ use crate::{
     configured::{ConfiguredEngine, SubgoalOptions},
     engine::Engine,
     error::Error,
+    motion::Motion,
     option::{Levels, Memory},
     setup::Setup,
 };
@@ -66,6 +66,6 @@ pub(super) fn subgoals<P: SubgoalPlacement>(
 }
 
 /// The engine that searches where no subgoals were kept: the best that prepares nothing.
-pub(super) fn substitute(k: K) -> Engine {
-    Choice::for_some_paths(k).engine
+pub(super) fn substitute(motion: Motion) -> Engine {
+    Choice::for_some_paths(motion).engine
 }

@@ -14,7 +14,7 @@ use super::{NEVER, OPEN, build, index, k, levels, map, planner, read, setup};
 
 /// The engine with its default options, k and rules.
 fn plain(engine: Engine) -> Setup {
-    let k = engine.capabilities().default_k();
+    let k = engine.capabilities().default_k;
     Setup::new(engine, k, engine.capabilities().default_rules(k))
 }
 
@@ -105,14 +105,15 @@ fn every_setup_makes_the_planner_that_it_promises() {
         }
     }
     // On grid graphs: 4 setups of astar, 1 each of dijkstra and wavefront, 4 of canonical, 5 of jps, 3 each
-    // of theta and lazy-theta, and 3 that are smoothed; for k ≤ 3 also 5 of jps-block and 4 of jps-plus. For
-    // each gap rule anya, plain and smoothed.
-    let grids = 5 * (4 * (4 + 1 + 1 + 4 + 5 + 3 + 3 + 3) + 2 * (5 + 4)) + 2 * 2;
+    // of theta and lazy-theta, and 3 that are smoothed; for k ≤ 3 also 5 of jps-block and 4 of jps-plus.
+    let grids = 5 * (4 * (4 + 1 + 1 + 4 + 5 + 3 + 3 + 3) + 2 * (5 + 4));
+    // anya, plain and smoothed, for each k and for ∞ under each gap rule.
+    let anya = 5 * 2 * 2;
     // 7 of subgoal and one that is smoothed: at corners for each k and for ∞, at centers for k = 2 under 3
     // rules and for k = 3 under one. 4 of subgoal-theta at corners.
     let subgoals = (5 * 2 + 4) * (7 + 1) + 4 * 2 * 4;
     // 8 of hpa and 10 of chpa, and one each that is smoothed, for the same k at centers.
-    assert_eq!(setups, grids + subgoals + (3 + 1) * (8 + 1 + 10 + 1));
+    assert_eq!(setups, grids + anya + subgoals + (3 + 1) * (8 + 1 + 10 + 1));
 }
 
 #[test]
@@ -127,23 +128,16 @@ fn every_engine_takes_the_k_that_it_says() {
             let planner = setup(k).planner(&map());
             assert!(matches!(planner, Err(Error::Setup(found)) if found == error), "{engine}");
         };
-        if let Some(max) = capabilities.max_k {
-            let [least, most, too_large] = [2, max, max + 1].map(k);
-            assert_eq!(
-                (setup(least.into()).check(), setup(most.into()).check()),
-                (Ok(()), Ok(())),
-                "{engine}"
-            );
-            refused(too_large.into(), SetupError::K { engine, max, k: too_large });
-            let others = "anya, subgoal".to_owned();
-            if capabilities.any {
-                assert_eq!((engine, setup(K::Any).check()), (Engine::Subgoal, Ok(())));
-            } else {
-                refused(K::Any, SetupError::NeedsFiniteK { engine, max, others });
-            }
+        let max = capabilities.max_k;
+        let [least, most, too_large] = [2, max, max + 1].map(k);
+        assert_eq!((setup(least.into()).check(), setup(most.into()).check()), (Ok(()), Ok(())), "{engine}");
+        refused(too_large.into(), SetupError::K { engine, max, k: too_large });
+        let others = "anya, subgoal".to_owned();
+        if capabilities.any {
+            assert!(matches!(engine, Engine::Anya | Engine::Subgoal), "{engine}");
+            assert_eq!(setup(K::Any).check(), Ok(()), "{engine}");
         } else {
-            assert_eq!((engine, setup(K::Any).check()), (Engine::Anya, Ok(())));
-            refused(k(2).into(), SetupError::NeedsAny { engine, k: k(2) });
+            refused(K::Any, SetupError::NeedsFiniteK { engine, max, others });
         }
     }
 }
@@ -154,8 +148,7 @@ fn every_engine_takes_the_placements_that_it_says() {
         for rules in Rules::ALL {
             let (capabilities, placement) = (engine.capabilities(), rules.placement());
             // k = 2, since some engines at centers take larger k only under some rules.
-            let k = capabilities.max_k.map_or(K::Any, |_| K::Finite(k(2)));
-            let said = Setup { rules, k, ..plain(engine) }.check();
+            let said = Setup { rules, k: K::N4, ..plain(engine) }.check();
             if capabilities.placements.contains(&placement) {
                 assert_eq!(said, Ok(()), "{engine}, {rules}");
             } else {
@@ -246,6 +239,7 @@ fn what_is_left_out_has_its_default() {
     assert_eq!(setup("dijkstra").engine.heuristic(), Some(HeuristicName::Zero));
     assert_eq!((setup("anya").engine.heuristic(), setup("anya")), (None, setup("anya:any:open")));
     assert_eq!((setup("theta").to_string(), setup("anya:any").rules), ("theta:3:never".to_owned(), OPEN));
+    assert_eq!(setup("anya:3"), setup("anya:3:open"));
     assert_eq!(
         (setup("subgoal"), setup("subgoal-theta")),
         (setup("subgoal:3:never"), setup("subgoal-theta:3:open"))
@@ -272,6 +266,7 @@ fn setups_say_what_their_paths_are() {
     let paths = [
         "astar:4",
         "subgoal:4:open",
+        "anya:4",
         "theta",
         "lazy-theta",
         "astar,smooth",
@@ -280,23 +275,33 @@ fn setups_say_what_their_paths_are() {
         "subgoal-theta",
     ]
     .map(|text| setup(text).paths());
-    assert_eq!(paths[..2], [K::Finite(k(4)); 2]);
-    assert_eq!(paths[2..], [K::Any; 6]);
-    let promised = ["astar:4:one,smooth", "theta,taut", "anya,taut", "wavefront:2,taut", "wavefront,taut"];
+    assert_eq!(paths[..3], [K::Finite(k(4)); 3]);
+    assert_eq!(paths[3..], [K::Any; 6]);
+    let promised = [
+        "astar:4:one,smooth",
+        "theta,taut",
+        "anya,taut",
+        "anya:4,taut",
+        "anya:4",
+        "wavefront:2,taut",
+        "wavefront,taut",
+    ];
     assert_eq!(
         promised.map(|text| setup(text).guarantee()),
         [
             Guarantee::AtMost(k(4)),
             Guarantee::Suboptimal,
             Guarantee::OptimalAnyAngle,
+            Guarantee::AtMost(k(4)),
+            Guarantee::Optimal(k(4)),
             Guarantee::AtMost(k(2)),
             Guarantee::Suboptimal,
         ]
     );
-    let over = ["jps:4", "subgoal:9:closed", "wavefront:2", "anya,taut", "subgoal:any"]
+    let over = ["jps:4", "subgoal:9:closed", "wavefront:2", "anya:5", "anya,taut", "subgoal:any"]
         .map(|text| setup(text).optimal_over());
-    let ks = [4, 9, 2].map(|n| Some(K::Finite(k(n))));
-    assert_eq!((&over[..3], &over[3..]), (&ks[..], &[Some(K::Any); 2][..]));
+    let ks = [4, 9, 2, 5].map(|n| Some(K::Finite(k(n))));
+    assert_eq!((&over[..4], &over[4..]), (&ks[..], &[Some(K::Any); 2][..]));
     for text in ["astar,taut", "theta", "canonical,paper", "subgoal,taut", "subgoal-theta"] {
         assert_eq!(setup(text).optimal_over(), None, "{text}");
     }
@@ -352,7 +357,8 @@ fn each_wrong_part_is_named() {
         assert!(wrong(&format!("astar:{k}")).ends_with("K is a number from 2 to 12"));
     }
     assert!(
-        wrong("jps-block:x").ends_with("K is a number from 2 to 3") && wrong("anya:x").ends_with("K is any")
+        wrong("jps-block:x").ends_with("K is a number from 2 to 3")
+            && wrong("anya:x").ends_with("K is a number from 2 to 12, or any")
     );
     assert!(wrong("jps-block:4").ends_with("jps-block needs a k from 2 to 3, found 4"));
     assert!(wrong("theta:any").ends_with("theta needs a k from 2 to 12; for any choose anya, subgoal"));
@@ -373,10 +379,7 @@ fn each_wrong_part_is_named() {
         );
     }
 
-    assert!(
-        wrong("anya:3")
-            .ends_with("anya searches every direction, not those of k = 3: leave k out, or say any")
-    );
+    assert!(wrong("anya:13").ends_with("anya needs a k from 2 to 12, found 13"));
     assert!(wrong("anya:any:one").contains("anya needs placement corner; for center choose astar, "));
     assert!(wrong("astar:3:sometimes").ends_with("the rules are never, one, always, open, closed"));
     assert!(wrong("astar:3:one:two").ends_with("nothing but options may follow the rule"));

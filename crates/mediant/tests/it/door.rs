@@ -99,12 +99,33 @@ fn the_chosen_engine_finds_shortest_paths() {
                 space.motion(),
                 space.engine()
             );
-            for choice in [Choice::for_some_paths(k), Choice::for_one_path(k)] {
+            for choice in [Choice::for_some_paths(space.motion()), Choice::for_one_path(space.motion())] {
                 assert!((cost(choice.engine) - best).abs() < 1e-9, "{}: {choice}", space.motion());
             }
             let now = space.path(query.start, query.goal).expect("both ends are free").expect("there is one");
             assert!((now.cost() - best).abs() < 1e-9, "{}", space.motion());
         }
+    }
+}
+
+/// At corners Anya needs no preparation. On maps too large for subgoals it also searches many paths.
+#[test]
+fn the_choice_depends_on_the_motion() {
+    use Engine::{AStar, Anya, Canonical, Jps, JpsBlock};
+    let large = Map::from_fn(4097, 4096, |_, _| false).expect("a map");
+    for (motion, one, some, many) in [
+        (Motion::centers(K::N8), Canonical, JpsBlock, JpsBlock),
+        (Motion::centers(K::N16), AStar, AStar, Jps),
+        (Motion::centers(k(6)), AStar, AStar, Canonical),
+        (Motion::corners(K::N4), Anya, JpsBlock, JpsBlock),
+        (Motion::corners(K::N8), Anya, JpsBlock, JpsBlock),
+        (Motion::corners(K::N16), Anya, Anya, Anya),
+        (Motion::corners(k(12)), Anya, Anya, Anya),
+        (Motion::corners(K::ANY), Anya, Anya, Anya),
+    ] {
+        let chosen = [Choice::for_one_path(motion), Choice::for_some_paths(motion)].map(|one| one.engine);
+        assert_eq!(chosen, [one, some], "{motion}");
+        assert_eq!(large.space(motion).expect("a space").engine().engine, many, "{motion}");
     }
 }
 
@@ -208,6 +229,7 @@ fn engines_in_free_space_make_no_grid_graph() {
         (Motion::corners(K::N32), Engine::Subgoal, true),
         (Motion::corners(K::N32), Engine::SubgoalTheta, true),
         (Motion::corners(K::ANY), Engine::Anya, true),
+        (Motion::corners(K::N16), Engine::Anya, true),
         (Motion::centers(K::N8), Engine::AStar, false),
         (Motion::centers(K::N8), Engine::Hpa, false),
     ] {

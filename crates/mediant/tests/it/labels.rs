@@ -119,7 +119,7 @@ fn where_nothing_is_kept_another_engine_searches() {
         ("subgoal:2:never", Engine::JpsBlock),
         ("subgoal:3:never", Engine::JpsBlock),
         ("subgoal:3:open", Engine::JpsBlock),
-        ("subgoal:4:closed", Engine::AStar),
+        ("subgoal:4:closed", Engine::Anya),
         ("subgoal:any:open", Engine::Anya),
         ("subgoal:any:open,taut", Engine::Anya),
     ] {

@@ -64,7 +64,7 @@ fn in_requests() -> Vec<Mistake> {
 
 /// Mistakes in engines and their indexes.
 fn in_engines_and_indexes() -> Vec<Mistake> {
-    let space = walkers();
+    let (space, far) = (walkers(), map().space(Motion::centers(K::N16)).expect("a space"));
     let whole = clusters().to_bytes().expect("an index that is saved");
     let file = IndexFile::from_bytes(whole.clone()).expect("an index");
     let key = IndexKey::new("warp", file.key().version(), space.identity()).expect("a plain name");
@@ -75,8 +75,8 @@ fn in_engines_and_indexes() -> Vec<Mistake> {
     vec![
         (Code::UnknownName, "warp".parse::<Engine>().map(drop).map_err(Error::from)),
         (Code::SetupText, "astar:1".parse::<Setup>().map(drop).map_err(Error::from)),
-        (Code::EngineK, space.planner(Engine::Anya).map(drop)),
-        (Code::EngineRules, space.planner(Engine::SubgoalTheta).map(drop)),
+        (Code::EngineK, far.planner(Engine::JpsBlock).map(drop)),
+        (Code::EngineRules, space.planner(Engine::Anya).map(drop)),
         (Code::EngineWithout, space.prepare(Engine::AStar).and_then(|index| index.to_bytes()).map(drop)),
         (Code::EngineWithout, space.distances(Engine::Jps, (0, 0)).map(drop)),
         (Code::EngineOption, clusters().with_options(Engine::Chpa).map(drop)),
