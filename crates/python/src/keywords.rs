@@ -152,7 +152,7 @@ impl Keywords {
     /// How the agent moves. What was left out, the engine decides, if it takes only that.
     pub(crate) fn motion(&self) -> PyResult<Motion> {
         let capabilities = self.engine.unwrap_or_default().capabilities();
-        let k = self.k.unwrap_or(capabilities.default_k());
+        let k = self.k.unwrap_or(capabilities.default_k);
         let rules = match (self.placement, self.corners, self.gap) {
             (_, Some(_), Some(_)) | (Some(PlacementKind::Center), None, Some(_)) => {
                 return Err(argument("gap", "it is for placement='corner'; at centers there is corners="));

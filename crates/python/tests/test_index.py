@@ -19,6 +19,7 @@ SETUPS = [
     ("jps", {"k": 2, "jump_limit": 4}),
     ("jps-plus", {"k": 3, "corners": "one"}),
     ("anya", {}),
+    ("anya", {"k": 5, "gap": "closed"}),
     ("subgoal", {"k": 3}),
     ("subgoal", {"k": "any", "gap": "closed"}),
     ("subgoal", {"k": 5, "placement": "corner", "levels": "contracted"}),
@@ -291,6 +292,8 @@ def test_facts():
     assert index.memory_bytes > 0 and index.guarantee
     anya = mediant.Grid(np.zeros((9, 14), dtype=bool)).prepare("anya")
     assert (anya.k, anya.placement, anya.bound) == ("any", "corner", 1.0)
+    anya = mediant.Grid(np.zeros((9, 14), dtype=bool)).prepare("anya", k=4)
+    assert (anya.k, anya.placement, anya.bound) == (4, "corner", index.bound)
 
 
 def test_immutable():

@@ -24,13 +24,13 @@ TAKES = {
     "jps-plus": 10,
     "theta": 20,
     "lazy-theta": 20,
-    "anya": 2,
+    "anya": 10,
     "subgoal": 14,
     "subgoal-theta": 8,
     "hpa": 4,
     "chpa": 4,
 }
-ANY_ANGLE = {"theta", "lazy-theta", "subgoal-theta", "anya"}
+ANY_ANGLE = {"theta", "lazy-theta", "subgoal-theta"}
 
 
 def prepared(grid, engine, k, rule):
@@ -234,7 +234,7 @@ def test_limits(engine):
     blocked = np.zeros((40, 70), dtype=bool)
     blocked[5:, 30] = True
     grid = mediant.Grid(blocked)
-    index = grid.prepare(engine, k="any" if engine == "anya" else 3, placement=placement_of(engine))
+    index = grid.prepare(engine, k=3, placement=placement_of(engine))
     start, goal = (39, 3), (38, 66)
     whole = index.distance(start, goal)
     with pytest.raises(mediant.LimitReached) as caught:

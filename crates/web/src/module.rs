@@ -59,7 +59,7 @@ fn info(engine: Engine) -> JsValue {
     object_of([
         ("name", Some(engine.name().into())),
         ("placements", Some(texts(can.placements.iter().map(ToString::to_string)))),
-        ("maxK", Some(can.max_k.map_or(JsValue::NULL, Into::into))),
+        ("maxK", Some(can.max_k.into())),
         ("any", Some(can.any.into())),
         ("guarantee", Some(can.guarantee.into())),
         ("paper", Some(can.paper.into())),
@@ -71,7 +71,7 @@ fn info(engine: Engine) -> JsValue {
 /// Why an engine does not go together with a motion and options, in a sentence; undefined if it does.
 ///
 /// ```js
-/// checkSetup("anya", { k: 3 }); // "anya searches every direction, not those of k = 3: leave k out, or say any"
+/// checkSetup("jps-block", { k: 4 }); // "jps-block needs a k from 2 to 3, found 4"
 /// ```
 ///
 /// @throws MediantError `unknown-name` for an engine that does not exist.

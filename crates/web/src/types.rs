@@ -141,8 +141,8 @@ export interface NearestGoal {
 export interface EngineInfo {
   readonly name: string;
   readonly placements: ("center" | "corner")[];
-  /** The largest k; `null` for an engine that takes only k "any". */
-  readonly maxK: number | null;
+  /** The largest finite k; the smallest is 2. */
+  readonly maxK: number;
   /** Whether it takes k "any". */
   readonly any: boolean;
   /** What is guaranteed of its paths: `"optimal(k)"`, `"suboptimal"`, …. */

@@ -56,7 +56,9 @@ fn mistakes_have_names_and_codes() {
     assert!(text(&unknown).ends_with("no key 'K' is known; the keys are k, placement, corners, gap"));
     let space = ok(&grid, "space", &[]);
     assert_eq!(thrown(&space, "prepare", &["a*".into()]), "MediantError unknown-name");
-    assert_eq!(thrown(&space, "prepare", &["anya".into()]), "MediantError engine-k");
+    assert_eq!(thrown(&space, "prepare", &["anya".into()]), "MediantError engine-rules");
+    let wide = ok(&grid, "space", &[json(r#"{"k": 4}"#)]);
+    assert_eq!(thrown(&wide, "prepare", &["jps-block".into()]), "MediantError engine-k");
     assert_eq!(
         thrown(&space, "prepare", &["jps".into(), json(r#"{"side": 3}"#)]),
         "MediantError engine-option"

@@ -134,7 +134,7 @@ impl Grid {
             setup.smoothing = keywords.smoothing;
             Ok(setup)
         };
-        let engine = keywords.engine.unwrap_or_else(|| mediant::Choice::for_some_paths(motion.k).engine);
+        let engine = keywords.engine.unwrap_or_else(|| mediant::Choice::for_some_paths(motion).engine);
         let setup = setup(engine)?;
         if let Some(planners) = self.shared.planners.get(&setup) {
             return Ok(planners);

@@ -38,7 +38,7 @@ const text: string = version();
 const all: EngineInfo[] = engines();
 const able = all.map(
   ({ name, placements, maxK, any, guarantee, paper, index, options }) =>
-    `${name} ${placements.join()} ${maxK ?? "any"} ${any} ${guarantee} ${paper} ${index} ${options.join()}`,
+    `${name} ${placements.join()} ${maxK.toFixed()} ${any} ${guarantee} ${paper} ${index} ${options.join()}`,
 );
 const star: Int32Array = moves(4);
 

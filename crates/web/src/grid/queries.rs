@@ -42,7 +42,7 @@ impl Grid {
         let keywords = Keywords::read("how", how, Takes::ALL)?;
         let (start, goal) = (Points::read("start", start)?, Points::read("goal", goal)?);
         let motion = keywords.motion()?;
-        let engine = keywords.engine.unwrap_or(Choice::for_one_path(motion.k).engine);
+        let engine = keywords.engine.unwrap_or(Choice::for_one_path(motion).engine);
         let setup = Setup {
             smoothing: keywords.smoothing,
             ..Setup::new(keywords.configured(engine)?, motion.k, motion.rules)

@@ -20,7 +20,7 @@ export function takes(engine, setup) {
   const { k, placement, corners } = setup;
   if (!engine.placements.includes(placement)) return false;
   if (k === "any") return engine.any && placement === "corner";
-  if (engine.maxK === null || engine.maxK === undefined || k > engine.maxK) return false;
+  if (k > engine.maxK) return false;
   if (placement === "corner" || !NARROW_AT_CENTERS.includes(engine.name)) return true;
   return k === 2 || (k === 3 && corners === "never");
 }
@@ -50,10 +50,8 @@ function withMotion(setup, engine) {
     mended.placement = only === "center" ? "center" : "corner";
     said.push(`${name} has its vertices at ${mended.placement}s.`);
   }
-  const most = engine.maxK ?? null;
-  if (most === null) mended.k = "any";
-  else if (setup.k === "any" && !(engine.any && mended.placement === "corner")) mended.k = 3;
-  else if (setup.k !== "any" && setup.k > most) mended.k = most;
+  if (setup.k === "any" && !(engine.any && mended.placement === "corner")) mended.k = 3;
+  else if (setup.k !== "any" && setup.k > engine.maxK) mended.k = engine.maxK;
   if (mended.placement === "center" && NARROW_AT_CENTERS.includes(engine.name)) {
     if (mended.k !== 2) Object.assign(mended, { k: 3, corners: "never" });
     if (mended.corners !== setup.corners) said.push(`At centers ${name} takes corner rule never at k = 3.`);
@@ -66,7 +64,6 @@ function withMotion(setup, engine) {
 
 /** @param {EngineInfo} engine @param {LaneSetup} setup */
 function kRange(engine, setup) {
-  if (engine.maxK === null || engine.maxK === undefined) return "k = ∞ only";
   const most = setup.placement === "center" && NARROW_AT_CENTERS.includes(engine.name) ? 3 : engine.maxK;
   return `k from 2 to ${most}${setup.placement === "center" && engine.any ? " at centers" : ""}`;
 }

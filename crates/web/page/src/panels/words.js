@@ -44,7 +44,7 @@ const ENGINES = {
   },
   anya: {
     name: "Anya",
-    how: "Searches intervals of grid lines that a root sees: every angle, exactly.",
+    how: "Searches intervals of grid lines that a root sees: exact over N(k) and at every angle.",
   },
   subgoal: {
     name: "Subgoal graph",
@@ -92,7 +92,7 @@ export const kText = (k) => (k === "any" ? "∞" : String(k));
 export function promise(setup, guarantee) {
   if (guarantee === "suboptimal") return "Its paths may be longer than the shortest.";
   if (setup.smooth) return "Smoothing leaves N(k): the path is at most as long as before.";
-  if (guarantee === "optimal(any)" || setup.k === "any") return "No legal path at any angle is shorter.";
+  if (setup.k === "any") return "No legal path at any angle is shorter.";
   if (guarantee === "optimal(k)") return `No path over N(${setup.k}) is shorter.`;
   return setup.k === 2 ? "No path over N(2) is shorter." : "It is optimal at k = 2 only.";
 }
