@@ -39,7 +39,7 @@ use crate::{
 /// ```
 ///
 /// `G` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`.
-/// Its scratch memory is 16 bytes a vertex.
+/// Its scratch memory is 16 bytes for each vertex that searches touch, by pages of the system.
 pub type AStar<G, H> = BestFirst<G, H, AllMoves>;
 
 /// Dijkstra's algorithm (1959): A* without a heuristic. For the distances of all vertices,

@@ -30,7 +30,7 @@ use crate::{
 /// `G` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`.
 /// `N` is the [`ParentPointer`] of a node.
 #[derive(Clone, Debug)]
-pub struct BestFirst<G, H, S, N = ()> {
+pub struct BestFirst<G, H, S, N: ParentPointer = ()> {
     pub(crate) graph: G,
     pub(crate) heuristic: H,
     pub(crate) successors: S,
@@ -189,7 +189,7 @@ where
                 return Status::Found;
             }
             nodes.set_slot(id, Node::<N>::CLOSED);
-            let Some(&node) = nodes.get(id) else { continue };
+            let Some(node) = nodes.get(id) else { continue };
             let at = graph.vertex(id);
             if limit != Cost::MAX && node.g + graph.costs().distance(at.to(goal_at)) > limit {
                 continue;
@@ -214,7 +214,7 @@ where
                     Some(known)
                         if known.g < g
                             || known.g == g && !successors.prefers(graph, next.by, known.arrived_by()) => {}
-                    Some(&known) => {
+                    Some(known) => {
                         let gain = known.g - g;
                         nodes.set_path(next.id, g, next.by, N::to(id));
                         let (f, swaps) = if known.slot == Node::<N>::CLOSED {

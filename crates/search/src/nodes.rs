@@ -5,7 +5,7 @@ use mediant_moves::Cost;
 
 use crate::parent::ParentPointer;
 
-/// A search node: 16 bytes, so that four share a cache line, and its [`ParentPointer`], `N`.
+/// A search node: 16 bytes in the store, so that four share a cache line, and its [`ParentPointer`], `N`.
 #[derive(Clone, Copy, Debug)]
 pub struct Node<N = ()> {
     /// The cost of the best known path from the start.
@@ -18,7 +18,7 @@ pub struct Node<N = ()> {
     pub pointer: N,
 }
 
-const _: () = assert!(size_of::<Node>() == 16);
+const _: () = assert!(size_of::<<() as ParentPointer>::Words>() == 16);
 const _: () = assert!(Node::<()>::MOVE_BITS >= GridGraph::<Centers>::MAX_K);
 
 impl<N> Node<N> {
@@ -40,9 +40,14 @@ impl<N> Node<N> {
 
 /// One [`Node`] for each vertex. A node that a search knows carries the generation of that search, so earlier
 /// ones need not be cleared.
+///
+/// Nodes are stored as words: an array of zeros takes memory only where it is written, on systems that hand
+/// out zeros on demand. So the memory follows what searches touch, not the map, and a planner is made at
+/// once.
 #[derive(Clone, Debug)]
-pub struct NodeStore<N = ()> {
-    nodes: Box<[Node<N>]>,
+pub struct NodeStore<N: ParentPointer = ()> {
+    /// For each node the lower and the upper half of g, the slot, the mark, and the pointer.
+    nodes: Box<[N::Words]>,
     generation: u32,
 }
 
@@ -50,14 +55,13 @@ impl<N: ParentPointer> NodeStore<N> {
     /// A store for vertex ids below `len`, in which no node is known.
     #[must_use]
     pub fn new(len: usize) -> Self {
-        let unknown = Node { g: Cost::ZERO, slot: Node::<N>::CLOSED, mark: 0, pointer: N::NONE };
-        Self { nodes: vec![unknown; len].into_boxed_slice(), generation: 1 }
+        Self { nodes: vec![N::UNKNOWN; len].into_boxed_slice(), generation: 1 }
     }
 
     /// Forgets all nodes, in constant time (but for one call in a million).
     pub fn start_search(&mut self) {
         if self.generation == Node::<N>::LAST_GENERATION {
-            self.nodes.iter_mut().for_each(|node| node.mark = 0);
+            self.nodes = vec![N::UNKNOWN; self.nodes.len()].into_boxed_slice();
             self.generation = 0;
         }
         self.generation += 1;
@@ -66,9 +70,14 @@ impl<N: ParentPointer> NodeStore<N> {
     /// The node of a vertex, if this search knows it.
     #[must_use]
     #[inline]
-    pub fn get(&self, id: VertexId) -> Option<&Node<N>> {
-        let node = &self.nodes[id.index()];
-        (node.mark >> Node::<N>::MOVE_BITS == self.generation).then_some(node)
+    pub fn get(&self, id: VertexId) -> Option<Node<N>> {
+        let words = &self.nodes[id.index()];
+        let &[low, high, slot, mark, ..] = words.as_ref() else { return None };
+        let g = Cost::from_bits(u64::from(high) << 32 | u64::from(low));
+        if mark >> Node::<N>::MOVE_BITS != self.generation {
+            return None;
+        }
+        Some(Node { g, slot, mark, pointer: N::read(words) })
     }
 
     /// Makes a path of cost `g` that arrives by the move `arrived_by` the best known one to a vertex.
@@ -78,16 +87,20 @@ impl<N: ParentPointer> NodeStore<N> {
             arrived_by < 1 << Node::<N>::MOVE_BITS,
             "no move of any graph has the index {arrived_by}"
         );
-        let node = &mut self.nodes[id.index()];
-        node.g = g;
-        node.pointer = pointer;
-        node.mark = self.generation << Node::<N>::MOVE_BITS | arrived_by as u32;
+        let words = &mut self.nodes[id.index()];
+        pointer.write(words);
+        if let [low, high, _, mark, ..] = words.as_mut() {
+            (*low, *high) = (g.to_bits() as u32, (g.to_bits() >> 32) as u32);
+            *mark = self.generation << Node::<N>::MOVE_BITS | arrived_by as u32;
+        }
     }
 
     /// Records the slot of a vertex in the open list.
     #[inline]
     pub fn set_slot(&mut self, id: VertexId, slot: u32) {
-        self.nodes[id.index()].slot = slot;
+        if let [_, _, known, ..] = self.nodes[id.index()].as_mut() {
+            *known = slot;
+        }
     }
 }
 

@@ -7,8 +7,17 @@ use mediant_grid::{GridGraph, Placement, Step, Vertex, VertexId};
 /// How a node knows its parent. Engines that take one move at a time need to store nothing, `()`: the parent
 /// is found by the move.
 pub trait ParentPointer: Copy + Debug {
-    /// That of a node that was never reached.
-    const NONE: Self;
+    /// A node as it is stored, in words: four, and those of the pointer.
+    type Words: Copy + Debug + AsRef<[u32]> + AsMut<[u32]>;
+
+    /// The words of a node that was never reached: zeros.
+    const UNKNOWN: Self::Words;
+
+    /// The pointer in these words.
+    fn read(words: &Self::Words) -> Self;
+
+    /// Writes the pointer into these words.
+    fn write(self, words: &mut Self::Words);
 
     /// The pointer to a parent.
     fn to(parent: VertexId) -> Self;
@@ -25,7 +34,14 @@ pub trait ParentPointer: Copy + Debug {
 
 /// The parent is one move away.
 impl ParentPointer for () {
-    const NONE: Self = ();
+    type Words = [u32; 4];
+    const UNKNOWN: [u32; 4] = [0; 4];
+
+    #[inline]
+    fn read(_: &[u32; 4]) {}
+
+    #[inline]
+    fn write(self, _: &mut [u32; 4]) {}
 
     #[inline]
     fn to(_: VertexId) -> Self {}
@@ -44,7 +60,18 @@ impl ParentPointer for () {
 
 /// The parent itself.
 impl ParentPointer for VertexId {
-    const NONE: Self = Self(0);
+    type Words = [u32; 5];
+    const UNKNOWN: [u32; 5] = [0; 5];
+
+    #[inline]
+    fn read(words: &[u32; 5]) -> Self {
+        Self(words[4])
+    }
+
+    #[inline]
+    fn write(self, words: &mut [u32; 5]) {
+        words[4] = self.0;
+    }
 
     #[inline]
     fn to(parent: VertexId) -> Self {

@@ -34,7 +34,7 @@ pub(crate) fn extend_back<P: Placement, N: ParentPointer>(
 }
 
 /// The straight legs of a path, from the goal back to the start: where each ends, and its move.
-struct LegsBack<'s, P: Placement, N> {
+struct LegsBack<'s, P: Placement, N: ParentPointer> {
     graph: &'s GridGraph<P>,
     nodes: &'s NodeStore<N>,
     node: (VertexId, Vertex),

@@ -67,8 +67,8 @@ pub struct Wavefront<G> {
 }
 
 impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
-    /// A planner with scratch memory for `graph`: 16 bytes a vertex, and up to 4 more for each that a search
-    /// reaches.
+    /// A planner with scratch memory for `graph`: 16 to 20 bytes for each vertex that searches
+    /// reach, by pages of the system.
     #[must_use]
     pub fn new(graph: G) -> Self {
         let nodes = NodeStore::new(graph.vertex_count());
@@ -123,7 +123,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
                 *status = Status::Unreachable;
                 return;
             };
-            let Some(&node) = nodes.get(id) else { return };
+            let Some(node) = nodes.get(id) else { return };
             if observer.pauses(node.g) {
                 return;
             }

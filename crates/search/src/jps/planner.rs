@@ -17,7 +17,8 @@ use crate::{
     successors::{ExpandedNode, Successor, Successors},
 };
 
-/// Jump point search with any [`JumpFinder`]. Its scratch memory is 24 bytes a vertex.
+/// Jump point search with any [`JumpFinder`]. Its scratch memory is 20 bytes for each vertex that
+/// searches touch, by pages of the system.
 pub type JumpPointSearch<G, H, P, J> = BestFirst<G, H, JumpMoves<P, J>, VertexId>;
 
 /// Jump point search for every k, which scans jumps vertex by vertex.

@@ -50,8 +50,8 @@ pub type LazyThetaStar<G, H> = Theta<G, H, Lazy>;
 /// The planner that [`ThetaStar`] and [`LazyThetaStar`] share; `S` says when lines of sight are checked.
 ///
 /// `G` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`.
-/// Its scratch memory is 24½ bytes a vertex. The cost of a segment is that of a move of its displacement,
-/// [`Cost::of_move`](mediant_moves::Cost::of_move).
+/// Its scratch memory is half a byte a vertex, and 24 bytes for each that searches touch. The cost of a
+/// segment is that of a move of its displacement, [`Cost::of_move`](mediant_moves::Cost::of_move).
 #[derive(Clone, Debug)]
 pub struct Theta<G, H, S> {
     graph: G,

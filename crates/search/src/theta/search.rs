@@ -16,6 +16,9 @@ use crate::{
     segment::{is_at_least, segment_cost},
 };
 
+/// No vertex.
+const NOWHERE: VertexId = VertexId(u32::MAX);
+
 /// The other vertices that a node stores.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Parents {
@@ -27,11 +30,22 @@ pub(super) struct Parents {
 }
 
 impl ParentPointer for Parents {
-    const NONE: Self = Self { parent: VertexId(0), hidden_from: VertexId(u32::MAX) };
+    type Words = [u32; 6];
+    const UNKNOWN: [u32; 6] = [0; 6];
+
+    #[inline]
+    fn read(words: &[u32; 6]) -> Self {
+        Self { parent: VertexId(words[4]), hidden_from: VertexId(words[5]) }
+    }
+
+    #[inline]
+    fn write(self, words: &mut [u32; 6]) {
+        (words[4], words[5]) = (self.parent.0, self.hidden_from.0);
+    }
 
     #[inline]
     fn to(parent: VertexId) -> Self {
-        Self { parent, ..Self::NONE }
+        Self { parent, hidden_from: NOWHERE }
     }
 
     #[inline]
@@ -94,12 +108,12 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
             self.observer.percolated(swaps);
             let id = entry.id();
             self.nodes.set_slot(id, Node::<Parents>::CLOSED);
-            let Some(&(mut node)) = self.nodes.get(id) else { continue };
+            let Some(mut node) = self.nodes.get(id) else { continue };
             let here = PathEnd { id, at: self.graph.vertex(id), g: node.g };
             let mut f = entry.f();
             if !S::EAGER && !self.sees_parent(here, &node) {
                 self.set_parent_to_neighbor(here);
-                let Some(&settled) = self.nodes.get(id) else { continue };
+                let Some(settled) = self.nodes.get(id) else { continue };
                 f = settled.g + (f - node.g);
                 node = settled;
             }
@@ -132,7 +146,7 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
         graph.for_each_successor(here.at, by, self.goal_at, |index| {
             let step = graph.step(index);
             let (id, at) = (step.target(here.id), here.at + step.vector());
-            let known = self.nodes.get(id).copied();
+            let known = self.nodes.get(id);
             if known.is_some_and(|known| known.slot == Node::<Parents>::CLOSED) {
                 return;
             }
@@ -141,7 +155,7 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S,
             if known.is_some_and(|known| known.g <= parent.g || is_at_least(straight, known.g - parent.g)) {
                 return;
             }
-            let hidden_from = known.map_or(Parents::NONE, |known| known.pointer).hidden_from;
+            let hidden_from = known.map_or(NOWHERE, |known| known.pointer.hidden_from);
             if (!has_closed_gaps || self.may_be_parent(grandparent, parent.at, at))
                 && (!S::EAGER || hidden_from != parent.id && self.sight.sees(graph, parent.id, parent.at, at))
             {
