@@ -79,4 +79,6 @@ pub use obstruction::Obstruction;
 pub use placement::{Centers, Corners, Placement, SweptCells};
 pub use rectangle::Rectangle;
 pub use rules::{CornerRule, DiagonalGap, PlacementKind, Rules};
+#[doc(hidden)]
+pub use transpose::transpose;
 pub use vertex::{Vertex, VertexId};

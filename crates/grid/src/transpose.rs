@@ -5,7 +5,8 @@ use crate::BitMatrix;
 /// Exchanges rows and columns: bit x of word y becomes bit y of word x.
 ///
 /// Halves, quarters, … of the square are exchanged across its diagonal.
-pub(crate) const fn transpose(square: &mut [u64; 64]) {
+#[doc(hidden)]
+pub const fn transpose(square: &mut [u64; 64]) {
     let (mut width, mut low) = (32, u32::MAX as u64);
     while width > 0 {
         let mut y = 0;

@@ -45,6 +45,19 @@ pub fn noise(rng: &mut Rng, width: u32, height: u32, percent: u32) -> Grid {
     Canvas::new(width, height, |_, _| rng.chance(percent)).into_grid()
 }
 
+/// Open ground with few obstacles: a wall, two cells thick, along the middle three quarters of the rising
+/// diagonal, and within an eighth of the side on both sides of it single blocked cells, one in `one_in` on
+/// average. Jumps are long there, and many of them lead to the same places.
+pub fn sparse(rng: &mut Rng, side: u32, one_in: u32) -> Grid {
+    let is_blocked = |x: u32, y: u32| {
+        let beside = (x + y).abs_diff(side - 1);
+        let is_wall = beside == 0 || x + y == side;
+        (is_wall && (side / 8..side - side / 8).contains(&y))
+            || (beside <= side / 8 && rng.below(one_in) == 0)
+    };
+    Canvas::new(side, side, is_blocked).into_grid()
+}
+
 /// Rooms of 1 × 1 to 5 × 5 cells, all of one size, with walls one cell thick, most of which have a door.
 pub fn rooms(rng: &mut Rng, width: u32, height: u32) -> Grid {
     let side = 1 + rng.below(5);

@@ -50,8 +50,8 @@ mod visibility;
 pub use case::{Case, describe, on_all_cores, seeds};
 pub use dijkstra::{Costs, Explicit};
 pub use generate::{
-    adversarial, caves, maze, noise, random_free_vertex, random_grid, random_vertex, rooms, suite_grid,
-    wide_grid,
+    adversarial, caves, maze, noise, random_free_vertex, random_grid, random_vertex, rooms, sparse,
+    suite_grid, wide_grid,
 };
 pub use legality::{is_gap, segment_is_legal, turn_is_legal, vertex_is_free};
 pub use neighborhood::neighborhood;

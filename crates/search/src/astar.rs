@@ -5,7 +5,7 @@
 
 use std::ops::Deref;
 
-use mediant_grid::{GridGraph, Placement, Vertex};
+use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
 use mediant_moves::Cost;
 
 use crate::{
@@ -124,9 +124,11 @@ impl<P: Placement> Successors<P> for AllMoves {
         graph: &GridGraph<P>,
         node: ExpandedNode,
         goal: Vertex,
-        mut visit: impl FnMut(Successor),
+        mut visit: impl FnMut(Successor) -> Option<VertexId>,
     ) -> u32 {
-        graph.for_each_successor(node.at, node.by, goal, move |by| visit(node.step(graph, by)));
+        graph.for_each_successor(node.at, node.by, goal, move |by| {
+            visit(node.step(graph, by));
+        });
         0
     }
 }

@@ -67,7 +67,7 @@ where
     ///
     /// ```
     /// use std::sync::Arc;
-    /// use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph, Placement, Vertex};
+    /// use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph, Placement, Vertex, VertexId};
     /// use mediant_moves::FiniteK;
     /// use mediant_search::{
     ///     Guarantee, Hk, Planner, Query,
@@ -86,11 +86,13 @@ where
     ///         graph: &GridGraph<P>,
     ///         node: ExpandedNode,
     ///         goal: Vertex,
-    ///         mut visit: impl FnMut(Successor),
+    ///         mut visit: impl FnMut(Successor) -> Option<VertexId>,
     ///     ) -> u32 {
     ///         AllMoves.for_each(graph, node, goal, |next| {
     ///             if next.at.y >= node.at.y {
-    ///                 visit(next);
+    ///                 visit(next)
+    ///             } else {
+    ///                 None
     ///             }
     ///         })
     ///     }
@@ -170,8 +172,6 @@ where
     }
 
     /// Expands nodes until the goal is the best open node, none is open, or the observer pauses.
-    ///
-    /// With `pop` in a function of its own, A* executes 4 % more instructions.
     fn run(&mut self, observer: &mut impl Observer) -> Status {
         let Self { graph, heuristic, successors, nodes, open, aim, .. } = self;
         let (Aim { goal, limit, .. }, goal_at) = (*aim, graph.vertex(aim.goal));
@@ -180,6 +180,7 @@ where
 
         while open.get(0).is_none_or(|best| best.id() == goal || !observer.pauses(least::<H, N>(best, nodes)))
         {
+            // With this in a function of its own, A* executes 4 % more instructions.
             let Some((entry, swaps)) = open.pop(|id, slot| nodes.set_slot(id, slot)) else {
                 return Status::Unreachable;
             };
@@ -194,33 +195,31 @@ where
             if limit != Cost::MAX && node.g + graph.costs().distance(at.to(goal_at)) > limit {
                 continue;
             }
-            // Only a start costs nothing.
-            let by = (node.g != Cost::ZERO).then(|| node.arrived_by());
-            let parent = by.map(|by| node.pointer.parent(graph, graph.step(by), id, at).1);
-            observer.expanded(NodeEvent { at, parent, g: node.g, f: entry.f() });
-            if !graph.is_closed_gap(at) {
-                observer.reached(at, node.g);
-            }
-
+            let by = arrival(graph, &node, entry, observer);
             let (nodes, open, watcher) = (&mut *nodes, &mut *open, &mut *observer);
             // The closure owns what it needs: following one reference less for each successor saves a tenth
             // of the time of A*.
             let relax = move |next: Successor| {
                 let g = node.g + next.cost;
                 let event = |f| NodeEvent { at: next.at, parent: Some(at), g, f };
-                let estimate = || heuristic.estimate(graph, next.at.to(goal_at));
+                let entry = || {
+                    let h = heuristic.estimate(graph, next.at.to(goal_at));
+                    (g + h, Entry::new(g + h, h, next.id))
+                };
+                let is_earlier = |known: &Node<N>| {
+                    g < known.g || g == known.g && successors.prefers(graph, next.by, known.arrived_by())
+                };
                 match nodes.get(next.id) {
                     Some(known) if !reopens && known.slot == Node::<N>::CLOSED => {}
-                    Some(known)
-                        if known.g < g
-                            || known.g == g && !successors.prefers(graph, next.by, known.arrived_by()) => {}
+                    Some(known) if !is_earlier(&known) => {
+                        return known.pointer.stored().filter(|_| known.arrived_by() == next.by);
+                    }
                     Some(known) => {
                         let gain = known.g - g;
                         nodes.set_path(next.id, g, next.by, N::to(id));
                         let (f, swaps) = if known.slot == Node::<N>::CLOSED {
-                            let h = estimate();
-                            let entry = Entry::new(g + h, h, next.id);
-                            (g + h, open.push(entry, |id, slot| nodes.set_slot(id, slot)))
+                            let (f, entry) = entry();
+                            (f, open.push(entry, |id, slot| nodes.set_slot(id, slot)))
                         } else {
                             let f = open.get(known.slot).map_or(g, |entry| entry.f() - gain);
                             (f, open.decrease(known.slot, gain, |id, slot| nodes.set_slot(id, slot)))
@@ -229,19 +228,38 @@ where
                         watcher.percolated(swaps);
                     }
                     None => {
-                        let h = estimate();
+                        let (f, entry) = entry();
                         nodes.set_path(next.id, g, next.by, N::to(id));
-                        watcher.generated(event(g + h));
-                        let entry = Entry::new(g + h, h, next.id);
+                        watcher.generated(event(f));
                         watcher.percolated(open.push(entry, |id, slot| nodes.set_slot(id, slot)));
                     }
                 }
+                None
             };
             let scanned = successors.for_each(graph, ExpandedNode { id, at, by }, goal_at, relax);
             observer.scanned(scanned);
         }
         Status::Searching
     }
+}
+
+/// By which move a node that is expanded was reached, after the observer was told of it.
+#[inline]
+fn arrival<P: Placement, N: ParentPointer>(
+    graph: &GridGraph<P>,
+    node: &Node<N>,
+    entry: Entry,
+    observer: &mut impl Observer,
+) -> Option<usize> {
+    let at = graph.vertex(entry.id());
+    // Only a start costs nothing.
+    let by = (node.g != Cost::ZERO).then(|| node.arrived_by());
+    let parent = by.map(|by| node.pointer.parent(graph, graph.step(by), entry.id(), at).1);
+    observer.expanded(NodeEvent { at, parent, g: node.g, f: entry.f() });
+    if !graph.is_closed_gap(at) {
+        observer.reached(at, node.g);
+    }
+    by
 }
 
 /// What an observer is told of the best open node: its f, or its g where f says nothing.

@@ -19,6 +19,12 @@ pub trait ParentPointer: Copy + Debug {
     /// Writes the pointer into these words.
     fn write(self, words: &mut Self::Words);
 
+    /// The parent, where the pointer says it by itself.
+    #[inline]
+    fn stored(self) -> Option<VertexId> {
+        None
+    }
+
     /// The pointer to a parent.
     fn to(parent: VertexId) -> Self;
 
@@ -71,6 +77,11 @@ impl ParentPointer for VertexId {
     #[inline]
     fn write(self, words: &mut [u32; 5]) {
         words[4] = self.0;
+    }
+
+    #[inline]
+    fn stored(self) -> Option<VertexId> {
+        Some(self)
     }
 
     #[inline]

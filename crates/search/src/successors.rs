@@ -53,7 +53,10 @@ pub trait Successors<P: Placement>: Debug {
     /// always do.)
     const DEPEND_ON_ARRIVAL: bool = true;
 
-    /// Calls `visit` with each successor of a node, on the way to `goal`.
+    /// Calls `visit` with each successor of a node, on the way to `goal`. `visit` returns the parent of the
+    /// path that is known to this successor, if that path costs no more and arrives by the same move, and if
+    /// nodes store their parents.
+    ///
     /// Returns the number of vertices scanned, for [`Observer::scanned`](crate::Observer::scanned); 0 unless
     /// it jumps.
     fn for_each(
@@ -61,7 +64,7 @@ pub trait Successors<P: Placement>: Debug {
         graph: &GridGraph<P>,
         node: ExpandedNode,
         goal: Vertex,
-        visit: impl FnMut(Successor),
+        visit: impl FnMut(Successor) -> Option<VertexId>,
     ) -> u32;
 
     /// Whether a path to a vertex whose last move is `new` replaces the known path, of the same cost, whose

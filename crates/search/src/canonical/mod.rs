@@ -87,11 +87,10 @@ mod rule;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use alternatives::{MoveTable, Requirements};
-pub(crate) use order::{natural, rank};
+pub(crate) use order::rank;
 pub use paper::PaperCanonical;
 pub(crate) use pattern_table::{PatternTable, pattern_at};
 pub use planner::Canonical;
 pub use pruning::Pruning;
-pub(crate) use pruning::{LocalRule, prunes};
+pub(crate) use pruning::prunes;
 pub use rule::CanonicalRule;

@@ -19,7 +19,7 @@
 
 use std::ops::Deref;
 
-use mediant_grid::{GridGraph, Placement, Vertex};
+use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
 
 use super::{clearance::is_convex_corner, order::natural, pattern_table::pattern_at};
 use crate::{
@@ -67,16 +67,19 @@ impl<P: Placement> Successors<P> for PaperMoves {
         graph: &GridGraph<P>,
         node: ExpandedNode,
         goal: Vertex,
-        mut visit: impl FnMut(Successor),
+        mut visit: impl FnMut(Successor) -> Option<VertexId>,
     ) -> u32 {
         let is_jump_point =
             self.is_unpruned || self.jump_points.get(pattern_at(graph, node.at)).is_none_or(|&is| is);
         let is_legal = |by: usize| graph.sees(node.at, node.at + graph.step(by).vector());
+        let visit = |by: usize| {
+            visit(node.step(graph, by));
+        };
         match node.by.filter(|&by| !is_jump_point && !graph.has_closed_gaps() && is_legal(by)) {
-            None => graph.for_each_successor(node.at, node.by, goal, |by| visit(node.step(graph, by))),
-            Some(by) => natural(by, graph.steps().len())
-                .filter(|&next| next == by || is_legal(next))
-                .for_each(|next| visit(node.step(graph, next))),
+            None => graph.for_each_successor(node.at, node.by, goal, visit),
+            Some(by) => {
+                natural(by, graph.steps().len()).filter(|&next| next == by || is_legal(next)).for_each(visit);
+            }
         }
         0
     }

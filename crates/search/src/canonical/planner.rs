@@ -2,7 +2,7 @@
 
 use std::{ops::Deref, sync::Arc};
 
-use mediant_grid::{GridGraph, Mismatch, Placement, Vertex};
+use mediant_grid::{GridGraph, Mismatch, Placement, Vertex, VertexId};
 
 use super::{
     order::rank,
@@ -66,17 +66,20 @@ impl<P: Placement> Successors<P> for CanonicalMoves<P> {
         graph: &GridGraph<P>,
         node: ExpandedNode,
         goal: Vertex,
-        mut visit: impl FnMut(Successor),
+        mut visit: impl FnMut(Successor) -> Option<VertexId>,
     ) -> u32 {
         let is_pruned = |by: &usize| {
             !self.pruning.is_exempt(graph, node.at, *by, goal)
                 && !self.pruning.takes_all_moves(graph, &node, *by)
         };
+        let mut visit = |by: usize| {
+            visit(node.step(graph, by));
+        };
         match node.by.filter(is_pruned) {
-            None => graph.for_each_successor(node.at, node.by, goal, |by| visit(node.step(graph, by))),
+            None => graph.for_each_successor(node.at, node.by, goal, visit),
             Some(by) => self.pruning.for_each(graph, &node, by, |next| {
                 if graph.may_step(node.at, node.by, next, goal) {
-                    visit(node.step(graph, next));
+                    visit(next);
                 }
             }),
         }

@@ -33,15 +33,13 @@ pub struct Pruning<P: Placement> {
 
 /// What is known of a vertex for a path that arrives there by a given move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LocalRule {
+pub(crate) struct LocalRule {
     /// Whether it has any forced successor, and so is a jump point.
     pub(crate) forced: bool,
     /// Whether the arriving move may be repeated.
     pub(crate) ahead: bool,
     /// For how many more steps of the arriving move this is known to hold.
     pub(crate) steps: u32,
-    /// Whether the axial jumps beside a diagonal one may come to a jump point.
-    pub(crate) beside: bool,
 }
 
 impl<P: Placement> Pruning<P> {
@@ -179,15 +177,6 @@ impl<P: Placement> Pruning<P> {
         self.clearance.is_none() || self.forced_cache.is_some()
     }
 
-    /// Whether move `next` is anywhere a forced successor after move `by`; for k ≤ 3.
-    pub(crate) fn may_be_forced(&self, by: usize, next: usize) -> bool {
-        match &self.rule.lookup {
-            ForcedLookup::Table(table) => (0..P::PATTERNS)
-                .any(|pattern| table.forced(by, table.successors(by, pattern)) >> next & 1 == 1),
-            ForcedLookup::Trees(_) | ForcedLookup::Unknown => true,
-        }
-    }
-
     /// Whether a path that arrives by move `by` has a forced successor where the cells form `pattern`; for k
     /// ≤ 3.
     pub(crate) fn has_forced_at(&self, pattern: usize, by: usize) -> bool {
@@ -239,7 +228,7 @@ impl<P: Placement> Pruning<P> {
     /// What is known of a vertex for a path that arrives there by move `by`.
     #[inline]
     pub(crate) fn local_rule(&self, graph: &GridGraph<P>, node: &ExpandedNode, by: usize) -> LocalRule {
-        let all = LocalRule { forced: false, ahead: true, steps: 0, beside: true };
+        let all = LocalRule { forced: false, ahead: true, steps: 0 };
         let ForcedLookup::Table(table) = &self.rule.lookup else {
             let (clearance, needed) = (self.clearance_of(node), self.rule.corner_distance);
             if clearance.corner < needed {

@@ -30,7 +30,10 @@ fn check(graph: &GridGraph<Centers>) {
         for by in 0..count {
             let node = ExpandedNode { id, at, by: Some(by) };
             let mut taken = BTreeSet::new();
-            moves.for_each(graph, node, Vertex::new(0, 0), |next| assert!(taken.insert(next.by)));
+            moves.for_each(graph, node, Vertex::new(0, 0), |next| {
+                assert!(taken.insert(next.by));
+                None
+            });
             let (mut legal, mut left) = (BTreeSet::new(), BTreeSet::new());
             graph.for_each_legal_move(at, |index| _ = legal.insert(index));
             pruning.for_each(graph, &node, by, |index| _ = left.insert(index));

@@ -13,7 +13,7 @@
 //! The planes take one byte a vertex (two bits a direction). A scan takes 3 to 4 ns; combining the rows anew
 //! at every scan takes 5 to 7.5 ns (`docs/measurements/search.md`).
 
-use mediant_grid::{BitMatrix, CornerRule, DiagonalGap, GridGraph, Placement, Rules, Vertex, load};
+use mediant_grid::{BitMatrix, CornerRule, DiagonalGap, GridGraph, Placement, Rules, Vector, Vertex, load};
 use mediant_moves::FiniteK;
 
 /// Where an axial jump ends.
@@ -40,7 +40,7 @@ impl Scan {
 
 /// Which vertices of an axial jump are jump points. *Beside* means in the row on either side of the jump.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum JumpPointRule {
+pub(super) enum JumpPointRule {
     /// The cell beside the vertex is free and the one beside its predecessor is blocked. For centers where no
     /// diagonal move passes a blocked cell: `Never`, and k = 2.
     Behind,
@@ -53,15 +53,15 @@ enum JumpPointRule {
 
 /// Which of 64 vertices end a jump, one bit each, the lowest for the first vertex.
 #[derive(Clone, Copy, Debug)]
-struct Ends {
+pub(super) struct Ends {
     /// Jump points, if the jump reaches them.
-    jump: u64,
+    pub(super) jump: u64,
     /// Vertices that the jump cannot enter.
-    dead: u64,
+    pub(super) dead: u64,
 }
 
 impl JumpPointRule {
-    fn of<P: Placement>(graph: &GridGraph<P>) -> Self {
+    pub(super) fn of<P: Placement>(graph: &GridGraph<P>) -> Self {
         match graph.rules() {
             Rules::Corner(gap) => Self::Edges { closed: gap == DiagonalGap::Closed },
             Rules::Center(rule) if rule == CornerRule::Never || graph.k() == FiniteK::N4 => Self::Behind,
@@ -90,6 +90,16 @@ impl JumpPointRule {
                 Ends { jump, dead: passed[0] & passed[1] | if closed { gap } else { 0 } }
             }
         }
+    }
+
+    /// The ends of a jump by `v`, along either axis, at vertex (x, y) and at the next 63 of its row.
+    pub(super) fn ends_in_row<P: Placement>(self, rows: &BitMatrix, (x, y): (i32, i32), v: Vector) -> Ends {
+        let at = rows.index(x, y);
+        self.ends(|ahead, beside| {
+            let along = P::cell(v.x + v.y, ahead);
+            let (dx, dy) = if v.y == 0 { (along, beside) } else { (beside, along) };
+            load(rows.words(), at.offset(dx + dy * rows.bits_per_row()))
+        })
     }
 
     /// The ends at vertex `u` of line `v` of a matrix and at the next 63 vertices of the jump.
@@ -129,7 +139,9 @@ impl AxialStops {
         let grid = graph.grid();
         let (width, height) = P::vertices(grid);
         let rule = JumpPointRule::of(graph);
-        let mut words = Vec::new();
+        // Two words of each line lie across the map, two along it. A scan reads two words.
+        let words_of = |length: u32, lines: u32| (length as usize / 64 + 1) * lines as usize;
+        let mut words = Vec::with_capacity(2 * (words_of(height, width) + words_of(width, height)) + 1);
         let planes = [0, 1, 2, 3].map(|quarter| {
             let (vertical, forward) = (quarter % 2 == 0, quarter < 2);
             let (matrix, length, lines) =
@@ -149,7 +161,6 @@ impl AxialStops {
             let (per_x, per_y) = if vertical { (across, along) } else { (along, across) };
             BitPlane { origin, per_x, per_y }
         });
-        // A scan reads two words.
         words.push([!0; 2]);
         Self { planes, words: words.into_boxed_slice() }
     }

@@ -2,27 +2,26 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{GridGraph, Identity, Placement};
+use mediant_grid::{GridGraph, Identity, Placement, VertexId};
 use mediant_moves::KError;
 
 use super::{
     axial::AxialStops,
-    diagonals::DiagonalBits,
-    finder::{JumpContext, JumpFinder},
+    diagonals::DiagonalStops,
+    finder::{JumpContext, JumpFinder, Stop},
     table::{JumpError, JumpTable},
 };
 use crate::{
-    canonical::{LocalRule, Pruning},
-    successors::ExpandedNode,
+    canonical::Pruning,
+    successors::{ExpandedNode, Successor},
 };
 
-/// Makes axial jumps by words of 64 vertices, for k ≤ 3. Takes two bytes a vertex, which clones
-/// share.
+/// Makes jumps by words of 64 vertices, for k ≤ 3. Takes two and a half bytes a vertex, which clones share.
 #[derive(Clone, Debug)]
 pub struct BlockFinder {
     identity: Identity,
     axial: Arc<AxialStops>,
-    diagonals: Arc<DiagonalBits>,
+    diagonals: Arc<DiagonalStops>,
 }
 
 impl BlockFinder {
@@ -45,7 +44,7 @@ impl BlockFinder {
         Ok(Self {
             identity: graph.identity(),
             axial: Arc::new(AxialStops::new(graph)),
-            diagonals: Arc::new(DiagonalBits::new(graph, pruning)),
+            diagonals: Arc::new(DiagonalStops::new(graph, pruning)),
         })
     }
 
@@ -80,15 +79,28 @@ impl<P: Placement> JumpFinder<P> for BlockFinder {
     }
 
     #[inline]
-    fn local_rule(&self, context: &JumpContext<'_, P>, here: &ExpandedNode, index: usize) -> LocalRule {
+    fn diagonal(
+        &self,
+        context: &JumpContext<'_, P>,
+        from: &ExpandedNode,
+        index: usize,
+        scanned: &mut u32,
+        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+    ) {
         if context.stepwise {
-            return context.pruning.local_rule(context.graph, here, index);
+            return context.step_diagonal(self, from, index, scanned, visit);
         }
-        if context.pruning.diagonals_may_force() {
-            let rule = context.pruning.local_rule(context.graph, here, index);
-            return LocalRule { beside: self.diagonals.at(here.at, index).1, ..rule };
-        }
-        let (ahead, beside) = self.diagonals.at(here.at, index);
-        LocalRule { forced: false, ahead, steps: 0, beside }
+        let start = self.diagonals.place(from.at, index);
+        let next = |gone| {
+            let (steps, leads) = self.diagonals.next_stop(start + u64::from(gone));
+            let found = leads[0] || leads[1] || {
+                // A jump point, or a vertex that the jump cannot enter.
+                let before = context.after(from, context.graph.step(index), index, gone + steps - 1);
+                context.pruning.diagonals_may_force()
+                    && context.pruning.is_legal(context.graph, &before, index)
+            };
+            Stop { steps: steps - u32::from(!found), found, leads }
+        };
+        context.diagonal_by_stops(self, from, index, next, scanned, visit);
     }
 }

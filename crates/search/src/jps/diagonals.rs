@@ -1,70 +1,113 @@
-//! What is known of each vertex for a diagonal jump, a bit each: whether the jump's move is legal there, and
-//! whether either axial jump beside it comes to a jump point.
+//! Scans along diagonals by words: 64 vertices a step, as [`axial`](super::axial) does along the axes.
 //!
-//! So a step of a diagonal jump loads one word, and scans along an axis only where there is something to
-//! find. (Where the goal lies beside the jump is known from its coordinates.) The bits are computed 64
-//! vertices at a time. Which vertices are jump points follows from the definition: the moves that may be
-//! forced, and the alternatives to them. Which axial jumps come to one is carried from row to row, or along a
-//! row from bit to bit.
+//! A diagonal jump *stops* where its move is not legal, at a vertex with a forced successor, and at an
+//! intermediate jump point, where one of the two axial jumps beside it comes to a jump point. All of that
+//! depends on the map alone. So it is computed once and stored: for each odd move a bit plane of the vertices
+//! that stop a jump which enters them, and one for each of the two axial jumps that says from which of these
+//! vertices it finds something. (Where the goal lies beside the jump is known from its coordinates.)
 //!
-//! The bits take one byte a vertex, on top of the byte of [`AxialStops`](super::axial::AxialStops).
+//! In a plane the bits of a diagonal follow one another, in the order of the jump. Diagonals that leave the
+//! map on one side go on at the other: so there are as many lines as columns, each as long as a column, and
+//! no bit is wasted. A jump stops at the edge, because no move leads there from outside.
+//!
+//! The planes are computed in rows, 64 vertices at a time, and then turned, 64 × 64 bits at a time. They take
+//! twelve bits a vertex, on top of the byte of [`AxialStops`](super::axial::AxialStops).
 
-use mediant_grid::{BitMatrix, CellOffset, Footprint, GridGraph, Placement, Vector, Vertex, load};
-use mediant_moves::Neighborhood;
+use mediant_grid::{GridGraph, Placement, Vector, Vertex};
 
-use crate::canonical::{MoveTable, Pruning, Requirements, natural};
+use super::stop_rows::{StopRows, Stops};
+use crate::canonical::Pruning;
 
-/// What is known of each vertex of a grid graph with k ≤ 3 for diagonal jumps.
+/// Where diagonal jumps stop, for each vertex of a grid graph with k ≤ 3.
 #[derive(Clone, Debug)]
-pub(crate) struct DiagonalBits {
-    /// For 64 vertices of a row and each odd move: where the move is legal, and where an axial jump beside it
-    /// comes to a jump point.
-    words: Vec<[[u64; 4]; 2]>,
-    per_row: usize,
+pub(crate) struct DiagonalStops {
+    planes: [Plane; 4],
+    words: Vec<Stops>,
+    lines: u64,
+    /// 2⁴⁰ / `lines`, rounded up.
+    reciprocal: u64,
 }
 
-impl DiagonalBits {
+/// Where the bits of one odd move are: that of vertex (x, y) in the line (`across` · (x, y) + `shift`) modulo
+/// the number of lines, at the place `along` · (x, y) + `start`, counted from the plane's first bit.
+#[derive(Clone, Copy, Debug, Default)]
+struct Plane {
+    across: Vector,
+    shift: i32,
+    along: Vector,
+    start: i32,
+    first: u64,
+    /// The bits of a line.
+    length: u64,
+}
+
+impl DiagonalStops {
     pub(crate) fn new<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>) -> Self {
         let (width, height) = P::vertices(graph.grid());
-        let per_row = width.div_ceil(64) as usize;
-        let mut words = vec![[[0; 4]; 2]; per_row * height as usize];
-        let Ok(all) = Neighborhood::new(graph.k()) else { return Self { words, per_row } };
-        let moves = MoveTable::<P>::new(graph.rule(), all);
-        let count = moves.len();
-        let rows = graph.grid().rows();
-        let place = |word: usize| ((word % per_row) as i32 * 64, (word / per_row) as i32);
-        for (word, [legal, found]) in words.iter_mut().enumerate() {
-            let (x, y) = place(word);
-            for (legal, asked) in legal.iter_mut().zip(moves.footprints.iter().skip(1).step_by(2)) {
-                *legal = holds(rows, (x, y), &asked.free, &asked.either);
-            }
-            // With closed gaps, scan from every vertex.
-            *found = if graph.has_closed_gaps() { [!0; 4] } else { [0; 4] };
-        }
-        if graph.has_closed_gaps() {
-            return Self { words, per_row };
-        }
-        for axial in (0..count).step_by(2) {
-            let jump = AxialJump::new(&moves, pruning, axial);
-            let ends = |word: usize| jump.ends(rows, place(word));
-            let leads = jump.leads(&ends, per_row, height as usize);
-            for (odd, index) in (1..count).step_by(2).enumerate() {
-                if natural(index, count).any(|beside| beside == axial) {
-                    words.iter_mut().zip(&leads).for_each(|(word, leads)| word[1][odd] |= leads);
+        let odd: Vec<usize> = (1..graph.steps().len()).step_by(2).collect();
+        let (lines, length) = if odd.len() > 2 { (width, height) } else { (height, width) };
+        let per_line = (length / 64 + 1) as usize;
+        let per_plane = lines as usize * per_line;
+        // A scan reads two words.
+        let words = odd.len() * per_plane + 1;
+        let mut all = Self {
+            planes: [Plane::default(); 4],
+            words: vec![[0; 3]; words],
+            lines: u64::from(lines),
+            reciprocal: (1 << 40) / u64::from(lines) + 1,
+        };
+        for (i, &index) in odd.iter().enumerate() {
+            let first = i * per_plane;
+            all.planes[i] =
+                Plane::new(graph.step(index).vector(), (width as i32, height as i32), first as u64 * 64);
+            StopRows::new(graph, pruning, index).for_each_word(|line, word, stops| {
+                let known = &mut all.words[first + line * per_line + word];
+                known.iter_mut().zip(stops).for_each(|(known, stops)| *known |= stops);
+            });
+            for line in all.words[first..first + per_plane].chunks_exact_mut(per_line) {
+                if let Some(last) = line.last_mut() {
+                    // Beyond the end of the line.
+                    last[0] |= !0 << (length % 64);
                 }
             }
         }
-        Self { words, per_row }
+        all.words[words - 1][0] = !0;
+        all
     }
 
-    /// Whether the odd move `index` is legal at a free vertex, and whether an axial jump beside it comes to a
-    /// jump point.
+    /// The place of the bit of a vertex of the map for jumps by the odd move `index`.
     #[inline]
-    pub(crate) fn at(&self, at: Vertex, index: usize) -> (bool, bool) {
-        let (x, y) = (at.x as usize, at.y as usize);
-        let Some(words) = self.words.get(y * self.per_row + (x >> 6)) else { return (false, false) };
-        let bit = |words: &[u64; 4]| words[index >> 1 & 3] >> (x & 63) & 1 == 1;
-        (bit(&words[0]), bit(&words[1]))
+    pub(crate) fn place(&self, at: Vertex, index: usize) -> u64 {
+        let plane = &self.planes[index >> 1 & 3];
+        let line = plane.across.x * at.x + plane.across.y * at.y + plane.shift;
+        // A division by a multiplication, exact below 2²⁰ lines.
+        let line = u64::from(line as u32);
+        let line = line - self.lines * ((line * self.reciprocal) >> 40);
+        let place = plane.along.x * at.x + plane.along.y * at.y + plane.start;
+        plane.first + line * plane.length + u64::from(place as u32)
+    }
+
+    /// After how many steps a jump from the vertex of this bit stops, and which of the two axial jumps come
+    /// to a jump point from there; if none does, either the jump cannot enter that vertex, or it has a forced
+    /// successor.
+    #[inline]
+    pub(crate) fn next_stop(&self, place: u64) -> (u32, [bool; 2]) {
+        let (mut at, mut steps) = (place + 1, 1);
+        loop {
+            let (word, shift) = ((at >> 6) as usize, at & 63);
+            let Some([low, high]) = self.words.get(word..word + 2) else {
+                return (steps, [false; 2]);
+            };
+            // Shifting in two steps avoids a shift by 64 where `shift` is 0.
+            let from_here = |i: usize| low[i] >> shift | high[i] << 1 << (63 - shift);
+            let stop = from_here(0);
+            if stop != 0 {
+                let n = stop.trailing_zeros();
+                return (steps + n, [1, 2].map(|i| from_here(i) >> n & 1 == 1));
+            }
+            steps += 64;
+            at += 64;
+        }
     }
 
     pub(crate) fn memory_bytes(&self) -> usize {
@@ -72,99 +115,19 @@ impl DiagonalBits {
     }
 }
 
-/// The move of an axial jump, and what makes a vertex one of its jump points.
-struct AxialJump {
-    v: Vector,
-    step: Footprint,
-    /// The moves that may be forced, each with those alternatives that depend on the pattern of cells around
-    /// the vertex alone.
-    forced: Vec<(Footprint, Vec<Requirements>)>,
-}
-
-impl AxialJump {
-    fn new<P: Placement>(moves: &MoveTable<P>, pruning: &Pruning<P>, index: usize) -> Self {
-        let v = moves.vectors[index];
-        let forced = (0..moves.len()).filter(|&next| next != index && pruning.may_be_forced(index, next));
-        let forced = forced.map(|next| {
-            let mut alternatives = Vec::new();
-            moves.alternatives(index, next, |sequence| {
-                let required = moves.requirements(-v, sequence);
-                let cells = required.free.iter().chain(required.either.as_flattened());
-                if cells.copied().all(|(x, y)| P::pattern_holds(x, y)) {
-                    alternatives.push(required);
-                }
-            });
-            (moves.footprints[next].clone(), alternatives)
-        });
-        Self { v, step: moves.footprints[index].clone(), forced: forced.collect() }
-    }
-
-    /// Of 64 vertices, those that are jump points when the jump enters them, and those that it can enter.
-    fn ends(&self, rows: &BitMatrix, (x, y): (i32, i32)) -> [u64; 2] {
-        let jump = self.forced.iter().fold(0, |jump, (next, alternatives)| {
-            let holds_around =
-                |required: &Requirements| holds(rows, (x, y), &required.free, &required.either);
-            let pruned = alternatives.iter().fold(0, |pruned, required| pruned | holds_around(required));
-            jump | holds(rows, (x, y), &next.free, &next.either) & !pruned
-        });
-        [jump, holds(rows, (x - self.v.x, y - self.v.y), &self.step.free, &self.step.either)]
-    }
-
-    /// Of all vertices, those from which the jump comes to a jump point.
-    fn leads(&self, ends: &impl Fn(usize) -> [u64; 2], per_row: usize, height: usize) -> Vec<u64> {
-        let mut leads = vec![0; per_row * height];
-        let ascending = self.v.x + self.v.y > 0;
-        // Each word after the one that the jump enters next.
-        for i in 0..leads.len() {
-            let word = if ascending { leads.len() - 1 - i } else { i };
-            leads[word] = if self.v.x == 0 {
-                let next = word as isize + self.v.y as isize * per_row as isize;
-                let Some(&beyond) = usize::try_from(next).ok().and_then(|next| leads.get(next)) else {
-                    continue;
-                };
-                let [jump, enters] = ends(next as usize);
-                enters & (jump | beyond)
-            } else {
-                // The jump from vertex x comes to a jump point if it can enter x + 1, and that is one or
-                // leads to one.
-                let next = (word % per_row) as isize + self.v.x as isize;
-                let inside = (0..per_row as isize).contains(&next);
-                let next = word.wrapping_add_signed(self.v.x as isize);
-                let ([jump, enters], beyond) = (ends(word), if inside { leads[next] } else { 0 });
-                let [next_jump, next_enters] = if inside { ends(next) } else { [0, 0] };
-                if ascending {
-                    let shifted = |word: u64, next: u64| word >> 1 | next << 63;
-                    let enters = shifted(enters, next_enters);
-                    let start = enters & (shifted(jump, next_jump) | beyond << 63);
-                    carried::<true>(start, enters)
-                } else {
-                    let shifted = |word: u64, next: u64| word << 1 | next >> 63;
-                    let enters = shifted(enters, next_enters);
-                    let start = enters & (shifted(jump, next_jump) | beyond >> 63);
-                    carried::<false>(start, enters)
-                }
-            };
+impl Plane {
+    fn new(v: Vector, (width, height): (i32, i32), first: u64) -> Self {
+        let length = |length: i32| (length as u64 / 64 + 1) * 64;
+        if v.y == 0 {
+            let start = if v.x > 0 { 0 } else { width - 1 };
+            let (across, along) = (Vector::new(0, 1), v);
+            return Self { across, shift: 0, along, start, first, length: length(width) };
         }
-        leads
+        // The place is y, or counted from the last row. The line is x − v.x · place, plus a multiple of the
+        // width so that it is no less than 0.
+        let (along, start) = (Vector::new(0, v.y), if v.y > 0 { 0 } else { height - 1 });
+        let whole = (height + width - 1) / width * width;
+        let (across, shift) = (Vector::new(1, -v.x * v.y), whole - v.x * start);
+        Self { across, shift, along, start, first, length: length(height) }
     }
-}
-
-/// The bits `start`, and those of the bits `through` that follow them without a break, from high to low bits
-/// if `DOWN`.
-fn carried<const DOWN: bool>(start: u64, through: u64) -> u64 {
-    let (mut start, mut through) = (start, through);
-    for by in [1, 2, 4, 8, 16, 32] {
-        let shifted = |word: u64| if DOWN { word >> by } else { word << by };
-        start |= through & shifted(start);
-        through &= shifted(through);
-    }
-    start
-}
-
-/// Of 64 vertices from (x, y) on, those where the cells `free`, and one of each pair `either`, are free.
-fn holds(rows: &BitMatrix, (x, y): (i32, i32), free: &[CellOffset], either: &[[CellOffset; 2]]) -> u64 {
-    let at = rows.index(x, y);
-    let cell = |&(dx, dy): &CellOffset| !load(rows.words(), at.offset(dy * rows.bits_per_row() + dx));
-    let all = free.iter().fold(!0, |all, offset| all & cell(offset));
-    either.iter().fold(all, |all, [a, b]| all & (cell(a) | cell(b)))
 }

@@ -2,11 +2,11 @@
 
 use std::fmt::Debug;
 
-use mediant_grid::{GridGraph, Identity, Placement, Step, Vector, Vertex};
+use mediant_grid::{GridGraph, Identity, Placement, Step, Vector, Vertex, VertexId};
 use mediant_moves::Cost;
 
 use crate::{
-    canonical::{LocalRule, Pruning},
+    canonical::Pruning,
     successors::{ExpandedNode, Successor},
 };
 
@@ -45,13 +45,6 @@ pub trait JumpFinder<P: Placement>: Debug {
         scanned: &mut u32,
     ) -> Option<u32>;
 
-    /// What is known of the vertex `here` for a diagonal jump by move `index`.
-    #[doc(hidden)]
-    #[inline]
-    fn local_rule(&self, context: &JumpContext<'_, P>, here: &ExpandedNode, index: usize) -> LocalRule {
-        context.pruning.local_rule(context.graph, here, index)
-    }
-
     /// Calls `visit` with all successors to which the diagonal jump by move `index` from a vertex leads.
     #[doc(hidden)]
     #[inline]
@@ -61,7 +54,7 @@ pub trait JumpFinder<P: Placement>: Debug {
         from: &ExpandedNode,
         index: usize,
         scanned: &mut u32,
-        visit: &mut impl FnMut(Successor),
+        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
     ) {
         context.step_diagonal(self, from, index, scanned, visit);
     }
@@ -91,7 +84,7 @@ impl<P: Placement> JumpContext<'_, P> {
     #[inline]
     pub(crate) fn steps_to_goal(&self, from: Vertex, v: Vector) -> Option<u32> {
         let d = from.to(self.goal);
-        if cross(v, d) != 0 || i64::from(v.x) * i64::from(d.x) + i64::from(v.y) * i64::from(d.y) <= 0 {
+        if cross(v, d) != 0 || dot(v, d) <= 0 {
             return None;
         }
         Some((d.x.unsigned_abs() + d.y.unsigned_abs()) / (v.x.unsigned_abs() + v.y.unsigned_abs()))
@@ -151,7 +144,7 @@ impl<P: Placement> JumpContext<'_, P> {
         from: &ExpandedNode,
         index: usize,
         scanned: &mut u32,
-        visit: &mut impl FnMut(Successor),
+        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
     ) {
         if !self.may_step(from, index) || !self.pruning.is_legal(self.graph, from, index) {
             return;
@@ -164,15 +157,17 @@ impl<P: Placement> JumpContext<'_, P> {
             *scanned += 1;
             let legs = to_goal.filter(|legs| legs.diagonal == n);
             let is_goal = legs.is_some_and(|legs| legs.axial == 0);
-            let rule = finder.local_rule(self, &here, index);
-            if is_goal || n >= self.limit || rule.forced || self.is_exempt(here.at, index) {
-                return visit(here.reached(cost, index));
+            let rule = self.pruning.local_rule(self.graph, &here, index);
+            let ends = is_goal || n >= self.limit || rule.forced || self.is_exempt(here.at, index);
+            let turn = if ends {
+                Turn::Node
+            } else {
+                self.jump_beside(finder, here.reached(cost, index), [true; 2], legs, scanned, visit)
+            };
+            if turn == Turn::Node {
+                visit(here.reached(cost, index));
             }
-            if (rule.beside || legs.is_some()) && self.jump_beside(finder, &here, cost, legs, scanned, visit)
-            {
-                return visit(here.reached(cost, index));
-            }
-            if !rule.ahead || !self.may_step(&here, index) {
+            if turn != Turn::Passed || !rule.ahead || !self.may_step(&here, index) {
                 return;
             }
             here = self.after(&here, step, index, 1);
@@ -180,31 +175,121 @@ impl<P: Placement> JumpContext<'_, P> {
         }
     }
 
-    /// The two axial jumps from a vertex of a diagonal jump. Returns whether the diagonal jump must end
-    /// there, because the vertex is an intermediate jump point that becomes a node.
+    /// A diagonal jump from stop to stop. `next` says where it stops next after so many steps.
     #[inline]
-    pub(super) fn jump_beside<J: JumpFinder<P> + ?Sized>(
+    pub(super) fn diagonal_by_stops<J: JumpFinder<P> + ?Sized>(
         &self,
         finder: &J,
         from: &ExpandedNode,
-        cost: Cost,
-        to_goal: Option<GoalLegs>,
+        index: usize,
+        next: impl Fn(u32) -> Stop,
         scanned: &mut u32,
-        visit: &mut impl FnMut(Successor),
-    ) -> bool {
-        let mut ends = false;
-        for index in self.beside(from.by.unwrap_or(0)) {
-            let goal_steps = to_goal.filter(|legs| legs.index == index).map(|legs| legs.axial);
-            if let Some(n) = finder.axial(self, from, index, goal_steps, scanned) {
-                ends |= self.keeps_intermediate;
-                if !ends {
-                    let step = self.graph.step(index);
-                    visit(self.after(from, step, index, n).reached(cost + step.cost * n, index));
+        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+    ) {
+        let step = self.graph.step(index);
+        let to_goal = GoalLegs::new(self, from.at, index);
+        let mut gone = 0;
+        loop {
+            let stop = next(gone);
+            let reached = (gone + stop.steps).min(self.limit);
+            if let Some(legs) = to_goal.filter(|legs| gone < legs.diagonal && legs.diagonal <= reached) {
+                let turn = self.after(from, step, index, legs.diagonal);
+                let (goal_steps, cost) = (Some(legs.axial), step.cost * legs.diagonal);
+                if legs.axial == 0 {
+                    visit(turn.reached(cost, index));
+                    return;
+                }
+                if finder.axial(self, &turn, legs.index, goal_steps, scanned) == goal_steps {
+                    // No path to the goal that begins with this jump is shorter.
+                    let beside = self.graph.step(legs.index);
+                    let goal = self.after(&turn, beside, legs.index, legs.axial);
+                    visit(goal.reached(cost + beside.cost * legs.axial, legs.index));
+                    return;
                 }
             }
+            if !stop.found && reached < self.limit {
+                return;
+            }
+            gone = reached;
+            let here = self.after(from, step, index, gone);
+            let there = here.reached(step.cost * gone, index);
+            let forced = self.pruning.diagonals_may_force()
+                && self.pruning.local_rule(self.graph, &here, index).forced;
+            if forced || reached == self.limit || self.keeps_intermediate {
+                visit(there);
+                return;
+            }
+            if self.jump_beside(finder, there, stop.leads, None, scanned, visit) != Turn::Passed {
+                return;
+            }
         }
-        ends
     }
+
+    /// Those of the two axial jumps from a vertex of a diagonal jump that may lead anywhere.
+    #[inline]
+    fn jump_beside<J: JumpFinder<P> + ?Sized>(
+        &self,
+        finder: &J,
+        from: Successor,
+        leads: [bool; 2],
+        to_goal: Option<GoalLegs>,
+        scanned: &mut u32,
+        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+    ) -> Turn {
+        let mut turn = Turn::Passed;
+        let node = ExpandedNode { id: from.id, at: from.at, by: Some(from.by) };
+        for (index, leads) in self.beside(from.by).into_iter().zip(leads) {
+            if !leads {
+                continue;
+            }
+            let goal_steps = to_goal.filter(|legs| legs.index == index).map(|legs| legs.axial);
+            let Some(n) = finder.axial(self, &node, index, goal_steps, scanned) else { continue };
+            if self.keeps_intermediate {
+                turn = Turn::Node;
+                continue;
+            }
+            let step = self.graph.step(index);
+            let there = self.after(&node, step, index, n);
+            let known = visit(there.reached(from.cost + step.cost * n, index));
+            if !self.stepwise && known.is_some_and(|parent| self.last_leg(parent, there.at, index) > n) {
+                return Turn::Cut;
+            }
+        }
+        turn
+    }
+
+    /// How many steps of the even move `index` the path from a parent to a vertex ends with.
+    #[inline]
+    fn last_leg(&self, parent: VertexId, at: Vertex, index: usize) -> u32 {
+        let (d, v) = (self.graph.vertex(parent).to(at), self.graph.step(index).vector());
+        let [before, after] = self.beside(index);
+        // As in `GoalLegs`, with the even move in the place of the odd one.
+        let across = cross(v, d);
+        let (odd, sign) = if across > 0 { (before, 1) } else { (after, -1) };
+        (cross(d, self.graph.step(odd).vector()) * sign).max(0) as u32
+    }
+}
+
+/// Where a diagonal jump stops next.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stop {
+    /// The number of legal steps until there.
+    pub(super) steps: u32,
+    /// Whether it is a jump point or an intermediate one; otherwise the jump is dead.
+    pub(super) found: bool,
+    /// Which of the two axial jumps beside it may find a jump point.
+    pub(super) leads: [bool; 2],
+}
+
+/// What becomes of a diagonal jump at one of its vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Turn {
+    /// It goes on.
+    Passed,
+    /// It ends in a node.
+    Node,
+    /// It ends, because an earlier path leads through the vertex.
+    Cut,
 }
 
 impl ExpandedNode {
@@ -215,8 +300,13 @@ impl ExpandedNode {
 }
 
 #[inline]
-fn cross(v: Vector, d: Vector) -> i64 {
-    i64::from(v.x) * i64::from(d.y) - i64::from(v.y) * i64::from(d.x)
+fn dot(v: Vector, d: Vector) -> i32 {
+    v.x * d.x + v.y * d.y
+}
+
+#[inline]
+fn cross(v: Vector, d: Vector) -> i32 {
+    v.x * d.y - v.y * d.x
 }
 
 /// Makes jumps vertex by vertex, for every k.
@@ -261,17 +351,17 @@ impl GoalLegs {
         index: usize,
     ) -> Option<Self> {
         let (d, u) = (from.to(context.goal), context.graph.step(index).vector());
-        context.beside(index).into_iter().find_map(|beside| {
-            let v = context.graph.step(beside).vector();
-            // Adjacent moves span a parallelogram of area 1, so this is Cramer's rule without its
-            // denominator.
-            let sign = cross(u, v);
-            let (diagonal, axial) = (cross(d, v) * sign, cross(u, d) * sign);
-            (diagonal > 0 && axial >= 0).then_some(Self {
-                diagonal: diagonal as u32,
-                index: beside,
-                axial: axial as u32,
-            })
-        })
+        // Less than a right angle lies between a move and the legs that begin with it.
+        if dot(u, d) <= 0 {
+            return None;
+        }
+        // Moves are ordered by their angle, so the sign says on which side of the odd move the goal lies.
+        // Adjacent moves span a parallelogram of area 1: this is Cramer's rule without its denominator.
+        let [before, after] = context.beside(index);
+        let across = cross(u, d);
+        let index = if across > 0 { before } else { after };
+        let diagonal = cross(d, context.graph.step(index).vector()) * if across > 0 { 1 } else { -1 };
+        let legs = || Self { diagonal: diagonal as u32, index, axial: across.unsigned_abs() };
+        (diagonal > 0).then(legs)
     }
 }

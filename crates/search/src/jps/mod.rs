@@ -17,28 +17,40 @@
 //! | engine | axial jumps | diagonal jumps | k |
 //! |---|---|---|---|
 //! | [`Jps`] | vertex by vertex; far from obstacles several at once | vertex by vertex | all |
-//! | [`BlockJps`] | 64 vertices a word operation (module `axial`) | vertex by vertex, two axial jumps each | 2, 3 |
+//! | [`BlockJps`] | 64 vertices a word operation (module `axial`) | 64 vertices a word operation (module `diagonals`) | 2, 3 |
 //! | [`JpsPlus`] | looked up ([`JumpTable`]) | looked up | 2, 3 |
 //!
 //! **Intermediate jump points** (Harabor & Grastien 2014) are pruned by default: what an axial jump beside a
 //! diagonal one finds becomes the successor, and the vertex between becomes no node. The path is put together
 //! again from its two legs.
 //!
+//! **Cut jumps.** Jumps from different nodes scan the same places, and find the same jump points again and
+//! again; on open ground with few obstacles that is almost all of the work. So a diagonal jump ends at vertex
+//! p, without a node, if an axial jump from there leads to a jump point s, n steps away, to which a path is
+//! known that costs no more than the one through p, and that ends with more than n steps of the same move.
+//! That path leads through p as well. Up to p it costs no more than the diagonal jump does, and its last move
+//! has an even index, so it is the earlier one of the two in the order of [`canonical`](crate::canonical).
+//! Every prefix of the earliest optimal path is the earliest optimal path to its own end, so the earliest
+//! optimal path does not reach p by this jump, and nothing is lost. (The idea to constrain jumps by what is
+//! known is that of Zhao, Harabor & Stuckey 2023; the test here needs nothing but the node of s.)
+//!
 //! **Bounded jumps** (Sturtevant & Rabin 2016): a jump of more steps than the jump limit ends in a node, from
 //! which the search goes on. From k = 9 on, where forced successors are not tabulated, every jump ends so
 //! after one step.
 //!
 //! What made it fast: bit planes that combine the three rows of cells along an axial jump, so that a scan
-//! loads one row; one bit for each step of a diagonal jump that says whether an axial jump beside it finds
-//! anything; and a table of one byte a vertex and move, so that the entries of a vertex are one word. For k ≥
-//! 4 there are no such tables, but a vertex is tested for forced successors only once. From k = 6 on
-//! canonical A* is faster: scanning costs more than the saved nodes. Figures: `docs/measurements/search.md`.
+//! loads one row; bit planes that hold each diagonal in the order of a jump, with the places where it stops
+//! and which axial jump leads on from there; and a table of one byte a vertex and move, so that the entries
+//! of a vertex are one word. For k ≥ 4 there are no such tables, but a vertex is tested for forced successors
+//! only once. From k = 6 on canonical A* is faster: scanning costs more than the saved nodes. Figures:
+//! `docs/measurements/search.md`.
 
 mod axial;
 mod block_finder;
 mod diagonals;
 mod finder;
 mod planner;
+mod stop_rows;
 mod table;
 mod table_finder;
 

@@ -67,8 +67,8 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic, J: JumpFinder<
         Self::with_successors(graph, heuristic, successors)
     }
 
-    /// The same planner with jumps of at most `limit` steps, at least 1; `None` for no limit. (Jumps from a
-    /// [`JumpTable`] are not limited.)
+    /// The same planner with jumps of at most `limit` steps, at least 1; `None` for no limit. (Axial
+    /// jumps that are scanned by words or looked up are not limited.)
     #[must_use]
     pub fn with_jump_limit(mut self, limit: Option<u32>) -> Self {
         self.successors.limit = limit.unwrap_or(u32::MAX).max(1);
@@ -126,7 +126,7 @@ impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
         graph: &GridGraph<P>,
         node: ExpandedNode,
         goal: Vertex,
-        mut visit: impl FnMut(Successor),
+        mut visit: impl FnMut(Successor) -> Option<VertexId>,
     ) -> u32 {
         let context = JumpContext {
             graph,

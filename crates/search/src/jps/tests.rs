@@ -12,7 +12,9 @@ use mediant_oracle::{Rng, describe, is_gap, noise, seeds, suite_grid, wide_grid}
 use super::{
     JumpError, JumpTable,
     axial::{AxialStops, Scan},
+    diagonals::DiagonalStops,
 };
+use crate::canonical::Pruning;
 
 const AXES: [Vector; 4] = [Vector::new(0, 1), Vector::new(1, 0), Vector::new(0, -1), Vector::new(-1, 0)];
 
@@ -214,6 +216,43 @@ impl Suite for Scans {
     }
 }
 
+/// Scans of diagonals stop where steps stop, and know which axial jumps lead on from there.
+struct DiagonalScans {
+    compared: usize,
+    longest: u32,
+}
+
+impl Suite for DiagonalScans {
+    fn check<P: Placement>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
+        let graph = &reference.graph;
+        let stops = DiagonalStops::new(graph, &Pruning::new(graph));
+        let last = graph.steps().len() - 1;
+        for (_, from) in reference.vertices() {
+            for index in (1..=last).step_by(2) {
+                let towards = graph.step(index).vector();
+                let (steps, leads) = stops.next_stop(stops.place(from, index));
+                let (expected, found) = reference.jump(from, index);
+                let name = || format!("{towards:?}, {}", case(from, from + towards * steps as i32));
+                assert_eq!(steps, expected + u32::from(!found), "{}", name());
+                let to = from + towards * steps as i32;
+                let finds =
+                    [index - 1, (index + 1) & last].map(|even| found && reference.scan(to, even, None).1);
+                assert_eq!(leads, finds, "{}", name());
+                self.compared += 1;
+                self.longest = self.longest.max(steps);
+            }
+        }
+    }
+}
+
+#[test]
+fn scans_of_diagonals_stop_where_steps_stop() {
+    let mut suite = DiagonalScans { compared: 0, longest: 0 };
+    on_all(suite_grids().chain(long_grids()), &mut suite);
+    assert!(suite.compared > 150_000, "{}", suite.compared);
+    assert!(suite.longest > 3 * 64, "{}", suite.longest);
+}
+
 #[test]
 fn scans_end_where_steps_end() {
     let mut suite = Scans { compared: 0 };
@@ -282,6 +321,7 @@ struct Patterns;
 impl Suite for Patterns {
     fn check<P: Placement>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
         Scans { compared: 0 }.check(reference, case);
+        DiagonalScans { compared: 0, longest: 0 }.check(reference, case);
         Tables { compared: 0, longest: 0 }.check(reference, case);
     }
 }

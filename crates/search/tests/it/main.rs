@@ -11,6 +11,7 @@ mod exhaustive;
 mod fields;
 mod heuristics;
 mod identity;
+mod jumps;
 mod kramm2018;
 mod open_list;
 mod path;

@@ -1,0 +1,207 @@
+//! Where diagonal jumps stop, row by row, and turned into the order of the jumps.
+//!
+//! Which axial jumps come to a jump point is carried from row to row, or along a row from bit to bit. So all
+//! is computed 64 vertices at a time.
+
+use mediant_grid::{BitMatrix, CellOffset, Footprint, GridGraph, Placement, Vector, Vertex, load, transpose};
+
+use super::axial::JumpPointRule;
+use crate::canonical::{Pruning, pattern_at};
+
+/// Of 64 vertices, those that stop a jump, and those of them from which its first and its second axial jump
+/// come to a jump point.
+pub(super) type Stops = [u64; 3];
+
+/// What decides where jumps by one odd move stop, in rows of the map.
+pub(super) struct StopRows<'g, P: Placement> {
+    graph: &'g GridGraph<P>,
+    pruning: &'g Pruning<P>,
+    index: usize,
+    v: Vector,
+    step: Footprint,
+    width: i64,
+    height: usize,
+    per_row: usize,
+    /// The vertices from which the first and the second axial jump come to a jump point.
+    leads: [Vec<u64>; 2],
+}
+
+impl<'g, P: Placement> StopRows<'g, P> {
+    pub(super) fn new(graph: &'g GridGraph<P>, pruning: &'g Pruning<P>, index: usize) -> Self {
+        let (width, height) = P::vertices(graph.grid());
+        let (v, per_row) = (graph.step(index).vector(), width.div_ceil(64) as usize);
+        let step = Footprint::new::<P>(graph.rule(), v);
+        let (width, height) = (i64::from(width), height as usize);
+        let leads = [Vec::new(), Vec::new()];
+        let mut rows = Self { graph, pruning, index, v, step, width, height, per_row, leads };
+        let beside = [index - 1, (index + 1) % graph.steps().len()];
+        rows.leads = beside.map(|even| rows.leads(graph.step(even).vector()));
+        rows
+    }
+
+    fn matrix(&self) -> &BitMatrix {
+        self.graph.grid().rows()
+    }
+
+    /// The vertices of the `word`-th word.
+    fn place(&self, word: usize) -> (i32, i32) {
+        ((word % self.per_row) as i32 * 64, (word / self.per_row) as i32)
+    }
+
+    /// The stops in row y.
+    fn row(&self, y: usize) -> Vec<Stops> {
+        let words = y * self.per_row..(y + 1) * self.per_row;
+        let stops = words.map(|word| {
+            let (x, y) = self.place(word);
+            let mut enters =
+                holds(self.matrix(), (x - self.v.x, y - self.v.y), &self.step.free, &self.step.either);
+            if self.graph.has_closed_gaps() {
+                enters &= !self.gaps((x, y));
+            }
+            let forced = if self.pruning.diagonals_may_force() { self.forced((x, y), enters) } else { 0 };
+            let [first, second] = [0, 1].map(|i| self.leads[i][word] & enters);
+            [!enters | forced | first | second, first, second]
+        });
+        stops.collect()
+    }
+
+    /// Those of the vertices that have a forced successor of the odd move.
+    fn forced(&self, (x, y): (i32, i32), enters: u64) -> u64 {
+        let is_forced = |i: u64| {
+            let pattern = pattern_at(self.graph, Vertex::new(x + i as i32, y));
+            u64::from(self.pruning.has_forced_at(pattern, self.index)) << i
+        };
+        (0..64).filter(|i| enters >> i & 1 == 1).fold(0, |forced, i| forced | is_forced(i))
+    }
+
+    /// Of 64 corners, those where two blocked cells meet diagonally and two free ones.
+    fn gaps(&self, (x, y): (i32, i32)) -> u64 {
+        let cell = |dx: i32, dy: i32| load(self.matrix().words(), self.matrix().index(x + dx, y + dy));
+        let [a, b, c, d] = [cell(-1, -1), cell(0, -1), cell(-1, 0), cell(0, 0)];
+        (a ^ b) & (a ^ c) & !(a ^ d)
+    }
+
+    /// The vertices from which the axial jump by `v` comes to a jump point.
+    fn leads(&self, v: Vector) -> Vec<u64> {
+        let (per_row, rule) = (self.per_row, JumpPointRule::of(self.graph));
+        let ends = |word: usize| {
+            let ends = rule.ends_in_row::<P>(self.matrix(), self.place(word), v);
+            [ends.jump, !ends.dead]
+        };
+        let mut leads = vec![0; per_row * self.height];
+        let ascending = v.x + v.y > 0;
+        // Each word after the one that the jump enters next.
+        for i in 0..leads.len() {
+            let word = if ascending { leads.len() - 1 - i } else { i };
+            leads[word] = if v.x == 0 {
+                let next = word as isize + v.y as isize * per_row as isize;
+                let Some(&beyond) = usize::try_from(next).ok().and_then(|next| leads.get(next)) else {
+                    continue;
+                };
+                let [jump, enters] = ends(next as usize);
+                enters & (jump | beyond)
+            } else {
+                // The jump from vertex x comes to a jump point if it can enter x + 1, and that is one or
+                // leads to one.
+                let next = (word % per_row) as isize + v.x as isize;
+                let inside = (0..per_row as isize).contains(&next);
+                let next = word.wrapping_add_signed(v.x as isize);
+                let ([jump, enters], beyond) = (ends(word), if inside { leads[next] } else { 0 });
+                let [next_jump, next_enters] = if inside { ends(next) } else { [0, 0] };
+                if ascending {
+                    let shifted = |word: u64, next: u64| word >> 1 | next << 63;
+                    let enters = shifted(enters, next_enters);
+                    let start = enters & (shifted(jump, next_jump) | beyond << 63);
+                    carried::<true>(start, enters)
+                } else {
+                    let shifted = |word: u64, next: u64| word << 1 | next >> 63;
+                    let enters = shifted(enters, next_enters);
+                    let start = enters & (shifted(jump, next_jump) | beyond >> 63);
+                    carried::<false>(start, enters)
+                }
+            };
+        }
+        leads
+    }
+
+    /// The stops of 64 vertices of a row from column x on; none beyond the row.
+    fn at(&self, row: &[Stops], x: i64) -> Stops {
+        let word = |i: i64| match usize::try_from(i).ok().and_then(|i| row.get(i)) {
+            None => [0; 3],
+            Some(stops) if i as usize + 1 < self.per_row => *stops,
+            Some(stops) => stops.map(|word| word & !0 >> (63 - (self.width - 1) % 64)),
+        };
+        let (low, high, shift) = (word(x >> 6), word((x >> 6) + 1), x & 63);
+        [0, 1, 2].map(|i| low[i] >> shift | high[i] << 1 << (63 - shift))
+    }
+
+    /// Calls `put` with words of the stops in the order of the jumps: with the line, the number of the word
+    /// in it, and the bits. The bits of one word may come in two calls.
+    pub(super) fn for_each_word(&self, mut put: impl FnMut(usize, usize, Stops)) {
+        let v = self.v;
+        if v.y == 0 {
+            for y in 0..self.height {
+                let row = self.row(y);
+                for word in 0..self.per_row {
+                    if v.x > 0 {
+                        put(y, word, row[word]);
+                    } else {
+                        let bits = self.at(&row, self.width - 64 * (word as i64 + 1));
+                        put(y, word, bits.map(u64::reverse_bits));
+                    }
+                }
+            }
+            return;
+        }
+        for place in (0..self.height).step_by(64) {
+            let last = (place + 63).min(self.height - 1);
+            let y_at = |place: usize| if v.y > 0 { place } else { self.height - 1 - place };
+            let rows: Vec<Vec<Stops>> = (place..=last).map(|place| self.row(y_at(place))).collect();
+            // How far to the right of its line a jump is in the first and in the last of these rows.
+            let [from, to] = [place, last].map(|place| i64::from(v.x) * place as i64);
+            let mut first = -from.max(to);
+            while first < self.width - from.min(to) {
+                let [stops, one, other] = self.square(&rows, first + from);
+                for (line, bits) in (first..).zip(stops.into_iter().zip(one.into_iter().zip(other))) {
+                    let (stops, (one, other)) = bits;
+                    put(line.rem_euclid(self.width) as usize, place / 64, [stops, one, other]);
+                }
+                first += 64;
+            }
+        }
+    }
+
+    /// The stops of diagonal jumps along 64 lines through these rows, a word for each line. The first line
+    /// begins at column x.
+    fn square(&self, rows: &[Vec<Stops>], x: i64) -> [[u64; 64]; 3] {
+        let mut squares = [[0; 64]; 3];
+        for (i, row) in rows.iter().enumerate() {
+            let bits = self.at(row, x + i64::from(self.v.x) * i as i64);
+            for (square, bits) in squares.iter_mut().zip(bits) {
+                square[i] = bits;
+            }
+        }
+        squares.iter_mut().for_each(transpose);
+        squares
+    }
+}
+
+/// The bits `start`, and those of the bits `through` that follow them without a break, from high to low bits
+/// if `DOWN`.
+fn carried<const DOWN: bool>(start: u64, through: u64) -> u64 {
+    let (mut start, mut through) = (start, through);
+    for by in [1, 2, 4, 8, 16, 32] {
+        let shifted = |word: u64| if DOWN { word >> by } else { word << by };
+        start |= through & shifted(start);
+        through &= shifted(through);
+    }
+    start
+}
+
+/// Of 64 vertices from (x, y) on, those where the cells `free`, and one of each pair `either`, are free.
+fn holds(rows: &BitMatrix, (x, y): (i32, i32), free: &[CellOffset], either: &[[CellOffset; 2]]) -> u64 {
+    let at = rows.index(x, y);
+    let cell = |&(dx, dy): &CellOffset| !load(rows.words(), at.offset(dy * rows.bits_per_row() + dx));
+    let all = free.iter().fold(!0, |all, offset| all & cell(offset));
+    either.iter().fold(all, |all, [a, b]| all & (cell(a) | cell(b)))
+}

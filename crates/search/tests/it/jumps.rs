@@ -1,0 +1,106 @@
+//! Jumps on maps with few obstacles, where they are long, and where most of them are cut.
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use std::sync::Arc;
+
+use mediant_grid::{Centers, Corners, Grid, GridGraph, Placement, Rules};
+use mediant_moves::FiniteK;
+use mediant_oracle::{Rng, describe, noise, on_all_cores, random_free_vertex, seeds, sparse, validate};
+use mediant_search::{
+    AStar, BlockJps, Counters, Euclidean, Hk, Jps, JpsPlus, JumpTable, Outcome, Planner, Query, Zero,
+};
+
+/// Open ground behind a wall, or with a few cells blocked anywhere; sides of up to 130 cells, so that jumps
+/// are longer than two words.
+fn grid(seed: u64) -> Grid {
+    let rng = &mut Rng::new(seed);
+    let side = 30 + rng.below(101);
+    if rng.chance(50) {
+        let one_in = 10 + rng.below(90);
+        sparse(rng, side, one_in)
+    } else {
+        let percent = 1 + rng.below(6);
+        noise(rng, side, 30 + side / 2, percent)
+    }
+}
+
+/// Jumps of all engines on a map against A*: the same costs, and paths that hold. Returns the number of
+/// queries, and the expansions with nodes for intermediate jump points and without.
+fn check<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, seed: u64) -> [u64; 3] {
+    let mut sums = [0; 3];
+    for k in [2, 3, 4] {
+        let graph = &GridGraph::<P>::new(Arc::clone(grid), FiniteK::new(k).unwrap(), rule).unwrap();
+        let mut planners: Vec<(&str, Box<dyn Solve + '_>)> = vec![
+            ("jps", Box::new(Jps::new(graph, Hk))),
+            ("jps, Euclidean", Box::new(Jps::new(graph, Euclidean))),
+        ];
+        if k <= 3 {
+            let table = Arc::new(JumpTable::new(graph).unwrap());
+            planners.push(("jps-plus", Box::new(JpsPlus::new(graph, Arc::clone(&table), Hk).unwrap())));
+            planners.push(("jps-plus, zero", Box::new(JpsPlus::new(graph, table, Zero).unwrap())));
+            planners.push(("jps-block, zero", Box::new(BlockJps::new(graph, Zero).unwrap())));
+            let limited = BlockJps::new(graph, Hk).unwrap().with_jump_limit(Some(5));
+            planners.push(("jps-block, limit 5", Box::new(limited)));
+            let kept = BlockJps::new(graph, Hk).unwrap().with_intermediate(true);
+            planners.push(("jps-block, kept", Box::new(kept)));
+            planners.push(("jps-block", Box::new(BlockJps::new(graph, Hk).unwrap())));
+        }
+        let mut astar = AStar::new(graph, Hk);
+        let rng = &mut Rng::new(seed ^ 0x0DD);
+        for _ in 0..4 {
+            let mut free = || random_free_vertex(rng, grid, P::KIND).unwrap();
+            let query = Query::new(free(), free());
+            let expected = astar.solve(query).unwrap();
+            // Paths of the same cost have other segments, whose lengths are rounded otherwise.
+            let cost = |outcome: &Outcome| outcome.path().map(|path| (path.cost() * 1e9).round());
+            let case = |name: &str| {
+                format!("{name}, k = {k}, {}", describe(grid, P::rules(rule), query.start, query.goal, seed))
+            };
+            for (name, planner) in &mut planners {
+                let (outcome, expanded) = planner.counted(query);
+                assert_eq!(cost(&outcome), cost(&expected), "{}", case(name));
+                if let Some(path) = outcome.path() {
+                    let (rules, k) = (P::rules(rule), Some(graph.k()));
+                    let (start, goal) = (query.start, query.goal);
+                    let fault = validate(grid, rules, k, start, goal, path.waypoints(), path.cost());
+                    assert_eq!(fault, Ok(()), "{}", case(name));
+                }
+                sums[1] += if *name == "jps-block, kept" { expanded } else { 0 };
+                sums[2] += if *name == "jps-block" { expanded } else { 0 };
+            }
+            sums[0] += 1;
+        }
+    }
+    sums
+}
+
+/// A planner of any type.
+trait Solve {
+    /// The outcome, and the number of expansions.
+    fn counted(&mut self, query: Query) -> (Outcome, u64);
+}
+
+impl<T: Planner> Solve for T {
+    fn counted(&mut self, query: Query) -> (Outcome, u64) {
+        let mut counters = Counters::default();
+        let outcome = self.solve_observed(query, &mut counters).unwrap();
+        (outcome, counters.expanded)
+    }
+}
+
+#[test]
+fn cut_jumps_lose_no_optimum() {
+    let seeds = seeds(24);
+    let maps = seeds.end;
+    let parts = on_all_cores(seeds, |seed| {
+        let grid = Arc::new(grid(seed));
+        let on = |rules: Rules| match rules {
+            Rules::Center(rule) => check::<Centers>(&grid, rule, seed),
+            Rules::Corner(rule) => check::<Corners>(&grid, rule, seed),
+        };
+        Rules::ALL.map(on).iter().fold([0; 3], |sums, one| [0, 1, 2].map(|i| sums[i] + one[i]))
+    });
+    let [queries, kept, pruned] = parts.iter().fold([0; 3], |sums, one| [0, 1, 2].map(|i| sums[i] + one[i]));
+    assert_eq!(queries, 60 * maps, "a query was left out");
+    assert!(5 * pruned < 4 * kept, "{pruned} expansions, {kept} with intermediate jump points");
+}
