@@ -1,4 +1,4 @@
-//! Benchmarks on two generated maps: whole queries of each engine for every k that it takes up to 8 and for
+//! Benchmarks on four generated maps: whole queries of each engine for every k that it takes up to 8 and for
 //! any-angle paths, the generation of successors, and the open list. Use these times only to compare one
 //! revision with another.
 
@@ -10,7 +10,7 @@ use mediant_grid::{
     Centers, CornerRule, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vertex, VertexId,
 };
 use mediant_moves::{Cost, FiniteK, K};
-use mediant_oracle::{Rng, caves, noise, random_free_vertex};
+use mediant_oracle::{Rng, caves, maze, noise, random_free_vertex, sparse};
 use mediant_search::{
     Query,
     parts::{Entry, OpenList},
@@ -40,6 +40,8 @@ fn main() {
     let maps = [
         ("caves", Arc::new(caves(&mut rng, SIDE, SIDE))),
         ("noise", Arc::new(noise(&mut rng, SIDE, SIDE, 25))),
+        ("maze", Arc::new(maze(&mut rng, SIDE, SIDE))),
+        ("sparse", Arc::new(sparse(&mut rng, SIDE, 100))),
     ];
     for engine in ENGINES {
         for (name, grid) in &maps {

@@ -3,7 +3,7 @@
 use crate::{
     Error, central64, compared, engines,
     experiment::{Experiment, Page},
-    growth, hammoud, hierarchies, hormazabal, kramm, memory, rivera, teleisa,
+    families, growth, hammoud, hierarchies, hormazabal, kramm, memory, rivera, teleisa,
 };
 
 /// All experiments, in the order in which they run and stand on the pages.
@@ -20,6 +20,7 @@ pub(crate) const EXPERIMENTS: &[Experiment] = &[
     teleisa::RUNS,
     engines::ENGINES,
     growth::GROWTH,
+    families::FAMILIES,
     hierarchies::HPA,
     compared::PROGRAMS,
     memory::MEMORY,

@@ -7,8 +7,9 @@
 //! against the committed records, and a later run is compared number by number (`--check`).
 //!
 //! A module for each paper holds its experiments; what compares the engines beyond the papers is in
-//! `engines`, `growth`, `hierarchies`, `compared`, `memory` and `central64`. Modules called `pages` draw,
-//! from records alone. To add an experiment: a module with an `Experiment`, and its line in `catalog`.
+//! `engines`, `growth`, `families`, `hierarchies`, `compared`, `memory` and `central64`. Modules called
+//! `pages` draw, from records alone. To add an experiment: a module with an `Experiment`, and its line in
+//! `catalog`.
 //!
 //! What is not here: how a query is timed (`mediant-bench`), what records, tables and charts are
 //! (`mediant-report`), and where the maps come from (`mediant-sets`).
@@ -26,6 +27,7 @@ mod context;
 mod engines;
 mod error;
 mod experiment;
+mod families;
 mod growth;
 mod hammoud;
 mod hierarchies;
