@@ -23,6 +23,7 @@ test("a map without a free cell", async () => {
     [0, 0],
     [8, 5],
   );
+  await settled(page);
   const texts = await said(page);
   assert.ok(texts.length > 0 && texts.every(isSentence), texts.join(" | "));
   await setLanes(
