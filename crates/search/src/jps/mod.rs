@@ -17,7 +17,7 @@
 //! | engine | axial jumps | diagonal jumps | k |
 //! |---|---|---|---|
 //! | [`Jps`] | vertex by vertex; far from obstacles several at once | vertex by vertex | all |
-//! | [`BlockJps`] | 64 vertices a word operation (module `axial`) | 64 vertices a word operation (module `diagonals`) | 2, 3 |
+//! | [`BlockJps`] | 64 vertices a word operation (module `axial`) | likewise (module `diagonals`) | 2, 3 |
 //! | [`JpsPlus`] | looked up ([`JumpTable`]) | looked up | 2, 3 |
 //!
 //! **Intermediate jump points** (Harabor & Grastien 2014) are pruned by default: what an axial jump beside a
