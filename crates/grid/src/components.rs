@@ -1,5 +1,7 @@
 //! Connected components of the free cells, so that 'is there any path?' is one comparison.
 
+use std::sync::Arc;
+
 use crate::{Grid, Vertex};
 
 /// Which free cells count as neighbors.
@@ -14,33 +16,30 @@ pub enum Connectivity {
 /// The connected components of a grid's free cells.
 ///
 /// They are found by runs of free cells: each run of a row is joined with the runs that it meets in the row
-/// above.
+/// above. What is kept is a label for each run of each word of the map, so that the memory follows the
+/// runs, not the cells: a sixteenth of a byte a cell, and four bytes a run.
 ///
 /// ```
+/// use std::sync::Arc;
 /// use mediant_grid::{AsciiMap, Components, Connectivity, Vertex};
 /// let map = AsciiMap::parse("
 ///     .#
 ///     #.
 /// ")?;
-/// assert_eq!(Components::new(&map.grid, Connectivity::Four).count(), 2);
-/// let eight = Components::new(&map.grid, Connectivity::Eight);
+/// let grid = Arc::new(map.grid);
+/// assert_eq!(Components::new(&grid, Connectivity::Four).count(), 2);
+/// let eight = Components::new(&grid, Connectivity::Eight);
 /// assert_eq!((eight.count(), eight.of(Vertex::new(1, 1))), (1, Some(0)));
 /// # Ok::<(), mediant_grid::GridError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Components {
-    width: u32,
-    labels: Labels,
+    grid: Arc<Grid>,
+    /// For each word of the grid's rows, the place in `labels` of its first run.
+    first: Box<[u32]>,
+    /// The component of each run of free cells of a word, word by word.
+    labels: Box<[u32]>,
     count: u32,
-}
-
-/// The component of each cell, row by row, in as few bytes as the number of components takes; their largest
-/// number for blocked cells. Most maps take one byte a cell.
-#[derive(Clone, Debug)]
-enum Labels {
-    One(Box<[u8]>),
-    Two(Box<[u16]>),
-    Four(Box<[u32]>),
 }
 
 /// A run of free cells in one row: columns `first` to `last`.
@@ -48,39 +47,48 @@ enum Labels {
 struct Run {
     first: u32,
     last: u32,
-    label: u32,
+    set: u32,
 }
 
 impl Components {
     /// The components of a grid.
     #[must_use]
-    pub fn new(grid: &Grid, connectivity: Connectivity) -> Self {
+    pub fn new(grid: &Arc<Grid>, connectivity: Connectivity) -> Self {
         let reach = u32::from(connectivity == Connectivity::Eight);
-        let mut sets = Sets::default();
-        let mut rows: Vec<Vec<Run>> = Vec::with_capacity(grid.height() as usize);
-        for y in 0..grid.height() {
-            let mut runs = runs_of_row(grid, y);
-            let above = rows.last().map_or(&[][..], Vec::as_slice);
-            let mut met = 0;
-            for run in &mut runs {
-                run.label = sets.add();
-                // Runs above that end before this one begins do not meet the later ones either.
-                while above.get(met).is_some_and(|other| other.last + reach < run.first) {
-                    met += 1;
-                }
-                for other in above[met..].iter().take_while(|other| other.first <= run.last + reach) {
-                    sets.join(run.label, other.label);
+        let rows = grid.rows();
+        let mut first = Vec::with_capacity(rows.words().len());
+        let (mut sets, mut labels) = (Sets::default(), Vec::new());
+        let (mut above, mut row): (Vec<Run>, Vec<Run>) = (Vec::new(), Vec::new());
+        for y in 0..grid.height() as i32 {
+            let start = rows.index(0, y).0 as usize / 64;
+            // The words of the frame hold no run.
+            first.resize(start, labels.len() as u32);
+            let words = &rows.words()[start..start + rows.bits_per_row() as usize / 64];
+            for (word, base) in words.iter().zip((0..).step_by(64)) {
+                first.push(labels.len() as u32);
+                let mut free = !word;
+                while free != 0 {
+                    let bit = free.trailing_zeros();
+                    let length = (free >> bit).trailing_ones();
+                    let run = base + bit;
+                    match row.last_mut() {
+                        // A run that reaches the end of a word goes on in the next one.
+                        Some(open) if bit == 0 && open.last + 1 == base => open.last += length,
+                        _ => row.push(Run { first: run, last: run + length - 1, set: sets.add() }),
+                    }
+                    labels.extend(row.last().map(|run| run.set));
+                    free &= (!0_u64).checked_shl(bit + length).unwrap_or(0);
                 }
             }
-            rows.push(runs);
+            sets.join_rows(&above, &row, reach);
+            std::mem::swap(&mut above, &mut row);
+            row.clear();
         }
         let (names, count) = sets.names();
-        let labels = match count {
-            0..=0xFF => Labels::One(labels(grid, &rows, |run| names[run as usize] as u8, u8::MAX)),
-            0x100..=0xFFFF => Labels::Two(labels(grid, &rows, |run| names[run as usize] as u16, u16::MAX)),
-            _ => Labels::Four(labels(grid, &rows, |run| names[run as usize], u32::MAX)),
-        };
-        Self { width: grid.width(), labels, count }
+        labels.iter_mut().for_each(|label| *label = names[*label as usize]);
+        labels.shrink_to_fit();
+        let (first, labels) = (first.into_boxed_slice(), labels.into_boxed_slice());
+        Self { grid: Arc::clone(grid), first, labels, count }
     }
 
     /// The number of components.
@@ -90,63 +98,25 @@ impl Components {
     }
 
     pub(crate) fn memory_bytes(&self) -> usize {
-        match &self.labels {
-            Labels::One(labels) => size_of_val(&**labels),
-            Labels::Two(labels) => size_of_val(&**labels),
-            Labels::Four(labels) => size_of_val(&**labels),
-        }
+        size_of_val(&*self.first) + size_of_val(&*self.labels)
     }
 
     /// The component of a cell, numbered from 0 in row-major order of their first cells; `None` for blocked
     /// cells and outside the map.
     #[must_use]
     pub fn of(&self, cell: Vertex) -> Option<u32> {
-        if cell.x as u32 >= self.width || cell.y < 0 {
+        if !self.grid.is_free(cell.x, cell.y) {
             return None;
         }
-        let at = cell.y as usize * self.width as usize + cell.x as usize;
-        let label = match &self.labels {
-            Labels::One(labels) => u32::from(*labels.get(at)?),
-            Labels::Two(labels) => u32::from(*labels.get(at)?),
-            Labels::Four(labels) => *labels.get(at)?,
-        };
-        // The label of blocked cells is no component: they are numbered from 0.
-        (label < self.count).then_some(label)
+        let rows = self.grid.rows();
+        let at = rows.index(cell.x, cell.y).0;
+        let (word, bit) = ((at / 64) as usize, at % 64);
+        let free = !rows.words()[word];
+        // The runs of the word that begin up to the cell; its own is the last of them.
+        let begun = free & !(free << 1) & (!0 >> (63 - bit));
+        let run = self.first[word] + begun.count_ones() - 1;
+        Some(self.labels[run as usize])
     }
-}
-
-/// A label for each cell: that of its run, or `blocked`.
-fn labels<L: Copy>(grid: &Grid, rows: &[Vec<Run>], name: impl Fn(u32) -> L, blocked: L) -> Box<[L]> {
-    let width = grid.width() as usize;
-    let mut labels = vec![blocked; width * grid.height() as usize].into_boxed_slice();
-    for (runs, cells) in rows.iter().zip(labels.chunks_exact_mut(width)) {
-        for run in runs {
-            cells[run.first as usize..=run.last as usize].fill(name(run.label));
-        }
-    }
-    labels
-}
-
-/// The runs of free cells in row y.
-fn runs_of_row(grid: &Grid, y: u32) -> Vec<Run> {
-    let rows = grid.rows();
-    let start = rows.index(0, y as i32).0 as usize / 64;
-    let words = &rows.words()[start..start + rows.bits_per_row() as usize / 64];
-    let mut runs: Vec<Run> = Vec::new();
-    for (word, base) in words.iter().zip((0..).step_by(64)) {
-        let mut free = !word;
-        while free != 0 {
-            let first = free.trailing_zeros();
-            let length = (free >> first).trailing_ones();
-            match runs.last_mut() {
-                // A run that reaches the end of a word goes on in the next one.
-                Some(run) if first == 0 && run.last + 1 == base => run.last += length,
-                _ => runs.push(Run { first: base + first, last: base + first + length - 1, label: 0 }),
-            }
-            free &= (!0_u64).checked_shl(first + length).unwrap_or(0);
-        }
-    }
-    runs
 }
 
 /// Disjoint sets of run numbers; the smallest number of a set is its root.
@@ -174,6 +144,20 @@ impl Sets {
     fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.root(a), self.root(b));
         self.parents[a.max(b) as usize] = a.min(b);
+    }
+
+    /// Joins the runs of a row with those that they meet in the row above; runs `reach` columns apart meet.
+    fn join_rows(&mut self, above: &[Run], row: &[Run], reach: u32) {
+        let mut met = 0;
+        for run in row {
+            // Runs above that end before this one begins do not meet the later ones either.
+            while above.get(met).is_some_and(|other| other.last + reach < run.first) {
+                met += 1;
+            }
+            for other in above[met..].iter().take_while(|other| other.first <= run.last + reach) {
+                self.join(run.set, other.set);
+            }
+        }
     }
 
     /// The number of each run's set, with the sets numbered in the order of their roots, and the number of

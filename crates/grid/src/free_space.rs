@@ -147,7 +147,7 @@ impl<P: Placement> FreeSpace<P> {
         &self.components
     }
 
-    /// The memory used beyond the map, in bytes: mostly that of the components, one, two or four a cell.
+    /// The memory used beyond the map, in bytes: mostly that of the components.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
         let gaps = self.gaps.as_ref().map_or(0, |gaps| size_of_val(gaps.words()));

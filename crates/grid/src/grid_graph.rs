@@ -170,7 +170,7 @@ impl<P: Placement> GridGraph<P> {
         &self.costs
     }
 
-    /// The memory used beyond the map, in bytes: mostly that of the components, one, two or four a cell.
+    /// The memory used beyond the map, in bytes: mostly that of the components.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
         let octants: usize = self.octants.iter().map(Octant::memory_bytes).sum();

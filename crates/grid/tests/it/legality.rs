@@ -242,14 +242,13 @@ fn flood(grid: &Grid, connectivity: Connectivity) -> std::collections::HashMap<V
     labels
 }
 
-/// Runs of free cells that end at, begin at and go over the boundaries of words.
-/// Free cells apart from each other: as many components as the labels of one size can name, and one more.
+/// Free cells apart from each other: as many runs as a word has room for.
 #[test]
 fn components_are_numbered_however_many_there_are() {
     for (columns, rows) in [(255, 1), (256, 1), (257, 1), (255, 257), (256, 256), (257, 256)] {
         let grid =
             Grid::from_fn(2 * columns, 2 * rows, |x, y| x % 2 == 1 || y % 2 == 1).expect("a valid size");
-        let components = Components::new(&grid, Connectivity::Four);
+        let components = Components::new(&Arc::new(grid), Connectivity::Four);
         assert_eq!(components.count(), columns * rows);
         for (x, y) in (0..2 * rows).flat_map(|y| (0..2 * columns).map(move |x| (x, y))) {
             let expected = (x % 2 == 0 && y % 2 == 0).then_some(y / 2 * columns + x / 2);
@@ -262,12 +261,13 @@ fn components_are_numbered_however_many_there_are() {
     }
 }
 
+/// Runs of free cells that end at, begin at and go over the boundaries of words.
 #[test]
 fn components_of_wide_maps_are_those_of_flooding() {
     for seed in 0..60 {
         let mut rng = mediant_oracle::Rng::new(seed);
         let (width, height, percent) = (62 + rng.below(140), 1 + rng.below(4), 10 + rng.below(50));
-        let grid = mediant_oracle::noise(&mut rng, width, height, percent);
+        let grid = Arc::new(mediant_oracle::noise(&mut rng, width, height, percent));
         for connectivity in [Connectivity::Four, Connectivity::Eight] {
             let (components, labels) = (Components::new(&grid, connectivity), flood(&grid, connectivity));
             for at in vertices(&grid) {
