@@ -44,24 +44,72 @@ impl<N> Node<N> {
 /// Nodes are stored as words: an array of zeros takes memory only where it is written, on systems that hand
 /// out zeros on demand. So the memory follows what searches touch, not the map, and a planner is made at
 /// once.
+///
+/// Jumps touch few vertices, far apart, each on a page of its own on a large map. So where nodes store their
+/// parent, and the map is large, a block of 16 nodes has a place only from the first path to one of them on.
 #[derive(Clone, Debug)]
 pub struct NodeStore<N: ParentPointer = ()> {
-    /// For each node the lower and the upper half of g, the slot, the mark, and the pointer.
-    nodes: Box<[N::Words]>,
+    /// For each node the lower and the upper half of g, the slot, the mark, and the pointer: by id, or block
+    /// by block. The first block is of no node and stays unknown.
+    nodes: Vec<N::Words>,
+    /// For each block of ids its place among those of `nodes`, 0 if it has none yet; empty if nodes are
+    /// stored by id.
+    blocks: Box<[u32]>,
     generation: u32,
 }
+
+/// The nodes of a block.
+const BLOCK: usize = 16;
+/// The most vertices of a map whose nodes are stored by id, whatever they are.
+const MOST_BY_ID: usize = 1 << 22;
 
 impl<N: ParentPointer> NodeStore<N> {
     /// A store for vertex ids below `len`, in which no node is known.
     #[must_use]
     pub fn new(len: usize) -> Self {
-        Self { nodes: vec![N::UNKNOWN; len].into_boxed_slice(), generation: 1 }
+        if N::IS_FOR_JUMPS && len > MOST_BY_ID { Self::in_blocks(len) } else { Self::by_id(len) }
+    }
+
+    fn by_id(len: usize) -> Self {
+        Self { nodes: vec![N::UNKNOWN; len], blocks: Box::default(), generation: 1 }
+    }
+
+    fn in_blocks(len: usize) -> Self {
+        let blocks = vec![0; len.div_ceil(BLOCK)].into_boxed_slice();
+        Self { nodes: vec![N::UNKNOWN; BLOCK], blocks, generation: 1 }
+    }
+
+    /// The place of a node among `nodes`.
+    #[inline]
+    fn place(&self, id: VertexId) -> usize {
+        if !N::IS_FOR_JUMPS || self.blocks.is_empty() {
+            return id.index();
+        }
+        place_in_block(&self.blocks, id)
+    }
+
+    /// The place of a node that is to be known.
+    #[inline]
+    fn place_to_write(&mut self, id: VertexId) -> usize {
+        let place = self.place(id);
+        if N::IS_FOR_JUMPS && place < BLOCK && !self.blocks.is_empty() {
+            self.add_block(id);
+            return self.place(id);
+        }
+        place
+    }
+
+    /// Gives the block of a node a place.
+    #[cold]
+    fn add_block(&mut self, id: VertexId) {
+        self.blocks[id.index() / BLOCK] = (self.nodes.len() / BLOCK) as u32;
+        self.nodes.extend([N::UNKNOWN; BLOCK]);
     }
 
     /// Forgets all nodes, in constant time (but for one call in a million).
     pub fn start_search(&mut self) {
         if self.generation == Node::<N>::LAST_GENERATION {
-            self.nodes = vec![N::UNKNOWN; self.nodes.len()].into_boxed_slice();
+            self.nodes = vec![N::UNKNOWN; self.nodes.len()];
             self.generation = 0;
         }
         self.generation += 1;
@@ -71,7 +119,7 @@ impl<N: ParentPointer> NodeStore<N> {
     #[must_use]
     #[inline]
     pub fn get(&self, id: VertexId) -> Option<Node<N>> {
-        let words = &self.nodes[id.index()];
+        let words = &self.nodes[self.place(id)];
         let &[low, high, slot, mark, ..] = words.as_ref() else { return None };
         let g = Cost::from_bits(u64::from(high) << 32 | u64::from(low));
         if mark >> Node::<N>::MOVE_BITS != self.generation {
@@ -87,7 +135,8 @@ impl<N: ParentPointer> NodeStore<N> {
             arrived_by < 1 << Node::<N>::MOVE_BITS,
             "no move of any graph has the index {arrived_by}"
         );
-        let words = &mut self.nodes[id.index()];
+        let place = self.place_to_write(id);
+        let words = &mut self.nodes[place];
         pointer.write(words);
         if let [low, high, _, mark, ..] = words.as_mut() {
             (*low, *high) = (g.to_bits() as u32, (g.to_bits() >> 32) as u32);
@@ -98,10 +147,19 @@ impl<N: ParentPointer> NodeStore<N> {
     /// Records the slot of a vertex in the open list.
     #[inline]
     pub fn set_slot(&mut self, id: VertexId, slot: u32) {
-        if let [_, _, known, ..] = self.nodes[id.index()].as_mut() {
+        let place = self.place(id);
+        if let [_, _, known, ..] = self.nodes[place].as_mut() {
             *known = slot;
         }
     }
+}
+
+/// The place of a node that is stored in a block. Apart, so that searches whose nodes are stored by id do not
+/// pay for it.
+#[cold]
+#[inline(never)]
+fn place_in_block(blocks: &[u32], id: VertexId) -> usize {
+    blocks[id.index() / BLOCK] as usize * BLOCK + id.index() % BLOCK
 }
 
 #[cfg(test)]
@@ -133,5 +191,29 @@ mod tests {
         store.start_search();
         assert_eq!(store.generation, 1);
         assert!((0..3).all(|id| store.get(VertexId(id)).is_none()));
+    }
+
+    #[test]
+    fn nodes_in_blocks_are_those_by_id() {
+        let ids = || (0..1000).step_by(7).chain([999, 0, 15, 16]).map(VertexId);
+        let mut stores = [NodeStore::<VertexId>::by_id(1000), NodeStore::in_blocks(1000)];
+        for search in 1..5 {
+            for store in &mut stores {
+                store.start_search();
+                for id in ids().filter(|id| id.0 % search == 0) {
+                    assert!(id.0 == 0 || store.get(id).is_none());
+                    store.set_path(id, Cost::from_bits(u64::from(id.0)), search as usize, VertexId(search));
+                    store.set_slot(id, id.0 + 1);
+                }
+            }
+            let [by_id, in_blocks] = [0, 1].map(|i| {
+                let nodes = (0..1000).map(|id| stores[i].get(VertexId(id)));
+                nodes.map(|node| format!("{node:?}")).collect::<Vec<_>>()
+            });
+            assert_eq!(by_id, in_blocks, "search {search}");
+            assert!(by_id.iter().filter(|node| *node != "None").count() > 30);
+        }
+        let few = NodeStore::<VertexId>::new(MOST_BY_ID + 1);
+        assert_eq!((few.nodes.len(), NodeStore::<()>::new(MOST_BY_ID + 1).blocks.len()), (BLOCK, 0));
     }
 }

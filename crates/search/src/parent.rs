@@ -13,6 +13,9 @@ pub trait ParentPointer: Copy + Debug {
     /// The words of a node that was never reached: zeros.
     const UNKNOWN: Self::Words;
 
+    /// Whether it is that of nodes to which jumps lead: few, and far apart.
+    const IS_FOR_JUMPS: bool = false;
+
     /// The pointer in these words.
     fn read(words: &Self::Words) -> Self;
 
@@ -68,6 +71,7 @@ impl ParentPointer for () {
 impl ParentPointer for VertexId {
     type Words = [u32; 5];
     const UNKNOWN: [u32; 5] = [0; 5];
+    const IS_FOR_JUMPS: bool = true;
 
     #[inline]
     fn read(words: &[u32; 5]) -> Self {

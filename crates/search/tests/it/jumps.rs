@@ -3,11 +3,13 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Centers, Corners, Grid, GridGraph, Placement, Rules};
+use mediant_grid::{
+    Centers, CornerRule, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vector, Vertex,
+};
 use mediant_moves::FiniteK;
 use mediant_oracle::{Rng, describe, noise, on_all_cores, random_free_vertex, seeds, sparse, validate};
 use mediant_search::{
-    AStar, BlockJps, Counters, Euclidean, Hk, Jps, JpsPlus, JumpTable, Outcome, Planner, Query, Zero,
+    AStar, BlockJps, Counters, Euclidean, Hk, Jps, JpsPlus, JumpTable, Outcome, Path, Planner, Query, Zero,
 };
 
 /// Open ground behind a wall, or with a few cells blocked anywhere; sides of up to 130 cells, so that jumps
@@ -103,4 +105,41 @@ fn cut_jumps_lose_no_optimum() {
     let [queries, kept, pruned] = parts.iter().fold([0; 3], |sums, one| [0, 1, 2].map(|i| sums[i] + one[i]));
     assert_eq!(queries, 60 * maps, "a query was left out");
     assert!(5 * pruned < 4 * kept, "{pruned} expansions, {kept} with intermediate jump points");
+}
+
+/// The searches of one planner on a map, moved by (`x`, `y`): their outcomes and expansions.
+fn searches<P: Placement>(grid: Grid, rule: P::Rule, (x, y): (i32, i32), seed: u64) -> Vec<(Outcome, u64)> {
+    let by = Vector::new(x, y);
+    let graph = &GridGraph::<P>::new(Arc::new(grid), FiniteK::N8, rule).unwrap();
+    let mut planner = Jps::new(graph, Hk);
+    let rng = &mut Rng::new(seed);
+    let mut any = || Vertex::new(rng.below(120) as i32, rng.below(120) as i32);
+    let queries = (0..40).map(|_| (any(), any()));
+    let free = queries.filter(|&(start, goal)| graph.is_free(start + by) && graph.is_free(goal + by));
+    let moved_back = |outcome: Outcome| match outcome {
+        Outcome::Found(path) => {
+            Outcome::Found(Path::new(path.waypoints().iter().map(|&at| at + -by).collect()))
+        }
+        other => other,
+    };
+    free.map(|(start, goal)| planner.counted(Query::new(start + by, goal + by)))
+        .map(|(outcome, expanded)| (moved_back(outcome), expanded))
+        .collect()
+}
+
+/// On large maps nodes of jumps are stored in blocks. The searches of a small map, somewhere in a large one,
+/// are the same.
+#[test]
+fn on_large_maps_jumps_search_what_they_search_on_small_ones() {
+    let seed = 7;
+    let small = noise(&mut Rng::new(seed), 120, 120, 12);
+    let place = (1500, 2001);
+    let large = Grid::from_fn(2100, 2130, |x, y| small.is_blocked(x as i32 - place.0, y as i32 - place.1));
+    let large = large.unwrap();
+    let (never, open) = (CornerRule::Never, DiagonalGap::Open);
+    let expected = searches::<Centers>(small.clone(), never, (0, 0), seed);
+    assert!(expected.len() > 20);
+    assert_eq!(searches::<Centers>(large.clone(), never, place, seed), expected);
+    let expected = searches::<Corners>(small, open, (0, 0), seed);
+    assert_eq!(searches::<Corners>(large, open, place, seed), expected);
 }
