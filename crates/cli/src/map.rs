@@ -29,13 +29,18 @@ pub(crate) struct Map {
     pub(crate) frame: Option<WorldFrame>,
     /// Where it is in the world, if its file says so.
     pub(crate) place: Option<WorldFrame>,
-    /// The characters of a MovingAI map.
+    /// The characters of a MovingAI map, where they are needed: a byte a cell.
     tiles: Option<MapFile>,
 }
 
 impl Map {
     /// Reads a map file, or parses the bundled map that `builtin:NAME` names.
     pub(crate) fn load(args: &MapArgs) -> Result<Self, Failure> {
+        Ok(Self { tiles: None, ..Self::load_with_tiles(args)? })
+    }
+
+    /// [`load`](Self::load), with the characters of a MovingAI map, to draw or to write them.
+    pub(crate) fn load_with_tiles(args: &MapArgs) -> Result<Self, Failure> {
         if let Some(builtin) = Builtin::of_path(&args.map) {
             let map = Self::bundled(builtin?)?;
             return if args.world { Err(Failure::NoWorld { map: map.name }) } else { Ok(map) };

@@ -48,7 +48,7 @@ pub(crate) fn convert(args: &ConvertArgs, screen: &mut Screen) -> Result<(), Fai
         }
     }
     check_folder(path)?;
-    let map = Map::load(&args.map)?.for_agent(&args.map, motion)?;
+    let map = Map::load_with_tiles(&args.map)?.for_agent(&args.map, motion)?;
     let image = path.with_extension("pgm");
     let written = match form {
         Form::Ros => vec![path, image.as_path()],

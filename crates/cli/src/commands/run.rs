@@ -38,7 +38,9 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     if args.index.is_some() {
         setup.index_version()?;
     }
-    let map = Map::load(&args.map)?.for_agent(&args.map, setup.motion())?;
+    let is_for_screen = matches!(args.draw, Some(None));
+    let map = if is_for_screen { Map::load_with_tiles(&args.map)? } else { Map::load(&args.map)? };
+    let map = map.for_agent(&args.map, setup.motion())?;
     let wishes = args.wishes.on(&map, setup.rules.placement())?;
     if let (Some(path), Some(from)) = (&args.distances, wishes.from.first()) {
         return distances::write(setup, &map, *from, path, screen);
