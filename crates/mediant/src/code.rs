@@ -73,6 +73,8 @@ pub enum ErrorCode {
     Number,
     /// A step of a search that was never begun.
     NotBegun,
+    /// Memory that there is not.
+    Memory,
     /// A mistake of a kind that has no name yet.
     Other,
 }
@@ -108,6 +110,7 @@ names!(ErrorCode:
     NoEnd => "no-end",
     Number => "number",
     NotBegun => "not-begun",
+    Memory => "memory",
     Other => "other",
 );
 
@@ -135,6 +138,7 @@ impl Error {
             Self::IndexFile(error) => of_index(error),
             Self::Read(error) => of_read(error),
             Self::Write(_) => ErrorCode::FileUnwritable,
+            Self::OutOfMemory { .. } => ErrorCode::Memory,
             Self::Grid(_) => ErrorCode::Other,
         }
     }

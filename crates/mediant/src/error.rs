@@ -118,6 +118,17 @@ pub enum Error {
         /// What the labels take.
         found: Memory,
     },
+    /// Memory that there is not.
+    #[error(
+        "there is no room for {what}, which takes {} MB: choose an engine that takes less, or free some memory",
+        .bytes.div_ceil(1_000_000)
+    )]
+    OutOfMemory {
+        /// What needs it.
+        what: &'static str,
+        /// How much it needs, in bytes.
+        bytes: u64,
+    },
     /// Bytes that are no saved index, or one of another engine or version.
     #[error(transparent)]
     IndexFile(IndexError),

@@ -87,6 +87,7 @@ mod planner;
 mod planners;
 #[cfg(doctest)]
 mod readme;
+mod scratch;
 mod setup;
 mod setup_error;
 mod shared_rules;

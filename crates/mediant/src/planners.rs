@@ -10,7 +10,7 @@ use std::{
 
 use mediant_search::{Outcome, QueryError, Request};
 
-use crate::{index::Index, planner::Planner};
+use crate::{error::Error, index::Index, planner::Planner};
 
 /// Planners on one index that any number of threads share: each query takes one that is idle, or makes one,
 /// and gives it back. There are as many as threads that ever searched at the same time.
@@ -87,6 +87,18 @@ impl Planners {
             let planner = self.index.planner();
             self.idle().push(planner);
         }
+    }
+
+    /// [`make_ready`](Self::make_ready), if there is room for a planner's scratch memory.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`] where memory is short.
+    pub fn try_make_ready(&self) -> Result<(), Error> {
+        if !self.is_ready() {
+            let planner = self.index.try_planner()?;
+            self.idle().push(planner);
+        }
+        Ok(())
     }
 
     /// Gives a planner to `work`.

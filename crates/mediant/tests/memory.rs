@@ -6,16 +6,24 @@ use std::{
     sync::atomic::{AtomicUsize, Ordering},
 };
 
-use mediant::{ConfiguredEngine, Engine, K, Levels, Map, Motion, Planner, Query};
+use mediant::{
+    ConfiguredEngine, Engine, Error, ErrorCode, Index, K, Levels, Map, Motion, Planner, Query, Space,
+};
 
 /// The bytes that are allocated, by all threads.
 static BYTES: AtomicUsize = AtomicUsize::new(0);
+/// The bytes of the largest piece that can be had.
+static ROOM: AtomicUsize = AtomicUsize::new(usize::MAX);
 
 struct Counting;
 
-// SAFETY: every call goes to the system's allocator unchanged; the count touches no heap memory.
+// SAFETY: every call goes to the system's allocator unchanged, or fails as an allocator may; the count touches
+// no heap memory.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        if layout.size() > ROOM.load(Ordering::Relaxed) {
+            return std::ptr::null_mut();
+        }
         BYTES.fetch_add(layout.size(), Ordering::Relaxed);
         // SAFETY: the caller keeps the contract of `alloc`.
         unsafe { System.alloc(layout) }
@@ -35,6 +43,8 @@ const SIDE: u32 = 256;
 const THREADS: usize = 8;
 /// Bytes of a planner besides: its open list.
 const SLACK: usize = 20 << 10;
+/// Bytes of a planner that do not depend on the map.
+const OWN: usize = 48 << 10;
 
 /// What `make` makes, and how many bytes that keeps.
 fn kept<T>(make: impl FnOnce() -> T) -> (T, usize) {
@@ -76,6 +86,9 @@ fn eight_planners_share_one_index() {
         (Engine::Subgoal, K::N4, 16),
         (Engine::Hpa, K::N8, 6),
         (Engine::Chpa, K::N8, 19),
+        (Engine::Theta, K::N8, 26),
+        (Engine::LazyTheta, K::N8, 26),
+        (Engine::Wavefront, K::N8, 20),
     ] {
         let space = map.space(Motion::centers(k)).expect("a space");
         space.make_ready(engine).expect("it takes the motion");
@@ -91,6 +104,15 @@ fn eight_planners_share_one_index() {
             "{engine}: {stated} of {bytes}"
         );
 
+        let (planner, of_one) = kept(|| index.planner());
+        let stated = index.scratch_bytes() as usize;
+        assert!(
+            stated <= of_one && of_one <= stated + OWN,
+            "{engine}: a planner is said to take {stated} bytes, and takes {of_one}"
+        );
+        drop(planner);
+        let stated = index.memory_bytes() as usize;
+
         let (shared, of_eight) = kept(|| planners(&index));
         let most = THREADS * (scratch * vertices + SLACK);
         assert!(of_eight <= most, "{engine}: {of_eight} bytes of eight planners, at most {most}");
@@ -103,5 +125,25 @@ fn eight_planners_share_one_index() {
         let (_clones, of_clones) = kept(|| vec![index.clone(); 64]);
         assert!(of_clones < 64 * 512, "{engine}: {of_clones}");
         drop(shared);
+        is_refused(&space, configured, &index);
+    }
+}
+
+/// Where memory is short, a planner is refused, and so is an index whose size is known.
+fn is_refused(space: &Space, engine: ConfiguredEngine, index: &Index) {
+    let short = |bytes: u64, work: &mut dyn FnMut() -> Result<(), Error>| {
+        ROOM.store(bytes as usize - 1, Ordering::Relaxed);
+        let refused = work();
+        ROOM.store(usize::MAX, Ordering::Relaxed);
+        let error = refused.expect_err("there is no room");
+        assert_eq!(error.code(), ErrorCode::Memory, "{}: {error}", engine.kind());
+        assert!(error.to_string().contains("no room for the "), "{error}");
+    };
+    if index.scratch_bytes() > SLACK as u64 {
+        short(index.scratch_bytes(), &mut || index.try_planner().map(drop));
+    }
+    assert!(index.try_planner().is_ok());
+    if let Engine::JpsBlock | Engine::JpsPlus = engine.kind() {
+        short(2 * u64::from(SIDE * SIDE), &mut || space.prepare(engine).map(drop));
     }
 }

@@ -50,6 +50,9 @@ pub(crate) fn raised(error: impl Into<Error>) -> PyErr {
         error => error,
     };
     let code = error.code();
+    if code == ErrorCode::Memory {
+        return PyMemoryError::new_err(error.to_string());
+    }
     exception(class(code), &error.to_string(), code.name())
 }
 

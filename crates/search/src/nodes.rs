@@ -70,6 +70,15 @@ impl<N: ParentPointer> NodeStore<N> {
         if N::IS_FOR_JUMPS && len > MOST_BY_ID { Self::in_blocks(len) } else { Self::by_id(len) }
     }
 
+    /// The bytes that a store for vertex ids below `len` takes when it is made; usize::MAX for more.
+    #[must_use]
+    pub const fn bytes(len: usize) -> usize {
+        if N::IS_FOR_JUMPS && len > MOST_BY_ID {
+            return len.div_ceil(BLOCK).saturating_mul(size_of::<u32>());
+        }
+        len.saturating_mul(size_of::<N::Words>())
+    }
+
     fn by_id(len: usize) -> Self {
         Self { nodes: vec![N::UNKNOWN; len], blocks: Box::default(), generation: 1 }
     }

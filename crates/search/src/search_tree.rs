@@ -42,6 +42,12 @@ impl<E: Copy + Default> SearchTree<E> {
         }
     }
 
+    /// The bytes that a tree for node numbers below `count` takes when it is made; usize::MAX for more.
+    #[must_use]
+    pub const fn bytes(count: usize) -> usize {
+        count.saturating_mul(size_of::<TreeNode<E>>())
+    }
+
     /// Forgets all nodes, in constant time (but for one call in 2³²).
     pub fn start_search(&mut self) {
         self.open.clear();

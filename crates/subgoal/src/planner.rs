@@ -54,6 +54,14 @@ pub struct SubgoalAStar<S, I, P: SubgoalPlacement> {
     best: (Cost, Option<u32>),
 }
 
+impl<P: SubgoalPlacement> SubgoalAStar<(), (), P> {
+    /// The scratch memory that a planner on this graph takes when it is made, in bytes.
+    #[must_use]
+    pub fn scratch_bytes(graph: &SubgoalGraph<P>) -> usize {
+        SearchTree::<ParentEdge>::bytes(graph.subgoals()).saturating_mul(2)
+    }
+}
+
 impl<S, I, P> SubgoalAStar<S, I, P>
 where
     P: SubgoalPlacement,

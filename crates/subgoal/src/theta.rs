@@ -81,6 +81,15 @@ pub struct SubgoalTheta<S, I, P: SubgoalPlacement> {
     last: Option<u32>,
 }
 
+impl<P: SubgoalPlacement> SubgoalTheta<(), (), P> {
+    /// The scratch memory that a planner on this graph takes when it is made, in bytes.
+    #[must_use]
+    pub fn scratch_bytes(graph: &SubgoalGraph<P>) -> usize {
+        let count = graph.subgoals();
+        SearchTree::<()>::bytes(count + 1).saturating_add(Descent::bytes(count))
+    }
+}
+
 impl<S, I, P> SubgoalTheta<S, I, P>
 where
     P: SubgoalPlacement,

@@ -109,7 +109,7 @@ impl Index {
     /// @throws MediantError `memory` if there is no room for it.
     pub fn planner(&self) -> Result<Planner, JsValue> {
         self.space().check_room("the planner", memory::PLANNER)?;
-        Ok(Planner::new(self.inner.planner()))
+        Ok(Planner::new(self.inner.try_planner().map_err(raised)?))
     }
 
     /// Prepares goals that many starts ask for. With hub labels this takes about two queries for each

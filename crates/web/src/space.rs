@@ -29,7 +29,7 @@ pub(crate) fn planner(setup: Setup, map: &Map) -> Result<Planner, JsValue> {
     setup.check().map_err(raised)?;
     let space = Space::of(map, setup.motion())?;
     space.check_room("the search", memory::INDEX + memory::PLANNER)?;
-    Ok(setup.prepare(&space.inner).map_err(raised)?.planner())
+    setup.prepare(&space.inner).map_err(raised)?.try_planner().map_err(raised)
 }
 
 /// The most vertices that a map can have.

@@ -56,7 +56,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     let (space, index) = prepare(args, setup, &map)?;
     let preparation = begin.elapsed();
     let trace = args.trace.as_deref().map(TraceFile::create).transpose()?;
-    let mut planner = index.planner();
+    let mut planner = index.try_planner()?;
     let run = Run {
         map: &map,
         scenario: queries.scenario_name(),

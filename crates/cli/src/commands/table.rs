@@ -92,7 +92,7 @@ fn measure(nearest: bool, index: &Index, starts: &[Vertex], goals: &[Vertex]) ->
         return index.table(starts.iter().copied(), goals.iter().copied()).map(Measured::All);
     }
     let goals = index.goals(goals.iter().copied())?;
-    let mut planner = index.planner();
+    let mut planner = index.try_planner()?;
     let nearest = starts.iter().map(|&start| planner.nearest(start, &goals));
     nearest.collect::<Result<_, Error>>().map(Measured::Nearest)
 }

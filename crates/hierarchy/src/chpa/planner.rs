@@ -9,7 +9,7 @@ use mediant_grid::{Centers, GridGraph, Identity, Rectangle, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{
     AStar, Guarantee, Heuristic, Observer, Path, Planner, Query, QueryError, Status,
-    parts::{Part, SearchTree},
+    parts::{NodeStore, Part, SearchTree},
 };
 
 use super::{search::Search, segments::SegmentGraph};
@@ -92,6 +92,15 @@ pub enum FallbackPolicy {
 impl Default for FallbackPolicy {
     fn default() -> Self {
         Self::Complete { detour: NonZeroU32::MIN.saturating_add(2) }
+    }
+}
+
+impl ChpaStar<(), (), (), ()> {
+    /// The scratch memory that a planner on this graph and index takes when it is made, in bytes.
+    #[must_use]
+    pub fn scratch_bytes(grid_graph: &GridGraph<Centers>, index: &SegmentGraph) -> usize {
+        let tiles = NodeStore::<()>::bytes(grid_graph.vertex_count());
+        SearchTree::<()>::bytes(index.segments()).saturating_add(tiles)
     }
 }
 

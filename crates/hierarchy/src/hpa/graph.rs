@@ -115,6 +115,11 @@ impl ClusterGraph {
         self.levels[0].clusters.iter().map(|cluster| cluster.count as usize).sum()
     }
 
+    /// The most numbers of nodes of a level.
+    pub(super) fn most_nodes(&self) -> usize {
+        self.levels.iter().map(|level| level.nodes.len()).max().unwrap_or(0)
+    }
+
     /// The memory that the index uses, in bytes.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {

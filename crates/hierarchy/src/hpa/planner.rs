@@ -88,6 +88,14 @@ struct PathNode {
     id: u32,
 }
 
+impl HpaStar<(), ()> {
+    /// The scratch memory that a planner on this graph takes when it is made, in bytes.
+    #[must_use]
+    pub fn scratch_bytes(index: &ClusterGraph) -> usize {
+        SearchTree::<()>::bytes(index.most_nodes() + 2)
+    }
+}
+
 impl<G, I> HpaStar<G, I>
 where
     G: Deref<Target = GridGraph<Centers>>,
@@ -99,7 +107,7 @@ where
     /// [`HierarchyError::Mismatch`] for the index of another map, rule of motion or k.
     pub fn new(grid_graph: G, index: I) -> Result<Self, HierarchyError> {
         check::belongs(index.identity, &grid_graph)?;
-        let nodes = index.levels.iter().map(|level| level.nodes.len()).max().unwrap_or(0);
+        let nodes = index.most_nodes();
         let costs = vec![Vec::new(); index.levels.len()];
         Ok(Self {
             straightens: true,

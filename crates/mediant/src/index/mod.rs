@@ -26,6 +26,7 @@ use crate::{
         EngineOption, OptionValue, Variant,
         description::{LEVELS, SIDE},
     },
+    scratch,
     setup::Setup,
     setup_error::SetupError,
     shared_rules::{self, Shared},
@@ -304,10 +305,12 @@ fn on_grid_graph<P: SubgoalPlacement + Shared>(
         ConfiguredEngine::Canonical(_) | ConfiguredEngine::Jps(_) => OnGridGraph::Pruning(pruning()?),
         ConfiguredEngine::JpsBlock(_) => {
             let pruning = pruning()?;
+            scratch::check("the index", BlockFinder::bytes(graph) as u64)?;
             let blocks = BlockFinder::new(graph, &pruning)?;
             OnGridGraph::Blocks(pruning, blocks)
         }
         ConfiguredEngine::JpsPlus(_) => {
+            scratch::check("the index", JumpTable::bytes(graph) as u64)?;
             let table = match source.bytes {
                 None => JumpTable::new(graph)?,
                 Some(bytes) => JumpTable::from_bytes(graph, bytes)?,

@@ -17,6 +17,7 @@ use crate::{
     index::Index,
     make::{self, Smoother},
     map::Map,
+    scratch,
     setup::Setup,
     space::Space,
 };
@@ -55,9 +56,9 @@ impl Space {
     /// A planner of an engine, on an index of its own.
     ///
     /// # Errors
-    /// Those of [`prepare`](Self::prepare).
+    /// Those of [`prepare`](Self::prepare) and of [`Index::try_planner`].
     pub fn planner(&self, engine: impl Into<ConfiguredEngine>) -> Result<Planner, Error> {
-        Ok(self.prepare(engine)?.planner())
+        self.prepare(engine)?.try_planner()
     }
 }
 
@@ -84,14 +85,24 @@ impl Setup {
     /// A planner on a map, with a space and an index of its own.
     ///
     /// # Errors
-    /// Those of [`space`](Self::space) and [`prepare`](Self::prepare).
+    /// Those of [`space`](Self::space), of [`prepare`](Self::prepare) and of [`Index::try_planner`].
     pub fn planner(&self, map: &Map) -> Result<Planner, Error> {
-        Ok(self.prepare(&self.space(map)?)?.planner())
+        self.prepare(&self.space(map)?)?.try_planner()
     }
 }
 
 impl Index {
-    /// A planner on this index. It shares the index, and owns its scratch memory.
+    /// A planner on this index, if there is room for its [scratch memory](Self::scratch_bytes).
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`] where memory is short.
+    pub fn try_planner(&self) -> Result<Planner, Error> {
+        scratch::check("the planner", self.scratch_bytes())?;
+        Ok(self.planner())
+    }
+
+    /// A planner on this index. It shares the index, and owns its scratch memory. Where memory is short, the
+    /// program ends, as always in Rust; [`try_planner`](Self::try_planner) returns an error.
     #[must_use]
     pub fn planner(&self) -> Planner {
         let search = make::search(self).expect("every constructor of an index checks what its planners need");

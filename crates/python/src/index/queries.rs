@@ -46,8 +46,9 @@ impl Asked<'_, '_> {
         let is_watched = self.keywords.timeout().is_some() || is_watched(self.planners.index(), is_plain);
         if is_watched && !self.planners.is_ready() {
             let planners = Arc::clone(self.planners);
-            on_thread(self.start.py(), move || planners.make_ready(), |_| Ok(()))?;
+            on_thread(self.start.py(), move || planners.try_make_ready(), |_| Ok(()))?.map_err(raised)?;
         }
+        self.planners.try_make_ready().map_err(raised)?;
         let interruption = is_watched.then(Interruption::default);
         let request = self.keywords.request(&ends.0, &ends.1, interruption.as_ref());
         let answer = self.start.py().detach(|| {
@@ -79,6 +80,7 @@ impl Asked<'_, '_> {
     pub(crate) fn distance(&self, py: Python<'_>) -> PyResult<f64> {
         let (ends, index) = (self.ends()?, self.planners.index());
         if let Some(query) = self.plain(&ends).filter(|_| !is_watched(index, true)) {
+            self.planners.try_make_ready().map_err(raised)?;
             let distance = py.detach(|| self.planners.with(|planner| planner.distance(query)));
             return Ok(distance.map_err(raised)?.unwrap_or(f64::INFINITY));
         }

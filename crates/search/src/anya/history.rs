@@ -35,6 +35,12 @@ impl RootHistory {
         Self { blocks, width, entries: vec![Self::EMPTY], generation: 1 }
     }
 
+    /// The bytes that it takes when it is made.
+    pub(super) const fn bytes(columns: u32, rows: u32) -> usize {
+        let blocks = columns.div_ceil(16) as usize * rows.div_ceil(16) as usize;
+        blocks.saturating_mul(size_of::<u32>())
+    }
+
     /// Forgets all roots, in constant time (but for one call in 2³²).
     pub(super) fn clear(&mut self) {
         self.generation = self.generation.wrapping_add(1);

@@ -8,6 +8,7 @@ use mediant_moves::{CostTable, FiniteK, KError};
 use super::{
     cone::Successor,
     frontier::Frontier,
+    history::RootHistory,
     norm::{EuclideanNorm, LatticeNorm, Norm},
     search::Search,
 };
@@ -58,6 +59,14 @@ pub struct Anya<S, N: Norm = EuclideanNorm> {
     /// The last root of the path to the goal, once that is found.
     last: Option<u32>,
     status: Status,
+}
+
+impl Anya<()> {
+    /// The scratch memory that a planner on this map takes when it is made, in bytes.
+    #[must_use]
+    pub fn scratch_bytes(space: &FreeSpace<Corners>) -> usize {
+        RootHistory::bytes(space.grid().width() + 1, space.grid().height() + 1)
+    }
 }
 
 impl<S: Deref<Target = FreeSpace<Corners>>> Anya<S> {

@@ -134,14 +134,24 @@ struct BitPlane {
 }
 
 impl AxialStops {
+    /// The number of pairs of words: two of each line lie across the map, two along it. A scan reads two.
+    fn words<P: Placement>(graph: &GridGraph<P>) -> usize {
+        let (width, height) = P::vertices(graph.grid());
+        let words_of = |length: u32, lines: u32| (length as usize / 64 + 1) * lines as usize;
+        2 * (words_of(height, width) + words_of(width, height)) + 1
+    }
+
+    /// The memory that the planes of a grid graph use, in bytes.
+    pub(crate) fn bytes<P: Placement>(graph: &GridGraph<P>) -> usize {
+        Self::words(graph).saturating_mul(size_of::<[u64; 2]>())
+    }
+
     /// Computes the planes of a grid graph.
     pub(crate) fn new<P: Placement>(graph: &GridGraph<P>) -> Self {
         let grid = graph.grid();
         let (width, height) = P::vertices(grid);
         let rule = JumpPointRule::of(graph);
-        // Two words of each line lie across the map, two along it. A scan reads two words.
-        let words_of = |length: u32, lines: u32| (length as usize / 64 + 1) * lines as usize;
-        let mut words = Vec::with_capacity(2 * (words_of(height, width) + words_of(width, height)) + 1);
+        let mut words = Vec::with_capacity(Self::words(graph));
         let planes = [0, 1, 2, 3].map(|quarter| {
             let (vertical, forward) = (quarter % 2 == 0, quarter < 2);
             let (matrix, length, lines) =

@@ -48,6 +48,12 @@ impl BlockFinder {
         })
     }
 
+    /// The memory that the finder of a grid graph uses, in bytes.
+    #[must_use]
+    pub fn bytes<P: Placement>(graph: &GridGraph<P>) -> usize {
+        AxialStops::bytes(graph).saturating_add(DiagonalStops::bytes(graph))
+    }
+
     /// The memory used, in bytes.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {

@@ -14,6 +14,7 @@
 //! twelve bits a vertex, on top of the byte of [`AxialStops`](super::axial::AxialStops).
 
 use mediant_grid::{GridGraph, Placement, Vector, Vertex};
+use mediant_moves::FiniteK;
 
 use super::stop_rows::{StopRows, Stops};
 use crate::canonical::Pruning;
@@ -42,14 +43,30 @@ struct Plane {
 }
 
 impl DiagonalStops {
+    /// The number of lines of a plane, and their length.
+    fn lines<P: Placement>(graph: &GridGraph<P>) -> (u32, u32) {
+        let (width, height) = P::vertices(graph.grid());
+        if graph.k() == FiniteK::N4 { (height, width) } else { (width, height) }
+    }
+
+    /// The number of words. A scan reads two.
+    fn words<P: Placement>(graph: &GridGraph<P>) -> usize {
+        let (lines, length) = Self::lines(graph);
+        graph.steps().len() / 2 * lines as usize * (length / 64 + 1) as usize + 1
+    }
+
+    /// The memory that the planes of a grid graph use, in bytes.
+    pub(crate) fn bytes<P: Placement>(graph: &GridGraph<P>) -> usize {
+        Self::words(graph).saturating_mul(size_of::<Stops>())
+    }
+
     pub(crate) fn new<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>) -> Self {
         let (width, height) = P::vertices(graph.grid());
         let odd: Vec<usize> = (1..graph.steps().len()).step_by(2).collect();
-        let (lines, length) = if odd.len() > 2 { (width, height) } else { (height, width) };
+        let (lines, length) = Self::lines(graph);
         let per_line = (length / 64 + 1) as usize;
         let per_plane = lines as usize * per_line;
-        // A scan reads two words.
-        let words = odd.len() * per_plane + 1;
+        let words = Self::words(graph);
         let mut all = Self {
             planes: [Plane::default(); 4],
             words: vec![[0; 3]; words],

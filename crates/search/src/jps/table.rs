@@ -190,6 +190,12 @@ impl JumpTable {
         (steps + u32::from(entry & STEPS), entry & FOUND != 0)
     }
 
+    /// The memory that the table of a grid graph with k ≤ 3 uses, in bytes.
+    #[must_use]
+    pub fn bytes<P: Placement>(graph: &GridGraph<P>) -> usize {
+        entry_count(graph.vertex_count(), graph.k().get())
+    }
+
     /// The memory used, in bytes.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {

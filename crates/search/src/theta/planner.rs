@@ -64,6 +64,14 @@ pub struct Theta<G, H, S> {
     check: PhantomData<S>,
 }
 
+impl<S> Theta<(), (), S> {
+    /// The scratch memory that a planner for this graph takes when it is made, in bytes.
+    #[must_use]
+    pub fn scratch_bytes<P: Placement>(graph: &GridGraph<P>) -> usize {
+        NodeStore::<Parents>::bytes(graph.vertex_count()).saturating_add(SightCache::bytes::<P>(graph))
+    }
+}
+
 impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic, S: SightCheck> Theta<G, H, S> {
     /// A planner with scratch memory for `graph`.
     #[must_use]

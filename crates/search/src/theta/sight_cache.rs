@@ -49,6 +49,13 @@ impl SightCache {
         }
     }
 
+    /// The bytes that it takes when it is made.
+    pub(super) fn bytes<P: Placement>(space: &FreeSpace<P>) -> usize {
+        let (width, height) = P::vertices(space.grid());
+        let [columns, rows] = [width, height].map(|side| side.div_ceil(1 << SHIFT) as usize);
+        (columns * rows).saturating_mul(size_of::<[BlockSight; 2]>())
+    }
+
     /// [`FreeSpace::sees`] for two free vertices.
     #[inline]
     pub(super) fn sees<P: Placement>(

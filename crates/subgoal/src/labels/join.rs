@@ -86,6 +86,11 @@ impl Join {
         Self { ends: [Candidates::new(room), Candidates::new(room)], hubs }
     }
 
+    /// The bytes that it takes when it is made, but for the room for what an end sees.
+    pub(super) fn bytes<P: SubgoalPlacement>(index: &HubLabels<P>) -> usize {
+        index.subgoals().saturating_mul(size_of::<Way>())
+    }
+
     /// Where the shortest path from start to goal that bends at a subgoal turns; `None` if there is none.
     pub(super) fn meeting<P: SubgoalPlacement>(
         &mut self,

@@ -49,6 +49,14 @@ enum Answer {
     Over(Meeting),
 }
 
+impl HubLabelSearch<(), ()> {
+    /// The scratch memory that a planner on these labels takes when it is made, in bytes.
+    #[must_use]
+    pub fn scratch_bytes<P: SubgoalPlacement>(labels: &HubLabels<P>) -> usize {
+        Join::bytes(labels)
+    }
+}
+
 impl<S, I, P> HubLabelSearch<S, I>
 where
     P: SubgoalPlacement,

@@ -34,6 +34,11 @@ impl Descent {
         Self { heads, generation: 0, arcs: Vec::new(), pending: Vec::new() }
     }
 
+    /// The bytes that it takes when it is made.
+    pub(super) const fn bytes(count: usize) -> usize {
+        count.saturating_mul(size_of::<Head>())
+    }
+
     /// Finds the arcs down to a goal, given the edges that join it to subgoals. The goal's number follows
     /// those of the subgoals.
     pub(super) fn start_search<P: SubgoalPlacement>(
