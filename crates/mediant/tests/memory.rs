@@ -17,8 +17,8 @@ static ROOM: AtomicUsize = AtomicUsize::new(usize::MAX);
 
 struct Counting;
 
-// SAFETY: every call goes to the system's allocator unchanged, or fails as an allocator may; the count touches
-// no heap memory.
+// SAFETY: every call goes to the system's allocator unchanged, or fails as an allocator may; the count
+// touches no heap memory.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         if layout.size() > ROOM.load(Ordering::Relaxed) {

@@ -146,7 +146,7 @@ RELEASED = {
     "path": lambda grid: grid.prepare("dijkstra", k=4).path((0, 0), (1499, 1499)),
     "find": lambda grid: grid.prepare("dijkstra", k=4).find((0, 0), (1499, 1499), counters=True),
     "paths": lambda grid: grid.prepare("dijkstra").paths([(0, 0)] * 3, [(1499, 1499)] * 3),
-    "prepare": lambda grid: grid.prepare("jps-plus"),
+    "prepare": lambda grid: grid.prepare("hpa"),
     "nearest": lambda grid: grid.prepare("dijkstra").nearest([(0, 0)] * 3, (1499, 1499)),
     "field": lambda grid: grid.field((0, 0), k=5),
     "distances": lambda grid: grid.distances((0, 0), k=4),

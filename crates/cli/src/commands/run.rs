@@ -38,9 +38,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     if args.index.is_some() {
         setup.index_version()?;
     }
-    let is_for_screen = matches!(args.draw, Some(None));
-    let map = if is_for_screen { Map::load_with_tiles(&args.map)? } else { Map::load(&args.map)? };
-    let map = map.for_agent(&args.map, setup.motion())?;
+    let map = load(args)?.for_agent(&args.map, setup.motion())?;
     let wishes = args.wishes.on(&map, setup.rules.placement())?;
     if let (Some(path), Some(from)) = (&args.distances, wishes.from.first()) {
         return distances::write(setup, &map, *from, path, screen);
@@ -97,6 +95,11 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
         }
     }
     Ok(ending(&queries, finished))
+}
+
+/// The map, with its characters if they are to be drawn.
+fn load(args: &RunArgs) -> Result<Map, Failure> {
+    if matches!(args.draw, Some(None)) { Map::load_with_tiles(&args.map) } else { Map::load(&args.map) }
 }
 
 /// The space of a map, and the index: a new one, or that of the file that the arguments name.

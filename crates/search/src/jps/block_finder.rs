@@ -8,7 +8,7 @@ use mediant_moves::KError;
 use super::{
     axial::AxialStops,
     diagonals::DiagonalStops,
-    finder::{JumpContext, JumpFinder, Stop},
+    finder::{JumpContext, JumpFinder},
     table::{JumpError, JumpTable},
 };
 use crate::{
@@ -96,17 +96,7 @@ impl<P: Placement> JumpFinder<P> for BlockFinder {
         if context.stepwise {
             return context.step_diagonal(self, from, index, scanned, visit);
         }
-        let start = self.diagonals.place(from.at, index);
-        let next = |gone| {
-            let (steps, leads) = self.diagonals.next_stop(start + u64::from(gone));
-            let found = leads[0] || leads[1] || {
-                // A jump point, or a vertex that the jump cannot enter.
-                let before = context.after(from, context.graph.step(index), index, gone + steps - 1);
-                context.pruning.diagonals_may_force()
-                    && context.pruning.is_legal(context.graph, &before, index)
-            };
-            Stop { steps: steps - u32::from(!found), found, leads }
-        };
+        let next = self.diagonals.stops(context, from, index);
         context.diagonal_by_stops(self, from, index, next, scanned, visit);
     }
 }

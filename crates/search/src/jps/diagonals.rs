@@ -16,11 +16,14 @@
 use mediant_grid::{GridGraph, Placement, Vector, Vertex};
 use mediant_moves::FiniteK;
 
-use super::stop_rows::{StopRows, Stops};
-use crate::canonical::Pruning;
+use super::{
+    finder::{JumpContext, Stop},
+    stop_rows::{StopRows, Stops},
+};
+use crate::{canonical::Pruning, successors::ExpandedNode};
 
 /// Where diagonal jumps stop, for each vertex of a grid graph with k ≤ 3.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct DiagonalStops {
     planes: [Plane; 4],
     words: Vec<Stops>,
@@ -31,7 +34,7 @@ pub(crate) struct DiagonalStops {
 
 /// Where the bits of one odd move are: that of vertex (x, y) in the line (`across` · (x, y) + `shift`) modulo
 /// the number of lines, at the place `along` · (x, y) + `start`, counted from the plane's first bit.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Plane {
     across: Vector,
     shift: i32,
@@ -124,6 +127,27 @@ impl DiagonalStops {
             }
             steps += 64;
             at += 64;
+        }
+    }
+
+    /// Says where a jump from `from` by the odd move `index` stops next after so many steps.
+    #[inline]
+    pub(super) fn stops<'s, P: Placement>(
+        &'s self,
+        context: &'s JumpContext<'_, P>,
+        from: &'s ExpandedNode,
+        index: usize,
+    ) -> impl Fn(u32) -> Stop + 's {
+        let start = self.place(from.at, index);
+        move |gone| {
+            let (steps, leads) = self.next_stop(start + u64::from(gone));
+            let found = leads[0] || leads[1] || {
+                // A jump point, or a vertex that the jump cannot enter.
+                let before = context.after(from, context.graph.step(index), index, gone + steps - 1);
+                context.pruning.diagonals_may_force()
+                    && context.pruning.is_legal(context.graph, &before, index)
+            };
+            Stop { steps: steps - u32::from(!found), found, leads }
         }
     }
 

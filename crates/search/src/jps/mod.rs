@@ -18,7 +18,7 @@
 //! |---|---|---|---|
 //! | [`Jps`] | vertex by vertex; far from obstacles several at once | vertex by vertex | all |
 //! | [`BlockJps`] | 64 vertices a word operation (module `axial`) | likewise (module `diagonals`) | 2, 3 |
-//! | [`JpsPlus`] | looked up ([`JumpTable`]) | looked up | 2, 3 |
+//! | [`JpsPlus`] | looked up ([`JumpTable`]) | as [`BlockJps`] | 2, 3 |
 //!
 //! **Intermediate jump points** (Harabor & Grastien 2014) are pruned by default: what an axial jump beside a
 //! diagonal one finds becomes the successor, and the vertex between becomes no node. The path is put together
@@ -40,10 +40,10 @@
 //!
 //! What made it fast: bit planes that combine the three rows of cells along an axial jump, so that a scan
 //! loads one row; bit planes that hold each diagonal in the order of a jump, with the places where it stops
-//! and which axial jump leads on from there; and a table of one byte a vertex and move, so that the entries
-//! of a vertex are one word. For k ≥ 4 there are no such tables, but a vertex is tested for forced successors
-//! only once. From k = 6 on canonical A* is faster: scanning costs more than the saved nodes. Figures:
-//! `docs/measurements/search.md`.
+//! and which axial jump leads on from there; and a table of one byte a vertex and even move, so that the
+//! entries of a vertex are one word. For k ≥ 4 there are no such tables, but a vertex is tested for forced
+//! successors only once. From k = 6 on canonical A* is faster: scanning costs more than the saved nodes.
+//! Figures: `docs/measurements/search.md`.
 
 mod axial;
 mod block_finder;

@@ -1,16 +1,16 @@
-//! Jumps that are looked up in a table (JPS+).
+//! Axial jumps that are looked up in a table (JPS+).
 
 use std::sync::Arc;
 
 use mediant_grid::{Identity, Placement, VertexId};
 
 use super::{
-    finder::{JumpContext, JumpFinder, Stop},
+    finder::{JumpContext, JumpFinder},
     table::JumpTable,
 };
 use crate::successors::{ExpandedNode, Successor};
 
-/// Looks all jumps up.
+/// Looks axial jumps up.
 impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
     fn identity(&self) -> Option<Identity> {
         Some(JumpTable::identity(self))
@@ -47,11 +47,7 @@ impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
         if context.stepwise {
             return context.step_diagonal(self, from, index, scanned, visit);
         }
-        let step = context.graph.step(index);
-        let next = |gone| {
-            let (steps, found) = self.jump(step.target_after(from.id, gone), step, index);
-            Stop { steps, found, leads: [true; 2] }
-        };
+        let next = self.diagonals().stops(context, from, index);
         context.diagonal_by_stops(self, from, index, next, scanned, visit);
     }
 }

@@ -120,11 +120,8 @@ impl<P: Placement> Reference<P> {
         (steps, false)
     }
 
-    /// The jump by any move, as in a table.
-    fn jump(&self, from: Vertex, index: usize) -> End {
-        if index.is_multiple_of(2) {
-            return self.scan(from, index, None);
-        }
+    /// The diagonal jump by an odd move.
+    fn diagonal(&self, from: Vertex, index: usize) -> End {
         let last = self.move_count() - 1;
         let (mut at, mut steps) = (from, 0);
         while let Some(to) = self.next(at, index).filter(|&to| !self.is_closed_gap(to)) {
@@ -231,7 +228,7 @@ impl Suite for DiagonalScans {
             for index in (1..=last).step_by(2) {
                 let towards = graph.step(index).vector();
                 let (steps, leads) = stops.next_stop(stops.place(from, index));
-                let (expected, found) = reference.jump(from, index);
+                let (expected, found) = reference.diagonal(from, index);
                 let name = || format!("{towards:?}, {}", case(from, from + towards * steps as i32));
                 assert_eq!(steps, expected + u32::from(!found), "{}", name());
                 let to = from + towards * steps as i32;
@@ -270,9 +267,9 @@ impl Suite for Tables {
     fn check<P: Placement>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
         let graph = &reference.graph;
         let table = JumpTable::new(graph).unwrap();
-        for (id, from) in reference.vertices() {
-            for (index, step) in graph.steps().iter().enumerate() {
-                let expected = reference.jump(from, index);
+        for (id, from) in reference.vertices().filter(|&(_, from)| graph.is_free(from)) {
+            for (index, step) in graph.steps().iter().enumerate().step_by(2) {
+                let expected = reference.scan(from, index, None);
                 let found = table.jump(id, step, index);
                 assert_eq!(found, expected, "{:?}, {}", step.vector(), case(from, from));
                 self.compared += 1;
@@ -288,7 +285,7 @@ impl Suite for Tables {
 fn tables_lead_where_steps_lead() {
     let mut suite = Tables { compared: 0, longest: 0 };
     on_all(suite_grids().chain(long_grids()), &mut suite);
-    assert!(suite.compared > 300_000, "{}", suite.compared);
+    assert!(suite.compared > 100_000, "{}", suite.compared);
     assert!(suite.longest > 3 * 127, "{}", suite.longest);
 }
 
@@ -348,7 +345,7 @@ fn bytes_of_another_length_are_refused() {
     let graph = damaged_graph();
     let bytes = JumpTable::new(&graph).unwrap().to_bytes();
     const HEAD: usize = Identity::BYTES;
-    assert_eq!(bytes.len(), HEAD + 20 * 15 * 8);
+    assert_eq!(bytes.len(), HEAD + 20 * 15 * 4);
     for length in [HEAD, HEAD + 1, bytes.len() - 1, bytes.len() + 1, 2 * bytes.len()] {
         let mut other = bytes.clone();
         other.resize(length, 0);
@@ -397,10 +394,11 @@ fn tables_of_other_graphs_are_refused() {
 fn errors_say_what_was_expected_and_found() {
     let graph = damaged_graph();
     let mut bytes = JumpTable::new(&graph).unwrap().to_bytes();
-    bytes[Identity::BYTES + 9] ^= 0x80;
+    // The second move at the vertex after the first row.
+    bytes[Identity::BYTES + 20 * 4 + 1] ^= 0x80;
     let text = JumpTable::from_bytes(&graph, &bytes).unwrap_err().to_string();
-    assert!(text.contains("(1, 1)") && text.contains("(1, 0)") && text.contains("build it anew"), "{text}");
+    assert!(text.contains("(0, 1)") && text.contains("(1, 0)") && text.contains("build it anew"), "{text}");
     bytes.pop();
     let text = JumpTable::from_bytes(&graph, &bytes).unwrap_err().to_string();
-    assert!(text.contains("2399 entries") && text.contains("needs 2400"), "{text}");
+    assert!(text.contains("1199 entries") && text.contains("needs 1200"), "{text}");
 }
