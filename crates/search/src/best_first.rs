@@ -125,8 +125,9 @@ where
     fn begin_at(&mut self, aim: Aim, observer: &mut impl Observer) {
         self.aim = aim;
         self.status = Status::Searching;
-        let Self { graph, heuristic, nodes, open, starts, .. } = self;
+        let Self { graph, heuristic, successors, nodes, open, starts, .. } = self;
         let goal_at = graph.vertex(aim.goal);
+        successors.begin(goal_at);
         nodes.start_search();
         open.clear();
         for &start in &*starts {

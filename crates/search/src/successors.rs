@@ -53,6 +53,11 @@ pub trait Successors<P: Placement>: Debug {
     /// always do.)
     const DEPEND_ON_ARRIVAL: bool = true;
 
+    /// Called before each search, with its goal.
+    fn begin(&mut self, goal: Vertex) {
+        let _ = goal;
+    }
+
     /// Calls `visit` with each successor of a node, on the way to `goal`. `visit` returns the parent of the
     /// path that is known to this successor, if that path costs no more and arrives by the same move, and if
     /// nodes store their parents.

@@ -118,8 +118,8 @@ impl JumpPointRule {
 #[derive(Clone, Debug)]
 pub(crate) struct AxialStops {
     planes: [BitPlane; 4],
-    /// For 64 vertices of a line: which of them end a jump, and which of these because the jump cannot enter
-    /// them.
+    /// For 64 vertices of a line two bits each: both for a vertex that a jump cannot enter, the first for a
+    /// jump point, the second for one that is a [dead end](super::dead_ends).
     words: Box<[[u64; 2]]>,
 }
 
@@ -131,6 +131,27 @@ struct BitPlane {
     origin: i64,
     per_x: i64,
     per_y: i64,
+    /// Its first word, and the first one after it.
+    words: (usize, usize),
+}
+
+impl BitPlane {
+    /// The place of the bit of a vertex of the map.
+    #[inline]
+    const fn place(&self, at: Vertex) -> u64 {
+        (self.origin + self.per_x * at.x as i64 + self.per_y * at.y as i64) as u64
+    }
+
+    /// The vertex of a bit. (Lines are further apart than the vertices of a line.)
+    fn vertex(&self, place: u64) -> Vertex {
+        let is_vertical = self.per_x.abs() > self.per_y.abs();
+        let (across, along) = if is_vertical { (self.per_x, self.per_y) } else { (self.per_y, self.per_x) };
+        let bit = place as i64 - 64 * self.words.0 as i64;
+        let from_start = bit % across;
+        let start = self.origin - 64 * self.words.0 as i64;
+        let (line, u) = ((bit / across) as i32, ((from_start - start) * along) as i32);
+        if is_vertical { Vertex::new(line, u) } else { Vertex::new(u, line) }
+    }
 }
 
 impl AxialStops {
@@ -169,38 +190,92 @@ impl AxialStops {
             let across = 64 * i64::from(per_line);
             let origin = if forward { first } else { first + i64::from(length) - 1 };
             let (per_x, per_y) = if vertical { (across, along) } else { (along, across) };
-            BitPlane { origin, per_x, per_y }
+            BitPlane { origin, per_x, per_y, words: (first as usize / 64, words.len()) }
         });
         words.push([!0; 2]);
         Self { planes, words: words.into_boxed_slice() }
     }
 
     /// The axial jump from a vertex of the map in direction number `quarter` < 4: (0, 1), (1, 0), (0, −1),
-    /// (−1, 0).
+    /// (−1, 0). It passes dead ends, unless these count as jump points.
     ///
     /// `goal_steps` is the number of steps to the goal, at least 1, if that lies ahead.
     #[inline]
-    pub(crate) fn scan(&self, from: Vertex, quarter: usize, goal_steps: Option<u32>) -> Scan {
-        let plane = self.planes[quarter & 3];
-        let mut at =
-            (plane.origin + plane.per_x * i64::from(from.x) + plane.per_y * i64::from(from.y) + 1) as u64;
-        let mut steps = 0;
+    pub(crate) fn scan(
+        &self,
+        from: Vertex,
+        quarter: usize,
+        goal_steps: Option<u32>,
+        with_dead_ends: bool,
+    ) -> Scan {
+        let mask = if with_dead_ends { !0 } else { 0 };
+        let (steps, is_blocked) = self.first(from, quarter, |one, other| one | other & mask);
+        Scan::new(steps - u32::from(is_blocked), !is_blocked, goal_steps)
+    }
+
+    /// The number of legal steps from a vertex in a direction.
+    pub(super) fn legal_steps(&self, from: Vertex, quarter: usize) -> u32 {
+        self.first(from, quarter, |one, other| one & other).0 - 1
+    }
+
+    /// After how many steps a jump enters a vertex that stops it, and whether it cannot enter it.
+    /// `stops` says by their two bits which of 64 vertices stop it.
+    #[inline]
+    fn first(&self, from: Vertex, quarter: usize, stops: impl Fn(u64, u64) -> u64) -> (u32, bool) {
+        let mut at = self.planes[quarter & 3].place(from) + 1;
+        let mut steps = 1;
         loop {
             let (word, shift) = ((at >> 6) as usize, at & 63);
-            let Some(&[[low, low_dead], [high, high_dead]]) = self.words.get(word..word + 2) else {
-                return Scan::new(steps, false, goal_steps);
-            };
+            let Some(&[low, high]) = self.words.get(word..word + 2) else { return (steps, true) };
             // Shifting in two steps avoids a shift by 64 where `shift` is 0.
-            let stop = low >> shift | high << 1 << (63 - shift);
+            let [one, other] = [0, 1].map(|i| low[i] >> shift | high[i] << 1 << (63 - shift));
+            let stop = stops(one, other);
             if stop != 0 {
                 let n = stop.trailing_zeros();
-                let dead = low_dead >> shift | high_dead << 1 << (63 - shift);
-                let dead = (dead >> n & 1) as u32;
-                return Scan::new(steps + n + 1 - dead, dead == 0, goal_steps);
+                return (steps + n, (one & other) >> n & 1 == 1);
             }
             steps += 64;
             at += 64;
         }
+    }
+
+    /// Makes those jump points dead ends for which `is_dead_end` says so, by vertex and direction; it is
+    /// asked for the directions `quarters`. Returns whether there are any.
+    pub(super) fn mark(
+        &mut self,
+        quarters: impl Iterator<Item = usize>,
+        is_dead_end: impl Fn(&Self, Vertex, usize) -> bool,
+    ) -> bool {
+        let mut any = false;
+        for quarter in quarters {
+            let plane = self.planes[quarter];
+            for word in plane.words.0..plane.words.1 {
+                let [one, other] = self.words[word];
+                let (mut jump_points, mut dead_ends) = (one & !other, 0);
+                while jump_points != 0 {
+                    let bit = jump_points.trailing_zeros();
+                    let at = plane.vertex(64 * word as u64 + u64::from(bit));
+                    dead_ends |= u64::from(is_dead_end(self, at, quarter)) << bit;
+                    jump_points &= jump_points - 1;
+                }
+                any |= dead_ends != 0;
+                self.words[word] = [one & !dead_ends, other | dead_ends];
+            }
+        }
+        any
+    }
+
+    /// Whether a vertex is a dead end for jumps in a direction.
+    #[cfg(test)]
+    pub(super) fn is_dead_end(&self, at: Vertex, quarter: usize) -> bool {
+        let place = self.planes[quarter].place(at);
+        let [one, other] = self.words[(place >> 6) as usize];
+        (other & !one) >> (place & 63) & 1 == 1
+    }
+
+    /// The number of jump points of all directions.
+    pub(super) fn jump_points(&self) -> u64 {
+        self.words.iter().map(|[one, other]| u64::from((one ^ other).count_ones())).sum()
     }
 
     /// The memory used, in bytes.

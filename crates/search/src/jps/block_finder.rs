@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{GridGraph, Identity, Placement, VertexId};
+use mediant_grid::{GridGraph, Identity, Placement, Vertex, VertexId};
 use mediant_moves::KError;
 
 use super::{
     axial::AxialStops,
+    dead_ends::{DeadEnds, NearGoal, REACH},
     diagonals::DiagonalStops,
     finder::{JumpContext, JumpFinder},
     table::{JumpError, JumpTable},
@@ -22,7 +23,15 @@ pub struct BlockFinder {
     identity: Identity,
     axial: Arc<AxialStops>,
     diagonals: Arc<DiagonalStops>,
+    /// How far dead ends reach; 0 if there are none.
+    reach: u32,
 }
+
+/// On maps with more jump points than one for so many vertices, as in noise, dead ends make searches hardly
+/// shorter, and there would be many to find.
+const VERTICES_A_JUMP_POINT: u64 = 4;
+/// On larger maps it takes longer to find the dead ends than some hundred searches would save.
+const MOST_VERTICES: u64 = 1 << 22;
 
 impl BlockFinder {
     /// Prepares the finder of a grid graph, by the pruning rule of that grid graph.
@@ -41,11 +50,33 @@ impl BlockFinder {
         if k > max {
             return Err(KError::TooLarge { k, max });
         }
-        Ok(Self {
-            identity: graph.identity(),
-            axial: Arc::new(AxialStops::new(graph)),
-            diagonals: Arc::new(DiagonalStops::new(graph, pruning)),
-        })
+        let (axial, diagonals) = (AxialStops::new(graph), DiagonalStops::new(graph, pruning));
+        let vertices = graph.vertex_count() as u64;
+        let pays = vertices <= MOST_VERTICES && VERTICES_A_JUMP_POINT * axial.jump_points() <= vertices;
+        Ok(Self::with_dead_ends(graph, pruning, (axial, diagonals), if pays { REACH } else { 0 }))
+    }
+
+    /// The finder with dead ends that reach so far; 0 for none.
+    pub(super) fn with_dead_ends<P: Placement>(
+        graph: &GridGraph<P>,
+        pruning: &Pruning<P>,
+        (mut axial, diagonals): (AxialStops, DiagonalStops),
+        reach: u32,
+    ) -> Self {
+        let reach = if graph.has_closed_gaps() { 0 } else { reach };
+        let table = pruning.table().filter(|_| reach > 0);
+        let are_marked = table.is_some_and(|table| {
+            let dead_ends = DeadEnds { graph, pruning, table, diagonals: &diagonals, reach };
+            let quarters = (0..4).step_by(8 / graph.steps().len());
+            axial.mark(quarters, |axial, at, quarter| dead_ends.holds(axial, at, quarter))
+        });
+        let reach = if are_marked { reach } else { 0 };
+        Self { identity: graph.identity(), axial: Arc::new(axial), diagonals: Arc::new(diagonals), reach }
+    }
+
+    #[cfg(test)]
+    pub(super) fn axial(&self) -> &AxialStops {
+        &self.axial
     }
 
     /// The memory that the finder of a grid graph uses, in bytes.
@@ -66,6 +97,14 @@ impl<P: Placement> JumpFinder<P> for BlockFinder {
         Some(self.identity)
     }
 
+    fn near_goal(&self, goal: Vertex) -> NearGoal {
+        if self.reach == 0 {
+            return NearGoal::EVERYWHERE;
+        }
+        let steps = [0, 1, 2, 3].map(|quarter| self.axial.legal_steps(goal, quarter));
+        NearGoal::new(goal, steps, self.reach)
+    }
+
     #[inline]
     fn axial(
         &self,
@@ -79,7 +118,8 @@ impl<P: Placement> JumpFinder<P> for BlockFinder {
             return context.step_axial(from, index, goal_steps, scanned);
         }
         let quarter = index >> (context.graph.k().get() - 2);
-        let scan = self.axial.scan(from.at, quarter, goal_steps);
+        let is_near = context.near.holds(from.at, quarter);
+        let scan = self.axial.scan(from.at, quarter, goal_steps, is_near);
         *scanned += scan.scanned;
         scan.found.then_some(scan.steps)
     }

@@ -5,6 +5,7 @@ use std::fmt::Debug;
 use mediant_grid::{GridGraph, Identity, Placement, Step, Vector, Vertex, VertexId};
 use mediant_moves::Cost;
 
+use super::dead_ends::NearGoal;
 use crate::{
     canonical::Pruning,
     successors::{ExpandedNode, Successor},
@@ -21,6 +22,8 @@ pub struct JumpContext<'c, P: Placement> {
     pub(crate) limit: u32,
     /// Whether a diagonal jump ends at the first intermediate jump point.
     pub(crate) keeps_intermediate: bool,
+    /// Where dead ends count as jump points.
+    pub(super) near: NearGoal,
 }
 
 /// Finds the jump points to which axial and diagonal jumps lead: [`StepwiseFinder`],
@@ -31,6 +34,13 @@ pub struct JumpContext<'c, P: Placement> {
 pub trait JumpFinder<P: Placement>: Debug {
     /// What it belongs to; `None` for what serves every grid graph.
     fn identity(&self) -> Option<Identity>;
+
+    /// Where dead ends count as jump points in a search for this goal.
+    #[doc(hidden)]
+    fn near_goal(&self, goal: Vertex) -> NearGoal {
+        let _ = goal;
+        NearGoal::EVERYWHERE
+    }
 
     /// The number of steps of the axial jump by move `index` from a vertex to a jump point or to the goal;
     /// `None` if it comes to neither. The goal is `goal_steps` ahead, if it lies ahead at all. Adds to

@@ -34,19 +34,24 @@
 //! optimal path does not reach p by this jump, and nothing is lost. (The idea to constrain jumps by what is
 //! known is that of Zhao, Harabor & Stuckey 2023; the test here needs nothing but the node of s.)
 //!
+//! **Dead ends.** Most jump points on maps of games are dead ends: from there a path can only go straight on,
+//! or comes to an end near by. [`BlockJps`] passes them, but for those near the goal. What they are, and why
+//! nothing is lost, is said in the module `dead_ends`.
+//!
 //! **Bounded jumps** (Sturtevant & Rabin 2016): a jump of more steps than the jump limit ends in a node, from
 //! which the search goes on. From k = 9 on, where forced successors are not tabulated, every jump ends so
 //! after one step.
 //!
 //! What made it fast: bit planes that combine the three rows of cells along an axial jump, so that a scan
 //! loads one row; bit planes that hold each diagonal in the order of a jump, with the places where it stops
-//! and which axial jump leads on from there; and a table of one byte a vertex and even move, so that the
-//! entries of a vertex are one word. For k ≥ 4 there are no such tables, but a vertex is tested for forced
-//! successors only once. From k = 6 on canonical A* is faster: scanning costs more than the saved nodes.
-//! Figures: `docs/measurements/search.md`.
+//! and which axial jump leads on from there; passing dead ends; and a table of one byte a vertex and even
+//! move, so that the entries of a vertex are one word. For k ≥ 4 there are no such tables, but a vertex is
+//! tested for forced successors only once. From k = 6 on canonical A* is faster: scanning costs more than the
+//! saved nodes. Figures: `docs/measurements/search.md`.
 
 mod axial;
 mod block_finder;
+mod dead_ends;
 mod diagonals;
 mod finder;
 mod planner;

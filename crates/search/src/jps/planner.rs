@@ -7,6 +7,7 @@ use mediant_moves::KError;
 
 use super::{
     block_finder::BlockFinder,
+    dead_ends::NearGoal,
     finder::{JumpContext, JumpFinder, StepwiseFinder},
     table::{JumpError, JumpTable},
 };
@@ -39,6 +40,8 @@ pub struct JumpMoves<P: Placement, J> {
     limit: u32,
     /// Whether intermediate jump points become nodes.
     keeps_intermediate: bool,
+    /// Where dead ends count as jump points in this search.
+    near: NearGoal,
 }
 
 impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic, J: JumpFinder<P>>
@@ -63,7 +66,8 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic, J: JumpFinder<
 
     /// A planner with a finder and a pruning rule that are those of the grid graph.
     fn with_parts(graph: G, pruning: Arc<Pruning<P>>, finder: J, heuristic: H) -> Self {
-        let successors = JumpMoves { pruning, finder, limit: u32::MAX, keeps_intermediate: false };
+        let (limit, keeps_intermediate, near) = (u32::MAX, false, NearGoal::EVERYWHERE);
+        let successors = JumpMoves { pruning, finder, limit, keeps_intermediate, near };
         Self::with_successors(graph, heuristic, successors)
     }
 
@@ -120,6 +124,11 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> JpsPlus<G, H, 
 impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
     type ParentPointer = VertexId;
 
+    fn begin(&mut self, goal: Vertex) {
+        let passes = !self.keeps_intermediate;
+        self.near = if passes { self.finder.near_goal(goal) } else { NearGoal::EVERYWHERE };
+    }
+
     #[inline]
     fn for_each(
         &self,
@@ -139,6 +148,7 @@ impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
             // Where forced successors are unknown, a jump would end almost everywhere and find little.
             limit: if self.pruning.knows_forced() { self.limit } else { 1 },
             keeps_intermediate: self.keeps_intermediate,
+            near: self.near,
         };
         let mut scanned = 0;
         let mut follow = |index: usize| {

@@ -205,7 +205,7 @@ impl Suite for Scans {
                     let scanned = steps + u32::from(!found);
                     let expected = Scan { steps, found, scanned };
                     let name = || format!("{towards:?}, goal {goal:?}, {}", case(from, to.unwrap_or(from)));
-                    assert_eq!(stops.scan(from, quarter, goal), expected, "{}", name());
+                    assert_eq!(stops.scan(from, quarter, goal, false), expected, "{}", name());
                     self.compared += 1;
                 }
             }
