@@ -40,6 +40,9 @@ pub(super) struct Frontier<N: Norm> {
     history: RootHistory,
     nodes: Vec<Node>,
     open: BinaryHeap<Reverse<Entry>>,
+    /// Whether the best entry was taken already: the next one that is pushed takes its place, so that the
+    /// heap is put in order once for both.
+    is_taken: bool,
     /// Scratch memory for a path: its bends, the goal first, and its waypoints.
     bends: Vec<Vertex>,
     waypoints: Vec<Vertex>,
@@ -78,6 +81,7 @@ impl<N: Norm> Frontier<N> {
             history: RootHistory::new(columns, rows),
             nodes: Vec::new(),
             open: BinaryHeap::new(),
+            is_taken: false,
             bends: Vec::new(),
             waypoints: Vec::new(),
         }
@@ -94,6 +98,7 @@ impl<N: Norm> Frontier<N> {
         self.roots.clear();
         self.nodes.clear();
         self.open.clear();
+        self.is_taken = false;
         self.history.clear();
         self.roots.push(Root { at, g: N::ZERO, parent: 0, is_current: true });
         self.history.set(at, 0);
@@ -136,13 +141,23 @@ impl<N: Norm> Frontier<N> {
         let number = self.nodes.len() as u32;
         let priority = N::priority(self.root(node.root).g, h);
         self.nodes.push(node);
-        self.open.push(Reverse(Entry::new(priority, number)));
+        let entry = Reverse(Entry::new(priority, number));
+        if std::mem::take(&mut self.is_taken)
+            && let Some(mut best) = self.open.peek_mut()
+        {
+            *best = entry;
+        } else {
+            self.open.push(entry);
+        }
         priority.0
     }
 
     /// The best node and its f.
     #[inline]
-    pub(super) fn best(&self) -> Option<(u64, Node)> {
+    pub(super) fn best(&mut self) -> Option<(u64, Node)> {
+        if std::mem::take(&mut self.is_taken) {
+            self.open.pop();
+        }
         let Reverse(entry) = self.open.peek()?;
         Some((entry.f(), self.nodes[entry.number() as usize]))
     }
@@ -150,7 +165,9 @@ impl<N: Norm> Frontier<N> {
     /// Takes the best node from the open list.
     #[inline]
     pub(super) fn pop(&mut self) {
-        self.open.pop();
+        if std::mem::replace(&mut self.is_taken, true) {
+            self.open.pop();
+        }
     }
 
     /// The best known path to a root.
