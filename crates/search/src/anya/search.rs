@@ -2,7 +2,7 @@
 
 use mediant_grid::{
     Corners, FreeSpace, Vertex,
-    sight::{IntervalEnd, Ray, Side, row_ahead},
+    sight::{IntervalEnd, Ray, Runs, Side, Window, row_ahead},
 };
 
 use super::{
@@ -118,24 +118,21 @@ impl<N: Norm, O: Observer> Search<'_, N, O> {
         let closed = self.space.has_closed_gaps();
         let mut passed = 0;
         let (steps, dead) = loop {
-            let [(u, u_next), (d, d_next)] = [above, below].map(|strip| {
-                if right > 0 {
-                    let first = from.x + passed;
-                    (strip.word(first), strip.word(first + 1))
-                } else {
-                    let first = from.x - passed - 64;
-                    (strip.word(first).reverse_bits(), strip.word(first - 1).reverse_bits())
-                }
-            });
+            let first = if right > 0 { from.x + passed } else { from.x - passed - 64 };
+            let [(u, u_next), (d, d_next)] =
+                [above, below].map(|strip| (strip.word(first), strip.word(first + right)));
             let dead = u & d;
             let turn = u & !u_next | d & !d_next;
             let gap = if closed { u & !u_next & !d & d_next | d & !d_next & !u & u_next } else { 0 };
             let stop = dead | turn;
             if stop != 0 {
-                let n = stop.trailing_zeros();
-                let at = |bits: u64| bits >> n & 1 == 1;
-                let is_dead = at(dead);
-                break (passed + n as i32 + i32::from(!is_dead), is_dead || at(gap));
+                let (n, bit) = if right > 0 {
+                    (stop.trailing_zeros(), stop & stop.wrapping_neg())
+                } else {
+                    (stop.leading_zeros(), 1 << (63 - stop.leading_zeros()))
+                };
+                let is_dead = dead & bit != 0;
+                break (passed + n as i32 + i32::from(!is_dead), is_dead || gap & bit != 0);
             }
             passed += 64;
         };
@@ -179,30 +176,50 @@ impl<N: Norm, O: Observer> Search<'_, N, O> {
     }
 
     /// Finds the successors on the next line.
+    #[inline]
     fn cross_row(&mut self, cone: &Cone<'_>) {
         let (left, right) = (cone.end(cone.left), cone.end(cone.right));
-        if left.here.is_vertex() {
+        let low = left.here.floor().min(left.next().floor());
+        let high = right.here.ceil().max(right.next().ceil());
+        // From the column before `low` to the one after `high`, beyond which the last run may end.
+        if high - low < Window::WIDTH - 2 {
+            let [ahead, behind] = [cone.ahead, cone.behind()].map(|row| Window::new(row, low - 1));
+            self.cross_row_of(cone, (ahead, behind), (left, right));
+        } else {
+            self.cross_row_of(cone, (cone.ahead, cone.behind()), (left, right));
+        }
+    }
+
+    /// [`cross_row`](Self::cross_row), given the rows of cells.
+    #[inline(always)]
+    fn cross_row_of(
+        &mut self,
+        cone: &Cone<'_>,
+        (ahead, behind): (impl Runs, impl Runs),
+        (left, right): (IntervalEnd, IntervalEnd),
+    ) {
+        let (first, last) = (left.here.floor(), right.here.ceil());
+        let turns = |end: IntervalEnd, outer: i32| {
+            end.here.is_vertex() & behind.is_blocked(outer) & !ahead.is_blocked(outer)
+        };
+        if turns(left, first - 1) {
             self.turn_at_end(cone, left, Side::Left);
         }
-        if right.here.is_vertex() {
+        if turns(right, last) {
             self.turn_at_end(cone, right, Side::Right);
         }
         let (next_left, next_right) = (left.next(), right.next());
-        let (first, last) = (left.here.floor(), right.here.ceil());
+        let (low, high) = (first.min(next_left.floor()), last.max(next_right.ceil()));
         let mut column = first;
         loop {
-            column = cone.ahead.first_free(column, last);
+            column = ahead.first_free(column, last);
             if column >= last {
                 break;
             }
             // Only the part of a run that the cone reaches matters.
-            let start = if column == first {
-                cone.ahead.run_start(column, next_left.floor().min(column))
-            } else {
-                column
-            };
-            let stop = cone.ahead.first_blocked(column, last.max(next_right.ceil()));
-            self.add_visible(cone, (left, right), (start, stop));
+            let start = if column == first { ahead.run_start(column, low) } else { column };
+            let stop = ahead.first_blocked(column, high);
+            self.add_visible(cone, ahead, (left, right), (start, stop));
             column = stop + 1;
         }
     }
@@ -210,12 +227,9 @@ impl<N: Norm, O: Observer> Search<'_, N, O> {
     /// Where an end of the interval is the corner of an obstacle on the near side of the line: adds the paths
     /// that bend around it into what the obstacle hides.
     fn turn_at_end(&mut self, cone: &Cone<'_>, end: IntervalEnd, side: Side) {
-        let (ahead, behind) = (cone.ahead, cone.behind());
+        let ahead = cone.ahead;
         let x = end.here.floor();
-        let (outer, inner) = side.columns(x);
-        if !behind.is_blocked(outer) || ahead.is_blocked(outer) {
-            return;
-        }
+        let (_, inner) = side.columns(x);
         let at = Vertex::new(x, cone.line);
         let is_closed_gap = ahead.is_blocked(inner);
         if is_closed_gap && self.space.is_closed_gap(at) {
@@ -236,24 +250,27 @@ impl<N: Norm, O: Observer> Search<'_, N, O> {
 
     /// For a run of free cells that the cone enters: adds the interval behind it that the root sees, and
     /// those that the obstacles at the ends of the run hide.
-    #[inline]
+    #[inline(always)]
     fn add_visible(
         &mut self,
         cone: &Cone<'_>,
+        ahead: impl Runs,
         (left, right): (IntervalEnd, IntervalEnd),
         (start, stop): (i32, i32),
     ) {
         let left = if start > left.here.floor() { cone.corner(start) } else { left };
         let right = if stop < right.here.ceil() { cone.corner(stop) } else { right };
         let (next_left, next_right) = (left.next(), right.next());
-        let is_corner = |end: IntervalEnd, x: i32| end.here.is_vertex() && end.here.floor() == x;
-        if is_corner(left, start) && cone.ahead.is_blocked(start - 1) {
+        let is_corner = |end: IntervalEnd, x: i32, outer: i32| {
+            end.here.is_vertex() & (end.here.floor() == x) & ahead.is_blocked(outer)
+        };
+        if is_corner(left, start, start - 1) {
             self.add_hidden(cone, start, Side::Left, (start, stop), left);
         }
-        if is_corner(right, stop) && cone.ahead.is_blocked(stop) {
+        if is_corner(right, stop, stop) {
             self.add_hidden(cone, stop, Side::Right, (stop, start), right);
         }
-        if next_left.floor() < stop && next_right.ceil() > start {
+        if (next_left.floor() < stop) & (next_right.ceil() > start) {
             let clipped = |x: i32| IntervalEnd::corner(x, cone.root.x, cone.distance() + 1);
             let is_wall = Side::Left.is_outside(next_left, start);
             let left = if is_wall { clipped(start) } else { left.moved_to(next_left) };
