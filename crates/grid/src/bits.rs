@@ -270,6 +270,35 @@ impl BitRow<'_> {
         to
     }
 
+    /// Whether the columns from `first` to `last` are free, but for the first one if bit 0 of `walls` is set,
+    /// and for the last one if bit 63 is: those must be blocked then. `first` < `last`.
+    #[must_use]
+    #[inline]
+    pub fn is_run(self, first: i32, last: i32, walls: u64) -> bool {
+        let beyond = 63 - (last - first);
+        let bits = self.word(first) ^ walls & 1;
+        if beyond >= 0 {
+            (bits << beyond) == walls & 1 << 63
+        } else {
+            bits == 0 && self.is_long_run(first + 64, last, walls)
+        }
+    }
+
+    /// The rest of [`is_run`](Self::is_run).
+    fn is_long_run(self, mut first: i32, last: i32, walls: u64) -> bool {
+        loop {
+            let beyond = 63 - (last - first);
+            let bits = self.word(first);
+            if beyond >= 0 {
+                return (bits << beyond) == walls & 1 << 63;
+            }
+            if bits != 0 {
+                return false;
+            }
+            first += 64;
+        }
+    }
+
     /// The first column of the run of free columns that ends just before column `end`, but no column before
     /// `to`. If column `end` − 1 is blocked, `end` itself.
     #[must_use]

@@ -34,9 +34,11 @@ impl Ray {
 /// and 'is it a vertex?' are exact.
 ///
 /// A ray crosses a line at a rational with denominator at most 2¹⁵: either at a vertex, or at least 2⁻¹⁵ away
-/// from every vertex. A crossing is that rational plus 2⁻¹⁷, minus the error of n additions of a truncated
-/// step, which is at most n · 2⁻⁴⁴ < 2⁻²⁸. So its fractional part is between 0 and 2⁻¹⁷ at a vertex, and
-/// between 2⁻¹⁶ and 1 elsewhere.
+/// from every vertex. A crossing is that rational plus 2⁻¹⁷, up or down the error of n steps. A step is a
+/// quotient s of 53 binary digits, cut off after 44 binary places. The first is off by at most s · 2⁻⁵³, and
+/// n steps by n · s · 2⁻⁵³ < 2⁻³⁴, as the ray is on the map or a few lines further; cutting off adds at most
+/// n · 2⁻⁴⁴ < 2⁻²⁸. Together that is less than 2⁻²⁷. So the fractional part of a crossing is between 0 and
+/// 2⁻¹⁶ at a vertex, and between 2⁻¹⁶ and 1 elsewhere.
 ///
 /// An interval lies on the map, so a crossing on its line is between 0 and 2¹⁵. From one line to the next a
 /// ray moves by at most 2¹⁵ columns. So all crossings are below 2¹⁷, and their fixed-point values below 2⁶¹.
@@ -67,6 +69,18 @@ impl Crossing {
         ((self.0 + (Self::ONE - Self::VERTEX)) >> Self::FRACTION) as i32
     }
 
+    /// The column of cells that holds it, or that ends at it.
+    #[inline]
+    pub const fn cell_before(self) -> i32 {
+        ((self.0 - Self::VERTEX) >> Self::FRACTION) as i32
+    }
+
+    /// Whether it is left of another by more than 2⁻¹⁶ columns, and so its floor below the other's ceiling.
+    #[inline]
+    pub const fn is_left_of(self, other: Self) -> bool {
+        self.0 + Self::VERTEX < other.0
+    }
+
     /// Whether it is at a vertex.
     #[inline]
     pub const fn is_vertex(self) -> bool {
@@ -81,7 +95,7 @@ pub struct IntervalEnd {
     pub ray: Ray,
     /// Where the ray crosses the line.
     pub here: Crossing,
-    /// How far it moves from one line to the next.
+    /// How far it moves from one line to the next ([`Crossing`]).
     step: i64,
 }
 
@@ -89,27 +103,34 @@ impl IntervalEnd {
     /// The end on the line that is `n` lines from the root, for a ray from a root in column `root`.
     #[inline]
     pub const fn new(ray: Ray, root: i32, n: i32) -> Self {
-        let step = ((ray.dx as i64) << Crossing::FRACTION).div_euclid(ray.dy as i64);
-        // At the corner that defines the ray the crossing is exact, so that from there the error adds up
-        // anew.
-        let here = if n == ray.dy {
-            Crossing::vertex(root + ray.dx)
-        } else {
-            Crossing(Crossing::vertex(root).0 + n as i64 * step)
-        };
-        Self { ray, here, step }
+        let step = Self::step(ray);
+        Self { ray, here: Crossing(Crossing::vertex(root).0 + n as i64 * step), step }
     }
 
     /// The end at a vertex in column `x`, `n` lines from a root in column `root`, and the ray through it.
     #[inline]
     pub const fn corner(x: i32, root: i32, n: i32) -> Self {
-        Self::new(Ray { dx: x - root, dy: n }, root, n)
+        let ray = Ray { dx: x - root, dy: n };
+        Self { ray, here: Crossing::vertex(x), step: Self::step(ray) }
+    }
+
+    /// How far a ray moves from one line to the next. In floating point: an integer division takes a branch
+    /// for the sign and cannot overlap with the next.
+    #[inline]
+    const fn step(ray: Ray) -> i64 {
+        (ray.dx as f64 / ray.dy as f64 * Crossing::ONE as f64) as i64
     }
 
     /// The same end on the line that its ray crosses at `next`.
     #[inline]
     pub const fn moved_to(self, next: Crossing) -> Self {
         Self { here: next, ..self }
+    }
+
+    /// Whether it stays in its column.
+    #[inline]
+    pub const fn is_vertical(&self) -> bool {
+        self.step == 0
     }
 
     /// An end that stays in column `x` on every line.

@@ -120,6 +120,9 @@ impl<'g> Cone<'g> {
     #[inline]
     pub(super) fn advance(&mut self, goal: Vertex) -> bool {
         loop {
+            if !self.is_turning() && self.cross_free_rows(goal.y) && self.holds(goal) {
+                return true;
+            }
             let (left, right) = (self.left.end.next(), self.right.end.next());
             let low = self.left.here().floor().min(left.floor());
             let high = self.right.here().ceil().max(right.ceil());
@@ -139,6 +142,45 @@ impl<'g> Cone<'g> {
         }
     }
 
+    /// Whether an end of the interval is a vertex at the corner of an obstacle behind.
+    #[inline]
+    fn is_turning(&self) -> bool {
+        let behind = self.behind();
+        let turns =
+            |edge: &Edge, outer: i32| !edge.is_wall && edge.here().is_vertex() && behind.is_blocked(outer);
+        turns(&self.left, self.left.here().floor() - 1) || turns(&self.right, self.right.here().ceil())
+    }
+
+    /// Crosses rows in which nothing is in the way: all cells are free that the interval crosses or touches,
+    /// and the walls that it follows go on. Stops before the first other row, or on line `stop` (then it
+    /// returns true). No end may be at the corner of an obstacle behind.
+    #[inline]
+    fn cross_free_rows(&mut self, stop: i32) -> bool {
+        let Self { left, right, .. } = *self;
+        let walls = u64::from(left.is_wall) | u64::from(right.is_wall) << 63;
+        let (mut from, mut to) = (left.end.here, right.end.here);
+        let (mut line, mut ahead) = (self.line, self.ahead);
+        let (mut low, mut high) = (from.cell_before(), to.floor());
+        let is_stopped = loop {
+            let (next_from, next_to) = (left.end.moved_to(from).next(), right.end.moved_to(to).next());
+            let (next_low, next_high) = (next_from.cell_before(), next_to.floor());
+            let (first, last) = (low.min(next_low), high.max(next_high));
+            let is_free = next_from.is_left_of(next_to) && ahead.is_run(first, last, walls);
+            if !is_free {
+                break false;
+            }
+            (from, to, low, high) = (next_from, next_to, next_low, next_high);
+            line += self.down;
+            ahead = ahead.below(self.down);
+            if line == stop {
+                break true;
+            }
+        };
+        (self.line, self.ahead) = (line, ahead);
+        (self.left.end.here, self.right.end.here) = (from, to);
+        is_stopped
+    }
+
     /// Where walls cut the interval off on its left and right before the next line; `None` if it splits,
     /// ends, or if an obstacle hides something. `left` and `right` are its ends on the next line if no
     /// obstacle is in the way, `low` to `high` the columns that are crossed.
@@ -154,8 +196,13 @@ impl<'g> Cone<'g> {
             return None;
         }
         if ahead.first_blocked(low, high) == high {
+            // A vertical beside an obstacle is a wall from here on.
+            let stands = |edge: &Edge, x: i32, outer: i32| {
+                (edge.end.is_vertical() & edge.here().is_vertex() & ahead.is_blocked(outer)).then_some(x)
+            };
+            let walls = (stands(&self.left, first, first - 1), stands(&self.right, last, last));
             // Along a wall the interval may shrink to a point.
-            return (left.floor() < right.ceil()).then_some((None, None));
+            return (left.floor() < right.ceil()).then_some(walls);
         }
         let inside = ahead.first_free(first, last);
         if inside == last {
