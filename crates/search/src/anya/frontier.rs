@@ -122,7 +122,8 @@ impl<N: Norm> Frontier<N> {
     pub(super) fn add_root(&mut self, parent: u32, at: Vertex) -> Option<u32> {
         let from = self.root(parent);
         let g = from.g + self.norm.length(from.at.to(at));
-        if let Some(best) = self.history.get(at) {
+        let (best, slot) = self.history.slot(at);
+        if let Some(best) = best {
             let known = &mut self.roots[best as usize];
             if known.g <= g {
                 return (known.g == g && known.parent == parent).then_some(best);
@@ -130,8 +131,8 @@ impl<N: Norm> Frontier<N> {
             known.is_current = false;
         }
         let number = self.roots.len() as u32;
+        *slot = number;
         self.roots.push(Root { at, g, parent, is_current: true });
-        self.history.set(at, number);
         Some(number)
     }
 

@@ -68,12 +68,33 @@ impl RootHistory {
     /// Makes a root the best one at its vertex, which is on the map.
     #[inline]
     pub(super) fn set(&mut self, at: Vertex, root: u32) {
+        *self.entry(at) = Entry { generation: self.generation, root };
+    }
+
+    /// The best root at a vertex of the map, and where its number is kept. If there is none yet, the caller
+    /// must put one there.
+    #[inline]
+    pub(super) fn slot(&mut self, at: Vertex) -> (Option<u32>, &mut u32) {
+        let generation = self.generation;
+        let entry = self.entry(at);
+        let known = (entry.generation == generation).then_some(entry.root);
+        entry.generation = generation;
+        (known, &mut entry.root)
+    }
+
+    /// The entry of a vertex of the map, in a block that has memory.
+    #[inline]
+    fn entry(&mut self, at: Vertex) -> &mut Entry {
         let (block, place) = self.place(at);
         if self.blocks[block] == 0 {
-            self.blocks[block] = self.entries.len() as u32;
-            self.entries.push(Self::EMPTY);
+            self.add_block(block);
         }
-        let entries = &mut self.entries[self.blocks[block] as usize];
-        entries[place] = Entry { generation: self.generation, root };
+        &mut self.entries[self.blocks[block] as usize][place]
+    }
+
+    #[cold]
+    fn add_block(&mut self, block: usize) {
+        self.blocks[block] = self.entries.len() as u32;
+        self.entries.push(Self::EMPTY);
     }
 }

@@ -242,10 +242,11 @@ impl<N: Norm, O: Observer> Search<'_, N, O> {
         };
         // Between two obstacles everything is hidden.
         let end = if is_closed_gap { IntervalEnd::standing(x) } else { end };
-        self.add_hidden(cone, x, side, (far, limit), end);
-        if let Some(number) = self.frontier.add_root(cone.number, at) {
-            self.push_flat(number, at, side.sign());
+        let Some(number) = self.frontier.add_root(cone.number, at) else { return };
+        if side.is_inside(end.next(), far) {
+            self.add_behind(number, x, side, (far, limit), end);
         }
+        self.push_flat(number, at, side.sign());
     }
 
     /// For a run of free cells that the cone enters: adds the interval behind it that the root sees, and
@@ -265,10 +266,10 @@ impl<N: Norm, O: Observer> Search<'_, N, O> {
             end.here.is_vertex() & (end.here.floor() == x) & ahead.is_blocked(outer)
         };
         if is_corner(left, start, start - 1) {
-            self.add_hidden(cone, start, Side::Left, (start, stop), left);
+            self.add_hidden(cone, start, Side::Left, stop, left);
         }
         if is_corner(right, stop, stop) {
-            self.add_hidden(cone, stop, Side::Right, (stop, start), right);
+            self.add_hidden(cone, stop, Side::Right, start, right);
         }
         if (next_left.floor() < stop) & (next_right.ceil() > start) {
             let clipped = |x: i32| IntervalEnd::corner(x, cone.root.x, cone.distance() + 1);
@@ -280,22 +281,21 @@ impl<N: Norm, O: Observer> Search<'_, N, O> {
         }
     }
 
-    /// Adds what the corner of an obstacle in column `x` hides of a run: on the next line the interval from
-    /// `far` to where the ray past the corner meets it, at most to `limit`.
-    fn add_hidden(
-        &mut self,
-        cone: &Cone<'_>,
-        x: i32,
-        side: Side,
-        (far, limit): (i32, i32),
-        end: IntervalEnd,
-    ) {
-        let next = end.next();
-        if !side.is_inside(next, far) {
-            return;
+    /// Adds what the corner of an obstacle in column `x`, at the end of a run that the cone enters, hides of
+    /// that run, up to its other end `limit`.
+    fn add_hidden(&mut self, cone: &Cone<'_>, x: i32, side: Side, limit: i32, end: IntervalEnd) {
+        if side.is_inside(end.next(), x) {
+            let at = Vertex::new(x, cone.line);
+            let Some(root) = self.frontier.add_root(cone.number, at) else { return };
+            self.add_behind(root, x, side, (x, limit), end);
         }
-        let at = Vertex::new(x, cone.line);
-        let Some(root) = self.frontier.add_root(cone.number, at) else { return };
+    }
+
+    /// Adds what the corner of an obstacle in column `x`, a root, hides of a run: on the next line the
+    /// interval from `far` to where the ray past the corner meets it, at most to `limit`.
+    #[inline]
+    fn add_behind(&mut self, root: u32, x: i32, side: Side, (far, limit): (i32, i32), end: IntervalEnd) {
+        let next = end.next();
         let to = |column: i32| IntervalEnd::corner(column, x, 1);
         let near = if side.is_inside(next, limit) { to(limit) } else { end.moved_to(next) };
         let (left, right) = match side {
