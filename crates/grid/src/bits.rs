@@ -348,6 +348,13 @@ mod tests {
                     assert_eq!(row.first_free(from, to), first(true), "{a}, {b}: {from} to {to}");
                     let start = (from..to).rev().find(|&x| blocked(x)).map_or(from, |x| x + 1);
                     assert_eq!(row.run_start(to, from), start, "{a}, {b}: {from} to {to}");
+                    // One bit each for a wall at the first and at the last column.
+                    for ends in (0..4_u64).filter(|_| from < to) {
+                        let walls = ends & 1 | ends >> 1 << 63;
+                        let is_wall = |x| x == from && ends & 1 == 1 || x == to && ends & 2 == 2;
+                        let expected = (from..=to).all(|x| blocked(x) == is_wall(x));
+                        assert_eq!(row.is_run(from, to, walls), expected, "{a}, {b}: {from} to {to}, {ends}");
+                    }
                 }
             }
         }

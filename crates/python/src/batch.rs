@@ -79,7 +79,7 @@ impl<'py> Batch<'py> {
         all: Numbered,
         answer: impl Fn(&mut C, &mut Planner, usize, &Arc<AtomicBool>) + Send + Sync + 'static,
     ) -> PyResult<Vec<C>> {
-        planners.try_make_ready().map_err(raised)?;
+        py.detach(|| planners.try_make_ready()).map_err(raised)?;
         let (done, flag) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicBool::new(false)));
         let (planners, threads) = (Arc::clone(planners), self.threads);
         let (counter, cancelled) = (Arc::clone(&done), Arc::clone(&flag));

@@ -44,11 +44,13 @@ impl Asked<'_, '_> {
     fn outcome(&self, ends: &(Points, Points), counts: bool) -> PyResult<(Outcome, Option<Counters>)> {
         let is_plain = self.plain(ends).is_some();
         let is_watched = self.keywords.timeout().is_some() || is_watched(self.planners.index(), is_plain);
-        if is_watched && !self.planners.is_ready() {
+        let ready = if is_watched && !self.planners.is_ready() {
             let planners = Arc::clone(self.planners);
-            on_thread(self.start.py(), move || planners.try_make_ready(), |_| Ok(()))?.map_err(raised)?;
-        }
-        self.planners.try_make_ready().map_err(raised)?;
+            on_thread(self.start.py(), move || planners.try_make_ready(), |_| Ok(()))?
+        } else {
+            self.start.py().detach(|| self.planners.try_make_ready())
+        };
+        ready.map_err(raised)?;
         let interruption = is_watched.then(Interruption::default);
         let request = self.keywords.request(&ends.0, &ends.1, interruption.as_ref());
         let answer = self.start.py().detach(|| {
@@ -80,7 +82,7 @@ impl Asked<'_, '_> {
     pub(crate) fn distance(&self, py: Python<'_>) -> PyResult<f64> {
         let (ends, index) = (self.ends()?, self.planners.index());
         if let Some(query) = self.plain(&ends).filter(|_| !is_watched(index, true)) {
-            self.planners.try_make_ready().map_err(raised)?;
+            py.detach(|| self.planners.try_make_ready()).map_err(raised)?;
             let distance = py.detach(|| self.planners.with(|planner| planner.distance(query)));
             return Ok(distance.map_err(raised)?.unwrap_or(f64::INFINITY));
         }
