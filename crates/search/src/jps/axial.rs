@@ -239,30 +239,20 @@ impl AxialStops {
         }
     }
 
-    /// Makes those jump points dead ends for which `is_dead_end` says so, by vertex and direction; it is
-    /// asked for the directions `quarters`. Returns whether there are any.
-    pub(super) fn mark(
-        &mut self,
-        quarters: impl Iterator<Item = usize>,
-        is_dead_end: impl Fn(&Self, Vertex, usize) -> bool,
-    ) -> bool {
-        let mut any = false;
-        for quarter in quarters {
-            let plane = self.planes[quarter];
-            for word in plane.words.0..plane.words.1 {
-                let [one, other] = self.words[word];
-                let (mut jump_points, mut dead_ends) = (one & !other, 0);
-                while jump_points != 0 {
-                    let bit = jump_points.trailing_zeros();
-                    let at = plane.vertex(64 * word as u64 + u64::from(bit));
-                    dead_ends |= u64::from(is_dead_end(self, at, quarter)) << bit;
-                    jump_points &= jump_points - 1;
-                }
-                any |= dead_ends != 0;
-                self.words[word] = [one & !dead_ends, other | dead_ends];
+    /// Makes those jump points of a direction dead ends for which `is_dead_end` says so.
+    pub(super) fn mark(&mut self, quarter: usize, mut is_dead_end: impl FnMut(&Self, Vertex) -> bool) {
+        let plane = self.planes[quarter];
+        for word in plane.words.0..plane.words.1 {
+            let [one, other] = self.words[word];
+            let (mut jump_points, mut dead_ends) = (one & !other, 0);
+            while jump_points != 0 {
+                let bit = jump_points.trailing_zeros();
+                let at = plane.vertex(64 * word as u64 + u64::from(bit));
+                dead_ends |= u64::from(is_dead_end(self, at)) << bit;
+                jump_points &= jump_points - 1;
             }
+            self.words[word] = [one & !dead_ends, other | dead_ends];
         }
-        any
     }
 
     /// Whether a vertex is a dead end for jumps in a direction.

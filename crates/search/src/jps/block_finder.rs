@@ -7,10 +7,11 @@ use mediant_moves::KError;
 
 use super::{
     axial::AxialStops,
-    dead_ends::{DeadEnds, NearGoal, REACH},
+    dead_ends::NearGoal,
     diagonals::DiagonalStops,
     finder::{JumpContext, JumpFinder},
-    table::{JumpError, JumpTable},
+    planes::JumpPlanes,
+    table::JumpError,
 };
 use crate::{
     canonical::Pruning,
@@ -27,12 +28,6 @@ pub struct BlockFinder {
     reach: u32,
 }
 
-/// On maps with more jump points than one for so many vertices, as in noise, dead ends make searches hardly
-/// shorter, and there would be many to find.
-const VERTICES_A_JUMP_POINT: u64 = 4;
-/// On larger maps it takes longer to find the dead ends than some hundred searches would save.
-const MOST_VERTICES: u64 = 1 << 22;
-
 impl BlockFinder {
     /// Prepares the finder of a grid graph, by the pruning rule of that grid graph.
     ///
@@ -46,31 +41,11 @@ impl BlockFinder {
 
     /// [`new`](Self::new) with a pruning rule that is that of the grid graph.
     pub(super) fn prepare<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>) -> Result<Self, KError> {
-        let (k, max) = (graph.k().get(), JumpTable::MAX_K);
-        if k > max {
-            return Err(KError::TooLarge { k, max });
-        }
-        let (axial, diagonals) = (AxialStops::new(graph), DiagonalStops::new(graph, pruning));
-        let vertices = graph.vertex_count() as u64;
-        let pays = vertices <= MOST_VERTICES && VERTICES_A_JUMP_POINT * axial.jump_points() <= vertices;
-        Ok(Self::with_dead_ends(graph, pruning, (axial, diagonals), if pays { REACH } else { 0 }))
+        Ok(Self::with_planes(graph, JumpPlanes::new(graph, pruning)?))
     }
 
-    /// The finder with dead ends that reach so far; 0 for none.
-    pub(super) fn with_dead_ends<P: Placement>(
-        graph: &GridGraph<P>,
-        pruning: &Pruning<P>,
-        (mut axial, diagonals): (AxialStops, DiagonalStops),
-        reach: u32,
-    ) -> Self {
-        let reach = if graph.has_closed_gaps() { 0 } else { reach };
-        let table = pruning.table().filter(|_| reach > 0);
-        let are_marked = table.is_some_and(|table| {
-            let dead_ends = DeadEnds { graph, pruning, table, diagonals: &diagonals, reach };
-            let quarters = (0..4).step_by(8 / graph.steps().len());
-            axial.mark(quarters, |axial, at, quarter| dead_ends.holds(axial, at, quarter))
-        });
-        let reach = if are_marked { reach } else { 0 };
+    pub(super) fn with_planes<P: Placement>(graph: &GridGraph<P>, planes: JumpPlanes) -> Self {
+        let JumpPlanes { axial, diagonals, reach, .. } = planes;
         Self { identity: graph.identity(), axial: Arc::new(axial), diagonals: Arc::new(diagonals), reach }
     }
 
@@ -114,10 +89,7 @@ impl<P: Placement> JumpFinder<P> for BlockFinder {
         goal_steps: Option<u32>,
         scanned: &mut u32,
     ) -> Option<u32> {
-        if context.stepwise {
-            return context.step_axial(from, index, goal_steps, scanned);
-        }
-        let quarter = index >> (context.graph.k().get() - 2);
+        let quarter = context.quarter(index);
         let is_near = context.near.holds(from.at, quarter);
         let scan = self.axial.scan(from.at, quarter, goal_steps, is_near);
         *scanned += scan.scanned;
@@ -133,10 +105,7 @@ impl<P: Placement> JumpFinder<P> for BlockFinder {
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor) -> Option<VertexId>,
     ) {
-        if context.stepwise {
-            return context.step_diagonal(self, from, index, scanned, visit);
-        }
-        let next = self.diagonals.stops(context, from, index);
-        context.diagonal_by_stops(self, from, index, next, scanned, visit);
+        let stops = context.stops(&self.diagonals, from, index, self.reach > 0);
+        context.diagonal_by_stops(self, from, index, stops, scanned, visit);
     }
 }

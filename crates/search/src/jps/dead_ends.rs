@@ -18,7 +18,7 @@
 //!
 //! Where intermediate jump points are kept, or gaps are closed, there are no dead ends.
 
-use mediant_grid::{GridGraph, Placement, Vertex};
+use mediant_grid::{GridGraph, Placement, Vector, Vertex};
 
 use super::{axial::AxialStops, diagonals::DiagonalStops};
 use crate::{
@@ -47,6 +47,21 @@ struct Band {
 }
 
 impl Band {
+    /// Those of 64 numbers that it holds: the first one and those that follow it upwards or downwards.
+    #[inline]
+    const fn of(self, number: i32, up: bool) -> u64 {
+        let ahead = if up { self.first as i64 - number as i64 } else { number as i64 - self.last() };
+        let (from, to) = (ahead, ahead + self.more as i64);
+        if from >= 64 || to < 0 {
+            return 0;
+        }
+        !0 << (if from > 0 { from } else { 0 }) & !0 >> (if to < 63 { 63 - to } else { 0 })
+    }
+
+    const fn last(self) -> i64 {
+        self.first as i64 + self.more as i64
+    }
+
     #[inline]
     const fn holds(self, number: i32) -> bool {
         number.wrapping_sub(self.first) as u32 <= self.more
@@ -74,6 +89,45 @@ impl NearGoal {
     pub(super) const fn holds(&self, from: Vertex, quarter: usize) -> bool {
         if quarter.is_multiple_of(2) { self.columns.holds(from.x) } else { self.rows.holds(from.y) }
     }
+
+    /// The same for jumps from 64 vertices, the first one and those that follow it by diagonal moves `v`.
+    #[inline]
+    pub(super) const fn from_diagonal(&self, first: Vertex, v: Vector, quarter: usize) -> u64 {
+        if quarter.is_multiple_of(2) {
+            self.columns.of(first.x, v.x > 0)
+        } else {
+            self.rows.of(first.y, v.y > 0)
+        }
+    }
+}
+
+/// The dead ends of a map in rows: for axial jumps in each of the four directions a word for 64 vertices.
+#[derive(Clone, Debug, Default)]
+pub(super) struct DeadEndRows {
+    rows: [Vec<u64>; 4],
+    per_row: usize,
+}
+
+impl DeadEndRows {
+    /// For so many columns and rows, with no dead end yet.
+    pub(super) fn new((width, height): (u32, u32)) -> Self {
+        let per_row = width.div_ceil(64) as usize;
+        Self { rows: [0; 4].map(|_| vec![0; per_row * height as usize]), per_row }
+    }
+
+    fn add(&mut self, at: Vertex, quarter: usize) {
+        self.rows[quarter][at.y as usize * self.per_row + at.x as usize / 64] |= 1 << (at.x % 64);
+    }
+
+    /// Whether there are none.
+    pub(super) const fn is_empty(&self) -> bool {
+        self.per_row == 0
+    }
+
+    /// The words for a direction; none if there are no dead ends.
+    pub(super) fn of(&self, quarter: usize) -> &[u64] {
+        &self.rows[quarter]
+    }
 }
 
 /// Finds the dead ends of a grid graph.
@@ -86,8 +140,26 @@ pub(super) struct DeadEnds<'g, P: Placement> {
 }
 
 impl<P: Placement> DeadEnds<'_, P> {
+    /// Marks all dead ends.
+    pub(super) fn mark(&self, axial: &mut AxialStops) -> DeadEndRows {
+        let mut rows = DeadEndRows::default();
+        for quarter in (0..4).step_by(8 / self.graph.steps().len()) {
+            axial.mark(quarter, |axial, at| {
+                let holds = self.holds(axial, at, quarter);
+                if holds {
+                    if rows.is_empty() {
+                        rows = DeadEndRows::new(P::vertices(self.graph.grid()));
+                    }
+                    rows.add(at, quarter);
+                }
+                holds
+            });
+        }
+        rows
+    }
+
     /// Whether a jump point of the axial jumps in direction `quarter` is a dead end; false outside the map.
-    pub(super) fn holds(&self, axial: &AxialStops, at: Vertex, quarter: usize) -> bool {
+    fn holds(&self, axial: &AxialStops, at: Vertex, quarter: usize) -> bool {
         self.graph.is_free(at)
             && self.ends(axial, at, quarter << (self.graph.k().get() - 2), self.reach, DEPTH)
     }
@@ -112,12 +184,10 @@ impl<P: Placement> DeadEnds<'_, P> {
     }
 
     fn diagonal_ends(&self, axial: &AxialStops, from: Vertex, index: usize, reach: u32, depth: u32) -> bool {
-        let start = self.diagonals.place(from, index);
+        let mut scan = self.diagonals.scan(from, index);
         let beside = [index - 1, (index + 1) % self.graph.steps().len()];
-        let mut gone = 0;
         loop {
-            let (steps, leads) = self.diagonals.next_stop(start + u64::from(gone));
-            gone += steps;
+            let (gone, leads) = scan.next(|_| None);
             let at = self.after(from, index, gone);
             // Where it cannot enter the vertex at which it stops, it ends before.
             if leads == [false; 2] && !self.is_legal(from, index, gone - 1) {
@@ -182,7 +252,7 @@ mod tests {
     use super::*;
     use crate::{
         AStar, BlockJps, Counters, Hk, Planner, Query, Zero,
-        jps::{BlockFinder, Jps},
+        jps::{BlockFinder, Jps, planes::JumpPlanes},
         successors::Successors,
     };
 
@@ -221,8 +291,8 @@ mod tests {
     }
 
     fn finder<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>, reach: u32) -> BlockFinder {
-        let planes = (AxialStops::new(graph), DiagonalStops::new(graph, pruning));
-        BlockFinder::with_dead_ends(graph, pruning, planes, reach)
+        let planes = JumpPlanes::with_dead_ends(graph, pruning, AxialStops::new(graph), reach);
+        BlockFinder::with_planes(graph, planes)
     }
 
     /// The definition, by steps: whether all nodes to which the forced successors of a jump point lead, and

@@ -17,10 +17,10 @@ use mediant_grid::{GridGraph, Placement, Vector, Vertex};
 use mediant_moves::FiniteK;
 
 use super::{
-    finder::{JumpContext, Stop},
+    dead_ends::DeadEndRows,
     stop_rows::{StopRows, Stops},
 };
-use crate::{canonical::Pruning, successors::ExpandedNode};
+use crate::canonical::Pruning;
 
 /// Where diagonal jumps stop, for each vertex of a grid graph with k ≤ 3.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -63,7 +63,8 @@ impl DiagonalStops {
         Self::words(graph).saturating_mul(size_of::<Stops>())
     }
 
-    pub(crate) fn new<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>) -> Self {
+    /// Computes the planes of a grid graph, where jumps pass dead ends.
+    pub(crate) fn new<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>, dead: &DeadEndRows) -> Self {
         let (width, height) = P::vertices(graph.grid());
         let odd: Vec<usize> = (1..graph.steps().len()).step_by(2).collect();
         let (lines, length) = Self::lines(graph);
@@ -80,7 +81,7 @@ impl DiagonalStops {
             let first = i * per_plane;
             all.planes[i] =
                 Plane::new(graph.step(index).vector(), (width as i32, height as i32), first as u64 * 64);
-            StopRows::new(graph, pruning, index).for_each_word(|line, word, stops| {
+            StopRows::new(graph, pruning, index, dead).for_each_word(|line, word, stops| {
                 let known = &mut all.words[first + line * per_line + word];
                 known.iter_mut().zip(stops).for_each(|(known, stops)| *known |= stops);
             });
@@ -107,52 +108,56 @@ impl DiagonalStops {
         plane.first + line * plane.length + u64::from(place as u32)
     }
 
-    /// After how many steps a jump from the vertex of this bit stops, and which of the two axial jumps come
-    /// to a jump point from there; if none does, either the jump cannot enter that vertex, or it has a forced
-    /// successor.
+    /// The scan of a diagonal jump from a vertex of the map by the odd move `index`.
     #[inline]
-    pub(crate) fn next_stop(&self, place: u64) -> (u32, [bool; 2]) {
-        let (mut at, mut steps) = (place + 1, 1);
-        loop {
-            let (word, shift) = ((at >> 6) as usize, at & 63);
-            let Some([low, high]) = self.words.get(word..word + 2) else {
-                return (steps, [false; 2]);
-            };
-            // Shifting in two steps avoids a shift by 64 where `shift` is 0.
-            let from_here = |i: usize| low[i] >> shift | high[i] << 1 << (63 - shift);
-            let stop = from_here(0);
-            if stop != 0 {
-                let n = stop.trailing_zeros();
-                return (steps + n, [1, 2].map(|i| from_here(i) >> n & 1 == 1));
-            }
-            steps += 64;
-            at += 64;
-        }
-    }
-
-    /// Says where a jump from `from` by the odd move `index` stops next after so many steps.
-    #[inline]
-    pub(super) fn stops<'s, P: Placement>(
-        &'s self,
-        context: &'s JumpContext<'_, P>,
-        from: &'s ExpandedNode,
-        index: usize,
-    ) -> impl Fn(u32) -> Stop + 's {
-        let start = self.place(from.at, index);
-        move |gone| {
-            let (steps, leads) = self.next_stop(start + u64::from(gone));
-            let found = leads[0] || leads[1] || {
-                // A jump point, or a vertex that the jump cannot enter.
-                let before = context.after(from, context.graph.step(index), index, gone + steps - 1);
-                context.pruning.diagonals_may_force()
-                    && context.pruning.is_legal(context.graph, &before, index)
-            };
-            Stop { steps: steps - u32::from(!found), found, leads }
-        }
+    pub(super) fn scan(&self, from: Vertex, index: usize) -> DiagonalScan<'_> {
+        let (place, words) = (self.place(from, index), &*self.words);
+        // Before the first word is loaded.
+        DiagonalScan { words, place: place.wrapping_sub(63), first: 0u32.wrapping_sub(63), stops: 0 }
     }
 
     pub(crate) fn memory_bytes(&self) -> usize {
         size_of_val(&*self.words)
+    }
+}
+
+/// A diagonal jump, from stop to stop.
+pub(super) struct DiagonalScan<'s> {
+    words: &'s [Stops],
+    /// The bit of the first of 64 vertices, and after how many steps the jump enters it.
+    place: u64,
+    first: u32,
+    /// Those of them that stop it and at which it has not stopped yet.
+    stops: u64,
+}
+
+impl DiagonalScan<'_> {
+    /// After how many steps it stops next, and which of the two axial jumps come to a jump point from there;
+    /// if none does, either it cannot enter that vertex, or that has a forced successor.
+    ///
+    /// `stops_too` says of 64 vertices, the first of them after so many steps, from which of them an axial
+    /// jump that leads to dead ends alone counts as one that leads to a jump point.
+    #[inline]
+    pub(super) fn next(&mut self, stops_too: impl Fn(u32) -> Option<[u64; 2]>) -> (u32, [bool; 2]) {
+        while self.stops == 0 {
+            self.place = self.place.wrapping_add(64);
+            self.first = self.first.wrapping_add(64);
+            let (word, shift) = ((self.place >> 6) as usize, self.place & 63);
+            let Some([low, high]) = self.words.get(word..word + 2) else {
+                return (self.first, [false; 2]);
+            };
+            // Shifting in two steps avoids a shift by 64 where `shift` is 0.
+            let from_here = |i: usize| low[i] >> shift | high[i] << 1 << (63 - shift);
+            self.stops = from_here(0);
+            if let Some([first, second]) = stops_too(self.first) {
+                self.stops |= from_here(1) & first | from_here(2) & second;
+            }
+        }
+        let n = self.stops.trailing_zeros();
+        self.stops &= self.stops - 1;
+        let at = self.place + u64::from(n);
+        let leads = self.words.get((at >> 6) as usize).copied().unwrap_or_default();
+        (self.first + n, [1, 2].map(|i| leads[i] >> (at & 63) & 1 == 1))
     }
 }
 

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use mediant_grid::{GridGraph, Identity, Placement, Step, Vector, Vertex, VertexId};
 use mediant_moves::Cost;
 
-use super::dead_ends::NearGoal;
+use super::{dead_ends::NearGoal, diagonals::DiagonalStops};
 use crate::{
     canonical::Pruning,
     successors::{ExpandedNode, Successor},
@@ -185,14 +185,49 @@ impl<P: Placement> JumpContext<'_, P> {
         }
     }
 
-    /// A diagonal jump from stop to stop. `next` says where it stops next after so many steps.
+    /// The direction number of an even move.
+    #[inline]
+    pub(super) fn quarter(&self, index: usize) -> usize {
+        index >> (self.graph.k().get() - 2)
+    }
+
+    /// Says where a diagonal jump stops next.
+    #[inline]
+    pub(super) fn stops<'s>(
+        &'s self,
+        diagonals: &'s DiagonalStops,
+        from: &'s ExpandedNode,
+        index: usize,
+        passes_dead_ends: bool,
+    ) -> impl FnMut() -> Stop + 's {
+        let mut scan = diagonals.scan(from.at, index);
+        let step = self.graph.step(index);
+        let beside = self.beside(index);
+        let near = move |gone| {
+            passes_dead_ends.then(|| {
+                let first = self.after(from, step, index, gone).at;
+                beside.map(|even| self.near.from_diagonal(first, step.vector(), self.quarter(even)))
+            })
+        };
+        move || {
+            let (steps, leads) = scan.next(near);
+            let found = leads[0] || leads[1] || {
+                // A jump point, or a vertex that the jump cannot enter.
+                let before = self.after(from, step, index, steps - 1);
+                self.pruning.diagonals_may_force() && self.pruning.is_legal(self.graph, &before, index)
+            };
+            Stop { steps: steps - u32::from(!found), found, leads }
+        }
+    }
+
+    /// A diagonal jump from stop to stop.
     #[inline]
     pub(super) fn diagonal_by_stops<J: JumpFinder<P> + ?Sized>(
         &self,
         finder: &J,
         from: &ExpandedNode,
         index: usize,
-        next: impl Fn(u32) -> Stop,
+        mut next: impl FnMut() -> Stop,
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor) -> Option<VertexId>,
     ) {
@@ -200,8 +235,8 @@ impl<P: Placement> JumpContext<'_, P> {
         let to_goal = GoalLegs::new(self, from.at, index);
         let mut gone = 0;
         loop {
-            let stop = next(gone);
-            let reached = (gone + stop.steps).min(self.limit);
+            let stop = next();
+            let reached = stop.steps.min(self.limit);
             if let Some(legs) = to_goal.filter(|legs| gone < legs.diagonal && legs.diagonal <= reached) {
                 let turn = self.after(from, step, index, legs.diagonal);
                 let (goal_steps, cost) = (Some(legs.axial), step.cost * legs.diagonal);
@@ -283,7 +318,7 @@ impl<P: Placement> JumpContext<'_, P> {
 /// Where a diagonal jump stops next.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stop {
-    /// The number of legal steps until there.
+    /// The number of legal steps until there, from the beginning.
     pub(super) steps: u32,
     /// Whether it is a jump point or an intermediate one; otherwise the jump is dead.
     pub(super) found: bool,

@@ -54,6 +54,7 @@ mod block_finder;
 mod dead_ends;
 mod diagonals;
 mod finder;
+mod planes;
 mod planner;
 mod stop_rows;
 mod table;

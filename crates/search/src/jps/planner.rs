@@ -121,6 +121,37 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> JpsPlus<G, H, 
     }
 }
 
+impl<P: Placement, J> JumpMoves<P, J> {
+    /// All jumps from a node. Returns the number of vertices scanned.
+    #[inline]
+    fn follow<F: JumpFinder<P>>(
+        &self,
+        finder: &F,
+        context: &JumpContext<'_, P>,
+        node: &ExpandedNode,
+        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+    ) -> u32 {
+        let (graph, goal) = (context.graph, context.goal);
+        let mut scanned = 0;
+        let mut follow = |index: usize| {
+            if index & 1 == 1 {
+                finder.diagonal(context, node, index, &mut scanned, visit);
+                return;
+            }
+            let step = graph.step(index);
+            let goal_steps = context.steps_to_goal(node.at, step.vector());
+            if let Some(n) = finder.axial(context, node, index, goal_steps, &mut scanned) {
+                visit(context.after(node, step, index, n).reached(step.cost * n, index));
+            }
+        };
+        match node.by.filter(|&by| !self.pruning.is_exempt(graph, node.at, by, goal)) {
+            None => graph.for_each_successor(node.at, node.by, goal, follow),
+            Some(by) => self.pruning.for_each(graph, node, by, &mut follow),
+        }
+        scanned
+    }
+}
+
 impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
     type ParentPointer = VertexId;
 
@@ -150,23 +181,11 @@ impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
             keeps_intermediate: self.keeps_intermediate,
             near: self.near,
         };
-        let mut scanned = 0;
-        let mut follow = |index: usize| {
-            if index & 1 == 1 {
-                self.finder.diagonal(&context, &node, index, &mut scanned, &mut visit);
-                return;
-            }
-            let step = graph.step(index);
-            let goal_steps = context.steps_to_goal(node.at, step.vector());
-            if let Some(n) = self.finder.axial(&context, &node, index, goal_steps, &mut scanned) {
-                visit(context.after(&node, step, index, n).reached(step.cost * n, index));
-            }
-        };
-        match node.by.filter(|&by| !self.pruning.is_exempt(graph, node.at, by, goal)) {
-            None => graph.for_each_successor(node.at, node.by, goal, follow),
-            Some(by) => self.pruning.for_each(graph, &node, by, &mut follow),
+        if context.stepwise {
+            self.follow(&StepwiseFinder, &context, &node, &mut visit)
+        } else {
+            self.follow(&self.finder, &context, &node, &mut visit)
         }
-        scanned
     }
 
     #[inline]

@@ -5,11 +5,11 @@
 
 use mediant_grid::{BitMatrix, CellOffset, Footprint, GridGraph, Placement, Vector, Vertex, load, transpose};
 
-use super::axial::JumpPointRule;
+use super::{axial::JumpPointRule, dead_ends::DeadEndRows};
 use crate::canonical::{Pruning, pattern_at};
 
-/// Of 64 vertices, those that stop a jump, and those of them from which its first and its second axial jump
-/// come to a jump point.
+/// Of 64 vertices, those that stop a jump, and those from which its first and its second axial jump come to a
+/// jump point. One from which they come to dead ends alone stops no jump.
 pub(super) type Stops = [u64; 3];
 
 /// What decides where jumps by one odd move stop, in rows of the map.
@@ -24,18 +24,30 @@ pub(super) struct StopRows<'g, P: Placement> {
     per_row: usize,
     /// The vertices from which the first and the second axial jump come to a jump point.
     leads: [Vec<u64>; 2],
+    /// Likewise, where they pass dead ends; empty if there are none.
+    live: [Vec<u64>; 2],
 }
 
 impl<'g, P: Placement> StopRows<'g, P> {
-    pub(super) fn new(graph: &'g GridGraph<P>, pruning: &'g Pruning<P>, index: usize) -> Self {
+    pub(super) fn new(
+        graph: &'g GridGraph<P>,
+        pruning: &'g Pruning<P>,
+        index: usize,
+        dead: &DeadEndRows,
+    ) -> Self {
         let (width, height) = P::vertices(graph.grid());
         let (v, per_row) = (graph.step(index).vector(), width.div_ceil(64) as usize);
         let step = Footprint::new::<P>(graph.rule(), v);
         let (width, height) = (i64::from(width), height as usize);
-        let leads = [Vec::new(), Vec::new()];
-        let mut rows = Self { graph, pruning, index, v, step, width, height, per_row, leads };
+        let none = || [Vec::new(), Vec::new()];
+        let (leads, live) = (none(), none());
+        let mut rows = Self { graph, pruning, index, v, step, width, height, per_row, leads, live };
         let beside = [index - 1, (index + 1) % graph.steps().len()];
-        rows.leads = beside.map(|even| rows.leads(graph.step(even).vector()));
+        rows.leads = beside.map(|even| rows.leads(graph.step(even).vector(), &[]));
+        if !dead.is_empty() {
+            let quarter = |even: usize| even >> (graph.k().get() - 2);
+            rows.live = beside.map(|even| rows.leads(graph.step(even).vector(), dead.of(quarter(even))));
+        }
         rows
     }
 
@@ -60,7 +72,8 @@ impl<'g, P: Placement> StopRows<'g, P> {
             }
             let forced = if self.pruning.diagonals_may_force() { self.forced((x, y), enters) } else { 0 };
             let [first, second] = [0, 1].map(|i| self.leads[i][word] & enters);
-            [!enters | forced | first | second, first, second]
+            let live = |i: usize| self.live[i].get(word).map_or(self.leads[i][word], |&live| live) & enters;
+            [!enters | forced | live(0) | live(1), first, second]
         });
         stops.collect()
     }
@@ -81,12 +94,12 @@ impl<'g, P: Placement> StopRows<'g, P> {
         (a ^ b) & (a ^ c) & !(a ^ d)
     }
 
-    /// The vertices from which the axial jump by `v` comes to a jump point.
-    fn leads(&self, v: Vector) -> Vec<u64> {
+    /// The vertices from which the axial jump by `v` comes to a jump point that is none of the dead ends.
+    fn leads(&self, v: Vector, dead: &[u64]) -> Vec<u64> {
         let (per_row, rule) = (self.per_row, JumpPointRule::of(self.graph));
         let ends = |word: usize| {
             let ends = rule.ends_in_row::<P>(self.matrix(), self.place(word), v);
-            [ends.jump, !ends.dead]
+            [ends.jump & !dead.get(word).unwrap_or(&0), !ends.dead]
         };
         let mut leads = vec![0; per_row * self.height];
         let ascending = v.x + v.y > 0;

@@ -120,7 +120,7 @@ impl JumpTable {
         for index in (0..graph.steps().len()).step_by(2) {
             fill(&mut entries, graph, index);
         }
-        let diagonals = DiagonalStops::new(graph, &Pruning::new(graph));
+        let diagonals = DiagonalStops::new(graph, &Pruning::new(graph), &Default::default());
         Ok(Self { entries, diagonals, k, identity: graph.identity() })
     }
 

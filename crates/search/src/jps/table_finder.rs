@@ -25,9 +25,6 @@ impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
         goal_steps: Option<u32>,
         scanned: &mut u32,
     ) -> Option<u32> {
-        if context.stepwise {
-            return context.step_axial(from, index, goal_steps, scanned);
-        }
         let (steps, found) = self.jump(from.id, context.graph.step(index), index);
         match goal_steps {
             Some(goal_steps) if goal_steps <= steps => Some(goal_steps),
@@ -44,10 +41,7 @@ impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor) -> Option<VertexId>,
     ) {
-        if context.stepwise {
-            return context.step_diagonal(self, from, index, scanned, visit);
-        }
-        let next = self.diagonals().stops(context, from, index);
-        context.diagonal_by_stops(self, from, index, next, scanned, visit);
+        let stops = context.stops(self.diagonals(), from, index, false);
+        context.diagonal_by_stops(self, from, index, stops, scanned, visit);
     }
 }

@@ -222,12 +222,12 @@ struct DiagonalScans {
 impl Suite for DiagonalScans {
     fn check<P: Placement>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
         let graph = &reference.graph;
-        let stops = DiagonalStops::new(graph, &Pruning::new(graph));
+        let stops = DiagonalStops::new(graph, &Pruning::new(graph), &Default::default());
         let last = graph.steps().len() - 1;
         for (_, from) in reference.vertices() {
             for index in (1..=last).step_by(2) {
                 let towards = graph.step(index).vector();
-                let (steps, leads) = stops.next_stop(stops.place(from, index));
+                let (steps, leads) = stops.scan(from, index).next(|_| None);
                 let (expected, found) = reference.diagonal(from, index);
                 let name = || format!("{towards:?}, {}", case(from, from + towards * steps as i32));
                 assert_eq!(steps, expected + u32::from(!found), "{}", name());

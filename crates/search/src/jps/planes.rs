@@ -1,0 +1,60 @@
+//! Where jumps by words stop: what block-based jumps and the table of JPS+ are made from.
+
+use mediant_grid::{GridGraph, Placement};
+use mediant_moves::KError;
+
+use super::{
+    axial::AxialStops,
+    dead_ends::{DeadEndRows, DeadEnds, REACH},
+    diagonals::DiagonalStops,
+    table::JumpTable,
+};
+use crate::canonical::Pruning;
+
+/// Where the jumps on a grid graph with k ≤ 3 stop.
+pub(super) struct JumpPlanes {
+    pub(super) axial: AxialStops,
+    pub(super) diagonals: DiagonalStops,
+    pub(super) dead_ends: DeadEndRows,
+    /// How far dead ends reach; 0 if there are none.
+    pub(super) reach: u32,
+}
+
+/// On maps with more jump points than one for so many vertices, as in noise, dead ends make searches hardly
+/// shorter, and there would be many to find.
+const VERTICES_A_JUMP_POINT: u64 = 4;
+/// On larger maps it takes longer to find the dead ends than some hundred searches would save.
+const MOST_VERTICES: u64 = 1 << 22;
+
+impl JumpPlanes {
+    /// With dead ends where that pays.
+    pub(super) fn new<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>) -> Result<Self, KError> {
+        let (k, max) = (graph.k().get(), JumpTable::MAX_K);
+        if k > max {
+            return Err(KError::TooLarge { k, max });
+        }
+        let axial = AxialStops::new(graph);
+        let vertices = graph.vertex_count() as u64;
+        let pays = vertices <= MOST_VERTICES && VERTICES_A_JUMP_POINT * axial.jump_points() <= vertices;
+        Ok(Self::with_dead_ends(graph, pruning, axial, if pays { REACH } else { 0 }))
+    }
+
+    /// With dead ends that reach so far; 0 for none.
+    pub(super) fn with_dead_ends<P: Placement>(
+        graph: &GridGraph<P>,
+        pruning: &Pruning<P>,
+        mut axial: AxialStops,
+        reach: u32,
+    ) -> Self {
+        let dead_ends = DeadEndRows::default();
+        let diagonals = DiagonalStops::new(graph, pruning, &dead_ends);
+        let table = pruning.table().filter(|_| reach > 0 && !graph.has_closed_gaps());
+        let Some(table) = table else { return Self { axial, diagonals, dead_ends, reach: 0 } };
+        let dead_ends = DeadEnds { graph, pruning, table, diagonals: &diagonals, reach }.mark(&mut axial);
+        if dead_ends.is_empty() {
+            return Self { axial, diagonals, dead_ends, reach: 0 };
+        }
+        let diagonals = DiagonalStops::new(graph, pruning, &dead_ends);
+        Self { axial, diagonals, dead_ends, reach }
+    }
+}
