@@ -127,7 +127,7 @@ where
         self.status = Status::Searching;
         let Self { graph, heuristic, successors, nodes, open, starts, .. } = self;
         let goal_at = graph.vertex(aim.goal);
-        successors.begin(goal_at);
+        successors.begin(graph, goal_at);
         nodes.start_search();
         open.clear();
         for &start in &*starts {

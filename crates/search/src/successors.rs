@@ -54,8 +54,8 @@ pub trait Successors<P: Placement>: Debug {
     const DEPEND_ON_ARRIVAL: bool = true;
 
     /// Called before each search, with its goal.
-    fn begin(&mut self, goal: Vertex) {
-        let _ = goal;
+    fn begin(&mut self, graph: &GridGraph<P>, goal: Vertex) {
+        let _ = (graph, goal);
     }
 
     /// Calls `visit` with each successor of a node, on the way to `goal`. `visit` returns the parent of the

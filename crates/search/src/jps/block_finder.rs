@@ -90,7 +90,7 @@ impl<P: Placement> JumpFinder<P> for BlockFinder {
         scanned: &mut u32,
     ) -> Option<u32> {
         let quarter = context.quarter(index);
-        let is_near = context.near.holds(from.at, quarter);
+        let is_near = context.rules.near.holds(from.at, quarter);
         let scan = self.axial.scan(from.at, quarter, goal_steps, is_near);
         *scanned += scan.scanned;
         scan.found.then_some(scan.steps)
@@ -105,7 +105,7 @@ impl<P: Placement> JumpFinder<P> for BlockFinder {
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor) -> Option<VertexId>,
     ) {
-        let stops = context.stops(&self.diagonals, from, index, self.reach > 0);
-        context.diagonal_by_stops(self, from, index, stops, scanned, visit);
+        let stops = (&*self.diagonals, self.reach > 0);
+        context.diagonal_by_stops(self, stops, from, index, scanned, visit);
     }
 }

@@ -50,16 +50,17 @@ impl Band {
     /// Those of 64 numbers that it holds: the first one and those that follow it upwards or downwards.
     #[inline]
     const fn of(self, number: i32, up: bool) -> u64 {
-        let ahead = if up { self.first as i64 - number as i64 } else { number as i64 - self.last() };
-        let (from, to) = (ahead, ahead + self.more as i64);
-        if from >= 64 || to < 0 {
+        let highest = if up { number.wrapping_add(63) } else { number };
+        if highest.wrapping_sub(self.first) as u32 > self.more.saturating_add(63) {
             return 0;
         }
+        let (first, last) = (self.first as i64, self.first as i64 + self.more as i64);
+        let (from, to) = if up {
+            (first - number as i64, last - number as i64)
+        } else {
+            (number as i64 - last, number as i64 - first)
+        };
         !0 << (if from > 0 { from } else { 0 }) & !0 >> (if to < 63 { 63 - to } else { 0 })
-    }
-
-    const fn last(self) -> i64 {
-        self.first as i64 + self.more as i64
     }
 
     #[inline]

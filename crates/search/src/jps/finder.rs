@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use mediant_grid::{GridGraph, Identity, Placement, Step, Vector, Vertex, VertexId};
-use mediant_moves::Cost;
+use mediant_moves::{Cost, FiniteK};
 
 use super::{dead_ends::NearGoal, diagonals::DiagonalStops};
 use crate::{
@@ -16,12 +16,24 @@ pub struct JumpContext<'c, P: Placement> {
     pub(crate) graph: &'c GridGraph<P>,
     pub(crate) pruning: &'c Pruning<P>,
     pub(crate) goal: Vertex,
+    pub(super) rules: &'c JumpRules,
     /// Whether all jumps are made step by step: near closed gaps finders may be wrong.
     pub(crate) stepwise: bool,
+    /// For k ≤ 3, how the goal lies from the node.
+    pub(super) to_goal: ToGoal,
+}
+
+/// What the jumps of one search depend on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct JumpRules {
+    /// Whether all jumps are made step by step.
+    pub(super) stepwise: bool,
     /// The most steps of a jump.
-    pub(crate) limit: u32,
+    pub(super) limit: u32,
     /// Whether a diagonal jump ends at the first intermediate jump point.
-    pub(crate) keeps_intermediate: bool,
+    pub(super) keeps_intermediate: bool,
+    /// Whether a diagonal jump may end in nodes of its own other than the goal.
+    pub(super) has_other_nodes: bool,
     /// Where dead ends count as jump points.
     pub(super) near: NearGoal,
 }
@@ -122,7 +134,7 @@ impl<P: Placement> JumpContext<'_, P> {
             return None;
         }
         let step = self.graph.step(index);
-        let goal_steps = goal_steps.unwrap_or(u32::MAX).min(self.limit);
+        let goal_steps = goal_steps.unwrap_or(u32::MAX).min(self.rules.limit);
         let mut n = 0;
         loop {
             n += 1;
@@ -168,11 +180,11 @@ impl<P: Placement> JumpContext<'_, P> {
             let legs = to_goal.filter(|legs| legs.diagonal == n);
             let is_goal = legs.is_some_and(|legs| legs.axial == 0);
             let rule = self.pruning.local_rule(self.graph, &here, index);
-            let ends = is_goal || n >= self.limit || rule.forced || self.is_exempt(here.at, index);
+            let ends = is_goal || n >= self.rules.limit || rule.forced || self.is_exempt(here.at, index);
             let turn = if ends {
                 Turn::Node
             } else {
-                self.jump_beside(finder, here.reached(cost, index), [true; 2], legs, scanned, visit)
+                self.jump_beside(finder, here.reached(cost, index), legs, scanned, visit)
             };
             if turn == Turn::Node {
                 visit(here.reached(cost, index));
@@ -191,105 +203,115 @@ impl<P: Placement> JumpContext<'_, P> {
         index >> (self.graph.k().get() - 2)
     }
 
-    /// Says where a diagonal jump stops next.
-    #[inline]
-    pub(super) fn stops<'s>(
-        &'s self,
-        diagonals: &'s DiagonalStops,
-        from: &'s ExpandedNode,
-        index: usize,
-        passes_dead_ends: bool,
-    ) -> impl FnMut() -> Stop + 's {
-        let mut scan = diagonals.scan(from.at, index);
-        let step = self.graph.step(index);
-        let beside = self.beside(index);
-        let near = move |gone| {
-            passes_dead_ends.then(|| {
-                let first = self.after(from, step, index, gone).at;
-                beside.map(|even| self.near.from_diagonal(first, step.vector(), self.quarter(even)))
-            })
-        };
-        move || {
-            let (steps, leads) = scan.next(near);
-            let found = leads[0] || leads[1] || {
-                // A jump point, or a vertex that the jump cannot enter.
-                let before = self.after(from, step, index, steps - 1);
-                self.pruning.diagonals_may_force() && self.pruning.is_legal(self.graph, &before, index)
-            };
-            Stop { steps: steps - u32::from(!found), found, leads }
-        }
-    }
-
     /// A diagonal jump from stop to stop.
     #[inline]
     pub(super) fn diagonal_by_stops<J: JumpFinder<P> + ?Sized>(
         &self,
         finder: &J,
+        (stops, passes_dead_ends): (&DiagonalStops, bool),
         from: &ExpandedNode,
         index: usize,
-        mut next: impl FnMut() -> Stop,
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor) -> Option<VertexId>,
     ) {
-        let step = self.graph.step(index);
-        let to_goal = GoalLegs::new(self, from.at, index);
-        let mut gone = 0;
+        let (step, beside) = (self.graph.step(index), self.beside(index));
+        let v = step.vector();
+        let mut to_goal = self.to_goal.legs(index);
+        let goal_at = to_goal.map_or(u32::MAX, |legs| legs.diagonal);
+        let mut scan = stops.scan(from.at, index);
         loop {
-            let stop = next();
-            let reached = stop.steps.min(self.limit);
-            if let Some(legs) = to_goal.filter(|legs| gone < legs.diagonal && legs.diagonal <= reached) {
-                let turn = self.after(from, step, index, legs.diagonal);
-                let (goal_steps, cost) = (Some(legs.axial), step.cost * legs.diagonal);
-                if legs.axial == 0 {
-                    visit(turn.reached(cost, index));
+            let (steps, leads) = scan.next(|first| {
+                let near =
+                    |even| self.rules.near.from_diagonal(from.at + v * first as i32, v, self.quarter(even));
+                passes_dead_ends.then(|| beside.map(near))
+            });
+            if self.rules.has_other_nodes || goal_at <= steps {
+                let stop = (steps, leads != [false; 2]);
+                if self.ends_otherwise(finder, (from, index), stop, &mut to_goal, scanned, visit) {
                     return;
                 }
-                if finder.axial(self, &turn, legs.index, goal_steps, scanned) == goal_steps {
-                    // No path to the goal that begins with this jump is shorter.
-                    let beside = self.graph.step(legs.index);
-                    let goal = self.after(&turn, beside, legs.index, legs.axial);
-                    visit(goal.reached(cost + beside.cost * legs.axial, legs.index));
+            } else if leads == [false; 2] {
+                return;
+            }
+            let (here, cost) = (self.after(from, step, index, steps), step.cost * steps);
+            for (even, leads) in beside.into_iter().zip(leads) {
+                if !leads {
+                    continue;
+                }
+                let Some(n) = finder.axial(self, &here, even, None, scanned) else { continue };
+                let step = self.graph.step(even);
+                let there = self.after(&here, step, even, n);
+                let known = visit(there.reached(cost + step.cost * n, even));
+                if known.is_some_and(|parent| self.last_leg(parent, there.at, even) > n) {
                     return;
                 }
-            }
-            if !stop.found && reached < self.limit {
-                return;
-            }
-            gone = reached;
-            let here = self.after(from, step, index, gone);
-            let there = here.reached(step.cost * gone, index);
-            let forced = self.pruning.diagonals_may_force()
-                && self.pruning.local_rule(self.graph, &here, index).forced;
-            if forced || reached == self.limit || self.keeps_intermediate {
-                visit(there);
-                return;
-            }
-            if self.jump_beside(finder, there, stop.leads, None, scanned, visit) != Turn::Passed {
-                return;
             }
         }
     }
 
-    /// Those of the two axial jumps from a vertex of a diagonal jump that may lead anywhere.
+    /// Whether a diagonal jump ends before it comes to a stop or there, with or without a node, for another
+    /// reason than that it is cut. `leads_on` says whether an axial jump leads on from the stop.
+    fn ends_otherwise<J: JumpFinder<P> + ?Sized>(
+        &self,
+        finder: &J,
+        (from, index): (&ExpandedNode, usize),
+        (steps, leads_on): (u32, bool),
+        to_goal: &mut Option<GoalLegs>,
+        scanned: &mut u32,
+        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+    ) -> bool {
+        let step = self.graph.step(index);
+        let may_force = self.pruning.diagonals_may_force();
+        let can_enter = leads_on
+            || may_force && {
+                let before = self.after(from, step, index, steps - 1);
+                self.pruning.is_legal(self.graph, &before, index)
+            };
+        let reached = (steps - u32::from(!can_enter)).min(self.rules.limit);
+        if let Some(legs) = to_goal.take_if(|legs| legs.diagonal <= reached) {
+            let turn = self.after(from, step, index, legs.diagonal);
+            let (goal_steps, cost) = (Some(legs.axial), step.cost * legs.diagonal);
+            if legs.axial == 0 {
+                visit(turn.reached(cost, index));
+                return true;
+            }
+            if finder.axial(self, &turn, legs.index, goal_steps, scanned) == goal_steps {
+                // No path to the goal that begins with this jump is shorter.
+                let beside = self.graph.step(legs.index);
+                let goal = self.after(&turn, beside, legs.index, legs.axial);
+                visit(goal.reached(cost + beside.cost * legs.axial, legs.index));
+                return true;
+            }
+        }
+        if !can_enter && reached < self.rules.limit {
+            return true;
+        }
+        let here = self.after(from, step, index, reached);
+        let is_node = reached == self.rules.limit
+            || self.rules.keeps_intermediate
+            || may_force && self.pruning.local_rule(self.graph, &here, index).forced;
+        if is_node {
+            visit(here.reached(step.cost * reached, index));
+        }
+        is_node
+    }
+
+    /// The two axial jumps from a vertex of a diagonal jump.
     #[inline]
     fn jump_beside<J: JumpFinder<P> + ?Sized>(
         &self,
         finder: &J,
         from: Successor,
-        leads: [bool; 2],
         to_goal: Option<GoalLegs>,
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor) -> Option<VertexId>,
     ) -> Turn {
         let mut turn = Turn::Passed;
         let node = ExpandedNode { id: from.id, at: from.at, by: Some(from.by) };
-        for (index, leads) in self.beside(from.by).into_iter().zip(leads) {
-            if !leads {
-                continue;
-            }
+        for index in self.beside(from.by) {
             let goal_steps = to_goal.filter(|legs| legs.index == index).map(|legs| legs.axial);
             let Some(n) = finder.axial(self, &node, index, goal_steps, scanned) else { continue };
-            if self.keeps_intermediate {
+            if self.rules.keeps_intermediate {
                 turn = Turn::Node;
                 continue;
             }
@@ -313,17 +335,6 @@ impl<P: Placement> JumpContext<'_, P> {
         let (odd, sign) = if across > 0 { (before, 1) } else { (after, -1) };
         (cross(d, self.graph.step(odd).vector()) * sign).max(0) as u32
     }
-}
-
-/// Where a diagonal jump stops next.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Stop {
-    /// The number of legal steps until there, from the beginning.
-    pub(super) steps: u32,
-    /// Whether it is a jump point or an intermediate one; otherwise the jump is dead.
-    pub(super) found: bool,
-    /// Which of the two axial jumps beside it may find a jump point.
-    pub(super) leads: [bool; 2],
 }
 
 /// What becomes of a diagonal jump at one of its vertices.
@@ -408,5 +419,51 @@ impl GoalLegs {
         let diagonal = cross(d, context.graph.step(index).vector()) * if across > 0 { 1 } else { -1 };
         let legs = || Self { diagonal: diagonal as u32, index, axial: across.unsigned_abs() };
         (diagonal > 0).then(legs)
+    }
+}
+
+/// How the goal lies from a node, for k ≤ 3: straight ahead by one even move, or by the legs of one odd move.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct ToGoal {
+    /// The move that leads there or that begins the legs.
+    index: usize,
+    /// Its steps.
+    steps: u32,
+    /// The move of the second leg, and its steps.
+    then: (usize, u32),
+}
+
+impl ToGoal {
+    /// The moves to a goal in this direction.
+    #[inline]
+    pub(super) fn new(d: Vector, k: FiniteK) -> Self {
+        let (x, y) = (d.x.unsigned_abs(), d.y.unsigned_abs());
+        if k == FiniteK::N4 {
+            let vertical = if d.y > 0 { 0 } else { 2 };
+            if x == 0 {
+                return Self { index: vertical, steps: y, then: (vertical, 0) };
+            }
+            return Self { index: if d.x > 0 { 1 } else { 3 }, steps: x, then: (vertical, y) };
+        }
+        let (vertical, horizontal) = (if d.y > 0 { 0 } else { 4 }, if d.x > 0 { 2 } else { 6 });
+        let (even, diagonal) = if x > y { (horizontal, y) } else { (vertical, x) };
+        if diagonal == 0 {
+            return Self { index: even, steps: x + y, then: (even, 0) };
+        }
+        let odd = if vertical + horizontal == 6 && vertical == 0 { 7 } else { (vertical + horizontal) / 2 };
+        Self { index: odd, steps: diagonal, then: (even, x.abs_diff(y)) }
+    }
+
+    /// The legs to the goal that begin with an odd move.
+    #[inline]
+    pub(super) fn legs(&self, index: usize) -> Option<GoalLegs> {
+        let (then, axial) = self.then;
+        (self.index == index).then(|| GoalLegs { diagonal: self.steps, index: then, axial })
+    }
+
+    /// The number of steps to the goal by an even move, if it is straight ahead.
+    #[inline]
+    pub(super) fn straight(&self, index: usize) -> Option<u32> {
+        (self.index == index && self.steps > 0).then_some(self.steps)
     }
 }

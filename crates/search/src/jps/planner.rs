@@ -8,12 +8,12 @@ use mediant_moves::KError;
 use super::{
     block_finder::BlockFinder,
     dead_ends::NearGoal,
-    finder::{JumpContext, JumpFinder, StepwiseFinder},
+    finder::{JumpContext, JumpFinder, JumpRules, StepwiseFinder, ToGoal},
     table::{JumpError, JumpTable},
 };
 use crate::{
     best_first::BestFirst,
-    canonical::{Pruning, prunes, rank},
+    canonical::{Pruning, pattern_at, prunes, rank},
     heuristic::Heuristic,
     successors::{ExpandedNode, Successor, Successors},
 };
@@ -40,8 +40,8 @@ pub struct JumpMoves<P: Placement, J> {
     limit: u32,
     /// Whether intermediate jump points become nodes.
     keeps_intermediate: bool,
-    /// Where dead ends count as jump points in this search.
-    near: NearGoal,
+    /// What this search depends on.
+    rules: JumpRules,
 }
 
 impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic, J: JumpFinder<P>>
@@ -66,8 +66,15 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic, J: JumpFinder<
 
     /// A planner with a finder and a pruning rule that are those of the grid graph.
     fn with_parts(graph: G, pruning: Arc<Pruning<P>>, finder: J, heuristic: H) -> Self {
-        let (limit, keeps_intermediate, near) = (u32::MAX, false, NearGoal::EVERYWHERE);
-        let successors = JumpMoves { pruning, finder, limit, keeps_intermediate, near };
+        let (limit, keeps_intermediate) = (u32::MAX, false);
+        let rules = JumpRules {
+            stepwise: false,
+            limit,
+            keeps_intermediate,
+            has_other_nodes: false,
+            near: NearGoal::EVERYWHERE,
+        };
+        let successors = JumpMoves { pruning, finder, limit, keeps_intermediate, rules };
         Self::with_successors(graph, heuristic, successors)
     }
 
@@ -122,9 +129,9 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> JpsPlus<G, H, 
 }
 
 impl<P: Placement, J> JumpMoves<P, J> {
-    /// All jumps from a node. Returns the number of vertices scanned.
-    #[inline]
-    fn follow<F: JumpFinder<P>>(
+    /// All jumps from a node, by any finder. Returns the number of vertices scanned.
+    #[inline(never)]
+    fn follow_all<F: JumpFinder<P>>(
         &self,
         finder: &F,
         context: &JumpContext<'_, P>,
@@ -150,14 +157,48 @@ impl<P: Placement, J> JumpMoves<P, J> {
         }
         scanned
     }
+
+    /// The jumps from a node by a set of moves, for k ≤ 3. Returns the number of vertices scanned.
+    #[inline]
+    fn follow<F: JumpFinder<P>>(
+        finder: &F,
+        context: &JumpContext<'_, P>,
+        node: &ExpandedNode,
+        mut moves: u8,
+        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+    ) -> u32 {
+        let mut scanned = 0;
+        while moves != 0 {
+            let index = moves.trailing_zeros() as usize;
+            moves &= moves - 1;
+            if index & 1 == 1 {
+                finder.diagonal(context, node, index, &mut scanned, visit);
+                continue;
+            }
+            let step = context.graph.step(index);
+            let goal_steps = context.to_goal.straight(index);
+            if let Some(n) = finder.axial(context, node, index, goal_steps, &mut scanned) {
+                visit(context.after(node, step, index, n).reached(step.cost * n, index));
+            }
+        }
+        scanned
+    }
 }
 
 impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
     type ParentPointer = VertexId;
 
-    fn begin(&mut self, goal: Vertex) {
-        let passes = !self.keeps_intermediate;
-        self.near = if passes { self.finder.near_goal(goal) } else { NearGoal::EVERYWHERE };
+    fn begin(&mut self, graph: &GridGraph<P>, goal: Vertex) {
+        let keeps_intermediate = self.keeps_intermediate;
+        // Where forced successors are unknown, a jump would end almost everywhere and find little.
+        let limit = if self.pruning.knows_forced() { self.limit } else { 1 };
+        self.rules = JumpRules {
+            stepwise: !prunes(graph) || graph.has_closed_gaps() && graph.is_closed_gap(goal),
+            limit,
+            keeps_intermediate,
+            has_other_nodes: keeps_intermediate || limit != u32::MAX || self.pruning.diagonals_may_force(),
+            near: if keeps_intermediate { NearGoal::EVERYWHERE } else { self.finder.near_goal(goal) },
+        };
     }
 
     #[inline]
@@ -172,20 +213,24 @@ impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
             graph,
             pruning: &self.pruning,
             goal,
+            rules: &self.rules,
             // Asked once for the whole node: a jump never goes on from a gap, so only the node itself and the
             // goal may be one.
-            stepwise: !prunes(graph)
-                || graph.has_closed_gaps() && (graph.is_closed_gap(goal) || graph.is_closed_gap(node.at)),
-            // Where forced successors are unknown, a jump would end almost everywhere and find little.
-            limit: if self.pruning.knows_forced() { self.limit } else { 1 },
-            keeps_intermediate: self.keeps_intermediate,
-            near: self.near,
+            stepwise: self.rules.stepwise || graph.has_closed_gaps() && graph.is_closed_gap(node.at),
+            to_goal: ToGoal::new(node.at.to(goal), graph.k()),
         };
-        if context.stepwise {
-            self.follow(&StepwiseFinder, &context, &node, &mut visit)
-        } else {
-            self.follow(&self.finder, &context, &node, &mut visit)
-        }
+        let Some(table) = self.pruning.table().filter(|_| !context.stepwise) else {
+            return self.follow_all(&StepwiseFinder, &context, &node, &mut visit);
+        };
+        let moves = match node.by.filter(|&by| !self.pruning.is_exempt(graph, node.at, by, goal)) {
+            None => {
+                let mut moves = 0;
+                graph.for_each_successor(node.at, node.by, goal, |index| moves |= 1 << index);
+                moves
+            }
+            Some(by) => table.successors(by, pattern_at(graph, node.at)),
+        };
+        Self::follow(&self.finder, &context, &node, moves, &mut visit)
     }
 
     #[inline]

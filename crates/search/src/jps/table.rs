@@ -169,12 +169,21 @@ impl JumpTable {
     /// even move `index` of the grid graph.
     #[inline]
     pub(crate) fn jump(&self, id: VertexId, step: &Step, index: usize) -> (u32, bool) {
-        let mut at = (id.index() << self.k | index) >> 1;
-        let mut entry = self.entries.get(at).copied().unwrap_or(0);
-        let mut steps = 0;
+        let at = (id.index() << self.k | index) >> 1;
+        let entry = self.entries.get(at).copied().unwrap_or(0);
+        if entry & STEPS == STEPS {
+            return self.long_jump(at, step);
+        }
+        (u32::from(entry & STEPS), entry & FOUND != 0)
+    }
+
+    /// [`jump`](Self::jump) from the vertex of an entry that does not say it all.
+    #[cold]
+    fn long_jump(&self, mut at: usize, step: &Step) -> (u32, bool) {
         // A step adds to every id what it adds to 0.
         let offset = step.target(VertexId(0)).0 as i32 as isize;
         let stride = (offset * isize::from(LEAP)) << (self.k - 1);
+        let (mut entry, mut steps) = (STEPS, 0);
         while entry & STEPS == STEPS {
             steps += u32::from(LEAP);
             at = at.wrapping_add_signed(stride);

@@ -41,7 +41,7 @@ impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor) -> Option<VertexId>,
     ) {
-        let stops = context.stops(self.diagonals(), from, index, false);
-        context.diagonal_by_stops(self, from, index, stops, scanned, visit);
+        let stops = (self.diagonals(), false);
+        context.diagonal_by_stops(self, stops, from, index, scanned, visit);
     }
 }
