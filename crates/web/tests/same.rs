@@ -34,7 +34,7 @@ const EXPECTED: [Row; 14] = [
     ("canonical", 0x1ff7_3243_612b_300a, 112),
     ("jps", 0x5916_c023_b964_df7f, 140),
     ("jps-block", 0xfa77_6f9b_31d8_7799, 90),
-    ("jps-plus", 0x92b3_e750_ef7e_378b, 72),
+    ("jps-plus", 0x619e_31a8_e86a_0b59, 72),
     ("theta", 0x35ff_fe45_8b38_45e3, 112),
     ("lazy-theta", 0xb5c5_8f98_7086_095f, 84),
     ("anya", 0x06f4_f5d3_c720_ade4, 28),

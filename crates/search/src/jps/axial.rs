@@ -61,6 +61,7 @@ pub(super) struct Ends {
 }
 
 impl JumpPointRule {
+    /// The rule of a grid graph.
     pub(super) fn of<P: Placement>(graph: &GridGraph<P>) -> Self {
         match graph.rules() {
             Rules::Corner(gap) => Self::Edges { closed: gap == DiagonalGap::Closed },
@@ -115,7 +116,7 @@ impl JumpPointRule {
 }
 
 /// The vertices where axial jumps in the four directions end, for k ≤ 3.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct AxialStops {
     planes: [BitPlane; 4],
     /// For 64 vertices of a line two bits each: both for a vertex that a jump cannot enter, the first for a
@@ -126,7 +127,7 @@ pub(crate) struct AxialStops {
 /// Where the bits of one direction are: the bit of vertex (x, y) is at `origin` + `per_x` · x + `per_y` · y,
 /// and the bit of the next vertex of a jump follows it. (In 64 bits on every target: the number of bits is
 /// eight times that of bytes.)
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct BitPlane {
     origin: i64,
     per_x: i64,

@@ -49,11 +49,6 @@ impl BlockFinder {
         Self { identity: graph.identity(), axial: Arc::new(axial), diagonals: Arc::new(diagonals), reach }
     }
 
-    #[cfg(test)]
-    pub(super) fn axial(&self) -> &AxialStops {
-        &self.axial
-    }
-
     /// The memory that the finder of a grid graph uses, in bytes.
     #[must_use]
     pub fn bytes<P: Placement>(graph: &GridGraph<P>) -> usize {
@@ -76,8 +71,7 @@ impl<P: Placement> JumpFinder<P> for BlockFinder {
         if self.reach == 0 {
             return NearGoal::EVERYWHERE;
         }
-        let steps = [0, 1, 2, 3].map(|quarter| self.axial.legal_steps(goal, quarter));
-        NearGoal::new(goal, steps, self.reach)
+        NearGoal::new(goal, &self.axial, self.reach)
     }
 
     #[inline]

@@ -16,15 +16,15 @@
 //! within [`REACH`] of the cross. Near the cross ([`NearGoal`]) dead ends are jump points like others. The
 //! nodes on the way from p to the goal are near it as well, since the goal is in their dead end, too.
 //!
+//! So a diagonal jump stops at a vertex from which axial jumps come to dead ends alone only where these jumps
+//! are near the cross; elsewhere they would find nothing.
+//!
 //! Where intermediate jump points are kept, or gaps are closed, there are no dead ends.
 
 use mediant_grid::{GridGraph, Placement, Vector, Vertex};
 
-use super::{axial::AxialStops, diagonals::DiagonalStops};
-use crate::{
-    canonical::{PatternTable, Pruning, pattern_at},
-    successors::ExpandedNode,
-};
+use super::{axial::AxialStops, stop_rows::Leads};
+use crate::canonical::{PatternTable, pattern_at};
 
 /// How far a dead end may reach. With 32 hardly more jump points are dead ends, and more are near a goal.
 pub(super) const REACH: u32 = 16;
@@ -76,8 +76,9 @@ impl NearGoal {
         Self { rows: all, columns: all }
     };
 
-    /// What is near a goal, from which there are so many legal steps in the four directions.
-    pub(super) fn new(goal: Vertex, [down, right, up, left]: [u32; 4], reach: u32) -> Self {
+    /// What is near a goal, where dead ends reach so far.
+    pub(super) fn new(goal: Vertex, axial: &AxialStops, reach: u32) -> Self {
+        let [down, right, up, left] = [0, 1, 2, 3].map(|quarter| axial.legal_steps(goal, quarter));
         let band = |at: i32, before: u32, after: u32| Band {
             first: at - (before + reach) as i32,
             more: before + after + 2 * reach,
@@ -93,7 +94,7 @@ impl NearGoal {
 
     /// The same for jumps from 64 vertices, the first one and those that follow it by diagonal moves `v`.
     #[inline]
-    pub(super) const fn from_diagonal(&self, first: Vertex, v: Vector, quarter: usize) -> u64 {
+    pub(super) const fn along_diagonal(&self, first: Vertex, v: Vector, quarter: usize) -> u64 {
         if quarter.is_multiple_of(2) {
             self.columns.of(first.x, v.x > 0)
         } else {
@@ -125,6 +126,17 @@ impl DeadEndRows {
         self.per_row == 0
     }
 
+    /// Which of the 64 vertices of a row of the map from (x, y) on are dead ends for a direction.
+    pub(super) fn in_row(&self, quarter: usize, (x, y): (i32, i32)) -> u64 {
+        if self.is_empty() {
+            return 0;
+        }
+        let row = &self.rows[quarter][y as usize * self.per_row..][..self.per_row];
+        let word = |i: i32| usize::try_from(i).ok().and_then(|i| row.get(i)).copied().unwrap_or(0);
+        let (at, shift) = (x >> 6, x & 63);
+        word(at) >> shift | word(at + 1) << 1 << (63 - shift)
+    }
+
     /// The words for a direction; none if there are no dead ends.
     pub(super) fn of(&self, quarter: usize) -> &[u64] {
         &self.rows[quarter]
@@ -134,9 +146,8 @@ impl DeadEndRows {
 /// Finds the dead ends of a grid graph.
 pub(super) struct DeadEnds<'g, P: Placement> {
     pub(super) graph: &'g GridGraph<P>,
-    pub(super) pruning: &'g Pruning<P>,
     pub(super) table: &'g PatternTable,
-    pub(super) diagonals: &'g DiagonalStops,
+    pub(super) leads: &'g Leads,
     pub(super) reach: u32,
 }
 
@@ -185,29 +196,28 @@ impl<P: Placement> DeadEnds<'_, P> {
     }
 
     fn diagonal_ends(&self, axial: &AxialStops, from: Vertex, index: usize, reach: u32, depth: u32) -> bool {
-        let mut scan = self.diagonals.scan(from, index);
         let beside = [index - 1, (index + 1) % self.graph.steps().len()];
-        loop {
-            let (gone, leads) = scan.next(|_| None);
-            let at = self.after(from, index, gone);
-            // Where it cannot enter the vertex at which it stops, it ends before.
-            if leads == [false; 2] && !self.is_legal(from, index, gone - 1) {
-                return gone - 1 <= reach;
-            }
+        let (mut at, mut gone) = (from, 0);
+        let mut successors = self.table.successors(index, pattern_at(self.graph, at));
+        while successors >> index & 1 == 1 {
+            (at, gone) = (at + self.graph.step(index).vector(), gone + 1);
+            successors = self.table.successors(index, pattern_at(self.graph, at));
             // A forced successor of a diagonal move would be one more case.
-            if gone > reach || self.forced(at, index) != 0 {
+            if gone > reach || self.table.forced(index, successors) != 0 {
                 return false;
             }
-            for (even, leads) in beside.into_iter().zip(leads) {
+            for even in beside {
+                let leads = self.leads.any(self.quarter(even), at);
                 if leads && !self.axial_ends(axial, at, even, reach - gone, depth) {
                     return false;
                 }
             }
         }
+        true
     }
 
     fn axial_ends(&self, axial: &AxialStops, from: Vertex, index: usize, reach: u32, depth: u32) -> bool {
-        let quarter = index >> (self.graph.k().get() - 2);
+        let quarter = self.quarter(index);
         let mut gone = 0;
         loop {
             let at = self.after(from, index, gone);
@@ -230,11 +240,8 @@ impl<P: Placement> DeadEnds<'_, P> {
         self.table.forced(by, self.table.successors(by, pattern_at(self.graph, at)))
     }
 
-    /// Whether a diagonal jump may take one more step after so many.
-    fn is_legal(&self, from: Vertex, index: usize, gone: u32) -> bool {
-        let at = self.after(from, index, gone);
-        let node = |id| ExpandedNode { id, at, by: Some(index) };
-        self.graph.id(at).is_some_and(|id| self.pruning.is_legal(self.graph, &node(id), index))
+    fn quarter(&self, even: usize) -> usize {
+        even >> (self.graph.k().get() - 2)
     }
 
     fn after(&self, from: Vertex, index: usize, steps: u32) -> Vertex {
@@ -243,192 +250,4 @@ impl<P: Placement> DeadEnds<'_, P> {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::{collections::HashSet, sync::Arc};
-
-    use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Grid};
-    use mediant_moves::FiniteK;
-    use mediant_oracle::{Rng, describe, noise, random_free_vertex, rooms, seeds, suite_grid, wide_grid};
-
-    use super::*;
-    use crate::{
-        AStar, BlockJps, Counters, Hk, Planner, Query, Zero,
-        jps::{BlockFinder, Jps, planes::JumpPlanes},
-        successors::Successors,
-    };
-
-    /// What a rule of motion is tested for.
-    trait Test {
-        fn on<P: Placement>(&mut self, grid: &Arc<Grid>, rule: P::Rule, k: u32, seed: u64);
-    }
-
-    /// Under all rules without closed gaps, at k = 2 and 3.
-    fn on_all(grids: impl Iterator<Item = (u64, Grid)>, test: &mut impl Test) {
-        for (seed, grid) in grids {
-            let grid = Arc::new(grid);
-            for k in [2, 3] {
-                for rule in [CornerRule::Never, CornerRule::One, CornerRule::Always] {
-                    test.on::<Centers>(&grid, rule, k, seed);
-                }
-                test.on::<Corners>(&grid, DiagonalGap::Open, k, seed);
-            }
-        }
-    }
-
-    fn grids(seeds: std::ops::Range<u64>) -> impl Iterator<Item = (u64, Grid)> {
-        seeds.map(|seed| {
-            let rng = &mut Rng::new(seed);
-            let grid = match seed % 4 {
-                0 => suite_grid(seed).0,
-                1 => wide_grid(seed).0,
-                2 => rooms(rng, 70, 40),
-                _ => {
-                    let percent = 2 + rng.below(25);
-                    noise(rng, 70, 40, percent)
-                }
-            };
-            (seed, grid)
-        })
-    }
-
-    fn finder<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>, reach: u32) -> BlockFinder {
-        let planes = JumpPlanes::with_dead_ends(graph, pruning, AxialStops::new(graph), reach);
-        BlockFinder::with_planes(graph, planes)
-    }
-
-    /// The definition, by steps: whether all nodes to which the forced successors of a jump point lead, and
-    /// all steps of diagonal jumps on the way, are within reach of it; and whether there are no such nodes.
-    fn ends<P: Placement>(graph: &GridGraph<P>, at: Vertex, by: usize, reach: u32) -> (bool, bool) {
-        let jps = Jps::new(graph, Hk);
-        let pruning = Pruning::new(graph);
-        let is_near = |to: Vertex| at.x.abs_diff(to.x).max(at.y.abs_diff(to.y)) <= reach;
-        let nowhere = Vertex::new(-1000, -3000);
-        let (mut known, mut next, mut ends) = (HashSet::new(), vec![(at, by)], true);
-        while let Some((from, by)) = next.pop() {
-            let node = ExpandedNode { id: graph.id(from).unwrap(), at: from, by: Some(by) };
-            let ahead = |to: Vertex| from.to(to).det(graph.step(by).vector()) == 0;
-            jps.successors.for_each(graph, node, nowhere, |to| {
-                // Straight on from the first one is what its dead end is not about.
-                if (from, ahead(to.at)) != (at, true) && known.insert((to.at, to.by)) {
-                    next.push((to.at, to.by));
-                    ends &= is_near(to.at);
-                }
-                None
-            });
-            pruning.for_each(graph, &node, by, |odd| {
-                let (mut to, v) = (from, graph.step(odd).vector());
-                while odd % 2 == 1 && ends && graph.is_legal(to, v) {
-                    to = to + v;
-                    ends &= is_near(to);
-                }
-            });
-            if !ends {
-                break;
-            }
-        }
-        (ends, known.is_empty())
-    }
-
-    /// Dead ends are those of the definition, and all that have no node are found.
-    #[derive(Default)]
-    struct Definition {
-        dead: u64,
-        with_nodes: u64,
-        others: u64,
-    }
-
-    impl Test for Definition {
-        fn on<P: Placement>(&mut self, grid: &Arc<Grid>, rule: P::Rule, k: u32, seed: u64) {
-            let graph = GridGraph::<P>::new(Arc::clone(grid), FiniteK::new(k).unwrap(), rule).unwrap();
-            let pruning = Pruning::new(&graph);
-            let plain = AxialStops::new(&graph);
-            let reach = [1, 2, 3, 5, 8, REACH][seed as usize / 4 % 6];
-            let marked = finder(&graph, &pruning, reach);
-            let count = graph.steps().len();
-            for id in 0..graph.vertex_count() as u32 {
-                let from = graph.vertex(mediant_grid::VertexId(id));
-                for quarter in (0..4).step_by(8 / count).filter(|_| graph.is_free(from)) {
-                    let scan = plain.scan(from, quarter, None, true);
-                    let by = quarter * count / 4;
-                    let at = from + graph.step(by).vector() * scan.steps as i32;
-                    if !scan.found {
-                        continue;
-                    }
-                    let is_dead = marked.axial().is_dead_end(at, quarter);
-                    let (ends, is_empty) = ends(&graph, at, by, reach);
-                    let case = || describe(grid, P::rules(rule), from, at, seed);
-                    assert!(ends || !is_dead, "no dead end, reach {reach}, k = {k}, {}", case());
-                    assert!(is_dead || !(ends && is_empty), "a dead end, reach {reach}, k = {k}, {}", case());
-                    self.dead += u64::from(is_dead);
-                    self.with_nodes += u64::from(is_dead && !is_empty);
-                    self.others += u64::from(!is_dead);
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn dead_ends_are_those_of_the_definition() {
-        let mut test = Definition::default();
-        on_all(grids(seeds(24)), &mut test);
-        let Definition { dead, with_nodes, others } = test;
-        assert!(dead > 10_000 && with_nodes > 500 && others > 10_000, "{dead}, {with_nodes}, {others}");
-    }
-
-    /// No search loses a path, whatever the reach, also where the goal is in a dead end.
-    #[derive(Default)]
-    struct Costs {
-        queries: u64,
-        expanded: [u64; 2],
-        shorter: u64,
-    }
-
-    impl Test for Costs {
-        fn on<P: Placement>(&mut self, grid: &Arc<Grid>, rule: P::Rule, k: u32, seed: u64) {
-            let graph = &GridGraph::<P>::new(Arc::clone(grid), FiniteK::new(k).unwrap(), rule).unwrap();
-            let pruning = Arc::new(Pruning::new(graph));
-            let mut astar = AStar::new(graph, Hk);
-            for reach in [1, 2, 4, REACH] {
-                let with = |reach| finder(graph, &pruning, reach);
-                let jps =
-                    |reach| BlockJps::with_finder(graph, Arc::clone(&pruning), with(reach), Hk).unwrap();
-                let mut planners = [jps(reach), jps(0)];
-                let mut zero = BlockJps::with_finder(graph, Arc::clone(&pruning), with(reach), Zero).unwrap();
-                let rng = &mut Rng::new(seed ^ u64::from(reach));
-                for _ in 0..12 {
-                    let mut free = || random_free_vertex(rng, grid, P::KIND);
-                    let (Some(start), Some(goal)) = (free(), free()) else { continue };
-                    let query = Query::new(start, goal);
-                    let case = || {
-                        format!(
-                            "reach {reach}, k = {k}, {}",
-                            describe(grid, P::rules(rule), start, goal, seed)
-                        )
-                    };
-                    let length = |path: Option<&crate::Path>| path.map(|path| (path.cost() * 1e9).round());
-                    let expected = length(astar.solve(query).unwrap().path());
-                    let before = self.expanded;
-                    for (planner, expanded) in planners.iter_mut().zip(&mut self.expanded) {
-                        let mut counters = Counters::default();
-                        let found = planner.solve_observed(query, &mut counters).unwrap();
-                        assert_eq!(length(found.path()), expected, "{}", case());
-                        *expanded += counters.expanded;
-                    }
-                    let [with, without] = [0, 1].map(|i| self.expanded[i] - before[i]);
-                    self.shorter += u64::from(with < without);
-                    assert_eq!(length(zero.solve(query).unwrap().path()), expected, "{}", case());
-                    self.queries += 1;
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn searches_that_pass_dead_ends_lose_no_path() {
-        let mut test = Costs::default();
-        on_all(grids(seeds(48)), &mut test);
-        let [with, without] = test.expanded;
-        assert!(test.queries > 10_000, "{}", test.queries);
-        assert!(test.shorter > 1000 && with < without, "{}, {with} of {without} expansions", test.shorter);
-    }
-}
+mod tests;

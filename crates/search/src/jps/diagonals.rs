@@ -3,8 +3,10 @@
 //! A diagonal jump *stops* where its move is not legal, at a vertex with a forced successor, and at an
 //! intermediate jump point, where one of the two axial jumps beside it comes to a jump point. All of that
 //! depends on the map alone. So it is computed once and stored: for each odd move a bit plane of the vertices
-//! that stop a jump which enters them, and one for each of the two axial jumps that says from which of these
-//! vertices it finds something. (Where the goal lies beside the jump is known from its coordinates.)
+//! that stop a jump which enters them, and one for each of the two axial jumps that says from which vertices
+//! it comes to a jump point. From those where it comes to [dead ends](super::dead_ends) alone that is stored
+//! as well, but they stop a jump only near the goal. (Where the goal lies beside the jump is known from its
+//! coordinates.)
 //!
 //! In a plane the bits of a diagonal follow one another, in the order of the jump. Diagonals that leave the
 //! map on one side go on at the other: so there are as many lines as columns, each as long as a column, and
@@ -16,10 +18,7 @@
 use mediant_grid::{GridGraph, Placement, Vector, Vertex};
 use mediant_moves::FiniteK;
 
-use super::{
-    dead_ends::DeadEndRows,
-    stop_rows::{StopRows, Stops},
-};
+use super::stop_rows::{Leads, StopRows, Stops};
 use crate::canonical::Pruning;
 
 /// Where diagonal jumps stop, for each vertex of a grid graph with k ≤ 3.
@@ -63,8 +62,9 @@ impl DiagonalStops {
         Self::words(graph).saturating_mul(size_of::<Stops>())
     }
 
-    /// Computes the planes of a grid graph, where jumps pass dead ends.
-    pub(crate) fn new<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>, dead: &DeadEndRows) -> Self {
+    /// Computes the planes of a grid graph. `leads` says from which vertices axial jumps come to jump points,
+    /// and from which they do where they pass dead ends.
+    pub(super) fn new<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>, leads: [&Leads; 2]) -> Self {
         let (width, height) = P::vertices(graph.grid());
         let odd: Vec<usize> = (1..graph.steps().len()).step_by(2).collect();
         let (lines, length) = Self::lines(graph);
@@ -81,7 +81,7 @@ impl DiagonalStops {
             let first = i * per_plane;
             all.planes[i] =
                 Plane::new(graph.step(index).vector(), (width as i32, height as i32), first as u64 * 64);
-            StopRows::new(graph, pruning, index, dead).for_each_word(|line, word, stops| {
+            StopRows::new(graph, pruning, index, leads).for_each_word(|line, word, stops| {
                 let known = &mut all.words[first + line * per_line + word];
                 known.iter_mut().zip(stops).for_each(|(known, stops)| *known |= stops);
             });
@@ -135,10 +135,10 @@ impl DiagonalScan<'_> {
     /// After how many steps it stops next, and which of the two axial jumps come to a jump point from there;
     /// if none does, either it cannot enter that vertex, or that has a forced successor.
     ///
-    /// `stops_too` says of 64 vertices, the first of them after so many steps, from which of them an axial
-    /// jump that leads to dead ends alone counts as one that leads to a jump point.
+    /// `near_goal` says of 64 vertices, the first of them after so many steps, from which of them dead ends
+    /// count as jump points, for the first and for the second axial jump; `None` for none.
     #[inline]
-    pub(super) fn next(&mut self, stops_too: impl Fn(u32) -> Option<[u64; 2]>) -> (u32, [bool; 2]) {
+    pub(super) fn next(&mut self, near_goal: impl Fn(u32) -> Option<[u64; 2]>) -> (u32, [bool; 2]) {
         while self.stops == 0 {
             self.place = self.place.wrapping_add(64);
             self.first = self.first.wrapping_add(64);
@@ -149,7 +149,7 @@ impl DiagonalScan<'_> {
             // Shifting in two steps avoids a shift by 64 where `shift` is 0.
             let from_here = |i: usize| low[i] >> shift | high[i] << 1 << (63 - shift);
             self.stops = from_here(0);
-            if let Some([first, second]) = stops_too(self.first) {
+            if let Some([first, second]) = near_goal(self.first) {
                 self.stops |= from_here(1) & first | from_here(2) & second;
             }
         }

@@ -3,9 +3,13 @@
 use std::fmt::Debug;
 
 use mediant_grid::{GridGraph, Identity, Placement, Step, Vector, Vertex, VertexId};
-use mediant_moves::{Cost, FiniteK};
+use mediant_moves::Cost;
 
-use super::{dead_ends::NearGoal, diagonals::DiagonalStops};
+use super::{
+    dead_ends::NearGoal,
+    diagonals::DiagonalStops,
+    to_goal::{GoalLegs, ToGoal, cross, dot},
+};
 use crate::{
     canonical::Pruning,
     successors::{ExpandedNode, Successor},
@@ -36,6 +40,17 @@ pub(super) struct JumpRules {
     pub(super) has_other_nodes: bool,
     /// Where dead ends count as jump points.
     pub(super) near: NearGoal,
+}
+
+impl JumpRules {
+    /// Those of a search before it begins.
+    pub(super) const PLAIN: Self = Self {
+        stepwise: false,
+        limit: u32::MAX,
+        keeps_intermediate: false,
+        has_other_nodes: false,
+        near: NearGoal::EVERYWHERE,
+    };
 }
 
 /// Finds the jump points to which axial and diagonal jumps lead: [`StepwiseFinder`],
@@ -222,7 +237,7 @@ impl<P: Placement> JumpContext<'_, P> {
         loop {
             let (steps, leads) = scan.next(|first| {
                 let near =
-                    |even| self.rules.near.from_diagonal(from.at + v * first as i32, v, self.quarter(even));
+                    |even| self.rules.near.along_diagonal(from.at + v * first as i32, v, self.quarter(even));
                 passes_dead_ends.then(|| beside.map(near))
             });
             if self.rules.has_other_nodes || goal_at <= steps {
@@ -355,16 +370,6 @@ impl ExpandedNode {
     }
 }
 
-#[inline]
-fn dot(v: Vector, d: Vector) -> i32 {
-    v.x * d.x + v.y * d.y
-}
-
-#[inline]
-fn cross(v: Vector, d: Vector) -> i32 {
-    v.x * d.y - v.y * d.x
-}
-
 /// Makes jumps vertex by vertex, for every k.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StepwiseFinder;
@@ -384,86 +389,5 @@ impl<P: Placement> JumpFinder<P> for StepwiseFinder {
         scanned: &mut u32,
     ) -> Option<u32> {
         context.step_axial(from, index, goal_steps, scanned)
-    }
-}
-
-/// The canonical path to the goal on an empty grid that begins with a given odd move: its two straight legs.
-#[derive(Clone, Copy)]
-pub(super) struct GoalLegs {
-    /// How often the odd move is taken.
-    pub(super) diagonal: u32,
-    /// The even move that follows.
-    pub(super) index: usize,
-    /// How often that is taken.
-    pub(super) axial: u32,
-}
-
-impl GoalLegs {
-    /// The legs from a vertex, if the goal lies between the odd move and one of the even moves beside it.
-    #[inline]
-    pub(super) fn new<P: Placement>(
-        context: &JumpContext<'_, P>,
-        from: Vertex,
-        index: usize,
-    ) -> Option<Self> {
-        let (d, u) = (from.to(context.goal), context.graph.step(index).vector());
-        // Less than a right angle lies between a move and the legs that begin with it.
-        if dot(u, d) <= 0 {
-            return None;
-        }
-        // Moves are ordered by their angle, so the sign says on which side of the odd move the goal lies.
-        // Adjacent moves span a parallelogram of area 1: this is Cramer's rule without its denominator.
-        let [before, after] = context.beside(index);
-        let across = cross(u, d);
-        let index = if across > 0 { before } else { after };
-        let diagonal = cross(d, context.graph.step(index).vector()) * if across > 0 { 1 } else { -1 };
-        let legs = || Self { diagonal: diagonal as u32, index, axial: across.unsigned_abs() };
-        (diagonal > 0).then(legs)
-    }
-}
-
-/// How the goal lies from a node, for k ≤ 3: straight ahead by one even move, or by the legs of one odd move.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct ToGoal {
-    /// The move that leads there or that begins the legs.
-    index: usize,
-    /// Its steps.
-    steps: u32,
-    /// The move of the second leg, and its steps.
-    then: (usize, u32),
-}
-
-impl ToGoal {
-    /// The moves to a goal in this direction.
-    #[inline]
-    pub(super) fn new(d: Vector, k: FiniteK) -> Self {
-        let (x, y) = (d.x.unsigned_abs(), d.y.unsigned_abs());
-        if k == FiniteK::N4 {
-            let vertical = if d.y > 0 { 0 } else { 2 };
-            if x == 0 {
-                return Self { index: vertical, steps: y, then: (vertical, 0) };
-            }
-            return Self { index: if d.x > 0 { 1 } else { 3 }, steps: x, then: (vertical, y) };
-        }
-        let (vertical, horizontal) = (if d.y > 0 { 0 } else { 4 }, if d.x > 0 { 2 } else { 6 });
-        let (even, diagonal) = if x > y { (horizontal, y) } else { (vertical, x) };
-        if diagonal == 0 {
-            return Self { index: even, steps: x + y, then: (even, 0) };
-        }
-        let odd = if vertical + horizontal == 6 && vertical == 0 { 7 } else { (vertical + horizontal) / 2 };
-        Self { index: odd, steps: diagonal, then: (even, x.abs_diff(y)) }
-    }
-
-    /// The legs to the goal that begin with an odd move.
-    #[inline]
-    pub(super) fn legs(&self, index: usize) -> Option<GoalLegs> {
-        let (then, axial) = self.then;
-        (self.index == index).then(|| GoalLegs { diagonal: self.steps, index: then, axial })
-    }
-
-    /// The number of steps to the goal by an even move, if it is straight ahead.
-    #[inline]
-    pub(super) fn straight(&self, index: usize) -> Option<u32> {
-        (self.index == index && self.steps > 0).then_some(self.steps)
     }
 }

@@ -18,7 +18,7 @@
 //! |---|---|---|---|
 //! | [`Jps`] | vertex by vertex; far from obstacles several at once | vertex by vertex | all |
 //! | [`BlockJps`] | 64 vertices a word operation (module `axial`) | likewise (module `diagonals`) | 2, 3 |
-//! | [`JpsPlus`] | looked up ([`JumpTable`]) | as [`BlockJps`] | 2, 3 |
+//! | [`JpsPlus`] | looked up ([`JumpTable`]), near the goal as `BlockJps` | as `BlockJps` | 2, 3 |
 //!
 //! **Intermediate jump points** (Harabor & Grastien 2014) are pruned by default: what an axial jump beside a
 //! diagonal one finds becomes the successor, and the vertex between becomes no node. The path is put together
@@ -35,8 +35,8 @@
 //! known is that of Zhao, Harabor & Stuckey 2023; the test here needs nothing but the node of s.)
 //!
 //! **Dead ends.** Most jump points on maps of games are dead ends: from there a path can only go straight on,
-//! or comes to an end near by. [`BlockJps`] passes them, but for those near the goal. What they are, and why
-//! nothing is lost, is said in the module `dead_ends`.
+//! or comes to an end near by. [`BlockJps`] and [`JpsPlus`] pass them, but for those near the goal. What they
+//! are, and why nothing is lost, is said in the module `dead_ends`.
 //!
 //! **Bounded jumps** (Sturtevant & Rabin 2016): a jump of more steps than the jump limit ends in a node, from
 //! which the search goes on. From k = 9 on, where forced successors are not tabulated, every jump ends so
@@ -44,9 +44,10 @@
 //!
 //! What made it fast: bit planes that combine the three rows of cells along an axial jump, so that a scan
 //! loads one row; bit planes that hold each diagonal in the order of a jump, with the places where it stops
-//! and which axial jump leads on from there; passing dead ends; and a table of one byte a vertex and even
-//! move, so that the entries of a vertex are one word. For k ≥ 4 there are no such tables, but a vertex is
-//! tested for forced successors only once. From k = 6 on canonical A* is faster: scanning costs more than the
+//! and which axial jump leads on from there; passing dead ends; one loop over the jumps of a node, in which
+//! all that a search or a node has in common is found before; and a table of one byte a vertex and even move,
+//! so that the entries of a vertex are one word. For k ≥ 4 there are no such tables, but a vertex is tested
+//! for forced successors only once. From k = 6 on canonical A* is faster: scanning costs more than the
 //! saved nodes. Figures: `docs/measurements/search.md`.
 
 mod axial;
@@ -59,6 +60,7 @@ mod planner;
 mod stop_rows;
 mod table;
 mod table_finder;
+mod to_goal;
 
 #[cfg(test)]
 mod tests;

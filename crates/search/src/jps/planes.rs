@@ -7,6 +7,7 @@ use super::{
     axial::AxialStops,
     dead_ends::{DeadEndRows, DeadEnds, REACH},
     diagonals::DiagonalStops,
+    stop_rows::Leads,
     table::JumpTable,
 };
 use crate::canonical::Pruning;
@@ -35,8 +36,13 @@ impl JumpPlanes {
         }
         let axial = AxialStops::new(graph);
         let vertices = graph.vertex_count() as u64;
-        let pays = vertices <= MOST_VERTICES && VERTICES_A_JUMP_POINT * axial.jump_points() <= vertices;
+        let pays = Self::may_have_dead_ends(graph) && VERTICES_A_JUMP_POINT * axial.jump_points() <= vertices;
         Ok(Self::with_dead_ends(graph, pruning, axial, if pays { REACH } else { 0 }))
+    }
+
+    /// Whether dead ends are looked for, if there are not too many jump points.
+    pub(super) fn may_have_dead_ends<P: Placement>(graph: &GridGraph<P>) -> bool {
+        !graph.has_closed_gaps() && graph.vertex_count() as u64 <= MOST_VERTICES
     }
 
     /// With dead ends that reach so far; 0 for none.
@@ -47,14 +53,16 @@ impl JumpPlanes {
         reach: u32,
     ) -> Self {
         let dead_ends = DeadEndRows::default();
-        let diagonals = DiagonalStops::new(graph, pruning, &dead_ends);
+        let leads = Leads::new(graph, &dead_ends);
         let table = pruning.table().filter(|_| reach > 0 && !graph.has_closed_gaps());
-        let Some(table) = table else { return Self { axial, diagonals, dead_ends, reach: 0 } };
-        let dead_ends = DeadEnds { graph, pruning, table, diagonals: &diagonals, reach }.mark(&mut axial);
-        if dead_ends.is_empty() {
-            return Self { axial, diagonals, dead_ends, reach: 0 };
+        if let Some(table) = table {
+            let dead_ends = DeadEnds { graph, table, leads: &leads, reach }.mark(&mut axial);
+            if !dead_ends.is_empty() {
+                let diagonals = DiagonalStops::new(graph, pruning, [&leads, &Leads::new(graph, &dead_ends)]);
+                return Self { axial, diagonals, dead_ends, reach };
+            }
         }
-        let diagonals = DiagonalStops::new(graph, pruning, &dead_ends);
-        Self { axial, diagonals, dead_ends, reach }
+        let diagonals = DiagonalStops::new(graph, pruning, [&leads; 2]);
+        Self { axial, diagonals, dead_ends, reach: 0 }
     }
 }

@@ -8,8 +8,9 @@ use mediant_moves::KError;
 use super::{
     block_finder::BlockFinder,
     dead_ends::NearGoal,
-    finder::{JumpContext, JumpFinder, JumpRules, StepwiseFinder, ToGoal},
+    finder::{JumpContext, JumpFinder, JumpRules, StepwiseFinder},
     table::{JumpError, JumpTable},
+    to_goal::ToGoal,
 };
 use crate::{
     best_first::BestFirst,
@@ -66,14 +67,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic, J: JumpFinder<
 
     /// A planner with a finder and a pruning rule that are those of the grid graph.
     fn with_parts(graph: G, pruning: Arc<Pruning<P>>, finder: J, heuristic: H) -> Self {
-        let (limit, keeps_intermediate) = (u32::MAX, false);
-        let rules = JumpRules {
-            stepwise: false,
-            limit,
-            keeps_intermediate,
-            has_other_nodes: false,
-            near: NearGoal::EVERYWHERE,
-        };
+        let (limit, keeps_intermediate, rules) = (u32::MAX, false, JumpRules::PLAIN);
         let successors = JumpMoves { pruning, finder, limit, keeps_intermediate, rules };
         Self::with_successors(graph, heuristic, successors)
     }

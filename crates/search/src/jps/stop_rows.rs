@@ -12,6 +12,36 @@ use crate::canonical::{Pruning, pattern_at};
 /// jump point. One from which they come to dead ends alone stops no jump.
 pub(super) type Stops = [u64; 3];
 
+/// For axial jumps in each direction, the vertices from which they come to a jump point, in rows: a word for
+/// 64 vertices.
+pub(super) struct Leads {
+    rows: [Vec<u64>; 4],
+    per_row: usize,
+}
+
+impl Leads {
+    /// Where jumps pass dead ends.
+    pub(super) fn new<P: Placement>(graph: &GridGraph<P>, dead: &DeadEndRows) -> Self {
+        let per_row = P::vertices(graph.grid()).0.div_ceil(64) as usize;
+        let mut rows = [const { Vec::new() }; 4];
+        for quarter in (0..4).step_by(8 / graph.steps().len()) {
+            let v = graph.step(quarter << (graph.k().get() - 2)).vector();
+            rows[quarter] = leads(graph, v, dead.of(quarter));
+        }
+        Self { rows, per_row }
+    }
+
+    fn of(&self, quarter: usize) -> &[u64] {
+        &self.rows[quarter]
+    }
+
+    /// Whether a jump in this direction comes to a jump point from a vertex of the map.
+    pub(super) fn any(&self, quarter: usize, from: Vertex) -> bool {
+        let word = self.rows[quarter][from.y as usize * self.per_row + from.x as usize / 64];
+        word >> (from.x % 64) & 1 == 1
+    }
+}
+
 /// What decides where jumps by one odd move stop, in rows of the map.
 pub(super) struct StopRows<'g, P: Placement> {
     graph: &'g GridGraph<P>,
@@ -23,9 +53,9 @@ pub(super) struct StopRows<'g, P: Placement> {
     height: usize,
     per_row: usize,
     /// The vertices from which the first and the second axial jump come to a jump point.
-    leads: [Vec<u64>; 2],
-    /// Likewise, where they pass dead ends; empty if there are none.
-    live: [Vec<u64>; 2],
+    leads: [&'g [u64]; 2],
+    /// Likewise, where they pass dead ends.
+    live: [&'g [u64]; 2],
 }
 
 impl<'g, P: Placement> StopRows<'g, P> {
@@ -33,38 +63,26 @@ impl<'g, P: Placement> StopRows<'g, P> {
         graph: &'g GridGraph<P>,
         pruning: &'g Pruning<P>,
         index: usize,
-        dead: &DeadEndRows,
+        [leads, live]: [&'g Leads; 2],
     ) -> Self {
         let (width, height) = P::vertices(graph.grid());
         let (v, per_row) = (graph.step(index).vector(), width.div_ceil(64) as usize);
         let step = Footprint::new::<P>(graph.rule(), v);
         let (width, height) = (i64::from(width), height as usize);
-        let none = || [Vec::new(), Vec::new()];
-        let (leads, live) = (none(), none());
-        let mut rows = Self { graph, pruning, index, v, step, width, height, per_row, leads, live };
         let beside = [index - 1, (index + 1) % graph.steps().len()];
-        rows.leads = beside.map(|even| rows.leads(graph.step(even).vector(), &[]));
-        if !dead.is_empty() {
-            let quarter = |even: usize| even >> (graph.k().get() - 2);
-            rows.live = beside.map(|even| rows.leads(graph.step(even).vector(), dead.of(quarter(even))));
-        }
-        rows
+        let of = |leads: &'g Leads| beside.map(|even| leads.of(even >> (graph.k().get() - 2)));
+        Self { graph, pruning, index, v, step, width, height, per_row, leads: of(leads), live: of(live) }
     }
 
     fn matrix(&self) -> &BitMatrix {
         self.graph.grid().rows()
     }
 
-    /// The vertices of the `word`-th word.
-    fn place(&self, word: usize) -> (i32, i32) {
-        ((word % self.per_row) as i32 * 64, (word / self.per_row) as i32)
-    }
-
     /// The stops in row y.
     fn row(&self, y: usize) -> Vec<Stops> {
         let words = y * self.per_row..(y + 1) * self.per_row;
         let stops = words.map(|word| {
-            let (x, y) = self.place(word);
+            let (x, y) = ((word % self.per_row) as i32 * 64, y as i32);
             let mut enters =
                 holds(self.matrix(), (x - self.v.x, y - self.v.y), &self.step.free, &self.step.either);
             if self.graph.has_closed_gaps() {
@@ -72,8 +90,8 @@ impl<'g, P: Placement> StopRows<'g, P> {
             }
             let forced = if self.pruning.diagonals_may_force() { self.forced((x, y), enters) } else { 0 };
             let [first, second] = [0, 1].map(|i| self.leads[i][word] & enters);
-            let live = |i: usize| self.live[i].get(word).map_or(self.leads[i][word], |&live| live) & enters;
-            [!enters | forced | live(0) | live(1), first, second]
+            let live = (self.live[0][word] | self.live[1][word]) & enters;
+            [!enters | forced | live, first, second]
         });
         stops.collect()
     }
@@ -92,49 +110,6 @@ impl<'g, P: Placement> StopRows<'g, P> {
         let cell = |dx: i32, dy: i32| load(self.matrix().words(), self.matrix().index(x + dx, y + dy));
         let [a, b, c, d] = [cell(-1, -1), cell(0, -1), cell(-1, 0), cell(0, 0)];
         (a ^ b) & (a ^ c) & !(a ^ d)
-    }
-
-    /// The vertices from which the axial jump by `v` comes to a jump point that is none of the dead ends.
-    fn leads(&self, v: Vector, dead: &[u64]) -> Vec<u64> {
-        let (per_row, rule) = (self.per_row, JumpPointRule::of(self.graph));
-        let ends = |word: usize| {
-            let ends = rule.ends_in_row::<P>(self.matrix(), self.place(word), v);
-            [ends.jump & !dead.get(word).unwrap_or(&0), !ends.dead]
-        };
-        let mut leads = vec![0; per_row * self.height];
-        let ascending = v.x + v.y > 0;
-        // Each word after the one that the jump enters next.
-        for i in 0..leads.len() {
-            let word = if ascending { leads.len() - 1 - i } else { i };
-            leads[word] = if v.x == 0 {
-                let next = word as isize + v.y as isize * per_row as isize;
-                let Some(&beyond) = usize::try_from(next).ok().and_then(|next| leads.get(next)) else {
-                    continue;
-                };
-                let [jump, enters] = ends(next as usize);
-                enters & (jump | beyond)
-            } else {
-                // The jump from vertex x comes to a jump point if it can enter x + 1, and that is one or
-                // leads to one.
-                let next = (word % per_row) as isize + v.x as isize;
-                let inside = (0..per_row as isize).contains(&next);
-                let next = word.wrapping_add_signed(v.x as isize);
-                let ([jump, enters], beyond) = (ends(word), if inside { leads[next] } else { 0 });
-                let [next_jump, next_enters] = if inside { ends(next) } else { [0, 0] };
-                if ascending {
-                    let shifted = |word: u64, next: u64| word >> 1 | next << 63;
-                    let enters = shifted(enters, next_enters);
-                    let start = enters & (shifted(jump, next_jump) | beyond << 63);
-                    carried::<true>(start, enters)
-                } else {
-                    let shifted = |word: u64, next: u64| word << 1 | next >> 63;
-                    let enters = shifted(enters, next_enters);
-                    let start = enters & (shifted(jump, next_jump) | beyond >> 63);
-                    carried::<false>(start, enters)
-                }
-            };
-        }
-        leads
     }
 
     /// The stops of 64 vertices of a row from column x on; none beyond the row.
@@ -217,4 +192,49 @@ fn holds(rows: &BitMatrix, (x, y): (i32, i32), free: &[CellOffset], either: &[[C
     let cell = |&(dx, dy): &CellOffset| !load(rows.words(), at.offset(dy * rows.bits_per_row() + dx));
     let all = free.iter().fold(!0, |all, offset| all & cell(offset));
     either.iter().fold(all, |all, [a, b]| all & (cell(a) | cell(b)))
+}
+
+/// The vertices from which the axial jump by `v` comes to a jump point that is none of the dead ends.
+fn leads<P: Placement>(graph: &GridGraph<P>, v: Vector, dead: &[u64]) -> Vec<u64> {
+    let (width, height) = P::vertices(graph.grid());
+    let (per_row, rule) = (width.div_ceil(64) as usize, JumpPointRule::of(graph));
+    let ends = |word: usize| {
+        let place = ((word % per_row) as i32 * 64, (word / per_row) as i32);
+        let ends = rule.ends_in_row::<P>(graph.grid().rows(), place, v);
+        [ends.jump & !dead.get(word).unwrap_or(&0), !ends.dead]
+    };
+    let mut leads = vec![0; per_row * height as usize];
+    let ascending = v.x + v.y > 0;
+    // Each word after the one that the jump enters next.
+    for i in 0..leads.len() {
+        let word = if ascending { leads.len() - 1 - i } else { i };
+        leads[word] = if v.x == 0 {
+            let next = word as isize + v.y as isize * per_row as isize;
+            let Some(&beyond) = usize::try_from(next).ok().and_then(|next| leads.get(next)) else {
+                continue;
+            };
+            let [jump, enters] = ends(next as usize);
+            enters & (jump | beyond)
+        } else {
+            // The jump from vertex x comes to a jump point if it can enter x + 1, and that is one or
+            // leads to one.
+            let next = (word % per_row) as isize + v.x as isize;
+            let inside = (0..per_row as isize).contains(&next);
+            let next = word.wrapping_add_signed(v.x as isize);
+            let ([jump, enters], beyond) = (ends(word), if inside { leads[next] } else { 0 });
+            let [next_jump, next_enters] = if inside { ends(next) } else { [0, 0] };
+            if ascending {
+                let shifted = |word: u64, next: u64| word >> 1 | next << 63;
+                let enters = shifted(enters, next_enters);
+                let start = enters & (shifted(jump, next_jump) | beyond << 63);
+                carried::<true>(start, enters)
+            } else {
+                let shifted = |word: u64, next: u64| word << 1 | next >> 63;
+                let enters = shifted(enters, next_enters);
+                let start = enters & (shifted(jump, next_jump) | beyond >> 63);
+                carried::<false>(start, enters)
+            }
+        };
+    }
+    leads
 }

@@ -9,17 +9,26 @@
 //! from which vertex which axial jump leads on. With a byte for each odd move in their place a table takes 8
 //! bytes a vertex instead of 5.5, and a search 0.97 of the time.
 //!
+//! Jumps pass [dead ends](super::dead_ends), if there are any, but near the goal they do not. There axial
+//! jumps are scanned as those of [`BlockJps`](crate::BlockJps), by bit planes of one more byte a vertex.
+//!
 //! Rule variants: all five. Under closed gaps a jump ends before a gap. The table does not say what paths do
 //! at gaps: where they begin or end at one, and at k = 2 where they pass one.
 
 use mediant_grid::{GridGraph, Identity, Mismatch, Placement, Step, Vector, Vertex, VertexId};
 use mediant_moves::{FiniteK, KError};
 
-use super::{axial::JumpPointRule, diagonals::DiagonalStops};
+use super::{
+    axial::{AxialStops, JumpPointRule},
+    dead_ends::DeadEndRows,
+    diagonals::DiagonalStops,
+    planes::JumpPlanes,
+    stop_rows::Leads,
+};
 use crate::canonical::Pruning;
 
-/// The jumps of a grid graph: 5.5 bytes a vertex at k = 3, 2.75 at k = 2. Immutable; share it between
-/// planners.
+/// The jumps of a grid graph: 5.5 bytes a vertex at k = 3, 2.75 at k = 2, and one more where jumps pass dead
+/// ends. Immutable; share it between planners.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -46,6 +55,8 @@ pub struct JumpTable {
     /// By vertex and even move: the entry of a move is at `(id · 2^k + index) / 2`.
     entries: Vec<u8>,
     diagonals: DiagonalStops,
+    /// Where jumps pass dead ends: the stops of axial jumps near the goal, and how far dead ends reach.
+    near_goal: Option<(AxialStops, u32)>,
     k: u32,
     identity: Identity,
 }
@@ -115,17 +126,37 @@ impl JumpTable {
     /// # Errors
     /// [`KError::TooLarge`] above [`MAX_K`](Self::MAX_K).
     pub fn new<P: Placement>(graph: &GridGraph<P>) -> Result<Self, KError> {
-        let k = checked(graph.k())?;
-        let mut entries = vec![0; entry_count(graph.vertex_count(), k)];
-        for index in (0..graph.steps().len()).step_by(2) {
-            fill(&mut entries, graph, index);
+        checked(graph.k())?;
+        let pruning = &Pruning::new(graph);
+        if JumpPlanes::may_have_dead_ends(graph) {
+            return Ok(Self::from_planes(graph, JumpPlanes::new(graph, pruning)?));
         }
-        let diagonals = DiagonalStops::new(graph, &Pruning::new(graph), &Default::default());
-        Ok(Self { entries, diagonals, k, identity: graph.identity() })
+        // Without what only dead ends need.
+        let dead_ends = DeadEndRows::default();
+        let diagonals = DiagonalStops::new(graph, pruning, [&Leads::new(graph, &dead_ends); 2]);
+        Ok(Self::from_parts(graph, diagonals, &dead_ends, None))
+    }
+
+    pub(super) fn from_planes<P: Placement>(graph: &GridGraph<P>, planes: JumpPlanes) -> Self {
+        let JumpPlanes { axial, diagonals, dead_ends, reach } = planes;
+        Self::from_parts(graph, diagonals, &dead_ends, (reach > 0).then_some((axial, reach)))
+    }
+
+    fn from_parts<P: Placement>(
+        graph: &GridGraph<P>,
+        diagonals: DiagonalStops,
+        dead_ends: &DeadEndRows,
+        near_goal: Option<(AxialStops, u32)>,
+    ) -> Self {
+        let mut entries = vec![0; entry_count(graph.vertex_count(), graph.k().get())];
+        for index in (0..graph.steps().len()).step_by(2) {
+            fill(&mut entries, graph, index, dead_ends);
+        }
+        Self { entries, diagonals, near_goal, k: graph.k().get(), identity: graph.identity() }
     }
 
     /// The version of the format of [`to_bytes`](Self::to_bytes).
-    pub const VERSION: u32 = 3;
+    pub const VERSION: u32 = 4;
 
     /// The table as bytes: what it belongs to, then the entries, one byte each, by vertex id and then by even
     /// move. [`from_bytes`](Self::from_bytes) reads them, and makes the rest from the map, which takes less
@@ -192,23 +223,31 @@ impl JumpTable {
         (steps + u32::from(entry & STEPS), entry & FOUND != 0)
     }
 
+    /// Where jumps pass dead ends: the stops of axial jumps near the goal, and how far dead ends reach.
+    #[inline]
+    pub(super) const fn near_goal(&self) -> Option<&(AxialStops, u32)> {
+        self.near_goal.as_ref()
+    }
+
     /// Where diagonal jumps stop.
     #[inline]
     pub(crate) const fn diagonals(&self) -> &DiagonalStops {
         &self.diagonals
     }
 
-    /// The memory that the table of a grid graph with k ≤ 3 uses, in bytes.
+    /// The memory that the table of a grid graph with k ≤ 3 uses at most, in bytes.
     #[must_use]
     pub fn bytes<P: Placement>(graph: &GridGraph<P>) -> usize {
         let entries = entry_count(graph.vertex_count(), graph.k().get());
-        entries.saturating_add(DiagonalStops::bytes(graph))
+        let near_goal = if JumpPlanes::may_have_dead_ends(graph) { AxialStops::bytes(graph) } else { 0 };
+        entries.saturating_add(DiagonalStops::bytes(graph)).saturating_add(near_goal)
     }
 
     /// The memory used, in bytes.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
-        self.entries.len() + self.diagonals.memory_bytes()
+        let near_goal = self.near_goal.as_ref().map_or(0, |(axial, _)| axial.memory_bytes());
+        self.entries.len() + self.diagonals.memory_bytes() + near_goal
     }
 }
 
@@ -223,10 +262,10 @@ const fn entry_count(vertices: usize, k: u32) -> usize {
 }
 
 /// Computes the entries of an even move, 64 vertices at a time, each after the one that lies ahead.
-fn fill<P: Placement>(entries: &mut [u8], graph: &GridGraph<P>, index: usize) {
+fn fill<P: Placement>(entries: &mut [u8], graph: &GridGraph<P>, index: usize, dead_ends: &DeadEndRows) {
     let (width, height) = P::vertices(graph.grid());
     let (v, rows, rule) = (graph.step(index).vector(), graph.grid().rows(), JumpPointRule::of(graph));
-    let moves = graph.steps().len() / 2;
+    let (moves, quarter) = (graph.steps().len() / 2, index >> (graph.k().get() - 2));
     let ascends = v.x + v.y > 0;
     // Whether a row, or the words of one, are gone through from the last on.
     let in_order = |i: u32, count: u32| if ascends { count - 1 - i } else { i };
@@ -238,7 +277,9 @@ fn fill<P: Placement>(entries: &mut [u8], graph: &GridGraph<P>, index: usize) {
         }
         for word in (0..width.div_ceil(64)).map(|i| in_order(i, width.div_ceil(64))) {
             let first = word * 64;
-            let ends = rule.ends_in_row::<P>(rows, (first as i32 + v.x, ahead), v);
+            let next = (first as i32 + v.x, ahead);
+            let ends = rule.ends_in_row::<P>(rows, next, v);
+            let jump = ends.jump & !dead_ends.in_row(quarter, next);
             let count = (width - first).min(64);
             for bit in (0..count).map(|i| in_order(i, count)) {
                 let x = first + bit;
@@ -247,7 +288,7 @@ fn fill<P: Placement>(entries: &mut [u8], graph: &GridGraph<P>, index: usize) {
                 }
                 let place = (y as usize * width as usize + x as usize) * moves + index / 2;
                 let is = |bits: u64| bits >> bit & 1 == 1;
-                entries[place] = match (is(ends.dead), is(ends.jump)) {
+                entries[place] = match (is(ends.dead), is(jump)) {
                     (true, _) => 0,
                     (false, true) => FOUND | 1,
                     (false, false) => extended(entries[place.wrapping_add_signed(stride)]),

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Identity, Placement, VertexId};
+use mediant_grid::{Identity, Placement, Vertex, VertexId};
 
 use super::{
+    dead_ends::NearGoal,
     finder::{JumpContext, JumpFinder},
     table::JumpTable,
 };
@@ -16,6 +17,11 @@ impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
         Some(JumpTable::identity(self))
     }
 
+    fn near_goal(&self, goal: Vertex) -> NearGoal {
+        let Some((axial, reach)) = JumpTable::near_goal(self) else { return NearGoal::EVERYWHERE };
+        NearGoal::new(goal, axial, *reach)
+    }
+
     #[inline]
     fn axial(
         &self,
@@ -25,6 +31,14 @@ impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
         goal_steps: Option<u32>,
         scanned: &mut u32,
     ) -> Option<u32> {
+        if let Some((axial, _)) = JumpTable::near_goal(self) {
+            let quarter = context.quarter(index);
+            if context.rules.near.holds(from.at, quarter) {
+                let scan = axial.scan(from.at, quarter, goal_steps, true);
+                *scanned += scan.scanned;
+                return scan.found.then_some(scan.steps);
+            }
+        }
         let (steps, found) = self.jump(from.id, context.graph.step(index), index);
         match goal_steps {
             Some(goal_steps) if goal_steps <= steps => Some(goal_steps),
@@ -41,7 +55,7 @@ impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor) -> Option<VertexId>,
     ) {
-        let stops = (self.diagonals(), false);
+        let stops = (self.diagonals(), JumpTable::near_goal(self).is_some());
         context.diagonal_by_stops(self, stops, from, index, scanned, visit);
     }
 }

@@ -13,6 +13,10 @@ use super::{
     JumpError, JumpTable,
     axial::{AxialStops, Scan},
     diagonals::DiagonalStops,
+    finder::{JumpContext, JumpRules},
+    planes::JumpPlanes,
+    stop_rows::Leads,
+    to_goal::{GoalLegs, ToGoal},
 };
 use crate::canonical::Pruning;
 
@@ -222,7 +226,8 @@ struct DiagonalScans {
 impl Suite for DiagonalScans {
     fn check<P: Placement>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
         let graph = &reference.graph;
-        let stops = DiagonalStops::new(graph, &Pruning::new(graph), &Default::default());
+        let stops =
+            DiagonalStops::new(graph, &Pruning::new(graph), [&Leads::new(graph, &Default::default()); 2]);
         let last = graph.steps().len() - 1;
         for (_, from) in reference.vertices() {
             for index in (1..=last).step_by(2) {
@@ -266,7 +271,8 @@ struct Tables {
 impl Suite for Tables {
     fn check<P: Placement>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
         let graph = &reference.graph;
-        let table = JumpTable::new(graph).unwrap();
+        let planes = JumpPlanes::with_dead_ends(graph, &Pruning::new(graph), AxialStops::new(graph), 0);
+        let table = JumpTable::from_planes(graph, planes);
         for (id, from) in reference.vertices().filter(|&(_, from)| graph.is_free(from)) {
             for (index, step) in graph.steps().iter().enumerate().step_by(2) {
                 let expected = reference.scan(from, index, None);
@@ -276,6 +282,7 @@ impl Suite for Tables {
                 self.longest = self.longest.max(expected.0);
             }
         }
+        let table = JumpTable::new(graph).unwrap();
         let again = JumpTable::from_bytes(graph, &table.to_bytes());
         assert_eq!(again.as_ref(), Ok(&table), "{}", case(Vertex::default(), Vertex::default()));
     }
@@ -333,6 +340,34 @@ fn turns_are_those_of_the_definition_in_every_pattern() {
         (pattern, Grid::from_fn(7, 5, blocked).unwrap())
     });
     on_all(grids, &mut Patterns);
+}
+
+#[test]
+fn the_way_to_the_goal_is_that_of_the_moves() {
+    let grid = Arc::new(noise(&mut Rng::new(1), 9, 9, 0));
+    for k in [FiniteK::N4, FiniteK::N8] {
+        let graph = &GridGraph::<Centers>::new(Arc::clone(&grid), k, Default::default()).unwrap();
+        let (from, pruning) = (Vertex::new(4, 4), &Pruning::new(graph));
+        for goal in (0..81).map(|i| Vertex::new(i % 9, i / 9)) {
+            let to_goal = ToGoal::new(from.to(goal), k);
+            let rules = &JumpRules::PLAIN;
+            let context = JumpContext { graph, pruning, goal, rules, stepwise: false, to_goal };
+            for (index, step) in graph.steps().iter().enumerate() {
+                let name = || format!("k = {k}, {goal}, {:?}", step.vector());
+                if index % 2 == 0 {
+                    let steps = context.steps_to_goal(from, step.vector());
+                    assert_eq!(to_goal.straight(index), steps, "{}", name());
+                } else {
+                    let legs = GoalLegs::new(&context, from, index);
+                    // Where no axial leg follows, its direction says nothing.
+                    let parts = |legs: GoalLegs| {
+                        (legs.diagonal, legs.axial, if legs.axial == 0 { 0 } else { legs.index })
+                    };
+                    assert_eq!(to_goal.legs(index).map(parts), legs.map(parts), "{}", name());
+                }
+            }
+        }
+    }
 }
 
 fn damaged_graph() -> GridGraph<Centers> {
