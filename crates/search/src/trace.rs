@@ -1,7 +1,7 @@
 //! From the nodes of a finished search to the path that it found.
 
 use mediant_grid::{GridGraph, Placement, Vector, Vertex, VertexId};
-use mediant_moves::{Cost, decompose};
+use mediant_moves::Cost;
 
 use crate::{nodes::NodeStore, parent::ParentPointer, path::Path};
 
@@ -12,13 +12,26 @@ pub(crate) fn trace_back<P: Placement, N: ParentPointer>(
     goal: VertexId,
 ) -> Path {
     let mut legs = LegsBack::new(graph, nodes, goal);
-    let count = turns(&mut legs).count();
+    let (mut few, mut count) = ([Vertex::default(); FEW], 0);
+    for end in turns(&mut legs) {
+        // From the last one on.
+        if let Some(place) = FEW.checked_sub(count + 1) {
+            few[place] = end;
+        }
+        count += 1;
+    }
     let mut waypoints = Vec::with_capacity(count + 1);
     // The legs end at the start.
     waypoints.push(legs.node.1);
-    extend_back(graph, nodes, goal, &mut waypoints);
+    match FEW.checked_sub(count) {
+        Some(first) => waypoints.extend_from_slice(&few[first..]),
+        None => extend_back(graph, nodes, goal, &mut waypoints),
+    }
     Path::new(waypoints)
 }
+
+/// As many waypoints as most paths have. Those of longer paths are gone through twice.
+const FEW: usize = 16;
 
 /// Adds the waypoints of the path that a search found, without its start. Waypoints stand where the direction
 /// changes.
@@ -68,12 +81,15 @@ impl<P: Placement, N: ParentPointer> Iterator for LegsBack<'_, P, N> {
         self.node = node.pointer.parent(self.graph, step, id, at);
         let (from, v) = (self.node.1, step.vector());
         let d = from.to(at);
-        if i64::from(d.x) * i64::from(v.y) != i64::from(d.y) * i64::from(v.x) {
-            // Two legs in canonical order, the first by the odd move. The intermediate jump point between
-            // them is no node.
-            let [(first, times), _] = decompose(d, self.graph.k())?.canonical();
-            let times = times as i32;
-            self.pending = Some((from + Vector::new(first.x * times, first.y * times), first));
+        let across = i64::from(v.x) * i64::from(d.y) - i64::from(v.y) * i64::from(d.x);
+        if across != 0 {
+            // Two legs in canonical order, the first by the odd move beside this even one. The intermediate
+            // jump point between them is no node. Adjacent moves span a parallelogram of area 1: this is
+            // Cramer's rule without its denominator.
+            let last = self.graph.steps().len() - 1;
+            let beside = if across > 0 { node.arrived_by().wrapping_sub(1) } else { node.arrived_by() + 1 };
+            let first = self.graph.step(beside & last).vector();
+            self.pending = Some((from + first * across.unsigned_abs() as i32, first));
         }
         Some((at, v))
     }
