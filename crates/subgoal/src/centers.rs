@@ -8,16 +8,20 @@ use crate::{
     bends::{OctileBends, OctileDepartures},
     clearance::{ClearanceBits, DiagonalClearance, convex_corners, zeros_after, zeros_before},
     error::SubgoalError,
-    graph::SubgoalGraph,
     hierarchy::Hierarchy,
     placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, Run, SubgoalPlacement},
+    worth::{self, Counted},
 };
 
 impl SubgoalPlacement for Centers {}
 
 impl EdgeFinder for Centers {
-    fn is_outdone(_: &FreeSpace<Self>, _: &SubgoalGraph<Self>) -> bool {
-        false
+    fn with_unprepared(
+        space: &FreeSpace<Self>,
+        k: K,
+        compare: &mut dyn FnMut(&mut Counted<'_>) -> bool,
+    ) -> bool {
+        k.finite().is_some_and(|k| worth::with_jumps(space, k, compare))
     }
 
     const SHARES_SIGHT: bool = false;

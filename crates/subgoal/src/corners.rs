@@ -10,10 +10,9 @@ use crate::{
     bends::{ConvexCorner, SideDepartures},
     direct_reachability::DirectFilter,
     error::SubgoalError,
-    graph::SubgoalGraph,
     hierarchy::Hierarchy,
     placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, EdgeTables, Run, SubgoalPlacement},
-    worth,
+    worth::{self, Counted},
 };
 
 /// Scratch memory for finding edges at corners.
@@ -42,8 +41,12 @@ impl EdgeTables for SightTables {
 impl SubgoalPlacement for Corners {}
 
 impl EdgeFinder for Corners {
-    fn is_outdone(space: &FreeSpace<Self>, graph: &SubgoalGraph<Self>) -> bool {
-        worth::is_outdone(space, graph)
+    fn with_unprepared(
+        space: &FreeSpace<Self>,
+        k: K,
+        compare: &mut dyn FnMut(&mut Counted<'_>) -> bool,
+    ) -> bool {
+        worth::with_jumps_or_anya(space, k, compare)
     }
 
     const SHARES_SIGHT: bool = true;

@@ -70,11 +70,12 @@
 //!
 //! # Hub labels
 //!
-//! [`PreparedSubgoals::within`] makes [`HubLabels`] of the contraction where they fit in a budget of memory,
-//! and keeps the contraction where they do not. A label is a list of hubs with distances; the distance
-//! between two subgoals is the least sum over a common hub. What start and goal see is stored as well, so
-//! that neither end needs geometry. Which hubs, what a query does not read, and why no shortest path is lost
-//! is told in `labels/mod.rs`. [`Goals`] answer one start to many goals, and the nearest of many.
+//! [`PreparedSubgoals::within`] makes [`HubLabels`] of the contraction where they fit in a budget of memory.
+//! Where they do not, it keeps the contraction, or nothing if an engine that prepares nothing is faster. A
+//! label is a list of hubs with distances; the distance between two subgoals is the least sum over a common
+//! hub. What start and goal see is stored as well, so that neither end needs geometry. Which hubs, what a
+//! query does not read, and why no shortest path is lost is told in `labels/mod.rs`. [`Goals`] answer one
+//! start to many goals, and the nearest of many.
 //!
 //! # What this crate does not do
 //!
@@ -117,3 +118,4 @@ pub use placement::SubgoalPlacement;
 pub use planner::SubgoalAStar;
 pub use progress::{Progress, Stage};
 pub use theta::SubgoalTheta;
+pub use worth::Counted;

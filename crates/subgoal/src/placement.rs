@@ -4,7 +4,7 @@ use mediant_grid::{BitMatrix, FreeSpace, Placement, Vector, Vertex};
 use mediant_moves::{Cost, K};
 use mediant_search::parts::Metric;
 
-use crate::{error::SubgoalError, graph::SubgoalGraph, hierarchy::Hierarchy, subgoals::Subgoals};
+use crate::{error::SubgoalError, hierarchy::Hierarchy, subgoals::Subgoals, worth::Counted};
 
 /// A placement that has subgoal graphs: [`Corners`](mediant_grid::Corners) has them for every k,
 /// [`Centers`](mediant_grid::Centers) for k = 2 and 3.
@@ -15,10 +15,13 @@ pub trait SubgoalPlacement: EdgeFinder {}
 /// Finds subgoals and edges. Public as [`SubgoalPlacement`] builds on it, but it cannot be named outside of
 /// this crate.
 pub trait EdgeFinder: Placement {
-    /// Whether an engine that prepares nothing is faster than a graph that was made of the space.
-    fn is_outdone(space: &FreeSpace<Self>, graph: &SubgoalGraph<Self>) -> bool
-    where
-        Self: SubgoalPlacement;
+    /// Calls `compare` with the fastest engine that prepares nothing, and returns what it says; false if
+    /// there is none for this k.
+    fn with_unprepared(
+        space: &FreeSpace<Self>,
+        k: K,
+        compare: &mut dyn FnMut(&mut Counted<'_>) -> bool,
+    ) -> bool;
 
     /// Whether subgoals, and what each vertex sees of them, are the same for every k.
     const SHARES_SIGHT: bool;

@@ -1,53 +1,105 @@
 //! Whether a graph that keeps a large core is worth having.
 //!
-//! In noise there is no hierarchy: most subgoals stay in the core, and each search goes through it. Over N(k)
-//! that is still faster than the engines that prepare nothing, on all noise that was measured. At any angle
-//! it depends on the map, by a factor of five either way. So both answer the same few queries, and their work
-//! is compared; it is counted, so that the same map gives the same index everywhere.
+//! In noise and on open ground with sparse obstacles there is no hierarchy: most subgoals stay in the core,
+//! and each search goes through it. Whether that is faster than an engine that prepares nothing depends on
+//! the map, by a factor of five either way. So both answer the same few queries, and their work is compared;
+//! it is counted, so that the same map gives the same index everywhere. That engine is block-based JPS up to
+//! k = 3, and Anya beyond.
 
-use mediant_grid::{Corners, FreeSpace, Placement, Vertex};
-use mediant_moves::K;
-use mediant_search::{Anya, Counters, Planner, Query};
+use mediant_grid::{Corners, FreeSpace, GridGraph, Placement, Vertex};
+use mediant_moves::{FiniteK, K};
+use mediant_search::{Anya, BlockJps, Counters, Hk, Planner, Query};
 
-use crate::{graph::SubgoalGraph, planner::SubgoalAStar};
+use crate::{graph::SubgoalGraph, placement::SubgoalPlacement, planner::SubgoalAStar};
 
-/// The queries that both answer.
-const QUERIES: usize = 12;
-
-/// How many arcs of a core a search follows in the time in which Anya expands a node. On noise of 10 % and on
-/// open ground with sparse cells, 512 × 512 and 2048 × 2048, it is between 30 and 130: the more memory the
-/// arcs take, the fewer.
-const ARCS_OF_AN_EXPANSION: u64 = 40;
-
-/// How many arcs it follows in the time in which it joins an end to one subgoal that it sees.
-const ARCS_OF_A_SUBGOAL: u64 = 30;
-
-/// Whether Anya, which prepares nothing, takes less time than a search on the graph.
-pub(crate) fn is_outdone(space: &FreeSpace<Corners>, graph: &SubgoalGraph<Corners>) -> bool {
-    if graph.k() != K::Any || graph.has_small_core() {
-        return false;
-    }
-    let Ok(mut on_graph) = SubgoalAStar::new(space, graph) else { return false };
-    let mut anya = Anya::new(space);
-    let [mut arcs, mut expansions] = [0, 0];
-    for query in queries(space) {
-        let [mut graph_counts, mut anya_counts] = [Counters::default(), Counters::default()];
-        let both = [
-            on_graph.solve_observed(query, &mut graph_counts).is_ok(),
-            anya.solve_observed(query, &mut anya_counts).is_ok(),
-        ];
-        if both == [true; 2] {
-            arcs += graph_counts.expanded * (graph.core_arcs() / graph.core()) as u64;
-            arcs += graph_counts.generated * ARCS_OF_A_SUBGOAL;
-            expansions += anya_counts.expanded;
-        }
-    }
-    arcs > ARCS_OF_AN_EXPANSION * expansions
+/// How two engines are compared.
+struct Comparison {
+    /// The number of queries that both answer.
+    queries: usize,
+    /// How many arcs of a core a search follows, some 5 ns each, in the time in which it joins an end to one
+    /// subgoal that it sees.
+    arcs_of_a_subgoal: u64,
+    /// And in the time in which the other engine expands a node.
+    arcs_of_an_expansion: u64,
 }
 
-/// Queries between connected vertices anywhere on the map, the same each time.
-fn queries(space: &FreeSpace<Corners>) -> impl Iterator<Item = Query> {
-    let (width, height) = Corners::vertices(space.grid());
+impl Comparison {
+    /// Beside Anya. On noise of 10 % and on open ground with sparse cells, 512 × 512 and 2048 × 2048, a node
+    /// takes as long as 30 to 130 arcs: the more memory the arcs take, the fewer.
+    const ANYA: Self = Self { queries: 12, arcs_of_a_subgoal: 30, arcs_of_an_expansion: 40 };
+    /// Lengths over N(k) take longer.
+    const ANYA_OVER_K: Self = Self { arcs_of_an_expansion: 50, ..Self::ANYA };
+    /// Beside block-based JPS up to k = 3, on noise of 5 to 20 %, on sparse cells and on maps of streets.
+    const BLOCK_JPS: Self = Self { queries: 48, arcs_of_a_subgoal: 20, arcs_of_an_expansion: 30 };
+    /// How many vertices are scanned in the time of an arc.
+    const SCANNED_OF_AN_ARC: u64 = 3;
+}
+
+/// Answers a query and counts its work; `None` if it cannot.
+pub type Counted<'r> = dyn FnMut(Query) -> Option<Counters> + 'r;
+
+/// Calls `compare` with the engine that prepares nothing: block-based JPS, for k ≤ 3.
+pub(crate) fn with_jumps<P: Placement>(
+    space: &FreeSpace<P>,
+    k: FiniteK,
+    compare: &mut dyn FnMut(&mut Counted<'_>) -> bool,
+) -> bool {
+    let Ok(graph) = GridGraph::in_space(space, k) else { return false };
+    BlockJps::new(&graph, Hk).is_ok_and(|mut jps| compare(&mut |query| counted(&mut jps, query)))
+}
+
+/// The same at corners: beyond k = 3, and at any angle, with Anya.
+pub(crate) fn with_jumps_or_anya(
+    space: &FreeSpace<Corners>,
+    k: K,
+    compare: &mut dyn FnMut(&mut Counted<'_>) -> bool,
+) -> bool {
+    match k {
+        K::Any => {
+            let mut anya = Anya::new(space);
+            compare(&mut |query| counted(&mut anya, query))
+        }
+        K::Finite(k) if k <= FiniteK::N8 => with_jumps(space, k, compare),
+        K::Finite(k) => {
+            Anya::over(space, k).is_ok_and(|mut anya| compare(&mut |query| counted(&mut anya, query)))
+        }
+    }
+}
+
+fn counted(planner: &mut impl Planner, query: Query) -> Option<Counters> {
+    let mut counters = Counters::default();
+    planner.solve_observed(query, &mut counters).ok().map(|_| counters)
+}
+
+/// Whether the engine that prepares nothing takes less time than a search on the graph.
+pub(crate) fn is_outdone<P: SubgoalPlacement>(
+    space: &FreeSpace<P>,
+    graph: &SubgoalGraph<P>,
+    other: &mut Counted<'_>,
+) -> bool {
+    let by = match graph.k() {
+        K::Finite(k) if k <= FiniteK::N8 => &Comparison::BLOCK_JPS,
+        // Anya is not that fast.
+        _ if graph.has_small_core() => return false,
+        K::Any => &Comparison::ANYA,
+        K::Finite(_) => &Comparison::ANYA_OVER_K,
+    };
+    let Ok(mut on_graph) = SubgoalAStar::new(space, graph) else { return false };
+    let of_a_core_node = (graph.core_arcs() / graph.core().max(1)) as u64;
+    let [mut arcs, mut arcs_of_other] = [0, 0];
+    for query in queries(space, by.queries) {
+        if let (Some(here), Some(there)) = (counted(&mut on_graph, query), other(query)) {
+            arcs += here.expanded * of_a_core_node + here.generated * by.arcs_of_a_subgoal;
+            arcs_of_other +=
+                there.expanded * by.arcs_of_an_expansion + there.scanned / Comparison::SCANNED_OF_AN_ARC;
+        }
+    }
+    arcs > arcs_of_other
+}
+
+/// So many queries between connected vertices anywhere on the map, the same each time.
+fn queries<P: Placement>(space: &FreeSpace<P>, count: usize) -> impl Iterator<Item = Query> {
+    let (width, height) = P::vertices(space.grid());
     let mut state = 0x2545_F491_4F6C_DD1D_u64;
     let mut below = move |most: u32| {
         // The multiplier is Knuth's; the upper bits are the better ones.
@@ -55,6 +107,6 @@ fn queries(space: &FreeSpace<Corners>) -> impl Iterator<Item = Query> {
         ((state >> 33) % u64::from(most)) as i32
     };
     let mut vertex = move || Vertex::new(below(width), below(height));
-    let tries = (0..100 * QUERIES).map(move |_| Query::new(vertex(), vertex()));
-    tries.filter(|query| space.connected(query.start, query.goal)).take(QUERIES)
+    let tries = (0..100 * count).map(move |_| Query::new(vertex(), vertex()));
+    tries.filter(|query| space.connected(query.start, query.goal)).take(count)
 }

@@ -38,7 +38,7 @@ const EXPECTED: [Row; 14] = [
     ("theta", 0x35ff_fe45_8b38_45e3, 112),
     ("lazy-theta", 0xb5c5_8f98_7086_095f, 84),
     ("anya", 0x06f4_f5d3_c720_ade4, 28),
-    ("subgoal", 0x7467_1123_7b07_0dd5, 176),
+    ("subgoal", 0x408f_44e9_a4ab_e377, 176),
     ("subgoal-theta", 0xd632_2226_40f1_a03e, 40),
     ("hpa", 0x1f2e_ab71_0e82_1128, 72),
     ("chpa", 0x3eab_8a9f_86f9_3910, 88),

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use mediant_grid::FreeSpace;
+use mediant_search::Query;
 use mediant_subgoal::{HubLabels, PreparedSubgoals, SubgoalGraph, SubgoalPlacement};
 
 use super::{parts::InFreeSpace, source::Source};
@@ -11,8 +12,10 @@ use crate::{
     configured::{ConfiguredEngine, SubgoalOptions},
     engine::Engine,
     error::Error,
+    map::Map,
     motion::Motion,
     option::{Levels, Memory},
+    planner::Planner,
     setup::Setup,
 };
 
@@ -40,10 +43,16 @@ pub(super) fn subgoals<P: SubgoalPlacement>(
         (None, None) => {
             let grid = space.grid();
             let most = most(Memory::for_labels_of(grid.width(), grid.height()));
-            match beside {
-                None => PreparedSubgoals::within(space, k, most, &progress)?,
-                Some(labels) => PreparedSubgoals::beside(labels, space, k, most, &progress)?,
-            }
+            // Made only if it is asked. The planner of the library, which is compiled anyway.
+            let mut unprepared = None;
+            let mut counted = |query: Query| {
+                let planner = match &mut unprepared {
+                    Some(planner) => planner,
+                    none => none.insert(substitute_of(setup, space).ok()?),
+                };
+                planner.find_counted(query).ok().map(|(_, counters)| counters)
+            };
+            PreparedSubgoals::compared(space, k, beside, most, &progress, &mut counted)?
         }
         (None, Some(levels)) => match levels.hierarchy() {
             Some(hierarchy) => {
@@ -63,6 +72,12 @@ pub(super) fn subgoals<P: SubgoalPlacement>(
         PreparedSubgoals::Contracted(graph) => Some(InFreeSpace::Subgoals(Arc::new(graph))),
         PreparedSubgoals::Nothing(_) => None,
     })
+}
+
+/// A planner by the engine that searches where no subgoals are kept.
+fn substitute_of<P: SubgoalPlacement>(setup: Setup, space: &FreeSpace<P>) -> Result<Planner, Error> {
+    let motion = Motion { k: setup.k, rules: setup.rules };
+    Setup::new(substitute(motion), setup.k, setup.rules).planner(&Map::from(Arc::clone(space.grid())))
 }
 
 /// The engine that searches where no subgoals were kept: the best that prepares nothing.

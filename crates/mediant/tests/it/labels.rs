@@ -186,6 +186,23 @@ fn on_noise_nothing_is_kept() {
     assert!(said.starts_with("this map has no hub labels: the contraction leaves a core of "), "{said}");
 }
 
+/// For every k it is compared with the engine that would search in its place.
+#[test]
+fn on_sparse_noise_jumps_or_anya_search_for_every_k() {
+    let map = noisy(120, 5);
+    for (text, engine) in [
+        ("subgoal:3:closed", Engine::JpsBlock),
+        ("subgoal:3:open", Engine::JpsBlock),
+        ("subgoal:6:open", Engine::Anya),
+    ] {
+        let made = index(setup(text), &map).expect("an index");
+        assert_eq!((made.searched_by(), levels(&made)), (engine, None), "{text}");
+    }
+    // With more obstacles the hierarchy pays, whether as labels or with a core.
+    let index = index(setup("subgoal:3:never,memory=1"), &noisy(120, 25)).expect("an index");
+    assert_eq!((index.searched_by(), levels(&index)), (Engine::Subgoal, Some(Levels::Contracted)));
+}
+
 #[test]
 fn another_k_gives_the_index_of_that_k() {
     let map = noisy(40, 20);

@@ -20,6 +20,7 @@ use crate::{
     placement::{BuildContext, SubgoalPlacement},
     progress::{Progress, Stage},
     seen::SeenIndex,
+    worth::{self, Counted},
 };
 
 /// Subgoals prepared within a budget of memory: hub labels where they fit, a contraction hierarchy where they
@@ -48,7 +49,8 @@ impl<P: SubgoalPlacement> PreparedSubgoals<P> {
         most: usize,
         progress: &(impl Fn(Progress) + Sync),
     ) -> Result<Self, SubgoalError> {
-        Self::new(space, k.into(), None, most, progress)
+        let k = k.into();
+        Self::new(space, k, None, most, progress, |graph| is_outdone(space, k, graph))
     }
 
     /// [`within`](Self::within), beside the hub labels of the same free space for another k: at corners it
@@ -63,7 +65,28 @@ impl<P: SubgoalPlacement> PreparedSubgoals<P> {
         most: usize,
         progress: &(impl Fn(Progress) + Sync),
     ) -> Result<Self, SubgoalError> {
-        Self::new(space, k.into(), Some(labels), most, progress)
+        let k = k.into();
+        Self::new(space, k, Some(labels), most, progress, |graph| is_outdone(space, k, graph))
+    }
+
+    /// [`within`](Self::within), or [`beside`](Self::beside) labels, with `unprepared` as the engine that
+    /// prepares nothing: it answers a query and counts its work. It is asked only where labels do not fit.
+    /// (`within` and `beside` take [`BlockJps`](mediant_search::BlockJps) up to k = 3, at corners
+    /// [`Anya`](mediant_search::Anya) beyond.)
+    ///
+    /// # Errors
+    /// Those of [`beside`](Self::beside).
+    pub fn compared(
+        space: &FreeSpace<P>,
+        k: impl Into<K>,
+        labels: Option<&HubLabels<P>>,
+        most: usize,
+        progress: &(impl Fn(Progress) + Sync),
+        unprepared: &mut Counted<'_>,
+    ) -> Result<Self, SubgoalError> {
+        Self::new(space, k.into(), labels, most, progress, |graph| {
+            worth::is_outdone(space, graph, unprepared)
+        })
     }
 
     fn new(
@@ -72,6 +95,7 @@ impl<P: SubgoalPlacement> PreparedSubgoals<P> {
         beside: Option<&HubLabels<P>>,
         most: usize,
         progress: &(impl Fn(Progress) + Sync),
+        is_outdone: impl FnOnce(&SubgoalGraph<P>) -> bool,
     ) -> Result<Self, SubgoalError> {
         let shared = shared(space, beside)?;
         let ground = Ground::new(space, k, Hierarchy::Contracted)?;
@@ -80,12 +104,13 @@ impl<P: SubgoalPlacement> PreparedSubgoals<P> {
             return Ok(Self::Labels(HubLabels::from_parts(space, ground, parts)));
         }
         let graph = ground.into_graph(space, Hierarchy::Contracted, &contracted)?;
-        Ok(if P::is_outdone(space, &graph) {
-            Self::Nothing(graph.identity())
-        } else {
-            Self::Contracted(graph)
-        })
+        Ok(if is_outdone(&graph) { Self::Nothing(graph.identity()) } else { Self::Contracted(graph) })
     }
+}
+
+/// Whether the fastest engine that prepares nothing takes less time than a search on a graph.
+fn is_outdone<P: SubgoalPlacement>(space: &FreeSpace<P>, k: K, graph: &SubgoalGraph<P>) -> bool {
+    P::with_unprepared(space, k, &mut |unprepared| worth::is_outdone(space, graph, unprepared))
 }
 
 impl<P: SubgoalPlacement> HubLabels<P> {

@@ -94,7 +94,7 @@ fn progress_is_told_to_the_end() {
     }
 }
 
-/// Labels where they fit, a hierarchy where they do not: to the byte.
+/// Labels where they fit, a hierarchy or nothing where they do not: to the byte.
 fn check_budget<P: SubgoalPlacement>(space: &FreeSpace<P>, k: K) {
     let exact = labels(space, k).memory_bytes();
     for (most, is_labels) in
@@ -105,7 +105,8 @@ fn check_budget<P: SubgoalPlacement>(space: &FreeSpace<P>, k: K) {
                 assert!(is_labels && made.memory_bytes() <= most, "{} of {most} bytes", made.memory_bytes());
                 assert_eq!(made.to_bytes(), labels(space, k).to_bytes(), "{most} bytes");
             }
-            PreparedSubgoals::Nothing(_) => panic!("a contraction is worth having"),
+            // Up to k = 3 jumps may be faster.
+            PreparedSubgoals::Nothing(_) => assert!(!is_labels && k <= self::k(3), "a contraction pays"),
             PreparedSubgoals::Contracted(made) => {
                 assert!(!is_labels, "{exact} bytes fit in {most}");
                 assert_eq!(
