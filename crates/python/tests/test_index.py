@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import multiprocessing
 import pickle
+import subprocess
 import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
@@ -199,6 +200,28 @@ def test_shared_by_threads(rng):
     with ThreadPoolExecutor(8) as pool:
         for got in pool.map(ask, range(8)):
             assert got == pytest.approx(wanted)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits memory as Linux does")
+def test_short_memory():
+    """What does not fit in memory is an error, and the process goes on."""
+    program = """
+import mediant, numpy, resource
+grid = mediant.Grid(numpy.zeros((4000, 4000), bool))
+index = grid.prepare("astar", k=3)
+used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (used + (50 << 20), resource.RLIM_INFINITY))
+for ask in [lambda: index.path((0, 0), (9, 9)), lambda: grid.prepare("jps-plus", k=3)]:
+    try:
+        ask()
+    except MemoryError as error:
+        assert str(error).startswith("there is no room for "), error
+    else:
+        raise AssertionError("there was room")
+resource.setrlimit(resource.RLIMIT_AS, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+assert len(index.path((0, 0), (9, 9))) == 2
+"""
+    subprocess.run([sys.executable, "-c", program], check=True)
 
 
 def test_invalid_queries():
