@@ -93,7 +93,9 @@ impl Choice {
 
 impl Space {
     /// The engine that we would take for many paths, and why. It depends on the motion and on the size of
-    /// the map alone.
+    /// the map alone. Whether subgoals pay on the map is found out when they are prepared; where they do not,
+    /// nothing of them is kept, and another engine searches:
+    /// [`Index::searched_by`](crate::Index::searched_by).
     ///
     /// ```
     /// use mediant::{Engine, K, Map, Motion};

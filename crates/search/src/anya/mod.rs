@@ -65,7 +65,7 @@
 //! **Memory** follows the search, not the map: roots, nodes, and blocks of the root history (module
 //! `history`).
 //!
-//! On eighteen benchmark maps it takes 0.88 of the time of Polyanya in the geometric mean, with nothing
+//! On eighteen benchmark maps it takes 1.02 of the time of Polyanya in the geometric mean, with nothing
 //! prepared (`docs/performance.md`). Times over N(k), and what was tried on the way, are in
 //! `docs/measurements/search.md`.
 
