@@ -122,17 +122,16 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> JpsPlus<G, H, 
     }
 }
 
-impl<P: Placement, J> JumpMoves<P, J> {
-    /// All jumps from a node, by any finder. Returns the number of vertices scanned.
+impl<P: Placement, J: JumpFinder<P>> JumpMoves<P, J> {
+    /// All jumps from a node, step by step. Returns the number of vertices scanned.
     #[inline(never)]
-    fn follow_all<F: JumpFinder<P>>(
+    fn follow_stepwise(
         &self,
-        finder: &F,
         context: &JumpContext<'_, P>,
         node: &ExpandedNode,
         visit: &mut impl FnMut(Successor) -> Option<VertexId>,
     ) -> u32 {
-        let (graph, goal) = (context.graph, context.goal);
+        let (graph, goal, finder) = (context.graph, context.goal, StepwiseFinder);
         let mut scanned = 0;
         let mut follow = |index: usize| {
             if index & 1 == 1 {
@@ -154,8 +153,8 @@ impl<P: Placement, J> JumpMoves<P, J> {
 
     /// The jumps from a node by a set of moves, for k ≤ 3. Returns the number of vertices scanned.
     #[inline]
-    fn follow<F: JumpFinder<P>>(
-        finder: &F,
+    fn follow(
+        finder: &J,
         context: &JumpContext<'_, P>,
         node: &ExpandedNode,
         mut moves: u8,
@@ -214,7 +213,7 @@ impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
             to_goal: ToGoal::new(node.at.to(goal), graph.k()),
         };
         let Some(table) = self.pruning.table().filter(|_| !context.stepwise) else {
-            return self.follow_all(&StepwiseFinder, &context, &node, &mut visit);
+            return self.follow_stepwise(&context, &node, &mut visit);
         };
         let moves = match node.by.filter(|&by| !self.pruning.is_exempt(graph, node.at, by, goal)) {
             None => {
