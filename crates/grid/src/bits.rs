@@ -146,6 +146,36 @@ impl BitMatrix {
         *word = *word & !(1 << (at % 64)) | u64::from(blocked) << (at % 64);
     }
 
+    /// Sets the bits of row y from column `first` on, up to column `end`, which is not one of them. All must
+    /// lie within the frame.
+    ///
+    /// Hidden: what reads a matrix may rely on more of its bits than these.
+    #[doc(hidden)]
+    pub fn set_run(&mut self, y: i32, first: i32, end: i32, blocked: bool) {
+        let row = self.index(0, y).0 as usize;
+        let (mut at, end) = (row + first as usize, row + end as usize);
+        while at < end {
+            let next = end.min((at | 63) + 1);
+            let bits = !0_u64 >> (64 - (next - at)) << (at % 64);
+            let word = &mut self.words[at / 64];
+            *word = if blocked { *word | bits } else { *word & !bits };
+            at = next;
+        }
+    }
+
+    /// Sets the bits of column x from row `first` on, up to row `end`, which is not one of them. All must lie
+    /// within the frame.
+    ///
+    /// Hidden, as [`set_run`](Self::set_run) is.
+    #[doc(hidden)]
+    pub fn set_run_of_column(&mut self, x: i32, first: i32, end: i32, blocked: bool) {
+        let (from, to) = (self.index(x, first).0 as usize, self.index(x, end).0 as usize);
+        let bit = 1_u64 << (from % 64);
+        for word in self.words[from / 64..to / 64].iter_mut().step_by(self.words_per_row as usize) {
+            *word = if blocked { *word | bit } else { *word & !bit };
+        }
+    }
+
     /// The bit of column x, row y; true everywhere beyond the edges.
     #[must_use]
     #[inline]

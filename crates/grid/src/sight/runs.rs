@@ -1,6 +1,6 @@
 //! Runs of free cells in a row, read 64 cells at a time.
 
-use crate::{BitRow, Grid};
+use crate::{BitMatrix, BitRow};
 
 /// The runs of free cells of a row.
 pub trait Runs: Copy {
@@ -17,11 +17,11 @@ pub trait Runs: Copy {
     fn run_start(self, end: i32, to: i32) -> i32;
 }
 
-/// The row of cells that a path enters when it leaves horizontal line `line` downwards (`down` = 1) or
+/// The row, of those of a map, that a path enters when it leaves horizontal line `line` downwards (`down` = 1) or
 /// upwards (−1). Beyond the first and the last line that is a row of the blocked frame.
 #[inline]
-pub fn row_ahead(grid: &Grid, line: i32, down: i32) -> BitRow<'_> {
-    grid.rows().row(line + (down - 1) / 2)
+pub fn row_ahead(rows: &BitMatrix, line: i32, down: i32) -> BitRow<'_> {
+    rows.row(line + (down - 1) / 2)
 }
 
 impl Runs for BitRow<'_> {

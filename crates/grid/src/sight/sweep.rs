@@ -206,7 +206,7 @@ impl VisibilitySweep {
 /// gaps aside: the column of the nearest target, or of the last vertex before an edge that is closed, and
 /// whether it is a target.
 fn along_line(space: &FreeSpace<Corners>, marks: Targets<'_>, from: Vertex, right: i32) -> (i32, bool) {
-    let [above, below] = [1, -1].map(|down| row_ahead(space.grid(), from.y, -down));
+    let [above, below] = [1, -1].map(|down| row_ahead(space.grid().rows(), from.y, -down));
     let [same, opposite] = [marks.same, marks.opposite].map(|marks| marks.row(from.y));
     let mut x = from.x;
     loop {
@@ -249,7 +249,7 @@ impl<'t> Half<'t> {
 
     /// The row of cells beyond a line.
     fn ahead(&self, line: i32) -> BitRow<'t> {
-        row_ahead(self.space.grid(), line, self.down)
+        row_ahead(self.space.grid().rows(), line, self.down)
     }
 
     /// Follows an interval from line to line until it ends. Where it splits, all parts but the first are

@@ -1,7 +1,7 @@
 //! A cone that advances from line to line: the most frequent step of a search, by additions and words.
 
 use mediant_grid::{
-    BitRow, Grid, Vertex,
+    BitMatrix, BitRow, Vertex,
     sight::{Crossing, IntervalEnd, Runs, Side, Window, row_ahead},
 };
 
@@ -63,11 +63,11 @@ impl Edge {
 
 impl<'g> Cone<'g> {
     #[inline]
-    pub(super) fn new(grid: &'g Grid, root: Vertex, node: Node) -> Self {
+    pub(super) fn new(rows: &'g BitMatrix, root: Vertex, node: Node) -> Self {
         let Node { root: number, line, left, right } = node;
         let down = (line - root.y).signum();
         let edge = |ray| Edge::on(IntervalEnd::new(ray, root.x, (line - root.y) * down));
-        let ahead = row_ahead(grid, line, down);
+        let ahead = row_ahead(rows, line, down);
         Self { root, number, line, down, left: edge(left), right: edge(right), ahead }
     }
 

@@ -1,7 +1,7 @@
 //! A search: the successors of a node.
 
 use mediant_grid::{
-    Corners, FreeSpace, Vertex,
+    BitMatrix, Corners, FreeSpace, Vertex,
     sight::{IntervalEnd, Ray, Runs, Side, Window, row_ahead},
 };
 
@@ -15,6 +15,8 @@ use crate::observer::{NodeEvent, Observer};
 /// A search.
 pub(super) struct Search<'s, N: Norm, O> {
     pub(super) space: &'s FreeSpace<Corners>,
+    /// The rows of the map, of which dead ends may be left out.
+    pub(super) rows: &'s BitMatrix,
     pub(super) frontier: &'s mut Frontier<N>,
     pub(super) goal: Vertex,
     pub(super) observer: &'s mut O,
@@ -26,14 +28,13 @@ impl<N: Norm, O: Observer> Search<'_, N, O> {
     /// Forgets the last search and queues the nodes that the start sees.
     pub(super) fn start(&mut self, at: Vertex) {
         self.frontier.start(at);
-        let grid = self.space.grid();
         // From a closed gap a path leaves into the quadrant of the vertex's own cell.
         let gap = self.space.is_closed_gap(at);
         for down in [1, -1] {
             if gap && down < 0 {
                 continue;
             }
-            let strip = row_ahead(grid, at.y, down);
+            let strip = row_ahead(self.rows, at.y, down);
             let first = if gap { at.x } else { strip.run_start(at.x, 0) };
             let end = strip.first_blocked(at.x, i32::MAX);
             if first < end {
@@ -54,19 +55,18 @@ impl<N: Norm, O: Observer> Search<'_, N, O> {
         let found = if node.line == root.y {
             self.goal == Vertex::new(root.x + node.left.dx, root.y)
         } else {
-            node.line == self.goal.y && Cone::new(self.space.grid(), root, node).holds(self.goal)
+            node.line == self.goal.y && Cone::new(self.rows, root, node).holds(self.goal)
         };
         found && self.space.may_turn(Some(root), self.goal, None)
     }
 
     /// Puts the successors of a node on the open list.
     pub(super) fn expand(&mut self, node: Node) {
-        let space = self.space;
         let root = self.frontier.root(node.root).at;
         if node.line == root.y {
             return self.expand_flat(node, root);
         }
-        let mut cone = Cone::new(space.grid(), root, node);
+        let mut cone = Cone::new(self.rows, root, node);
         loop {
             self.next.clear();
             if cone.advance(self.goal) {
@@ -113,8 +113,7 @@ impl<N: Norm, O: Observer> Search<'_, N, O> {
     /// Queues the flat node at the next vertex beyond `from`, on the line of a root, at which a path may turn
     /// or end.
     fn push_flat(&mut self, root: u32, from: Vertex, right: i32) {
-        let grid = self.space.grid();
-        let [above, below] = [-1, 1].map(|down| row_ahead(grid, from.y, down));
+        let [above, below] = [-1, 1].map(|down| row_ahead(self.rows, from.y, down));
         let closed = self.space.has_closed_gaps();
         let mut passed = 0;
         let (steps, dead) = loop {
@@ -153,7 +152,6 @@ impl<N: Norm, O: Observer> Search<'_, N, O> {
     /// Queues the successors of a flat node: paths that turn up or down at its vertex, and the next flat node
     /// on the line.
     fn expand_flat(&mut self, node: Node, root: Vertex) {
-        let grid = self.space.grid();
         let right = node.left.dx.signum();
         let at = Vertex::new(root.x + node.left.dx, root.y);
         let (passed, entered) = if right > 0 { (at.x - 1, at.x) } else { (at.x, at.x - 1) };
@@ -162,7 +160,7 @@ impl<N: Norm, O: Observer> Search<'_, N, O> {
             return;
         }
         for down in [-1, 1] {
-            let strip = row_ahead(grid, at.y, down);
+            let strip = row_ahead(self.rows, at.y, down);
             if !strip.is_blocked(passed) || strip.is_blocked(entered) {
                 continue;
             }

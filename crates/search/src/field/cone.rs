@@ -104,7 +104,7 @@ impl Labels<'_> {
     pub(super) fn along_line(&mut self, root: Root, right: i32) {
         let y = root.at.y;
         let grid = self.space.grid();
-        let [above, below] = [-1, 1].map(|down| row_ahead(grid, y, down));
+        let [above, below] = [-1, 1].map(|down| row_ahead(grid.rows(), y, down));
         let (mut x, mut index) = (root.at.x, root.id.0);
         loop {
             let cell = x + (right - 1) / 2;
@@ -125,7 +125,7 @@ impl Labels<'_> {
     /// `None` for the horizontal.
     pub(super) fn in_cone(&mut self, root: Root, down: i32, left: Option<Ray>, right: Option<Ray>) {
         let at = root.at;
-        let ahead = row_ahead(self.space.grid(), at.y, down);
+        let ahead = row_ahead(self.space.grid().rows(), at.y, down);
         let on_line = |ray| IntervalEnd::new(ray, at.x, 1);
         let corner = |x| IntervalEnd::corner(x, at.x, 1);
         // A ray that leads to the right leaves the vertex through the cell on its right.
@@ -179,7 +179,7 @@ impl Labels<'_> {
     #[inline]
     fn cross_row(&mut self, root: Root, down: i32, Piece { line, left, right }: Piece) {
         let n = (line - root.at.y) * down;
-        let ahead = row_ahead(self.space.grid(), line, down);
+        let ahead = row_ahead(self.space.grid().rows(), line, down);
         let corner = |x: i32, n: i32| IntervalEnd::corner(x, root.at.x, n);
         let (first, last) = (left.here.floor(), right.here.ceil());
         let (low, high) = (left.next().floor().min(first), right.next().ceil().max(last));

@@ -71,20 +71,30 @@ fn check_any(grid: &Arc<Grid>, gap: DiagonalGap, queries: &Queries, seed: u64) -
     let visibility = Visibility::new(grid, gap);
     let graph = visibility.over(None);
     let space = FreeSpace::<Corners>::new(Arc::clone(grid), gap);
-    check(Anya::new(&space), grid, (queries, seed), |start, goals| {
-        let costs = graph.costs_from(start);
-        goals.iter().map(|&goal| costs.to(goal)).collect()
-    })
+    let check = |anya| {
+        check(anya, grid, (queries, seed), |start, goals| {
+            let costs = graph.costs_from(start);
+            goals.iter().map(|&goal| costs.to(goal)).collect()
+        })
+    };
+    let answers = check(Anya::new(&space));
+    assert_eq!(check(Anya::new(&space).without_dead_ends()), answers);
+    answers
 }
 
 /// Checks all queries over N(k), against Dijkstra on the graph of all its moves.
 fn check_over(k: FiniteK, grid: &Arc<Grid>, gap: DiagonalGap, queries: &Queries, seed: u64) -> [u64; 2] {
     let graph = Explicit::new(grid, Rules::Corner(gap), Some(k));
     let space = FreeSpace::<Corners>::new(Arc::clone(grid), gap);
-    check(Anya::over(&space, k).expect("a small k"), grid, (queries, seed), |start, goals| {
-        let costs = graph.costs_from(start);
-        goals.iter().map(|&goal| costs.to(goal)).collect()
-    })
+    let check = |anya| {
+        check(anya, grid, (queries, seed), |start, goals| {
+            let costs = graph.costs_from(start);
+            goals.iter().map(|&goal| costs.to(goal)).collect()
+        })
+    };
+    let answers = check(Anya::over(&space, k).expect("a small k"));
+    assert_eq!(check(Anya::over(&space, k).expect("a small k").without_dead_ends()), answers);
+    answers
 }
 
 /// From each start of a few to some goals each, all random.
