@@ -17,8 +17,8 @@ pub trait Runs: Copy {
     fn run_start(self, end: i32, to: i32) -> i32;
 }
 
-/// The row, of those of a map, that a path enters when it leaves horizontal line `line` downwards (`down` = 1) or
-/// upwards (−1). Beyond the first and the last line that is a row of the blocked frame.
+/// The row, of those of a map, that a path enters when it leaves horizontal line `line` downwards (`down` =
+/// 1) or upwards (−1). Beyond the first and the last line that is a row of the blocked frame.
 #[inline]
 pub fn row_ahead(rows: &BitMatrix, line: i32, down: i32) -> BitRow<'_> {
     rows.row(line + (down - 1) / 2)

@@ -8,21 +8,30 @@
 //! blocked, and others may have one door left: [`DeadEnds`] goes on until there are none. What is left of a
 //! map are the ways around its obstacles.
 //!
-//! **No corner is added** by blocking the run: beyond its door the wall is straight, or goes on from where the
-//! run ended. So every place at which a path turns is one of the map itself, and every gap is, too.
+//! **No corner is added** by blocking the run: beyond its door the wall is straight, or goes on from where
+//! the run ended. So every place at which a path turns is one of the map itself, and every gap is, too.
 //!
 //! **For a query** the runs with a cell at the start or the goal are opened again, all that are behind their
 //! doors, and so on. Nothing else is needed: let C be an opened run and X one that is not. If X was blocked
-//! after C and touches it, at a side or at a gap, then it was there when C was blocked, and so behind the only
-//! door of C, and would be open. So the cells around X are as they were when it was blocked, and the argument
-//! above holds for X, now as then.
+//! after C and touches it, at a side or at a gap, then it was there when C was blocked, and so behind the
+//! only door of C, and would be open. So the cells around X are as they were when it was blocked, and the
+//! argument above holds for X, now as then.
+//!
+//! **Parts.** What is left may still be parts that single doors join (module `parts`). Of these a query needs
+//! those between its ends; if it starts or ends in dead ends, between all that are behind their doors. So no
+//! open dead end touches another part, and the doors between the parts are as they were. The others are shut:
+//! the bridge from each part to its parent is shut but where both are needed, and so is the one from the
+//! uppermost part that is needed.
 //!
 //! **Which cells were a run** is known by two bits a cell. When a run of a row was blocked, the cells at its
-//! ends were blocked, on the map or earlier as parts of columns: so it is the longest run of free cells of the
-//! row that are no parts of columns, and the other way around. The third bit of a cell is whether the search
-//! may enter it. One of the bits is kept in rows and in columns: 0.5 bytes a cell in all.
+//! ends were blocked, on the map or earlier as parts of columns: so it is the longest run of free cells of
+//! the row that are no parts of columns, and the other way around. The third bit of a cell is whether the
+//! search may enter it. One of the bits is kept in rows and in columns: 0.5 bytes a cell in all, and 8 bytes
+//! for each run of a part other than the first.
 
 use mediant_grid::{BitMatrix, Corners, DiagonalGap, FreeSpace, Grid, Vertex};
+
+use super::parts::{Part, Parts};
 
 /// The dead ends of a map.
 #[derive(Clone, Debug)]
@@ -30,8 +39,14 @@ pub(super) struct DeadEnds {
     /// The rows of the map with all dead ends blocked, except those that are open.
     rows: BitMatrix,
     kinds: Kinds,
-    /// The dead ends that are open for the query.
+    /// The dead ends that are open for the query, and the bridges that are open for it.
     open: Vec<Run>,
+    /// What is left of the map without dead ends, in parts.
+    parts: Parts,
+    /// The run that shuts the bridge of the uppermost part for the query.
+    shut: Option<Run>,
+    /// The parts that the query needs, which are not open yet.
+    needed: Vec<u32>,
 }
 
 /// Of which kind of run the cells of dead ends are.
@@ -47,12 +62,12 @@ struct Kinds {
 
 /// A run of cells of a row, or of a column.
 #[derive(Clone, Copy, Debug)]
-struct Run {
-    is_vertical: bool,
+pub(super) struct Run {
+    pub(super) is_vertical: bool,
     /// Its row or column.
-    line: i32,
-    first: i32,
-    end: i32,
+    pub(super) line: i32,
+    pub(super) first: i32,
+    pub(super) end: i32,
 }
 
 impl Run {
@@ -77,8 +92,10 @@ impl DeadEnds {
     pub(super) fn new(space: &FreeSpace<Corners>) -> Self {
         let mut search = DeadEndSearch::new(space);
         search.block_all();
-        let DeadEndSearch { rows, kinds, .. } = search;
-        Self { rows, kinds, open: Vec::new() }
+        let DeadEndSearch { mut rows, kinds, gaps_are_open, .. } = search;
+        let parts = Parts::new(&rows, gaps_are_open);
+        parts.all().iter().for_each(|part| part.inner.set(&mut rows, true));
+        Self { rows, kinds, open: Vec::new(), parts, shut: None, needed: Vec::new() }
     }
 
     /// The bytes that they take when they are made.
@@ -93,6 +110,9 @@ impl DeadEnds {
 
     /// Opens the dead ends that paths between two vertices may need, and closes all others.
     pub(super) fn open(&mut self, grid: &Grid, ends: [Vertex; 2]) {
+        if let Some(run) = self.shut.take() {
+            run.set(&mut self.rows, false);
+        }
         for run in self.open.drain(..) {
             run.set(&mut self.rows, true);
         }
@@ -106,17 +126,52 @@ impl DeadEnds {
             self.open_behind_door(grid, run);
             opened += 1;
         }
+        self.open_bridges();
     }
 
-    /// Opens the dead end of a cell, if it is part of one that is closed.
+    /// Opens the bridges between the parts that are needed, and shuts the one from the uppermost of them to
+    /// its parent.
+    fn open_bridges(&mut self) {
+        self.needed.sort_unstable();
+        self.needed.dedup();
+        // Parents have smaller numbers.
+        while let Some(number) = self.needed.pop()
+            && number != 0
+        {
+            let Part { parent, inner, outer } = self.parts.part(number);
+            inner.set(&mut self.rows, false);
+            self.open.push(inner);
+            if self.needed.is_empty() {
+                if !self.rows.row(outer.line).is_blocked(outer.first) {
+                    outer.set(&mut self.rows, true);
+                    self.shut = Some(outer);
+                }
+            } else if let Err(at) = self.needed.binary_search(&parent) {
+                self.needed.insert(at, parent);
+            }
+        }
+        self.needed.clear();
+    }
+
+    /// Opens the dead end of a cell, if it is part of one that is closed; if it is of none, its part is
+    /// needed.
     fn open_at(&mut self, grid: &Grid, x: i32, y: i32) {
-        if grid.is_blocked(x, y) || !self.rows.row(y).is_blocked(x) {
+        if grid.is_blocked(x, y) {
             return;
         }
         let vertical = self.kinds.vertical.row(y);
+        let is_closed = self.rows.row(y).is_blocked(x);
         let run = if vertical.is_blocked(x) {
+            if !is_closed {
+                return;
+            }
             self.vertical_run(x, y)
         } else {
+            let part = self.parts.of(x, y);
+            if part != 0 || !is_closed {
+                self.need(part, (x, y));
+                return;
+            }
             let free = grid.rows().row(y);
             let first = free.run_start(x, vertical.run_start(x, 0));
             let end = free.first_blocked(x, vertical.first_blocked(x, grid.width() as i32));
@@ -124,6 +179,15 @@ impl DeadEnds {
         };
         run.set(&mut self.rows, false);
         self.open.push(run);
+    }
+
+    /// Notes that the part of a cell is needed. Part 0 counts as that of open dead ends, which have none.
+    fn need(&mut self, part: u32, (x, y): (i32, i32)) {
+        let is_noted = self.needed.contains(&part);
+        let holds = |run: &Run| !run.is_vertical && run.line == y && run.first <= x && x < run.end;
+        if !is_noted && (part != 0 || !self.open.iter().any(holds)) {
+            self.needed.push(part);
+        }
     }
 
     /// The dead end of a column that a cell is part of.
@@ -150,13 +214,15 @@ impl DeadEnds {
             self.open_in_column(grid, beside, (first, end));
             return;
         }
-        let mut x = first;
+        let free = grid.rows().row(beside);
+        let mut x = free.first_free(first, end);
         while x < end {
-            let closed = self.rows.row(beside).word(x) & !grid.rows().row(beside).word(x);
-            x += closed.trailing_zeros() as i32;
-            if closed != 0 && x < end {
-                self.open_at(grid, x, beside);
-            }
+            let is_vertical = self.kinds.vertical.row(beside).is_blocked(x);
+            self.open_at(grid, x, beside);
+            // The rest of its run is opened with it, or in the same part.
+            let next =
+                if is_vertical { x + 1 } else { self.kinds.vertical.row(beside).first_blocked(x, end) };
+            x = free.first_free(next.min(free.first_blocked(x, end).max(x + 1)), end);
         }
     }
 
@@ -302,6 +368,22 @@ mod tests {
         let (width, height) = (grid.width() as i32, grid.height() as i32);
         let lines = (0..height).map(|y| (0..width).map(|x| cell(x, y)).collect());
         lines.collect::<Vec<String>>().join("\n")
+    }
+
+    /// A room behind a corridor is open only if a path starts or ends there; what is before it is then open
+    /// only if it is needed.
+    #[test]
+    fn parts_that_are_not_on_the_way_are_shut() {
+        let space = space(".....\n.#.#.\n.....\n#.###\n...##\n.#.##\n...##", DiagonalGap::Closed);
+        let mut dead_ends = DeadEnds::new(&space);
+        let closed = ".....\n.#.#.\n.....\n#x###\nxxx##\n.#.##\n...##";
+        assert_eq!(draw(&dead_ends, space.grid()), closed);
+        dead_ends.open(space.grid(), [Vertex::new(0, 0), Vertex::new(2, 7)]);
+        assert!(!draw(&dead_ends, space.grid()).contains('x'));
+        dead_ends.open(space.grid(), [Vertex::new(0, 6), Vertex::new(2, 7)]);
+        assert_eq!(draw(&dead_ends, space.grid()), ".....\n.#.#.\n.....\n#x###\n...##\n.#.##\n...##");
+        dead_ends.open(space.grid(), [Vertex::new(0, 0), Vertex::new(5, 3)]);
+        assert_eq!(draw(&dead_ends, space.grid()), closed);
     }
 
     /// A bay on the left, an edge that is rough, and a gap.

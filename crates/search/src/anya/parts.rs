@@ -1,0 +1,262 @@
+//! Parts of a map that are joined by single doors.
+//!
+//! **Graph.** The runs of free cells of a map's rows are the vertices of a graph. Its edges are the *doors*:
+//! the segments at which runs of two rows touch, and gaps that paths may pass. A door is a *bridge* if there
+//! is no way around it, and a part is what bridges leave together. So parts are the nodes of a tree (one for
+//! each component of the map). A path that crosses a bridge and comes back is no shorter, in any norm, than
+//! one that keeps to the segment between both places, which is straight and free. So paths need those parts
+//! alone that are between their ends in the tree. A bridge is shut by blocking the run beyond it. For what is
+//! on this side, that run is a dead end like those of module `dead_ends`: no corner is added.
+//!
+//! Where a run has a door with one other run, both touch in one stretch. So the runs above a run are
+//! neighbors in their row, and so are those below it.
+
+use mediant_grid::BitMatrix;
+
+use super::dead_ends::Run;
+
+/// The parts of a map, with their bridges. Part 0 is the root of each of its trees.
+#[derive(Clone, Debug)]
+pub(super) struct Parts {
+    /// For each row where its runs begin, and at last where they end.
+    rows: Vec<u32>,
+    /// The runs that are not in part 0, row by row.
+    runs: Vec<PartRun>,
+    parts: Vec<Part>,
+}
+
+/// A part, whose parent has a smaller number.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part {
+    pub(super) parent: u32,
+    /// The run at its side of the bridge to the parent.
+    pub(super) inner: Run,
+    /// The run of the parent there.
+    pub(super) outer: Run,
+}
+
+/// A run of a row, from one column up to another, in a part. Maps have at most 2¹⁵ columns.
+#[derive(Clone, Copy, Debug)]
+struct PartRun {
+    first: u16,
+    end: u16,
+    part: u32,
+}
+
+impl Parts {
+    /// The parts of a map with these rows of cells.
+    pub(super) fn new(map: &BitMatrix, gaps_are_open: bool) -> Self {
+        let graph = RunGraph::new(map, gaps_are_open);
+        let (of, parts) = graph.parts();
+        let mut runs = Vec::new();
+        let mut rows = vec![0; map.height() as usize + 1];
+        for (vertex, &part) in graph.vertices.iter().zip(&of).filter(|&(_, &part)| part != 0) {
+            let Run { line, first, end, .. } = vertex.run;
+            runs.push(PartRun { first: first as u16, end: end as u16, part });
+            rows[line as usize + 1] = runs.len() as u32;
+        }
+        for y in 1..rows.len() {
+            rows[y] = rows[y].max(rows[y - 1]);
+        }
+        runs.shrink_to_fit();
+        Self { rows, runs, parts }
+    }
+
+    /// The part of a cell.
+    pub(super) fn of(&self, x: i32, y: i32) -> u32 {
+        let runs = &self.runs[self.rows[y as usize] as usize..self.rows[y as usize + 1] as usize];
+        let at = runs.partition_point(|run| i32::from(run.end) <= x);
+        runs.get(at).filter(|run| i32::from(run.first) <= x).map_or(0, |run| run.part)
+    }
+
+    /// A part other than part 0.
+    pub(super) fn part(&self, number: u32) -> Part {
+        self.parts[number as usize - 1]
+    }
+
+    /// All parts but part 0.
+    pub(super) fn all(&self) -> &[Part] {
+        &self.parts
+    }
+}
+
+/// The graph of the runs of a map.
+struct RunGraph {
+    vertices: Vec<RunVertex>,
+}
+
+/// A run with its neighbors: vertices in a row above and below.
+struct RunVertex {
+    run: Run,
+    above: (u32, u32),
+    below: (u32, u32),
+}
+
+impl RunVertex {
+    /// Its `index`-th neighbor.
+    const fn neighbor(&self, index: u32) -> Option<u32> {
+        let above = self.above.1 - self.above.0;
+        if index < above {
+            Some(self.above.0 + index)
+        } else if index - above < self.below.1 - self.below.0 {
+            Some(self.below.0 + index - above)
+        } else {
+            None
+        }
+    }
+}
+
+/// What a depth-first search knows of a vertex.
+#[derive(Clone, Copy)]
+struct Visit {
+    /// When it was first reached, from 1 on; 0 if it was not.
+    time: u32,
+    /// The neighbor from which it was reached; itself where the search began.
+    parent: u32,
+    /// The next neighbor to look at; later the earliest time that is reached from it and its descendants.
+    next: u32,
+}
+
+impl RunGraph {
+    fn new(map: &BitMatrix, gaps_are_open: bool) -> Self {
+        let mut vertices: Vec<RunVertex> = Vec::new();
+        let width = map.width() as i32;
+        let (mut above, reach) = (0, i32::from(gaps_are_open));
+        for y in 0..map.height() as i32 {
+            let (row, start) = (map.row(y), vertices.len());
+            let mut first = row.first_free(0, width);
+            while first < width {
+                let end = row.first_blocked(first, width);
+                // The runs above that end before this one, or at its corner if paths may not pass there.
+                while above < start && vertices[above].run.end + reach <= first {
+                    above += 1;
+                }
+                let (number, mut last) = (vertices.len() as u32, above);
+                while last < start && vertices[last].run.first < end + reach {
+                    let below = &mut vertices[last].below;
+                    *below = (if below.1 == 0 { number } else { below.0 }, number + 1);
+                    last += 1;
+                }
+                let run = Run { is_vertical: false, line: y, first, end };
+                vertices.push(RunVertex { run, above: (above as u32, last as u32), below: (0, 0) });
+                first = row.first_free(end, width);
+            }
+            above = start;
+        }
+        Self { vertices }
+    }
+
+    /// The part of each run, and all parts but part 0.
+    fn parts(&self) -> (Vec<u32>, Vec<Part>) {
+        let (mut visits, order) = self.visit_all();
+        for &v in order.iter().rev() {
+            visits[v as usize].next = self.earliest(v, &visits);
+        }
+        let (mut of, mut parts) = (vec![0; visits.len()], Vec::new());
+        for v in order {
+            let Visit { time, parent, next: earliest } = visits[v as usize];
+            let above = of[parent as usize];
+            of[v as usize] = if parent == v || earliest < time {
+                above
+            } else {
+                let [inner, outer] = [v, parent].map(|v| self.vertices[v as usize].run);
+                parts.push(Part { parent: above, inner, outer });
+                parts.len() as u32
+            };
+        }
+        (of, parts)
+    }
+
+    /// Searches all runs depth first, from the longest one on, so that part 0 is likely to be a large one.
+    fn visit_all(&self) -> (Vec<Visit>, Vec<u32>) {
+        let count = self.vertices.len() as u32;
+        let mut visits = vec![Visit { time: 0, parent: 0, next: 0 }; count as usize];
+        let mut order = Vec::with_capacity(count as usize);
+        let longest = (0..count).max_by_key(|&v| {
+            let Run { first, end, .. } = self.vertices[v as usize].run;
+            end - first
+        });
+        for from in longest.into_iter().chain(0..count) {
+            if visits[from as usize].time != 0 {
+                continue;
+            }
+            let (mut v, mut parent) = (from, from);
+            loop {
+                let visit = &mut visits[v as usize];
+                if visit.time == 0 {
+                    order.push(v);
+                    *visit = Visit { time: order.len() as u32, parent, next: 0 };
+                }
+                let next = self.vertices[v as usize].neighbor(visit.next);
+                visit.next += 1;
+                match next {
+                    Some(u) if visits[u as usize].time == 0 => (v, parent) = (u, v),
+                    Some(_) => {}
+                    None if visits[v as usize].parent == v => break,
+                    None => v = visits[v as usize].parent,
+                }
+            }
+        }
+        (visits, order)
+    }
+
+    /// The earliest time that is reached from a run and its descendants, where it is known of them.
+    fn earliest(&self, v: u32, visits: &[Visit]) -> u32 {
+        let Visit { time, parent, .. } = visits[v as usize];
+        let vertex = &self.vertices[v as usize];
+        let neighbors = (0..).map_while(|index| vertex.neighbor(index));
+        let reached = neighbors.map(|u| {
+            let visit = visits[u as usize];
+            if visit.parent == v && visit.time > time {
+                visit.next
+            } else if u == parent && !self.is_gap(v, u) {
+                time
+            } else {
+                visit.time
+            }
+        });
+        reached.fold(time, u32::min)
+    }
+
+    /// Whether two neighbors touch at a gap alone. That is no straight door, so it counts as two ways.
+    fn is_gap(&self, v: u32, u: u32) -> bool {
+        let [v, u] = [v, u].map(|v| self.vertices[v as usize].run);
+        v.end == u.first || u.end == v.first
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use mediant_grid::AsciiMap;
+
+    use super::*;
+
+    /// The parts of the cells, `#` where they are blocked.
+    fn draw(drawing: &str, gaps_are_open: bool) -> String {
+        let grid = AsciiMap::parse(drawing).expect("the drawing is a map").grid;
+        let parts = Parts::new(grid.rows(), gaps_are_open);
+        let cell = |x, y| match grid.is_blocked(x, y) {
+            true => '#',
+            false => char::from_digit(parts.of(x, y), 10).expect("few parts"),
+        };
+        let (width, height) = (grid.width() as i32, grid.height() as i32);
+        (0..height).map(|y| (0..width).map(|x| cell(x, y)).collect()).collect::<Vec<String>>().join("\n")
+    }
+
+    /// A ring at the top, a corridor, and a ring at the bottom.
+    #[test]
+    fn what_bridges_leave_together_is_a_part() {
+        let rings = ".....\n.#.#.\n.....\n#.###\n#.###\n...##\n.#.##\n...##";
+        let parts = "00000\n0#0#0\n00000\n#1###\n#2###\n333##\n3#3##\n333##";
+        assert_eq!(draw(rings, true), parts);
+        assert_eq!(draw(rings, false), parts);
+    }
+
+    /// Where paths may pass a gap, it is a way around others, and never a bridge.
+    #[test]
+    fn gaps_are_ways() {
+        assert_eq!(draw("..#\n.#.\n...", true), "00#\n0#0\n000");
+        assert_eq!(draw("..#\n.#.\n...", false), "22#\n1#3\n000");
+        assert_eq!(draw("..##\n##..", true), "00##\n##00");
+    }
+}
