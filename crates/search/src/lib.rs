@@ -68,7 +68,7 @@ mod theta;
 mod trace;
 mod wavefront;
 
-pub use anya::{Anya, EuclideanNorm, LatticeNorm, Norm};
+pub use anya::{Anya, DeadEnds, EuclideanNorm, LatticeNorm, Norm};
 pub use astar::{AStar, Dijkstra};
 pub use canonical::{Canonical, CanonicalRule, PaperCanonical, Pruning};
 pub use distances::Distances;

@@ -32,7 +32,7 @@
 //!
 //! **Dead ends.** No shortest path enters a part of the map behind a straight door, unless it starts or ends
 //! there. Where many queries are made on a map, the planner may find these parts beforehand, in about a
-//! nanosecond a cell, and leave them out (modules `dead_ends` and `parts`): on maps of games often more than
+//! nanosecond a cell, and leave them out (module `dead_ends`): on maps of games often more than
 //! half of the nodes.
 //!
 //! **Over N(k).** Only lengths know the metric (module `norm`). With h_k for the Euclidean length the search
@@ -79,9 +79,9 @@ mod dead_ends;
 mod frontier;
 mod history;
 mod norm;
-mod parts;
 mod planner;
 mod search;
 
+pub use dead_ends::DeadEnds;
 pub use norm::{EuclideanNorm, LatticeNorm, Norm};
 pub use planner::Anya;

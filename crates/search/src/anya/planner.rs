@@ -1,13 +1,13 @@
 //! Anya: the planner.
 
-use std::ops::Deref;
+use std::{ops::Deref, sync::Arc};
 
-use mediant_grid::{BitMatrix, Corners, FreeSpace, Identity, Vertex};
+use mediant_grid::{BitMatrix, Corners, FreeSpace, Identity, Mismatch, Vertex};
 use mediant_moves::{CostTable, FiniteK, KError};
 
 use super::{
     cone::Successor,
-    dead_ends::DeadEnds,
+    dead_ends::{DeadEnds, Opened},
     frontier::Frontier,
     history::RootHistory,
     norm::{EuclideanNorm, LatticeNorm, Norm},
@@ -53,8 +53,8 @@ use crate::{
 #[derive(Clone, Debug)]
 pub struct Anya<S, N: Norm = EuclideanNorm> {
     space: S,
-    /// The dead ends of the map, if they are left out.
-    dead_ends: Option<DeadEnds>,
+    /// The map without dead ends, if they are left out.
+    opened: Option<Opened>,
     frontier: Frontier<N>,
     /// The successors of the node under expansion.
     next: Vec<Successor>,
@@ -69,13 +69,6 @@ impl Anya<()> {
     #[must_use]
     pub fn scratch_bytes(space: &FreeSpace<Corners>) -> usize {
         RootHistory::bytes(space.grid().width() + 1, space.grid().height() + 1)
-    }
-
-    /// The memory that a planner takes for the dead ends that it [leaves out](Anya::without_dead_ends), in
-    /// bytes, but for some 8 bytes for each run of cells in rooms that single doors lead to.
-    #[must_use]
-    pub fn dead_end_bytes(space: &FreeSpace<Corners>) -> usize {
-        DeadEnds::bytes(space)
     }
 }
 
@@ -101,28 +94,36 @@ impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Anya<S, N> {
     fn with_norm(space: S, norm: N) -> Self {
         let frontier = Frontier::new(norm, space.grid().width() + 1, space.grid().height() + 1);
         let (goal, status) = (Vertex::new(0, 0), Status::default());
-        Self { space, dead_ends: None, frontier, next: Vec::new(), goal, last: None, status }
+        Self { space, opened: None, frontier, next: Vec::new(), goal, last: None, status }
     }
 
-    /// Prepares the planner for many queries: its searches leave out the dead ends of the map, such as bays,
-    /// alcoves and all that lies behind a single door, except those where they start or end, and what is on
-    /// the way. That takes about a nanosecond (in noise some ten) and half a byte a cell. Paths cost the
-    /// same; of several shortest ones it may find another.
+    /// The same planner, whose searches leave out the dead ends of the map, except those where they start or
+    /// end, and what is on the way. Paths cost the same; of several shortest ones it may find another. It
+    /// takes one bit a cell more.
+    ///
+    /// # Errors
+    /// [`Mismatch`] for the dead ends of another map or rule of motion.
+    pub fn without(self, dead_ends: Arc<DeadEnds>) -> Result<Self, Mismatch> {
+        dead_ends.identity().check("the dead ends", ("the free space", self.space.identity()))?;
+        Ok(Self { opened: Some(Opened::new(dead_ends)), ..self })
+    }
+
+    /// [`without`](Self::without) the dead ends of its map, which are found now.
     #[must_use]
     pub fn without_dead_ends(self) -> Self {
-        let dead_ends = Some(DeadEnds::new(&self.space));
-        Self { dead_ends, ..self }
+        let opened = Some(Opened::new(Arc::new(DeadEnds::new(&self.space))));
+        Self { opened, ..self }
     }
 
     /// The rows of the map, as far as it is searched.
-    fn rows<'a>(space: &'a FreeSpace<Corners>, dead_ends: Option<&'a DeadEnds>) -> &'a BitMatrix {
-        dead_ends.map_or_else(|| space.grid().rows(), DeadEnds::rows)
+    fn rows<'a>(space: &'a FreeSpace<Corners>, opened: Option<&'a Opened>) -> &'a BitMatrix {
+        opened.map_or_else(|| space.grid().rows(), Opened::rows)
     }
 
     /// Expands nodes until the best one holds the goal, none is open, or the observer pauses.
     fn run(&mut self, observer: &mut impl Observer) -> Status {
-        let Self { space, dead_ends, frontier, next, goal, last, .. } = self;
-        let rows = Self::rows(space, dead_ends.as_ref());
+        let Self { space, opened, frontier, next, goal, last, .. } = self;
+        let rows = Self::rows(space, opened.as_ref());
         let mut search = Search { space, rows, frontier, goal: *goal, observer, next };
         loop {
             let Some((f, node)) = search.frontier.best() else { return Status::Unreachable };
@@ -154,15 +155,15 @@ impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Planner for Anya<S, N> {
         self.status = Status::Unreachable;
         let ends = query.ends(&self.space)?;
         (self.goal, self.last) = (query.goal, None);
-        let Self { space, dead_ends, frontier, next, goal, .. } = self;
+        let Self { space, opened, frontier, next, goal, .. } = self;
         if ends.is_some() && query.start == query.goal {
             frontier.start(query.start);
             self.status = Status::Found;
         } else if ends.is_some() {
-            if let Some(dead_ends) = dead_ends {
-                dead_ends.open(space.grid(), [query.start, query.goal]);
+            if let Some(opened) = opened {
+                opened.open(space.grid(), [query.start, query.goal]);
             }
-            let rows = Self::rows(space, dead_ends.as_ref());
+            let rows = Self::rows(space, opened.as_ref());
             Search { space, rows, frontier, goal: *goal, observer, next }.start(query.start);
             self.status = Status::Searching;
         }

@@ -6,14 +6,14 @@
 //! each component of the map). A path that crosses a bridge and comes back is no shorter, in any norm, than
 //! one that keeps to the segment between both places, which is straight and free. So paths need those parts
 //! alone that are between their ends in the tree. A bridge is shut by blocking the run beyond it. For what is
-//! on this side, that run is a dead end like those of module `dead_ends`: no corner is added.
+//! on this side, that run is a dead end like those of the module above: no corner is added.
 //!
 //! Where a run has a door with one other run, both touch in one stretch. So the runs above a run are
 //! neighbors in their row, and so are those below it.
 
 use mediant_grid::BitMatrix;
 
-use super::dead_ends::Run;
+use super::Run;
 
 /// The parts of a map, with their bridges. Part 0 is the root of each of its trees.
 #[derive(Clone, Debug)]
@@ -72,6 +72,12 @@ impl Parts {
     /// A part other than part 0.
     pub(super) fn part(&self, number: u32) -> Part {
         self.parts[number as usize - 1]
+    }
+
+    /// The memory that they take, in bytes.
+    pub(super) fn memory_bytes(&self) -> usize {
+        let Self { rows, runs, parts } = self;
+        size_of_val(&**rows) + size_of_val(&**runs) + size_of_val(&**parts)
     }
 
     /// All parts but part 0.

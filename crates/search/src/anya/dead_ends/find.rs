@@ -1,0 +1,114 @@
+//! Finds the dead ends of a map.
+
+use mediant_grid::{BitMatrix, Corners, DiagonalGap, FreeSpace};
+
+use super::{Kinds, Run};
+
+/// The search for the dead ends of a map.
+pub(super) struct DeadEndSearch {
+    pub(super) rows: BitMatrix,
+    columns: BitMatrix,
+    pub(super) kinds: Kinds,
+    /// Whether paths may pass gaps.
+    pub(super) gaps_are_open: bool,
+}
+
+impl DeadEndSearch {
+    pub(super) fn new(space: &FreeSpace<Corners>) -> Self {
+        let grid = space.grid();
+        let (rows, columns) = (grid.rows().clone(), grid.columns().clone());
+        let empty = BitMatrix::from_words(grid.width(), grid.height(), false, |_, _| 0);
+        let kinds = Kinds {
+            vertical: empty.clone(),
+            vertical_columns: BitMatrix::from_words(grid.height(), grid.width(), false, |_, _| 0),
+            beyond: empty,
+        };
+        let gaps_are_open = space.rule() == DiagonalGap::Open;
+        Self { rows, columns, kinds, gaps_are_open }
+    }
+
+    /// Blocks dead ends until there are none: those of rows, then those of columns, and again, but only along
+    /// lines where something has changed.
+    pub(super) fn block_all(&mut self) {
+        let (mut rows, mut columns) =
+            (vec![true; self.rows.height() as usize], vec![true; self.columns.height() as usize]);
+        loop {
+            self.block_along(false, &mut rows, &mut columns);
+            if !columns.contains(&true) {
+                return;
+            }
+            self.block_along(true, &mut columns, &mut rows);
+        }
+    }
+
+    /// Blocks the dead ends along the lines that have changed, and marks the lines across that change by it.
+    fn block_along(&mut self, is_vertical: bool, changed: &mut [bool], across: &mut [bool]) {
+        for (line, changed) in (0..).zip(changed) {
+            if !std::mem::take(changed) {
+                continue;
+            }
+            let mut at = 0;
+            while let Some(run) = self.run_from(is_vertical, line, at) {
+                self.block_chain(run, across);
+                at = run.end;
+            }
+        }
+    }
+
+    const fn lines(&self, is_vertical: bool) -> &BitMatrix {
+        if is_vertical { &self.columns } else { &self.rows }
+    }
+
+    /// The first run of free cells of a line from `from` on.
+    fn run_from(&self, is_vertical: bool, line: i32, from: i32) -> Option<Run> {
+        let lines = self.lines(is_vertical);
+        let (row, length) = (lines.row(line), lines.width() as i32);
+        let first = row.first_free(from, length);
+        (first < length).then(|| Run { is_vertical, line, first, end: row.first_blocked(first, length) })
+    }
+
+    /// Blocks a run if it is a dead end, then the one behind its door if that is one now, and so on.
+    fn block_chain(&mut self, mut run: Run, across: &mut [bool]) {
+        while let Some((side, (first, end))) = self.door(run) {
+            run.set(&mut self.rows, true);
+            run.set_across(&mut self.columns, true);
+            if run.is_vertical {
+                run.set(&mut self.kinds.vertical, true);
+                run.set_across(&mut self.kinds.vertical_columns, true);
+            }
+            if side > 0 {
+                run.set(&mut self.kinds.beyond, true);
+            }
+            // Across the line only the runs that the door leads to go on.
+            across[first as usize..end as usize].fill(true);
+            let line = run.line + side;
+            let start = self.lines(run.is_vertical).row(line).run_start(first, 0);
+            let Some(next) = self.run_from(run.is_vertical, line, start) else { return };
+            run = next;
+        }
+    }
+
+    /// The door of a dead end: on which side it is, and from where to where; `None` for other runs.
+    fn door(&self, run: Run) -> Option<(i32, (i32, i32))> {
+        let Run { is_vertical, line, first, end } = run;
+        let row = self.lines(is_vertical).row(line);
+        let mut door = None;
+        for side in [-1, 1] {
+            let beside = row.below(side);
+            let start = beside.first_free(first, end);
+            if start == end {
+                continue;
+            }
+            let stop = beside.first_blocked(start, end);
+            if door.is_some() || beside.first_free(stop, end) < end {
+                return None;
+            }
+            door = Some((side, (start, stop)));
+        }
+        let gap = |outer: i32, inner: i32| {
+            let is_gap = |side| row.below(side).is_blocked(inner) && !row.below(side).is_blocked(outer);
+            is_gap(-1) || is_gap(1)
+        };
+        door.filter(|_| !self.gaps_are_open || !gap(first - 1, first) && !gap(end, end - 1))
+    }
+}
