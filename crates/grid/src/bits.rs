@@ -333,11 +333,23 @@ impl BitRow<'_> {
     /// `to`. If column `end` − 1 is blocked, `end` itself.
     #[must_use]
     #[inline]
-    pub fn run_start(self, mut end: i32, to: i32) -> i32 {
+    pub fn run_start(self, end: i32, to: i32) -> i32 {
+        self.start_of(end, to, |word| word)
+    }
+
+    /// The column where the blocked columns before `end` begin, at the earliest `to`; `end` if there are none.
+    #[must_use]
+    #[inline]
+    pub fn blocked_start(self, end: i32, to: i32) -> i32 {
+        self.start_of(end, to, |word| !word)
+    }
+
+    #[inline]
+    fn start_of(self, mut end: i32, to: i32, before: impl Fn(u64) -> u64) -> i32 {
         while end > to {
-            let blocked = self.word(end - 64);
-            if blocked != 0 {
-                return to.max(end - blocked.leading_zeros() as i32);
+            let found = before(self.word(end - 64));
+            if found != 0 {
+                return to.max(end - found.leading_zeros() as i32);
             }
             end -= 64;
         }

@@ -7,7 +7,7 @@ use super::{Kinds, Run};
 /// The search for the dead ends of a map.
 pub(super) struct DeadEndSearch {
     pub(super) rows: BitMatrix,
-    columns: BitMatrix,
+    pub(super) columns: BitMatrix,
     pub(super) kinds: Kinds,
     /// Whether paths may pass gaps.
     pub(super) gaps_are_open: bool,

@@ -52,6 +52,8 @@ pub struct DeadEnds {
     identity: Identity,
     /// The rows of the map with all dead ends blocked, but with all parts open.
     rows: BitMatrix,
+    /// The same in columns.
+    columns: BitMatrix,
     kinds: Kinds,
     /// What is left of the map without dead ends, in parts.
     parts: Parts,
@@ -101,9 +103,9 @@ impl DeadEnds {
     pub fn new(space: &FreeSpace<Corners>) -> Self {
         let mut search = DeadEndSearch::new(space);
         search.block_all();
-        let DeadEndSearch { rows, kinds, gaps_are_open, .. } = search;
+        let DeadEndSearch { rows, columns, kinds, gaps_are_open } = search;
         let parts = Parts::new(&rows, gaps_are_open);
-        Self { identity: space.identity(), rows, kinds, parts }
+        Self { identity: space.identity(), rows, columns, kinds, parts }
     }
 
     /// What they belong to: the map and the rule of motion, for every k.
@@ -115,14 +117,16 @@ impl DeadEnds {
     /// The memory that those of a map take, in bytes, but for what its parts take.
     #[must_use]
     pub fn bytes(space: &FreeSpace<Corners>) -> usize {
-        4 * size_of_val(space.grid().rows().words()) + size_of_val(space.grid().columns().words())
+        3 * size_of_val(space.grid().rows().words()) + 2 * size_of_val(space.grid().columns().words())
     }
 
     /// The memory that they take, in bytes.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
-        let Self { rows, kinds: Kinds { vertical, vertical_columns, beyond }, parts, .. } = self;
-        let matrices = [rows, vertical, vertical_columns, beyond].map(|matrix| size_of_val(matrix.words()));
+        let Self { rows, columns, kinds, parts, .. } = self;
+        let Kinds { vertical, vertical_columns, beyond } = kinds;
+        let matrices =
+            [rows, columns, vertical, vertical_columns, beyond].map(|matrix| size_of_val(matrix.words()));
         matrices.iter().sum::<usize>() + parts.memory_bytes()
     }
 

@@ -81,51 +81,31 @@ impl Opened {
     /// Opens the dead end of a cell, if it is part of one that is closed; if it is of none, its part is
     /// needed.
     fn open_at(&mut self, grid: &Grid, x: i32, y: i32) {
-        if grid.is_blocked(x, y) {
-            return;
+        if !self.dead_ends.rows.row(y).is_blocked(x) {
+            note(&mut self.needed, self.dead_ends.parts.of(x, y));
+        } else if grid.is_free(x, y) && self.rows.row(y).is_blocked(x) {
+            let run = if self.dead_ends.kinds.vertical.row(y).is_blocked(x) {
+                self.vertical_run(x, y)
+            } else {
+                self.horizontal_run(grid, x, y)
+            };
+            run.set(&mut self.rows, false);
+            self.open.push(run);
         }
-        let vertical = self.dead_ends.kinds.vertical.row(y);
-        let is_closed = self.rows.row(y).is_blocked(x);
-        let run = if vertical.is_blocked(x) {
-            if !is_closed {
-                return;
-            }
-            self.vertical_run(x, y)
-        } else {
-            let part = self.dead_ends.parts.of(x, y);
-            if part != 0 || !is_closed {
-                self.need(part, (x, y));
-                return;
-            }
-            let free = grid.rows().row(y);
-            let first = free.run_start(x, vertical.run_start(x, 0));
-            let end = free.first_blocked(x, vertical.first_blocked(x, grid.width() as i32));
-            Run { is_vertical: false, line: y, first, end }
-        };
-        run.set(&mut self.rows, false);
-        self.open.push(run);
     }
 
-    /// Notes that the part of a cell is needed. Part 0 counts as that of open dead ends, which have none.
-    fn need(&mut self, part: u32, (x, y): (i32, i32)) {
-        let is_noted = self.needed.contains(&part);
-        let holds = |run: &Run| !run.is_vertical && run.line == y && run.first <= x && x < run.end;
-        if !is_noted && (part != 0 || !self.open.iter().any(holds)) {
-            self.needed.push(part);
-        }
+    /// The dead end of a row that a cell is part of.
+    fn horizontal_run(&self, grid: &Grid, x: i32, y: i32) -> Run {
+        let (free, vertical) = (grid.rows().row(y), self.dead_ends.kinds.vertical.row(y));
+        let first = free.run_start(x, vertical.run_start(x, 0));
+        let end = free.first_blocked(x, vertical.first_blocked(x, grid.width() as i32));
+        Run { is_vertical: false, line: y, first, end }
     }
 
     /// The dead end of a column that a cell is part of.
     fn vertical_run(&self, x: i32, y: i32) -> Run {
         let column = self.dead_ends.kinds.vertical_columns.row(x);
-        let mut first = y;
-        while first > 0 {
-            let ones = column.word(first - 64).leading_ones() as i32;
-            first -= ones;
-            if ones < 64 {
-                break;
-            }
-        }
+        let first = column.blocked_start(y, 0);
         Run { is_vertical: true, line: x, first, end: column.first_free(y, self.rows.height() as i32) }
     }
 
@@ -137,31 +117,52 @@ impl Opened {
         let beside = line + if self.dead_ends.kinds.beyond.row(y).is_blocked(x) { 1 } else { -1 };
         if is_vertical {
             self.open_in_column(grid, beside, (first, end));
-            return;
-        }
-        let free = grid.rows().row(beside);
-        let mut x = free.first_free(first, end);
-        while x < end {
-            let is_vertical = self.dead_ends.kinds.vertical.row(beside).is_blocked(x);
-            self.open_at(grid, x, beside);
-            // The rest of its run is opened with it, or in the same part.
-            let next = if is_vertical {
-                x + 1
-            } else {
-                self.dead_ends.kinds.vertical.row(beside).first_blocked(x, end)
-            };
-            x = free.first_free(next.min(free.first_blocked(x, end).max(x + 1)), end);
+        } else {
+            self.open_in_row(grid, beside, (first, end));
         }
     }
 
-    /// Opens the closed dead ends at some cells of a column.
+    /// Opens the closed dead ends at some cells of a row, and notes the parts of others.
+    fn open_in_row(&mut self, grid: &Grid, y: i32, (first, end): (i32, i32)) {
+        let free = grid.rows().row(y);
+        let mut x = free.first_free(first, end);
+        while x < end {
+            self.open_at(grid, x, y);
+            let DeadEnds { rows, kinds, .. } = &*self.dead_ends;
+            let next = if !rows.row(y).is_blocked(x) {
+                rows.row(y).first_blocked(x, end)
+            } else if kinds.vertical.row(y).is_blocked(x) {
+                x + 1
+            } else {
+                free.first_blocked(x, kinds.vertical.row(y).first_blocked(x, end))
+            };
+            x = free.first_free(next, end);
+        }
+    }
+
+    /// Opens the closed dead ends at some cells of a column, and notes the parts of others.
     fn open_in_column(&mut self, grid: &Grid, x: i32, (first, end): (i32, i32)) {
         let free = grid.columns().row(x);
         let mut y = free.first_free(first, end);
         while y < end {
-            self.open_at(grid, x, y);
-            y = free
-                .first_free(self.dead_ends.kinds.vertical_columns.row(x).first_free(y, end).max(y + 1), end);
+            let DeadEnds { columns, kinds, parts, .. } = &*self.dead_ends;
+            let next = if columns.row(x).is_blocked(y) {
+                let next = kinds.vertical_columns.row(x).first_free(y, end).max(y + 1);
+                self.open_at(grid, x, y);
+                next
+            } else {
+                let next = columns.row(x).first_blocked(y, end);
+                parts.for_each_in_column(x, (y, next), |part| note(&mut self.needed, part));
+                next
+            };
+            y = free.first_free(next, end);
         }
+    }
+}
+
+/// Adds a number to a short list, if it is not there.
+fn note(numbers: &mut Vec<u32>, number: u32) {
+    if !numbers.contains(&number) {
+        numbers.push(number);
     }
 }

@@ -69,6 +69,21 @@ impl Parts {
         runs.get(at).filter(|run| i32::from(run.first) <= x).map_or(0, |run| run.part)
     }
 
+    /// Calls `visit` for the parts of some cells of a column, again and again for each of them.
+    pub(super) fn for_each_in_column(&self, x: i32, (first, end): (i32, i32), mut visit: impl FnMut(u32)) {
+        let mut is_in_first = false;
+        for (y, row) in (first..end).zip(self.rows[first as usize..=end as usize].windows(2)) {
+            if row[0] == row[1] {
+                is_in_first = true;
+            } else {
+                visit(self.of(x, y));
+            }
+        }
+        if is_in_first {
+            visit(0);
+        }
+    }
+
     /// A part other than part 0.
     pub(super) fn part(&self, number: u32) -> Part {
         self.parts[number as usize - 1]
