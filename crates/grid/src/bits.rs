@@ -152,15 +152,7 @@ impl BitMatrix {
     /// Hidden: what reads a matrix may rely on more of its bits than these.
     #[doc(hidden)]
     pub fn set_run(&mut self, y: i32, first: i32, end: i32, blocked: bool) {
-        let row = self.index(0, y).0 as usize;
-        let (mut at, end) = (row + first as usize, row + end as usize);
-        while at < end {
-            let next = end.min((at | 63) + 1);
-            let bits = !0_u64 >> (64 - (next - at)) << (at % 64);
-            let word = &mut self.words[at / 64];
-            *word = if blocked { *word | bits } else { *word & !bits };
-            at = next;
-        }
+        self.run(y, first, end).for_each(|word, bits| self.set_word(word, bits, blocked));
     }
 
     /// Sets the bits of column x from row `first` on, up to row `end`, which is not one of them. All must lie
@@ -169,11 +161,42 @@ impl BitMatrix {
     /// Hidden, as [`set_run`](Self::set_run) is.
     #[doc(hidden)]
     pub fn set_run_of_column(&mut self, x: i32, first: i32, end: i32, blocked: bool) {
-        let (from, to) = (self.index(x, first).0 as usize, self.index(x, end).0 as usize);
-        let bit = 1_u64 << (from % 64);
-        for word in self.words[from / 64..to / 64].iter_mut().step_by(self.words_per_row as usize) {
-            *word = if blocked { *word | bit } else { *word & !bit };
-        }
+        self.run_of_column(x, first, end).for_each(|word, bits| self.set_word(word, bits, blocked));
+    }
+
+    /// [`set_run`](Self::set_run) (or, along a column, [`set_run_of_column`](Self::set_run_of_column)) in a
+    /// matrix whose union with `other` is kept in `union`. All have the same size.
+    ///
+    /// Hidden, as these are.
+    #[doc(hidden)]
+    pub fn set_run_in_union(
+        &mut self,
+        (other, union): (&Self, &mut Self),
+        (is_vertical, line): (bool, i32),
+        (first, end): (i32, i32),
+        blocked: bool,
+    ) {
+        let run = if is_vertical { self.run_of_column(line, first, end) } else { self.run(line, first, end) };
+        run.for_each(|word, bits| {
+            self.set_word(word, bits, blocked);
+            let joined = self.words[word] | other.words[word];
+            union.words[word] = union.words[word] & !bits | joined & bits;
+        });
+    }
+
+    const fn run(&self, y: i32, first: i32, end: i32) -> BitRun {
+        BitRun { from: self.index(first, y).0 as usize, to: self.index(end, y).0 as usize, step: 0 }
+    }
+
+    const fn run_of_column(&self, x: i32, first: i32, end: i32) -> BitRun {
+        let step = self.words_per_row as usize;
+        BitRun { from: self.index(x, first).0 as usize, to: self.index(x, end).0 as usize, step }
+    }
+
+    #[inline]
+    fn set_word(&mut self, word: usize, bits: u64, blocked: bool) {
+        let word = &mut self.words[word];
+        *word = if blocked { *word | bits } else { *word & !bits };
     }
 
     /// The bit of column x, row y; true everywhere beyond the edges.
@@ -225,6 +248,38 @@ impl BitMatrix {
         }
         let keep = !0_u64 >> (63 - (last - x).clamp(0, 63));
         last >= x && word(x) & keep != 0
+    }
+}
+
+/// Bits of a row or of a column.
+struct BitRun {
+    /// The first bit, and the one after the last.
+    from: usize,
+    to: usize,
+    /// The words between bits of a column; 0 for a row.
+    step: usize,
+}
+
+impl BitRun {
+    /// Calls `visit` with the words and a mask of the bits in each.
+    #[inline(always)]
+    fn for_each(self, mut visit: impl FnMut(usize, u64)) {
+        let Self { from, to, step } = self;
+        if step != 0 {
+            let bit = 1 << (from % 64);
+            let mut word = from / 64;
+            while word < to / 64 {
+                visit(word, bit);
+                word += step;
+            }
+            return;
+        }
+        let mut at = from;
+        while at < to {
+            let next = to.min((at | 63) + 1);
+            visit(at / 64, !0_u64 >> (64 - (next - at)) << (at % 64));
+            at = next;
+        }
     }
 }
 

@@ -17,18 +17,21 @@
 //! only door of C, and would be open. So the cells around X are as they were when it was blocked, and the
 //! argument above holds for X, now as then.
 //!
-//! **Parts.** What is left may still be parts that single doors join (module `parts`). Of these a query needs
-//! those between its ends; if it starts or ends in dead ends, between all that are behind their doors. So no
-//! open dead end touches another part, and the doors between the parts are as they were. The others are shut:
-//! the bridge from each part to its parent is shut but where both are needed, and so is the one from the
-//! uppermost part that is needed.
+//! **Parts.** What is left may still be parts that single doors join (module `parts`): between rows, as where
+//! a corridor leads down from a room, or between columns. Of these a query needs those between its ends; if it
+//! starts or ends in dead ends, between all that are behind their doors. So no open dead end touches another
+//! part, and the doors between the parts are as they were. The others are shut: the bridge from each part to
+//! its parent is shut but where both are needed, and so is the one from the uppermost part that is needed. The
+//! least path needs no part of rows that is shut and no part of columns that is, so a cell is left out if it
+//! shuts a bridge of either kind. Where runs of the two cross, that may make corners which the map has not. No
+//! least path needs them, and what leads around them is as free on the map.
 //!
 //! **Which cells were a run** is known by two bits a cell. When a run of a row was blocked, the cells at its
 //! ends were blocked, on the map or earlier as parts of columns: so it is the longest run of free cells of
 //! the row that are no parts of columns, and the other way around. The third bit of a cell is whether the
-//! search may enter it. One of the bits is kept in rows and in columns: 0.5 bytes a cell in all, and 8 bytes
-//! for each run of a part other than the first. Each planner has rows of its own for the runs that are open
-//! for its query ([`Opened`]).
+//! search may enter it. One of the bits is kept in rows and in columns: 0.6 bytes a cell in all, and 8 bytes
+//! for each run of a part other than the first. Each planner has rows of its own for what is open for its
+//! query, and for the parts of each kind ([`Opened`]).
 
 mod find;
 mod opened;
@@ -55,8 +58,8 @@ pub struct DeadEnds {
     /// The same in columns.
     columns: BitMatrix,
     kinds: Kinds,
-    /// What is left of the map without dead ends, in parts.
-    parts: Parts,
+    /// What is left of the map without dead ends, in the parts of its rows, and in those of its columns.
+    parts: [Parts; 2],
 }
 
 /// Of which kind of run the cells of dead ends are.
@@ -81,6 +84,10 @@ pub(super) struct Run {
 }
 
 impl Run {
+    const fn first_cell(self) -> (i32, i32) {
+        if self.is_vertical { (self.line, self.first) } else { (self.first, self.line) }
+    }
+
     /// Sets its bits in rows of the map.
     fn set(self, rows: &mut BitMatrix, value: bool) {
         let Self { is_vertical, line, first, end } = self;
@@ -89,6 +96,12 @@ impl Run {
         } else {
             rows.set_run(line, first, end, value);
         }
+    }
+
+    /// Sets its bits in rows of the map, and in the rows that are blocked there or in others.
+    fn set_in(self, rows: &mut BitMatrix, other: &BitMatrix, both: &mut BitMatrix, value: bool) {
+        let Self { is_vertical, line, first, end } = self;
+        rows.set_run_in_union((other, both), (is_vertical, line), (first, end), value);
     }
 
     /// Sets its bits, where what is a row here is a column there.
@@ -104,7 +117,8 @@ impl DeadEnds {
         let mut search = DeadEndSearch::new(space);
         search.block_all();
         let DeadEndSearch { rows, columns, kinds, gaps_are_open } = search;
-        let parts = Parts::new(&rows, gaps_are_open);
+        let parts = [(&rows, false), (&columns, true)]
+            .map(|(lines, is_vertical)| Parts::new(lines, is_vertical, gaps_are_open));
         Self { identity: space.identity(), rows, columns, kinds, parts }
     }
 
@@ -125,14 +139,14 @@ impl DeadEnds {
     pub fn memory_bytes(&self) -> usize {
         let Self { rows, columns, kinds, parts, .. } = self;
         let Kinds { vertical, vertical_columns, beyond } = kinds;
-        let matrices =
-            [rows, columns, vertical, vertical_columns, beyond].map(|matrix| size_of_val(matrix.words()));
-        matrices.iter().sum::<usize>() + parts.memory_bytes()
+        let matrices = [rows, columns, vertical, vertical_columns, beyond];
+        matrices.iter().map(|matrix| size_of_val(matrix.words())).sum::<usize>()
+            + parts.iter().map(Parts::memory_bytes).sum::<usize>()
     }
 
     /// The scratch memory that a planner takes more if it leaves them out, in bytes.
     #[must_use]
     pub fn scratch_bytes(&self) -> usize {
-        size_of_val(self.rows.words())
+        3 * size_of_val(self.rows.words())
     }
 }

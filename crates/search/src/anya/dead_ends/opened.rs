@@ -4,7 +4,10 @@ use std::sync::Arc;
 
 use mediant_grid::{BitMatrix, Grid, Vertex};
 
-use super::{DeadEnds, Run, parts::Part};
+use super::{
+    DeadEnds, Run,
+    parts::{Part, Parts},
+};
 
 /// A map without its dead ends, but with those that the query needs: the scratch memory of a planner.
 #[derive(Clone, Debug)]
@@ -12,10 +15,19 @@ pub(in super::super) struct Opened {
     dead_ends: Arc<DeadEnds>,
     /// The rows of the map as far as the query needs it.
     rows: BitMatrix,
-    /// The dead ends that are open for the query, and the bridges that are open for it.
+    /// The dead ends that are open for the query.
     open: Vec<Run>,
-    /// The run that shuts the bridge of the uppermost part for the query.
-    shut: Option<Run>,
+    of_rows: OpenParts,
+    of_columns: OpenParts,
+}
+
+/// The parts of a map that are open for a query: those of its rows, or those of its columns.
+#[derive(Clone, Debug)]
+struct OpenParts {
+    /// The rows of the map without the runs that shut bridges.
+    rows: BitMatrix,
+    /// The runs that open or shut a bridge for the query, and whether they were blocked before.
+    bridges: Vec<(Run, bool)>,
     /// The parts that the query needs, which are not open yet.
     needed: Vec<u32>,
 }
@@ -24,8 +36,13 @@ impl Opened {
     /// All dead ends of the map, and all parts but part 0, are closed.
     pub(in super::super) fn new(dead_ends: Arc<DeadEnds>) -> Self {
         let mut rows = dead_ends.rows.clone();
-        dead_ends.parts.all().iter().for_each(|part| part.inner.set(&mut rows, true));
-        Self { dead_ends, rows, open: Vec::new(), shut: None, needed: Vec::new() }
+        let [of_rows, of_columns] = dead_ends.parts.each_ref().map(|parts| {
+            parts.shut(&mut rows);
+            let mut rows = dead_ends.rows.clone();
+            parts.shut(&mut rows);
+            OpenParts { rows, bridges: Vec::new(), needed: Vec::new() }
+        });
+        Self { dead_ends, rows, open: Vec::new(), of_rows, of_columns }
     }
 
     /// The rows of the map without what is closed.
@@ -35,9 +52,8 @@ impl Opened {
 
     /// Opens the dead ends that paths between two vertices may need, and closes all others.
     pub(in super::super) fn open(&mut self, grid: &Grid, ends: [Vertex; 2]) {
-        if let Some(run) = self.shut.take() {
-            run.set(&mut self.rows, false);
-        }
+        self.of_rows.restore(&self.of_columns.rows, &mut self.rows);
+        self.of_columns.restore(&self.of_rows.rows, &mut self.rows);
         for run in self.open.drain(..) {
             run.set(&mut self.rows, true);
         }
@@ -51,38 +67,18 @@ impl Opened {
             self.open_behind_door(grid, run);
             opened += 1;
         }
-        self.open_bridges();
-    }
-
-    /// Opens the bridges between the parts that are needed, and shuts the one from the uppermost of them to
-    /// its parent.
-    fn open_bridges(&mut self) {
-        self.needed.sort_unstable();
-        self.needed.dedup();
-        // Parents have smaller numbers.
-        while let Some(number) = self.needed.pop()
-            && number != 0
-        {
-            let Part { parent, inner, outer } = self.dead_ends.parts.part(number);
-            inner.set(&mut self.rows, false);
-            self.open.push(inner);
-            if self.needed.is_empty() {
-                if !self.rows.row(outer.line).is_blocked(outer.first) {
-                    outer.set(&mut self.rows, true);
-                    self.shut = Some(outer);
-                }
-            } else if let Err(at) = self.needed.binary_search(&parent) {
-                self.needed.insert(at, parent);
-            }
-        }
-        self.needed.clear();
+        let [of_rows, of_columns] = &self.dead_ends.parts;
+        self.of_rows.open(of_rows, &self.of_columns.rows, &mut self.rows);
+        self.of_columns.open(of_columns, &self.of_rows.rows, &mut self.rows);
     }
 
     /// Opens the dead end of a cell, if it is part of one that is closed; if it is of none, its part is
     /// needed.
     fn open_at(&mut self, grid: &Grid, x: i32, y: i32) {
         if !self.dead_ends.rows.row(y).is_blocked(x) {
-            note(&mut self.needed, self.dead_ends.parts.of(x, y));
+            let [of_rows, of_columns] = &self.dead_ends.parts;
+            self.of_rows.need(of_rows.of(x, y));
+            self.of_columns.need(of_columns.of(y, x));
         } else if grid.is_free(x, y) && self.rows.row(y).is_blocked(x) {
             let run = if self.dead_ends.kinds.vertical.row(y).is_blocked(x) {
                 self.vertical_run(x, y)
@@ -113,7 +109,7 @@ impl Opened {
     /// there are not needed, but two bits do not tell.
     fn open_behind_door(&mut self, grid: &Grid, run: Run) {
         let Run { is_vertical, line, first, end } = run;
-        let (x, y) = if is_vertical { (line, first) } else { (first, line) };
+        let (x, y) = run.first_cell();
         let beside = line + if self.dead_ends.kinds.beyond.row(y).is_blocked(x) { 1 } else { -1 };
         if is_vertical {
             self.open_in_column(grid, beside, (first, end));
@@ -128,9 +124,11 @@ impl Opened {
         let mut x = free.first_free(first, end);
         while x < end {
             self.open_at(grid, x, y);
-            let DeadEnds { rows, kinds, .. } = &*self.dead_ends;
+            let DeadEnds { rows, kinds, parts, .. } = &*self.dead_ends;
             let next = if !rows.row(y).is_blocked(x) {
-                rows.row(y).first_blocked(x, end)
+                let next = rows.row(y).first_blocked(x, end);
+                parts[1].for_each_across(y, (x, next), |part| self.of_columns.need(part));
+                next
             } else if kinds.vertical.row(y).is_blocked(x) {
                 x + 1
             } else {
@@ -152,7 +150,8 @@ impl Opened {
                 next
             } else {
                 let next = columns.row(x).first_blocked(y, end);
-                parts.for_each_in_column(x, (y, next), |part| note(&mut self.needed, part));
+                self.of_columns.need(parts[1].of(y, x));
+                parts[0].for_each_across(x, (y, next), |part| self.of_rows.need(part));
                 next
             };
             y = free.first_free(next, end);
@@ -160,9 +159,45 @@ impl Opened {
     }
 }
 
-/// Adds a number to a short list, if it is not there.
-fn note(numbers: &mut Vec<u32>, number: u32) {
-    if !numbers.contains(&number) {
-        numbers.push(number);
+impl OpenParts {
+    /// Notes that a part is needed.
+    fn need(&mut self, part: u32) {
+        if !self.needed.contains(&part) {
+            self.needed.push(part);
+        }
+    }
+
+    /// Opens the bridges between the parts that are needed, and shuts the one from the uppermost of them to
+    /// its parent. `both` are the rows that are free here and in the `other` rows.
+    fn open(&mut self, parts: &Parts, other: &BitMatrix, both: &mut BitMatrix) {
+        self.needed.sort_unstable();
+        // Parents have smaller numbers.
+        while let Some(number) = self.needed.pop()
+            && number != 0
+        {
+            let Part { parent, inner, outer } = parts.part(number);
+            self.set(inner, false, other, both);
+            if self.needed.is_empty() {
+                let (x, y) = outer.first_cell();
+                if !self.rows.row(y).is_blocked(x) {
+                    self.set(outer, true, other, both);
+                }
+            } else if let Err(at) = self.needed.binary_search(&parent) {
+                self.needed.insert(at, parent);
+            }
+        }
+        self.needed.clear();
+    }
+
+    fn set(&mut self, run: Run, value: bool, other: &BitMatrix, both: &mut BitMatrix) {
+        run.set_in(&mut self.rows, other, both, value);
+        self.bridges.push((run, !value));
+    }
+
+    /// Makes all bridges what they were before the query.
+    fn restore(&mut self, other: &BitMatrix, both: &mut BitMatrix) {
+        for (run, before) in self.bridges.drain(..) {
+            run.set_in(&mut self.rows, other, both, before);
+        }
     }
 }

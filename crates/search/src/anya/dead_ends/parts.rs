@@ -1,4 +1,5 @@
-//! Parts of a map that are joined by single doors.
+//! Parts of a map that are joined by single doors: of its rows, or, with rows and columns exchanged, of its
+//! columns.
 //!
 //! **Graph.** The runs of free cells of a map's rows are the vertices of a graph. Its edges are the *doors*:
 //! the segments at which runs of two rows touch, and gaps that paths may pass. A door is a *bridge* if there
@@ -7,6 +8,9 @@
 //! one that keeps to the segment between both places, which is straight and free. So paths need those parts
 //! alone that are between their ends in the tree. A bridge is shut by blocking the run beyond it. For what is
 //! on this side, that run is a dead end like those of the module above: no corner is added.
+//!
+//! A run between two bridges, as in a corridor, is no part of its own, but goes with what is beyond it: a path
+//! through a long corridor needs few parts.
 //!
 //! Where a run has a door with one other run, both touch in one stretch. So the runs above a run are
 //! neighbors in their row, and so are those below it.
@@ -45,8 +49,8 @@ struct PartRun {
 
 impl Parts {
     /// The parts of a map with these rows of cells.
-    pub(super) fn new(map: &BitMatrix, gaps_are_open: bool) -> Self {
-        let graph = RunGraph::new(map, gaps_are_open);
+    pub(super) fn new(map: &BitMatrix, is_vertical: bool, gaps_are_open: bool) -> Self {
+        let graph = RunGraph::new(map, is_vertical, gaps_are_open);
         let (of, parts) = graph.parts();
         let mut runs = Vec::new();
         let mut rows = vec![0; map.height() as usize + 1];
@@ -69,8 +73,8 @@ impl Parts {
         runs.get(at).filter(|run| i32::from(run.first) <= x).map_or(0, |run| run.part)
     }
 
-    /// Calls `visit` for the parts of some cells of a column, again and again for each of them.
-    pub(super) fn for_each_in_column(&self, x: i32, (first, end): (i32, i32), mut visit: impl FnMut(u32)) {
+    /// Calls `visit` for the parts of some cells one below the other, again and again for each of them.
+    pub(super) fn for_each_across(&self, x: i32, (first, end): (i32, i32), mut visit: impl FnMut(u32)) {
         let mut is_in_first = false;
         for (y, row) in (first..end).zip(self.rows[first as usize..=end as usize].windows(2)) {
             if row[0] == row[1] {
@@ -95,9 +99,9 @@ impl Parts {
         size_of_val(&**rows) + size_of_val(&**runs) + size_of_val(&**parts)
     }
 
-    /// All parts but part 0.
-    pub(super) fn all(&self) -> &[Part] {
-        &self.parts
+    /// Shuts the bridges of all parts but part 0 in rows of the map.
+    pub(super) fn shut(&self, rows: &mut BitMatrix) {
+        self.parts.iter().for_each(|part| part.inner.set(rows, true));
     }
 }
 
@@ -139,7 +143,7 @@ struct Visit {
 }
 
 impl RunGraph {
-    fn new(map: &BitMatrix, gaps_are_open: bool) -> Self {
+    fn new(map: &BitMatrix, is_vertical: bool, gaps_are_open: bool) -> Self {
         let mut vertices: Vec<RunVertex> = Vec::new();
         let width = map.width() as i32;
         let (mut above, reach) = (0, i32::from(gaps_are_open));
@@ -158,7 +162,7 @@ impl RunGraph {
                     *below = (if below.1 == 0 { number } else { below.0 }, number + 1);
                     last += 1;
                 }
-                let run = Run { is_vertical: false, line: y, first, end };
+                let run = Run { is_vertical, line: y, first, end };
                 vertices.push(RunVertex { run, above: (above as u32, last as u32), below: (0, 0) });
                 first = row.first_free(end, width);
             }
@@ -173,11 +177,24 @@ impl RunGraph {
         for &v in order.iter().rev() {
             visits[v as usize].next = self.earliest(v, &visits);
         }
+        let is_bridge = |v: u32| {
+            let Visit { time, parent, next: earliest } = visits[v as usize];
+            parent != v && earliest >= time
+        };
+        // The bridges from a run to others beyond it; what else is beyond it counts as two.
+        let mut beyond = vec![0_u32; visits.len()];
+        for &v in &order {
+            let parent = visits[v as usize].parent;
+            if parent != v {
+                beyond[parent as usize] += if is_bridge(v) { 1 } else { 2 };
+            }
+        }
         let (mut of, mut parts) = (vec![0; visits.len()], Vec::new());
         for v in order {
-            let Visit { time, parent, next: earliest } = visits[v as usize];
+            let parent = visits[v as usize].parent;
             let above = of[parent as usize];
-            of[v as usize] = if parent == v || earliest < time {
+            let is_in_corridor = beyond[parent as usize] == 1 && is_bridge(parent);
+            of[v as usize] = if is_in_corridor || !is_bridge(v) {
                 above
             } else {
                 let [inner, outer] = [v, parent].map(|v| self.vertices[v as usize].run);
@@ -255,7 +272,7 @@ mod tests {
     /// The parts of the cells, `#` where they are blocked.
     fn draw(drawing: &str, gaps_are_open: bool) -> String {
         let grid = AsciiMap::parse(drawing).expect("the drawing is a map").grid;
-        let parts = Parts::new(grid.rows(), gaps_are_open);
+        let parts = Parts::new(grid.rows(), false, gaps_are_open);
         let cell = |x, y| match grid.is_blocked(x, y) {
             true => '#',
             false => char::from_digit(parts.of(x, y), 10).expect("few parts"),
@@ -264,11 +281,11 @@ mod tests {
         (0..height).map(|y| (0..width).map(|x| cell(x, y)).collect()).collect::<Vec<String>>().join("\n")
     }
 
-    /// A ring at the top, a corridor, and a ring at the bottom.
+    /// A ring at the top, and a corridor with a ring at the bottom.
     #[test]
     fn what_bridges_leave_together_is_a_part() {
         let rings = ".....\n.#.#.\n.....\n#.###\n#.###\n...##\n.#.##\n...##";
-        let parts = "00000\n0#0#0\n00000\n#1###\n#2###\n333##\n3#3##\n333##";
+        let parts = "00000\n0#0#0\n00000\n#1###\n#1###\n111##\n1#1##\n111##";
         assert_eq!(draw(rings, true), parts);
         assert_eq!(draw(rings, false), parts);
     }
@@ -277,7 +294,7 @@ mod tests {
     #[test]
     fn gaps_are_ways() {
         assert_eq!(draw("..#\n.#.\n...", true), "00#\n0#0\n000");
-        assert_eq!(draw("..#\n.#.\n...", false), "22#\n1#3\n000");
+        assert_eq!(draw("..#\n.#.\n...", false), "11#\n1#2\n000");
         assert_eq!(draw("..##\n##..", true), "00##\n##00");
     }
 }

@@ -30,12 +30,13 @@ fn draw(dead_ends: &Opened, grid: &Grid) -> String {
 fn parts_that_are_not_on_the_way_are_shut() {
     let space = space(".....\n.#.#.\n.....\n#.###\n...##\n.#.##\n...##", DiagonalGap::Closed);
     let mut dead_ends = opened(&space);
-    let closed = ".....\n.#.#.\n.....\n#x###\nxxx##\n.#.##\n...##";
+    let closed = ".....\n.#.#.\n.....\n#x###\n...##\n.#.##\n...##";
     assert_eq!(draw(&dead_ends, space.grid()), closed);
     dead_ends.open(space.grid(), [Vertex::new(0, 0), Vertex::new(2, 7)]);
     assert!(!draw(&dead_ends, space.grid()).contains('x'));
+    // The way up is shut.
     dead_ends.open(space.grid(), [Vertex::new(0, 6), Vertex::new(2, 7)]);
-    assert_eq!(draw(&dead_ends, space.grid()), ".....\n.#.#.\n.....\n#x###\n...##\n.#.##\n...##");
+    assert_eq!(draw(&dead_ends, space.grid()), ".....\n.#.#.\nxxxxx\n#.###\n...##\n.#.##\n...##");
     dead_ends.open(space.grid(), [Vertex::new(0, 0), Vertex::new(5, 3)]);
     assert_eq!(draw(&dead_ends, space.grid()), closed);
 }
@@ -54,14 +55,18 @@ const BAYS: &str = "
 fn only_the_ways_around_obstacles_are_left() {
     let space = space(BAYS, DiagonalGap::Open);
     let mut dead_ends = opened(&space);
-    let closed = "##xx####xxx\n#xxx####..x\nx.......#.x\nx.##......x\nx.##....#.x\nx.........x";
+    let closed = "##xx####xxx\n#xxx####..x\nx.....x.#.x\nx.##..x...x\nx.##..x.#.x\nx.....x...x";
     assert_eq!(draw(&dead_ends, space.grid()), closed);
-    // From a corner of the bay to a place that is in no dead end, and then elsewhere.
+    // From a corner of the bay to a place that is in no dead end; the way to the other obstacle is shut.
     dead_ends.open(space.grid(), [Vertex::new(4, 0), Vertex::new(5, 4)]);
-    let open = "##..####xxx\n#...####..x\nx.......#.x\nx.##......x\nx.##....#.x\nx.........x";
+    let open = "##..####xxx\n#...####..x\nx......x#.x\nx.##...x..x\nx.##...x#.x\nx......x..x";
     assert_eq!(draw(&dead_ends, space.grid()), open);
-    dead_ends.open(space.grid(), [Vertex::new(5, 3), Vertex::new(5, 4)]);
+    dead_ends.open(space.grid(), [Vertex::new(9, 3), Vertex::new(9, 4)]);
     assert_eq!(draw(&dead_ends, space.grid()), closed);
+    // From the one obstacle to the other one: the column that parts them is open.
+    dead_ends.open(space.grid(), [Vertex::new(5, 3), Vertex::new(8, 4)]);
+    let open = "##xx####xxx\n#xxx####..x\nx.......#.x\nx.##......x\nx.##....#.x\nx.........x";
+    assert_eq!(draw(&dead_ends, space.grid()), open);
 }
 
 /// Where paths may pass a gap, what is behind it is no dead end.
