@@ -11,8 +11,9 @@ use mediant_grid::{
 use mediant_moves::{FiniteK, K};
 use mediant_oracle::{Rng, noise};
 use mediant_search::{
-    AStar, Anya, BlockJps, Canonical, CanonicalRule, Dijkstra, Hk, Jps, JpsPlus, JumpError, JumpTable,
-    LazyThetaStar, PaperCanonical, Planner, Pruning, Query, Smoothed, Smoothing, ThetaStar, Wavefront,
+    AStar, Anya, BlockJps, Canonical, CanonicalRule, DeadEnds, Dijkstra, Hk, Jps, JpsPlus, JumpError,
+    JumpTable, LazyThetaStar, PaperCanonical, Planner, Pruning, Query, Smoothed, Smoothing, ThetaStar,
+    Wavefront,
     parts::{BlockFinder, HasFreeSpace, JumpFinder, StepwiseFinder},
 };
 
@@ -215,6 +216,39 @@ fn a_search_at_any_angle_is_smoothed_in_its_own_space() {
     let message = wrong.to_string();
     for part in ["the planner", "the space", "k = any", "k = 4"] {
         assert!(message.contains(part), "{message}");
+    }
+}
+
+/// The dead ends of a map and a rule serve every k, and no other map or rule.
+#[test]
+fn dead_ends_are_those_of_one_map_and_rule() {
+    let space = |seed, (width, height), gap| {
+        FreeSpace::<Corners>::new(Arc::new(noise(&mut Rng::new(seed), width, height, 20)), gap)
+    };
+    let (open, closed) = (DiagonalGap::Open, DiagonalGap::Closed);
+    let own = space(1, (20, 14), open);
+    let again = Arc::new(DeadEnds::new(&space(1, (20, 14), open)));
+    assert_eq!(again.identity(), own.identity());
+    assert!(Anya::new(&own).without(Arc::clone(&again)).is_ok());
+    for k in [FiniteK::N4, FiniteK::N16] {
+        assert!(Anya::over(&own, k).unwrap().without(Arc::clone(&again)).is_ok());
+    }
+    let others = [
+        space(2, (20, 14), open),
+        space(1, (14, 20), open),
+        space(1, (90, 70), open),
+        space(1, (20, 14), closed),
+    ];
+    for other in &others {
+        let dead_ends = Arc::new(DeadEnds::new(other));
+        let wrong = [
+            Anya::new(&own).without(Arc::clone(&dead_ends)).map(|_| ()).unwrap_err(),
+            Anya::over(&own, FiniteK::N8).unwrap().without(dead_ends).map(|_| ()).unwrap_err(),
+        ];
+        for wrong in wrong {
+            assert_eq!((wrong.belongs_to, wrong.other_belongs_to), (other.identity(), own.identity()));
+            assert_eq!((wrong.prepared, wrong.other), ("the dead ends", "the free space"));
+        }
     }
 }
 
