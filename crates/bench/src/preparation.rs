@@ -83,13 +83,14 @@ mod tests {
             ("subgoal:3:open,levels=2", Some(Kept::Levels)),
             ("subgoal-theta:3:open", None),
             ("anya:any:open", None),
+            ("astar:3:never", None),
         ] {
             let setup: Setup = text.parse().unwrap();
             let space = setup.space(&map).unwrap();
             let index = setup.prepare(&space).unwrap();
             let made = Preparation::of(&space, &index, 1.5);
             assert_eq!((made.kept, made.seconds), (kept, 1.5), "{text}");
-            assert_eq!(made.index_bytes > 0, text != "anya:any:open", "{text}");
+            assert_eq!(made.index_bytes > 0, text != "astar:3:never", "{text}");
             assert_eq!(made.bytes, space.memory_bytes() + made.index_bytes, "{text}");
         }
     }

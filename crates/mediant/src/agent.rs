@@ -108,7 +108,8 @@ impl Space {
                 return Ok::<_, Error>(None);
             }
             let request = Query::new(start, goal).within(Limits::new().cost(greatest));
-            Ok(match space.planner(Choice::for_one_path(self.motion()))?.find(request)? {
+            let index = space.prepare_for_one_path(Choice::for_one_path(self.motion()))?;
+            Ok(match index.try_planner()?.find(request)? {
                 Outcome::Found(path) => Some(path),
                 _ => None,
             })

@@ -31,7 +31,8 @@ fn is_for_anya(motion: Motion) -> bool {
 }
 
 impl Choice {
-    /// For a single path: an engine that prepares next to nothing.
+    /// For a single path: an engine that prepares next to nothing, the least by
+    /// [`Space::prepare_for_one_path`].
     ///
     /// At corners it is Anya for every k. It needs no grid graph either. Its queries alone, on two maps of
     /// games and one of rooms, took 0.1 to 0.95 of the time of canonical A* at k = 2 and 3, 0.04 to 0.23 of
@@ -45,7 +46,7 @@ impl Choice {
     #[must_use]
     pub fn for_one_path(motion: Motion) -> Self {
         if is_for_anya(motion) {
-            return Self { engine: Engine::Anya, why: "it prepares nothing" };
+            return Self { engine: Engine::Anya, why: "it prepares next to nothing" };
         }
         match motion.k.finite().map(|k| k.get()) {
             Some(2 | 3) => Self { engine: Engine::Canonical, why: "it prepares next to nothing" },
@@ -57,8 +58,9 @@ impl Choice {
     /// 3, whose preparation takes a few milliseconds; else as for one path.
     ///
     /// Between corners, on the four maps of [`for_one_path`](Self::for_one_path), a query of block-based JPS
-    /// took 0.16 to 0.7 of the time of Anya at k = 3. At k = 4 Anya took 0.2 to 0.65 of the time of jump
-    /// point search on three of them, and 1.4 times as long on the random one; with k its time hardly grows.
+    /// took 0.16 to 0.7 of the time of Anya, with all dead ends, at k = 3. At k = 4 Anya took 0.2 to 0.65 of
+    /// the time of jump point search on three of them, and 1.4 times as long on the random one; with k its
+    /// time hardly grows.
     #[must_use]
     pub fn for_some_paths(motion: Motion) -> Self {
         match motion.k.finite().map(|k| k.get()) {
@@ -118,7 +120,8 @@ impl Space {
     pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
         let query = Query::new(start, goal);
         self.check_query(query)?;
-        let answer = self.planner(Choice::for_one_path(self.motion()))?.find(query)?;
+        let index = self.prepare_for_one_path(Choice::for_one_path(self.motion()))?;
+        let answer = index.try_planner()?.find(query)?;
         Ok(answer.into_path())
     }
 }

@@ -6,12 +6,12 @@
 
 use std::{num::NonZeroU32, sync::Arc};
 
-use mediant_grid::{Centers, FreeSpace, GridGraph, Placement};
+use mediant_grid::{Centers, Corners, FreeSpace, GridGraph, Placement};
 use mediant_hierarchy::{ChpaStar, HpaStar, SegmentGraph};
 use mediant_moves::K;
 use mediant_search::{
-    AStar, Anya, BlockJps, Canonical, Euclidean, Heuristic, Hk, Jps, JpsPlus, LazyThetaStar, PaperCanonical,
-    Path, Planner as Search, Smoothing, SquaredEuclidean, ThetaStar, Wavefront, Zero,
+    AStar, Anya, BlockJps, Canonical, DeadEnds, Euclidean, Heuristic, Hk, Jps, JpsPlus, LazyThetaStar,
+    PaperCanonical, Path, Planner as Search, Smoothing, SquaredEuclidean, ThetaStar, Wavefront, Zero,
     parts::{HasFreeSpace, JumpFinder, JumpPointSearch, StepwiseFinder},
 };
 use mediant_subgoal::{HubLabelSearch, SubgoalAStar, SubgoalGraph, SubgoalPlacement, SubgoalTheta};
@@ -56,11 +56,9 @@ pub(crate) fn search(index: &Index) -> Result<Boxed, Error> {
         Prepared::FreeCorners(space, InFreeSpace::Labels(labels)) => {
             Ok(boxed(HubLabelSearch::new(Arc::clone(space), Arc::clone(labels))?))
         }
-        Prepared::FreeCorners(space, InFreeSpace::Nothing) => match setup.k {
-            K::Any => Ok(boxed(Anya::new(Arc::clone(space)))),
-            K::Finite(k) => Ok(boxed(Anya::over(Arc::clone(space), k)?)),
-        },
-        Prepared::FreeCenters(_, InFreeSpace::Nothing) => Err(not_prepared(setup)),
+        Prepared::FreeCorners(space, InFreeSpace::DeadEnds(dead_ends)) => anya(setup, space, Some(dead_ends)),
+        Prepared::FreeCorners(space, InFreeSpace::Nothing) => anya(setup, space, None),
+        Prepared::FreeCenters(_, InFreeSpace::DeadEnds(_) | InFreeSpace::Nothing) => Err(not_prepared(setup)),
     }
 }
 
@@ -97,6 +95,21 @@ fn smoother_in(space: Arc<impl HasFreeSpace + Send + Sync + 'static>, smoothing:
 /// The error for an index that does not hold what its engine searches. No constructor makes one.
 fn not_prepared(setup: Setup) -> Error {
     SetupError::without_index(setup.engine.kind()).into()
+}
+
+/// Anya, which leaves out dead ends if they were found.
+fn anya(
+    setup: Setup,
+    space: &Arc<FreeSpace<Corners>>,
+    dead_ends: Option<&Arc<DeadEnds>>,
+) -> Result<Boxed, Error> {
+    let space = Arc::clone(space);
+    Ok(match (setup.k, dead_ends.map(Arc::clone)) {
+        (K::Any, None) => boxed(Anya::new(space)),
+        (K::Any, Some(dead_ends)) => boxed(Anya::new(space).without(dead_ends)?),
+        (K::Finite(k), None) => boxed(Anya::over(space, k)?),
+        (K::Finite(k), Some(dead_ends)) => boxed(Anya::over(space, k)?.without(dead_ends)?),
+    })
 }
 
 /// A search on a subgoal graph.

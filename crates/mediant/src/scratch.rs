@@ -30,8 +30,12 @@ impl Index {
             Prepared::FreeCorners(_, InFreeSpace::Subgoals(graph)) => on_subgoals(engine, graph),
             Prepared::FreeCenters(_, InFreeSpace::Labels(labels)) => HubLabelSearch::scratch_bytes(labels),
             Prepared::FreeCorners(_, InFreeSpace::Labels(labels)) => HubLabelSearch::scratch_bytes(labels),
+            Prepared::FreeCorners(space, InFreeSpace::DeadEnds(dead_ends)) => {
+                Anya::scratch_bytes(space) + dead_ends.scratch_bytes()
+            }
             Prepared::FreeCorners(space, InFreeSpace::Nothing) => Anya::scratch_bytes(space),
-            Prepared::FreeCenters(_, InFreeSpace::Nothing) => 0,
+            // No constructor makes one.
+            Prepared::FreeCenters(_, InFreeSpace::DeadEnds(_) | InFreeSpace::Nothing) => 0,
         };
         bytes as u64
     }

@@ -21,7 +21,7 @@ use crate::{
 ///
 /// let map = Map::from_fn(9, 9, |x, y| x == 4 && y != 8)?;
 /// let space = map.space(Motion::corners(K::ANY))?;
-/// // For a few paths: an engine that prepares nothing.
+/// // An engine that prepares little.
 /// let mut planner = space.planner(Engine::Anya)?;
 /// let answer = planner.find(Query::new((0, 0), (9, 0)))?;
 /// assert!(answer.path().is_some());

@@ -76,21 +76,24 @@ fn eight_planners_share_one_index() {
     let map = Map::from_fn(SIDE, SIDE, |x, y| x % 4 == 1 && y % 4 == 2).expect("a map");
     let vertices = (SIDE * SIDE) as usize;
     // Bytes of scratch memory a vertex. A planner with a copy of its index would need more.
-    for (engine, k, scratch) in [
-        (Engine::AStar, K::N8, 16),
-        (Engine::Canonical, K::N32, 16),
-        (Engine::Jps, K::N8, 24),
-        (Engine::JpsBlock, K::N8, 24),
-        (Engine::JpsPlus, K::N8, 24),
-        (Engine::Subgoal, K::N8, 16),
-        (Engine::Subgoal, K::N4, 16),
-        (Engine::Hpa, K::N8, 6),
-        (Engine::Chpa, K::N8, 19),
-        (Engine::Theta, K::N8, 26),
-        (Engine::LazyTheta, K::N8, 26),
-        (Engine::Wavefront, K::N8, 20),
+    for (engine, motion, scratch) in [
+        (Engine::AStar, Motion::centers(K::N8), 16),
+        (Engine::Canonical, Motion::centers(K::N32), 16),
+        (Engine::Jps, Motion::centers(K::N8), 24),
+        (Engine::JpsBlock, Motion::centers(K::N8), 24),
+        (Engine::JpsPlus, Motion::centers(K::N8), 24),
+        (Engine::Subgoal, Motion::centers(K::N8), 16),
+        (Engine::Subgoal, Motion::centers(K::N4), 16),
+        (Engine::Hpa, Motion::centers(K::N8), 6),
+        (Engine::Chpa, Motion::centers(K::N8), 19),
+        (Engine::Theta, Motion::centers(K::N8), 26),
+        (Engine::LazyTheta, Motion::centers(K::N8), 26),
+        (Engine::Wavefront, Motion::centers(K::N8), 20),
+        // What follows the search, not the map: nodes and blocks of roots.
+        (Engine::Anya, Motion::corners(K::ANY), 16),
+        (Engine::Anya, Motion::corners(K::N16), 24),
     ] {
-        let space = map.space(Motion::centers(k)).expect("a space");
+        let space = map.space(motion).expect("a space");
         space.make_ready(engine).expect("it takes the motion");
         let mut configured = ConfiguredEngine::from(engine);
         if let ConfiguredEngine::Subgoal(own) = &mut configured {
@@ -118,7 +121,7 @@ fn eight_planners_share_one_index() {
         assert!(of_eight <= most, "{engine}: {of_eight} bytes of eight planners, at most {most}");
         assert_eq!(index.memory_bytes() as usize, stated, "{engine}");
         println!(
-            "{engine} at k = {k}: index {bytes} bytes once, {} each of {THREADS} planners",
+            "{engine}, {motion}: index {bytes} bytes once, {} each of {THREADS} planners",
             of_eight / THREADS
         );
         // Clones share it too, and the last one that goes frees it.
@@ -145,5 +148,8 @@ fn is_refused(space: &Space, engine: ConfiguredEngine, index: &Index) {
     assert!(index.try_planner().is_ok());
     if let Engine::JpsBlock | Engine::JpsPlus = engine.kind() {
         short(2 * u64::from(SIDE * SIDE), &mut || space.prepare(engine).map(drop));
+    }
+    if engine.kind() == Engine::Anya {
+        short(u64::from(SIDE * SIDE / 2), &mut || space.prepare(engine).map(drop));
     }
 }

@@ -29,7 +29,7 @@ impl Index {
     }
 
     /// The engine that searches: `engine`, but for subgoals of a map on which they would be slow, as on
-    /// noise. Nothing is kept of them there, and the best engine that prepares nothing searches. Its paths
+    /// noise. Nothing is kept of them there, and the best engine that prepares little searches. Its paths
     /// are as good.
     #[wasm_bindgen(getter, js_name = searchedBy)]
     pub fn searched_by(&self) -> String {

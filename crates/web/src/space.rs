@@ -24,12 +24,13 @@ pub struct Space {
     pub(crate) inner: Inner,
 }
 
-/// The planner of a setup on a map.
+/// The planner of a setup on a map, for a single path.
 pub(crate) fn planner(setup: Setup, map: &Map) -> Result<Planner, JsValue> {
     setup.check().map_err(raised)?;
     let space = Space::of(map, setup.motion())?;
     space.check_room("the search", memory::INDEX + memory::PLANNER)?;
-    setup.prepare(&space.inner).map_err(raised)?.try_planner().map_err(raised)
+    let index = space.inner.prepare_for_one_path(setup.engine).map_err(raised)?;
+    index.with_smoothing(setup.smoothing).try_planner().map_err(raised)
 }
 
 /// The most vertices that a map can have.

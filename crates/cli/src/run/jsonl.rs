@@ -104,7 +104,7 @@ struct RunLine<'r> {
     wishes: WishFields,
     engine: &'static str,
     /// The engine that searches. It is `engine`, but for subgoals of a map on which they would be slow: there
-    /// it is one that prepares nothing.
+    /// it is one that prepares little.
     searched_by: &'static str,
     /// A number or "any".
     k: Value,

@@ -119,11 +119,7 @@ impl Space {
             }
         };
         file.check(&key(engine.kind(), self)?)?;
-        Index::from_source(
-            self,
-            engine,
-            Source { bytes: Some(file.payload()), beside: None, progress: &|_| {} },
-        )
+        Index::from_source(self, engine, Source { bytes: Some(file.payload()), ..Source::new(&|_| {}) })
     }
 }
 

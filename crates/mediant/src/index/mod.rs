@@ -10,10 +10,10 @@ mod subgoals;
 
 use std::{num::NonZeroU32, sync::Arc};
 
-use mediant_grid::{FreeSpace, GridGraph, Identity};
+use mediant_grid::{Corners, FreeSpace, GridGraph, Identity};
 use mediant_moves::K;
-use mediant_search::{JumpTable, Smoothing, parts::BlockFinder};
-use mediant_subgoal::{HubLabels, Progress, SubgoalPlacement};
+use mediant_search::{DeadEnds, JumpTable, Smoothing, parts::BlockFinder};
+use mediant_subgoal::{Progress, SubgoalPlacement};
 
 pub(crate) use self::parts::{InFreeSpace, OnGridGraph, Prepared};
 use self::source::Source;
@@ -33,9 +33,9 @@ use crate::{
     space::{Layers, Placed, Space},
 };
 
-/// What an engine prepares in a space before the first query: nothing, a pruning rule, a jump table, hub
-/// labels, a subgoal graph, clusters or segments. It never changes; all threads can share it, and clones do.
-/// [`planner`](Self::planner) makes the planners on it.
+/// What an engine prepares in a space before the first query: nothing, a pruning rule, a jump table, dead
+/// ends, hub labels, a subgoal graph, clusters or segments. It never changes; all threads can share it, and
+/// clones do. [`planner`](Self::planner) makes the planners on it.
 ///
 /// ```
 /// use mediant::{Engine, K, Map, Motion, Query};
@@ -83,6 +83,26 @@ impl Space {
         Index::new(self, engine.into(), &|_| {})
     }
 
+    /// [`prepare`](Self::prepare) for a single path: what takes longer than it saves one is left out. That
+    /// is the dead ends of [`Engine::Anya`]; all other engines' indexes are the same.
+    ///
+    /// ```
+    /// use mediant::{Engine, K, Map, Motion, Query};
+    ///
+    /// let space = Map::from_fn(9, 9, |x, y| x == 4 && y != 8)?.space(Motion::corners(K::ANY))?;
+    /// let index = space.prepare_for_one_path(Engine::Anya)?;
+    /// assert_eq!(index.memory_bytes(), 0);
+    /// assert!(index.try_planner()?.find(Query::new((0, 0), (9, 0)))?.path().is_some());
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`prepare`](Self::prepare).
+    pub fn prepare_for_one_path(&self, engine: impl Into<ConfiguredEngine>) -> Result<Index, Error> {
+        let source = Source { for_one_path: true, ..Source::new(&|_| {}) };
+        Index::from_source(self, engine.into(), source)
+    }
+
     /// [`prepare`](Self::prepare), which calls `progress` from any thread. Only subgoal graphs report
     /// progress.
     ///
@@ -103,7 +123,7 @@ impl Index {
         engine: ConfiguredEngine,
         progress: &(dyn Fn(Progress) + Sync),
     ) -> Result<Self, Error> {
-        Self::from_source(space, engine, Source { bytes: None, beside: None, progress })
+        Self::from_source(space, engine, Source::new(progress))
     }
 
     /// Prepares a new index, or reads a saved one.
@@ -147,8 +167,13 @@ impl Index {
     /// Those of [`Map::space`](crate::Map::space) and [`Space::prepare`].
     pub fn for_k(&self, k: K) -> Result<Self, Error> {
         let space = self.space.map().space(Motion { k, ..self.space.motion() })?;
-        let source = Source { bytes: None, beside: Some(&self.prepared), progress: &|_| {} };
+        let source = Source { beside: Some(&self.prepared), ..self.source() };
         Ok(Self::from_source(&space, self.setup.engine, source)?.with_smoothing(self.setup.smoothing))
+    }
+
+    /// To prepare another index as this one was.
+    const fn source(&self) -> Source<'static> {
+        Source { for_one_path: self.prepared.is_for_one_path(), ..Source::new(&|_| {}) }
     }
 
     /// The same index for planners with other options of its engine, such as another heuristic.
@@ -190,7 +215,7 @@ impl Index {
 
     /// The engine of its planners. It is that of the [`setup`](Self::setup), but for subgoals of a map on
     /// which they would be slow, as on noise: nothing is kept of them there, and the best engine that
-    /// prepares nothing searches. Its paths are as good: the setup's guarantee holds.
+    /// prepares little searches. Its paths are as good: the setup's guarantee holds.
     #[must_use]
     pub const fn searched_by(&self) -> Engine {
         match self.substitute {
@@ -245,8 +270,8 @@ fn prepared(setup: Setup, space: &Space, source: Source<'_>) -> Result<Option<Pr
                 let segments = hierarchies::segments(own, graph, source)?;
                 Prepared::Centers(Arc::clone(graph), OnGridGraph::Segments(segments))
             }
-            engine if searches_free_space(engine) => {
-                let parts = in_free_space(setup, &layers.free, source, None)?;
+            ConfiguredEngine::Subgoal(_) | ConfiguredEngine::SubgoalTheta(_) => {
+                let parts = subgoals::subgoals(setup, &layers.free, source, None)?;
                 return Ok(parts.map(|parts| Prepared::FreeCenters(Arc::clone(&layers.free), parts)));
             }
             _ => {
@@ -254,37 +279,28 @@ fn prepared(setup: Setup, space: &Space, source: Source<'_>) -> Result<Option<Pr
                 Prepared::Centers(graph, parts)
             }
         },
-        Placed::Corners(layers) => {
-            if searches_free_space(setup.engine) {
+        Placed::Corners(layers) => match setup.engine {
+            ConfiguredEngine::Anya => {
+                let parts = if source.for_one_path { InFreeSpace::Nothing } else { dead_ends(&layers.free)? };
+                Prepared::FreeCorners(Arc::clone(&layers.free), parts)
+            }
+            ConfiguredEngine::Subgoal(_) | ConfiguredEngine::SubgoalTheta(_) => {
                 let beside = source.beside.and_then(Prepared::labels);
-                let parts = in_free_space(setup, &layers.free, source, beside)?;
+                let parts = subgoals::subgoals(setup, &layers.free, source, beside)?;
                 return Ok(parts.map(|parts| Prepared::FreeCorners(Arc::clone(&layers.free), parts)));
             }
-            let (graph, parts) = on_grid_graph(setup, layers, source)?;
-            Prepared::Corners(graph, parts)
-        }
+            _ => {
+                let (graph, parts) = on_grid_graph(setup, layers, source)?;
+                Prepared::Corners(graph, parts)
+            }
+        },
     }))
 }
 
-/// Whether an engine searches the free space, not the grid graph.
-const fn searches_free_space(engine: ConfiguredEngine) -> bool {
-    matches!(
-        engine,
-        ConfiguredEngine::Anya | ConfiguredEngine::Subgoal(_) | ConfiguredEngine::SubgoalTheta(_)
-    )
-}
-
-/// What an engine prepares of a free space; `None` if subgoals kept nothing.
-fn in_free_space<P: SubgoalPlacement>(
-    setup: Setup,
-    space: &FreeSpace<P>,
-    source: Source<'_>,
-    beside: Option<&HubLabels<P>>,
-) -> Result<Option<InFreeSpace<P>>, Error> {
-    match setup.engine {
-        ConfiguredEngine::Anya => Ok(Some(InFreeSpace::Nothing)),
-        _ => subgoals::subgoals(setup, space, source, beside),
-    }
+/// The dead ends of a map, which Anya leaves out.
+fn dead_ends(space: &FreeSpace<Corners>) -> Result<InFreeSpace<Corners>, Error> {
+    scratch::check("the index", DeadEnds::bytes(space) as u64)?;
+    Ok(InFreeSpace::DeadEnds(Arc::new(DeadEnds::new(space))))
 }
 
 /// The grid graph, and what an engine prepares of it, if it takes either placement.

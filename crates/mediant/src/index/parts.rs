@@ -4,7 +4,7 @@ use std::{num::NonZeroU32, sync::Arc};
 
 use mediant_grid::{Centers, Corners, FreeSpace, GridGraph};
 use mediant_hierarchy::{ClusterGraph, Clustering, SegmentGraph};
-use mediant_search::{JumpTable, Pruning, parts::BlockFinder};
+use mediant_search::{DeadEnds, JumpTable, Pruning, parts::BlockFinder};
 use mediant_subgoal::{HubLabels, SubgoalGraph, SubgoalPlacement};
 
 use super::shape;
@@ -54,6 +54,8 @@ pub(crate) enum OnGridGraph<P: SubgoalPlacement> {
 pub(crate) enum InFreeSpace<P: SubgoalPlacement> {
     /// Nothing: the engine searches the space as it is.
     Nothing,
+    /// The dead ends, which the engine leaves out; only at corners.
+    DeadEnds(Arc<DeadEnds>),
     /// A subgoal graph.
     Subgoals(Arc<SubgoalGraph<P>>),
     /// Hub labels.
@@ -102,6 +104,11 @@ impl Prepared {
             Self::FreeCorners(_, parts) => (parts.levels(), None),
             _ => (None, None),
         }
+    }
+
+    /// Whether it is that of Anya for a single path.
+    pub(super) const fn is_for_one_path(&self) -> bool {
+        matches!(self, Self::FreeCorners(_, InFreeSpace::Nothing))
     }
 
     /// Whether it has hub labels.
@@ -177,7 +184,7 @@ impl Prepared {
 impl<P: SubgoalPlacement> InFreeSpace<P> {
     fn to_bytes(&self) -> Option<Vec<u8>> {
         match self {
-            Self::Nothing => None,
+            Self::Nothing | Self::DeadEnds(_) => None,
             Self::Subgoals(graph) => Some(graph.to_bytes()),
             Self::Labels(labels) => Some(labels.to_bytes()),
         }
@@ -186,6 +193,7 @@ impl<P: SubgoalPlacement> InFreeSpace<P> {
     fn memory_bytes(&self) -> usize {
         match self {
             Self::Nothing => 0,
+            Self::DeadEnds(dead_ends) => dead_ends.memory_bytes(),
             Self::Subgoals(graph) => graph.memory_bytes(),
             Self::Labels(labels) => labels.memory_bytes(),
         }
@@ -193,7 +201,7 @@ impl<P: SubgoalPlacement> InFreeSpace<P> {
 
     fn levels(&self) -> Option<Levels> {
         match self {
-            Self::Nothing => None,
+            Self::Nothing | Self::DeadEnds(_) => None,
             Self::Subgoals(graph) => Some(graph.hierarchy().into()),
             Self::Labels(_) => Some(Levels::Labels),
         }

@@ -46,7 +46,8 @@ impl Index {
             _ => None,
         };
         let Some(prepared) = repaired else {
-            return Ok(Self { setup: self.setup, ..Self::new(changed, self.setup.engine, &|_| {})? });
+            let prepared = Self::from_source(changed, self.setup.engine, self.source())?;
+            return Ok(Self { setup: self.setup, ..prepared });
         };
         Ok(Self { space: changed.clone(), origin: Origin::Repaired, prepared, ..self.clone() })
     }

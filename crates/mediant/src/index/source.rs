@@ -11,6 +11,15 @@ pub(super) struct Source<'a> {
     pub(super) bytes: Option<&'a [u8]>,
     /// What is prepared for another k of the same map and rules, to share what does not depend on k.
     pub(super) beside: Option<&'a Prepared>,
+    /// Whether it is for a single path: what takes longer than it saves one is left out.
+    pub(super) for_one_path: bool,
     /// Hears how far the preparation is, on any thread.
     pub(super) progress: &'a (dyn Fn(Progress) + Sync),
+}
+
+impl<'a> Source<'a> {
+    /// To prepare a new index, beside no other.
+    pub(super) const fn new(progress: &'a (dyn Fn(Progress) + Sync)) -> Self {
+        Self { bytes: None, beside: None, for_one_path: false, progress }
+    }
 }

@@ -74,13 +74,15 @@ pub(super) fn subgoals<P: SubgoalPlacement>(
     })
 }
 
-/// A planner by the engine that searches where no subgoals are kept.
+/// A planner by the engine that searches where no subgoals are kept: Anya as the typed crate measures it,
+/// with no dead ends left out.
 fn substitute_of<P: SubgoalPlacement>(setup: Setup, space: &FreeSpace<P>) -> Result<Planner, Error> {
     let motion = Motion { k: setup.k, rules: setup.rules };
-    Setup::new(substitute(motion), setup.k, setup.rules).planner(&Map::from(Arc::clone(space.grid())))
+    let space = Map::from(Arc::clone(space.grid())).space(motion)?;
+    space.prepare_for_one_path(substitute(motion))?.try_planner()
 }
 
-/// The engine that searches where no subgoals were kept: the best that prepares nothing.
+/// The engine that searches where no subgoals were kept: the best that prepares little.
 pub(super) fn substitute(motion: Motion) -> Engine {
     Choice::for_some_paths(motion).engine
 }

@@ -42,8 +42,7 @@ fn prepares_nothing(setup: Setup) -> bool {
         | ConfiguredEngine::Dijkstra
         | ConfiguredEngine::Wavefront
         | ConfiguredEngine::Theta(_)
-        | ConfiguredEngine::LazyTheta(_)
-        | ConfiguredEngine::Anya => true,
+        | ConfiguredEngine::LazyTheta(_) => true,
         ConfiguredEngine::Canonical(own) => own.variant == Some(Variant::Paper),
         _ => false,
     }

@@ -108,7 +108,7 @@ fn the_chosen_engine_finds_shortest_paths() {
     }
 }
 
-/// At corners Anya needs no preparation. On maps too large for subgoals it also searches many paths.
+/// At corners Anya needs hardly any preparation. On maps too large for subgoals it also searches many paths.
 #[test]
 fn the_choice_depends_on_the_motion() {
     use Engine::{AStar, Anya, Canonical, Jps, JpsBlock};

@@ -1,6 +1,7 @@
 //! The library.
 
 mod catalog;
+mod dead_ends;
 mod door;
 mod field;
 mod goals;

@@ -34,7 +34,7 @@ use crate::{background::levels, grid::Grid};
 ///     labels. None for an index without any.
 /// searched_by : str
 ///     The engine that searches: `engine`, but for subgoals of a map on which they would be slow, as on
-///     noise. Nothing is kept of them there, and the best engine that prepares nothing searches. Its paths
+///     noise. Nothing is kept of them there, and the best engine that prepares little searches. Its paths
 ///     are as good.
 /// setup : str
 ///     All of it and the options in one text: the same text, the same answers.

@@ -32,12 +32,12 @@ fn pairs(world: &World, starts: &[Vertex], goals: &[Vertex]) -> Vec<Pair> {
 
 /// What a request asks for: these ends, in this order.
 #[derive(Clone, Debug)]
-struct Asked {
-    request: Request,
-    starts: Vec<Vertex>,
-    goals: Vec<Vertex>,
+pub(super) struct Asked {
+    pub(super) request: Request,
+    pub(super) starts: Vec<Vertex>,
+    pub(super) goals: Vec<Vertex>,
     /// Whether the goals are not those of the request, but the nearest that can be reached.
-    are_nearest: bool,
+    pub(super) are_nearest: bool,
 }
 
 impl Asked {
@@ -50,7 +50,7 @@ impl Asked {
 
 /// Checks the answer of a planner: an optimal one gives the first of the shortest paths, another the path
 /// that it finds between two of the ends.
-fn check(world: &World, setup: Setup, planner: &mut Planner, asked: &Asked) {
+pub(super) fn check(world: &World, setup: Setup, planner: &mut Planner, asked: &Asked) {
     let text = || world.text(setup, asked);
     let all = pairs(world, &asked.starts, &asked.goals);
     let answer = planner.find(asked.request.clone());
@@ -168,7 +168,7 @@ fn blocked(world: &World, rng: &mut Rng) -> Option<Vertex> {
 }
 
 /// A request for the vertices nearest to these goals, if none of them can be reached.
-fn asked_nearest(world: &World, starts: Vec<Vertex>, goals: Vec<Vertex>) -> Asked {
+pub(super) fn asked_nearest(world: &World, starts: Vec<Vertex>, goals: Vec<Vertex>) -> Asked {
     let request = Request::between(starts.clone(), goals.clone()).nearest();
     let has_way = !pairs(world, &starts, &goals).is_empty();
     let goals = if has_way { goals } else { nearest(world, &starts, &goals) };

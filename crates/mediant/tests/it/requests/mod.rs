@@ -4,6 +4,7 @@
 mod ends;
 mod junk;
 mod limits;
+mod pockets;
 mod steps;
 
 use std::{fmt::Debug, ops::Range};

@@ -10,7 +10,7 @@ import { engineHow, engineName, promise, withNames } from "./words.js";
 
 /** The engines that prepare an index of the map. `EngineInfo.index` says it of those that save it. */
 const GROUPS = /** @type {const} */ ([
-  ["Prepares nothing", (/** @type {EngineInfo} */ engine) => !engine.index && !near(engine)],
+  ["Prepares little", (/** @type {EngineInfo} */ engine) => !engine.index && !near(engine)],
   ["Prepared", (/** @type {EngineInfo} */ engine) => engine.index && !near(engine)],
   ["Near-optimal", (/** @type {EngineInfo} */ engine) => near(engine)],
 ]);
