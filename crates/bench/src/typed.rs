@@ -79,7 +79,8 @@ impl TypedEngine {
                 let subgoals = SubgoalGraph::new(&space, K::Any, Hierarchy::Contracted)?;
                 Typed::AnyAngleSubgoal(SubgoalAStar::new(space, Arc::new(subgoals))?)
             }
-            Kind::Anya => Typed::Anya(Anya::new(corners())),
+            // As the library's index, with its dead ends.
+            Kind::Anya => Typed::Anya(Anya::new(corners()).without_dead_ends()),
         })
     }
 }
