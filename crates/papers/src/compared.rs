@@ -73,7 +73,7 @@ fn exceptions(record: &Record) -> String {
         for row in record.select(&[("competitor", &competitor)]) {
             let (map, kept) = (row.text("map"), row.text("kept"));
             if kept == Kept::Nothing.name() {
-                all.push(format!("on {map} {}, is another engine, which prepares nothing", called(setup)));
+                all.push(format!("on {map} {}, is another engine, which prepares little", called(setup)));
             } else if kept == Kept::Contraction.name() && !setup.ends_with(CONTRACTED) {
                 all.push(format!("on {map} {}, is a contraction", called(setup)));
             }
@@ -293,7 +293,7 @@ mod tests {
         assert_eq!(
             exceptions(&record),
             "on noise `subgoal:3:never`, hub labels, is a contraction; on noise `subgoal:any:open`, hub labels, \
-             is another engine, which prepares nothing"
+             is another engine, which prepares little"
         );
     }
 

@@ -1,5 +1,5 @@
-//! What a query at any angle costs, and what memory it takes: nothing prepared, a contraction, hub labels,
-//! and EHL.
+//! What a query at any angle costs, and what memory it takes: next to nothing prepared, a contraction, hub
+//! labels, and EHL.
 
 mod published;
 
@@ -39,8 +39,7 @@ const BUDGETS: [&str; 4] = [
     "subgoal:any:closed",
 ];
 /// The methods, by the names that the page gives them.
-const METHODS: [(&str, &str); 3] =
-    [("hub labels", LABELS), ("contraction", CONTRACTION), ("Anya, nothing prepared", ANYA)];
+const METHODS: [(&str, &str); 3] = [("hub labels", LABELS), ("contraction", CONTRACTION), ("Anya", ANYA)];
 
 fn measure(context: &Context<'_>) -> Result<Findings, Error> {
     let methods = METHODS.map(|(_, text)| text);
@@ -77,7 +76,7 @@ fn scale(record: &Record, map: &str) -> Option<f64> {
 fn show(record: &Record) -> Section {
     let mut section = Section::default();
     section.text(
-        "All methods find shortest paths at any angle between corners, gaps closed. Anya prepares nothing. A \
+        "All methods find shortest paths at any angle between corners, gaps closed. Anya prepares little. A \
          contraction hierarchy and hub labels are made from the same subgoals; hub labels store what a \
          search in the hierarchy would find. The index is what is kept beyond the map and its search space.",
     );
