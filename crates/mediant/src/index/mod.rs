@@ -151,7 +151,7 @@ impl Index {
 
     /// The index for another k, with the same map, rules, options and smoothing. Hub labels at corners share
     /// what does not depend on k, most of the work and often most of the memory: the other k costs its labels
-    /// alone. All else is prepared anew.
+    /// alone. The dead ends of Anya are the same for every k. All else is prepared anew.
     ///
     /// ```
     /// use mediant::{Engine, K, Map, Motion};
@@ -281,7 +281,11 @@ fn prepared(setup: Setup, space: &Space, source: Source<'_>) -> Result<Option<Pr
         },
         Placed::Corners(layers) => match setup.engine {
             ConfiguredEngine::Anya => {
-                let parts = if source.for_one_path { InFreeSpace::Nothing } else { dead_ends(&layers.free)? };
+                let parts = match source.beside.and_then(Prepared::dead_ends) {
+                    Some(dead_ends) => InFreeSpace::DeadEnds(Arc::clone(dead_ends)),
+                    None if source.for_one_path => InFreeSpace::Nothing,
+                    None => dead_ends(&layers.free)?,
+                };
                 Prepared::FreeCorners(Arc::clone(&layers.free), parts)
             }
             ConfiguredEngine::Subgoal(_) | ConfiguredEngine::SubgoalTheta(_) => {

@@ -106,6 +106,14 @@ impl Prepared {
         }
     }
 
+    /// The dead ends of the map.
+    pub(super) const fn dead_ends(&self) -> Option<&Arc<DeadEnds>> {
+        match self {
+            Self::FreeCorners(_, InFreeSpace::DeadEnds(dead_ends)) => Some(dead_ends),
+            _ => None,
+        }
+    }
+
     /// Whether it is that of Anya for a single path.
     pub(super) const fn is_for_one_path(&self) -> bool {
         matches!(self, Self::FreeCorners(_, InFreeSpace::Nothing))

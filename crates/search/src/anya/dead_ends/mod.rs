@@ -1,12 +1,12 @@
 //! Dead ends: parts of a map that no shortest path between vertices elsewhere enters.
 //!
-//! **A dead end** is a run of free cells, along a row or a column and as long as it can be, that one *door*
+//! **A dead end** is a short run of free cells, along a row or a column and as long as it can be, that one *door*
 //! leads into: its long sides are blocked but for one stretch, and no gap that paths may pass is at its
 //! corners. The door is a segment of a grid line. A path that enters by it and leaves by it again is no
 //! shorter, in any norm, than the one that keeps to the segment instead, which is as free. So without the run
 //! the same taut paths lead from vertex to vertex, except to those at its cells. Then the run may count as
 //! blocked, and others may have one door left: the search goes on until there are none. What is left of a
-//! map are the ways around its obstacles.
+//! map are its rooms, and the ways around its obstacles.
 //!
 //! **No corner is added** by blocking the run: beyond its door the wall is straight, or goes on from where
 //! the run ended. So every place at which a path turns is one of the map itself, and every gap is, too.
