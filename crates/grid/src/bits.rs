@@ -392,7 +392,8 @@ impl BitRow<'_> {
         self.start_of(end, to, |word| word)
     }
 
-    /// The column where the blocked columns before `end` begin, at the earliest `to`; `end` if there are none.
+    /// The column where the blocked columns before `end` begin, at the earliest `to`; `end` if there are
+    /// none.
     #[must_use]
     #[inline]
     pub fn blocked_start(self, end: i32, to: i32) -> i32 {

@@ -37,7 +37,7 @@ const EXPECTED: [Row; 14] = [
     ("jps-plus", 0x619e_31a8_e86a_0b59, 72),
     ("theta", 0x35ff_fe45_8b38_45e3, 112),
     ("lazy-theta", 0xb5c5_8f98_7086_095f, 84),
-    ("anya", 0x232c_6b2d_ec0e_af80, 28),
+    ("anya", 0xcbcb_e940_8aa3_ec10, 28),
     ("subgoal", 0x408f_44e9_a4ab_e377, 176),
     ("subgoal-theta", 0xd632_2226_40f1_a03e, 40),
     ("hpa", 0x1f2e_ab71_0e82_1128, 72),

@@ -31,9 +31,8 @@
 //! additions and one word of cells (module `cone`).
 //!
 //! **Dead ends.** No shortest path enters a part of the map behind a straight door, unless it starts or ends
-//! there. Where many queries are made on a map, the planner may find these parts beforehand, in about a
-//! nanosecond a cell, and leave them out (module `dead_ends`): on maps of games often more than
-//! half of the nodes.
+//! there. Where many queries are made on a map, these parts may be found beforehand, in some nanoseconds a
+//! cell, and left out (module `dead_ends`): on maps of games often more than half of the nodes.
 //!
 //! **Over N(k).** Only lengths know the metric (module `norm`). With h_k for the Euclidean length the search
 //! finds optimal paths over N(k); no publication has this search.

@@ -98,8 +98,8 @@ impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Anya<S, N> {
     }
 
     /// The same planner, whose searches leave out the dead ends of the map, except those where they start or
-    /// end, and what is on the way. Paths cost the same; of several shortest ones it may find another. It
-    /// takes one bit a cell more.
+    /// end, and what is not on the way between. Paths cost the same; of several shortest ones it may find
+    /// another.
     ///
     /// # Errors
     /// [`Mismatch`] for the dead ends of another map or rule of motion.

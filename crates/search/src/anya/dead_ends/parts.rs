@@ -9,8 +9,8 @@
 //! alone that are between their ends in the tree. A bridge is shut by blocking the run beyond it. For what is
 //! on this side, that run is a dead end like those of the module above: no corner is added.
 //!
-//! A run between two bridges, as in a corridor, is no part of its own, but goes with what is beyond it: a path
-//! through a long corridor needs few parts.
+//! A run between two bridges, as in a corridor, is no part of its own, but goes with what is beyond it. So a
+//! path through a long corridor needs few parts.
 //!
 //! Where a run has a door with one other run, both touch in one stretch. So the runs above a run are
 //! neighbors in their row, and so are those below it.
