@@ -1,11 +1,11 @@
 //! Dead ends: parts of a map that no shortest path between vertices elsewhere enters.
 //!
 //! **A dead end** is a short run of free cells, along a row or a column and as long as it can be, that one
-//! *door* leads into: its long sides are blocked but for one stretch, and no gap that paths may pass is at its
-//! corners. The door is a segment of a grid line. A path that enters by it and leaves by it again is no
-//! shorter, in any norm, than the one that keeps to the segment instead, which is as free. So without the run
-//! the same taut paths lead from vertex to vertex, except to those at its cells. Then the run may count as
-//! blocked, and others may have one door left: the search goes on until there are none. What is left of a
+//! *door* leads into: its long sides are blocked but for one stretch, and no gap that paths may pass is at
+//! its corners. The door is a segment of a grid line. A path that enters by it and leaves by it again is no
+//! shorter, in any norm, than the one that keeps to the segment instead, which is as free. So without the
+//! run the same taut paths lead from vertex to vertex, except to those at its cells. Then the run may count
+//! as blocked, and others may have one door left: the search goes on until there are none. What is left of a
 //! map are its rooms, and the ways around its obstacles.
 //!
 //! **No corner is added** by blocking the run: beyond its door the wall is straight, or goes on from where
@@ -17,17 +17,17 @@
 //! only door of C, and would be open. So the cells around X are as they were when it was blocked, and the
 //! argument above holds for X, now as then.
 //!
-//! **Parts.** What is left may still be parts that single doors join (module `parts`): between rows, as where
-//! a corridor leads down from a room, or between columns. Of these a query needs those between its ends; if
-//! it starts or ends in dead ends, between all that are behind their doors. So no open dead end touches
-//! another part, and the doors between the parts are as they were. The others are shut: the bridge from each
-//! part to its parent is shut but where both are needed, and so is the one from the uppermost part that is
-//! needed.
+//! **Parts.** What is left may still be parts that single doors join (module `parts`): between rows, as
+//! where a corridor leads down from a room, or between columns. Of these a query needs those between its
+//! ends; if it starts or ends in dead ends, between all that are behind their doors. So no open dead end
+//! touches another part, and the doors between the parts are as they were. The others are shut: the bridge
+//! from each part to its parent is shut but where both are needed, and so is the one from the uppermost part
+//! that is needed.
 //!
 //! The least path needs no part of rows that is shut, and no part of columns that is: it would be shorter
-//! along the door. So a cell is left out if it shuts a bridge of either kind. Where two runs that shut bridges
-//! cross, or one ends at a part that is shut, that may make corners which the map has not. No least path
-//! needs them, and a path that turns there is legal on the map.
+//! along the door. So a cell is left out if it shuts a bridge of either kind. Where two runs that shut
+//! bridges cross, or one ends at a part that is shut, that may make corners which the map has not. No least
+//! path needs them, and a path that turns there is legal on the map.
 //!
 //! **Which cells were a run** is known by two bits a cell. When a run of a row was blocked, the cells at its
 //! ends were blocked, on the map or earlier as parts of columns: so it is the longest run of free cells of
