@@ -70,8 +70,8 @@
 //! `history`).
 //!
 //! On eighteen benchmark maps it takes 0.49 of the time of Polyanya in the geometric mean without dead ends,
-//! and 1.04 with nothing prepared (`docs/performance.md`). Times over N(k), and what was tried on the way, are
-//! in `docs/measurements/search.md`.
+//! and 1.04 with nothing prepared (`docs/performance.md`). Times over N(k), and what was tried on the way,
+//! are in `docs/measurements/search.md`.
 
 mod cone;
 mod dead_ends;
