@@ -19,9 +19,9 @@ use crate::{
 };
 
 /// Makes jumps by words of 64 vertices, for k ≤ 3. Takes two and a half bytes a vertex, which clones share.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BlockFinder {
-    identity: Identity,
+    pub(super) identity: Identity,
     axial: Arc<AxialStops>,
     diagonals: Arc<DiagonalStops>,
     /// How far dead ends reach; 0 if there are none.
@@ -47,6 +47,14 @@ impl BlockFinder {
     pub(super) fn with_planes<P: Placement>(graph: &GridGraph<P>, planes: JumpPlanes) -> Self {
         let JumpPlanes { axial, diagonals, reach, .. } = planes;
         Self { identity: graph.identity(), axial: Arc::new(axial), diagonals: Arc::new(diagonals), reach }
+    }
+
+    pub(super) fn axial_stops(&self) -> &AxialStops {
+        &self.axial
+    }
+
+    pub(super) fn diagonal_stops(&self) -> &DiagonalStops {
+        &self.diagonals
     }
 
     /// The memory that the finder of a grid graph uses, in bytes.

@@ -21,6 +21,8 @@
 //!
 //! Where intermediate jump points are kept, or gaps are closed, there are no dead ends.
 
+use std::hint::select_unpredictable;
+
 use mediant_grid::{GridGraph, Placement, Vector, Vertex};
 
 use super::{axial::AxialStops, stop_rows::Leads};
@@ -76,6 +78,13 @@ impl NearGoal {
         Self { rows: all, columns: all }
     };
 
+    /// Dead ends are passed everywhere.
+    pub(super) const NOWHERE: Self = {
+        // No row or column has this number.
+        let none = Band { first: i32::MIN / 2, more: 0 };
+        Self { rows: none, columns: none }
+    };
+
     /// What is near a goal, where dead ends reach so far.
     pub(super) fn new(goal: Vertex, axial: &AxialStops, reach: u32) -> Self {
         let [down, right, up, left] = [0, 1, 2, 3].map(|quarter| axial.legal_steps(goal, quarter));
@@ -90,6 +99,14 @@ impl NearGoal {
     #[inline]
     pub(super) const fn holds(&self, from: Vertex, quarter: usize) -> bool {
         if quarter.is_multiple_of(2) { self.columns.holds(from.x) } else { self.rows.holds(from.y) }
+    }
+
+    /// The same for a jump by `v` that comes to `at`, without a branch: it cannot be predicted.
+    #[inline]
+    pub(super) fn holds_along(&self, at: Vertex, v: Vector) -> bool {
+        let is_vertical = v.x == 0;
+        let band = select_unpredictable(is_vertical, self.columns, self.rows);
+        band.holds(select_unpredictable(is_vertical, at.x, at.y))
     }
 
     /// The same for jumps from 64 vertices, the first one and those that follow it by diagonal moves `v`.

@@ -43,6 +43,12 @@ pub(super) struct JumpRules {
 }
 
 impl JumpRules {
+    /// Whether jumps lead as far as they can, and to nothing but jump points.
+    #[inline]
+    pub(super) const fn are_plain(&self) -> bool {
+        self.limit == u32::MAX && !self.keeps_intermediate
+    }
+
     /// Those of a search before it begins.
     pub(super) const PLAIN: Self = Self {
         stepwise: false,
@@ -94,6 +100,20 @@ pub trait JumpFinder<P: Placement>: Debug {
         visit: &mut impl FnMut(Successor) -> Option<VertexId>,
     ) {
         context.step_diagonal(self, from, index, scanned, visit);
+    }
+
+    /// Calls `visit` with all successors of a node at which a path arrived by move `by`, if they are known
+    /// beforehand; false if they are not.
+    #[doc(hidden)]
+    #[inline]
+    fn known_successors(
+        &self,
+        context: &JumpContext<'_, P>,
+        (node, by): (&ExpandedNode, usize),
+        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+    ) -> bool {
+        let _ = (context, node, by, visit);
+        false
     }
 }
 
@@ -264,6 +284,14 @@ impl<P: Placement> JumpContext<'_, P> {
         }
     }
 
+    /// Whether a diagonal jump can enter a vertex that stops it and from which no axial jump leads on.
+    pub(super) fn can_enter(&self, from: &ExpandedNode, index: usize, steps: u32) -> bool {
+        self.pruning.diagonals_may_force() && {
+            let before = self.after(from, self.graph.step(index), index, steps - 1);
+            self.pruning.is_legal(self.graph, &before, index)
+        }
+    }
+
     /// Whether a diagonal jump ends before it comes to a stop or there, with or without a node, for another
     /// reason than that it is cut. `leads_on` says whether an axial jump leads on from the stop.
     fn ends_otherwise<J: JumpFinder<P> + ?Sized>(
@@ -277,11 +305,7 @@ impl<P: Placement> JumpContext<'_, P> {
     ) -> bool {
         let step = self.graph.step(index);
         let may_force = self.pruning.diagonals_may_force();
-        let can_enter = leads_on
-            || may_force && {
-                let before = self.after(from, step, index, steps - 1);
-                self.pruning.is_legal(self.graph, &before, index)
-            };
+        let can_enter = leads_on || self.can_enter(from, index, steps);
         let reached = (steps - u32::from(!can_enter)).min(self.rules.limit);
         if let Some(legs) = to_goal.take_if(|legs| legs.diagonal <= reached) {
             let turn = self.after(from, step, index, legs.diagonal);
@@ -342,7 +366,7 @@ impl<P: Placement> JumpContext<'_, P> {
 
     /// How many steps of the even move `index` the path from a parent to a vertex ends with.
     #[inline]
-    fn last_leg(&self, parent: VertexId, at: Vertex, index: usize) -> u32 {
+    pub(super) fn last_leg(&self, parent: VertexId, at: Vertex, index: usize) -> u32 {
         let (d, v) = (self.graph.vertex(parent).to(at), self.graph.step(index).vector());
         let [before, after] = self.beside(index);
         // As in `GoalLegs`, with the even move in the place of the odd one.

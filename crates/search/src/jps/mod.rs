@@ -18,7 +18,7 @@
 //! |---|---|---|---|
 //! | [`Jps`] | vertex by vertex; far from obstacles several at once | vertex by vertex | all |
 //! | [`BlockJps`] | 64 vertices a word operation (module `axial`) | likewise (module `diagonals`) | 2, 3 |
-//! | [`JpsPlus`] | looked up ([`JumpTable`]), near the goal as `BlockJps` | as `BlockJps` | 2, 3 |
+//! | [`JpsPlus`] | from jump points looked up ([`JumpTable`], module `lists`), else as `BlockJps` | likewise | 2, 3 |
 //!
 //! **Intermediate jump points** (Harabor & Grastien 2014) are pruned by default: what an axial jump beside a
 //! diagonal one finds becomes the successor, and the vertex between becomes no node. The path is put together
@@ -55,6 +55,7 @@ mod block_finder;
 mod dead_ends;
 mod diagonals;
 mod finder;
+mod lists;
 mod planes;
 mod planner;
 mod stop_rows;

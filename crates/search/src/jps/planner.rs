@@ -221,7 +221,13 @@ impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
                 graph.for_each_successor(node.at, node.by, goal, |index| moves |= 1 << index);
                 moves
             }
-            Some(by) => table.successors(by, pattern_at(graph, node.at)),
+            Some(by) => {
+                let looks_up = self.rules.are_plain();
+                if looks_up && self.finder.known_successors(&context, (&node, by), &mut visit) {
+                    return 0;
+                }
+                table.successors(by, pattern_at(graph, node.at))
+            }
         };
         Self::follow(&self.finder, &context, &node, moves, &mut visit)
     }

@@ -1,4 +1,4 @@
-//! Axial jumps that are looked up in a table (JPS+).
+//! Jumps from a table (JPS+).
 
 use std::sync::Arc;
 
@@ -11,15 +11,15 @@ use super::{
 };
 use crate::successors::{ExpandedNode, Successor};
 
-/// Looks axial jumps up.
+/// Looks the jumps from jump points up. Where they are not known, it makes them as the
+/// [`BlockFinder`](super::BlockFinder) does.
 impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
     fn identity(&self) -> Option<Identity> {
         Some(JumpTable::identity(self))
     }
 
     fn near_goal(&self, goal: Vertex) -> NearGoal {
-        let Some((axial, reach)) = JumpTable::near_goal(self) else { return NearGoal::EVERYWHERE };
-        NearGoal::new(goal, axial, *reach)
+        JumpFinder::<P>::near_goal(self.blocks(), goal)
     }
 
     #[inline]
@@ -31,22 +31,9 @@ impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
         goal_steps: Option<u32>,
         scanned: &mut u32,
     ) -> Option<u32> {
-        if let Some((axial, _)) = JumpTable::near_goal(self) {
-            let quarter = context.quarter(index);
-            if context.rules.near.holds(from.at, quarter) {
-                let scan = axial.scan(from.at, quarter, goal_steps, true);
-                *scanned += scan.scanned;
-                return scan.found.then_some(scan.steps);
-            }
-        }
-        let (steps, found) = self.jump(from.id, context.graph.step(index), index);
-        match goal_steps {
-            Some(goal_steps) if goal_steps <= steps => Some(goal_steps),
-            _ => found.then_some(steps),
-        }
+        self.blocks().axial(context, from, index, goal_steps, scanned)
     }
 
-    #[inline]
     fn diagonal(
         &self,
         context: &JumpContext<'_, P>,
@@ -55,7 +42,16 @@ impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
         scanned: &mut u32,
         visit: &mut impl FnMut(Successor) -> Option<VertexId>,
     ) {
-        let stops = (self.diagonals(), JumpTable::near_goal(self).is_some());
-        context.diagonal_by_stops(self, stops, from, index, scanned, visit);
+        self.blocks().diagonal(context, from, index, scanned, visit);
+    }
+
+    #[inline]
+    fn known_successors(
+        &self,
+        context: &JumpContext<'_, P>,
+        node: (&ExpandedNode, usize),
+        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+    ) -> bool {
+        self.lists().visit(context, self.blocks(), node, visit)
     }
 }

@@ -72,6 +72,12 @@ impl ToGoal {
         Self { index: odd, steps: diagonal, then: (even, x.abs_diff(y)) }
     }
 
+    /// How often a move is taken, and then the move of the second leg, if the way to the goal begins with it.
+    #[inline]
+    pub(super) fn by(&self, index: usize) -> Option<(u32, (usize, u32))> {
+        (self.index == index && self.steps > 0).then_some((self.steps, self.then))
+    }
+
     /// The legs to the goal that begin with an odd move.
     #[inline]
     pub(super) fn legs(&self, index: usize) -> Option<GoalLegs> {

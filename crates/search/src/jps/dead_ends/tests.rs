@@ -104,7 +104,6 @@ impl Test for Definition {
         let plain = AxialStops::new(&graph);
         let reach = [1, 2, 3, 5, 8, REACH][seed as usize / 4 % 6];
         let marked = planes(&graph, &pruning, reach);
-        let table = JumpTable::from_planes(&graph, planes(&graph, &pruning, reach));
         let count = graph.steps().len();
         for id in 0..graph.vertex_count() as u32 {
             let from = graph.vertex(VertexId(id));
@@ -112,9 +111,6 @@ impl Test for Definition {
                 let scan = plain.scan(from, quarter, None, true);
                 let by = quarter * count / 4;
                 assert_eq!(marked.axial.scan(from, quarter, None, true), scan);
-                let passing = marked.axial.scan(from, quarter, None, false);
-                let jump = table.jump(VertexId(id), graph.step(by), by);
-                assert_eq!(jump, (passing.steps, passing.found), "{from}, {quarter}, seed {seed}");
                 let at = from + graph.step(by).vector() * scan.steps as i32;
                 if !scan.found {
                     continue;
@@ -207,6 +203,7 @@ struct Costs {
     queries: u64,
     expanded: [u64; 2],
     shorter: u64,
+    lists: usize,
 }
 
 impl Test for Costs {
@@ -219,7 +216,9 @@ impl Test for Costs {
             let jps = |reach| BlockJps::with_finder(graph, Arc::clone(&pruning), with(reach), Hk).unwrap();
             let mut planners = [jps(reach), jps(0)];
             let mut zero = BlockJps::with_finder(graph, Arc::clone(&pruning), with(reach), Zero).unwrap();
-            let table = Arc::new(JumpTable::from_planes(graph, planes(graph, &pruning, reach)));
+            let table = JumpTable::from_planes(graph, &pruning, planes(graph, &pruning, reach));
+            self.lists += table.lists().len();
+            let table = Arc::new(table);
             let mut plus = JpsPlus::with_finder(graph, Arc::clone(&pruning), table, Hk).unwrap();
             let rng = &mut Rng::new(seed ^ u64::from(reach));
             for _ in 0..12 {
@@ -245,7 +244,7 @@ impl Test for Costs {
                 let found = plus.solve_observed(query, &mut counters).unwrap();
                 assert_eq!(length(found.path()), expected, "{}", case());
                 let with = self.expanded[0] - before[0];
-                assert_eq!(counters.expanded, with, "JPS+, {}", case());
+                assert!(counters.expanded <= with, "JPS+, {}", case());
                 self.queries += 1;
             }
         }
@@ -258,5 +257,6 @@ fn searches_that_pass_dead_ends_lose_no_path() {
     on_all(grids(seeds(48)), &mut test);
     let [with, without] = test.expanded;
     assert!(test.queries > 10_000, "{}", test.queries);
+    assert!(test.lists > 100_000, "{} jump lists", test.lists);
     assert!(test.shorter > 1000 && with < without, "{}, {with} of {without} expansions", test.shorter);
 }

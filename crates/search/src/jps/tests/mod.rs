@@ -1,26 +1,26 @@
-//! Scans of bit planes and jumps from tables against jumps that are made step by step, with forced successors
+//! Scans of bit planes and lists of jumps against jumps that are made step by step, with forced successors
 //! by their definition.
 
 use std::sync::Arc;
 
 use mediant_grid::{
-    Centers, Corners, DiagonalGap, Grid, GridGraph, Identity, Placement, Rules, Vector, Vertex, VertexId,
+    Centers, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vector, Vertex, VertexId,
 };
 use mediant_moves::FiniteK;
 use mediant_oracle::{Rng, describe, is_gap, noise, seeds, suite_grid, wide_grid};
 
 use super::{
-    JumpError, JumpTable,
     axial::{AxialStops, Scan},
     diagonals::DiagonalStops,
     finder::{JumpContext, JumpRules},
-    planes::JumpPlanes,
     stop_rows::Leads,
     to_goal::{GoalLegs, ToGoal},
 };
-use crate::canonical::Pruning;
+use crate::{canonical::Pruning, successors::ExpandedNode};
 
 const AXES: [Vector; 4] = [Vector::new(0, 1), Vector::new(1, 0), Vector::new(0, -1), Vector::new(-1, 0)];
+
+mod lists;
 
 /// How a jump ends: its steps, and whether it found a jump point or the goal.
 type End = (u32, bool);
@@ -137,6 +137,30 @@ impl<P: Placement> Reference<P> {
             }
         }
         (steps, false)
+    }
+
+    /// Whether a path that came by a move may go on by one of its successors, and from there by an even move
+    /// beside it, straight to the goal.
+    fn is_in_sight(&self, at: Vertex, by: usize, goal: Vertex) -> bool {
+        let (last, mut is_seen) = (self.move_count() - 1, false);
+        let node = ExpandedNode { id: self.graph.id(at).unwrap(), at, by: Some(by) };
+        Pruning::new(&self.graph).for_each(&self.graph, &node, by, |index| {
+            let beside = if index % 2 == 1 { vec![index - 1, (index + 1) & last] } else { vec![] };
+            let mut turn = at;
+            while let Some(to) = self.next(turn, index).filter(|&to| !self.is_closed_gap(to)) {
+                turn = to;
+                let comes_there = |&even: &usize| {
+                    let (mut at, mut comes) = (turn, false);
+                    while let Some(to) = self.next(at, even).filter(|&to| !self.is_closed_gap(to)) {
+                        at = to;
+                        comes |= at == goal;
+                    }
+                    comes
+                };
+                is_seen |= turn == goal || beside.iter().any(comes_there);
+            }
+        });
+        is_seen
     }
 
     fn move_count(&self) -> usize {
@@ -262,63 +286,6 @@ fn scans_end_where_steps_end() {
     assert!(suite.compared > 1_000_000, "{}", suite.compared);
 }
 
-/// Tables give what steps give, and come back from their bytes.
-struct Tables {
-    compared: usize,
-    longest: u32,
-}
-
-impl Suite for Tables {
-    fn check<P: Placement>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
-        let graph = &reference.graph;
-        let planes = JumpPlanes::with_dead_ends(graph, &Pruning::new(graph), AxialStops::new(graph), 0);
-        let table = JumpTable::from_planes(graph, planes);
-        for (id, from) in reference.vertices().filter(|&(_, from)| graph.is_free(from)) {
-            for (index, step) in graph.steps().iter().enumerate().step_by(2) {
-                let expected = reference.scan(from, index, None);
-                let found = table.jump(id, step, index);
-                assert_eq!(found, expected, "{:?}, {}", step.vector(), case(from, from));
-                self.compared += 1;
-                self.longest = self.longest.max(expected.0);
-            }
-        }
-        let table = JumpTable::new(graph).unwrap();
-        let again = JumpTable::from_bytes(graph, &table.to_bytes());
-        assert_eq!(again.as_ref(), Ok(&table), "{}", case(Vertex::default(), Vertex::default()));
-    }
-}
-
-#[test]
-fn tables_lead_where_steps_lead() {
-    let mut suite = Tables { compared: 0, longest: 0 };
-    on_all(suite_grids().chain(long_grids()), &mut suite);
-    assert!(suite.compared > 100_000, "{}", suite.compared);
-    assert!(suite.longest > 3 * 127, "{}", suite.longest);
-}
-
-/// Jumps of lengths around the multiples of what an entry can say, dead and found.
-#[test]
-fn runs_longer_than_an_entry_can_say_are_followed_to_their_end() {
-    for length in [1, 125, 126, 127, 128, 251, 252, 253, 254, 378, 379, 400_u32] {
-        // All cells beside the jump are blocked. If the one beside its last cell is free, that is a jump
-        // point.
-        for with_forced in [false, true] {
-            let grid = Grid::from_fn(length + 1, 2, |x, y| y == 1 && (x != length || !with_forced)).unwrap();
-            for k in [2, 3] {
-                let (k, grid) = (FiniteK::new(k).unwrap(), Arc::new(transposed(&grid)));
-                let graph = GridGraph::<Centers>::new(grid, k, Default::default()).unwrap();
-                let table = JumpTable::new(&graph).unwrap();
-                let jump = table.jump(VertexId(0), graph.step(0), 0);
-                assert_eq!(jump, (length, with_forced), "{length}, k = {k}");
-            }
-        }
-    }
-}
-
-fn transposed(grid: &Grid) -> Grid {
-    Grid::from_fn(grid.height(), grid.width(), |x, y| grid.is_blocked(y as i32, x as i32)).unwrap()
-}
-
 /// The formulas on words, on every pattern and under each rule.
 struct Patterns;
 
@@ -326,7 +293,7 @@ impl Suite for Patterns {
     fn check<P: Placement>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
         Scans { compared: 0 }.check(reference, case);
         DiagonalScans { compared: 0, longest: 0 }.check(reference, case);
-        Tables { compared: 0, longest: 0 }.check(reference, case);
+        lists::Lists::default().check(reference, case);
     }
 }
 
@@ -368,72 +335,4 @@ fn the_way_to_the_goal_is_that_of_the_moves() {
             }
         }
     }
-}
-
-fn damaged_graph() -> GridGraph<Centers> {
-    let grid = noise(&mut Rng::new(5), 20, 15, 20);
-    GridGraph::new(Arc::new(grid), FiniteK::N8, Default::default()).unwrap()
-}
-
-#[test]
-fn bytes_of_another_length_are_refused() {
-    let graph = damaged_graph();
-    let bytes = JumpTable::new(&graph).unwrap().to_bytes();
-    const HEAD: usize = Identity::BYTES;
-    assert_eq!(bytes.len(), HEAD + 20 * 15 * 4);
-    for length in [HEAD, HEAD + 1, bytes.len() - 1, bytes.len() + 1, 2 * bytes.len()] {
-        let mut other = bytes.clone();
-        other.resize(length, 0);
-        let error = JumpError::Length { expected: bytes.len() - HEAD, found: length - HEAD };
-        assert_eq!(JumpTable::from_bytes(&graph, &other), Err(error));
-    }
-    for length in 0..HEAD {
-        assert_eq!(JumpTable::from_bytes(&graph, &bytes[..length]), Err(JumpError::Bytes));
-    }
-}
-
-#[test]
-fn every_flipped_bit_is_refused() {
-    let graph = damaged_graph();
-    let bytes = JumpTable::new(&graph).unwrap().to_bytes();
-    for bit in 0..8 * bytes.len() {
-        let mut other = bytes.clone();
-        other[bit / 8] ^= 1 << (bit % 8);
-        let refused = JumpTable::from_bytes(&graph, &other);
-        let is_named = match refused {
-            Err(JumpError::Entry { .. }) => bit >= 8 * Identity::BYTES,
-            Err(JumpError::Bytes | JumpError::Mismatch(_)) => bit < 8 * Identity::BYTES,
-            _ => false,
-        };
-        assert!(is_named, "bit {bit}: {refused:?}");
-    }
-}
-
-#[test]
-fn tables_of_other_graphs_are_refused() {
-    let graph = damaged_graph();
-    let table = JumpTable::new(&graph).unwrap();
-    let other = noise(&mut Rng::new(6), 20, 15, 20);
-    let other = GridGraph::<Centers>::new(Arc::new(other), graph.k(), graph.rule()).unwrap();
-    let refused = JumpTable::from_bytes(&other, &table.to_bytes());
-    assert!(matches!(refused, Err(JumpError::Mismatch(_))), "{refused:?}");
-
-    let k4 =
-        GridGraph::<Centers>::new(Arc::clone(graph.grid()), FiniteK::new(4).unwrap(), graph.rule()).unwrap();
-    assert!(JumpTable::new(&k4).is_err());
-    let refused = JumpTable::from_bytes(&k4, &table.to_bytes());
-    assert!(matches!(refused, Err(JumpError::Mismatch(_))), "{refused:?}");
-}
-
-#[test]
-fn errors_say_what_was_expected_and_found() {
-    let graph = damaged_graph();
-    let mut bytes = JumpTable::new(&graph).unwrap().to_bytes();
-    // The second move at the vertex after the first row.
-    bytes[Identity::BYTES + 20 * 4 + 1] ^= 0x80;
-    let text = JumpTable::from_bytes(&graph, &bytes).unwrap_err().to_string();
-    assert!(text.contains("(0, 1)") && text.contains("(1, 0)") && text.contains("build it anew"), "{text}");
-    bytes.pop();
-    let text = JumpTable::from_bytes(&graph, &bytes).unwrap_err().to_string();
-    assert!(text.contains("1199 entries") && text.contains("needs 1200"), "{text}");
 }
