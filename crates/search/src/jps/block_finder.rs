@@ -12,6 +12,7 @@ use super::{
     finder::{JumpContext, JumpFinder},
     planes::JumpPlanes,
     table::JumpError,
+    to_goal::ToGoal,
 };
 use crate::{
     canonical::Pruning,
@@ -99,6 +100,28 @@ impl<P: Placement> JumpFinder<P> for BlockFinder {
     }
 
     #[inline]
+    fn goal_in_sight(
+        &self,
+        context: &JumpContext<'_, P>,
+        node: &ExpandedNode,
+        scanned: &mut u32,
+    ) -> Option<Successor> {
+        let way = context.to_goal;
+        let can_enter = |steps| context.can_enter(node, way.index, steps);
+        if way.index & 1 == 1 {
+            *scanned += way.steps;
+            if way.steps > context.rules.limit
+                || !self.diagonals.can_make(node.at, way.index, way.steps, can_enter)
+            {
+                return None;
+            }
+        } else if self.axial.legal_steps(node.at, context.quarter(way.index)) < way.steps {
+            return None;
+        }
+        context.goal_beyond_turn(self, node)
+    }
+
+    #[inline]
     fn diagonal(
         &self,
         context: &JumpContext<'_, P>,
@@ -109,5 +132,25 @@ impl<P: Placement> JumpFinder<P> for BlockFinder {
     ) {
         let stops = (&*self.diagonals, self.reach > 0);
         context.diagonal_by_stops(self, stops, from, index, scanned, visit);
+    }
+}
+
+impl<P: Placement> JumpContext<'_, P> {
+    /// The goal as the successor of a node from which a path can make the first leg to it, if it can make the
+    /// second one, too.
+    #[inline]
+    pub(super) fn goal_beyond_turn(&self, blocks: &BlockFinder, node: &ExpandedNode) -> Option<Successor> {
+        let ToGoal { index, steps, then: (even, then_steps) } = self.to_goal;
+        let step = self.graph.step(index);
+        let (turn, cost) = (self.after(node, step, index, steps), step.cost * steps);
+        if then_steps == 0 {
+            return Some(turn.reached(cost, index));
+        }
+        if blocks.axial.legal_steps(turn.at, self.quarter(even)) < then_steps {
+            return None;
+        }
+        let beside = self.graph.step(even);
+        let goal = self.after(&turn, beside, even, then_steps);
+        Some(goal.reached(cost + beside.cost * then_steps, even))
     }
 }

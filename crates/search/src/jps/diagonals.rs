@@ -116,6 +116,36 @@ impl DiagonalStops {
         DiagonalScan { words, place: place.wrapping_sub(63), first: 0u32.wrapping_sub(63), stops: 0 }
     }
 
+    /// Whether a diagonal jump from a vertex of the map can enter so many vertices. `can_enter` says it of those
+    /// that stop it and from which no axial jump leads on, by the number of steps to them.
+    #[inline]
+    pub(super) fn can_make(
+        &self,
+        from: Vertex,
+        index: usize,
+        steps: u32,
+        can_enter: impl Fn(u32) -> bool,
+    ) -> bool {
+        let (mut at, mut made) = (self.place(from, index) + 1, 0);
+        while made < steps {
+            let (word, shift) = ((at >> 6) as usize, at & 63);
+            let Some(&[low, high]) = self.words.get(word..word + 2) else { return false };
+            let [low, high] = [low, high].map(|[stops, first, second]| stops & !(first | second));
+            let mut left = low >> shift | high << 1 << (63 - shift);
+            if steps - made < 64 {
+                left &= (1 << (steps - made)) - 1;
+            }
+            while left != 0 {
+                if !can_enter(made + left.trailing_zeros() + 1) {
+                    return false;
+                }
+                left &= left - 1;
+            }
+            (at, made) = (at + 64, made + 64);
+        }
+        true
+    }
+
     pub(crate) fn memory_bytes(&self) -> usize {
         size_of_val(&*self.words)
     }

@@ -102,6 +102,20 @@ pub trait JumpFinder<P: Placement>: Debug {
         context.step_diagonal(self, from, index, scanned, visit);
     }
 
+    /// The goal as the successor of a node, if a path comes straight to it by the move that
+    /// [`ToGoal`] says and then by an even move beside it; `None` also where that is not looked for.
+    #[doc(hidden)]
+    #[inline]
+    fn goal_in_sight(
+        &self,
+        context: &JumpContext<'_, P>,
+        node: &ExpandedNode,
+        scanned: &mut u32,
+    ) -> Option<Successor> {
+        let _ = (context, node, scanned);
+        None
+    }
+
     /// Calls `visit` with all successors of a node at which a path arrived by move `by`, if they are known
     /// beforehand; false if they are not.
     #[doc(hidden)]
@@ -251,8 +265,6 @@ impl<P: Placement> JumpContext<'_, P> {
     ) {
         let (step, beside) = (self.graph.step(index), self.beside(index));
         let v = step.vector();
-        let mut to_goal = self.to_goal.legs(index);
-        let goal_at = to_goal.map_or(u32::MAX, |legs| legs.diagonal);
         let mut scan = stops.scan(from.at, index);
         loop {
             let (steps, leads) = scan.next(|first| {
@@ -260,9 +272,8 @@ impl<P: Placement> JumpContext<'_, P> {
                     |even| self.rules.near.along_diagonal(from.at + v * first as i32, v, self.quarter(even));
                 passes_dead_ends.then(|| beside.map(near))
             });
-            if self.rules.has_other_nodes || goal_at <= steps {
-                let stop = (steps, leads != [false; 2]);
-                if self.ends_otherwise(finder, (from, index), stop, &mut to_goal, scanned, visit) {
+            if self.rules.has_other_nodes {
+                if self.ends_otherwise((from, index), (steps, leads != [false; 2]), visit) {
                     return;
                 }
             } else if leads == [false; 2] {
@@ -294,41 +305,22 @@ impl<P: Placement> JumpContext<'_, P> {
 
     /// Whether a diagonal jump ends before it comes to a stop or there, with or without a node, for another
     /// reason than that it is cut. `leads_on` says whether an axial jump leads on from the stop.
-    fn ends_otherwise<J: JumpFinder<P> + ?Sized>(
+    fn ends_otherwise(
         &self,
-        finder: &J,
         (from, index): (&ExpandedNode, usize),
         (steps, leads_on): (u32, bool),
-        to_goal: &mut Option<GoalLegs>,
-        scanned: &mut u32,
         visit: &mut impl FnMut(Successor) -> Option<VertexId>,
     ) -> bool {
         let step = self.graph.step(index);
-        let may_force = self.pruning.diagonals_may_force();
         let can_enter = leads_on || self.can_enter(from, index, steps);
         let reached = (steps - u32::from(!can_enter)).min(self.rules.limit);
-        if let Some(legs) = to_goal.take_if(|legs| legs.diagonal <= reached) {
-            let turn = self.after(from, step, index, legs.diagonal);
-            let (goal_steps, cost) = (Some(legs.axial), step.cost * legs.diagonal);
-            if legs.axial == 0 {
-                visit(turn.reached(cost, index));
-                return true;
-            }
-            if finder.axial(self, &turn, legs.index, goal_steps, scanned) == goal_steps {
-                // No path to the goal that begins with this jump is shorter.
-                let beside = self.graph.step(legs.index);
-                let goal = self.after(&turn, beside, legs.index, legs.axial);
-                visit(goal.reached(cost + beside.cost * legs.axial, legs.index));
-                return true;
-            }
-        }
         if !can_enter && reached < self.rules.limit {
             return true;
         }
         let here = self.after(from, step, index, reached);
         let is_node = reached == self.rules.limit
             || self.rules.keeps_intermediate
-            || may_force && self.pruning.local_rule(self.graph, &here, index).forced;
+            || self.pruning.diagonals_may_force() && self.pruning.local_rule(self.graph, &here, index).forced;
         if is_node {
             visit(here.reached(step.cost * reached, index));
         }

@@ -230,7 +230,10 @@ impl JumpLists {
             let Group { index, length, count } = Group::of(first);
             let Some((jumps, rest)) = rest.split_at_checked(count as usize) else { break };
             list = rest;
-            if let Some(goal) = context.goal_in_sight(blocks, node, (index, length)) {
+            let way = &context.to_goal;
+            if (way.index == index) & (way.steps <= length)
+                && let Some(goal) = context.goal_beyond_turn(blocks, node)
+            {
                 visit(goal);
                 return true;
             }
@@ -301,34 +304,6 @@ impl JumpLists {
 
     fn most_words<P: Placement>(graph: &GridGraph<P>) -> usize {
         graph.vertex_count().max(FEW_WORDS)
-    }
-}
-
-impl<P: Placement> JumpContext<'_, P> {
-    /// The goal, if a path comes to it straight on by a move that can be repeated `length` times from a node,
-    /// and from there by an even move beside it.
-    #[inline]
-    fn goal_in_sight(
-        &self,
-        blocks: &BlockFinder,
-        node: &ExpandedNode,
-        (index, length): (usize, u32),
-    ) -> Option<Successor> {
-        let (steps, (then, then_steps)) = self.to_goal.by(index)?;
-        if steps > length {
-            return None;
-        }
-        let step = self.graph.step(index);
-        let (turn, cost) = (self.after(node, step, index, steps), step.cost * steps);
-        if then_steps == 0 {
-            return Some(turn.reached(cost, index));
-        }
-        if blocks.axial_stops().legal_steps(turn.at, self.quarter(then)) < then_steps {
-            return None;
-        }
-        let beside = self.graph.step(then);
-        let goal = self.after(&turn, beside, then, then_steps);
-        Some(goal.reached(cost + beside.cost * then_steps, then))
     }
 }
 

@@ -229,7 +229,15 @@ impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
                 table.successors(by, pattern_at(graph, node.at))
             }
         };
-        Self::follow(&self.finder, &context, &node, moves, &mut visit)
+        // A goal in sight is the only successor that need be visited: see the module `lists`.
+        let mut scanned = 0;
+        if moves >> context.to_goal.index & 1 == 1
+            && let Some(goal) = self.finder.goal_in_sight(&context, &node, &mut scanned)
+        {
+            visit(goal);
+            return scanned;
+        }
+        Self::follow(&self.finder, &context, &node, moves, &mut visit) + scanned
     }
 
     #[inline]

@@ -46,6 +46,16 @@ impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
     }
 
     #[inline]
+    fn goal_in_sight(
+        &self,
+        context: &JumpContext<'_, P>,
+        node: &ExpandedNode,
+        scanned: &mut u32,
+    ) -> Option<Successor> {
+        self.blocks().goal_in_sight(context, node, scanned)
+    }
+
+    #[inline]
     fn known_successors(
         &self,
         context: &JumpContext<'_, P>,

@@ -44,11 +44,11 @@ impl GoalLegs {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ToGoal {
     /// The move that leads there or that begins the legs.
-    index: usize,
-    /// Its steps.
-    steps: u32,
+    pub(super) index: usize,
+    /// Its steps; 0 if there is no goal, or if the node is there.
+    pub(super) steps: u32,
     /// The move of the second leg, and its steps.
-    then: (usize, u32),
+    pub(super) then: (usize, u32),
 }
 
 impl ToGoal {
@@ -70,19 +70,6 @@ impl ToGoal {
         }
         let odd = if vertical + horizontal == 6 && vertical == 0 { 7 } else { (vertical + horizontal) / 2 };
         Self { index: odd, steps: diagonal, then: (even, x.abs_diff(y)) }
-    }
-
-    /// How often a move is taken, and then the move of the second leg, if the way to the goal begins with it.
-    #[inline]
-    pub(super) fn by(&self, index: usize) -> Option<(u32, (usize, u32))> {
-        (self.index == index && self.steps > 0).then_some((self.steps, self.then))
-    }
-
-    /// The legs to the goal that begin with an odd move.
-    #[inline]
-    pub(super) fn legs(&self, index: usize) -> Option<GoalLegs> {
-        let (then, axial) = self.then;
-        (self.index == index).then_some(GoalLegs { diagonal: self.steps, index: then, axial })
     }
 
     /// The number of steps to the goal by an even move, if it is straight ahead.

@@ -327,10 +327,12 @@ fn the_way_to_the_goal_is_that_of_the_moves() {
                 } else {
                     let legs = GoalLegs::new(&context, from, index);
                     // Where no axial leg follows, its direction says nothing.
-                    let parts = |legs: GoalLegs| {
-                        (legs.diagonal, legs.axial, if legs.axial == 0 { 0 } else { legs.index })
-                    };
-                    assert_eq!(to_goal.legs(index).map(parts), legs.map(parts), "{}", name());
+                    let parts =
+                        |(diagonal, even, axial)| (diagonal, axial, if axial == 0 { 0 } else { even });
+                    let expected = legs.map(|legs| parts((legs.diagonal, legs.index, legs.axial)));
+                    let (even, axial) = to_goal.then;
+                    let found = (to_goal.index == index).then(|| parts((to_goal.steps, even, axial)));
+                    assert_eq!(found, expected, "{}", name());
                 }
             }
         }
