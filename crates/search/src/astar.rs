@@ -5,7 +5,7 @@
 
 use std::ops::Deref;
 
-use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
+use mediant_grid::{GridGraph, Placement, Vertex};
 use mediant_moves::Cost;
 
 use crate::{
@@ -15,7 +15,7 @@ use crate::{
     path::Path,
     planner::{Planner, Status},
     query::{Query, QueryError},
-    successors::{ExpandedNode, Successor, Successors},
+    successors::{ExpandedNode, KnownPath, Successor, Successors},
 };
 
 /// A* on a grid graph.
@@ -124,7 +124,7 @@ impl<P: Placement> Successors<P> for AllMoves {
         graph: &GridGraph<P>,
         node: ExpandedNode,
         goal: Vertex,
-        mut visit: impl FnMut(Successor) -> Option<VertexId>,
+        mut visit: impl FnMut(Successor) -> KnownPath,
     ) -> u32 {
         graph.for_each_successor(node.at, node.by, goal, move |by| {
             visit(node.step(graph, by));

@@ -15,7 +15,7 @@ use crate::{
     path::Path,
     planner::{Planner, Status},
     query::{Query, QueryError},
-    successors::{ExpandedNode, Successor, Successors},
+    successors::{ExpandedNode, KnownPath, Successor, Successors},
     trace::{extend_back, trace_back},
 };
 
@@ -71,7 +71,7 @@ where
     /// use mediant_moves::FiniteK;
     /// use mediant_search::{
     ///     Guarantee, Hk, Planner, Query,
-    ///     parts::{AllMoves, BestFirst, ExpandedNode, Successor, Successors},
+    ///     parts::{AllMoves, BestFirst, ExpandedNode, KnownPath, Successor, Successors},
     /// };
     ///
     /// /// All legal moves that do not lead upwards.
@@ -86,13 +86,13 @@ where
     ///         graph: &GridGraph<P>,
     ///         node: ExpandedNode,
     ///         goal: Vertex,
-    ///         mut visit: impl FnMut(Successor) -> Option<VertexId>,
+    ///         mut visit: impl FnMut(Successor) -> KnownPath,
     ///     ) -> u32 {
     ///         AllMoves.for_each(graph, node, goal, |next| {
     ///             if next.at.y >= node.at.y {
     ///                 visit(next)
     ///             } else {
-    ///                 None
+    ///                 KnownPath::NONE
     ///             }
     ///         })
     ///     }
@@ -213,7 +213,8 @@ where
                 match nodes.get(next.id) {
                     Some(known) if !reopens && known.slot == Node::<N>::CLOSED => {}
                     Some(known) if !is_earlier(&known) => {
-                        return known.pointer.stored().filter(|_| known.arrived_by() == next.by);
+                        let parent = known.pointer.stored().filter(|_| known.arrived_by() == next.by);
+                        return KnownPath::new(g - known.g, parent);
                     }
                     Some(known) => {
                         let gain = known.g - g;
@@ -235,7 +236,7 @@ where
                         watcher.percolated(open.push(entry, |id, slot| nodes.set_slot(id, slot)));
                     }
                 }
-                None
+                KnownPath::NONE
             };
             let scanned = successors.for_each(graph, ExpandedNode { id, at, by }, goal_at, relax);
             observer.scanned(scanned);

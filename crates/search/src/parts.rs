@@ -24,6 +24,6 @@ pub use crate::{
     search_tree::SearchTree,
     segment::segment_cost,
     smoothing::HasFreeSpace,
-    successors::{ExpandedNode, Successor, Successors},
+    successors::{ExpandedNode, KnownPath, Successor, Successors},
     theta::{Eager, Lazy, SightCheck, Theta},
 };

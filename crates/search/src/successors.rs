@@ -41,6 +41,44 @@ pub struct Successor {
     pub by: usize,
 }
 
+/// What is known of a successor where the new path to it does not replace the known one.
+///
+/// Two words, so that it is returned in registers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct KnownPath {
+    gain: Cost,
+    parent: VertexId,
+}
+
+impl KnownPath {
+    /// None that would be no worse than the new one.
+    pub const NONE: Self = Self { gain: Cost::ZERO, parent: Self::NO_PARENT };
+    /// No map has so many vertices.
+    const NO_PARENT: VertexId = VertexId(u32::MAX);
+
+    /// A path that costs less by `gain`, and its parent, if it arrives by the same move as the new one and if
+    /// nodes store their parents.
+    #[must_use]
+    #[inline]
+    pub fn new(gain: Cost, parent: Option<VertexId>) -> Self {
+        Self { gain, parent: parent.unwrap_or(Self::NO_PARENT) }
+    }
+
+    /// How much less it costs than the new one.
+    #[must_use]
+    #[inline]
+    pub const fn gain(self) -> Cost {
+        self.gain
+    }
+
+    /// Its parent, if it arrives by the same move as the new one, and if nodes store their parents.
+    #[must_use]
+    #[inline]
+    pub fn parent(self) -> Option<VertexId> {
+        (self.parent != Self::NO_PARENT).then_some(self.parent)
+    }
+}
+
 /// How a search expands its nodes. `P` is the placement.
 ///
 /// A search with successors of one's own: see
@@ -58,9 +96,8 @@ pub trait Successors<P: Placement>: Debug {
         let _ = (graph, goal);
     }
 
-    /// Calls `visit` with each successor of a node, on the way to `goal`. `visit` returns the parent of the
-    /// path that is known to this successor, if that path costs no more and arrives by the same move, and if
-    /// nodes store their parents.
+    /// Calls `visit` with each successor of a node, on the way to `goal`. `visit` returns the path that is
+    /// known to this successor, if the new one does not replace it.
     ///
     /// Returns the number of vertices scanned, for [`Observer::scanned`](crate::Observer::scanned); 0 unless
     /// it jumps.
@@ -69,7 +106,7 @@ pub trait Successors<P: Placement>: Debug {
         graph: &GridGraph<P>,
         node: ExpandedNode,
         goal: Vertex,
-        visit: impl FnMut(Successor) -> Option<VertexId>,
+        visit: impl FnMut(Successor) -> KnownPath,
     ) -> u32;
 
     /// Whether a path to a vertex whose last move is `new` replaces the known path, of the same cost, whose

@@ -19,14 +19,14 @@
 
 use std::ops::Deref;
 
-use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
+use mediant_grid::{GridGraph, Placement, Vertex};
 
 use super::{clearance::is_convex_corner, order::natural, pattern_table::pattern_at};
 use crate::{
     best_first::BestFirst,
     heuristic::Heuristic,
     outcome::Guarantee,
-    successors::{ExpandedNode, Successor, Successors},
+    successors::{ExpandedNode, KnownPath, Successor, Successors},
 };
 
 /// Canonical A* with the published rule.
@@ -67,7 +67,7 @@ impl<P: Placement> Successors<P> for PaperMoves {
         graph: &GridGraph<P>,
         node: ExpandedNode,
         goal: Vertex,
-        mut visit: impl FnMut(Successor) -> Option<VertexId>,
+        mut visit: impl FnMut(Successor) -> KnownPath,
     ) -> u32 {
         let is_jump_point =
             self.is_unpruned || self.jump_points.get(pattern_at(graph, node.at)).is_none_or(|&is| is);

@@ -2,7 +2,7 @@
 
 use std::{ops::Deref, sync::Arc};
 
-use mediant_grid::{GridGraph, Mismatch, Placement, Vertex, VertexId};
+use mediant_grid::{GridGraph, Mismatch, Placement, Vertex};
 
 use super::{
     order::rank,
@@ -11,7 +11,7 @@ use super::{
 use crate::{
     best_first::BestFirst,
     heuristic::Heuristic,
-    successors::{ExpandedNode, Successor, Successors},
+    successors::{ExpandedNode, KnownPath, Successor, Successors},
 };
 
 /// Canonical A*: optimal over N(k), for every k, both placements and all rules of motion.
@@ -66,7 +66,7 @@ impl<P: Placement> Successors<P> for CanonicalMoves<P> {
         graph: &GridGraph<P>,
         node: ExpandedNode,
         goal: Vertex,
-        mut visit: impl FnMut(Successor) -> Option<VertexId>,
+        mut visit: impl FnMut(Successor) -> KnownPath,
     ) -> u32 {
         let is_pruned = |by: &usize| {
             !self.pruning.is_exempt(graph, node.at, *by, goal)

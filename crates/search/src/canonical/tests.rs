@@ -6,7 +6,7 @@ use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph, Vertex};
 use mediant_moves::FiniteK;
 
 use super::{order::natural, planner::CanonicalMoves, pruning::Pruning};
-use crate::successors::{ExpandedNode, Successors};
+use crate::successors::{ExpandedNode, KnownPath, Successors};
 
 /// Up to k = 6 those that the rule leaves, everywhere; from k = 7 on all legal ones at vertices with a forced
 /// successor.
@@ -32,7 +32,7 @@ fn check(graph: &GridGraph<Centers>) {
             let mut taken = BTreeSet::new();
             moves.for_each(graph, node, Vertex::new(0, 0), |next| {
                 assert!(taken.insert(next.by));
-                None
+                KnownPath::NONE
             });
             let (mut legal, mut left) = (BTreeSet::new(), BTreeSet::new());
             graph.for_each_legal_move(at, |index| _ = legal.insert(index));

@@ -19,23 +19,12 @@ use mediant_moves::FiniteK;
 /// Where an axial jump ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Scan {
-    /// The number of steps to the jump point or the goal; for a dead jump that of all legal steps.
+    /// The number of steps to the jump point; for a dead jump that of all legal steps.
     pub(crate) steps: u32,
-    /// Whether the jump ends at a jump point or at the goal; otherwise it is dead.
+    /// Whether the jump ends at a jump point; otherwise it is dead.
     pub(crate) found: bool,
     /// The number of vertices looked at, with the one that a dead jump cannot enter.
     pub(crate) scanned: u32,
-}
-
-impl Scan {
-    /// The end after `steps` legal steps, or at the goal if that comes first.
-    #[inline]
-    fn new(steps: u32, found: bool, goal_steps: Option<u32>) -> Self {
-        match goal_steps {
-            Some(goal) if goal <= steps => Self { steps: goal, found: true, scanned: goal },
-            _ => Self { steps, found, scanned: steps + u32::from(!found) },
-        }
-    }
 }
 
 /// Which vertices of an axial jump are jump points. *Beside* means in the row on either side of the jump.
@@ -199,19 +188,11 @@ impl AxialStops {
 
     /// The axial jump from a vertex of the map in direction number `quarter` < 4: (0, 1), (1, 0), (0, −1),
     /// (−1, 0). It passes dead ends, unless these count as jump points.
-    ///
-    /// `goal_steps` is the number of steps to the goal, at least 1, if that lies ahead.
     #[inline]
-    pub(crate) fn scan(
-        &self,
-        from: Vertex,
-        quarter: usize,
-        goal_steps: Option<u32>,
-        with_dead_ends: bool,
-    ) -> Scan {
+    pub(crate) fn scan(&self, from: Vertex, quarter: usize, with_dead_ends: bool) -> Scan {
         let mask = if with_dead_ends { !0 } else { 0 };
-        let (steps, is_blocked) = self.first(from, quarter, |one, other| one | other & mask);
-        Scan::new(steps - u32::from(is_blocked), !is_blocked, goal_steps)
+        let (scanned, is_blocked) = self.first(from, quarter, |one, other| one | other & mask);
+        Scan { steps: scanned - u32::from(is_blocked), found: !is_blocked, scanned }
     }
 
     /// The number of legal steps from a vertex in a direction.
@@ -223,20 +204,23 @@ impl AxialStops {
     /// `stops` says by their two bits which of 64 vertices stop it.
     #[inline]
     fn first(&self, from: Vertex, quarter: usize, stops: impl Fn(u64, u64) -> u64) -> (u32, bool) {
-        let mut at = self.planes[quarter & 3].place(from) + 1;
+        let at = self.planes[quarter & 3].place(from) + 1;
+        let (mut word, shift) = ((at >> 6) as usize, at & 63);
+        let Some(&[low, high]) = self.words.get(word..word + 2) else { return (1, true) };
+        // Shifting in two steps avoids a shift by 64 where `shift` is 0.
+        let [mut one, mut other] = [0, 1].map(|i| low[i] >> shift | high[i] << 1 << (63 - shift));
         let mut steps = 1;
         loop {
-            let (word, shift) = ((at >> 6) as usize, at & 63);
-            let Some(&[low, high]) = self.words.get(word..word + 2) else { return (steps, true) };
-            // Shifting in two steps avoids a shift by 64 where `shift` is 0.
-            let [one, other] = [0, 1].map(|i| low[i] >> shift | high[i] << 1 << (63 - shift));
             let stop = stops(one, other);
             if stop != 0 {
                 let n = stop.trailing_zeros();
                 return (steps + n, (one & other) >> n & 1 == 1);
             }
-            steps += 64;
-            at += 64;
+            // From here on whole words, of the first of which some vertices are known.
+            steps = if steps == 1 { 65 - shift as u32 } else { steps + 64 };
+            word += 1;
+            let Some(&next) = self.words.get(word) else { return (steps, true) };
+            [one, other] = next;
         }
     }
 

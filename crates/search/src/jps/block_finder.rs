@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{GridGraph, Identity, Placement, Vertex, VertexId};
+use mediant_grid::{GridGraph, Identity, Placement, Vertex};
 use mediant_moves::KError;
 
 use super::{
@@ -16,7 +16,7 @@ use super::{
 };
 use crate::{
     canonical::Pruning,
-    successors::{ExpandedNode, Successor},
+    successors::{ExpandedNode, KnownPath, Successor},
 };
 
 /// Makes jumps by words of 64 vertices, for k ≤ 3. Takes two and a half bytes a vertex, which clones share.
@@ -83,18 +83,19 @@ impl<P: Placement> JumpFinder<P> for BlockFinder {
         NearGoal::new(goal, &self.axial, self.reach)
     }
 
-    #[inline]
+    #[inline(always)]
     fn axial(
         &self,
         context: &JumpContext<'_, P>,
         from: &ExpandedNode,
         index: usize,
-        goal_steps: Option<u32>,
+        _: Option<u32>,
         scanned: &mut u32,
     ) -> Option<u32> {
+        // A goal straight ahead would have been in sight.
         let quarter = context.quarter(index);
         let is_near = context.rules.near.holds(from.at, quarter);
-        let scan = self.axial.scan(from.at, quarter, goal_steps, is_near);
+        let scan = self.axial.scan(from.at, quarter, is_near);
         *scanned += scan.scanned;
         scan.found.then_some(scan.steps)
     }
@@ -106,16 +107,15 @@ impl<P: Placement> JumpFinder<P> for BlockFinder {
         node: &ExpandedNode,
         scanned: &mut u32,
     ) -> Option<Successor> {
-        let way = context.to_goal;
-        let can_enter = |steps| context.can_enter(node, way.index, steps);
-        if way.index & 1 == 1 {
-            *scanned += way.steps;
-            if way.steps > context.rules.limit
-                || !self.diagonals.can_make(node.at, way.index, way.steps, can_enter)
-            {
-                return None;
-            }
-        } else if self.axial.legal_steps(node.at, context.quarter(way.index)) < way.steps {
+        let ToGoal { index, steps, .. } = context.to_goal;
+        *scanned += steps;
+        let comes_there = if index & 1 == 1 {
+            let can_enter = |steps| context.can_enter(node, index, steps);
+            steps <= context.rules.limit && self.diagonals.can_make(node.at, index, steps, can_enter)
+        } else {
+            self.axial.legal_steps(node.at, context.quarter(index)) >= steps
+        };
+        if !comes_there {
             return None;
         }
         context.goal_beyond_turn(self, node)
@@ -128,7 +128,7 @@ impl<P: Placement> JumpFinder<P> for BlockFinder {
         from: &ExpandedNode,
         index: usize,
         scanned: &mut u32,
-        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+        visit: &mut impl FnMut(Successor) -> KnownPath,
     ) {
         let stops = (&*self.diagonals, self.reach > 0);
         context.diagonal_by_stops(self, stops, from, index, scanned, visit);

@@ -101,10 +101,9 @@ impl NearGoal {
         if quarter.is_multiple_of(2) { self.columns.holds(from.x) } else { self.rows.holds(from.y) }
     }
 
-    /// The same for a jump by `v` that comes to `at`, without a branch: it cannot be predicted.
+    /// The same for a vertical or horizontal jump, without a branch: it could not be predicted.
     #[inline]
-    pub(super) fn holds_along(&self, at: Vertex, v: Vector) -> bool {
-        let is_vertical = v.x == 0;
+    pub(super) fn along(&self, at: Vertex, is_vertical: bool) -> bool {
         let band = select_unpredictable(is_vertical, self.columns, self.rows);
         band.holds(select_unpredictable(is_vertical, at.x, at.y))
     }
@@ -238,7 +237,7 @@ impl<P: Placement> DeadEnds<'_, P> {
         let mut gone = 0;
         loop {
             let at = self.after(from, index, gone);
-            let scan = axial.scan(at, quarter, None, true);
+            let scan = axial.scan(at, quarter, true);
             if !scan.found {
                 return true;
             }

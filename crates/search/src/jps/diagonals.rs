@@ -116,8 +116,8 @@ impl DiagonalStops {
         DiagonalScan { words, place: place.wrapping_sub(63), first: 0u32.wrapping_sub(63), stops: 0 }
     }
 
-    /// Whether a diagonal jump from a vertex of the map can enter so many vertices. `can_enter` says it of those
-    /// that stop it and from which no axial jump leads on, by the number of steps to them.
+    /// Whether a diagonal jump from a vertex of the map can enter so many vertices. `can_enter` says it of
+    /// those that stop it and from which no axial jump leads on, by the number of steps to them.
     #[inline]
     pub(super) fn can_make(
         &self,

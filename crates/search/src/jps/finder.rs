@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     canonical::Pruning,
-    successors::{ExpandedNode, Successor},
+    successors::{ExpandedNode, KnownPath, Successor},
 };
 
 /// What the jumps from one node depend on.
@@ -43,12 +43,6 @@ pub(super) struct JumpRules {
 }
 
 impl JumpRules {
-    /// Whether jumps lead as far as they can, and to nothing but jump points.
-    #[inline]
-    pub(super) const fn are_plain(&self) -> bool {
-        self.limit == u32::MAX && !self.keeps_intermediate
-    }
-
     /// Those of a search before it begins.
     pub(super) const PLAIN: Self = Self {
         stepwise: false,
@@ -57,6 +51,20 @@ impl JumpRules {
         has_other_nodes: false,
         near: NearGoal::EVERYWHERE,
     };
+
+    /// Whether jumps lead as far as they can, and to nothing but jump points.
+    #[inline]
+    pub(super) const fn are_plain(&self) -> bool {
+        self.limit == u32::MAX && !self.keeps_intermediate
+    }
+}
+
+/// The even moves of a set for k ≤ 3, and the odd ones: in this order jumps are made. Axial ones first,
+/// because what they find may cut the diagonal ones; and apart, because branches between them could not be
+/// predicted.
+#[inline]
+pub(super) const fn in_order(moves: u8) -> [u8; 2] {
+    [moves & 0x55, moves & 0xaa]
 }
 
 /// Finds the jump points to which axial and diagonal jumps lead: [`StepwiseFinder`],
@@ -76,8 +84,8 @@ pub trait JumpFinder<P: Placement>: Debug {
     }
 
     /// The number of steps of the axial jump by move `index` from a vertex to a jump point or to the goal;
-    /// `None` if it comes to neither. The goal is `goal_steps` ahead, if it lies ahead at all. Adds to
-    /// `scanned` the number of vertices looked at.
+    /// `None` if it comes to neither. The goal is `goal_steps` ahead, if it lies ahead at all, and is not
+    /// [in sight](Self::goal_in_sight). Adds to `scanned` the number of vertices looked at.
     #[doc(hidden)]
     fn axial(
         &self,
@@ -97,13 +105,13 @@ pub trait JumpFinder<P: Placement>: Debug {
         from: &ExpandedNode,
         index: usize,
         scanned: &mut u32,
-        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+        visit: &mut impl FnMut(Successor) -> KnownPath,
     ) {
         context.step_diagonal(self, from, index, scanned, visit);
     }
 
-    /// The goal as the successor of a node, if a path comes straight to it by the move that
-    /// [`ToGoal`] says and then by an even move beside it; `None` also where that is not looked for.
+    /// The goal as the successor of a node, if that is in sight and the finder looks for it. The move that
+    /// leads there first is one of those by which a path goes on.
     #[doc(hidden)]
     #[inline]
     fn goal_in_sight(
@@ -124,7 +132,7 @@ pub trait JumpFinder<P: Placement>: Debug {
         &self,
         context: &JumpContext<'_, P>,
         (node, by): (&ExpandedNode, usize),
-        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+        visit: &mut impl FnMut(Successor) -> KnownPath,
     ) -> bool {
         let _ = (context, node, by, visit);
         false
@@ -215,7 +223,7 @@ impl<P: Placement> JumpContext<'_, P> {
         from: &ExpandedNode,
         index: usize,
         scanned: &mut u32,
-        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+        visit: &mut impl FnMut(Successor) -> KnownPath,
     ) {
         if !self.may_step(from, index) || !self.pruning.is_legal(self.graph, from, index) {
             return;
@@ -261,7 +269,7 @@ impl<P: Placement> JumpContext<'_, P> {
         from: &ExpandedNode,
         index: usize,
         scanned: &mut u32,
-        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+        visit: &mut impl FnMut(Successor) -> KnownPath,
     ) {
         let (step, beside) = (self.graph.step(index), self.beside(index));
         let v = step.vector();
@@ -288,7 +296,7 @@ impl<P: Placement> JumpContext<'_, P> {
                 let step = self.graph.step(even);
                 let there = self.after(&here, step, even, n);
                 let known = visit(there.reached(cost + step.cost * n, even));
-                if known.is_some_and(|parent| self.last_leg(parent, there.at, even) > n) {
+                if self.is_cut(known, there.at, even, n) {
                     return;
                 }
             }
@@ -309,7 +317,7 @@ impl<P: Placement> JumpContext<'_, P> {
         &self,
         (from, index): (&ExpandedNode, usize),
         (steps, leads_on): (u32, bool),
-        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+        visit: &mut impl FnMut(Successor) -> KnownPath,
     ) -> bool {
         let step = self.graph.step(index);
         let can_enter = leads_on || self.can_enter(from, index, steps);
@@ -335,7 +343,7 @@ impl<P: Placement> JumpContext<'_, P> {
         from: Successor,
         to_goal: Option<GoalLegs>,
         scanned: &mut u32,
-        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+        visit: &mut impl FnMut(Successor) -> KnownPath,
     ) -> Turn {
         let mut turn = Turn::Passed;
         let node = ExpandedNode { id: from.id, at: from.at, by: Some(from.by) };
@@ -349,11 +357,19 @@ impl<P: Placement> JumpContext<'_, P> {
             let step = self.graph.step(index);
             let there = self.after(&node, step, index, n);
             let known = visit(there.reached(from.cost + step.cost * n, index));
-            if !self.stepwise && known.is_some_and(|parent| self.last_leg(parent, there.at, index) > n) {
+            if !self.stepwise && self.is_cut(known, there.at, index, n) {
                 return Turn::Cut;
             }
         }
         turn
+    }
+
+    /// Whether a diagonal jump ends at a vertex from which an axial jump of `n` steps by the even move
+    /// `index` leads to a vertex to which a path is known.
+    #[inline]
+    pub(super) fn is_cut(&self, known: KnownPath, at: Vertex, index: usize, n: u32) -> bool {
+        known.gain() > self.graph.step(index).cost * (2 * n)
+            || known.parent().is_some_and(|parent| self.last_leg(parent, at, index) > n)
     }
 
     /// How many steps of the even move `index` the path from a parent to a vertex ends with.

@@ -7,18 +7,12 @@
 //! - the jump points to which the jumps by this move lead: those that hold everywhere, those that hold near
 //!   the goal alone, and those that hold elsewhere alone.
 //!
-//! **A goal in sight.** If the path to the goal that goes on by one of these moves, and then straight on by a
-//! move beside it, has nothing in its way, no path from the jump point to the goal is cheaper. Those that
-//! cost as much have the same moves in another order, so it is the earliest of them in the order of
-//! [`canonical`](crate::canonical): all of its odd moves come first. So no other jump from there need be
-//! made.
-//!
 //! Lists are replayed by one loop that scans nothing. They belong to jump points where a path arrives by an
 //! even move; that is all of them, unless diagonal moves have forced successors. What has no list is
 //! scanned: jumps from the start, from dead ends, and those too long for a word.
 //!
-//! On maps of games there is one list for 20 to 170 cells, of some six words. In noise there are so many that
-//! there are none: see [`VERTICES_A_LIST`].
+//! On maps of games there is one list for 20 to 170 cells, of five to ten words. In noise there are so many
+//! that there are none: see [`VERTICES_A_LIST`].
 
 use mediant_grid::{GridGraph, Placement, Vector, Vertex, VertexId};
 use mediant_moves::Cost;
@@ -27,12 +21,12 @@ use super::{
     axial::JumpPointRule,
     block_finder::BlockFinder,
     dead_ends::{DeadEndRows, NearGoal},
-    finder::{JumpContext, JumpFinder, JumpRules},
+    finder::{JumpContext, JumpFinder, JumpRules, in_order},
     to_goal::{ToGoal, cross},
 };
 use crate::{
     canonical::{Pruning, pattern_at, prunes},
-    successors::{ExpandedNode, Successor},
+    successors::{ExpandedNode, KnownPath, Successor},
 };
 
 /// With more lists than one for so many vertices there are none, as in noise: there they take more memory
@@ -219,7 +213,7 @@ impl JumpLists {
         context: &JumpContext<'_, P>,
         blocks: &BlockFinder,
         (node, by): (&ExpandedNode, usize),
-        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+        visit: &mut impl FnMut(Successor) -> KnownPath,
     ) -> bool {
         if by & 1 == 1 {
             return false;
@@ -244,16 +238,14 @@ impl JumpLists {
                 let last = &self.legs[even & 7];
                 let (n, m) = (steps as i32, then_steps as i32);
                 let at = node.at + first.v * n + last.v * m;
-                let is_near = context.rules.near.holds_along(at, last.v);
+                let is_near = context.rules.near.along(at, last.v.x == 0);
                 if holds & if is_near { Jump::NEAR_GOAL } else { Jump::ELSEWHERE } == 0 {
                     continue;
                 }
                 let id = node.id.0.wrapping_add_signed(first.offset * n + last.offset * m);
                 let cost = first.cost * steps + last.cost * then_steps;
                 let known = visit(Successor { id: VertexId(id), at, cost, by: even });
-                let is_cut =
-                    |parent| then != Jump::NO_TURN && context.last_leg(parent, at, even) > then_steps;
-                if known.is_some_and(is_cut) {
+                if then != Jump::NO_TURN && context.is_cut(known, at, even, then_steps) {
                     break;
                 }
             }
@@ -345,14 +337,17 @@ impl<P: Placement> Recorder<'_, P> {
     /// Adds the list of a node; `None` if a word cannot say it.
     fn record(&self, node: &ExpandedNode, by: usize, words: &mut Vec<u32>) -> Option<()> {
         let table = self.pruning.table()?;
-        let mut moves = table.successors(by, pattern_at(self.graph, node.at));
-        while moves != 0 {
-            let index = moves.trailing_zeros() as usize;
-            moves &= moves - 1;
-            let jumps = self.jumps(node, index);
-            words.push(Group { index, length: self.length(node, index), count: jumps.len() as u32 }.word()?);
-            for jump in jumps {
-                words.push(jump.word()?);
+        let moves = table.successors(by, pattern_at(self.graph, node.at));
+        for mut left in in_order(moves) {
+            while left != 0 {
+                let index = left.trailing_zeros() as usize;
+                left &= left - 1;
+                let jumps = self.jumps(node, index);
+                let (length, count) = (self.length(node, index), jumps.len() as u32);
+                words.push(Group { index, length, count }.word()?);
+                for jump in jumps {
+                    words.push(jump.word()?);
+                }
             }
         }
         Some(())
@@ -400,7 +395,7 @@ impl<P: Placement> Recorder<'_, P> {
                     Jump { steps: d.x.abs().max(d.y.abs()) as u32, then: Jump::NO_TURN, then_steps: 0, holds }
                 }
             });
-            None
+            KnownPath::NONE
         });
         jumps
     }

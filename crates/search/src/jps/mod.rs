@@ -27,12 +27,21 @@
 //! **Cut jumps.** Jumps from different nodes scan the same places, and find the same jump points again and
 //! again; on open ground with few obstacles that is almost all of the work. So a diagonal jump ends at vertex
 //! p, without a node, if an axial jump from there leads to a jump point s, n steps away, to which a path is
-//! known that costs no more than the one through p, and that ends with more than n steps of the same move.
-//! That path leads through p as well. Up to p it costs no more than the diagonal jump does, and its last move
-//! has an even index, so it is the earlier one of the two in the order of [`canonical`](crate::canonical).
-//! Every prefix of the earliest optimal path is the earliest optimal path to its own end, so the earliest
-//! optimal path does not reach p by this jump, and nothing is lost. (The idea to constrain jumps by what is
-//! known is that of Zhao, Harabor & Stuckey 2023; the test here needs nothing but the node of s.)
+//! known that
+//! - costs no more than the one through p, and ends with more than n steps of the same move. It leads
+//!   through p as well, where it costs no more than the diagonal jump does, and its last move there has an
+//!   even index, so it is the earlier one of the two in the order of [`canonical`](crate::canonical). Or that
+//! - costs so much less that p is reached at a lower cost by it and back from s to p.
+//!
+//! Either way the earliest path to p is not this jump. Every prefix of the earliest optimal path is the
+//! earliest optimal path to its own end, so that does not reach p by this jump, and nothing is lost. (The
+//! idea to constrain jumps by what is known is that of Zhao, Harabor & Stuckey 2023; the tests here need
+//! nothing but the node of s.) The axial jumps of a node are made first: what they find may cut the others.
+//!
+//! **A goal in sight** ([`BlockJps`], [`JpsPlus`]). If the path to the goal that goes on by one of the moves
+//! from a node, and then straight on by a move beside it, has nothing in its way, no path from the node to
+//! the goal is cheaper. Those that cost as much have the same moves in another order, so it is the earliest
+//! of them: all of its odd moves come first. So no jump need be made from there.
 //!
 //! **Dead ends.** Most jump points on maps of games are dead ends: from there a path can only go straight on,
 //! or comes to an end near by. [`BlockJps`] and [`JpsPlus`] pass them, but for those near the goal. What they

@@ -8,7 +8,7 @@ use mediant_moves::KError;
 use super::{
     block_finder::BlockFinder,
     dead_ends::NearGoal,
-    finder::{JumpContext, JumpFinder, JumpRules, StepwiseFinder},
+    finder::{JumpContext, JumpFinder, JumpRules, StepwiseFinder, in_order},
     table::{JumpError, JumpTable},
     to_goal::ToGoal,
 };
@@ -16,7 +16,7 @@ use crate::{
     best_first::BestFirst,
     canonical::{Pruning, pattern_at, prunes, rank},
     heuristic::Heuristic,
-    successors::{ExpandedNode, Successor, Successors},
+    successors::{ExpandedNode, KnownPath, Successor, Successors},
 };
 
 /// Jump point search with any [`JumpFinder`]. Its scratch memory is 20 bytes for each vertex that
@@ -129,7 +129,7 @@ impl<P: Placement, J: JumpFinder<P>> JumpMoves<P, J> {
         &self,
         context: &JumpContext<'_, P>,
         node: &ExpandedNode,
-        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+        visit: &mut impl FnMut(Successor) -> KnownPath,
     ) -> u32 {
         let (graph, goal, finder) = (context.graph, context.goal, StepwiseFinder);
         let mut scanned = 0;
@@ -157,22 +157,24 @@ impl<P: Placement, J: JumpFinder<P>> JumpMoves<P, J> {
         finder: &J,
         context: &JumpContext<'_, P>,
         node: &ExpandedNode,
-        mut moves: u8,
-        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+        moves: u8,
+        visit: &mut impl FnMut(Successor) -> KnownPath,
     ) -> u32 {
         let mut scanned = 0;
-        while moves != 0 {
-            let index = moves.trailing_zeros() as usize;
-            moves &= moves - 1;
-            if index & 1 == 1 {
-                finder.diagonal(context, node, index, &mut scanned, visit);
-                continue;
-            }
+        let [mut even, mut odd] = in_order(moves);
+        while even != 0 {
+            let index = even.trailing_zeros() as usize;
+            even &= even - 1;
             let step = context.graph.step(index);
             let goal_steps = context.to_goal.straight(index);
             if let Some(n) = finder.axial(context, node, index, goal_steps, &mut scanned) {
                 visit(context.after(node, step, index, n).reached(step.cost * n, index));
             }
+        }
+        while odd != 0 {
+            let index = odd.trailing_zeros() as usize;
+            odd &= odd - 1;
+            finder.diagonal(context, node, index, &mut scanned, visit);
         }
         scanned
     }
@@ -200,7 +202,7 @@ impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
         graph: &GridGraph<P>,
         node: ExpandedNode,
         goal: Vertex,
-        mut visit: impl FnMut(Successor) -> Option<VertexId>,
+        mut visit: impl FnMut(Successor) -> KnownPath,
     ) -> u32 {
         let context = JumpContext {
             graph,
@@ -229,7 +231,6 @@ impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
                 table.successors(by, pattern_at(graph, node.at))
             }
         };
-        // A goal in sight is the only successor that need be visited: see the module `lists`.
         let mut scanned = 0;
         if moves >> context.to_goal.index & 1 == 1
             && let Some(goal) = self.finder.goal_in_sight(&context, &node, &mut scanned)

@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Identity, Placement, Vertex, VertexId};
+use mediant_grid::{Identity, Placement, Vertex};
 
 use super::{
     dead_ends::NearGoal,
     finder::{JumpContext, JumpFinder},
     table::JumpTable,
 };
-use crate::successors::{ExpandedNode, Successor};
+use crate::successors::{ExpandedNode, KnownPath, Successor};
 
 /// Looks the jumps from jump points up. Where they are not known, it makes them as the
 /// [`BlockFinder`](super::BlockFinder) does.
@@ -40,7 +40,7 @@ impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
         from: &ExpandedNode,
         index: usize,
         scanned: &mut u32,
-        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+        visit: &mut impl FnMut(Successor) -> KnownPath,
     ) {
         self.blocks().diagonal(context, from, index, scanned, visit);
     }
@@ -60,7 +60,7 @@ impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
         &self,
         context: &JumpContext<'_, P>,
         node: (&ExpandedNode, usize),
-        visit: &mut impl FnMut(Successor) -> Option<VertexId>,
+        visit: &mut impl FnMut(Successor) -> KnownPath,
     ) -> bool {
         self.lists().visit(context, self.blocks(), node, visit)
     }

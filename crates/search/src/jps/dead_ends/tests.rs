@@ -11,7 +11,7 @@ use crate::{
     AStar, BlockJps, Counters, Hk, JpsPlus, JumpTable, Planner, Query, Zero,
     canonical::Pruning,
     jps::{BlockFinder, Jps, planes::JumpPlanes},
-    successors::{ExpandedNode, Successors},
+    successors::{ExpandedNode, KnownPath, Successors},
 };
 
 /// What a rule of motion is tested for.
@@ -73,7 +73,7 @@ fn ends<P: Placement>(graph: &GridGraph<P>, at: Vertex, by: usize, reach: u32) -
                 next.push((to.at, to.by));
                 ends &= is_near(to.at);
             }
-            None
+            KnownPath::NONE
         });
         pruning.for_each(graph, &node, by, |odd| {
             let (mut to, v) = (from, graph.step(odd).vector());
@@ -108,9 +108,9 @@ impl Test for Definition {
         for id in 0..graph.vertex_count() as u32 {
             let from = graph.vertex(VertexId(id));
             for quarter in (0..4).step_by(8 / count).filter(|_| graph.is_free(from)) {
-                let scan = plain.scan(from, quarter, None, true);
+                let scan = plain.scan(from, quarter, true);
                 let by = quarter * count / 4;
-                assert_eq!(marked.axial.scan(from, quarter, None, true), scan);
+                assert_eq!(marked.axial.scan(from, quarter, true), scan);
                 let at = from + graph.step(by).vector() * scan.steps as i32;
                 if !scan.found {
                     continue;
@@ -161,7 +161,7 @@ impl Test for Diagonals {
                 let at = from + graph.step(index).vector() * steps as i32;
                 let beside = [index - 1, (index + 1) & last];
                 let leads_on = |(even, leads): (usize, bool)| {
-                    leads && marked.axial.scan(at, even * 4 / (last + 1), None, false).found
+                    leads && marked.axial.scan(at, even * 4 / (last + 1), false).found
                 };
                 let has_forced = || {
                     let by = pattern_at(&graph, at);

@@ -16,7 +16,7 @@ use super::{
 use crate::{
     Hk, Planner, Query, Zero,
     canonical::Pruning,
-    successors::{ExpandedNode, Successors},
+    successors::{ExpandedNode, KnownPath, Successors},
 };
 
 /// Jump lists lead where steps lead, with the goal in sight or anywhere, and tables come back from their
@@ -45,6 +45,10 @@ impl Suite for Lists {
             for by in (0..reference.move_count()).step_by(2).filter(arrives) {
                 let node = ExpandedNode { id, at, by: Some(by) };
                 let (_, goal) = free[rng.below(free.len() as u32) as usize];
+                if goal == at {
+                    // No search goes on from its goal.
+                    continue;
+                }
                 let (found, scanned) = successors(&mut looked_up, node, goal);
                 if scanned > 0 {
                     // No path arrives there by this move, or gaps are near.
@@ -84,7 +88,7 @@ fn successors<P: Placement, J: JumpFinder<P>>(
     let mut found = Vec::new();
     let scanned = planner.successors.for_each(planner.graph, node, goal, |next| {
         found.push((next.at, next.cost));
-        None
+        KnownPath::NONE
     });
     found.sort_unstable();
     (found, scanned)

@@ -113,11 +113,11 @@ impl<P: Placement> Reference<P> {
     }
 
     /// The axial jump by an even move.
-    fn scan(&self, from: Vertex, index: usize, goal: Option<Vertex>) -> End {
+    fn scan(&self, from: Vertex, index: usize) -> End {
         let (mut at, mut steps) = (from, 0);
         while let Some(to) = self.next(at, index).filter(|&to| !self.is_closed_gap(to)) {
             (at, steps) = (to, steps + 1);
-            if goal == Some(at) || self.has_forced(at, index) {
+            if self.has_forced(at, index) {
                 return (steps, true);
             }
         }
@@ -130,7 +130,7 @@ impl<P: Placement> Reference<P> {
         let (mut at, mut steps) = (from, 0);
         while let Some(to) = self.next(at, index).filter(|&to| !self.is_closed_gap(to)) {
             let beside = [(index + 1) & last, (index + last) & last];
-            let finds = |&even: &usize| self.scan(to, even, None).1;
+            let finds = |&even: &usize| self.scan(to, even).1;
             (at, steps) = (to, steps + 1);
             if self.has_forced(at, index) || beside.iter().any(finds) {
                 return (steps, true);
@@ -209,7 +209,7 @@ fn long_grids() -> impl Iterator<Item = (u64, Grid)> {
     })
 }
 
-/// Scans give what steps give: from every free vertex in every direction, with the goal at various distances.
+/// Scans give what steps give: from every free vertex in every direction.
 struct Scans {
     compared: usize,
 }
@@ -225,17 +225,10 @@ impl Suite for Scans {
                 if index % 2 == 1 {
                     continue;
                 }
-                let end = reference.scan(from, index, None);
-                let goals = [1, 2, end.0, end.0 + 1, end.0 + 2, 64, 100];
-                for goal in goals.into_iter().filter(|&steps| steps > 0).map(Some).chain([None]) {
-                    let to = goal.map(|steps| from + towards * steps as i32);
-                    let (steps, found) = reference.scan(from, index, to);
-                    let scanned = steps + u32::from(!found);
-                    let expected = Scan { steps, found, scanned };
-                    let name = || format!("{towards:?}, goal {goal:?}, {}", case(from, to.unwrap_or(from)));
-                    assert_eq!(stops.scan(from, quarter, goal, false), expected, "{}", name());
-                    self.compared += 1;
-                }
+                let (steps, found) = reference.scan(from, index);
+                let expected = Scan { steps, found, scanned: steps + u32::from(!found) };
+                assert_eq!(stops.scan(from, quarter, false), expected, "{towards:?}, {}", case(from, from));
+                self.compared += 1;
             }
         }
     }
@@ -261,8 +254,7 @@ impl Suite for DiagonalScans {
                 let name = || format!("{towards:?}, {}", case(from, from + towards * steps as i32));
                 assert_eq!(steps, expected + u32::from(!found), "{}", name());
                 let to = from + towards * steps as i32;
-                let finds =
-                    [index - 1, (index + 1) & last].map(|even| found && reference.scan(to, even, None).1);
+                let finds = [index - 1, (index + 1) & last].map(|even| found && reference.scan(to, even).1);
                 assert_eq!(leads, finds, "{}", name());
                 self.compared += 1;
                 self.longest = self.longest.max(steps);
@@ -283,7 +275,7 @@ fn scans_of_diagonals_stop_where_steps_stop() {
 fn scans_end_where_steps_end() {
     let mut suite = Scans { compared: 0 };
     on_all(suite_grids().chain(long_grids()), &mut suite);
-    assert!(suite.compared > 1_000_000, "{}", suite.compared);
+    assert!(suite.compared > 150_000, "{}", suite.compared);
 }
 
 /// The formulas on words, on every pattern and under each rule.
