@@ -29,7 +29,10 @@ pub fn bound_at_corners(k: FiniteK) -> f64 {
 ///
 /// The theorem compares with any-angle paths that may bend at cell corners. With the corner rules of
 /// `mediant-grid` for the moves, `crates/search/tests/it/kramm2018.rs` tests:
-/// - `One`, against corner paths with closed gaps: it holds, and is attained.
+/// - `One`, against corner paths with closed gaps: it is attained, but at k = 3 it fails. Where a path
+///   follows walls on both sides in turn, moves between centers zigzag around it: one map gives (6√2 + 2) /
+///   (7 + √2) ≈ 1.2461. Against paths that bend at centers it holds, since steps of N(3) follow every legal
+///   line there.
 /// - `Always`: it fails. An any-angle path may run straight through the gaps between diagonally touching
 ///   obstacles; k = 2 then has no bound at all, and one map gives 4√2 / (3 + √2) ≈ 1.2815 for every k from 3
 ///   to 8.

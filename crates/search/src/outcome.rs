@@ -79,7 +79,8 @@ impl fmt::Display for Guarantee {
 impl Guarantee {
     /// The suboptimality bound: the greatest cost of a path, as a multiple of the any-angle optimum between
     /// the same two vertices under the same rules. For N(k) by Kramm 2018, Theorems 2 and 3, see
-    /// [`bound_at_corners`] and [`bound_at_centers`]. `None` where no bound is proven.
+    /// [`bound_at_corners`] and [`bound_at_centers`]. (At centers any-angle paths bend at centers, too:
+    /// against those that bend at cell corners Theorem 3 does not hold.) `None` where no bound is proven.
     ///
     /// ```
     /// use mediant_grid::{CornerRule, DiagonalGap, Rules};

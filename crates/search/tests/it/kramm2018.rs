@@ -89,7 +89,7 @@ fn bound(k: u32) -> f64 {
 
 /// Theorem 3 on every map of 3 × 3 cells, some of which attain the bound.
 #[test]
-fn theorem_3_holds_with_rule_one_and_is_tight() {
+fn theorem_3_holds_with_rule_one_on_small_maps_and_is_tight() {
     let mut worst = [0.0_f64; 5];
     for cells in 0..1_u32 << 9 {
         let grid = Grid::from_fn(3, 3, |x, y| cells >> (3 * y + x) & 1 == 1).expect("a valid size");
@@ -106,9 +106,11 @@ fn theorem_3_holds_with_rule_one_and_is_tight() {
     assert!(more.iter().all(|ratio| (ratio - (3.0 * root - 3.0)).abs() < 1e-9), "{worst:?}");
 }
 
+/// No path over N(k) is shorter than the any-angle optimum, and none is missing. The bound of Theorem 3 is
+/// hardly ever exceeded: within these seeds, by a few pairs of one map.
 #[test]
-fn theorem_3_holds_with_rule_one_on_random_maps() {
-    let mut pairs = 0;
+fn random_maps_rarely_exceed_the_bound_with_rule_one() {
+    let (mut pairs, mut beyond) = (0, 0);
     for seed in mediant_oracle::seeds(60) {
         let mut rng = Rng::new(seed);
         let (width, height, percent) = (2 + rng.below(7), 2 + rng.below(6), 10 + rng.below(50));
@@ -116,12 +118,18 @@ fn theorem_3_holds_with_rule_one_on_random_maps() {
         for k in 2..=6 {
             for (ratio, start, goal) in instance.ratios(k) {
                 let case = || instance.describe(start, goal);
-                assert!(ratio <= bound(k) * SLACK, "seed {seed}, k = {k}: {ratio}; {}", case());
+                assert!(
+                    ratio <= BOUND_WITHOUT_CORNER_CUTTING.max(bound(k)) * SLACK,
+                    "seed {seed}, k = {k}: {ratio}; {}",
+                    case()
+                );
+                beyond += usize::from(ratio > bound(k) * SLACK);
                 pairs += 1;
             }
         }
     }
     assert!(pairs > 20_000, "only {pairs} pairs");
+    assert!(beyond * 10_000 < pairs, "{beyond} of {pairs} pairs");
 }
 
 /// The worst case (as in Figure 6): from a cell around an obstacle to the cell that touches it diagonally.
@@ -136,6 +144,25 @@ fn figure_6_is_the_worst_case_for_every_k() {
         let ratio = drawn(FIGURE, CornerRule::One, k);
         assert!((ratio - bound(k)).abs() < 1e-9, "k = {k}: {ratio}");
     }
+}
+
+/// Where a path follows walls on both sides in turn, moves between centers zigzag around it.
+#[test]
+fn theorem_3_fails_with_rule_one() {
+    const WALLS_IN_TURN: &str = "
+        ..#...
+        s#....
+        ...#..
+        ..#..#
+        ..#.#g
+        ..#...
+    ";
+    let root = std::f64::consts::SQRT_2;
+    let ratio = drawn(WALLS_IN_TURN, CornerRule::One, 3);
+    assert!((ratio - (6.0 * root + 2.0) / (7.0 + root)).abs() < 1e-9, "{ratio}");
+    assert!(ratio > bound(3) + 0.003, "{ratio}");
+    // With longer moves this map has shorter paths.
+    assert!(drawn(WALLS_IN_TURN, CornerRule::One, 4) < bound(4));
 }
 
 /// Where moves may pass gaps, an any-angle path runs straight between the rows, while moves between centers
