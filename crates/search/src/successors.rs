@@ -51,7 +51,7 @@ pub struct KnownPath {
 }
 
 impl KnownPath {
-    /// None that would be no worse than the new one.
+    /// No path is known that is as good as the new one.
     pub const NONE: Self = Self { gain: Cost::ZERO, parent: Self::NO_PARENT };
     /// No map has so many vertices.
     const NO_PARENT: VertexId = VertexId(u32::MAX);

@@ -101,24 +101,8 @@ impl<P: Placement> JumpFinder<P> for BlockFinder {
     }
 
     #[inline]
-    fn goal_in_sight(
-        &self,
-        context: &JumpContext<'_, P>,
-        node: &ExpandedNode,
-        scanned: &mut u32,
-    ) -> Option<Successor> {
-        let ToGoal { index, steps, .. } = context.to_goal;
-        *scanned += steps;
-        let comes_there = if index & 1 == 1 {
-            let can_enter = |steps| context.can_enter(node, index, steps);
-            steps <= context.rules.limit && self.diagonals.can_make(node.at, index, steps, can_enter)
-        } else {
-            self.axial.legal_steps(node.at, context.quarter(index)) >= steps
-        };
-        if !comes_there {
-            return None;
-        }
-        context.goal_beyond_turn(self, node)
+    fn by_words(&self) -> Option<&BlockFinder> {
+        Some(self)
     }
 
     #[inline]
@@ -136,6 +120,26 @@ impl<P: Placement> JumpFinder<P> for BlockFinder {
 }
 
 impl<P: Placement> JumpContext<'_, P> {
+    /// The goal as the successor of a node, if that is in sight. The move that leads there first is one of
+    /// those by which a path goes on. Adds to `scanned` the number of its steps.
+    #[inline]
+    pub(super) fn goal_in_sight(
+        &self,
+        blocks: &BlockFinder,
+        node: &ExpandedNode,
+        scanned: &mut u32,
+    ) -> Option<Successor> {
+        let ToGoal { index, steps, .. } = self.to_goal;
+        *scanned += steps;
+        let can_make = if index & 1 == 1 {
+            let can_enter = |steps| self.can_enter(node, index, steps);
+            steps <= self.rules.limit && blocks.diagonals.can_make(node.at, index, steps, can_enter)
+        } else {
+            blocks.axial.legal_steps(node.at, self.quarter(index)) >= steps
+        };
+        if can_make { self.goal_beyond_turn(blocks, node) } else { None }
+    }
+
     /// The goal as the successor of a node from which a path can make the first leg to it, if it can make the
     /// second one, too.
     #[inline]

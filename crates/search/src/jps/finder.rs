@@ -6,6 +6,7 @@ use mediant_grid::{GridGraph, Identity, Placement, Step, Vector, Vertex, VertexI
 use mediant_moves::Cost;
 
 use super::{
+    block_finder::BlockFinder,
     dead_ends::NearGoal,
     diagonals::DiagonalStops,
     to_goal::{GoalLegs, ToGoal, cross, dot},
@@ -84,8 +85,8 @@ pub trait JumpFinder<P: Placement>: Debug {
     }
 
     /// The number of steps of the axial jump by move `index` from a vertex to a jump point or to the goal;
-    /// `None` if it comes to neither. The goal is `goal_steps` ahead, if it lies ahead at all, and is not
-    /// [in sight](Self::goal_in_sight). Adds to `scanned` the number of vertices looked at.
+    /// `None` if it comes to neither. The goal is `goal_steps` ahead, if it lies ahead at all; where it is
+    /// looked for before, it is not in sight. Adds to `scanned` the number of vertices looked at.
     #[doc(hidden)]
     fn axial(
         &self,
@@ -110,17 +111,10 @@ pub trait JumpFinder<P: Placement>: Debug {
         context.step_diagonal(self, from, index, scanned, visit);
     }
 
-    /// The goal as the successor of a node, if that is in sight and the finder looks for it. The move that
-    /// leads there first is one of those by which a path goes on.
+    /// What makes jumps by words, if it has that. Then a goal in sight is looked for at every node.
     #[doc(hidden)]
     #[inline]
-    fn goal_in_sight(
-        &self,
-        context: &JumpContext<'_, P>,
-        node: &ExpandedNode,
-        scanned: &mut u32,
-    ) -> Option<Successor> {
-        let _ = (context, node, scanned);
+    fn by_words(&self) -> Option<&BlockFinder> {
         None
     }
 

@@ -53,11 +53,11 @@
 //!
 //! What made it fast: bit planes that combine the three rows of cells along an axial jump, so that a scan
 //! loads one row; bit planes that hold each diagonal in the order of a jump, with the places where it stops
-//! and which axial jump leads on from there; passing dead ends; one loop over the jumps of a node, in which
-//! all that a search or a node has in common is found before; and a table of one byte a vertex and even move,
-//! so that the entries of a vertex are one word. For k ≥ 4 there are no such tables, but a vertex is tested
-//! for forced successors only once. From k = 6 on canonical A* is faster: scanning costs more than the
-//! saved nodes. Figures: `docs/measurements/search.md`.
+//! and which axial jump leads on from there; cut jumps; passing dead ends; one loop over the jumps of a node,
+//! in which all that a search or a node has in common is found before; and, for JPS+, lists of where all
+//! jumps from a jump point lead, so that nothing is scanned. For k ≥ 4 there are no such planes, but a vertex
+//! is tested for forced successors only once. From k = 6 on canonical A* is faster: scanning costs more than
+//! the saved nodes. Figures: `docs/measurements/search.md`.
 
 mod axial;
 mod block_finder;

@@ -233,7 +233,8 @@ impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
         };
         let mut scanned = 0;
         if moves >> context.to_goal.index & 1 == 1
-            && let Some(goal) = self.finder.goal_in_sight(&context, &node, &mut scanned)
+            && let Some(blocks) = self.finder.by_words()
+            && let Some(goal) = context.goal_in_sight(blocks, &node, &mut scanned)
         {
             visit(goal);
             return scanned;

@@ -143,3 +143,47 @@ fn on_large_maps_jumps_search_what_they_search_on_small_ones() {
     let expected = searches::<Corners>(small, open, (0, 0), seed);
     assert_eq!(searches::<Corners>(large, open, place, seed), expected);
 }
+
+/// Whether the path by diagonal moves first and then along an axis is legal.
+fn is_in_sight(graph: &GridGraph<Centers>, start: Vertex, goal: Vertex) -> bool {
+    let mut at = start;
+    while at != goal {
+        let v = Vector::new((goal.x - at.x).signum(), (goal.y - at.y).signum());
+        if !graph.is_legal(at, v) {
+            return false;
+        }
+        at = at + v;
+    }
+    true
+}
+
+/// Where the goal is in sight, engines that jump by words expand the start alone.
+#[test]
+fn a_goal_in_sight_is_found_at_once() {
+    let mut in_sight = 0;
+    for seed in seeds(40) {
+        let grid = Arc::new(grid(seed));
+        let graph = &GridGraph::<Centers>::new(Arc::clone(&grid), FiniteK::N8, CornerRule::Never).unwrap();
+        let table = Arc::new(JumpTable::new(graph).unwrap());
+        let mut engines: [Box<dyn Solve + '_>; 2] =
+            [Box::new(BlockJps::new(graph, Hk).unwrap()), Box::new(JpsPlus::new(graph, table, Hk).unwrap())];
+        let rng = &mut Rng::new(seed ^ 0x51E);
+        for _ in 0..50 {
+            let mut free = || random_free_vertex(rng, &grid, Centers::KIND).unwrap();
+            let (start, goal) = (free(), free());
+            if start == goal || !is_in_sight(graph, start, goal) {
+                continue;
+            }
+            for engine in &mut engines {
+                let (outcome, expanded) = engine.counted(Query::new(start, goal));
+                let case = || describe(&grid, Rules::Center(CornerRule::Never), start, goal, seed);
+                let least = graph.costs().distance(start.to(goal)).to_f64();
+                let cost = outcome.path().map_or(f64::INFINITY, |path| path.cost());
+                assert!((cost - least).abs() < 1e-8, "{cost} instead of {least}, {}", case());
+                assert_eq!(expanded, 1, "{}", case());
+            }
+            in_sight += 1;
+        }
+    }
+    assert!(in_sight > 300, "{in_sight}");
+}
