@@ -122,35 +122,45 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> JpsPlus<G, H, 
     }
 }
 
-impl<P: Placement, J: JumpFinder<P>> JumpMoves<P, J> {
-    /// All jumps from a node, step by step. Returns the number of vertices scanned.
-    #[inline(never)]
-    fn follow_stepwise(
-        &self,
-        context: &JumpContext<'_, P>,
-        node: &ExpandedNode,
-        visit: &mut impl FnMut(Successor) -> KnownPath,
-    ) -> u32 {
-        let (graph, goal, finder) = (context.graph, context.goal, StepwiseFinder);
-        let mut scanned = 0;
-        let mut follow = |index: usize| {
-            if index & 1 == 1 {
-                finder.diagonal(context, node, index, &mut scanned, visit);
-                return;
-            }
-            let step = graph.step(index);
-            let goal_steps = context.steps_to_goal(node.at, step.vector());
-            if let Some(n) = finder.axial(context, node, index, goal_steps, &mut scanned) {
-                visit(context.after(node, step, index, n).reached(step.cost * n, index));
-            }
-        };
-        match node.by.filter(|&by| !self.pruning.is_exempt(graph, node.at, by, goal)) {
-            None => graph.for_each_successor(node.at, node.by, goal, follow),
-            Some(by) => self.pruning.for_each(graph, node, by, &mut follow),
+/// All jumps from a node, step by step. Returns the number of vertices scanned.
+///
+/// `visit` is called through a pointer, so that there is one such function for a placement, not one for each
+/// kind of planner: beside a jump step by step the call costs nothing, and WebAssembly has less to load.
+#[inline(never)]
+fn follow_stepwise<P: Placement>(
+    context: &JumpContext<'_, P>,
+    node: &ExpandedNode,
+    mut visit: &mut dyn FnMut(Successor) -> KnownPath,
+) -> u32 {
+    let (graph, pruning, goal, finder) = (context.graph, context.pruning, context.goal, StepwiseFinder);
+    let mut scanned = 0;
+    let mut follow = |index: usize| {
+        if index & 1 == 1 {
+            finder.diagonal(context, node, index, &mut scanned, &mut visit);
+            return;
         }
-        scanned
+        let step = graph.step(index);
+        let goal_steps = context.steps_to_goal(node.at, step.vector());
+        if let Some(n) = finder.axial(context, node, index, goal_steps, &mut scanned) {
+            visit(context.after(node, step, index, n).reached(step.cost * n, index));
+        }
+    };
+    match node.by.filter(|&by| !pruning.is_exempt(graph, node.at, by, goal)) {
+        None => graph.for_each_successor(node.at, node.by, goal, follow),
+        Some(by) => pruning.for_each(graph, node, by, &mut follow),
     }
+    scanned
+}
 
+/// All moves from a node, as a set, for k ≤ 3. Only the start and gaps need it.
+#[inline(never)]
+fn all_moves<P: Placement>(graph: &GridGraph<P>, node: &ExpandedNode, goal: Vertex) -> u8 {
+    let mut moves = 0;
+    graph.for_each_successor(node.at, node.by, goal, |index| moves |= 1 << index);
+    moves
+}
+
+impl<P: Placement, J: JumpFinder<P>> JumpMoves<P, J> {
     /// The jumps from a node by a set of moves, for k ≤ 3. Returns the number of vertices scanned.
     #[inline]
     fn follow(
@@ -215,14 +225,10 @@ impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
             to_goal: ToGoal::new(node.at.to(goal), graph.k()),
         };
         let Some(table) = self.pruning.table().filter(|_| !context.stepwise) else {
-            return self.follow_stepwise(&context, &node, &mut visit);
+            return follow_stepwise(&context, &node, &mut visit);
         };
         let moves = match node.by.filter(|&by| !self.pruning.is_exempt(graph, node.at, by, goal)) {
-            None => {
-                let mut moves = 0;
-                graph.for_each_successor(node.at, node.by, goal, |index| moves |= 1 << index);
-                moves
-            }
+            None => all_moves(graph, &node, goal),
             Some(by) => {
                 let looks_up = self.rules.are_plain();
                 if looks_up && self.finder.known_successors(&context, (&node, by), &mut visit) {
