@@ -40,7 +40,8 @@ impl Footprint {
             }
             true
         });
-        footprint.free.sort_unstable();
+        // The sort that sets of cells are built with: a second one would be code for WebAssembly to load.
+        footprint.free.sort();
         footprint
     }
 
@@ -72,8 +73,7 @@ impl CellMask {
     ///
     /// The cells that a segment sweeps are contiguous. So if some lie beyond the frame of the matrix, others
     /// lie on the frame, and whatever is read beyond it, the answer is 'blocked'.
-    pub(crate) fn holding(cells: impl IntoIterator<Item = CellOffset>, matrix: &BitMatrix) -> Vec<Self> {
-        let mut cells: Vec<CellOffset> = cells.into_iter().collect();
+    pub(crate) fn holding(mut cells: Vec<CellOffset>, matrix: &BitMatrix) -> Vec<Self> {
         cells.sort_unstable_by_key(|&(along, across)| (across.abs(), across, along));
         let mut masks = Vec::new();
         for mut row in cells.chunk_by(|a, b| a.1 == b.1) {

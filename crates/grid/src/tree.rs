@@ -72,7 +72,7 @@ impl Octant {
         let cells = |swept: &Footprint| [&*swept.free, swept.either.as_flattened()].concat();
         let all: BTreeSet<CellOffset> = footprints.iter().flat_map(cells).collect();
         let matrix = if frame.transposed { grid.columns() } else { grid.rows() };
-        octant.all = CellMask::holding(all, matrix);
+        octant.all = CellMask::holding(all.into_iter().collect(), matrix);
         octant.add(&footprints, first, &[], matrix);
         octant
     }
@@ -156,7 +156,7 @@ fn in_matrix<P: Placement>(rule: P::Rule, v: Vector, transposed: bool) -> Footpr
     if transposed {
         let swap = |(x, y)| (y, x);
         footprint.free.iter_mut().for_each(|cell| *cell = swap(*cell));
-        footprint.free.sort_unstable();
+        footprint.free.sort();
         footprint.either.iter_mut().for_each(|cells| *cells = cells.map(swap));
     }
     footprint
