@@ -1,8 +1,8 @@
 //! The modules of the page, announced in its head.
 //!
 //! A browser sees what a module imports once it has the module. Over a graph of some depth that is one wait
-//! for the network after another. So the head lists the engines and all modules that it starts, with what
-//! they import, of themselves or by others. They are listed in the order in which they are started: what
+//! for the network after another. So the head lists the engines and all modules that it starts, each followed
+//! by what it imports, of itself or by others. A browser asks for them in this order, a few at a time: what
 //! starts the first worker comes before the many that it can do without. The sources need no such list.
 
 use std::path::Path;
@@ -19,12 +19,10 @@ pub(super) fn announce(files: &mut [File]) {
     let Some(head) = files.iter().position(|file| file.path == HEAD) else { return };
     let text = String::from_utf8_lossy(&files[head].bytes).into_owned();
     let Some(at) = text.find(SCRIPT) else { return };
-    let started: Vec<&str> = text.lines().filter_map(started).collect();
     let mut found = Vec::new();
-    for path in &started {
+    for path in text.lines().filter_map(started) {
         follow(files, path, &mut found);
     }
-    found.retain(|path| !started.contains(&&**path));
     // As `fetch` in a module asks for it; anything else would be fetched a second time.
     let mut links = format!("<link rel=\"preload\" href=\"{ENGINES}\" as=\"fetch\" crossorigin>\n");
     links.extend(found.iter().map(|path| format!("<link rel=\"modulepreload\" href=\"{path}\">\n")));
@@ -94,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn all_that_is_imported_is_announced_once_in_the_order_of_the_scripts() {
+    fn all_that_is_started_or_imported_is_announced_once_in_order() {
         let file = |path: &str, text: &str| File { path: path.to_owned(), bytes: text.into() };
         let head = "<script type=\"module\" async src=\"src/warm.js\"></script>\n\
             <script type=\"module\" src=\"src/main.js\"></script>\n";
@@ -110,8 +108,9 @@ mod tests {
         ];
         announce(&mut files);
         let text = String::from_utf8_lossy(&files[0].bytes).into_owned();
-        let links = ["src/d.js", "src/a/a.js", "src/b.js", "mediant/mediant.js"]
-            .map(|path| format!("<link rel=\"modulepreload\" href=\"{path}\">\n"));
+        let modules =
+            ["src/warm.js", "src/d.js", "src/main.js", "src/a/a.js", "src/b.js", "mediant/mediant.js"];
+        let links = modules.map(|path| format!("<link rel=\"modulepreload\" href=\"{path}\">\n"));
         let (engines, rest) = text.strip_prefix("<meta>\n").unwrap().split_once('\n').unwrap();
         assert!(engines.contains("as=\"fetch\" crossorigin"), "{engines}");
         assert_eq!(rest, links.concat() + head);

