@@ -4,7 +4,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { findEnds } from "../page/src/model/ends.js";
-import { generate, generators, whyNotGenerated } from "../page/src/model/generate.js";
+import { generate } from "../page/src/model/generate.js";
+import { generators, whyNotGenerated } from "../page/src/model/generators.js";
 import { Random, root } from "../page/src/model/generate/random.js";
 import { digestOf } from "../page/src/model/scene.js";
 

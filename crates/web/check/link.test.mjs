@@ -4,7 +4,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { generators, generate } from "../page/src/model/generate.js";
+import { generate } from "../page/src/model/generate.js";
+import { generators } from "../page/src/model/generators.js";
 import { Random } from "../page/src/model/generate/random.js";
 import { apply, decode, encode, fromFile, toFile, TOO_LARGE } from "../page/src/model/link.js";
 import { bundled, loadMap } from "../page/src/model/maps.js";

@@ -1,6 +1,6 @@
 // The maps that the page offers: bundled ones, which are files beside the page, and generated ones.
 
-import { generate, generators, SIDES, whyNotGenerated } from "./generate.js";
+import { generators, SIDES, whyNotGenerated } from "./generators.js";
 import { whyNoSize } from "./setups.js";
 
 export { generators, SIDES };
@@ -72,11 +72,11 @@ export async function loadMap(source) {
 const LARGE_SIDE = 512;
 
 /** @param {string} name @param {number} side @param {number} seed
- * @returns {Promise<ReturnType<typeof generate>>} */
+ * @returns {ReturnType<typeof generateHere>} */
 async function generateAside(name, side, seed) {
   const why = whyNotGenerated(name, side, seed);
   if (why !== "") throw new RangeError(why);
-  if (side < LARGE_SIDE || typeof Worker === "undefined") return generate(name, side, seed);
+  if (side < LARGE_SIDE || typeof Worker === "undefined") return generateHere(name, side, seed);
   const worker = new Worker(new URL("./generate-worker.js", import.meta.url), { type: "module" });
   try {
     return await new Promise((resolve, reject) => {
@@ -86,10 +86,19 @@ async function generateAside(name, side, seed) {
     });
   } catch {
     // The worker could not be loaded: the page makes the map itself.
-    return generate(name, side, seed);
+    return await generateHere(name, side, seed);
   } finally {
     worker.terminate();
   }
+}
+
+/** Most visits need no generator: so they are loaded when one is wanted, and not before the first path.
+ * @param {string} name @param {number} side @param {number} seed */
+async function generateHere(name, side, seed) {
+  const { generate } = await import("./generate.js").catch((cause) => {
+    throw new Error("What makes such maps could not be loaded. Is the network there?", { cause });
+  });
+  return generate(name, side, seed);
 }
 
 /** @param {string} name */

@@ -2,7 +2,7 @@
 
 import { BitSet } from "./bits.js";
 import { digest } from "./bytes.js";
-import { whyNotGenerated } from "./generate.js";
+import { whyNotGenerated } from "./generators.js";
 import { bundled, loadMap as loadFromPage, titleOf } from "./maps.js";
 import * as setups from "./setups.js";
 
