@@ -22,7 +22,7 @@ use mediant_moves::Vector;
 use crate::{
     BitMatrix, Grid, Placement,
     bits::BitIndex,
-    footprint::{CellMask, Footprint},
+    footprint::{CellMask, Footprint, sort_cells},
     frame::{CellOffset, Frame},
 };
 
@@ -156,7 +156,7 @@ fn in_matrix<P: Placement>(rule: P::Rule, v: Vector, transposed: bool) -> Footpr
     if transposed {
         let swap = |(x, y)| (y, x);
         footprint.free.iter_mut().for_each(|cell| *cell = swap(*cell));
-        footprint.free.sort();
+        sort_cells(&mut footprint.free);
         footprint.either.iter_mut().for_each(|cells| *cells = cells.map(swap));
     }
     footprint

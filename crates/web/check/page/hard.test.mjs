@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { emptyRows, generate, isSentence, lanes, loadRows, scene, setLanes } from "../act.mjs";
+import { emptyRows, generate, isSentence, lanes, loadRows, message, rows, scene, setLanes } from "../act.mjs";
 import { picture, settled, Site } from "../browser.mjs";
 
 /** @typedef {import("playwright-core").Page} Page */
@@ -42,6 +42,24 @@ test("a map without a free cell", async () => {
     await page.waitForTimeout(150);
   }
   await picture(page, "all-blocked");
+});
+
+test("what makes maps cannot be loaded: the page says so, keeps the scene, and can try again", async () => {
+  const page = await site.open();
+  const before = await rows(page);
+  const choose = async () => {
+    await page.locator("#maps > summary").click();
+    await page.locator("#maps").getByRole("button", { name: "Cave", exact: true }).click();
+  };
+  await page.route("**/generate.js", (route) => route.abort());
+  await choose();
+  assert.ok(isSentence(await message(page, /could not be loaded/)));
+  assert.deepEqual(await rows(page), before);
+  for (const complaint of site.taken()) assert.match(complaint, /generate\.js|ERR_FAILED/);
+  await page.unroute("**/generate.js");
+  await choose();
+  await page.waitForFunction(() => /** @type {any} */ (globalThis).mediant.model.source.kind === "generated");
+  await settled(page);
 });
 
 test("maps of one cell, of one row, and of one column", async () => {

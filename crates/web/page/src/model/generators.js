@@ -8,8 +8,8 @@
  * @property {number} side
  * @property {boolean} [endsInCorners] or else the ends are as far apart as the way between them is long */
 
-export const LEAST_SIDE = 32;
-export const MOST_SIDE = 4096;
+const LEAST_SIDE = 32;
+const MOST_SIDE = 4096;
 
 /** The sides that a menu offers. */
 export const SIDES = Object.freeze([64, 128, 256, 512, 1024, 2048, 4096]);
