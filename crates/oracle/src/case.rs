@@ -48,19 +48,27 @@ impl fmt::Display for Case {
     }
 }
 
-/// The seeds of a random suite, counted from 0. There are `default` of them, or as many as the environment
-/// variable `MEDIANT_GRIDS` says.
+/// The seeds of a random suite, counted from 0. There are `default` of them, unless the environment variable
+/// `MEDIANT_GRIDS` says otherwise: a number, or how many times as many, as `10x`.
 ///
 /// # Panics
-/// If `MEDIANT_GRIDS` is not a number: otherwise the suite would silently run on fewer maps than it was asked
+/// If `MEDIANT_GRIDS` is neither: otherwise the suite would silently run on fewer maps than it was asked
 /// for.
 #[must_use]
 pub fn seeds(default: u64) -> Range<u64> {
     let asked = std::env::var_os("MEDIANT_GRIDS").map(|text| {
-        let number = text.to_str().and_then(|text| text.parse().ok());
-        number.unwrap_or_else(|| panic!("MEDIANT_GRIDS is {text:?}, not a number"))
+        let number = text.to_str().and_then(|text| count(text, default));
+        number.unwrap_or_else(|| panic!("MEDIANT_GRIDS is {text:?}, neither a number nor one with an x"))
     });
     0..asked.unwrap_or(default)
+}
+
+/// A number of maps, absolute or, with an `x`, relative to the suite's own number.
+fn count(text: &str, default: u64) -> Option<u64> {
+    match text.strip_suffix('x') {
+        Some(times) => times.parse::<u64>().ok()?.checked_mul(default),
+        None => text.parse().ok(),
+    }
 }
 
 /// Calls `part` with each seed, on all cores, and returns the results, in no particular order.
@@ -98,4 +106,17 @@ pub fn describe(grid: &Grid, rules: Rules, start: Vertex, goal: Vertex, seed: u6
         text.push('\n');
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::count;
+
+    #[test]
+    fn a_suite_is_as_long_as_asked_or_so_many_times_as_long() {
+        assert_eq!((count("120", 40), count("3x", 40), count("0x", 40)), (Some(120), Some(120), Some(0)));
+        for text in ["", "x", "1.5x", "-1", "3 x", "99999999999999999999x", "18446744073709551615x"] {
+            assert_eq!(count(text, 40), None, "{text}");
+        }
+    }
 }

@@ -74,7 +74,8 @@ fn on_worlds<R: Send>(maps: Range<u64>, part: impl Fn(&World, &mut Rng) -> R + S
 /// The seeds of so many maps for each motion; of more if the suites are to be longer. All planners are asked
 /// several times on each map, which takes ten times as long as in other suites.
 fn maps(for_each_motion: u64) -> Range<u64> {
-    0..(for_each_motion * motions().len() as u64).max(seeds(0).end / 10)
+    let default = for_each_motion * motions().len() as u64;
+    0..default.max(seeds(10 * default).end / 10)
 }
 
 impl World {
