@@ -219,12 +219,13 @@ pub(crate) fn patch(name: &str, value: &Bound<'_, PyAny>) -> PyResult<(Vec<bool>
 pub(crate) enum PathPoints {
     Waypoints,
     Vertices,
-    Cells,
+    Touched,
 }
 
 impl PathPoints {
     pub(crate) fn read(value: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
-        let words = [("waypoints", Self::Waypoints), ("vertices", Self::Vertices), ("cells", Self::Cells)];
+        let words =
+            [("waypoints", Self::Waypoints), ("vertices", Self::Vertices), ("touched", Self::Touched)];
         value.map_or(Ok(Self::Waypoints), |value| word("points", value, &words))
     }
 
@@ -233,7 +234,7 @@ impl PathPoints {
         match self {
             Self::Waypoints => add(path.waypoints().iter().copied(), to),
             Self::Vertices => add(path.vertices(), to),
-            Self::Cells => add(path.cells(placement).map(Vertex::from), to),
+            Self::Touched => add(path.touched_cells(placement).map(Vertex::from), to),
         }
     }
 

@@ -125,7 +125,7 @@ impl Field {
     /// ----------
     /// point : tuple of int
     ///     (row, column).
-    /// points : {"waypoints", "vertices", "cells"}
+    /// points : {"waypoints", "vertices", "touched"}
     ///     What the array has: see `Grid.find`.
     ///
     /// Returns

@@ -171,7 +171,7 @@ class Things:
             return self.folder / {"open": "room.pgm", "load": "index", "save": "saved"}[call.name]
         if parameter.name in by_name and not parameter.type.startswith("PathPoints"):
             return by_name[parameter.name]
-        kinds = {"Point": (1, 3), "Points": [(1, 3), (0, 4)], "K": 3, "bool": True, "PathPoints": "cells"}
+        kinds = {"Point": (1, 3), "Points": [(1, 3), (0, 4)], "K": 3, "bool": True, "PathPoints": "touched"}
         kinds.update({"Placement": "center", "Corners": "one", "Gap": "open", "Heuristic": "zero"})
         kind = parameter.type.split(" | ")[0].split("[")[0]
         if kind == "Literal":

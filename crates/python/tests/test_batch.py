@@ -80,7 +80,7 @@ def test_kinds_of_points():
     query = {"start_row": [0], "start_column": [0], "goal_row": [4], "goal_column": [4]}
     lengths = [
         len(batch.solve(query, grid, paths=True, points=points)["path"][0].as_py())
-        for points in ("waypoints", "vertices", "cells")
+        for points in ("waypoints", "vertices", "touched")
     ]
     assert lengths[0] == 2 and lengths[1] == 5 and lengths[2] >= 5
 

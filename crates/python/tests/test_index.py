@@ -174,9 +174,9 @@ def test_threads_do_not_matter(rng, engine, how):
     assert np.diagonal(table) == pytest.approx(paths.distances[:40], rel=1e-9)
     assert table[3, 50] == pytest.approx(index.distance(starts[3], goals[50]), rel=1e-9)
     assert np.array_equal(index.table(starts[:40], goals[:70], threads=3), table)
-    one = index.paths(starts[0], goals, points="cells")
+    one = index.paths(starts[0], goals, points="touched")
     assert np.array_equal(one.distances, index.paths(np.repeat(starts[:1], 2500, axis=0), goals).distances)
-    alone = index.path(starts[0], goals[7], points="cells")
+    alone = index.path(starts[0], goals[7], points="touched")
     assert one[7] is None if alone is None else np.array_equal(one[7], alone)
 
 

@@ -109,7 +109,7 @@ def test_points(rng, rule):
             assert all(tuple(d) in slow.moves(k) for d in np.diff(vertices, axis=0).tolist())
             bends = [0, *bends_of(vertices), len(vertices) - 1]
             assert np.array_equal(vertices[sorted(set(bends))], path)
-            assert grid.path(start, goal, points="cells", **how).tolist() == cells_of(oracle, path)
+            assert grid.path(start, goal, points="touched", **how).tolist() == cells_of(oracle, path)
 
 
 def bends_of(vertices):
@@ -118,12 +118,12 @@ def bends_of(vertices):
 
 
 def cells_of(oracle, path):
-    """The cells that a path meets, sorted as the package says: by when it meets them."""
+    """The cells that a path touches, sorted as the package says: by when it touches them."""
     result = []
     for a, b in zip(path.tolist(), path.tolist()[1:]):
         d = (b[0] - a[0], b[1] - a[1])
         entered, beside, _ = slow.footprint(oracle.placement, *d)
-        cells = set(entered) | (set() if oracle.at_corners else set(itertools.chain.from_iterable(beside)))
+        cells = set(entered) | set(itertools.chain.from_iterable(beside))
         result.append({(a[0] + i, a[1] + j) for i, j in cells})
     return CellRuns(result, None if oracle.at_corners or len(path) > 1 else [path[0].tolist()])
 

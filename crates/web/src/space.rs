@@ -2,8 +2,8 @@
 
 use std::cell::RefCell;
 
-use js_sys::{Function, JsString};
-use mediant::{Map, Motion, Path, Planner, Progress, Setup, Space as Inner, Stage};
+use js_sys::{Function, Int32Array, JsString};
+use mediant::{Map, Motion, Path, Planner, Progress, Setup, Space as Inner, Stage, Vertex};
 use wasm_bindgen::{JsCast, prelude::*};
 
 use crate::{
@@ -31,6 +31,18 @@ pub(crate) fn planner(setup: Setup, map: &Map) -> Result<Planner, JsValue> {
     space.check_room("the search", memory::INDEX + memory::PLANNER)?;
     let index = space.inner.prepare_for_one_path(setup.engine).map_err(raised)?;
     index.with_smoothing(setup.smoothing).try_planner().map_err(raised)
+}
+
+/// What `of` finds along a path, as x, y, ….
+fn along(path: &JsValue, of: impl FnOnce(&Path) -> Vec<(i32, i32)>) -> Result<Int32Array, JsValue> {
+    let path = Path::new(path_points("path", path)?);
+    // Waypoints may be anywhere. A step along an axis touches two cells at most, and a list may be half empty.
+    let steps =
+        |ends: &[Vertex]| u64::from(ends[0].x.abs_diff(ends[1].x)) + u64::from(ends[0].y.abs_diff(ends[1].y));
+    let most: u64 = path.waypoints().windows(2).map(|ends| 2 * steps(ends) + 4).sum();
+    memory::check("the points along the path", most, 32)?;
+    let flat: Vec<i32> = of(&path).into_iter().flat_map(|(x, y)| [x, y]).collect();
+    Ok(Int32Array::from(&flat[..]))
 }
 
 /// The most vertices that a map can have.
@@ -109,6 +121,29 @@ impl Space {
         #[wasm_bindgen(unchecked_param_type = "Int32Array")] path: &JsValue,
     ) -> Result<(), JsValue> {
         self.inner.check(&Path::new(path_points("path", path)?)).map_err(|error| broken(&error))
+    }
+
+    /// The walk along a path, x, y, …: every vertex on it, where its waypoints are the turns alone.
+    ///
+    /// @throws MediantError `memory` for waypoints that are too far apart.
+    pub fn vertices(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Int32Array")] path: &JsValue,
+    ) -> Result<Int32Array, JsValue> {
+        along(path, |path| path.vertices().map(|at| (at.x, at.y)).collect())
+    }
+
+    /// The cells that a path, x, y, …, touches. They are no walk: passing between four cells a path touches all
+    /// of them, and along a grid line those on both sides.
+    ///
+    /// @throws MediantError `memory` for waypoints that are too far apart.
+    #[wasm_bindgen(js_name = touchedCells)]
+    pub fn touched_cells(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Int32Array")] path: &JsValue,
+    ) -> Result<Int32Array, JsValue> {
+        let placement = self.inner.motion().rules.placement();
+        along(path, |path| path.touched_cells(placement).collect())
     }
 
     /// The engine that we would take for many paths, and why, in a sentence.

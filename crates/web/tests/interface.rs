@@ -109,6 +109,17 @@ fn spaces_and_indexes() {
     assert_eq!(ok(&space, "connected", &[at(0, 0), at(7, 2)]), JsValue::TRUE);
     let path = ok(&grid, "path", &[at(0, 0), at(7, 0)]);
     assert_eq!(ok(&space, "holds", std::slice::from_ref(&path)), JsValue::TRUE);
+    let along = |space: &JsValue, name, path: &[i32]| {
+        let path = js_sys::Int32Array::from(path).into();
+        js_sys::Int32Array::from(ok(space, name, &[path])).to_vec()
+    };
+    assert_eq!(along(&space, "vertices", &[0, 0, 2, 0]), [0, 0, 1, 0, 2, 0]);
+    assert_eq!(along(&space, "touchedCells", &[0, 0, 1, 1]), [0, 0, 1, 0, 0, 1, 1, 1]);
+    let corners = ok(&grid, "space", &[json(r#"{"k": "any"}"#)]);
+    assert_eq!(along(&corners, "touchedCells", &[0, 1, 1, 1]), [0, 0, 0, 1]);
+    let far: JsValue = js_sys::Int32Array::from(&[i32::MIN, 0, i32::MAX, 0][..]).into();
+    assert_eq!(thrown(&space, "vertices", std::slice::from_ref(&far)), "MediantError memory");
+    assert_eq!(thrown(&space, "touchedCells", &[far]), "MediantError memory");
     let block = [2.into(), 1.into(), 1.into(), 1.into(), bytes(&[1])];
     let edited = ok(&space, "edit", &block);
     assert_eq!(ok(&edited, "holds", std::slice::from_ref(&path)), JsValue::FALSE);

@@ -142,7 +142,7 @@ impl Grid {
     ///     (row, column).
     /// surplus : float
     ///     How much longer it may be: 0.1 allows 10 % more.
-    /// points : {"waypoints", "vertices", "cells"}
+    /// points : {"waypoints", "vertices", "touched"}
     ///     What the array has: see `find`.
     /// **motion
     ///     As in `find`.

@@ -18,7 +18,7 @@ impl Index {
     /// ----------
     /// starts, goals : array_like of int
     ///     (row, column) points, shape (n, 2); one single point stands for all queries.
-    /// points : {"waypoints", "vertices", "cells"}
+    /// points : {"waypoints", "vertices", "touched"}
     ///     What the arrays have: see `Grid.find`.
     /// threads : int, optional
     ///     The number of threads; by default one for each core. The answers are the same on any number.

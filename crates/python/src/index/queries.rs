@@ -115,7 +115,7 @@ impl Index {
     /// ----------
     /// start, goal : tuple of int
     ///     (row, column); or several of each, shape (n, 2): the shortest path from any start to any goal.
-    /// points : {"waypoints", "vertices", "cells"}
+    /// points : {"waypoints", "vertices", "touched"}
     ///     What the array has: see `Grid.find`.
     /// **wishes
     ///     ``nearest``, ``tolerance``, ``snap`` and limits: see `Grid.find`.
@@ -136,7 +136,7 @@ impl Index {
     /// --------
     /// >>> import mediant
     /// >>> index = mediant.Grid.from_rows(["....", ".##.", "...."]).prepare()
-    /// >>> index.path((0, 0), (2, 2), points="cells").tolist()
+    /// >>> index.path((0, 0), (2, 2), points="touched").tolist()
     /// [[0, 0], [1, 0], [2, 0], [2, 1], [2, 2]]
     #[pyo3(
         signature = (start, goal, *, points = None, **wishes),
@@ -197,7 +197,7 @@ impl Index {
     /// ----------
     /// start, goal : tuple of int
     ///     As in `path`.
-    /// points : {"waypoints", "vertices", "cells"}
+    /// points : {"waypoints", "vertices", "touched"}
     ///     What arrays of paths have: see `Grid.find`.
     /// counters : bool
     ///     Whether to count the events of the search, which makes it slower.

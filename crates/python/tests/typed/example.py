@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 blocked: NDArray[np.bool_] = np.zeros((5, 9), dtype=bool)
 grid = mediant.Grid(blocked)
-path: NDArray[np.int32] | None = grid.path((0, 0), (4, 8), k=3, corners="one", points="cells", timeout=1.0)
+path: NDArray[np.int32] | None = grid.path((0, 0), (4, 8), k=3, corners="one", points="touched", timeout=1.0)
 distance: float = grid.distance((0, 0), [(4, 8), (3, 3)], k=mediant.ANY)
 index: mediant.Index = grid.prepare("subgoal", k=mediant.N8, levels="contracted")
 paths: mediant.Paths = index.paths(np.array([[0, 0]]), [(4, 8)], threads=2, progress=print)

@@ -54,6 +54,22 @@ impl Segment {
         let along = |by: i64| i32::try_from(by.checked_div(times)?).ok();
         Some(Vector::new(along(x)?, along(y)?))
     }
+
+    /// The cells on both sides of a segment that runs along a grid line; none of others.
+    fn beside(&self, placement: PlacementKind) -> impl Iterator<Item = (i32, i32)> + use<> {
+        let (by_x, by_y) = self.by();
+        let is_along = placement == PlacementKind::Corner && (by_x == 0) != (by_y == 0);
+        let steps = if is_along { by_x.abs() + by_y.abs() } else { 0 };
+        let (from, (x, y)) = (self.from, (by_x.signum(), by_y.signum()));
+        (0..steps).flat_map(move |step| {
+            // The cell that the step's edge is the top or the left side of, and the one across.
+            let [column, row] =
+                [(from.x, x), (from.y, y)].map(|(from, by)| (i64::from(from) + by * step + by.min(0)) as i32);
+            let across =
+                if x == 0 { (column.saturating_sub(1), row) } else { (column, row.saturating_sub(1)) };
+            [across, (column, row)]
+        })
+    }
 }
 
 impl Path {
@@ -76,32 +92,40 @@ impl Path {
         moves.flat_map(|(unit, times)| (0..times).map(move |_| unit))
     }
 
-    /// Every vertex on the path, in order: the waypoints and all vertices that its segments pass exactly
-    /// through. On a path over N(k) there is one after each move. Standing still counts once.
+    /// The walk: every vertex on the path, in order, which are the waypoints and all vertices that its segments
+    /// pass exactly through. On a path over N(k) there is one after each move: where an agent stands that
+    /// makes one move at a time. Standing still counts once.
     pub fn vertices(&self) -> impl Iterator<Item = Vertex> {
         vertices(&self.waypoints)
     }
 
-    /// Every cell that the path meets, as (x, y), in the order in which it does, and each time that it comes
-    /// back. What it meets is said by [`segment_cells`]: between centers all cells that it touches, and where
-    /// it passes exactly through a corner of cells all four; at corners the cells whose open interior it
-    /// meets, and none along a grid line. No cell comes twice in a row.
+    /// Every cell that the path touches, as (x, y), in the order in which it does, and each time that it comes
+    /// back. These are not the places where an agent stands one after another: those are the
+    /// [`vertices`](Self::vertices).
+    ///
+    /// Between centers it touches every cell that its segments do, and where it passes exactly through a
+    /// corner of cells all four there. At corners it touches the cells whose open interior it meets, and
+    /// along a grid line those on both sides, of each step first the one above or to the left. Cells outside
+    /// of any map are among them. No cell comes twice in a row. Of one segment: [`segment_cells`].
     ///
     /// ```
     /// use mediant_search::Path;
     /// use mediant_grid::PlacementKind;
     /// let path = Path::new(vec![(0, 0).into(), (2, 0).into(), (3, 1).into()]);
-    /// assert!(path.cells(PlacementKind::Center).eq([(0, 0), (1, 0), (2, 0), (3, 0), (2, 1), (3, 1)]));
-    /// assert!(path.cells(PlacementKind::Corner).eq([(2, 0)]));
+    /// let cells = |placement| path.touched_cells(placement).collect::<Vec<_>>();
+    /// assert_eq!(cells(PlacementKind::Center), [(0, 0), (1, 0), (2, 0), (3, 0), (2, 1), (3, 1)]);
+    /// assert_eq!(cells(PlacementKind::Corner), [(0, -1), (0, 0), (1, -1), (1, 0), (2, 0)]);
     /// ```
-    pub fn cells(&self, placement: PlacementKind) -> impl Iterator<Item = (i32, i32)> {
+    pub fn touched_cells(&self, placement: PlacementKind) -> impl Iterator<Item = (i32, i32)> {
         let alone = self.waypoints.first().filter(|_| self.segments().next().is_none());
         let alone = alone.map(|&at| Segment::new(at, at));
         let segments = alone.into_iter().chain(self.segments());
         let mut last = None;
-        segments
-            .flat_map(move |segment| segment_cells(placement, segment.from, segment.to))
-            .filter(move |&cell| last.replace(cell) != Some(cell))
+        let of = move |segment: Segment| {
+            // One of the two is empty.
+            segment_cells(placement, segment.from, segment.to).chain(segment.beside(placement))
+        };
+        segments.flat_map(of).filter(move |&cell| last.replace(cell) != Some(cell))
     }
 
     /// Whether each segment of the path is a move of N(k), taken once or several times in a row: whether it

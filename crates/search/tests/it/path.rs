@@ -1,6 +1,6 @@
 //! Paths: their moves, vertices, cells and points, and whether they still hold, against the oracle.
 
-use std::{f64::consts::PI, sync::Arc};
+use std::{collections::BTreeSet, f64::consts::PI, sync::Arc};
 
 use mediant_grid::{
     Centers, Corners, DiagonalGap, FreeSpace, Grid, Placement, PlacementKind, Rectangle, Rules, Vertex, draw,
@@ -143,7 +143,10 @@ fn check_edits<P: Placement>(seed: u64, rule: P::Rule) -> usize {
     let path = Path::new(waypoints);
     assert_eq!(path.check(&FreeSpace::<P>::new(Arc::clone(&grid), rule)), Ok(()), "seed {seed}");
     let mut broken = 0;
-    for (x, y) in path.cells(P::KIND) {
+    let is_inside = |&(x, y): &(i32, i32)| {
+        (0..grid.width() as i32).contains(&x) && (0..grid.height() as i32).contains(&y)
+    };
+    for (x, y) in path.touched_cells(P::KIND).filter(is_inside) {
         let at = Rectangle { x: x as u32, y: y as u32, width: 1, height: 1 };
         let edited = Arc::new(grid.with_rectangle(at, |_, _| true));
         let result = path.check(&FreeSpace::<P>::new(Arc::clone(&edited), rule));
@@ -178,6 +181,36 @@ fn an_edited_cell_under_a_path_breaks_the_segment_that_meets_it() {
     assert!(broken.iter().all(|&n| n > 50), "{broken:?}");
 }
 
+/// The cells that a path between corners touches, by the rational parameters at which each segment is inside of a
+/// cell: its open interior, or, along a grid line, the closed cell for more than a point.
+fn touched_at_corners(path: &Path) -> BTreeSet<(i32, i32)> {
+    let mut touched = BTreeSet::new();
+    for ends in path.waypoints().windows(2) {
+        let (from, to) = (ends[0], ends[1]);
+        let [columns, rows] = [(from.x, to.x), (from.y, to.y)].map(|(a, b)| a.min(b) - 1..=a.max(b));
+        for (x, y) in rows.flat_map(|y| columns.clone().map(move |x| (x, y))) {
+            // In units of 1 / (|dx| · |dy|) of the segment, where neither is 0.
+            let (dx, dy) = (i64::from(to.x - from.x), i64::from(to.y - from.y));
+            let scale = [dx, dy].map(|by| by.abs().max(1)).iter().product::<i64>();
+            let inside = |cell: i32, from: i32, by: i64| {
+                let low = i64::from(cell - from);
+                match by.signum() {
+                    0 if (low..=low + 1).contains(&0) => Some((0, scale)),
+                    0 => None,
+                    1 => Some((low * scale / by, (low + 1) * scale / by)),
+                    _ => Some(((low + 1) * scale / by, low * scale / by)),
+                }
+            };
+            let (Some(across), Some(down)) = (inside(x, from.x, dx), inside(y, from.y, dy)) else { continue };
+            let (enters, leaves) = (across.0.max(down.0).max(0), across.1.min(down.1).min(scale));
+            if enters < leaves {
+                touched.insert((x, y));
+            }
+        }
+    }
+    touched
+}
+
 #[test]
 fn moves_lead_from_vertex_to_vertex() {
     for seed in seeds(200) {
@@ -197,11 +230,15 @@ fn moves_lead_from_vertex_to_vertex() {
         assert!(path.waypoints().iter().all(|at| rest.any(|other| other == at)), "seed {seed}");
         // Cells are those of the segments, without one twice in a row.
         for kind in [PlacementKind::Center, PlacementKind::Corner] {
-            let cells: Vec<_> = path.cells(kind).collect();
+            let cells: Vec<_> = path.touched_cells(kind).collect();
             assert!(cells.windows(2).all(|two| two[0] != two[1]), "seed {seed}");
-            let back: Vec<_> = path.reversed().cells(kind).collect();
-            assert_eq!(back.len(), cells.len(), "seed {seed}");
-            if kind == PlacementKind::Center {
+            let back: Vec<_> = path.reversed().touched_cells(kind).collect();
+            let set = |cells: &[(i32, i32)]| cells.iter().copied().collect::<BTreeSet<_>>();
+            assert_eq!(set(&back), set(&cells), "seed {seed}");
+            if kind == PlacementKind::Corner {
+                assert_eq!(set(&cells), touched_at_corners(&path), "seed {seed}: {path}");
+            } else {
+                assert_eq!(back.len(), cells.len(), "seed {seed}");
                 let is_near =
                     |two: &[(i32, i32)]| (two[0].0 - two[1].0).abs().max((two[0].1 - two[1].1).abs()) == 1;
                 assert!(cells.windows(2).all(is_near), "seed {seed}: {cells:?}");
@@ -329,7 +366,7 @@ fn coordinates_of_all_sizes() {
     assert_eq!(path(&[(i32::MIN, 0), (FAR, 1)]).moves().count(), 0);
     assert_eq!(odd.turns().count(), odd.headings().count() - 1);
     for kind in [PlacementKind::Center, PlacementKind::Corner] {
-        assert!(odd.cells(kind).take(5).count() <= 5);
+        assert!(odd.touched_cells(kind).take(5).count() <= 5);
     }
     assert!(!path(&[(i32::MIN, 0), (FAR, 1)]).is_over(K::N64));
     for rules in Rules::ALL {

@@ -69,6 +69,7 @@ const whole: WholeMotion = space.motion;
 const { engine, why: because } = space.engine();
 const seen: boolean[] = [space.isFree(from), space.connected(from, [1, 1]), space.sees(from, [1, 1])];
 if (path && space.holds(path)) space.check(path);
+if (path) facts.push(space.vertices(path).length, space.touchedCells(path).length);
 const edited: Space = space.edit(0, 0, 1, 1, new Uint8Array(1));
 const widest: WidestPath | undefined = space.widestPath(from, [1, 1], 0.2);
 if (widest) facts.push(widest.path.length, widest.distance, widest.radius);

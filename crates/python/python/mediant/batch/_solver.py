@@ -42,7 +42,7 @@ class Solver:
         it is an error if something else is asked for.
     paths : bool
         Whether the answer has the column ``path``.
-    points : {"waypoints", "vertices", "cells"}
+    points : {"waypoints", "vertices", "touched"}
         What points a path has.
     threads : int, optional
         The threads that prepare a map and answer its queries. All cores, if None.
@@ -79,7 +79,7 @@ class Solver:
         corners: str | None = None,
         gap: str | None = None,
         paths: bool = False,
-        points: Literal["waypoints", "vertices", "cells"] = "waypoints",
+        points: Literal["waypoints", "vertices", "touched"] = "waypoints",
         threads: int | None = None,
         invalid: Literal["none", "raise"] = "none",
         **options: Any,
