@@ -117,6 +117,31 @@ impl Grid {
         grid
     }
 
+    /// A copy of this map with other scattered cells: of each its column, its row, and whether it is blocked.
+    /// The last word on a cell counts. Cells beyond the map are left out.
+    ///
+    /// ```
+    /// use mediant_grid::Grid;
+    /// let grid = Grid::from_fn(3, 3, |x, _| x == 1)?.with_cells([(1, 0, false), (0, 2, true), (7, 7, true)]);
+    /// assert!(grid.is_free(1, 0) && grid.is_blocked(0, 2));
+    /// # Ok::<(), mediant_grid::GridError>(())
+    /// ```
+    #[must_use]
+    pub fn with_cells(&self, cells: impl IntoIterator<Item = (u32, u32, bool)>) -> Self {
+        let mut grid = self.clone();
+        for (x, y, blocked) in cells {
+            let at = self.on_map(Rectangle { x, y, width: 1, height: 1 });
+            if at.width == 0 || at.height == 0 {
+                continue;
+            }
+            let others = grid.id.without(&grid.rows, at);
+            grid.rows.set(x, y, blocked);
+            grid.columns.set(y, x, blocked);
+            grid.id = others.with(&grid.rows, at);
+        }
+        grid
+    }
+
     /// The part of a rectangle that lies on the map.
     fn on_map(&self, Rectangle { x, y, width, height }: Rectangle) -> Rectangle {
         let (x, y) = (x.min(self.width()), y.min(self.height()));

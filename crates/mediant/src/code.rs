@@ -121,7 +121,7 @@ impl Error {
         match self {
             Self::Grid(GridError::Size { .. }) => ErrorCode::MapSize,
             Self::Grid(GridError::Ragged { .. }) => ErrorCode::MapRagged,
-            Self::Edit { .. } => ErrorCode::EditOutside,
+            Self::Edit { .. } | Self::EditCell { .. } => ErrorCode::EditOutside,
             Self::Size(_) => ErrorCode::Number,
             Self::Motion { .. } => ErrorCode::Motion,
             Self::K(_) => ErrorCode::K,

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use mediant_formats::{IndexError, ReadError, WriteError};
-use mediant_grid::{GridError, Mismatch, Rectangle, SizeError};
+use mediant_grid::{GridError, Mismatch, Rectangle, SizeError, Vertex};
 use mediant_hierarchy::HierarchyError;
 use mediant_moves::KError;
 use mediant_search::{JumpError, QueryError};
@@ -44,6 +44,17 @@ pub enum Error {
     Edit {
         /// The rectangle.
         at: Rectangle,
+        /// The width and the height of the map.
+        size: (u32, u32),
+    },
+    /// An edit of a cell outside the map.
+    #[error(
+        "an edit of cell ({}, {}), outside the map of {} × {} cells: name cells of the map",
+        cell.x, cell.y, size.0, size.1
+    )]
+    EditCell {
+        /// The cell.
+        cell: Vertex,
         /// The width and the height of the map.
         size: (u32, u32),
     },

@@ -22,8 +22,9 @@
 //! A query can have wishes ([`Request`]): several ends, a tolerance, the nearest reachable vertex, limits. A
 //! search can go on [in steps](Planner#a-search-in-steps). [`Planner::distance`] measures without the path,
 //! [`Planner::distances`] and [`Planner::nearest`] to many [`Goals`]. A [`Field`] has the distances of all
-//! vertices, a [`Table`] those from many to many; a [`Map`] can be that of a disc or a square; a [`Path`]
-//! says whether it still holds ([`Space::check`]).
+//! vertices, a [`Table`] those from many to many; a [`Map`] can be that of a disc or a square, which a [`Disc`]
+//! keeps right among obstacles that change; [`Exceptions`] are cells that count otherwise for one query; a
+//! [`Path`] says whether it still holds ([`Space::check`]).
 //!
 //! Handles own what they need: no lifetime and no type parameter reaches the user. Maps, spaces and indexes
 //! never change, their clones share them, and all threads may use them. Every error has a stable
@@ -72,6 +73,7 @@ mod engine;
 mod erased;
 mod error;
 pub mod errors;
+mod exceptions;
 mod field;
 pub mod files;
 mod goals;
@@ -98,7 +100,7 @@ mod text;
 #[cfg(feature = "trace")]
 mod trace;
 
-pub use agent::WidestPath;
+pub use agent::{Disc, WidestPath};
 pub use capabilities::Capabilities;
 pub use choice::Choice;
 pub use code::ErrorCode;
@@ -108,6 +110,7 @@ pub use configured::{
 };
 pub use engine::Engine;
 pub use error::Error;
+pub use exceptions::{ExceptedAnswer, Exceptions};
 pub use field::{Field, Fields};
 pub use goals::Goals;
 pub use index::{Index, Origin};

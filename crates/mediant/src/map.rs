@@ -3,7 +3,7 @@
 use std::{path::Path as FilePath, sync::Arc};
 
 use mediant_formats::{ImageOptions, MapFile, ReadError, WorldFrame, map_size_with, read_map, read_map_with};
-use mediant_grid::{Grid, GridError, MapId, Rectangle};
+use mediant_grid::{Grid, GridError, MapId, Rectangle, Vertex};
 
 use crate::error::Error;
 
@@ -153,6 +153,33 @@ impl Map {
             return Err(Error::Edit { at, size: self.id().size() });
         }
         Ok(self.grid.with_rectangle(at, blocked).into())
+    }
+
+    /// This map with other scattered cells: of each its column and row, and whether it is blocked. The last
+    /// word on a cell counts.
+    ///
+    /// ```
+    /// use mediant::Map;
+    /// let map = Map::from_rows(["...", "..."])?.edit_cells([((0, 0), true), ((2, 1), true)])?;
+    /// assert!(map.is_blocked(0, 0) && map.is_blocked(2, 1));
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::EditCell`] for a cell outside the map.
+    pub fn edit_cells<C: Into<Vertex>>(
+        &self,
+        cells: impl IntoIterator<Item = (C, bool)>,
+    ) -> Result<Self, Error> {
+        let mut known = Vec::new();
+        for (cell, blocked) in cells {
+            let Vertex { x, y } = cell.into();
+            match (u32::try_from(x), u32::try_from(y)) {
+                (Ok(x), Ok(y)) if x < self.width() && y < self.height() => known.push((x, y, blocked)),
+                _ => return Err(Error::EditCell { cell: Vertex { x, y }, size: self.id().size() }),
+            }
+        }
+        Ok(self.grid.with_cells(known).into())
     }
 
     /// The number of columns.

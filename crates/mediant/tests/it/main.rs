@@ -3,6 +3,7 @@
 mod catalog;
 mod dead_ends;
 mod door;
+mod exceptions;
 mod field;
 mod goals;
 mod hierarchies;

@@ -55,7 +55,7 @@ impl Grid {
     }
 
     /// The grid of a disc: free where the disc fits. The paths of its center are those of a point on that
-    /// grid.
+    /// grid. An edit of that grid gives a new obstacle no margin: edit the obstacles, and make it again.
     ///
     /// Parameters
     /// ----------

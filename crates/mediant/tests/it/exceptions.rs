@@ -1,0 +1,140 @@
+//! Cells that count otherwise for one query, and discs among obstacles that change: as maps that were edited.
+
+use mediant::{
+    Disc, Engine, Error, ErrorCode, Exceptions, K, Map, Motion, PlacementKind, Query, Rectangle, Rules,
+    Setup, Vertex,
+};
+use mediant_grid::Grid;
+use mediant_oracle::{Rng, on_all_cores, random_grid, random_vertex, seeds};
+
+use super::k;
+
+/// A map with some cells changed, cell by cell, and ends that are free.
+fn changed(map: &Map, cells: &[(Vertex, bool)], free: &[Vertex]) -> Map {
+    let is_blocked = |x: u32, y: u32| {
+        let at = Vertex::new(x as i32, y as i32);
+        let said = cells.iter().rev().find(|(cell, _)| *cell == at).map(|&(_, blocked)| blocked);
+        !free.contains(&at) && said.unwrap_or_else(|| map.is_blocked(at.x, at.y))
+    };
+    Map::from_fn(map.width(), map.height(), is_blocked).expect("the size of a map")
+}
+
+/// The ends that exceptions make free: between corners the cell to the right and below, or the last one.
+fn freed(map: &Map, rules: Rules, ends: [Vertex; 2]) -> Vec<Vertex> {
+    let motion = Motion::new(if rules.placement() == PlacementKind::Corner { K::ANY } else { K::N8 }, rules);
+    let space = map.space(motion).expect("a space");
+    let cell = |at: Vertex| Vertex::new(at.x.min(map.width() as i32 - 1), at.y.min(map.height() as i32 - 1));
+    ends.into_iter().filter(|&end| !space.is_free(end)).map(cell).collect()
+}
+
+/// Compares on one map; the number of queries that were answered by a path, and by another engine.
+fn check(seed: u64) -> [usize; 2] {
+    let rng = &mut Rng::new(seed);
+    let (grid, _) = random_grid(seed);
+    let map = Map::from(grid.clone());
+    let rules = Rules::ALL[seed as usize % Rules::ALL.len()];
+    let k = match (rules.placement(), rng.below(3)) {
+        (PlacementKind::Corner, 0) => K::ANY,
+        (_, 1) => K::N4,
+        _ => K::N8,
+    };
+    let mut counts = [0, 0];
+    for setup in Setup::all(k, rules) {
+        let mut planner = setup.planner(&map).expect("a planner");
+        let mut vertex = || random_vertex(rng, &grid, rules.placement());
+        let query = Query::new(vertex(), vertex());
+        let cells: Vec<(Vertex, bool)> =
+            (0..4).map(|n| (random_vertex(rng, &grid, PlacementKind::Center), n % 2 == 0)).collect();
+        let mut exceptions = Exceptions::new().free_ends();
+        for &(cell, blocked) in &cells {
+            exceptions = if blocked { exceptions.blocked([cell]) } else { exceptions.free([cell]) };
+        }
+        let named = changed(&map, &cells, &[]);
+        let expected_map = changed(&map, &cells, &freed(&named, rules, [query.start, query.goal]));
+        let answer = planner.find_except(query, &exceptions).expect("the ends are free");
+        let by = Setup { engine: answer.searched_by.into(), ..setup };
+        let engine = if by.engine.kind() == setup.engine.kind() { setup } else { by };
+        let expected = engine.planner(&expected_map).expect("a planner").find(query).expect("free ends");
+        let said = format!("seed {seed}, {setup}, searched by {}", answer.searched_by);
+        assert_eq!(answer.outcome.path().is_some(), expected.path().is_some(), "{said}");
+        if engine.optimal_over().is_some() || setup.optimal_over().is_some() {
+            let costs = [&answer.outcome, &expected].map(|answer| answer.cost().unwrap_or(0.0));
+            assert!((costs[0] - costs[1]).abs() < 1e-6, "{costs:?}, {said}");
+        }
+        let space = expected_map.space(setup.motion()).expect("a space");
+        assert!(answer.outcome.path().is_none_or(|path| space.check(path).is_ok()), "{said}");
+        counts[0] += usize::from(answer.outcome.path().is_some());
+        counts[1] += usize::from(answer.searched_by != setup.engine.kind());
+    }
+    counts
+}
+
+#[test]
+fn answers_are_those_of_the_edited_map() {
+    let seeds = seeds(40);
+    let maps = seeds.end as usize;
+    let counts = on_all_cores(seeds, check);
+    let sum = |at: usize| counts.iter().map(|counts| counts[at]).sum::<usize>();
+    assert!(sum(0) > 5 * maps && sum(1) > maps, "{} paths, {} by another engine", sum(0), sum(1));
+}
+
+#[test]
+fn an_agent_that_marks_its_own_cell_leaves_it_with_every_engine() {
+    let map = Map::from_rows([".....", "@..@.", "....."]).expect("a map");
+    for setup in Setup::all(K::N8, Rules::ALL[0]) {
+        let mut planner = setup.planner(&map).expect("a planner");
+        let query = Query::new((3, 1), (0, 1));
+        assert!(planner.find(query).is_err(), "{setup}");
+        let answer = planner.find_except(query, &Exceptions::new().free_ends()).expect("free ends");
+        let cost = answer.outcome.cost().expect("there is a way");
+        // Wavefronts have the fewest moves: two diagonal ones and one along the row are as many.
+        let promises = setup.optimal_over() == Some(setup.k);
+        assert!(cost > 2.9 && (!promises || cost == 3.0), "{cost}, {setup}");
+    }
+    let space = map.space(Motion::centers(K::N8)).expect("a space");
+    let mut planner = space.planner(Engine::Subgoal).expect("a planner");
+    let none = planner.find_except(Query::new((0, 0), (4, 0)), &Exceptions::new()).expect("free ends");
+    assert_eq!(none.searched_by, planner.index().searched_by(), "nothing changed, so nothing is made anew");
+    let outside = planner.find_except(Query::new((0, 0), (4, 0)), &Exceptions::new().blocked([(5, 0)]));
+    assert_eq!(outside.map_err(|error| error.code()), Err(ErrorCode::EditOutside));
+    let outside = planner.find_except(Query::new((0, 0), (9, 0)), &Exceptions::new().free_ends());
+    assert!(matches!(outside, Err(Error::Query(_))), "{outside:?}");
+}
+
+/// Edits a disc's obstacles again and again; the number of cells that the disc lost or won.
+fn check_disc(seed: u64) -> usize {
+    let rng = &mut Rng::new(seed);
+    // Half of the maps have few obstacles, so that large discs have room.
+    let sparse = |rng: &mut Rng| {
+        let (width, height) = (5 + rng.below(60), 5 + rng.below(60));
+        Grid::from_fn(width, height, |_, _| rng.chance(2)).expect("a small map")
+    };
+    let grid = if seed.is_multiple_of(2) { random_grid(seed).0 } else { sparse(rng) };
+    let rules = Rules::ALL[seed as usize % Rules::ALL.len()];
+    let k = if rng.below(2) == 0 { K::N8 } else { K::Finite(k(4)) };
+    let motion = Motion::new(k, rules);
+    let radius = [0.0, 0.3, 0.5, 0.75, 1.0, 1.5, 2.3, 40.0][rng.below(8) as usize];
+    let mut disc: Disc = Map::from(grid.clone()).disc(radius, motion).expect("a radius");
+    let mut differ = 0;
+    for _ in 0..6 {
+        let at = random_vertex(rng, &grid, PlacementKind::Center);
+        let (x, y) = (at.x as u32, at.y as u32);
+        let at = Rectangle { x, y, width: 1 + rng.below(4), height: 1 + rng.below(4) };
+        let blocked = rng.below(2) == 0;
+        let edited = disc.edit(at, |_, _| blocked).expect("a rectangle on the map");
+        let anew = edited.obstacles().for_disc(radius, motion).expect("a radius");
+        assert_eq!(edited.map(), &anew, "seed {seed}, radius {radius}, {motion}, {at:?}");
+        let cells = (0..grid.height() as i32).flat_map(|y| (0..grid.width() as i32).map(move |x| (x, y)));
+        differ += cells.filter(|&(x, y)| anew.is_blocked(x, y) != disc.map().is_blocked(x, y)).count();
+        disc = edited;
+    }
+    differ
+}
+
+#[test]
+fn a_disc_keeps_off_new_obstacles() {
+    let seeds = seeds(200);
+    let maps = seeds.end as usize;
+    let differ: usize = on_all_cores(seeds, check_disc).into_iter().sum();
+    assert!(differ > 10 * maps, "{differ} cells");
+}
