@@ -54,7 +54,7 @@ test("the head announces every module that is started or imported, once, in orde
   // A browser asks for them in this order; so the first worker starts before the rest is there.
   assert.equal(announced[0], "src/search/warm.js");
   assert.deepEqual(announced.filter((path) => started.includes(path)), started);
-  // What makes maps is loaded when one is wanted.
+  // What makes maps is loaded after the first path.
   assert.ok(!announced.includes("src/model/generate.js"));
   assert.ok(announced.length > 50, `${announced.length}`);
   assert.ok(head.includes('rel="preload" href="mediant/mediant_bg.wasm" as="fetch" crossorigin'));

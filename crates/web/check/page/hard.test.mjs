@@ -45,18 +45,19 @@ test("a map without a free cell", async () => {
 });
 
 test("what makes maps cannot be loaded: the page says so, keeps the scene, and can try again", async () => {
-  const page = await site.open();
+  const context = await site.context();
+  await context.route("**/generate.js", (route) => route.abort());
+  const page = await site.open({ context });
   const before = await rows(page);
   const choose = async () => {
     await page.locator("#maps > summary").click();
     await page.locator("#maps").getByRole("button", { name: "Cave", exact: true }).click();
   };
-  await page.route("**/generate.js", (route) => route.abort());
   await choose();
   assert.ok(isSentence(await message(page, /could not be loaded/)));
   assert.deepEqual(await rows(page), before);
   for (const complaint of site.taken()) assert.match(complaint, /generate\.js|ERR_FAILED/);
-  await page.unroute("**/generate.js");
+  await context.unroute("**/generate.js");
   await choose();
   await page.waitForFunction(() => /** @type {any} */ (globalThis).mediant.model.source.kind === "generated");
   await settled(page);

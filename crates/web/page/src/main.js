@@ -1,7 +1,7 @@
 // Starts the page: the scene, the engines, the stage and the panels.
 
 import { decode } from "./model/link.js";
-import { loadMap } from "./model/maps.js";
+import { loadGenerators, loadMap } from "./model/maps.js";
 import { Model } from "./model/model.js";
 import { Bounds } from "./panels/bounds.js";
 import { changes, part } from "./panels/dom.js";
@@ -74,15 +74,20 @@ async function firstScene(model) {
   }
 }
 
-/** Marks when the first path has been painted, for measurements. @param {Lanes} lanes */
-function markFirstPath(lanes) {
+/** Marks when the first path has been painted, for measurements, and loads what could wait until then.
+ * @param {Lanes} lanes */
+function afterFirstPath(lanes) {
   let isMarked = false;
   changes(lanes, () => {
     const isThere = lanes.list.some(({ phase, answer }) => phase === "done" && answer?.path.length);
     if (isMarked || !isThere) return;
     isMarked = true;
     // The answer is drawn in the next frame, which is painted before the one after it.
-    requestAnimationFrame(() => requestAnimationFrame(() => performance.mark("first-path")));
+    requestAnimationFrame(() => requestAnimationFrame(() => {
+      performance.mark("first-path");
+      // Whoever opens the menu of maps then sees its pictures at once. Who wants a map asks again.
+      loadGenerators().catch(() => {});
+    }));
   });
 }
 
@@ -98,7 +103,7 @@ function keepOffline() {
 /** @param {Model} model @param {() => void} help */
 function startParts(model, help) {
   const lanes = new Lanes(model);
-  markFirstPath(lanes);
+  afterFirstPath(lanes);
   const player = new Player(lanes);
   const walkers = new Walkers(model, lanes);
   const stage = new Stage(part("stage", HTMLElement), model, lanes, player, walkers);

@@ -92,13 +92,16 @@ async function generateAside(name, side, seed) {
   }
 }
 
-/** Most visits need no generator: so they are loaded when one is wanted, and not before the first path.
- * @param {string} name @param {number} side @param {number} seed */
-async function generateHere(name, side, seed) {
-  const { generate } = await import("./generate.js").catch((cause) => {
+/** What makes maps. It is no import of this module: the first path does not wait for it. */
+export function loadGenerators() {
+  return import("./generate.js").catch((cause) => {
     throw new Error("What makes such maps could not be loaded. Is the network there?", { cause });
   });
-  return generate(name, side, seed);
+}
+
+/** @param {string} name @param {number} side @param {number} seed */
+async function generateHere(name, side, seed) {
+  return (await loadGenerators()).generate(name, side, seed);
 }
 
 /** @param {string} name */
