@@ -42,9 +42,9 @@ pub fn run() -> Result<(), Error> {
     let lock = folder.join("Cargo.lock");
     fs::copy(root().join("Cargo.lock"), &lock).map_err(Error::at(&lock))?;
     for name in published() {
-        compile(folder, &["build", "--package", name])?;
+        compile(folder, &["check", "--package", name])?;
     }
-    compile(folder, &["build", "--workspace", "--all-features"])
+    compile(folder, &["check", "--workspace", "--all-features"])
 }
 
 /// Runs `cargo package` for all crates at once, since none of them is in a registry yet. That takes cargo
