@@ -47,6 +47,18 @@ pub struct Options {
     expect: Option<u64>,
 }
 
+impl Options {
+    /// The maps of a set, or an even sample of them.
+    fn maps(&self, folder: &Path) -> Result<Vec<PathBuf>, SetError> {
+        Ok(files(folder, ".map")?.into_iter().step_by(self.every_map.get()).collect())
+    }
+
+    /// Whether every instance is compared.
+    const fn is_whole(&self) -> bool {
+        self.every.get() == 1 && self.every_map.get() == 1
+    }
+}
+
 /// What makes `verify` fail.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -236,8 +248,7 @@ fn against_scenarios(
             }
             continue;
         }
-        let maps: Vec<PathBuf> =
-            files(&folder, ".map")?.into_iter().step_by(options.every_map.get()).collect();
+        let maps = options.maps(&folder)?;
         let bar = progress(&set.name, maps.len());
         let tallies: Vec<Tally> = maps
             .par_iter()
@@ -249,15 +260,14 @@ fn against_scenarios(
         bar.finish_and_clear();
         let tally = tallies.into_iter().fold(Tally::default(), Tally::add);
         let seen = tally.compared + tally.blocked + tally.shorter;
-        let is_whole = options.every.get() == 1 && options.every_map.get() == 1;
-        if is_whole && set.instances.is_some_and(|instances| instances != seen) {
+        if options.is_whole() && set.instances.is_some_and(|instances| instances != seen) {
             return Err(VerifyError::Wrong(format!(
                 "set {}: {seen} instances, not all that it has",
                 set.name
             )));
         }
         let known = if relation == Relation::Equal { KNOWN } else { (KNOWN.0, 0) };
-        if is_whole && set.name == OTHER_MAPS && (tally.blocked, tally.shorter) != known {
+        if options.is_whole() && set.name == OTHER_MAPS && (tally.blocked, tally.shorter) != known {
             let (blocked, shorter) = (tally.blocked, tally.shorter);
             let wrong =
                 format!("{blocked} blocked and {shorter} shorter references in {OTHER_MAPS}, not {known:?}");

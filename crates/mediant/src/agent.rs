@@ -15,8 +15,8 @@ impl Map {
     /// For several radii make a [`clearance`](Self::clearance), which is measured once and also has looser
     /// fits.
     ///
-    /// An edit of the map that this returns changes where the disc may be, and gives a new obstacle no margin.
-    /// For obstacles that come and go make a [`disc`](Self::disc).
+    /// An edit of the map that this returns changes where the disc may be, and gives a new obstacle no
+    /// margin. For obstacles that come and go make a [`disc`](Self::disc).
     ///
     /// ```
     /// use mediant::{K, Map, Motion};
@@ -102,8 +102,8 @@ impl Disc {
         self.radius
     }
 
-    /// The disc among other obstacles in a rectangle: see [`Map::edit`]. The work follows the rectangle and the
-    /// radius, not the map.
+    /// The disc among other obstacles in a rectangle: see [`Map::edit`]. The work follows the rectangle and
+    /// the radius, not the map.
     ///
     /// # Errors
     /// Those of [`Map::edit`].
@@ -116,12 +116,14 @@ impl Disc {
         Ok(Self { obstacles, map, ..*self })
     }
 
-    /// The disc's map where only what is near a rectangle is measured anew; `None` if that is most of the map.
+    /// The disc's map where only what is near a rectangle is measured anew; `None` if that is most of the
+    /// map.
     fn around(&self, obstacles: &Map, at: Rectangle) -> Result<Option<Map>, Error> {
         let sides = [(at.x, at.width, obstacles.width()), (at.y, at.height, obstacles.height())];
         // An obstacle farther than this from every point of a cell cannot touch the disc. It saturates.
         let reach = self.radius.ceil() as i64 + 1;
-        // The cells whose room may change, and those whose obstacles decide it: those beyond the map are blocked.
+        // The cells whose room may change, and those whose obstacles decide it: those beyond the map are
+        // blocked.
         let [columns, rows] = sides.map(|(first, count, side)| {
             let (first, end) = (i64::from(first), i64::from(first) + i64::from(count));
             let changed = (first - reach).max(0)..(end + reach).min(i64::from(side));

@@ -62,8 +62,8 @@ impl Exceptions {
     }
 
     /// The starts and goals of the query count as free, whatever else is said of their cells. Between corners
-    /// it is the cell (x, y) of a vertex (x, y) without a free cell that counts as free, on the right and lower
-    /// edge of the map the cell before it.
+    /// it is the cell (x, y) of a vertex (x, y) without a free cell that counts as free, on the right and
+    /// lower edge of the map the cell before it.
     #[must_use]
     pub const fn free_ends(mut self) -> Self {
         self.free_ends = true;
@@ -84,8 +84,8 @@ impl Exceptions {
     }
 }
 
-/// The cell that must become free so that a path may stand on a vertex of the map; `None` if it may already. A
-/// vertex outside the map stays what it is: an error, or moved to the map.
+/// The cell that must become free so that a path may stand on a vertex of the map; `None` if it may already.
+/// A vertex outside the map stays what it is: an error, or moved to the map.
 fn shut_cell(map: &Map, placement: PlacementKind, at: Vertex) -> Option<Vertex> {
     let inside = |at: i32, side: u32, more: u32| u32::try_from(at).is_ok_and(|at| at < side + more);
     let (more, cells) = match placement {

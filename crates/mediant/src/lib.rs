@@ -22,9 +22,9 @@
 //! A query can have wishes ([`Request`]): several ends, a tolerance, the nearest reachable vertex, limits. A
 //! search can go on [in steps](Planner#a-search-in-steps). [`Planner::distance`] measures without the path,
 //! [`Planner::distances`] and [`Planner::nearest`] to many [`Goals`]. A [`Field`] has the distances of all
-//! vertices, a [`Table`] those from many to many; a [`Map`] can be that of a disc or a square, which a [`Disc`]
-//! keeps right among obstacles that change; [`Exceptions`] are cells that count otherwise for one query; a
-//! [`Path`] says whether it still holds ([`Space::check`]).
+//! vertices, a [`Table`] those from many to many; a [`Map`] can be that of a disc or a square, which a
+//! [`Disc`] keeps right among obstacles that change; [`Exceptions`] are cells that count otherwise for one
+//! query; a [`Path`] says whether it still holds ([`Space::check`]).
 //!
 //! Handles own what they need: no lifetime and no type parameter reaches the user. Maps, spaces and indexes
 //! never change, their clones share them, and all threads may use them. Every error has a stable

@@ -36,7 +36,8 @@ pub(crate) fn planner(setup: Setup, map: &Map) -> Result<Planner, JsValue> {
 /// What `of` finds along a path, as x, y, ….
 fn along(path: &JsValue, of: impl FnOnce(&Path) -> Vec<(i32, i32)>) -> Result<Int32Array, JsValue> {
     let path = Path::new(path_points("path", path)?);
-    // Waypoints may be anywhere. A step along an axis touches two cells at most, and a list may be half empty.
+    // Waypoints may be anywhere. A step along an axis touches two cells at most, and a list may be half
+    // empty.
     let steps =
         |ends: &[Vertex]| u64::from(ends[0].x.abs_diff(ends[1].x)) + u64::from(ends[0].y.abs_diff(ends[1].y));
     let most: u64 = path.waypoints().windows(2).map(|ends| 2 * steps(ends) + 4).sum();
@@ -133,8 +134,8 @@ impl Space {
         along(path, |path| path.vertices().map(|at| (at.x, at.y)).collect())
     }
 
-    /// The cells that a path, x, y, …, touches. They are no walk: passing between four cells a path touches all
-    /// of them, and along a grid line those on both sides.
+    /// The cells that a path, x, y, …, touches. They are no walk: passing between four cells a path touches
+    /// all of them, and along a grid line those on both sides.
     ///
     /// @throws MediantError `memory` for waypoints that are too far apart.
     #[wasm_bindgen(js_name = touchedCells)]

@@ -92,15 +92,15 @@ impl Path {
         moves.flat_map(|(unit, times)| (0..times).map(move |_| unit))
     }
 
-    /// The walk: every vertex on the path, in order, which are the waypoints and all vertices that its segments
-    /// pass exactly through. On a path over N(k) there is one after each move: where an agent stands that
-    /// makes one move at a time. Standing still counts once.
+    /// The walk: every vertex on the path, in order, which are the waypoints and all vertices that its
+    /// segments pass exactly through. On a path over N(k) there is one after each move: where an agent stands
+    /// that makes one move at a time. Standing still counts once.
     pub fn vertices(&self) -> impl Iterator<Item = Vertex> {
         vertices(&self.waypoints)
     }
 
-    /// Every cell that the path touches, as (x, y), in the order in which it does, and each time that it comes
-    /// back. These are not the places where an agent stands one after another: those are the
+    /// Every cell that the path touches, as (x, y), in the order in which it does, and each time that it
+    /// comes back. These are not the places where an agent stands one after another: those are the
     /// [`vertices`](Self::vertices).
     ///
     /// Between centers it touches every cell that its segments do, and where it passes exactly through a

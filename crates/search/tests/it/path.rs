@@ -181,8 +181,8 @@ fn an_edited_cell_under_a_path_breaks_the_segment_that_meets_it() {
     assert!(broken.iter().all(|&n| n > 50), "{broken:?}");
 }
 
-/// The cells that a path between corners touches, by the rational parameters at which each segment is inside of a
-/// cell: its open interior, or, along a grid line, the closed cell for more than a point.
+/// The cells that a path between corners touches, by the rational parameters at which each segment is inside
+/// of a cell: its open interior, or, along a grid line, the closed cell for more than a point.
 fn touched_at_corners(path: &Path) -> BTreeSet<(i32, i32)> {
     let mut touched = BTreeSet::new();
     for ends in path.waypoints().windows(2) {
