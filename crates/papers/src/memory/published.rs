@@ -3,7 +3,8 @@
 //!
 //! The authors' programs ran on 22 November 2026 on the instances of this comparison, one thread, warm,
 //! median of the passes, beside Mediant and the two baselines, on two virtual cores of an AMD EPYC
-//! (`docs/performance.md`, 'What EHL pays'). Sizes and times of preparation were not noted on each map.
+//! (`docs/measurements/compared.md`, 'What EHL pays'). Sizes and times of preparation were not noted on each
+//! map.
 
 use mediant_bench::Baseline;
 
