@@ -26,7 +26,10 @@ pub struct Grid {
 #[non_exhaustive]
 pub enum GridError {
     /// A side is 0 or longer than [`Grid::MAX_SIDE`].
-    #[error("a map of {width} × {height} cells: each side must have 1 to {max} cells", max = Grid::MAX_SIDE)]
+    #[error(
+        "a map of {width} columns and {height} rows: each side must have 1 to {max} cells",
+        max = Grid::MAX_SIDE
+    )]
     Size {
         /// The width that was asked for.
         width: u64,

@@ -33,7 +33,7 @@ pub struct MapId {
 impl fmt::Display for MapId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [.., high] = self.digest;
-        write!(f, "map {high:08x} of {} × {} cells", self.width, self.height)
+        write!(f, "map {high:08x} of {} columns and {} rows", self.width, self.height)
     }
 }
 

@@ -43,8 +43,8 @@ pub enum HierarchyError {
     Mismatch(#[from] Mismatch),
     /// A repair for a map of another size.
     #[error(
-        "this index is of a map of {} × {} cells, not {} × {}: an index is repaired only for a map of its \
-         size; make a new one",
+        "this index is of a map of {} columns and {} rows, not {} and {}: an index is repaired only for a map \
+         of its size; make a new one",
         expected.0, expected.1, found.0, found.1
     )]
     Size {

@@ -1,4 +1,5 @@
-//! The errors inside an [`Error`](crate::Error), each with its fields.
+//! The errors inside an [`Error`](crate::Error), each with its fields; and what the library does not do, for
+//! errors of programs that stand on it.
 
 pub use mediant_formats::{IndexError, MapError, RasterError, ReadError, RosError, WriteError};
 pub use mediant_grid::{GridError, Mismatch, SizeError};
@@ -7,4 +8,9 @@ pub use mediant_moves::KError;
 pub use mediant_search::{BrokenPath, JoinError, JumpError, QueryError, SpacingError};
 pub use mediant_subgoal::SubgoalError;
 
-pub use crate::{names::UnknownName, setup_error::SetupError, text::TextError};
+pub use crate::{
+    absent::{NO_COSTS, absent},
+    names::UnknownName,
+    setup_error::SetupError,
+    text::TextError,
+};

@@ -64,6 +64,7 @@
 //!
 //! Clocks, threads (but for the feature `parallel`, which prepares subgoal graphs on all cores), and output.
 
+mod absent;
 mod agent;
 mod capabilities;
 mod choice;

@@ -1,6 +1,6 @@
 //! Maps from arrays, and arrays from paths.
 
-use mediant::{Grid, Map, Path, PlacementKind, Vertex};
+use mediant::{Grid, Map, Path, PlacementKind, Vertex, errors::NO_COSTS};
 use mediant_formats::Picture;
 use numpy::{
     PyArray1, PyArray2, PyArrayDescrMethods, PyReadonlyArray2, PyUntypedArray, PyUntypedArrayMethods,
@@ -41,8 +41,8 @@ pub(crate) fn map_of<'py>(array: &Bound<'py, PyAny>, criteria: &Criteria<'py>) -
             map_of_bools("array", &blocked)
         }
         b'i' | b'u' | b'f' => Err(PyTypeError::new_err(format!(
-            "array: expected dtype bool (True is blocked), found {}: say which values are blocked, by above=, \
-             below= or values=",
+            "array: expected dtype bool (True is blocked), found {}: {NO_COSTS}; say which values are blocked, \
+             by above=, below= or values=, or make an array of bool, for instance array > limit",
             array.dtype()
         ))),
         _ => Err(PyTypeError::new_err(format!("array: expected numbers or bool, found {}", array.dtype()))),
@@ -204,8 +204,11 @@ pub(crate) fn bits_of(map: &Map) -> Vec<u8> {
 pub(crate) fn patch(name: &str, value: &Bound<'_, PyAny>) -> PyResult<(Vec<bool>, usize, usize)> {
     let array = plane(name, value)?;
     if array.dtype().kind() != b'b' {
-        let wrong = format!("{name}: expected dtype bool (True is blocked), found {}", array.dtype());
-        return Err(PyTypeError::new_err(wrong));
+        return Err(PyTypeError::new_err(format!(
+            "{name}: expected dtype bool (True is blocked), found {}: {NO_COSTS}; make an array of bool, for \
+             instance array > limit",
+            array.dtype()
+        )));
     }
     let bytes = array.call_method1("view", ("uint8",))?;
     let bytes = bytes.extract::<PyReadonlyArray2<'_, u8>>()?;

@@ -2,7 +2,7 @@
 
 use mediant::{
     ConfiguredEngine, CornerRule, DiagonalGap, Engine, EngineOption, FiniteK, Guarantee, K, Limits, Motion,
-    OptionValue, PlacementKind, Query, Request, Rules, Smoothing, ValueKind,
+    OptionValue, PlacementKind, Query, Request, Rules, Smoothing, ValueKind, errors::absent,
 };
 use mediant_moves::Neighborhood;
 use numpy::PyArray2;
@@ -25,6 +25,9 @@ const CORNERS: [(&str, CornerRule); 3] =
     [("never", CornerRule::Never), ("one", CornerRule::One), ("always", CornerRule::Always)];
 const GAPS: [(&str, DiagonalGap); 2] = [("open", DiagonalGap::Open), ("closed", DiagonalGap::Closed)];
 
+const MOTION_KEYWORDS: [&str; 4] = ["k", "placement", "corners", "gap"];
+const WISH_KEYWORDS: [&str; 6] = ["nearest", "tolerance", "snap", "max_cost", "max_expansions", "timeout"];
+
 /// Which keywords a call takes.
 #[derive(Clone, Copy)]
 pub(crate) struct Takes {
@@ -41,6 +44,37 @@ impl Takes {
     pub(crate) const OPTIONS: Self = Self { options: true, ..Self::NONE };
     pub(crate) const PREPARATION: Self = Self { motion: true, ..Self::OPTIONS };
     pub(crate) const ALL: Self = Self { motion: true, wishes: true, engine: true, options: true };
+
+    /// The keywords of a function, for an error: first those that it has beside these.
+    fn known(self, function: &str) -> String {
+        let own: &[&str] = match function {
+            "path" => &["points"],
+            "find" => &["points", "counters"],
+            "prepare" => &["threads", "progress"],
+            "paths" => &["points", "threads", "progress", "invalid"],
+            "distances" if self.wishes => &["threads", "progress", "invalid"],
+            "field" | "distances" | "flow" => &["limit"],
+            "for_disc" => &["fit", "outside"],
+            "widest_path" => &["surplus", "points"],
+            _ => &[],
+        };
+        let mut known: Vec<String> = own.iter().map(|&name| name.to_owned()).collect();
+        let parts: [(bool, &[&str]); 3] =
+            [(self.motion, &MOTION_KEYWORDS), (self.wishes, &WISH_KEYWORDS), (self.engine, &["engine"])];
+        for (_, names) in parts.into_iter().filter(|(takes, _)| *takes) {
+            known.extend(names.iter().map(|&name| name.to_owned()));
+        }
+        if self.options {
+            known.extend(EngineOption::ALL.map(keyword));
+            known.push("smooth".to_owned());
+        }
+        known.join(", ")
+    }
+}
+
+/// The keyword of an engine's option.
+fn keyword(option: &EngineOption) -> String {
+    option.name.replace('-', "_")
 }
 
 /// What the keywords of a call say.
@@ -66,9 +100,7 @@ impl Keywords {
     pub(crate) fn read(function: &str, given: Option<&Bound<'_, PyDict>>, takes: Takes) -> PyResult<Self> {
         let mut keywords = Self::default();
         for (name, value) in given.into_iter().flat_map(|given| given.iter()) {
-            let unknown = |name: &str| {
-                PyTypeError::new_err(format!("{function}() got an unexpected keyword argument '{name}'"))
-            };
+            let unknown = |name: &str| unknown_keyword(function, name, &takes.known(function));
             let wrong = |cause| instead(value.py(), cause, unknown(&name.to_string()));
             let name = name.extract::<String>().map_err(wrong)?;
             let is_known = takes.motion && keywords.read_motion(&name, &value)?
@@ -126,8 +158,7 @@ impl Keywords {
             self.smoothing = if value.is_none() { None } else { Some(word(name, value, &words)?) };
             return Ok(true);
         }
-        let Some(option) = EngineOption::ALL.into_iter().find(|option| option.name.replace('-', "_") == name)
-        else {
+        let Some(option) = EngineOption::ALL.into_iter().find(|option| keyword(option) == name) else {
             return Ok(false);
         };
         if value.is_none() {
@@ -225,6 +256,14 @@ impl Keywords {
         let request = if self.nearest { request.nearest() } else { request };
         if self.snap { request.snap() } else { request }
     }
+}
+
+/// The exception for a keyword that a function does not have; `known` are those that it has.
+pub(crate) fn unknown_keyword(function: &str, name: &str, known: &str) -> PyErr {
+    let why = absent(name).map_or(String::new(), |why| format!(" ({why})"));
+    PyTypeError::new_err(format!(
+        "{function}() got an unexpected keyword argument '{name}'{why}; the keywords are {known}"
+    ))
 }
 
 /// An engine's name; `None` for `None`.

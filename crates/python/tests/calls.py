@@ -25,12 +25,16 @@ class Parameter:
 
 @dataclasses.dataclass(frozen=True)
 class Call:
-    """A public callable: its owner ('' for a function), its name and its parameters."""
+    """A public callable: its owner ('' for a function), its name and its parameters.
+
+    `takes_more` says whether it reads the keywords of motion, wishes or options.
+    """
 
     owner: str
     name: str
     is_static: bool
     parameters: tuple[Parameter, ...]
+    takes_more: bool = False
 
     def __str__(self):
         return ".".join(filter(None, (self.owner, self.name)))
@@ -83,7 +87,8 @@ def all_calls():
             if is_public and not {"property", "overload"} & set(decorators):
                 is_static = "staticmethod" in decorators
                 parameters = tuple(_parameters(node, dicts, bool(owner) and not is_static))
-                found[owner, node.name] = Call(owner, node.name, is_static, parameters)
+                more = node.args.kwarg is not None
+                found[owner, node.name] = Call(owner, node.name, is_static, parameters, more)
     index = (Parameter("index", "SupportsIndex", True, False),)
     found["Paths", "__getitem__"] = Call("Paths", "__getitem__", False, index)
     return list(found.values())

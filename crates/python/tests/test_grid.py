@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 
+import calls
 import mediant
 import numpy as np
 import pytest
@@ -82,6 +83,59 @@ def test_nan():
     assert mediant.Grid(numbers, above=5, values=[np.nan]).to_numpy().tolist() == [[False, True, True]]
     with pytest.raises(mediant.ArgumentError, match="above"):
         mediant.Grid(numbers, above=np.nan)
+
+
+@pytest.mark.parametrize("dtype", "u1 i4 i8 f4 f8".split())
+def test_costs(dtype):
+    """An array of costs is not taken for one of blocked cells: the error says what there is instead."""
+    costs = np.array([[1, 1, 5], [1, 9, 1]], dtype=dtype)
+    for call in (lambda: mediant.Grid(costs), lambda: mediant.Grid(costs > 0).edit((0, 0), costs)):
+        with pytest.raises(TypeError, match="expected dtype bool") as error:
+            call()
+        assert "costs of cells are not supported" in str(error.value) and "array > limit" in str(error.value)
+        assert costs.dtype.name in str(error.value)
+    assert mediant.Grid(costs > 4).to_numpy().tolist() == [[False, False, True], [False, True, False]]
+
+
+def test_sizes_are_said_in_words():
+    """Rows and columns by name: (40000, 3) is not 3 \u00d7 40000."""
+    for array in (np.zeros((40000, 3), dtype=bool), np.zeros((40000, 3))):
+        with pytest.raises(mediant.MapError, match="a map of 3 columns and 40000 rows: each side must have"):
+            mediant.Grid(array, **({} if array.dtype == bool else {"above": 1}))
+    index = mediant.Grid(np.zeros((4, 9), dtype=bool)).prepare("hpa", side=4)
+    with pytest.raises(mediant.MediantError, match="of a map of 9 columns and 4 rows, not 8 and 5"):
+        index.repair(mediant.Grid(np.zeros((5, 8), dtype=bool)))
+
+
+TAKES_KEYWORDS = [call for call in calls.all_calls() if call.takes_more]
+
+
+def test_calls_that_take_keywords_are_found():
+    assert {"Grid", "Index", ""} == {call.owner for call in TAKES_KEYWORDS} and len(TAKES_KEYWORDS) >= 20
+
+
+@pytest.mark.parametrize("call", TAKES_KEYWORDS, ids=str)
+def test_unknown_keywords(call, tmp_path):
+    """The error lists the keywords that the call has, and says what the package does not do."""
+    things = calls.Things(tmp_path)
+    good = things.good_call(call, [])
+    with pytest.raises(TypeError, match=r"unexpected keyword argument 'kk'; the keywords are ") as error:
+        things.call(call, {**good, "kk": 3})
+    listed = str(error.value).split("the keywords are ")[1].split(", ")
+    assert sorted(listed) == sorted({p.name for p in call.parameters if p.is_keyword})
+    for name in ("weights", "cost_map"):
+        with pytest.raises(TypeError, match=rf"'{name}' \(.*costs of cells are not supported\); the keywords"):
+            things.call(call, {**good, name: [[1.0]]})
+    with pytest.raises(TypeError, match=r"does not wrap around\); the keywords"):
+        things.call(call, {**good, "wrap": True})
+
+
+def test_unknown_keywords_of_a_grid():
+    blocked = np.zeros((2, 3), dtype=bool)
+    with pytest.raises(TypeError, match=r"'weights' \(.*not supported\); the keywords are above, below, values"):
+        mediant.Grid(blocked, weights=np.ones((2, 3)))
+    with pytest.raises(TypeError, match=r"unexpected keyword argument 'abov'; the keywords are above"):
+        mediant.Grid(blocked, abov=3)
 
 
 def test_masked():

@@ -3,7 +3,7 @@
 use js_sys::Reflect;
 use mediant::{
     ConfiguredEngine, CornerRule, DiagonalGap, Engine, EngineOption, FiniteK, K, Limits, Motion, OptionValue,
-    PlacementKind, Query, Request, Rules, SetupError, Smoothing, ValueKind,
+    PlacementKind, Query, Request, Rules, SetupError, Smoothing, ValueKind, errors::absent,
 };
 use wasm_bindgen::prelude::*;
 
@@ -248,7 +248,8 @@ pub(crate) fn entries(name: &str, given: &JsValue) -> Result<Vec<(String, JsValu
 
 /// The error for a key that an object cannot have.
 pub(crate) fn unknown_key(name: &str, key: &str, known: &str) -> JsValue {
-    coded("argument", &format!("{name}: no key '{key}' is known; the keys are {known}"))
+    let why = absent(key).map_or(String::new(), |why| format!(" ({why})"));
+    coded("argument", &format!("{name}: no key '{key}' is known{why}; the keys are {known}"))
 }
 
 /// An engine's name; `None` for undefined.

@@ -70,6 +70,50 @@ fn mistakes_have_names_and_codes() {
     );
 }
 
+/// What is not there is said where people ask for it.
+#[test]
+fn costs_of_cells() {
+    let wrong =
+        |cells: JsValue| Grid::from_cells(&2.into(), &2.into(), &cells).err().map(|error| text(&error));
+    let costs = wrong(Uint8Array::from(&[0, 1, 5, 1][..]).into()).expect("a cost is an error");
+    assert!(
+        costs.starts_with(
+            "MediantError argument: blocked: expected 0 (free) or 1 (blocked), found 5 as item 2"
+        )
+    );
+    assert!(
+        costs.contains("costs of cells are not supported; make cells, for instance Uint8Array.from(costs")
+    );
+    let clamped = js_sys::Uint8ClampedArray::from(&[0, 0, 255, 0][..]);
+    assert!(wrong(clamped.into()).expect("255 is an error").contains("found 255 as item 2"));
+    for cells in [
+        JsValue::from(js_sys::Float32Array::from(&[1.0, 1.0, 2.5, 1.0][..])),
+        js_sys::Float64Array::from(&[1.0, 1.0, 2.5, 1.0][..]).into(),
+        js_sys::Uint16Array::from(&[0, 1, 1, 0][..]).into(),
+    ] {
+        let error = wrong(cells).expect("other numbers are an error");
+        assert!(
+            error.starts_with("TypeError : blocked: expected a Uint8Array, found another type"),
+            "{error}"
+        );
+        assert!(error.contains("costs of cells are not supported"), "{error}");
+    }
+    assert_eq!(wrong(Uint8Array::from(&[0, 1, 1, 0][..]).into()), None);
+    let edit =
+        call(&grid(), "edit", &[0.into(), 0.into(), 1.into(), 1.into(), Uint8Array::from(&[9][..]).into()]);
+    assert!(text(&edit.expect_err("a cost is an error")).contains("found 9 as item 0"));
+    for (key, part) in
+        [("weights", "costs of cells"), ("wrap", "does not wrap around"), ("oneWay", "one-way")]
+    {
+        let motion = json(&format!(r#"{{"{key}": true}}"#));
+        let error = text(&call(&grid(), "space", &[motion]).expect_err("an unknown key"));
+        assert!(
+            error.contains(part) && error.ends_with("; the keys are k, placement, corners, gap"),
+            "{error}"
+        );
+    }
+}
+
 #[test]
 fn sizes_that_no_map_has() {
     let made = |width: f64, height: f64, cells: u32| {

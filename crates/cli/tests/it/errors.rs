@@ -225,11 +225,11 @@ fn an_index_for_something_else_is_refused() {
         files.strip(&stderr)
     };
     let map = refused("run builtin:maze", &index);
-    let built = " of 72 × 36 cells, center, corners never, k = 3";
-    check_mismatch(&map, "cave.idx", [built, " of 69 × 33 cells, center, corners never, k = 3"]);
+    let built = " of 72 columns and 36 rows, center, corners never, k = 3";
+    check_mismatch(&map, "cave.idx", [built, " of 69 columns and 33 rows, center, corners never, k = 3"]);
     check_mismatch(&refused("run builtin:cave --k 2", &index), "cave.idx", [built, "corners never, k = 2"]);
     let rules = refused("run builtin:cave --corners one", &index);
-    check_mismatch(&rules, "cave.idx", [built, " of 72 × 36 cells, center, corners one, k = 3"]);
+    check_mismatch(&rules, "cave.idx", [built, " of 72 columns and 36 rows, center, corners one, k = 3"]);
     assert_eq!(
         refused("run builtin:cave", &files.path("none.idx")),
         "error: none.idx: no such file; check the path and the folder that you are in\n"

@@ -120,9 +120,9 @@ fn an_index_for_something_else_is_refused() {
         ("cave --engine subgoal --k any", "corner, gap open, k = any"),
         ("cave --engine subgoal --placement corner --gap closed", "corner, gap closed, k = 3"),
         ("cave --engine subgoal", "center, corners never, k = 3"),
-        ("maze --engine subgoal --placement corner", " of 69 × 33 cells, corner, gap open, k = 3"),
+        ("maze --engine subgoal --placement corner", " of 69 columns and 33 rows, corner, gap open, k = 3"),
     ] {
-        let built = " of 72 × 36 cells, corner, gap open, k = 3";
+        let built = " of 72 columns and 36 rows, corner, gap open, k = 3";
         check_mismatch(&refused(&format!("builtin:{options}")), "cave.idx", [built, needed]);
     }
     let none = refused("builtin:cave --engine jps");

@@ -3,8 +3,8 @@
 use std::num::NonZeroU32;
 
 use mediant::{
-    ConfiguredEngine, Engine, Error, ErrorCode as Code, FiniteK, Grid, HpaOptions, Index, K, Limits, Map,
-    Motion, Query, Rectangle, Request, Setup, Space, Vertex,
+    ConfiguredEngine, Engine, EngineOption, Error, ErrorCode as Code, FiniteK, Grid, HpaOptions, Index, K,
+    Limits, Map, Motion, Query, Rectangle, Request, Setup, Space, Vertex, errors::absent,
 };
 use mediant_formats::{IndexFile, IndexKey};
 
@@ -121,4 +121,29 @@ fn codes_keep_their_names() {
          index-range index-options index-damaged index-engine index-edit file-missing file-unreadable \
          file-unwritable map-format scenario-format no-end number not-begun memory other"
     );
+}
+
+#[test]
+fn what_is_not_there_is_said_by_the_name_that_people_look_for() {
+    for (name, part) in [
+        ("weights", "costs of cells are not supported"),
+        ("cost_map", "costs of cells"),
+        ("costMap", "costs of cells"),
+        ("TERRAIN", "costs of cells"),
+        ("one_way", "no one-way cells"),
+        ("oneWay", "no one-way cells"),
+        ("portals", "no links"),
+        ("wrap-around", "does not wrap around"),
+        ("hexagonal", "no hexagons"),
+        ("layers", "no third dimension"),
+        ("reservations", "no reservations"),
+    ] {
+        assert!(absent(name).is_some_and(|why| why.contains(part)), "{name}: {:?}", absent(name));
+    }
+    // What the library has, and what nobody asks for.
+    let options = EngineOption::ALL.map(|option| option.name);
+    let others = ["k", "placement", "max_cost", "timeout", "nearest", "", "_", "wieghts"];
+    for name in options.into_iter().chain(others) {
+        assert_eq!(absent(name), None, "{name}");
+    }
 }

@@ -9,7 +9,7 @@ use mediant::{
 use mediant_formats::Picture;
 use pyo3::{
     prelude::*,
-    types::{PyBytes, PyString, PyTuple},
+    types::{PyBytes, PyDict, PyString, PyTuple},
 };
 
 use super::Grid;
@@ -18,19 +18,27 @@ use crate::{
     arrays::{Criteria, bits_of, cells_of, map_of, map_of_bits, patch, png_of},
     background::detached,
     errors::{argument, exception, instead, raised, raised_for, wrong_type},
+    keywords::unknown_keyword,
     world::World,
 };
 
 #[pymethods]
 impl Grid {
     #[new]
-    #[pyo3(signature = (array, *, above = None, below = None, values = None))]
+    #[pyo3(
+        signature = (array, *, above = None, below = None, values = None, **others),
+        text_signature = "(array, *, above=None, below=None, values=None)"
+    )]
     fn of_array<'py>(
         array: &Bound<'py, PyAny>,
         above: Option<Bound<'py, PyAny>>,
         below: Option<Bound<'py, PyAny>>,
         values: Option<Bound<'py, PyAny>>,
+        others: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Self> {
+        if let Some((name, _)) = others.and_then(|others| others.iter().next()) {
+            return Err(unknown_keyword("Grid", &name.to_string(), "above, below, values"));
+        }
         Ok(Self::new(map_of(array, &Criteria { above, below, values })?, None))
     }
 

@@ -6,8 +6,8 @@ mod reading;
 
 use std::{cell::RefCell, rc::Rc};
 
-use js_sys::{Array, Uint8Array};
-use mediant::{Grid as Bits, Map, Rectangle};
+use js_sys::{Array, ArrayBuffer, Uint8Array, Uint8ClampedArray};
+use mediant::{Grid as Bits, Map, Rectangle, errors::NO_COSTS};
 use wasm_bindgen::{JsCast, prelude::*};
 
 use self::queries::Last;
@@ -41,10 +41,10 @@ impl Grid {
 
 #[wasm_bindgen]
 impl Grid {
-    /// The map with these cells, row by row; what is not 0 is blocked.
+    /// The map with these cells, row by row: 0 is free, 1 is blocked.
     ///
     /// @throws MediantError `map-size` for a side of 0 or above 32,768, `argument` for another number of
-    /// cells.
+    /// cells, and for a cell that is neither 0 nor 1: there are no costs of cells.
     #[wasm_bindgen(constructor)]
     pub fn from_cells(
         #[wasm_bindgen(unchecked_param_type = "number")] width: &JsValue,
@@ -120,10 +120,11 @@ impl Grid {
         Ok(!is_inside || self.map.is_blocked(x as i32, y as i32))
     }
 
-    /// This map with other cells in a rectangle, which are given row by row; what is not 0 is blocked. Cells
-    /// of the rectangle beyond the map are left out. This map stays as it is.
+    /// This map with other cells in a rectangle, which are given row by row: 0 is free, 1 is blocked. Cells of
+    /// the rectangle beyond the map are left out. This map stays as it is.
     ///
-    /// @throws MediantError `edit-outside` for a rectangle that lies outside the map as a whole.
+    /// @throws MediantError `edit-outside` for a rectangle that lies outside the map as a whole, `argument` for
+    /// a cell that is neither 0 nor 1.
     pub fn edit(
         &self,
         #[wasm_bindgen(unchecked_param_type = "number")] x: &JsValue,
@@ -159,11 +160,28 @@ impl Grid {
     }
 }
 
+/// Why cells are 0 or 1, and how to make them.
+fn no_costs() -> String {
+    format!("{NO_COSTS}; make cells, for instance Uint8Array.from(costs, (cost) => Number(cost > limit))")
+}
+
 /// The cells of an argument, of which there must be so many.
 fn cells_of(blocked: &JsValue, expected: u64) -> Result<Vec<u8>, JsValue> {
+    let is_other = ArrayBuffer::is_view(blocked)
+        && !blocked.is_instance_of::<Uint8Array>()
+        && !blocked.is_instance_of::<Uint8ClampedArray>();
+    if is_other {
+        let wrong = format!("blocked: expected a Uint8Array, found another type of numbers: {}", no_costs());
+        return Err(js_sys::TypeError::new(&wrong).into());
+    }
     let cells = bytes("blocked", blocked)?;
     if cells.len() as u64 != expected {
         let wrong = format!("expected width × height = {expected} cells, found {}", cells.len());
+        return Err(argument("blocked", &wrong));
+    }
+    if let Some(at) = cells.iter().position(|&cell| cell > 1) {
+        let (found, why) = (cells[at], no_costs());
+        let wrong = format!("expected 0 (free) or 1 (blocked), found {found} as item {at}: {why}");
         return Err(argument("blocked", &wrong));
     }
     Ok(cells)
