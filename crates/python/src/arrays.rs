@@ -158,7 +158,7 @@ fn value_in<'py>(
 
 /// The map of an array of bool. NumPy packs eight cells into a byte; whatever is not 0 is true, since a view
 /// of other bytes as bool may have any.
-fn map_of_bools(name: &str, array: &Bound<'_, PyUntypedArray>) -> PyResult<Map> {
+pub(crate) fn map_of_bools(name: &str, array: &Bound<'_, PyUntypedArray>) -> PyResult<Map> {
     let side = |axis: usize| u32::try_from(array.shape()[axis]).unwrap_or(u32::MAX);
     let (rows, columns) = (side(0), side(1));
     let wrong = |error: mediant::Error| raised_for(name, error);

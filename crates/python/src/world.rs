@@ -9,7 +9,9 @@ use crate::{
     keywords::placement,
 };
 
-/// Where the map of a robot is in the world: `Grid.world` of a ROS map.
+/// Where a map is in the world: `Grid.world`.
+///
+/// Grids of ROS maps and of occupancy messages have one, and those of arrays with a ``resolution``.
 ///
 /// Attributes
 /// ----------

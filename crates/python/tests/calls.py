@@ -161,6 +161,10 @@ class Things:
         """A value that the call takes."""
         by_name = {
             "array": np.zeros((3, 4), dtype=bool),
+            "occupancy": np.zeros((3, 4), dtype=np.int8),
+            "width": 4,
+            "height": 3,
+            "origin": (1, 2, 0),
             "blocked": np.ones((2, 1), dtype=bool),
             "path": [(0, 0), (0, 8), (5, 8)],
             "points": [(0, 0), (2, 3)],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import array
 import pickle
 
 import calls
@@ -102,16 +103,17 @@ def test_sizes_are_said_in_words():
     for array in (np.zeros((40000, 3), dtype=bool), np.zeros((40000, 3))):
         with pytest.raises(mediant.MapError, match="a map of 3 columns and 40000 rows: each side must have"):
             mediant.Grid(array, **({} if array.dtype == bool else {"above": 1}))
-    index = mediant.Grid(np.zeros((4, 9), dtype=bool)).prepare("hpa", side=4)
-    with pytest.raises(mediant.MediantError, match="of a map of 9 columns and 4 rows, not 8 and 5"):
-        index.repair(mediant.Grid(np.zeros((5, 8), dtype=bool)))
+    data = mediant.Grid(np.zeros((4, 9), dtype=bool)).prepare("hpa", side=4).to_bytes()
+    with pytest.raises(mediant.MismatchError, match="of 9 columns and 4 rows") as error:
+        mediant.Grid(np.zeros((5, 8), dtype=bool)).index_from_bytes(data)
+    assert "of 8 columns and 5 rows" in str(error.value)
 
 
 TAKES_KEYWORDS = [call for call in calls.all_calls() if call.takes_more]
 
 
 def test_calls_that_take_keywords_are_found():
-    assert {"Grid", "Index", ""} == {call.owner for call in TAKES_KEYWORDS} and len(TAKES_KEYWORDS) >= 20
+    assert {"Grid", "Index"} == {call.owner for call in TAKES_KEYWORDS} and len(TAKES_KEYWORDS) >= 20
 
 
 @pytest.mark.parametrize("call", TAKES_KEYWORDS, ids=str)
@@ -132,10 +134,110 @@ def test_unknown_keywords(call, tmp_path):
 
 def test_unknown_keywords_of_a_grid():
     blocked = np.zeros((2, 3), dtype=bool)
-    with pytest.raises(TypeError, match=r"'weights' \(.*not supported\); the keywords are above, below, values"):
+    with pytest.raises(TypeError, match=r"'weights' \(.*not supported\); the keywords are above, below, values,"):
         mediant.Grid(blocked, weights=np.ones((2, 3)))
     with pytest.raises(TypeError, match=r"unexpected keyword argument 'abov'; the keywords are above"):
         mediant.Grid(blocked, abov=3)
+
+
+def test_places_of_arrays():
+    """A grid that is made by hand has the place of the ROS map with the same numbers."""
+    blocked = np.array([[0, 0, 1], [1, 0, 0]], dtype=bool)
+    grid = mediant.Grid(blocked, resolution=0.5, origin=(1, -2, 0.25))
+    assert (grid.world.resolution, grid.world.origin) == (0.5, (1.0, -2.0, 0.25))
+    assert mediant.Grid(blocked, resolution=0.5, origin=[1, 2]).world.vertex_at(1.1, 2.1) == (1, 0)
+    assert mediant.Grid(blocked * 9, above=3, resolution=2).world.origin == (0.0, 0.0, 0.0)
+    assert mediant.Grid(blocked).world is None
+    edited = grid.edit((0, 0), [[True]])
+    assert edited.world.origin == grid.world.origin and pickle.loads(pickle.dumps(grid)).world.origin[2] == 0.25
+    for wrong, name in [
+        ({"origin": (1, 2)}, "origin: it needs"),
+        ({"resolution": 0}, "resolution: "),
+        ({"resolution": np.nan}, "resolution: "),
+        ({"resolution": 1, "origin": (1, np.inf)}, "origin: "),
+        ({"resolution": 1, "origin": (1,)}, "origin: "),
+        ({"resolution": 1, "origin": (1, 2, 3, 4)}, "origin: "),
+    ]:
+        with pytest.raises(mediant.ArgumentError, match=name):
+            mediant.Grid(blocked, **wrong)
+    with pytest.raises(TypeError, match="origin: expected"):
+        mediant.Grid(blocked, resolution=1, origin=3)
+
+
+def slow_occupancy(cells, occupied, free, unknown):
+    """Blocked cells by the words of the docstring, one by one, the highest row first."""
+
+    def is_blocked(value):
+        if 0 <= value <= free:
+            return False
+        return unknown == "blocked" or (occupied <= value <= 100)
+
+    return [[is_blocked(int(value)) for value in row] for row in cells[::-1]]
+
+
+@pytest.mark.parametrize("dtype", ["i1", ">i2", "i4", "i8"])
+def test_occupancy(rng, dtype):
+    """Cells of a message, in one row and as rows, with all thresholds."""
+    cells = rng.choice([-1, 0, 1, 24, 25, 26, 50, 64, 65, 66, 99, 100, 101, -2], (7, 5)).astype(dtype)
+    for occupied, free in [(65, 25), (50, 50), (24, 66), (0, 0), (100, 0), (65.5, 24.5)]:
+        for unknown in ("blocked", "free"):
+            how = {"resolution": 0.05, "occupied": occupied, "free": free, "unknown": unknown}
+            wanted = slow_occupancy(cells, occupied, free, unknown)
+            flat = cells.ravel()
+            for grid in (
+                mediant.Grid.from_occupancy(flat, 5, 7, **how),
+                mediant.Grid.from_occupancy(flat.tolist(), 5, **how),
+                mediant.Grid.from_occupancy(tuple(flat.tolist()), width=5, **how),
+                mediant.Grid.from_occupancy(cells, **how),
+                mediant.Grid.from_occupancy(np.asfortranarray(cells), None, 7, **how),
+                mediant.Grid.from_occupancy(np.ma.masked_equal(cells, -1), **how),
+            ):
+                assert grid.to_numpy().tolist() == wanted, how
+    message = array.array("b", [0, 100, -1, 0])
+    grid = mediant.Grid.from_occupancy(message, 2, 2, resolution=0.5, origin=(1, 2, 0))
+    assert grid.to_numpy().tolist() == [[True, False], [False, True]]
+    masked = np.ma.masked_array([[0, 0]], mask=[[False, True]])
+    assert mediant.Grid.from_occupancy(masked, resolution=1).to_numpy().tolist() == [[False, True]]
+
+
+def test_occupancy_is_the_file_that_was_saved(tmp_path):
+    """What a server would save of a message, and the message: the same cells in the same places."""
+    cells = np.array([[0, 100, 0, 0], [-1, 0, 0, 100], [0, 0, 0, 0]])
+    gray = {0: 254, 100: 0, -1: 205}
+    pixels = " ".join(str(gray[int(cell)]) for cell in cells[::-1].ravel())
+    (tmp_path / "room.pgm").write_text(f"P2 4 3 255 {pixels}")
+    (tmp_path / "room.yaml").write_text(
+        "image: room.pgm\nresolution: 0.5\norigin: [1, -2, 0]\nnegate: 0\n"
+        "occupied_thresh: 0.65\nfree_thresh: 0.196\n"
+    )
+    saved = mediant.Grid.open(tmp_path / "room.yaml")
+    grid = mediant.Grid.from_occupancy(cells.ravel(), 4, 3, resolution=0.5, origin=(1, -2, 0))
+    assert grid == saved
+    for place in [(1.1, -1.9), (2.9, -0.6), (1.6, -1.9), (0.9, -1.9)]:
+        assert grid.world.vertex_at(*place) == saved.world.vertex_at(*place)
+    # The occupied cell of the lowest row is the second one from the left.
+    assert grid.to_numpy()[grid.world.vertex_at(1.6, -1.9)]
+
+
+def test_occupancy_mistakes():
+    cells = np.zeros(6, dtype=np.int8)
+    for wrong, error, text in [
+        ({}, mediant.ArgumentError, "width: cells in one row need it"),
+        ({"width": 4}, mediant.ArgumentError, "width: 6 cells do not fill rows of 4"),
+        ({"width": 0}, mediant.ArgumentError, "width: 6 cells do not fill rows of 0"),
+        ({"width": 3, "height": 3}, mediant.ArgumentError, "height: the cells are 3 columns and 2 rows"),
+        ({"width": 3, "occupied": 101}, mediant.ArgumentError, "occupied: expected a percentage"),
+        ({"width": 3, "free": -1}, mediant.ArgumentError, "free: expected a percentage"),
+        ({"width": 3, "free": 0.25j}, TypeError, "free: expected a number"),
+        ({"width": 3, "unknown": "wall"}, mediant.ArgumentError, "unknown: expected one of"),
+        ({"width": 3, "occupancy": cells / 100}, TypeError, "occupancy: expected integers from -1 to 100"),
+        ({"width": 3, "occupancy": cells > 0}, TypeError, "occupancy: expected integers"),
+        ({"occupancy": cells.reshape(1, 2, 3)}, mediant.ArgumentError, "occupancy: expected one row or rows"),
+        ({"width": 4, "occupancy": cells.reshape(2, 3)}, mediant.ArgumentError, "width: the cells are 3"),
+        ({"occupancy": np.zeros((0, 3), dtype=int)}, mediant.MapError, "of 3 columns and 0 rows"),
+    ]:
+        with pytest.raises(error, match=text):
+            mediant.Grid.from_occupancy(**{"occupancy": cells, "resolution": 1, **wrong})
 
 
 def test_masked():

@@ -89,6 +89,8 @@ class Grid:
         above: SupportsFloat | None = None,
         below: SupportsFloat | None = None,
         values: Iterable[SupportsFloat] | None = None,
+        resolution: SupportsFloat | None = None,
+        origin: Sequence[SupportsFloat] | None = None,
     ) -> Self: ...
     @staticmethod
     def open(
@@ -100,6 +102,18 @@ class Grid:
     ) -> Grid: ...
     @staticmethod
     def from_rows(rows: Iterable[str]) -> Grid: ...
+    @staticmethod
+    def from_occupancy(
+        occupancy: ArrayLike,
+        width: SupportsIndex | None = None,
+        height: SupportsIndex | None = None,
+        *,
+        resolution: SupportsFloat,
+        origin: Sequence[SupportsFloat] = (0.0, 0.0, 0.0),
+        occupied: SupportsFloat = 65,
+        free: SupportsFloat = 25,
+        unknown: Literal["blocked", "free"] = "blocked",
+    ) -> Grid: ...
     @property
     def shape(self) -> tuple[int, int]: ...
     @property

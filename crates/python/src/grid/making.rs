@@ -12,7 +12,7 @@ use pyo3::{
     types::{PyBytes, PyDict, PyString, PyTuple},
 };
 
-use super::Grid;
+use super::{Grid, occupancy::frame};
 use crate::{
     arguments::{file, flag, number, point, text, word},
     arrays::{Criteria, bits_of, cells_of, map_of, map_of_bits, patch, png_of},
@@ -22,24 +22,38 @@ use crate::{
     world::World,
 };
 
+/// The keywords of `Grid`, for an error.
+const KEYWORDS: &str = "above, below, values, resolution, origin";
+
 #[pymethods]
 impl Grid {
     #[new]
     #[pyo3(
-        signature = (array, *, above = None, below = None, values = None, **others),
-        text_signature = "(array, *, above=None, below=None, values=None)"
+        signature = (array, *, above = None, below = None, values = None, resolution = None, origin = None,
+            **others),
+        text_signature = "(array, *, above=None, below=None, values=None, resolution=None, origin=None)"
     )]
     fn of_array<'py>(
         array: &Bound<'py, PyAny>,
         above: Option<Bound<'py, PyAny>>,
         below: Option<Bound<'py, PyAny>>,
         values: Option<Bound<'py, PyAny>>,
+        resolution: Option<&Bound<'py, PyAny>>,
+        origin: Option<&Bound<'py, PyAny>>,
         others: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Self> {
         if let Some((name, _)) = others.and_then(|others| others.iter().next()) {
-            return Err(unknown_keyword("Grid", &name.to_string(), "above, below, values"));
+            return Err(unknown_keyword("Grid", &name.to_string(), KEYWORDS));
         }
-        Ok(Self::new(map_of(array, &Criteria { above, below, values })?, None))
+        let map = map_of(array, &Criteria { above, below, values })?;
+        let world = match (resolution, origin) {
+            (None, None) => None,
+            (None, Some(_)) => {
+                return Err(argument("origin", "it needs the side of a cell in meters too: resolution="));
+            }
+            (Some(resolution), origin) => Some(frame(&map, resolution, origin)?),
+        };
+        Ok(Self::new(map, world))
     }
 
     /// Reads a map from a file: a MovingAI ``.map``, a PNG, PGM or PBM picture, or the YAML file of a ROS

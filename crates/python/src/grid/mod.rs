@@ -4,6 +4,7 @@ mod agents;
 mod fields;
 mod making;
 mod motion;
+mod occupancy;
 mod queries;
 
 use std::sync::{Arc, Mutex, PoisonError};
@@ -33,13 +34,19 @@ use crate::{
 /// values : iterable of float, optional
 ///     Cells with one of these values, in the array's type, are blocked. ``nan`` among them stands for all
 ///     that are no number.
+/// resolution : float, optional
+///     The side of a cell in meters. With it the grid has a place in the `world`.
+/// origin : tuple of float, optional
+///     The lower left corner of the map, below the last row: x and y in meters, and its turn in radians,
+///     which may be left out; (0, 0) by default. For cells whose first row is the lowest, give
+///     ``array[::-1]``; for those of an occupancy message there is `from_occupancy`.
 ///
 /// Attributes
 /// ----------
 /// shape : tuple of int
 ///     The number of rows and columns.
 /// world : World or None
-///     Where the map is in the world: of a ROS map.
+///     Where the map is in the world, if that was said.
 /// id : str
 ///     A name of the content: the same for grids with the same cells.
 ///
@@ -48,7 +55,8 @@ use crate::{
 /// MapError
 ///     For a side of 0, or of more than 32768 cells.
 /// ArgumentError
-///     For an array of another number of dimensions, or with values that are no number.
+///     For an array of another number of dimensions, or with values that are no number; and for a resolution
+///     or an origin that places no map.
 /// TypeError
 ///     For numbers without a criterion, and for arrays that hold neither numbers nor bool.
 ///
