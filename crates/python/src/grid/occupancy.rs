@@ -13,11 +13,11 @@ use crate::{
 
 #[pymethods]
 impl Grid {
-    /// The grid of an occupancy grid, as ROS sends it: row 0 is the lowest, -1 is unknown, and 0 to 100 say by
-    /// how many percent a cell is occupied.
+    /// The grid of an occupancy message of ROS.
     ///
-    /// A cell is free up to ``free``, else occupied from ``occupied`` on; what lies between them, and all
-    /// numbers below 0 or above 100, are unknown.
+    /// Its row 0 is the lowest; -1 is unknown, and 0 to 100 say by how many percent a cell is occupied. A cell
+    /// is free up to ``free``, else occupied from ``occupied`` on; what lies between them, and all numbers
+    /// below 0 or above 100, are unknown.
     ///
     /// Parameters
     /// ----------
@@ -25,12 +25,13 @@ impl Grid {
     ///     The cells: in one row, as in ``message.data``, from the lowest row on; or with shape (rows,
     ///     columns), the lowest row first.
     /// width, height : int, optional
-    ///     The number of columns and of rows, ``message.info.width`` and ``message.info.height``. Cells in one
-    ///     row need the width.
+    ///     The number of columns and of rows, ``message.info.width`` and ``message.info.height``. Cells in
+    ///     one row need the width.
     /// resolution : float
     ///     The side of a cell in meters, ``message.info.resolution``.
     /// origin : tuple of float
-    ///     The lower left corner of the map: x and y in meters, and its turn in radians, which may be left out.
+    ///     The lower left corner of the map: x and y in meters, and its turn in radians, which may be left
+    ///     out.
     /// occupied, free : float
     ///     The thresholds, in percent.
     /// unknown : {"blocked", "free"}
@@ -45,8 +46,8 @@ impl Grid {
     /// Raises
     /// ------
     /// ArgumentError
-    ///     For cells that do not fill the rows, thresholds outside 0 to 100, and a resolution or an origin that
-    ///     places no map.
+    ///     For cells that do not fill the rows, thresholds outside 0 to 100, and a resolution or an origin
+    ///     that places no map.
     /// MapError
     ///     For a side of 0, or of more than 32768 cells.
     /// TypeError

@@ -120,11 +120,11 @@ impl Grid {
         Ok(!is_inside || self.map.is_blocked(x as i32, y as i32))
     }
 
-    /// This map with other cells in a rectangle, which are given row by row: 0 is free, 1 is blocked. Cells of
-    /// the rectangle beyond the map are left out. This map stays as it is.
+    /// This map with other cells in a rectangle, which are given row by row: 0 is free, 1 is blocked. Cells
+    /// of the rectangle beyond the map are left out. This map stays as it is.
     ///
-    /// @throws MediantError `edit-outside` for a rectangle that lies outside the map as a whole, `argument` for
-    /// a cell that is neither 0 nor 1.
+    /// @throws MediantError `edit-outside` for a rectangle that lies outside the map as a whole, `argument`
+    /// for a cell that is neither 0 nor 1.
     pub fn edit(
         &self,
         #[wasm_bindgen(unchecked_param_type = "number")] x: &JsValue,
