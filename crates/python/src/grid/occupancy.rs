@@ -16,8 +16,8 @@ impl Grid {
     /// The grid of an occupancy message of ROS.
     ///
     /// Its row 0 is the lowest; -1 is unknown, and 0 to 100 say by how many percent a cell is occupied. A
-    /// cell is free up to ``free``, else occupied from ``occupied`` on. What lies between them is unknown, and
-    /// so are all numbers below 0 or above 100.
+    /// cell is free up to ``free``, else occupied from ``occupied`` on. What lies between them is unknown,
+    /// and so are all numbers below 0 or above 100.
     ///
     /// Parameters
     /// ----------
