@@ -46,6 +46,7 @@ mod distances;
 mod field;
 mod heuristic;
 mod jps;
+mod limit;
 mod line_path;
 mod metric;
 mod nodes;

@@ -12,6 +12,7 @@ use super::{
     lengths::AnyAngleField,
     query::{FieldError, FieldQuery},
 };
+use crate::limit::with_room;
 
 /// Makes exact any-angle distance fields at corners, one after another.
 ///
@@ -91,13 +92,14 @@ impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
             corners: &self.corners,
             lengths: &mut lengths,
             toward: &mut toward,
-            limit: query.limit,
+            limit: with_room(query.limit),
             bends: &mut self.bends,
             pending: &mut self.pending,
         };
         settle(labels, &mut self.open, &targets);
         if !targets.is_empty() {
             let farthest = targets.iter().filter_map(|&id| lengths.get(id)).copied().fold(0.0, f64::max);
+            let farthest = with_room(farthest);
             lengths
                 .iter_mut()
                 .filter(|length| **length > farthest)
@@ -111,7 +113,7 @@ impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
 fn settle(mut labels: Labels<'_>, open: &mut BinaryHeap<Reverse<(u64, u32)>>, targets: &[usize]) {
     while let Some(Reverse((bits, id))) = open.pop() {
         let (g, id) = (f64::from_bits(bits), VertexId(id));
-        let is_final = |&id: &usize| labels.lengths.get(id).is_some_and(|&length| length <= g);
+        let is_final = |&id: &usize| labels.lengths.get(id).is_some_and(|&length| with_room(length) <= g);
         if g > labels.limit || !targets.is_empty() && targets.iter().all(is_final) {
             return;
         }

@@ -10,6 +10,7 @@ use super::{
 };
 use crate::{
     canonical::{PatternTable, Pruning, pattern_at, prunes, rank},
+    limit::at_most,
     successors::ExpandedNode,
 };
 
@@ -155,7 +156,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
         gaps::end_at_gaps(graph, sources, limit, &mut costs);
         if !targets.is_empty() {
             let farthest = targets.iter().filter_map(|&id| costs.get(id)).max();
-            limit = limit.min(farthest.copied().unwrap_or(limit));
+            limit = limit.min(farthest.copied().map_or(limit, at_most));
             costs.iter_mut().filter(|cost| **cost > limit).for_each(|cost| *cost = Cost::MAX);
         }
         Field::new(self.graph.clone(), costs)
@@ -207,7 +208,7 @@ impl<P: Placement> Search<'_, P> {
                     }
                 }
             }
-            let is_final = |&id: &usize| self.costs.get(id).is_some_and(|&cost| cost < self.end);
+            let is_final = |&id: &usize| self.costs.get(id).is_some_and(|&cost| at_most(cost) < self.end);
             let done = !targets.is_empty() && targets.iter().all(is_final);
             if done || !self.buckets.advance() {
                 return;

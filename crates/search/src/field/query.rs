@@ -3,7 +3,10 @@
 use mediant_grid::{FreeSpace, Placement, Vertex, VertexId};
 use mediant_moves::Cost;
 
-use crate::query::{Query, QueryError};
+use crate::{
+    limit::greatest_cost,
+    query::{Query, QueryError},
+};
 
 /// What a field is to hold: its sources, and how far it reaches.
 ///
@@ -19,10 +22,12 @@ pub struct FieldQuery<'q> {
     /// The vertices at distance 0. If there is none, the field is empty.
     pub sources: &'q [Vertex],
     /// The greatest distance in the field, in cells: it holds exactly the vertices that are as near or
-    /// nearer. Infinity is no limit.
+    /// nearer, where distances that differ by a factor of at most 1 + 2⁻³¹ count as the same. So the
+    /// distance of a vertex as a limit reaches that vertex. Infinity is no limit.
     pub limit: f64,
     /// If not empty, the field ends at the farthest of these vertices: it holds exactly the vertices that are
-    /// as near as that one, or nearer. If there is no path to one of them, it ends nowhere.
+    /// as near as that one, or nearer, in the same sense. If there is no path to one of them, it ends
+    /// nowhere.
     pub until: &'q [Vertex],
 }
 
@@ -33,9 +38,8 @@ impl<'q> FieldQuery<'q> {
         Self { sources, limit: f64::INFINITY, until: &[] }
     }
 
-    /// The same within a distance, in cells: a movement range. (Over N(k), distances are compared in fixed
-    /// point, and the limit is rounded down to a multiple of 2⁻³² cells. Where a limit is the length of a
-    /// path with diagonal moves, add 2⁻³³ of itself, or it may just miss the end of that path.)
+    /// The same within a distance, in cells: a movement range. It includes what is exactly so far: see
+    /// [`limit`](Self::limit).
     #[must_use]
     pub const fn within(self, limit: f64) -> Self {
         Self { limit, ..self }
@@ -59,11 +63,10 @@ impl<'q> FieldQuery<'q> {
         Ok(self.sources.iter().filter_map(|&at| space.id(at)).collect())
     }
 
-    /// The limit in fixed point, rounded down.
+    /// The limit in fixed point.
     pub(super) fn fixed_limit(&self) -> Cost {
-        // A product with a power of two is exact. The cast saturates; the greatest cost stands for 'no path'.
-        let bits = (self.limit * (1_u64 << Cost::FRACTION_BITS) as f64) as u64;
-        Cost::from_bits(bits.min(Cost::MAX.to_bits() - 1))
+        // The greatest cost stands for 'no path'.
+        greatest_cost(self.limit).min(Cost::from_bits(Cost::MAX.to_bits() - 1))
     }
 }
 

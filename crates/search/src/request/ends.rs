@@ -5,6 +5,7 @@ use mediant_moves::Cost;
 
 use super::{Wishes, nearest::nearest};
 use crate::{
+    limit::with_room,
     metric::Metric,
     query::{End, Query, QueryError},
 };
@@ -148,11 +149,12 @@ fn free_ends<P: Placement>(
 fn around<P: Placement>(space: &FreeSpace<P>, goal: Vertex, cells: f64) -> impl Iterator<Item = Vertex> {
     let (width, height) = P::vertices(space.grid());
     // A float that is too large becomes the greatest integer.
-    let reach = cells as i32;
+    let reach = with_room(cells) as i32;
     let rows = (goal.y.saturating_sub(reach)).max(0)..=goal.y.saturating_add(reach).min(height as i32 - 1);
     let columns = (goal.x.saturating_sub(reach)).max(0)..=goal.x.saturating_add(reach).min(width as i32 - 1);
     let all = rows.flat_map(move |y| columns.clone().map(move |x| Vertex::new(x, y)));
-    all.filter(move |&at| at.to(goal).norm_squared() as f64 <= cells * cells && space.is_free(at))
+    let greatest = with_room(cells) * with_room(cells);
+    all.filter(move |&at| at.to(goal).norm_squared() as f64 <= greatest && space.is_free(at))
 }
 
 /// The vertex of the map's rectangle that is nearest along each axis.

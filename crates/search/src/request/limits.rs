@@ -10,7 +10,7 @@ use std::{
 
 use mediant_moves::Cost;
 
-use crate::{path::Path, query::QueryError};
+use crate::{limit::greatest_cost, path::Path, query::QueryError};
 
 /// Limits of a search. None is set at first; the first one that is met stops the search.
 ///
@@ -84,8 +84,9 @@ impl Limits {
         Self::default()
     }
 
-    /// The greatest cost of a path, in cells, up to a factor of 1 + 2⁻³¹. An engine that guarantees nothing
-    /// of its paths may miss one that costs nearly as much.
+    /// The greatest cost of a path, in cells. A path that costs exactly as much is within it: costs are rounded,
+    /// so all limits leave room for a factor of 1 + 2⁻³¹. An engine that guarantees nothing of its paths may
+    /// miss one that costs nearly as much.
     #[must_use]
     pub fn cost(mut self, cells: f64) -> Self {
         self.cost = Some(cells);
@@ -131,9 +132,7 @@ impl Limits {
 
     /// The greatest cost, with room for rounding.
     pub(super) fn greatest_cost(&self) -> Cost {
-        const ONE: f64 = (1_u64 << Cost::FRACTION_BITS) as f64;
-        // A float that is too large becomes the greatest integer.
-        self.cost.map_or(Cost::MAX, |cost| Cost::from_bits((cost * (ONE + 2.0)) as u64))
+        self.cost.map_or(Cost::MAX, greatest_cost)
     }
 
     /// The limit that is met after this many expansions.

@@ -108,8 +108,8 @@ impl Request {
     }
 
     /// The path may end at any free vertex whose straight-line distance to the goal is at most this many
-    /// cells: the shortest of these paths; of several one of them, always the same. The goal itself may be
-    /// blocked then.
+    /// cells, those at exactly this distance included: the shortest of these paths; of several one of them,
+    /// always the same by the same engine. The goal itself may be blocked then.
     #[must_use]
     pub fn tolerance(mut self, cells: f64) -> Self {
         self.wishes_mut().tolerance = cells;

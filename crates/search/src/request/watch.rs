@@ -5,6 +5,7 @@ use mediant_moves::Cost;
 
 use super::limits::{Limit, Limits};
 use crate::{
+    limit::at_most,
     metric::Metric,
     observer::{NodeEvent, Observer},
 };
@@ -56,8 +57,7 @@ impl Progress {
     /// Whether all paths that cost at least `least` are longer than the best path that is known. Equally long
     /// paths at any angle may differ in their costs, which are sums of rounded lengths.
     pub(super) const fn is_beaten(&self, least: Cost) -> bool {
-        let known = self.known.to_bits();
-        least.to_bits() > known.saturating_add(known >> 31)
+        least.to_bits() > at_most(self.known).to_bits()
     }
 
     /// The reason to pause now, if there is one.

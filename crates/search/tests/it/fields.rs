@@ -86,15 +86,18 @@ fn check<P: Placement>(
         let is_equal = best.zip(found).map_or(best == found, |(a, b)| (a - b).abs() <= 1e-9 * a);
         assert!(is_equal, "{found:?}, by a single query {best:?}; {}", case(far));
 
-        // Limits: at a distance, just below it, and at that of a vertex where the field may end early.
-        let Some(limit) = field.get(far) else { continue };
+        // Limits: at a distance, as the field and as a path measures it, just below it, and at that of a vertex
+        // where the field may end early.
+        let (Some(limit), Some(length)) = (field.get(far), found) else { continue };
         sums[1] += 1;
+        let at_most = Cost::from_bits(limit.to_bits() + (limit.to_bits() >> 31));
         let within = |limit: Cost| -> Vec<_> { field.iter().filter(|&(_, cost)| cost <= limit).collect() };
-        let below = Cost::from_bits(limit.to_bits().saturating_sub(1));
+        let below = Cost::from_bits(limit.to_bits().saturating_sub((limit.to_bits() >> 30) + 2));
         for (query, limit) in [
-            (query.within(limit.to_f64()), limit),
+            (query.within(limit.to_f64()), at_most),
+            (query.within(length), at_most),
             (query.within(below.to_f64()), below),
-            (query.until(&[far]), limit),
+            (query.until(&[far]), at_most),
             (query.until(&[far, first]).within(below.to_f64()), below),
         ] {
             let range = fields.field(query).unwrap();
@@ -195,6 +198,33 @@ fn large_maps_by_distance() {
         let field = Fields::new(&graph).field(FieldQuery::new(&[from])).unwrap();
         assert_eq!(field.iter().count(), 301 * 201);
         assert!(field.iter().all(|(at, cost)| cost == graph.costs().distance(at.to(from))), "k = {k}");
+    }
+}
+
+/// The distance of a vertex as a limit reaches that vertex, and no vertex that is farther.
+#[test]
+fn a_limit_includes_what_lies_exactly_there() {
+    let two = Arc::new(Grid::from_fn(2, 2, |_, _| false).unwrap());
+    let graph = GridGraph::<Centers>::new(two, FiniteK::N8, CornerRule::Never).unwrap();
+    let mut fields = Fields::new(&graph);
+    let range = fields.field(FieldQuery::new(&[Vertex::new(0, 0)]).within(2_f64.sqrt())).unwrap();
+    assert_eq!(range.iter().count(), 4);
+    for k in (2..=7).map(|k| FiniteK::new(k).unwrap()) {
+        let open = Arc::new(Grid::from_fn(9, 9, |_, _| false).unwrap());
+        let graph = GridGraph::<Centers>::new(open, k, CornerRule::Never).unwrap();
+        let (mut fields, mut astar) = (Fields::new(&graph), AStar::new(&graph, Hk));
+        let from = Vertex::new(0, 0);
+        let field = fields.field(FieldQuery::new(&[from])).unwrap();
+        for (at, cost) in field.iter() {
+            let query = Query::new(from, at);
+            let length = astar.solve(query).unwrap().cost().unwrap();
+            for limit in [length, cost.to_f64(), astar.distance(query).unwrap().unwrap()] {
+                let range = fields.field(FieldQuery::new(&[from]).within(limit)).unwrap();
+                assert_eq!(range.get(at), Some(cost), "k = {k}, {at} within {limit}");
+                let farther = range.iter().find(|(_, other)| other.to_f64() > cost.to_f64() + 1e-8);
+                assert_eq!(farther, None, "k = {k}, within {limit}");
+            }
+        }
     }
 }
 

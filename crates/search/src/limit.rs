@@ -1,0 +1,28 @@
+//! The rule of all limits on a length.
+//!
+//! **What lies exactly at a limit is within it.** A limit is often a length that was found before, and a
+//! length is rounded: over N(k) as a sum of [`Cost`]s, which is off by at most 2⁻³³ of itself, and as a sum of
+//! roots in `f64`, which is off by far less. So each limit is taken as longer by 2⁻³¹ of itself, which is
+//! room for the rounding of both lengths that are compared.
+
+use mediant_moves::Cost;
+
+/// The part of itself by which a limit is longer.
+const ROOM: f64 = 1.0 / (1_u64 << 31) as f64;
+
+/// A limit in cells, with room for rounding.
+pub(crate) const fn with_room(cells: f64) -> f64 {
+    cells * (1.0 + ROOM)
+}
+
+/// The greatest cost within a limit in cells. A limit that is too large, or infinite, becomes the greatest
+/// cost.
+pub(crate) const fn greatest_cost(cells: f64) -> Cost {
+    // A product with a power of two is exact, and the cast saturates.
+    Cost::from_bits((with_room(cells) * (1_u64 << Cost::FRACTION_BITS) as f64) as u64)
+}
+
+/// A cost that was found, as a limit.
+pub(crate) const fn at_most(cost: Cost) -> Cost {
+    Cost::from_bits(cost.to_bits().saturating_add(cost.to_bits() >> 31))
+}
