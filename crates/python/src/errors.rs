@@ -139,8 +139,8 @@ const fn in_rows(error: QueryError) -> QueryError {
 fn broken_in_rows(error: BrokenPath) -> BrokenPath {
     use mediant::Obstruction;
     match error {
-        BrokenPath::Outside { index, at } => BrokenPath::Outside { index, at: swapped(at) },
-        BrokenPath::Blocked { end, at } => BrokenPath::Blocked { end, at: swapped(at) },
+        BrokenPath::Outside { index, at, holds } => BrokenPath::Outside { index, at: swapped(at), holds },
+        BrokenPath::Blocked { end, at, holds } => BrokenPath::Blocked { end, at: swapped(at), holds },
         BrokenPath::Segment { index, from, to, by } => {
             let by = match by {
                 Obstruction::End { at } => Obstruction::End { at: swapped(at) },

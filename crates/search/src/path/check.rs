@@ -21,6 +21,8 @@ pub enum BrokenPath {
         index: usize,
         /// The waypoint.
         at: Vertex,
+        /// The number of waypoints up to which the path holds.
+        holds: usize,
     },
     /// Its start or goal is blocked.
     #[error("the {end} of the path, {at}, is blocked now: choose a free vertex")]
@@ -29,6 +31,8 @@ pub enum BrokenPath {
         end: End,
         /// The vertex.
         at: Vertex,
+        /// The number of waypoints up to which the path holds: 0 where the start is blocked.
+        holds: usize,
     },
     /// A segment is not legal.
     #[error("segment {index} of the path, from {from} to {to}, does not hold: {by}")]
@@ -72,11 +76,13 @@ impl fmt::Display for Way {
 
 impl BrokenPath {
     /// The number of waypoints, counted from the start, up to which the path still holds: it can be followed
-    /// to the last of them. 0 if it cannot be entered.
+    /// to the last of them, though not beyond. 0 if it cannot be entered: if there is no waypoint, or the
+    /// start is blocked or outside the map.
     #[must_use]
     pub const fn holds_up_to(&self) -> usize {
         match self {
-            Self::Empty | Self::Blocked { .. } | Self::Outside { .. } => 0,
+            Self::Empty => 0,
+            Self::Blocked { holds, .. } | Self::Outside { holds, .. } => *holds,
             Self::Segment { index, .. } | Self::Gap { index, .. } => *index + 1,
         }
     }
@@ -89,7 +95,8 @@ impl Path {
     /// shorter path, only a search tells.
     ///
     /// First it looks whether all waypoints are on the map and both ends are free, then at one segment after
-    /// another from the start. Standing still, at a waypoint that repeats the one before, is allowed.
+    /// another from the start. Standing still, at a waypoint that repeats the one before, is allowed. Whatever
+    /// is found first, [`BrokenPath::holds_up_to`] tells how far the path can still be followed.
     ///
     /// ```
     /// use std::sync::Arc;
@@ -123,14 +130,33 @@ pub(crate) fn check<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) ->
     let (Some(&start), Some(&goal)) = (waypoints.first(), waypoints.last()) else {
         return Err(BrokenPath::Empty);
     };
-    // From here on no difference of coordinates overflows.
     if let Some((index, &at)) = waypoints.iter().enumerate().find(|&(_, &at)| space.id(at).is_none()) {
-        return Err(BrokenPath::Outside { index, at });
+        return Err(BrokenPath::Outside { index, at, holds: holds_up_to(space, &waypoints[..index]) });
     }
     let ends = [(End::Start, start), (End::Goal, goal)];
     if let Some((end, at)) = ends.into_iter().find(|&(_, at)| !space.is_free(at)) {
-        return Err(BrokenPath::Blocked { end, at });
+        return Err(BrokenPath::Blocked { end, at, holds: holds_up_to(space, waypoints) });
     }
+    // A path that stays where it is does not leave any quadrant.
+    match follow(space, waypoints)? {
+        None => Ok(()),
+        before => turn(space, (before, goal, None), waypoints.len() - 1),
+    }
+}
+
+/// The number of waypoints, which are all on the map, to which a path can be followed that goes on from
+/// there.
+fn holds_up_to<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> usize {
+    match follow(space, waypoints) {
+        _ if waypoints.first().is_none_or(|&start| !space.is_free(start)) => 0,
+        Ok(_) => waypoints.len(),
+        Err(broken) => broken.holds_up_to(),
+    }
+}
+
+/// Looks at one segment after another. Returns the last waypoint that differs from the end of the path. All
+/// waypoints are on the map, so that no difference of coordinates overflows.
+fn follow<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Result<Option<Vertex>, BrokenPath> {
     let mut before = None;
     for (ends, index) in waypoints.windows(2).zip(0..) {
         let (from, to) = (ends[0], ends[1]);
@@ -143,8 +169,7 @@ pub(crate) fn check<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) ->
         }
         before = Some(from);
     }
-    // A path that stays where it is does not leave any quadrant.
-    if before.is_some() { turn(space, (before, goal, None), waypoints.len() - 1) } else { Ok(()) }
+    Ok(before)
 }
 
 fn turn<P: Placement>(

@@ -3,7 +3,8 @@
 use std::{collections::BTreeSet, f64::consts::PI, sync::Arc};
 
 use mediant_grid::{
-    Centers, Corners, DiagonalGap, FreeSpace, Grid, Placement, PlacementKind, Rectangle, Rules, Vertex, draw,
+    Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, Placement, PlacementKind, Rectangle, Rules,
+    Vertex, draw,
 };
 use mediant_moves::{FiniteK, K};
 use mediant_oracle::{
@@ -68,6 +69,22 @@ fn first_fault(grid: &Grid, rules: Rules, waypoints: &[Vertex]) -> Option<(&'sta
     None
 }
 
+/// To how many waypoints a path can be followed that goes on from the last of them.
+fn holds(grid: &Grid, rules: Rules, waypoints: &[Vertex]) -> usize {
+    let gaps = rules == Rules::Corner(DiagonalGap::Closed);
+    if waypoints.first().is_none_or(|&start| !vertex_is_free(grid, rules.placement(), start)) {
+        return 0;
+    }
+    let goes_on = |index: usize, to: Vertex| {
+        let at = waypoints[index];
+        let before = waypoints[..index].iter().rev().find(|&&other| other != at).copied();
+        let turns = !gaps || turn_is_legal(grid, before, at, Some(to));
+        at == to || turns && segment_is_legal(grid, rules, at, to)
+    };
+    let broken = waypoints.iter().enumerate().skip(1).find(|&(next, &to)| !goes_on(next - 1, to));
+    broken.map_or(waypoints.len(), |(next, _)| next)
+}
+
 fn found(result: Result<(), BrokenPath>, waypoints: &[Vertex]) -> Option<(&'static str, usize)> {
     match result {
         Ok(()) => None,
@@ -104,6 +121,7 @@ fn is_valid(grid: &Grid, rules: Rules, k: Option<FiniteK>, path: &Path) -> bool 
 #[test]
 fn a_path_holds_where_the_oracle_says_so() {
     let mut counts = std::collections::BTreeMap::new();
+    let mut partly = 0;
     for seed in seeds(250) {
         let grid = Arc::new(random_grid(seed).0);
         for rules in Rules::ALL {
@@ -116,6 +134,11 @@ fn a_path_holds_where_the_oracle_says_so() {
             let fault = first_fault(&grid, rules, path.waypoints());
             assert_eq!(found(result, path.waypoints()), fault, "{}", message());
             assert_eq!(result.is_ok(), is_valid(&grid, rules, None, &path), "{}", message());
+            if let Err(broken) = result {
+                let holds = holds(&grid, rules, path.waypoints());
+                assert_eq!(broken.holds_up_to(), holds, "{broken}; {}", message());
+                partly += usize::from(holds > 1 && matches!(fault, Some(("blocked" | "outside", _))));
+            }
             for k in [FiniteK::N4, FiniteK::N8, FiniteK::N16] {
                 let both = result.is_ok() && path.is_over(k.into());
                 assert_eq!(both, is_valid(&grid, rules, Some(k), &path), "k = {k}, {}", message());
@@ -126,6 +149,7 @@ fn a_path_holds_where_the_oracle_says_so() {
     }
     let kinds: Vec<_> = counts.keys().copied().collect();
     assert_eq!(kinds, ["blocked", "empty", "gap", "none", "outside", "segment"], "{counts:?}");
+    assert!(partly as u64 > seeds(250).end / 50, "{partly} paths hold in part");
 }
 
 /// Counts the edits that broke a path.
@@ -354,6 +378,23 @@ fn what_broke_a_path_is_said_in_words() {
         ]
         .join("\n")
     );
+}
+
+/// How far a path can be followed does not depend on what of it is named as broken.
+#[test]
+fn a_path_holds_up_to_a_blocked_goal() {
+    let grid = Arc::new(Grid::from_fn(3, 2, |x, y| (x, y) == (2, 1)).expect("it is small"));
+    let rules = Rules::Center(CornerRule::Never);
+    let held = |waypoints: &[(i32, i32)]| {
+        check_under(&grid, rules, &path(waypoints)).map_or_else(|broken| broken.holds_up_to(), |()| 99)
+    };
+    assert_eq!(held(&[(0, 1), (0, 0), (2, 0), (2, 1)]), 3);
+    assert_eq!(held(&[(0, 1), (0, 0), (2, 0), (2, 9)]), 3);
+    assert_eq!(held(&[(0, 1), (2, 1), (2, 0), (2, 9)]), 1);
+    assert_eq!(held(&[(0, 0), (2, 1), (2, 1)]), 1);
+    assert_eq!(held(&[(2, 1), (2, 0)]), 0);
+    assert_eq!(held(&[(9, 9), (2, 0)]), 0);
+    assert_eq!(held(&[(0, 0), (2, 0)]), 99);
 }
 
 #[test]
