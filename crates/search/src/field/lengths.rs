@@ -5,7 +5,7 @@ use std::ops::Deref;
 use mediant_grid::{Corners, FreeSpace, Identity, Vertex, VertexId};
 use mediant_moves::K;
 
-use crate::path::Path;
+use crate::{line_path::push_waypoint, path::Path};
 
 /// The length of a shortest any-angle path from every vertex to the nearest source, and the way there: what
 /// [`AnyAngleFields`](super::AnyAngleFields) makes. It takes twelve bytes a vertex.
@@ -102,16 +102,7 @@ impl<S: Deref<Target = FreeSpace<Corners>>> AnyAngleField<S> {
         self.get(at)?;
         let mut waypoints = vec![at];
         let ahead = std::iter::successors(self.next(at), |&at| self.next(at));
-        for next in ahead {
-            // Where the path goes straight on, there is no waypoint.
-            if let [.., before, last] = waypoints[..] {
-                let (u, v) = (before.to(last), last.to(next));
-                if i64::from(u.x) * i64::from(v.y) == i64::from(u.y) * i64::from(v.x) {
-                    waypoints.pop();
-                }
-            }
-            waypoints.push(next);
-        }
+        ahead.for_each(|next| push_waypoint(&mut waypoints, next));
         Some(Path::new(waypoints))
     }
 

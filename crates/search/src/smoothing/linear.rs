@@ -2,12 +2,16 @@
 
 use mediant_grid::{FreeSpace, Placement, Vertex};
 
-use crate::path::{check, vertices};
+use crate::{
+    line_path::push_waypoint,
+    path::{check, vertices},
+};
 
 /// Replaces parts of a path by straight segments between vertices that see each other (Botea, Müller &
 /// Schaeffer 2004, 'Near Optimal Hierarchical Path-Finding', Section 3.3). From the start it follows the path
 /// as long as that is in sight, places a waypoint at the last vertex in sight, and continues from there. It
-/// checks sight once for each segment of the path, then once for each vertex on it.
+/// checks sight once for each segment of the path, then once for each vertex on it. Where the new path goes
+/// straight on at such a vertex, it has no waypoint.
 ///
 /// As in the paper, all vertices on the path are considered, not only its waypoints: on a path over N(k)
 /// there is one after each move, and new waypoints may be placed there. The new path is legal, not longer
@@ -31,10 +35,16 @@ use crate::path::{check, vertices};
 #[must_use]
 pub fn smooth<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
     let corners = without_repetitions(waypoints);
-    if check(space, &corners).is_ok() { smooth_legal(space, &corners) } else { waypoints.to_vec() }
+    if check(space, &corners).is_err() {
+        return waypoints.to_vec();
+    }
+    let all = smooth_legal(space, &corners);
+    let mut path = Vec::with_capacity(all.len());
+    all.into_iter().for_each(|at| push_waypoint(&mut path, at));
+    path
 }
 
-/// [`smooth`], for a legal path without repeated waypoints.
+/// [`smooth`], for a legal path without repeated waypoints, and with a waypoint at each last vertex in sight.
 pub(super) fn smooth_legal<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
     let all: Vec<Vertex> = vertices(waypoints).collect();
     let mut path: Vec<Vertex> = all.first().copied().into_iter().collect();

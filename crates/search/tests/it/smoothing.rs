@@ -114,15 +114,24 @@ fn check_smooth(judge: &Judge<'_>, before: &[Vertex], after: &[Vertex], case: &d
     let mut way = vec![before[0]];
     way.extend(before.windows(2).flat_map(|ends| [between(ends[0], ends[1]), vec![ends[1]]].concat()));
     let mut last = 0;
-    for (index, at) in after.iter().enumerate().skip(1) {
+    for at in after.iter().skip(1) {
         let offset = way[last + 1..].iter().position(|vertex| vertex == at);
         let next = last + 1 + offset.unwrap_or_else(|| panic!("{at} is not on the way; {}", case()));
-        if let Some(&beyond) = way.get(next + 1) {
-            let further = [index.checked_sub(2).map(|i| after[i]), Some(way[last]), Some(beyond)];
-            // With closed gaps it may have seen farther, to a vertex at which the path may not turn.
-            let is_closed_gap = judge.rules == Rules::Corner(DiagonalGap::Closed);
-            assert!(is_closed_gap || !judge.is_legal(&further), "{} sees {beyond}; {}", way[last], case());
+        // With closed gaps it may have seen farther, to a vertex at which the path may not turn.
+        if judge.rules == Rules::Corner(DiagonalGap::Closed) {
+            last = next;
+            continue;
         }
+        let mut from = last;
+        for (seen, &beyond) in way.iter().enumerate().take(next + 2).skip(last + 2) {
+            if !judge.is_legal(&[Some(way[from]), Some(beyond)]) {
+                // There is no waypoint where the path goes straight on.
+                from = seen - 1;
+                assert_eq!(way[last].to(*at).det(way[last].to(way[from])), 0, "{at}; {}", case());
+            }
+        }
+        let is_last = next + 1 == way.len();
+        assert!(is_last || from == next, "{} sees {}; {}", way[from], way[next + 1], case());
         last = next;
     }
     assert_eq!(last + 1, way.len(), "{}", case());
@@ -145,6 +154,10 @@ fn check<P: Placement>(space: &FreeSpace<P>, path: &Path, case: &dyn Fn() -> Str
     let costs = [path.cost(), linear.cost(), taut.cost()];
     assert!(costs[1] <= costs[0] * slack && costs[2] <= costs[1] * slack, "{costs:?}; {}", case());
     check_smooth(&judge, way, linear.waypoints(), case);
+    for path in [&linear, &taut] {
+        let inner = path.waypoints().len().saturating_sub(2);
+        assert_eq!(path.bends(), inner, "{path} has a waypoint where nothing turns; {}", case());
+    }
     let fault = judge.slack(taut.waypoints());
     assert_eq!(fault, None, "{way:?} became {taut:?}; {}", case());
     assert_eq!(pull_taut(space, taut.waypoints()), taut.waypoints(), "pulled again; {}", case());
@@ -169,6 +182,17 @@ fn check_map<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u6
         }
     }
     shorter
+}
+
+/// The last vertex in sight may lie on a straight line between the two ends.
+#[test]
+fn a_smoothed_path_has_waypoints_where_it_turns() {
+    let map = AsciiMap::parse("#.\n..").expect("a map");
+    let rule = DiagonalGap::Open;
+    let graph = GridGraph::<Corners>::new(Arc::new(map.grid), FiniteK::N4, rule).expect("k is in range");
+    let outcome = AStar::new(&graph, Hk).solve(Query::new((2, 0), (0, 2))).expect("both ends are free");
+    let path = outcome.into_path().expect("there is one");
+    assert_eq!(smooth(&graph, path.waypoints()), [(2, 0), (0, 2)].map(Vertex::from));
 }
 
 #[test]
