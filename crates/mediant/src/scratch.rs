@@ -2,7 +2,7 @@
 
 use mediant_grid::{GridGraph, VertexId};
 use mediant_hierarchy::{ChpaStar, HpaStar};
-use mediant_search::{Anya, ThetaStar, parts::NodeStore};
+use mediant_search::{Anya, ThetaStar, Wavefront, parts::NodeStore};
 use mediant_subgoal::{HubLabelSearch, SubgoalAStar, SubgoalGraph, SubgoalPlacement, SubgoalTheta};
 
 use crate::{
@@ -46,6 +46,7 @@ fn on_graph<P: SubgoalPlacement>(engine: ConfiguredEngine, graph: &GridGraph<P>)
         Engine::Jps | Engine::JpsBlock | Engine::JpsPlus => {
             NodeStore::<VertexId>::bytes(graph.vertex_count())
         }
+        Engine::Wavefront => Wavefront::scratch_bytes(graph),
         Engine::Theta | Engine::LazyTheta => ThetaStar::<(), ()>::scratch_bytes(graph),
         _ => NodeStore::<()>::bytes(graph.vertex_count()),
     }

@@ -3,10 +3,15 @@
 //! rules of motion).
 //!
 //! Rule variant: a vertex is expanded with all its legal moves, nothing is pruned, and the search ends as
-//! soon as the goal is reached. No path has fewer moves. With four neighbors it is a shortest path; for
-//! larger k moves differ in length, and it may be longer. (Where gaps are closed and k > 2, only paths that
-//! touch no gap but at their ends are considered, as in all engines. A shortest path never needs to touch
-//! one; a path of fewest moves may, from k = 5 on.)
+//! soon as the goal is reached. No legal path over N(k) has fewer moves. With four neighbors it is a shortest
+//! path; for larger k moves differ in length, and it may be longer.
+//!
+//! **Closed gaps.** A shortest path need not touch one but with its ends (for k > 2), so the other engines
+//! enter none. Up to k = 4 this is true of the fewest moves, too: of the moves u and v by which a path passes
+//! a gap within the quadrant of a free cell, both lie in the closed cone of that cell, and their sum is a
+//! move, or two moves, over other corners of cells that they sweep (k = 3: along or across the cell; k = 4:
+//! also along its two neighbors). From k = 5 on it is false: the sum may need three moves. There the search
+//! enters gaps, and has a node for each of the two free quadrants of a gap (module [`quadrants`]).
 //!
 //! Ties: the vertices of a layer are expanded in the order in which they were reached, their moves in the
 //! order of [`GridGraph::for_each_legal_move`], and the first move that reaches a vertex is kept.
@@ -14,16 +19,20 @@
 //! Layers as bits, 64 vertices a word operation, were tried and left out: they need a second implementation
 //! of the rules of motion and save half of the time (`docs/measurements/search.md`).
 
+mod quadrants;
+
 use std::ops::Deref;
 
 use mediant_grid::{GridGraph, Identity, Placement, Vertex, VertexId};
 use mediant_moves::{Cost, FiniteK};
 
+use self::quadrants::{Back, ends_at, node_at, node_count, passes_gaps, vertex_of};
 use crate::{
     distances::{Distances, end_at_gaps},
     nodes::NodeStore,
     observer::{NodeEvent, Observer},
     outcome::Guarantee,
+    parent::ParentPointer,
     path::Path,
     planner::{Planner, Status},
     query::{Query, QueryError},
@@ -56,8 +65,8 @@ use crate::{
 #[derive(Clone, Debug)]
 pub struct Wavefront<G> {
     graph: G,
-    nodes: NodeStore,
-    /// The vertices that were reached, in the order in which they were.
+    nodes: NodeStore<Back>,
+    /// The nodes that were reached, in the order in which they were.
     reached: Vec<VertexId>,
     /// How many of these were expanded.
     expanded: usize,
@@ -66,12 +75,20 @@ pub struct Wavefront<G> {
     status: Status,
 }
 
+impl Wavefront<()> {
+    /// The scratch memory that a planner for this graph takes when it is made, in bytes.
+    #[must_use]
+    pub fn scratch_bytes<P: Placement>(graph: &GridGraph<P>) -> usize {
+        NodeStore::<Back>::bytes(node_count(graph))
+    }
+}
+
 impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
     /// A planner with scratch memory for `graph`: 16 to 20 bytes for each vertex that searches
     /// reach, by pages of the system.
     #[must_use]
     pub fn new(graph: G) -> Self {
-        let nodes = NodeStore::new(graph.vertex_count());
+        let nodes = NodeStore::new(node_count(&*graph));
         let (goal, status) = (None, Status::default());
         Self { graph, nodes, reached: Vec::new(), expanded: 0, goal, status }
     }
@@ -82,19 +99,30 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
     /// [`QueryError`] when the start is blocked or outside the map.
     pub fn distances(&mut self, start: Vertex) -> Result<Distances<u32>, QueryError> {
         Query::new(start, start).check(&self.graph)?;
-        let mut moves = vec![None; self.graph.vertex_count()];
+        let mut moves = vec![None; node_count(&*self.graph)];
         if let Some(id) = self.graph.id(start) {
             self.begin_at(id, None, &mut ());
             self.run(&mut ());
             moves[id.index()] = Some(0);
         }
         let Self { graph, nodes, reached, .. } = self;
+        let graph: &GridGraph<P> = graph;
         let arrived_by = |id| nodes.get(id).map_or(0, |node| node.arrived_by());
         for &id in reached.iter().skip(1) {
-            let from = graph.step(arrived_by(id)).source(id);
+            let (_, at) = vertex_of(graph, id);
+            let (from, _) = Back.parent(graph, graph.step(arrived_by(id)), id, at);
             moves[id.index()] = moves[from.index()].map(|moves| moves + 1);
         }
-        end_at_gaps(graph, start, &mut moves, arrived_by, |moves, _| moves + 1);
+        moves.truncate(graph.vertex_count());
+        if passes_gaps(graph) {
+            // A path ends at a gap in the quadrant of the vertex's own cell: that of its first node, if free.
+            for (moves, id) in moves.iter_mut().zip(0..) {
+                let at = graph.vertex(VertexId(id));
+                *moves = moves.filter(|_| at == start || !graph.is_closed_gap(at) || ends_at(graph, at));
+            }
+        } else {
+            end_at_gaps(graph, start, &mut moves, arrived_by, |moves, _| moves + 1);
+        }
         Ok(Distances::new(P::vertices(graph.grid()).0, moves))
     }
 
@@ -103,7 +131,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
         let Self { graph, nodes, reached, .. } = self;
         nodes.start_search();
         reached.clear();
-        nodes.set_path(start, Cost::ZERO, 0, ());
+        nodes.set_path(start, Cost::ZERO, 0, Back);
         reached.push(start);
         let at = graph.vertex(start);
         observer.generated(NodeEvent { at, parent: None, g: Cost::ZERO, f: Cost::ZERO });
@@ -127,8 +155,8 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
             if observer.pauses(node.g) {
                 return;
             }
-            let at = graph.vertex(id);
-            // The start is the vertex that was reached first.
+            let (at_id, at) = vertex_of(graph, id);
+            // The start is the node that was reached first.
             let arrived_by = (*expanded > 0).then(|| node.arrived_by());
             *expanded += 1;
             let parent = arrived_by.map(|index| at + -graph.step(index).vector());
@@ -136,18 +164,28 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
             if !graph.is_closed_gap(at) {
                 observer.reached(at, node.g);
             }
-            graph.for_each_successor(at, arrived_by, goal_at, |index| {
+            let mut reach = |index| {
                 let step = graph.step(index);
-                let to = step.target(id);
+                let to_at = at + step.vector();
+                let to = node_at(graph, (step.target(at_id), to_at), at);
                 if found || nodes.get(to).is_some() {
                     return;
                 }
                 let g = node.g + step.cost;
-                nodes.set_path(to, g, index, ());
+                nodes.set_path(to, g, index, Back);
                 reached.push(to);
-                observer.generated(NodeEvent { at: at + step.vector(), parent: Some(at), g, f: g });
+                observer.generated(NodeEvent { at: to_at, parent: Some(at), g, f: g });
                 found = *goal == Some(to);
-            });
+            };
+            if passes_gaps(graph) {
+                graph.for_each_legal_move(at, |index| {
+                    if graph.may_turn(parent, at, Some(at + graph.step(index).vector())) {
+                        reach(index);
+                    }
+                });
+            } else {
+                graph.for_each_successor(at, arrived_by, goal_at, reach);
+            }
         }
         *status = Status::Found;
     }
@@ -171,6 +209,8 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Planner for Wavefront<G> {
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
         let has_begun = self.goal.is_some() && self.status != Status::Unreachable;
+        // At a gap it may have passed, but no path ends there.
+        let has_begun = has_begun && (!self.graph.is_closed_gap(at) || ends_at(&*self.graph, at));
         let id = self.graph.id(at).filter(|&id| has_begun && self.nodes.get(id).is_some())?;
         Some(trace_back(&self.graph, &self.nodes, id))
     }
