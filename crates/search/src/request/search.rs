@@ -68,7 +68,8 @@ pub struct Search {
 }
 
 /// Whether a search leads from all goals at once to the only start: for a goal with a tolerance, where it
-/// takes one search instead of one for each vertex near the goal.
+/// takes one search instead of one for each vertex near the goal. It does not tell which of several equally
+/// near goals comes first, so it is not for the vertices nearest to a goal that cannot be reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Backward {
     No,
@@ -103,7 +104,7 @@ impl Search {
         // A search that may be stopped leads forward to one of the goals first, since only then the best so
         // far begins at the start.
         let backward = match ends.only_start() {
-            Some(start) if wishes.tolerance > 0.0 => {
+            Some(start) if wishes.tolerance > 0.0 && !ends.are_nearest => {
                 Backward::After(usize::from(!wishes.limits.are_none()), start)
             }
             _ => Backward::No,
