@@ -209,9 +209,11 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Planner for Wavefront<G> {
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
         let has_begun = self.goal.is_some() && self.status != Status::Unreachable;
-        // At a gap it may have passed, but no path ends there.
-        let has_begun = has_begun && (!self.graph.is_closed_gap(at) || ends_at(&*self.graph, at));
         let id = self.graph.id(at).filter(|&id| has_begun && self.nodes.get(id).is_some())?;
+        // At other gaps it may have passed, but no path ends there.
+        if self.goal != Some(id) && self.graph.is_closed_gap(at) && !ends_at(&*self.graph, at) {
+            return None;
+        }
         Some(trace_back(&self.graph, &self.nodes, id))
     }
 

@@ -227,7 +227,12 @@ fn fewest_moves_may_pass_a_closed_gap() {
     let (outcome, _) = waves(&grid, rules, k).answer(query).unwrap();
     let path = outcome.into_path().unwrap();
     assert_eq!(path.waypoints(), [(2, 0), (1, 2), (4, 1)].map(Vertex::from));
-    assert!(Graph::new(&grid, rules, k).is_closed_gap((1, 2).into()));
+    // No path leads to that gap, whose own cell is blocked; but the one that stays there.
+    let gap = Vertex::new(1, 2);
+    assert!(Graph::new(&grid, rules, k).is_closed_gap(gap));
+    let answer = |start: Vertex| waves(&grid, rules, k).answer(Query::new(start, gap)).unwrap().0;
+    assert_eq!(answer((2, 0).into()), Outcome::Unreachable);
+    assert_eq!(answer(gap), Outcome::Found(Path::new(vec![gap])));
 }
 
 #[test]
