@@ -47,7 +47,7 @@ fn on_graph<P: SubgoalPlacement>(engine: ConfiguredEngine, graph: &GridGraph<P>)
             NodeStore::<VertexId>::bytes(graph.vertex_count())
         }
         Engine::Wavefront => Wavefront::scratch_bytes(graph),
-        Engine::Theta | Engine::LazyTheta => ThetaStar::<(), ()>::scratch_bytes(graph),
+        Engine::Theta | Engine::LazyTheta => ThetaStar::<&GridGraph<P>, ()>::scratch_bytes(graph),
         _ => NodeStore::<()>::bytes(graph.vertex_count()),
     }
 }

@@ -51,12 +51,24 @@ pub(crate) enum Placed {
 pub(crate) struct Layers<P: Placement> {
     pub(crate) free: Arc<FreeSpace<P>>,
     graph: OnceLock<Arc<GridGraph<P>>>,
+    /// The free space for paths at any angle, where that has other components.
+    any_angle: OnceLock<Arc<FreeSpace<P>>>,
 }
 
 impl<P: Placement> Layers<P> {
     fn new(map: &Map, motion: Motion, rule: P::Rule) -> Self {
         let free = FreeSpace::for_k(Arc::clone(map.grid()), rule, motion.k);
-        Self { free: Arc::new(free), graph: OnceLock::new() }
+        Self { free: Arc::new(free), graph: OnceLock::new(), any_angle: OnceLock::new() }
+    }
+
+    /// The free space whose components say what paths at any angle connect. It is another one at k = 2 where
+    /// corners are always cut, and made when it is first needed.
+    pub(crate) fn at_any_angle(&self) -> &Arc<FreeSpace<P>> {
+        if self.free.identity().k.is_none() {
+            return &self.free;
+        }
+        let new = || Arc::new(FreeSpace::new(Arc::clone(self.free.grid()), self.free.rule()));
+        self.any_angle.get_or_init(new)
     }
 
     /// The grid graph of N(k). Two threads that ask first at the same time both make it, and one is kept.
@@ -70,7 +82,8 @@ impl<P: Placement> Layers<P> {
 
     /// The grid graph shares the free space.
     fn memory_bytes(&self) -> usize {
-        self.graph.get().map_or_else(|| self.free.memory_bytes(), |graph| graph.memory_bytes())
+        let any_angle = self.any_angle.get().map_or(0, |free| free.memory_bytes());
+        any_angle + self.graph.get().map_or_else(|| self.free.memory_bytes(), |graph| graph.memory_bytes())
     }
 }
 
@@ -139,7 +152,8 @@ impl Space {
         }
     }
 
-    /// Whether there is a path from one vertex to another, in constant time.
+    /// Whether there is a path over N(k) from one vertex to another, in constant time. (At k = 2 where corners
+    /// are always cut, paths at any angle connect more than this.)
     #[must_use]
     pub fn connected(&self, from: impl Into<Vertex>, to: impl Into<Vertex>) -> bool {
         let (from, to) = (from.into(), to.into());

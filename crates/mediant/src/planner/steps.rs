@@ -1,6 +1,7 @@
 //! Searches in steps.
 
 use mediant_grid::Vertex;
+use mediant_moves::K;
 use mediant_search::{Observer, Outcome, Path, QueryError, Request, Search, parts::Metric};
 
 use super::Planner;
@@ -41,9 +42,13 @@ impl Planner {
         let guarantee = self.search.guarantee();
         let space = self.index.space();
         let metric = self.metric.get_or_insert_with(|| metric(space));
+        let (is_any_angle, request) = (self.index.search_setup().paths() == K::Any, request.into());
         self.begun = Some(match space.placed() {
-            Placed::Centers(layers) => Search::new(&layers.free, metric, guarantee, request.into()),
-            Placed::Corners(layers) => Search::new(&layers.free, metric, guarantee, request.into()),
+            Placed::Centers(layers) => {
+                let free = if is_any_angle { layers.at_any_angle() } else { &layers.free };
+                Search::new(free, metric, guarantee, request)
+            }
+            Placed::Corners(layers) => Search::new(&layers.free, metric, guarantee, request),
         }?);
         Ok(())
     }

@@ -1,8 +1,9 @@
 //! Theta* and Lazy Theta*: the planner.
 
-use std::{marker::PhantomData, ops::Deref};
+use std::{marker::PhantomData, ops::Deref, sync::Arc};
 
-use mediant_grid::{GridGraph, Identity, Placement, Vertex, VertexId};
+use mediant_grid::{CornerRule, GridGraph, Identity, Placement, Rules, Vertex, VertexId};
+use mediant_moves::FiniteK;
 
 use super::{
     search::{Parents, Search},
@@ -11,6 +12,7 @@ use super::{
 };
 use crate::{
     heuristic::Heuristic,
+    line_path::push_waypoint,
     nodes::{Node, NodeStore},
     observer::Observer,
     open_list::OpenList,
@@ -52,9 +54,19 @@ pub type LazyThetaStar<G, H> = Theta<G, H, Lazy>;
 /// `G` is how the planner holds its grid graph: by reference, or, where both belong in one struct, by `Arc`.
 /// Its scratch memory is half a byte a vertex, and 24 bytes for each that searches touch. The cost of a
 /// segment is that of a move of its displacement, [`Cost::of_move`](mediant_moves::Cost::of_move).
+///
+/// What is connected by segments is what N(3) connects. At k = 2 this differs from what N(2) connects where
+/// corners are always cut: segments then lead between two blocked cells that meet diagonally. So a query
+/// whose ends N(2) does not connect is searched over N(3), on a graph that is made when it is first needed.
 #[derive(Clone, Debug)]
-pub struct Theta<G, H, S> {
+pub struct Theta<G: Deref, H, S>
+where
+    G::Target: Sized,
+{
     graph: G,
+    /// The graph of N(3), once it was needed, and whether it is searched.
+    wider: Option<Arc<G::Target>>,
+    is_wider: bool,
     heuristic: H,
     nodes: NodeStore<Parents>,
     open: OpenList,
@@ -64,10 +76,10 @@ pub struct Theta<G, H, S> {
     check: PhantomData<S>,
 }
 
-impl<S> Theta<(), (), S> {
+impl<P: Placement, S> Theta<&GridGraph<P>, (), S> {
     /// The scratch memory that a planner for this graph takes when it is made, in bytes.
     #[must_use]
-    pub fn scratch_bytes<P: Placement>(graph: &GridGraph<P>) -> usize {
+    pub fn scratch_bytes(graph: &GridGraph<P>) -> usize {
         NodeStore::<Parents>::bytes(graph.vertex_count()).saturating_add(SightCache::bytes::<P>(graph))
     }
 }
@@ -79,13 +91,28 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic, S: SightCheck>
         let nodes = NodeStore::new(graph.vertex_count());
         let sight = SightCache::new::<P>(&graph);
         let (open, ends, status) = (OpenList::default(), [VertexId(0); 2], Status::default());
-        Self { graph, heuristic, nodes, open, sight, ends, status, check: PhantomData }
+        let (wider, is_wider) = (None, false);
+        Self { graph, wider, is_wider, heuristic, nodes, open, sight, ends, status, check: PhantomData }
+    }
+
+    /// The graph of N(3), if segments connect more than N(k).
+    fn wider(&mut self) -> Option<&GridGraph<P>> {
+        let graph: &GridGraph<P> = &self.graph;
+        if graph.k() != FiniteK::N4 || graph.rules() != Rules::Center(CornerRule::Always) {
+            return None;
+        }
+        if self.wider.is_none() {
+            let wider = GridGraph::new(Arc::clone(graph.grid()), FiniteK::N8, graph.rule());
+            self.wider = wider.ok().map(Arc::new);
+        }
+        self.wider.as_deref()
     }
 
     /// The search, with its memory.
     fn search<'s, O: Observer>(&'s mut self, observer: &'s mut O) -> Search<'s, P, H, S, O> {
         let Self { graph, heuristic, nodes, open, sight, ends: [start, goal], check, .. } = self;
-        let (graph, heuristic, check): (&GridGraph<P>, _, _) = (graph, *heuristic, *check);
+        let wider = self.wider.as_deref().filter(|_| self.is_wider);
+        let (graph, heuristic, check) = (wider.unwrap_or(graph), *heuristic, *check);
         let (start, goal, goal_at) = (*start, *goal, graph.vertex(*goal));
         Search { graph, heuristic, nodes, open, sight, observer, start, goal, goal_at, check }
     }
@@ -100,7 +127,15 @@ where
 {
     fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
         self.status = Status::Unreachable;
-        if let Some((start, goal)) = query.ends(&self.graph)? {
+        let mut ends = query.ends(&self.graph)?;
+        self.is_wider = false;
+        if ends.is_none()
+            && let Some(wider) = self.wider()
+        {
+            ends = query.ends(wider)?;
+            self.is_wider = true;
+        }
+        if let Some((start, goal)) = ends {
             self.ends = [start, goal];
             self.search(observer).begin();
             self.status = Status::Searching;
@@ -137,14 +172,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H, S> Theta<G, H, S> {
         let up = |&id: &VertexId| self.nodes.get(id).filter(|_| id != start).map(|node| node.pointer.parent);
         let mut waypoints: Vec<Vertex> = Vec::with_capacity(std::iter::successors(Some(goal), up).count());
         for id in std::iter::successors(Some(goal), up) {
-            let at = self.graph.vertex(id);
-            if let [.., before, last] = waypoints[..] {
-                let (v, w) = (before.to(last), last.to(at));
-                if v.det(w) == 0 && v.dot(w) > 0 {
-                    waypoints.pop();
-                }
-            }
-            waypoints.push(at);
+            push_waypoint(&mut waypoints, self.graph.vertex(id));
         }
         waypoints.reverse();
         Path::new(waypoints)

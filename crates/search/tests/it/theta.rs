@@ -22,6 +22,8 @@ struct Expected {
     over_k: Option<f64>,
     /// The any-angle optimum, where it was computed.
     any_angle: Option<f64>,
+    /// Whether there is a path at any angle.
+    is_reachable: bool,
     seed: u64,
 }
 
@@ -54,7 +56,7 @@ fn check<P: Placement, H: Heuristic + Debug, S: SightCheck>(
         let (outcome, counters) = solve(&mut planner);
         assert_eq!((&outcome, counters), (&solve(&mut Theta::new(grid_graph, h)).0, counters), "{}", case());
         assert_eq!((&outcome, counters), (&solve(&mut planner).0, counters), "{}", case());
-        assert_eq!(outcome.path().is_some(), expected.over_k.is_some(), "{}", case());
+        assert_eq!(outcome.path().is_some(), expected.is_reachable, "{}", case());
         let Outcome::Found(path) = outcome else {
             assert_eq!(counters, Counters::default(), "{}", case());
             continue;
@@ -121,7 +123,8 @@ fn a_path_is_found_whenever_there_is_one_and_is_no_shorter_than_any_path() {
                 let counts = check_under(&grid, rules, k, |_| {
                     let expected = pairs.iter().zip(&any).map(|(&(start, goal), any)| {
                         let over_k = graph.costs_from(start).to(goal);
-                        Expected { start, goal, over_k, any_angle: any.to(goal), seed }
+                        let any_angle = any.to(goal);
+                        Expected { start, goal, over_k, any_angle, is_reachable: any_angle.is_some(), seed }
                     });
                     expected.collect()
                 });
@@ -131,6 +134,16 @@ fn a_path_is_found_whenever_there_is_one_and_is_no_shorter_than_any_path() {
     }
     let maps = seeds(60).end as usize;
     assert!(optimal.iter().all(|&count| count > 20 * maps), "optimal, and not: {optimal:?}");
+}
+
+/// Where corners are always cut, segments connect what N(2) does not.
+#[test]
+fn four_moves_do_not_say_what_segments_connect() {
+    let always = Rules::Center(CornerRule::Always);
+    check_paths(".#\n#.", always, 2, [(0, 0), (1, 1)], [&[(0, 0), (1, 1)]; 2]);
+    check_paths(".#\n#.", NEVER, 2, [(0, 0), (1, 1)], [&[]; 2]);
+    check_paths(".##\n#.#\n#..", always, 2, [(0, 0), (2, 2)], [&[(0, 0), (2, 2)]; 2]);
+    check_paths("..\n..", always, 2, [(0, 0), (1, 1)], [&[(0, 0), (1, 1)]; 2]);
 }
 
 /// Every map of 3 × 3 cells: the smallest maps hold the oddest gaps.
@@ -144,11 +157,21 @@ fn a_path_is_found_on_every_map_of_nine_cells() {
         for rules in [Rules::Corner(DiagonalGap::Closed), rules] {
             let graph = Explicit::new(&grid, rules, FiniteK::new(k).ok());
             let vertices: Vec<Vertex> = graph.free_vertices().collect();
+            let any_angle = Explicit::new(&grid, rules, None);
             let all_pairs = |_| {
                 let from = |&start: &Vertex| {
-                    let costs = graph.costs_from(start);
-                    let to =
-                        |&goal| Expected { start, goal, over_k: costs.to(goal), any_angle: None, seed: 0 };
+                    let (costs, best) = (graph.costs_from(start), any_angle.costs_from(start));
+                    let to = |&goal| {
+                        let (over_k, any_angle) = (costs.to(goal), best.to(goal));
+                        Expected {
+                            start,
+                            goal,
+                            over_k,
+                            any_angle,
+                            is_reachable: any_angle.is_some(),
+                            seed: 0,
+                        }
+                    };
                     vertices.iter().map(to).collect::<Vec<_>>()
                 };
                 vertices.iter().flat_map(from).collect()
@@ -157,7 +180,7 @@ fn a_path_is_found_on_every_map_of_nine_cells() {
             found += check_under(&grid, rules, k, all_pairs).iter().sum::<usize>();
         }
     }
-    assert_eq!(found, 478_818);
+    assert_eq!(found, 480_018);
 }
 
 /// The paths of Theta* and of Lazy Theta* with h_k.

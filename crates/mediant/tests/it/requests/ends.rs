@@ -1,8 +1,8 @@
 //! Several ends, tolerances, nearest and snapped ends.
 
 use mediant::{
-    End, Engine, Grid, Guarantee, K, Limit, Limits, Outcome, Path, PlacementKind, Planner, Query, QueryError,
-    Request, Setup, Vertex,
+    CornerRule, End, Engine, Grid, Guarantee, K, Limit, Limits, Map, Motion, Outcome, Path, PlacementKind,
+    Planner, Query, QueryError, Request, Rules, Setup, Vertex,
 };
 use mediant_oracle::{Rng, on_all_cores, random_vertex};
 
@@ -98,7 +98,8 @@ fn check_limited(
 ) {
     let text = || world.text(setup, asked);
     let is_exact = is_exact(planner);
-    let is_bound = |bound: f64| !is_exact || bound <= shortest * (1.0 + 1e-9);
+    // Over segments the oracle's paths are the shortest at any angle.
+    let is_bound = |bound: f64| !is_exact && !world.over_segments || bound <= shortest * (1.0 + 1e-9);
     planner.begin(asked.request.clone()).expect("the ends were checked");
     let mut last = 0.0;
     while let Ok(None) = planner.step(3) {
@@ -167,9 +168,12 @@ fn blocked(world: &World, rng: &mut Rng) -> Option<Vertex> {
     (0..40).map(|_| random_vertex(rng, &world.grid, placement)).find(|&at| !world.space.is_free(at))
 }
 
-/// A request for the vertices nearest to these goals, if none of them can be reached.
+/// A request for the vertices nearest to these goals, if none of them can be reached; also where a tolerance
+/// is asked for that holds no other vertex.
 pub(super) fn asked_nearest(world: &World, starts: Vec<Vertex>, goals: Vec<Vertex>) -> Asked {
     let request = Request::between(starts.clone(), goals.clone()).nearest();
+    let has_tolerance = goals.len() == 1 && (starts[0].x + goals[0].y) % 2 == 0;
+    let request = if has_tolerance { request.tolerance(0.5) } else { request };
     let has_way = !pairs(world, &starts, &goals).is_empty();
     let goals = if has_way { goals } else { nearest(world, &starts, &goals) };
     Asked { request, starts, goals, are_nearest: !has_way }
@@ -200,12 +204,59 @@ fn where_there_is_no_way_the_nearest_vertex_is_reached() {
                 if let (false, [start], [goal]) = (asked.are_nearest, &asked.starts[..], &asked.goals[..]) {
                     let query = Query::new(*start, *goal);
                     assert_eq!(planner.find(query.nearest()), planner.find(query));
+                    assert_eq!(planner.find(query.nearest().tolerance(0.5)), planner.find(query));
                 }
             }
         }
         cases.iter().filter(|asked| asked.are_nearest && asked.goals.len() > 1).count()
     });
     assert!(nearest.iter().sum::<usize>() > 20, "{nearest:?}");
+}
+
+/// The first row by row of the vertices that are equally near and equally far, by every engine; also where a
+/// tolerance is asked for, which the searches from all goals at once serve.
+#[test]
+fn of_the_nearest_vertices_the_first_is_reached() {
+    let space =
+        Map::from_rows(["...", "#.#"]).expect("a map").space(Motion::centers(K::N8)).expect("a space");
+    let query = Query::new((0, 0), (2, 1));
+    for setup in Setup::all(K::N8, space.motion().rules).filter(|setup| setup.smoothing.is_none()) {
+        let mut planner = setup.prepare(&space).expect("an index").planner();
+        if !is_exact(&planner) {
+            continue;
+        }
+        for request in [query.nearest(), query.nearest().tolerance(0.5)] {
+            let answer = planner.find(request).expect("the goal may be blocked");
+            let Outcome::Nearest(path) = answer else { panic!("{setup}: {answer:?}") };
+            assert_eq!(end(&path), (2, 0).into(), "{setup}");
+        }
+    }
+}
+
+/// Where corners are always cut, segments connect what N(2) does not, and so do several ends and limits.
+#[test]
+fn segments_between_two_blocked_cells_are_paths() {
+    let rules = Rules::Center(CornerRule::Always);
+    let map = Map::from_rows([".#...", "#....", "....."]).expect("a map");
+    let space = map.space(Motion::new(K::N4, rules)).expect("a space");
+    for engine in [Engine::Theta, Engine::LazyTheta] {
+        let mut planner = space.planner(engine).expect("a planner");
+        let near = Query::new((0, 0), (1, 1));
+        assert!(space.sees(near.start, near.goal));
+        for request in [Request::from(near), near.nearest(), near.tolerance(0.5)] {
+            let answer = planner.find(request).expect("free ends");
+            assert_eq!(answer, Outcome::Found(Path::new(vec![near.start, near.goal])), "{engine}");
+        }
+        // The goal that is nearest is one to which N(2) has no path.
+        let request = Request::between([(0, 0)], [(4, 2), (1, 1)]).within(Limits::new().expansions(0));
+        let Ok(Outcome::Stopped(stopped)) = planner.find(request) else { panic!("{engine}: not stopped") };
+        assert!(stopped.lower_bound <= 2_f64.sqrt(), "{engine}: {stopped:?}");
+        let answer = planner.find(Request::between([(0, 0)], [(4, 2), (1, 1)])).expect("free ends");
+        assert_eq!(answer.path().map(end), Some((1, 1).into()), "{engine}");
+        // Moves of N(2) lead nowhere.
+        let alone = space.planner(Engine::AStar).expect("a planner").find(near);
+        assert_eq!(alone, Ok(Outcome::Unreachable), "{engine}");
+    }
 }
 
 #[test]
