@@ -73,7 +73,8 @@ impl Index {
             return Ok(Table { goals: columns, values: rows?.concat() });
         }
         let query = |index: usize| Query::new(starts[index / columns], goals[index % columns]);
-        let length = |outcome: Outcome| outcome.cost().unwrap_or(f64::INFINITY);
+        let guarantee = self.setup().guarantee();
+        let length = |outcome: Outcome| outcome.path().map_or(f64::INFINITY, |path| guarantee.length(path));
         let (progress, planners) = (BatchProgress::default(), Planners::new(self.clone()));
         let add = |chunk: &mut Vec<_>, answer: Result<Outcome, QueryError>| chunk.push(answer.map(length));
         let chunks = planners.find_in_chunks(starts.len() * columns, query, &progress, add);

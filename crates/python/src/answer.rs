@@ -1,6 +1,6 @@
 //! The answer to a query.
 
-use mediant::{Counters, Limit, Outcome, PlacementKind, Stopped};
+use mediant::{Counters, Guarantee, Limit, Outcome, PlacementKind, Stopped};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 
@@ -16,14 +16,17 @@ use crate::{arrays::PathPoints, errors::made};
 /// path : numpy.ndarray or None
 ///     The path, shape (n, 2), int32: of a found or nearest answer.
 /// distance : float
-///     Its length in cells; ``inf`` if unreachable, ``nan`` if stopped.
+///     Its length in cells, as `Grid.distance` measures it; ``inf`` if unreachable, ``nan`` if stopped.
 /// stopped_by : str or None
 ///     The limit: ``"cost"``, ``"expansions"`` or ``"timeout"``.
 /// best : numpy.ndarray or None
 ///     Of a stopped answer the best so far: a path to a goal, or to the vertex nearest to one.
 /// lower_bound : float
-///     No path to the goal is shorter. Of a found path its own length where the engine guarantees that it is
-///     shortest, ``inf`` where there is no path, otherwise 0.
+///     No path of the engine's kind to the goal that was asked for is shorter: no path over N(k), or at
+///     ``k="any"`` and by an engine of any-angle paths no path at all. Of a found path its own length where
+///     the engine guarantees that it is shortest, else 0; of a stopped answer what the search has ruled out;
+///     ``inf`` where there is no path, also of a nearest answer. (A bound for all angles, between the ends
+///     of the path that was found, is what the program prints.)
 /// counters : dict or None
 ///     The numbers of events of the search, if they were asked for.
 ///
@@ -87,27 +90,27 @@ pub(crate) const fn status(outcome: &Outcome) -> &'static str {
 }
 
 impl Answer {
-    /// The answer with its arrays. `is_optimal` says whether the engine's paths are shortest.
+    /// The answer with its arrays, of an engine with this guarantee.
     pub(crate) fn new(
         py: Python<'_>,
         outcome: &Outcome,
         points: PathPoints,
         placement: PlacementKind,
-        (is_optimal, counters): (bool, Option<Counters>),
+        (guarantee, counters): (Guarantee, Option<Counters>),
     ) -> PyResult<Self> {
         let path = outcome.path().map(|path| points.array(py, path, placement)).transpose()?;
         let (stopped_by, best, lower_bound) = match outcome {
             Outcome::Stopped(Stopped { by, best, lower_bound, .. }) => {
                 (Some(limit_name(*by)), Some(points.array(py, best, placement)?), *lower_bound)
             }
-            Outcome::Found(path) if is_optimal => (None, None, path.cost()),
+            Outcome::Found(path) if is_optimal(guarantee) => (None, None, guarantee.length(path)),
             Outcome::Found(_) => (None, None, 0.0),
             _ => (None, None, f64::INFINITY),
         };
         Ok(Self {
             status: status(outcome),
             path: path.map(Bound::unbind),
-            distance: distance(outcome),
+            distance: distance(guarantee, outcome),
             stopped_by,
             best: best.map(Bound::unbind),
             lower_bound,
@@ -116,11 +119,17 @@ impl Answer {
     }
 }
 
-/// The distance of an outcome: infinite where no path leads, nan where it is not known.
-pub(crate) fn distance(outcome: &Outcome) -> f64 {
+/// Whether the paths of an engine are shortest.
+const fn is_optimal(guarantee: Guarantee) -> bool {
+    matches!(guarantee, Guarantee::Optimal(_) | Guarantee::OptimalAnyAngle)
+}
+
+/// The distance of an outcome, the same number as that of tables and fields: infinite where no path leads,
+/// nan where it is not known.
+pub(crate) fn distance(guarantee: Guarantee, outcome: &Outcome) -> f64 {
     match outcome {
         Outcome::Unreachable => f64::INFINITY,
-        outcome => outcome.cost().unwrap_or(f64::NAN),
+        outcome => outcome.path().map_or(f64::NAN, |path| guarantee.length(path)),
     }
 }
 
@@ -140,7 +149,7 @@ pub(crate) fn whole(
          far is in the error's answer",
         limit_name(*by)
     );
-    let answer = Answer::new(py, &outcome, points, placement, (false, None))?;
+    let answer = Answer::new(py, &outcome, points, placement, (Guarantee::Suboptimal, None))?;
     Err(made(py, "LimitReached", (text, "stopped", answer)))
 }
 

@@ -10,7 +10,9 @@ use std::{
     time::Instant,
 };
 
-use mediant::{Error, Index, Outcome, PlacementKind, Planner, Planners, Query, QueryError, Request, Vertex};
+use mediant::{
+    Error, Guarantee, Index, Outcome, PlacementKind, Planner, Planners, Query, QueryError, Request, Vertex,
+};
 use numpy::PyArray1;
 use pyo3::{prelude::*, types::PyDict};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
@@ -238,7 +240,7 @@ impl Chunk {
         &mut self,
         index: usize,
         answer: Result<Outcome, QueryError>,
-        (points, placement): (PathPoints, PlacementKind),
+        (points, placement, guarantee): (PathPoints, PlacementKind, Guarantee),
     ) {
         let known = self.points.len();
         let status = answer.as_ref().map_or(INVALID, |outcome| {
@@ -250,7 +252,7 @@ impl Chunk {
         });
         self.statuses.push(status);
         self.lengths.push(((self.points.len() - known) / 2) as u32);
-        self.add_distance(index, answer.map(|outcome| answer::distance(&outcome)));
+        self.add_distance(index, answer.map(|outcome| answer::distance(guarantee, &outcome)));
     }
 
     fn add_distance(&mut self, index: usize, answer: Result<f64, QueryError>) {
@@ -305,11 +307,12 @@ pub(crate) fn paths(
     batch: &Batch<'_>,
 ) -> PyResult<Paths> {
     let index = planners.index();
-    let (placement, is_watched) = (index.setup().rules.placement(), queries.are_watched(index));
+    let (setup, is_watched) = (index.setup(), queries.are_watched(index));
+    let (placement, guarantee) = (setup.rules.placement(), setup.guarantee());
     let all = Numbered::queries(queries.count());
     let answer = move |chunk: &mut Chunk, planner: &mut Planner, index: usize, flag: &Arc<AtomicBool>| {
         let found = planner.find(queries.request(index, is_watched.then_some(flag)));
-        chunk.add_path(index, found, (points, placement));
+        chunk.add_path(index, found, (points, placement, guarantee));
     };
     let chunks = checked(batch.run(py, planners, all, answer)?, batch)?;
     let (points, offsets, distances, statuses) = py.detach(|| {
@@ -338,7 +341,8 @@ pub(crate) fn distances<'py>(
     queries: Queries,
     batch: &Batch<'_>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    let is_watched = queries.are_watched(planners.index());
+    let (is_watched, guarantee) =
+        (queries.are_watched(planners.index()), planners.index().setup().guarantee());
     let is_plain = queries.keywords.has_no_wishes() && !is_watched;
     let all = Numbered::queries(queries.count());
     let answer = move |chunk: &mut Chunk, planner: &mut Planner, index: usize, flag: &Arc<AtomicBool>| {
@@ -346,7 +350,7 @@ pub(crate) fn distances<'py>(
             planner.distance(queries.query(index)).map(|distance| distance.unwrap_or(f64::INFINITY))
         } else {
             let request = queries.request(index, is_watched.then_some(flag));
-            planner.find(request).map(|outcome| answer::distance(&outcome))
+            planner.find(request).map(|outcome| answer::distance(guarantee, &outcome))
         };
         chunk.add_distance(index, found);
     };

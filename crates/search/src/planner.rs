@@ -81,14 +81,16 @@ pub trait Planner {
         self.solve_observed(query, &mut ())
     }
 
-    /// The length of the path that [`solve`](Self::solve) would find, in cells; `None` if there is none. A
-    /// planner that knows it without the path saves the path; its length may then differ from that of the
-    /// path by a factor of 1 + 2⁻³¹ (see [`Cost`](mediant_moves::Cost)).
+    /// The length of the path that [`solve`](Self::solve) would find, in cells, as [`Guarantee::length`] tells
+    /// it; `None` if there is none. A planner that knows it without the path saves the path. At any angle the
+    /// length may then differ from that of the path by a factor of 1 + 2⁻³¹ (see
+    /// [`Cost`](mediant_moves::Cost)).
     ///
     /// # Errors
     /// Those of [`solve`](Self::solve).
     fn distance(&mut self, query: Query) -> Result<Option<f64>, QueryError> {
-        Ok(self.solve(query)?.cost())
+        let outcome = self.solve(query)?;
+        Ok(outcome.path().map(|path| self.guarantee().length(path)))
     }
 }
 

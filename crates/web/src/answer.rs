@@ -1,7 +1,7 @@
 //! The answer to a query, and values that go out.
 
 use js_sys::{Int32Array, Object, Reflect};
-use mediant::{Limit, Motion, Outcome, Path, Rules, Stopped, Vertex};
+use mediant::{Guarantee, Limit, Motion, Outcome, Path, Rules, Stopped, Vertex};
 use wasm_bindgen::{JsCast, prelude::*};
 
 use crate::types::{JsAnswer, JsMotion};
@@ -55,9 +55,9 @@ thread_local! {
     };
 }
 
-/// The answer as an object. `is_optimal` says whether the engine's paths are shortest. It is made key by key
-/// through setters, which take a fifth of the time of keys that are texts: a query can take microseconds.
-pub(crate) fn answer(outcome: &Outcome, is_optimal: bool) -> JsAnswer {
+/// The answer of an engine with this guarantee as an object. It is made key by key through setters, which
+/// take a fifth of the time of keys that are texts: a query can take microseconds.
+pub(crate) fn answer(outcome: &Outcome, guarantee: Guarantee) -> JsAnswer {
     let answer: JsAnswer = Object::new().unchecked_into();
     WORDS.with(|words| {
         answer.set_status(match outcome {
@@ -72,11 +72,14 @@ pub(crate) fn answer(outcome: &Outcome, is_optimal: bool) -> JsAnswer {
     }
     answer.set_distance(match outcome {
         Outcome::Unreachable => f64::INFINITY,
-        outcome => outcome.cost().unwrap_or(f64::NAN),
+        // The same number as that of tables and fields.
+        outcome => outcome.path().map_or(f64::NAN, |path| guarantee.length(path)),
     });
     answer.set_lower_bound(match outcome {
         Outcome::Stopped(Stopped { lower_bound, .. }) => *lower_bound,
-        Outcome::Found(path) if is_optimal => path.cost(),
+        Outcome::Found(path) if matches!(guarantee, Guarantee::Optimal(_) | Guarantee::OptimalAnyAngle) => {
+            guarantee.length(path)
+        }
         Outcome::Found(_) => 0.0,
         _ => f64::INFINITY,
     });

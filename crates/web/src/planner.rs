@@ -75,14 +75,10 @@ impl Planner {
 }
 
 impl State {
-    fn is_optimal(&self) -> bool {
-        self.inner.index().setup().optimal_over().is_some()
-    }
-
     /// The answer as an object; it is kept for traces.
     fn answered(&mut self, outcome: Result<Outcome, QueryError>) -> Result<JsAnswer, JsValue> {
         let outcome = outcome.map_err(raised)?;
-        let object = answer(&outcome, self.is_optimal());
+        let object = answer(&outcome, self.inner.guarantee());
         self.last = Some(outcome);
         Ok(object)
     }
@@ -251,7 +247,8 @@ impl Planner {
         Ok(self.state()?.inner.path_to(at).as_ref().map(flat))
     }
 
-    /// A lower bound on the length of the path that is sought, in cells; 0 without a search that was begun.
+    /// A lower bound on the length of the path that is sought, in cells, as `Answer.lowerBound`; 0 without a
+    /// search that was begun.
     #[wasm_bindgen(getter, js_name = lowerBound)]
     pub fn lower_bound(&self) -> Result<f64, JsValue> {
         Ok(self.state()?.inner.lower_bound())

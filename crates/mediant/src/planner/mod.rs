@@ -148,8 +148,12 @@ impl Planner {
     }
 
     /// The length of the path that [`find`](Self::find) finds, in cells; `None` if there is none. On hub
-    /// labels this takes less time than the path, and the length may differ from the path's by one part in
-    /// 2³¹ (see [`Cost`](mediant_moves::Cost)). A planner that smooths its paths measures the smoothed one.
+    /// labels this takes less time than the path. A planner that smooths its paths measures the smoothed one.
+    ///
+    /// Over N(k), shortest paths have the same length here, in a [`Table`](crate::Table) and in a
+    /// [`Field`](crate::Field), to the last bit, whatever the engine: [`Guarantee::length`]. It differs from
+    /// [`Path::cost`](crate::Path::cost) by one part in 2³³ at most. At any angle lengths of the same path
+    /// can differ by one part in 2³¹ (see [`Cost`](mediant_moves::Cost)).
     ///
     /// ```
     /// use mediant::{Engine, K, Map, Motion, Query};

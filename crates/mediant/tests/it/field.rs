@@ -46,7 +46,8 @@ fn a_field_is_the_distances_of_paths() {
                 let best = lengths[0].min(lengths[1]);
                 let found = field.get(at).unwrap_or(f64::INFINITY);
                 assert!(found == best || (found - best).abs() < 1e-8 * best, "{found}, {best}: {}", text());
-                assert_eq!(near.get(at).is_some(), field.get(at).is_some_and(|it| it <= limit), "{}", text());
+                let is_near = |length: f64| length <= limit * (1.0 + 2_f64.powi(-31));
+                assert_eq!(near.get(at).is_some(), field.get(at).is_some_and(is_near), "{}", text());
                 let Some(path) = field.path_from(at) else { continue };
                 assert!((path.cost() - found).abs() <= 1e-8 * (1.0 + found), "{}", text());
                 assert_eq!(space.check(&path), Ok(()), "{}", text());
@@ -63,6 +64,55 @@ fn a_field_is_the_distances_of_paths() {
             assert_eq!(field.identity(), space.identity());
         }
     }
+}
+
+/// Over N(k) all shortest paths between two vertices have the same length, whoever measures it, and as a limit
+/// it reaches the other vertex.
+#[test]
+fn all_that_is_measured_is_the_same_number() {
+    let mut count = 0;
+    for (k, rules) in [(K::N4, NEVER), (K::N8, NEVER), (K::N16, OPEN), (K::N32, NEVER), (K::N8, OPEN)] {
+        for seed in 0..6 {
+            let (space, free) = world(k, rules, seed);
+            if free.is_empty() {
+                continue;
+            }
+            let rng = &mut Rng::new(seed);
+            let start = some(rng, &free);
+            let goals: Vec<Vertex> = (0..5).map(|_| some(rng, &free)).collect();
+            let field = space.field([start]).expect("a free source");
+            let expected: Vec<f64> = goals.iter().map(|&at| field.get(at).unwrap_or(f64::INFINITY)).collect();
+            for setup in Setup::all(k, rules).filter(|setup| setup.optimal_over() == Some(k)) {
+                let text = || format!("{setup}, seed {seed}: {start} to {goals:?}");
+                let index = setup.prepare(&space).expect("an index");
+                let mut planner = index.planner();
+                let mut one = |&goal| planner.distance(Query::new(start, goal)).expect("free ends");
+                let each: Vec<f64> = goals.iter().map(|at| one(at).unwrap_or(f64::INFINITY)).collect();
+                assert_eq!(each, expected, "{}", text());
+                let table = index.table([start], goals.iter().copied()).expect("free ends");
+                assert_eq!(table.row(0), expected, "{}", text());
+                let prepared = index.goals(goals.iter().copied()).expect("free goals");
+                let at_once = planner.distances(start, &prepared).expect("a free start");
+                assert_eq!(at_once, expected, "{}", text());
+                let nearest = planner.nearest(start, &prepared).expect("a free start");
+                let least = expected.iter().copied().filter(|it| it.is_finite()).reduce(f64::min);
+                assert_eq!(nearest.map(|(_, length)| length), least, "{}", text());
+            }
+            for (&at, &length) in goals.iter().zip(&expected).filter(|(_, length)| length.is_finite()) {
+                let path = space.path(start, at).expect("free ends").expect("a path");
+                for limit in [length, path.cost()] {
+                    let near = space.field_within([start], limit).expect("a free source");
+                    assert_eq!(near.get(at), Some(length), "{at} within {limit} of {start}, seed {seed}");
+                }
+                count += 1;
+            }
+        }
+    }
+    assert!(count > 60, "{count}");
+    let open = Map::from_rows(["....", "....", "....", "...."]).expect("a map");
+    let space = open.space(Motion::centers(K::N8)).expect("a space");
+    let corner = space.field_within([(0, 0)], 2_f64.sqrt()).expect("a free source").get((1, 1));
+    assert!(corner.is_some_and(|length| (length - 2_f64.sqrt()).abs() < 1e-9));
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! Many goals at once, against a query for each.
 
-use mediant::{Engine, Error, ErrorCode, Goals, Index, K, Map, Motion, Planner, Query, Setup, Vertex};
+use mediant::{
+    DiagonalGap, Engine, Error, ErrorCode, Goals, Index, K, Map, Motion, Planner, Query, Rules, Setup, Vertex,
+};
 use mediant_oracle::{Rng, on_all_cores, random_free_vertex, random_grid, seeds};
 
 use super::{NEVER, OPEN, setup};
@@ -110,6 +112,23 @@ fn bad_ends_and_no_goals() {
             let code = |error: Error| error.code();
             assert_eq!(planner.distances((2, 0), &goals).map_err(code), Err(ErrorCode::StartBlocked));
             assert_eq!(planner.nearest((9, 0), &goals).map_err(code), Err(ErrorCode::StartOutside));
+        }
+    }
+}
+
+/// Two goals at 2√2 at any angle: in sight, and around two corners.
+#[test]
+fn of_equally_near_goals_the_first_is_the_nearest() {
+    let map = Map::from_rows(["..", "#.", "..", ".."]).expect("a map");
+    let space = map.space(Motion::new(K::ANY, Rules::Corner(DiagonalGap::Closed))).expect("a space");
+    for engine in [Engine::Subgoal, Engine::Anya] {
+        let index = space.prepare(engine).expect("an index");
+        for goals in [[(0, 4), (0, 0)], [(0, 0), (0, 4)]] {
+            let goals = index.goals(goals).expect("free goals");
+            let nearest = index.planner().nearest((2, 2), &goals).expect("a free start");
+            let (number, length) = nearest.expect("there is a way");
+            assert_eq!(number, 0, "{engine}");
+            assert!((length - 8_f64.sqrt()).abs() < 1e-8, "{engine}: {length}");
         }
     }
 }

@@ -86,9 +86,10 @@ impl Asked<'_, '_> {
             let distance = py.detach(|| self.planners.with(|planner| planner.distance(query)));
             return Ok(distance.map_err(raised)?.unwrap_or(f64::INFINITY));
         }
-        let placement = index.setup().rules.placement();
-        let outcome = answer::whole(py, self.outcome(&ends, false)?.0, PathPoints::Waypoints, placement)?;
-        Ok(answer::distance(&outcome))
+        let setup = index.setup();
+        let (outcome, placement) = (self.outcome(&ends, false)?.0, setup.rules.placement());
+        let outcome = answer::whole(py, outcome, PathPoints::Waypoints, placement)?;
+        Ok(answer::distance(setup.guarantee(), &outcome))
     }
 
     /// `find`.
@@ -102,8 +103,7 @@ impl Asked<'_, '_> {
         let counters = counters.map_or(Ok(false), |value| flag("counters", value))?;
         let setup = self.planners.index().setup();
         let (outcome, counters) = self.outcome(&self.ends()?, counters)?;
-        let is_optimal = setup.optimal_over().is_some();
-        Answer::new(py, &outcome, points, setup.rules.placement(), (is_optimal, counters))
+        Answer::new(py, &outcome, points, setup.rules.placement(), (setup.guarantee(), counters))
     }
 }
 

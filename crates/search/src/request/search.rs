@@ -1,6 +1,6 @@
 //! The search for the answer to a request.
 
-use mediant_grid::{FreeSpace, Placement, Vector, Vertex};
+use mediant_grid::{FreeSpace, Placement, Vertex};
 use mediant_moves::Cost;
 
 use super::{
@@ -268,7 +268,7 @@ impl Search {
             Backward::No | Backward::After(..) => planner.path_to(pair.query.goal),
         };
         if let Some(path) = path {
-            let cost = fixed_cost(&path);
+            let cost = self.guarantee.cost(&path);
             if cost > self.progress.greatest {
                 // No search asks for a pause before it takes the goal: the path itself may be the first to
                 // cost more than the limit.
@@ -375,13 +375,4 @@ impl Search {
     pub const fn expansions(&self) -> u64 {
         self.progress.expansions
     }
-}
-
-/// The cost of a path in fixed point, by which paths of the same length compare as equal.
-fn fixed_cost(path: &Path) -> Cost {
-    path.waypoints().windows(2).fold(Cost::ZERO, |cost, ends| {
-        let v = ends[0].to(ends[1]);
-        let times = v.gcd().max(1);
-        cost + Cost::of_move(Vector::new(v.x / times as i32, v.y / times as i32)) * times
-    })
 }

@@ -14,7 +14,7 @@ pub struct Goals {
     goals: Vec<Vertex>,
     /// By hub, the number of its first entry.
     first: Vec<u32>,
-    /// The cost from the hub to a goal, and the number of the goal; of each hub the nearest goal first.
+    /// The cost from the hub to a goal, and the number of the goal; of each hub from the nearest goal on.
     entries: Vec<(u64, u32)>,
 }
 
@@ -58,8 +58,8 @@ impl<P: SubgoalPlacement> HubLabels<P> {
     }
 }
 
-/// The entries (hub, cost, goal) sorted by hub, the least of each hub first: by hub the number of its first
-/// entry, and the entries without the hub.
+/// The entries (hub, cost, goal) sorted by hub, those of each hub by their cost: by hub the number of its
+/// first entry, and the entries without the hub.
 fn by_hub(all: &[(u32, u64, u32)], hubs: usize) -> (Vec<u32>, Vec<(u64, u32)>) {
     let mut first = vec![0_u32; hubs + 1];
     for &(hub, ..) in all {
@@ -70,15 +70,18 @@ fn by_hub(all: &[(u32, u64, u32)], hubs: usize) -> (Vec<u32>, Vec<(u64, u32)>) {
     }
     let (mut next, mut entries) = (first.clone(), vec![(0, 0); all.len()]);
     for &(hub, cost, goal) in all {
-        let [first, at] = [&first, &next].map(|of| of[hub as usize] as usize);
-        entries[at] = (cost, goal);
-        if entries[at] < entries[first] {
-            entries.swap(first, at);
-        }
+        entries[next[hub as usize] as usize] = (cost, goal);
         next[hub as usize] += 1;
+    }
+    for ends in first.windows(2) {
+        entries[ends[0] as usize..ends[1] as usize].sort_unstable();
     }
     (first, entries)
 }
+
+/// By how much the cost of a path at any angle may be off: less than 1 is cut off for each of two lines and
+/// labels.
+const ROUNDED: u64 = 4;
 
 /// Scratch memory for distances to many goals.
 #[derive(Debug, Default)]
@@ -131,7 +134,7 @@ impl ToMany {
         Ok(())
     }
 
-    /// The nearest goal and its distance: of several the first.
+    /// The nearest goal and its distance: of several with the same cost the first.
     pub(super) fn nearest<P: SubgoalPlacement>(
         &mut self,
         index: (&HubLabels<P>, &FreeSpace<P>),
@@ -158,6 +161,33 @@ impl ToMany {
         Ok(best.map(|(cost, goal)| (goal as usize, cost)))
     }
 
+    /// The goals whose costs differ from that of the nearest goal by no more than both are rounded, in their
+    /// order, with their costs. `start` is that of the last call of [`nearest`](Self::nearest).
+    pub(super) fn as_near<P: SubgoalPlacement>(
+        &mut self,
+        index: (&HubLabels<P>, &FreeSpace<P>),
+        start: Vertex,
+        goals: &Goals,
+        nearest: Cost,
+        found: &mut Vec<(u32, Cost)>,
+    ) {
+        let most = Cost::from_bits(nearest.to_bits() + 2 * ROUNDED);
+        found.clear();
+        for &(hub, cost) in &self.hubs {
+            let sums = goals.over(hub).iter().map(|&(rest, goal)| (goal, Cost::from_bits(cost + rest)));
+            found.extend(sums.take_while(|&(_, sum)| sum <= most));
+        }
+        for (&goal, number) in goals.goals.iter().zip(0..) {
+            // A direct path costs no more than what was summed up over subgoals on the line.
+            if let Some(cost) = self.direct(index, [start, goal], Some(most)).filter(|&cost| cost <= most) {
+                found.retain(|&(other, _)| other != number);
+                found.push((number, cost));
+            }
+        }
+        found.sort_unstable();
+        found.dedup_by_key(|&mut (goal, _)| goal);
+    }
+
     /// The cost of the direct path, if there is one and it may cost no more than a known path.
     #[inline]
     fn direct<P: SubgoalPlacement>(
@@ -166,11 +196,9 @@ impl ToMany {
         [start, goal]: [Vertex; 2],
         known: Option<Cost>,
     ) -> Option<Cost> {
-        /// What is cut off a path over subgoals on a line: less than 1 for each of two lines and labels.
-        const CUT_OFF: u64 = 4;
         let v = start.to(goal);
         let may_be_less =
-            known.is_none_or(|known| labels.metric.estimate(v).to_bits() <= known.to_bits() + CUT_OFF);
+            known.is_none_or(|known| labels.metric.estimate(v).to_bits() <= known.to_bits() + ROUNDED);
         let is_direct = may_be_less
             && space.connected(start, goal)
             && (start == goal || direct_path(space, labels.k, start, goal, &mut self.waypoints));

@@ -38,6 +38,8 @@ pub struct HubLabelSearch<S, I> {
     chain: Vec<Vertex>,
     answer: Option<(Query, Answer)>,
     to_many: ToMany,
+    /// Scratch memory: the goals that are as near as the nearest one, up to rounding.
+    as_near: Vec<(u32, Cost)>,
 }
 
 /// What is known of a query that was answered.
@@ -72,7 +74,8 @@ where
         labels.check(&*space)?;
         let join = Join::new(&*labels);
         let (waypoints, chain, to_many) = (Vec::new(), Vec::new(), ToMany::default());
-        Ok(Self { space, labels, join, waypoints, chain, answer: None, to_many })
+        let as_near = Vec::new();
+        Ok(Self { space, labels, join, waypoints, chain, answer: None, to_many, as_near })
     }
 
     /// The cost of a shortest path, without the path; `None` if there is none.
@@ -110,13 +113,45 @@ where
     }
 
     /// The number of the nearest goal, the first of several, and its distance; `None` if there is no way to
-    /// any.
+    /// any. At any angle, where costs are rounded, goals that are as near up to rounding are compared by the
+    /// exact lengths of their paths.
     ///
     /// # Errors
     /// [`QueryError`] for a start that is blocked or outside the map.
     pub fn nearest(&mut self, start: Vertex, goals: &Goals) -> Result<Option<(usize, Cost)>, QueryError> {
         let index = (&*self.labels, self.space.free_space());
-        self.to_many.nearest(index, &mut self.join, start, goals)
+        let nearest = self.to_many.nearest(index, &mut self.join, start, goals)?;
+        let Some((_, cost)) = nearest.filter(|_| self.labels.k == K::Any) else { return Ok(nearest) };
+        let mut as_near = std::mem::take(&mut self.as_near);
+        self.to_many.as_near(index, start, goals, cost, &mut as_near);
+        let first = match as_near[..] {
+            [(goal, cost)] => Ok(Some((goal, cost))),
+            _ => self.first_of(start, goals, &as_near),
+        };
+        self.as_near = as_near;
+        Ok(first?.map(|(goal, cost)| (goal as usize, cost)))
+    }
+
+    /// The first of those goals to which the path is the shortest.
+    fn first_of(
+        &mut self,
+        start: Vertex,
+        goals: &Goals,
+        as_near: &[(u32, Cost)],
+    ) -> Result<Option<(u32, Cost)>, QueryError> {
+        let mut best: Option<(Cost, (u32, Cost))> = None;
+        for &(goal, cost) in as_near {
+            let at = |goal: u32| goals.vertices()[goal as usize];
+            if best.is_some_and(|(_, (first, _))| at(first) == at(goal)) {
+                continue;
+            }
+            let outcome = self.solve(Query::new(start, at(goal)))?;
+            let exact = outcome.path().map_or(Cost::MAX, |path| self.guarantee().cost(path));
+            if best.is_none_or(|(least, _)| exact < least) {
+                best = Some((exact, (goal, cost)));
+            }
+        }
+        Ok(best.map(|(_, first)| first))
     }
 
     /// Where the shortest path between connected ends turns; `None` if there is no path.

@@ -17,12 +17,18 @@ fn free<P: SubgoalPlacement>(space: &FreeSpace<P>) -> Vec<Vertex> {
     all.filter(|&at| space.is_free(at)).collect()
 }
 
+/// How many goals are as near as the nearest, up to rounding.
+fn all_near(all: &[Option<Cost>], nearest: Option<(usize, Cost)>) -> usize {
+    let Some((_, least)) = nearest else { return 0 };
+    all.iter().flatten().filter(|cost| is_equal(K::Any, **cost, least)).count()
+}
+
 /// Random goals, some twice, some equal to the start. Returns the numbers of goals with and without a path.
 fn check<P: SubgoalPlacement>(grid: &Grid, k: K, rule: P::Rule, seed: u64) -> [usize; 2] {
     let (space, mut rng, mut counts) = (space::<P>(grid, rule), Rng::new(seed), [0, 0]);
     let (labels, free) = (labels(&space, k), free(&space));
     let mut planner = HubLabelSearch::new(&space, &labels).expect("the labels are for this space");
-    let mut at_once = vec![None; 99];
+    let (mut at_once, mut ties) = (vec![None; 99], 0);
     for _ in 0..4 {
         let mut pick = || rng.pick(&free).copied();
         let mut goals: Vec<Vertex> = (0..12).filter_map(|_| pick()).collect();
@@ -44,19 +50,38 @@ fn check<P: SubgoalPlacement>(grid: &Grid, k: K, rule: P::Rule, seed: u64) -> [u
                 assert!(is_same, "{own:?}, with others {other:?}; {}", case(goal));
                 counts[usize::from(own.is_some())] += 1;
             }
-            // Ties: the first of the nearest.
-            let least = at_once.iter().zip(0..).filter_map(|(cost, number)| Some((number, (*cost)?)));
-            let least = least.min_by_key(|&(number, cost)| (cost, number));
-            let is_same = match (least, nearest) {
-                (Some((a, least)), Some((b, cost))) => {
-                    is_equal(k, least, cost) && (a == b || k == K::Any && goals[a] != goals[b])
+            // Ties: the first of the nearest. At any angle costs are rounded; those of the paths are not.
+            let guarantee = planner.guarantee();
+            let mut exact = |number: usize, cost: Cost| match k {
+                K::Finite(_) => cost,
+                K::Any => {
+                    let outcome = planner.solve(Query::new(start, goals[number])).expect("the ends are free");
+                    guarantee.cost(outcome.path().expect("it has a length"))
                 }
-                (least, nearest) => least.is_none() && nearest.is_none(),
             };
-            assert!(is_same, "{least:?}, {nearest:?}; {}", case(start));
+            let all = at_once.iter().zip(0..).filter_map(|(cost, number)| Some((number, (*cost)?)));
+            let least = all.min_by_key(|&(number, cost)| (exact(number, cost), number));
+            assert_eq!(nearest, least, "{}", case(start));
+            ties += usize::from(k == K::Any && all_near(&at_once, nearest) > 1);
         }
     }
+    assert!(k != K::Any || ties > 0 || free.len() < 9, "no two goals are equally near; seed {seed}");
     counts
+}
+
+/// Two goals that are equally far, one in sight and one around two corners: the first is the nearest.
+#[test]
+fn lengths_at_any_angle_are_compared_exactly() {
+    let map = AsciiMap::parse("..\n#.\n..\n..").expect("the drawing is a map");
+    let corners = FreeSpace::<Corners>::new(std::sync::Arc::new(map.grid), DiagonalGap::Closed);
+    let labels = labels(&corners, K::Any);
+    let mut planner = HubLabelSearch::new(&corners, &labels).expect("the labels are for this space");
+    let ends = [(0, 4), (0, 0)].map(Vertex::from);
+    for goals in [ends, [ends[1], ends[0]]] {
+        let prepared = labels.goals(&corners, goals).expect("the goals are free");
+        let nearest = planner.nearest(Vertex::new(2, 2), &prepared).expect("the start is free");
+        assert_eq!(nearest.map(|(number, _)| number), Some(0), "{goals:?}");
+    }
 }
 
 #[test]
