@@ -54,6 +54,28 @@ def test_rows_are_answered_as_one_by_one(k, threads):
     assert answer.select(table.column_names).equals(table)
 
 
+class Spy:
+    """An index that writes down what it is asked for."""
+
+    def __init__(self, index, calls):
+        self.index, self.calls = index, calls
+
+    def __getattr__(self, name):
+        self.calls.add(name)
+        return getattr(self.index, name)
+
+
+@pytest.mark.parametrize("wishes", [{}, {"nearest": False, "timeout": None}, {"max_expansions": 0}])
+def test_what_asks_for_no_paths_makes_none(monkeypatch, wishes):
+    table, calls, solver = a_table(300), set(), sys.modules["mediant.batch._solver"].Solver
+    whole = batch.solve(table, MAPS, paths=True, **wishes)
+    index = solver._index
+    monkeypatch.setattr(solver, "_index", lambda self, key: Spy(index(self, key), calls))
+    measured = batch.solve(table, MAPS, **wishes)
+    assert calls == ({"paths"} if "max_expansions" in wishes else {"distances"})
+    assert measured.equals(whole.select(measured.column_names)), f"seed {SEED}"
+
+
 def test_chunks_and_groups_keep_the_order(monkeypatch):
     table = a_table(300)
     whole = batch.solve(table, MAPS, paths=True)

@@ -16,7 +16,7 @@ __all__ = ["INVALID", "Results", "schema_of", "waypoints"]
 WORDS = ("found", "unreachable", "nearest", "stopped", "invalid")
 """The words of `Paths.statuses`, by their numbers."""
 
-STOPPED, INVALID = WORDS.index("stopped"), WORDS.index("invalid")
+FOUND, UNREACHABLE, _, STOPPED, INVALID = range(len(WORDS))
 
 PATH = pa.large_list(pa.struct([("row", pa.int32()), ("column", pa.int32())]))
 STATUS = pa.dictionary(pa.int8(), pa.string())
@@ -44,6 +44,16 @@ class Results:
         if self._paths is not None:
             self._paths.append(_path_column(found))
             self._rows.append(rows)
+
+    def measured(self, rows: NDArray[np.intp], distances: NDArray[np.float64]) -> None:
+        """Add the distances of plain queries without paths: nan where a query is invalid."""
+        self._distances[rows] = distances
+        found = np.where(np.isinf(distances), UNREACHABLE, FOUND)
+        self._statuses[rows] = np.where(np.isnan(distances), INVALID, found)
+
+    def statuses(self, rows: NDArray[np.intp]) -> NDArray[np.int8]:
+        """Give the statuses of the queries of some rows."""
+        return self._statuses[rows]
 
     def columns(self) -> pa.Table:
         """Give the columns, in the order of the rows."""

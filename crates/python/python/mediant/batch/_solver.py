@@ -41,14 +41,16 @@ class Solver:
         As for `Grid.prepare`. What is None is chosen there; k is 3 then. An index that is given has its own:
         it is an error if something else is asked for.
     paths : bool
-        Whether the answer has the column ``path``.
+        Whether the answer has the column ``path``. Without it, and without options of queries, no path is
+        made, which takes half of the time on prepared maps; distances are those of `Index.distances` then.
     points : {"waypoints", "vertices", "touched"}
         What points a path has.
     threads : int, optional
         The threads that prepare a map and answer its queries. All cores, if None.
     invalid : {"none", "raise"}
         What to do with an end that is blocked, outside its map, or null: say so in the column ``status``, or
-        raise an error that names the row.
+        raise an error that names the row. A query at which the engine gives up, as CHPA* in the variant of
+        its paper may, counts as invalid, too.
     **options
         `nearest`, `tolerance`, `snap`, `max_cost`, `max_expansions`, `timeout` as for `Index.paths`, and the
         options of the engine as for `Grid.prepare`.
@@ -135,17 +137,22 @@ class Solver:
         results = Results(table.num_rows, self.paths)
         groups = list(_groups(queries))
         turn = first_row // max(1, table.num_rows) % max(1, len(groups))
+        # Without a path in the answer, and without a wish, the engine need not make it.
+        measures = not self.paths and not any(_is_wish(self._how.get(name)) for name in WISHES)
         done = 0
         # Tasks that start together begin with different maps, and do not all wait for the first one.
         for code, rows in groups[turn:] + groups[:turn]:
             index = self._index(queries.keys[code])
             for chunk in (rows[at : at + CHUNK] for at in range(0, len(rows), CHUNK)):
                 ends = queries.ends[chunk]
-                found = index.paths(ends[:, :2], ends[:, 2:], invalid="none", **self._how)
-                results.add(chunk, found)
-                if self._strict and (found.statuses == INVALID).any():
-                    at = int((found.statuses == INVALID).argmax())
-                    self._explain(index, queries, int(chunk[at]), first_row)
+                starts, goals, threads = ends[:, :2], ends[:, 2:], self._how["threads"]
+                if measures:
+                    results.measured(chunk, index.distances(starts, goals, invalid="none", threads=threads))
+                else:
+                    results.add(chunk, index.paths(starts, goals, invalid="none", **self._how))
+                invalid = results.statuses(chunk) == INVALID
+                if self._strict and invalid.any():
+                    self._explain(index, queries, int(chunk[int(invalid.argmax())]), first_row)
                 done += len(chunk)
                 if progress is not None:
                     progress(done, table.num_rows)
@@ -265,6 +272,10 @@ def _groups(queries: Queries) -> Iterator[tuple[int, NDArray[np.intp]]]:
     for begin, end in zip(edges[:-1], edges[1:]):
         if codes[begin] >= 0:
             yield int(codes[begin]), order[begin:end]
+
+
+def _is_wish(value: Any) -> bool:
+    return value is not None and value is not False
 
 
 def _is_strict(invalid: str) -> bool:
