@@ -68,9 +68,43 @@ def test_limit_of_field(rng):
         whole = grid.distances(source, k=k)
         for limit in (0, 1, 2.5, 7, np.inf):
             within = grid.distances(source, limit=limit, k=k)
-            assert np.array_equal(within, np.where(whole <= limit, whole, np.inf)), (k, limit)
-            assert np.array_equal(grid.reach(source, limit, k=k), np.isfinite(whole) & (whole <= limit))
+            # Limits leave room for rounding.
+            near = np.isfinite(whole) & (whole <= limit * (1 + 2**-31))
+            assert np.array_equal(within, np.where(near, whole, np.inf)), (k, limit)
+            assert np.array_equal(grid.reach(source, limit, k=k), near)
             assert grid.reach(source, limit, k=k).dtype == bool
+
+
+@pytest.mark.parametrize("how", [{"k": 2}, {"k": 3}, {"k": 5}, {"k": 3, "gap": "open"}, {"k": "any"}])
+def test_distances_are_one_number_and_reach_what_they_measure(rng, how):
+    grid = mediant.Grid(slow.random_map(rng, 9, 9, 0.1))
+    field = grid.field((0, 0), **how) if grid.is_free((0, 0), **how) else None
+    if field is None:
+        pytest.skip("the corner is blocked")
+    index = grid.prepare(**how)
+    known = field.distances()
+    places = np.argwhere(np.isfinite(known))
+    wanted = [known[tuple(at)] for at in places]
+    measured = [
+        [grid.distance((0, 0), at, **how) for at in places],
+        [grid.find((0, 0), at, **how).distance for at in places],
+        [index.distance((0, 0), at) for at in places],
+        index.distances((0, 0), places).tolist(),
+        index.paths((0, 0), places).distances.tolist(),
+        index.table([(0, 0)], places)[0].tolist(),
+    ]
+    for numbers in measured:
+        # At any angle the last digits can differ.
+        assert numbers == (pytest.approx(wanted, rel=2**-31) if how["k"] == "any" else wanted)
+        for at, distance in zip(places, numbers):
+            assert grid.reach((0, 0), distance, **how)[tuple(at)], (at, distance)
+
+
+def test_limits_include_what_lies_exactly_there():
+    assert mediant.Grid.from_rows(["..", ".."]).reach((0, 0), 2**0.5).all()
+    # Two steps straight ahead of the goal, and one diagonal one.
+    path = mediant.Grid.from_rows(["....", "....", "...."]).path((0, 0), (2, 3), tolerance=2**0.5)
+    assert path[-1].tolist() in [[1, 2], [2, 2], [0, 2], [1, 3]]
 
 
 def test_points_outside_a_field():

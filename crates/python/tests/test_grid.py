@@ -341,6 +341,48 @@ def test_check(rng, rule):
     assert held > 40
 
 
+def test_a_path_holds_up_to_a_blocked_goal():
+    grid = mediant.Grid.from_rows(["...", "..#"])
+    for path, holds in [
+        ([(1, 0), (0, 0), (0, 2), (1, 2)], 3),
+        ([(1, 0), (0, 0), (0, 2), (0, 9)], 3),
+        ([(1, 2), (0, 2)], 0),
+    ]:
+        with pytest.raises(mediant.BrokenPathError) as caught:
+            grid.check(path)
+        assert caught.value.holds_up_to == holds, path
+
+
+def test_paths_have_waypoints_where_they_turn():
+    grid = mediant.Grid.from_rows(["#.", ".."])
+    path = grid.path((0, 2), (2, 0), k=2, placement="corner", smooth="linear")
+    assert path.tolist() == [[0, 2], [2, 0]]
+
+
+def test_fewest_moves_may_pass_a_closed_gap():
+    grid = mediant.Grid.from_rows(["..#.", "#...", ".#.."])
+    path = grid.path((0, 2), (1, 4), k=5, gap="closed", engine="wavefront", points="vertices")
+    assert len(path) == 3 and grid.holds(path, gap="closed")
+
+
+def test_the_nearest_vertex_is_the_same_for_all_engines():
+    grid = mediant.Grid.from_rows(["...", "#.#"])
+    for engine in ("astar", "dijkstra", "jps", "jps-block", "canonical", "subgoal"):
+        for wishes in ({}, {"tolerance": 0.5}):
+            answer = grid.find((0, 0), (1, 2), nearest=True, engine=engine, **wishes)
+            assert (answer.status, answer.path[-1].tolist()) == ("nearest", [0, 2]), (engine, wishes)
+
+
+def test_segments_may_connect_more_than_four_moves():
+    grid, how = mediant.Grid.from_rows([".#", "#."]), {"k": 2, "corners": "always"}
+    assert grid.sees((0, 0), (1, 1), **how)
+    for engine in ("theta", "lazy-theta"):
+        answer = grid.find((0, 0), (1, 1), engine=engine, **how)
+        assert (answer.status, answer.path.tolist()) == ("found", [[0, 0], [1, 1]])
+        assert answer.lower_bound <= answer.distance == pytest.approx(2**0.5)
+    assert grid.find((0, 0), (1, 1), engine="astar", **how).status == "unreachable"
+
+
 def test_errors_say_row_and_column():
     grid = mediant.Grid(np.zeros((3, 8), dtype=bool)).edit((1, 6), [[True]])
     with pytest.raises(mediant.QueryError, match=r"start \(1, 6\).*blocked") as caught:

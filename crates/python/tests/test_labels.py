@@ -87,6 +87,16 @@ def test_nearest(rng, how, engine, options):
         assert np.array_equal(numbers[found], nearly.argmax(axis=1)[found]), "the first of several"
 
 
+@pytest.mark.parametrize("engine", ["subgoal", "anya"])
+def test_of_equal_goals_the_first_is_the_nearest(engine):
+    grid = mediant.Grid.from_rows(["..", "#.", "..", ".."])
+    index = grid.prepare(engine, k="any", gap="closed")
+    for goals in ([(4, 0), (0, 0)], [(0, 0), (4, 0)]):
+        numbers, distances = index.nearest([(2, 2)], goals)
+        assert numbers.tolist() == [0]
+        assert distances.tolist() == pytest.approx([8**0.5])
+
+
 def test_nearest_takes_points_as_others_do(rng):
     """One start or goal, none, any number of threads, progress."""
     grid, starts, goals = example(rng, (60, 70), density=0.2, count=3000)
