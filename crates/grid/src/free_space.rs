@@ -122,7 +122,9 @@ impl<P: Placement> FreeSpace<P> {
         Vertex::new((id.0 % self.width) as i32, (id.0 / self.width) as i32)
     }
 
-    /// Whether a path may stand on this vertex; false outside the map.
+    /// Whether a path may stand on this vertex; false outside the map. A vertex on a
+    /// [closed gap](Self::is_closed_gap) is free, too, but a path starts or ends there only through the
+    /// vertex's own cell, and if that is blocked, not at all: see [`may_turn`](Self::may_turn).
     #[must_use]
     pub fn is_free(&self, at: Vertex) -> bool {
         P::is_free(&self.grid, at)
@@ -154,7 +156,8 @@ impl<P: Placement> FreeSpace<P> {
         gaps + self.components.memory_bytes()
     }
 
-    /// Whether the straight segment between two vertices obeys the rules of motion: see [`line_of_sight`].
+    /// Whether the straight segment between two vertices obeys the rules of motion: see [`line_of_sight`]. It
+    /// is judged for itself: a closed gap at which it begins or ends is not in its way.
     #[must_use]
     pub fn sees(&self, from: Vertex, to: Vertex) -> bool {
         line_of_sight::<P>(&self.grid, self.rule, from, to)

@@ -59,7 +59,8 @@ impl Space {
     }
 
     /// The distances of those vertices whose distance to the nearest source is at most `limit` cells: what
-    /// an agent can reach, if it goes no further.
+    /// an agent can reach, if it goes no further. What is exactly so far is within it: all limits leave room
+    /// for the rounding of lengths, one part in 2³¹.
     ///
     /// # Errors
     /// Those of [`Fields::field_within`].
@@ -148,7 +149,8 @@ macro_rules! of_each {
 
 impl Field {
     /// The distance of a vertex to the nearest source, in cells; `None` if no path leads to one, if it is
-    /// beyond the limit, or if the vertex is blocked or outside the map.
+    /// beyond the limit, or if the vertex is blocked or outside the map. Over N(k) it is the number that
+    /// [`Planner::distance`](crate::Planner::distance) finds.
     #[must_use]
     pub fn get(&self, at: impl Into<Vertex>) -> Option<f64> {
         let at = at.into();
@@ -180,8 +182,10 @@ impl Field {
         }
     }
 
-    /// The vertex to which the shortest path to the nearest source leads next: one move away, or at any angle
-    /// where it first bends. `None` at a source, and where there is no distance.
+    /// The vertex to which the shortest path to the nearest source leads next: one move away; at any angle the
+    /// next corner of an obstacle on it, or the source. There it mostly bends, but it may go straight on, where
+    /// its line only touches the corner ([`path_from`](Self::path_from) has waypoints at bends alone). `None`
+    /// at a source, and where there is no distance.
     #[must_use]
     pub fn next(&self, at: impl Into<Vertex>) -> Option<Vertex> {
         let at = at.into();

@@ -142,7 +142,9 @@ impl Space {
         Identity { map: Some(self.map().id()), rules, k: Some(k) }
     }
 
-    /// Whether a path may stand on this vertex; false outside the map.
+    /// Whether a path may stand on this vertex; false outside the map. A vertex on a closed gap is free, too,
+    /// but a path starts or ends there only through the vertex's own cell, and if that is blocked, not at all:
+    /// it is [`connected`](Self::connected) to no other vertex then.
     #[must_use]
     pub fn is_free(&self, at: impl Into<Vertex>) -> bool {
         let at = at.into();
@@ -163,7 +165,9 @@ impl Space {
         }
     }
 
-    /// Whether the straight segment between two vertices obeys the rules of motion.
+    /// Whether the straight segment between two vertices obeys the rules of motion. It is judged for itself: a
+    /// closed gap that it passes is in its way, one at which it begins or ends is not. [`check`](Self::check)
+    /// judges whole paths.
     #[must_use]
     pub fn sees(&self, from: impl Into<Vertex>, to: impl Into<Vertex>) -> bool {
         let (from, to) = (from.into(), to.into());

@@ -66,8 +66,9 @@ impl Field {
         Ok(self.inner.get(point("at", at)?).unwrap_or(f64::INFINITY))
     }
 
-    /// The vertex to which the shortest path leads next: one move away, or at any angle where it first bends.
-    /// Undefined at a source, and where no path leads.
+    /// The vertex to which the shortest path leads next: one move away; at any angle the next corner of an
+    /// obstacle on it, at which it bends or goes straight on, or the source. Undefined at a source, and where
+    /// no path leads.
     #[wasm_bindgen(unchecked_return_type = "Point | undefined")]
     pub fn next(
         &self,

@@ -78,7 +78,8 @@ impl Space {
         answer::motion(self.inner.motion())
     }
 
-    /// Whether a path may stand on this vertex; false outside the map.
+    /// Whether a path may stand on this vertex; false outside the map. A vertex on a closed gap is free, too,
+    /// but a path starts or ends there only through the vertex's own cell, and if that is blocked, not at all.
     #[wasm_bindgen(js_name = isFree)]
     pub fn is_free(
         &self,
@@ -96,7 +97,9 @@ impl Space {
         Ok(self.inner.connected(point("from", from)?, point("to", to)?))
     }
 
-    /// Whether the straight segment between two vertices obeys the rules of motion.
+    /// Whether the straight segment between two vertices obeys the rules of motion. It is judged for itself:
+    /// a closed gap that it passes is in its way, one at which it begins or ends is not. `check` judges whole
+    /// paths.
     pub fn sees(
         &self,
         #[wasm_bindgen(unchecked_param_type = "Point")] from: &JsValue,
@@ -221,7 +224,8 @@ impl Space {
         Ok(Index { inner: index })
     }
 
-    /// The distance of every vertex to the nearest source, up to a limit in cells if there is one.
+    /// The distance of every vertex to the nearest source, up to a limit in cells if there is one. What is
+    /// exactly so far is in the field.
     ///
     /// ```js
     /// const field = space.field([0, 0]);

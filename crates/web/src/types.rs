@@ -19,9 +19,15 @@ export interface Motion {
   readonly k?: number | "any";
   /** Where the vertices are: at centers or corners of cells. Centers by default, corners for k "any". */
   readonly placement?: "center" | "corner";
-  /** At centers: whether a path may cut the corner of a blocked cell. Never by default. */
+  /**
+   * At centers: whether a path may cut the corner of a blocked cell. Never by default. Without `placement` it
+   * means centers.
+   */
   readonly corners?: "never" | "one" | "always";
-  /** At corners: whether a path may pass where two blocked cells touch diagonally. Open by default. */
+  /**
+   * At corners: whether a path may pass where two blocked cells touch diagonally. Open by default. Without
+   * `placement` it means corners.
+   */
   readonly gap?: "open" | "closed";
 }
 
@@ -37,9 +43,9 @@ export interface Wishes {
   readonly nearest?: boolean;
   /** Moves a start or goal that is blocked to the nearest free vertex. */
   readonly snap?: boolean;
-  /** The path may end within this distance of the goal, in cells. */
+  /** The path may end within this distance of the goal, in cells, exactly so far included. */
   readonly tolerance?: number;
-  /** Stops the search at this length, in cells. */
+  /** The greatest length of a path, in cells; one that is exactly as long is within it. */
   readonly maxCost?: number;
   /** Stops the search after this many expansions. */
   readonly maxExpansions?: number;
@@ -106,11 +112,13 @@ export interface Answer {
   readonly status: "found" | "unreachable" | "nearest" | "stopped";
   /** The waypoints x, y, … of a found or nearest answer. */
   readonly path?: Int32Array;
-  /** Its length in cells; `Infinity` if unreachable, `NaN` if stopped. */
+  /** Its length in cells, as `Planner.distance` measures it; `Infinity` if unreachable, `NaN` if stopped. */
   readonly distance: number;
   /**
-   * No path to the goal is shorter, in cells. Of a found path its own length where the engine guarantees that
-   * it is shortest, `Infinity` where there is no path, otherwise 0.
+   * No path of the engine's kind to the goal that was asked for is shorter, in cells: no path over N(k), or at
+   * k "any" and by an engine of any-angle paths no path at all. Of a found path its own length where the
+   * engine guarantees that it is shortest, else 0; of a stopped answer what the search has ruled out;
+   * `Infinity` where there is no path, also of a nearest answer.
    */
   readonly lowerBound: number;
   /** The limit that stopped the search. */

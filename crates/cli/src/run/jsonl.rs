@@ -263,7 +263,8 @@ struct QueryLine<'a> {
     /// scenario.
     reference: Option<f64>,
     /// If found, the certificate: no path at any angle between its ends under the same rules is shorter. If
-    /// stopped, the path that was asked for is not shorter. Else `null`.
+    /// stopped, no path of the engine's kind between the ends that were asked for is shorter: none over N(k),
+    /// or by an engine of any-angle paths none at all. Else `null`.
     lower_bound: Option<f64>,
     /// `cost / lower_bound`, at least 1; `null` unless found.
     bound: Option<f64>,

@@ -176,7 +176,9 @@ impl Index {
         Source { for_one_path: self.prepared.is_for_one_path(), ..Source::new(&|_| {}) }
     }
 
-    /// The same index for planners with other options of its engine, such as another heuristic.
+    /// The same index for planners with other options of its engine, such as another heuristic. Options that
+    /// are not named take their defaults, except those that decided what was prepared: the levels and the side
+    /// stay as they are. The smoothing stays, too.
     ///
     /// # Errors
     /// [`Error::Setup`] for another engine, or options that do not fit together; [`Error::Levels`] and

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use mediant::{
-    Choice, CornerRule, Counters, Engine, Error, ErrorCode, Identity, K, Map, Motion, Observer, Origin,
-    Outcome, Planner, Query, QueryError, Rectangle, Rules, Setup, Space, files::ImageOptions,
+    BrokenPath, Choice, CornerRule, Counters, DiagonalGap, End, Engine, Error, ErrorCode, Identity, K, Map,
+    Motion, Observer, Origin, Outcome, Path, Planner, Query, QueryError, Rectangle, Rules, Setup, Smoothing,
+    Space, Vertex, files::ImageOptions,
 };
 use mediant_formats::IndexFile;
 use mediant_oracle::{Rng, caves};
@@ -22,6 +23,41 @@ fn handles_are_owned_and_can_be_sent() {
     owned::<Planner>();
     fn error<T: std::error::Error + Send + Sync + 'static>() {}
     error::<Error>();
+}
+
+/// A path whose goal was blocked can be followed as far as before.
+#[test]
+fn a_path_tells_how_far_it_holds() {
+    let space =
+        Map::from_rows(["...", "..#"]).expect("a map").space(Motion::centers(K::N8)).expect("a space");
+    let path = Path::new([(0, 1), (0, 0), (2, 0), (2, 1)].map(Vertex::from).into());
+    let broken = space.check(&path).expect_err("its goal is blocked");
+    assert!(matches!(broken, BrokenPath::Blocked { end: End::Goal, .. }));
+    assert_eq!(broken.holds_up_to(), 3);
+}
+
+/// A smoothed path has a waypoint only where it turns.
+#[test]
+fn a_smoothed_path_goes_straight() {
+    let setup = Setup { smoothing: Some(Smoothing::Linear), ..super::setup("astar:2:open") };
+    let map = Map::from_rows(["#.", ".."]).expect("a map");
+    let path = setup.planner(&map).expect("a planner").find(Query::new((2, 0), (0, 2))).expect("free ends");
+    let path = path.into_path().expect("a path");
+    assert_eq!(path.waypoints(), [(2, 0), (0, 2)].map(Vertex::from));
+}
+
+/// The wavefront takes the fewest moves, though they pass a closed gap.
+#[test]
+fn fewest_moves_pass_a_closed_gap() {
+    let map = Map::from_rows(["..#.", "#...", ".#.."]).expect("a map");
+    let motion = Motion::new(K::N32, Rules::Corner(DiagonalGap::Closed));
+    let space = map.space(motion).expect("a space");
+    let path = space.planner(Engine::Wavefront).expect("a planner").find(Query::new((2, 0), (4, 1)));
+    let path = path.expect("free ends").into_path().expect("a path");
+    assert_eq!(path.moves().count(), 2, "{path}");
+    assert_eq!(space.check(&path), Ok(()));
+    let moves = space.distances(Engine::Wavefront, (2, 0)).expect("a free start");
+    assert!(moves.contains(&((4, 1).into(), 2.0)), "{moves:?}");
 }
 
 #[test]

@@ -20,7 +20,8 @@ impl Grid {
     /// sources : array_like of int
     ///     A point (row, column), or several with shape (n, 2).
     /// limit : float, optional
-    ///     How far to go, in cells.
+    ///     How far to go, in cells. What is exactly so far is in the field: the distance of a vertex, as a
+    ///     limit, reaches that vertex.
     /// **motion
     ///     ``k``, ``placement``, ``corners`` and ``gap``, as in `find`.
     ///
@@ -93,7 +94,7 @@ impl Grid {
     /// sources : array_like of int
     ///     As in `field`.
     /// limit : float
-    ///     How far to go, in cells.
+    ///     How far to go, in cells; what is exactly so far is reached.
     /// **motion
     ///     As in `find`.
     ///

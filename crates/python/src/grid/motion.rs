@@ -26,6 +26,12 @@ impl Grid {
     /// bool
     ///     False outside the map.
     ///
+    /// Notes
+    /// -----
+    /// At corners under ``gap="closed"`` a vertex on a gap is free, too, as one of its four cells is. But a
+    /// path starts or ends there only through the vertex's own cell, and if that is blocked, not at all:
+    /// `find` says "unreachable" then.
+    ///
     /// Examples
     /// --------
     /// >>> import mediant
@@ -69,6 +75,9 @@ impl Grid {
 
     /// Whether the straight line between two vertices obeys the rules of motion.
     ///
+    /// The line is judged for itself. A closed gap that it passes is in its way, one at which it begins or
+    /// ends is not; whether a path may begin, turn or end there, `check` says of the whole path.
+    ///
     /// Parameters
     /// ----------
     /// start, goal : tuple of int
@@ -99,7 +108,8 @@ impl Grid {
     }
 
     /// Checks that a path obeys the rules of motion here, for instance after an edit. It costs far less than
-    /// a search. It looks at lines of sight alone, not whether each line is a move of N(k).
+    /// a search. It looks at lines of sight, and at closed gaps where the path begins, turns or ends; not
+    /// whether each line is a move of N(k).
     ///
     /// Parameters
     /// ----------

@@ -87,7 +87,8 @@ impl Grid {
     /// Returns
     /// -------
     /// float
-    ///     In cells; ``inf`` if there is no path.
+    ///     In cells; ``inf`` if there is no path. At a number k it is the same number as in `distances`, a
+    ///     `Field`, and tables, whatever the engine, if the engine's paths are shortest.
     ///
     /// Raises
     /// ------
@@ -133,18 +134,20 @@ impl Grid {
     ///     default for "any"). Corner (row, column) is the top left one of cell (row, column).
     /// corners : {"never", "one", "always"}
     ///     At centers: where a move touches a corner of cells, both of the cells beside it must be free (the
-    ///     default), one of them, or none.
+    ///     default), one of them, or none. Without ``placement`` it means centers, also where the default is
+    ///     corners.
     /// gap : {"open", "closed"}
     ///     At corners: whether a path may pass where two blocked cells touch diagonally. It may by default.
+    ///     Without ``placement`` it means corners, also where the default is centers.
     /// nearest : bool
     ///     If there is no path: the path to the reachable vertex that is nearest to the goal.
     /// tolerance : float
-    ///     The path may end within this many cells of the goal.
+    ///     The path may end within this many cells of the goal, exactly so many included.
     /// snap : bool
     ///     Moves a start or goal that is blocked to the nearest free vertex.
     /// max_cost : float, optional
-    ///     The greatest length of a path, in cells. An engine that guarantees nothing may miss a path that is
-    ///     nearly as long.
+    ///     The greatest length of a path, in cells; a path that is exactly as long is within it. An engine
+    ///     that guarantees nothing may miss a path that is nearly as long.
     /// max_expansions : int, optional
     ///     The greatest number of expansions of the search.
     /// timeout : float, optional

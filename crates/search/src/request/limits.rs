@@ -69,8 +69,10 @@ pub struct Stopped {
     /// else the path to the vertex nearest to a goal among those that the search expanded within the limit on
     /// the cost, by h_k (at k = ∞ by the straight line), the first of several. At least the start.
     pub best: Path,
-    /// A lower bound on the cost of the path that was sought, in cells: no path over N(k), by an engine of
-    /// any-angle paths no legal path, is shorter. Up to the rounding of [`Cost`].
+    /// A lower bound on the cost of the path that was sought, in cells: no path over N(k) between the ends that
+    /// were asked for, by an engine of any-angle paths no legal path, is shorter. Up to the rounding of
+    /// [`Cost`]. (Of a path that was found, [`Guarantee::lower_bound`](crate::Guarantee::lower_bound) tells
+    /// another bound: on all paths at any angle between its ends.)
     pub lower_bound: f64,
 }
 
