@@ -48,6 +48,20 @@ fn what_is_beyond_the_limit_is_left_out() {
     }
 }
 
+/// The length of a path, as a limit, reaches its end.
+#[test]
+fn what_lies_exactly_at_the_limit_is_reached() {
+    let all = rows(&of_run("builtin:cave --from 2,5"));
+    for ((x, y), distance) in all.into_iter().skip(60).step_by(307) {
+        let (_, queries, _) = told(&format!("run builtin:cave --from 2,5 --to {x},{y}"));
+        let cost = queries[0]["cost"].as_f64().expect("a path");
+        for limit in [cost, distance] {
+            let near = rows(&succeeds(&format!("reach builtin:cave --from 2,5 --within {limit} -o -")));
+            assert!(near.contains(&((x, y), distance)), "({x}, {y}) within {limit}");
+        }
+    }
+}
+
 #[test]
 fn of_several_sources_the_nearest_counts() {
     let each = [(2, 5), (57, 3)].map(|(x, y)| rows(&of_run(&format!("builtin:cave --from {x},{y}"))));
