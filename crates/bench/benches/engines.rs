@@ -1,11 +1,11 @@
 //! Benchmarks on four generated maps: whole queries of each engine for every k that it takes up to 8 and for
-//! any-angle paths, the generation of successors, and the open list. Use these times only to compare one
+//! any-angle paths, the generation of successors, the open list, and what a space costs. Use these times only to compare one
 //! revision with another.
 
 use std::{hint::black_box, sync::Arc};
 
 use criterion::{BenchmarkId, Criterion, Throughput};
-use mediant::{Engine, Map, Setup, Space};
+use mediant::{Engine, Map, Motion, Setup, Space};
 use mediant_grid::{
     Centers, CornerRule, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vertex, VertexId,
 };
@@ -59,6 +59,7 @@ fn main() {
         }
     }
     heap(&mut c);
+    spaces(&mut c);
     c.final_summary();
 }
 
@@ -134,5 +135,31 @@ fn heap(c: &mut Criterion) {
             swaps
         });
     });
+    group.finish();
+}
+
+/// Benchmarks what each map costs before its first query: a space, its search graph, and an index that
+/// prepares nothing. Tables of the motion are there already.
+fn spaces(c: &mut Criterion) {
+    let map = Map::from_fn(4, 4, |x, y| (x, y) == (1, 2)).expect("a valid size");
+    for k in [2, 3, 5, 12].map(|k| FiniteK::new(k).expect("k is at least 2")) {
+        for rules in RULES {
+            let motion = Motion::new(k, rules);
+            let mut group = c.benchmark_group(format!("space/{}/4x4", rules.placement()));
+            group.bench_function(BenchmarkId::from_parameter(k), |b| {
+                b.iter(|| {
+                    let space = black_box(&map).space(motion).expect("k is at most 12");
+                    space.prepare(Engine::AStar).expect("it takes every motion")
+                });
+            });
+            group.finish();
+        }
+    }
+    let map = Map::from_fn(80, 25, |x, y| x == 40 && y != 12).expect("a valid size");
+    let space = map.space(Motion::centers(K::N8)).expect("k is at most 12");
+    let (start, goal) = ((3, 3), (76, 20));
+    let mut group = c.benchmark_group("one path/80x25");
+    group.bench_function("map", |b| b.iter(|| map.path(start, goal)));
+    group.bench_function("space", |b| b.iter(|| space.path(start, goal)));
     group.finish();
 }

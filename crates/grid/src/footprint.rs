@@ -3,7 +3,7 @@
 use mediant_moves::Vector;
 
 use crate::{
-    BitMatrix, Placement,
+    Placement,
     bits::{BitIndex, load},
     frame::{CellOffset, Frame},
     placement::SweptCells,
@@ -40,7 +40,8 @@ impl Footprint {
             }
             true
         });
-        sort_cells(&mut footprint.free);
+        // Not by `sort_unstable`, which would add 4 kB to what a page loads: `BTreeSet` sorts in this way.
+        footprint.free.sort();
         footprint
     }
 
@@ -51,16 +52,10 @@ impl Footprint {
     }
 }
 
-/// Sorts cells. `BTreeSet` sorts them in the same way when it is built, so the code for it is there already;
-/// `sort_unstable` would add 4 kB to what a page loads.
-pub(crate) fn sort_cells(cells: &mut [CellOffset]) {
-    cells.sort();
-}
-
 /// Up to 64 cells of one row of a matrix, by the offset of their bits from that of a vertex's own cell. It
 /// holds for all matrices of one width: so testing it takes no multiplication, which is 4 % of the time of A*
 /// at k = 7.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct CellMask {
     /// From the bit of a vertex's own cell to the first of the 64.
     offset: i32,
@@ -69,27 +64,18 @@ pub(crate) struct CellMask {
 }
 
 impl CellMask {
-    /// The mask of one cell, given as (along, across).
-    pub(crate) const fn cell((along, across): CellOffset, matrix: &BitMatrix) -> Self {
-        Self { offset: across * matrix.bits_per_row() + along, cells: 1 }
-    }
-
-    /// Masks that hold just these cells, given as (along, across); the nearest rows first.
+    /// Cells of row `across`, the lowest bit that of column `along`, in matrices with so many bits a row.
     ///
     /// The cells that a segment sweeps are contiguous. So if some lie beyond the frame of the matrix, others
     /// lie on the frame, and whatever is read beyond it, the answer is 'blocked'.
-    pub(crate) fn holding(mut cells: Vec<CellOffset>, matrix: &BitMatrix) -> Vec<Self> {
-        cells.sort_unstable_by_key(|&(along, across)| (across.abs(), across, along));
-        let mut masks = Vec::new();
-        for mut row in cells.chunk_by(|a, b| a.1 == b.1) {
-            while let Some(&first) = row.first() {
-                let here = row.partition_point(|&(along, _)| along < first.0 + 64);
-                let cells = row[..here].iter().fold(0, |mask, &(along, _)| mask | 1 << (along - first.0));
-                masks.push(Self { cells, ..Self::cell(first, matrix) });
-                row = &row[here..];
-            }
-        }
-        masks
+    pub(crate) const fn new((along, across): CellOffset, cells: u64, bits_per_row: i32) -> Self {
+        Self { offset: across * bits_per_row + along, cells }
+    }
+
+    /// The bits that it tests, by their offsets from that of a vertex's own cell.
+    #[cfg(test)]
+    pub(crate) fn bits(&self) -> impl Iterator<Item = i32> {
+        (0..64).filter(|bit| self.cells >> bit & 1 == 1).map(|bit| self.offset + bit)
     }
 
     /// Whether all cells of the mask are free around the bit `at`.

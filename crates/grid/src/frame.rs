@@ -30,13 +30,13 @@ impl Frame {
     }
 
     /// The offset of cell (i, j) of the octant along the long and along the short axis.
-    pub(crate) fn cell<P: Placement>(self, i: i32, j: i32) -> (i32, i32) {
+    pub(crate) fn cell<P: Placement>(self, (i, j): (i32, i32)) -> CellOffset {
         (P::cell(self.long, i), P::cell(self.short, j))
     }
 
     /// The offset of cell (i, j) of the octant on the map.
-    pub(crate) fn offset<P: Placement>(self, (i, j): (i32, i32)) -> CellOffset {
-        let (along, across) = self.cell::<P>(i, j);
+    pub(crate) fn offset<P: Placement>(self, cell: (i32, i32)) -> CellOffset {
+        let (along, across) = self.cell::<P>(cell);
         if self.transposed { (across, along) } else { (along, across) }
     }
 }

@@ -4,7 +4,10 @@ use std::{ops::Deref, sync::Arc};
 
 use mediant_moves::{Cost, CostTable, FiniteK, KError, Neighborhood, Vector};
 
-use crate::{FreeSpace, Grid, Identity, Placement, Vertex, VertexId, footprint::Footprint, tree::Octant};
+use crate::{
+    BitMatrix, FreeSpace, Grid, Identity, Placement, Vertex, VertexId, per_motion::cost_table,
+    tables::Tables, tree::Octant,
+};
 
 /// A move of N(k) with its cost and its effect on vertex ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,6 +21,11 @@ pub struct Step {
 }
 
 impl Step {
+    /// A move on a map with so many columns of vertices.
+    const fn new(v: Vector, cost: Cost, width: u32) -> Self {
+        Self { cost, offset: v.y * width as i32 + v.x, dx: v.x as i16, dy: v.y as i16 }
+    }
+
     /// The move itself.
     #[must_use]
     #[inline]
@@ -73,8 +81,8 @@ pub struct GridGraph<P: Placement> {
     steps: Box<[Step]>,
     costs: CostTable,
     /// For each pattern of cells around a vertex, the legal moves of N(min(k, 3)).
-    short: Box<[u8]>,
-    octants: Box<[Octant]>,
+    short: &'static [u8],
+    octants: Arc<[Octant]>,
 }
 
 /// What does not depend on k: the map, vertices, sight, gaps, components.
@@ -116,21 +124,15 @@ impl<P: Placement> GridGraph<P> {
         Ok(())
     }
 
+    /// What depends on the rules and k alone is taken from the tables of the process.
     fn of(space: FreeSpace<P>, k: FiniteK) -> Result<Self, KError> {
-        let (grid, rule) = (space.grid(), space.rule());
+        let (grid, tables) = (space.grid(), Tables::of::<P>(space.rule(), k)?);
         let (width, _) = P::vertices(grid);
-        let moves: Vec<Vector> = Neighborhood::new(k)?.iter().collect();
-        let steps = moves.iter().map(|&v| Step {
-            cost: Cost::of_move(v),
-            offset: v.y * width as i32 + v.x,
-            dx: v.x as i16,
-            dy: v.y as i16,
-        });
         Ok(Self {
-            steps: steps.collect(),
-            costs: CostTable::new(k)?,
-            short: (0..P::PATTERNS).map(|pattern| legal_in_pattern::<P>(rule, k, &moves, pattern)).collect(),
-            octants: octants::<P>(rule, &moves, grid),
+            steps: tables.moves().iter().map(|&(v, cost)| Step::new(v, cost, width)).collect(),
+            costs: cost_table(k)?,
+            short: tables.short(),
+            octants: tables.octants::<P>([grid.rows(), grid.columns()].map(BitMatrix::bits_per_row)),
             space,
             k,
         })
@@ -170,11 +172,12 @@ impl<P: Placement> GridGraph<P> {
         &self.costs
     }
 
-    /// The memory used beyond the map, in bytes: mostly that of the components.
+    /// The memory used beyond the map, in bytes: mostly that of the components. With it count the tables
+    /// that the graphs of the process share.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
         let octants: usize = self.octants.iter().map(Octant::memory_bytes).sum();
-        size_of_val(&*self.steps) + size_of_val(&*self.short) + octants + self.space.memory_bytes()
+        size_of_val(&*self.steps) + size_of_val(self.short) + octants + self.space.memory_bytes()
     }
 
     /// Whether `v` is a move of N(k) and legal at `at`. To test all moves of a vertex,
@@ -211,7 +214,7 @@ impl<P: Placement> GridGraph<P> {
             legal((short.trailing_zeros() as usize) << shift);
             short &= short - 1;
         }
-        for octant in &self.octants {
+        for octant in &*self.octants {
             if octant.transposed {
                 let columns = self.grid().columns();
                 octant.for_each_legal(columns, columns.index(at.y, at.x), &mut legal);
@@ -307,19 +310,34 @@ impl MoveSet {
     }
 }
 
-/// The legal moves of N(min(k, 3)) at a vertex around which the cells form this pattern, one bit each.
-fn legal_in_pattern<P: Placement>(rule: P::Rule, k: FiniteK, moves: &[Vector], pattern: usize) -> u8 {
-    let short = moves.iter().step_by(1 << k.get().saturating_sub(3));
-    short.enumerate().fold(0, |set, (bit, &v)| {
-        let footprint = Footprint::new::<P>(rule, v);
-        let legal = footprint.is_legal(|(dx, dy)| !P::pattern_is_blocked(pattern, dx, dy));
-        set | u8::from(legal) << bit
-    })
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Centers, CornerRule, Corners, DiagonalGap};
 
-/// The trees over the moves beyond N(3); none up to k = 3.
-fn octants<P: Placement>(rule: P::Rule, moves: &[Vector], grid: &Grid) -> Box<[Octant]> {
-    let size = moves.len() / 8;
-    let between = moves.chunks_exact(size.max(1)).zip((0..).step_by(size.max(1))).filter(|_| size > 1);
-    between.map(|(moves, first)| Octant::new::<P>(rule, &moves[1..], first + 1, grid)).collect()
+    /// Of two maps with as many words a row and a column, and of a third with more.
+    fn graphs<P: Placement>(rule: P::Rule, k: u32) -> [GridGraph<P>; 3] {
+        let k = FiniteK::new(k).expect("k is at least 2");
+        [(4, 4), (60, 9), (70, 9)].map(|(width, height)| {
+            let grid = Grid::from_fn(width, height, |x, y| (x + y) % 5 == 4).expect("a valid size");
+            GridGraph::new(Arc::new(grid), k, rule).expect("k is at most 12")
+        })
+    }
+
+    fn share_their_tables<P: Placement>(rules: &[P::Rule]) {
+        for (&rule, k) in rules.iter().flat_map(|rule| (2..=12).map(move |k| (rule, k))) {
+            let [small, other, wide] = graphs::<P>(rule, k);
+            assert!(std::ptr::eq(small.short, other.short), "{rule:?}, k = {k}");
+            assert!(std::ptr::eq(small.short, wide.short), "{rule:?}, k = {k}");
+            // Up to k = 3 there are no masks.
+            assert!(Arc::ptr_eq(&small.octants, &other.octants), "{rule:?}, k = {k}");
+            assert_eq!(Arc::ptr_eq(&small.octants, &wide.octants), k <= 3, "{rule:?}, k = {k}");
+        }
+    }
+
+    #[test]
+    fn graphs_share_their_tables() {
+        share_their_tables::<Centers>(&[CornerRule::Never, CornerRule::One, CornerRule::Always]);
+        share_their_tables::<Corners>(&[DiagonalGap::Open, DiagonalGap::Closed]);
+    }
 }

@@ -50,12 +50,14 @@ mod grid_graph;
 mod identity;
 mod line_of_sight;
 mod obstruction;
+mod per_motion;
 mod placement;
 #[cfg(doctest)]
 mod readme;
 mod rectangle;
 mod rules;
 pub mod sight;
+mod tables;
 mod transpose;
 mod tree;
 mod vertex;
@@ -76,6 +78,8 @@ pub use grid_graph::{GridGraph, MoveSet, Step};
 pub use identity::{Identity, MapId, Mismatch};
 pub use mediant_moves::Vector;
 pub use obstruction::Obstruction;
+#[doc(hidden)]
+pub use per_motion::{PerMotion, cost_table};
 pub use placement::{Centers, Corners, Placement, SweptCells};
 pub use rectangle::Rectangle;
 pub use rules::{CornerRule, DiagonalGap, PlacementKind, Rules};

@@ -45,12 +45,12 @@ pub fn line_of_sight<P: Placement>(grid: &Grid, rule: P::Rule, from: Vertex, to:
     }
     P::sweep(rule, d, |cells| match cells {
         SweptCells::AllFree { row, first, last } => {
-            let (a, y) = frame.cell::<P>(first, row);
-            let (b, _) = frame.cell::<P>(last, row);
+            let (a, y) = frame.cell::<P>((first, row));
+            let (b, _) = frame.cell::<P>((last, row));
             !matrix.any(v + y, u + a.min(b), u + a.max(b))
         }
         SweptCells::EitherFree(cells) => cells.iter().any(|&(i, j)| {
-            let (x, y) = frame.cell::<P>(i, j);
+            let (x, y) = frame.cell::<P>((i, j));
             !matrix.get(u + x, v + y)
         }),
     })

@@ -68,6 +68,17 @@ impl Rules {
         Self::Corner(DiagonalGap::Closed),
     ];
 
+    /// The place in [`ALL`](Self::ALL).
+    pub(crate) const fn number(self) -> usize {
+        match self {
+            Self::Center(CornerRule::Never) => 0,
+            Self::Center(CornerRule::One) => 1,
+            Self::Center(CornerRule::Always) => 2,
+            Self::Corner(DiagonalGap::Open) => 3,
+            Self::Corner(DiagonalGap::Closed) => 4,
+        }
+    }
+
     /// The placement alone.
     #[must_use]
     pub const fn placement(self) -> PlacementKind {

@@ -14,34 +14,253 @@
 //!   than for a parent: (3, 1) can be legal where (2, 1) is not. One thing holds without any lemma: a cell
 //!   that all moves of a cone sweep must be free for each of them. Such cells prune subtrees as at corners;
 //!   the other cells of a move decide about that move alone.
+//!
+//! The tree is computed once, for the first octant ([`Tree`]): the eight octants are its reflections. For a
+//! map, its cells become masks at offsets that depend on the words of a row ([`Octant`]).
 
-use std::collections::BTreeSet;
+use std::{ops::Range, sync::Arc};
 
-use mediant_moves::Vector;
+use mediant_moves::{Cost, FiniteK, Vector};
 
 use crate::{
-    BitMatrix, Grid, Placement,
+    BitMatrix, Centers, GridGraph, Placement, SweptCells,
     bits::BitIndex,
-    footprint::{CellMask, Footprint, sort_cells},
+    footprint::CellMask,
     frame::{CellOffset, Frame},
 };
 
-/// A move with the masks of its cells. Nodes are stored in depth-first order.
+// The cells of a row of the first octant fit in 128 bits.
+const _: () = {
+    let Ok(k) = FiniteK::new(GridGraph::<Centers>::MAX_K) else { panic!() };
+    assert!(matches!(k.radius(), Ok(0..127)));
+};
+
+/// Up to 64 cells of a row of the first octant: the lowest bit is column `first`.
 #[derive(Clone, Copy, Debug)]
+struct RowCells {
+    row: i16,
+    first: i16,
+    cells: u64,
+}
+
+/// Adds the cells of rows, given as sets of columns; the first rows first.
+fn extend(cells: &mut Vec<RowCells>, rows: impl Iterator<Item = u128>) {
+    for (mut columns, row) in rows.zip(0..) {
+        while columns != 0 {
+            let first = columns.trailing_zeros();
+            cells.push(RowCells { row, first: first as i16, cells: (columns >> first) as u64 });
+            columns &= !(u128::from(u64::MAX) << first);
+        }
+    }
+}
+
+/// The cells that a move of the first octant sweeps.
+#[derive(Clone, Debug, Default)]
+struct Swept {
+    /// For each row, the columns of cells that must all be free, a bit each.
+    rows: Vec<u128>,
+    /// The pair of cells of which one must be free. The coordinates of a move have no common divisor, so it
+    /// passes through at most one corner of cells: at its middle.
+    pair: Option<[CellOffset; 2]>,
+}
+
+impl Swept {
+    fn by<P: Placement>(rule: P::Rule, d: Vector) -> Self {
+        let mut swept = Self::default();
+        P::sweep(rule, d, |cells| {
+            match cells {
+                SweptCells::AllFree { row, first, last } => swept.add(row, first, last),
+                SweptCells::EitherFree(pair) => swept.pair = Some(pair),
+            }
+            true
+        });
+        swept
+    }
+
+    fn add(&mut self, row: i32, first: i32, last: i32) {
+        let row = row as usize;
+        if self.rows.len() <= row {
+            self.rows.resize(row + 1, 0);
+        }
+        self.rows[row] |= !0 >> (127 - (last - first)) << first;
+    }
+
+    fn add_all(&mut self, other: &Self) {
+        for (row, &columns) in other.rows.iter().enumerate() {
+            self.rows.resize(self.rows.len().max(row + 1), 0);
+            self.rows[row] |= columns;
+        }
+        for (column, row) in other.pair.into_iter().flatten() {
+            self.add(row, column, column);
+        }
+    }
+}
+
+/// The cells that all of some moves sweep.
+fn shared(swept: &[Swept]) -> Vec<u128> {
+    let Some((first, others)) = swept.split_first() else { return Vec::new() };
+    let mut shared = first.rows.clone();
+    for other in others {
+        shared.truncate(other.rows.len());
+        shared.iter_mut().zip(&other.rows).for_each(|(shared, columns)| *shared &= columns);
+    }
+    shared
+}
+
+/// Where the cells of a move begin and end in the list that holds those of all.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Places {
+    /// Those that its whole subtree sweeps, and no larger one.
+    shared: (u32, u32),
+    /// The end of the other cells that the move sweeps; they begin where the shared ones end.
+    own: u32,
+}
+
+/// The moves strictly between two neighboring moves of N(3), as a tree in the frame of the first octant: for
+/// every octant, and for every map.
+#[derive(Debug, Default)]
+pub(crate) struct Tree {
+    /// By the angle of the move in the first octant, with the pairs of cells.
+    moves: Vec<(Places, Option<[CellOffset; 2]>)>,
+    cells: Vec<RowCells>,
+    /// All cells that any of the moves sweeps.
+    all: Vec<RowCells>,
+}
+
+impl Tree {
+    /// The tree over the moves beyond N(3) among those of N(k), in angular order.
+    pub(crate) fn new<P: Placement>(rule: P::Rule, moves: &[(Vector, Cost)]) -> Self {
+        let beyond = moves.get(1..moves.len() / 8).unwrap_or_default();
+        let swept: Vec<Swept> = beyond.iter().map(|&(v, _)| Swept::by::<P>(rule, Frame::of(v).1)).collect();
+        let mut all = Swept::default();
+        swept.iter().for_each(|swept| all.add_all(swept));
+        let moves = swept.iter().map(|swept| (Places::default(), swept.pair)).collect();
+        let mut tree = Self { moves, ..Self::default() };
+        extend(&mut tree.all, all.rows.into_iter());
+        tree.add(&swept, 0, &[]);
+        tree
+    }
+
+    /// Adds the subtree over moves that sweep these cells. `tested` are the cells that the nodes above test:
+    /// part of those that the subtree shares.
+    fn add(&mut self, swept: &[Swept], first: usize, tested: &[u128]) {
+        if swept.is_empty() {
+            return;
+        }
+        let (middle, shared) = (swept.len() / 2, shared(swept));
+        let beyond = |rows: &[u128], tested: &[u128]| -> Vec<u128> {
+            let tested = tested.iter().copied().chain(std::iter::repeat(0));
+            rows.iter().zip(tested).map(|(columns, tested)| columns & !tested).collect()
+        };
+        let begin = self.cells.len() as u32;
+        extend(&mut self.cells, beyond(&shared, tested).into_iter());
+        let between = self.cells.len() as u32;
+        extend(&mut self.cells, beyond(&swept[middle].rows, &shared).into_iter());
+        self.moves[first + middle].0 = Places { shared: (begin, between), own: self.cells.len() as u32 };
+        self.add(&swept[..middle], first, &shared);
+        self.add(&swept[middle + 1..], first + middle + 1, &shared);
+    }
+
+    /// Whether there are no moves beyond N(3).
+    pub(crate) const fn is_empty(&self) -> bool {
+        self.moves.is_empty()
+    }
+
+    /// The octants of the moves of N(k) in angular order, as they lie in a map and in a transposed map with
+    /// so many bits a row.
+    pub(crate) fn octants<P: Placement>(
+        &self,
+        moves: &[(Vector, Cost)],
+        bits_per_row: [i32; 2],
+    ) -> Arc<[Octant]> {
+        let octants = moves.chunks_exact(self.moves.len() + 1).zip(0..).filter(|_| !self.is_empty());
+        let octants = octants.map(|(moves, octant)| {
+            let frame = Frame::of(moves[moves.len() / 2].0).0;
+            // Angles grow against those of the first octant in every second one.
+            let mirrored = octant % 2 == 1;
+            let bits_per_row = bits_per_row[usize::from(frame.transposed)];
+            let placing = Placing { tree: self, frame, mirrored, bits_per_row };
+            placing.octant::<P>(octant * moves.len() as u16 + 1)
+        });
+        octants.collect()
+    }
+}
+
+/// How a tree lies in the matrix of an octant.
+struct Placing<'a> {
+    tree: &'a Tree,
+    frame: Frame,
+    mirrored: bool,
+    bits_per_row: i32,
+}
+
+impl Placing<'_> {
+    /// The octant whose first move has index `first` in N(k).
+    fn octant<P: Placement>(&self, first: u16) -> Octant {
+        let Tree { moves, cells, all } = self.tree;
+        let mut octant = Octant {
+            transposed: self.frame.transposed,
+            nodes: Vec::with_capacity(moves.len()),
+            masks: Vec::with_capacity(cells.len()),
+            all: all.iter().map(|&cells| self.mask::<P>(cells)).collect(),
+            pairs: Vec::new(),
+        };
+        self.add::<P>(&mut octant, 0..moves.len(), first);
+        octant
+    }
+
+    /// Adds the subtree over moves of the octant, in angular order.
+    fn add<P: Placement>(&self, octant: &mut Octant, cone: Range<usize>, first: u16) {
+        if cone.is_empty() {
+            return;
+        }
+        let middle = cone.start + cone.len() / 2;
+        let in_tree = if self.mirrored { self.tree.moves.len() - 1 - middle } else { middle };
+        let (Places { shared, own }, pair) = self.tree.moves[in_tree];
+        let begin = octant.masks.len() as u32;
+        let cells = &self.tree.cells[shared.0 as usize..own as usize];
+        octant.masks.extend(cells.iter().map(|&cells| self.mask::<P>(cells)));
+        let between = begin + shared.1 - shared.0;
+        let places = Places { shared: (begin, between), own: octant.masks.len() as u32 };
+        let pair = pair.map(|cells| {
+            let cell = |cell| CellMask::new(self.frame.cell::<P>(cell), 1, self.bits_per_row);
+            octant.pairs.push(cells.map(cell));
+            octant.pairs.len() as u16 - 1
+        });
+        let node = octant.nodes.len();
+        octant.nodes.push(Node { index: first + middle as u16, skip: 0, places, pair });
+        self.add::<P>(octant, cone.start..middle, first);
+        self.add::<P>(octant, middle + 1..cone.end, first);
+        octant.nodes[node].skip = octant.nodes.len() as u16;
+    }
+
+    /// Cells of a row, with the first of them along the row in the lowest bit.
+    fn mask<P: Placement>(&self, RowCells { row, first, cells }: RowCells) -> CellMask {
+        let (row, first) = (i32::from(row), i32::from(first));
+        let (first, cells) = if self.frame.long > 0 {
+            (first, cells)
+        } else {
+            let beyond = cells.leading_zeros();
+            (first + 63 - beyond as i32, cells.reverse_bits() >> beyond)
+        };
+        CellMask::new(self.frame.cell::<P>((first, row)), cells, self.bits_per_row)
+    }
+}
+
+/// A move with the masks of its cells. Nodes are stored in depth-first order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Node {
     /// The index of the move in N(k).
     index: u16,
     /// The next node that is not in this one's subtree.
     skip: u16,
-    /// Where the masks of the cells that the whole subtree sweeps begin and end in [`Octant::masks`].
-    shared: (u32, u32),
-    /// Where the masks of the other cells that the move sweeps end; they begin where the shared ones end.
-    own: u32,
+    /// The masks of its cells in [`Octant::masks`].
+    places: Places,
     /// The index of its pair in [`Octant::pairs`], if it has one.
     pair: Option<u16>,
 }
 
-/// The moves strictly between two neighboring moves of N(3).
+/// The moves strictly between two neighboring moves of N(3), for maps with as many words a row.
 #[derive(Clone, Debug)]
 pub(crate) struct Octant {
     /// Whether the masks are for the transposed map.
@@ -56,67 +275,6 @@ pub(crate) struct Octant {
 }
 
 impl Octant {
-    /// The tree over `moves`: 2^n − 1 moves of one octant in angular order, the first of which has index
-    /// `first` in N(k).
-    pub(crate) fn new<P: Placement>(rule: P::Rule, moves: &[Vector], first: u16, grid: &Grid) -> Self {
-        let frame = Frame::of(moves[moves.len() / 2]).0;
-        let mut octant = Self {
-            transposed: frame.transposed,
-            nodes: Vec::new(),
-            masks: Vec::new(),
-            all: Vec::new(),
-            pairs: Vec::new(),
-        };
-        let footprints: Vec<Footprint> =
-            moves.iter().map(|&v| in_matrix::<P>(rule, v, frame.transposed)).collect();
-        let cells = |swept: &Footprint| [&*swept.free, swept.either.as_flattened()].concat();
-        let all: BTreeSet<CellOffset> = footprints.iter().flat_map(cells).collect();
-        let matrix = if frame.transposed { grid.columns() } else { grid.rows() };
-        octant.all = CellMask::holding(all.into_iter().collect(), matrix);
-        octant.add(&footprints, first, &[], matrix);
-        octant
-    }
-
-    /// Adds the subtree over moves with these footprints. `tested` are the cells that the nodes above test.
-    fn add(&mut self, footprints: &[Footprint], first: u16, tested: &[CellOffset], matrix: &BitMatrix) {
-        if footprints.is_empty() {
-            return;
-        }
-        let middle = footprints.len() / 2;
-        let mut shared = footprints[middle].free.clone();
-        for footprint in footprints {
-            shared.retain(|cell| footprint.free.binary_search(cell).is_ok());
-        }
-        let beyond = |cells: &[CellOffset], tested: &[CellOffset]| -> Vec<CellOffset> {
-            cells.iter().filter(|cell| !tested.contains(cell)).copied().collect()
-        };
-        let new = beyond(&shared, tested);
-        let tested = [tested, &new].concat();
-        let own = beyond(&footprints[middle].free, &tested);
-        let begin = self.masks.len() as u32;
-        self.masks.extend(CellMask::holding(new, matrix));
-        let between = self.masks.len() as u32;
-        self.masks.extend(CellMask::holding(own, matrix));
-        // The coordinates of a move have no common divisor, so it passes through at most one corner of cells:
-        // at its middle.
-        let pair = footprints[middle].either.first().map(|&cells| {
-            self.pairs.push(cells.map(|cell| CellMask::cell(cell, matrix)));
-            self.pairs.len() as u16 - 1
-        });
-        let node = self.nodes.len();
-        let index = first + middle as u16;
-        self.nodes.push(Node {
-            index,
-            skip: 0,
-            shared: (begin, between),
-            own: self.masks.len() as u32,
-            pair,
-        });
-        self.add(&footprints[..middle], first, &tested, matrix);
-        self.add(&footprints[middle + 1..], index + 1, &tested, matrix);
-        self.nodes[node].skip = self.nodes.len() as u16;
-    }
-
     pub(crate) fn memory_bytes(&self) -> usize {
         let masks = size_of_val(&*self.masks) + size_of_val(&*self.all);
         size_of_val(&*self.nodes) + masks + size_of_val(&*self.pairs)
@@ -135,12 +293,12 @@ impl Octant {
         let free = |begin: u32, end: u32| all_free(&self.masks[begin as usize..end as usize]);
         let mut i = 0;
         while let Some(node) = self.nodes.get(i) {
-            if !free(node.shared.0, node.shared.1) {
+            if !free(node.places.shared.0, node.places.shared.1) {
                 i = usize::from(node.skip);
                 continue;
             }
             let pair = node.pair.map(|pair| self.pairs[usize::from(pair)]);
-            if free(node.shared.1, node.own)
+            if free(node.places.shared.1, node.places.own)
                 && pair.is_none_or(|cells| cells.iter().any(|cell| cell.is_free(words, at)))
             {
                 legal(usize::from(node.index));
@@ -150,66 +308,5 @@ impl Octant {
     }
 }
 
-/// The footprint of a move, as (along, across) in the matrix of its octant.
-fn in_matrix<P: Placement>(rule: P::Rule, v: Vector, transposed: bool) -> Footprint {
-    let mut footprint = Footprint::new::<P>(rule, v);
-    if transposed {
-        let swap = |(x, y)| (y, x);
-        footprint.free.iter_mut().for_each(|cell| *cell = swap(*cell));
-        sort_cells(&mut footprint.free);
-        footprint.either.iter_mut().for_each(|cells| *cells = cells.map(swap));
-    }
-    footprint
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{Centers, CornerRule, Corners, DiagonalGap, Grid};
-    use mediant_moves::{FiniteK, Neighborhood};
-
-    /// The number of moves of N(8) beyond N(3) that are legal, the number of nodes visited to find them, and
-    /// the number of all these moves, summed over the free vertices of a map on which one cell in n is
-    /// blocked at random.
-    fn work<P: Placement>(rule: P::Rule, one_in: u64) -> [usize; 3] {
-        let mut state = 1_u64;
-        let grid = Grid::from_fn(100, 100, |_, _| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 33).is_multiple_of(one_in)
-        })
-        .unwrap();
-        let moves: Vec<Vector> = Neighborhood::new(FiniteK::new(8).unwrap()).unwrap().iter().collect();
-        let mut sums = [0; 3];
-        for (moves, first) in moves.chunks_exact(32).zip((0..).step_by(32)) {
-            let octant = Octant::new::<P>(rule, &moves[1..], first + 1, &grid);
-            let (matrix, swap) =
-                if octant.transposed { (grid.columns(), true) } else { (grid.rows(), false) };
-            for (x, y) in
-                (0..100).flat_map(|y| (0..100).map(move |x| (x, y))).filter(|&(x, y)| grid.is_free(x, y))
-            {
-                let at = if swap { matrix.index(y, x) } else { matrix.index(x, y) };
-                octant.for_each_legal(matrix, at, |_| sums[0] += 1);
-                let mut i = 0;
-                while let Some(node) = octant.nodes.get(i) {
-                    let masks = &octant.masks[node.shared.0 as usize..node.shared.1 as usize];
-                    let blocked = masks.iter().any(|mask| !mask.is_free(matrix.words(), at));
-                    i = if blocked { usize::from(node.skip) } else { i + 1 };
-                    sums[1] += 1;
-                }
-                sums[2] += octant.nodes.len();
-            }
-        }
-        sums
-    }
-
-    /// The work follows the number of legal moves rather than 2^k. `docs/architecture.md` quotes these
-    /// percentages.
-    #[test]
-    fn blocked_cones_are_skipped() {
-        let share = |[legal, visited, all]: [usize; 3]| [100 * legal / all, 100 * visited / all];
-        let corners = [2, 5, 20, 100].map(|n| share(work::<Corners>(DiagonalGap::Open, n)));
-        let centers = [2, 5, 20, 100].map(|n| share(work::<Centers>(CornerRule::Never, n)));
-        assert_eq!(corners, [[2, 7], [14, 27], [55, 68], [80, 86]]);
-        assert_eq!(centers, [[0, 9], [10, 27], [50, 66], [77, 85]]);
-    }
-}
+mod tests;

@@ -7,11 +7,14 @@ use std::{
 };
 
 use mediant::{
-    ConfiguredEngine, Engine, Error, ErrorCode, Index, K, Levels, Map, Motion, Planner, Query, Space,
+    ConfiguredEngine, Engine, Error, ErrorCode, FiniteK, Index, K, Levels, Map, Motion, Planner, Query,
+    Rules, Space,
 };
 
 /// The bytes that are allocated, by all threads.
 static BYTES: AtomicUsize = AtomicUsize::new(0);
+/// The bytes that were ever allocated.
+static EVER: AtomicUsize = AtomicUsize::new(0);
 /// The bytes of the largest piece that can be had.
 static ROOM: AtomicUsize = AtomicUsize::new(usize::MAX);
 
@@ -25,6 +28,7 @@ unsafe impl GlobalAlloc for Counting {
             return std::ptr::null_mut();
         }
         BYTES.fetch_add(layout.size(), Ordering::Relaxed);
+        EVER.fetch_add(layout.size(), Ordering::Relaxed);
         // SAFETY: the caller keeps the contract of `alloc`.
         unsafe { System.alloc(layout) }
     }
@@ -69,9 +73,35 @@ fn planners(index: &mediant::Index) -> Vec<Planner> {
     planners
 }
 
+/// The bytes that a space and an index that prepares nothing allocate on a small map, with what they free.
+fn allocated(width: u32, motion: Motion) -> usize {
+    let map = Map::from_fn(width, 4, |x, y| (x, y) == (1, 2)).expect("a map");
+    let before = EVER.load(Ordering::Relaxed);
+    let index = map.space(motion).and_then(|space| space.prepare(Engine::AStar)).expect("every motion");
+    let bytes = EVER.load(Ordering::Relaxed) - before;
+    assert!(index.try_planner().is_ok());
+    bytes
+}
+
+/// The tables that depend on the motion alone are made for the first map of the process.
+fn only_the_first_map_makes_tables() {
+    for k in (2..=12).map(|k| FiniteK::new(k).expect("k is at least 2")) {
+        for motion in Rules::ALL.map(|rules| Motion::new(k, rules)) {
+            let (first, second) = (allocated(4, motion), allocated(60, motion));
+            // The moves with their offsets, a copy of the costs, and the least that every map takes.
+            let moves = 1 << k.get();
+            let own = 16 * moves + 8 * (moves / 4 + 1) + 2048;
+            assert!(second <= own, "{motion}: {second} bytes, at most {own}");
+            let tables = 20 * moves;
+            assert!(first >= second + tables, "{motion}: {first} bytes, then {second}");
+        }
+    }
+}
+
 /// One test: the count is of the whole program.
 #[test]
 fn eight_planners_share_one_index() {
+    only_the_first_map_makes_tables();
     // A cell in sixteen is blocked, so that every engine has much to prepare.
     let map = Map::from_fn(SIDE, SIDE, |x, y| x % 4 == 1 && y % 4 == 2).expect("a map");
     let vertices = (SIDE * SIDE) as usize;

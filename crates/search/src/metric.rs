@@ -1,6 +1,6 @@
 //! The length of a displacement where no obstacle is in the way.
 
-use mediant_grid::Vector;
+use mediant_grid::{Vector, cost_table};
 use mediant_moves::{Cost, CostTable, K, KError};
 
 use crate::segment::segment_cost;
@@ -21,7 +21,7 @@ impl Metric {
     /// [`KError::TooLarge`] above [`CostTable::MAX_K`].
     pub fn new(k: K) -> Result<Self, KError> {
         Ok(match k {
-            K::Finite(k) => Self::Hk(CostTable::new(k)?),
+            K::Finite(k) => Self::Hk(cost_table(k)?),
             K::Any => Self::Euclidean,
         })
     }

@@ -64,7 +64,7 @@ impl ClusterGraph {
             k: grid_graph.k(),
             clustering,
             size: (grid.width(), grid.height()),
-            costs: CostTable::new(grid_graph.k())?,
+            costs: grid_graph.costs().clone(),
             levels: sides.into_iter().map(level).collect::<Result<_, _>>()?,
         })
     }

@@ -2,8 +2,8 @@
 
 use std::{ops::Deref, sync::Arc};
 
-use mediant_grid::{BitMatrix, Corners, FreeSpace, Identity, Mismatch, Vertex};
-use mediant_moves::{CostTable, FiniteK, KError};
+use mediant_grid::{BitMatrix, Corners, FreeSpace, Identity, Mismatch, Vertex, cost_table};
+use mediant_moves::{FiniteK, KError};
 
 use super::{
     cone::Successor,
@@ -84,9 +84,9 @@ impl<S: Deref<Target = FreeSpace<Corners>>> Anya<S, LatticeNorm> {
     /// A planner of paths over N(k), on a map.
     ///
     /// # Errors
-    /// [`KError::TooLarge`] above [`CostTable::MAX_K`].
+    /// [`KError::TooLarge`] above [`CostTable::MAX_K`](mediant_moves::CostTable::MAX_K).
     pub fn over(space: S, k: FiniteK) -> Result<Self, KError> {
-        Ok(Self::with_norm(space, LatticeNorm::new(k, CostTable::new(k)?)))
+        Ok(Self::with_norm(space, LatticeNorm::new(k, cost_table(k)?)))
     }
 }
 

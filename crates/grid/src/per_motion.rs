@@ -1,0 +1,87 @@
+//! What depends on the rules of motion and k alone: the process computes it once.
+
+use std::sync::OnceLock;
+
+use mediant_moves::{CostTable, FiniteK, KError};
+
+use crate::{Centers, GridGraph, Rules};
+
+/// The number of k with a search graph: from 2 on.
+const KS: usize = GridGraph::<Centers>::MAX_K as usize - 1;
+
+/// A value for each placement with its rule of motion and each k of a search graph. Each is computed when it
+/// is first asked for, and kept as long as the process lives: there are 55 at most. Reading takes no lock. A
+/// thread waits only while another computes the same value.
+///
+/// Hidden: for the crates of this workspace, as a `static`.
+#[doc(hidden)]
+#[derive(Debug)]
+pub struct PerMotion<V> {
+    known: [[OnceLock<V>; KS]; Rules::ALL.len()],
+}
+
+impl<V> PerMotion<V> {
+    /// Nothing is computed yet.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self { known: [const { [const { OnceLock::new() }; KS] }; Rules::ALL.len()] }
+    }
+
+    /// The value for these rules and this k.
+    ///
+    /// # Errors
+    /// [`KError::TooLarge`] above [`GridGraph::MAX_K`].
+    pub fn get(&self, rules: Rules, k: FiniteK, compute: impl FnOnce() -> V) -> Result<&V, KError> {
+        let too_large = || KError::TooLarge { k: k.get(), max: GridGraph::<Centers>::MAX_K };
+        let value = self.known[rules.number()].get(k.depth() as usize).ok_or_else(too_large)?;
+        Ok(value.get_or_init(compute))
+    }
+}
+
+impl<V> Default for PerMotion<V> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// The costs of the moves of N(k), and h_k: a copy of the table that the process keeps, for the k of search
+/// graphs.
+///
+/// Hidden, as [`PerMotion`] is.
+///
+/// # Errors
+/// [`KError::TooLarge`] above [`CostTable::MAX_K`].
+#[doc(hidden)]
+pub fn cost_table(k: FiniteK) -> Result<CostTable, KError> {
+    static KNOWN: [OnceLock<Result<CostTable, KError>>; KS] = [const { OnceLock::new() }; KS];
+    match KNOWN.get(k.depth() as usize) {
+        Some(known) => known.get_or_init(|| CostTable::new(k)).clone(),
+        None => CostTable::new(k),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_value_is_computed_once() {
+        let (known, mut computed) = (PerMotion::new(), 0);
+        let ks = || (2..=12).map(|k| FiniteK::new(k).expect("k is at least 2"));
+        let mut pass = || {
+            for (rules, k) in Rules::ALL.into_iter().flat_map(|rules| ks().map(move |k| (rules, k))) {
+                let value = known.get(rules, k, || {
+                    computed += 1;
+                    (rules, k)
+                });
+                assert_eq!(value, Ok(&(rules, k)));
+            }
+        };
+        pass();
+        pass();
+        assert_eq!(computed, 5 * 11);
+        let beyond = FiniteK::new(13).expect("k is at least 2");
+        let refused = known.get(Rules::ALL[0], beyond, || unreachable!("it is not kept"));
+        assert_eq!(refused, Err(KError::TooLarge { k: 13, max: 12 }));
+    }
+}
