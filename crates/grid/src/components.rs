@@ -2,7 +2,13 @@
 
 use std::sync::Arc;
 
-use crate::{Grid, Vertex};
+use crate::{
+    Grid, Vertex,
+    interrupt::{Interrupt, Interrupted, uninterrupted},
+};
+
+/// What the search for components is doing.
+const DURING: &str = "finding connected components";
 
 /// Which free cells count as neighbors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -54,12 +60,25 @@ impl Components {
     /// The components of a grid.
     #[must_use]
     pub fn new(grid: &Arc<Grid>, connectivity: Connectivity) -> Self {
+        uninterrupted(|never| Self::interruptible(grid, connectivity, never))
+    }
+
+    /// [`new`](Self::new), which an interrupt can stop; it asks before each row.
+    ///
+    /// # Errors
+    /// [`Interrupted`].
+    pub fn interruptible(
+        grid: &Arc<Grid>,
+        connectivity: Connectivity,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
         let reach = u32::from(connectivity == Connectivity::Eight);
         let rows = grid.rows();
         let mut first = Vec::with_capacity(rows.words().len());
         let (mut sets, mut labels) = (Sets::default(), Vec::new());
         let (mut above, mut row): (Vec<Run>, Vec<Run>) = (Vec::new(), Vec::new());
         for y in 0..grid.height() as i32 {
+            interrupt.check(DURING)?;
             let start = rows.index(0, y).0 as usize / 64;
             // The words of the frame hold no run.
             first.resize(start, labels.len() as u32);
@@ -84,11 +103,14 @@ impl Components {
             std::mem::swap(&mut above, &mut row);
             row.clear();
         }
-        let (names, count) = sets.names();
-        labels.iter_mut().for_each(|label| *label = names[*label as usize]);
+        let (names, count) = sets.names(interrupt)?;
+        for labels in labels.chunks_mut(PART) {
+            interrupt.check(DURING)?;
+            labels.iter_mut().for_each(|label| *label = names[*label as usize]);
+        }
         labels.shrink_to_fit();
         let (first, labels) = (first.into_boxed_slice(), labels.into_boxed_slice());
-        Self { grid: Arc::clone(grid), first, labels, count }
+        Ok(Self { grid: Arc::clone(grid), first, labels, count })
     }
 
     /// The number of components.
@@ -118,6 +140,9 @@ impl Components {
         Some(self.labels[run as usize])
     }
 }
+
+/// The runs that are handled between two questions of an interrupt.
+const PART: usize = 1 << 16;
 
 /// Disjoint sets of run numbers; the smallest number of a set is its root.
 #[derive(Default)]
@@ -162,15 +187,16 @@ impl Sets {
 
     /// The number of each run's set, with the sets numbered in the order of their roots, and the number of
     /// sets.
-    fn names(mut self) -> (Vec<u32>, u32) {
+    fn names(mut self, interrupt: &Interrupt) -> Result<(Vec<u32>, u32), Interrupted> {
         let mut names = Vec::with_capacity(self.parents.len());
         let mut count = 0;
         for i in 0..self.parents.len() as u32 {
+            interrupt.check_every(PART, i as usize, DURING)?;
             // A root comes before all others of its set, so its name is known when they need it.
             let root = self.root(i);
             names.push(if root == i { count } else { names[root as usize] });
             count += u32::from(root == i);
         }
-        (names, count)
+        Ok((names, count))
     }
 }

@@ -6,6 +6,7 @@ use mediant_moves::{FiniteK, K};
 
 use crate::{
     BitMatrix, Components, Connectivity, Grid, Identity, Placement, Rules, Vertex, VertexId,
+    interrupt::{Interrupt, Interrupted, uninterrupted},
     line_of_sight::line_of_sight,
 };
 
@@ -50,17 +51,31 @@ impl<P: Placement> FreeSpace<P> {
     /// other k only at k = 2 where corners are always cut: there are more components then.
     #[must_use]
     pub fn for_k(grid: Arc<Grid>, rule: P::Rule, k: K) -> Self {
+        uninterrupted(|never| Self::interruptible(grid, rule, k, never))
+    }
+
+    /// [`for_k`](Self::for_k), which an interrupt can stop; it asks before each row.
+    ///
+    /// # Errors
+    /// [`Interrupted`].
+    pub fn interruptible(
+        grid: Arc<Grid>,
+        rule: P::Rule,
+        k: K,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
         let (width, height) = P::vertices(&grid);
         let connectivity = P::connectivity(rule, k.finite());
-        Self {
-            gaps: P::closes_gaps(rule).then(|| gaps(&grid)).flatten().map(Arc::new),
-            components: Arc::new(Components::new(&grid, connectivity)),
+        let gaps = if P::closes_gaps(rule) { gaps(&grid, interrupt)? } else { None };
+        Ok(Self {
+            gaps: gaps.map(Arc::new),
+            components: Arc::new(Components::interruptible(&grid, connectivity, interrupt)?),
             connectivity,
             grid,
             rule,
             width,
             height,
-        }
+        })
     }
 
     /// This, if it serves N(k); else the free space that does.
@@ -211,8 +226,8 @@ impl<P: Placement> FreeSpace<P> {
 }
 
 /// The gaps of a map; `None` if there are none.
-fn gaps(grid: &Grid) -> Option<BitMatrix> {
-    let (width, height) = (grid.width() + 1, grid.height() + 1);
-    let gaps = BitMatrix::from_words(width, height, false, |x, y| grid.rows().gaps(x, y));
-    gaps.words().iter().any(|&word| word != 0).then_some(gaps)
+fn gaps(grid: &Grid, interrupt: &Interrupt) -> Result<Option<BitMatrix>, Interrupted> {
+    let (size, stop) = ((grid.width() + 1, grid.height() + 1), (interrupt, "finding closed gaps"));
+    let gaps = BitMatrix::from_words_interruptible(size, false, stop, |x, y| grid.rows().gaps(x, y))?;
+    Ok(gaps.words().iter().any(|&word| word != 0).then_some(gaps))
 }

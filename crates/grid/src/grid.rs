@@ -1,6 +1,10 @@
 //! The map: which cells are blocked.
 
-use crate::{BitMatrix, Rectangle, Vertex, identity::MapId};
+use crate::{
+    BitMatrix, Rectangle, Vertex,
+    identity::MapId,
+    interrupt::{Interrupt, Interrupted},
+};
 
 /// A bit-packed map: which cells are blocked. It keeps a transposed copy, so that runs along a row and along
 /// a column are both runs of bits.
@@ -46,6 +50,9 @@ pub enum GridError {
         /// The first row's cells.
         expected: usize,
     },
+    /// It was stopped while it was made.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
 }
 
 impl Grid {
@@ -63,8 +70,21 @@ impl Grid {
         height: u32,
         blocked: impl FnMut(u32, u32) -> bool,
     ) -> Result<Self, GridError> {
+        Self::from_fn_interruptible(width, height, &Interrupt::NEVER, blocked)
+    }
+
+    /// [`from_fn`](Self::from_fn), which an interrupt can stop; it asks before each row.
+    ///
+    /// # Errors
+    /// Those of [`from_fn`](Self::from_fn), and [`GridError::Interrupted`].
+    pub fn from_fn_interruptible(
+        width: u32,
+        height: u32,
+        interrupt: &Interrupt,
+        blocked: impl FnMut(u32, u32) -> bool,
+    ) -> Result<Self, GridError> {
         Self::check_size(u64::from(width), u64::from(height))?;
-        Ok(Self::of(BitMatrix::from_bits(width, height, blocked)))
+        Ok(Self::of(BitMatrix::from_bits(width, height, interrupt, blocked)?, interrupt)?)
     }
 
     /// A map of `width` × `height` cells, 64 at a time: `word(x, y)` returns the cells of row y from column x
@@ -80,18 +100,29 @@ impl Grid {
     ///
     /// # Errors
     /// Those of [`from_fn`](Self::from_fn).
-    pub fn from_words(
+    pub fn from_words(width: u32, height: u32, word: impl FnMut(u32, u32) -> u64) -> Result<Self, GridError> {
+        Self::from_words_interruptible(width, height, &Interrupt::NEVER, word)
+    }
+
+    /// [`from_words`](Self::from_words), which an interrupt can stop; it asks before each row.
+    ///
+    /// # Errors
+    /// Those of [`from_words`](Self::from_words), and [`GridError::Interrupted`].
+    pub fn from_words_interruptible(
         width: u32,
         height: u32,
+        interrupt: &Interrupt,
         mut word: impl FnMut(u32, u32) -> u64,
     ) -> Result<Self, GridError> {
         Self::check_size(u64::from(width), u64::from(height))?;
-        Ok(Self::of(BitMatrix::from_words(width, height, true, |x, y| word(x as u32, y as u32))))
+        let (size, stop) = ((width, height), (interrupt, "making the map"));
+        let word = |x, y| word(x as u32, y as u32);
+        Ok(Self::of(BitMatrix::from_words_interruptible(size, true, stop, word)?, interrupt)?)
     }
 
     /// The map with these rows, which are of a size that maps have and in a frame of blocked bits.
-    pub(crate) fn of(rows: BitMatrix) -> Self {
-        Self { id: MapId::new(&rows), columns: rows.transposed(), rows }
+    pub(crate) fn of(rows: BitMatrix, interrupt: &Interrupt) -> Result<Self, Interrupted> {
+        Ok(Self { id: MapId::new(&rows, interrupt)?, columns: rows.transposed(interrupt)?, rows })
     }
 
     /// A copy of this map with other cells in a rectangle: `blocked(x, y)` is asked once for each cell that

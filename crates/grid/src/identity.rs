@@ -4,7 +4,10 @@ use std::fmt;
 
 use mediant_moves::{FiniteK, K};
 
-use crate::{BitMatrix, Rectangle, Rules};
+use crate::{
+    BitMatrix, Rectangle, Rules,
+    interrupt::{Interrupt, Interrupted},
+};
 
 /// The identity of a map: its size, and a digest of its cells.
 ///
@@ -38,10 +41,15 @@ impl fmt::Display for MapId {
 }
 
 impl MapId {
-    pub(crate) fn new(rows: &BitMatrix) -> Self {
+    pub(crate) fn new(rows: &BitMatrix, interrupt: &Interrupt) -> Result<Self, Interrupted> {
+        const BAND: u32 = 64;
         let (width, height) = (rows.width(), rows.height());
-        let all = Rectangle { x: 0, y: 0, width, height };
-        Self { width, height, digest: [0; 4] }.plus(sum(rows, all))
+        let mut id = Self { width, height, digest: [0; 4] };
+        for y in (0..height).step_by(BAND as usize) {
+            interrupt.check("digesting the map")?;
+            id = id.plus(sum(rows, Rectangle { x: 0, y, width, height: BAND.min(height - y) }));
+        }
+        Ok(id)
     }
 
     /// The number of columns and of rows.
@@ -236,13 +244,22 @@ impl Identity {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::interrupt::uninterrupted;
+
+    fn matrix(width: u32, height: u32, blocked: impl FnMut(u32, u32) -> bool) -> BitMatrix {
+        uninterrupted(|never| BitMatrix::from_bits(width, height, never, blocked))
+    }
+
+    fn id(rows: &BitMatrix) -> MapId {
+        uninterrupted(|never| MapId::new(rows, never))
+    }
 
     #[test]
     fn bytes_are_read_back_and_others_refused() {
-        let rows = BitMatrix::from_bits(70, 3, |x, y| x * y % 7 == 1);
+        let rows = matrix(70, 3, |x, y| x * y % 7 == 1);
         let ks = [None, Some(K::N4), Some(K::Any)];
         for (rules, k) in Rules::ALL.into_iter().flat_map(|rules| ks.map(|k| (rules, k))) {
-            for map in [None, Some(MapId::new(&rows))] {
+            for map in [None, Some(id(&rows))] {
                 let identity = Identity { map, rules, k };
                 assert_eq!(Identity::from_bytes(identity.to_bytes()), Some(identity));
             }
@@ -258,12 +275,10 @@ mod tests {
     /// Every map of 3 × 3 cells, and the moves of one blocked cell on a larger one, differ from one another.
     #[test]
     fn different_maps_have_different_identities() {
-        let small =
-            (0..1_u32 << 9).map(|cells| BitMatrix::from_bits(3, 3, |x, y| cells >> (3 * y + x) & 1 == 1));
-        let large = (0..130 * 5).map(|cell| BitMatrix::from_bits(130, 5, |x, y| y * 130 + x == cell));
-        let turned =
-            [(1, 64), (64, 1), (2, 32), (128, 1)].map(|(w, h)| BitMatrix::from_bits(w, h, |_, _| false));
-        let ids: Vec<MapId> = small.chain(large).chain(turned).map(|rows| MapId::new(&rows)).collect();
+        let small = (0..1_u32 << 9).map(|cells| matrix(3, 3, |x, y| cells >> (3 * y + x) & 1 == 1));
+        let large = (0..130 * 5).map(|cell| matrix(130, 5, |x, y| y * 130 + x == cell));
+        let turned = [(1, 64), (64, 1), (2, 32), (128, 1)].map(|(w, h)| matrix(w, h, |_, _| false));
+        let ids: Vec<MapId> = small.chain(large).chain(turned).map(|rows| id(&rows)).collect();
         let digests: std::collections::HashSet<_> = ids.iter().collect();
         assert_eq!(digests.len(), ids.len());
     }
@@ -271,7 +286,7 @@ mod tests {
     /// Pinned, since saved indexes hold it.
     #[test]
     fn the_digest_is_the_same_everywhere() {
-        let id = MapId::new(&BitMatrix::from_bits(70, 3, |x, y| x * y % 7 == 1));
+        let id = id(&matrix(70, 3, |x, y| x * y % 7 == 1));
         let MapId { width, height, digest } = id;
         assert_eq!((width, height), (70, 3));
         assert_eq!(digest, [0x8789_e346, 0x3425_d87d, 0x2674_a16a, 0x9a53_7a66]);

@@ -19,6 +19,11 @@
 //! agent of n × n cells. Whatever searches a grid searches these too, and what the agent's paths are worth is
 //! proven for each placement and rule. [`Clearance::widest`] finds paths that keep off walls.
 //!
+//! **One way to stop.** What can take longer than some milliseconds has a form that takes an [`Interrupt`], here
+//! and in all crates above: a flag, a deadline, or both, asked at bounded intervals of work. What was stopped
+//! returns [`Interrupted`], keeps no memory and leaves no thread at work. The plain form is the same with
+//! [`Interrupt::NEVER`].
+//!
 //! What is not here: files (`mediant-formats`) and searches (`mediant-search`).
 //!
 //! ```
@@ -48,6 +53,7 @@ mod free_space;
 mod grid;
 mod grid_graph;
 mod identity;
+mod interrupt;
 mod line_of_sight;
 mod obstruction;
 mod per_motion;
@@ -76,6 +82,9 @@ pub use free_space::FreeSpace;
 pub use grid::{Grid, GridError};
 pub use grid_graph::{GridGraph, MoveSet, Step};
 pub use identity::{Identity, MapId, Mismatch};
+#[doc(hidden)]
+pub use interrupt::uninterrupted;
+pub use interrupt::{Interrupt, Interrupted, StoppedBy};
 pub use mediant_moves::Vector;
 pub use obstruction::Obstruction;
 #[doc(hidden)]

@@ -1,6 +1,9 @@
 //! Rows and columns of bits exchanged, 64 × 64 at a time.
 
-use crate::BitMatrix;
+use crate::{
+    BitMatrix,
+    interrupt::{Interrupt, Interrupted},
+};
 
 /// Exchanges rows and columns: bit x of word y becomes bit y of word x.
 ///
@@ -25,11 +28,12 @@ pub const fn transpose(square: &mut [u64; 64]) {
 
 impl BitMatrix {
     /// The matrix with rows and columns exchanged, in a frame of blocked bits.
-    pub(crate) fn transposed(&self) -> Self {
+    pub(crate) fn transposed(&self, interrupt: &Interrupt) -> Result<Self, Interrupted> {
         let (width, height) = (self.width(), self.height());
         // 64 columns of the map, as the rows that they become: the squares of 64 rows one after another.
         let mut squares = vec![[0; 64]; height.div_ceil(64) as usize];
-        Self::from_words(height, width, true, |y, x| {
+        let stop = (interrupt, "exchanging rows and columns of the map");
+        Self::from_words_interruptible((height, width), true, stop, |y, x| {
             let (square, row) = (y as usize / 64, x as usize % 64);
             if square == 0 && row == 0 {
                 for (square, first) in squares.iter_mut().zip((0..height).step_by(64)) {

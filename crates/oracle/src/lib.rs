@@ -14,6 +14,7 @@
 //! * [`validate`]: checks that a path is legal and has the stated cost.
 //! * [`random_grid`], [`wide_grid`], [`Case`] and the generators behind them: maps and queries from a seed.
 //!   [`seeds`] are those of a suite.
+//! * [`check_interrupts`]: that work can be stopped anywhere, and then stops.
 //! * [`describe`]: the query and its map, for the message of a failing test.
 //!
 //! What is not here: speed. It is meant for small maps.
@@ -41,6 +42,7 @@ mod case;
 mod dijkstra;
 mod generate;
 mod geometry;
+mod interrupts;
 mod legality;
 mod neighborhood;
 mod random;
@@ -53,6 +55,7 @@ pub use generate::{
     adversarial, caves, maze, noise, random_free_vertex, random_grid, random_vertex, rooms, sparse,
     suite_grid, wide_grid,
 };
+pub use interrupts::check_interrupts;
 pub use legality::{is_gap, segment_is_legal, turn_is_legal, vertex_is_free};
 pub use neighborhood::neighborhood;
 pub use random::Rng;

@@ -5,6 +5,7 @@
 //! tell each band how far the sites beyond it are.
 
 use super::sites::Sites;
+use crate::interrupt::Interrupted;
 
 /// The rows of a band. (32 rows of 2048 columns are 128 KiB.)
 pub(super) const BAND: usize = 32;
@@ -69,7 +70,14 @@ pub(super) fn rows(sites: Sites<'_>, band: usize) -> std::ops::Range<usize> {
 }
 
 /// What lies beyond each band, from the bands by themselves and the distances of the rows beyond the map.
-pub(super) fn beyond(sites: Sites<'_>, mut bands: Vec<Beyond>, outside: u16) -> Vec<Beyond> {
+///
+/// `check` is asked before each band.
+pub(super) fn beyond(
+    sites: Sites<'_>,
+    mut bands: Vec<Beyond>,
+    outside: u16,
+    check: impl Fn() -> Result<(), Interrupted>,
+) -> Result<Vec<Beyond>, Interrupted> {
     // What a band says of itself is replaced by what the bands before it say; `carried` includes the band.
     fn carry(own: &mut Distances, carried: &mut Distances, rows: usize) {
         for (own, carried) in own.iter_mut().zip(carried.iter_mut()) {
@@ -80,26 +88,28 @@ pub(super) fn beyond(sites: Sites<'_>, mut bands: Vec<Beyond>, outside: u16) -> 
     let edge = vec![outside; 64 * sites.words()];
     let mut carried = edge.clone();
     for (band, own) in bands.iter_mut().enumerate() {
+        check()?;
         carry(&mut own.above, &mut carried, rows(sites, band).len());
     }
     carried = edge;
     for (band, own) in bands.iter_mut().enumerate().rev() {
+        check()?;
         carry(&mut own.below, &mut carried, rows(sites, band).len());
     }
-    bands
+    Ok(bands)
 }
 
 /// The rows of a band from the last to the first, with the distance of each point to the nearest site of its
 /// column.
 ///
-/// `upwards` is scratch memory.
+/// `upwards` is scratch memory. The first error of `row` ends it.
 pub(super) fn for_each_row(
     sites: Sites<'_>,
     band: usize,
     beyond: &Beyond,
     upwards: &mut Distances,
-    mut row: impl FnMut(usize, &[u16]),
-) {
+    mut row: impl FnMut(usize, &[u16]) -> Result<(), Interrupted>,
+) -> Result<(), Interrupted> {
     let (stride, rows) = (64 * sites.words(), rows(sites, band));
     // The row above the band comes first.
     upwards.clear();
@@ -116,6 +126,7 @@ pub(super) fn for_each_row(
         for (nearest, below) in nearest.iter_mut().zip(&below) {
             *nearest = (*nearest).min(*below);
         }
-        row(y, &nearest[..sites.size().0]);
+        row(y, &nearest[..sites.size().0])?;
     }
+    Ok(())
 }

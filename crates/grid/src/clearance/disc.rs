@@ -1,7 +1,13 @@
 //! The map of a disc: which cells are free for it.
 
 use super::{Clearance, Fit, SizeError, exact::least_square};
-use crate::{BitMatrix, Grid};
+use crate::{
+    BitMatrix, Grid,
+    interrupt::{Interrupt, Interrupted},
+};
+
+/// What the making of maps is doing.
+const DURING: &str = "making the map of a disc";
 
 impl Clearance {
     /// The map of a disc whose radius is given in cells: a cell is free if the disc fits, touching obstacles
@@ -14,21 +20,29 @@ impl Clearance {
     /// # Errors
     /// [`SizeError::Radius`] for a negative or infinite radius, or one that is not a number.
     pub fn for_disc(&self, radius: f64) -> Result<Grid, SizeError> {
+        self.for_disc_interruptible(radius, &Interrupt::NEVER)
+    }
+
+    /// [`for_disc`](Self::for_disc), which an interrupt can stop; it asks before each row.
+    ///
+    /// # Errors
+    /// Those of [`for_disc`](Self::for_disc), and [`SizeError::Interrupted`].
+    pub fn for_disc_interruptible(&self, radius: f64, interrupt: &Interrupt) -> Result<Grid, SizeError> {
         let least = least_square(radius, self.scale())?;
         // No stored square is larger than `u32::MAX`, so larger discs fit nowhere.
         let least = u32::try_from(least).ok();
         let nowhere = || BitMatrix::from_words(self.grid.width(), self.grid.height(), true, |_, _| !0);
         Ok(match least {
-            Some(least) => self.at_least(least),
-            None if self.unlimited => self.at_least(0),
-            None => Grid::of(nowhere()),
+            Some(least) => self.at_least(least, interrupt)?,
+            None if self.unlimited => self.at_least(0, interrupt)?,
+            None => Grid::of(nowhere(), interrupt)?,
         })
     }
 
     /// The map of the free cells whose stored square is at least so large.
-    pub(super) fn at_least(&self, least: u32) -> Grid {
+    pub(super) fn at_least(&self, least: u32, interrupt: &Interrupt) -> Result<Grid, Interrupted> {
         if least == 0 || self.unlimited {
-            return (*self.grid).clone();
+            return Ok((*self.grid).clone());
         }
         let width = self.columns();
         let near = |x: i32, y: i32| {
@@ -36,17 +50,19 @@ impl Clearance {
             below(&row[x as usize..], least)
         };
         let (width, height) = (self.grid.width(), self.grid.height());
+        let stop = (interrupt, DURING);
         let rows = match self.fit {
-            Fit::Centers => BitMatrix::from_words(width, height, true, near),
+            Fit::Centers => BitMatrix::from_words_interruptible((width, height), true, stop, near)?,
             Fit::WholeCells => {
-                let near = BitMatrix::from_words(width + 1, height + 1, true, near);
-                BitMatrix::from_words(width, height, true, |x, y| {
+                let size = (width + 1, height + 1);
+                let near = BitMatrix::from_words_interruptible(size, true, stop, near)?;
+                BitMatrix::from_words_interruptible((width, height), true, stop, |x, y| {
                     let [above, below] = [near.row(y), near.row(y + 1)];
                     above.word(x) | above.word(x + 1) | below.word(x) | below.word(x + 1)
-                })
+                })?
             }
         };
-        Grid::of(rows)
+        Grid::of(rows, interrupt)
     }
 }
 

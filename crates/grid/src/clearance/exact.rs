@@ -1,5 +1,7 @@
 //! Radii and squared distances, compared exactly.
 
+use crate::interrupt::Interrupted;
+
 /// Why no map can be made for an agent.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -10,6 +12,9 @@ pub enum SizeError {
     /// A square of no cells.
     #[error("a square of 0 × 0 cells: it must have at least one")]
     Square,
+    /// It was stopped while it was made.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
 }
 
 /// The smallest integer that is at least `scale` · radius²; [`u64::MAX`] if it has more than 64 bits.

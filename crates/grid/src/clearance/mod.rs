@@ -22,7 +22,10 @@ mod widest;
 
 use std::sync::Arc;
 
-use crate::{Grid, PlacementKind, Vertex};
+use crate::{
+    Grid, PlacementKind, Vertex,
+    interrupt::{Interrupt, Interrupted, uninterrupted},
+};
 
 pub use exact::SizeError;
 pub use fit::{Fit, Outside};
@@ -112,10 +115,24 @@ impl Clearance {
     /// Measures a map. Four bytes a cell, and linear time.
     #[must_use]
     pub fn new(grid: Arc<Grid>, fit: Fit, outside: Outside) -> Self {
-        let squared = transform::squared_distances(sites::Sites { rows: grid.rows(), fit, outside });
+        uninterrupted(|never| Self::interruptible(grid, fit, outside, never))
+    }
+
+    /// [`new`](Self::new), which an interrupt can stop; it asks before each row.
+    ///
+    /// # Errors
+    /// [`Interrupted`].
+    pub fn interruptible(
+        grid: Arc<Grid>,
+        fit: Fit,
+        outside: Outside,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
+        let sites = sites::Sites { rows: grid.rows(), fit, outside };
+        let squared = transform::squared_distances(sites, interrupt)?;
         let (width, height) = (u64::from(grid.width()), u64::from(grid.height()));
         let unlimited = outside == Outside::Open && grid.free_cells() == width * height;
-        Self { fit, outside, unlimited, squared, grid }
+        Ok(Self { fit, outside, unlimited, squared, grid })
     }
 }
 

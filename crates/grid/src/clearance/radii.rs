@@ -1,6 +1,7 @@
 //! The radii at which the map of a disc changes.
 
 use super::Clearance;
+use crate::interrupt::{Interrupt, Interrupted, uninterrupted};
 
 impl Clearance {
     /// The radii at which the map of a disc changes, from the smallest to the largest: the
@@ -8,20 +9,24 @@ impl Clearance {
     /// them and up to the next, the map is the same.
     #[must_use]
     pub fn radii(&self) -> Vec<f64> {
-        self.squared_radii().into_iter().map(|squared| self.root(squared)).collect()
+        uninterrupted(|never| self.squared_radii(never))
+            .into_iter()
+            .map(|squared| self.root(squared))
+            .collect()
     }
 
     /// The [`radii`](Self::radii) as stored squares.
-    pub(super) fn squared_radii(&self) -> Vec<u32> {
+    pub(super) fn squared_radii(&self, interrupt: &Interrupt) -> Result<Vec<u32>, Interrupted> {
         let (width, height) = (self.grid.width() as usize, self.grid.height() as usize);
         let mut squares = Numbers::default();
         for y in 0..height {
+            interrupt.check("collecting the radii of discs")?;
             let row = self.grid.rows().row(y as i32);
             for x in (0..width).filter(|&x| !row.is_blocked(x as i32)) {
                 squares.insert(self.squared_of_cell(x, y));
             }
         }
-        squares.sorted()
+        Ok(squares.sorted())
     }
 }
 

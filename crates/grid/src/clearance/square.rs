@@ -1,7 +1,10 @@
 //! The map of a square: which cells are free for an agent of n × n cells.
 
 use super::SizeError;
-use crate::Grid;
+use crate::{Grid, interrupt::Interrupt};
+
+/// What the making of maps is doing.
+const DURING: &str = "making the map of a square";
 
 impl Grid {
     /// The map of an agent of n × n cells: a cell is free if it and all others of the square are free of
@@ -40,6 +43,15 @@ impl Grid {
     /// # Errors
     /// [`SizeError::Square`] for n = 0. A square larger than the map has no free cell.
     pub fn for_square(&self, n: u32) -> Result<Self, SizeError> {
+        self.for_square_interruptible(n, &Interrupt::NEVER)
+    }
+
+    /// [`for_square`](Self::for_square), which an interrupt can stop; it asks each time that it has gone
+    /// through the map, in words.
+    ///
+    /// # Errors
+    /// Those of [`for_square`](Self::for_square), and [`SizeError::Interrupted`].
+    pub fn for_square_interruptible(&self, n: u32, interrupt: &Interrupt) -> Result<Self, SizeError> {
         let (width, height) = (self.width(), self.height());
         if n == 0 {
             return Err(SizeError::Square);
@@ -51,16 +63,19 @@ impl Grid {
             rows.fill(!0);
         } else {
             for by in steps(n) {
+                interrupt.check(DURING)?;
                 rows.chunks_exact_mut(words).for_each(|row| spread_left(row, by));
             }
             for by in steps(n) {
+                interrupt.check(DURING)?;
                 spread_up(&mut rows, words * by);
             }
         }
-        let rows = crate::BitMatrix::from_words(width, height, true, |x, y| {
+        let stop = (interrupt, DURING);
+        let rows = crate::BitMatrix::from_words_interruptible((width, height), true, stop, |x, y| {
             rows[y as usize * words + x as usize / 64]
-        });
-        Ok(Self::of(rows))
+        })?;
+        Ok(Self::of(rows, interrupt)?)
     }
 }
 

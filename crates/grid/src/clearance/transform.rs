@@ -6,6 +6,7 @@ use super::{
     envelope::Envelope,
     sites::Sites,
 };
+use crate::interrupt::{Interrupt, Interrupted};
 
 /// What a thread reuses from band to band.
 #[derive(Default)]
@@ -18,7 +19,8 @@ struct Scratch {
 /// centers in half cells. [`u32::MAX`] stands for all that do not fit, and for none.
 ///
 /// Linear time. With the feature `parallel` on all cores of rayon's current pool, with the same result.
-pub(super) fn squared_distances(sites: Sites<'_>) -> Box<[u32]> {
+pub(super) fn squared_distances(sites: Sites<'_>, interrupt: &Interrupt) -> Result<Box<[u32]>, Interrupted> {
+    let check = || interrupt.check("measuring clearances");
     let (width, height) = sites.size();
     // The row beyond the map: of centers, it is blocked itself. Vertices know their cells outside.
     let outside = if sites.outside == Outside::Blocked { 0 } else { NONE };
@@ -26,25 +28,28 @@ pub(super) fn squared_distances(sites: Sites<'_>) -> Box<[u32]> {
     let band = |scratch: &mut Scratch, (band, (squared, beyond)): (usize, (&mut [u32], &columns::Beyond))| {
         columns::for_each_row(sites, band, beyond, &mut scratch.upwards, |y, distances| {
             let start = (y - band * BAND) * width;
+            check()?;
             scratch.envelope.row(sites, distances, &mut squared[start..start + width]);
-        });
+            Ok(())
+        })
     };
+    let ends = |band| check().map(|()| columns::ends(sites, band));
     let bands = 0..height.div_ceil(BAND);
     #[cfg(feature = "parallel")]
     {
         use rayon::prelude::*;
-        let ends = bands.into_par_iter().map(|band| columns::ends(sites, band)).collect();
-        let beyond = columns::beyond(sites, ends, outside);
+        let ends = bands.into_par_iter().map(ends).collect::<Result<_, _>>()?;
+        let beyond = columns::beyond(sites, ends, outside, check)?;
         let parts = squared.par_chunks_mut(BAND * width).zip(&beyond).enumerate();
-        parts.for_each_init(Scratch::default, band);
+        parts.try_for_each_init(Scratch::default, band)?;
     }
     #[cfg(not(feature = "parallel"))]
     {
-        let ends = bands.map(|band| columns::ends(sites, band)).collect();
-        let beyond = columns::beyond(sites, ends, outside);
+        let ends = bands.map(ends).collect::<Result<_, _>>()?;
+        let beyond = columns::beyond(sites, ends, outside, check)?;
         let mut scratch = Scratch::default();
-        let parts = squared.chunks_mut(BAND * width).zip(&beyond).enumerate();
-        parts.for_each(|part| band(&mut scratch, part));
+        let mut parts = squared.chunks_mut(BAND * width).zip(&beyond).enumerate();
+        parts.try_for_each(|part| band(&mut scratch, part))?;
     }
-    squared
+    Ok(squared)
 }

@@ -5,7 +5,10 @@ use std::sync::Arc;
 use mediant_moves::K;
 
 use super::Clearance;
-use crate::{FreeSpace, Grid, Placement, Vertex};
+use crate::{
+    FreeSpace, Grid, Placement, Vertex,
+    interrupt::{Interrupt, Interrupted},
+};
 
 /// The widest disc that has a path: see [`Clearance::widest`].
 #[derive(Clone, Debug)]
@@ -81,9 +84,33 @@ impl Clearance {
     pub fn widest<T, E>(
         &self,
         at_most: f64,
+        search: impl FnMut(&Arc<Grid>) -> Result<Option<T>, E>,
+    ) -> Result<Option<Widest<T>>, E> {
+        self.bisect(at_most, &Interrupt::NEVER, |_| unreachable!("nothing stops this work"), search)
+    }
+
+    /// [`widest`](Self::widest), which an interrupt can stop where `search` does not work; it asks before
+    /// each row of a map.
+    ///
+    /// # Errors
+    /// Those of [`widest`](Self::widest), and that of an interrupt.
+    pub fn widest_interruptible<T, E: From<Interrupted>>(
+        &self,
+        at_most: f64,
+        interrupt: &Interrupt,
+        search: impl FnMut(&Arc<Grid>) -> Result<Option<T>, E>,
+    ) -> Result<Option<Widest<T>>, E> {
+        self.bisect(at_most, interrupt, E::from, search)
+    }
+
+    fn bisect<T, E>(
+        &self,
+        at_most: f64,
+        interrupt: &Interrupt,
+        stopped: impl Fn(Interrupted) -> E,
         mut search: impl FnMut(&Arc<Grid>) -> Result<Option<T>, E>,
     ) -> Result<Option<Widest<T>>, E> {
-        let mut squares = self.squared_radii();
+        let mut squares = self.squared_radii(interrupt).map_err(&stopped)?;
         squares.retain(|&squared| self.root(squared) <= at_most);
         // The smallest radius leaves the map as it is.
         let mut map = Arc::clone(&self.grid);
@@ -94,7 +121,7 @@ impl Clearance {
         let (mut low, mut high) = (0, squares.len());
         while low + 1 < high {
             let middle = usize::midpoint(low, high);
-            let narrower = Arc::new(self.at_least(squares[middle]));
+            let narrower = Arc::new(self.at_least(squares[middle], interrupt).map_err(&stopped)?);
             match search(&narrower)? {
                 Some(path) => {
                     (low, radius) = (middle, self.root(squares[middle]));
