@@ -8,12 +8,14 @@
 //!   [`SightCheck`].
 //! - [`Metric`] is the length of a displacement where no obstacle is in the way.
 //! - [`follow_line`] turns a line of sight into moves of N(k).
+//! - [`count_work`] answers a query that can be stopped, and counts its work.
 //! - [`Part`] is the observer of a part of a search.
 //! - [`HasFreeSpace`] is what a planner needs to be generic over grid graphs and free spaces.
 
 pub use crate::{
     astar::AllMoves,
     best_first::BestFirst,
+    counted::count_work,
     jps::{BlockFinder, JumpFinder, JumpPointSearch, StepwiseFinder},
     line_path::{along_line, elbows, follow_line, leg_is_free, legs_are_free, push_waypoint},
     metric::Metric,

@@ -14,7 +14,12 @@
 //! So every successor that is not natural is pruned, under either placement and every rule of motion. (At
 //! corners the box is taken one wider, so that no vertex of the path is a gap.)
 
-use mediant_grid::{CellOffset, GridGraph, Placement, PlacementKind, VertexId};
+use mediant_grid::{CellOffset, GridGraph, Interrupt, Interrupted, Placement, PlacementKind, VertexId};
+
+use crate::filled::filled;
+
+/// What is done when these are computed.
+const DURING: &str = "finding how far obstacles are";
 
 /// The clearance of each vertex, two bytes each; 255 also stands for all larger distances.
 #[derive(Clone, Debug)]
@@ -34,38 +39,44 @@ pub(crate) struct VertexClearance {
 }
 
 impl Clearance {
-    pub(crate) fn new<P: Placement>(graph: &GridGraph<P>) -> Self {
+    pub(crate) fn new<P: Placement>(
+        graph: &GridGraph<P>,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
         let grid = graph.grid();
         let (width, height) = (grid.width() as usize, grid.height() as usize);
-        let cells = distances(width, height, 0, |x, y| grid.is_blocked(x as i32, y as i32));
+        let cells = distances((width, height), 0, interrupt, |x, y| grid.is_blocked(x as i32, y as i32))?;
         let blocked = |x: usize, y: usize| grid.is_blocked(x as i32, y as i32);
-        let points = distances(width + 1, height + 1, u8::MAX, |x, y| {
+        let points = distances((width + 1, height + 1), u8::MAX, interrupt, |x, y| {
             let (left, above) = (x.wrapping_sub(1), y.wrapping_sub(1));
             is_convex_corner([blocked(left, above), blocked(x, above), blocked(left, y), blocked(x, y)])
-        });
+        })?;
         let point = |x: usize, y: usize| points[y * (width + 1) + x];
-        let values = match P::KIND {
-            PlacementKind::Center => (0..height)
-                .flat_map(|y| (0..width).map(move |x| (x, y)))
-                .map(|(x, y)| {
-                    let above = point(x, y).min(point(x + 1, y));
-                    [cells[y * width + x], above.min(point(x, y + 1)).min(point(x + 1, y + 1))]
-                })
-                .collect(),
+        let mut values = Vec::with_capacity(graph.vertex_count());
+        match P::KIND {
+            PlacementKind::Center => {
+                for y in 0..height {
+                    interrupt.check(DURING)?;
+                    values.extend((0..width).map(|x| {
+                        let above = point(x, y).min(point(x + 1, y));
+                        [cells[y * width + x], above.min(point(x, y + 1)).min(point(x + 1, y + 1))]
+                    }));
+                }
+            }
             PlacementKind::Corner => {
                 let cell =
                     |x: usize, y: usize| if x < width && y < height { cells[y * width + x] } else { 0 };
-                (0..=height)
-                    .flat_map(|y| (0..=width).map(move |x| (x, y)))
-                    .map(|(x, y)| {
+                for y in 0..=height {
+                    interrupt.check(DURING)?;
+                    values.extend((0..=width).map(|x| {
                         let (left, above) = (x.wrapping_sub(1), y.wrapping_sub(1));
                         let free = cell(x, y).min(cell(left, y)).min(cell(x, above)).min(cell(left, above));
                         [free, point(x, y)]
-                    })
-                    .collect()
+                    }));
+                }
             }
-        };
-        Self { values }
+        }
+        Ok(Self { values: values.into_boxed_slice() })
     }
 
     #[inline]
@@ -106,11 +117,17 @@ pub(crate) fn is_convex_corner([nw, ne, sw, se]: [bool; 4]) -> bool {
 
 /// The Chebyshev distance of each position to the nearest marked one, in two passes; `outside` is the
 /// distance of the positions beyond the edges.
-fn distances(width: usize, height: usize, outside: u8, marked: impl Fn(usize, usize) -> bool) -> Vec<u8> {
+fn distances(
+    (width, height): (usize, usize),
+    outside: u8,
+    interrupt: &Interrupt,
+    marked: impl Fn(usize, usize) -> bool,
+) -> Result<Vec<u8>, Interrupted> {
     // With a frame around them, positions at the edges need no case of their own.
     let stride = width + 2;
-    let mut values = vec![outside; stride * (height + 2)];
+    let mut values = filled(outside, stride * (height + 2), interrupt)?;
     for y in 1..=height {
+        interrupt.check(DURING)?;
         for x in 1..=width {
             let at = y * stride + x;
             let above = &values[at - stride - 1..=at - stride + 1];
@@ -119,6 +136,7 @@ fn distances(width: usize, height: usize, outside: u8, marked: impl Fn(usize, us
         }
     }
     for y in (1..=height).rev() {
+        interrupt.check(DURING)?;
         for x in (1..=width).rev() {
             let at = y * stride + x;
             let below = &values[at + stride - 1..=at + stride + 1];
@@ -126,7 +144,12 @@ fn distances(width: usize, height: usize, outside: u8, marked: impl Fn(usize, us
             values[at] = values[at].min(least.saturating_add(1));
         }
     }
-    (1..=height).flat_map(|y| values[y * stride + 1..=y * stride + width].to_vec()).collect()
+    let mut within = Vec::with_capacity(width * height);
+    for y in 1..=height {
+        interrupt.check(DURING)?;
+        within.extend_from_slice(&values[y * stride + 1..=y * stride + width]);
+    }
+    Ok(within)
 }
 
 #[cfg(test)]
@@ -141,7 +164,7 @@ mod tests {
 
     fn check<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, seed: u64) {
         let graph = GridGraph::<P>::new(Arc::clone(grid), FiniteK::N4, rule).unwrap();
-        let clearance = Clearance::new(&graph);
+        let clearance = Clearance::new(&graph, &Interrupt::NEVER).unwrap();
         for id in (0..graph.vertex_count() as u32).map(VertexId) {
             let Vertex { x, y } = graph.vertex(id);
             let free = |c: u32| {
@@ -164,7 +187,8 @@ mod tests {
         }
         let open = Arc::new(Grid::from_fn(600, 530, |_, _| false).unwrap());
         let graph = GridGraph::<Centers>::new(open, FiniteK::N4, CornerRule::Never).unwrap();
-        let at = |x, y| Clearance::new(&graph).of(graph.id(Vertex::new(x, y)).unwrap()).free;
+        let clearance = Clearance::new(&graph, &Interrupt::NEVER).unwrap();
+        let at = |x, y| clearance.of(graph.id(Vertex::new(x, y)).unwrap()).free;
         assert_eq!([at(0, 0), at(9, 300), at(300, 253), at(300, 265)], [1, 10, 254, 255]);
     }
 }

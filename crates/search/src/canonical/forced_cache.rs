@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use mediant_grid::VertexId;
+use mediant_grid::{Interrupt, Interrupted, VertexId};
 
 /// For each vertex and arriving move, whether there is a forced successor: two bits, of which the lower says
 /// 'none', the higher 'some', and neither 'unknown'.
@@ -20,10 +20,16 @@ impl ForcedCache {
     const MAX_WORDS: usize = 1 << 25;
 
     /// An empty cache for so many vertices with 2^k moves.
-    pub(crate) fn new(vertices: usize, k: u32) -> Self {
+    pub(crate) fn new(vertices: usize, k: u32, interrupt: &Interrupt) -> Result<Self, Interrupted> {
+        const PIECE: usize = 1 << 16;
         let words = vertices.div_ceil(32).checked_mul(1 << k);
-        let words = words.filter(|&words| words <= Self::MAX_WORDS).unwrap_or(0);
-        Self { words: (0..words).map(|_| AtomicU64::new(0)).collect(), k }
+        let count = words.filter(|&words| words <= Self::MAX_WORDS).unwrap_or(0);
+        let mut words = Vec::with_capacity(count);
+        while words.len() < count {
+            interrupt.check("filling memory")?;
+            words.resize_with(count.min(words.len() + PIECE), || AtomicU64::new(0));
+        }
+        Ok(Self { words: words.into_boxed_slice(), k })
     }
 
     #[inline]

@@ -12,7 +12,7 @@
 //! [`MAX_ALTERNATIVES`] alternatives. The cells that the arriving move and the candidate itself sweep are
 //! known to be free and not tested again.
 
-use mediant_grid::{CellOffset, Grid, Placement, Vertex, load};
+use mediant_grid::{CellOffset, Grid, Interrupt, Interrupted, Placement, Vertex, load};
 
 use super::{
     alternatives::{MoveTable, Requirements},
@@ -103,7 +103,10 @@ struct Candidate {
 }
 
 impl ForcedTrees {
-    pub(crate) fn new<P: Placement>(moves: &MoveTable<P>) -> Self {
+    pub(crate) fn new<P: Placement>(
+        moves: &MoveTable<P>,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
         let count = moves.len();
         let mut trees = Self {
             begins: vec![0],
@@ -130,6 +133,7 @@ impl ForcedTrees {
                 if natural(a, count).any(|natural| natural == b) {
                     continue;
                 }
+                interrupt.check("computing a pruning rule")?;
                 let candidate = Candidate::new(moves, a, b);
                 // A candidate with an alternative that requires nothing is never forced.
                 if candidate.alternatives.first().is_none_or(|first| !first.is_empty()) {
@@ -140,7 +144,7 @@ impl ForcedTrees {
             trees.begins.push(trees.nodes.len() as u32);
             trees.needed.push(needed);
         }
-        trees
+        Ok(trees)
     }
 
     /// Adds the subtree of these candidates. `tested` are the cells that the nodes above test because all

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{GridGraph, Identity, Mismatch, Placement, Vertex};
+use mediant_grid::{GridGraph, Identity, Interrupt, Interrupted, Mismatch, Placement, Vertex, uninterrupted};
 use mediant_moves::FiniteK;
 
 use super::{
@@ -46,7 +46,16 @@ impl<P: Placement> Pruning<P> {
     /// Prepares the rule for a grid graph.
     #[must_use]
     pub fn new(graph: &GridGraph<P>) -> Self {
-        Self::prepare(graph, Arc::new(CanonicalRule::new(graph.k(), graph.rule())))
+        uninterrupted(|never| Self::interruptible(graph, never))
+    }
+
+    /// [`new`](Self::new), which an interrupt can stop.
+    ///
+    /// # Errors
+    /// [`Interrupted`].
+    pub fn interruptible(graph: &GridGraph<P>, interrupt: &Interrupt) -> Result<Self, Interrupted> {
+        let rule = CanonicalRule::interruptible(graph.k(), graph.rule(), interrupt)?;
+        Self::prepare(graph, Arc::new(rule), interrupt)
     }
 
     /// The same with a rule that is shared with other maps.
@@ -54,16 +63,36 @@ impl<P: Placement> Pruning<P> {
     /// # Errors
     /// [`Mismatch`] for a rule of another k or rule of motion.
     pub fn with_rule(graph: &GridGraph<P>, rule: Arc<CanonicalRule<P>>) -> Result<Self, Mismatch> {
-        rule.identity().check("the pruning rule", ("the grid graph", graph.identity()))?;
-        Ok(Self::prepare(graph, rule))
+        uninterrupted(|never| Self::with_rule_interruptible(graph, rule, never))
+    }
+
+    /// [`with_rule`](Self::with_rule), which an interrupt can stop; it asks for each row of the map.
+    ///
+    /// # Errors
+    /// [`Interrupted`]; within, those of [`with_rule`](Self::with_rule).
+    pub fn with_rule_interruptible(
+        graph: &GridGraph<P>,
+        rule: Arc<CanonicalRule<P>>,
+        interrupt: &Interrupt,
+    ) -> Result<Result<Self, Mismatch>, Interrupted> {
+        match rule.identity().check("the pruning rule", ("the grid graph", graph.identity())) {
+            Ok(()) => Self::prepare(graph, rule, interrupt).map(Ok),
+            Err(mismatch) => Ok(Err(mismatch)),
+        }
     }
 
     /// Prepares a rule that is that of the grid graph.
-    fn prepare(graph: &GridGraph<P>, rule: Arc<CanonicalRule<P>>) -> Self {
-        let clearance = (graph.k() > FiniteK::N8).then(|| Clearance::new(graph));
+    fn prepare(
+        graph: &GridGraph<P>,
+        rule: Arc<CanonicalRule<P>>,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
+        let is_long = graph.k() > FiniteK::N8;
+        let clearance = is_long.then(|| Clearance::new(graph, interrupt)).transpose()?;
         let has_trees = matches!(rule.lookup, ForcedLookup::Trees(_));
-        let forced_cache = has_trees.then(|| ForcedCache::new(graph.vertex_count(), graph.k().get()));
-        Self { identity: graph.identity(), rule, clearance, forced_cache }
+        let cache = || ForcedCache::new(graph.vertex_count(), graph.k().get(), interrupt);
+        let forced_cache = has_trees.then(cache).transpose()?;
+        Ok(Self { identity: graph.identity(), rule, clearance, forced_cache })
     }
 
     /// What it belongs to: the map, the rules of motion and the k of its grid graph.

@@ -1,6 +1,6 @@
 //! The pruning rule without a map: what can be prepared for a placement, a rule of motion and k.
 
-use mediant_grid::{Identity, Placement};
+use mediant_grid::{Identity, Interrupt, Interrupted, Placement, uninterrupted};
 use mediant_moves::{FiniteK, Neighborhood};
 
 use super::{
@@ -37,15 +37,24 @@ impl<P: Placement> CanonicalRule<P> {
     /// Computes the rule, in time and memory that grow with 4^k: see [`memory_bytes`](Self::memory_bytes).
     #[must_use]
     pub fn new(k: FiniteK, rule: P::Rule) -> Self {
+        uninterrupted(|never| Self::interruptible(k, rule, never))
+    }
+
+    /// [`new`](Self::new), which an interrupt can stop; it asks for each pair of moves.
+    ///
+    /// # Errors
+    /// [`Interrupted`].
+    pub fn interruptible(k: FiniteK, rule: P::Rule, interrupt: &Interrupt) -> Result<Self, Interrupted> {
         let radius = k.radius().unwrap_or(1 << 16).min(1 << 16);
         let lookup = match Neighborhood::new(k).ok().filter(|_| k.get() <= Self::MAX_TABULATED_K) {
             None => ForcedLookup::Unknown,
             Some(all) if k <= FiniteK::N8 => {
                 ForcedLookup::Table(PatternTable::new(&MoveTable::<P>::new(rule, all)))
             }
-            Some(all) => ForcedLookup::Trees(ForcedTrees::new(&MoveTable::<P>::new(rule, all))),
+            Some(all) => ForcedLookup::Trees(ForcedTrees::new(&MoveTable::<P>::new(rule, all), interrupt)?),
         };
-        Self { k, rule, radius, corner_distance: Clearance::needed_from_corners::<P>(radius), lookup }
+        let corner_distance = Clearance::needed_from_corners::<P>(radius);
+        Ok(Self { k, rule, radius, corner_distance, lookup })
     }
 
     /// What it belongs to: its rules of motion and k, and every map.

@@ -3,7 +3,8 @@
 use std::{cmp::Reverse, collections::BinaryHeap, ops::Deref};
 
 use mediant_grid::{
-    BitMatrix, Corners, DiagonalGap, FreeSpace, Identity, Placement, VertexId, load, sight::Ray,
+    BitMatrix, Corners, DiagonalGap, FreeSpace, Identity, Interrupt, Interrupted, Placement, VertexId, load,
+    sight::Ray, uninterrupted,
 };
 use mediant_moves::K;
 
@@ -13,6 +14,7 @@ use super::{
     query::{FieldError, FieldQuery},
 };
 use crate::limit::with_room;
+use crate::filled::filled;
 
 /// Makes exact any-angle distance fields at corners, one after another.
 ///
@@ -50,8 +52,16 @@ impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
     /// Prepares what fields of a free space need: a bit a vertex.
     #[must_use]
     pub fn new(space: S) -> Self {
-        let corners = bends(&space);
-        Self { space, corners, open: BinaryHeap::new(), bends: Vec::new(), pending: Vec::new() }
+        uninterrupted(|never| Self::interruptible(space, never))
+    }
+
+    /// [`new`](Self::new), which an interrupt can stop.
+    ///
+    /// # Errors
+    /// [`Interrupted`].
+    pub fn interruptible(space: S, interrupt: &Interrupt) -> Result<Self, Interrupted> {
+        let corners = bends(&space, interrupt)?;
+        Ok(Self { space, corners, open: BinaryHeap::new(), bends: Vec::new(), pending: Vec::new() })
     }
 
     /// What it belongs to: its map and rules, and k = ∞.
@@ -73,10 +83,24 @@ impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
     /// # Errors
     /// [`FieldError`] for a source that is blocked or outside the map, or a limit that is none.
     pub fn field(&mut self, query: FieldQuery<'_>) -> Result<AnyAngleField<S>, FieldError> {
+        self.field_interruptible(query, &Interrupt::NEVER)
+    }
+
+    /// [`field`](Self::field), which an interrupt can stop: it asks every few thousand vertices. These fields
+    /// can be used on.
+    ///
+    /// # Errors
+    /// Those of [`field`](Self::field), and [`FieldError::Interrupted`].
+    pub fn field_interruptible(
+        &mut self,
+        query: FieldQuery<'_>,
+        interrupt: &Interrupt,
+    ) -> Result<AnyAngleField<S>, FieldError> {
         let sources = query.check(&self.space)?;
         let count = self.space.vertex_count();
-        let (mut lengths, mut toward) = (vec![f64::INFINITY; count], vec![0; count]);
+        let (mut lengths, mut toward) = (filled(f64::INFINITY, count, interrupt)?, vec![0; count]);
         self.open.clear();
+        self.bends.clear();
         for &id in &sources {
             if let (Some(length), Some(toward)) = (lengths.get_mut(id.index()), toward.get_mut(id.index())) {
                 if *length > 0.0 {
@@ -95,8 +119,10 @@ impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
             limit: with_room(query.limit),
             bends: &mut self.bends,
             pending: &mut self.pending,
+            interrupt,
+            unasked: 0,
         };
-        settle(labels, &mut self.open, &targets);
+        settle(labels, &mut self.open, &targets)?;
         if !targets.is_empty() {
             let farthest = targets.iter().filter_map(|&id| lengths.get(id)).copied().fold(0.0, f64::max);
             let farthest = with_room(farthest);
@@ -110,69 +136,80 @@ impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
 }
 
 /// Settles the roots in the order of their distance, until all targets are final or none is left.
-fn settle(mut labels: Labels<'_>, open: &mut BinaryHeap<Reverse<(u64, u32)>>, targets: &[usize]) {
+fn settle(
+    mut labels: Labels<'_>,
+    open: &mut BinaryHeap<Reverse<(u64, u32)>>,
+    targets: &[usize],
+) -> Result<(), Interrupted> {
     while let Some(Reverse((bits, id))) = open.pop() {
         let (g, id) = (f64::from_bits(bits), VertexId(id));
         let is_final = |&id: &usize| labels.lengths.get(id).is_some_and(|&length| with_room(length) <= g);
         if g > labels.limit || !targets.is_empty() && targets.iter().all(is_final) {
-            return;
+            return Ok(());
         }
         let known = labels.lengths.get(id.index()).zip(labels.toward.get(id.index()));
         let Some((_, &parent)) = known.filter(|&(&length, _)| length.to_bits() == bits) else { continue };
         let root = Root { at: labels.space.vertex(id), id, g };
         if parent == id.0 {
-            from_source(&mut labels, root);
+            from_source(&mut labels, root)?;
         } else {
-            from_bend(&mut labels, root, VertexId(parent));
+            from_bend(&mut labels, root, VertexId(parent))?;
         }
         open.extend(labels.bends.drain(..).map(|(length, id)| Reverse((length.to_bits(), id.0))));
     }
+    Ok(())
 }
 
 /// Labels all that a source sees. From a closed gap a path leaves by the quadrant of the vertex's own cell.
-fn from_source(labels: &mut Labels<'_>, root: Root) {
+fn from_source(labels: &mut Labels<'_>, root: Root) -> Result<(), Interrupted> {
     if labels.space.is_closed_gap(root.at) {
         if labels.space.grid().is_free(root.at.x, root.at.y) {
-            labels.in_cone(root, 1, Some(Ray::VERTICAL), None);
+            labels.in_cone(root, 1, Some(Ray::VERTICAL), None)?;
             labels.along_line(root, 1);
         }
-        return;
+        return Ok(());
     }
     for down in [1, -1] {
-        labels.in_cone(root, down, None, None);
+        labels.in_cone(root, down, None, None)?;
     }
     for right in [1, -1] {
         labels.along_line(root, right);
     }
+    Ok(())
 }
 
 /// Labels what taut paths reach that bend at a corner: what lies between straight on and the edge of the
 /// obstacle.
-fn from_bend(labels: &mut Labels<'_>, root: Root, parent: VertexId) {
+fn from_bend(labels: &mut Labels<'_>, root: Root, parent: VertexId) -> Result<(), Interrupted> {
     let space = labels.space;
     let from = space.vertex(parent);
     let u = from.to(root.at);
     let straight = (u.y != 0).then(|| Ray { dx: u.x, dy: u.y.abs() });
+    let mut stopped = Ok(());
     turns(space, root.at, from, |(x, y), to_horizontal| {
+        if stopped.is_err() {
+            return;
+        }
         if to_horizontal {
             let [left, right] = if x > 0 { [straight, None] } else { [None, straight] };
-            labels.in_cone(root, -y, left, right);
+            stopped = labels.in_cone(root, -y, left, right);
             labels.along_line(root, x);
         } else {
             let vertical = Some(Ray::VERTICAL);
             let [left, right] = if x > 0 { [straight, vertical] } else { [vertical, straight] };
-            labels.in_cone(root, y, left, right);
+            stopped = labels.in_cone(root, y, left, right);
         }
     });
+    stopped
 }
 
 /// The vertices at which paths may bend: those that touch one blocked cell, or two that meet diagonally, if a
 /// path may pass between them.
-fn bends(space: &FreeSpace<Corners>) -> BitMatrix {
+fn bends(space: &FreeSpace<Corners>, interrupt: &Interrupt) -> Result<BitMatrix, Interrupted> {
     let cells = space.grid().rows();
     let is_open = space.rule() == DiagonalGap::Open;
-    let (width, height) = Corners::vertices(space.grid());
-    BitMatrix::from_words(width, height, false, |x, y| {
+    let (size, stop) = (Corners::vertices(space.grid()), (interrupt, "finding corners"));
+    BitMatrix::from_words_interruptible(size, false, stop, |x, y| {
         let [nw, ne, sw, se] = [(-1, -1), (0, -1), (-1, 0), (0, 0)]
             .map(|(dx, dy)| load(cells.words(), cells.index(x + dx, y + dy)));
         let one = (nw ^ ne ^ sw ^ se) & !(nw & ne | sw & se);

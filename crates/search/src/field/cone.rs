@@ -1,7 +1,7 @@
 //! What a root of an any-angle field labels: the vertices of a cone, line by line.
 
 use mediant_grid::{
-    BitMatrix, Corners, FreeSpace, Vertex, VertexId,
+    BitMatrix, Corners, FreeSpace, Interrupt, Interrupted, Vertex, VertexId,
     sight::{Crossing, IntervalEnd, Ray, Side, row_ahead},
 };
 
@@ -44,7 +44,13 @@ pub(super) struct Labels<'s> {
     /// The corners that were reached by a shorter path than before, around which paths may bend.
     pub(super) bends: &'s mut Vec<(f64, VertexId)>,
     pub(super) pending: &'s mut Vec<Piece>,
+    pub(super) interrupt: &'s Interrupt,
+    /// How much work was done since the interrupt was asked: lines and vertices on them.
+    pub(super) unasked: usize,
 }
+
+/// How much work is done between two questions of an interrupt.
+const WORK: usize = 1 << 13;
 
 /// Whether a path that comes to a corner along `u` may bend around one of its blocked cells. `turn` is called
 /// with the signs of the cell, seen from the corner, and whether the path turns towards the horizontal edge
@@ -123,7 +129,13 @@ impl Labels<'_> {
 
     /// Labels what a root sees above or below it. `left` and `right` are the rays between which it looks;
     /// `None` for the horizontal.
-    pub(super) fn in_cone(&mut self, root: Root, down: i32, left: Option<Ray>, right: Option<Ray>) {
+    pub(super) fn in_cone(
+        &mut self,
+        root: Root,
+        down: i32,
+        left: Option<Ray>,
+        right: Option<Ray>,
+    ) -> Result<(), Interrupted> {
         let at = root.at;
         let ahead = row_ahead(self.space.grid().rows(), at.y, down);
         let on_line = |ray| IntervalEnd::new(ray, at.x, 1);
@@ -145,8 +157,13 @@ impl Labels<'_> {
                 if let Some(piece) = self.label_line(root, down, piece) {
                     self.cross_row(root, down, piece);
                 }
+                if self.unasked >= WORK {
+                    self.unasked = 0;
+                    self.interrupt.check("finding the distances of a field")?;
+                }
             }
         }
+        Ok(())
     }
 
     /// Labels the vertices of an interval. Returns the part of it behind which there may be vertices whose
@@ -154,6 +171,7 @@ impl Labels<'_> {
     #[inline]
     fn label_line(&mut self, root: Root, down: i32, piece: Piece) -> Option<Piece> {
         let (first, last) = (piece.left.here.ceil(), piece.right.here.floor());
+        self.unasked += (last - first).max(0) as usize + 1;
         if first > last {
             return Some(piece);
         }

@@ -9,7 +9,9 @@
 //! two corners to the opposite one leads along the edges of the cell, past a gap. All four neighbors of such
 //! a cell are blocked, so that nothing but the cell's own corners is within reach.
 
-use mediant_grid::{DiagonalGap, FreeSpace, GridGraph, Placement, Rules, Vertex, VertexId};
+use mediant_grid::{
+    DiagonalGap, FreeSpace, GridGraph, Interrupt, Interrupted, Placement, Rules, Vertex, VertexId,
+};
 use mediant_moves::{Cost, FiniteK, Vector};
 
 /// The corners of a cell, clockwise from the upper left one, as offsets.
@@ -21,11 +23,13 @@ pub(super) fn end_at_gaps<P: Placement>(
     sources: &[VertexId],
     limit: Cost,
     costs: &mut [Cost],
-) {
+    interrupt: &Interrupt,
+) -> Result<(), Interrupted> {
     if !graph.has_closed_gaps() {
-        return;
+        return Ok(());
     }
     for id in (0..graph.vertex_count() as u32).map(VertexId) {
+        interrupt.check_every(1 << 16, id.index(), "finding the distances of a field")?;
         let at = graph.vertex(id);
         if !graph.is_closed_gap(at) || costs[id.index()] == Cost::ZERO {
             continue;
@@ -57,6 +61,7 @@ pub(super) fn end_at_gaps<P: Placement>(
             }
         }
     }
+    Ok(())
 }
 
 /// The cells closed in by gaps at a corner of which a path may start or end at `at`, and which corner that

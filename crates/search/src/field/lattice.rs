@@ -2,7 +2,10 @@
 
 use std::{ops::Deref, sync::Arc};
 
-use mediant_grid::{Centers, GridGraph, Identity, Mismatch, Placement, Step, Vector, Vertex, VertexId};
+use mediant_grid::{
+    Centers, GridGraph, Identity, Interrupt, Interrupted, Mismatch, Placement, Step, Vector, Vertex,
+    VertexId, uninterrupted,
+};
 use mediant_moves::Cost;
 
 use super::{
@@ -11,6 +14,7 @@ use super::{
 use crate::{
     canonical::{PatternTable, Pruning, pattern_at, prunes, rank},
     limit::at_most,
+    filled::filled,
     successors::ExpandedNode,
 };
 
@@ -58,6 +62,9 @@ struct Scratch {
     arrived: Box<[u16]>,
 }
 
+/// How many expansions are made between two questions of an interrupt.
+const LOOK: usize = crate::Limits::EXPANSIONS_PER_LOOK as usize;
+
 /// The vertex is to be expanded.
 const OPEN: u16 = 1 << 15;
 /// No move: a source.
@@ -68,7 +75,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
     #[must_use]
     pub fn new(graph: G) -> Self {
         let pruning = prunes(&graph).then(|| Arc::new(Pruning::new(&*graph)));
-        Self::of(graph, pruning)
+        uninterrupted(|never| Self::of(graph, pruning, never))
     }
 
     /// The same with a pruning rule that is shared with planners.
@@ -76,18 +83,33 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
     /// # Errors
     /// [`Mismatch`] for a rule that was prepared for another map, k or rule of motion.
     pub fn with_pruning(graph: G, pruning: Arc<Pruning<P>>) -> Result<Self, Mismatch> {
-        pruning.check(&graph)?;
-        let pruning = prunes(&graph).then_some(pruning);
-        Ok(Self::of(graph, pruning))
+        uninterrupted(|never| Self::with_pruning_interruptible(graph, pruning, never))
     }
 
-    fn of(graph: G, pruning: Option<Arc<Pruning<P>>>) -> Self {
+    /// [`with_pruning`](Self::with_pruning), which an interrupt can stop.
+    ///
+    /// # Errors
+    /// [`Interrupted`]; within, those of [`with_pruning`](Self::with_pruning).
+    pub fn with_pruning_interruptible(
+        graph: G,
+        pruning: Arc<Pruning<P>>,
+        interrupt: &Interrupt,
+    ) -> Result<Result<Self, Mismatch>, Interrupted> {
+        if let Err(mismatch) = pruning.check(&graph) {
+            return Ok(Err(mismatch));
+        }
+        let pruning = prunes(&graph).then_some(pruning);
+        Self::of(graph, pruning, interrupt).map(Ok)
+    }
+
+    fn of(graph: G, pruning: Option<Arc<Pruning<P>>>, interrupt: &Interrupt) -> Result<Self, Interrupted> {
         let has_table = pruning.as_ref().is_some_and(|pruning| pruning.table().is_some());
-        let open = has_table.then(|| OpenGround::new(&graph));
+        let open = if has_table { Some(OpenGround::new(&graph, interrupt)?) } else { None };
         let longest = graph.steps().iter().map(|step| step.cost).max().unwrap_or(Cost::ZERO);
         let width = open.as_ref().map_or(0, |open| bucket_width(&graph, open));
-        let arrived = vec![SOURCE; graph.vertex_count()].into_boxed_slice();
-        Self { graph, pruning, open, scratch: Scratch { buckets: Buckets::new(width, longest), arrived } }
+        let arrived = filled(SOURCE, graph.vertex_count(), interrupt)?.into_boxed_slice();
+        let scratch = Scratch { buckets: Buckets::new(width, longest), arrived };
+        Ok(Self { graph, pruning, open, scratch })
     }
 
     /// What it belongs to: its map, rules and k.
@@ -109,9 +131,24 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
     /// # Errors
     /// [`FieldError`] for a source that is blocked or outside the map, or a limit that is none.
     pub fn field(&mut self, query: FieldQuery<'_>) -> Result<Field<G>, FieldError> {
+        self.field_interruptible(query, &Interrupt::NEVER)
+    }
+
+    /// [`field`](Self::field), which an interrupt can stop: it asks every [`EXPANSIONS_PER_LOOK`] expansions.
+    /// These fields can be used on.
+    ///
+    /// [`EXPANSIONS_PER_LOOK`]: crate::Limits::EXPANSIONS_PER_LOOK
+    ///
+    /// # Errors
+    /// Those of [`field`](Self::field), and [`FieldError::Interrupted`].
+    pub fn field_interruptible(
+        &mut self,
+        query: FieldQuery<'_>,
+        interrupt: &Interrupt,
+    ) -> Result<Field<G>, FieldError> {
         let sources = query.check(&self.graph)?;
-        let costs = vec![Cost::MAX; self.graph.vertex_count()];
-        Ok(self.fill(query, &sources, costs))
+        let costs = filled(Cost::MAX, self.graph.vertex_count(), interrupt)?;
+        Ok(self.fill(query, &sources, costs, interrupt)?)
     }
 
     /// The same in the memory of a field that is not needed any more.
@@ -123,10 +160,16 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
         let mut costs = old.into_costs();
         costs.clear();
         costs.resize(self.graph.vertex_count(), Cost::MAX);
-        Ok(self.fill(query, &sources, costs))
+        Ok(self.fill(query, &sources, costs, &Interrupt::NEVER)?)
     }
 
-    fn fill(&mut self, query: FieldQuery<'_>, sources: &[VertexId], mut costs: Vec<Cost>) -> Field<G> {
+    fn fill(
+        &mut self,
+        query: FieldQuery<'_>,
+        sources: &[VertexId],
+        mut costs: Vec<Cost>,
+        interrupt: &Interrupt,
+    ) -> Result<Field<G>, Interrupted> {
         let graph: &GridGraph<P> = &self.graph;
         let Scratch { buckets, arrived } = &mut self.scratch;
         buckets.clear();
@@ -152,14 +195,14 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
             limit,
             end: Cost::ZERO,
         };
-        search.run(&targets);
-        gaps::end_at_gaps(graph, sources, limit, &mut costs);
+        search.run(&targets, interrupt)?;
+        gaps::end_at_gaps(graph, sources, limit, &mut costs, interrupt)?;
         if !targets.is_empty() {
             let farthest = targets.iter().filter_map(|&id| costs.get(id)).max();
             limit = limit.min(farthest.copied().map_or(limit, at_most));
             costs.iter_mut().filter(|cost| **cost > limit).for_each(|cost| *cost = Cost::MAX);
         }
-        Field::new(self.graph.clone(), costs)
+        Ok(Field::new(self.graph.clone(), costs))
     }
 }
 
@@ -197,10 +240,13 @@ struct Head {
 
 impl<P: Placement> Search<'_, P> {
     /// Expands bucket after bucket, until all targets are final or nothing is queued.
-    fn run(&mut self, targets: &[usize]) {
+    fn run(&mut self, targets: &[usize], interrupt: &Interrupt) -> Result<(), Interrupted> {
+        let mut expansions = 0_usize;
         loop {
             self.end = self.buckets.end();
             while let Some(at) = self.buckets.pop() {
+                interrupt.check_every(LOOK, expansions, "finding the distances of a field")?;
+                expansions += 1;
                 if let Some(head) = self.take(at) {
                     match (self.table, self.open) {
                         (Some(table), Some(open)) => self.follow(head, table, open),
@@ -211,7 +257,7 @@ impl<P: Placement> Search<'_, P> {
             let is_final = |&id: &usize| self.costs.get(id).is_some_and(|&cost| at_most(cost) < self.end);
             let done = !targets.is_empty() && targets.iter().all(is_final);
             if done || !self.buckets.advance() {
-                return;
+                return Ok(());
             }
         }
     }

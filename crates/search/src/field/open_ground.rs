@@ -1,6 +1,6 @@
 //! Where no obstacle is near: how far a path can go straight on along an axis before it has to look.
 
-use mediant_grid::{BitMatrix, GridGraph, Placement, Vector, Vertex, load};
+use mediant_grid::{BitMatrix, GridGraph, Interrupt, Interrupted, Placement, Vector, Vertex, load};
 
 /// The vertices with a blocked cell in the pattern around them, as bits: row by row, and column by column.
 #[derive(Clone, Debug)]
@@ -10,20 +10,24 @@ pub(super) struct OpenGround {
 }
 
 impl OpenGround {
-    pub(super) fn new<P: Placement>(graph: &GridGraph<P>) -> Self {
+    pub(super) fn new<P: Placement>(
+        graph: &GridGraph<P>,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
+        let stop = (interrupt, "finding open ground");
         let (width, height) = P::vertices(graph.grid());
         let around = || (-1..=1).flat_map(|x| (-1..=1).map(move |y| (x, y)));
         let held: Vec<(i32, i32)> = around().filter(|&(x, y)| P::pattern_holds(x, y)).collect();
         let near = |cells: &BitMatrix, size: (u32, u32), offset: &dyn Fn((i32, i32)) -> (i32, i32)| {
-            BitMatrix::from_words(size.0, size.1, true, |x, y| {
+            BitMatrix::from_words_interruptible(size, true, stop, |x, y| {
                 let cell = held.iter().map(|&at| offset(at));
                 cell.fold(0, |near, (dx, dy)| near | load(cells.words(), cells.index(x + dx, y + dy)))
             })
         };
-        Self {
-            rows: near(graph.grid().rows(), (width, height), &|(x, y)| (x, y)),
-            columns: near(graph.grid().columns(), (height, width), &|(x, y)| (y, x)),
-        }
+        Ok(Self {
+            rows: near(graph.grid().rows(), (width, height), &|(x, y)| (x, y))?,
+            columns: near(graph.grid().columns(), (height, width), &|(x, y)| (y, x))?,
+        })
     }
 
     /// The number of vertices near which there is no obstacle.

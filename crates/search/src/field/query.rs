@@ -1,6 +1,6 @@
 //! What a field is asked for, and what can be wrong with that.
 
-use mediant_grid::{FreeSpace, Placement, Vertex, VertexId};
+use mediant_grid::{FreeSpace, Interrupted, Placement, Vertex, VertexId};
 use mediant_moves::Cost;
 
 use crate::{
@@ -84,4 +84,7 @@ pub enum FieldError {
         /// The limit.
         limit: f64,
     },
+    /// It was stopped before it was done.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
 }

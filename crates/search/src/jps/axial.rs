@@ -13,8 +13,13 @@
 //! The planes take one byte a vertex (two bits a direction). A scan takes 3 to 4 ns; combining the rows anew
 //! at every scan takes 5 to 7.5 ns (`docs/measurements/search.md`).
 
-use mediant_grid::{BitMatrix, CornerRule, DiagonalGap, GridGraph, Placement, Rules, Vector, Vertex, load};
+use mediant_grid::{
+    BitMatrix, CornerRule, DiagonalGap, GridGraph, Interrupt, Interrupted, Placement, Rules, Vector, Vertex,
+    load,
+};
 use mediant_moves::FiniteK;
+
+use super::DURING;
 
 /// Where an axial jump ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -158,18 +163,22 @@ impl AxialStops {
     }
 
     /// Computes the planes of a grid graph.
-    pub(crate) fn new<P: Placement>(graph: &GridGraph<P>) -> Self {
+    pub(crate) fn new<P: Placement>(
+        graph: &GridGraph<P>,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
         let grid = graph.grid();
         let (width, height) = P::vertices(grid);
         let rule = JumpPointRule::of(graph);
         let mut words = Vec::with_capacity(Self::words(graph));
-        let planes = [0, 1, 2, 3].map(|quarter| {
+        let mut plane = |quarter: usize| {
             let (vertical, forward) = (quarter % 2 == 0, quarter < 2);
             let (matrix, length, lines) =
                 if vertical { (grid.columns(), height, width) } else { (grid.rows(), width, height) };
             let first = 64 * words.len() as i64;
             let per_line = length / 64 + 1;
             for line in 0..lines as i32 {
+                interrupt.check(DURING)?;
                 words.extend((0..per_line as i32).map(|word| {
                     let u = if forward { 64 * word } else { length as i32 - 1 - 64 * word };
                     let Ends { jump, dead } = rule.ends_from::<P>(matrix, (u, line), forward);
@@ -180,10 +189,11 @@ impl AxialStops {
             let across = 64 * i64::from(per_line);
             let origin = if forward { first } else { first + i64::from(length) - 1 };
             let (per_x, per_y) = if vertical { (across, along) } else { (along, across) };
-            BitPlane { origin, per_x, per_y, words: (first as usize / 64, words.len()) }
-        });
+            Ok(BitPlane { origin, per_x, per_y, words: (first as usize / 64, words.len()) })
+        };
+        let planes = [plane(0)?, plane(1)?, plane(2)?, plane(3)?];
         words.push([!0; 2]);
-        Self { planes, words: words.into_boxed_slice() }
+        Ok(Self { planes, words: words.into_boxed_slice() })
     }
 
     /// The axial jump from a vertex of the map in direction number `quarter` < 4: (0, 1), (1, 0), (0, −1),
@@ -225,9 +235,15 @@ impl AxialStops {
     }
 
     /// Makes those jump points of a direction dead ends for which `is_dead_end` says so.
-    pub(super) fn mark(&mut self, quarter: usize, mut is_dead_end: impl FnMut(&Self, Vertex) -> bool) {
+    pub(super) fn mark(
+        &mut self,
+        quarter: usize,
+        interrupt: &Interrupt,
+        mut is_dead_end: impl FnMut(&Self, Vertex) -> bool,
+    ) -> Result<(), Interrupted> {
         let plane = self.planes[quarter];
         for word in plane.words.0..plane.words.1 {
+            interrupt.check_every(64, word, DURING)?;
             let [one, other] = self.words[word];
             let (mut jump_points, mut dead_ends) = (one & !other, 0);
             while jump_points != 0 {
@@ -238,6 +254,7 @@ impl AxialStops {
             }
             self.words[word] = [one & !dead_ends, other | dead_ends];
         }
+        Ok(())
     }
 
     /// Whether a vertex is a dead end for jumps in a direction.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{GridGraph, Identity, Placement, Vertex};
+use mediant_grid::{GridGraph, Identity, Interrupt, Placement, Vertex, uninterrupted};
 use mediant_moves::KError;
 
 use super::{
@@ -36,13 +36,28 @@ impl BlockFinder {
     /// [`JumpError::Mismatch`] for a rule that was prepared for another grid graph; [`JumpError::K`] above
     /// k = 3.
     pub fn new<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>) -> Result<Self, JumpError> {
+        Self::interruptible(graph, pruning, &Interrupt::NEVER)
+    }
+
+    /// [`new`](Self::new), which an interrupt can stop; it asks for each row.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new), and [`JumpError::Interrupted`].
+    pub fn interruptible<P: Placement>(
+        graph: &GridGraph<P>,
+        pruning: &Pruning<P>,
+        interrupt: &Interrupt,
+    ) -> Result<Self, JumpError> {
         pruning.check(graph)?;
-        Ok(Self::prepare(graph, pruning)?)
+        JumpPlanes::check_k(graph)?;
+        Ok(Self::with_planes(graph, JumpPlanes::new(graph, pruning, interrupt)?))
     }
 
     /// [`new`](Self::new) with a pruning rule that is that of the grid graph.
     pub(super) fn prepare<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>) -> Result<Self, KError> {
-        Ok(Self::with_planes(graph, JumpPlanes::new(graph, pruning)?))
+        JumpPlanes::check_k(graph)?;
+        let planes = uninterrupted(|never| JumpPlanes::new(graph, pruning, never));
+        Ok(Self::with_planes(graph, planes))
     }
 
     pub(super) fn with_planes<P: Placement>(graph: &GridGraph<P>, planes: JumpPlanes) -> Self {

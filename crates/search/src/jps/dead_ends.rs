@@ -23,7 +23,7 @@
 
 use std::hint::select_unpredictable;
 
-use mediant_grid::{GridGraph, Placement, Vector, Vertex};
+use mediant_grid::{GridGraph, Interrupt, Interrupted, Placement, Vector, Vertex};
 
 use super::{axial::AxialStops, stop_rows::Leads};
 use crate::canonical::{PatternTable, pattern_at};
@@ -169,10 +169,14 @@ pub(super) struct DeadEnds<'g, P: Placement> {
 
 impl<P: Placement> DeadEnds<'_, P> {
     /// Marks all dead ends.
-    pub(super) fn mark(&self, axial: &mut AxialStops) -> DeadEndRows {
+    pub(super) fn mark(
+        &self,
+        axial: &mut AxialStops,
+        interrupt: &Interrupt,
+    ) -> Result<DeadEndRows, Interrupted> {
         let mut rows = DeadEndRows::default();
         for quarter in (0..4).step_by(8 / self.graph.steps().len()) {
-            axial.mark(quarter, |axial, at| {
+            axial.mark(quarter, interrupt, |axial, at| {
                 let holds = self.holds(axial, at, quarter);
                 if holds {
                     if rows.is_empty() {
@@ -181,9 +185,9 @@ impl<P: Placement> DeadEnds<'_, P> {
                     rows.add(at, quarter);
                 }
                 holds
-            });
+            })?;
         }
-        rows
+        Ok(rows)
     }
 
     /// Whether a jump point of the axial jumps in direction `quarter` is a dead end; false outside the map.

@@ -15,7 +15,7 @@
 //! The planes are computed in rows, 64 vertices at a time, and then turned, 64 × 64 bits at a time. They take
 //! twelve bits a vertex, on top of the byte of [`AxialStops`](super::axial::AxialStops).
 
-use mediant_grid::{GridGraph, Placement, Vector, Vertex};
+use mediant_grid::{GridGraph, Interrupt, Interrupted, Placement, Vector, Vertex};
 use mediant_moves::FiniteK;
 
 use super::stop_rows::{Leads, StopRows, Stops};
@@ -64,7 +64,12 @@ impl DiagonalStops {
 
     /// Computes the planes of a grid graph. `leads` says from which vertices axial jumps come to jump points,
     /// and from which they do where they pass dead ends.
-    pub(super) fn new<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>, leads: [&Leads; 2]) -> Self {
+    pub(super) fn new<P: Placement>(
+        graph: &GridGraph<P>,
+        pruning: &Pruning<P>,
+        leads: [&Leads; 2],
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
         let (width, height) = P::vertices(graph.grid());
         let odd: Vec<usize> = (1..graph.steps().len()).step_by(2).collect();
         let (lines, length) = Self::lines(graph);
@@ -81,10 +86,10 @@ impl DiagonalStops {
             let first = i * per_plane;
             all.planes[i] =
                 Plane::new(graph.step(index).vector(), (width as i32, height as i32), first as u64 * 64);
-            StopRows::new(graph, pruning, index, leads).for_each_word(|line, word, stops| {
+            StopRows::new(graph, pruning, index, leads).for_each_word(interrupt, |line, word, stops| {
                 let known = &mut all.words[first + line * per_line + word];
                 known.iter_mut().zip(stops).for_each(|(known, stops)| *known |= stops);
-            });
+            })?;
             for line in all.words[first..first + per_plane].chunks_exact_mut(per_line) {
                 if let Some(last) = line.last_mut() {
                     // Beyond the end of the line.
@@ -93,7 +98,7 @@ impl DiagonalStops {
             }
         }
         all.words[words - 1][0] = !0;
-        all
+        Ok(all)
     }
 
     /// The place of the bit of a vertex of the map for jumps by the odd move `index`.

@@ -14,10 +14,11 @@
 //! On maps of games there is one list for 20 to 170 cells, of five to ten words. In noise there are so many
 //! that there are none: see [`VERTICES_A_LIST`].
 
-use mediant_grid::{GridGraph, Placement, Vector, Vertex, VertexId};
+use mediant_grid::{GridGraph, Interrupt, Interrupted, Placement, Vector, Vertex, VertexId};
 use mediant_moves::Cost;
 
 use super::{
+    DURING,
     axial::JumpPointRule,
     block_finder::BlockFinder,
     dead_ends::{DeadEndRows, NearGoal},
@@ -146,12 +147,13 @@ impl JumpLists {
         pruning: &Pruning<P>,
         blocks: &BlockFinder,
         dead_ends: &DeadEndRows,
-    ) -> Self {
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
         let vertices = graph.vertex_count();
         let most = if vertices <= FEW_VERTICES { usize::MAX } else { vertices / VERTICES_A_LIST };
         // Where nothing is pruned, no jump is made.
-        if !prunes(graph) || jump_points(graph, dead_ends).nth(most).is_some() {
-            return Self::default();
+        if !prunes(graph) || has_more_jump_points(graph, dead_ends, most, interrupt)? {
+            return Ok(Self::default());
         }
         let mut legs = [Leg::default(); 8];
         for (leg, step) in legs.iter_mut().zip(graph.steps()) {
@@ -164,18 +166,22 @@ impl JumpLists {
         let mut lists = Self { legs, turns, places, per_move, ..Self::default() };
         let recorder = Recorder { graph, pruning, blocks };
         let most_words = Self::most_words(graph);
-        for (node, by) in jump_points(graph, dead_ends) {
-            let (start, id) = (lists.words.len(), node.id.index());
-            let is_said = recorder.record(&node, by, &mut lists.words).is_some();
-            if !is_said || lists.starts.len() + lists.words.len() + 2 > most_words {
-                lists.words.truncate(start);
-                continue;
+        for (row, by) in rows_of_jumps(graph) {
+            interrupt.check(DURING)?;
+            for (number, node) in jump_points(graph, dead_ends, row, by).enumerate() {
+                interrupt.check_every(64, number, DURING)?;
+                let (start, id) = (lists.words.len(), node.id.index());
+                let is_said = recorder.record(&node, by, &mut lists.words).is_some();
+                if !is_said || lists.starts.len() + lists.words.len() + 2 > most_words {
+                    lists.words.truncate(start);
+                    continue;
+                }
+                lists.places[by / 2 * per_move + id / 64].has[id / 32 % 2] |= 1 << (id % 32);
+                lists.starts.push(start as u32);
             }
-            lists.places[by / 2 * per_move + id / 64].has[id / 32 % 2] |= 1 << (id % 32);
-            lists.starts.push(start as u32);
         }
         if lists.words.is_empty() {
-            return Self::default();
+            return Ok(Self::default());
         }
         let mut before = 0;
         for place in &mut lists.places {
@@ -185,7 +191,7 @@ impl JumpLists {
         lists.starts.push(lists.words.len() as u32);
         lists.starts.shrink_to_fit();
         lists.words.shrink_to_fit();
-        lists
+        Ok(lists)
     }
 
     /// The list of a vertex for paths that arrive there by an even move.
@@ -299,17 +305,43 @@ impl JumpLists {
     }
 }
 
-/// All jump points that are no dead ends, and the even move by which a path arrives there.
+/// The rows of a map, for each even move.
+fn rows_of_jumps<P: Placement>(graph: &GridGraph<P>) -> impl Iterator<Item = (i32, usize)> {
+    let (_, height) = P::vertices(graph.grid());
+    (0..graph.steps().len()).step_by(2).flat_map(move |by| (0..height as i32).map(move |y| (y, by)))
+}
+
+/// Whether there are more jump points than so many that are no dead ends.
+fn has_more_jump_points<P: Placement>(
+    graph: &GridGraph<P>,
+    dead_ends: &DeadEndRows,
+    most: usize,
+    interrupt: &Interrupt,
+) -> Result<bool, Interrupted> {
+    if most == usize::MAX {
+        return Ok(false);
+    }
+    let mut count = 0;
+    for (row, by) in rows_of_jumps(graph) {
+        interrupt.check(DURING)?;
+        count += jump_points(graph, dead_ends, row, by).count();
+        if count > most {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// The jump points of row y that are no dead ends, where a path arrives by an even move.
 fn jump_points<P: Placement>(
     graph: &GridGraph<P>,
     dead_ends: &DeadEndRows,
-) -> impl Iterator<Item = (ExpandedNode, usize)> {
-    let ((width, height), rule) = (P::vertices(graph.grid()), JumpPointRule::of(graph));
-    let words = move |by| {
-        (0..height as i32).flat_map(move |y| (0..width as i32).step_by(64).map(move |x| (by, x, y)))
-    };
-    (0..graph.steps().len()).step_by(2).flat_map(words).flat_map(move |(by, x, y)| {
-        let (v, quarter) = (graph.step(by).vector(), by >> (graph.k().get() - 2));
+    y: i32,
+    by: usize,
+) -> impl Iterator<Item = ExpandedNode> {
+    let ((width, _), rule) = (P::vertices(graph.grid()), JumpPointRule::of(graph));
+    let (v, quarter) = (graph.step(by).vector(), by >> (graph.k().get() - 2));
+    (0..width as i32).step_by(64).flat_map(move |x| {
         let ends = rule.ends_in_row::<P>(graph.grid().rows(), (x, y), v);
         let mut left = ends.jump & !ends.dead & !dead_ends.in_row(quarter, (x, y));
         let bits = std::iter::from_fn(move || {
@@ -321,7 +353,7 @@ fn jump_points<P: Placement>(
             let at = Vertex::new(x + bit, y);
             // From outside the map no path arrives.
             let id = graph.id(at).filter(|_| graph.id(at + -v).is_some() && graph.sees(at + -v, at))?;
-            Some((ExpandedNode { id, at, by: Some(by) }, by))
+            Some(ExpandedNode { id, at, by: Some(by) })
         })
     })
 }

@@ -75,6 +75,9 @@ mod to_goal;
 #[cfg(test)]
 mod tests;
 
+/// What is done when jumps are found beforehand.
+const DURING: &str = "finding where jumps lead";
+
 pub use block_finder::BlockFinder;
 pub use finder::{JumpFinder, StepwiseFinder};
 pub use planner::{BlockJps, Jps, JpsPlus, JumpPointSearch};

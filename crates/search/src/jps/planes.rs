@@ -1,6 +1,6 @@
 //! Where jumps by words stop: what block-based jumps and the table of JPS+ are made from.
 
-use mediant_grid::{GridGraph, Placement};
+use mediant_grid::{GridGraph, Interrupt, Interrupted, Placement};
 use mediant_moves::KError;
 
 use super::{
@@ -28,16 +28,22 @@ const VERTICES_A_JUMP_POINT: u64 = 4;
 const MOST_VERTICES: u64 = 1 << 22;
 
 impl JumpPlanes {
-    /// With dead ends where that pays.
-    pub(super) fn new<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>) -> Result<Self, KError> {
+    /// Checks that a grid graph has jumps by words.
+    pub(super) fn check_k<P: Placement>(graph: &GridGraph<P>) -> Result<(), KError> {
         let (k, max) = (graph.k().get(), JumpTable::MAX_K);
-        if k > max {
-            return Err(KError::TooLarge { k, max });
-        }
-        let axial = AxialStops::new(graph);
+        if k > max { Err(KError::TooLarge { k, max }) } else { Ok(()) }
+    }
+
+    /// With dead ends where that pays.
+    pub(super) fn new<P: Placement>(
+        graph: &GridGraph<P>,
+        pruning: &Pruning<P>,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
+        let axial = AxialStops::new(graph, interrupt)?;
         let vertices = graph.vertex_count() as u64;
         let pays = Self::may_have_dead_ends(graph) && VERTICES_A_JUMP_POINT * axial.jump_points() <= vertices;
-        Ok(Self::with_dead_ends(graph, pruning, axial, if pays { REACH } else { 0 }))
+        Self::with_dead_ends(graph, pruning, axial, if pays { REACH } else { 0 }, interrupt)
     }
 
     /// Whether dead ends are looked for, if there are not too many jump points.
@@ -51,18 +57,20 @@ impl JumpPlanes {
         pruning: &Pruning<P>,
         mut axial: AxialStops,
         reach: u32,
-    ) -> Self {
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
         let dead_ends = DeadEndRows::default();
-        let leads = Leads::new(graph, &dead_ends);
+        let leads = Leads::new(graph, &dead_ends, interrupt)?;
         let table = pruning.table().filter(|_| reach > 0 && !graph.has_closed_gaps());
         if let Some(table) = table {
-            let dead_ends = DeadEnds { graph, table, leads: &leads, reach }.mark(&mut axial);
+            let dead_ends = DeadEnds { graph, table, leads: &leads, reach }.mark(&mut axial, interrupt)?;
             if !dead_ends.is_empty() {
-                let diagonals = DiagonalStops::new(graph, pruning, [&leads, &Leads::new(graph, &dead_ends)]);
-                return Self { axial, diagonals, dead_ends, reach };
+                let live = Leads::new(graph, &dead_ends, interrupt)?;
+                let diagonals = DiagonalStops::new(graph, pruning, [&leads, &live], interrupt)?;
+                return Ok(Self { axial, diagonals, dead_ends, reach });
             }
         }
-        let diagonals = DiagonalStops::new(graph, pruning, [&leads; 2]);
-        Self { axial, diagonals, dead_ends, reach: 0 }
+        let diagonals = DiagonalStops::new(graph, pruning, [&leads; 2], interrupt)?;
+        Ok(Self { axial, diagonals, dead_ends, reach: 0 })
     }
 }

@@ -3,9 +3,12 @@
 //! Which axial jumps come to a jump point is carried from row to row, or along a row from bit to bit. So all
 //! is computed 64 vertices at a time.
 
-use mediant_grid::{BitMatrix, CellOffset, Footprint, GridGraph, Placement, Vector, Vertex, load, transpose};
+use mediant_grid::{
+    BitMatrix, CellOffset, Footprint, GridGraph, Interrupt, Interrupted, Placement, Vector, Vertex, load,
+    transpose,
+};
 
-use super::{axial::JumpPointRule, dead_ends::DeadEndRows};
+use super::{DURING, axial::JumpPointRule, dead_ends::DeadEndRows};
 use crate::canonical::{Pruning, pattern_at};
 
 /// Of 64 vertices, those that stop a jump, and those from which its first and its second axial jump come to a
@@ -21,14 +24,18 @@ pub(super) struct Leads {
 
 impl Leads {
     /// Where jumps pass dead ends.
-    pub(super) fn new<P: Placement>(graph: &GridGraph<P>, dead: &DeadEndRows) -> Self {
+    pub(super) fn new<P: Placement>(
+        graph: &GridGraph<P>,
+        dead: &DeadEndRows,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
         let per_row = P::vertices(graph.grid()).0.div_ceil(64) as usize;
         let mut rows = [const { Vec::new() }; 4];
         for quarter in (0..4).step_by(8 / graph.steps().len()) {
             let v = graph.step(quarter << (graph.k().get() - 2)).vector();
-            rows[quarter] = leads(graph, v, dead.of(quarter));
+            rows[quarter] = leads(graph, v, dead.of(quarter), interrupt)?;
         }
-        Self { rows, per_row }
+        Ok(Self { rows, per_row })
     }
 
     fn of(&self, quarter: usize) -> &[u64] {
@@ -125,10 +132,16 @@ impl<'g, P: Placement> StopRows<'g, P> {
 
     /// Calls `put` with words of the stops in the order of the jumps: with the line, the number of the word
     /// in it, and the bits. The bits of one word may come in two calls.
-    pub(super) fn for_each_word(&self, mut put: impl FnMut(usize, usize, Stops)) {
+    /// The interrupt is asked before each row.
+    pub(super) fn for_each_word(
+        &self,
+        interrupt: &Interrupt,
+        mut put: impl FnMut(usize, usize, Stops),
+    ) -> Result<(), Interrupted> {
         let v = self.v;
         if v.y == 0 {
             for y in 0..self.height {
+                interrupt.check(DURING)?;
                 let row = self.row(y);
                 for word in 0..self.per_row {
                     if v.x > 0 {
@@ -139,12 +152,13 @@ impl<'g, P: Placement> StopRows<'g, P> {
                     }
                 }
             }
-            return;
+            return Ok(());
         }
         for place in (0..self.height).step_by(64) {
             let last = (place + 63).min(self.height - 1);
             let y_at = |place: usize| if v.y > 0 { place } else { self.height - 1 - place };
-            let rows: Vec<Vec<Stops>> = (place..=last).map(|place| self.row(y_at(place))).collect();
+            let row = |place| interrupt.check(DURING).map(|()| self.row(y_at(place)));
+            let rows: Vec<Vec<Stops>> = (place..=last).map(row).collect::<Result<_, _>>()?;
             // How far to the right of its line a jump is in the first and in the last of these rows.
             let [from, to] = [place, last].map(|place| i64::from(v.x) * place as i64);
             let mut first = -from.max(to);
@@ -157,6 +171,7 @@ impl<'g, P: Placement> StopRows<'g, P> {
                 first += 64;
             }
         }
+        Ok(())
     }
 
     /// The stops of diagonal jumps along 64 lines through these rows, a word for each line. The first line
@@ -195,7 +210,12 @@ fn holds(rows: &BitMatrix, (x, y): (i32, i32), free: &[CellOffset], either: &[[C
 }
 
 /// The vertices from which the axial jump by `v` comes to a jump point that is none of the dead ends.
-fn leads<P: Placement>(graph: &GridGraph<P>, v: Vector, dead: &[u64]) -> Vec<u64> {
+fn leads<P: Placement>(
+    graph: &GridGraph<P>,
+    v: Vector,
+    dead: &[u64],
+    interrupt: &Interrupt,
+) -> Result<Vec<u64>, Interrupted> {
     let (width, height) = P::vertices(graph.grid());
     let (per_row, rule) = (width.div_ceil(64) as usize, JumpPointRule::of(graph));
     let ends = |word: usize| {
@@ -207,6 +227,7 @@ fn leads<P: Placement>(graph: &GridGraph<P>, v: Vector, dead: &[u64]) -> Vec<u64
     let ascending = v.x + v.y > 0;
     // Each word after the one that the jump enters next.
     for i in 0..leads.len() {
+        interrupt.check_every(1 << 10, i, DURING)?;
         let word = if ascending { leads.len() - 1 - i } else { i };
         leads[word] = if v.x == 0 {
             let next = word as isize + v.y as isize * per_row as isize;
@@ -236,5 +257,5 @@ fn leads<P: Placement>(graph: &GridGraph<P>, v: Vector, dead: &[u64]) -> Vec<u64
             }
         };
     }
-    leads
+    Ok(leads)
 }

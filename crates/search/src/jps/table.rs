@@ -8,7 +8,9 @@
 //! Rule variants: all five. Under closed gaps a jump ends before a gap. The table does not say what paths do
 //! at gaps: where they begin or end at one, and at k = 2 where they pass one.
 
-use mediant_grid::{GridGraph, Identity, Mismatch, Placement, Vector, Vertex};
+use mediant_grid::{
+    GridGraph, Identity, Interrupt, Interrupted, Mismatch, Placement, Vector, Vertex, uninterrupted,
+};
 use mediant_moves::KError;
 
 use super::{block_finder::BlockFinder, lists::JumpLists, planes::JumpPlanes};
@@ -83,6 +85,9 @@ pub enum JumpError {
         /// The word given.
         found: u32,
     },
+    /// It was stopped before it was done.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
 }
 
 impl JumpTable {
@@ -94,23 +99,38 @@ impl JumpTable {
     /// # Errors
     /// [`KError::TooLarge`] above [`MAX_K`](Self::MAX_K).
     pub fn new<P: Placement>(graph: &GridGraph<P>) -> Result<Self, KError> {
-        let (k, max) = (graph.k().get(), Self::MAX_K);
-        if k > max {
-            return Err(KError::TooLarge { k, max });
-        }
-        let pruning = &Pruning::new(graph);
-        Ok(Self::from_planes(graph, pruning, JumpPlanes::new(graph, pruning)?))
+        JumpPlanes::check_k(graph)?;
+        Ok(uninterrupted(|never| Self::of(graph, never)))
+    }
+
+    /// [`new`](Self::new), which an interrupt can stop; it asks for each row, and every few jump points.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new), and [`JumpError::Interrupted`].
+    pub fn interruptible<P: Placement>(
+        graph: &GridGraph<P>,
+        interrupt: &Interrupt,
+    ) -> Result<Self, JumpError> {
+        JumpPlanes::check_k(graph)?;
+        Ok(Self::of(graph, interrupt)?)
+    }
+
+    fn of<P: Placement>(graph: &GridGraph<P>, interrupt: &Interrupt) -> Result<Self, Interrupted> {
+        let pruning = &Pruning::interruptible(graph, interrupt)?;
+        let planes = JumpPlanes::new(graph, pruning, interrupt)?;
+        Self::from_planes(graph, pruning, planes, interrupt)
     }
 
     pub(super) fn from_planes<P: Placement>(
         graph: &GridGraph<P>,
         pruning: &Pruning<P>,
         mut planes: JumpPlanes,
-    ) -> Self {
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
         let dead_ends = std::mem::take(&mut planes.dead_ends);
         let blocks = BlockFinder::with_planes(graph, planes);
-        let lists = JumpLists::new(graph, pruning, &blocks, &dead_ends);
-        Self { blocks, lists }
+        let lists = JumpLists::new(graph, pruning, &blocks, &dead_ends, interrupt)?;
+        Ok(Self { blocks, lists })
     }
 
     /// The version of the format of [`to_bytes`](Self::to_bytes).
@@ -131,9 +151,21 @@ impl JumpTable {
     /// [`JumpError::Mismatch`] for the table of another grid graph, another [`JumpError`] for bytes that are
     /// no table.
     pub fn from_bytes<P: Placement>(graph: &GridGraph<P>, bytes: &[u8]) -> Result<Self, JumpError> {
+        Self::from_bytes_interruptible(graph, bytes, &Interrupt::NEVER)
+    }
+
+    /// [`from_bytes`](Self::from_bytes), which an interrupt can stop.
+    ///
+    /// # Errors
+    /// Those of [`from_bytes`](Self::from_bytes), and [`JumpError::Interrupted`].
+    pub fn from_bytes_interruptible<P: Placement>(
+        graph: &GridGraph<P>,
+        bytes: &[u8],
+        interrupt: &Interrupt,
+    ) -> Result<Self, JumpError> {
         let (found, bytes) = Identity::split_from(bytes).ok_or(JumpError::Bytes)?;
         found.check_equal("the jump table", ("the grid graph", graph.identity()))?;
-        let table = Self::new(graph)?;
+        let table = Self::interruptible(graph, interrupt)?;
         let expected = table.lists.words().count() * 4;
         if bytes.len() != expected {
             return Err(JumpError::Length { expected, found: bytes.len() });

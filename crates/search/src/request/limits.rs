@@ -2,12 +2,10 @@
 
 use std::{
     fmt,
-    sync::{
-        Arc,
-        atomic::{AtomicBool, Ordering},
-    },
+    sync::{Arc, atomic::AtomicBool},
 };
 
+use mediant_grid::{Interrupt, StoppedBy};
 use mediant_moves::Cost;
 
 use crate::{limit::greatest_cost, path::Path, query::QueryError};
@@ -30,8 +28,8 @@ use crate::{limit::greatest_cost, path::Path, query::QueryError};
 pub struct Limits {
     cost: Option<f64>,
     expansions: Option<u64>,
-    deadline: Option<Arc<dyn Fn() -> bool + Send + Sync>>,
-    cancel: Option<Arc<AtomicBool>>,
+    /// The deadline and the flag.
+    interrupt: Interrupt,
 }
 
 /// Which limit stopped a search.
@@ -46,6 +44,15 @@ pub enum Limit {
     Deadline,
     /// The flag that cancels it.
     Cancelled,
+}
+
+impl From<StoppedBy> for Limit {
+    fn from(by: StoppedBy) -> Self {
+        match by {
+            StoppedBy::Cancelled => Self::Cancelled,
+            _ => Self::Deadline,
+        }
+    }
 }
 
 impl fmt::Display for Limit {
@@ -108,15 +115,21 @@ impl Limits {
     /// does.
     #[must_use]
     pub fn deadline(mut self, is_over: impl Fn() -> bool + Send + Sync + 'static) -> Self {
-        self.deadline = Some(Arc::new(is_over));
+        self.interrupt = self.interrupt.deadline(is_over);
         self
     }
 
     /// A flag by which another thread stops the search. Read before each expansion.
     #[must_use]
     pub fn cancel(mut self, flag: Arc<AtomicBool>) -> Self {
-        self.cancel = Some(flag);
+        self.interrupt = self.interrupt.cancel(flag);
         self
+    }
+
+    /// The deadline and the flag, which also stop what is done before a search: see [`Interrupt`].
+    #[must_use]
+    pub const fn interrupt(&self) -> &Interrupt {
+        &self.interrupt
     }
 
     /// Checks the limit on the cost.
@@ -129,7 +142,7 @@ impl Limits {
 
     /// Whether there are none.
     pub(super) const fn are_none(&self) -> bool {
-        self.cost.is_none() && self.expansions.is_none() && self.deadline.is_none() && self.cancel.is_none()
+        self.cost.is_none() && self.expansions.is_none() && self.interrupt.is_never()
     }
 
     /// The greatest cost, with room for rounding.
@@ -142,11 +155,10 @@ impl Limits {
         if self.expansions.is_some_and(|most| expansions >= most) {
             return Some(Limit::Expansions);
         }
-        if self.cancel.as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+        if self.interrupt.is_cancelled() {
             return Some(Limit::Cancelled);
         }
-        let is_over = looks_at_deadline && self.deadline.as_ref().is_some_and(|is_over| is_over());
-        is_over.then_some(Limit::Deadline)
+        (looks_at_deadline && self.interrupt.is_over()).then_some(Limit::Deadline)
     }
 }
 
@@ -155,8 +167,7 @@ impl fmt::Debug for Limits {
         f.debug_struct("Limits")
             .field("cost", &self.cost)
             .field("expansions", &self.expansions)
-            .field("deadline", &self.deadline.is_some())
-            .field("cancel", &self.cancel)
+            .field("interrupt", &self.interrupt)
             .finish()
     }
 }

@@ -11,6 +11,7 @@ mod exhaustive;
 mod fields;
 mod heuristics;
 mod identity;
+mod interrupts;
 mod jumps;
 mod kramm2018;
 mod open_list;

@@ -1,8 +1,8 @@
 //! Finds the dead ends of a map.
 
-use mediant_grid::{BitMatrix, Corners, DiagonalGap, FreeSpace};
+use mediant_grid::{BitMatrix, Corners, DiagonalGap, FreeSpace, Interrupt, Interrupted};
 
-use super::{Kinds, Run};
+use super::{DURING, Kinds, Run};
 
 /// The most cells of a dead end. Rooms are made of longer runs: single doors lead to them, so they are parts,
 /// and one run opens them. As dead ends they would be opened run by run for each query that ends there; on
@@ -34,30 +34,38 @@ impl DeadEndSearch {
 
     /// Blocks dead ends until there are none: those of rows, then those of columns, and again, but only along
     /// lines where something has changed.
-    pub(super) fn block_all(&mut self) {
+    pub(super) fn block_all(&mut self, interrupt: &Interrupt) -> Result<(), Interrupted> {
         let (mut rows, mut columns) =
             (vec![true; self.rows.height() as usize], vec![true; self.columns.height() as usize]);
         loop {
-            self.block_along(false, &mut rows, &mut columns);
+            self.block_along(false, &mut rows, &mut columns, interrupt)?;
             if !columns.contains(&true) {
-                return;
+                return Ok(());
             }
-            self.block_along(true, &mut columns, &mut rows);
+            self.block_along(true, &mut columns, &mut rows, interrupt)?;
         }
     }
 
     /// Blocks the dead ends along the lines that have changed, and marks the lines across that change by it.
-    fn block_along(&mut self, is_vertical: bool, changed: &mut [bool], across: &mut [bool]) {
+    fn block_along(
+        &mut self,
+        is_vertical: bool,
+        changed: &mut [bool],
+        across: &mut [bool],
+        interrupt: &Interrupt,
+    ) -> Result<(), Interrupted> {
         for (line, changed) in (0..).zip(changed) {
             if !std::mem::take(changed) {
                 continue;
             }
+            interrupt.check(DURING)?;
             let mut at = 0;
             while let Some(run) = self.run_from(is_vertical, line, at) {
-                self.block_chain(run, across);
+                self.block_chain(run, across, interrupt)?;
                 at = run.end;
             }
         }
+        Ok(())
     }
 
     const fn lines(&self, is_vertical: bool) -> &BitMatrix {
@@ -73,8 +81,16 @@ impl DeadEndSearch {
     }
 
     /// Blocks a run if it is a dead end, then the one behind its door if that is one now, and so on.
-    fn block_chain(&mut self, mut run: Run, across: &mut [bool]) {
+    fn block_chain(
+        &mut self,
+        mut run: Run,
+        across: &mut [bool],
+        interrupt: &Interrupt,
+    ) -> Result<(), Interrupted> {
+        let mut blocked = 0_usize;
         while let Some((side, (first, end))) = self.door(run) {
+            blocked += 1;
+            interrupt.check_every(1 << 12, blocked, DURING)?;
             run.set(&mut self.rows, true);
             run.set_across(&mut self.columns, true);
             if run.is_vertical {
@@ -88,9 +104,10 @@ impl DeadEndSearch {
             across[first as usize..end as usize].fill(true);
             let line = run.line + side;
             let start = self.lines(run.is_vertical).row(line).run_start(first, 0);
-            let Some(next) = self.run_from(run.is_vertical, line, start) else { return };
+            let Some(next) = self.run_from(run.is_vertical, line, start) else { break };
             run = next;
         }
+        Ok(())
     }
 
     /// The door of a dead end: on which side it is, and from where to where; `None` for other runs, and for

@@ -42,11 +42,14 @@ mod parts;
 #[cfg(test)]
 mod tests;
 
-use mediant_grid::{BitMatrix, Corners, FreeSpace, Identity};
+use mediant_grid::{BitMatrix, Corners, FreeSpace, Identity, Interrupt, Interrupted, uninterrupted};
 
 use self::{find::DeadEndSearch, parts::Parts};
 
 pub(super) use self::opened::Opened;
+
+/// What is done when they are found.
+const DURING: &str = "finding dead ends";
 
 /// The dead ends of a map, which planners share: parts that no shortest path between vertices elsewhere
 /// enters, such as bays, alcoves and all that lies behind a single door.
@@ -117,12 +120,21 @@ impl DeadEnds {
     /// Finds the dead ends of a map.
     #[must_use]
     pub fn new(space: &FreeSpace<Corners>) -> Self {
+        uninterrupted(|never| Self::interruptible(space, never))
+    }
+
+    /// [`new`](Self::new), which an interrupt can stop; it asks for each row and column, and every few
+    /// thousand runs.
+    ///
+    /// # Errors
+    /// [`Interrupted`].
+    pub fn interruptible(space: &FreeSpace<Corners>, interrupt: &Interrupt) -> Result<Self, Interrupted> {
         let mut search = DeadEndSearch::new(space);
-        search.block_all();
+        search.block_all(interrupt)?;
         let DeadEndSearch { rows, columns, kinds, gaps_are_open } = search;
-        let parts = [(&rows, false), (&columns, true)]
-            .map(|(lines, is_vertical)| Parts::new(lines, is_vertical, gaps_are_open));
-        Self { identity: space.identity(), rows, columns, kinds, parts }
+        let parts = |lines, is_vertical| Parts::new(lines, is_vertical, gaps_are_open, interrupt);
+        let parts = [parts(&rows, false)?, parts(&columns, true)?];
+        Ok(Self { identity: space.identity(), rows, columns, kinds, parts })
     }
 
     /// What they belong to: the map and the rule of motion, for every k.

@@ -15,9 +15,12 @@
 //! Where a run has a door with one other run, both touch in one stretch. So the runs above a run are
 //! neighbors in their row, and so are those below it.
 
-use mediant_grid::BitMatrix;
+use mediant_grid::{BitMatrix, Interrupt, Interrupted};
 
-use super::Run;
+use super::{DURING, Run};
+
+/// The runs that are handled between two questions of an interrupt.
+const PIECE: usize = 1 << 14;
 
 /// The parts of a map, with their bridges. Part 0 is the root of each of its trees.
 #[derive(Clone, Debug)]
@@ -49,9 +52,14 @@ struct PartRun {
 
 impl Parts {
     /// The parts of a map with these rows of cells.
-    pub(super) fn new(map: &BitMatrix, is_vertical: bool, gaps_are_open: bool) -> Self {
-        let graph = RunGraph::new(map, is_vertical, gaps_are_open);
-        let (of, parts) = graph.parts();
+    pub(super) fn new(
+        map: &BitMatrix,
+        is_vertical: bool,
+        gaps_are_open: bool,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
+        let graph = RunGraph::new(map, is_vertical, gaps_are_open, interrupt)?;
+        let (of, parts) = graph.parts(interrupt)?;
         let mut runs = Vec::new();
         let mut rows = vec![0; map.height() as usize + 1];
         for (vertex, &part) in graph.vertices.iter().zip(&of).filter(|&(_, &part)| part != 0) {
@@ -63,7 +71,7 @@ impl Parts {
             rows[y] = rows[y].max(rows[y - 1]);
         }
         runs.shrink_to_fit();
-        Self { rows, runs, parts }
+        Ok(Self { rows, runs, parts })
     }
 
     /// The part of a cell.
@@ -143,11 +151,17 @@ struct Visit {
 }
 
 impl RunGraph {
-    fn new(map: &BitMatrix, is_vertical: bool, gaps_are_open: bool) -> Self {
+    fn new(
+        map: &BitMatrix,
+        is_vertical: bool,
+        gaps_are_open: bool,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
         let mut vertices: Vec<RunVertex> = Vec::new();
         let width = map.width() as i32;
         let (mut above, reach) = (0, i32::from(gaps_are_open));
         for y in 0..map.height() as i32 {
+            interrupt.check(DURING)?;
             let (row, start) = (map.row(y), vertices.len());
             let mut first = row.first_free(0, width);
             while first < width {
@@ -168,13 +182,14 @@ impl RunGraph {
             }
             above = start;
         }
-        Self { vertices }
+        Ok(Self { vertices })
     }
 
     /// The part of each run, and all parts but part 0.
-    fn parts(&self) -> (Vec<u32>, Vec<Part>) {
-        let (mut visits, order) = self.visit_all();
-        for &v in order.iter().rev() {
+    fn parts(&self, interrupt: &Interrupt) -> Result<(Vec<u32>, Vec<Part>), Interrupted> {
+        let (mut visits, order) = self.visit_all(interrupt)?;
+        for (number, &v) in order.iter().rev().enumerate() {
+            interrupt.check_every(PIECE, number, DURING)?;
             visits[v as usize].next = self.earliest(v, &visits);
         }
         let is_bridge = |v: u32| {
@@ -183,14 +198,16 @@ impl RunGraph {
         };
         // The bridges from a run to others beyond it; what else is beyond it counts as two.
         let mut beyond = vec![0_u32; visits.len()];
-        for &v in &order {
+        for (number, &v) in order.iter().enumerate() {
+            interrupt.check_every(PIECE, number, DURING)?;
             let parent = visits[v as usize].parent;
             if parent != v {
                 beyond[parent as usize] += if is_bridge(v) { 1 } else { 2 };
             }
         }
         let (mut of, mut parts) = (vec![0; visits.len()], Vec::new());
-        for v in order {
+        for (number, v) in order.into_iter().enumerate() {
+            interrupt.check_every(PIECE, number, DURING)?;
             let parent = visits[v as usize].parent;
             let above = of[parent as usize];
             let is_in_corridor = beyond[parent as usize] == 1 && is_bridge(parent);
@@ -202,11 +219,11 @@ impl RunGraph {
                 parts.len() as u32
             };
         }
-        (of, parts)
+        Ok((of, parts))
     }
 
     /// Searches all runs depth first, from the longest one on, so that part 0 is likely to be a large one.
-    fn visit_all(&self) -> (Vec<Visit>, Vec<u32>) {
+    fn visit_all(&self, interrupt: &Interrupt) -> Result<(Vec<Visit>, Vec<u32>), Interrupted> {
         let count = self.vertices.len() as u32;
         let mut visits = vec![Visit { time: 0, parent: 0, next: 0 }; count as usize];
         let mut order = Vec::with_capacity(count as usize);
@@ -222,6 +239,7 @@ impl RunGraph {
             loop {
                 let visit = &mut visits[v as usize];
                 if visit.time == 0 {
+                    interrupt.check_every(PIECE, order.len(), DURING)?;
                     order.push(v);
                     *visit = Visit { time: order.len() as u32, parent, next: 0 };
                 }
@@ -235,7 +253,7 @@ impl RunGraph {
                 }
             }
         }
-        (visits, order)
+        Ok((visits, order))
     }
 
     /// The earliest time that is reached from a run and its descendants, where it is known of them.
@@ -265,14 +283,14 @@ impl RunGraph {
 
 #[cfg(test)]
 mod tests {
-    use mediant_grid::AsciiMap;
+    use mediant_grid::{AsciiMap, uninterrupted};
 
     use super::*;
 
     /// The parts of the cells, `#` where they are blocked.
     fn draw(drawing: &str, gaps_are_open: bool) -> String {
         let grid = AsciiMap::parse(drawing).expect("the drawing is a map").grid;
-        let parts = Parts::new(grid.rows(), false, gaps_are_open);
+        let parts = uninterrupted(|never| Parts::new(grid.rows(), false, gaps_are_open, never));
         let cell = |x, y| match grid.is_blocked(x, y) {
             true => '#',
             false => char::from_digit(parts.of(x, y), 10).expect("few parts"),

@@ -2,7 +2,7 @@
 
 use std::{collections::HashSet, sync::Arc};
 
-use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Grid, VertexId};
+use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Grid, VertexId, uninterrupted};
 use mediant_moves::FiniteK;
 use mediant_oracle::{Rng, describe, noise, random_free_vertex, rooms, seeds, suite_grid, wide_grid};
 
@@ -53,7 +53,9 @@ fn finder<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>, reach: u32) 
 }
 
 fn planes<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>, reach: u32) -> JumpPlanes {
-    JumpPlanes::with_dead_ends(graph, pruning, AxialStops::new(graph), reach)
+    uninterrupted(|never| {
+        JumpPlanes::with_dead_ends(graph, pruning, AxialStops::new(graph, never)?, reach, never)
+    })
 }
 
 /// The definition, by steps: whether all nodes to which the forced successors of a jump point lead, and
@@ -101,7 +103,7 @@ impl Test for Definition {
     fn on<P: Placement>(&mut self, grid: &Arc<Grid>, rule: P::Rule, k: u32, seed: u64) {
         let graph = GridGraph::<P>::new(Arc::clone(grid), FiniteK::new(k).unwrap(), rule).unwrap();
         let pruning = Pruning::new(&graph);
-        let plain = AxialStops::new(&graph);
+        let plain = uninterrupted(|never| AxialStops::new(&graph, never));
         let reach = [1, 2, 3, 5, 8, REACH][seed as usize / 4 % 6];
         let marked = planes(&graph, &pruning, reach);
         let count = graph.steps().len();
@@ -216,7 +218,8 @@ impl Test for Costs {
             let jps = |reach| BlockJps::with_finder(graph, Arc::clone(&pruning), with(reach), Hk).unwrap();
             let mut planners = [jps(reach), jps(0)];
             let mut zero = BlockJps::with_finder(graph, Arc::clone(&pruning), with(reach), Zero).unwrap();
-            let table = JumpTable::from_planes(graph, &pruning, planes(graph, &pruning, reach));
+            let planes = planes(graph, &pruning, reach);
+            let table = uninterrupted(|never| JumpTable::from_planes(graph, &pruning, planes, never));
             self.lists += table.lists().len();
             let table = Arc::new(table);
             let mut plus = JpsPlus::with_finder(graph, Arc::clone(&pruning), table, Hk).unwrap();

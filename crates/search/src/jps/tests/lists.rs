@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Centers, Grid, GridGraph, Identity, Placement, Vector, Vertex};
+use mediant_grid::{Centers, Grid, GridGraph, Identity, Placement, Vector, Vertex, uninterrupted};
 use mediant_moves::{Cost, FiniteK};
 use mediant_oracle::{Rng, noise};
 
@@ -33,8 +33,11 @@ impl Suite for Lists {
     fn check<P: Placement>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
         let graph = &reference.graph;
         let pruning = Arc::new(Pruning::new(graph));
-        let planes = JumpPlanes::with_dead_ends(graph, &pruning, AxialStops::new(graph), 0);
-        let table = JumpTable::from_planes(graph, &pruning, planes);
+        let table = uninterrupted(|never| {
+            let axial = AxialStops::new(graph, never)?;
+            let planes = JumpPlanes::with_dead_ends(graph, &pruning, axial, 0, never)?;
+            JumpTable::from_planes(graph, &pruning, planes, never)
+        });
         self.lists += table.lists().len();
         let mut looked_up = JpsPlus::with_finder(graph, pruning, Arc::new(table), Zero).unwrap();
         let mut by_steps = Jps::new(graph, Zero);

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use mediant_grid::{
-    Centers, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vector, Vertex, VertexId,
+    Centers, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vector, Vertex, VertexId, uninterrupted,
 };
 use mediant_moves::FiniteK;
 use mediant_oracle::{Rng, describe, is_gap, noise, seeds, suite_grid, wide_grid};
@@ -217,7 +217,7 @@ struct Scans {
 impl Suite for Scans {
     fn check<P: Placement>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
         let graph = &reference.graph;
-        let stops = AxialStops::new(graph);
+        let stops = uninterrupted(|never| AxialStops::new(graph, never));
         let count = graph.steps().len();
         for (_, from) in reference.vertices().filter(|&(_, at)| graph.is_free(at)) {
             for (quarter, &towards) in AXES.iter().enumerate() {
@@ -243,8 +243,10 @@ struct DiagonalScans {
 impl Suite for DiagonalScans {
     fn check<P: Placement>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
         let graph = &reference.graph;
-        let stops =
-            DiagonalStops::new(graph, &Pruning::new(graph), [&Leads::new(graph, &Default::default()); 2]);
+        let stops = uninterrupted(|never| {
+            let leads = Leads::new(graph, &Default::default(), never)?;
+            DiagonalStops::new(graph, &Pruning::new(graph), [&leads; 2], never)
+        });
         let last = graph.steps().len() - 1;
         for (_, from) in reference.vertices() {
             for index in (1..=last).step_by(2) {
