@@ -1,6 +1,6 @@
 //! Why there is no index, or no planner on it.
 
-use mediant_grid::{Mismatch, Rectangle, Rules};
+use mediant_grid::{Interrupted, Mismatch, Rectangle, Rules};
 use mediant_moves::{FiniteK, KError};
 
 /// An index that cannot be made, repaired, read or used.
@@ -77,4 +77,7 @@ pub enum HierarchyError {
     /// Bytes that are no index of this map.
     #[error("these bytes are no index of this map: {0}")]
     Bytes(&'static str),
+    /// It was stopped before it was done.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
 }

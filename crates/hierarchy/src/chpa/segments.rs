@@ -1,12 +1,18 @@
 //! The index of CHPA*: made by sliding windows over the map, and repaired where the map changed.
 
-use mediant_grid::{Centers, Grid, GridGraph, Identity, Rectangle, Vector, Vertex};
+use mediant_grid::{Centers, Grid, GridGraph, Identity, Interrupt, Rectangle, Vector, Vertex};
 use mediant_moves::FiniteK;
 
 use crate::{
     HierarchyError, check,
     window::{MAX_SIDE, Rows, Window, low_bits, on_map},
 };
+
+/// What is done when the index is made.
+const DURING: &str = "joining segments";
+
+/// The segments between two questions of an interrupt.
+const SEGMENTS: usize = 256;
 
 /// The edges that a segment stores; those to the left and upward are stored by its neighbors.
 pub(crate) const EAST: u8 = 1;
@@ -53,10 +59,23 @@ impl SegmentGraph {
     /// # Errors
     /// [`HierarchyError`] for k above 3, for k = 3 where corners may be cut, or a side that is out of range.
     pub fn new(grid_graph: &GridGraph<Centers>, side: u32) -> Result<Self, HierarchyError> {
+        Self::interruptible(grid_graph, side, &Interrupt::NEVER)
+    }
+
+    /// [`new`](Self::new), which an interrupt can stop; it asks every few segments.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new), and [`HierarchyError::Interrupted`].
+    pub fn interruptible(
+        grid_graph: &GridGraph<Centers>,
+        side: u32,
+        interrupt: &Interrupt,
+    ) -> Result<Self, HierarchyError> {
         let mut graph = Self::without_edges(grid_graph, side)?;
         graph.edges = vec![0; graph.segments_of_map()].into_boxed_slice();
         for y in 0..graph.rows {
             for x in 0..graph.columns {
+                interrupt.check_every(SEGMENTS, x as usize, DURING)?;
                 graph.edges[(y * graph.columns + x) as usize] = graph.edges_of(grid_graph.grid(), x, y);
             }
         }
@@ -89,13 +108,42 @@ impl SegmentGraph {
     /// for a map `after` of another size, and [`HierarchyError::ChangedOutside`] if the two differ outside of
     /// the rectangle. Nothing is changed then.
     pub fn repair(&mut self, before: &Grid, after: &Grid, changed: Rectangle) -> Result<(), HierarchyError> {
+        self.repair_in_place(before, after, changed, &Interrupt::NEVER)
+    }
+
+    /// A copy of the index, [repaired](Self::repair). An interrupt can stop it; this index stays as it is.
+    ///
+    /// # Errors
+    /// Those of [`repair`](Self::repair), and [`HierarchyError::Interrupted`].
+    pub fn repaired(
+        &self,
+        before: &Grid,
+        after: &Grid,
+        changed: Rectangle,
+        interrupt: &Interrupt,
+    ) -> Result<Self, HierarchyError> {
+        let mut copy = self.clone();
+        copy.repair_in_place(before, after, changed, interrupt)?;
+        Ok(copy)
+    }
+
+    /// Once it is interrupted, the index is that of neither map.
+    fn repair_in_place(
+        &mut self,
+        before: &Grid,
+        after: &Grid,
+        changed: Rectangle,
+        interrupt: &Interrupt,
+    ) -> Result<(), HierarchyError> {
         check::change(self.identity, before, after, changed)?;
         // Where no cell of the rectangle is on the map, the maps are equal.
         let Some([columns, rows]) = on_map(changed, self.size) else { return Ok(()) };
         // The windows of a segment reach one tile beyond it to the left, to the right, and downward.
-        let first = |cell: u32| cell.saturating_sub(1) / self.side;
+        let side = self.side;
+        let first = |cell: u32| cell.saturating_sub(1) / side;
         for y in first(rows.start)..rows.end.div_ceil(self.side) {
             for x in first(columns.start)..((columns.end + 1).div_ceil(self.side)).min(self.columns) {
+                interrupt.check_every(SEGMENTS, x as usize, DURING)?;
                 self.edges[(y * self.columns + x) as usize] = self.edges_of(after, x, y);
             }
         }

@@ -1,10 +1,11 @@
 //! Making the abstract graph, wholly or where the map changed (Botea 2004, Sections 3.1 and 3.2).
 
-use mediant_grid::{BitMatrix, Grid, Vertex};
+use mediant_grid::{BitMatrix, Grid, Interrupt, Interrupted, Vertex};
 use mediant_moves::Cost;
 use mediant_search::parts::SearchTree;
 
 use super::{
+    DURING,
     cluster_search::ClusterSearch,
     fixed_cost::FixedCost,
     graph::ClusterGraph,
@@ -17,23 +18,34 @@ use crate::window::{low_bits, rows_of};
 /// (Section 3.1).
 const WIDE: u32 = 6;
 
+/// The clusters whose nodes are made between two questions of an interrupt.
+const CLUSTERS: usize = 64;
+
 impl ClusterGraph {
     /// Makes the nodes of all levels, without the costs between them.
-    pub(crate) fn add_nodes(&mut self, grid: &Grid) {
+    pub(crate) fn add_nodes(&mut self, grid: &Grid, interrupt: &Interrupt) -> Result<(), Interrupted> {
         for number in 0..self.levels.len() {
             let all = (0..self.levels[number].clusters.len() as u32).collect();
-            self.rebuild_nodes(grid, number, all);
+            self.rebuild_nodes(grid, number, all, interrupt)?;
         }
+        Ok(())
     }
 
     /// Rebuilds these clusters of the lowest level, in ascending order, and all that depends on them.
-    pub(crate) fn rebuild(&mut self, grid: &Grid, mut dirty: Vec<u32>) {
+    ///
+    /// If it is interrupted, the graph is that of neither map.
+    pub(crate) fn rebuild(
+        &mut self,
+        grid: &Grid,
+        mut dirty: Vec<u32>,
+        interrupt: &Interrupt,
+    ) -> Result<(), Interrupted> {
         for number in 0..self.levels.len() {
-            dirty = self.rebuild_nodes(grid, number, dirty);
+            dirty = self.rebuild_nodes(grid, number, dirty, interrupt)?;
             if number == 0 {
-                self.find_lowest_costs(grid, &dirty);
+                self.find_lowest_costs(grid, &dirty, interrupt)?;
             } else {
-                self.find_upper_costs(grid, number, &dirty);
+                self.find_upper_costs(grid, number, &dirty, interrupt)?;
             }
             if let Some(upper) = self.levels.get(number + 1) {
                 let level = &self.levels[number];
@@ -43,12 +55,19 @@ impl ClusterGraph {
                 dirty.dedup();
             }
         }
+        Ok(())
     }
 
     /// Rebuilds the nodes of a level in the dirty clusters, and in their neighbors, whose entrances may have
     /// changed with them. Returns the clusters whose costs must be found again: the dirty ones, and the
     /// neighbors whose nodes changed.
-    fn rebuild_nodes(&mut self, grid: &Grid, number: usize, mut dirty: Vec<u32>) -> Vec<u32> {
+    fn rebuild_nodes(
+        &mut self,
+        grid: &Grid,
+        number: usize,
+        mut dirty: Vec<u32>,
+        interrupt: &Interrupt,
+    ) -> Result<Vec<u32>, Interrupted> {
         let (below, rest) = self.levels.split_at_mut(number);
         let level = &mut rest[0];
         let mut cells = Vec::new();
@@ -64,7 +83,8 @@ impl ClusterGraph {
             }
             level.set_nodes(id, &cells)
         };
-        for &id in &dirty {
+        for (number, &id) in dirty.iter().enumerate() {
+            interrupt.check_every(CLUSTERS, number, DURING)?;
             rebuild(level, id);
         }
         neighbors.retain(|&id| rebuild(level, id));
@@ -73,15 +93,21 @@ impl ClusterGraph {
         let mut to_join: Vec<u32> = dirty.iter().flat_map(|&id| level.neighbors(id).chain([id])).collect();
         to_join.sort_unstable();
         to_join.dedup();
-        for id in to_join {
+        for (number, id) in to_join.into_iter().enumerate() {
+            interrupt.check_every(CLUSTERS, number, DURING)?;
             level.join_across(id);
         }
-        dirty
+        Ok(dirty)
     }
 
     /// Finds the costs between the nodes of clusters of the lowest level: Dijkstra's algorithm over the cells
     /// of each.
-    fn find_lowest_costs(&mut self, grid: &Grid, clusters: &[u32]) {
+    fn find_lowest_costs(
+        &mut self,
+        grid: &Grid,
+        clusters: &[u32],
+        interrupt: &Interrupt,
+    ) -> Result<(), Interrupted> {
         let mut cluster_search = ClusterSearch::new(self.k);
         let level = &mut self.levels[0];
         for &id in clusters {
@@ -90,6 +116,7 @@ impl ClusterGraph {
             let count = cells.len();
             let mut costs = vec![FixedCost::ZERO; count * count];
             for (from, &cell) in cells.iter().enumerate() {
+                interrupt.check(DURING)?;
                 let targets = &cells[from + 1..];
                 cluster_search.flood(&self.costs, &window, cell, &rows_of(targets), &mut ());
                 for (to, &target) in targets.iter().enumerate() {
@@ -100,25 +127,34 @@ impl ClusterGraph {
             }
             level.clusters[id as usize].costs = costs.into();
         }
+        Ok(())
     }
 
     /// Finds the costs between the nodes of clusters of an upper level: Dijkstra's algorithm over the nodes
     /// of the level below.
-    fn find_upper_costs(&mut self, grid: &Grid, number: usize, clusters: &[u32]) {
+    fn find_upper_costs(
+        &mut self,
+        grid: &Grid,
+        number: usize,
+        clusters: &[u32],
+        interrupt: &Interrupt,
+    ) -> Result<(), Interrupted> {
         let (below, rest) = self.levels.split_at_mut(number);
-        let (Some(below), Some(level)) = (below.last(), rest.first_mut()) else { return };
+        let (Some(below), Some(level)) = (below.last(), rest.first_mut()) else { return Ok(()) };
         let mut tree = SearchTree::new(below.nodes.len() + 2);
         for &id in clusters {
             let bounds = level.bounds(id, grid);
             let nodes: Vec<u32> = level.nodes_of(id).iter().map(|node| node.below).collect();
-            let costs = nodes.iter().flat_map(|&from| {
+            let mut costs = Vec::with_capacity(nodes.len() * nodes.len());
+            for &from in &nodes {
+                interrupt.check(DURING)?;
                 let start = Endpoint { cluster: below.node(from).cluster, costs: below.costs_from(from) };
                 search(below, bounds, &mut tree, |_| Cost::ZERO, start, None, &mut ());
-                let tree = &tree;
-                nodes.iter().map(move |&to| FixedCost::new(tree.cost(to))).collect::<Vec<_>>()
-            });
-            level.clusters[id as usize].costs = costs.collect();
+                costs.extend(nodes.iter().map(|&to| FixedCost::new(tree.cost(to))));
+            }
+            level.clusters[id as usize].costs = costs.into();
         }
+        Ok(())
     }
 }
 

@@ -5,9 +5,9 @@
 //! and row by row: the number n of its nodes, and the n(n − 1)/2 costs from each node to those after it, in
 //! units of 2⁻¹⁶ cells. The nodes themselves are not stored: they follow from the map.
 
-use mediant_grid::{Centers, GridGraph};
+use mediant_grid::{Centers, GridGraph, Interrupt};
 
-use super::{clustering::Clustering, fixed_cost::FixedCost, graph::ClusterGraph, level::Cluster};
+use super::{DURING, clustering::Clustering, fixed_cost::FixedCost, graph::ClusterGraph, level::Cluster};
 use crate::{HierarchyError, bytes::WordReader, check};
 
 impl ClusterGraph {
@@ -41,6 +41,18 @@ impl ClusterGraph {
     /// anything else is looked at; another [`HierarchyError`] for bytes that are no index of this grid graph,
     /// or moves that there is no index for.
     pub fn from_bytes(grid_graph: &GridGraph<Centers>, bytes: &[u8]) -> Result<Self, HierarchyError> {
+        Self::from_bytes_interruptible(grid_graph, bytes, &Interrupt::NEVER)
+    }
+
+    /// [`from_bytes`](Self::from_bytes), which an interrupt can stop.
+    ///
+    /// # Errors
+    /// Those of [`from_bytes`](Self::from_bytes), and [`HierarchyError::Interrupted`].
+    pub fn from_bytes_interruptible(
+        grid_graph: &GridGraph<Centers>,
+        bytes: &[u8],
+        interrupt: &Interrupt,
+    ) -> Result<Self, HierarchyError> {
         let mut words = WordReader::new(check::after_identity(bytes, grid_graph)?)?;
         let clustering = Clustering { side: words.next()?, levels: words.next()? };
         let size = (grid_graph.grid().width(), grid_graph.grid().height());
@@ -48,10 +60,11 @@ impl ClusterGraph {
         // warrant.
         let clusters = |side: u32| size.0.div_ceil(side) as usize * size.1.div_ceil(side) as usize;
         words.check_left(clustering.sides()?.into_iter().map(clusters).sum())?;
-        let mut graph = Self::without_nodes(grid_graph, clustering)?;
-        graph.add_nodes(grid_graph.grid());
+        let mut graph = Self::without_nodes(grid_graph, clustering, interrupt)?;
+        graph.add_nodes(grid_graph.grid(), interrupt)?;
         for level in &mut graph.levels {
-            for cluster in &mut level.clusters {
+            for (number, cluster) in level.clusters.iter_mut().enumerate() {
+                interrupt.check_every(64, number, DURING)?;
                 let count = words.next()?;
                 if count != cluster.count {
                     return Err(HierarchyError::Bytes("a cluster has another number of nodes"));

@@ -1,6 +1,6 @@
 //! The index of HPA*.
 
-use mediant_grid::{Centers, Grid, GridGraph, Identity, Rectangle};
+use mediant_grid::{Centers, Grid, GridGraph, Identity, Interrupt, Rectangle};
 use mediant_moves::{CostTable, FiniteK};
 
 use super::{clustering::Clustering, level::Level};
@@ -45,9 +45,21 @@ impl ClusterGraph {
     /// [`HierarchyError`] for k above 3, for k = 3 where corners may be cut, or a clustering that is out of
     /// range.
     pub fn new(grid_graph: &GridGraph<Centers>, clustering: Clustering) -> Result<Self, HierarchyError> {
-        let mut graph = Self::without_nodes(grid_graph, clustering)?;
+        Self::interruptible(grid_graph, clustering, &Interrupt::NEVER)
+    }
+
+    /// [`new`](Self::new), which an interrupt can stop; it asks for each search within a cluster.
+    ///
+    /// # Errors
+    /// Those of [`new`](Self::new), and [`HierarchyError::Interrupted`].
+    pub fn interruptible(
+        grid_graph: &GridGraph<Centers>,
+        clustering: Clustering,
+        interrupt: &Interrupt,
+    ) -> Result<Self, HierarchyError> {
+        let mut graph = Self::without_nodes(grid_graph, clustering, interrupt)?;
         let all = (0..graph.clusters() as u32).collect();
-        graph.rebuild(grid_graph.grid(), all);
+        graph.rebuild(grid_graph.grid(), all, interrupt)?;
         Ok(graph)
     }
 
@@ -55,10 +67,11 @@ impl ClusterGraph {
     pub(crate) fn without_nodes(
         grid_graph: &GridGraph<Centers>,
         clustering: Clustering,
+        interrupt: &Interrupt,
     ) -> Result<Self, HierarchyError> {
         check::moves(grid_graph)?;
         let (grid, sides) = (grid_graph.grid(), clustering.sides()?);
-        let level = |side| Level::new(grid, side, clustering.side);
+        let level = |side| Level::new(grid, side, clustering.side, interrupt);
         Ok(Self {
             identity: grid_graph.identity(),
             k: grid_graph.k(),
@@ -80,12 +93,41 @@ impl ClusterGraph {
     /// for a map `after` of another size, and [`HierarchyError::ChangedOutside`] if the two differ outside of
     /// the rectangle. Nothing is changed then.
     pub fn repair(&mut self, before: &Grid, after: &Grid, changed: Rectangle) -> Result<(), HierarchyError> {
+        self.repair_in_place(before, after, changed, &Interrupt::NEVER)
+    }
+
+    /// A copy of the index, [repaired](Self::repair). An interrupt can stop it; this index stays as it is.
+    ///
+    /// # Errors
+    /// Those of [`repair`](Self::repair), and [`HierarchyError::Interrupted`].
+    pub fn repaired(
+        &self,
+        before: &Grid,
+        after: &Grid,
+        changed: Rectangle,
+        interrupt: &Interrupt,
+    ) -> Result<Self, HierarchyError> {
+        check::change(self.identity, before, after, changed)?;
+        let levels = self.levels.iter().map(|level| level.copied(interrupt));
+        let mut copy = Self { levels: levels.collect::<Result<_, _>>()?, costs: self.costs.clone(), ..*self };
+        copy.repair_in_place(before, after, changed, interrupt)?;
+        Ok(copy)
+    }
+
+    /// Once it is interrupted, the index is that of neither map.
+    fn repair_in_place(
+        &mut self,
+        before: &Grid,
+        after: &Grid,
+        changed: Rectangle,
+        interrupt: &Interrupt,
+    ) -> Result<(), HierarchyError> {
         check::change(self.identity, before, after, changed)?;
         if let Some(cells) = on_map(changed, self.size) {
             let level = &self.levels[0];
             let [columns, rows] = cells.map(|cells| cells.start / level.side..cells.end.div_ceil(level.side));
             let dirty = rows.flat_map(|y| columns.clone().map(move |x| y * level.columns + x)).collect();
-            self.rebuild(after, dirty);
+            self.rebuild(after, dirty, interrupt)?;
         }
         self.identity.map = Some(after.id());
         Ok(())

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Grid, Vertex};
+use mediant_grid::{Grid, Interrupt, Interrupted, Vertex};
 
 use super::fixed_cost::FixedCost;
 use crate::{HierarchyError, check, window::Window};
@@ -87,12 +87,40 @@ impl Bounds {
     }
 }
 
+/// The values that are written between two questions of an interrupt.
+const PIECE: usize = 1 << 16;
+
+/// The same values again.
+fn copied<T: Clone>(values: &[T], interrupt: &Interrupt) -> Result<Vec<T>, Interrupted> {
+    let mut copy = Vec::with_capacity(values.len());
+    for piece in values.chunks(PIECE) {
+        interrupt.check(super::DURING)?;
+        copy.extend_from_slice(piece);
+    }
+    Ok(copy)
+}
+
+/// So many copies of a value: those of a large map are gigabytes.
+fn filled<T: Clone>(value: &T, count: usize, interrupt: &Interrupt) -> Result<Vec<T>, Interrupted> {
+    let mut values = Vec::with_capacity(count);
+    while values.len() < count {
+        interrupt.check(super::DURING)?;
+        values.resize(count.min(values.len() + PIECE), value.clone());
+    }
+    Ok(values)
+}
+
 impl Level {
     /// A level without nodes. `lowest_side` is the side of the clusters of the lowest level.
     ///
     /// # Errors
-    /// [`HierarchyError::TooLarge`] for more nodes than can be addressed.
-    pub(crate) fn new(grid: &Grid, side: u32, lowest_side: u32) -> Result<Self, HierarchyError> {
+    /// [`HierarchyError::TooLarge`] for more nodes than can be addressed, [`HierarchyError::Interrupted`].
+    pub(crate) fn new(
+        grid: &Grid,
+        side: u32,
+        lowest_side: u32,
+        interrupt: &Interrupt,
+    ) -> Result<Self, HierarchyError> {
         let [columns, rows] = [grid.width(), grid.height()].map(|cells| cells.div_ceil(side));
         // On each of the four borders every other cell may be an entrance. On upper levels the corner cells
         // of clusters of the lowest level may be nodes as well: they are joined with nodes beside them that
@@ -108,8 +136,17 @@ impl Level {
             columns,
             rows,
             stride,
-            nodes: vec![Node::UNUSED; nodes as usize].into_boxed_slice(),
-            clusters: vec![Cluster::default(); count as usize].into_boxed_slice(),
+            nodes: filled(&Node::UNUSED, nodes as usize, interrupt)?.into_boxed_slice(),
+            clusters: filled(&Cluster::default(), count as usize, interrupt)?.into_boxed_slice(),
+        })
+    }
+
+    /// A copy.
+    pub(crate) fn copied(&self, interrupt: &Interrupt) -> Result<Self, Interrupted> {
+        Ok(Self {
+            nodes: copied(&self.nodes, interrupt)?.into_boxed_slice(),
+            clusters: copied(&self.clusters, interrupt)?.into_boxed_slice(),
+            ..*self
         })
     }
 

@@ -11,6 +11,9 @@ mod planner;
 mod search;
 mod straighten;
 
+/// What is done when the index is made.
+const DURING: &str = "joining clusters";
+
 pub use clustering::Clustering;
 pub use graph::ClusterGraph;
 pub use planner::HpaStar;

@@ -6,6 +6,7 @@ mod common;
 mod complete;
 mod identity;
 mod index;
+mod interrupts;
 mod repair;
 mod segments;
 mod shared;
