@@ -92,7 +92,7 @@ type OnLabels<P> = HubLabelSearch<Free<P>, Arc<HubLabels<P>>>;
 
 /// A planner on the hub labels of a space.
 fn labels<P: SubgoalPlacement>(space: Free<P>, k: K) -> Result<OnLabels<P>, Error> {
-    let labels = HubLabels::within(&space, k, usize::MAX, &|_| {})?;
+    let labels = HubLabels::within(&space, k, usize::MAX, &|_| {}, &mediant_grid::Interrupt::NEVER)?;
     Ok(HubLabelSearch::new(space, Arc::new(labels))?)
 }
 

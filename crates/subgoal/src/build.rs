@@ -1,6 +1,6 @@
 //! Building a graph: its edges, then its hierarchy.
 
-use mediant_grid::{FreeSpace, Identity, Vertex};
+use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted, Vertex};
 use mediant_moves::K;
 
 use crate::{
@@ -25,27 +25,29 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// [`SubgoalError`] if the placement has no subgoal graph for this k and rule, or if the graph would be
     /// too large.
     pub fn new(space: &FreeSpace<P>, k: impl Into<K>, hierarchy: Hierarchy) -> Result<Self, SubgoalError> {
-        Self::with_progress(space, k.into(), hierarchy, &|_| {})
+        Self::with_progress(space, k.into(), hierarchy, &|_| {}, &Interrupt::NEVER)
     }
 
-    /// [`new`](Self::new) with reports to `progress`, which is called from any thread.
+    /// [`new`](Self::new) with reports to `progress`, which is called from any thread. The interrupt is asked
+    /// for each row of the map and each subgoal.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// As [`new`](Self::new), and [`SubgoalError::Interrupted`].
     pub fn with_progress(
         space: &FreeSpace<P>,
         k: K,
         hierarchy: Hierarchy,
         progress: &(impl Fn(Progress) + Sync),
+        interrupt: &Interrupt,
     ) -> Result<Self, SubgoalError> {
         let hierarchy = match hierarchy {
             // The bytes of a graph have no code for so many.
             Hierarchy::Levels(levels) if levels.get() >= LEAST_CODE => Hierarchy::AllLevels,
             other => other,
         };
-        let ground = Ground::new(space, k, hierarchy)?;
-        let contracted = ground.contracted(space, hierarchy, progress);
-        ground.into_graph(space, hierarchy, &contracted)
+        let ground = Ground::new(space, k, hierarchy, interrupt)?;
+        let contracted = ground.contracted(space, hierarchy, progress, interrupt)?;
+        ground.into_graph(space, hierarchy, &contracted, interrupt)
     }
 }
 
@@ -59,13 +61,18 @@ pub(crate) struct Ground<P: SubgoalPlacement> {
 }
 
 impl<P: SubgoalPlacement> Ground<P> {
-    pub(crate) fn new(space: &FreeSpace<P>, k: K, hierarchy: Hierarchy) -> Result<Self, SubgoalError> {
+    pub(crate) fn new(
+        space: &FreeSpace<P>,
+        k: K,
+        hierarchy: Hierarchy,
+        interrupt: &Interrupt,
+    ) -> Result<Self, SubgoalError> {
         P::check(space, k)?;
         let metric = Metric::new(k)?;
-        let marks = P::subgoals(space);
-        let tables = P::tables(space, &marks);
+        let marks = P::subgoals(space, interrupt)?;
+        let tables = P::tables(space, &marks, interrupt)?;
         Ok(Self {
-            subgoals: Subgoals::new(marks),
+            subgoals: Subgoals::new(marks, interrupt)?,
             metric,
             tables,
             k,
@@ -84,23 +91,25 @@ impl<P: SubgoalPlacement> Ground<P> {
         space: &FreeSpace<P>,
         hierarchy: Hierarchy,
         progress: &(impl Fn(Progress) + Sync),
-    ) -> ContractedGraph {
+        interrupt: &Interrupt,
+    ) -> Result<ContractedGraph, Interrupted> {
         let (context, total) = (self.context(space), self.subgoals.len());
-        let edges = find_edges(context, &|done| progress(Progress { stage: Stage::Edges, done, total }));
-        let mut contraction = Contraction::new(total, &edges, context);
+        let report = |done| progress(Progress { stage: Stage::Edges, done, total });
+        let edges = find_edges(context, &report, interrupt)?;
+        let mut contraction = Contraction::new(total, &edges, context, interrupt.clone())?;
         let mut report = |done| progress(Progress { stage: Stage::Hierarchy, done, total });
         match hierarchy {
-            Hierarchy::Contracted => contraction.contract_by_priority(&mut report),
-            Hierarchy::AllLevels => while contraction.contract_level(&mut report) {},
+            Hierarchy::Contracted => contraction.contract_by_priority(&mut report)?,
+            Hierarchy::AllLevels => while contraction.contract_level(&mut report)? {},
             Hierarchy::Levels(levels) => {
                 for _ in 1..levels.get() {
-                    if !contraction.contract_level(&mut report) {
+                    if !contraction.contract_level(&mut report)? {
                         break;
                     }
                 }
             }
         }
-        contraction.finish()
+        Ok(contraction.finish())
     }
 
     pub(crate) fn into_graph(
@@ -108,6 +117,7 @@ impl<P: SubgoalPlacement> Ground<P> {
         space: &FreeSpace<P>,
         hierarchy: Hierarchy,
         contracted: &ContractedGraph,
+        interrupt: &Interrupt,
     ) -> Result<SubgoalGraph<P>, SubgoalError> {
         let Self { subgoals, metric, tables, k, criterion } = self;
         let count = contracted.arcs.iter().map(Vec::len).sum();
@@ -118,7 +128,7 @@ impl<P: SubgoalPlacement> Ground<P> {
         let identity = Identity { k: Some(k), ..space.identity() };
         let graph =
             SubgoalGraph { identity, subgoals, tables, metric, k, criterion, hierarchy, offsets, arcs };
-        graph.with_costs(space)
+        graph.with_costs(space, interrupt)
     }
 }
 
@@ -160,15 +170,17 @@ impl<P: EdgeFinder> SubgoalGeometry for BuildContext<'_, P> {
 fn find_edges<P: EdgeFinder>(
     context: BuildContext<'_, P>,
     progress: &(impl Fn(usize) + Sync),
-) -> Vec<(u32, u32)> {
+    interrupt: &Interrupt,
+) -> Result<Vec<(u32, u32)>, Interrupted> {
     let chunks = in_chunks(context.subgoals.len(), P::Scratch::default, progress, |scratch, ids| {
         let mut edges = Vec::new();
         for from in ids {
+            interrupt.check("finding the edges of subgoals")?;
             P::edges_from(context, scratch, context.subgoals.vertex(from), EdgeKind::Graph, |to, _| {
                 edges.push((from, to));
             });
         }
-        edges
-    });
-    chunks.concat()
+        Ok(edges)
+    })?;
+    Ok(chunks.concat())
 }

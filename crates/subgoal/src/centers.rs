@@ -1,7 +1,9 @@
 //! Subgoals and edges at centers, for k = 2 and 3: the subgoal graphs of Uras, Koenig & Hernández 2013, where
 //! corners are never cut.
 
-use mediant_grid::{BitIndex, BitMatrix, Centers, CornerRule, FreeSpace, Grid, Vector, Vertex, load};
+use mediant_grid::{
+    BitIndex, BitMatrix, Centers, CornerRule, FreeSpace, Grid, Interrupt, Interrupted, Vector, Vertex, load,
+};
 use mediant_moves::{Cost, FiniteK, K};
 
 use crate::{
@@ -10,7 +12,7 @@ use crate::{
     error::SubgoalError,
     hierarchy::Hierarchy,
     placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, Run, SubgoalPlacement},
-    worth::{self, Counted},
+    worth::{self, Compare},
 };
 
 impl SubgoalPlacement for Centers {}
@@ -19,9 +21,10 @@ impl EdgeFinder for Centers {
     fn with_unprepared(
         space: &FreeSpace<Self>,
         k: K,
-        compare: &mut dyn FnMut(&mut Counted<'_>) -> bool,
-    ) -> bool {
-        k.finite().is_some_and(|k| worth::with_jumps(space, k, compare))
+        interrupt: &Interrupt,
+        compare: &mut Compare<'_>,
+    ) -> Result<bool, Interrupted> {
+        k.finite().map_or(Ok(false), |k| worth::with_jumps(space, k, interrupt, compare))
     }
 
     const SHARES_SIGHT: bool = false;
@@ -39,12 +42,16 @@ impl EdgeFinder for Centers {
         }
     }
 
-    fn subgoals(space: &FreeSpace<Self>) -> BitMatrix {
-        convex_corners(space.grid().rows())
+    fn subgoals(space: &FreeSpace<Self>, interrupt: &Interrupt) -> Result<BitMatrix, Interrupted> {
+        convex_corners(space.grid().rows(), interrupt)
     }
 
-    fn tables(space: &FreeSpace<Self>, subgoals: &BitMatrix) -> ClearanceBits {
-        ClearanceBits::new(space.grid(), subgoals)
+    fn tables(
+        space: &FreeSpace<Self>,
+        subgoals: &BitMatrix,
+        interrupt: &Interrupt,
+    ) -> Result<ClearanceBits, Interrupted> {
+        ClearanceBits::new(space.grid(), subgoals, interrupt)
     }
 
     fn edge_criterion(_: K, _: Hierarchy) -> EdgeCriterion {
@@ -264,7 +271,7 @@ fn free_beyond<const AHEAD: bool>(words: &[u64], at: BitIndex, most: i32) -> i32
 mod tests {
     use std::sync::Arc;
 
-    use mediant_grid::{Centers, CornerRule, FreeSpace, Grid, Placement, Vector, Vertex};
+    use mediant_grid::{Centers, CornerRule, FreeSpace, Grid, Placement, Vector, Vertex, uninterrupted};
     use mediant_moves::{Cost, FiniteK, K};
     use mediant_oracle::{Explicit, random_grid, wide_grid};
     use mediant_search::parts::Metric;
@@ -289,9 +296,11 @@ mod tests {
     fn check(grid: &Grid, k: FiniteK, rule: CornerRule, every: usize, seed: u64) -> usize {
         let space = FreeSpace::<Centers>::new(Arc::new(grid.clone()), rule);
         let metric = Metric::new(K::Finite(k)).expect("a small k");
-        let marks = Centers::subgoals(&space);
-        let tables = Centers::tables(&space, &marks);
-        let subgoals = Subgoals::new(marks);
+        let (subgoals, tables) = uninterrupted(|never| {
+            let marks = Centers::subgoals(&space, never)?;
+            let tables = Centers::tables(&space, &marks, never)?;
+            Ok((Subgoals::new(marks, never)?, tables))
+        });
         let context = BuildContext {
             space: &space,
             subgoals: &subgoals,

@@ -5,22 +5,24 @@ use std::{
     sync::atomic::{AtomicUsize, Ordering},
 };
 
+use mediant_grid::Interrupted;
+
 /// Subgoals that one thread handles at a time.
 const CHUNK: usize = 64;
 
-/// What `work` makes of each chunk of the numbers below `count`, in order.
+/// What `work` makes of each chunk of the numbers below `count`, in order; an error of one ends it.
 pub(crate) fn in_chunks<S, T: Send>(
     count: usize,
     scratch: impl Fn() -> S + Send + Sync,
     progress: &(impl Fn(usize) + Sync),
-    work: impl Fn(&mut S, Range<u32>) -> T + Send + Sync,
-) -> Vec<T> {
+    work: impl Fn(&mut S, Range<u32>) -> Result<T, Interrupted> + Send + Sync,
+) -> Result<Vec<T>, Interrupted> {
     let done = AtomicUsize::new(0);
     let chunk = |scratch: &mut S, chunk: usize| {
         let ids = chunk * CHUNK..count.min((chunk + 1) * CHUNK);
-        let made = work(scratch, ids.start as u32..ids.end as u32);
+        let made = work(scratch, ids.start as u32..ids.end as u32)?;
         progress(done.fetch_add(ids.len(), Ordering::Relaxed) + ids.len());
-        made
+        Ok(made)
     };
     let chunks = 0..count.div_ceil(CHUNK);
     #[cfg(feature = "parallel")]

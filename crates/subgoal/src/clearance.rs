@@ -1,8 +1,11 @@
 //! Clearances at centers: how far one can go along a row, column or diagonal before a subgoal or an obstacle.
 
-use mediant_grid::{BitIndex, BitMatrix, Grid, Vertex, load};
+use mediant_grid::{BitIndex, BitMatrix, Grid, Interrupt, Interrupted, Vertex, load};
 
 use crate::placement::EdgeTables;
+
+/// What is done when these are made.
+const DURING: &str = "finding subgoals";
 
 /// What stops a walk from a center along a row, a column or a diagonal, as bits along that line. So the first
 /// stop ahead or behind is found a word at a time.
@@ -34,19 +37,20 @@ impl EdgeTables for ClearanceBits {
 
 impl ClearanceBits {
     /// The clearance bits of a map with these subgoals.
-    pub(crate) fn new(grid: &Grid, subgoals: &BitMatrix) -> Self {
+    pub(crate) fn new(grid: &Grid, subgoals: &BitMatrix, interrupt: &Interrupt) -> Result<Self, Interrupted> {
         let stops = |cells: &BitMatrix, marks: &BitMatrix| {
-            BitMatrix::from_words(cells.width(), cells.height(), true, |x, y| {
+            let size = (cells.width(), cells.height());
+            BitMatrix::from_words_interruptible(size, true, (interrupt, DURING), |x, y| {
                 let at = cells.index(x, y);
                 load(cells.words(), at) | load(marks.words(), at)
             })
         };
         let (cells, turned) = (grid.rows(), grid.columns());
-        Self {
-            rows: stops(cells, subgoals),
-            columns: stops(turned, &convex_corners(turned)),
-            diagonals: diagonals(cells, subgoals),
-        }
+        Ok(Self {
+            rows: stops(cells, subgoals)?,
+            columns: stops(turned, &convex_corners(turned, interrupt)?)?,
+            diagonals: diagonals(cells, subgoals, interrupt)?,
+        })
     }
 
     /// Blocked cells and subgoals along an axis, and the place of a cell there.
@@ -99,8 +103,9 @@ pub(crate) fn zeros_before(words: &[u64], mut at: BitIndex) -> i32 {
 
 /// The free cells at convex corners of obstacles (Uras, Koenig & Hernández 2013): a diagonal neighbor is
 /// blocked, and the two cells beside both are free.
-pub(crate) fn convex_corners(cells: &BitMatrix) -> BitMatrix {
-    BitMatrix::from_words(cells.width(), cells.height(), false, |x, y| {
+pub(crate) fn convex_corners(cells: &BitMatrix, interrupt: &Interrupt) -> Result<BitMatrix, Interrupted> {
+    let size = (cells.width(), cells.height());
+    BitMatrix::from_words_interruptible(size, false, (interrupt, DURING), |x, y| {
         let word = |dx, dy| load(cells.words(), cells.index(x + dx, y + dy));
         let [up, down, left, right] = [word(0, -1), word(0, 1), word(-1, 0), word(1, 0)];
         let corner = |beside: u64, above: u64, diagonal: u64| diagonal & !beside & !above;
@@ -120,16 +125,21 @@ const fn diagonal_row(at: Vertex, slope: i32, height: u32) -> u32 {
 
 /// The diagonals down and up to the right. Each cell has two bits in its diagonal's row: whether it is a
 /// subgoal, and whether the move to the next cell on the right is illegal.
-fn diagonals(cells: &BitMatrix, marks: &BitMatrix) -> [BitMatrix; 2] {
+fn diagonals(
+    cells: &BitMatrix,
+    marks: &BitMatrix,
+    interrupt: &Interrupt,
+) -> Result<[BitMatrix; 2], Interrupted> {
     let (width, height) = (cells.width(), cells.height());
     // One of the four cells at its lower right corner is blocked.
-    let illegal = BitMatrix::from_words(width, height, true, |x, y| {
+    let stop = (interrupt, DURING);
+    let illegal = BitMatrix::from_words_interruptible((width, height), true, stop, |x, y| {
         let word = |dx, dy| load(cells.words(), cells.index(x + dx, y + dy));
         word(0, 0) | word(1, 0) | word(0, 1) | word(1, 1)
-    });
-    [1, -1].map(|slope| {
+    })?;
+    let diagonal = |slope: i32| {
         let above = i32::from(slope < 0);
-        BitMatrix::from_words(2 * width, height, true, |column, row| {
+        BitMatrix::from_words_interruptible((2 * width, height), true, stop, |column, row| {
             let first = column / 2;
             let cells = (first..(first + 32).min(width as i32))
                 .map(|x| (x, (row + slope * x).rem_euclid(height as i32)));
@@ -138,5 +148,6 @@ fn diagonals(cells: &BitMatrix, marks: &BitMatrix) -> [BitMatrix; 2] {
                 bits | pair << (2 * (x - first))
             })
         })
-    })
+    };
+    Ok([diagonal(1)?, diagonal(-1)?])
 }

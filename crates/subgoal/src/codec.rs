@@ -7,7 +7,7 @@
 
 use std::num::NonZeroU32;
 
-use mediant_grid::{FreeSpace, Identity};
+use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted};
 use mediant_moves::K;
 
 use crate::{
@@ -56,14 +56,27 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// anything else is looked at; another [`SubgoalError`] if they are no subgoal graph of this free space.
     /// Besides the memory of the map's subgoals, reading allocates a small multiple of the length of `bytes`.
     pub fn from_bytes(space: &FreeSpace<P>, k: impl Into<K>, bytes: &[u8]) -> Result<Self, SubgoalError> {
+        Self::from_bytes_interruptible(space, k, bytes, &Interrupt::NEVER)
+    }
+
+    /// [`from_bytes`](Self::from_bytes), which an interrupt can stop.
+    ///
+    /// # Errors
+    /// Those of [`from_bytes`](Self::from_bytes), and [`SubgoalError::Interrupted`].
+    pub fn from_bytes_interruptible(
+        space: &FreeSpace<P>,
+        k: impl Into<K>,
+        bytes: &[u8],
+        interrupt: &Interrupt,
+    ) -> Result<Self, SubgoalError> {
         let k = k.into();
         let identity = Identity { k: Some(k), ..space.identity() };
         let bytes = after_identity(bytes, identity)?;
         P::check(space, k)?;
         let metric = Metric::new(k)?;
-        let marks = P::subgoals(space);
-        let tables = P::tables(space, &marks);
-        let subgoals = Subgoals::new(marks);
+        let marks = P::subgoals(space, interrupt)?;
+        let tables = P::tables(space, &marks, interrupt)?;
+        let subgoals = Subgoals::new(marks, interrupt)?;
         let (words, rest) = bytes.as_chunks::<4>();
         let mut numbers = words.iter().map(|&word| u32::from_le_bytes(word));
         let header = numbers.next().zip(numbers.next()).zip(numbers.next());
@@ -86,11 +99,11 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
             return Err(SubgoalError::Arcs { count: total as usize, most: MAX_ARCS });
         }
         let offsets = read_offsets(&mut numbers, count, total)?;
-        let arcs = read_arcs(&mut numbers, count, total)?;
+        let arcs = read_arcs(&mut numbers, count, total, interrupt)?;
         let criterion = P::edge_criterion(k, hierarchy);
         let graph = Self { identity, subgoals, tables, metric, k, criterion, hierarchy, offsets, arcs };
-        let graph = graph.with_costs(space)?;
-        if graph.edges_are_free(space) {
+        let graph = graph.with_costs(space, interrupt)?;
+        if graph.edges_are_free(space, interrupt)? {
             Ok(graph)
         } else {
             Err(SubgoalError::Bytes("an obstacle is in the way of an edge"))
@@ -98,7 +111,7 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
     }
 
     /// Whether no obstacle is in the way of an edge.
-    fn edges_are_free(&self, space: &FreeSpace<P>) -> bool {
+    fn edges_are_free(&self, space: &FreeSpace<P>, interrupt: &Interrupt) -> Result<bool, Interrupted> {
         let is_free = |id: u32, arc: &UpwardArc| {
             let [from, to] = [id, arc.to].map(|id| self.subgoals.vertex(id));
             let is_free = || match self.criterion {
@@ -109,9 +122,18 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
         };
         // Not by `edges`, which skips one direction of each edge of the core: in crafted bytes the other may
         // be missing.
-        (0..self.subgoals() as u32).all(|id| self.up(id).iter().all(|arc| is_free(id, arc)))
+        for id in 0..self.subgoals() as u32 {
+            interrupt.check_every(64, id as usize, DURING)?;
+            if !self.up(id).iter().all(|arc| is_free(id, arc)) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
 }
+
+/// What is done here.
+pub(crate) const DURING: &str = "reading subgoals";
 
 /// The bytes behind the identity with which they begin, if that is the expected one.
 pub(crate) fn after_identity(bytes: &[u8], expected: Identity) -> Result<&[u8], SubgoalError> {
@@ -148,6 +170,7 @@ fn read_arcs(
     numbers: &mut impl Iterator<Item = u32>,
     count: u32,
     total: u32,
+    interrupt: &Interrupt,
 ) -> Result<Box<[UpwardArc]>, SubgoalError> {
     let mut arcs = Vec::new();
     // In memory an arc takes three times as much as in the bytes, which may be more than 32 bits can address.
@@ -157,6 +180,7 @@ fn read_arcs(
         if to >= count || middle != NONE && middle >= count {
             return Err(SubgoalError::Bytes("an arc leads to no subgoal"));
         }
+        interrupt.check_every(1 << 16, arcs.len(), DURING)?;
         arcs.push(UpwardArc::without_cost(to, middle));
     }
     Ok(arcs.into_boxed_slice())
@@ -179,13 +203,28 @@ impl<P: SubgoalPlacement> PreparedSubgoals<P> {
     /// # Errors
     /// Those of [`HubLabels::from_bytes`] and [`SubgoalGraph::from_bytes`].
     pub fn from_bytes(space: &FreeSpace<P>, k: impl Into<K>, bytes: &[u8]) -> Result<Self, SubgoalError> {
+        Self::from_bytes_interruptible(space, k, bytes, &Interrupt::NEVER)
+    }
+
+    /// [`from_bytes`](Self::from_bytes), which an interrupt can stop.
+    ///
+    /// # Errors
+    /// Those of [`from_bytes`](Self::from_bytes), and [`SubgoalError::Interrupted`].
+    pub fn from_bytes_interruptible(
+        space: &FreeSpace<P>,
+        k: impl Into<K>,
+        bytes: &[u8],
+        interrupt: &Interrupt,
+    ) -> Result<Self, SubgoalError> {
         let k = k.into();
         let identity = Identity { k: Some(k), ..space.identity() };
         let rest = after_identity(bytes, identity)?;
         match rest.split_first_chunk().map(|(&code, rest)| (u32::from_le_bytes(code), rest)) {
-            Some((LABELS, _)) => HubLabels::from_bytes(space, k, bytes).map(Self::Labels),
+            Some((LABELS, _)) => {
+                HubLabels::from_bytes_interruptible(space, k, bytes, interrupt).map(Self::Labels)
+            }
             Some((NOTHING, [])) => P::check(space, k).map(|()| Self::Nothing(identity)),
-            _ => SubgoalGraph::from_bytes(space, k, bytes).map(Self::Contracted),
+            _ => SubgoalGraph::from_bytes_interruptible(space, k, bytes, interrupt).map(Self::Contracted),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Subgoals and edges at corners, for N(k) and at any angle.
 
 use mediant_grid::{
-    BitMatrix, Corners, FreeSpace, Placement, Vector, Vertex, load,
+    BitMatrix, Corners, FreeSpace, Interrupt, Interrupted, Placement, Vector, Vertex, load,
     sight::{Quadrants, RowSummary, Targets, VisibilitySweep},
 };
 use mediant_moves::{Cost, K};
@@ -12,7 +12,7 @@ use crate::{
     error::SubgoalError,
     hierarchy::Hierarchy,
     placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, EdgeTables, Run, SubgoalPlacement},
-    worth::{self, Counted},
+    worth::{self, Compare},
 };
 
 /// Scratch memory for finding edges at corners.
@@ -44,9 +44,10 @@ impl EdgeFinder for Corners {
     fn with_unprepared(
         space: &FreeSpace<Self>,
         k: K,
-        compare: &mut dyn FnMut(&mut Counted<'_>) -> bool,
-    ) -> bool {
-        worth::with_jumps_or_anya(space, k, compare)
+        interrupt: &Interrupt,
+        compare: &mut Compare<'_>,
+    ) -> Result<bool, Interrupted> {
+        worth::with_jumps_or_anya(space, k, interrupt, compare)
     }
 
     const SHARES_SIGHT: bool = true;
@@ -63,15 +64,19 @@ impl EdgeFinder for Corners {
     /// The subgoals are the convex corners of obstacles: vertices that touch one blocked cell, or two that
     /// meet diagonally, if a path may pass between them. (Hormazábal et al. 2017: a corner of an obstacle
     /// that a path can pass along a diagonal.)
-    fn subgoals(space: &FreeSpace<Self>) -> BitMatrix {
-        marks(space, |convex, _| convex)
+    fn subgoals(space: &FreeSpace<Self>, interrupt: &Interrupt) -> Result<BitMatrix, Interrupted> {
+        marks(space, interrupt, |convex, _| convex)
     }
 
-    fn tables(space: &FreeSpace<Self>, _: &BitMatrix) -> SightTables {
+    fn tables(
+        space: &FreeSpace<Self>,
+        _: &BitMatrix,
+        interrupt: &Interrupt,
+    ) -> Result<SightTables, Interrupted> {
         // A taut path arrives and leaves through the quadrants beside that of the blocked cell.
-        let same = marks(space, |convex, [_, ne, sw, _]| convex & (ne | sw));
-        let opposite = marks(space, |convex, [nw, _, _, se]| convex & (nw | se));
-        SightTables { row_summary: RowSummary::new(space.grid()), tangents: [same, opposite] }
+        let same = marks(space, interrupt, |convex, [_, ne, sw, _]| convex & (ne | sw))?;
+        let opposite = marks(space, interrupt, |convex, [nw, _, _, se]| convex & (nw | se))?;
+        Ok(SightTables { row_summary: RowSummary::new(space.grid()), tangents: [same, opposite] })
     }
 
     fn edge_criterion(k: K, hierarchy: Hierarchy) -> EdgeCriterion {
@@ -193,11 +198,15 @@ impl EdgeFinder for Corners {
 
 /// Some of the convex corners of obstacles: `some` is handed which of 64 vertices are such corners, and which
 /// of the cells to the north-west, north-east, south-west and south-east of each are blocked.
-fn marks(space: &FreeSpace<Corners>, some: impl Fn(u64, [u64; 4]) -> u64) -> BitMatrix {
+fn marks(
+    space: &FreeSpace<Corners>,
+    interrupt: &Interrupt,
+    some: impl Fn(u64, [u64; 4]) -> u64,
+) -> Result<BitMatrix, Interrupted> {
     let cells = space.grid().rows();
-    let (width, height) = Corners::vertices(space.grid());
+    let (size, stop) = (Corners::vertices(space.grid()), (interrupt, "finding subgoals"));
     let gaps_open = !Corners::closes_gaps(space.rule());
-    BitMatrix::from_words(width, height, false, |x, y| {
+    BitMatrix::from_words_interruptible(size, false, stop, |x, y| {
         let around @ [nw, ne, sw, se] = [(-1, -1), (0, -1), (-1, 0), (0, 0)]
             .map(|(dx, dy)| load(cells.words(), cells.index(x + dx, y + dy)));
         let odd = nw ^ ne ^ sw ^ se;

@@ -1,7 +1,7 @@
 //! The costs of the arcs, which follow from the subgoals; and whether arcs that were read make a hierarchy at
 //! all.
 
-use mediant_grid::FreeSpace;
+use mediant_grid::{FreeSpace, Interrupt};
 use mediant_moves::Cost;
 
 use crate::{
@@ -11,21 +11,32 @@ use crate::{
     placement::SubgoalPlacement,
 };
 
+/// What is done here.
+const DURING: &str = "measuring arcs";
+
+/// The subgoals between two questions of an interrupt.
+const PIECE: usize = 1 << 10;
+
 impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// The graph with the costs and steps of its arcs.
     ///
     /// # Errors
     /// [`SubgoalError::Bytes`] if the arcs lead in circles, if a shortcut leads over no subgoal below it, or
     /// if one is longer than any optimal path can be.
-    pub(crate) fn with_costs(mut self, space: &FreeSpace<P>) -> Result<Self, SubgoalError> {
+    pub(crate) fn with_costs(
+        mut self,
+        space: &FreeSpace<P>,
+        interrupt: &Interrupt,
+    ) -> Result<Self, SubgoalError> {
         // An optimal path over N(2) visits each vertex at most once, and paths over other neighborhoods are
         // shorter. Shortcuts are not always optimal, but nearly. Without a bound, crafted bytes in which each
         // shortcut is twice as long as the one below it would make paths without end.
         let most = (space.vertex_count() as u64).saturating_mul(16 << Cost::FRACTION_BITS);
-        let order = self.upward_order()?;
+        let order = self.upward_order(interrupt)?;
         // The halves of a shortcut belong to its middle node, which must come before.
         let mut known = vec![false; self.subgoals()];
-        for id in order {
+        for (number, id) in order.into_iter().enumerate() {
+            interrupt.check_every(PIECE, number, DURING)?;
             let first = (self.offsets[id as usize] / 2) as usize;
             for number in first..first + self.up(id).len() {
                 let UpwardArc { to, middle, .. } = self.arcs[number];
@@ -50,11 +61,12 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
     }
 
     /// All subgoals, each after those that have arcs up to it, and the core at the end.
-    fn upward_order(&self) -> Result<Vec<u32>, SubgoalError> {
+    fn upward_order(&self, interrupt: &Interrupt) -> Result<Vec<u32>, SubgoalError> {
         let count = self.subgoals() as u32;
         // The number of arcs up to each subgoal whose lower ends are not in the order yet.
         let mut below = vec![0_u32; count as usize];
         for id in 0..count {
+            interrupt.check_every(PIECE, id as usize, DURING)?;
             for arc in self.up(id) {
                 if self.is_core(id) && !self.is_core(arc.to) {
                     return Err(SubgoalError::Bytes("an arc leads out of the core"));
@@ -68,6 +80,7 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
         let mut order: Vec<u32> = (0..count).filter(is_lowest).collect();
         let mut next = 0;
         while let Some(&id) = order.get(next) {
+            interrupt.check_every(PIECE, next, DURING)?;
             next += 1;
             for arc in self.up(id) {
                 let below = &mut below[arc.to as usize];

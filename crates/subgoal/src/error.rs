@@ -1,6 +1,6 @@
 //! Errors of building and reading subgoal graphs.
 
-use mediant_grid::{Mismatch, Rules};
+use mediant_grid::{Interrupted, Mismatch, Rules};
 use mediant_moves::{K, KError};
 
 /// A subgoal graph that cannot be built or read.
@@ -54,4 +54,7 @@ pub enum SubgoalError {
     /// The bytes are no subgoal graph of this map.
     #[error("these bytes are no subgoal graph of this map: {0}")]
     Bytes(&'static str),
+    /// It was stopped before it was done.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
 }

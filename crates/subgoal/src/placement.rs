@@ -1,10 +1,10 @@
 //! What a placement of the vertices decides: which vertices are subgoals, and which edges join them.
 
-use mediant_grid::{BitMatrix, FreeSpace, Placement, Vector, Vertex};
+use mediant_grid::{BitMatrix, FreeSpace, Interrupt, Interrupted, Placement, Vector, Vertex};
 use mediant_moves::{Cost, K};
 use mediant_search::parts::Metric;
 
-use crate::{error::SubgoalError, hierarchy::Hierarchy, subgoals::Subgoals, worth::Counted};
+use crate::{error::SubgoalError, hierarchy::Hierarchy, subgoals::Subgoals, worth::Compare};
 
 /// A placement that has subgoal graphs: [`Corners`](mediant_grid::Corners) has them for every k,
 /// [`Centers`](mediant_grid::Centers) for k = 2 and 3.
@@ -20,8 +20,9 @@ pub trait EdgeFinder: Placement {
     fn with_unprepared(
         space: &FreeSpace<Self>,
         k: K,
-        compare: &mut dyn FnMut(&mut Counted<'_>) -> bool,
-    ) -> bool;
+        interrupt: &Interrupt,
+        compare: &mut Compare<'_>,
+    ) -> Result<bool, Interrupted>;
 
     /// Whether subgoals, and what each vertex sees of them, are the same for every k.
     const SHARES_SIGHT: bool;
@@ -39,10 +40,14 @@ pub trait EdgeFinder: Placement {
     fn check(space: &FreeSpace<Self>, k: K) -> Result<(), SubgoalError>;
 
     /// The subgoals, a bit for each vertex in a frame of zeros.
-    fn subgoals(space: &FreeSpace<Self>) -> BitMatrix;
+    fn subgoals(space: &FreeSpace<Self>, interrupt: &Interrupt) -> Result<BitMatrix, Interrupted>;
 
     /// What makes finding edges fast.
-    fn tables(space: &FreeSpace<Self>, subgoals: &BitMatrix) -> Self::Tables;
+    fn tables(
+        space: &FreeSpace<Self>,
+        subgoals: &BitMatrix,
+        interrupt: &Interrupt,
+    ) -> Result<Self::Tables, Interrupted>;
 
     /// Which subgoals an edge joins.
     fn edge_criterion(k: K, hierarchy: Hierarchy) -> EdgeCriterion;

@@ -1,6 +1,6 @@
 //! Which vertices are subgoals, and their numbers.
 
-use mediant_grid::{BitMatrix, Vertex};
+use mediant_grid::{BitMatrix, Interrupt, Interrupted, Vertex};
 
 /// The subgoals of a map, numbered row by row.
 #[derive(Clone, Debug)]
@@ -14,9 +14,10 @@ pub(crate) struct Subgoals {
 
 impl Subgoals {
     /// The subgoals that are marked by a bit for each vertex, in a frame of zeros.
-    pub(crate) fn new(marks: BitMatrix) -> Self {
+    pub(crate) fn new(marks: BitMatrix, interrupt: &Interrupt) -> Result<Self, Interrupted> {
         let mut places = Vec::new();
         for y in 0..marks.height() as i32 {
+            interrupt.check("finding subgoals")?;
             let row = marks.row(y);
             for x in (0..marks.width() as i32).step_by(64) {
                 let mut bits = row.word(x);
@@ -35,7 +36,7 @@ impl Subgoals {
             before
         };
         let before = marks.words().iter().map(counted).collect();
-        Self { marks, before, places: places.into_boxed_slice() }
+        Ok(Self { marks, before, places: places.into_boxed_slice() })
     }
 
     /// The number of subgoals.

@@ -6,9 +6,14 @@
 //! it is counted, so that the same map gives the same index everywhere. That engine is block-based JPS up to
 //! k = 3, and Anya beyond.
 
-use mediant_grid::{Corners, FreeSpace, GridGraph, Placement, Vertex};
+use std::sync::Arc;
+
+use mediant_grid::{Corners, FreeSpace, GridGraph, Interrupt, Interrupted, Placement, Vertex};
 use mediant_moves::{FiniteK, K};
-use mediant_search::{Anya, BlockJps, Counters, Hk, Planner, Query};
+use mediant_search::{
+    Anya, BlockJps, Counters, Hk, JumpError, Planner, Pruning, Query,
+    parts::{BlockFinder, count_work},
+};
 
 use crate::{graph::SubgoalGraph, placement::SubgoalPlacement, planner::SubgoalAStar};
 
@@ -35,40 +40,56 @@ impl Comparison {
     const SCANNED_OF_AN_ARC: u64 = 3;
 }
 
-/// Answers a query and counts its work; `None` if it cannot.
-pub type Counted<'r> = dyn FnMut(Query) -> Option<Counters> + 'r;
+/// Answers a query and counts its work; `None` if it cannot. It may be interrupted.
+pub type Counted<'r> = dyn FnMut(Query) -> Result<Option<Counters>, Interrupted> + 'r;
+
+/// Compares a graph with an engine.
+pub type Compare<'c> = dyn FnMut(&mut Counted<'_>) -> Result<bool, Interrupted> + 'c;
 
 /// Calls `compare` with the engine that prepares nothing: block-based JPS, for k ≤ 3.
 pub(crate) fn with_jumps<P: Placement>(
     space: &FreeSpace<P>,
     k: FiniteK,
-    compare: &mut dyn FnMut(&mut Counted<'_>) -> bool,
-) -> bool {
-    let Ok(graph) = GridGraph::in_space(space, k) else { return false };
-    BlockJps::new(&graph, Hk).is_ok_and(|mut jps| compare(&mut |query| counted(&mut jps, query)))
+    interrupt: &Interrupt,
+    compare: &mut Compare<'_>,
+) -> Result<bool, Interrupted> {
+    let Ok(graph) = GridGraph::in_space(space, k) else { return Ok(false) };
+    let pruning = Arc::new(Pruning::interruptible(&graph, interrupt)?);
+    let jps = BlockFinder::interruptible(&graph, &pruning, interrupt)
+        .and_then(|blocks| Ok(BlockJps::with_finder(&graph, pruning, blocks, Hk)?));
+    match jps {
+        Ok(mut jps) => compare(&mut |query| counted(&mut jps, query, interrupt)),
+        Err(JumpError::Interrupted(interrupted)) => Err(interrupted),
+        Err(_) => Ok(false),
+    }
 }
 
 /// The same at corners: beyond k = 3, and at any angle, with Anya.
 pub(crate) fn with_jumps_or_anya(
     space: &FreeSpace<Corners>,
     k: K,
-    compare: &mut dyn FnMut(&mut Counted<'_>) -> bool,
-) -> bool {
+    interrupt: &Interrupt,
+    compare: &mut Compare<'_>,
+) -> Result<bool, Interrupted> {
     match k {
         K::Any => {
             let mut anya = Anya::new(space);
-            compare(&mut |query| counted(&mut anya, query))
+            compare(&mut |query| counted(&mut anya, query, interrupt))
         }
-        K::Finite(k) if k <= FiniteK::N8 => with_jumps(space, k, compare),
+        K::Finite(k) if k <= FiniteK::N8 => with_jumps(space, k, interrupt, compare),
         K::Finite(k) => {
-            Anya::over(space, k).is_ok_and(|mut anya| compare(&mut |query| counted(&mut anya, query)))
+            let Ok(mut anya) = Anya::over(space, k) else { return Ok(false) };
+            compare(&mut |query| counted(&mut anya, query, interrupt))
         }
     }
 }
 
-fn counted(planner: &mut impl Planner, query: Query) -> Option<Counters> {
-    let mut counters = Counters::default();
-    planner.solve_observed(query, &mut counters).ok().map(|_| counters)
+fn counted(
+    planner: &mut impl Planner,
+    query: Query,
+    interrupt: &Interrupt,
+) -> Result<Option<Counters>, Interrupted> {
+    Ok(count_work(planner, query, interrupt)?.ok())
 }
 
 /// Whether the engine that prepares nothing takes less time than a search on the graph.
@@ -76,25 +97,26 @@ pub(crate) fn is_outdone<P: SubgoalPlacement>(
     space: &FreeSpace<P>,
     graph: &SubgoalGraph<P>,
     other: &mut Counted<'_>,
-) -> bool {
+    interrupt: &Interrupt,
+) -> Result<bool, Interrupted> {
     let by = match graph.k() {
         K::Finite(k) if k <= FiniteK::N8 => &Comparison::BLOCK_JPS,
         // Anya is not that fast.
-        _ if graph.has_small_core() => return false,
+        _ if graph.has_small_core() => return Ok(false),
         K::Any => &Comparison::ANYA,
         K::Finite(_) => &Comparison::ANYA_OVER_K,
     };
-    let Ok(mut on_graph) = SubgoalAStar::new(space, graph) else { return false };
+    let Ok(mut on_graph) = SubgoalAStar::new(space, graph) else { return Ok(false) };
     let of_a_core_node = (graph.core_arcs() / graph.core().max(1)) as u64;
     let [mut arcs, mut arcs_of_other] = [0, 0];
     for query in queries(space, by.queries) {
-        if let (Some(here), Some(there)) = (counted(&mut on_graph, query), other(query)) {
+        if let (Some(here), Some(there)) = (counted(&mut on_graph, query, interrupt)?, other(query)?) {
             arcs += here.expanded * of_a_core_node + here.generated * by.arcs_of_a_subgoal;
             arcs_of_other +=
                 there.expanded * by.arcs_of_an_expansion + there.scanned / Comparison::SCANNED_OF_AN_ARC;
         }
     }
-    arcs > arcs_of_other
+    Ok(arcs > arcs_of_other)
 }
 
 /// So many queries between connected vertices anywhere on the map, the same each time.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::FreeSpace;
+use mediant_grid::{FreeSpace, Interrupt};
 use mediant_search::Query;
 use mediant_subgoal::{HubLabels, PreparedSubgoals, SubgoalGraph, SubgoalPlacement};
 
@@ -27,12 +27,12 @@ pub(super) fn subgoals<P: SubgoalPlacement>(
     source: Source<'_>,
     beside: Option<&HubLabels<P>>,
 ) -> Result<Option<InFreeSpace<P>>, Error> {
-    let (k, progress) = (setup.k, |step| (source.progress)(step));
+    let (k, progress, never) = (setup.k, |step| (source.progress)(step), &Interrupt::NEVER);
     // Sub-Theta* searches graphs alone.
     let ConfiguredEngine::Subgoal(SubgoalOptions { levels, memory }) = setup.engine else {
         let hierarchy = setup.engine.levels().and_then(Levels::hierarchy).unwrap_or_default();
         let graph = match source.bytes {
-            None => SubgoalGraph::with_progress(space, k, hierarchy, &progress)?,
+            None => SubgoalGraph::with_progress(space, k, hierarchy, &progress, never)?,
             Some(bytes) => SubgoalGraph::from_bytes(space, k, bytes)?,
         };
         return Ok(Some(InFreeSpace::Subgoals(Arc::new(graph))));
@@ -48,21 +48,25 @@ pub(super) fn subgoals<P: SubgoalPlacement>(
             let mut counted = |query: Query| {
                 let planner = match &mut unprepared {
                     Some(planner) => planner,
-                    none => none.insert(substitute_of(setup, space).ok()?),
+                    none => match substitute_of(setup, space) {
+                        Ok(planner) => none.insert(planner),
+                        Err(_) => return Ok(None),
+                    },
                 };
-                planner.find_counted(query).ok().map(|(_, counters)| counters)
+                Ok(planner.find_counted(query).ok().map(|(_, counters)| counters))
             };
-            PreparedSubgoals::compared(space, k, beside, most, &progress, &mut counted)?
+            PreparedSubgoals::compared(space, k, beside, most, (&progress, never), &mut counted)?
         }
         (None, Some(levels)) => match levels.hierarchy() {
             Some(hierarchy) => {
-                PreparedSubgoals::Contracted(SubgoalGraph::with_progress(space, k, hierarchy, &progress)?)
+                let graph = SubgoalGraph::with_progress(space, k, hierarchy, &progress, never)?;
+                PreparedSubgoals::Contracted(graph)
             }
             None => {
                 let most = most(Memory::MAX);
                 PreparedSubgoals::Labels(match beside {
-                    None => HubLabels::within(space, k, most, &progress)?,
-                    Some(labels) => labels.for_k(space, k, most, &progress)?,
+                    None => HubLabels::within(space, k, most, &progress, never)?,
+                    Some(labels) => labels.for_k(space, k, most, &progress, never)?,
                 })
             }
         },

@@ -120,7 +120,7 @@ fn direction(v: Vector) -> i32 {
 mod tests {
     use std::sync::Arc;
 
-    use mediant_grid::{Centers, CornerRule, FreeSpace, Placement};
+    use mediant_grid::{Centers, CornerRule, FreeSpace, Placement, uninterrupted};
     use mediant_moves::{FiniteK, K};
     use mediant_oracle::{Explicit, random_grid};
     use mediant_search::parts::Metric;
@@ -140,9 +140,11 @@ mod tests {
             let k = K::Finite(FiniteK::N8);
             let space = FreeSpace::<Centers>::new(Arc::new(grid.clone()), CornerRule::Never);
             let metric = Metric::new(k).expect("a small k");
-            let marks = Centers::subgoals(&space);
-            let tables = Centers::tables(&space, &marks);
-            let subgoals = Subgoals::new(marks);
+            let (subgoals, tables) = uninterrupted(|never| {
+                let marks = Centers::subgoals(&space, never)?;
+                let tables = Centers::tables(&space, &marks, never)?;
+                Ok((Subgoals::new(marks, never)?, tables))
+            });
             let context = BuildContext {
                 space: &space,
                 subgoals: &subgoals,

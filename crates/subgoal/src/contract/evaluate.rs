@@ -2,6 +2,8 @@
 
 use std::sync::{Mutex, PoisonError};
 
+use mediant_grid::Interrupted;
+
 use super::{Contraction, ShortcutFinder, Shortcuts, SubgoalGeometry};
 
 /// What contracting a subgoal takes.
@@ -28,22 +30,33 @@ impl Finders {
 
 impl<G: SubgoalGeometry + Sync> Contraction<G> {
     /// Finds the shortcuts of subgoals, by witness searches that scan `limit` arcs each; in their order.
-    pub(super) fn evaluate(&self, ids: &[u32], finders: &Finders, limit: u64) -> Vec<Evaluation> {
-        let evaluate = |ids: &[u32]| -> Vec<Evaluation> {
+    pub(super) fn evaluate(
+        &self,
+        ids: &[u32],
+        finders: &Finders,
+        limit: u64,
+    ) -> Result<Vec<Evaluation>, Interrupted> {
+        let evaluate = |ids: &[u32]| -> Result<Vec<Evaluation>, Interrupted> {
             finders.lend(|finder| ids.iter().map(|&id| self.evaluate_one(finder, id, limit)).collect())
         };
         #[cfg(feature = "parallel")]
         if ids.len() > 1 {
             use rayon::prelude::*;
             let at_once = (ids.len() / 64).clamp(1, 16);
-            return ids.par_chunks(at_once).flat_map_iter(evaluate).collect();
+            let all = ids.par_chunks(at_once).map(evaluate).collect::<Result<Vec<_>, _>>()?;
+            return Ok(all.into_iter().flatten().collect());
         }
         evaluate(ids)
     }
 
-    fn evaluate_one(&self, finder: &mut ShortcutFinder, id: u32, limit: u64) -> Evaluation {
+    fn evaluate_one(
+        &self,
+        finder: &mut ShortcutFinder,
+        id: u32,
+        limit: u64,
+    ) -> Result<Evaluation, Interrupted> {
         let before = finder.witness.arcs_scanned;
-        let shortcuts = self.find_shortcuts(finder, id, limit);
-        Evaluation { id, shortcuts, arcs_scanned: finder.witness.arcs_scanned - before }
+        let shortcuts = self.find_shortcuts(finder, id, limit)?;
+        Ok(Evaluation { id, shortcuts, arcs_scanned: finder.witness.arcs_scanned - before })
     }
 }

@@ -12,7 +12,7 @@ mod rounds;
 mod tests;
 mod witness;
 
-use mediant_grid::{Vector, Vertex};
+use mediant_grid::{Interrupt, Interrupted, Vector, Vertex};
 
 use self::witness::{WitnessGraph, WitnessSearch};
 use crate::{arc::NONE, bends::BendRule};
@@ -52,7 +52,11 @@ pub(crate) struct Contraction<G> {
     geometry: G,
     /// The subgoals of the current round, which are contracted in the order of their numbers.
     in_round: Vec<bool>,
+    interrupt: Interrupt,
 }
+
+/// What is done here.
+const DURING: &str = "contracting subgoals";
 
 /// Scratch memory for finding shortcuts.
 #[derive(Default)]
@@ -80,15 +84,21 @@ pub(crate) struct ContractedGraph {
 }
 
 impl<G: SubgoalGeometry> Contraction<G> {
-    pub(crate) fn new(count: usize, edges: &[(u32, u32)], geometry: G) -> Self {
+    pub(crate) fn new(
+        count: usize,
+        edges: &[(u32, u32)],
+        geometry: G,
+        interrupt: Interrupt,
+    ) -> Result<Self, Interrupted> {
         let mut arcs: Vec<Vec<OverlayArc>> = vec![Vec::new(); count];
-        for &(a, b) in edges {
+        for (number, &(a, b)) in edges.iter().enumerate() {
+            interrupt.check_every(1 << 14, number, DURING)?;
             let cost = geometry.distance(a, b);
             arcs[a as usize].push(OverlayArc { cost, to: b, middle: NONE, first: b, last: a });
             arcs[b as usize].push(OverlayArc { cost, to: a, middle: NONE, first: a, last: b });
         }
         let [contracted, in_round] = [(); 2].map(|()| vec![false; count]);
-        Self { arcs, contracted, order: Vec::new(), geometry, in_round }
+        Ok(Self { arcs, contracted, order: Vec::new(), geometry, in_round, interrupt })
     }
 
     pub(crate) fn finish(self) -> ContractedGraph {
@@ -98,7 +108,7 @@ impl<G: SubgoalGeometry> Contraction<G> {
     /// Makes the next level. In the order of their numbers, contracts all subgoals that need no shortcut, or
     /// only shortcuts between subgoals that are h_k-reachable from one another. Returns whether there was
     /// one.
-    pub(crate) fn contract_level(&mut self, progress: &mut dyn FnMut(usize)) -> bool {
+    pub(crate) fn contract_level(&mut self, progress: &mut dyn FnMut(usize)) -> Result<bool, Interrupted> {
         let mut finder = ShortcutFinder::default();
         let mut any = false;
         for id in 0..self.arcs.len() as u32 {
@@ -106,13 +116,13 @@ impl<G: SubgoalGeometry> Contraction<G> {
             if self.contracted[id as usize] {
                 continue;
             }
-            let shortcuts = self.find_shortcuts(&mut finder, id, u64::MAX);
+            let shortcuts = self.find_shortcuts(&mut finder, id, u64::MAX)?;
             if self.shortcuts_are_reachable(id, &shortcuts) {
                 self.contract(id, &shortcuts);
                 any = true;
             }
         }
-        any
+        Ok(any)
     }
 
     fn shortcuts_are_reachable(&self, id: u32, shortcuts: &Shortcuts) -> bool {
@@ -125,7 +135,12 @@ impl<G: SubgoalGeometry> Contraction<G> {
 
     /// Finds the pairs of neighbors between which every path is longer than the one over the subgoal, as far
     /// as witness searches that scan `limit` arcs each can tell.
-    fn find_shortcuts(&self, finder: &mut ShortcutFinder, id: u32, limit: u64) -> Shortcuts {
+    fn find_shortcuts(
+        &self,
+        finder: &mut ShortcutFinder,
+        id: u32,
+        limit: u64,
+    ) -> Result<Shortcuts, Interrupted> {
         let Self { arcs, geometry, in_round, .. } = self;
         let ShortcutFinder { witness, steps, onward } = finder;
         let mut shortcuts = Vec::new();
@@ -143,12 +158,13 @@ impl<G: SubgoalGeometry> Contraction<G> {
                 continue;
             }
             let targets = onward.iter().map(|&j| &around[j as usize]);
+            self.interrupt.check(DURING)?;
             witness.start(arcs.len(), p.to, targets.map(|q| (q.to, p.cost + q.cost)));
             witness.run(&graph, limit, |from, to| geometry.distance(from, to));
             let needed = onward.iter().filter(|&&j| !witness.has_witness(around[j as usize].to));
             shortcuts.extend(needed.map(|&j| (i as u32, j)));
         }
-        shortcuts
+        Ok(shortcuts)
     }
 
     /// Contracts a subgoal: removes the arcs that lead to it, and adds its shortcuts.

@@ -23,6 +23,8 @@
 //! budget ends, and is the core. A remainder so small that all its arcs together are no more than the first
 //! edges is contracted, too, with shorter searches.
 
+use mediant_grid::Interrupted;
+
 use super::{
     Contraction, SubgoalGeometry,
     evaluate::{Evaluation, Finders},
@@ -48,11 +50,14 @@ const SLICE: usize = 4096;
 
 impl<G: SubgoalGeometry + Sync> Contraction<G> {
     /// Contracts subgoals, lowest priority first, until none is left or the budget is used up.
-    pub(crate) fn contract_by_priority(&mut self, progress: &mut dyn FnMut(usize)) {
+    pub(crate) fn contract_by_priority(
+        &mut self,
+        progress: &mut dyn FnMut(usize),
+    ) -> Result<(), Interrupted> {
         let edges = self.edges();
         let budgets = [(FIRST_ARCS_PER_EDGE, LEAST_BUDGET / 2), (ARCS_PER_EDGE, LEAST_BUDGET)]
             .map(|(per_edge, least)| least.max(per_edge.saturating_mul(edges)));
-        self.contract_within(budgets, progress);
+        self.contract_within(budgets, progress)
     }
 
     /// Contracts until so many arcs are scanned: to find the first priorities, and in all.
@@ -60,19 +65,19 @@ impl<G: SubgoalGeometry + Sync> Contraction<G> {
         &mut self,
         [first_budget, budget]: [u64; 2],
         progress: &mut dyn FnMut(usize),
-    ) {
+    ) -> Result<(), Interrupted> {
         let edges = self.edges();
         let finders = Finders::default();
         let mut priorities = Priorities::new(self.arcs.len());
         let mut check: Vec<u32> = (0..self.arcs.len() as u32).collect();
         let mut arcs_scanned = 0;
         for ids in check.chunks(SLICE) {
-            for evaluation in self.evaluate(ids, &finders, FIRST_WITNESS_LIMIT) {
+            for evaluation in self.evaluate(ids, &finders, FIRST_WITNESS_LIMIT)? {
                 arcs_scanned += evaluation.arcs_scanned;
                 self.set_priority(&mut priorities, &evaluation);
             }
             if arcs_scanned > first_budget {
-                return;
+                return Ok(());
             }
         }
         while !check.is_empty() {
@@ -83,15 +88,16 @@ impl<G: SubgoalGeometry + Sync> Contraction<G> {
             } else if (left as u64).pow(2) <= edges {
                 FIRST_WITNESS_LIMIT
             } else {
-                return;
+                return Ok(());
             };
             check.sort_unstable();
             check.dedup();
             check.retain(|&id| priorities.is_least(id, &self.arcs[id as usize]));
             let candidates = std::mem::take(&mut check);
             arcs_scanned +=
-                self.contract_round(&candidates, (&finders, limit), &mut priorities, &mut check, progress);
+                self.contract_round(&candidates, (&finders, limit), &mut priorities, &mut check, progress)?;
         }
+        Ok(())
     }
 
     /// Contracts those candidates whose priority is still the least once it is known. Puts those whose
@@ -103,7 +109,7 @@ impl<G: SubgoalGeometry + Sync> Contraction<G> {
         priorities: &mut Priorities,
         check: &mut Vec<u32>,
         progress: &mut dyn FnMut(usize),
-    ) -> u64 {
+    ) -> Result<u64, Interrupted> {
         for &id in candidates {
             self.in_round[id as usize] = true;
         }
@@ -112,7 +118,7 @@ impl<G: SubgoalGeometry + Sync> Contraction<G> {
         // Neighbors of candidates are no candidates. So what one slice changes is not what another looks at,
         // except for witnesses.
         for ids in candidates.chunks(SLICE) {
-            for evaluation in self.evaluate(ids, finders, limit) {
+            for evaluation in self.evaluate(ids, finders, limit)? {
                 let id = evaluation.id;
                 arcs_scanned += evaluation.arcs_scanned;
                 self.set_priority(priorities, &evaluation);
@@ -134,7 +140,7 @@ impl<G: SubgoalGeometry + Sync> Contraction<G> {
         for id in neighbors {
             priorities.lower(id, self.arcs[id as usize].len());
         }
-        arcs_scanned
+        Ok(arcs_scanned)
     }
 
     /// The number of edges, before a subgoal is contracted.

@@ -1,6 +1,6 @@
 //! Contraction keeps the distances of graphs in which most shortest paths have equals.
 
-use mediant_grid::{Vector, Vertex};
+use mediant_grid::{Vector, Vertex, uninterrupted};
 use mediant_oracle::{Rng, on_all_cores, seeds};
 
 use super::{ContractedGraph, Contraction, SubgoalGeometry};
@@ -100,12 +100,15 @@ fn distances_stay_however_early_the_budget_ends() {
         for budget in [0, 1 << 11, 1 << 12, 1 << 13, u64::MAX] {
             let (points, edges) = random_points(seed);
             let expected = distances(&points, &edges);
-            let mut contraction = Contraction::new(points.0.len(), &edges, points);
+            let count = points.0.len();
+            let mut contraction =
+                uninterrupted(|never| Contraction::new(count, &edges, points, never.clone()));
             let mut last = 0;
-            contraction.contract_within([u64::MAX, budget], &mut |done| {
+            let contracted = contraction.contract_within([u64::MAX, budget], &mut |done| {
                 assert!(last <= done, "{last}, {done}");
                 last = done;
             });
+            assert!(contracted.is_ok());
             let graph = contraction.finish();
             check_order(&graph, seed);
             assert_eq!(last, graph.order.len(), "seed {seed}");

@@ -2,7 +2,7 @@
 
 use std::{marker::PhantomData, sync::Arc};
 
-use mediant_grid::{FreeSpace, Identity};
+use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted};
 use mediant_moves::K;
 
 use super::{
@@ -38,19 +38,22 @@ pub enum PreparedSubgoals<P: SubgoalPlacement> {
 
 impl<P: SubgoalPlacement> PreparedSubgoals<P> {
     /// Prepares a free space for paths over N(k), or at any angle. `most` is the memory that labels may take,
-    /// in bytes; a contraction hierarchy takes what it needs.
+    /// in bytes; a contraction hierarchy takes what it needs. The interrupt is asked for each row of the map
+    /// and each subgoal.
     ///
     /// # Errors
-    /// [`SubgoalError`] if the placement has no subgoal graph for this k and rule, or if it would be too
-    /// large.
+    /// [`SubgoalError`] if the placement has no subgoal graph for this k and rule, if it would be too large,
+    /// or if it was stopped.
     pub fn within(
         space: &FreeSpace<P>,
         k: impl Into<K>,
         most: usize,
         progress: &(impl Fn(Progress) + Sync),
+        interrupt: &Interrupt,
     ) -> Result<Self, SubgoalError> {
         let k = k.into();
-        Self::new(space, k, None, most, progress, |graph| is_outdone(space, k, graph))
+        let is_outdone = |graph: &_| is_outdone(space, k, graph, interrupt);
+        Self::new(space, k, None, most, (progress, interrupt), is_outdone)
     }
 
     /// [`within`](Self::within), beside the hub labels of the same free space for another k: at corners it
@@ -64,9 +67,11 @@ impl<P: SubgoalPlacement> PreparedSubgoals<P> {
         k: impl Into<K>,
         most: usize,
         progress: &(impl Fn(Progress) + Sync),
+        interrupt: &Interrupt,
     ) -> Result<Self, SubgoalError> {
         let k = k.into();
-        Self::new(space, k, Some(labels), most, progress, |graph| is_outdone(space, k, graph))
+        let is_outdone = |graph: &_| is_outdone(space, k, graph, interrupt);
+        Self::new(space, k, Some(labels), most, (progress, interrupt), is_outdone)
     }
 
     /// [`within`](Self::within), or [`beside`](Self::beside) labels, with `unprepared` as the engine that
@@ -81,11 +86,11 @@ impl<P: SubgoalPlacement> PreparedSubgoals<P> {
         k: impl Into<K>,
         labels: Option<&HubLabels<P>>,
         most: usize,
-        progress: &(impl Fn(Progress) + Sync),
+        (progress, interrupt): (&(impl Fn(Progress) + Sync), &Interrupt),
         unprepared: &mut Counted<'_>,
     ) -> Result<Self, SubgoalError> {
-        Self::new(space, k.into(), labels, most, progress, |graph| {
-            worth::is_outdone(space, graph, unprepared)
+        Self::new(space, k.into(), labels, most, (progress, interrupt), |graph| {
+            worth::is_outdone(space, graph, unprepared, interrupt)
         })
     }
 
@@ -94,23 +99,33 @@ impl<P: SubgoalPlacement> PreparedSubgoals<P> {
         k: K,
         beside: Option<&HubLabels<P>>,
         most: usize,
-        progress: &(impl Fn(Progress) + Sync),
-        is_outdone: impl FnOnce(&SubgoalGraph<P>) -> bool,
+        (progress, interrupt): (&(impl Fn(Progress) + Sync), &Interrupt),
+        is_outdone: impl FnOnce(&SubgoalGraph<P>) -> Result<bool, Interrupted>,
     ) -> Result<Self, SubgoalError> {
         let shared = shared(space, beside)?;
-        let ground = Ground::new(space, k, Hierarchy::Contracted)?;
-        let contracted = ground.contracted(space, Hierarchy::Contracted, progress);
-        if let Ok(parts) = parts(space, &ground, shared, &contracted, most, progress) {
-            return Ok(Self::Labels(HubLabels::from_parts(space, ground, parts)));
+        let ground = Ground::new(space, k, Hierarchy::Contracted, interrupt)?;
+        let contracted = ground.contracted(space, Hierarchy::Contracted, progress, interrupt)?;
+        match parts(space, &ground, shared, &contracted, most, (progress, interrupt)) {
+            Ok(parts) => return Ok(Self::Labels(HubLabels::from_parts(space, ground, parts))),
+            Err(error @ SubgoalError::Interrupted(_)) => return Err(error),
+            // There is no room for labels.
+            Err(_) => {}
         }
-        let graph = ground.into_graph(space, Hierarchy::Contracted, &contracted)?;
-        Ok(if is_outdone(&graph) { Self::Nothing(graph.identity()) } else { Self::Contracted(graph) })
+        let graph = ground.into_graph(space, Hierarchy::Contracted, &contracted, interrupt)?;
+        Ok(if is_outdone(&graph)? { Self::Nothing(graph.identity()) } else { Self::Contracted(graph) })
     }
 }
 
 /// Whether the fastest engine that prepares nothing takes less time than a search on a graph.
-fn is_outdone<P: SubgoalPlacement>(space: &FreeSpace<P>, k: K, graph: &SubgoalGraph<P>) -> bool {
-    P::with_unprepared(space, k, &mut |unprepared| worth::is_outdone(space, graph, unprepared))
+fn is_outdone<P: SubgoalPlacement>(
+    space: &FreeSpace<P>,
+    k: K,
+    graph: &SubgoalGraph<P>,
+    interrupt: &Interrupt,
+) -> Result<bool, Interrupted> {
+    P::with_unprepared(space, k, interrupt, &mut |unprepared| {
+        worth::is_outdone(space, graph, unprepared, interrupt)
+    })
 }
 
 impl<P: SubgoalPlacement> HubLabels<P> {
@@ -125,8 +140,9 @@ impl<P: SubgoalPlacement> HubLabels<P> {
         k: impl Into<K>,
         most: usize,
         progress: &(impl Fn(Progress) + Sync),
+        interrupt: &Interrupt,
     ) -> Result<Self, SubgoalError> {
-        Self::new(space, k.into(), None, most, progress)
+        Self::new(space, k.into(), None, most, (progress, interrupt))
     }
 
     /// [`within`](Self::within) for another k of the same free space: at corners it shares with these all but
@@ -140,8 +156,9 @@ impl<P: SubgoalPlacement> HubLabels<P> {
         k: impl Into<K>,
         most: usize,
         progress: &(impl Fn(Progress) + Sync),
+        interrupt: &Interrupt,
     ) -> Result<Self, SubgoalError> {
-        Self::new(space, k.into(), Some(self), most, progress)
+        Self::new(space, k.into(), Some(self), most, (progress, interrupt))
     }
 
     fn new(
@@ -149,12 +166,12 @@ impl<P: SubgoalPlacement> HubLabels<P> {
         k: K,
         beside: Option<&Self>,
         most: usize,
-        progress: &(impl Fn(Progress) + Sync),
+        (progress, interrupt): (&(impl Fn(Progress) + Sync), &Interrupt),
     ) -> Result<Self, SubgoalError> {
         let shared = shared(space, beside)?;
-        let ground = Ground::new(space, k, Hierarchy::Contracted)?;
-        let contracted = ground.contracted(space, Hierarchy::Contracted, progress);
-        let parts = parts(space, &ground, shared, &contracted, most, progress)?;
+        let ground = Ground::new(space, k, Hierarchy::Contracted, interrupt)?;
+        let contracted = ground.contracted(space, Hierarchy::Contracted, progress, interrupt)?;
+        let parts = parts(space, &ground, shared, &contracted, most, (progress, interrupt))?;
         Ok(Self::from_parts(space, ground, parts))
     }
 
@@ -185,7 +202,7 @@ fn parts<P: SubgoalPlacement>(
     shared: Option<&Arc<Geometry>>,
     contracted: &ContractedGraph,
     most: usize,
-    progress: &(impl Fn(Progress) + Sync),
+    (progress, interrupt): (&(impl Fn(Progress) + Sync), &Interrupt),
 ) -> Result<(Arc<Geometry>, Packed), SubgoalError> {
     let core = contracted.contracted.iter().filter(|&is_contracted| !is_contracted).count();
     if core > 0 {
@@ -198,14 +215,15 @@ fn parts<P: SubgoalPlacement>(
         Some(geometry) => Arc::clone(geometry),
         None => {
             let rest = most.checked_sub(ground.subgoals.memory_bytes()).ok_or_else(more)?;
-            let seen = SeenIndex::new(context, rest, &report(Stage::Sight)).ok_or_else(more)?;
+            let seen = SeenIndex::new(context, rest, &report(Stage::Sight), interrupt)?.ok_or_else(more)?;
             Arc::new(Geometry { subgoals: ground.subgoals.clone(), seen })
         }
     };
     let rest = most.checked_sub(geometry.memory_bytes()).ok_or_else(more)?;
-    let labels = whole_labels(context, contracted, rest / size_of::<u64>(), &mut report(Stage::Labels));
+    let most_labels = rest / size_of::<u64>();
+    let labels = whole_labels(context, contracted, most_labels, &mut report(Stage::Labels), interrupt)?;
     let labels = labels.ok_or_else(more)?;
-    let packed = Packed::new(context, &labels).ok_or(SubgoalError::Labels)?;
+    let packed = Packed::new(context, &labels, interrupt)?.ok_or(SubgoalError::Labels)?;
     if packed.memory_bytes() <= rest { Ok((geometry, packed)) } else { Err(more()) }
 }
 
@@ -215,8 +233,12 @@ pub(super) fn whole_labels<P: SubgoalPlacement>(
     contracted: &ContractedGraph,
     most: usize,
     progress: &mut dyn FnMut(usize),
-) -> Option<Vec<Vec<Label>>> {
-    let mut labels = merge(contracted, &context, in_cells(context), most, progress)?;
-    keep_whole(&mut labels, |from, to| context.distance(from, to));
-    Some(labels)
+    interrupt: &Interrupt,
+) -> Result<Option<Vec<Vec<Label>>>, Interrupted> {
+    let cut_off = in_cells(context);
+    let Some(mut labels) = merge(contracted, &context, cut_off, most, progress, interrupt)? else {
+        return Ok(None);
+    };
+    keep_whole(&mut labels, interrupt, |from, to| context.distance(from, to))?;
+    Ok(Some(labels))
 }

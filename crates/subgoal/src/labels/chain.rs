@@ -7,7 +7,7 @@
 
 use std::marker::PhantomData;
 
-use mediant_grid::{Vector, Vertex};
+use mediant_grid::{Interrupt, Interrupted, Vector, Vertex};
 use mediant_moves::K;
 
 use super::pack::Packed;
@@ -30,7 +30,7 @@ impl<'l, P: EdgeFinder> Chains<'l, P> {
     }
 
     /// For each label, which of the next subgoal's labels comes after it.
-    pub(super) fn following(&self) -> Box<[u8]> {
+    pub(super) fn following(&self, interrupt: &Interrupt) -> Result<Box<[u8]>, Interrupted> {
         let packed = self.packed;
         let chunks = in_chunks(
             self.subgoals.len(),
@@ -39,6 +39,7 @@ impl<'l, P: EdgeFinder> Chains<'l, P> {
             |(), ids| {
                 let mut following = Vec::new();
                 for id in ids {
+                    interrupt.check("packing hub labels")?;
                     let at = self.subgoals.vertex(id);
                     for number in packed.groups(id * P::SIDES, P::SIDES) {
                         let group = packed.groups[number];
@@ -54,10 +55,10 @@ impl<'l, P: EdgeFinder> Chains<'l, P> {
                         ));
                     }
                 }
-                following
+                Ok(following)
             },
-        );
-        chunks.concat().into()
+        )?;
+        Ok(chunks.concat().into())
     }
 
     /// Visits the subgoals from one to a hub of it, without the first, on a path that comes from `from`;

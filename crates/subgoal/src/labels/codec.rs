@@ -11,13 +11,13 @@
 
 use std::{marker::PhantomData, sync::Arc};
 
-use mediant_grid::{FreeSpace, Identity};
+use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted, uninterrupted};
 use mediant_moves::K;
 use mediant_search::parts::Metric;
 
 use super::{Geometry, HubLabels, pack::Packed};
 use crate::{
-    codec::{LABELS, after_identity},
+    codec::{DURING, LABELS, after_identity},
     error::SubgoalError,
     hierarchy::Hierarchy,
     placement::SubgoalPlacement,
@@ -39,7 +39,7 @@ impl<P: SubgoalPlacement> HubLabels<P> {
         self.geometry.seen.write(&mut out);
         self.packed.write(&mut out);
         let Writer { mut bytes } = out;
-        bytes.extend(checksum(&bytes).to_le_bytes());
+        bytes.extend(uninterrupted(|never| checksum(&bytes, never)).to_le_bytes());
         bytes
     }
 
@@ -54,6 +54,19 @@ impl<P: SubgoalPlacement> HubLabels<P> {
     /// looked at; another [`SubgoalError`] if they are no hub labels of this free space. Besides the memory
     /// of the map's subgoals, reading allocates a small multiple of the length of `bytes`.
     pub fn from_bytes(space: &FreeSpace<P>, k: impl Into<K>, bytes: &[u8]) -> Result<Self, SubgoalError> {
+        Self::from_bytes_interruptible(space, k, bytes, &Interrupt::NEVER)
+    }
+
+    /// [`from_bytes`](Self::from_bytes), which an interrupt can stop: it asks for each part of the bytes.
+    ///
+    /// # Errors
+    /// Those of [`from_bytes`](Self::from_bytes), and [`SubgoalError::Interrupted`].
+    pub fn from_bytes_interruptible(
+        space: &FreeSpace<P>,
+        k: impl Into<K>,
+        bytes: &[u8],
+        interrupt: &Interrupt,
+    ) -> Result<Self, SubgoalError> {
         let k = k.into();
         let identity = Identity { k: Some(k), ..space.identity() };
         let rest = after_identity(bytes, identity)?;
@@ -65,15 +78,16 @@ impl<P: SubgoalPlacement> HubLabels<P> {
         if u32::from_le_bytes(code) != LABELS {
             return Err(SubgoalError::Bytes("they are no hub labels"));
         }
-        if u64::from_le_bytes(*sum) != checksum(&bytes[..bytes.len() - size_of_val(sum)]) {
+        if u64::from_le_bytes(*sum) != checksum(&bytes[..bytes.len() - size_of_val(sum)], interrupt)? {
             return Err(SubgoalError::Bytes("they are damaged"));
         }
         let metric = Metric::new(k)?;
-        let subgoals = Subgoals::new(P::subgoals(space));
+        let subgoals = Subgoals::new(P::subgoals(space, interrupt)?, interrupt)?;
         let mut reader = Reader { bytes: rest };
         let wrong = SubgoalError::Bytes("their parts do not fit together");
         let slots = subgoals.len() as u32 * P::SIDES;
         let seen = SeenIndex::read(&mut reader, P::vertices(space.grid()), slots).ok_or(wrong.clone())?;
+        interrupt.check(DURING)?;
         let packed = Packed::read(&mut reader, space, &subgoals, u32::from_le_bytes(cost_bits));
         let packed = packed.filter(|_| reader.bytes.is_empty()).ok_or(wrong)?;
         let geometry = Arc::new(Geometry { subgoals, seen });
@@ -83,21 +97,24 @@ impl<P: SubgoalPlacement> HubLabels<P> {
 }
 
 /// A checksum that every change of a single word changes: each step maps the sums one to one.
-fn checksum(bytes: &[u8]) -> u64 {
+fn checksum(bytes: &[u8], interrupt: &Interrupt) -> Result<u64, Interrupted> {
     const ODD: u64 = 0x9E37_79B9_7F4A_7C15;
     let step = |sum: u64, word: u64| (sum ^ word).wrapping_mul(ODD).rotate_left(29);
     let word = |bytes: &[u8]| bytes.iter().rev().fold(0, |word, &byte| word << 8 | u64::from(byte));
     let (blocks, rest) = bytes.as_chunks::<32>();
     let mut sums = [1_u64, 2, 3, 4];
     // Four sums at once: a processor need not wait for one product before it begins the next.
-    for block in blocks {
-        let (words, _) = block.as_chunks::<8>();
-        for (sum, &word) in sums.iter_mut().zip(words) {
-            *sum = step(*sum, u64::from_le_bytes(word));
+    for blocks in blocks.chunks(1 << 16) {
+        interrupt.check(DURING)?;
+        for block in blocks {
+            let (words, _) = block.as_chunks::<8>();
+            for (sum, &word) in sums.iter_mut().zip(words) {
+                *sum = step(*sum, u64::from_le_bytes(word));
+            }
         }
     }
     let sum = sums.into_iter().chain(rest.chunks(8).map(word)).fold(bytes.len() as u64, step);
-    step(sum, sum >> 32)
+    Ok(step(sum, sum >> 32))
 }
 
 /// Writes parts.

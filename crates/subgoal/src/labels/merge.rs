@@ -15,7 +15,12 @@
 //! **Order.** A level of the hierarchy depends on those above it alone. Its subgoals are merged on all cores,
 //! with the same result.
 
+use mediant_grid::{Interrupt, Interrupted};
+
 use crate::contract::{ContractedGraph, SubgoalGeometry};
+
+/// What is done here.
+const DURING: &str = "finding hub labels";
 
 /// A hub of a subgoal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,44 +54,48 @@ pub(super) fn merge(
     cut_off: CutOff,
     most: usize,
     progress: &mut dyn FnMut(usize),
-) -> Option<Vec<Vec<Label>>> {
+    interrupt: &Interrupt,
+) -> Result<Option<Vec<Vec<Label>>>, Interrupted> {
     if graph.contracted.contains(&false) {
-        return None;
+        return Ok(None);
     }
     let mut labels: Vec<Vec<Label>> = vec![Vec::new(); graph.arcs.len()];
     let mut pool = Pool { count: graph.arcs.len(), cut_off, free: Vec::new() };
     let (mut total, mut done) = (0, 0);
-    for level in levels(graph) {
+    for level in levels(graph, interrupt)? {
         // So that there are never many more than that.
         for part in level.chunks(PART) {
-            let made = pool.merge(part, (graph, geometry), &labels);
+            let made = pool.merge(part, (graph, geometry), &labels, interrupt)?;
             for (&id, own) in part.iter().zip(made) {
                 total += own.len();
                 labels[id as usize] = own;
             }
             if total > most {
-                return None;
+                return Ok(None);
             }
             done += part.len();
             progress(done);
         }
     }
-    Some(labels)
+    Ok(Some(labels))
 }
 
 /// The subgoals that are merged at a time.
 const PART: usize = 1 << 14;
 
 /// The subgoals by the length of the longest way up from them, in the order of their numbers.
-fn levels(graph: &ContractedGraph) -> Vec<Vec<u32>> {
+fn levels(graph: &ContractedGraph, interrupt: &Interrupt) -> Result<Vec<Vec<u32>>, Interrupted> {
+    const PIECE: usize = 1 << 12;
     let count = graph.arcs.len();
     let mut below = vec![0_u32; count];
-    for arc in graph.arcs.iter().flatten() {
-        below[arc.to as usize] += 1;
+    for (number, arcs) in graph.arcs.iter().enumerate() {
+        interrupt.check_every(PIECE, number, DURING)?;
+        arcs.iter().for_each(|arc| below[arc.to as usize] += 1);
     }
     let mut order: Vec<u32> = (0..count as u32).filter(|&id| below[id as usize] == 0).collect();
     let mut next = 0;
     while let Some(&id) = order.get(next) {
+        interrupt.check_every(PIECE, next, DURING)?;
         next += 1;
         for arc in &graph.arcs[id as usize] {
             below[arc.to as usize] -= 1;
@@ -97,7 +106,8 @@ fn levels(graph: &ContractedGraph) -> Vec<Vec<u32>> {
     }
     let mut height = vec![0_usize; count];
     let mut levels: Vec<Vec<u32>> = Vec::new();
-    for &id in order.iter().rev() {
+    for (number, &id) in order.iter().rev().enumerate() {
+        interrupt.check_every(PIECE, number, DURING)?;
         let own = graph.arcs[id as usize].iter().map(|arc| height[arc.to as usize] + 1).max().unwrap_or(0);
         height[id as usize] = own;
         if levels.len() <= own {
@@ -106,7 +116,7 @@ fn levels(graph: &ContractedGraph) -> Vec<Vec<u32>> {
         levels[own].push(id);
     }
     levels.iter_mut().for_each(|level| level.sort_unstable());
-    levels
+    Ok(levels)
 }
 
 /// Scratch memory of all threads.
@@ -124,7 +134,8 @@ impl Pool {
         part: &[u32],
         graph: (&ContractedGraph, &G),
         labels: &[Vec<Label>],
-    ) -> Vec<Vec<Label>> {
+        interrupt: &Interrupt,
+    ) -> Result<Vec<Vec<Label>>, Interrupted> {
         use rayon::prelude::*;
         /// Subgoals for which waking another thread pays.
         const LEAST: usize = 64;
@@ -132,16 +143,16 @@ impl Pool {
         let threads = rayon::current_num_threads().min(part.len().div_ceil(LEAST)).max(1);
         self.free.resize_with(self.free.len().max(threads), || Scratch::new(self.count));
         // Small pieces in turn: the subgoals of one level differ much in their work.
-        let made: Vec<Vec<Vec<Label>>> = self.free[..threads]
+        let made = self.free[..threads]
             .par_iter_mut()
             .enumerate()
             .map(|(thread, scratch)| {
                 let own = part.iter().skip(thread).step_by(threads);
-                own.map(|&id| scratch.merge(id, graph, labels, cut_off)).collect()
+                own.map(|&id| scratch.merge(id, graph, labels, (cut_off, interrupt))).collect()
             })
-            .collect();
+            .collect::<Result<Vec<Vec<Vec<Label>>>, _>>()?;
         let mut turns: Vec<_> = made.into_iter().map(Vec::into_iter).collect();
-        (0..part.len()).filter_map(|i| turns[i % threads].next()).collect()
+        Ok((0..part.len()).filter_map(|i| turns[i % threads].next()).collect())
     }
 
     #[cfg(not(feature = "parallel"))]
@@ -150,13 +161,16 @@ impl Pool {
         part: &[u32],
         graph: (&ContractedGraph, &G),
         labels: &[Vec<Label>],
-    ) -> Vec<Vec<Label>> {
+        interrupt: &Interrupt,
+    ) -> Result<Vec<Vec<Label>>, Interrupted> {
         let cut_off = self.cut_off;
         if self.free.is_empty() {
             self.free.push(Scratch::new(self.count));
         }
         let scratch = self.free.iter_mut().take(1);
-        scratch.flat_map(|scratch| part.iter().map(|&id| scratch.merge(id, graph, labels, cut_off))).collect()
+        scratch
+            .flat_map(|scratch| part.iter().map(|&id| scratch.merge(id, graph, labels, (cut_off, interrupt))))
+            .collect()
     }
 }
 
@@ -184,8 +198,9 @@ impl Scratch {
         id: u32,
         (graph, geometry): (&ContractedGraph, &G),
         labels: &[Vec<Label>],
-        cut_off: CutOff,
-    ) -> Vec<Label> {
+        (cut_off, interrupt): (CutOff, &Interrupt),
+    ) -> Result<Vec<Label>, Interrupted> {
+        interrupt.check(DURING)?;
         let Self { rough, best, hubs } = self;
         let mut reach = |hub: u32, cost: u128, next: u32| {
             let (rough, known) = (&mut rough[hub as usize], &mut best[hub as usize]);
@@ -229,6 +244,6 @@ impl Scratch {
         for hub in hubs.drain(..) {
             rough[hub as usize] = NEVER;
         }
-        own
+        Ok(own)
     }
 }

@@ -1,6 +1,6 @@
 //! The labels as a query reads them.
 
-use mediant_grid::{FreeSpace, Vector, Vertex};
+use mediant_grid::{FreeSpace, Interrupt, Interrupted, Vector, Vertex};
 use mediant_moves::K;
 
 use super::{
@@ -106,7 +106,22 @@ fn most_cost(cost_bits: u32) -> u64 {
 
 impl Packed {
     /// Packs the labels of all subgoals; `None` if a cost is too large.
-    pub(super) fn new<P: EdgeFinder>(context: BuildContext<'_, P>, labels: &[Vec<Label>]) -> Option<Self> {
+    pub(super) fn new<P: EdgeFinder>(
+        context: BuildContext<'_, P>,
+        labels: &[Vec<Label>],
+        interrupt: &Interrupt,
+    ) -> Result<Option<Self>, Interrupted> {
+        let Some(packed) = Self::without_following(context, labels, interrupt)? else { return Ok(None) };
+        let following = Chains::<P>::new(&packed, context.subgoals, context.k).following(interrupt)?;
+        Ok(Some(Self { following, ..packed }))
+    }
+
+    /// The labels without what follows each of them.
+    fn without_following<P: EdgeFinder>(
+        context: BuildContext<'_, P>,
+        labels: &[Vec<Label>],
+        interrupt: &Interrupt,
+    ) -> Result<Option<Self>, Interrupted> {
         let cost_bits = cost_bits_of(labels.len());
         let (most, cost_of) = (most_cost(cost_bits), in_cells(context));
         let total = labels.iter().map(Vec::len).sum();
@@ -114,7 +129,8 @@ impl Packed {
         let mut groups = vec![Group::BEFORE];
         let mut packed = Vec::with_capacity(total);
         let mut sorted = Vec::new();
-        for (own, id) in labels.iter().zip(0..) {
+        for (own, id) in labels.iter().zip(0_u32..) {
+            interrupt.check_every(64, id as usize, "packing hub labels")?;
             let at = context.subgoals.vertex(id);
             sorted.clear();
             sorted.extend(own.iter().map(|label| {
@@ -132,21 +148,26 @@ impl Packed {
                 let end = sorted.partition_point(|&((other, _), ..)| other <= side);
                 for same in sorted[begin..end].chunk_by(|(.., a), (.., b)| a.next == b.next) {
                     for (.., label) in same {
-                        let cost = Some(cost_of(label.cost())).filter(|&cost| cost <= most)?;
+                        let cost = cost_of(label.cost());
+                        if cost > most {
+                            return Ok(None);
+                        }
                         packed.push(u64::from(label.hub) << cost_bits | cost);
                     }
-                    let (_, edge, label) = same.first()?;
-                    groups.push(Group::new(label.next, P::class(*edge), packed.len())?);
+                    let group = same
+                        .first()
+                        .and_then(|(_, edge, label)| Group::new(label.next, P::class(*edge), packed.len()));
+                    let Some(group) = group else { return Ok(None) };
+                    groups.push(group);
                 }
                 let edges = sorted[begin..end].iter().map(|&(_, edge, _)| edge);
-                sides.push(Side::new(context.space, first, (at, side), edges)?);
+                let Some(side) = Side::new(context.space, first, (at, side), edges) else { return Ok(None) };
+                sides.push(side);
             }
         }
         sides.push(Side::last(groups.len()));
         let (sides, groups, labels) = (sides.into(), groups.into(), packed.into());
-        let packed = Self { sides, groups, labels, following: Box::default(), cost_bits };
-        let following = Chains::<P>::new(&packed, context.subgoals, context.k).following();
-        Some(Self { following, ..packed })
+        Ok(Some(Self { sides, groups, labels, following: Box::default(), cost_bits }))
     }
 
     pub(super) fn write(&self, out: &mut Writer) {

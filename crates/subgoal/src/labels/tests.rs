@@ -1,6 +1,8 @@
 //! The labels themselves: what every pair of subgoals shares, and where each label leads.
 
-use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, Vertex};
+use mediant_grid::{
+    Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, Interrupt, Vertex, uninterrupted,
+};
 use mediant_moves::{FiniteK, K};
 use mediant_oracle::{Explicit, describe, on_all_cores, random_grid, seeds};
 
@@ -38,9 +40,14 @@ struct Merged<'t, P: SubgoalPlacement> {
 
 impl<'t, P: SubgoalPlacement> Merged<'t, P> {
     fn new(space: &'t FreeSpace<P>, k: K, seed: u64) -> Self {
-        let ground = Ground::new(space, k, Hierarchy::Contracted).expect("there is a graph");
-        let contracted = ground.contracted(space, Hierarchy::Contracted, &|_| {});
-        let labels = whole_labels(ground.context(space), &contracted, usize::MAX, &mut |_| {});
+        let never = &Interrupt::NEVER;
+        let ground = Ground::new(space, k, Hierarchy::Contracted, never).expect("there is a graph");
+        let (contracted, labels) = uninterrupted(|never| {
+            let contracted = ground.contracted(space, Hierarchy::Contracted, &|_| {}, never)?;
+            let context = ground.context(space);
+            let labels = whole_labels(context, &contracted, usize::MAX, &mut |_| {}, never)?;
+            Ok((contracted, labels))
+        });
         let labels = labels.expect("there is no core");
         Self { space, ground, contracted, labels, k, seed }
     }
@@ -193,7 +200,7 @@ fn labels_that_lead_nowhere_are_dropped_one_after_another() {
     let chain = |of_last: Option<Label>, first| {
         let mut labels = vec![vec![first], vec![label(4, 2, 30)], vec![label(4, 3, 20)], vec![], vec![]];
         labels[3].extend(of_last);
-        keep_whole(&mut labels, |_, _| 10);
+        uninterrupted(|never| keep_whole(&mut labels, never, |_, _| 10));
         labels.iter().map(Vec::len).collect::<Vec<_>>()
     };
     let whole = Some(label(4, 4, 10));
@@ -209,7 +216,8 @@ fn labels_that_lead_nowhere_are_dropped_one_after_another() {
 fn the_hubs_of_an_end_are_found_once() {
     let grid = mediant_oracle::rooms(&mut mediant_oracle::Rng::new(5), 30, 30);
     let space = FreeSpace::<Corners>::new(std::sync::Arc::new(grid), DiagonalGap::Open);
-    let labels = HubLabels::within(&space, K::Any, usize::MAX, &|_| {}).expect("there is memory");
+    let labels =
+        HubLabels::within(&space, K::Any, usize::MAX, &|_| {}, &Interrupt::NEVER).expect("there is memory");
     let (mut join, mut hubs, mut total) = (Join::new(&labels), Vec::new(), 0);
     for at in (0..30).map(|i| Vertex::new(i, (7 * i) % 31)).filter(|&at| space.is_free(at)) {
         join.hubs_of(&labels, &space, at, &mut hubs);
@@ -224,7 +232,8 @@ fn the_hubs_of_an_end_are_found_once() {
 /// The bytes beside labels lead on as a search does, and most labels that need one have one.
 fn check_chains<P: SubgoalPlacement>(grid: &Grid, rule: P::Rule, k: K) -> [usize; 3] {
     let space = FreeSpace::<P>::new(std::sync::Arc::new(grid.clone()), rule);
-    let labels = HubLabels::within(&space, k, usize::MAX, &|_| {}).expect("there is memory");
+    let labels =
+        HubLabels::within(&space, k, usize::MAX, &|_| {}, &Interrupt::NEVER).expect("there is memory");
     let (packed, subgoals) = (&labels.packed, &labels.geometry.subgoals);
     let searched = Packed { following: vec![u8::MAX; packed.labels.len()].into(), ..packed.clone() };
     let [with, without] = [packed, &searched].map(|packed| Chains::<P>::new(packed, subgoals, k));

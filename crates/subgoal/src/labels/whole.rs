@@ -10,12 +10,21 @@
 //! query leads over them, but over N(k) some paths over them cost as little. So those that lead nowhere are
 //! dropped; no label that is a distance is.
 
+use mediant_grid::{Interrupt, Interrupted};
+
 use super::merge::Label;
 use crate::chunks::in_chunks;
 
+/// What is done here.
+const DURING: &str = "checking hub labels";
+
 /// Drops the labels whose next subgoal has no label to the same hub that fits; `edge` is the cost of an edge.
-pub(super) fn keep_whole(labels: &mut [Vec<Label>], edge: impl Fn(u32, u32) -> u128 + Send + Sync) {
-    let by_hub = ByHub::new(labels);
+pub(super) fn keep_whole(
+    labels: &mut [Vec<Label>],
+    interrupt: &Interrupt,
+    edge: impl Fn(u32, u32) -> u128 + Send + Sync,
+) -> Result<(), Interrupted> {
+    let by_hub = ByHub::new(labels, interrupt)?;
     let all = &*labels;
     let dropped = in_chunks(
         all.len(),
@@ -23,10 +32,13 @@ pub(super) fn keep_whole(labels: &mut [Vec<Label>], edge: impl Fn(u32, u32) -> u
         &|_| {},
         |chains, hubs| {
             let mut dropped = Vec::new();
-            hubs.for_each(|hub| chains.find_broken(hub, by_hub.over(hub), all, &edge, &mut dropped));
-            dropped
+            for hub in hubs {
+                interrupt.check(DURING)?;
+                chains.find_broken(hub, by_hub.over(hub), all, &edge, &mut dropped);
+            }
+            Ok(dropped)
         },
-    );
+    )?;
     let mut dropped = dropped.concat();
     dropped.sort_unstable();
     for of_one in dropped.chunk_by(|a, b| a.0 == b.0) {
@@ -38,6 +50,7 @@ pub(super) fn keep_whole(labels: &mut [Vec<Label>], edge: impl Fn(u32, u32) -> u
             is_whole
         });
     }
+    Ok(())
 }
 
 /// A label by its subgoal, and its number among the labels of the subgoal.
@@ -50,23 +63,26 @@ struct ByHub {
 }
 
 impl ByHub {
-    fn new(labels: &[Vec<Label>]) -> Self {
+    fn new(labels: &[Vec<Label>], interrupt: &Interrupt) -> Result<Self, Interrupted> {
+        const PIECE: usize = 1 << 10;
         let mut first = vec![0_u32; labels.len() + 1];
-        for label in labels.iter().flatten() {
-            first[label.hub as usize + 1] += 1;
+        for (number, own) in labels.iter().enumerate() {
+            interrupt.check_every(PIECE, number, DURING)?;
+            own.iter().for_each(|label| first[label.hub as usize + 1] += 1);
         }
         for hub in 0..labels.len() {
             first[hub + 1] += first[hub];
         }
         let (mut next, mut places) = (first.clone(), vec![(0, 0); first[labels.len()] as usize]);
-        for (own, id) in labels.iter().zip(0..) {
+        for (own, id) in labels.iter().zip(0_u32..) {
+            interrupt.check_every(PIECE, id as usize, DURING)?;
             for (label, number) in own.iter().zip(0..) {
                 let place = &mut next[label.hub as usize];
                 places[*place as usize] = (id, number);
                 *place += 1;
             }
         }
-        Self { first, places }
+        Ok(Self { first, places })
     }
 
     fn over(&self, hub: u32) -> &[Place] {

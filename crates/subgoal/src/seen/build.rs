@@ -2,13 +2,16 @@
 
 use std::collections::HashMap;
 
-use mediant_grid::{FreeSpace, Placement, Vertex};
+use mediant_grid::{FreeSpace, Interrupt, Interrupted, Placement, Vertex};
 
 use super::{Entry, SIDE, SeenIndex, Tile};
 use crate::{
     chunks::in_chunks,
     placement::{BuildContext, EdgeFinder, Run},
 };
+
+/// What is done here.
+const DURING: &str = "finding what vertices see";
 
 /// The mask of all vertices.
 const FULL: u64 = !0;
@@ -30,8 +33,9 @@ impl SeenIndex {
         context: BuildContext<'_, P>,
         most: usize,
         progress: &(impl Fn(usize) + Sync),
-    ) -> Option<Self> {
-        Self::with_masks(context, most, usize::from(u16::MAX) + 1, progress)
+        interrupt: &Interrupt,
+    ) -> Result<Option<Self>, Interrupted> {
+        Self::with_masks(context, most, usize::from(u16::MAX) + 1, progress, interrupt)
     }
 
     /// [`new`](Self::new) with at most so many masks; those within one row, the full and the empty one must
@@ -41,43 +45,61 @@ impl SeenIndex {
         most: usize,
         most_masks: usize,
         progress: &(impl Fn(usize) + Sync),
-    ) -> Option<Self> {
+        interrupt: &Interrupt,
+    ) -> Result<Option<Self>, Interrupted> {
         let (width, height) = P::vertices(context.space.grid());
         let [columns, rows] = [width, height].map(|side| side.div_ceil(SIDE as u32));
         let count = columns as usize * rows as usize;
-        let mut links = links(context, (columns, count), progress);
-        let free = free_vertices(context.space, columns, count);
-        for link in links.iter_mut().flatten() {
-            let free = free[link.tile as usize];
-            link.mask = if link.mask & free == free { FULL } else { link.mask & free };
+        let mut links = links(context, (columns, count), progress, interrupt)?;
+        let free = free_vertices(context.space, columns, count, interrupt)?;
+        for links in &mut links {
+            interrupt.check(DURING)?;
+            for link in links {
+                let free = free[link.tile as usize];
+                link.mask = if link.mask & free == free { FULL } else { link.mask & free };
+            }
         }
         let total: usize = links.iter().map(Vec::len).sum();
         if size_of::<Entry>() * total + size_of::<Tile>() * count > most {
-            return None;
+            return Ok(None);
         }
-        Some(Self::of_links(&links, columns, count, most_masks))
+        Self::of_links(&links, columns, count, most_masks, interrupt).map(Some)
     }
 
     /// The index of links in the order of their slots.
-    fn of_links(links: &[Vec<Link>], columns: u32, count: usize, most_masks: usize) -> Self {
-        let (masks, numbers) = dictionary(links, most_masks);
-        let (tiles, entries) = entries(links, &numbers, count);
+    fn of_links(
+        links: &[Vec<Link>],
+        columns: u32,
+        count: usize,
+        most_masks: usize,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
+        let (masks, numbers) = dictionary(links, most_masks, interrupt)?;
+        let (tiles, entries) = entries(links, &numbers, count, interrupt)?;
         let most = tiles.windows(2).map(|ends| (ends[1].first - ends[0].first) as usize).max().unwrap_or(0);
-        Self { columns, tiles: tiles.into(), entries: entries.into(), masks: masks.into(), most }
+        Ok(Self { columns, tiles: tiles.into(), entries: entries.into(), masks: masks.into(), most })
     }
 }
 
 /// The tiles and their entries: counted, then written.
-fn entries(links: &[Vec<Link>], numbers: &HashMap<u64, u16>, count: usize) -> (Vec<Tile>, Vec<Entry>) {
+fn entries(
+    links: &[Vec<Link>],
+    numbers: &HashMap<u64, u16>,
+    count: usize,
+    interrupt: &Interrupt,
+) -> Result<(Vec<Tile>, Vec<Entry>), Interrupted> {
     let mut tiles = vec![Tile::default(); count + 1];
     // By tile, one more than the last slot; 0 for none.
     let mut last = vec![0; count];
-    for link in links.iter().flatten() {
-        let tile = link.tile as usize;
-        if last[tile] == 0 {
-            tiles[tile].slot = link.slot;
+    for links in links {
+        interrupt.check(DURING)?;
+        for link in links {
+            let tile = link.tile as usize;
+            if last[tile] == 0 {
+                tiles[tile].slot = link.slot;
+            }
+            for_entries(link, &mut last[tile], numbers, |_| tiles[tile + 1].first += 1);
         }
-        for_entries(link, &mut last[tile], numbers, |_| tiles[tile + 1].first += 1);
     }
     for tile in 0..count {
         tiles[tile + 1].first += tiles[tile].first;
@@ -85,14 +107,17 @@ fn entries(links: &[Vec<Link>], numbers: &HashMap<u64, u16>, count: usize) -> (V
     last.fill(0);
     let mut next: Vec<u32> = tiles.iter().map(|tile| tile.first).collect();
     let mut entries = vec![Entry { after: 0, mask: 0 }; next[count] as usize];
-    for link in links.iter().flatten() {
-        let tile = link.tile as usize;
-        for_entries(link, &mut last[tile], numbers, |entry| {
-            entries[next[tile] as usize] = entry;
-            next[tile] += 1;
-        });
+    for links in links {
+        interrupt.check(DURING)?;
+        for link in links {
+            let tile = link.tile as usize;
+            for_entries(link, &mut last[tile], numbers, |entry| {
+                entries[next[tile] as usize] = entry;
+                next[tile] += 1;
+            });
+        }
     }
-    (tiles, entries)
+    Ok((tiles, entries))
 }
 
 /// Visits the entries of a link. `last` is one more than the slot before it in its tile; 0 for none.
@@ -115,32 +140,40 @@ fn links<P: EdgeFinder>(
     context: BuildContext<'_, P>,
     (columns, count): (u32, usize),
     progress: &(impl Fn(usize) + Sync),
-) -> Vec<Vec<Link>> {
+    interrupt: &Interrupt,
+) -> Result<Vec<Vec<Link>>, Interrupted> {
     let scratch = || (P::Scratch::default(), [Marks::new(count), Marks::new(count)]);
     in_chunks(context.subgoals.len(), scratch, progress, |(scratch, sides), ids| {
         let mut links = Vec::new();
         for id in ids {
+            interrupt.check(DURING)?;
             let subgoal = context.subgoals.vertex(id);
             P::runs_to(context, scratch, subgoal, |run| sides[usize::from(run.is_right)].add(columns, run));
             for (side, marks) in (0..).zip(&mut *sides) {
                 marks.take(|tile, mask| links.push(Link { tile, slot: id * P::SIDES + side, mask }));
             }
         }
-        links
+        Ok(links)
     })
 }
 
 /// The free vertices of each tile.
-fn free_vertices<P: Placement>(space: &FreeSpace<P>, columns: u32, count: usize) -> Vec<u64> {
+fn free_vertices<P: Placement>(
+    space: &FreeSpace<P>,
+    columns: u32,
+    count: usize,
+    interrupt: &Interrupt,
+) -> Result<Vec<u64>, Interrupted> {
     let (width, height) = P::vertices(space.grid());
     let mut free = vec![0; count];
     for y in 0..height as i32 {
+        interrupt.check(DURING)?;
         for x in (0..width as i32).filter(|&x| space.is_free(Vertex::new(x, y))) {
             free[((y / SIDE) as u32 * columns + (x / SIDE) as u32) as usize] |=
                 1_u64 << (SIDE * (y % SIDE) + x % SIDE);
         }
     }
-    free
+    Ok(free)
 }
 
 /// The parts of a mask in each row.
@@ -150,12 +183,12 @@ fn rows_of(mask: u64) -> impl Iterator<Item = u64> {
 
 /// The masks of a map, and their numbers: the full one, the empty one, the others by frequency. If there are
 /// more than `most`, all that lie within one row come next, and the rarest are left out.
-fn dictionary(links: &[Vec<Link>], most: usize) -> (Vec<u64>, HashMap<u64, u16>) {
-    let mut all: Vec<u64> =
-        links.iter().flatten().map(|link| link.mask).filter(|&mask| mask != FULL).collect();
-    all.sort_unstable();
-    let mut counted: Vec<(usize, u64)> =
-        all.chunk_by(|a, b| a == b).map(|same| (same.len(), same[0])).collect();
+fn dictionary(
+    links: &[Vec<Link>],
+    most: usize,
+    interrupt: &Interrupt,
+) -> Result<(Vec<u64>, HashMap<u64, u16>), Interrupted> {
+    let mut counted = counted_masks(links, interrupt)?;
     counted.sort_unstable_by_key(|&(count, mask)| (std::cmp::Reverse(count), mask));
     let mut masks = vec![FULL, 0];
     if masks.len() + counted.len() > most {
@@ -165,7 +198,32 @@ fn dictionary(links: &[Vec<Link>], most: usize) -> (Vec<u64>, HashMap<u64, u16>)
     let others: Vec<u64> = counted.iter().map(|&(_, mask)| mask).filter(|&mask| !is_row(mask)).collect();
     masks.extend(others.into_iter().take(most - masks.len()));
     let numbers = masks.iter().zip(0..=u16::MAX).map(|(&mask, number)| (mask, number)).collect();
-    (masks, numbers)
+    Ok((masks, numbers))
+}
+
+/// The masks that are not full, each with how often it occurs.
+fn counted_masks(links: &[Vec<Link>], interrupt: &Interrupt) -> Result<Vec<(usize, u64)>, Interrupted> {
+    /// The masks that are sorted between two questions of the interrupt.
+    const PIECE: usize = 1 << 16;
+    // In pieces, since most masks occur often.
+    let mut counted: Vec<(u64, usize)> = Vec::new();
+    let mut piece: Vec<u64> = Vec::with_capacity(PIECE);
+    let mut count = |piece: &mut Vec<u64>| {
+        piece.sort_unstable();
+        counted.extend(piece.chunk_by(|a, b| a == b).map(|same| (same[0], same.len())));
+        piece.clear();
+        interrupt.check(DURING)
+    };
+    for mask in links.iter().flatten().map(|link| link.mask).filter(|&mask| mask != FULL) {
+        piece.push(mask);
+        if piece.len() == PIECE {
+            count(&mut piece)?;
+        }
+    }
+    count(&mut piece)?;
+    counted.sort_unstable();
+    let same = counted.chunk_by(|(a, _), (b, _)| a == b);
+    Ok(same.map(|same| (same.iter().map(|(_, count)| count).sum(), same[0].0)).collect())
 }
 
 /// The vertices that are joined to one side of a subgoal, by tile.

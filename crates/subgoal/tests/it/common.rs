@@ -3,7 +3,7 @@
 
 use std::{num::NonZeroU32, sync::Arc};
 
-use mediant_grid::{DiagonalGap, FreeSpace, Grid, Identity, Placement, Vertex};
+use mediant_grid::{DiagonalGap, FreeSpace, Grid, Identity, Interrupt, Placement, Vertex};
 use mediant_moves::{Cost, FiniteK, K};
 use mediant_search::parts::Metric;
 use mediant_subgoal::{Hierarchy, HubLabels, SubgoalGraph, SubgoalPlacement};
@@ -46,7 +46,7 @@ pub(crate) fn graph<P: SubgoalPlacement>(
 
 /// Hub labels, however much memory they take.
 pub(crate) fn labels<P: SubgoalPlacement>(space: &FreeSpace<P>, k: K) -> HubLabels<P> {
-    HubLabels::within(space, k, usize::MAX, &|_| {}).expect("there are labels for this k")
+    HubLabels::within(space, k, usize::MAX, &|_| {}, &Interrupt::NEVER).expect("there are labels for this k")
 }
 
 /// The length of a path whose straight parts are free, in fixed point.

@@ -5,6 +5,7 @@ mod contraction;
 mod exact;
 mod identity;
 mod index;
+mod interrupts;
 mod labels;
 mod reachability;
 mod shared;

@@ -6,7 +6,7 @@ use std::{
     thread,
 };
 
-use mediant_grid::{Centers, Corners, DiagonalGap, FreeSpace, Vertex};
+use mediant_grid::{Centers, Corners, DiagonalGap, FreeSpace, Interrupt, Vertex};
 use mediant_moves::K;
 use mediant_oracle::{Rng, caves};
 use mediant_search::{Outcome, Planner, Query};
@@ -79,7 +79,8 @@ fn graphs_are_shared_and_planners_sent() {
 fn told(space: &FreeSpace<Corners>, k: K, hierarchy: Hierarchy) -> (SubgoalGraph<Corners>, Vec<Progress>) {
     let told = Mutex::new(Vec::new());
     let tell = |progress| told.lock().expect("no one panicked").push(progress);
-    let graph = SubgoalGraph::with_progress(space, k, hierarchy, &tell).expect("k is in range");
+    let graph =
+        SubgoalGraph::with_progress(space, k, hierarchy, &tell, &Interrupt::NEVER).expect("k is in range");
     (graph, told.into_inner().expect("no one panicked"))
 }
 

@@ -2,7 +2,9 @@
 
 use std::{collections::BTreeSet, sync::Arc};
 
-use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, Vertex};
+use mediant_grid::{
+    Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, Interrupt, Vertex, uninterrupted,
+};
 use mediant_moves::{FiniteK, K};
 use mediant_oracle::{Rng, describe, noise, on_all_cores, random_grid, rooms, seeds, wide_grid};
 
@@ -14,7 +16,7 @@ use crate::{
 };
 
 fn ground<P: SubgoalPlacement>(space: &FreeSpace<P>, k: K) -> Ground<P> {
-    Ground::new(space, k, Hierarchy::Contracted).expect("there is a graph")
+    Ground::new(space, k, Hierarchy::Contracted, &Interrupt::NEVER).expect("there is a graph")
 }
 
 fn free<P: SubgoalPlacement>(space: &FreeSpace<P>) -> impl Iterator<Item = Vertex> {
@@ -81,7 +83,9 @@ fn check_corners(space: &FreeSpace<Corners>, index: &SeenIndex, seed: u64) -> us
 }
 
 fn index<P: SubgoalPlacement>(space: &FreeSpace<P>, k: K) -> SeenIndex {
-    SeenIndex::new(ground(space, k).context(space), usize::MAX, &|_| {}).expect("there is memory")
+    let ground = ground(space, k);
+    let index = uninterrupted(|never| SeenIndex::new(ground.context(space), usize::MAX, &|_| {}, never));
+    index.expect("there is memory")
 }
 
 #[test]
@@ -148,15 +152,18 @@ fn a_full_dictionary_changes_no_answer() {
     // The full mask, the empty one and those of rows: no others, or few.
     let rows = 2 + 8 * 255;
     assert!(whole.masks.len() > rows + 500, "{} masks", whole.masks.len());
+    let with_masks = |most| {
+        let context = ground.context(&space);
+        uninterrupted(|never| SeenIndex::with_masks(context, usize::MAX, most, &|_| {}, never))
+    };
     for most in [rows, rows + 300, whole.masks.len() - 1] {
-        let part = SeenIndex::with_masks(ground.context(&space), usize::MAX, most, &|_| {});
-        let part = part.expect("there is memory");
+        let part = with_masks(most).expect("there is memory");
         assert!(part.masks.len() <= most && part.entries.len() > whole.entries.len(), "{most}");
         for at in free(&space) {
             assert_eq!(slots(&part, at), slots(&whole, at), "{most} masks, at {at}");
         }
     }
-    let same = SeenIndex::with_masks(ground.context(&space), usize::MAX, whole.masks.len(), &|_| {});
+    let same = with_masks(whole.masks.len());
     assert_eq!(same.as_ref(), Some(&whole), "just as many as there are");
 }
 
@@ -167,7 +174,7 @@ fn slots_may_be_far_apart() {
     let last = 9 * far + 17;
     let links = [(1, 3, 1), (1, 4, FULL), (1, 3 + far, 1), (1, 4 + 2 * far, 2), (1, last, 3), (2, last, 1)];
     let links = links.map(|(tile, slot, mask)| Link { tile, slot, mask }).to_vec();
-    let index = SeenIndex::of_links(&[links], 3, 3, 65_536);
+    let index = uninterrupted(|never| SeenIndex::of_links(&[links], 3, 3, 65_536, never));
     let at = |x| slots(&index, Vertex::new(x, 0)).into_iter().collect::<Vec<_>>();
     assert_eq!(at(0), []);
     assert_eq!(at(8), [3, 4, 3 + far, last]);
@@ -182,8 +189,10 @@ fn it_keeps_within_its_memory() {
     let space = FreeSpace::<Corners>::new(Arc::new(map(5)), DiagonalGap::Open);
     let ground = ground(&space, K::Any);
     let whole = index(&space, K::Any);
-    let within = |most| SeenIndex::new(ground.context(&space), most, &|_| {}).is_some();
+    let of = |most| uninterrupted(|never| SeenIndex::new(ground.context(&space), most, &|_| {}, never));
+    let within = |most| of(most).is_some();
     assert!(within(whole.memory_bytes()) && !within(0) && !within(whole.entries.len() * 4));
-    let links = links(ground.context(&space), (whole.columns, whole.tiles.len() - 1), &|_| {});
+    let size = (whole.columns, whole.tiles.len() - 1);
+    let links = uninterrupted(|never| links(ground.context(&space), size, &|_| {}, never));
     assert!(links.iter().flatten().count() >= whole.entries.len());
 }

@@ -5,7 +5,7 @@ use std::{
     thread,
 };
 
-use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, Vertex};
+use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, Interrupt, Vertex};
 use mediant_moves::K;
 use mediant_oracle::{Rng, caves, noise};
 use mediant_search::{Outcome, Planner, Query};
@@ -73,7 +73,7 @@ fn told<P: SubgoalPlacement>(
 ) -> (PreparedSubgoals<P>, Vec<Progress>) {
     let told = Mutex::new(Vec::new());
     let tell = |progress| told.lock().expect("no one panicked").push(progress);
-    let prepared = PreparedSubgoals::within(space, k, most, &tell).expect("k is in range");
+    let prepared = PreparedSubgoals::within(space, k, most, &tell, &Interrupt::NEVER).expect("k is in range");
     (prepared, told.into_inner().expect("no one panicked"))
 }
 
@@ -137,13 +137,19 @@ fn check_beside<P: SubgoalPlacement>(space: &FreeSpace<P>, k: K, other: K, looks
     let tell = |progress: Progress| {
         *looked.lock().expect("no one panicked") |= progress.stage == Stage::Sight;
     };
-    let second = first.for_k(space, other, usize::MAX, &tell).expect("there are labels for this k");
+    let second =
+        first.for_k(space, other, usize::MAX, &tell, &Interrupt::NEVER).expect("there are labels for this k");
     assert_eq!((second.k(), second.to_bytes()), (other, labels(space, other).to_bytes()));
     assert_eq!(looked.into_inner().ok(), Some(looks), "k = {k}, {other}");
     let exact = second.memory_bytes();
     for (most, fits) in [(exact, true), (exact - 1, false), (0, false)] {
-        assert_eq!(first.for_k(space, other, most, &|_| {}).is_ok(), fits, "{most} of {exact} bytes");
-        let prepared = PreparedSubgoals::beside(&first, space, other, most, &|_| {}).expect("any");
+        assert_eq!(
+            first.for_k(space, other, most, &|_| {}, &Interrupt::NEVER).is_ok(),
+            fits,
+            "{most} of {exact} bytes"
+        );
+        let prepared =
+            PreparedSubgoals::beside(&first, space, other, most, &|_| {}, &Interrupt::NEVER).expect("any");
         assert_eq!(matches!(prepared, PreparedSubgoals::Labels(_)), fits);
     }
 }
@@ -160,9 +166,11 @@ fn labels_for_another_k_share_what_is_seen() {
     // Another map, and another rule.
     let first = labels(&cave(DiagonalGap::Open), K::Any);
     for other in [cave(DiagonalGap::Closed), space(&grid, DiagonalGap::Open)] {
-        let error = first.for_k(&other, k(3), usize::MAX, &|_| {}).expect_err("they do not belong together");
+        let error = first
+            .for_k(&other, k(3), usize::MAX, &|_| {}, &Interrupt::NEVER)
+            .expect_err("they do not belong together");
         assert!(matches!(error, SubgoalError::Mismatch(_)), "{error}");
-        let error = PreparedSubgoals::beside(&first, &other, k(3), usize::MAX, &|_| {});
+        let error = PreparedSubgoals::beside(&first, &other, k(3), usize::MAX, &|_| {}, &Interrupt::NEVER);
         assert!(matches!(error, Err(SubgoalError::Mismatch(_))));
     }
 }
