@@ -32,9 +32,30 @@ impl<V> PerMotion<V> {
     /// # Errors
     /// [`KError::TooLarge`] above [`GridGraph::MAX_K`].
     pub fn get(&self, rules: Rules, k: FiniteK, compute: impl FnOnce() -> V) -> Result<&V, KError> {
+        Ok(self.cell(rules, k)?.get_or_init(compute))
+    }
+
+    /// The value for these rules and this k, whose computing may be stopped: two threads that ask first at the
+    /// same time both compute it, and one is kept.
+    ///
+    /// # Errors
+    /// Those of [`get`](Self::get); within, the error of `compute`.
+    pub fn get_or_stop<E>(
+        &self,
+        rules: Rules,
+        k: FiniteK,
+        compute: impl FnOnce() -> Result<V, E>,
+    ) -> Result<Result<&V, E>, KError> {
+        let cell = self.cell(rules, k)?;
+        if let Some(value) = cell.get() {
+            return Ok(Ok(value));
+        }
+        Ok(compute().map(|value| cell.get_or_init(|| value)))
+    }
+
+    fn cell(&self, rules: Rules, k: FiniteK) -> Result<&OnceLock<V>, KError> {
         let too_large = || KError::TooLarge { k: k.get(), max: GridGraph::<Centers>::MAX_K };
-        let value = self.known[rules.number()].get(k.depth() as usize).ok_or_else(too_large)?;
-        Ok(value.get_or_init(compute))
+        self.known[rules.number()].get(k.depth() as usize).ok_or_else(too_large)
     }
 }
 

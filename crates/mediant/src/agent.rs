@@ -3,7 +3,7 @@
 use std::{ops::Range, sync::Arc};
 
 use mediant_grid::{Clearance, Fit, Grid, Outside, Rectangle, Vertex};
-use mediant_search::{Limits, Outcome, Path, Query};
+use mediant_search::{Limit, Limits, Outcome, Path, Query};
 
 use crate::{choice::Choice, error::Error, map::Map, motion::Motion, space::Space};
 
@@ -197,28 +197,40 @@ impl Space {
         goal: impl Into<Vertex>,
         surplus: f64,
     ) -> Result<Option<WidestPath>, Error> {
-        let (start, goal) = (start.into(), goal.into());
+        self.widest_path_of([start.into(), goal.into()], surplus, &Limits::new())
+    }
+
+    pub(crate) fn widest_path_of(
+        &self,
+        [start, goal]: [Vertex; 2],
+        surplus: f64,
+        limits: &Limits,
+    ) -> Result<Option<WidestPath>, Error> {
         let Motion { k, rules } = self.motion();
         if surplus.is_nan() || surplus < 0.0 {
             return Err(mediant_search::QueryError::CostLimit.into());
         }
-        let Some(shortest) = self.path(start, goal)? else { return Ok(None) };
+        let Some(shortest) = self.path_of(Query::new(start, goal), limits)? else { return Ok(None) };
         // Two paths of one length can have sums that differ in the last digits.
         let greatest = match surplus {
             f64::INFINITY => f64::INFINITY,
             surplus => shortest.cost() * (1.0 + surplus) * (1.0 + 1e-12),
         };
-        let clearance = self.map().clearance(Fit::exact(rules, k), Outside::Blocked);
+        let clearance = self.map().within(limits).clearance(Fit::exact(rules, k), Outside::Blocked)?;
         let at_ends = [start, goal].map(|at| clearance.largest_disc_at(rules.placement(), at).unwrap_or(0.0));
-        let widest = clearance.widest(at_ends[0].min(at_ends[1]), |grid| {
-            let space = Map::from(Arc::clone(grid)).space(self.motion())?;
+        let at_most = at_ends[0].min(at_ends[1]);
+        let widest = clearance.widest_interruptible(at_most, limits.interrupt(), |grid| {
+            let space = Map::from(Arc::clone(grid)).within(limits).space(self.motion())?;
             if !(space.is_free(start) && space.is_free(goal)) {
                 return Ok::<_, Error>(None);
             }
-            let request = Query::new(start, goal).within(Limits::new().cost(greatest));
-            let index = space.prepare_for_one_path(Choice::for_one_path(self.motion()))?;
+            let request = Query::new(start, goal).within(limits.clone().cost(greatest));
+            let index = space.within(limits).prepare_for_one_path(Choice::for_one_path(self.motion()))?;
             Ok(match index.try_planner()?.find(request)? {
                 Outcome::Found(path) => Some(path),
+                Outcome::Stopped(stopped) if stopped.by != Limit::Cost => {
+                    return Err(Error::Stopped { by: stopped.by, during: "searching a path" });
+                }
                 _ => None,
             })
         })?;

@@ -2,7 +2,7 @@
 
 use mediant_grid::{PlacementKind, Vertex};
 use mediant_moves::K;
-use mediant_search::{Path, Query};
+use mediant_search::{Limits, Outcome, Path, Query};
 
 use crate::{
     configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion, setup::Setup,
@@ -118,11 +118,21 @@ impl Space {
     /// # Errors
     /// [`Error::Query`] for a start or goal that is blocked or outside the map.
     pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
-        let query = Query::new(start, goal);
+        self.path_of(Query::new(start, goal), &Limits::new())
+    }
+
+    /// Of the limits only the deadline and the flag count.
+    pub(crate) fn path_of(&self, query: Query, limits: &Limits) -> Result<Option<Path>, Error> {
         self.check_query(query)?;
-        let index = self.prepare_for_one_path(Choice::for_one_path(self.motion()))?;
-        let answer = index.try_planner()?.find(query)?;
-        Ok(answer.into_path())
+        let index = self.within(limits).prepare_for_one_path(Choice::for_one_path(self.motion()))?;
+        let mut planner = index.try_planner()?;
+        if limits.interrupt().is_never() {
+            return Ok(planner.find(query)?.into_path());
+        }
+        match planner.find(query.within(limits.clone()))? {
+            Outcome::Stopped(stopped) => Err(Error::Stopped { by: stopped.by, during: "searching a path" }),
+            answer => Ok(answer.into_path()),
+        }
     }
 }
 

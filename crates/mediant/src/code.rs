@@ -3,7 +3,7 @@
 use mediant_formats::{IndexError, ReadError};
 use mediant_grid::GridError;
 use mediant_hierarchy::HierarchyError;
-use mediant_search::{End, JumpError, QueryError};
+use mediant_search::{End, JumpError, Limit, QueryError};
 use mediant_subgoal::SubgoalError;
 
 use crate::{error::Error, names::names, setup_error::SetupError};
@@ -75,6 +75,10 @@ pub enum ErrorCode {
     NotBegun,
     /// Memory that there is not.
     Memory,
+    /// Work that a flag stopped.
+    Cancelled,
+    /// Work that a deadline stopped.
+    Deadline,
     /// A mistake of a kind that has no name yet.
     Other,
 }
@@ -111,6 +115,8 @@ names!(ErrorCode:
     Number => "number",
     NotBegun => "not-begun",
     Memory => "memory",
+    Cancelled => "cancelled",
+    Deadline => "deadline",
     Other => "other",
 );
 
@@ -139,6 +145,8 @@ impl Error {
             Self::Read(error) => of_read(error),
             Self::Write(_) => ErrorCode::FileUnwritable,
             Self::OutOfMemory { .. } => ErrorCode::Memory,
+            Self::Stopped { by: Limit::Cancelled, .. } => ErrorCode::Cancelled,
+            Self::Stopped { .. } => ErrorCode::Deadline,
             Self::Grid(_) => ErrorCode::Other,
         }
     }

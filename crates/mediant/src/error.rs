@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use mediant_formats::{IndexError, ReadError, WriteError};
-use mediant_grid::{GridError, Mismatch, Rectangle, SizeError, Vertex};
+use mediant_grid::{GridError, Interrupted, Mismatch, Rectangle, SizeError, Vertex};
 use mediant_hierarchy::HierarchyError;
 use mediant_moves::KError;
-use mediant_search::{JumpError, QueryError};
+use mediant_search::{JumpError, Limit, QueryError};
 use mediant_subgoal::SubgoalError;
 
 use crate::{
@@ -33,9 +33,17 @@ use crate::{
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
+    /// Work that a flag or a deadline stopped: see [`Within`](crate::Within).
+    #[error("{} while {during}", if *by == Limit::Cancelled { "cancelled" } else { "the deadline passed" })]
+    Stopped {
+        /// What stopped it.
+        by: Limit,
+        /// What it was doing, such as 'finding dead ends'.
+        during: &'static str,
+    },
     /// A map that cannot be made.
     #[error(transparent)]
-    Grid(#[from] GridError),
+    Grid(GridError),
     /// An edit outside the map.
     #[error(
         "an edit of {} × {} cells at ({}, {}), outside the map of {} × {} cells: name cells of the map",
@@ -60,7 +68,7 @@ pub enum Error {
     },
     /// An agent without a size.
     #[error(transparent)]
-    Size(#[from] SizeError),
+    Size(SizeError),
     /// Motion that no engine searches.
     #[error("no engine searches {motion}: choose a k from 2 to {max}, or corners for k = any")]
     Motion {
@@ -145,7 +153,7 @@ pub enum Error {
     IndexFile(IndexError),
     /// A file that cannot be read.
     #[error(transparent)]
-    Read(#[from] ReadError),
+    Read(ReadError),
     /// An index in a file that cannot be used: its own error, and which file it is.
     #[error("{}: {source}", path.display())]
     InFile {
@@ -159,13 +167,49 @@ pub enum Error {
     Write(#[from] WriteError),
 }
 
-/// Whatever has a mismatch inside is a mismatch.
+impl From<Interrupted> for Error {
+    fn from(Interrupted { by, during }: Interrupted) -> Self {
+        Self::Stopped { by: by.into(), during }
+    }
+}
+
+impl From<GridError> for Error {
+    fn from(error: GridError) -> Self {
+        match error {
+            GridError::Interrupted(interrupted) => interrupted.into(),
+            error => Self::Grid(error),
+        }
+    }
+}
+
+impl From<SizeError> for Error {
+    fn from(error: SizeError) -> Self {
+        match error {
+            SizeError::Interrupted(interrupted) => interrupted.into(),
+            error => Self::Size(error),
+        }
+    }
+}
+
+impl From<ReadError> for Error {
+    fn from(error: ReadError) -> Self {
+        match error {
+            ReadError::Index { source, .. } if matches!(*source, IndexError::Interrupted(_)) => {
+                Self::from(*source)
+            }
+            error => Self::Read(error),
+        }
+    }
+}
+
+/// Whatever has a mismatch or an interruption inside is one.
 macro_rules! from_errors {
     ($($variant:ident: $source:ident),+) => {
         $(impl From<$source> for Error {
             fn from(error: $source) -> Self {
                 match error {
                     $source::Mismatch(mismatch) => Self::Mismatch(mismatch),
+                    $source::Interrupted(interrupted) => interrupted.into(),
                     other => Self::$variant(other),
                 }
             }
@@ -178,6 +222,9 @@ from_errors!(Jump: JumpError, Subgoal: SubgoalError, Hierarchy: HierarchyError, 
 impl Error {
     /// This error of the index in a file.
     pub(crate) fn in_file(self, path: &Path) -> Self {
+        if matches!(self, Self::Stopped { .. }) {
+            return self;
+        }
         Self::InFile { path: path.to_owned(), source: Box::new(self) }
     }
 }

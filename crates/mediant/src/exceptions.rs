@@ -80,7 +80,7 @@ impl Exceptions {
                 ends.filter_map(|&end| shut_cell(&changed, motion.rules.placement(), end)).collect();
             changed = changed.edit_cells(shut.into_iter().map(|cell| (cell, false)))?;
         }
-        Ok(if changed == *map { None } else { Some(changed.space(motion)?) })
+        Ok(if changed == *map { None } else { Some(changed.within(&request.limits()).space(motion)?) })
     }
 }
 
@@ -107,7 +107,8 @@ impl Planner {
     /// ([`ExceptedAnswer::searched_by`]).
     ///
     /// # Errors
-    /// Those of [`find`](Self::find), and [`Error::EditCell`] for a cell outside the map.
+    /// Those of [`find`](Self::find), [`Error::EditCell`] for a cell outside the map, and [`Error::Stopped`]
+    /// if the request's limits stop what is prepared.
     pub fn find_except(
         &mut self,
         request: impl Into<Request>,
@@ -121,7 +122,7 @@ impl Planner {
         let Setup { engine, smoothing, .. } = self.index().setup();
         let is_online = engine.kind().capabilities().index.is_none();
         let engine = if is_online { engine } else { Choice::for_one_path(space.motion()).engine.into() };
-        let index = space.prepare_for_one_path(engine)?.with_smoothing(smoothing);
+        let index = space.within(&request.limits()).prepare_for_one_path(engine)?.with_smoothing(smoothing);
         let outcome = index.try_planner()?.find(request)?;
         Ok(ExceptedAnswer { outcome, searched_by: index.searched_by() })
     }

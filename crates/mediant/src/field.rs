@@ -2,7 +2,7 @@
 
 use std::{fmt, sync::Arc};
 
-use mediant_grid::{Centers, Corners, FreeSpace, GridGraph, Identity, Vertex};
+use mediant_grid::{Centers, Corners, FreeSpace, GridGraph, Identity, Interrupt, Vertex};
 use mediant_moves::FiniteK;
 use mediant_search::{
     self as search, AnyAngleField, AnyAngleFields, FieldError, FieldQuery, Path, QueryError,
@@ -12,6 +12,7 @@ use crate::{
     error::Error,
     shared_rules::{Shared, pruning},
     space::{Layers, Placed, Space},
+    within::NEVER,
 };
 
 /// The distance of every vertex to the nearest of one or many sources, with the paths and directions out of
@@ -77,11 +78,24 @@ impl Space {
     /// # Errors
     /// None that a space which exists can have.
     pub fn fields(&self) -> Result<Fields, Error> {
+        self.fields_of(&NEVER)
+    }
+
+    pub(crate) fn field_of(
+        &self,
+        sources: &[Vertex],
+        limit: f64,
+        interrupt: &Interrupt,
+    ) -> Result<Field, Error> {
+        self.fields_of(interrupt)?.make(FieldQuery::new(sources).within(limit), interrupt)
+    }
+
+    fn fields_of(&self, interrupt: &Interrupt) -> Result<Fields, Error> {
         let inner = match (self.placed(), self.motion().k.finite()) {
-            (Placed::Centers(layers), Some(k)) => Makers::Centers(lattice(layers, k)?),
-            (Placed::Corners(layers), Some(k)) => Makers::Corners(lattice(layers, k)?),
+            (Placed::Centers(layers), Some(k)) => Makers::Centers(lattice(layers, k, interrupt)?),
+            (Placed::Corners(layers), Some(k)) => Makers::Corners(lattice(layers, k, interrupt)?),
             (Placed::Corners(layers), None) => {
-                Makers::AnyAngle(AnyAngleFields::new(Arc::clone(&layers.free)))
+                Makers::AnyAngle(AnyAngleFields::interruptible(Arc::clone(&layers.free), interrupt)?)
             }
             (Placed::Centers(_), None) => {
                 let (motion, max) = (self.motion(), GridGraph::<Centers>::MAX_K);
@@ -93,9 +107,14 @@ impl Space {
 }
 
 /// What makes fields over N(k).
-fn lattice<P: Shared>(layers: &Layers<P>, k: FiniteK) -> Result<search::Fields<Arc<GridGraph<P>>, P>, Error> {
+fn lattice<P: Shared>(
+    layers: &Layers<P>,
+    k: FiniteK,
+    interrupt: &Interrupt,
+) -> Result<search::Fields<Arc<GridGraph<P>>, P>, Error> {
     let graph = layers.graph(k)?;
-    Ok(search::Fields::with_pruning(Arc::clone(graph), pruning(graph)?)?)
+    let pruning = pruning(graph, interrupt)?;
+    Ok(search::Fields::with_pruning_interruptible(Arc::clone(graph), pruning, interrupt)??)
 }
 
 impl Fields {
@@ -105,7 +124,7 @@ impl Fields {
     /// [`Error::Query`] for the first source that is blocked or outside the map.
     pub fn field<V: Into<Vertex>>(&mut self, sources: impl IntoIterator<Item = V>) -> Result<Field, Error> {
         let sources: Vec<Vertex> = sources.into_iter().map(Into::into).collect();
-        self.make(FieldQuery::new(&sources))
+        self.make(FieldQuery::new(&sources), &NEVER)
     }
 
     /// The distances of those vertices whose distance to the nearest source is at most `limit` cells.
@@ -119,18 +138,19 @@ impl Fields {
         limit: f64,
     ) -> Result<Field, Error> {
         let sources: Vec<Vertex> = sources.into_iter().map(Into::into).collect();
-        self.make(FieldQuery::new(&sources).within(limit))
+        self.make(FieldQuery::new(&sources).within(limit), &NEVER)
     }
 
-    fn make(&mut self, query: FieldQuery<'_>) -> Result<Field, Error> {
+    fn make(&mut self, query: FieldQuery<'_>, interrupt: &Interrupt) -> Result<Field, Error> {
         let inner = match &mut self.inner {
-            Makers::Centers(fields) => fields.field(query).map(Inner::Centers),
-            Makers::Corners(fields) => fields.field(query).map(Inner::Corners),
-            Makers::AnyAngle(fields) => fields.field(query).map(Inner::AnyAngle),
+            Makers::Centers(fields) => fields.field_interruptible(query, interrupt).map(Inner::Centers),
+            Makers::Corners(fields) => fields.field_interruptible(query, interrupt).map(Inner::Corners),
+            Makers::AnyAngle(fields) => fields.field_interruptible(query, interrupt).map(Inner::AnyAngle),
         };
         let inner = inner.map_err(|error| match error {
-            FieldError::Query(error) => error,
-            _ => QueryError::CostLimit,
+            FieldError::Query(error) => Error::from(error),
+            FieldError::Interrupted(interrupted) => interrupted.into(),
+            _ => QueryError::CostLimit.into(),
         })?;
         Ok(Field { inner })
     }

@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Centers, Corners, GridGraph, PerMotion, Placement};
+use mediant_grid::{Centers, Corners, GridGraph, Interrupt, PerMotion, Placement};
 use mediant_search::{CanonicalRule, Pruning};
 
 use crate::error::Error;
@@ -35,9 +35,19 @@ impl Shared for Corners {
     }
 }
 
-/// The pruning rule on a grid graph.
-pub(crate) fn pruning<P: Shared>(graph: &GridGraph<P>) -> Result<Arc<Pruning<P>>, Error> {
-    let compute = || Arc::new(CanonicalRule::new(graph.k(), graph.rule()));
-    let rule = P::known().get(graph.rules(), graph.k(), compute)?;
-    Ok(Arc::new(Pruning::with_rule(graph, Arc::clone(rule))?))
+/// The pruning rule on a grid graph. Where an interrupt may stop it, it does not wait while another thread
+/// computes the same.
+pub(crate) fn pruning<P: Shared>(
+    graph: &GridGraph<P>,
+    interrupt: &Interrupt,
+) -> Result<Arc<Pruning<P>>, Error> {
+    let (k, rules) = (graph.k(), graph.rules());
+    let rule = if interrupt.is_never() {
+        P::known().get(rules, k, || Arc::new(CanonicalRule::new(k, graph.rule())))?
+    } else {
+        P::known().get_or_stop(rules, k, || {
+            CanonicalRule::interruptible(k, graph.rule(), interrupt).map(Arc::new)
+        })??
+    };
+    Ok(Arc::new(Pruning::with_rule_interruptible(graph, Arc::clone(rule), interrupt)??))
 }

@@ -3,14 +3,15 @@
 use std::sync::{Arc, OnceLock};
 
 use mediant_grid::{
-    Centers, Corners, FreeSpace, GridGraph, Identity, Placement, PlacementKind, Rectangle, Rules, Vertex,
+    Centers, Corners, FreeSpace, GridGraph, Identity, Interrupt, Interrupted, Placement, PlacementKind,
+    Rectangle, Rules, Vertex,
 };
 use mediant_moves::{FiniteK, K};
 use mediant_search::{End, Query, QueryError, Wavefront};
 
 use crate::{
     configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion, setup::Setup,
-    setup_error::SetupError,
+    setup_error::SetupError, within::NEVER,
 };
 
 /// A map with rules of motion and a k: what can be searched. It never changes, and all threads can share it;
@@ -56,9 +57,9 @@ pub(crate) struct Layers<P: Placement> {
 }
 
 impl<P: Placement> Layers<P> {
-    fn new(map: &Map, motion: Motion, rule: P::Rule) -> Self {
-        let free = FreeSpace::for_k(Arc::clone(map.grid()), rule, motion.k);
-        Self { free: Arc::new(free), graph: OnceLock::new(), any_angle: OnceLock::new() }
+    fn new(map: &Map, motion: Motion, rule: P::Rule, interrupt: &Interrupt) -> Result<Self, Interrupted> {
+        let free = FreeSpace::interruptible(Arc::clone(map.grid()), rule, motion.k, interrupt)?;
+        Ok(Self { free: Arc::new(free), graph: OnceLock::new(), any_angle: OnceLock::new() })
     }
 
     /// The free space whose components say what paths at any angle connect. It is another one at k = 2 where
@@ -93,13 +94,13 @@ impl Map {
     /// # Errors
     /// [`Error::Motion`] where no engine searches: at k above 12, and between centers at any angle.
     pub fn space(&self, motion: Motion) -> Result<Space, Error> {
-        Space::new(self, motion)
+        Space::new(self, motion, &NEVER)
     }
 }
 
 impl Space {
     /// A map with rules of motion and a k.
-    fn new(map: &Map, motion: Motion) -> Result<Self, Error> {
+    pub(crate) fn new(map: &Map, motion: Motion, interrupt: &Interrupt) -> Result<Self, Error> {
         let max = GridGraph::<Centers>::MAX_K;
         let is_searched = match motion.k {
             K::Finite(k) => k.get() <= max,
@@ -109,8 +110,8 @@ impl Space {
             return Err(Error::Motion { motion, max });
         }
         let placed = match motion.rules {
-            Rules::Center(rule) => Placed::Centers(Layers::new(map, motion, rule)),
-            Rules::Corner(gap) => Placed::Corners(Layers::new(map, motion, gap)),
+            Rules::Center(rule) => Placed::Centers(Layers::new(map, motion, rule, interrupt)?),
+            Rules::Corner(gap) => Placed::Corners(Layers::new(map, motion, gap, interrupt)?),
         };
         Ok(Self { inner: Arc::new(Inner { map: map.clone(), motion, placed }) })
     }
@@ -120,7 +121,7 @@ impl Space {
     /// # Errors
     /// Those of [`Map::edit`].
     pub fn edit(&self, at: Rectangle, blocked: impl FnMut(u32, u32) -> bool) -> Result<Self, Error> {
-        Self::new(&self.map().edit(at, blocked)?, self.motion())
+        Self::new(&self.map().edit(at, blocked)?, self.motion(), &NEVER)
     }
 
     /// The map.
@@ -192,16 +193,28 @@ impl Space {
     /// # Errors
     /// [`Error::Setup`] for another engine, [`Error::Query`] for a start that is blocked or outside the map.
     pub fn distances(&self, engine: Engine, start: impl Into<Vertex>) -> Result<Vec<(Vertex, f64)>, Error> {
-        let start = start.into();
+        self.distances_of(engine, start.into(), &NEVER)
+    }
+
+    pub(crate) fn distances_of(
+        &self,
+        engine: Engine,
+        start: Vertex,
+        interrupt: &Interrupt,
+    ) -> Result<Vec<(Vertex, f64)>, Error> {
         let Motion { k, rules } = self.motion();
         Setup::new(engine, k, rules).check()?;
         if !engine.capabilities().distances {
             return Err(SetupError::without_distances(engine).into());
         }
         match (engine, self.placed(), k.finite()) {
-            (Engine::Dijkstra, ..) => Ok(self.field([start])?.iter().collect()),
-            (Engine::Wavefront, Placed::Centers(layers), Some(k)) => moves(layers.graph(k)?, start),
-            (Engine::Wavefront, Placed::Corners(layers), Some(k)) => moves(layers.graph(k)?, start),
+            (Engine::Dijkstra, ..) => Ok(self.field_of(&[start], f64::INFINITY, interrupt)?.iter().collect()),
+            (Engine::Wavefront, Placed::Centers(layers), Some(k)) => {
+                moves(layers.graph(k)?, start, interrupt)
+            }
+            (Engine::Wavefront, Placed::Corners(layers), Some(k)) => {
+                moves(layers.graph(k)?, start, interrupt)
+            }
             _ => Err(SetupError::without_distances(engine).into()),
         }
     }
@@ -256,7 +269,11 @@ impl Space {
 }
 
 /// The number of moves from a vertex to all others.
-fn moves<P: Placement>(graph: &Arc<GridGraph<P>>, start: Vertex) -> Result<Vec<(Vertex, f64)>, Error> {
-    let moves = Wavefront::new(&**graph).distances(start)?;
+fn moves<P: Placement>(
+    graph: &Arc<GridGraph<P>>,
+    start: Vertex,
+    interrupt: &Interrupt,
+) -> Result<Vec<(Vertex, f64)>, Error> {
+    let moves = Wavefront::new(&**graph).distances_interruptible(start, interrupt)??;
     Ok(moves.iter().map(|(at, moves)| (at, f64::from(moves))).collect())
 }

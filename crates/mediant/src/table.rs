@@ -1,12 +1,13 @@
 //! Tables of distances, many to many.
 
 use mediant_grid::Vertex;
-use mediant_search::{End, Outcome, Query, QueryError};
+use mediant_search::{End, Limit, Limits, Outcome, Query, Request};
 
 use crate::{
     error::Error,
     index::Index,
-    planners::{BatchProgress, Planners, in_order},
+    planner::Planner,
+    planners::{Planners, in_order},
 };
 
 /// The lengths of the paths from several starts to several goals.
@@ -62,23 +63,63 @@ impl Index {
     ) -> Result<Table, Error> {
         let starts: Vec<Vertex> = starts.into_iter().map(Into::into).collect();
         let goals: Vec<Vertex> = goals.into_iter().map(Into::into).collect();
-        for (end, ends) in [(End::Start, &starts), (End::Goal, &goals)] {
+        self.table_of(&starts, &goals, &Limits::new())
+    }
+
+    /// Of the limits only the deadline and the flag count.
+    pub(crate) fn table_of(
+        &self,
+        starts: &[Vertex],
+        goals: &[Vertex],
+        limits: &Limits,
+    ) -> Result<Table, Error> {
+        let interrupt = limits.interrupt();
+        for (end, ends) in [(End::Start, starts), (End::Goal, goals)] {
             ends.iter().try_for_each(|&at| self.space().check_end(end, at))?;
         }
         let columns = goals.len();
         if self.prepared.has_labels() && self.setup().smoothing.is_none() {
-            let (goals, planners) = (self.goals(goals)?, Planners::new(self.clone()));
-            let row = |row: usize| planners.with(|planner| planner.distances(starts[row], &goals));
+            let (goals, planners) = (self.goals(goals.iter().copied())?, Planners::new(self.clone()));
+            let row = |row: usize| {
+                interrupt.check(DURING)?;
+                planners.with(|planner| planner.distances(starts[row], &goals))
+            };
             let rows: Result<Vec<Vec<f64>>, Error> = in_order(starts.len(), row).into_iter().collect();
             return Ok(Table { goals: columns, values: rows?.concat() });
         }
-        let query = |index: usize| Query::new(starts[index / columns], goals[index % columns]);
-        let guarantee = self.setup().guarantee();
-        let length = |outcome: Outcome| outcome.path().map_or(f64::INFINITY, |path| guarantee.length(path));
-        let (progress, planners) = (BatchProgress::default(), Planners::new(self.clone()));
-        let add = |chunk: &mut Vec<_>, answer: Result<Outcome, QueryError>| chunk.push(answer.map(length));
-        let chunks = planners.find_in_chunks(starts.len() * columns, query, &progress, add);
-        let values: Result<Vec<f64>, QueryError> = chunks.into_iter().flatten().collect();
-        Ok(Table { goals: columns, values: values? })
+        let planners = Planners::new(self.clone());
+        let count = starts.len() * columns;
+        let chunk = |chunk: usize| {
+            let first = chunk * Planners::CHUNK;
+            planners.with(|planner| {
+                let numbers = first..count.min(first + Planners::CHUNK);
+                let query = |index: usize| Query::new(starts[index / columns], goals[index % columns]);
+                numbers.map(|index| length(planner, query(index), limits)).collect()
+            })
+        };
+        let chunks: Result<Vec<Vec<f64>>, Error> =
+            in_order(count.div_ceil(Planners::CHUNK), chunk).into_iter().collect();
+        Ok(Table { goals: columns, values: chunks?.concat() })
+    }
+}
+
+/// What is done here.
+const DURING: &str = "filling a table";
+
+/// The length of the path of a query, infinite where there is none.
+fn length(planner: &mut Planner, query: Query, limits: &Limits) -> Result<f64, Error> {
+    let interrupt = limits.interrupt();
+    let request = match interrupt.is_never() {
+        true => Request::from(query),
+        false => query.within(limits.clone()),
+    };
+    match planner.find(request)? {
+        Outcome::Stopped(stopped) if matches!(stopped.by, Limit::Cancelled | Limit::Deadline) => {
+            Err(Error::Stopped { by: stopped.by, during: DURING })
+        }
+        outcome => {
+            let guarantee = planner.index().setup().guarantee();
+            Ok(outcome.path().map_or(f64::INFINITY, |path| guarantee.length(path)))
+        }
     }
 }

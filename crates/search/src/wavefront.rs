@@ -23,7 +23,7 @@ mod quadrants;
 
 use std::ops::Deref;
 
-use mediant_grid::{GridGraph, Identity, Placement, Vertex, VertexId};
+use mediant_grid::{GridGraph, Identity, Interrupt, Interrupted, Placement, Vertex, VertexId, uninterrupted};
 use mediant_moves::{Cost, FiniteK};
 
 use self::quadrants::{Back, ends_at, node_at, node_count, passes_gaps, vertex_of};
@@ -98,11 +98,27 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
     /// # Errors
     /// [`QueryError`] when the start is blocked or outside the map.
     pub fn distances(&mut self, start: Vertex) -> Result<Distances<u32>, QueryError> {
-        Query::new(start, start).check(&self.graph)?;
+        uninterrupted(|never| self.distances_interruptible(start, never))
+    }
+
+    /// [`distances`](Self::distances), which an interrupt can stop.
+    ///
+    /// # Errors
+    /// [`Interrupted`]; within, those of [`distances`](Self::distances).
+    pub fn distances_interruptible(
+        &mut self,
+        start: Vertex,
+        interrupt: &Interrupt,
+    ) -> Result<Result<Distances<u32>, QueryError>, Interrupted> {
+        if let Err(error) = Query::new(start, start).check(&self.graph) {
+            return Ok(Err(error));
+        }
         let mut moves = vec![None; node_count(&*self.graph)];
         if let Some(id) = self.graph.id(start) {
             self.begin_at(id, None, &mut ());
-            self.run(&mut ());
+            let mut stops = Stops { interrupt, expansions: 0, stopped: Ok(()) };
+            self.run(&mut stops);
+            stops.stopped?;
             moves[id.index()] = Some(0);
         }
         let Self { graph, nodes, reached, .. } = self;
@@ -123,7 +139,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
         } else {
             end_at_gaps(graph, start, &mut moves, arrived_by, |moves, _| moves + 1);
         }
-        Ok(Distances::new(P::vertices(graph.grid()).0, moves))
+        Ok(Ok(Distances::new(P::vertices(graph.grid()).0, moves)))
     }
 
     /// Makes the start the only vertex that is reached.
@@ -188,6 +204,21 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
             }
         }
         *status = Status::Found;
+    }
+}
+
+/// Pauses where an interrupt stops the search.
+struct Stops<'i> {
+    interrupt: &'i Interrupt,
+    expansions: usize,
+    stopped: Result<(), Interrupted>,
+}
+
+impl Observer for Stops<'_> {
+    fn pauses(&mut self, _: Cost) -> bool {
+        self.stopped = self.interrupt.check_every(64, self.expansions, "counting moves");
+        self.expansions += 1;
+        self.stopped.is_err()
     }
 }
 

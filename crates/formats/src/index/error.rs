@@ -1,6 +1,6 @@
 //! Why an index is refused.
 
-use mediant_grid::Mismatch;
+use mediant_grid::{Interrupted, Mismatch};
 
 use super::layout::{FORMAT_VERSION, NAME_FORM};
 
@@ -28,6 +28,9 @@ pub enum IndexError {
         /// The number of bytes.
         found: u64,
     },
+    /// Reading was stopped.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
     /// The checksum is wrong: the bytes are not those that were saved.
     #[error(
         "expected the checksum that was saved with the index, found another: the file is damaged; copy it \

@@ -2,6 +2,7 @@
 
 use std::{fmt, path::Path};
 
+use mediant_grid::Interrupt;
 use sha2::{Digest, Sha256};
 
 use super::{
@@ -84,8 +85,16 @@ impl IndexFile {
     ///
     /// # Errors
     /// [`IndexError`] for bytes that are not an index of this format version, are cut short, or are damaged.
-    pub fn from_bytes(mut bytes: Vec<u8>) -> Result<Self, IndexError> {
-        let (key, payload) = header::decode(&bytes)?;
+    pub fn from_bytes(bytes: Vec<u8>) -> Result<Self, IndexError> {
+        Self::from_bytes_interruptible(bytes, &Interrupt::NEVER)
+    }
+
+    /// [`from_bytes`](Self::from_bytes), which an interrupt can stop; it asks for each mebibyte.
+    ///
+    /// # Errors
+    /// Those of [`from_bytes`](Self::from_bytes), and [`IndexError::Interrupted`].
+    pub fn from_bytes_interruptible(mut bytes: Vec<u8>, interrupt: &Interrupt) -> Result<Self, IndexError> {
+        let (key, payload) = header::decode(&bytes, interrupt)?;
         bytes.truncate(payload.end);
         bytes.drain(..payload.start);
         Ok(Self { key, payload: bytes })
@@ -108,8 +117,17 @@ impl IndexFile {
     /// # Errors
     /// [`ReadError`] for a file that is missing, cannot be read, or is no whole index.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
+        Self::read_interruptible(path, &Interrupt::NEVER)
+    }
+
+    /// [`read`](Self::read), which an interrupt can stop.
+    ///
+    /// # Errors
+    /// Those of [`read`](Self::read); [`IndexError::Interrupted`] as a [`ReadError::Index`].
+    pub fn read_interruptible(path: impl AsRef<Path>, interrupt: &Interrupt) -> Result<Self, ReadError> {
         let path = path.as_ref();
-        Self::from_bytes(read_regular(path)?)
+        let bytes = read_regular(path)?;
+        Self::from_bytes_interruptible(bytes, interrupt)
             .map_err(|source| ReadError::Index { path: path.to_owned(), source: source.into() })
     }
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use mediant_grid::Identity;
+use mediant_grid::{Identity, Interrupt};
 use sha2::{Digest, Sha256};
 
 use super::{
@@ -29,7 +29,7 @@ pub(super) fn encode(key: &IndexKey, payload: usize) -> Vec<u8> {
 }
 
 /// The key in the header, and where the payload is. Checks length and checksum of the whole file.
-pub(super) fn decode(bytes: &[u8]) -> Result<(IndexKey, Range<usize>), IndexError> {
+pub(super) fn decode(bytes: &[u8], interrupt: &Interrupt) -> Result<(IndexKey, Range<usize>), IndexError> {
     let found = bytes.len() as u64;
     let shortest = (HEADER_BYTES + DIGEST_BYTES) as u64;
     let mut fields = Fields(bytes);
@@ -46,7 +46,12 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(IndexKey, Range<usize>), IndexErro
         return Err(IndexError::Length { expected, found });
     }
     let (content, digest) = bytes.split_at(bytes.len() - DIGEST_BYTES);
-    if Sha256::digest(content).as_slice() != digest {
+    let mut found = Sha256::new();
+    for piece in content.chunks(1 << 20) {
+        interrupt.check("checking the file of an index")?;
+        found.update(piece);
+    }
+    if found.finalize().as_slice() != digest {
         return Err(IndexError::Damaged);
     }
     Ok((header.key()?, HEADER_BYTES..content.len()))

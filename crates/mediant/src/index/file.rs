@@ -5,14 +5,14 @@ use std::path::Path as FilePath;
 
 use mediant_formats::{IndexError, IndexFile, IndexKey};
 
-use mediant_grid::{Corners, Identity};
+use mediant_grid::{Corners, Identity, Interrupt};
 use mediant_moves::K;
 use mediant_subgoal::PreparedSubgoals;
 
 use super::{Index, source::Source};
 use crate::{
     configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion,
-    setup_error::SetupError, space::Space,
+    setup_error::SetupError, space::Space, within::NEVER,
 };
 
 impl Index {
@@ -52,8 +52,12 @@ impl Map {
     /// # Errors
     /// Those of [`Space::load`].
     pub fn load(&self, path: impl AsRef<FilePath>) -> Result<Index, Error> {
-        let path = path.as_ref();
-        self.index(&IndexFile::read(path)?).map_err(|error| error.in_file(path))
+        self.load_index(path.as_ref(), &NEVER)
+    }
+
+    pub(crate) fn load_index(&self, path: &FilePath, interrupt: &Interrupt) -> Result<Index, Error> {
+        let file = IndexFile::read_interruptible(path, interrupt)?;
+        self.index(&file, interrupt).map_err(|error| error.in_file(path))
     }
 
     /// The index that [`Index::to_bytes`] wrote for the same map, as [`load`](Self::load) reads it from a
@@ -62,13 +66,18 @@ impl Map {
     /// # Errors
     /// Those of [`Space::index_from_bytes`].
     pub fn index_from_bytes(&self, bytes: Vec<u8>) -> Result<Index, Error> {
-        self.index(&IndexFile::from_bytes(bytes)?)
+        self.read_index(bytes, &NEVER)
     }
 
-    fn index(&self, file: &IndexFile) -> Result<Index, Error> {
+    pub(crate) fn read_index(&self, bytes: Vec<u8>, interrupt: &Interrupt) -> Result<Index, Error> {
+        self.index(&IndexFile::from_bytes_interruptible(bytes, interrupt)?, interrupt)
+    }
+
+    fn index(&self, file: &IndexFile, interrupt: &Interrupt) -> Result<Index, Error> {
         let Identity { rules, k, .. } = file.key().identity();
         // No engine saves an index for every k: whichever k is taken, the space refuses such a file.
-        self.space(Motion { k: k.unwrap_or(K::N8), rules })?.index(file, None)
+        let motion = Motion { k: k.unwrap_or(K::N8), rules };
+        Space::new(self, motion, interrupt)?.index(file, None, interrupt)
     }
 }
 
@@ -80,8 +89,17 @@ impl Space {
     /// [`Error::Read`] for a file that is missing, cannot be read, or is no whole index; [`Error::InFile`]
     /// with an [`Error::Mismatch`] for an index of another map, rule or k, or with what else is wrong.
     pub fn load(&self, path: impl AsRef<FilePath>) -> Result<Index, Error> {
-        let path = path.as_ref();
-        self.index(&IndexFile::read(path)?, None).map_err(|error| error.in_file(path))
+        self.load_index(path.as_ref(), None, &NEVER)
+    }
+
+    pub(crate) fn load_index(
+        &self,
+        path: &FilePath,
+        engine: Option<ConfiguredEngine>,
+        interrupt: &Interrupt,
+    ) -> Result<Index, Error> {
+        let file = IndexFile::read_interruptible(path, interrupt)?;
+        self.index(&file, engine, interrupt).map_err(|error| error.in_file(path))
     }
 
     /// [`load`](Self::load) for an engine with options.
@@ -93,8 +111,7 @@ impl Space {
         engine: impl Into<ConfiguredEngine>,
         path: impl AsRef<FilePath>,
     ) -> Result<Index, Error> {
-        let path = path.as_ref();
-        self.index(&IndexFile::read(path)?, Some(engine.into())).map_err(|error| error.in_file(path))
+        self.load_index(path.as_ref(), Some(engine.into()), &NEVER)
     }
 
     /// The index that [`Index::to_bytes`] wrote for the same map, rules and k, as [`load`](Self::load) reads
@@ -104,11 +121,20 @@ impl Space {
     /// [`Error::IndexFile`] for bytes that are no whole index, or one of another version; [`Error::Mismatch`]
     /// for an index of another map, rule or k; the engine's error for bytes that another program wrote.
     pub fn index_from_bytes(&self, bytes: Vec<u8>) -> Result<Index, Error> {
-        self.index(&IndexFile::from_bytes(bytes)?, None)
+        self.read_index(bytes, &NEVER)
+    }
+
+    pub(crate) fn read_index(&self, bytes: Vec<u8>, interrupt: &Interrupt) -> Result<Index, Error> {
+        self.index(&IndexFile::from_bytes_interruptible(bytes, interrupt)?, None, interrupt)
     }
 
     /// The index of a file, for an engine with options, or the file's engine with none.
-    fn index(&self, file: &IndexFile, engine: Option<ConfiguredEngine>) -> Result<Index, Error> {
+    fn index(
+        &self,
+        file: &IndexFile,
+        engine: Option<ConfiguredEngine>,
+        interrupt: &Interrupt,
+    ) -> Result<Index, Error> {
         let engine = match engine {
             Some(engine) => engine,
             None => {
@@ -119,7 +145,8 @@ impl Space {
             }
         };
         file.check(&key(engine.kind(), self)?)?;
-        Index::from_source(self, engine, Source { bytes: Some(file.payload()), ..Source::new(&|_| {}) })
+        let source = Source { bytes: Some(file.payload()), interrupt, ..Source::new(&|_| {}) };
+        Index::from_source(self, engine, source)
     }
 }
 

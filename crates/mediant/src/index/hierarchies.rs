@@ -19,7 +19,7 @@ pub(super) fn clusters(
     source: Source<'_>,
 ) -> Result<Arc<ClusterGraph>, Error> {
     if let Some(bytes) = source.bytes {
-        return Ok(Arc::new(ClusterGraph::from_bytes(graph, bytes)?));
+        return Ok(Arc::new(ClusterGraph::from_bytes_interruptible(graph, bytes, source.interrupt)?));
     }
     let default = Clustering::default();
     let levels = match engine.levels() {
@@ -27,7 +27,7 @@ pub(super) fn clusters(
         _ => default.levels,
     };
     let side = engine.side().map_or(default.side, NonZeroU32::get);
-    Ok(Arc::new(ClusterGraph::new(graph, Clustering { side, levels })?))
+    Ok(Arc::new(ClusterGraph::interruptible(graph, Clustering { side, levels }, source.interrupt)?))
 }
 
 /// The segments of CHPA* with these options.
@@ -38,7 +38,7 @@ pub(super) fn segments(
 ) -> Result<Arc<SegmentGraph>, Error> {
     let Some(bytes) = source.bytes else {
         let side = own.side.map_or(SegmentGraph::PAPER_SIDE, NonZeroU32::get);
-        return Ok(Arc::new(SegmentGraph::new(graph, side)?));
+        return Ok(Arc::new(SegmentGraph::interruptible(graph, side, source.interrupt)?));
     };
     Ok(Arc::new(SegmentGraph::from_bytes(graph, bytes)?))
 }

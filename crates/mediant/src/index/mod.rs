@@ -10,13 +10,13 @@ mod subgoals;
 
 use std::{num::NonZeroU32, sync::Arc};
 
-use mediant_grid::{Corners, FreeSpace, GridGraph, Identity};
+use mediant_grid::{Corners, FreeSpace, GridGraph, Identity, Interrupt};
 use mediant_moves::K;
 use mediant_search::{DeadEnds, JumpTable, Smoothing, parts::BlockFinder};
 use mediant_subgoal::{Progress, SubgoalPlacement};
 
 pub(crate) use self::parts::{InFreeSpace, OnGridGraph, Prepared};
-use self::source::Source;
+pub(crate) use self::source::Source;
 use crate::{
     configured::ConfiguredEngine,
     engine::Engine,
@@ -31,6 +31,7 @@ use crate::{
     setup_error::SetupError,
     shared_rules::{self, Shared},
     space::{Layers, Placed, Space},
+    within::NEVER,
 };
 
 /// What an engine prepares in a space before the first query: nothing, a pruning rule, a jump table, dead
@@ -127,7 +128,11 @@ impl Index {
     }
 
     /// Prepares a new index, or reads a saved one.
-    fn from_source(space: &Space, engine: ConfiguredEngine, source: Source<'_>) -> Result<Self, Error> {
+    pub(crate) fn from_source(
+        space: &Space,
+        engine: ConfiguredEngine,
+        source: Source<'_>,
+    ) -> Result<Self, Error> {
         let Motion { k, rules } = space.motion();
         let setup = Setup::new(engine, k, rules);
         setup.check()?;
@@ -166,13 +171,17 @@ impl Index {
     /// # Errors
     /// Those of [`Map::space`](crate::Map::space) and [`Space::prepare`].
     pub fn for_k(&self, k: K) -> Result<Self, Error> {
-        let space = self.space.map().space(Motion { k, ..self.space.motion() })?;
-        let source = Source { beside: Some(&self.prepared), ..self.source() };
+        self.prepared_for_k(k, &NEVER)
+    }
+
+    pub(crate) fn prepared_for_k(&self, k: K, interrupt: &Interrupt) -> Result<Self, Error> {
+        let space = Space::new(self.space.map(), Motion { k, ..self.space.motion() }, interrupt)?;
+        let source = Source { beside: Some(&self.prepared), interrupt, ..self.source() };
         Ok(Self::from_source(&space, self.setup.engine, source)?.with_smoothing(self.setup.smoothing))
     }
 
     /// To prepare another index as this one was.
-    const fn source(&self) -> Source<'static> {
+    fn source(&self) -> Source<'static> {
         Source { for_one_path: self.prepared.is_for_one_path(), ..Source::new(&|_| {}) }
     }
 
@@ -286,7 +295,7 @@ fn prepared(setup: Setup, space: &Space, source: Source<'_>) -> Result<Option<Pr
                 let parts = match source.beside.and_then(Prepared::dead_ends) {
                     Some(dead_ends) => InFreeSpace::DeadEnds(Arc::clone(dead_ends)),
                     None if source.for_one_path => InFreeSpace::Nothing,
-                    None => dead_ends(&layers.free)?,
+                    None => dead_ends(&layers.free, source.interrupt)?,
                 };
                 Prepared::FreeCorners(Arc::clone(&layers.free), parts)
             }
@@ -304,9 +313,9 @@ fn prepared(setup: Setup, space: &Space, source: Source<'_>) -> Result<Option<Pr
 }
 
 /// The dead ends of a map, which Anya leaves out.
-fn dead_ends(space: &FreeSpace<Corners>) -> Result<InFreeSpace<Corners>, Error> {
+fn dead_ends(space: &FreeSpace<Corners>, interrupt: &Interrupt) -> Result<InFreeSpace<Corners>, Error> {
     scratch::check("the index", DeadEnds::bytes(space) as u64)?;
-    Ok(InFreeSpace::DeadEnds(Arc::new(DeadEnds::new(space))))
+    Ok(InFreeSpace::DeadEnds(Arc::new(DeadEnds::interruptible(space, interrupt)?)))
 }
 
 /// The grid graph, and what an engine prepares of it, if it takes either placement.
@@ -316,7 +325,7 @@ fn on_grid_graph<P: SubgoalPlacement + Shared>(
     source: Source<'_>,
 ) -> Result<(Arc<GridGraph<P>>, OnGridGraph<P>), Error> {
     let graph = layers.graph(setup.finite_k()?)?;
-    let pruning = || shared_rules::pruning(graph);
+    let pruning = || shared_rules::pruning(graph, source.interrupt);
     let parts = match setup.engine {
         ConfiguredEngine::AStar(_)
         | ConfiguredEngine::Dijkstra
@@ -328,14 +337,14 @@ fn on_grid_graph<P: SubgoalPlacement + Shared>(
         ConfiguredEngine::JpsBlock(_) => {
             let pruning = pruning()?;
             scratch::check("the index", BlockFinder::bytes(graph) as u64)?;
-            let blocks = BlockFinder::new(graph, &pruning)?;
+            let blocks = BlockFinder::interruptible(graph, &pruning, source.interrupt)?;
             OnGridGraph::Blocks(pruning, blocks)
         }
         ConfiguredEngine::JpsPlus(_) => {
             scratch::check("the index", JumpTable::bytes(graph) as u64)?;
             let table = match source.bytes {
-                None => JumpTable::new(graph)?,
-                Some(bytes) => JumpTable::from_bytes(graph, bytes)?,
+                None => JumpTable::interruptible(graph, source.interrupt)?,
+                Some(bytes) => JumpTable::from_bytes_interruptible(graph, bytes, source.interrupt)?,
             };
             OnGridGraph::Table(pruning()?, Arc::new(table))
         }

@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Centers, GridGraph, Mismatch, Rectangle};
+use mediant_grid::{Centers, GridGraph, Interrupt, Mismatch, Rectangle};
 
-use super::{Index, OnGridGraph, Origin, Prepared};
+use super::{Index, OnGridGraph, Origin, Prepared, Source};
 use crate::{
     error::Error,
     space::{Placed, Space},
+    within::NEVER,
 };
 
 impl Index {
@@ -31,6 +32,10 @@ impl Index {
     /// # Errors
     /// [`Error::Mismatch`] for a space of other rules or another k; those of [`Space::prepare`].
     pub fn repair(&self, changed: &Space) -> Result<Self, Error> {
+        self.repaired(changed, &NEVER)
+    }
+
+    pub(crate) fn repaired(&self, changed: &Space, interrupt: &Interrupt) -> Result<Self, Error> {
         let (belongs_to, found) = (self.identity(), changed.identity());
         if self.space.motion() != changed.motion() {
             let (prepared, other, other_belongs_to) = ("the index", "the changed space", found);
@@ -41,12 +46,13 @@ impl Index {
         }
         let repaired = match (&self.prepared, changed.placed(), self.changed_cells(changed)) {
             (Prepared::Centers(graph, parts), Placed::Centers(layers), Some(at)) => {
-                parts.repaired(graph, layers.graph(graph.k())?, at)?
+                parts.repaired(graph, layers.graph(graph.k())?, at, interrupt)?
             }
             _ => None,
         };
         let Some(prepared) = repaired else {
-            let prepared = Self::from_source(changed, self.setup.engine, self.source())?;
+            let source = Source { interrupt, ..self.source() };
+            let prepared = Self::from_source(changed, self.setup.engine, source)?;
             return Ok(Self { setup: self.setup, ..prepared });
         };
         Ok(Self { space: changed.clone(), origin: Origin::Repaired, prepared, ..self.clone() })
@@ -66,18 +72,12 @@ impl OnGridGraph<Centers> {
         before: &Arc<GridGraph<Centers>>,
         after: &Arc<GridGraph<Centers>>,
         at: Rectangle,
+        interrupt: &Interrupt,
     ) -> Result<Option<Prepared>, Error> {
+        let (old, new) = (before.grid(), after.grid());
         let parts = match self {
-            Self::Clusters(graph) => {
-                let mut graph = graph.as_ref().clone();
-                graph.repair(before.grid(), after.grid(), at)?;
-                Self::Clusters(Arc::new(graph))
-            }
-            Self::Segments(graph) => {
-                let mut graph = graph.as_ref().clone();
-                graph.repair(before.grid(), after.grid(), at)?;
-                Self::Segments(Arc::new(graph))
-            }
+            Self::Clusters(graph) => Self::Clusters(Arc::new(graph.repaired(old, new, at, interrupt)?)),
+            Self::Segments(graph) => Self::Segments(Arc::new(graph.repaired(old, new, at, interrupt)?)),
             Self::Nothing | Self::Pruning(_) | Self::Blocks(..) | Self::Table(..) => return Ok(None),
         };
         Ok(Some(Prepared::Centers(Arc::clone(after), parts)))

@@ -1,25 +1,29 @@
 //! How an index is made: anew, beside one for another k, or from its bytes.
 
+use mediant_grid::Interrupt;
 use mediant_subgoal::Progress;
 
 use super::parts::Prepared;
+use crate::within::NEVER;
 
 /// What an index is made from, besides the setup and the space.
 #[derive(Clone, Copy)]
-pub(super) struct Source<'a> {
+pub(crate) struct Source<'a> {
     /// The bytes of a saved index; `None` to prepare a new one.
-    pub(super) bytes: Option<&'a [u8]>,
+    pub(crate) bytes: Option<&'a [u8]>,
     /// What is prepared for another k of the same map and rules, to share what does not depend on k.
-    pub(super) beside: Option<&'a Prepared>,
+    pub(crate) beside: Option<&'a Prepared>,
     /// Whether it is for a single path: what takes longer than it saves one is left out.
-    pub(super) for_one_path: bool,
+    pub(crate) for_one_path: bool,
     /// Hears how far the preparation is, on any thread.
-    pub(super) progress: &'a (dyn Fn(Progress) + Sync),
+    pub(crate) progress: &'a (dyn Fn(Progress) + Sync),
+    /// What may stop it.
+    pub(crate) interrupt: &'a Interrupt,
 }
 
 impl<'a> Source<'a> {
     /// To prepare a new index, beside no other.
-    pub(super) const fn new(progress: &'a (dyn Fn(Progress) + Sync)) -> Self {
-        Self { bytes: None, beside: None, for_one_path: false, progress }
+    pub(crate) fn new(progress: &'a (dyn Fn(Progress) + Sync)) -> Self {
+        Self { bytes: None, beside: None, for_one_path: false, progress, interrupt: &NEVER }
     }
 }

@@ -4,9 +4,10 @@ mod steps;
 
 use std::fmt;
 
-use mediant_grid::Identity;
+use mediant_grid::{Identity, Interrupt, Interrupted};
 use mediant_search::{
-    Counters, Guarantee, Observer, Outcome, Planner as _, Query, QueryError, Request, Search, parts::Metric,
+    Counters, Guarantee, Observer, Outcome, Planner as _, Query, QueryError, Request, Search,
+    parts::{Metric, count_work},
 };
 
 use crate::{
@@ -202,6 +203,16 @@ impl Planner {
         let mut counters = Counters::default();
         let answer = self.find_observed(request, &mut counters)?;
         Ok((answer, counters))
+    }
+
+    /// The work of a plain query; `None` if it cannot be answered.
+    pub(crate) fn count_work(
+        &mut self,
+        query: Query,
+        interrupt: &Interrupt,
+    ) -> Result<Option<Counters>, Interrupted> {
+        self.begun = None;
+        Ok(count_work(&mut Dynamic(&mut *self.search), query, interrupt)?.ok())
     }
 
     /// Smooths the path, if the planner smooths its paths.

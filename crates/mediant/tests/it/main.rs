@@ -8,6 +8,7 @@ mod field;
 mod goals;
 mod hierarchies;
 mod identity;
+mod interrupts;
 mod labels;
 mod mistakes;
 mod odd_input;

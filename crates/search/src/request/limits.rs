@@ -5,7 +5,7 @@ use std::{
     sync::{Arc, atomic::AtomicBool},
 };
 
-use mediant_grid::{Interrupt, StoppedBy};
+use mediant_grid::{Interrupt, StoppedBy, Vertex};
 use mediant_moves::Cost;
 
 use crate::{limit::greatest_cost, path::Path, query::QueryError};
@@ -81,6 +81,14 @@ pub struct Stopped {
     /// [`Cost`]. (Of a path that was found, [`Guarantee::lower_bound`](crate::Guarantee::lower_bound) tells
     /// another bound: on all paths at any angle between its ends.)
     pub lower_bound: f64,
+}
+
+impl Stopped {
+    /// The answer where nothing was searched: what comes before the search was stopped. 0 is the lower bound.
+    #[must_use]
+    pub fn before_search(by: Limit, start: Vertex) -> Self {
+        Self { by, best: Path::new(vec![start]), lower_bound: 0.0 }
+    }
 }
 
 impl Limits {

@@ -132,6 +132,12 @@ impl Request {
         self
     }
 
+    /// The limits of the search.
+    #[must_use]
+    pub fn limits(&self) -> Limits {
+        self.wishes.as_ref().map_or_else(Limits::new, |wishes| wishes.limits.clone())
+    }
+
     /// The starts.
     #[must_use]
     pub fn starts(&self) -> &[Vertex] {

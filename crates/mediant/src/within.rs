@@ -1,0 +1,299 @@
+//! Work that a flag or a deadline can stop.
+
+use std::path::Path as FilePath;
+
+use mediant_grid::{Clearance, Fit, Interrupt, Outside, Vertex};
+use mediant_moves::K;
+use mediant_search::{Limits, Path, Query};
+use mediant_subgoal::Progress;
+
+use crate::{
+    agent::WidestPath,
+    configured::ConfiguredEngine,
+    engine::Engine,
+    error::Error,
+    field::Field,
+    goals::Goals,
+    index::{Index, Source},
+    map::Map,
+    motion::Motion,
+    planner::Planner,
+    space::Space,
+    table::Table,
+};
+
+/// What nothing stops.
+pub(crate) static NEVER: Interrupt = Interrupt::NEVER;
+
+/// A map, space or index whose work stops at a deadline or by a flag: each call that can take long is also a
+/// call of this one, with the same result. What was stopped returns [`Error::Stopped`] soon, keeps no memory
+/// and leaves no thread at work. What was made knows nothing of the limits.
+///
+/// The deadline and the flag of the [`Limits`] count; those on cost and expansions are of searches.
+///
+/// ```
+/// use std::{sync::{Arc, atomic::{AtomicBool, Ordering}}, time::{Duration, Instant}};
+/// use mediant::{Engine, ErrorCode, K, Limits, Map, Motion};
+///
+/// let (begin, cancelled) = (Instant::now(), Arc::new(AtomicBool::new(false)));
+/// let limits = Limits::new()
+///     .deadline(move || begin.elapsed() > Duration::from_secs(60))
+///     .cancel(Arc::clone(&cancelled));
+/// let map = Map::from_fn(40, 30, |x, _| x == 20)?;
+/// let space = map.within(&limits).space(Motion::corners(K::ANY))?;
+/// let index = space.within(&limits).prepare(Engine::Subgoal)?;
+/// // What another thread would do.
+/// cancelled.store(true, Ordering::Relaxed);
+/// let stopped = space.within(&limits).prepare(Engine::Subgoal).unwrap_err();
+/// assert_eq!(stopped.code(), ErrorCode::Cancelled);
+/// # Ok::<(), mediant::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Within<'a, T> {
+    of: &'a T,
+    limits: &'a Limits,
+}
+
+impl Map {
+    /// This map, for work that stops at a deadline or by a flag.
+    #[must_use]
+    pub const fn within<'a>(&'a self, limits: &'a Limits) -> Within<'a, Self> {
+        Within { of: self, limits }
+    }
+}
+
+impl Space {
+    /// This space, for work that stops at a deadline or by a flag.
+    #[must_use]
+    pub const fn within<'a>(&'a self, limits: &'a Limits) -> Within<'a, Self> {
+        Within { of: self, limits }
+    }
+}
+
+impl Index {
+    /// This index, for work that stops at a deadline or by a flag.
+    #[must_use]
+    pub const fn within<'a>(&'a self, limits: &'a Limits) -> Within<'a, Self> {
+        Within { of: self, limits }
+    }
+}
+
+impl Within<'_, Map> {
+    /// [`Map::space`].
+    ///
+    /// # Errors
+    /// Those of [`Map::space`], and [`Error::Stopped`].
+    pub fn space(&self, motion: Motion) -> Result<Space, Error> {
+        Space::new(self.of, motion, self.limits.interrupt())
+    }
+
+    /// [`Map::path`].
+    ///
+    /// # Errors
+    /// Those of [`Map::path`], and [`Error::Stopped`].
+    pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
+        self.space(Motion::centers(K::N8))?.within(self.limits).path(start, goal)
+    }
+
+    /// [`Map::clearance`].
+    ///
+    /// # Errors
+    /// [`Error::Stopped`].
+    pub fn clearance(&self, fit: Fit, outside: Outside) -> Result<Clearance, Error> {
+        let grid = self.of.grid().clone();
+        Ok(Clearance::interruptible(grid, fit, outside, self.limits.interrupt())?)
+    }
+
+    /// [`Map::for_disc`].
+    ///
+    /// # Errors
+    /// Those of [`Map::for_disc`], and [`Error::Stopped`].
+    pub fn for_disc(&self, radius: f64, motion: Motion) -> Result<Map, Error> {
+        let clearance = self.clearance(Fit::exact(motion.rules, motion.k), Outside::Blocked)?;
+        Ok(clearance.for_disc_interruptible(radius, self.limits.interrupt())?.into())
+    }
+
+    /// [`Map::for_square`].
+    ///
+    /// # Errors
+    /// Those of [`Map::for_square`], and [`Error::Stopped`].
+    pub fn for_square(&self, n: u32) -> Result<Map, Error> {
+        Ok(self.of.grid().for_square_interruptible(n, self.limits.interrupt())?.into())
+    }
+
+    /// [`Map::load`].
+    ///
+    /// # Errors
+    /// Those of [`Map::load`], and [`Error::Stopped`].
+    pub fn load(&self, path: impl AsRef<FilePath>) -> Result<Index, Error> {
+        self.of.load_index(path.as_ref(), self.limits.interrupt())
+    }
+
+    /// [`Map::index_from_bytes`].
+    ///
+    /// # Errors
+    /// Those of [`Map::index_from_bytes`], and [`Error::Stopped`].
+    pub fn index_from_bytes(&self, bytes: Vec<u8>) -> Result<Index, Error> {
+        self.of.read_index(bytes, self.limits.interrupt())
+    }
+}
+
+impl Within<'_, Space> {
+    /// [`Space::prepare`].
+    ///
+    /// # Errors
+    /// Those of [`Space::prepare`], and [`Error::Stopped`].
+    pub fn prepare(&self, engine: impl Into<ConfiguredEngine>) -> Result<Index, Error> {
+        self.prepare_with_progress(engine, &|_| {})
+    }
+
+    /// [`Space::prepare_with_progress`].
+    ///
+    /// # Errors
+    /// Those of [`Space::prepare_with_progress`], and [`Error::Stopped`].
+    pub fn prepare_with_progress(
+        &self,
+        engine: impl Into<ConfiguredEngine>,
+        progress: &(dyn Fn(Progress) + Sync),
+    ) -> Result<Index, Error> {
+        let source = Source { interrupt: self.limits.interrupt(), ..Source::new(progress) };
+        Index::from_source(self.of, engine.into(), source)
+    }
+
+    /// [`Space::prepare_for_one_path`].
+    ///
+    /// # Errors
+    /// Those of [`Space::prepare_for_one_path`], and [`Error::Stopped`].
+    pub fn prepare_for_one_path(&self, engine: impl Into<ConfiguredEngine>) -> Result<Index, Error> {
+        let interrupt = self.limits.interrupt();
+        let source = Source { for_one_path: true, interrupt, ..Source::new(&|_| {}) };
+        Index::from_source(self.of, engine.into(), source)
+    }
+
+    /// [`Space::planner`].
+    ///
+    /// # Errors
+    /// Those of [`Space::planner`], and [`Error::Stopped`].
+    pub fn planner(&self, engine: impl Into<ConfiguredEngine>) -> Result<Planner, Error> {
+        self.prepare(engine)?.try_planner()
+    }
+
+    /// [`Space::path`].
+    ///
+    /// # Errors
+    /// Those of [`Space::path`], and [`Error::Stopped`].
+    pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
+        self.of.path_of(Query::new(start, goal), self.limits)
+    }
+
+    /// [`Space::field`].
+    ///
+    /// # Errors
+    /// Those of [`Space::field`], and [`Error::Stopped`].
+    pub fn field<V: Into<Vertex>>(&self, sources: impl IntoIterator<Item = V>) -> Result<Field, Error> {
+        self.field_within(sources, f64::INFINITY)
+    }
+
+    /// [`Space::field_within`].
+    ///
+    /// # Errors
+    /// Those of [`Space::field_within`], and [`Error::Stopped`].
+    pub fn field_within<V: Into<Vertex>>(
+        &self,
+        sources: impl IntoIterator<Item = V>,
+        limit: f64,
+    ) -> Result<Field, Error> {
+        let sources: Vec<Vertex> = sources.into_iter().map(Into::into).collect();
+        self.of.field_of(&sources, limit, self.limits.interrupt())
+    }
+
+    /// [`Space::distances`].
+    ///
+    /// # Errors
+    /// Those of [`Space::distances`], and [`Error::Stopped`].
+    pub fn distances(&self, engine: Engine, start: impl Into<Vertex>) -> Result<Vec<(Vertex, f64)>, Error> {
+        self.of.distances_of(engine, start.into(), self.limits.interrupt())
+    }
+
+    /// [`Space::widest_path`].
+    ///
+    /// # Errors
+    /// Those of [`Space::widest_path`], and [`Error::Stopped`].
+    pub fn widest_path(
+        &self,
+        start: impl Into<Vertex>,
+        goal: impl Into<Vertex>,
+        surplus: f64,
+    ) -> Result<Option<WidestPath>, Error> {
+        self.of.widest_path_of([start.into(), goal.into()], surplus, self.limits)
+    }
+
+    /// [`Space::load`].
+    ///
+    /// # Errors
+    /// Those of [`Space::load`], and [`Error::Stopped`].
+    pub fn load(&self, path: impl AsRef<FilePath>) -> Result<Index, Error> {
+        self.of.load_index(path.as_ref(), None, self.limits.interrupt())
+    }
+
+    /// [`Space::load_for`].
+    ///
+    /// # Errors
+    /// Those of [`Space::load_for`], and [`Error::Stopped`].
+    pub fn load_for(
+        &self,
+        engine: impl Into<ConfiguredEngine>,
+        path: impl AsRef<FilePath>,
+    ) -> Result<Index, Error> {
+        self.of.load_index(path.as_ref(), Some(engine.into()), self.limits.interrupt())
+    }
+
+    /// [`Space::index_from_bytes`].
+    ///
+    /// # Errors
+    /// Those of [`Space::index_from_bytes`], and [`Error::Stopped`].
+    pub fn index_from_bytes(&self, bytes: Vec<u8>) -> Result<Index, Error> {
+        self.of.read_index(bytes, self.limits.interrupt())
+    }
+}
+
+impl Within<'_, Index> {
+    /// [`Index::repair`]; the index stays as it is.
+    ///
+    /// # Errors
+    /// Those of [`Index::repair`], and [`Error::Stopped`].
+    pub fn repair(&self, changed: &Space) -> Result<Index, Error> {
+        self.of.repaired(changed, self.limits.interrupt())
+    }
+
+    /// [`Index::for_k`].
+    ///
+    /// # Errors
+    /// Those of [`Index::for_k`], and [`Error::Stopped`].
+    pub fn for_k(&self, k: K) -> Result<Index, Error> {
+        self.of.prepared_for_k(k, self.limits.interrupt())
+    }
+
+    /// [`Index::goals`].
+    ///
+    /// # Errors
+    /// Those of [`Index::goals`], and [`Error::Stopped`].
+    pub fn goals<G: Into<Vertex>>(&self, goals: impl IntoIterator<Item = G>) -> Result<Goals, Error> {
+        self.limits.interrupt().check("preparing goals")?;
+        self.of.goals(goals)
+    }
+
+    /// [`Index::table`].
+    ///
+    /// # Errors
+    /// Those of [`Index::table`], and [`Error::Stopped`].
+    pub fn table<S: Into<Vertex>, G: Into<Vertex>>(
+        &self,
+        starts: impl IntoIterator<Item = S>,
+        goals: impl IntoIterator<Item = G>,
+    ) -> Result<Table, Error> {
+        let starts: Vec<Vertex> = starts.into_iter().map(Into::into).collect();
+        let goals: Vec<Vertex> = goals.into_iter().map(Into::into).collect();
+        self.of.table_of(&starts, &goals, self.limits)
+    }
+}

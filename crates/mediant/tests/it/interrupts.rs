@@ -1,0 +1,161 @@
+//! What takes long can be stopped anywhere, by the same call as everything else.
+
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, AtomicUsize, Ordering},
+};
+
+use mediant::{
+    Engine, Error, ErrorCode, Exceptions, Fit, K, Limit, Limits, Map, Motion, Outside, Planner, Query,
+    Rectangle, Space,
+};
+
+const SIDE: u32 = 100;
+
+fn map() -> Map {
+    Map::from_fn(SIDE, SIDE, |x, y| x % 7 == 3 && y % 5 != 2).expect("a map")
+}
+
+/// A motion that an engine takes.
+fn space(engine: Engine) -> Space {
+    let motions = [Motion::centers(K::N8), Motion::corners(K::ANY), Motion::corners(K::N8)];
+    let mut spaces = motions.into_iter().map(|motion| map().space(motion).expect("a space"));
+    spaces.find(|space| space.make_ready(engine).is_ok()).expect("a motion that it takes")
+}
+
+/// Limits whose deadline is over from the question with this number on, and the number of questions.
+fn counting(last: usize) -> (Limits, Arc<AtomicUsize>) {
+    let asked = Arc::new(AtomicUsize::new(0));
+    let counter = Arc::clone(&asked);
+    (Limits::new().deadline(move || counter.fetch_add(1, Ordering::Relaxed) >= last), asked)
+}
+
+/// Checks that a call ends with [`Error::Stopped`] at the first question, at 1, 10, 50 and 90 % of them and at
+/// the last, and asks no more.
+fn check<T>(name: &str, work: impl Fn(&Limits) -> Result<T, Error>) {
+    let (limits, asked) = counting(usize::MAX);
+    if let Err(error) = work(&limits) {
+        panic!("{name}: {error}");
+    }
+    let all = asked.load(Ordering::Relaxed);
+    assert!(all > 0, "{name} asks nothing");
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    for last in [0, all / 100, all / 10, all / 2, all / 10 * 9, all - 1] {
+        let (limits, asked) = counting(last);
+        let Err(error) = work(&limits) else { panic!("{name} goes on after question {last} of {all}") };
+        assert_eq!(error.code(), ErrorCode::Deadline, "{name}: {error}");
+        assert!(error.to_string().starts_with("the deadline passed while "), "{name}: {error}");
+        let more = asked.load(Ordering::Relaxed) - last;
+        assert!(more <= threads + 1, "{name} asks {more} times more after question {last} of {all}");
+    }
+    let limits = Limits::new().cancel(Arc::new(AtomicBool::new(true)));
+    let cancelled = work(&limits).err().unwrap_or_else(|| panic!("{name} goes on"));
+    assert!(matches!(cancelled, Error::Stopped { by: Limit::Cancelled, .. }), "{name}: {cancelled}");
+}
+
+#[test]
+fn maps_and_spaces_stop() {
+    let map = map();
+    let motion = Motion::centers(K::N8);
+    check("a space", |limits| map.within(limits).space(motion));
+    check("a disc", |limits| map.within(limits).for_disc(1.5, motion));
+    check("a square", |limits| map.within(limits).for_square(2));
+    check("a clearance", |limits| map.within(limits).clearance(Fit::Centers, Outside::Open));
+    check("a path", |limits| map.within(limits).path((0, 0), (99, 99)));
+}
+
+/// The engines that prepare something of a map of this kind.
+#[test]
+fn preparations_stop() {
+    for engine in [
+        Engine::JpsBlock,
+        Engine::JpsPlus,
+        Engine::Anya,
+        Engine::Subgoal,
+        Engine::SubgoalTheta,
+        Engine::Hpa,
+        Engine::Chpa,
+    ] {
+        let space = space(engine);
+        check(engine.name(), |limits| space.within(limits).prepare(engine));
+        let index = space.prepare(engine).expect("an index");
+        // A limit that is not met changes nothing.
+        let within = space.within(&Limits::new().deadline(|| false)).prepare(engine).expect("an index");
+        assert_eq!(within.searched_by(), index.searched_by());
+        if let Ok(bytes) = index.to_bytes() {
+            assert!(within.to_bytes().is_ok_and(|same| same == bytes), "{engine}");
+            check(engine.name(), |limits| space.map().within(limits).index_from_bytes(bytes.clone()));
+            check(engine.name(), |limits| space.within(limits).index_from_bytes(bytes.clone()));
+        }
+        let at = Rectangle { x: 10, y: 10, width: 30, height: 30 };
+        let edited = space.edit(at, |x, y| x == y).expect("on the map");
+        check(engine.name(), |limits| index.within(limits).repair(&edited));
+    }
+    let canonical = map().space(Motion::centers(K::N16)).expect("a space");
+    check("a pruning rule", |limits| canonical.within(limits).prepare(Engine::Canonical));
+}
+
+/// On noise labels do not pay: engines are compared, and nothing is kept.
+#[test]
+fn comparisons_stop() {
+    let map = Map::from_fn(150, 150, |x, y| (x * 7919 + y * 104_729 + x * y * 31) % 101 < 12).expect("a map");
+    let space = map.space(Motion::corners(K::ANY)).expect("a space");
+    let engine = mediant::ConfiguredEngine::Subgoal(mediant::SubgoalOptions {
+        memory: mediant::Memory::new(1000),
+        ..mediant::SubgoalOptions::default()
+    });
+    check("a comparison", |limits| space.within(limits).prepare(engine));
+}
+
+#[test]
+fn fields_tables_and_widest_paths_stop() {
+    for motion in [Motion::centers(K::N8), Motion::centers(K::N16), Motion::corners(K::ANY)] {
+        let space = map().space(motion).expect("a space");
+        check("a field", |limits| space.within(limits).field([(0, 0)]));
+        check("a range", |limits| space.within(limits).field_within([(0, 0)], 60.0));
+        check("distances", |limits| space.within(limits).distances(Engine::Dijkstra, (0, 0)));
+        check("a path", |limits| space.within(limits).path((0, 0), (99, 99)));
+        check("a widest path", |limits| space.within(limits).widest_path((0, 0), (99, 99), 0.2));
+        let ends: Vec<(i32, i32)> = (0..9).map(|i| (11 * i, 7)).filter(|&at| space.is_free(at)).collect();
+        for engine in [Engine::Subgoal, space.engine().engine] {
+            let Ok(index) = space.prepare(engine) else { continue };
+            let table = |limits: &Limits| index.within(limits).table(ends.clone(), ends.clone());
+            check("a table", table);
+            let (limited, plain) = (table(&Limits::new().deadline(|| false)), table(&Limits::new()));
+            assert_eq!(limited.expect("no end is blocked"), plain.expect("no end is blocked"));
+        }
+    }
+    let space = map().space(Motion::centers(K::N8)).expect("a space");
+    check("layers", |limits| space.within(limits).distances(Engine::Wavefront, (0, 0)));
+    let jps = space.prepare(Engine::JpsBlock).expect("an index");
+    let ends = [(0, 0), (99, 99)];
+    check("a table of searches", |limits| jps.within(limits).table(ends, ends));
+    check("another k", |limits| jps.within(limits).for_k(K::N4));
+}
+
+/// A request's limits cover what is prepared for it.
+#[test]
+fn exceptions_stop() {
+    let mut planner: Planner =
+        map().space(Motion::centers(K::N8)).expect("a space").planner(Engine::Subgoal).expect("one");
+    let mut find = |limits: Limits| {
+        let except = Exceptions::new().blocked([(50, 50)]);
+        planner.find_except(Query::new((0, 0), (99, 99)).within(limits), &except)
+    };
+    let stopped = find(Limits::new().deadline(|| true)).expect_err("it is late");
+    assert_eq!(stopped.to_string(), "the deadline passed while finding connected components");
+    assert!(find(Limits::new().deadline(|| false)).is_ok());
+}
+
+/// Files, too, and they stay what they are.
+#[test]
+fn loading_stops() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("map.index");
+    let space = map().space(Motion::centers(K::N8)).expect("a space");
+    space.prepare(Engine::Subgoal).expect("an index").save(&file).expect("room");
+    check("loading", |limits| space.within(limits).load(&file));
+    check("loading for a map", |limits| space.map().within(limits).load(&file));
+    check("loading for an engine", |limits| space.within(limits).load_for(Engine::Subgoal, &file));
+    assert!(space.load(&file).is_ok());
+}
