@@ -1,7 +1,9 @@
 //! Tables of distances, many to many.
 
-use mediant_grid::Vertex;
-use mediant_search::{End, Limit, Limits, Outcome, Query, Request};
+use std::sync::OnceLock;
+
+use mediant_grid::{Interrupted, Vertex};
+use mediant_search::{End, Limits, Outcome, Query, Request};
 
 use crate::{
     error::Error,
@@ -73,7 +75,7 @@ impl Index {
         goals: &[Vertex],
         limits: &Limits,
     ) -> Result<Table, Error> {
-        let interrupt = limits.interrupt();
+        let stop = Stop { limits, stopped: OnceLock::new() };
         for (end, ends) in [(End::Start, starts), (End::Goal, goals)] {
             ends.iter().try_for_each(|&at| self.space().check_end(end, at))?;
         }
@@ -81,7 +83,7 @@ impl Index {
         if self.prepared.has_labels() && self.setup().smoothing.is_none() {
             let (goals, planners) = (self.goals(goals.iter().copied())?, Planners::new(self.clone()));
             let row = |row: usize| {
-                interrupt.check(DURING)?;
+                stop.check()?;
                 planners.with(|planner| planner.distances(starts[row], &goals))
             };
             let rows: Result<Vec<Vec<f64>>, Error> = in_order(starts.len(), row).into_iter().collect();
@@ -94,7 +96,7 @@ impl Index {
             planners.with(|planner| {
                 let numbers = first..count.min(first + Planners::CHUNK);
                 let query = |index: usize| Query::new(starts[index / columns], goals[index % columns]);
-                numbers.map(|index| length(planner, query(index), limits)).collect()
+                numbers.map(|index| stop.length(planner, query(index))).collect()
             })
         };
         let chunks: Result<Vec<Vec<f64>>, Error> =
@@ -106,20 +108,39 @@ impl Index {
 /// What is done here.
 const DURING: &str = "filling a table";
 
-/// The length of the path of a query, infinite where there is none.
-fn length(planner: &mut Planner, query: Query, limits: &Limits) -> Result<f64, Error> {
-    let interrupt = limits.interrupt();
-    let request = match interrupt.is_never() {
-        true => Request::from(query),
-        false => query.within(limits.clone()),
-    };
-    match planner.find(request)? {
-        Outcome::Stopped(stopped) if matches!(stopped.by, Limit::Cancelled | Limit::Deadline) => {
-            Err(Error::Stopped { by: stopped.by, during: DURING })
+/// What stops a table: once it has stopped one thread, the others ask no more.
+struct Stop<'l> {
+    limits: &'l Limits,
+    stopped: OnceLock<Interrupted>,
+}
+
+impl Stop<'_> {
+    fn check(&self) -> Result<(), Interrupted> {
+        match self.stopped.get() {
+            Some(&stopped) => Err(stopped),
+            None => {
+                self.limits.interrupt().check(DURING).inspect_err(|&stopped| _ = self.stopped.set(stopped))
+            }
         }
-        outcome => {
-            let guarantee = planner.index().setup().guarantee();
-            Ok(outcome.path().map_or(f64::INFINITY, |path| guarantee.length(path)))
+    }
+
+    /// The length of the path of a query, infinite where there is none.
+    fn length(&self, planner: &mut Planner, query: Query) -> Result<f64, Error> {
+        self.check()?;
+        let request = match self.limits.interrupt().is_never() {
+            true => Request::from(query),
+            false => query.within(self.limits.clone()),
+        };
+        match planner.find(request)? {
+            Outcome::Stopped(stopped) => {
+                // So that the others know it.
+                self.check()?;
+                Err(Error::Stopped { by: stopped.by, during: DURING })
+            }
+            outcome => {
+                let guarantee = planner.index().setup().guarantee();
+                Ok(outcome.path().map_or(f64::INFINITY, |path| guarantee.length(path)))
+            }
         }
     }
 }

@@ -142,8 +142,9 @@ impl SegmentGraph {
         let side = self.side;
         let first = |cell: u32| cell.saturating_sub(1) / side;
         for y in first(rows.start)..rows.end.div_ceil(self.side) {
-            for x in first(columns.start)..((columns.end + 1).div_ceil(self.side)).min(self.columns) {
-                interrupt.check_every(SEGMENTS, x as usize, DURING)?;
+            let columns = first(columns.start)..((columns.end + 1).div_ceil(self.side)).min(self.columns);
+            for (number, x) in columns.enumerate() {
+                interrupt.check_every(SEGMENTS, number, DURING)?;
                 self.edges[(y * self.columns + x) as usize] = self.edges_of(after, x, y);
             }
         }
