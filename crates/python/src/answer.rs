@@ -1,6 +1,6 @@
 //! The answer to a query.
 
-use mediant::{Counters, Guarantee, Limit, Outcome, PlacementKind, Stopped};
+use mediant::{Counters, Error, Guarantee, Limit, Outcome, PlacementKind, Stopped};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 
@@ -151,6 +151,19 @@ pub(crate) fn whole(
     );
     let answer = Answer::new(py, &outcome, points, placement, (Guarantee::Suboptimal, None))?;
     Err(made(py, "LimitReached", (text, "stopped", answer)))
+}
+
+/// The answer to a query whose preparation was stopped, and the exception in its place.
+pub(crate) fn before_search(
+    py: Python<'_>,
+    outcome: &Outcome,
+    points: PathPoints,
+    placement: PlacementKind,
+    error: &Error,
+) -> PyResult<(Answer, PyErr)> {
+    let answer = || Answer::new(py, outcome, points, placement, (Guarantee::Suboptimal, None));
+    let text = format!("{error}: nothing was searched; allow more time, or prepare an index before");
+    Ok((answer()?, made(py, "LimitReached", (text, "stopped", answer()?))))
 }
 
 /// The counters by name.

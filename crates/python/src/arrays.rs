@@ -1,6 +1,6 @@
 //! Maps from arrays, and arrays from paths.
 
-use mediant::{Grid, Map, Path, PlacementKind, Vertex, errors::NO_COSTS};
+use mediant::{Grid, Limits, Map, Path, PlacementKind, Vertex, errors::NO_COSTS};
 use mediant_formats::Picture;
 use numpy::{
     PyArray1, PyArray2, PyArrayDescrMethods, PyReadonlyArray2, PyUntypedArray, PyUntypedArrayMethods,
@@ -164,7 +164,8 @@ pub(crate) fn map_of_bools(name: &str, array: &Bound<'_, PyUntypedArray>) -> PyR
     let wrong = |error: mediant::Error| raised_for(name, error);
     Grid::check_size(u64::from(columns), u64::from(rows)).map_err(|error| wrong(error.into()))?;
     let (bits, cells) = (packed(array)?, u64::from(rows) * u64::from(columns));
-    detached(array.py(), cells, move || map_of_bits(&bits, rows, columns))?.map_err(wrong)
+    let work = move |limits: &Limits| map_of_bits(&bits, rows, columns, limits);
+    detached(array.py(), cells, Limits::new(), work)?.map_err(wrong)
 }
 
 /// The rows of an array of bool in whole bytes each, the first cell in the lowest bit.
@@ -178,14 +179,19 @@ fn packed(array: &Bound<'_, PyUntypedArray>) -> PyResult<Vec<u8>> {
 }
 
 /// The map of rows of whole bytes, the first cell in the lowest bit.
-pub(crate) fn map_of_bits(bits: &[u8], rows: u32, columns: u32) -> Result<Map, mediant::Error> {
+pub(crate) fn map_of_bits(
+    bits: &[u8],
+    rows: u32,
+    columns: u32,
+    limits: &Limits,
+) -> Result<Map, mediant::Error> {
     let bytes_a_row = columns.div_ceil(8) as usize;
     let word = |x: u32, y: u32| {
         let (first, end) = (y as usize * bytes_a_row + x as usize / 8, (y as usize + 1) * bytes_a_row);
         let bytes = bits.get(first..end.min(first + 8)).unwrap_or_default();
         bytes.iter().rev().fold(0, |word, &byte| word << 8 | u64::from(byte))
     };
-    Ok(Grid::from_words(columns, rows, word)?.into())
+    Ok(Grid::from_words_interruptible(columns, rows, limits.interrupt(), word)?.into())
 }
 
 /// The bits of a map, as [`map_of_bits`] takes them.

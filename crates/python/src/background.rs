@@ -3,9 +3,10 @@
 use std::{
     sync::{
         Arc, Mutex, PoisonError,
+        atomic::{AtomicBool, Ordering},
         mpsc::{self, RecvTimeoutError},
     },
-    thread,
+    thread::{self, JoinHandle},
     time::{Duration, Instant},
 };
 
@@ -14,6 +15,10 @@ use pyo3::prelude::*;
 
 /// How often signals are looked at.
 const LOOK: Duration = Duration::from_millis(20);
+
+/// How long an interruption waits for the work to end. What can take long ends within some milliseconds; this
+/// is for what cannot be stopped, such as a write to a disk.
+const PATIENCE: Duration = Duration::from_millis(200);
 
 /// Up to this many cells, whatever is not a preparation takes a few milliseconds.
 const QUICK_CELLS: u64 = 1 << 20;
@@ -49,19 +54,37 @@ pub(crate) fn is_watched(index: &Index, is_plain: bool) -> bool {
 }
 
 /// Does work on a map of so many cells with the GIL released; on a large one on another thread, while this
-/// one looks at signals.
+/// one looks at signals. The work is handed the limits by which it is stopped.
 pub(crate) fn detached<T: Send + 'static>(
     py: Python<'_>,
     cells: u64,
-    work: impl FnOnce() -> T + Send + 'static,
+    limits: Limits,
+    work: impl FnOnce(&Limits) -> T + Send + 'static,
 ) -> PyResult<T> {
-    if cells <= QUICK_CELLS { Ok(py.detach(work)) } else { on_thread(py, work, |_| Ok(())) }
+    if cells <= QUICK_CELLS {
+        Ok(py.detach(|| work(&limits)))
+    } else {
+        on_thread(py, limits, work, |_| Ok(()))
+    }
 }
 
-/// Does work on another thread, while this one looks at signals, and calls `look`. If either raises, the work
-/// goes on for nothing.
+/// Does work on another thread, while this one looks at signals, and calls `look`. If either raises, the
+/// limits that the work is handed stop it, and it has ended when this returns.
 pub(crate) fn on_thread<T: Send + 'static>(
     py: Python<'_>,
+    limits: Limits,
+    work: impl FnOnce(&Limits) -> T + Send + 'static,
+    look: impl FnMut(Python<'_>) -> PyResult<()>,
+) -> PyResult<T> {
+    let flag = Arc::new(AtomicBool::new(false));
+    let limits = limits.cancel(Arc::clone(&flag));
+    with_flag(py, &flag, move || work(&limits), look)
+}
+
+/// [`on_thread`] for work that knows the flag by which it is stopped.
+pub(crate) fn with_flag<T: Send + 'static>(
+    py: Python<'_>,
+    flag: &AtomicBool,
     work: impl FnOnce() -> T + Send + 'static,
     mut look: impl FnMut(Python<'_>) -> PyResult<()>,
 ) -> PyResult<T> {
@@ -76,8 +99,11 @@ pub(crate) fn on_thread<T: Send + 'static>(
         match received {
             Ok(result) => return Ok(result),
             Err(RecvTimeoutError::Timeout) => {
-                py.check_signals()?;
-                look(py)?;
+                if let Err(error) = py.check_signals().and_then(|()| look(py)) {
+                    flag.store(true, Ordering::Relaxed);
+                    py.detach(|| wait_for(&worker));
+                    return Err(error);
+                }
             }
             // The work panicked: so does this, as a `PanicException`.
             Err(RecvTimeoutError::Disconnected) => match worker.join() {
@@ -85,6 +111,14 @@ pub(crate) fn on_thread<T: Send + 'static>(
                 Ok(()) => return Err(crate::errors::exception("MediantError", "the work was lost", "other")),
             },
         }
+    }
+}
+
+/// Waits until a thread has ended, but not for ever.
+fn wait_for(worker: &JoinHandle<()>) {
+    let begin = Instant::now();
+    while !worker.is_finished() && begin.elapsed() < PATIENCE {
+        thread::sleep(Duration::from_millis(1));
     }
 }
 
@@ -104,13 +138,13 @@ pub(crate) fn in_pool<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T 
 pub(crate) struct Interruption(Arc<Mutex<Option<PyErr>>>);
 
 impl Interruption {
-    /// The limits with a deadline: after `timeout` seconds, or when a signal's handler raises.
-    pub(crate) fn watch(&self, limits: Limits, timeout: Option<f64>) -> Limits {
-        let (begin, slot) = (Instant::now(), self.0.clone());
-        let next = Mutex::new(begin + LOOK);
+    /// The limits with a deadline: so many seconds after a call began, or when a signal's handler raises.
+    pub(crate) fn watch(&self, limits: Limits, timeout: Option<(Instant, f64)>) -> Limits {
+        let slot = self.0.clone();
+        let next = Mutex::new(Instant::now() + LOOK);
         limits.deadline(move || {
             let now = Instant::now();
-            if timeout.is_some_and(|seconds| (now - begin).as_secs_f64() >= seconds) {
+            if timeout.is_some_and(|(begin, seconds)| (now - begin).as_secs_f64() >= seconds) {
                 return true;
             }
             let mut next = next.lock().unwrap_or_else(PoisonError::into_inner);

@@ -23,7 +23,7 @@ use crate::{
     answer,
     arguments::{Points, integer, word},
     arrays::{PathPoints, rows_array},
-    background::{in_pool, is_watched, on_thread},
+    background::{in_pool, is_watched, with_flag},
     errors::{argument, exception, raised, wrong_type},
     keywords::{Keywords, Takes},
     paths::Paths,
@@ -111,11 +111,7 @@ impl<'py> Batch<'py> {
             Some(progress) => progress.call1((done, count * queries)).map(drop),
             None => Ok(()),
         };
-        let result = on_thread(py, work, |_| tell(done.load(Ordering::Relaxed)));
-        if result.is_err() {
-            flag.store(true, Ordering::Relaxed);
-        }
-        let chunks = result?;
+        let chunks = with_flag(py, &flag, work, |_| tell(done.load(Ordering::Relaxed)))?;
         tell(count * queries)?;
         Ok(chunks)
     }

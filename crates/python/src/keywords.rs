@@ -1,5 +1,7 @@
 //! The keywords of calls: motion, wishes, the engine and its options.
 
+use std::time::Instant;
+
 use mediant::{
     ConfiguredEngine, CornerRule, DiagonalGap, Engine, EngineOption, FiniteK, Guarantee, K, Limits, Motion,
     OptionValue, PlacementKind, Query, Request, Rules, Smoothing, ValueKind, errors::absent,
@@ -92,7 +94,8 @@ pub(crate) struct Keywords {
     snap: bool,
     max_cost: Option<f64>,
     max_expansions: Option<u64>,
-    timeout: Option<f64>,
+    /// When the call began, and the most seconds that it may take.
+    timeout: Option<(Instant, f64)>,
 }
 
 impl Keywords {
@@ -138,7 +141,7 @@ impl Keywords {
             "max_cost" | "max_expansions" | "timeout" if is_left_out => {}
             "max_cost" => self.max_cost = Some(positive(name, value)?),
             "max_expansions" => self.max_expansions = Some(integer(name, value, 0)?),
-            "timeout" => self.timeout = Some(positive(name, value)?),
+            "timeout" => self.timeout = Some((Instant::now(), positive(name, value)?)),
             _ => return Ok(false),
         }
         Ok(true)
@@ -246,8 +249,16 @@ impl Keywords {
     }
 
     /// The time limit, in seconds.
-    pub(crate) const fn timeout(&self) -> Option<f64> {
-        self.timeout
+    pub(crate) fn timeout(&self) -> Option<f64> {
+        self.timeout.map(|(_, seconds)| seconds)
+    }
+
+    /// The limits of what comes before a search: the time limit, which is that of the whole call.
+    pub(crate) fn preparation(&self) -> Limits {
+        match self.timeout {
+            Some((begin, most)) => Limits::new().deadline(move || begin.elapsed().as_secs_f64() >= most),
+            None => Limits::new(),
+        }
     }
 
     /// The request with all wishes.

@@ -117,6 +117,104 @@ def test_interrupt(name, record_property):
     assert seconds < MOST_SECONDS * (4 if name == "first" else 1)
 
 
+# What is prepared before calls that are repeated until one is interrupted. Nothing of it may go on.
+ENDED = {
+    "jps-block": ("", "grid.prepare('jps-block')"),
+    "jps-plus": ("", "grid.prepare('jps-plus')"),
+    "canonical": ("", "grid.prepare('canonical', k=5)"),
+    "anya": ("", "grid.prepare('anya')"),
+    "subgoal": ("", "grid.prepare('subgoal')"),
+    "subgoal at corners": ("", "grid.prepare('subgoal', k='any')"),
+    "labels": ("", "wide.prepare('subgoal', k='any', levels='labels')\n    grid.prepare('subgoal', k='any')"),
+    "subgoal-theta": ("", "grid.prepare('subgoal-theta')"),
+    "hpa": ("", "grid.prepare('hpa')"),
+    "chpa": ("", "grid.prepare('chpa')"),
+    "repair": (
+        "index = grid.prepare('hpa')\nedited = grid.edit((5, 5), np.zeros((1500, 1500), dtype=bool))",
+        "index.repair(edited)",
+    ),
+    "repair anew": (
+        "index = grid.prepare('jps-block')\nedited = grid.edit((5, 5), [[True]])",
+        "index.repair(edited)",
+    ),
+    "load": (
+        "import tempfile\nfile = tempfile.mkdtemp() + '/index'\ngrid.prepare('hpa').save(file)",
+        "grid.load(file)",
+    ),
+    "bytes": ("data = grid.prepare('chpa').to_bytes()", "grid.index_from_bytes(data)"),
+    "field": ("", "grid.field((0, 0), k=6)"),
+    "any-angle field": ("", "wide.field((0, 0), k='any')"),
+    "clearance": ("", "grid.clearance()"),
+    "disc": ("", "grid.for_disc(1.5)"),
+    "square": ("", "grid.for_square(3)"),
+    "widest": ("", "wide.widest_path((0, 0), goal, surplus=0.5)"),
+    "table": ("index = grid.prepare('astar', k=4)", "index.table(ends, ends)"),
+    "engine of a path": ("", "mediant.Grid(blocked).path(start, goal, engine='hpa')"),
+    "space": ("", "mediant.Grid(blocked).is_free(start)"),
+}
+
+ENDED_PROGRAM = """
+{setup}
+{prepare}
+def resident():
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+def report():
+    time.sleep(0.05)
+    os.kill(os.getpid(), signal.SIGINT)
+
+before = resident()
+threading.Thread(target=report, daemon=True).start()
+try:
+    while True:
+        {call}
+except KeyboardInterrupt:
+    begin = time.process_time()
+    time.sleep(0.1)
+    used = time.process_time() - begin
+print(json.dumps([used, resident() - before]), flush=True)
+os._exit(0)
+"""
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="it reads the memory in use from /proc")
+@pytest.mark.parametrize("name", ENDED)
+def test_nothing_goes_on(name):
+    """After a KeyboardInterrupt no hidden thread works on, and the memory of its work is given back."""
+    prepare, call = ENDED[name]
+    program = ENDED_PROGRAM.format(setup=SETUP, prepare=prepare, call=call.replace("\n    ", "; "))
+    run = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=False
+    )
+    assert run.returncode == 0, run.stderr
+    seconds, grown = json.loads(run.stdout)
+    print(f"{name}: {1000 * seconds:.1f} ms of the next 100 ms, {grown >> 20} MiB")
+    assert seconds < 0.02
+    # What allocators and thread pools keep for themselves.
+    assert grown < 48 << 20
+
+
+def test_timeout_covers_the_whole_call():
+    """A timeout is that of the call: what it prepares counts."""
+    blocked = np.random.default_rng(3).random((3000, 3000)) < 0.2
+    blocked[0, 0] = blocked[-1, -1] = False
+    for engine in ["subgoal", "hpa", "jps-block", "anya"]:
+        how = {"engine": engine, "timeout": 0.02, **({"k": "any"} if engine == "anya" else {})}
+        for name in ["find", "path", "distance"]:
+            call = getattr(mediant.Grid(blocked), name)
+            begin = time.perf_counter()
+            if name == "find":
+                answer = call((0, 0), (2999, 2999), **how)
+            else:
+                with pytest.raises(mediant.LimitReached, match="the deadline passed while ") as caught:
+                    call((0, 0), (2999, 2999), **how)
+                answer = caught.value.answer
+            assert time.perf_counter() - begin < 0.02 + MOST_SECONDS
+            assert (answer.status, answer.stopped_by) == ("stopped", "timeout")
+            assert answer.best.tolist() == [[0, 0]] and answer.lower_bound == 0
+
+
 def test_handler_that_does_not_raise():
     """Another signal's handler runs during a search, which goes on."""
     grid, seen = mediant.Grid(np.zeros((1500, 1500), dtype=bool)), []

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant::{Error, Goals, Index, Planner, Planners, Vertex};
+use mediant::{Error, Goals, Index, Limits, Planner, Planners, Vertex};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
@@ -16,8 +16,11 @@ use crate::{
 /// The goals, prepared for the index.
 fn prepared(py: Python<'_>, index: &Index, goals: Vec<Vertex>) -> PyResult<Goals> {
     let (index, are_few) = (index.clone(), goals.len() <= Planners::CHUNK);
-    let work = move || index.goals(goals);
-    let goals = if are_few { py.detach(work) } else { on_thread(py, work, |_| Ok(()))? };
+    let work = move |limits: &Limits| index.within(limits).goals(goals);
+    let goals = match are_few {
+        true => py.detach(|| work(&Limits::new())),
+        false => on_thread(py, Limits::new(), work, |_| Ok(()))?,
+    };
     goals.map_err(raised)
 }
 

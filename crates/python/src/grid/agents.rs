@@ -1,6 +1,6 @@
 //! Agents of a size, and paths that keep off walls.
 
-use mediant::{Clearance, Fit, Outside, Vertex};
+use mediant::{Clearance, Error, Fit, Limits, Outside, Vertex};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 
@@ -8,7 +8,7 @@ use super::Grid;
 use crate::{
     arguments::{integer, point, positive, word},
     arrays::{PathPoints, rows_array},
-    background::{in_pool, on_thread},
+    background::{detached, in_pool, on_thread},
     errors::raised,
     keywords::{Keywords, Takes},
 };
@@ -47,9 +47,14 @@ impl Grid {
     ) -> PyResult<Bound<'py, PyAny>> {
         let (fit, outside) = (read_fit(fit)?.unwrap_or(Fit::Centers), read_outside(outside)?);
         let (width, height) = (self.map().width() as i32, self.map().height() as i32);
-        let distances = self.measured(py, (fit, outside), move |clearance| {
-            let vertices = (0..height).flat_map(|y| (0..width).map(move |x| Vertex::new(x, y)));
-            vertices.map(|cell| clearance.largest_disc(cell).unwrap_or(0.0)).collect::<Vec<f64>>()
+        let distances = self.measured(py, (fit, outside), move |clearance, limits| {
+            let mut distances = Vec::with_capacity(width as usize * height as usize);
+            for y in 0..height {
+                limits.interrupt().check("measuring clearances")?;
+                let row = (0..width).map(|x| clearance.largest_disc(Vertex::new(x, y)).unwrap_or(0.0));
+                distances.extend(row);
+            }
+            Ok(distances)
         })?;
         rows_array(py, distances, width as usize)
     }
@@ -101,9 +106,11 @@ impl Grid {
         let motion = Keywords::read("for_disc", motion, Takes::MOTION)?.motion()?;
         let fit = read_fit(fit)?.unwrap_or_else(|| Fit::exact(motion.rules, motion.k));
         let (radius_given, outside) = (positive("radius", radius)?, read_outside(outside)?);
-        let measured = move |clearance: &Clearance| clearance.for_disc(radius_given);
+        let measured = move |clearance: &Clearance, limits: &Limits| {
+            Ok(clearance.for_disc_interruptible(radius_given, limits.interrupt())?)
+        };
         let grid = self.measured(radius.py(), (fit, outside), measured)?;
-        Ok(Self::new(grid.map_err(raised)?.into(), self.shared.world))
+        Ok(Self::new(grid.into(), self.shared.world))
     }
 
     /// The grid of an agent that covers side × side cells. Its place is its top left cell.
@@ -130,7 +137,9 @@ impl Grid {
     /// [[False, True, True], [True, True, True]]
     fn for_square(&self, py: Python<'_>, side: &Bound<'_, PyAny>) -> PyResult<Self> {
         let side = u32::try_from(integer("side", side, 1)?).unwrap_or(u32::MAX);
-        let map = py.detach(|| self.map().for_square(side)).map_err(raised)?;
+        let map = self.map().clone();
+        let work = move |limits: &Limits| map.within(limits).for_square(side);
+        let map = detached(py, self.cells(), Limits::new(), work)?.map_err(raised)?;
         Ok(Self::new(map, self.shared.world))
     }
 
@@ -182,8 +191,9 @@ impl Grid {
         let placement = space.motion().rules.placement();
         let (start, goal) = (point("start", start)?, point("goal", goal)?);
         let surplus = positive("surplus", surplus)?;
-        let work = move || in_pool(None, || space.widest_path(start, goal, surplus));
-        let widest = on_thread(py, work, |_| Ok(()))?.map_err(raised)?;
+        let work =
+            move |limits: &Limits| in_pool(None, || space.within(limits).widest_path(start, goal, surplus));
+        let widest = on_thread(py, Limits::new(), work, |_| Ok(()))?.map_err(raised)?;
         widest.map(|widest| Ok((points.array(py, &widest.path, placement)?, widest.radius))).transpose()
     }
 }
@@ -194,10 +204,12 @@ impl Grid {
         &self,
         py: Python<'_>,
         (fit, outside): (Fit, Outside),
-        of: impl FnOnce(&Clearance) -> T + Send + 'static,
+        of: impl FnOnce(&Clearance, &Limits) -> Result<T, Error> + Send + 'static,
     ) -> PyResult<T> {
         let map = self.map().clone();
-        on_thread(py, move || in_pool(None, || of(&map.clearance(fit, outside))), |_| Ok(()))
+        let work =
+            move |limits: &Limits| in_pool(None, || of(&map.within(limits).clearance(fit, outside)?, limits));
+        on_thread(py, Limits::new(), work, |_| Ok(()))?.map_err(raised)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Distance fields of a grid.
 
+use mediant::Limits;
 use pyo3::{prelude::*, types::PyDict};
 
 use super::Grid;
@@ -177,11 +178,12 @@ impl Grid {
         let limit =
             limit.filter(|limit| !limit.is_none()).map(|limit| positive("limit", limit)).transpose()?;
         let space = self.space(py, motion)?;
-        let work = move || match limit {
-            Some(limit) => space.field_within(sources, limit),
-            None => space.field(sources),
+        let work = move |limits: &Limits| match limit {
+            Some(limit) => space.within(limits).field_within(sources, limit),
+            None => space.within(limits).field(sources),
         };
-        let field = detached(py, self.cells(), work)?.map_err(|error| raised_for("source", error))?;
+        let field =
+            detached(py, self.cells(), Limits::new(), work)?.map_err(|error| raised_for("source", error))?;
         Ok(Field::new(field, motion.rules.placement(), self.map().clone()))
     }
 }

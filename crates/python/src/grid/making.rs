@@ -3,7 +3,7 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use mediant::{
-    CornerRule, Identity, Map, PlacementKind, Rectangle, Rules,
+    CornerRule, Identity, Limits, Map, PlacementKind, Rectangle, Rules,
     files::{Fraction, ImageOptions, Unknown, WorldFrame},
 };
 use mediant_formats::Picture;
@@ -113,7 +113,8 @@ impl Grid {
             let words = [("blocked", Unknown::Blocked), ("free", Unknown::Free)];
             options.unknown = word("unknown", unknown, &words)?;
         }
-        let (map, world) = detached(py, u64::MAX, move || Map::open_with(path, &options))?.map_err(raised)?;
+        let read = move |_: &Limits| Map::open_with(path, &options);
+        let (map, world) = detached(py, u64::MAX, Limits::new(), read)?.map_err(raised)?;
         Ok(Self::new(map, world))
     }
 
@@ -287,7 +288,7 @@ impl Grid {
         if bits.as_bytes().len() as u64 != expected {
             return Err(argument("bits", &format!("expected {expected} bytes")));
         }
-        let map = map_of_bits(bits.as_bytes(), rows, columns).map_err(raised)?;
+        let map = map_of_bits(bits.as_bytes(), rows, columns, &Limits::new()).map_err(raised)?;
         let frame = world.map(|(resolution, origin)| WorldFrame::new(resolution, origin, columns, rows));
         let frame = frame.transpose().map_err(|error| argument("world", &error.to_string()))?;
         Ok(Self::new(map, frame))

@@ -9,7 +9,7 @@ mod queries;
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use mediant::{Engine, Map, Motion, Planners, Setup, Space, files::WorldFrame};
+use mediant::{Engine, Error, Limits, Map, Motion, Planners, Setup, Space, files::WorldFrame};
 use pyo3::prelude::*;
 
 use crate::{
@@ -124,18 +124,24 @@ impl Grid {
 
     /// The grid with this motion, kept for the next call.
     fn space(&self, py: Python<'_>, motion: Motion) -> PyResult<Space> {
+        self.space_within(py, motion, Limits::new())?.map_err(raised)
+    }
+
+    fn space_within(&self, py: Python<'_>, motion: Motion, limits: Limits) -> PyResult<Result<Space, Error>> {
         if let Some(space) = self.shared.spaces.get(&motion) {
-            return Ok(space);
+            return Ok(Ok(space));
         }
         let map = self.map().clone();
-        let space = detached(py, self.cells(), move || map.space(motion))?.map_err(raised)?;
-        self.shared.spaces.put(motion, space.clone());
+        let space = detached(py, self.cells(), limits, move |limits| map.within(limits).space(motion))?;
+        if let Ok(space) = &space {
+            self.shared.spaces.put(motion, space.clone());
+        }
         Ok(space)
     }
 
     /// The planners of an engine, kept for the next call: of the one that was asked for, or of one that
-    /// prepares next to nothing.
-    fn planners(&self, py: Python<'_>, keywords: &Keywords) -> PyResult<Arc<Planners>> {
+    /// prepares next to nothing. Within, [`Error::Stopped`] by the time limit of the call.
+    fn planners(&self, py: Python<'_>, keywords: &Keywords) -> PyResult<Result<Arc<Planners>, Error>> {
         let motion = keywords.motion()?;
         let setup = |engine: Engine| -> PyResult<Setup> {
             let mut setup = Setup::new(keywords.configured(engine)?, motion.k, motion.rules);
@@ -145,19 +151,32 @@ impl Grid {
         let engine = keywords.engine.unwrap_or_else(|| mediant::Choice::for_some_paths(motion).engine);
         let setup = setup(engine)?;
         if let Some(planners) = self.shared.planners.get(&setup) {
-            return Ok(planners);
+            return Ok(Ok(planners));
         }
-        let space = self.space(py, motion)?;
-        let index = if setup.index_version().is_err() {
-            detached(py, self.cells(), move || setup.prepare(&space))?
-        } else {
-            on_thread(py, move || in_pool(None, || setup.prepare(&space)), |_| Ok(()))?
+        let limits = keywords.preparation();
+        let space = match self.space_within(py, motion, limits.clone())? {
+            Ok(space) => space,
+            Err(error) => return stopped(error),
         };
-        let index = index.map_err(raised)?;
+        let prepare = move |limits: &Limits| space.within(limits).prepare(setup.engine);
+        let index = if setup.index_version().is_err() {
+            detached(py, self.cells(), limits, prepare)?
+        } else {
+            on_thread(py, limits, move |limits| in_pool(None, || prepare(limits)), |_| Ok(()))?
+        };
+        let index = match index {
+            Ok(index) => index.with_smoothing(setup.smoothing),
+            Err(error) => return stopped(error),
+        };
         let planners = Arc::new(Planners::new(index));
         self.shared.planners.put(setup, Arc::clone(&planners));
-        Ok(planners)
+        Ok(Ok(planners))
     }
+}
+
+/// An error that a limit caused; others are raised.
+fn stopped<T>(error: Error) -> PyResult<Result<T, Error>> {
+    if matches!(error, Error::Stopped { .. }) { Ok(Err(error)) } else { Err(raised(error)) }
 }
 
 impl PartialEq for Grid {

@@ -5,14 +5,15 @@ use std::sync::{
     atomic::{AtomicUsize, Ordering},
 };
 
-use mediant::{Progress, Stage};
+use mediant::{Error, Limit, Limits, Outcome, Progress, Stage, Stopped};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 
 use super::Grid;
 use crate::{
-    answer::Answer,
-    arguments::{bytes, file},
+    answer::{self, Answer},
+    arguments::{Points, bytes, file},
+    arrays::PathPoints,
     background::{detached, in_pool, on_thread},
     batch::{callback, read_threads},
     errors::raised,
@@ -71,7 +72,10 @@ impl Grid {
         how: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
         let keywords = Keywords::read("path", how, Takes::ALL)?;
-        let planners = self.planners(py, &keywords)?;
+        let planners = match self.planners(py, &keywords)? {
+            Ok(planners) => planners,
+            Err(error) => return Err(self.unprepared(&keywords, start, &error, points)?.1),
+        };
         Asked { planners: &planners, start, goal, keywords }.path(py, points)
     }
 
@@ -110,7 +114,10 @@ impl Grid {
         how: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<f64> {
         let keywords = Keywords::read("distance", how, Takes::ALL)?;
-        let planners = self.planners(py, &keywords)?;
+        let planners = match self.planners(py, &keywords)? {
+            Ok(planners) => planners,
+            Err(error) => return Err(self.unprepared(&keywords, start, &error, None)?.1),
+        };
         Asked { planners: &planners, start, goal, keywords }.distance(py)
     }
 
@@ -151,7 +158,7 @@ impl Grid {
     /// max_expansions : int, optional
     ///     The greatest number of expansions of the search.
     /// timeout : float, optional
-    ///     The most seconds that the search may take.
+    ///     The most seconds that the call may take, with what it prepares.
     /// engine : str, optional
     ///     The engine; by default one that prepares the grid in milliseconds.
     /// **options
@@ -193,7 +200,10 @@ impl Grid {
         how: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Answer> {
         let keywords = Keywords::read("find", how, Takes::ALL)?;
-        let planners = self.planners(py, &keywords)?;
+        let planners = match self.planners(py, &keywords)? {
+            Ok(planners) => planners,
+            Err(error) => return Ok(self.unprepared(&keywords, start, &error, points)?.0),
+        };
         Asked { planners: &planners, start, goal, keywords }.find(py, points, counters)
     }
 
@@ -264,10 +274,11 @@ impl Grid {
         let engine = keywords.configured(keywords.engine.unwrap_or_else(|| space.engine().engine))?;
         let told = Arc::new(Told::default());
         let teller = Arc::clone(&told);
-        let work = move || {
-            in_pool(threads, || space.prepare_with_progress(engine, &|progress| teller.tell(progress)))
+        let work = move |limits: &Limits| {
+            let tell = |progress| teller.tell(progress);
+            in_pool(threads, || space.within(limits).prepare_with_progress(engine, &tell))
         };
-        let index = on_thread(py, work, |_| match (&progress, told.last()) {
+        let index = on_thread(py, Limits::new(), work, |_| match (&progress, told.last()) {
             (Some(progress), Some(last)) => progress.call1(last).map(drop),
             _ => Ok(()),
         })?;
@@ -313,7 +324,8 @@ impl Grid {
     ) -> PyResult<Index> {
         let (path, keywords) = (file("path", path)?, Keywords::read("load", options, Takes::OPTIONS)?);
         let map = self.map().clone();
-        let index = detached(py, u64::MAX, move || map.load(path))?.map_err(raised)?;
+        let work = move |limits: &Limits| map.within(limits).load(path);
+        let index = detached(py, u64::MAX, Limits::new(), work)?.map_err(raised)?;
         self.with_options(index, &keywords)
     }
 
@@ -348,12 +360,28 @@ impl Grid {
     ) -> PyResult<Index> {
         let keywords = Keywords::read("index_from_bytes", options, Takes::OPTIONS)?;
         let (map, data) = (self.map().clone(), bytes("data", data)?);
-        let index = detached(py, u64::MAX, move || map.index_from_bytes(data))?.map_err(raised)?;
+        let work = move |limits: &Limits| map.within(limits).index_from_bytes(data);
+        let index = detached(py, u64::MAX, Limits::new(), work)?.map_err(raised)?;
         self.with_options(index, &keywords)
     }
 }
 
 impl Grid {
+    /// The answer to a query whose preparation a limit stopped, and the same as an exception.
+    fn unprepared(
+        &self,
+        keywords: &Keywords,
+        start: &Bound<'_, PyAny>,
+        error: &Error,
+        points: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<(Answer, PyErr)> {
+        let by = if let Error::Stopped { by, .. } = error { *by } else { Limit::Deadline };
+        let start_at = Points::read("start", start)?.as_slice().first().copied().unwrap_or_default();
+        let outcome = Outcome::Stopped(Stopped::before_search(by, start_at));
+        let (points, placement) = (PathPoints::read(points)?, keywords.motion()?.rules.placement());
+        answer::before_search(start.py(), &outcome, points, placement, error)
+    }
+
     /// An index that was read, with the options of a call.
     fn with_options(&self, index: mediant::Index, keywords: &Keywords) -> PyResult<Index> {
         if !keywords.has_options() {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant::{Counters, Outcome, Planners, Query};
+use mediant::{Counters, Limits, Outcome, Planners, Query};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 
@@ -46,7 +46,7 @@ impl Asked<'_, '_> {
         let is_watched = self.keywords.timeout().is_some() || is_watched(self.planners.index(), is_plain);
         let ready = if is_watched && !self.planners.is_ready() {
             let planners = Arc::clone(self.planners);
-            on_thread(self.start.py(), move || planners.try_make_ready(), |_| Ok(()))?
+            on_thread(self.start.py(), Limits::new(), move |_| planners.try_make_ready(), |_| Ok(()))?
         } else {
             self.start.py().detach(|| self.planners.try_make_ready())
         };

@@ -1,6 +1,6 @@
 //! Indexes with other options, for other maps, as files and bytes.
 
-use mediant::Setup;
+use mediant::{Limits, Setup};
 use pyo3::{
     prelude::*,
     types::{PyBytes, PyDict, PyTuple},
@@ -77,11 +77,11 @@ impl Index {
         let Ok(changed) = grid.cast::<Grid>() else { return Err(wrong_type("grid", "a Grid", grid)) };
         let (changed, index) = (changed.get().clone(), self.planners.index().clone());
         let map = changed.map().clone();
-        let work = move || {
-            let space = map.space(index.setup().motion())?;
-            in_pool(None, || index.repair(&space))
+        let work = move |limits: &Limits| {
+            let space = map.within(limits).space(index.setup().motion())?;
+            in_pool(None, || index.within(limits).repair(&space))
         };
-        Ok(Self::new(changed, on_thread(py, work, |_| Ok(()))?.map_err(raised)?))
+        Ok(Self::new(changed, on_thread(py, Limits::new(), work, |_| Ok(()))?.map_err(raised)?))
     }
 
     /// Writes the index to a file, for `Grid.load`. An older file there is replaced as a whole.
@@ -157,14 +157,18 @@ impl Index {
         let setup: Setup = setup.parse().map_err(|error: mediant::TextError| raised(error))?;
         let grid = grid.get().clone();
         let map = grid.map().clone();
-        let work = move || match bytes {
-            None => setup.prepare(&setup.space(&map)?),
+        let work = move |limits: &Limits| match bytes {
+            None => {
+                let space = map.within(limits).space(setup.motion())?;
+                let index = space.within(limits).prepare(setup.engine)?;
+                Ok::<_, mediant::Error>(index.with_smoothing(setup.smoothing))
+            }
             Some(bytes) => {
-                let index = map.index_from_bytes(bytes)?;
+                let index = map.within(limits).index_from_bytes(bytes)?;
                 Ok(index.with_options(setup.engine)?.with_smoothing(setup.smoothing))
             }
         };
-        let index = detached(py, u64::MAX, work)?.map_err(raised)?;
+        let index = detached(py, u64::MAX, Limits::new(), work)?.map_err(raised)?;
         Ok(Self::new(grid, index))
     }
 }
