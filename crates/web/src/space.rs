@@ -3,13 +3,13 @@
 use std::cell::RefCell;
 
 use js_sys::{Function, Int32Array, JsString};
-use mediant::{Map, Motion, Path, Planner, Progress, Setup, Space as Inner, Stage, Vertex};
+use mediant::{Error, Limits, Map, Motion, Path, Planner, Progress, Setup, Space as Inner, Stage, Vertex};
 use wasm_bindgen::{JsCast, prelude::*};
 
 use crate::{
     answer,
     arguments::{Points, bytes, path_points, point, positive},
-    errors::{broken, raised, raised_for, wrong_type},
+    errors::{broken, coded, raised, raised_for, wrong_type},
     field::Field,
     grid::{Edit, Grid},
     index::Index,
@@ -24,12 +24,17 @@ pub struct Space {
     pub(crate) inner: Inner,
 }
 
-/// The planner of a setup on a map, for a single path.
-pub(crate) fn planner(setup: Setup, map: &Map) -> Result<Planner, JsValue> {
-    setup.check().map_err(raised)?;
-    let space = Space::of(map, setup.motion())?;
+/// The planner of a setup on a map, for a single path. What stops the search stops this, too.
+pub(crate) fn planner(setup: Setup, map: &Map, limits: &Limits) -> Result<Planner, JsValue> {
+    let raised = |error: Error| match error {
+        Error::Stopped { .. } => coded("stopped", &format!("{error}: nothing was searched; allow more time")),
+        error => raised(error),
+    };
+    setup.check().map_err(|error| raised(error.into()))?;
+    memory::check("the space", vertices(map), memory::SPACE)?;
+    let space = Space { inner: map.within(limits).space(setup.motion()).map_err(raised)? };
     space.check_room("the search", memory::INDEX + memory::PLANNER)?;
-    let index = space.inner.prepare_for_one_path(setup.engine).map_err(raised)?;
+    let index = space.inner.within(limits).prepare_for_one_path(setup.engine).map_err(raised)?;
     index.with_smoothing(setup.smoothing).try_planner().map_err(raised)
 }
 
@@ -173,7 +178,8 @@ impl Space {
     }
 
     /// Prepares what an engine needs; by default the engine that `engine()` names. `progress` is called with
-    /// a stage (`"edges"`, `"hierarchy"`, `"sight"` or `"labels"`), and how much of it is done of all.
+    /// a stage (`"edges"`, `"hierarchy"`, `"sight"` or `"labels"`), and how much of it is done of all. What it
+    /// throws stops the preparation. From outside, a preparation is stopped by ending its worker.
     ///
     /// ```js
     /// const index = space.prepare("subgoal");
@@ -201,7 +207,8 @@ impl Space {
         };
         self.check_room("the index", memory::INDEX)?;
         let listening = Listening::begin(listener);
-        let index = self.inner.prepare_with_progress(configured, &tell);
+        let limits = Limits::new().deadline(has_thrown);
+        let index = self.inner.within(&limits).prepare_with_progress(configured, &tell);
         listening.end()?;
         Ok(Index { inner: index.map_err(raised)?.with_smoothing(keywords.smoothing) })
     }
@@ -306,6 +313,11 @@ impl Listening {
         let listener = LISTENERS.with_borrow_mut(Vec::pop);
         listener.and_then(|(_, thrown)| thrown).map_or(Ok(()), Err)
     }
+}
+
+/// Whether the one that listens has thrown: then the preparation stops.
+fn has_thrown() -> bool {
+    LISTENERS.with_borrow(|listeners| matches!(listeners.last(), Some((_, Some(_)))))
 }
 
 /// Tells the one that listens. Once it has thrown, it is told no more.

@@ -47,13 +47,15 @@ impl Grid {
             smoothing: keywords.smoothing,
             ..Setup::new(keywords.configured(engine)?, motion.k, motion.rules)
         };
+        // The time of the call begins before what it prepares.
+        let request = keywords.request(&start, &goal);
         // It is kept elsewhere while it searches: a clock could call back.
         let kept = self.last.try_borrow_mut().ok().and_then(|mut last| last.take());
         let mut last = match kept.filter(|last| last.setup == setup) {
             Some(last) => last,
-            None => Last { setup, planner: crate::space::planner(setup, &self.map)? },
+            None => Last { setup, planner: crate::space::planner(setup, &self.map, &request.limits())? },
         };
-        let answer = last.planner.find(keywords.request(&start, &goal));
+        let answer = last.planner.find(request);
         if let Ok(mut kept) = self.last.try_borrow_mut() {
             *kept = Some(last);
         }
