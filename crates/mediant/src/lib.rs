@@ -26,9 +26,9 @@
 //! [`Disc`] keeps right among obstacles that change; [`Exceptions`] are cells that count otherwise for one
 //! query; a [`Path`] says whether it still holds ([`Space::check`]).
 //!
-//! Whatever can take long can be stopped by a flag or a deadline: a search by its [`Limits`], all else by the
-//! same call of [`Within`], such as `space.within(&limits).prepare(engine)`. The answer says what it was doing
-//! ([`Error::Stopped`]).
+//! Whatever can take long can be stopped by a flag or a deadline: a search by its [`Limits`], all else by
+//! the same call of [`Within`], such as `space.within(&limits).prepare(engine)`. The answer says what it was
+//! doing ([`Error::Stopped`]).
 //!
 //! Handles own what they need: no lifetime and no type parameter reaches the user. Maps, spaces and indexes
 //! never change, their clones share them, and all threads may use them. Every error has a stable

@@ -30,8 +30,8 @@ fn counting(last: usize) -> (Limits, Arc<AtomicUsize>) {
     (Limits::new().deadline(move || counter.fetch_add(1, Ordering::Relaxed) >= last), asked)
 }
 
-/// Checks that a call ends with [`Error::Stopped`] at the first question, at 1, 10, 50 and 90 % of them and at
-/// the last, and asks no more.
+/// Checks that a call ends with [`Error::Stopped`] at the first question, at 1, 10, 50 and 90 % of them and
+/// at the last, and asks no more.
 fn check<T>(name: &str, work: impl Fn(&Limits) -> Result<T, Error>) {
     let (limits, asked) = counting(usize::MAX);
     if let Err(error) = work(&limits) {

@@ -13,8 +13,8 @@ use super::{
     lengths::AnyAngleField,
     query::{FieldError, FieldQuery},
 };
-use crate::limit::with_room;
 use crate::filled::filled;
+use crate::limit::with_room;
 
 /// Makes exact any-angle distance fields at corners, one after another.
 ///

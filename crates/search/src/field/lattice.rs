@@ -13,8 +13,8 @@ use super::{
 };
 use crate::{
     canonical::{PatternTable, Pruning, pattern_at, prunes, rank},
-    limit::at_most,
     filled::filled,
+    limit::at_most,
     successors::ExpandedNode,
 };
 
