@@ -98,13 +98,10 @@ impl Case<'_> {
         };
         let cost = outcome.path().map(Path::cost);
         assert!(!cost.is_some_and(f64::is_sign_negative), "cost {cost:?}: {}", case());
-        assert_eq!(
-            cost.is_some(),
-            self.optimum.is_some(),
-            "{cost:?}, Dijkstra {:?}: {}",
-            self.optimum,
-            case()
-        );
+        // At k = 2 where corners are always cut, segments connect more than moves.
+        let is_of_segments = engine.guarantee == Guarantee::Suboptimal && engine.paths == K::Any;
+        let best = if is_of_segments { self.any_angle } else { self.optimum };
+        assert_eq!(cost.is_some(), best.is_some(), "{cost:?}, Dijkstra {best:?}: {}", case());
         let Outcome::Found(path) = outcome else {
             // The components know without a search.
             assert_eq!(counters, Counters::default(), "{}", case());
