@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_formats::{MapError, MapFile, MapMismatch, Scenario, ScenarioError};
+use mediant_formats::{MapError, MapFile, MapMismatch, Scenario, ScenarioError, Tiles};
 use mediant_grid::Grid;
 use mediant_search::Query;
 use mediant_sets::{Archive, ArchiveError};
@@ -79,7 +79,7 @@ impl Problem {
             return Ok(None);
         };
         let map =
-            MapFile::from_bytes(map).map_err(|source| ProblemError::Map { name: name.to_owned(), source })?;
+            MapFile::from_bytes(map, Tiles::default()).map_err(|source| ProblemError::Map { name: name.to_owned(), source })?;
         let scenario = Scenario::from_bytes(scenario)
             .map_err(|source| ProblemError::Scenario { name: name.to_owned(), source })?;
         Self::new(set, name, map.to_grid(), &scenario, every).map(Some)

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mediant_formats::{MapFile, ReadError, Scenario};
+use mediant_formats::{MapFile, ReadError, Scenario, Tiles};
 use mediant_grid::Vertex;
 
 use crate::{draw::theme::Theme, failure::Failure};
@@ -89,9 +89,9 @@ impl Builtin {
         format!("{}.map.scen", self.name)
     }
 
-    /// Parses the map.
-    pub(crate) fn map(&self) -> Result<MapFile, Failure> {
-        let map = MapFile::parse(self.map.as_bytes());
+    /// Parses the map, of these tiles.
+    pub(crate) fn map(&self, tiles: Tiles) -> Result<MapFile, Failure> {
+        let map = MapFile::from_bytes(self.map.into(), tiles);
         Ok(map.map_err(|source| ReadError::Map { path: self.map_name().into(), source })?)
     }
 

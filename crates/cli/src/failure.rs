@@ -7,7 +7,7 @@ use std::{
 };
 
 use mediant::{Engine, SetupError};
-use mediant_formats::{MapMismatch, PictureError, ReadError, RosError};
+use mediant_formats::{MapMismatch, PictureError, ReadError, RosError, TilesError};
 use mediant_grid::{PlacementKind, Vertex};
 
 use crate::terminal::message::say_error;
@@ -44,6 +44,10 @@ pub(crate) enum Failure {
     NoSuchMap { name: String, known: String },
     #[error("the map {map} has no place in the world: leave --world out, or give the YAML file of a ROS map")]
     NoWorld { map: String },
+    #[error("the map {map} has no characters for tiles: leave {option} out, or give a MovingAI map")]
+    NoTiles { map: String, option: &'static str },
+    #[error(transparent)]
+    Tiles(#[from] TilesError),
     #[error("({x}, {y}) is no vertex: write whole numbers, such as 3,14, or meters with --world")]
     NoVertex { x: f64, y: f64 },
     #[error(

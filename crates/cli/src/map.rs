@@ -2,8 +2,11 @@
 
 use std::{path::Path, sync::Arc};
 
-use mediant::{Motion, files::WorldFrame};
-use mediant_formats::{MapFile, Scenario, read_map};
+use mediant::{
+    Motion,
+    files::{Tiles, WorldFrame},
+};
+use mediant_formats::{Ground, MapFile, ReadError, Scenario, read_map};
 use mediant_grid::{Grid, PlacementKind, Vertex};
 
 use crate::{
@@ -41,11 +44,16 @@ impl Map {
 
     /// [`load`](Self::load), with the characters of a MovingAI map, to draw or to write them.
     pub(crate) fn load_with_tiles(args: &MapArgs) -> Result<Self, Failure> {
+        let options = args.options()?;
         if let Some(builtin) = Builtin::of_path(&args.map) {
-            let map = Self::bundled(builtin?)?;
+            let map = Self::bundled(builtin?, options.tiles)?;
             return if args.world { Err(Failure::NoWorld { map: map.name }) } else { Ok(map) };
         }
-        let (name, source) = (file_name(&args.map), read_map(&args.map, &args.image_options())?);
+        let (name, source) = (file_name(&args.map), read_map(&args.map, &options)?);
+        if args.names_tiles() && source.tiles.is_none() {
+            let option = if args.free.is_some() { "--free" } else { "--blocked" };
+            return Err(Failure::NoTiles { map: name, option });
+        }
         if args.world && source.frame.is_none() {
             return Err(Failure::NoWorld { map: name });
         }
@@ -54,14 +62,48 @@ impl Map {
         Ok(Self { frame, place, ..Self::new(name, Arc::new(source.grid), source.tiles, Theme::Plain) })
     }
 
-    /// Parses a bundled map.
-    pub(crate) fn bundled(builtin: &Builtin) -> Result<Self, Failure> {
-        let file = builtin.map()?;
+    /// Parses a bundled map, of these tiles.
+    pub(crate) fn bundled(builtin: &Builtin, tiles: Tiles) -> Result<Self, Failure> {
+        let file = builtin.map(tiles)?;
         Ok(Self::new(builtin.map_name(), Arc::new(file.to_grid()), Some(file), builtin.theme))
     }
 
     fn new(name: String, grid: Arc<Grid>, tiles: Option<MapFile>, theme: Theme) -> Self {
         Self { name, ground: Arc::clone(&grid), grid, radius: 0.0, theme, frame: None, place: None, tiles }
+    }
+
+    /// The map on which the cells of all grounds of a MovingAI map are free.
+    pub(crate) fn on_all_grounds(self) -> Result<Self, Failure> {
+        let Some(tiles) = &self.tiles else {
+            return Err(Failure::NoTiles { map: self.name, option: "--grounds" });
+        };
+        let grid =
+            Grid::from_fn(tiles.width(), tiles.height(), |x, y| tiles.ground(x as i32, y as i32).is_none());
+        let grid = Arc::new(grid.map_err(mediant::Error::from)?);
+        Ok(Self { ground: Arc::clone(&grid), grid, ..self })
+    }
+
+    /// The ground of a MovingAI map that somebody stands on at a vertex: that of its own cell, else that of
+    /// the first of the other cells around it at corners, else land.
+    pub(crate) fn ground_at(&self, placement: PlacementKind, at: Vertex) -> Ground {
+        let around: &[(i32, i32)] = match placement {
+            PlacementKind::Center => &[(0, 0)],
+            PlacementKind::Corner => &[(0, 0), (-1, 0), (0, -1), (-1, -1)],
+        };
+        let tiles = self.tiles.as_ref();
+        let ground = |&(dx, dy): &(i32, i32)| tiles?.ground(at.x.checked_add(dx)?, at.y.checked_add(dy)?);
+        around.iter().find_map(ground).unwrap_or(Ground::Land)
+    }
+
+    /// The map of one ground, on which all others are blocked.
+    pub(crate) fn on_ground(&self, ground: Ground) -> Result<Self, Failure> {
+        let Some(tiles) = &self.tiles else {
+            return Err(Failure::NoTiles { map: self.name.clone(), option: "--grounds" });
+        };
+        let tiles = MapFile::from_bytes(tiles.as_bytes().to_vec(), ground.tiles());
+        let tiles = tiles.map_err(|source| ReadError::Map { path: self.name.clone().into(), source })?;
+        let grid = Arc::new(tiles.to_grid());
+        Ok(Self { ground: Arc::clone(&grid), grid, tiles: Some(tiles), ..self.clone() })
     }
 
     /// The map for the agent that the arguments name, which moves like this.

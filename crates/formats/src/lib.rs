@@ -5,15 +5,15 @@
 //!
 //! | file | type | its grid |
 //! |---|---|---|
-//! | MovingAI `.map` | [`MapFile`] | `.`, `G` and `S` are free |
-//! | PGM and PBM, P1, P2, P4, P5; PNG | [`Raster`] | dark and transparent pixels are blocked: [`ImageOptions`] |
-//! | ROS `map_server`: YAML, picture | [`RosMap`] | occupied and unknown cells are blocked; meters: [`WorldFrame`] |
+//! | MovingAI `.map` | [`MapFile`] | `.`, `G` and `S` are free: [`Tiles`] |
+//! | PGM and PBM, P1, P2, P4, P5; PNG | [`Raster`] | dark and transparent pixels are blocked: [`MapOptions`] |
+//! | ROS `map_server`: YAML, picture | [`RosMap`] | occupied and unknown cells are blocked, as nav2 reads them since 2025: [`RosVersion`]; meters: [`WorldFrame`] |
 //!
 //! [`read_map_with`] does so where files are not on a disk, and [`map_size_with`] only looks at the header.
 //!
 //! ```no_run
-//! use mediant_formats::{ImageOptions, read_map};
-//! let map = read_map("depot.yaml", &ImageOptions::default())?;
+//! use mediant_formats::{MapOptions, read_map};
+//! let map = read_map("depot.yaml", &MapOptions::default())?;
 //! let start = map.frame.and_then(|frame| frame.cell_at(1.25, -0.5));
 //! # Ok::<(), mediant_formats::ReadError>(())
 //! ```
@@ -26,7 +26,7 @@
 //!
 //! **That for pictures: no shade is rounded.** A [`Raster`] keeps the sum of a pixel's colours, and a
 //! threshold is a [`Fraction`]. They are compared as whole numbers, so a pixel at a threshold is on the same
-//! side of it on every platform.
+//! side of it on every platform. (ROS 2 compares in single precision, which is the same everywhere, too.)
 //!
 //! Input is not trusted: memory grows with the bytes that a file has, never with the sizes that it states. A
 //! picture, which may be compressed, has at most [`Raster::MAX_PIXELS`] pixels. Each error says where it is
@@ -35,7 +35,7 @@
 //!
 //! The formats of maps and scenarios are those of Sturtevant, *Benchmarks for Grid-Based Pathfinding* (2012);
 //! of PGM and PBM, those of the manual pages of Netpbm; of PNG, that of its specification (W3C, third
-//! edition), by the crate `png`; of ROS maps, what the `map_server` of nav2 reads.
+//! edition), by the crate `png`; of ROS maps, what the `map_server` of nav2 reads today, or that of ROS 1.
 //!
 //! | feature | adds | compiles in addition |
 //! |---|---|---|
@@ -51,6 +51,7 @@
 //! bytes. It is not checked whether a query's start or goal is free, since that depends on where the vertices
 //! are.
 
+mod foreign;
 mod fraction;
 #[cfg(feature = "index")]
 mod index;
@@ -72,10 +73,10 @@ mod world;
 pub use fraction::{Fraction, FractionError};
 #[cfg(feature = "index")]
 pub use index::{IndexError, IndexFile, IndexKey, WriteError};
-pub use map::{MapError, MapFile};
+pub use map::{Ground, MapError, MapFile, RowsError, TileError, Tiles, TilesError};
 #[cfg(feature = "picture")]
 pub use picture::{Picture, PictureError};
-pub use raster::{ImageOptions, Raster, RasterError, RasterFormat, Unknown};
+pub use raster::{MapOptions, Raster, RasterError, RasterFormat, RosVersion, Unknown};
 pub use read::{MAX_FILE_BYTES, ReadError};
 pub use ros::{RosError, RosMap, RosMode, RosSettings};
 pub use scenario::{Instance, MapMismatch, Scenario, ScenarioError, scenario_tolerance};

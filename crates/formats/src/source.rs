@@ -5,9 +5,9 @@ use std::path::Path;
 use mediant_grid::Grid;
 
 use crate::{
-    ImageOptions, MapFile, Raster, RosMap, WorldFrame,
+    MapFile, MapOptions, Raster, RosMap, WorldFrame, foreign,
     read::{ReadError, read_regular},
-    text::{Lines, quote, words},
+    text::{Lines, words},
 };
 
 /// The kinds of files that are maps.
@@ -23,13 +23,18 @@ pub enum MapFormat {
 }
 
 impl MapFormat {
-    /// The kind of a file: by its first bytes, else by the end of its name, else by a line `image: …`.
+    /// The kind of a file: by its first bytes, else by the end of its name, else by a line `image: …`, also
+    /// in braces. `None` for files of other kinds, whatever their names.
     #[must_use]
     pub fn of(bytes: &[u8], path: impl AsRef<Path>) -> Option<Self> {
         let extension = path.as_ref().extension().and_then(|extension| extension.to_str());
-        let first = Lines::new(bytes).next().and_then(|line| words(line.text).next());
+        let first = Lines::new(bytes).find(|line| !line.is_blank());
+        let first = first.and_then(|line| words(line.text).next());
         if Raster::is_picture(bytes) {
             return Some(Self::Picture);
+        }
+        if foreign::kind(bytes).is_some() {
+            return None;
         }
         if first.is_some_and(|(_, word)| word == b"type") {
             return Some(Self::MovingAi);
@@ -38,7 +43,13 @@ impl MapFormat {
             Some("map") => Some(Self::MovingAi),
             Some("png" | "pgm" | "pbm" | "pnm") => Some(Self::Picture),
             Some("yaml" | "yml") => Some(Self::Ros),
-            _ => Lines::new(bytes).any(|line| line.text.starts_with(b"image:")).then_some(Self::Ros),
+            _ => {
+                let mut lines = Lines::new(bytes).map(|line| line.text.trim_ascii_start());
+                let names_image = |line: &[u8]| {
+                    line.strip_prefix(b"{").unwrap_or(line).trim_ascii_start().starts_with(b"image:")
+                };
+                lines.any(names_image).then_some(Self::Ros)
+            }
         }
     }
 }
@@ -57,13 +68,13 @@ pub struct MapSource {
     pub tiles: Option<MapFile>,
 }
 
-/// Reads a map of any [kind](MapFormat). The options are for pictures; of a MovingAI map nothing depends on
-/// them.
+/// Reads a map of any [kind](MapFormat). Of a MovingAI map only `tiles` counts, of a picture `threshold`,
+/// `invert` and `unknown`, of a ROS map `threshold`, `unknown` and `ros`.
 ///
 /// # Errors
 /// [`ReadError`] for a file that is missing, cannot be read, or is no map; the same of the picture that a
 /// YAML file names.
-pub fn read_map(path: impl AsRef<Path>, options: &ImageOptions) -> Result<MapSource, ReadError> {
+pub fn read_map(path: impl AsRef<Path>, options: &MapOptions) -> Result<MapSource, ReadError> {
     read_map_with(path, options, read_regular)
 }
 
@@ -71,10 +82,10 @@ pub fn read_map(path: impl AsRef<Path>, options: &ImageOptions) -> Result<MapSou
 /// path. It is asked for the map, and for the picture that a YAML file names, beside it.
 ///
 /// ```
-/// use mediant_formats::{ImageOptions, ReadError, read_map_with};
+/// use mediant_formats::{MapOptions, ReadError, read_map_with};
 /// let files = [("room.pgm", "P2 2 1 255  254 0"), ("room.yaml", "image: room.pgm\nresolution: 1\n\
 ///     origin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.25\n")];
-/// let map = read_map_with("room.yaml", &ImageOptions::default(), |path| {
+/// let map = read_map_with("room.yaml", &MapOptions::default(), |path| {
 ///     let file = files.iter().find(|(name, _)| path.as_os_str() == *name);
 ///     let bytes = file.map(|(_, text)| text.as_bytes().to_vec());
 ///     bytes.ok_or_else(|| ReadError::Missing { path: path.to_owned() })
@@ -87,7 +98,7 @@ pub fn read_map(path: impl AsRef<Path>, options: &ImageOptions) -> Result<MapSou
 /// Those of `read`, and [`ReadError`] for what is no map.
 pub fn read_map_with(
     path: impl AsRef<Path>,
-    options: &ImageOptions,
+    options: &MapOptions,
     mut read: impl FnMut(&Path) -> Result<Vec<u8>, ReadError>,
 ) -> Result<MapSource, ReadError> {
     let path = path.as_ref();
@@ -95,7 +106,7 @@ pub fn read_map_with(
     let format = format_of(path, &bytes)?;
     let (grid, frame, tiles) = match format {
         MapFormat::MovingAi => {
-            let map = MapFile::from_bytes(bytes)
+            let map = MapFile::from_bytes(bytes, options.tiles.clone())
                 .map_err(|source| ReadError::Map { path: path.to_owned(), source })?;
             (map.to_grid(), None, Some(map))
         }
@@ -147,5 +158,6 @@ pub fn map_size_with(
 
 /// The kind of a file that is to be a map.
 fn format_of(path: &Path, bytes: &[u8]) -> Result<MapFormat, ReadError> {
-    MapFormat::of(bytes, path).ok_or_else(|| ReadError::NoMap { path: path.to_owned(), found: quote(bytes) })
+    MapFormat::of(bytes, path)
+        .ok_or_else(|| ReadError::NoMap { path: path.to_owned(), found: foreign::kind_or_quote(bytes) })
 }

@@ -24,9 +24,19 @@ pub(crate) struct Lines<'a> {
     number: usize,
 }
 
+/// The byte order mark of UTF-8, which some editors write before a text.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
 impl<'a> Lines<'a> {
-    pub(crate) const fn new(bytes: &'a [u8]) -> Self {
-        Self { bytes, at: 0, number: 0 }
+    /// The lines after the byte order mark, if there is one.
+    pub(crate) fn new(bytes: &'a [u8]) -> Self {
+        let at = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
+        Self { bytes, at, number: 0 }
+    }
+
+    /// The whole text.
+    pub(crate) const fn bytes(&self) -> &'a [u8] {
+        self.bytes
     }
 
     /// The number of the last line that was taken.

@@ -266,6 +266,12 @@ impl Grid {
         !self.rows.get(x, y)
     }
 
+    /// Whether any cell is free. It is found at the first one.
+    #[must_use]
+    pub fn has_free_cells(&self) -> bool {
+        self.rows.words().iter().any(|word| word.count_zeros() > 0)
+    }
+
     /// The number of free cells.
     #[must_use]
     pub fn free_cells(&self) -> u64 {

@@ -79,6 +79,8 @@ pub enum ErrorCode {
     Cancelled,
     /// Work that a deadline stopped.
     Deadline,
+    /// A map with a character that is neither free nor blocked, or with characters that cannot be either.
+    MapTile,
     /// A mistake of a kind that has no name yet.
     Other,
 }
@@ -117,6 +119,7 @@ names!(ErrorCode:
     Memory => "memory",
     Cancelled => "cancelled",
     Deadline => "deadline",
+    MapTile => "map-tile",
     Other => "other",
 );
 
@@ -127,6 +130,7 @@ impl Error {
         match self {
             Self::Grid(GridError::Size { .. }) => ErrorCode::MapSize,
             Self::Grid(GridError::Ragged { .. }) => ErrorCode::MapRagged,
+            Self::Tile(_) | Self::Tiles(_) => ErrorCode::MapTile,
             Self::Edit { .. } | Self::EditCell { .. } => ErrorCode::EditOutside,
             Self::Size(_) => ErrorCode::Number,
             Self::Motion { .. } => ErrorCode::Motion,
@@ -169,8 +173,12 @@ const fn of_query(error: &QueryError) -> ErrorCode {
     match error {
         QueryError::Outside { end: End::Start, .. } => ErrorCode::StartOutside,
         QueryError::Outside { end: End::Goal, .. } => ErrorCode::GoalOutside,
-        QueryError::Blocked { end: End::Start, .. } => ErrorCode::StartBlocked,
-        QueryError::Blocked { end: End::Goal, .. } => ErrorCode::GoalBlocked,
+        QueryError::Blocked { end: End::Start, .. } | QueryError::NothingFree { end: End::Start, .. } => {
+            ErrorCode::StartBlocked
+        }
+        QueryError::Blocked { end: End::Goal, .. } | QueryError::NothingFree { end: End::Goal, .. } => {
+            ErrorCode::GoalBlocked
+        }
         QueryError::GaveUp { .. } => ErrorCode::GaveUp,
         QueryError::OtherGoals => ErrorCode::Mismatch,
         QueryError::NoEnd { .. } => ErrorCode::NoEnd,

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use mediant_formats::{IndexError, ReadError, WriteError};
+use mediant_formats::{IndexError, ReadError, RowsError, TileError, TilesError, WriteError};
 use mediant_grid::{GridError, Interrupted, Mismatch, Rectangle, SizeError, Vertex};
 use mediant_hierarchy::HierarchyError;
 use mediant_moves::KError;
@@ -44,6 +44,12 @@ pub enum Error {
     /// A map that cannot be made.
     #[error(transparent)]
     Grid(GridError),
+    /// A character in the rows of a map that is neither free nor blocked.
+    #[error(transparent)]
+    Tile(TileError),
+    /// Characters that cannot be free or blocked.
+    #[error(transparent)]
+    Tiles(#[from] TilesError),
     /// An edit outside the map.
     #[error(
         "an edit of {} × {} cells at ({}, {}), outside the map of {} × {} cells: name cells of the map",
@@ -218,6 +224,15 @@ macro_rules! from_errors {
 }
 
 from_errors!(Jump: JumpError, Subgoal: SubgoalError, Hierarchy: HierarchyError, IndexFile: IndexError);
+
+impl From<RowsError> for Error {
+    fn from(error: RowsError) -> Self {
+        match error {
+            RowsError::Tile(error) => Self::Tile(error),
+            RowsError::Grid(error) => Self::Grid(error),
+        }
+    }
+}
 
 impl Error {
     /// This error of the index in a file.

@@ -1,7 +1,9 @@
 //! The errors inside an [`Error`](crate::Error), each with its fields; and what the library does not do, for
 //! errors of programs that stand on it.
 
-pub use mediant_formats::{IndexError, MapError, RasterError, ReadError, RosError, WriteError};
+pub use mediant_formats::{
+    IndexError, MapError, RasterError, ReadError, RosError, TileError, TilesError, WriteError,
+};
 pub use mediant_grid::{GridError, Mismatch, SizeError};
 pub use mediant_hierarchy::HierarchyError;
 pub use mediant_moves::KError;

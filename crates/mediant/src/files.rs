@@ -1,5 +1,6 @@
-//! Map files: how pictures are read, and where maps are in the world.
+//! Map files: how they are read, and where maps are in the world.
 
 pub use mediant_formats::{
-    Fraction, FractionError, ImageOptions, MapFormat, MapSource, Unknown, WorldError, WorldFrame,
+    Fraction, FractionError, MapFormat, MapOptions, MapSource, RosVersion, Tiles, Unknown, WorldError,
+    WorldFrame,
 };

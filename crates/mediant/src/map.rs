@@ -2,7 +2,7 @@
 
 use std::{path::Path as FilePath, sync::Arc};
 
-use mediant_formats::{ImageOptions, MapFile, ReadError, WorldFrame, map_size_with, read_map, read_map_with};
+use mediant_formats::{MapOptions, ReadError, Tiles, WorldFrame, map_size_with, read_map, read_map_with};
 use mediant_grid::{Grid, GridError, MapId, Rectangle, Vertex};
 
 use crate::error::Error;
@@ -31,24 +31,24 @@ pub struct Map {
 }
 
 impl Map {
-    /// Reads a map file: a `MovingAI` map (`.`, `G` and `S` are free cells, all other characters blocked
+    /// Reads a map file: a `MovingAI` map (`.`, `G` and `S` are free cells, `@`, `O`, `T`, `W` and `#` blocked
     /// ones), a PNG, PGM or PBM picture (pixels darker than half are blocked), or the YAML file of a ROS map
-    /// (unknown cells are blocked). [`open_with`](Self::open_with) has options, and the map's place in the
-    /// world.
+    /// (as nav2 reads it since 2025; unknown cells are blocked). [`open_with`](Self::open_with) has options,
+    /// and the map's place in the world.
     ///
     /// # Errors
     /// [`Error::Read`] for a file that is missing, cannot be read, or is no map.
     pub fn open(path: impl AsRef<FilePath>) -> Result<Self, Error> {
-        Ok(read_map(path, &ImageOptions::default())?.grid.into())
+        Ok(read_map(path, &MapOptions::default())?.grid.into())
     }
 
-    /// Reads a map file as [`open`](Self::open) does, with options for pictures, and with its place in the
-    /// world if it is a ROS map.
+    /// Reads a map file as [`open`](Self::open) does, with options, and with its place in the world if it is a
+    /// ROS map.
     ///
     /// ```no_run
-    /// use mediant::{Map, files::{ImageOptions, Unknown}};
+    /// use mediant::{Map, files::{MapOptions, Unknown}};
     ///
-    /// let options = ImageOptions { unknown: Unknown::Free, ..ImageOptions::default() };
+    /// let options = MapOptions { unknown: Unknown::Free, ..MapOptions::default() };
     /// let (map, world) = Map::open_with("depot.yaml", &options)?;
     /// let start = world.and_then(|world| world.cell_at(1.5, -2.0));
     /// # let _ = (map, start);
@@ -59,7 +59,7 @@ impl Map {
     /// Those of [`open`](Self::open).
     pub fn open_with(
         path: impl AsRef<FilePath>,
-        options: &ImageOptions,
+        options: &MapOptions,
     ) -> Result<(Self, Option<WorldFrame>), Error> {
         let source = read_map(path, options)?;
         Ok((source.grid.into(), source.frame))
@@ -70,10 +70,10 @@ impl Map {
     /// a ROS map names.
     ///
     /// ```
-    /// use mediant::{Map, files::ImageOptions};
+    /// use mediant::{Map, files::MapOptions};
     ///
     /// let text = "type octile\nheight 1\nwidth 3\nmap\n.@.\n";
-    /// let (map, _) = Map::open_in("hall.map", &ImageOptions::default(), |_| Ok(text.into()))?;
+    /// let (map, _) = Map::open_in("hall.map", &MapOptions::default(), |_| Ok(text.into()))?;
     /// assert!(map.is_blocked(1, 0));
     /// # Ok::<(), mediant::Error>(())
     /// ```
@@ -82,7 +82,7 @@ impl Map {
     /// Those of `read`, and [`Error::Read`] for what is no map.
     pub fn open_in(
         path: impl AsRef<FilePath>,
-        options: &ImageOptions,
+        options: &MapOptions,
         read: impl FnMut(&FilePath) -> Result<Vec<u8>, ReadError>,
     ) -> Result<(Self, Option<WorldFrame>), Error> {
         let source = read_map_with(path, options, read)?;
@@ -102,20 +102,33 @@ impl Map {
     }
 
     /// The map with these rows from top to bottom, all of the same length: `.`, `G` and `S` are free cells,
-    /// all other characters blocked ones, as in the files of `MovingAI`.
+    /// `#`, `@`, `O`, `T` and `W` blocked ones, small letters as capitals, as in the files of `MovingAI`.
+    /// [`from_rows_with`](Self::from_rows_with) takes other characters.
     ///
     /// # Errors
-    /// [`Error::Grid`] for no rows, rows of different lengths, or sides longer than [`Grid::MAX_SIDE`].
+    /// [`Error::Tile`] for another character; [`Error::Grid`] for no rows, rows of different lengths, or sides
+    /// longer than [`Grid::MAX_SIDE`].
     pub fn from_rows<R: AsRef<str>>(rows: impl IntoIterator<Item = R>) -> Result<Self, Error> {
-        let is_blocked = |tile: char| !u8::try_from(tile).is_ok_and(MapFile::is_free_tile);
-        let rows = rows.into_iter().map(|row| row.as_ref().chars().map(is_blocked).collect());
-        let rows: Vec<Vec<bool>> = rows.collect();
-        let expected = rows.first().map_or(0, Vec::len);
-        if let Some((row, cells)) = rows.iter().enumerate().find(|(_, cells)| cells.len() != expected) {
-            return Err(GridError::Ragged { row, found: cells.len(), expected }.into());
-        }
-        Grid::check_size(expected as u64, rows.len() as u64)?;
-        Self::from_fn(expected as u32, rows.len() as u32, |x, y| rows[y as usize][x as usize])
+        Self::from_rows_with(rows, &Tiles::default())
+    }
+
+    /// The map with these rows of these characters.
+    ///
+    /// ```
+    /// use mediant::{Map, files::Tiles};
+    ///
+    /// let hall = Map::from_rows_with(["#   #", "# # #"], &Tiles::new(Some(" "), Some("#"))?)?;
+    /// assert!(hall.is_blocked(2, 1) && !hall.is_blocked(1, 1));
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`from_rows`](Self::from_rows).
+    pub fn from_rows_with<R: AsRef<str>>(
+        rows: impl IntoIterator<Item = R>,
+        tiles: &Tiles,
+    ) -> Result<Self, Error> {
+        Ok(tiles.grid(rows)?.into())
     }
 
     /// The map of `width` × `height` cells for which `blocked(x, y)` says which are blocked. It is asked once

@@ -11,9 +11,11 @@ use pyo3::{
 /// The class of the exception for a kind of mistake.
 const fn class(code: ErrorCode) -> &'static str {
     match code {
-        ErrorCode::MapSize | ErrorCode::MapRagged | ErrorCode::EditOutside | ErrorCode::IndexEdit => {
-            "MapError"
-        }
+        ErrorCode::MapSize
+        | ErrorCode::MapRagged
+        | ErrorCode::MapTile
+        | ErrorCode::EditOutside
+        | ErrorCode::IndexEdit => "MapError",
         ErrorCode::K
         | ErrorCode::Motion
         | ErrorCode::UnknownName
@@ -131,6 +133,7 @@ const fn in_rows(error: QueryError) -> QueryError {
             QueryError::Outside { end, at: swapped(at), last: swapped(last) }
         }
         QueryError::Blocked { end, at } => QueryError::Blocked { end, at: swapped(at) },
+        QueryError::NothingFree { end, at } => QueryError::NothingFree { end, at: swapped(at) },
         error => error,
     }
 }

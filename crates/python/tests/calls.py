@@ -178,6 +178,8 @@ class Things:
         }
         if "PathLike" in parameter.type:
             return self.folder / {"open": "room.pgm", "load": "index", "save": "saved"}[call.name]
+        if parameter.name in {"free", "blocked"} and parameter.type == "str | None":
+            return {"free": ".", "blocked": "#"}[parameter.name]
         if parameter.name in by_name and not parameter.type.startswith("PathPoints"):
             return by_name[parameter.name]
         kinds = {"Point": (1, 3), "Points": [(1, 3), (0, 4)], "K": 3, "bool": True, "PathPoints": "touched"}

@@ -419,6 +419,33 @@ def test_files(tmp_path):
         mediant.Grid.open(tmp_path / "no.map")
 
 
+def test_tiles_and_ros(tmp_path):
+    """Characters are free or blocked by name, others an error; a ROS map is read as by nav2 since 2025."""
+    for rows, tile in ((["#   #"], " "), (["010"], "0"), (["x.x"], "x")):
+        with pytest.raises(mediant.MapError, match=f"found `{tile}`.*by `free` or `blocked`") as caught:
+            mediant.Grid.from_rows(rows)
+        assert caught.value.code == "map-tile"
+    hall = mediant.Grid.from_rows(["#   #"], free=" ")
+    assert hall.distance((0, 1), (0, 3)) == 2 and hall == mediant.Grid.from_rows(["#   #"], blocked="#")
+    assert mediant.Grid.from_rows(["010"], free="0", blocked="1").to_numpy().tolist() == [[False, True, False]]
+    assert mediant.Grid.from_rows([".sgS."]).distance((0, 0), (0, 4)) == 4
+    for wrong in ({"free": ""}, {"free": "x", "blocked": "X"}):
+        with pytest.raises(mediant.MediantError, match="free"):
+            mediant.Grid.from_rows(["..."], **wrong)
+    rock = mediant.Grid.from_rows(["##", "@@"])
+    with pytest.raises(mediant.QueryError, match=r"\(1, 0\) is blocked, and no cell of the map is free"):
+        rock.path((1, 0), (0, 0))
+    (tmp_path / "a.map").write_text("type octile\nheight 2\nwidth 4\nmap\n.WW.\n.Ww.\n")
+    assert mediant.Grid.open(tmp_path / "a.map", free="W").distance((0, 1), (1, 2)) == pytest.approx(2**0.5)
+    (tmp_path / "a.pgm").write_bytes(b"P5 2 1 255 \xff\0")
+    keys = "image: a.pgm, resolution: 1, origin: [0, 0, 0], negate: 0, occupied_thresh: 0.65, free_thresh: 0"
+    (tmp_path / "a.yaml").write_text("{" + keys + "}")
+    for options, wanted in (({}, [False, True]), ({"ros": 2}, [False, True]), ({"ros": 1}, [True, True])):
+        assert mediant.Grid.open(tmp_path / "a.yaml", **options).to_numpy().tolist() == [wanted]
+    with pytest.raises(mediant.MediantError, match="ros: expected 1 or 2, found 3"):
+        mediant.Grid.open(tmp_path / "a.yaml", ros=3)
+
+
 def test_world(tmp_path, rng):
     """Vertices in meters and back: y goes up from the lower left corner, which is turned by an angle."""
     (tmp_path / "room.pgm").write_text("P2 5 3 255 " + "254 " * 15)

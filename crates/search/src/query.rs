@@ -64,7 +64,15 @@ impl End {
             let last = Vertex::new(width as i32 - 1, height as i32 - 1);
             return Err(QueryError::Outside { end, at, last });
         }
-        if space.is_free(at) { Ok(()) } else { Err(QueryError::Blocked { end, at }) }
+        if space.is_free(at) { Ok(()) } else { Err(end.blocked(space, at)) }
+    }
+
+    /// The error of an end that is not free.
+    pub(crate) fn blocked<P: Placement>(self, space: &FreeSpace<P>, at: Vertex) -> QueryError {
+        match space.grid().has_free_cells() {
+            true => QueryError::Blocked { end: self, at },
+            false => QueryError::NothingFree { end: self, at },
+        }
     }
 }
 
@@ -118,6 +126,17 @@ pub enum QueryError {
     /// An end is on a blocked cell (at corners: between four of them).
     #[error("the {end} {at} is blocked: choose a free vertex")]
     Blocked {
+        /// Which end.
+        end: End,
+        /// The vertex of the query.
+        at: Vertex,
+    },
+    /// An end is blocked, as all cells of the map are.
+    #[error(
+        "the {end} {at} is blocked, and no cell of the map is free: check which cells, characters or shades \
+         count as free, and the size of the agent"
+    )]
+    NothingFree {
         /// Which end.
         end: End,
         /// The vertex of the query.

@@ -164,7 +164,7 @@ pub fn map_digest(map: &MapFile) -> String {
     let cells = map.width() as usize * map.height() as usize;
     let mut bits = vec![0_u8; cells.div_ceil(8)];
     for (at, &tile) in map.rows().flatten().enumerate() {
-        bits[at / 8] |= u8::from(!MapFile::is_free_tile(tile)) << (at % 8);
+        bits[at / 8] |= u8::from(!map.is_free(tile)) << (at % 8);
     }
     let digest = Sha256::new()
         .chain_update(map.width().to_le_bytes())

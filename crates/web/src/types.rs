@@ -93,14 +93,27 @@ export interface How extends Motion, Wishes, Options {
   readonly engine?: string;
 }
 
-/** How a picture becomes a map. */
-export interface ImageOptions {
+/** Which characters of a map are free cells, and which are blocked. */
+export interface TileOptions {
+  /** The characters of free cells, `".GS"` by default. Without `blocked` all others are blocked. */
+  readonly free?: string;
+  /** The characters of blocked cells, `"@OTW#"` by default. Without `free` all others are free. */
+  readonly blocked?: string;
+}
+
+/** How a file becomes a map. The characters are those of a MovingAI map. */
+export interface MapOptions extends TileOptions {
   /** A pixel that is darker than this part of white is blocked, 0 to 1. One half by default. */
   readonly threshold?: number;
   /** Light pixels are blocked. */
   readonly invert?: boolean;
   /** What becomes of transparent pixels, and of the unknown cells of a ROS map. Blocked by default. */
   readonly unknown?: "blocked" | "free";
+  /**
+   * Whose `map_server` says how the picture of a ROS map is read: that of ROS 2 (nav2 since 2025) or that of
+   * ROS 1. ROS 2 by default.
+   */
+  readonly ros?: 1 | 2;
 }
 
 /** The answer to a query. */

@@ -90,6 +90,21 @@ fn files_in_memory() {
     let inverted =
         ok(&class, "read", &["x".into(), pgm, NONE, json(r#"{"invert": true, "threshold": 0.3}"#)]);
     assert_eq!(Uint8Array::from(ok(&inverted, "cells", &[])).to_vec(), [1, 0]);
+    // By ROS 1 the end of the scale is unknown, by nav2 since 2025 it is free.
+    let yaml = yaml.replace("0.25", "0");
+    let white = js_sys::Object::new();
+    Reflect::set(&white, &"room.pgm".into(), &bytes(b"P2 2 1 255  255 0")).expect("an object");
+    for (options, cells) in [("{}", [0, 1]), (r#"{"ros": 2}"#, [0, 1]), (r#"{"ros": 1}"#, [1, 1])] {
+        let arguments = ["room.yaml".into(), bytes(yaml.as_bytes()), white.clone().into(), json(options)];
+        assert_eq!(Uint8Array::from(ok(&ok(&class, "read", &arguments), "cells", &[])).to_vec(), cells);
+    }
+    let lake = bytes(b"type octile\nheight 1\nwidth 4\nmap\n.wW@\n");
+    let water = ok(&class, "read", &["a.map".into(), lake, NONE, json(r#"{"free": "W"}"#)]);
+    assert_eq!(Uint8Array::from(ok(&water, "cells", &[])).to_vec(), [1, 0, 0, 1]);
+    let rows = || js_sys::JSON::parse(r##"["#  #"]"##).expect("JSON");
+    assert_eq!(thrown(&class, "fromRows", &[rows()]), "MediantError map-tile");
+    let hall = ok(&class, "fromRows", &[rows(), json(r#"{"free": " "}"#)]);
+    assert_eq!(Uint8Array::from(ok(&hall, "cells", &[])).to_vec(), [1, 0, 0, 1]);
     // The size of a map that nobody could make here.
     let huge = bytes(b"P5 16384 16384 255 ");
     assert_eq!(Array::from(&ok(&class, "size", &["x".into(), huge.clone()])).join(","), "16384,16384");

@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use mediant::files::{Fraction, ImageOptions, Unknown};
+use mediant::files::{Fraction, MapOptions, RosVersion, Tiles, Unknown};
 
 use super::value::parse_amount;
+use crate::failure::Failure;
 
 #[derive(Args, Debug)]
 pub(crate) struct MapArgs {
@@ -32,16 +33,45 @@ pub(crate) struct MapArgs {
     /// Unknown cells (of a ROS map, or transparent pixels) are free
     #[arg(long, help_heading = "Agent and map")]
     pub(crate) unknown_free: bool,
+    /// The picture of a ROS map is read as by the map_server of ROS 2 (nav2 since 2025), or as by that of ROS 1
+    /// [default: 2]
+    #[arg(long, value_name = "1|2", help_heading = "Agent and map", allow_negative_numbers = true)]
+    #[arg(value_parser = parse_ros)]
+    pub(crate) ros: Option<RosVersion>,
+    /// In a MovingAI map, the characters of free cells, for example W; all others are blocked. Small letters
+    /// count as capitals [default: .GS]
+    #[arg(long, value_name = "TILES", help_heading = "Agent and map", allow_hyphen_values = true)]
+    pub(crate) free: Option<String>,
+    /// In a MovingAI map, the characters of blocked cells; all others are free, or with --free an error
+    /// [default: @OTW#]
+    #[arg(long, value_name = "TILES", help_heading = "Agent and map", allow_hyphen_values = true)]
+    pub(crate) blocked: Option<String>,
+}
+
+/// The version of ROS.
+fn parse_ros(text: &str) -> Result<RosVersion, String> {
+    match text {
+        "1" => Ok(RosVersion::Ros1),
+        "2" => Ok(RosVersion::Ros2),
+        _ => Err("expected 1 or 2".to_owned()),
+    }
 }
 
 impl MapArgs {
-    /// How a picture becomes a map.
-    pub(crate) fn image_options(&self) -> ImageOptions {
-        let plain = ImageOptions::default();
-        ImageOptions {
+    /// How the file becomes a map.
+    pub(crate) fn options(&self) -> Result<MapOptions, Failure> {
+        let plain = MapOptions::default();
+        Ok(MapOptions {
             threshold: self.threshold.unwrap_or(plain.threshold),
             invert: self.invert,
             unknown: if self.unknown_free { Unknown::Free } else { plain.unknown },
-        }
+            ros: self.ros.unwrap_or(plain.ros),
+            tiles: Tiles::new(self.free.as_deref(), self.blocked.as_deref())?,
+        })
+    }
+
+    /// Whether the arguments say which characters are free.
+    pub(crate) const fn names_tiles(&self) -> bool {
+        self.free.is_some() || self.blocked.is_some()
     }
 }

@@ -37,6 +37,10 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "N", conflicts_with_all = ["from", "to"])]
     #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_count(text, &NonZeroUsize::MAX))]
     pub(crate) limit: Option<NonZeroUsize>,
+    /// Answer each query of a MovingAI map on the ground of its start: land (.GS), water (W) or trees (T),
+    /// between which no step leads
+    #[arg(long, conflicts_with_all = ["free", "blocked", "index", "distances"])]
+    pub(crate) grounds: bool,
     #[command(flatten)]
     pub(crate) wishes: WishArgs,
 
@@ -125,6 +129,7 @@ Examples:
   mediant run arena.map --from 1,11 --to 40,30 --snap --nearest --tolerance 1.5
   mediant run arena.map --scen arena.map.scen --max-nodes 1000 --max-cost 60 --deadline 0.5
   mediant run arena.map --scen arena.map.scen --engine subgoal --memory 8MB --distance
+  mediant run arena.map --scen arena.map.scen --grounds
   mediant run arena.map --from 1,11 --engine dijkstra --distances -";
 
 /// The engines whose paths are the shortest at any angle.

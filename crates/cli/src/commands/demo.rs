@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use anstyle::RgbColor;
+use mediant::files::Tiles;
 use mediant::{Engine, Setup};
 use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Rules, Vertex};
 use mediant_moves::{FiniteK, K};
@@ -62,7 +63,7 @@ fn solve(setup: Setup, map: &Map, query: Query) -> Result<Option<Row>, Failure> 
 /// Runs the command.
 pub(crate) fn demo(args: &DemoArgs, screen: &mut Screen) -> Result<(), Failure> {
     let builtin = Builtin::of_name(&args.name)?;
-    let map = Map::bundled(builtin)?;
+    let map = Map::bundled(builtin, Tiles::default())?;
     let query = Query::new(builtin.start, builtin.goal);
     let corners = Rules::Corner(DiagonalGap::Open);
     let centers = Rules::Center(CornerRule::Never);

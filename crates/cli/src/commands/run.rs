@@ -1,11 +1,8 @@
 //! `mediant run`: answers queries on a map.
 
-use std::{
-    io::{self, IsTerminal, Write},
-    time::Instant,
-};
+use std::io::{self, IsTerminal, Write};
 
-use mediant::{EngineOption, Index, Setup, Space};
+use mediant::EngineOption;
 
 use crate::{
     args::{Format, RunArgs},
@@ -18,6 +15,7 @@ use crate::{
         jsonl::Jsonl,
         queries::Queries,
         report::Report,
+        searchers::{Searcher, Searchers},
         session::{Finished, Session},
         table::TableReport,
         trace::TraceFile,
@@ -38,7 +36,11 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     if args.index.is_some() {
         setup.index_version()?;
     }
-    let map = load(args)?.for_agent(&args.map, setup.motion())?;
+    let map = match args.grounds {
+        // What it is for an agent depends on the ground.
+        true => load(args)?.on_all_grounds()?,
+        false => load(args)?.for_agent(&args.map, setup.motion())?,
+    };
     let wishes = args.wishes.on(&map, setup.rules.placement())?;
     if let (Some(path), Some(from)) = (&args.distances, wishes.from.first()) {
         return distances::write(setup, &map, *from, path, screen);
@@ -50,11 +52,9 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     if args.trace.is_some() && queries.len() > 1 {
         return Err(Failure::TraceMany);
     }
-    let begin = Instant::now();
-    let (space, index) = prepare(args, setup, &map)?;
-    let preparation = begin.elapsed();
+    let mut searchers = Searchers::new(args, (setup, reference), &map, &queries)?;
     let trace = args.trace.as_deref().map(TraceFile::create).transpose()?;
-    let mut planner = index.try_planner()?;
+    let Searcher { index, planner, .. } = searchers.first();
     let run = Run {
         map: &map,
         scenario: queries.scenario_name(),
@@ -66,8 +66,9 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
         guarantee: planner.guarantee(),
         reference: args.reference,
         repeat: args.repeat.get(),
-        preparation,
-        memory_bytes: space.memory_bytes() + index.memory_bytes(),
+        grounds: args.grounds,
+        preparation: searchers.preparation,
+        memory_bytes: searchers.memory_bytes(),
     };
     // Lines of JSON on the screen show progress themselves, and a bar would break them.
     let lines_on_screen = args.format == Format::Jsonl && io::stdout().is_terminal();
@@ -77,18 +78,18 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     };
     let session = Session {
         queries: &queries,
-        any_angle: reference.map(|setup| setup.planner(&map.to_library())).transpose()?,
         report: &mut *report,
         progress: Progress::new(queries.len(), !lines_on_screen),
         trace,
     };
-    let finished = session.answer_all(&mut planner, &run)?;
+    let finished = session.answer_all(&mut searchers, &run)?;
     drop(report);
     if let (Some(target), Some(item)) = (&args.draw, queries.iter().next()) {
-        let drawing = Drawing { map: &map, setup, request: wishes.request(item.query) };
+        let Searcher { map, planner, .. } = searchers.of(item.query.start);
+        let drawing = Drawing { map, setup, request: wishes.request(item.query) };
         match target {
             None => drawing.on_screen(&finished.path, screen)?,
-            Some(path) => drawing.to_file(path, &mut planner, &finished.path)?,
+            Some(path) => drawing.to_file(path, planner, &finished.path)?,
         }
         if let (Some(path), Format::Table) = (target, args.format) {
             writeln!(screen, "  drawn {}", printable(&file_name(path)))?;
@@ -97,19 +98,10 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     Ok(ending(&queries, finished))
 }
 
-/// The map, with its characters if they are to be drawn.
+/// The map, with its characters if they are to be drawn, or say which ground a cell is.
 fn load(args: &RunArgs) -> Result<Map, Failure> {
-    if matches!(args.draw, Some(None)) { Map::load_with_tiles(&args.map) } else { Map::load(&args.map) }
-}
-
-/// The space of a map, and the index: a new one, or that of the file that the arguments name.
-fn prepare(args: &RunArgs, setup: Setup, map: &Map) -> Result<(Space, Index), Failure> {
-    let space = setup.space(&map.to_library())?;
-    let index = match &args.index {
-        None => space.prepare(setup.engine)?,
-        Some(path) => space.load_for(setup.engine, path)?,
-    };
-    Ok((space, index.with_smoothing(setup.smoothing)))
+    let needs_tiles = args.grounds || matches!(args.draw, Some(None));
+    if needs_tiles { Map::load_with_tiles(&args.map) } else { Map::load(&args.map) }
 }
 
 /// What the program says and returns after the last query.

@@ -55,7 +55,7 @@ impl Canvas {
         let (columns, rows) = (chars(map.width(), DOT_COLUMNS), chars(map.height(), DOT_ROWS));
         let pixel_in_cells = PIXEL_DOTS as f64 / dots_per_cell;
         let tiles = pixels(map, columns, 2 * rows, pixel_in_cells);
-        let ground = paint(&tiles, columns, pixel_in_cells, theme);
+        let ground = paint(map, &tiles, columns, pixel_in_cells, theme);
         Self { placement, dots_per_cell, ground, sheet: Sheet::new(columns, rows) }
     }
 

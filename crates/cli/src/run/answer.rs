@@ -27,6 +27,8 @@ pub(crate) struct Run<'r> {
     pub(crate) reference: Option<Engine>,
     /// How often each query is timed.
     pub(crate) repeat: u32,
+    /// Whether each query is answered on the ground of its start.
+    pub(crate) grounds: bool,
     /// The time to prepare the search space, and to prepare or load the index.
     pub(crate) preparation: Duration,
     /// The memory of the search space and the index, beyond the map.

@@ -90,6 +90,10 @@ struct RunLine<'r> {
     height: u32,
     /// Of the agent's map.
     free_cells: u64,
+    /// Whether each query is answered on the ground of its start; only with `--grounds`. `free_cells` are those
+    /// of all grounds then.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    grounds: Option<bool>,
     /// The radius of the agent in cells; only with `--radius`.
     #[serde(skip_serializing_if = "Option::is_none")]
     radius: Option<f64>,
@@ -174,6 +178,7 @@ impl<'r> From<&Run<'r>> for RunLine<'r> {
             width: grid.width(),
             height: grid.height(),
             free_cells: grid.free_cells(),
+            grounds: run.grounds.then_some(true),
             radius: Some(run.map.radius).filter(|&radius| radius > 0.0),
             resolution: run.map.frame.map(|frame| frame.resolution()),
             scenario: run.scenario,

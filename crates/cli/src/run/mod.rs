@@ -7,6 +7,7 @@ pub(crate) mod measure;
 pub(crate) mod queries;
 pub(crate) mod query_error;
 pub(crate) mod report;
+pub(crate) mod searchers;
 pub(crate) mod session;
 pub(crate) mod summary;
 pub(crate) mod table;

@@ -19,7 +19,7 @@ pub(crate) struct Item {
     pub(crate) index: usize,
     /// Its start and goal; of several the first.
     pub(crate) query: Query,
-    /// The length that the scenario gives: optimal for k = 3 at centers under `never`.
+    /// The length that the scenario gives, if it knows it: optimal for k = 3 at centers under `never`.
     pub(crate) reference: Option<f64>,
 }
 
@@ -80,7 +80,7 @@ impl Queries {
         single.chain(instances.map(|(index, instance)| Item {
             index,
             query: Query::new(instance.start, instance.goal),
-            reference: Some(instance.optimal),
+            reference: instance.known_optimal(),
         }))
     }
 }

@@ -10,6 +10,7 @@ use super::{
     queries::{Item, Queries},
     query_error::explain,
     report::Report,
+    searchers::{Searcher, Searchers},
     summary::{Summary, Tally},
     trace::TraceFile,
 };
@@ -18,8 +19,6 @@ use crate::{failure::Failure, terminal::progress::Progress};
 /// The queries of a run, and where their answers go.
 pub(crate) struct Session<'s> {
     pub(crate) queries: &'s Queries,
-    /// The planner of `--reference`, which finds the shortest any-angle paths to compare with.
-    pub(crate) any_angle: Option<Planner>,
     pub(crate) report: &'s mut dyn Report,
     pub(crate) progress: Progress,
     /// Where the trace of the first query goes.
@@ -37,12 +36,16 @@ pub(crate) struct Finished {
 
 impl Session<'_> {
     /// Answers all queries and reports the answers.
-    pub(crate) fn answer_all(mut self, planner: &mut Planner, run: &Run<'_>) -> Result<Finished, Failure> {
+    pub(crate) fn answer_all(
+        mut self,
+        searchers: &mut Searchers,
+        run: &Run<'_>,
+    ) -> Result<Finished, Failure> {
         self.report.begin(run)?;
         let mut tally = Tally::new(run.wishes);
         let (mut first_error, mut path) = (None, Vec::new());
         for item in self.queries.iter() {
-            let answer = self.answer(planner, run, item)?;
+            let answer = self.answer(searchers.of(item.query.start), run, item)?;
             tally.add(&answer);
             if let Err(error) = &answer.outcome {
                 first_error.get_or_insert_with(|| (item.index, error.clone()));
@@ -59,8 +62,9 @@ impl Session<'_> {
     }
 
     /// Answers one query.
-    fn answer(&mut self, planner: &mut Planner, run: &Run<'_>, item: Item) -> Result<Answer, Failure> {
-        let (grid, rules) = (&*run.map.grid, run.setup.rules);
+    fn answer(&mut self, searcher: &mut Searcher, run: &Run<'_>, item: Item) -> Result<Answer, Failure> {
+        let Searcher { map, planner, any_angle, .. } = searcher;
+        let (grid, rules) = (&*map.grid, run.setup.rules);
         let request = || run.wishes.request(item.query);
         if run.wishes.distance {
             let (Measured { counters, nanos, .. }, length) =
@@ -68,12 +72,12 @@ impl Session<'_> {
             let outcome = match length {
                 Ok(Some(cost)) => {
                     let Query { start, goal, .. } = item.query;
-                    let (straight, any_angle) = (start.distance(goal), self.any_angle((start, goal)));
+                    let (straight, any_angle) = (start.distance(goal), shortest(any_angle, (start, goal)));
                     let found = Found::measured(cost, straight, run.guarantee, rules, any_angle);
                     Ok(Answered::Found(found))
                 }
                 Ok(None) => Ok(Answered::Unreachable),
-                Err(error) => Err(explain(error, run.map, rules.placement())),
+                Err(error) => Err(explain(error, map, rules.placement())),
             };
             return Ok(Answer { item, request: request(), outcome, counters, nanos });
         }
@@ -83,19 +87,19 @@ impl Session<'_> {
         }
         let outcome = match outcome {
             Ok(Outcome::Found(path)) => {
-                let any_angle = ends(&path).and_then(|ends| self.any_angle(ends));
+                let any_angle = ends(&path).and_then(|ends| shortest(any_angle, ends));
                 Ok(Answered::Found(Found::new(path, run.guarantee, rules, any_angle)))
             }
             Ok(Outcome::Nearest(path)) => Ok(Answered::Nearest(path)),
             Ok(Outcome::Stopped(stopped)) => Ok(Answered::Stopped(stopped)),
             Ok(_) => Ok(Answered::Unreachable),
-            Err(error) => Err(explain(error, run.map, rules.placement())),
+            Err(error) => Err(explain(error, map, rules.placement())),
         };
         Ok(Answer { item, request: request(), outcome, counters, nanos })
     }
+}
 
-    /// The length of the shortest any-angle path between the ends of a path, with `--reference`.
-    fn any_angle(&mut self, (start, goal): (Vertex, Vertex)) -> Option<f64> {
-        self.any_angle.as_mut()?.find(Query::new(start, goal)).ok()?.cost()
-    }
+/// The length of the shortest any-angle path between the ends of a path, with `--reference`.
+fn shortest(any_angle: &mut Option<Planner>, (start, goal): (Vertex, Vertex)) -> Option<f64> {
+    any_angle.as_mut()?.find(Query::new(start, goal)).ok()?.cost()
 }

@@ -3,7 +3,7 @@
 use std::fs;
 
 use mediant::{K, Map, Motion};
-use mediant_formats::{ImageOptions, MapFile, MapSource, RosMap, read_map};
+use mediant_formats::{MapFile, MapOptions, MapSource, RosMap, read_map};
 
 use crate::{
     common::{Files, add_example_files, bundled, run_examples, succeeds},
@@ -11,7 +11,7 @@ use crate::{
 };
 
 fn read(path: &str) -> MapSource {
-    read_map(path, &ImageOptions::default()).expect(path)
+    read_map(path, &MapOptions::default()).expect(path)
 }
 
 /// Converts a map, and returns the path of the new one.

@@ -5,6 +5,7 @@ mod check;
 mod common;
 mod convert;
 mod errors;
+mod grounds;
 mod hierarchy;
 mod jsonl;
 mod many;

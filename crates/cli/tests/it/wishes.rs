@@ -299,7 +299,7 @@ fn the_examples_of_the_help_run() {
     files.add("arena.map.scen", "version 1\n0\tarena.map\t49\t49\t1\t11\t40\t30\t46.87\n");
     let (map, index) = (files.path("arena.map"), files.path("arena.idx"));
     assert_eq!(mediant(&["build", &map, "--engine", "subgoal", "-o", &index]).status, Some(0));
-    run_examples(&files, "run", 13);
+    run_examples(&files, "run", 14);
 }
 
 #[test]
@@ -385,7 +385,8 @@ fn ends_that_no_wish_mends() {
     };
     check(
         &format!("run {rock} --from 0,0 --to 1,0 --snap --nearest"),
-        "the start (0, 0) is blocked: choose a free vertex",
+        "the start (0, 0) is blocked, and no cell of the map is free: check which cells, characters or shades \
+         count as free, and the size of the agent",
     );
     let blocked = "the goal (30, 20) is blocked: choose a free vertex; the nearest one is (28, 21)";
     check("run builtin:cave --from 2,5 --to 62,33 --to 30,20", blocked);

@@ -2,6 +2,8 @@
 
 use mediant_grid::Grid;
 
+use super::Tiles;
+
 /// A text that is not a MovingAI map.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -80,6 +82,21 @@ pub enum MapError {
         column: usize,
         /// The byte, quoted.
         found: String,
+    },
+    /// A row has a character of which nobody said whether it is free.
+    #[error(
+        "line {line}, column {column}: expected a tile, {tiles}, found {found}; \
+         say which characters are free or blocked, by `free` or `blocked`"
+    )]
+    Unknown {
+        /// The line, from 1.
+        line: usize,
+        /// The column, in bytes from 1.
+        column: usize,
+        /// The character, quoted.
+        found: String,
+        /// Those that are known.
+        tiles: Tiles,
     },
     /// The file ends before the last row.
     #[error(

@@ -2,19 +2,23 @@
 
 pub(crate) mod error;
 mod parse;
+mod tiles;
 
 use std::{io, path::Path};
 
 use mediant_grid::Grid;
 
 pub use error::MapError;
+pub use tiles::{Ground, RowsError, TileError, Tiles, TilesError};
 
 use crate::read::{ReadError, read_regular};
 
 /// A MovingAI map: a header with height and width, and one character per cell.
 ///
-/// The characters `.`, `G` and `S` are free cells, all others blocked cells. Lines end in LF or CRLF. The
-/// last row may lack its line end, and empty lines may follow it.
+/// The characters `.`, `G` and `S` are free cells, `@`, `O`, `T`, `W` and `#` blocked ones, small letters as
+/// capitals, and others an error; [`Tiles`] say otherwise. Lines end in LF or CRLF. The last row may lack its
+/// line end. Empty lines in the header and at the end, spaces at the ends of rows, and the byte order mark of
+/// UTF-8 are read past.
 ///
 /// ```
 /// use mediant_formats::MapFile;
@@ -30,24 +34,33 @@ pub struct MapFile {
     width: u32,
     /// Where each row begins in the text. Line ends may differ from row to row, so this cannot be computed.
     rows: Vec<usize>,
+    tiles: Tiles,
 }
 
 impl MapFile {
-    /// Parses a map.
+    /// Parses a map of the usual tiles.
     ///
     /// # Errors
     /// [`MapError`] says what is wrong and where.
     pub fn parse(bytes: &[u8]) -> Result<Self, MapError> {
-        Self::from_bytes(bytes.to_vec())
+        Self::from_bytes(bytes.to_vec(), Tiles::default())
     }
 
-    /// Parses a map and keeps the bytes without copying them.
+    /// Parses a map of these tiles, and keeps the bytes without copying them.
+    ///
+    /// ```
+    /// use mediant_formats::{MapFile, Tiles};
+    /// let text = b"type octile\nheight 1\nwidth 3\nmap\n.WW\n".to_vec();
+    /// let water = MapFile::from_bytes(text, Tiles::new(Some("W"), None)?)?.to_grid();
+    /// assert!(water.is_blocked(0, 0) && water.is_free(1, 0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// [`MapError`] says what is wrong and where.
-    pub fn from_bytes(text: Vec<u8>) -> Result<Self, MapError> {
-        let (width, rows) = parse::map(&text)?;
-        Ok(Self { text, width, rows })
+    pub fn from_bytes(text: Vec<u8>, tiles: Tiles) -> Result<Self, MapError> {
+        let (width, rows) = parse::map(&text, &tiles)?;
+        Ok(Self { text, width, rows, tiles })
     }
 
     /// Reads and parses a file.
@@ -56,7 +69,7 @@ impl MapFile {
     /// [`ReadError`] for a file that is missing, cannot be read, or is no map.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
         let path = path.as_ref();
-        Self::from_bytes(read_regular(path)?)
+        Self::from_bytes(read_regular(path)?, Tiles::default())
             .map_err(|source| ReadError::Map { path: path.to_owned(), source })
     }
 
@@ -79,14 +92,43 @@ impl MapFile {
             text.extend((0..width as i32).map(|x| if grid.is_free(x, y) { b'.' } else { b'@' }));
             text.push(b'\n');
         }
-        Self { text, width, rows }
+        Self { text, width, rows, tiles: Tiles::default() }
     }
 
-    /// The grid of the map. Cells are blocked, but for `.`, `G` and `S`.
+    /// The grid of the map.
     #[must_use]
     pub fn to_grid(&self) -> Grid {
+        self.grid_where(|tile| self.is_free(tile))
+    }
+
+    /// The grid of a ground: its cells are free, and all others blocked. So no path leads from one ground to
+    /// another.
+    ///
+    /// ```
+    /// use mediant_formats::{Ground, MapFile};
+    /// let map = MapFile::parse(b"type octile\nheight 2\nwidth 4\nmap\n.WW.\n.wW.\n")?;
+    /// let ground = map.ground(1, 0).expect("water");
+    /// assert_eq!(ground, Ground::Water);
+    /// assert!(map.ground_grid(ground).is_free(1, 1) && map.ground_grid(ground).is_blocked(0, 0));
+    /// # Ok::<(), mediant_formats::MapError>(())
+    /// ```
+    #[must_use]
+    pub fn ground_grid(&self, ground: Ground) -> Grid {
+        self.grid_where(|tile| Ground::of_tile(tile) == Some(ground))
+    }
+
+    /// The ground of a cell; `None` for one that nobody can enter, and outside the map.
+    #[must_use]
+    pub fn ground(&self, x: i32, y: i32) -> Option<Ground> {
+        let row = *self.rows.get(usize::try_from(y).ok()?)?;
+        let x = usize::try_from(x).ok().filter(|&x| x < self.width as usize)?;
+        Ground::of_tile(self.text[row + x])
+    }
+
+    fn grid_where(&self, is_free: impl Fn(u8) -> bool) -> Grid {
+        let table: Vec<bool> = (0..=u8::MAX).map(is_free).collect();
         Grid::from_fn(self.width, self.height(), |x, y| {
-            !is_free(self.text[self.rows[y as usize] + x as usize])
+            !table[usize::from(self.text[self.rows[y as usize] + x as usize])]
         })
         .expect("the parser checks width and height")
     }
@@ -109,10 +151,10 @@ impl MapFile {
         self.rows.iter().map(|&start| &self.text[start..start + self.width as usize])
     }
 
-    /// Whether a cell with this character is free.
+    /// Whether a cell of this map with this character is free.
     #[must_use]
-    pub const fn is_free_tile(tile: u8) -> bool {
-        is_free(tile)
+    pub fn is_free(&self, tile: u8) -> bool {
+        self.tiles.is_free(char::from(tile)) == Some(true)
     }
 
     /// The text of the file, byte for byte.
@@ -128,8 +170,4 @@ impl MapFile {
     pub fn write(&self, mut out: impl io::Write) -> io::Result<()> {
         out.write_all(&self.text)
     }
-}
-
-const fn is_free(tile: u8) -> bool {
-    matches!(tile, b'.' | b'G' | b'S')
 }

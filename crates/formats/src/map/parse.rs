@@ -2,8 +2,11 @@
 
 use mediant_grid::Grid;
 
-use super::error::MapError;
-use crate::text::{Line, Lines, quote, quote_line, words};
+use super::{Tiles, error::MapError};
+use crate::{
+    foreign,
+    text::{Line, Lines, quote, quote_line, words},
+};
 
 /// The width and the height that the header states.
 pub(super) fn size(text: &[u8]) -> Result<(u32, u32), MapError> {
@@ -14,17 +17,21 @@ pub(super) fn size(text: &[u8]) -> Result<(u32, u32), MapError> {
 }
 
 /// The width of a map, and where each of its rows begins in the text.
-pub(super) fn map(text: &[u8]) -> Result<(u32, Vec<usize>), MapError> {
+pub(super) fn map(text: &[u8], tiles: &Tiles) -> Result<(u32, Vec<usize>), MapError> {
     if text.is_empty() {
         return Err(MapError::Empty);
     }
     let mut lines = Lines::new(text);
     let (width, height) = parse_header(&mut lines)?;
-    Ok((width, parse_rows(&mut lines, width, height)?))
+    Ok((width, parse_rows(&mut lines, width, height, tiles)?))
 }
 
 /// The width and the height that the header states.
 fn parse_header(lines: &mut Lines<'_>) -> Result<(u32, u32), MapError> {
+    if let Some(found) = foreign::kind(lines.bytes()) {
+        let found = found.to_owned();
+        return Err(MapError::Header { line: 1, expected: "`type octile`", found });
+    }
     check_line(lines, &[b"type", b"octile"], "`type octile`")?;
     let (mut width, mut height) = (None, None);
     let sides = loop {
@@ -34,7 +41,7 @@ fn parse_header(lines: &mut Lines<'_>) -> Result<(u32, u32), MapError> {
             (Some(_), None) => "`height N`",
             (None, Some(_)) => "`width N`",
         };
-        let line = lines.next();
+        let line = next_filled(lines);
         let text = line.map_or(&b""[..], |line| line.text);
         let (side, value) = match words(text).next() {
             Some((_, b"height")) if height.is_none() => ("height", &mut height),
@@ -49,9 +56,14 @@ fn parse_header(lines: &mut Lines<'_>) -> Result<(u32, u32), MapError> {
 
 /// Takes a line of exactly the `expected` words, which an error message calls `name`.
 fn check_line(lines: &mut Lines<'_>, expected: &[&[u8]], name: &'static str) -> Result<(), MapError> {
-    let line = lines.next();
+    let line = next_filled(lines);
     let found = words(line.map_or(b"", |line| line.text)).map(|(_, word)| word);
     if found.eq(expected.iter().copied()) { Ok(()) } else { Err(header_error(lines, line, name)) }
+}
+
+/// The next line that is not empty.
+fn next_filled<'a>(lines: &mut Lines<'a>) -> Option<Line<'a>> {
+    lines.find(|line| !line.is_blank())
 }
 
 fn header_error(lines: &Lines<'_>, line: Option<Line<'_>>, expected: &'static str) -> MapError {
@@ -76,14 +88,15 @@ fn parse_side(line: usize, text: &[u8], side: &'static str) -> Result<u32, MapEr
 }
 
 /// Where each row begins. The list grows with the rows that the file has, not with the height that it states.
-fn parse_rows(lines: &mut Lines<'_>, width: u32, height: u32) -> Result<Vec<usize>, MapError> {
-    let mut rows = Vec::new();
+fn parse_rows(lines: &mut Lines<'_>, width: u32, height: u32, tiles: &Tiles) -> Result<Vec<usize>, MapError> {
+    let (mut rows, table) = (Vec::new(), tiles.table());
+    let known = |tile: u8| table[usize::from(tile)].is_some();
     while rows.len() < height as usize {
         let Some(line) = lines.next() else {
             let line = lines.number() + 1;
             return Err(MapError::FewRows { line, row: rows.len() + 1, height });
         };
-        check_row(line, width)?;
+        check_row(line, width, known, tiles)?;
         rows.push(line.start);
     }
     match lines.find(|line| !line.is_blank()) {
@@ -93,22 +106,29 @@ fn parse_rows(lines: &mut Lines<'_>, width: u32, height: u32) -> Result<Vec<usiz
 }
 
 /// Checks that a row has `width` tiles; an error names the first column that is wrong.
-fn check_row(line: Line<'_>, width: u32) -> Result<(), MapError> {
-    let (found, expected) = (line.text.len(), width as usize);
-    let tiles = &line.text[..found.min(expected)];
-    if let Some(at) = tiles.iter().position(|tile| !tile.is_ascii_graphic()) {
-        return Err(MapError::Tile { line: line.number, column: at + 1, found: quote(&tiles[at..=at]) });
-    }
-    match found {
-        _ if found < expected => {
-            Err(MapError::ShortRow { line: line.number, column: found + 1, expected: width, found })
+fn check_row(line: Line<'_>, width: u32, known: impl Fn(u8) -> bool, tiles: &Tiles) -> Result<(), MapError> {
+    let expected = width as usize;
+    let (row, rest) = line.text.split_at(line.text.len().min(expected));
+    let spaces = rest.iter().rev().take_while(|byte| byte.is_ascii_whitespace()).count();
+    let unknown = row.iter().position(|&tile| !known(tile));
+    // What is missing may be why a row ends in spaces.
+    let found = row.trim_ascii_end().len();
+    match unknown {
+        Some(at) if at < found => {
+            let (line, column, found) = (line.number, at + 1, quote(&row[at..=at]));
+            return Err(match row[at].is_ascii_graphic() || row[at] == b' ' {
+                true => MapError::Unknown { line, column, found, tiles: tiles.clone() },
+                false => MapError::Tile { line, column, found },
+            });
         }
-        _ if found > expected => Err(MapError::LongRow {
-            line: line.number,
-            column: expected + 1,
-            expected: width,
-            found: found - expected,
-        }),
-        _ => Ok(()),
+        None if row.len() == expected => {}
+        _ => {
+            let found = if unknown.is_some() { found } else { row.len() };
+            return Err(MapError::ShortRow { line: line.number, column: found + 1, expected: width, found });
+        }
+    }
+    match rest.len() - spaces {
+        0 => Ok(()),
+        found => Err(MapError::LongRow { line: line.number, column: expected + 1, expected: width, found }),
     }
 }

@@ -104,6 +104,12 @@ pub enum RasterError {
         /// What follows them.
         found: String,
     },
+    /// The header of a binary PGM or PBM ends in CR LF, and there is more after the pixels.
+    #[error(
+        "the lines of the header end in CR LF, of which LF would be the first pixel; end them in LF alone, \
+         and copy the file as binary"
+    )]
+    LineEnds,
     /// A PNG that is damaged, cut short, or of a kind that does not exist.
     #[error("the PNG cannot be read: {message}; save the picture anew")]
     Png {

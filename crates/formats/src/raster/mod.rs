@@ -14,27 +14,28 @@ use std::path::Path;
 use mediant_grid::Grid;
 
 pub use error::RasterError;
-pub use options::{ImageOptions, Unknown};
+pub use options::{MapOptions, RosVersion, Unknown};
 pub use write::RasterFormat;
 
 use crate::{
+    foreign::kind_or_quote,
     read::{ReadError, read_regular},
-    text::quote,
 };
 use error::check_sides;
 use samples::Samples;
+use write::scaled;
 
 /// A picture: for each pixel its shade, from 0 (black) to [`white`](Self::white), and, if the picture has
 /// it, its opacity. Row 0 is the top one.
 ///
 /// The shade of a pixel with colours is their mean. It is kept as their sum, so that no shade is rounded: a
-/// picture of three channels of 8 bits has shades of 0 to 765. Samples count as they are stored; a gamma
-/// or a colour profile changes nothing.
+/// picture of three channels of 8 bits has shades of 0 to 765. Beside it is kept their luma, which today's
+/// ROS maps are read by. Samples count as they are stored; a gamma or a colour profile changes nothing.
 ///
 /// ```
-/// use mediant_formats::{ImageOptions, Raster};
+/// use mediant_formats::{MapOptions, Raster};
 /// let raster = Raster::parse(b"P2 3 1 255  0 127 128")?;
-/// let grid = raster.to_grid(&ImageOptions::default());
+/// let grid = raster.to_grid(&MapOptions::default());
 /// assert!(grid.is_blocked(1, 0) && grid.is_free(2, 0));
 /// # Ok::<(), mediant_formats::RasterError>(())
 /// ```
@@ -46,6 +47,8 @@ pub struct Raster {
     /// width · height of them.
     shades: Samples,
     opacities: Option<Opacities>,
+    /// Of a picture with colours, for each pixel its luma in 8 bits. Of others it follows from the shades.
+    lumas: Option<Samples>,
 }
 
 /// How opaque each pixel is.
@@ -59,8 +62,8 @@ const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 
 impl Raster {
     /// The most pixels: 2²⁸, as 16,384 × 16,384 have. Pictures are compressed, up to a thousand to one, so it
-    /// is this number that bounds the memory that a small file takes: a byte a pixel for gray of 8 bits, at
-    /// most 6 for colours of 16 bits with opacity. It may be three times that while the picture is read, and
+    /// is this number that bounds the memory that a small file takes: a byte a pixel for gray of 8 bits, 3
+    /// for colours of 8 bits, at most 7 for colours of 16 bits with opacity. It may be three times that while the picture is read, and
     /// five times if it is interlaced.
     pub const MAX_PIXELS: u64 = 1 << 28;
 
@@ -90,7 +93,7 @@ impl Raster {
         }
         match netpbm::kind(bytes) {
             Some(kind) => netpbm::read(kind, bytes),
-            None => Err(RasterError::Unknown { found: quote(bytes) }),
+            None => Err(RasterError::Unknown { found: kind_or_quote(bytes) }),
         }
     }
 
@@ -108,7 +111,7 @@ impl Raster {
         }
         match netpbm::kind(bytes) {
             Some(kind) => netpbm::size(kind, bytes),
-            None => Err(RasterError::Unknown { found: quote(bytes) }),
+            None => Err(RasterError::Unknown { found: kind_or_quote(bytes) }),
         }
     }
 
@@ -142,7 +145,7 @@ impl Raster {
         for y in 0..height as i32 {
             shades.extend((0..width as i32).map(|x| shade(x as u32, y as u32).min(white)))?;
         }
-        Ok(Self { width, height, white, shades, opacities: None })
+        Ok(Self { width, height, white, shades, opacities: None, lumas: None })
     }
 
     /// The same picture with another opacity: `opacity(x, y)`, from 0 to `opaque`, is asked once for each
@@ -175,9 +178,9 @@ impl Raster {
         Self::from_fn(grid.width(), grid.height(), 1, |x, y| u32::from(grid.is_free(x as i32, y as i32)))
     }
 
-    /// The grid of the picture, one cell a pixel: dark pixels are blocked, see [`ImageOptions`].
+    /// The grid of the picture, one cell a pixel: dark pixels are blocked, see [`MapOptions`].
     #[must_use]
-    pub fn to_grid(&self, options: &ImageOptions) -> Grid {
+    pub fn to_grid(&self, options: &MapOptions) -> Grid {
         let limit = options.threshold.ceil_of(self.white);
         let (white, invert) = (self.white, options.invert);
         let unknown = options.unknown == Unknown::Blocked;
@@ -247,6 +250,43 @@ impl Raster {
     #[must_use]
     pub fn opacity(&self, x: u32, y: u32) -> Option<u32> {
         self.opacities.as_ref()?.samples.get(self.index(x, y)?)
+    }
+
+    /// The luma of a pixel, in 8 bits as GraphicsMagick computes it; `None` outside.
+    pub(crate) fn luma(&self, x: u32, y: u32) -> Option<u8> {
+        let at = self.index(x, y)?;
+        match &self.lumas {
+            Some(lumas) => lumas.get(at).map(|luma| luma as u8),
+            None => self.shades.get(at).map(|shade| self.luma_of_gray(shade)),
+        }
+    }
+
+    /// The luma of a gray pixel: the shade in 16 bits, of which the lower 8 are cut off.
+    fn luma_of_gray(&self, shade: u32) -> u8 {
+        (scaled(shade, self.white, 0xffff) / 257) as u8
+    }
+
+    /// The grid in which those cells are blocked for whose luma `blocked` says so, and for pixels that are
+    /// not wholly opaque, where they count, `unknown`.
+    pub(crate) fn grid_of_lumas(&self, blocked: &[bool; 256], unknown: Option<bool>) -> Grid {
+        let (width, opaque) = (self.width as usize, self.opaque());
+        let hidden = self.opacities.as_ref().zip(opaque).zip(unknown);
+        let of_gray = match self.lumas {
+            Some(_) => Vec::new(),
+            // Shades are few, and pixels many.
+            None => (0..=self.white).map(|shade| blocked[usize::from(self.luma_of_gray(shade))]).collect(),
+        };
+        let grid = Grid::from_fn(self.width, self.height, |x, y| {
+            let at = y as usize * width + x as usize;
+            match (&hidden, &self.lumas) {
+                (Some(((opacities, opaque), unknown)), _) if opacities.samples.get(at) < Some(*opaque) => {
+                    *unknown
+                }
+                (_, Some(lumas)) => lumas.get(at).is_none_or(|luma| blocked[luma as usize & 0xff]),
+                (_, None) => self.shades.get(at).is_none_or(|shade| of_gray[shade as usize]),
+            }
+        });
+        grid.expect("the sides were checked when the picture was made")
     }
 
     fn index(&self, x: u32, y: u32) -> Option<usize> {

@@ -57,13 +57,13 @@ pub(super) fn read(kind: Kind, bytes: &[u8]) -> Result<Raster, RasterError> {
         Kind::Bitmap => bits(cursor.pixels()?, width, height, &mut shades)?,
         _ => samples(cursor.pixels()?, width, height, white, &mut shades)?,
     }
-    Ok(Raster { width, height, white, shades, opacities: None })
+    Ok(Raster { width, height, white, shades, opacities: None, lumas: None })
 }
 
 /// Rows of bits, each padded to whole bytes, highest bit first; 1 is black.
-fn bits(bytes: &[u8], width: u32, height: u32, shades: &mut Samples) -> Result<(), RasterError> {
+fn bits(pixels: Pixels<'_>, width: u32, height: u32, shades: &mut Samples) -> Result<(), RasterError> {
     let row_bytes = width.div_ceil(8);
-    let pixels = check_length(bytes, u64::from(row_bytes) * u64::from(height))?;
+    let pixels = check_length(pixels, u64::from(row_bytes) * u64::from(height))?;
     for row in pixels.chunks_exact(row_bytes as usize) {
         shades.extend((0..width as usize).map(|x| u32::from(row[x / 8] >> (7 - x % 8) & 1 == 0)))?;
     }
@@ -72,14 +72,14 @@ fn bits(bytes: &[u8], width: u32, height: u32, shades: &mut Samples) -> Result<(
 
 /// Rows of samples, of two bytes where the largest needs them, the higher byte first.
 fn samples(
-    bytes: &[u8],
+    pixels: Pixels<'_>,
     width: u32,
     height: u32,
     white: u32,
     shades: &mut Samples,
 ) -> Result<(), RasterError> {
     let sample_bytes = if white > 0xff { 2 } else { 1 };
-    let pixels = check_length(bytes, u64::from(width) * u64::from(height) * sample_bytes)?;
+    let pixels = check_length(pixels, u64::from(width) * u64::from(height) * sample_bytes)?;
     if white > 0xff {
         let pair = |pair: &[u8]| u32::from(u16::from_be_bytes([pair[0], pair[1]]));
         check_samples(pixels.chunks_exact(2).map(pair), width, white)?;
@@ -104,14 +104,26 @@ fn check_samples(samples: impl Iterator<Item = u32>, width: u32, white: u32) -> 
     Err(RasterError::Sample { place, max: white, found: sample.to_string() })
 }
 
+/// The bytes of the pixels, as far as the file has them.
+#[derive(Clone, Copy)]
+struct Pixels<'a> {
+    bytes: &'a [u8],
+    /// Whether the one byte of white space before them is the first of CR LF, or of what looks like it.
+    after_cr: bool,
+}
+
 /// The pixels, if the file has as many bytes and at most white space after them.
-fn check_length(bytes: &[u8], expected: u64) -> Result<&[u8], RasterError> {
-    let unit = "bytes";
+fn check_length(pixels: Pixels<'_>, expected: u64) -> Result<&[u8], RasterError> {
+    let (unit, bytes) = ("bytes", pixels.bytes);
     // On 32 bits too: what is longer than `usize` can say is longer than the file.
     let parts = usize::try_from(expected).ok().and_then(|expected| bytes.split_at_checked(expected));
-    let (pixels, rest) = parts.ok_or(RasterError::Short { unit, expected, found: bytes.len() as u64 })?;
+    let (pixels_alone, rest) =
+        parts.ok_or(RasterError::Short { unit, expected, found: bytes.len() as u64 })?;
+    if pixels.after_cr && !rest.is_empty() {
+        return Err(RasterError::LineEnds);
+    }
     if rest.iter().all(|&byte| is_space(byte)) {
-        return Ok(pixels);
+        return Ok(pixels_alone);
     }
     Err(RasterError::Long { unit, expected, found: format!("{} more", rest.len()) })
 }
@@ -181,13 +193,14 @@ impl<'a> Cursor<'a> {
     }
 
     /// What follows the one byte of white space, or the comment, after the header of a binary file.
-    fn pixels(mut self) -> Result<&'a [u8], RasterError> {
+    fn pixels(mut self) -> Result<Pixels<'a>, RasterError> {
         match self.peek() {
             Some(b'#') => self.skip_line(),
             Some(byte) if is_space(byte) => self.at += 1,
             _ => return Err(self.header_error(self.at, "white space after the header")),
         }
-        Ok(&self.bytes[self.at..])
+        let after_cr = self.bytes[..self.at].ends_with(b"\r") && self.peek() == Some(b'\n');
+        Ok(Pixels { bytes: &self.bytes[self.at..], after_cr })
     }
 
     fn header_error(&self, at: usize, expected: &'static str) -> RasterError {

@@ -1,20 +1,21 @@
-//! How a picture becomes a map.
+//! How a file becomes a map.
 
-use crate::Fraction;
+use crate::{Fraction, Tiles};
 
-/// Which pixels of a picture are blocked cells.
+/// Which cells of a map are blocked: which pixels of a picture, which characters of a MovingAI map, and by
+/// whose rules a ROS map is read.
 ///
 /// ```
-/// use mediant_formats::{Fraction, ImageOptions, Raster};
+/// use mediant_formats::{Fraction, MapOptions, Raster};
 /// let raster = Raster::parse(b"P2 2 1 100  20 30")?;
-/// let mut options = ImageOptions { threshold: Fraction::new(3, 10).unwrap(), ..ImageOptions::default() };
+/// let mut options = MapOptions { threshold: Fraction::new(3, 10).unwrap(), ..MapOptions::default() };
 /// assert!(raster.to_grid(&options).is_blocked(0, 0) && raster.to_grid(&options).is_free(1, 0));
 /// options.invert = true;
 /// assert!(raster.to_grid(&options).is_free(0, 0));
 /// # Ok::<(), mediant_formats::RasterError>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ImageOptions {
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MapOptions {
     /// A pixel that is darker than this part of white is blocked; a pixel of just this shade is free. One
     /// half by default.
     ///
@@ -27,11 +28,21 @@ pub struct ImageOptions {
     /// What becomes of pixels that say nothing: those that are less than half opaque, and the unknown cells
     /// of a ROS map. Blocked by default.
     pub unknown: Unknown,
+    /// By whose rules the picture of a ROS map is read. Those of ROS 2 by default.
+    pub ros: RosVersion,
+    /// Which characters of a MovingAI map are free.
+    pub tiles: Tiles,
 }
 
-impl Default for ImageOptions {
+impl Default for MapOptions {
     fn default() -> Self {
-        Self { threshold: Fraction::HALF, invert: false, unknown: Unknown::Blocked }
+        Self {
+            threshold: Fraction::HALF,
+            invert: false,
+            unknown: Unknown::Blocked,
+            ros: RosVersion::Ros2,
+            tiles: Tiles::default(),
+        }
     }
 }
 
@@ -43,4 +54,26 @@ pub enum Unknown {
     Blocked,
     /// They are free.
     Free,
+}
+
+/// The `map_server` whose rules make occupancies of the pixels of a ROS map.
+///
+/// A pixel is *occupied to* p = 1 − its shade, as a part of white, or to its shade if the map is negated.
+///
+/// | | ROS 2 | ROS 1 |
+/// |---|---|---|
+/// | shade | the luma in 8 bits, (306 red + 601 green + 117 blue) / 1024, rounded down | the mean of the channels, exactly |
+/// | arithmetic | single precision | exact |
+/// | free | p ≤ `free_thresh`, even if it is occupied, too | p < `free_thresh` |
+/// | occupied | p ≥ `occupied_thresh` | p > `occupied_thresh` |
+/// | scale, between | 100 · (p − `free_thresh`) / (`occupied_thresh` − `free_thresh`), the nearest, halves away from 0 | the same, halves to even |
+/// | raw | the luma of 0 to 100, others unknown | the nearest of 256 shades, the same |
+/// | pixels that are not opaque | unknown in trinary and scale | in trinary their opacity is one more channel of the mean; unknown in scale |
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum RosVersion {
+    /// The `map_server` of ROS 1, and that of nav2 until 2025.
+    Ros1,
+    /// The `map_server` of nav2 since 2025 (navigation2, pull request 5071).
+    #[default]
+    Ros2,
 }

@@ -59,21 +59,25 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raster, RasterError> {
     let interlaced = header.interlaced;
     let mut reader = decoder.read_info()?;
     check_palette(&reader)?;
-    let (white, mut shades, mut opacities) = read_rows(&mut reader)?;
+    let mut raster = read_rows(&mut reader, width, height)?;
     let expected = width as usize * height as usize;
-    let decoded = opacities.iter().map(|opacities| &opacities.samples).chain([&shades]).map(Samples::len);
+    let decoded = raster.opacities.iter().map(|opacities| &opacities.samples);
+    let decoded = decoded.chain(&raster.lumas).chain([&raster.shades]).map(Samples::len);
     if decoded.into_iter().any(|found| found != expected) {
         return Err(RasterError::Png { message: "it has fewer pixels than its header states".to_owned() });
     }
     // The end of the file belongs to the picture: without it the file was cut short.
     reader.finish()?;
     if interlaced {
-        shades = in_order(&shades, width, height, white)?;
-        if let Some(Opacities { opaque, samples }) = &mut opacities {
+        raster.shades = in_order(&raster.shades, width, height, raster.white)?;
+        if let Some(Opacities { opaque, samples }) = &mut raster.opacities {
             *samples = in_order(samples, width, height, *opaque)?;
         }
+        if let Some(lumas) = &mut raster.lumas {
+            *lumas = in_order(lumas, width, height, 0xff)?;
+        }
     }
-    Ok(Raster { width, height, white, shades, opacities })
+    Ok(raster)
 }
 
 /// Checks that a palette is one of whole colours: `png` 0.18.1 panics where it is not (image-png, issue 694).
@@ -87,8 +91,8 @@ fn check_palette(reader: &Reader<Cursor<&[u8]>>) -> Result<(), RasterError> {
     })
 }
 
-/// White, and the samples in the order of the file.
-fn read_rows(reader: &mut Reader<Cursor<&[u8]>>) -> Result<(u32, Samples, Option<Opacities>), RasterError> {
+/// The picture, with its samples in the order of the file.
+fn read_rows(reader: &mut Reader<Cursor<&[u8]>>, width: u32, height: u32) -> Result<Raster, RasterError> {
     let (color, depth) = reader.output_color_type();
     let channels = color.samples();
     let has_opacity = matches!(color, ColorType::GrayscaleAlpha | ColorType::Rgba);
@@ -98,19 +102,33 @@ fn read_rows(reader: &mut Reader<Cursor<&[u8]>>) -> Result<(u32, Samples, Option
     let sample = |bytes: &[u8]| bytes.iter().fold(0, |sample, &byte| sample << 8 | u32::from(byte));
     let mut shades = Samples::up_to(white);
     let mut opacities = has_opacity.then(|| Opacities { opaque, samples: Samples::up_to(opaque) });
+    let mut lumas = (colors == 3).then(|| Samples::up_to(0xff));
     while let Some(row) = reader.next_row()? {
         let pixels = row.data().chunks_exact(channels * bytes);
-        if let (1, false) = (bytes, has_opacity) {
+        if let (1, 1, false) = (bytes, colors, has_opacity) {
             shades.extend(pixels.map(|pixel| pixel.iter().copied().map(u32::from).sum()))?;
             continue;
         }
         shades
             .extend(pixels.clone().map(|pixel| pixel.chunks_exact(bytes).take(colors).map(sample).sum()))?;
+        if let Some(lumas) = &mut lumas {
+            let channel = |pixel: &[u8], at: usize| sample(&pixel[at * bytes..][..bytes]);
+            let luma = |pixel: &[u8]| luma([0, 1, 2].map(|at| channel(pixel, at)), opaque);
+            lumas.extend(pixels.clone().map(luma))?;
+        }
         if let Some(opacities) = &mut opacities {
             opacities.samples.extend(pixels.map(|pixel| sample(&pixel[colors * bytes..])))?;
         }
     }
-    Ok((white, shades, opacities))
+    Ok(Raster { width, height, white, shades, opacities, lumas })
+}
+
+/// The luma of red, green and blue, in 8 bits: the intensity of GraphicsMagick, which weighs samples of 16
+/// bits as they are and then cuts off the lower 8. (Some of its builds round elsewhere, and find one more or
+/// less of 255 in some colours; for gray all agree.)
+fn luma([red, green, blue]: [u32; 3], white: u32) -> u32 {
+    let luma = (306 * red + 601 * green + 117 * blue) >> 10;
+    if white == 0xffff { luma / 257 } else { luma }
 }
 
 /// The samples of an interlaced picture, row by row.

@@ -1,11 +1,12 @@
-//! The part of YAML that the files of ROS maps use: one mapping, of keys at the start of lines.
+//! The part of YAML that the files of ROS maps use: one mapping, of keys at the start of lines, all indented
+//! alike, or in braces.
 //!
 //! A value is a plain or quoted scalar, or a list of these, `[a, b]` or a line each after `- `. The lines
 //! that follow a key and are indented, or begin with `-`, belong to its value. Comments, `---` before the
 //! keys, `...` after them and directives are read past. All else is an error, except in the value of a key
 //! that nobody asks for, which is not looked at.
 
-use super::RosError;
+use super::{RosError, flow};
 use crate::text::{Line, Lines, quote};
 
 /// A key with its value, which is still text.
@@ -26,12 +27,24 @@ pub(super) fn entries(
         RosError::NoText { line: before.iter().filter(|&&byte| byte == b'\n').count() + 1 }
     })?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    if let Some((before, inner)) = braces(text) {
+        return flow::entries(before, inner, wanted);
+    }
+    let mut indent: Option<usize> = None;
     // Of the last key, whether it is wanted and where its value begins.
     let mut last: Option<(bool, usize)> = None;
     let mut entries: Vec<Entry<'_>> = Vec::new();
     let mut lines = Lines::new(text.as_bytes());
     for line in lines.by_ref() {
-        let content = &text[line.start..line.start + line.text.len()];
+        let whole = &text[line.start..line.start + line.text.len()];
+        let own = whole.len() - whole.trim_start_matches(' ').len();
+        let is_mark = is_blank(whole) || matches!(role(whole), Role::Directive | Role::End);
+        // The first key says how far all are indented.
+        let indent = if is_mark { 0 } else { *indent.get_or_insert(own) };
+        if own < indent {
+            return Err(line_error(line));
+        }
+        let (content, start_of_content) = (&whole[indent..], line.start + indent);
         match role(content) {
             Role::Blank => {}
             Role::Directive if last.is_none() => {}
@@ -39,12 +52,12 @@ pub(super) fn entries(
             Role::Continuation => {
                 let (kept, start) = last.ok_or_else(|| line_error(line))?;
                 if let Some(entry) = entries.last_mut().filter(|_| kept) {
-                    entry.value = &text[start..line.start + content.len()];
+                    entry.value = &text[start..start_of_content + content.len()];
                 }
             }
             Role::Key => {
                 let (key, value) = split_key(content).ok_or_else(|| line_error(line))?;
-                last = Some((wanted(&key), line.start + content.len() - value.len()));
+                last = Some((wanted(&key), start_of_content + content.len() - value.len()));
                 if wanted(&key) {
                     entries.push(Entry { line: line.number, key, value });
                 }
@@ -53,6 +66,25 @@ pub(super) fn entries(
         }
     }
     Ok((entries, lines.number()))
+}
+
+/// The text before the braces of a mapping in braces, with it, and what follows.
+fn braces(text: &str) -> Option<(usize, &str)> {
+    let mut rest = text;
+    loop {
+        rest = skip_blank(rest);
+        let line = rest.lines().next()?;
+        if let Some(inner) = rest.strip_prefix('{') {
+            let before = &text[..text.len() - inner.len()];
+            return Some((before.matches('\n').count() + 1, inner));
+        }
+        rest = match line.strip_prefix("---") {
+            // What follows on the line may be the mapping.
+            Some(after) if after.is_empty() || after.starts_with([' ', '\t']) => &rest[3..],
+            _ if line.starts_with('%') => &rest[line.len()..],
+            _ => return None,
+        };
+    }
 }
 
 fn line_error(line: Line<'_>) -> RosError {
@@ -84,7 +116,7 @@ fn role(line: &str) -> Role {
 }
 
 /// Whether there is nothing but white space and comments.
-fn is_blank(text: &str) -> bool {
+pub(super) fn is_blank(text: &str) -> bool {
     skip_blank(text).is_empty()
 }
 
@@ -142,7 +174,7 @@ pub(super) fn list(value: &str) -> Option<Vec<String>> {
 }
 
 /// The text after white space, line ends and comments.
-fn skip_blank(text: &str) -> &str {
+pub(super) fn skip_blank(text: &str) -> &str {
     let mut rest = text.trim_start();
     while rest.starts_with('#') {
         rest = rest.find('\n').map_or("", |end| rest[end..].trim_start());
@@ -155,7 +187,7 @@ const RESERVED: [char; 16] = ['[', ']', '{', '}', ',', '&', '*', '!', '|', '>', 
 
 /// A scalar at the start of the text, and what follows it. In a list in brackets, `flow`, a comma or a
 /// bracket ends a plain one.
-fn take_scalar(text: &str, flow: bool) -> Option<(String, &str)> {
+pub(super) fn take_scalar(text: &str, flow: bool) -> Option<(String, &str)> {
     let (scalar, rest) = match text.chars().next()? {
         '"' => take_double_quoted(&text[1..])?,
         '\'' => take_single_quoted(&text[1..])?,

@@ -17,8 +17,7 @@ pub enum RosMode {
     /// Occupied, free, or between the thresholds unknown.
     #[default]
     Trinary,
-    /// Occupied, free, or between the thresholds 0 to 100 by proportion. Pixels that are not opaque are
-    /// unknown.
+    /// Occupied, free, or between the thresholds 0 to 100 by proportion.
     Scale,
     /// The samples themselves, as of 8 bits: 0 to 100, all others unknown.
     Raw,
@@ -53,9 +52,9 @@ pub struct RosSettings {
     pub resolution: f64,
     /// The pose of the lower left corner of the picture: x and y in meters, yaw in radians.
     pub origin: [f64; 3],
-    /// A pixel that is occupied to more than this is occupied.
+    /// A pixel that is occupied to at least this is occupied; in ROS 1, to more than this.
     pub occupied_thresh: Fraction,
-    /// A pixel that is occupied to less than this is free.
+    /// A pixel that is occupied to at most this is free; in ROS 1, to less than this.
     pub free_thresh: Fraction,
     /// Whether light pixels are the occupied ones.
     pub negate: bool,
@@ -95,7 +94,8 @@ impl RosSettings {
     /// The keys are `image`, `resolution`, `origin`, `negate`, `occupied_thresh`, `free_thresh` and `mode`.
     /// All must be there, once, but `mode`, which is `trinary` if it is not. Other keys, such as those that
     /// extensions of `map_server` add, are ignored with their values. The file must have its keys at the
-    /// start of lines; values may be quoted, `origin` may be a list in brackets or one of a line each.
+    /// start of lines, all indented alike, or in braces, `{image: a.pgm, …}`; values may be quoted, `origin`
+    /// may be a list in brackets or one of a line each.
     ///
     /// # Errors
     /// [`RosError`] names the line and the key.

@@ -21,7 +21,8 @@ pub struct Instance {
     /// Where the path ends. It may lie outside the map.
     pub goal: Vertex,
     /// The length of a shortest path in cells, as exactly as the file writes it: over the 8-neighborhood (k =
-    /// 3) between cell centers, without cutting corners (`CornerRule::Never`).
+    /// 3) between cell centers, without cutting corners (`CornerRule::Never`). 0 between two places says that
+    /// it is unknown, or that there is no path.
     pub optimal: f64,
 }
 
@@ -30,6 +31,12 @@ impl Instance {
     #[must_use]
     pub fn map_file_name(&self) -> &str {
         self.map.rsplit(['/', '\\']).next().unwrap_or(&self.map)
+    }
+
+    /// The length of a shortest path, if the scenario knows it: `None` for a 0 between two places.
+    #[must_use]
+    pub fn known_optimal(&self) -> Option<f64> {
+        (self.optimal > 0.0 || self.start == self.goal).then_some(self.optimal)
     }
 }
 

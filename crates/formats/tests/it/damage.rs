@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use mediant_formats::{ImageOptions, Raster, RosMap, RosSettings};
+use mediant_formats::{MapOptions, Raster, RosMap, RosSettings};
 use mediant_oracle::{Rng, seeds};
 
 use crate::png_chunks;
@@ -19,7 +19,7 @@ fn files() -> Vec<(PathBuf, Vec<u8>)> {
         path.extension().is_some_and(|end| ["png", "pgm", "pbm", "yaml"].iter().any(|known| end == *known))
     });
     paths.sort();
-    assert_eq!(paths.len(), 30);
+    assert_eq!(paths.len(), 31);
     paths.into_iter().map(|path| (path.clone(), fs::read(path).unwrap())).collect()
 }
 
@@ -32,7 +32,7 @@ fn read(path: &Path, bytes: &[u8]) -> bool {
                 let map = RosMap::new(settings, raster).expect("settings that were read are valid");
                 let (x, y) = map.frame().center_of((1, 1).into());
                 let _ = map.frame().cell_at(x, y);
-                return map.to_grid(&ImageOptions::default()).width() == 4;
+                return map.to_grid(&MapOptions::default()).width() == 4;
             }
             Err(error) => {
                 assert!(error.to_string().starts_with("line "), "{error}");
@@ -44,7 +44,7 @@ fn read(path: &Path, bytes: &[u8]) -> bool {
     };
     match raster {
         Ok(raster) => {
-            let grid = raster.to_grid(&ImageOptions::default());
+            let grid = raster.to_grid(&MapOptions::default());
             (grid.width(), grid.height()) == (raster.width(), raster.height())
         }
         Err(error) => {

@@ -7,7 +7,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use mediant_formats::{Raster, RosMap};
+use mediant_formats::{Raster, RosMap, RosVersion};
 
 fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures")
@@ -61,16 +61,19 @@ fn pictures() {
 #[test]
 fn ros_maps() {
     let files = files(&["yaml"]);
-    assert_eq!(files.len(), 5);
-    for path in files {
-        let map = RosMap::read(&path).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(files.len(), 6);
+    for (path, ros) in files.iter().flat_map(|path| [(path, RosVersion::Ros1), (path, RosVersion::Ros2)]) {
+        let map = RosMap::read(path).unwrap_or_else(|error| panic!("{error}"));
         let width = map.raster().width();
-        let numbers = numbers(&path);
+        let numbers = numbers(&match ros {
+            RosVersion::Ros1 => path.clone(),
+            RosVersion::Ros2 => path.with_extension("yaml.ros2"),
+        });
         assert_eq!(numbers.len() as u32, width * map.raster().height());
         for (at, expected) in numbers.into_iter().enumerate() {
             let (x, y) = (at as u32 % width, at as u32 / width);
-            let found = map.occupancy(x, y).map_or(-1, i64::from);
-            assert_eq!(found, expected, "{}: occupancy of ({x}, {y})", path.display());
+            let found = map.occupancy(x, y, ros).map_or(-1, i64::from);
+            assert_eq!(found, expected, "{}, {ros:?}: occupancy of ({x}, {y})", path.display());
         }
     }
 }

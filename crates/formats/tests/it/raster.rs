@@ -1,7 +1,7 @@
 //! Pictures: what they say, what is written is read again, and the message of every error.
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use mediant_formats::{Fraction, ImageOptions, Raster, RasterError, RasterFormat, Unknown};
+use mediant_formats::{Fraction, MapOptions, Raster, RasterError, RasterFormat, Unknown};
 use mediant_grid::Grid;
 use mediant_oracle::{Rng, random_grid, seeds};
 
@@ -40,7 +40,7 @@ fn maps_in_every_format() {
         let (grid, kind) = random_grid(seed);
         let raster = Raster::from_grid(&grid).unwrap();
         for format in FORMATS {
-            let again = parse(&written(&raster, format)).to_grid(&ImageOptions::default());
+            let again = parse(&written(&raster, format)).to_grid(&MapOptions::default());
             assert_eq!(again, grid, "seed {seed}, {kind}, {format:?}");
         }
     }
@@ -136,15 +136,15 @@ fn dark_is_blocked() {
     let raster = parse(b"P2 5 1 100  0 49 50 51 100");
     let grid = |options| drawn(&raster.to_grid(&options));
     let with =
-        |threshold: &str| ImageOptions { threshold: threshold.parse().unwrap(), ..ImageOptions::default() };
-    assert_eq!(grid(ImageOptions::default()), "##.../");
-    assert_eq!(grid(ImageOptions { invert: true, ..ImageOptions::default() }), "...##/");
+        |threshold: &str| MapOptions { threshold: threshold.parse().unwrap(), ..MapOptions::default() };
+    assert_eq!(grid(MapOptions::default()), "##.../");
+    assert_eq!(grid(MapOptions { invert: true, ..MapOptions::default() }), "...##/");
     assert_eq!(grid(with("0")), "...../");
     assert_eq!(grid(with("0.500000001")), "###../");
     assert_eq!(grid(with("0.51")), "###../");
     assert_eq!(grid(with("1")), "####./");
     // One third of 255 is 85 and of 765 is 255, which no binary fraction is.
-    let third = ImageOptions { threshold: Fraction::new(1, 3).unwrap(), ..ImageOptions::default() };
+    let third = MapOptions { threshold: Fraction::new(1, 3).unwrap(), ..MapOptions::default() };
     assert_eq!(drawn(&parse(b"P2 2 1 255 84 85").to_grid(&third)), "#./");
 }
 
@@ -153,16 +153,18 @@ fn transparent_is_unknown() {
     let raster =
         parse(b"P2 6 1 1  0 1 0 1 0 1").with_opacity(255, |x, _| [0, 127, 128][x as usize / 2]).unwrap();
     let grid = |options| drawn(&raster.to_grid(&options));
-    let free = ImageOptions { unknown: Unknown::Free, ..ImageOptions::default() };
-    assert_eq!(grid(ImageOptions::default()), "#####./");
-    assert_eq!(grid(free), "....#./");
-    assert_eq!(grid(ImageOptions { invert: true, ..free }), ".....#/");
+    let free = MapOptions { unknown: Unknown::Free, ..MapOptions::default() };
+    assert_eq!(grid(MapOptions::default()), "#####./");
+    assert_eq!(grid(free.clone()), "....#./");
+    assert_eq!(grid(MapOptions { invert: true, ..free }), ".....#/");
     let half = parse(b"P2 1 1 1  1").with_opacity(2, |_, _| 1).unwrap();
-    assert_eq!(drawn(&half.to_grid(&ImageOptions::default())), "./");
+    assert_eq!(drawn(&half.to_grid(&MapOptions::default())), "./");
 }
 
 /// Bytes, and the message of their error up to `; `.
-const WRONG: [(&[u8], &str); 17] = [
+const CR_LF: &str = "the lines of the header end in CR LF, of which LF would be the first pixel";
+
+const WRONG: [(&[u8], &str); 19] = [
     (b"", "expected a picture, PNG, PGM or PBM, found nothing"),
     (b"BM8", "expected a picture, PNG, PGM or PBM, found `BM8`"),
     (b"P6 1 1 255 abc", "expected a PGM or PBM (P1, P2, P4 or P5), found `P6`"),
@@ -181,6 +183,14 @@ const WRONG: [(&[u8], &str); 17] = [
     ),
     (b"P4 32768 32768 ", "a picture of 32768 × 32768 pixels: expected at most 268435456 pixels in all"),
     (b"P5 3 2 255 abcde", "expected 6 bytes of pixels after the header, found 5"),
+    (
+        b"P5\r\n3 2\r\n255\r\nabcdef",
+        CR_LF,
+    ),
+    (
+        b"P4\r\n3 1\r\n\xe0\r\n",
+        CR_LF,
+    ),
     (b"P5 3 2 255 abcdefg", "expected the end of the file after 6 bytes of pixels, found 1 more"),
     (b"P5 3 1 100 abe", "pixel (2, 0): expected a sample of 0 to 100, found 101"),
     (b"P2 3 1 100\n1 2\n101", "line 3, column 1: expected a sample of 0 to 100, found `101`"),

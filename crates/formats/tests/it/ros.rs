@@ -4,13 +4,17 @@
 use std::fs;
 
 use mediant_formats::{
-    Fraction, ImageOptions, Raster, ReadError, RosError, RosMap, RosMode, RosSettings, Unknown, read_map,
+    Fraction, MapOptions, Raster, ReadError, RosError, RosMap, RosMode, RosSettings, RosVersion, Unknown,
+    read_map,
 };
 use mediant_grid::Vertex;
 use mediant_oracle::{Rng, random_grid, seeds};
 
 const YAML: &str = "image: a.pgm\nresolution: 0.05\norigin: [-1, 2.5, 0]\nnegate: 0\noccupied_thresh: 0.65\n\
                     free_thresh: 0.196\n";
+
+const IN_BRACES: &str = "{image: a.pgm, resolution: 0.05, origin: [-1, 2.5, 0], negate: 0, \
+                         occupied_thresh: 0.65, free_thresh: 0.196}\n";
 
 fn parse(yaml: &str) -> Result<RosSettings, RosError> {
     RosSettings::parse(yaml.as_bytes())
@@ -44,6 +48,20 @@ fn forms_of_yaml() {
         with("negate: No"),
         with("negate: OFF"),
         with("mode: trinary"),
+        YAML.lines().map(|line| format!("  {line}\n")).collect(),
+        with("origin:\n- -1\n- 2.5\n- 0").lines().map(|line| format!(" {line}\n")).collect(),
+        format!(
+            "---\n# here\n{}",
+            with("origin: [-1,\n 2.5,\n 0]").replace('\n', "\n  ").replace("origin", "  origin")
+        ),
+        IN_BRACES.to_owned(),
+        format!("# {{\n%YAML 1.2\n--- {}\n...\nimage: b.pgm", IN_BRACES.replace(", ", ",\n")),
+        IN_BRACES.replace("a.pgm", "\"a.pgm\"").replace("{", "{nested: {image: [b, '}'], c: d}, \"#\":1, "),
+        IN_BRACES
+            .replace("0.05", "0.05 # 5 cm, [not {more}\n")
+            .replace("[-1", "[-1 # x ]\n")
+            .replace("}", ",}"),
+        IN_BRACES.replace(": ", " : ").replace("image :", "'image':").replace('\n', "\r\n"),
         with("occupied_thresh: 0.65000000000000002"),
         with(
             "frame_id: map\nnested:\n  image: b.pgm\n  list:\n  - 1\n- { x: [1, 2\n}\nother: |\n  text: here",
@@ -71,16 +89,25 @@ fn lines_that_are_none() {
     let cases = [
         ("image a.pgm", 1, "image a.pgm"),
         ("image:a.pgm", 1, "image:a.pgm"),
-        ("{image: a.pgm}", 1, "{image: a.pgm}"),
-        ("\n  image: a.pgm", 2, "  image: a.pgm"),
+        ("{image a.pgm}", 1, "image a.pgm}"),
+        ("{image:a.pgm}", 1, "image:a.pgm}"),
+        ("{image: a.pgm", 1, "image: a.pgm"),
+        ("{image: a.pgm\n,\n: 1}", 3, ": 1}"),
+        ("{image: a.pgm} x", 1, "x"),
+        ("{image: ]}", 1, "image: ]}"),
+        ("{\"image\": \"a}", 1, "\\\"image\\\": \\\"a}"),
+        // Keys that are not indented alike.
+        ("  image: a.pgm\nresolution: 1", 2, "resolution: 1"),
+        ("  image: a.pgm\n resolution: 1", 2, " resolution: 1"),
+        ("\timage: a.pgm", 1, "\\timage: a.pgm"),
         ("image: a.pgm\n---\nimage: b.pgm", 2, "---"),
         // A line that begins so is no item of a list, and no key.
         ("origin:\n- 1\n-2\n- 3", 3, "-2"),
     ];
     for (yaml, line, found) in cases {
         let message = format!(
-            "line {line}: expected `key: value` at the start of a line, found `{found}`; write each key on a \
-             line of its own, with a colon and a space"
+            "line {line}: expected `key: value`, found `{found}`; write each key on a line of its own, with a \
+             colon and a space, all indented alike"
         );
         assert_eq!(parse(yaml).expect_err(yaml).to_string(), message);
     }
@@ -218,7 +245,7 @@ fn saved_and_read_again() {
             map.save(&path).unwrap();
             let read = RosMap::read(&path).unwrap_or_else(|error| panic!("{error}"));
             assert_eq!(read, map, "seed {seed}, {kind}, {image}");
-            let source = read_map(&path, &ImageOptions::default()).unwrap();
+            let source = read_map(&path, &MapOptions::default()).unwrap();
             assert_eq!((source.grid, source.frame), (grid.clone(), Some(map.frame())), "seed {seed}, {kind}");
         }
     }
@@ -245,11 +272,16 @@ fn row(shades: &[u32], change: impl FnOnce(&mut RosSettings)) -> RosMap {
     RosMap::new(settings, raster).unwrap()
 }
 
+/// The occupancies of the first row by the rules of ROS 1.
 fn occupancies(map: &RosMap) -> Vec<i64> {
-    (0..map.raster().width()).map(|x| map.occupancy(x, 0).map_or(-1, i64::from)).collect()
+    occupancies_of(map, RosVersion::Ros1)
 }
 
-fn blocked(map: &RosMap, options: &ImageOptions) -> Vec<bool> {
+fn occupancies_of(map: &RosMap, ros: RosVersion) -> Vec<i64> {
+    (0..map.raster().width()).map(|x| map.occupancy(x, 0, ros).map_or(-1, i64::from)).collect()
+}
+
+fn blocked(map: &RosMap, options: &MapOptions) -> Vec<bool> {
     let grid = map.to_grid(options);
     (0..grid.width() as i32).map(|x| grid.is_blocked(x, 0)).collect()
 }
@@ -289,6 +321,75 @@ fn modes() {
     assert_eq!(occupancies(&RosMap::new(settings, half).unwrap()), [0, 2]);
 }
 
+/// [`row`] with these thresholds.
+fn between(shades: &[u32], free: &str, occupied: &str) -> RosMap {
+    row(shades, |settings| {
+        settings.free_thresh = free.parse().unwrap();
+        settings.occupied_thresh = occupied.parse().unwrap();
+    })
+}
+
+#[test]
+fn ros_2_counts_what_is_at_a_threshold() {
+    let read = |map: &RosMap| occupancies_of(map, RosVersion::Ros2);
+    assert_eq!(read(&between(&[255, 254, 1, 0], "0.0", "1.0")), [0, -1, -1, 100]);
+    assert_eq!(occupancies(&between(&[255, 0], "0.0", "1.0")), [-1, -1]);
+    // 1 − 153/255 is 0.4, but less in single precision; 1 − 51/255 is 0.8, and so it is there.
+    assert_eq!(read(&between(&[153, 152], "0.1", "0.4")), [-1, 100]);
+    assert_eq!(read(&between(&[51, 52], "0.1", "0.8")), [100, -1]);
+    assert_eq!(read(&between(&[204, 203], "0.2", "0.8")), [0, -1]);
+    let mut scale = between(&[255, 192, 191, 128, 64, 63, 0], "0.25", "0.75").settings().clone();
+    scale.mode = RosMode::Scale;
+    let raster = Raster::from_fn(5, 1, 255, |x, _| [192, 191, 127, 64, 63][x as usize]).unwrap();
+    assert_eq!(read(&RosMap::new(scale.clone(), raster.clone()).unwrap()), [0, 0, 50, 100, 100]);
+    scale.negate = true;
+    assert_eq!(read(&RosMap::new(scale, raster).unwrap()), [100, 100, 50, 0, 0]);
+    let raw = row(&[0, 100, 101, 127, 128, 255], |settings| settings.mode = RosMode::Raw);
+    assert_eq!(read(&raw), [0, 100, -1, -1, -1, -1]);
+}
+
+/// The map of a row of colours, red, green, blue and opacity, from a PNG.
+fn colours(pixels: &[[u8; 4]], change: impl FnOnce(&mut RosSettings)) -> RosMap {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, pixels.len() as u32, 1);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.write_header().unwrap().write_image_data(pixels.as_flattened()).unwrap();
+    let mut settings = RosSettings::new("a.png", 0.05, [0.0; 3]);
+    change(&mut settings);
+    RosMap::new(settings, Raster::parse(&file).unwrap()).unwrap()
+}
+
+#[test]
+fn ros_2_reads_the_luma_of_colours_and_opacity_only_as_unknown() {
+    let read = |map: &RosMap| occupancies_of(map, RosVersion::Ros2);
+    let gray = |shade: u8, opacity: u8| [shade, shade, shade, opacity];
+    let opaque = colours(&[gray(254, 255), gray(205, 255), gray(0, 255), gray(254, 255)], |_| {});
+    assert_eq!(read(&opaque), [0, -1, 100, 0]);
+    assert_eq!(blocked(&opaque, &MapOptions::default()), [false, true, true, false]);
+    // By ROS 1 the opacity of 255 is a channel of the mean, in which 205 becomes 217.5.
+    assert_eq!(occupancies(&opaque), [0, 0, 100, 0]);
+    let options = MapOptions { ros: RosVersion::Ros1, ..MapOptions::default() };
+    assert_eq!(blocked(&opaque, &options), [false, false, true, false]);
+    assert_eq!(read(&colours(&[gray(254, 254), gray(0, 0), gray(0, 255)], |_| {})), [-1, -1, 100]);
+    let wide = |settings: &mut RosSettings| settings.free_thresh = "0.25".parse().unwrap();
+    // 225, 76, 149 and 29 of 255.
+    let colored = [[255, 255, 0, 255], [255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255]];
+    assert_eq!(read(&colours(&colored, wide)), [0, 100, -1, 100]);
+    // Of samples of 16 bits the luma is taken first, here 21,535 of 65,535, and then cut to 8 bits.
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, 1, 1);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Sixteen);
+    let samples = [0x80ff_u16, 0x40ff, 0x40ff].map(u16::to_be_bytes);
+    encoder.write_header().unwrap().write_image_data(samples.as_flattened()).unwrap();
+    let settings = RosSettings { mode: RosMode::Raw, ..RosSettings::new("a.png", 0.05, [0.0; 3]) };
+    let (luma, map) =
+        ((306 * 0x80ff + 718 * 0x40ff) >> 10, RosMap::new(settings, Raster::parse(&file).unwrap()).unwrap());
+    assert_eq!((read(&map), luma / 257), (vec![83], 83));
+    let raw = colours(&[[200, 10, 30, 3], [10, 200, 30, 255]], |settings| settings.mode = RosMode::Raw);
+    assert_eq!(read(&raw), [69, -1]);
+}
+
 #[test]
 fn exactly_at_the_thresholds() {
     // 35 of 100 is occupied to 0.65, 80 to 0.2: neither is beyond its threshold, which floating point might
@@ -302,15 +403,15 @@ fn exactly_at_the_thresholds() {
 #[test]
 fn grids_of_occupancies() {
     let map = row(&[0, 100, 254], |_| {});
-    assert_eq!(blocked(&map, &ImageOptions::default()), [true, true, false]);
-    let free = ImageOptions { unknown: Unknown::Free, ..ImageOptions::default() };
+    assert_eq!(blocked(&map, &MapOptions::default()), [true, true, false]);
+    let free = MapOptions { unknown: Unknown::Free, ..MapOptions::default() };
     assert_eq!(blocked(&map, &free), [true, false, false]);
     // The file says what is negated.
-    assert_eq!(blocked(&map, &ImageOptions { invert: true, ..free }), [true, false, false]);
+    assert_eq!(blocked(&map, &MapOptions { invert: true, ..free.clone() }), [true, false, false]);
     let raw = row(&[50, 51, 100, 200], |settings| settings.mode = RosMode::Raw);
-    assert_eq!(blocked(&raw, &ImageOptions::default()), [false, true, true, true]);
+    assert_eq!(blocked(&raw, &MapOptions::default()), [false, true, true, true]);
     assert_eq!(blocked(&raw, &free), [false, true, true, false]);
-    let cautious = ImageOptions { threshold: "0.51".parse().unwrap(), ..free };
+    let cautious = MapOptions { threshold: "0.51".parse().unwrap(), ..free };
     assert_eq!(blocked(&raw, &cautious), [true, true, true, false]);
 }
 
@@ -329,10 +430,12 @@ fn grids_follow_occupancies() {
         let map = RosMap::new(settings, raster).unwrap();
         let threshold = Fraction::new(rng.below(101), 100).unwrap();
         let unknown = *rng.pick(&[Unknown::Blocked, Unknown::Free]).unwrap();
-        let grid = map.to_grid(&ImageOptions { threshold, unknown, invert: rng.chance(50) });
+        let ros = *rng.pick(&[RosVersion::Ros1, RosVersion::Ros2]).unwrap();
+        let options = MapOptions { threshold, unknown, ros, invert: rng.chance(50), ..MapOptions::default() };
+        let grid = map.to_grid(&options);
         let limit = i64::from(100 * (threshold.parts().1 - threshold.parts().0));
         for (x, y) in (0..40).flat_map(|x| (0..3).map(move |y| (x, y))) {
-            let expected = map.occupancy(x, y).map_or(unknown == Unknown::Blocked, |p| {
+            let expected = map.occupancy(x, y, ros).map_or(unknown == Unknown::Blocked, |p| {
                 i64::from(p) * i64::from(threshold.parts().1) > limit
             });
             assert_eq!(grid.is_blocked(x as i32, y as i32), expected, "seed {seed}, ({x}, {y})");
@@ -344,7 +447,7 @@ fn grids_follow_occupancies() {
 fn the_first_row_is_the_highest() {
     let raster = Raster::parse(b"P1 2 3  10 00 00").unwrap();
     let map = RosMap::new(RosSettings::new("a.pgm", 2.0, [0.0; 3]), raster).unwrap();
-    let grid = map.to_grid(&ImageOptions::default());
+    let grid = map.to_grid(&MapOptions::default());
     let cell = map.frame().cell_at(1.0, 5.0).unwrap();
     assert_eq!(cell, Vertex::new(0, 0));
     assert!(grid.is_blocked(cell.x, cell.y) && grid.free_cells() == 5);

@@ -32,12 +32,21 @@ fn tabs_spaces_versions_and_line_ends() {
         "version 1.0\r\n7  maps/a.map\x2010 20 1 2 3 4 2.82842712 \r\n\r\n",
         "version\t1 \n\n 7\t maps/a.map \t10\t20\t1\t2\t3\t4\t2.82842712\t\n \n",
         "version 1\n7\tmaps/a.map\t10\t20\t1\t2\t3\t4\t2.82842712",
+        "\u{feff}version 1\r\n7\tmaps/a.map\t10\t20\t1\t2\t3\t4\t2.82842712\n",
         "version 1\n07\tmaps/a.map\t+10\t20\t1\t2\t3\t4\t282842712e-8",
     ];
     for text in accepted {
         assert_eq!(parsed(text).instances(), [instance("maps/a.map", 2.828_427_12)], "{text:?}");
     }
     assert_eq!(parsed("version 1").instances(), []);
+}
+
+#[test]
+fn a_length_of_0_is_known_only_where_nothing_moves() {
+    let known = |start: (i32, i32), optimal| {
+        Instance { start: start.into(), ..instance("a.map", optimal) }.known_optimal()
+    };
+    assert_eq!([known((1, 2), 0.0), known((3, 4), 0.0), known((1, 2), 2.5)], [None, Some(0.0), Some(2.5)]);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::{fs, path::Path};
 
 use mediant_formats::{
-    ImageOptions, MapFile, MapFormat, Raster, RasterFormat, ReadError, map_size_with, read_map, read_map_with,
+    MapFile, MapFormat, MapOptions, Raster, RasterFormat, ReadError, map_size_with, read_map, read_map_with,
 };
 use mediant_oracle::random_grid;
 
@@ -40,7 +40,7 @@ fn the_content_tells_the_format() {
             }
             let path = folder.path().join(name);
             fs::write(&path, &bytes).unwrap();
-            let map = read_map(&path, &ImageOptions::default()).unwrap_or_else(|error| panic!("{error}"));
+            let map = read_map(&path, &MapOptions::default()).unwrap_or_else(|error| panic!("{error}"));
             assert_eq!(map.format, format, "{name}");
             assert_eq!(map.grid, grid, "{name}, {format:?}");
             assert_eq!(map.frame.is_some(), format == MapFormat::Ros);
@@ -54,7 +54,7 @@ fn the_name_tells_what_is_wrong() {
     let read = |name: &str, text: &str| {
         let path = folder.path().join(name);
         fs::write(&path, text).unwrap();
-        let error = read_map(&path, &ImageOptions::default()).expect_err(name);
+        let error = read_map(&path, &MapOptions::default()).expect_err(name);
         (error.to_string().replace(&format!("{}/", folder.path().display()), ""), error)
     };
     assert!(matches!(read("a.map", "hello").1, ReadError::Map { .. }));
@@ -69,7 +69,7 @@ fn the_name_tells_what_is_wrong() {
          is this the file that you meant? Convert other pictures to PNG"
     );
     assert!(read("empty", "").0.contains("found nothing"));
-    let missing = read_map(folder.path().join("no"), &ImageOptions::default()).expect_err("missing");
+    let missing = read_map(folder.path().join("no"), &MapOptions::default()).expect_err("missing");
     assert!(matches!(missing, ReadError::Missing { .. }));
 }
 
@@ -105,7 +105,7 @@ fn maps_in_memory_are_those_on_disk() {
     for (name, bytes) in &files {
         fs::write(folder.path().join(name), bytes).unwrap();
     }
-    let options = ImageOptions::default();
+    let options = MapOptions::default();
     for (name, bytes) in &files {
         let read = read_map_with(name, &options, in_memory(&files)).unwrap();
         assert_eq!(read, read_map(folder.path().join(name), &options).unwrap(), "{name}");
@@ -130,7 +130,7 @@ fn maps_in_memory_are_those_on_disk() {
 fn what_is_missing_in_memory_is_named() {
     let yaml = b"image: a.pgm\nresolution: 1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.1\n";
     let files = [("maps/a.yaml", yaml.to_vec())];
-    let options = ImageOptions::default();
+    let options = MapOptions::default();
     let missing = |error: &ReadError| match error {
         ReadError::RosImage { source, .. } => {
             matches!(&**source, ReadError::Missing { path } if path == Path::new("maps/a.pgm"))
@@ -153,4 +153,46 @@ fn sizes_are_checked_as_maps_are() {
     assert!(matches!(size("a.pgm", "P5 16384 16385 255 "), Err(ReadError::Raster { .. })));
     assert!(matches!(size("a.pgm", "P6 2 2 255 "), Err(ReadError::Raster { .. })));
     assert!(matches!(size("a.txt", "hello"), Err(ReadError::NoMap { .. })));
+}
+
+#[test]
+fn other_kinds_of_files_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let files: [(&[u8], &str); 15] = [
+        (b"\xff\xd8\xff\xe0\0\x10JFIF", "a JPEG picture"),
+        (b"II*\0\x08\0\0\0", "a TIFF picture"),
+        (b"MM\0*\0\0\0\x08", "a TIFF picture"),
+        (b"GIF89a\x01\0", "a GIF picture"),
+        (b"BM\x46\0\0\0\0\0\0\0\x36\0", "a BMP picture"),
+        (b"RIFF\x24\0\0\0WEBPVP8 ", "a WebP picture"),
+        (b"\x1f\x8b\x08\0", "a file compressed by gzip"),
+        (b"\xfd7zXZ\0\0", "a file compressed by xz"),
+        (b"BZh9", "a file compressed by bzip2"),
+        (b"PK\x03\x04\x14\0", "a ZIP archive"),
+        (b"\x93NUMPY\x01\0", "an array of NumPy"),
+        (b"%PDF-1.7", "a PDF document"),
+        (b"version https://git-lfs.github.com/spec/v1\n", "a pointer of Git LFS"),
+        (b"\xef\xbb\xbf\nvoxel 10 10 10\n0 0 0\n", "a 3-D map, `voxel`"),
+        (b"\n<!DOCTYPE HTML>\n", "an HTML page"),
+    ];
+    for (bytes, what) in files {
+        for name in ["a", "a.map", "a.png", "a.pgm", "a.yaml"] {
+            let path = folder.path().join(name);
+            fs::write(&path, bytes).unwrap();
+            let error = read_map(&path, &MapOptions::default()).expect_err(name).to_string();
+            assert!(error.contains(&format!("found {what}")), "{error}");
+        }
+        // As the picture that a YAML file names, and where only one kind is read.
+        let error = Raster::parse(bytes).expect_err(what).to_string();
+        assert!(error.contains(&format!("found {what}")), "{error}");
+        let error = MapFile::parse(bytes).expect_err(what).to_string();
+        assert!(error.contains(&format!("found {what}")), "{error}");
+    }
+}
+
+#[test]
+fn a_ros_map_in_braces_or_indented_is_known_without_a_name() {
+    for yaml in ["{image: a.pgm}", "\u{feff}  image: a.pgm\n", "---\n{ image: a.pgm,\n resolution: 1}"] {
+        assert_eq!(MapFormat::of(yaml.as_bytes(), "a"), Some(MapFormat::Ros), "{yaml}");
+    }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use mediant::{
     BrokenPath, Choice, CornerRule, Counters, DiagonalGap, End, Engine, Error, ErrorCode, Identity, K, Map,
     Motion, Observer, Origin, Outcome, Path, Planner, Query, QueryError, Rectangle, Rules, Setup, Smoothing,
-    Space, Vertex, files::ImageOptions,
+    Space, Vertex, files::MapOptions,
 };
 use mediant_formats::IndexFile;
 use mediant_oracle::{Rng, caves};
@@ -80,14 +80,14 @@ fn maps_are_made_in_many_ways() {
     assert_eq!(Map::open(&picture).expect("a map").id(), from_rows.id());
     let yaml = "image: yard.pbm\nresolution: 0.5\norigin: [-1, 2, 0]\nnegate: 0\noccupied_thresh: 0.65\n\
                 free_thresh: 0.25\n";
-    let (map, world) = Map::open_with(file("yard.yaml", yaml), &ImageOptions::default()).expect("a map");
+    let (map, world) = Map::open_with(file("yard.yaml", yaml), &MapOptions::default()).expect("a map");
     assert_eq!(map.id(), from_rows.id());
     let world = world.expect("a place in the world");
     assert_eq!(
         (world.cell_at(-0.9, 2.1), world.center_of((0, 1).into())),
         (Some((0, 1).into()), (-0.75, 2.25))
     );
-    let options = ImageOptions { invert: true, ..ImageOptions::default() };
+    let options = MapOptions { invert: true, ..MapOptions::default() };
     assert!(
         Map::open_with(&picture, &options)
             .is_ok_and(|(map, world)| { map.is_blocked(0, 0) && !map.is_blocked(2, 0) && world.is_none() })

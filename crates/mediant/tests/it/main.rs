@@ -17,6 +17,7 @@ mod planners;
 mod requests;
 mod subgoals;
 mod table;
+mod tiles;
 
 use mediant::{EngineOption, Error, Index, Levels, Map, OptionValue, Planner, Setup};
 use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Rules};

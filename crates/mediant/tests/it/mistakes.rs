@@ -30,6 +30,7 @@ fn in_maps_and_queries() -> Vec<Mistake> {
         (Code::MapSize, Map::from_bits(0, []).map(drop)),
         (Code::MapRagged, Map::from_rows(["..", "..."]).map(drop)),
         (Code::MapRagged, Map::from_bits(3, [true; 7]).map(drop)),
+        (Code::MapTile, Map::from_rows([".x"]).map(drop)),
         (Code::MapFormat, Map::open("Cargo.toml").map(drop)),
         (Code::FileMissing, Map::open("no such file").map(drop)),
         (Code::FileUnreadable, Map::open(".").map(drop)),
@@ -119,7 +120,7 @@ fn codes_keep_their_names() {
         "map-size map-ragged edit-outside k motion unknown-name setup-text engine-option engine-k \
          engine-rules engine-without mismatch start-blocked goal-blocked start-outside goal-outside gave-up \
          index-range index-options index-damaged index-engine index-edit file-missing file-unreadable \
-         file-unwritable map-format scenario-format no-end number not-begun memory other"
+         file-unwritable map-format scenario-format no-end number not-begun memory map-tile other"
     );
 }
 

@@ -99,9 +99,12 @@ class Grid:
         threshold: str | SupportsFloat = 0.5,
         invert: bool = False,
         unknown: Literal["blocked", "free"] = "blocked",
+        ros: Literal[1, 2] = 2,
+        free: str | None = None,
+        blocked: str | None = None,
     ) -> Grid: ...
     @staticmethod
-    def from_rows(rows: Iterable[str]) -> Grid: ...
+    def from_rows(rows: Iterable[str], *, free: str | None = None, blocked: str | None = None) -> Grid: ...
     @staticmethod
     def from_occupancy(
         occupancy: ArrayLike,

@@ -4,7 +4,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use mediant::{
     CornerRule, Identity, Limits, Map, PlacementKind, Rectangle, Rules,
-    files::{Fraction, ImageOptions, Unknown, WorldFrame},
+    files::{Fraction, MapOptions, RosVersion, Tiles, Unknown, WorldFrame},
 };
 use mediant_formats::Picture;
 use pyo3::{
@@ -70,6 +70,12 @@ impl Grid {
     ///     Takes a picture as a negative: light pixels are blocked.
     /// unknown : {"blocked", "free"}
     ///     What becomes of transparent pixels, and of the unknown cells of a ROS map.
+    /// ros : {2, 1}
+    ///     Whose `map_server` says how the picture of a ROS map is read: that of ROS 2 (nav2 since 2025: the
+    ///     luma of colours, thresholds that count, pixels that are not opaque unknown) or that of ROS 1 (the
+    ///     mean of the channels).
+    /// free, blocked : str or None
+    ///     Of MovingAI maps, the characters of free and of blocked cells, as in `from_rows`.
     ///
     /// Returns
     /// -------
@@ -93,18 +99,23 @@ impl Grid {
     /// [[False, True, False], [False, False, False]]
     #[staticmethod]
     #[pyo3(
-        signature = (path, *, threshold = None, invert = None, unknown = None),
-        text_signature = "(path, *, threshold=0.5, invert=False, unknown='blocked')"
+        signature = (path, *, threshold = None, invert = None, unknown = None, ros = None, free = None,
+            blocked = None),
+        text_signature = "(path, *, threshold=0.5, invert=False, unknown='blocked', ros=2, free=None, blocked=None)"
     )]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn open(
         py: Python<'_>,
         path: &Bound<'_, PyAny>,
         threshold: Option<&Bound<'_, PyAny>>,
         invert: Option<&Bound<'_, PyAny>>,
         unknown: Option<&Bound<'_, PyAny>>,
+        ros: Option<&Bound<'_, PyAny>>,
+        free: Option<&Bound<'_, PyAny>>,
+        blocked: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let path = file("path", path)?;
-        let mut options = ImageOptions::default();
+        let mut options = MapOptions::default();
         if let Some(threshold) = threshold {
             options.threshold = fraction(threshold)?;
         }
@@ -113,17 +124,29 @@ impl Grid {
             let words = [("blocked", Unknown::Blocked), ("free", Unknown::Free)];
             options.unknown = word("unknown", unknown, &words)?;
         }
+        if let Some(ros) = ros {
+            options.ros = match ros.extract() {
+                Ok(1) => RosVersion::Ros1,
+                Ok(2) => RosVersion::Ros2,
+                _ => return Err(argument("ros", &format!("expected 1 or 2, found {}", ros.repr()?))),
+            };
+        }
+        options.tiles = tiles(free, blocked)?;
         let read = move |_: &Limits| Map::open_with(path, &options);
         let (map, world) = detached(py, u64::MAX, Limits::new(), read)?.map_err(raised)?;
         Ok(Self::new(map, world))
     }
 
-    /// The grid with these rows of text: ``.``, ``G`` and ``S`` are free cells, all other characters blocked.
+    /// The grid with these rows of text: ``.``, ``G`` and ``S`` are free cells, ``#``, ``@``, ``O``, ``T`` and
+    /// ``W`` blocked ones, small letters as capitals.
     ///
     /// Parameters
     /// ----------
     /// rows : iterable of str
     ///     From top to bottom, all of the same length.
+    /// free, blocked : str or None
+    ///     The characters of free and of blocked cells. With one of them all others are of the other kind;
+    ///     with both, others are an error.
     ///
     /// Returns
     /// -------
@@ -133,15 +156,22 @@ impl Grid {
     /// Raises
     /// ------
     /// MapError
-    ///     For no rows, or rows of different lengths.
+    ///     For no rows, rows of different lengths, or a character that is neither free nor blocked.
     ///
     /// Examples
     /// --------
     /// >>> import mediant
     /// >>> mediant.Grid.from_rows(["..#", "..."]).shape
     /// (2, 3)
+    /// >>> mediant.Grid.from_rows(["#   #", "# # #"], free=" ").to_numpy().sum()
+    /// np.int64(5)
     #[staticmethod]
-    fn from_rows(rows: &Bound<'_, PyAny>) -> PyResult<Self> {
+    #[pyo3(signature = (rows, *, free = None, blocked = None))]
+    fn from_rows(
+        rows: &Bound<'_, PyAny>,
+        free: Option<&Bound<'_, PyAny>>,
+        blocked: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
         let expected = "several rows of text";
         if rows.is_instance_of::<PyString>() {
             return Err(wrong_type("rows", expected, rows));
@@ -154,7 +184,8 @@ impl Grid {
                 text("rows", expected, &row)
             })
             .collect::<PyResult<_>>()?;
-        Ok(Self::new(Map::from_rows(items).map_err(|error| raised_for("rows", error))?, None))
+        let map = Map::from_rows_with(items, &tiles(free, blocked)?);
+        Ok(Self::new(map.map_err(|error| raised_for("rows", error))?, None))
     }
 
     /// The number of rows and columns.
@@ -304,6 +335,16 @@ impl Grid {
         let blocked = self.cells() - map.grid().free_cells();
         format!("<mediant.Grid of {} × {} cells, {blocked} blocked>", map.height(), map.width())
     }
+}
+
+/// The characters of free and of blocked cells.
+fn tiles(free: Option<&Bound<'_, PyAny>>, blocked: Option<&Bound<'_, PyAny>>) -> PyResult<Tiles> {
+    let read = |name, value: Option<&Bound<'_, PyAny>>| {
+        value.map(|value| text(name, "a text of characters", value)).transpose()
+    };
+    let (free, blocked) = (read("free", free)?, read("blocked", blocked)?);
+    let name = if free.is_some() { "free" } else { "blocked" };
+    Tiles::new(free.as_deref(), blocked.as_deref()).map_err(|error| argument(name, &error.to_string()))
 }
 
 /// The threshold of a picture.

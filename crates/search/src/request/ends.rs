@@ -137,7 +137,7 @@ fn free_ends<P: Placement>(
             let at = clamped(space, at);
             let moved = nearest(space, metric, at, |at| space.is_free(at))
                 .and_then(|(_, near)| near.first().copied());
-            free.push(moved.ok_or(QueryError::Blocked { end, at })?);
+            free.push(moved.ok_or_else(|| end.blocked(space, at))?);
         } else if end == End::Start || !wishes.nearest || space.id(at).is_none() {
             end.check(space, at)?;
         }

@@ -18,7 +18,7 @@ import init, {
   type Answer,
   type EngineInfo,
   type How,
-  type ImageOptions,
+  type MapOptions,
   type MediantError,
   type Motion,
   type NearestGoal,
@@ -47,10 +47,10 @@ const any: Motion = { k: "any", gap: "closed" };
 const factor: number | undefined = bound(motion);
 const why: string | undefined = checkSetup("anya", any, { smooth: "taut" });
 
-const picture: ImageOptions = { threshold: 0.3, invert: true, unknown: "free" };
+const picture: MapOptions = { threshold: 0.3, invert: true, unknown: "free", ros: 1, free: "W", blocked: ".@" };
 const read = Grid.read("map.yaml", bytes, { "map.pgm": bytes }, picture);
 const [width, height]: [number, number] | Int32Array | number[] = Grid.size("map.png", bytes);
-const rows = Grid.fromRows(["..", ".#"]);
+const rows = Grid.fromRows(["..", ".#"], { free: ".", blocked: "#" });
 const grid = new Grid(2, 2, new Uint8Array(4)).edit(0, 0, 1, 1, Uint8Array.of(1));
 const clearance: Float64Array = grid.clearance();
 const smaller: Grid = grid.forDisc(1.5, any).forSquare(2);

@@ -60,13 +60,15 @@ impl Grid {
     }
 
     /// The map with these rows from top to bottom, all of the same length: `.`, `G` and `S` are free cells,
-    /// all other characters blocked ones.
+    /// `#`, `@`, `O`, `T` and `W` blocked ones, small letters as capitals. The options `free` and `blocked`
+    /// name other characters.
     ///
-    /// @throws MediantError `map-ragged` for rows of different lengths, `map-size` for no rows or too long
-    /// ones.
+    /// @throws MediantError `map-tile` for another character, `map-ragged` for rows of different lengths,
+    /// `map-size` for no rows or too long ones.
     #[wasm_bindgen(js_name = fromRows)]
     pub fn from_rows(
         #[wasm_bindgen(unchecked_param_type = "readonly string[]")] rows: &JsValue,
+        #[wasm_bindgen(unchecked_optional_param_type = "TileOptions")] options: &JsValue,
     ) -> Result<Self, JsValue> {
         let expected = "an array of texts";
         let Some(array) = rows.dyn_ref::<Array>() else { return Err(wrong_type("rows", expected, rows)) };
@@ -74,7 +76,7 @@ impl Grid {
         for index in 0..array.length() {
             rows.push(text("rows", expected, &js_sys::Reflect::get_u32(array, index)?)?);
         }
-        Ok(Self::new(Map::from_rows(rows).map_err(raised)?))
+        Ok(Self::new(Map::from_rows_with(rows, &reading::tile_options(options)?).map_err(raised)?))
     }
 
     /// The number of columns.

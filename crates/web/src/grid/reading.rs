@@ -6,7 +6,7 @@ use js_sys::{Array, Uint8Array};
 use mediant::{
     Error, Map,
     errors::ReadError,
-    files::{Fraction, ImageOptions, Unknown},
+    files::{Fraction, MapOptions, RosVersion, Tiles, Unknown},
 };
 use mediant_formats::MapFile;
 use wasm_bindgen::{JsCast, prelude::*};
@@ -22,7 +22,8 @@ use crate::{
 impl Grid {
     /// Reads a map: a MovingAI map (`.`, `G` and `S` are free cells), a PNG, PGM or PBM picture (pixels
     /// darker than half are blocked), or the YAML file of a ROS map, whose picture is in `files` under its
-    /// name (unknown cells are blocked). The content tells the kind, else the name does.
+    /// name (as nav2 reads it since 2025; unknown cells are blocked). The content tells the kind, else the
+    /// name does.
     ///
     /// ```js
     /// const file = input.files[0];
@@ -35,9 +36,9 @@ impl Grid {
         #[wasm_bindgen(unchecked_param_type = "string")] name: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "Uint8Array", js_name = bytes)] file: &JsValue,
         #[wasm_bindgen(unchecked_optional_param_type = "Record<string, Uint8Array>")] files: &JsValue,
-        #[wasm_bindgen(unchecked_optional_param_type = "ImageOptions")] options: &JsValue,
+        #[wasm_bindgen(unchecked_optional_param_type = "MapOptions")] options: &JsValue,
     ) -> Result<Self, JsValue> {
-        let (files, options) = (Files::read(name, file, files)?, image_options(options)?);
+        let (files, options) = (Files::read(name, file, files)?, map_options(options)?);
         let read = Map::open_in(&files.name, &options, |path| files.get(path));
         let (map, _) = read.map_err(|error| files.raised(error))?;
         Ok(Self::new(map))
@@ -120,12 +121,13 @@ impl Files {
     }
 }
 
-/// How a picture becomes a map.
-fn image_options(given: &JsValue) -> Result<ImageOptions, JsValue> {
-    let mut options = ImageOptions::default();
+/// How a file becomes a map.
+fn map_options(given: &JsValue) -> Result<MapOptions, JsValue> {
+    let mut options = MapOptions::default();
+    let (mut free, mut blocked) = (None, None);
     for (key, value) in entries("options", given)? {
         match key.as_str() {
-            "threshold" | "invert" | "unknown" if value.is_undefined() => {}
+            "threshold" | "invert" | "unknown" | "ros" | "free" | "blocked" if value.is_undefined() => {}
             "threshold" => {
                 options.threshold = Fraction::try_from(number(&key, &value)?)
                     .map_err(|wrong| argument(&key, &wrong.to_string()))?;
@@ -135,8 +137,42 @@ fn image_options(given: &JsValue) -> Result<ImageOptions, JsValue> {
                 options.unknown =
                     word(&key, &value, &[("blocked", Unknown::Blocked), ("free", Unknown::Free)])?;
             }
-            _ => return Err(unknown_key("options", &key, "threshold, invert, unknown")),
+            "ros" => {
+                options.ros = match value.as_f64() {
+                    Some(1.0) => RosVersion::Ros1,
+                    Some(2.0) => RosVersion::Ros2,
+                    _ => return Err(argument(&key, "expected 1 or 2")),
+                };
+            }
+            "free" => free = Some(text(&key, TILES, &value)?),
+            "blocked" => blocked = Some(text(&key, TILES, &value)?),
+            _ => {
+                let known = "threshold, invert, unknown, ros, free, blocked";
+                return Err(unknown_key("options", &key, known));
+            }
         }
     }
+    options.tiles = tiles(free.as_deref(), blocked.as_deref())?;
     Ok(options)
+}
+
+const TILES: &str = "a text of characters";
+
+/// The characters of free and of blocked cells, from the options of `fromRows`.
+pub(super) fn tile_options(given: &JsValue) -> Result<Tiles, JsValue> {
+    let (mut free, mut blocked) = (None, None);
+    for (key, value) in entries("options", given)? {
+        match key.as_str() {
+            "free" | "blocked" if value.is_undefined() => {}
+            "free" => free = Some(text(&key, TILES, &value)?),
+            "blocked" => blocked = Some(text(&key, TILES, &value)?),
+            _ => return Err(unknown_key("options", &key, "free, blocked")),
+        }
+    }
+    tiles(free.as_deref(), blocked.as_deref())
+}
+
+fn tiles(free: Option<&str>, blocked: Option<&str>) -> Result<Tiles, JsValue> {
+    let name = if free.is_some() { "free" } else { "blocked" };
+    Tiles::new(free, blocked).map_err(|wrong| argument(name, &wrong.to_string()))
 }
