@@ -78,8 +78,8 @@ impl Problem {
         let (Some(map), Some(scenario)) = (archive.map(set, name)?, archive.scenario(set, name)?) else {
             return Ok(None);
         };
-        let map =
-            MapFile::from_bytes(map, Tiles::default()).map_err(|source| ProblemError::Map { name: name.to_owned(), source })?;
+        let map = MapFile::from_bytes(map, Tiles::default())
+            .map_err(|source| ProblemError::Map { name: name.to_owned(), source })?;
         let scenario = Scenario::from_bytes(scenario)
             .map_err(|source| ProblemError::Scenario { name: name.to_owned(), source })?;
         Self::new(set, name, map.to_grid(), &scenario, every).map(Some)

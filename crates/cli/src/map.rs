@@ -72,15 +72,17 @@ impl Map {
         Self { name, ground: Arc::clone(&grid), grid, radius: 0.0, theme, frame: None, place: None, tiles }
     }
 
-    /// The map on which the cells of all grounds of a MovingAI map are free.
-    pub(crate) fn on_all_grounds(self) -> Result<Self, Failure> {
+    /// The map on which the cells of all grounds of a MovingAI map are free. It knows the radius of the
+    /// agent, but not where it fits, which depends on the ground.
+    pub(crate) fn on_all_grounds(self, args: &MapArgs) -> Result<Self, Failure> {
         let Some(tiles) = &self.tiles else {
             return Err(Failure::NoTiles { map: self.name, option: "--grounds" });
         };
         let grid =
             Grid::from_fn(tiles.width(), tiles.height(), |x, y| tiles.ground(x as i32, y as i32).is_none());
         let grid = Arc::new(grid.map_err(mediant::Error::from)?);
-        Ok(Self { ground: Arc::clone(&grid), grid, ..self })
+        let radius = args.radius.map_or(0.0, |radius| self.cells(radius));
+        Ok(Self { ground: Arc::clone(&grid), grid, radius, ..self })
     }
 
     /// The ground of a MovingAI map that somebody stands on at a vertex: that of its own cell, else that of

@@ -31,10 +31,10 @@ pub struct Map {
 }
 
 impl Map {
-    /// Reads a map file: a `MovingAI` map (`.`, `G` and `S` are free cells, `@`, `O`, `T`, `W` and `#` blocked
-    /// ones), a PNG, PGM or PBM picture (pixels darker than half are blocked), or the YAML file of a ROS map
-    /// (as nav2 reads it since 2025; unknown cells are blocked). [`open_with`](Self::open_with) has options,
-    /// and the map's place in the world.
+    /// Reads a map file: a `MovingAI` map (`.`, `G` and `S` are free cells, `@`, `O`, `T`, `W` and `#`
+    /// blocked ones), a PNG, PGM or PBM picture (pixels darker than half are blocked), or the YAML file of a
+    /// ROS map (as nav2 reads it since 2025; unknown cells are blocked). [`open_with`](Self::open_with) has
+    /// options, and the map's place in the world.
     ///
     /// # Errors
     /// [`Error::Read`] for a file that is missing, cannot be read, or is no map.
@@ -42,8 +42,8 @@ impl Map {
         Ok(read_map(path, &MapOptions::default())?.grid.into())
     }
 
-    /// Reads a map file as [`open`](Self::open) does, with options, and with its place in the world if it is a
-    /// ROS map.
+    /// Reads a map file as [`open`](Self::open) does, with options, and with its place in the world if it is
+    /// a ROS map.
     ///
     /// ```no_run
     /// use mediant::{Map, files::{MapOptions, Unknown}};
@@ -106,8 +106,8 @@ impl Map {
     /// [`from_rows_with`](Self::from_rows_with) takes other characters.
     ///
     /// # Errors
-    /// [`Error::Tile`] for another character; [`Error::Grid`] for no rows, rows of different lengths, or sides
-    /// longer than [`Grid::MAX_SIDE`].
+    /// [`Error::Tile`] for another character; [`Error::Grid`] for no rows, rows of different lengths, or
+    /// sides longer than [`Grid::MAX_SIDE`].
     pub fn from_rows<R: AsRef<str>>(rows: impl IntoIterator<Item = R>) -> Result<Self, Error> {
         Self::from_rows_with(rows, &Tiles::default())
     }

@@ -427,7 +427,8 @@ def test_tiles_and_ros(tmp_path):
         assert caught.value.code == "map-tile"
     hall = mediant.Grid.from_rows(["#   #"], free=" ")
     assert hall.distance((0, 1), (0, 3)) == 2 and hall == mediant.Grid.from_rows(["#   #"], blocked="#")
-    assert mediant.Grid.from_rows(["010"], free="0", blocked="1").to_numpy().tolist() == [[False, True, False]]
+    digits = mediant.Grid.from_rows(["010"], free="0", blocked="1")
+    assert digits.to_numpy().tolist() == [[False, True, False]]
     assert mediant.Grid.from_rows([".sgS."]).distance((0, 0), (0, 4)) == 4
     for wrong in ({"free": ""}, {"free": "x", "blocked": "X"}):
         with pytest.raises(mediant.MediantError, match="free"):

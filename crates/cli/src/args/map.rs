@@ -33,8 +33,8 @@ pub(crate) struct MapArgs {
     /// Unknown cells (of a ROS map, or transparent pixels) are free
     #[arg(long, help_heading = "Agent and map")]
     pub(crate) unknown_free: bool,
-    /// The picture of a ROS map is read as by the map_server of ROS 2 (nav2 since 2025), or as by that of ROS 1
-    /// [default: 2]
+    /// The picture of a ROS map is read as by the map_server of ROS 2 (nav2 since 2025), or as by that of ROS
+    /// 1 [default: 2]
     #[arg(long, value_name = "1|2", help_heading = "Agent and map", allow_negative_numbers = true)]
     #[arg(value_parser = parse_ros)]
     pub(crate) ros: Option<RosVersion>,

@@ -37,8 +37,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
         setup.index_version()?;
     }
     let map = match args.grounds {
-        // What it is for an agent depends on the ground.
-        true => load(args)?.on_all_grounds()?,
+        true => load(args)?.on_all_grounds(&args.map)?,
         false => load(args)?.for_agent(&args.map, setup.motion())?,
     };
     let wishes = args.wishes.on(&map, setup.rules.placement())?;

@@ -90,8 +90,8 @@ struct RunLine<'r> {
     height: u32,
     /// Of the agent's map.
     free_cells: u64,
-    /// Whether each query is answered on the ground of its start; only with `--grounds`. `free_cells` are those
-    /// of all grounds then.
+    /// Whether each query is answered on the ground of its start; only with `--grounds`. `free_cells` are
+    /// those of all grounds then.
     #[serde(skip_serializing_if = "Option::is_none")]
     grounds: Option<bool>,
     /// The radius of the agent in cells; only with `--radius`.

@@ -1,4 +1,5 @@
-//! Which characters and shades of a map are free: grounds, tiles that are named, the two readings of ROS maps.
+//! Which characters and shades of a map are free: grounds, tiles that are named, the two readings of ROS
+//! maps.
 
 use mediant_formats::{MapOptions, read_map};
 
@@ -32,6 +33,8 @@ fn who_starts_in_water_moves_in_water() {
     let Ran { stderr, status, .. } = run(&format!("run {map} --grounds --from 1,0 --to 0,0"));
     assert_eq!(status, Some(1));
     assert!(stderr.contains("the goal (0, 0) is blocked"), "{stderr}");
+    let (ran, queries, _) = told(&format!("run {map} --grounds --radius 0.3 --from 1,0 --to 2,1"));
+    assert_eq!((&ran["radius"], &queries[0]["status"]), (&0.3.into(), &"found".into()));
     // At corners of cells too, where a vertex has the ground of its own cell.
     let (_, queries, _) = told(&format!("run {map} --grounds --placement corner --from 1,0 --to 2,2"));
     assert_eq!(queries[0]["cost"], 1.0 + 2.0_f64.sqrt());
@@ -49,7 +52,7 @@ fn a_scenario_runs_on_the_ground_of_each_start() {
         line(0, 0, (0, 2), 2.0),
         line(1, 2, (2, 2), 1.0),
         line(0, 0, (3, 0), 0.0),
-        line(2, 0, (1, 1), 1.4142),
+        line(2, 0, (1, 1), 1.41),
     ];
     let scen = files.add("lake.map.scen", format!("\u{feff}version 1\n{}", lines.concat()));
     for engine in ["astar", "subgoal", "jps-plus"] {

@@ -63,8 +63,8 @@ const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 impl Raster {
     /// The most pixels: 2²⁸, as 16,384 × 16,384 have. Pictures are compressed, up to a thousand to one, so it
     /// is this number that bounds the memory that a small file takes: a byte a pixel for gray of 8 bits, 3
-    /// for colours of 8 bits, at most 7 for colours of 16 bits with opacity. It may be three times that while the picture is read, and
-    /// five times if it is interlaced.
+    /// for colours of 8 bits, at most 7 for colours of 16 bits with opacity. It may be three times that while
+    /// the picture is read, and five times if it is interlaced.
     pub const MAX_PIXELS: u64 = 1 << 28;
 
     /// The largest shade of white: of three channels of 16 bits.

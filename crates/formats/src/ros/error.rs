@@ -14,8 +14,8 @@ pub enum RosError {
     },
     /// A line is none of those that the file can have.
     #[error(
-        "line {line}: expected `key: value`, found {found}; write each key on a line of its own, with a colon \
-         and a space, all indented alike"
+        "line {line}: expected `key: value`, found {found}; write each key on a line of its own, with a \
+         colon and a space, all indented alike"
     )]
     Line {
         /// The line, from 1.

@@ -20,7 +20,8 @@ use crate::read::{ReadError, read_regular};
 ///
 /// The first line is `version 1` or `version 1.0`. Each further line is a query with nine fields: bucket,
 /// map, width, height, start x, start y, goal x, goal y, optimal length. The fields of a line are separated
-/// by tabs, or by spaces if the line has no tab. Empty lines are skipped, and so is the byte order mark of UTF-8.
+/// by tabs, or by spaces if the line has no tab. Empty lines are skipped, and so is the byte order mark of
+/// UTF-8.
 ///
 /// ```
 /// use mediant_formats::Scenario;

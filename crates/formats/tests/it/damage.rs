@@ -20,7 +20,11 @@ fn files() -> Vec<(PathBuf, Vec<u8>)> {
     });
     paths.sort();
     assert_eq!(paths.len(), 31);
-    paths.into_iter().map(|path| (path.clone(), fs::read(path).unwrap())).collect()
+    let braces =
+        b"{image: 'a.pgm', resolution: 0.05, # [m\norigin: [-1, \"2\", 0], negate: 0, nested: {a: [b, c]},\
+                   \"occupied_thresh\":0.65,\nfree_thresh : 0.196}\n";
+    let read = paths.into_iter().map(|path| (path.clone(), fs::read(path).unwrap()));
+    read.chain([(PathBuf::from("braces.yaml"), braces.to_vec())]).collect()
 }
 
 /// Reads a picture or a YAML file, and uses what was read; whether there was anything.

@@ -224,7 +224,7 @@ fn tiles_can_be_named() {
         (free) or `X`, `.`, `#`, `\"` (blocked), found `T`; say which characters are free or blocked, by `free` \
         or `blocked`"
     );
-    assert_eq!(drawn(Some("W "), Some("X.#\"t")).unwrap(), "##.#/..##".replace("##.#", "##.#"));
+    assert_eq!(drawn(Some("W "), Some("X.#\"t")).unwrap(), "##.#/..##");
     // A space is a tile only where it is named.
     assert!(drawn(Some("W"), None).unwrap_err().contains("line 5, column 3: "));
     assert_eq!(

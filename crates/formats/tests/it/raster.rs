@@ -183,14 +183,8 @@ const WRONG: [(&[u8], &str); 19] = [
     ),
     (b"P4 32768 32768 ", "a picture of 32768 × 32768 pixels: expected at most 268435456 pixels in all"),
     (b"P5 3 2 255 abcde", "expected 6 bytes of pixels after the header, found 5"),
-    (
-        b"P5\r\n3 2\r\n255\r\nabcdef",
-        CR_LF,
-    ),
-    (
-        b"P4\r\n3 1\r\n\xe0\r\n",
-        CR_LF,
-    ),
+    (b"P5\r\n3 2\r\n255\r\nabcdef", CR_LF),
+    (b"P4\r\n3 1\r\n\xe0\r\n", CR_LF),
     (b"P5 3 2 255 abcdefg", "expected the end of the file after 6 bytes of pixels, found 1 more"),
     (b"P5 3 1 100 abe", "pixel (2, 0): expected a sample of 0 to 100, found 101"),
     (b"P2 3 1 100\n1 2\n101", "line 3, column 1: expected a sample of 0 to 100, found `101`"),

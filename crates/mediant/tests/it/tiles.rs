@@ -55,7 +55,11 @@ fn a_map_without_a_free_cell_says_so() {
 fn ros_maps_are_read_by_the_rules_of_2025_or_by_the_old_ones() {
     let files = [
         ("a.pgm", &b"P5 2 1 255 \xff\0"[..]),
-        ("a.yaml", b"image: a.pgm\nresolution: 1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.0\n"),
+        (
+            "a.yaml",
+            b"image: a.pgm\nresolution: 1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\n\
+              free_thresh: 0.0\n",
+        ),
     ];
     let open = |ros| {
         let options = MapOptions { ros, ..MapOptions::default() };

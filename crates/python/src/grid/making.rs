@@ -101,7 +101,8 @@ impl Grid {
     #[pyo3(
         signature = (path, *, threshold = None, invert = None, unknown = None, ros = None, free = None,
             blocked = None),
-        text_signature = "(path, *, threshold=0.5, invert=False, unknown='blocked', ros=2, free=None, blocked=None)"
+        text_signature = "(path, *, threshold=0.5, invert=False, unknown='blocked', ros=2, free=None, \
+                          blocked=None)"
     )]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn open(
@@ -137,8 +138,8 @@ impl Grid {
         Ok(Self::new(map, world))
     }
 
-    /// The grid with these rows of text: ``.``, ``G`` and ``S`` are free cells, ``#``, ``@``, ``O``, ``T`` and
-    /// ``W`` blocked ones, small letters as capitals.
+    /// The grid with these rows of text: ``.``, ``G`` and ``S`` are free cells, ``#``, ``@``, ``O``, ``T``
+    /// and ``W`` blocked ones, small letters as capitals.
     ///
     /// Parameters
     /// ----------

@@ -47,7 +47,7 @@ const any: Motion = { k: "any", gap: "closed" };
 const factor: number | undefined = bound(motion);
 const why: string | undefined = checkSetup("anya", any, { smooth: "taut" });
 
-const picture: MapOptions = { threshold: 0.3, invert: true, unknown: "free", ros: 1, free: "W", blocked: ".@" };
+const picture: MapOptions = { threshold: 0.3, invert: true, unknown: "free", ros: 1, free: "W" };
 const read = Grid.read("map.yaml", bytes, { "map.pgm": bytes }, picture);
 const [width, height]: [number, number] | Int32Array | number[] = Grid.size("map.png", bytes);
 const rows = Grid.fromRows(["..", ".#"], { free: ".", blocked: "#" });
