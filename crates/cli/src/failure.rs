@@ -1,13 +1,9 @@
 //! How the program ends: its exit status, and what it says if it failed.
 
-use std::{
-    io,
-    path::{Path, PathBuf},
-    process::ExitCode,
-};
+use std::{io, path::PathBuf, process::ExitCode};
 
 use mediant::{Engine, SetupError};
-use mediant_formats::{MapMismatch, PictureError, ReadError, RosError, TilesError};
+use mediant_formats::{MapMismatch, PictureError, ReadError, RosError, TilesError, WriteError};
 use mediant_grid::{PlacementKind, Vertex};
 
 use crate::terminal::message::say_error;
@@ -72,10 +68,8 @@ pub(crate) enum Failure {
     Setup(#[from] SetupError),
     #[error(transparent)]
     Library(#[from] mediant::Error),
-    #[error("{}: cannot be written: {source}", path.display())]
-    Write { path: PathBuf, source: io::Error },
-    #[error("{}: there is no folder {}: make it first, or choose another one", path.display(), folder.display())]
-    NoFolder { path: PathBuf, folder: PathBuf },
+    #[error(transparent)]
+    Write(#[from] WriteError),
     #[error("{}: expected a name that ends in {known}", path.display())]
     Extension { path: PathBuf, known: &'static str },
     #[error(transparent)]
@@ -99,8 +93,6 @@ pub(crate) enum Failure {
     SameFile { path: PathBuf },
     #[error("{}: {source}", path.display())]
     RosMap { path: PathBuf, source: RosError },
-    #[error("{0}")]
-    Save(io::Error),
     #[error("--draw shows a single query: give --from and --to, or --limit 1")]
     DrawMany,
     #[error("--draw on the screen does not go with --format jsonl: give it a FILE, or choose --format table")]
@@ -123,13 +115,6 @@ pub(crate) enum Failure {
     K(#[from] mediant_moves::KError),
     #[error("cannot write the output: {0}")]
     Output(#[from] io::Error),
-}
-
-impl Failure {
-    /// Adds the path of the file that cannot be written to an error.
-    pub(crate) fn writing(path: &Path) -> impl FnOnce(io::Error) -> Self {
-        move |source| Self::Write { path: path.to_owned(), source }
-    }
 }
 
 /// Writes what failed on stderr, and returns the exit status. If the reader of stdout has left (`| head`),

@@ -40,9 +40,10 @@
 //! | feature | adds | compiles in addition |
 //! |---|---|---|
 //! | none | [`MapFile`], [`Scenario`], [`Raster`] of PGM and PBM, [`RosMap`] | `mediant-grid`, `thiserror` |
-//! | `index` | `IndexFile`: what an engine preprocessed, saved for later runs | `sha2`, `tempfile` |
+//! | `save` | `NewFile`: a file that is written whole or not at all; `RosMap::save` | `tempfile` |
+//! | `index` | `IndexFile`: what an engine preprocessed, saved for later runs; `save` | `sha2` |
 //! | `png` | PNG wherever there are pictures | `png` |
-//! | `picture` | `Picture`: a map with paths, a field, a search, as PNG and SVG | `png` |
+//! | `picture` | `Picture`: a map with paths, a field, a search, as PNG and SVG; `save` | `png` |
 //! | `trace` | `TraceWriter`: a search, for the Posthoc visualizer | `serde`, `serde_json` |
 //!
 //! No feature is on by default, and none changes what is there without it.
@@ -63,6 +64,8 @@ mod read;
 #[cfg(doctest)]
 mod readme;
 mod ros;
+#[cfg(feature = "save")]
+mod save;
 mod scenario;
 mod source;
 mod text;
@@ -72,13 +75,15 @@ mod world;
 
 pub use fraction::{Fraction, FractionError};
 #[cfg(feature = "index")]
-pub use index::{IndexError, IndexFile, IndexKey, WriteError};
+pub use index::{IndexError, IndexFile, IndexKey};
 pub use map::{Ground, MapError, MapFile, RowsError, TileError, Tiles, TilesError};
 #[cfg(feature = "picture")]
 pub use picture::{Picture, PictureError};
 pub use raster::{MapOptions, Raster, RasterError, RasterFormat, RosVersion, Unknown};
 pub use read::{MAX_FILE_BYTES, ReadError};
 pub use ros::{RosError, RosMap, RosMode, RosSettings};
+#[cfg(feature = "save")]
+pub use save::{NewFile, WriteError};
 pub use scenario::{Instance, MapMismatch, Scenario, ScenarioError, scenario_tolerance};
 pub use source::{MapFormat, MapSource, map_size_with, read_map, read_map_with};
 #[cfg(feature = "trace")]

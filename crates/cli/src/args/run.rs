@@ -2,7 +2,7 @@
 
 use std::{
     num::{NonZeroU32, NonZeroUsize},
-    path::PathBuf,
+    path::{Path, PathBuf},
 };
 
 use clap::{ArgGroup, Args, ValueEnum};
@@ -146,6 +146,13 @@ impl RunArgs {
         });
         setup.check()?;
         Ok(setup)
+    }
+
+    /// The files to be written.
+    pub(crate) fn outputs(&self) -> Vec<&Path> {
+        let drawn = self.draw.iter().flatten().chain(&self.trace);
+        let printed = |path: &&PathBuf| *path == Path::new("-");
+        drawn.chain(self.distances.iter().filter(|path| !printed(path))).map(PathBuf::as_path).collect()
     }
 
     /// Checks that a single query has several ends only where that has a meaning.

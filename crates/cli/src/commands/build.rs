@@ -13,6 +13,7 @@ use crate::{
         screen::{BOLD, Screen},
         text::printable,
     },
+    write::check_outputs,
 };
 
 /// Runs the command.
@@ -21,6 +22,7 @@ pub(crate) fn build(args: &BuildArgs, screen: &mut Screen) -> Result<(), Failure
     // A setup without an index is refused before anything is computed.
     setup.index_version()?;
     let map = Map::load(&args.map)?.for_agent(&args.map, setup.motion())?;
+    check_outputs(&args.map.map, &[&args.output])?;
     let progress = BuildProgress::new();
     let begin = Instant::now();
     let space = setup.space(&map.to_library())?;

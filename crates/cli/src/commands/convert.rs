@@ -14,7 +14,7 @@ use crate::{
         screen::{BOLD, Screen},
         text::printable,
     },
-    write::{check_folder, extension, input::check_inputs, write_file},
+    write::{check_outputs, extension, write_file},
 };
 
 /// A format that maps are written in.
@@ -47,14 +47,13 @@ pub(crate) fn convert(args: &ConvertArgs, screen: &mut Screen) -> Result<(), Fai
             return Err(Failure::NoRosMap { option });
         }
     }
-    check_folder(path)?;
     let map = Map::load_with_tiles(&args.map)?.for_agent(&args.map, motion)?;
     let image = path.with_extension("pgm");
     let written = match form {
         Form::Ros => vec![path, image.as_path()],
         _ => vec![path],
     };
-    check_inputs(&args.map.map, &written)?;
+    check_outputs(&args.map.map, &written)?;
     write(args, form, &map, &image)?;
     let names: Vec<String> =
         written.iter().map(|path| screen.paint(BOLD, printable(&file_name(path))).to_string()).collect();
@@ -82,8 +81,7 @@ fn write(args: &ConvertArgs, form: Form, map: &Map, image: &Path) -> Result<(), 
             let resolution = resolution.ok_or_else(|| Failure::NoResolution { map: map.name.clone() })?;
             let origin = args.origin.or(map.place.map(|place| place.origin())).unwrap_or_default();
             let ros = RosMap::from_grid(&map.grid, file_name(image), resolution, origin).map_err(wrong)?;
-            // The error names the file that cannot be written.
-            ros.save(path).map_err(Failure::Save)
+            Ok(ros.save(path)?)
         }
     }
 }

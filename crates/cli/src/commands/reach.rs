@@ -22,7 +22,7 @@ use crate::{
         screen::{BOLD, Screen},
         text::printable,
     },
-    write::{check_folder, extension, input::check_inputs, npy, write_file},
+    write::{check_outputs, extension, npy, write_file},
 };
 
 /// What is written to a file.
@@ -41,19 +41,15 @@ impl Form {
         if path == Path::new("-") {
             return Ok(Self::Printed);
         }
-        let form = match extension(path).as_str() {
-            "csv" => Self::Csv,
-            "npy" => Self::Npy,
-            "png" | "svg" => Self::Picture,
+        match extension(path).as_str() {
+            "csv" => Ok(Self::Csv),
+            "npy" => Ok(Self::Npy),
+            "png" | "svg" => Ok(Self::Picture),
             _ => {
-                return Err(Failure::Extension {
-                    path: path.to_owned(),
-                    known: ".png, .svg, .csv or .npy (- prints CSV)",
-                });
+                let known = ".png, .svg, .csv or .npy (- prints CSV)";
+                Err(Failure::Extension { path: path.to_owned(), known })
             }
-        };
-        check_folder(path)?;
-        Ok(form)
+        }
     }
 }
 
@@ -65,7 +61,7 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
     let map = Map::load(&args.map)?.for_agent(&args.map, motion)?;
     let written: Vec<&Path> =
         outputs.iter().filter(|(_, form)| *form != Form::Printed).map(|(path, _)| *path).collect();
-    check_inputs(&args.map.map, &written)?;
+    check_outputs(&args.map.map, &written)?;
     let placement = motion.rules.placement();
     let sources = args.from.iter().map(|&place| map.vertex(placement, place));
     let sources = sources.collect::<Result<Vec<Vertex>, Failure>>()?;

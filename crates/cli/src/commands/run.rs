@@ -21,6 +21,7 @@ use crate::{
         trace::TraceFile,
     },
     terminal::{numbers::count, progress::Progress, screen::Screen, text::printable},
+    write::check_outputs,
 };
 
 /// Runs the command.
@@ -40,6 +41,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
         true => load(args)?.on_all_grounds(&args.map)?,
         false => load(args)?.for_agent(&args.map, setup.motion())?,
     };
+    check_outputs(&args.map.map, &args.outputs())?;
     let wishes = args.wishes.on(&map, setup.rules.placement())?;
     if let (Some(path), Some(from)) = (&args.distances, wishes.from.first()) {
         return distances::write(setup, &map, *from, path, screen);
@@ -52,7 +54,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
         return Err(Failure::TraceMany);
     }
     let mut searchers = Searchers::new(args, (setup, reference), &map, &queries)?;
-    let trace = args.trace.as_deref().map(TraceFile::create).transpose()?;
+    let trace = args.trace.as_deref().map(TraceFile);
     let Searcher { index, planner, .. } = searchers.first();
     let run = Run {
         map: &map,

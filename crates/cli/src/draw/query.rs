@@ -10,12 +10,7 @@ use mediant_formats::{Picture, PictureError};
 use mediant_grid::Vertex;
 
 use super::{braille::Stroke, picture::Canvas, theme::INKS};
-use crate::{
-    failure::Failure,
-    map::Map,
-    terminal::screen::Screen,
-    write::{check_folder, extension},
-};
+use crate::{failure::Failure, map::Map, terminal::screen::Screen, write::extension};
 
 /// The picture of a single query.
 pub(crate) struct Drawing<'d> {
@@ -24,11 +19,10 @@ pub(crate) struct Drawing<'d> {
     pub(crate) request: Request,
 }
 
-/// Checks, before anything is computed, that the name of a picture's file tells its format, and that its
-/// folder exists.
+/// Checks, before anything is computed, that the name of a picture's file tells its format.
 pub(crate) fn check_name(path: &Path) -> Result<(), Failure> {
     match extension(path).as_str() {
-        "png" | "svg" => check_folder(path),
+        "png" | "svg" => Ok(()),
         _ => Err(PictureError::Extension { path: path.to_owned() }.into()),
     }
 }

@@ -1,29 +1,18 @@
 //! `mediant run --trace`: the events of a search in a file.
 
-use std::{
-    fs::File,
-    io::{self, BufWriter},
-    path,
-};
+use std::{io, path};
 
 use mediant::{Planner, Tracer};
+use mediant_formats::NewFile;
 use mediant_grid::{Grid, PlacementKind};
 use mediant_search::{Outcome, Query, QueryError, Request};
 
-use crate::failure::Failure;
+use crate::{failure::Failure, write::write_file};
 
 /// The file of a trace.
-pub(crate) struct TraceFile<'s> {
-    path: &'s path::Path,
-    out: BufWriter<File>,
-}
+pub(crate) struct TraceFile<'s>(pub(crate) &'s path::Path);
 
-impl<'s> TraceFile<'s> {
-    pub(crate) fn create(path: &'s path::Path) -> Result<Self, Failure> {
-        let file = File::create(path).map_err(Failure::writing(path))?;
-        Ok(Self { path, out: BufWriter::new(file) })
-    }
-
+impl TraceFile<'_> {
     /// Writes the search of a query whose answer is known. An invalid query makes a trace without events.
     pub(crate) fn write(
         self,
@@ -32,8 +21,8 @@ impl<'s> TraceFile<'s> {
         (query, request): (Query, Request),
         answer: &Result<Outcome, QueryError>,
     ) -> Result<(), Failure> {
-        let write = || -> io::Result<()> {
-            let mut tracer = Tracer::new(self.out, grid, placement)?;
+        let write = |file: &mut NewFile| -> io::Result<()> {
+            let mut tracer = Tracer::new(file, grid, placement)?;
             if let Ok(outcome) = answer {
                 tracer.begin(query, Some(outcome));
                 // The same request gives the same answer.
@@ -42,6 +31,6 @@ impl<'s> TraceFile<'s> {
             }
             tracer.finish().map(drop)
         };
-        write().map_err(Failure::writing(self.path))
+        write_file(self.0, write)
     }
 }

@@ -10,7 +10,7 @@ use mediant_formats::{MapFormat, RosSettings};
 use crate::{builtin::is_builtin, failure::Failure};
 
 /// Checks that none of the files to write is one from which the map is read.
-pub(crate) fn check_inputs(map: &Path, written: &[&Path]) -> Result<(), Failure> {
+pub(super) fn check_inputs(map: &Path, written: &[&Path]) -> Result<(), Failure> {
     if written.is_empty() {
         return Ok(());
     }

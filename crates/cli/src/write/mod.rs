@@ -1,24 +1,19 @@
-//! Files that the program writes.
+//! Files that the program writes: each is whole, or what was there before ([`NewFile`]).
 
 pub(crate) mod input;
 pub(crate) mod npy;
 
-use std::{
-    fs::File,
-    io::{self, BufWriter, Write},
-    path::Path,
-};
+use std::{io, path::Path};
 
-use crate::failure::Failure;
+use mediant_formats::NewFile;
 
-/// Checks, before anything is computed, that the folder of a file exists.
-pub(crate) fn check_folder(path: &Path) -> Result<(), Failure> {
-    match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => {
-            Err(Failure::NoFolder { path: path.to_owned(), folder: folder.to_owned() })
-        }
-        _ => Ok(()),
-    }
+use crate::{failure::Failure, write::input::check_inputs};
+
+/// Checks, before anything is computed, that files can be written, as far as this can be known, and that the
+/// map is read from none of them.
+pub(crate) fn check_outputs(map: &Path, written: &[&Path]) -> Result<(), Failure> {
+    written.iter().try_for_each(NewFile::check)?;
+    check_inputs(map, written)
 }
 
 /// The end of a file's name after the last point, in small letters; empty without one.
@@ -26,14 +21,10 @@ pub(crate) fn extension(path: &Path) -> String {
     path.extension().map_or_else(String::new, |end| end.to_string_lossy().to_ascii_lowercase())
 }
 
-/// Writes a file, which it replaces, through a buffer.
+/// Writes a file, which it replaces when it is whole.
 pub(crate) fn write_file(
     path: &Path,
-    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    write: impl FnOnce(&mut NewFile) -> io::Result<()>,
 ) -> Result<(), Failure> {
-    let written = File::create(path).map(BufWriter::new).and_then(|mut file| {
-        write(&mut file)?;
-        file.flush()
-    });
-    written.map_err(Failure::writing(path))
+    Ok(NewFile::write_with(path, write)?)
 }

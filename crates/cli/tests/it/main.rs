@@ -9,6 +9,7 @@ mod grounds;
 mod hierarchy;
 mod jsonl;
 mod many;
+mod outputs;
 mod reach;
 mod subgoal;
 mod table;

@@ -225,6 +225,11 @@ fn the_map_is_not_overwritten() {
     let before = fs::read(&png).expect("a map");
     let message = format!("{png}: would be overwritten, and the map is read from it: choose another name");
     check(&format!("reach {png} --from 2,5 -o {} -o {png}", files.path("near.csv")), &message);
+    for options in [format!("--to 9,9 --draw {png}"), format!("--to 9,9 --trace {png}")] {
+        check(&format!("run {png} --from 2,5 {options}"), &message);
+    }
+    check(&format!("run {png} --from 2,5 --engine dijkstra --distances {png}"), &message);
+    check(&format!("build {png} --engine subgoal -o {png}"), &message);
     assert_eq!(fs::read(&png).expect("a map"), before);
 }
 

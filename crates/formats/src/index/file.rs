@@ -1,18 +1,15 @@
 //! An index file: its key, its payload and its checksum.
 
-use std::{fmt, path::Path};
+use std::{fmt, fs, io::Write, path::Path};
 
 use mediant_grid::Interrupt;
 use sha2::{Digest, Sha256};
 
-use super::{
-    error::IndexError,
-    header,
-    key::IndexKey,
-    layout::DIGEST_BYTES,
-    save::{self, WriteError},
+use super::{error::IndexError, header, key::IndexKey, layout::DIGEST_BYTES};
+use crate::{
+    read::{MAX_FILE_BYTES, ReadError, read_regular},
+    save::{NewFile, WriteError},
 };
-use crate::read::{ReadError, read_regular};
 
 /// A saved index: the key that says what it was built for, and a payload that only its engine understands.
 ///
@@ -109,7 +106,7 @@ impl IndexFile {
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), WriteError> {
         let header = header::encode(&self.key, self.payload.len());
         let digest = Sha256::new().chain_update(&header).chain_update(&self.payload).finalize();
-        save::replace(path.as_ref(), &[&header, &self.payload, &digest])
+        replace(path.as_ref(), &[&header, &self.payload, &digest])
     }
 
     /// Reads and parses a file.
@@ -153,4 +150,16 @@ impl IndexFile {
         found.identity.check_equal("the saved index", ("the space", expected.identity))?;
         Ok(())
     }
+}
+
+/// Writes a file of these parts to `path`, in the place of an older file.
+fn replace(path: &Path, parts: &[&[u8]]) -> Result<(), WriteError> {
+    if fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
+        return Err(WriteError::NotRegular { path: path.to_owned() });
+    }
+    let found = parts.iter().map(|part| part.len() as u64).sum();
+    if found > MAX_FILE_BYTES {
+        return Err(WriteError::TooLarge { path: path.to_owned(), found });
+    }
+    NewFile::write_with(path, |file| parts.iter().try_for_each(|part| file.write_all(part)))
 }

@@ -5,9 +5,7 @@ mod file;
 mod header;
 mod key;
 mod layout;
-mod save;
 
 pub use error::IndexError;
 pub use file::IndexFile;
 pub use key::IndexKey;
-pub use save::WriteError;

@@ -1,6 +1,8 @@
 //! Why a picture was not written.
 
-use std::{io, path::PathBuf};
+use std::path::PathBuf;
+
+use crate::save::WriteError;
 
 /// A picture that was not written.
 ///
@@ -15,11 +17,6 @@ pub enum PictureError {
         path: PathBuf,
     },
     /// The file cannot be written.
-    #[error("{}: the picture cannot be written: {source}", path.display())]
-    Write {
-        /// The file.
-        path: PathBuf,
-        /// The reason.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    Write(#[from] WriteError),
 }

@@ -13,13 +13,15 @@ mod raster;
 mod svg;
 mod tiles;
 
-use std::{fmt, fs::File, io, io::Write, path::Path as FilePath};
+use std::{fmt, io, io::Write, path::Path as FilePath};
 
 use mediant_grid::{Grid, PlacementKind, Vertex};
 
 pub use error::PictureError;
 
 use layout::Layout;
+
+use crate::save::NewFile;
 
 /// A picture of a map, for maps of any size: written as PNG or as SVG.
 ///
@@ -201,7 +203,7 @@ impl<'g> Picture<'g> {
         out.write_all(self.svg().as_bytes())
     }
 
-    /// Writes the picture to a file, which it replaces: as PNG or SVG, after the end of the file's name.
+    /// Writes the picture to a file, which it replaces as a whole: as PNG or SVG, after the end of the file's name.
     ///
     /// # Errors
     /// [`PictureError::Extension`] if the name ends otherwise, [`PictureError::Write`] if the file cannot be
@@ -214,11 +216,10 @@ impl<'g> Picture<'g> {
             Some("svg") => false,
             _ => return Err(PictureError::Extension { path: path.to_owned() }),
         };
-        let written = File::create(path).map(io::BufWriter::new).and_then(|mut file| {
-            if is_png { self.write_png(&mut file) } else { self.write_svg(&mut file) }?;
-            file.flush()
-        });
-        written.map_err(|source| PictureError::Write { path: path.to_owned(), source })
+        Ok(NewFile::write_with(
+            path,
+            |file| if is_png { self.write_png(file) } else { self.write_svg(file) },
+        )?)
     }
 
     /// The number of columns and rows of vertices.

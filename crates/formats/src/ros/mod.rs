@@ -6,10 +6,9 @@ mod flow;
 mod occupancy;
 mod settings;
 
-use std::{
-    fs, io,
-    path::{Path, PathBuf},
-};
+#[cfg(feature = "save")]
+use std::io::Write;
+use std::path::{Path, PathBuf};
 
 use mediant_grid::Grid;
 
@@ -17,8 +16,13 @@ pub use error::RosError;
 pub use settings::{RosMode, RosSettings};
 
 use crate::{
-    Raster, RasterFormat, WorldFrame,
+    Raster, WorldFrame,
     read::{ReadError, read_regular},
+};
+#[cfg(feature = "save")]
+use crate::{
+    RasterFormat,
+    save::{NewFile, WriteError},
 };
 
 /// A ROS map: settings, and the picture of the ground. Row 0 of the picture is row 0 of the grid;
@@ -112,32 +116,34 @@ impl RosMap {
     }
 
     /// Writes the YAML file, and the picture where the settings say: as PNG if its name ends in `.png` (and
-    /// the feature `png` is on), else as PGM.
+    /// the feature `png` is on), else as PGM. Older files are replaced when both are written.
+    ///
+    /// Needs the feature `save`.
     ///
     /// # Errors
-    /// Those of the file system, with the path. A name that ends in `.png` without that feature, or in
-    /// `.pbm`, which has no gray, is an error before anything is written; so is the name of the YAML file.
-    pub fn save(&self, path: impl AsRef<Path>) -> io::Result<()> {
+    /// [`WriteError`] for files that cannot be written; those that were there stay. A name that ends in `.png`
+    /// without that feature, or in `.pbm`, which has no gray, is an error before anything is written; so is
+    /// the name of the YAML file.
+    #[cfg(feature = "save")]
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), WriteError> {
         let path = path.as_ref();
         let image = beside(path, &self.settings.image);
         let ends_in = |end: &str| image.extension().is_some_and(|found| found.eq_ignore_ascii_case(end));
         let format = RasterFormat::of_path(&image);
         let unfit = image == path || ends_in("pbm") || ends_in("png") && format.is_none();
         if unfit {
-            let message =
-                format!("{}: no name for the picture of a ROS map; end it in .pgm", image.display());
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
+            return Err(WriteError::ImageName { path: image });
         }
-        let named = |path: &Path| {
-            let path = path.display().to_string();
-            move |error: io::Error| {
-                io::Error::new(error.kind(), format!("{path}: cannot be written: {error}"))
-            }
+        let (mut picture, mut yaml) = (NewFile::create(&image)?, NewFile::create(path)?);
+        let unwritable = |path: &Path| {
+            let path = path.to_owned();
+            move |source| WriteError::Unwritable { path, source }
         };
-        let mut picture = Vec::new();
-        self.raster.write(format.unwrap_or(RasterFormat::Pgm), &mut picture)?;
-        fs::write(&image, picture).map_err(named(&image))?;
-        fs::write(path, self.settings.to_yaml()).map_err(named(path))
+        let format = format.unwrap_or(RasterFormat::Pgm);
+        self.raster.write(format, &mut picture).map_err(unwritable(&image))?;
+        yaml.write_all(self.settings.to_yaml().as_bytes()).map_err(unwritable(path))?;
+        picture.replace()?;
+        yaml.replace()
     }
 
     /// What the YAML file says.

@@ -12,6 +12,7 @@ mod png_chunks;
 mod raster;
 mod read;
 mod ros;
+mod save;
 mod scenario;
 mod source;
 mod trace;

@@ -176,7 +176,10 @@ const WRONG: [(&[u8], &str); 19] = [
         "line 1, column 8: expected a maxval, the largest sample, of 1 to 65535, found `65536`",
     ),
     (b"P5 3 2 255", "line 1, column 11: expected white space after the header, found the end of the file"),
-    (b"P5 0 2 255 ", "the picture is no map: a map of 0 columns and 2 rows: each side must have 1 to 32768 cells"),
+    (
+        b"P5 0 2 255 ",
+        "the picture is no map: a map of 0 columns and 2 rows: each side must have 1 to 32768 cells",
+    ),
     (
         b"P5 99999999999999999999 2 255 ",
         "the picture is no map: a map of 18446744073709551615 columns and 2 rows: each side must have 1 to 32768 cells",

@@ -5,7 +5,7 @@ use std::fs;
 
 use mediant_formats::{
     Fraction, MapOptions, Raster, ReadError, RosError, RosMap, RosMode, RosSettings, RosVersion, Unknown,
-    read_map,
+    WriteError, read_map,
 };
 use mediant_grid::Vertex;
 use mediant_oracle::{Rng, random_grid, seeds};
@@ -260,8 +260,16 @@ fn saved_and_read_again() {
     }
     let map = RosMap::from_grid(&grid, "no/m.pgm", 0.05, [0.0; 3]).unwrap();
     let error = map.save(folder.path().join("n.yaml")).expect_err("no folder");
-    assert!(error.to_string().contains("m.pgm: cannot be written: "), "{error}");
+    assert!(error.to_string().contains("m.pgm: there is no folder "), "{error}");
     assert!(!folder.path().join("n.yaml").exists());
+    // If one of the two cannot be written, the other one stays as it was.
+    let picture = folder.path().join("kept.pgm");
+    fs::write(&picture, "older").unwrap();
+    fs::create_dir(folder.path().join("kept.yaml")).unwrap();
+    let map = RosMap::from_grid(&grid, "kept.pgm", 0.05, [0.0; 3]).unwrap();
+    let error = map.save(folder.path().join("kept.yaml")).expect_err("a directory");
+    assert!(matches!(error, WriteError::NotRegular { .. }), "{error}");
+    assert_eq!(fs::read(&picture).unwrap(), b"older");
 }
 
 /// The map of a row of shades of 255, with other settings.
