@@ -4,9 +4,15 @@ use crate::names::names;
 
 /// An engine without its options.
 ///
+/// A name is read as people write it: capitals, hyphens and underscores do not count, `+` is `plus`, and a
+/// star may be there or not.
+///
 /// ```
 /// use mediant::{ConfiguredEngine, Engine};
 /// assert_eq!("jps-block".parse(), Ok(Engine::JpsBlock));
+/// assert_eq!(["A*", "a-star", "astar"].map(str::parse), [Ok(Engine::AStar); 3]);
+/// assert_eq!(["JPS+", "jps_plus"].map(str::parse), [Ok(Engine::JpsPlus); 2]);
+/// assert_eq!(Engine::JpsPlus.to_string(), "jps-plus");
 /// assert_eq!(ConfiguredEngine::from(Engine::Anya), ConfiguredEngine::Anya);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

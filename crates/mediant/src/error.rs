@@ -76,7 +76,7 @@ pub enum Error {
     #[error(transparent)]
     Size(SizeError),
     /// Motion that no engine searches.
-    #[error("no engine searches {motion}: choose a k from 2 to {max}, or corners for k = any")]
+    #[error("no engine searches {motion}: choose a k from 2 to {max}, or placement corner for k = any")]
     Motion {
         /// The motion.
         motion: Motion,

@@ -22,7 +22,8 @@ use mediant_moves::K;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub struct Motion {
-    /// The neighborhood: 2^k directions, or all of them.
+    /// The neighborhood: 2^k directions, or all of them. k = 3 has 8 moves, k = 8 has 256:
+    /// [`K::from_neighbors`] takes the number of moves.
     pub k: K,
     /// The placement of the vertices, and its rule of motion.
     pub rules: Rules,

@@ -10,8 +10,29 @@ pub struct UnknownName {
     pub known: String,
 }
 
+/// A name as it is compared: small letters, without hyphens, underscores and spaces, `+` and `*` as words.
+pub(crate) fn letters(text: &str) -> String {
+    let mut letters = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '-' | '_' | ' ' => {}
+            '+' => letters.push_str("plus"),
+            '*' => letters.push_str("star"),
+            letter => letters.extend(letter.to_lowercase()),
+        }
+    }
+    letters
+}
+
+/// Whether a text means a name: they are the same but for capitals, hyphens, underscores and spaces, `+` for
+/// `plus` and `*` for `star`. People write the star of an algorithm that the name leaves out (`Theta*`).
+pub(crate) fn means(text: &str, name: &str) -> bool {
+    let (text, name) = (letters(text), letters(name));
+    text == name || text.strip_suffix("star") == Some(&*name)
+}
+
 /// Gives an enum `ALL`, `name`, [`Display`](std::fmt::Display) and [`FromStr`](std::str::FromStr) by the name
-/// of each variant.
+/// of each variant, or what [`means`] it.
 macro_rules! names {
     ($type:ident: $($variant:ident => $name:literal),+ $(,)?) => {
         impl $type {
@@ -35,7 +56,7 @@ macro_rules! names {
             type Err = $crate::names::UnknownName;
 
             fn from_str(text: &str) -> Result<Self, $crate::names::UnknownName> {
-                Self::ALL.into_iter().find(|value| value.name() == text).ok_or_else(|| {
+                Self::ALL.into_iter().find(|value| $crate::names::means(text, value.name())).ok_or_else(|| {
                     $crate::names::UnknownName {
                         found: text.to_owned(),
                         known: Self::ALL.map(Self::name).join(", "),

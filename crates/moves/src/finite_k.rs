@@ -39,6 +39,24 @@ impl FiniteK {
         if k < 2 { Err(KError::TooSmall { k }) } else { Ok(Self(k)) }
     }
 
+    /// The neighborhood of so many moves, a power of two from 4 up: 8 moves are k = 3.
+    ///
+    /// ```
+    /// use mediant_moves::FiniteK;
+    /// assert_eq!(FiniteK::from_neighbors(8), Ok(FiniteK::N8));
+    /// let error = FiniteK::from_neighbors(6).unwrap_err();
+    /// assert_eq!(error.to_string(), "no 2^k neighborhood has 6 moves: choose 4 or 8");
+    /// ```
+    ///
+    /// # Errors
+    /// [`KError::Neighbors`] for any other number; it names the nearest ones.
+    pub const fn from_neighbors(moves: u64) -> Result<Self, KError> {
+        if moves < 4 || !moves.is_power_of_two() {
+            return Err(KError::Neighbors { moves });
+        }
+        Ok(Self(moves.trailing_zeros()))
+    }
+
     /// k as a number.
     #[must_use]
     pub const fn get(self) -> u32 {
@@ -102,6 +120,11 @@ pub enum KError {
         /// The largest k that fits.
         max: u32,
     },
+    /// No neighborhood has this number of moves.
+    Neighbors {
+        /// The number of moves that was asked for.
+        moves: u64,
+    },
 }
 
 impl fmt::Display for KError {
@@ -111,6 +134,14 @@ impl fmt::Display for KError {
                 write!(f, "k = {k} is too small: the smallest 2^k neighborhood is the 4-connected one, k = 2")
             }
             Self::TooLarge { k, max } => write!(f, "k = {k} is too large: at most k = {max} fits here"),
+            Self::Neighbors { moves } => {
+                write!(f, "no 2^k neighborhood has {moves} moves: choose ")?;
+                match (moves.checked_ilog2().unwrap_or(0), moves.checked_next_power_of_two()) {
+                    (0 | 1, _) => f.write_str("4, 8 or another power of two"),
+                    (below, Some(above)) => write!(f, "{} or {above}", 1_u64 << below),
+                    (below, None) => write!(f, "{}", 1_u64 << below),
+                }
+            }
         }
     }
 }

@@ -6,12 +6,16 @@ use crate::{FiniteK, KError};
 
 /// The neighborhood N(k) of a path's moves: 2^k moves for a finite k, every direction for k = ∞.
 ///
-/// Its text form is the number, or `any` for k = ∞.
+/// k is no number of directions: k = 3 has 8 moves, k = 8 has 256. [`K::N8`](Self::N8) and
+/// [`from_neighbors`](Self::from_neighbors) name a neighborhood by its moves.
+///
+/// Its text form is the number, or `any` for k = ∞, for which `inf`, `infinity` and `∞` are read, too.
 ///
 /// ```
 /// use mediant_moves::{FiniteK, K};
 /// assert_eq!("3".parse(), Ok(K::N8));
-/// assert_eq!("any".parse(), Ok(K::ANY));
+/// assert_eq!(["any", "inf", "∞"].map(str::parse), [Ok(K::ANY); 3]);
+/// assert_eq!(K::from_neighbors(8), Ok(K::N8));
 /// assert_eq!(K::N16.finite(), Some(FiniteK::N16));
 /// assert_eq!(K::ANY.finite(), None);
 /// ```
@@ -36,6 +40,17 @@ impl K {
     pub const N64: Self = Self::Finite(FiniteK::N64);
     /// k = ∞, every direction.
     pub const ANY: Self = Self::Any;
+
+    /// The neighborhood of so many moves: 4 are k = 2, 8 are k = 3, 16 are k = 4.
+    ///
+    /// # Errors
+    /// Those of [`FiniteK::from_neighbors`].
+    pub const fn from_neighbors(moves: u64) -> Result<Self, KError> {
+        match FiniteK::from_neighbors(moves) {
+            Ok(k) => Ok(Self::Finite(k)),
+            Err(error) => Err(error),
+        }
+    }
 
     /// The finite k; `None` at k = ∞.
     #[must_use]
@@ -66,7 +81,7 @@ impl FromStr for K {
     type Err = ParseKError;
 
     fn from_str(text: &str) -> Result<Self, ParseKError> {
-        if text == "any" {
+        if ["any", "inf", "infinity", "∞"].iter().any(|name| text.eq_ignore_ascii_case(name)) {
             return Ok(Self::Any);
         }
         let k: u32 = text.parse().map_err(|_: ParseIntError| ParseKError::Form)?;

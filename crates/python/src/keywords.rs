@@ -83,6 +83,7 @@ fn keyword(option: &EngineOption) -> String {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Keywords {
     k: Option<K>,
+    neighbors: Option<K>,
     placement: Option<PlacementKind>,
     corners: Option<CornerRule>,
     gap: Option<DiagonalGap>,
@@ -121,6 +122,8 @@ impl Keywords {
         let is_left_out = value.is_none();
         match name {
             "k" => self.k = Some(read_k(value)?),
+            "neighbors" if is_left_out => {}
+            "neighbors" => self.neighbors = Some(read_neighbors(value)?),
             "placement" | "corners" | "gap" if is_left_out => {}
             "placement" => self.placement = Some(placement(value)?),
             "corners" => self.corners = Some(word(name, value, &CORNERS)?),
@@ -186,7 +189,12 @@ impl Keywords {
     /// How the agent moves. What was left out, the engine decides, if it takes only that.
     pub(crate) fn motion(&self) -> PyResult<Motion> {
         let capabilities = self.engine.unwrap_or_default().capabilities();
-        let k = self.k.unwrap_or(capabilities.default_k);
+        let k = match (self.k, self.neighbors) {
+            (Some(_), Some(_)) => {
+                return Err(argument("neighbors", "it names the neighborhood, as k does: give one"));
+            }
+            (k, neighbors) => k.or(neighbors).unwrap_or(capabilities.default_k),
+        };
         let rules = match (self.placement, self.corners, self.gap) {
             (_, Some(_), Some(_)) | (Some(PlacementKind::Center), None, Some(_)) => {
                 return Err(argument("gap", "it is for placement='corner'; at centers there is corners="));
@@ -289,9 +297,10 @@ pub(crate) fn placement(value: &Bound<'_, PyAny>) -> PyResult<PlacementKind> {
     word("placement", value, &PLACEMENTS)
 }
 
-/// k: a number, or `"any"`, or infinity.
+/// k: a number, or `"any"` (or another name of infinity), or infinity.
 fn read_k(value: &Bound<'_, PyAny>) -> PyResult<K> {
-    if value.cast::<PyString>().is_ok_and(|text| text == "any") {
+    let named = value.extract::<String>().ok().and_then(|text| text.parse().ok());
+    if named == Some(K::ANY) {
         return Ok(K::ANY);
     }
     if value.cast::<PyFloat>().is_ok_and(|number| number.value() == f64::INFINITY) {
@@ -302,6 +311,11 @@ fn read_k(value: &Bound<'_, PyAny>) -> PyResult<K> {
     }
     let number = u32::try_from(integer("k", value, 2)?).unwrap_or(u32::MAX);
     Ok(K::Finite(FiniteK::new(number).map_err(raised)?))
+}
+
+/// The neighborhood by its number of moves.
+fn read_neighbors(value: &Bound<'_, PyAny>) -> PyResult<K> {
+    K::from_neighbors(integer("neighbors", value, 0)?).map_err(raised)
 }
 
 /// The moves of N(k), as (row, column) differences in angular order.
@@ -368,6 +382,7 @@ pub(crate) fn moves<'py>(k: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<
 #[pyo3(signature = (k, **motion))]
 pub(crate) fn bound(k: &Bound<'_, PyAny>, motion: Option<&Bound<'_, PyDict>>) -> PyResult<Option<f64>> {
     let mut keywords = Keywords::read("bound", motion, Takes::MOTION)?;
+    // A second name of the neighborhood stays an error.
     keywords.k = Some(read_k(k)?);
     let Motion { k, rules, .. } = keywords.motion()?;
     let guarantee = k.finite().map_or(Guarantee::OptimalAnyAngle, Guarantee::Optimal);

@@ -491,3 +491,23 @@ def test_small_floats_are_not_rounded_to():
     assert not mediant.Grid(a, values=[1e6]).to_numpy().any()
     assert mediant.Grid(a, values=[np.inf]).to_numpy().tolist() == [[True, False, False]]
     assert mediant.Grid(np.array([[0.1]], "f4"), values=[0.1]).to_numpy().all()
+
+
+def test_neighbors_name_the_neighborhood_by_its_moves():
+    grid = mediant.Grid.from_rows(["....", ".##.", "...."])
+    for neighbors, k in [(4, 2), (8, 3), (np.int64(16), 4), (4096, 12)]:
+        by_moves = grid.path((0, 0), (2, 3), neighbors=neighbors)
+        assert by_moves.tolist() == grid.path((0, 0), (2, 3), k=k).tolist()
+        assert grid.prepare("astar", neighbors=neighbors).k == k
+    with pytest.raises(mediant.OptionError, match="no 2\\^k neighborhood has 6 moves: choose 4 or 8"):
+        grid.path((0, 0), (2, 3), neighbors=6)
+    with pytest.raises(mediant.OptionError, match="neighbors"):
+        grid.path((0, 0), (2, 3), k=3, neighbors=8)
+
+
+def test_engines_and_infinity_have_several_names():
+    grid = mediant.Grid.from_rows(["....", ".##.", "...."])
+    for name, engine in [("A*", "astar"), ("JPS+", "jps-plus"), ("Theta*", "theta"), ("jps_block", "jps-block")]:
+        assert grid.prepare(name).engine == engine
+    for k in ["any", "inf", "∞", float("inf")]:
+        assert grid.prepare("anya", k=k).k == "any"

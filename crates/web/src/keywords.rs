@@ -19,7 +19,7 @@ const CORNERS: [(&str, CornerRule); 3] =
     [("never", CornerRule::Never), ("one", CornerRule::One), ("always", CornerRule::Always)];
 const GAPS: [(&str, DiagonalGap); 2] = [("open", DiagonalGap::Open), ("closed", DiagonalGap::Closed)];
 
-const MOTION_KEYS: [&str; 4] = ["k", "placement", "corners", "gap"];
+const MOTION_KEYS: [&str; 5] = ["k", "neighbors", "placement", "corners", "gap"];
 const WISH_KEYS: [&str; 6] = ["nearest", "snap", "tolerance", "maxCost", "maxExpansions", "timeout"];
 
 /// Which keys an object may have.
@@ -70,6 +70,7 @@ pub(crate) fn key(option: &EngineOption) -> String {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Keywords {
     k: Option<K>,
+    neighbors: Option<K>,
     placement: Option<PlacementKind>,
     corners: Option<CornerRule>,
     gap: Option<DiagonalGap>,
@@ -110,6 +111,7 @@ impl Keywords {
     fn read_motion(&mut self, name: &str, value: &JsValue) -> Result<bool, JsValue> {
         match name {
             "k" => self.k = Some(read_k(value)?),
+            "neighbors" => self.neighbors = Some(read_neighbors(value)?),
             "placement" => self.placement = Some(word(name, value, &PLACEMENTS)?),
             "corners" => self.corners = Some(word(name, value, &CORNERS)?),
             "gap" => self.gap = Some(word(name, value, &GAPS)?),
@@ -168,7 +170,12 @@ impl Keywords {
     /// How the agent moves. What was left out, the engine decides, if it takes only that.
     pub(crate) fn motion(&self) -> Result<Motion, JsValue> {
         let capabilities = self.engine.unwrap_or_default().capabilities();
-        let k = self.k.unwrap_or(capabilities.default_k);
+        let k = match (self.k, self.neighbors) {
+            (Some(_), Some(_)) => {
+                return Err(argument("neighbors", "it names the neighborhood, as k does: give one"));
+            }
+            (k, neighbors) => k.or(neighbors).unwrap_or(capabilities.default_k),
+        };
         let rules = match (self.placement, self.corners, self.gap) {
             (_, Some(_), Some(_)) | (Some(PlacementKind::Center), None, Some(_)) => {
                 return Err(argument("gap", "it is for placement 'corner'; at centers there is corners"));
@@ -261,9 +268,15 @@ pub(crate) fn read_engine(value: &JsValue) -> Result<Option<Engine>, JsValue> {
     name.parse().map(Some).map_err(|error: mediant::UnknownName| raised_for("engine", error))
 }
 
-/// k: a number, or `"any"`, or infinity.
+/// The neighborhood by its number of moves.
+fn read_neighbors(value: &JsValue) -> Result<K, JsValue> {
+    K::from_neighbors(integer("neighbors", value, 0)?).map_err(raised)
+}
+
+/// k: a number, or `"any"` (or another name of infinity), or infinity.
 pub(crate) fn read_k(value: &JsValue) -> Result<K, JsValue> {
-    if value.as_string().is_some_and(|text| text == "any") || value.as_f64() == Some(f64::INFINITY) {
+    let named = value.as_string().and_then(|text| text.parse().ok());
+    if named == Some(K::ANY) || value.as_f64() == Some(f64::INFINITY) {
         return Ok(K::ANY);
     }
     if value.as_f64().is_none() {

@@ -15,8 +15,13 @@ export type Points = Point | readonly Point[] | Int32Array;
 
 /** How an agent moves. */
 export interface Motion {
-  /** The neighborhood: 2^k directions, `k` from 2 to 12; or `"any"` for every direction. 3 by default. */
+  /**
+   * The neighborhood: 2^k directions, `k` from 2 to 12, so that k = 3 has 8 moves and k = 8 has 256; or
+   * `"any"` for every direction. 3 by default.
+   */
   readonly k?: number | "any";
+  /** The neighborhood by its number of moves, in place of `k`: 4, 8, 16, … 4096. */
+  readonly neighbors?: number;
   /** Where the vertices are: at centers or corners of cells. Centers by default, corners for k "any". */
   readonly placement?: "center" | "corner";
   /**

@@ -13,6 +13,7 @@ use super::{
 #[derive(Args, Debug)]
 #[command(after_help = CONVERT_HELP)]
 #[command(mut_arg("k", |arg| arg.requires("radius").help(K_HELP)))]
+#[command(mut_arg("neighbors", |arg| arg.requires("radius")))]
 #[command(mut_arg("placement", |arg| arg.requires("radius").help(PLACEMENT_HELP)))]
 #[command(mut_arg("corners", |arg| arg.requires("radius")))]
 #[command(mut_arg("gap", |arg| arg.requires("radius")))]

@@ -3,11 +3,11 @@
 use clap::Args;
 use mediant::Motion;
 use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Rules};
-use mediant_moves::{FiniteK, K};
+use mediant_moves::K;
 
 use super::{
     setup::{CornersArg, GapArg, PlacementArg},
-    value::parse_k,
+    value::{parse_k, parse_neighbors},
 };
 use crate::failure::Failure;
 
@@ -47,12 +47,31 @@ impl RuleArgs {
     }
 }
 
+/// The neighborhood, by its k or by its moves.
+#[derive(Args, Clone, Copy, Debug)]
+pub(crate) struct KArgs {
+    /// The neighborhood, of 2^k moves: k = 3 has 8, k = 8 has 256. From 2 to 12, or any, which is every
+    /// direction. 3 by default
+    #[arg(id = "k", long = "k", value_name = "K", allow_negative_numbers = true, value_parser = parse_k)]
+    by_k: Option<K>,
+    /// The neighborhood by its number of moves, instead of --k: 4, 8, 16, … 4096
+    #[arg(id = "neighbors", long = "neighbors", value_name = "N", conflicts_with = "k")]
+    #[arg(allow_negative_numbers = true, value_parser = parse_neighbors)]
+    by_moves: Option<K>,
+}
+
+impl KArgs {
+    /// The k that was given, in one way or the other.
+    pub(crate) fn given(self) -> Option<K> {
+        self.by_k.or(self.by_moves)
+    }
+}
+
 /// The k, the placement and its rule.
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct MotionArgs {
-    /// The neighborhood: 2 to 12, or any, which is every direction. 3 by default
-    #[arg(long, allow_negative_numbers = true, value_parser = parse_k)]
-    pub(crate) k: Option<K>,
+    #[command(flatten)]
+    pub(crate) k: KArgs,
     /// Where the vertices are: at cell centers or at cell corners. center by default, corner for k = any
     #[arg(long, value_enum, hide_possible_values = true, value_name = "center|corner")]
     pub(crate) placement: Option<PlacementArg>,
@@ -63,7 +82,7 @@ pub(crate) struct MotionArgs {
 impl MotionArgs {
     /// The motion that the arguments ask for. It may be one that no engine searches.
     pub(crate) fn motion(&self) -> Result<Motion, Failure> {
-        let k = self.k.unwrap_or(K::Finite(FiniteK::N8));
+        let k = self.k.given().unwrap_or(K::N8);
         Ok(Motion::new(k, self.rules.at(self.placement_for(k))?))
     }
 

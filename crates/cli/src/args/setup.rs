@@ -6,8 +6,8 @@ use mediant_grid::{PlacementKind, Rules};
 use mediant_moves::K;
 
 use super::{
-    motion::RuleArgs,
-    value::{one_of, parse_k},
+    motion::{KArgs, RuleArgs},
+    value::one_of,
 };
 use crate::failure::Failure;
 
@@ -17,9 +17,8 @@ pub(crate) struct SetupArgs {
     /// The algorithm; `mediant engines` says what each can do
     #[arg(long, default_value_t, value_parser = one_of(Engine::ALL, Engine::name))]
     pub(crate) engine: Engine,
-    /// The neighborhood: 2 to 12, or any, which is every direction. 3 by default, any for anya
-    #[arg(long, allow_negative_numbers = true, value_parser = parse_k)]
-    pub(crate) k: Option<K>,
+    #[command(flatten)]
+    pub(crate) k: KArgs,
     /// Where the vertices are: at cell centers or at cell corners. center by default, corner for anya,
     /// subgoal-theta and k = any
     #[arg(long, value_enum, hide_possible_values = true, value_name = "center|corner")]
@@ -30,7 +29,9 @@ pub(crate) struct SetupArgs {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PlacementArg {
+    #[value(alias = "centers")]
     Center,
+    #[value(alias = "corners")]
     Corner,
 }
 
@@ -60,7 +61,7 @@ pub(crate) enum GapArg {
 impl SetupArgs {
     /// The setup without the engine's options. It may be one that [`Setup::check`] refuses.
     pub(super) fn without_options(&self) -> Result<Setup, Failure> {
-        let k = self.k.unwrap_or(self.engine.capabilities().default_k);
+        let k = self.k.given().unwrap_or(self.engine.capabilities().default_k);
         Ok(Setup::new(self.engine, k, self.rules(k)?))
     }
 

@@ -1,12 +1,16 @@
 //! The values of arguments: how each kind is read, and what is said of a wrong one.
 
 use std::{
+    ffi::OsStr,
     fmt::Display,
     num::{IntErrorKind, ParseIntError},
     str::FromStr,
 };
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{
+    Arg, Command,
+    builder::{PossibleValue, PossibleValuesParser, TypedValueParser},
+};
 use mediant::UnknownName;
 use mediant_grid::{Centers, GridGraph, Vertex};
 use mediant_moves::{FiniteK, K, ParseKError};
@@ -14,12 +18,40 @@ use mediant_moves::{FiniteK, K, ParseKError};
 /// The largest k that grid graphs take.
 pub(crate) const MAX_K: u32 = GridGraph::<Centers>::MAX_K;
 
-/// Reads one of these values by its name.
-pub(super) fn one_of<T: FromStr<Err = UnknownName> + Clone + Send + Sync + 'static, const N: usize>(
-    all: [T; N],
-    name: fn(T) -> &'static str,
-) -> impl TypedValueParser<Value = T> {
-    PossibleValuesParser::new(all.map(name)).try_map(|name| name.parse())
+/// Reads one of these values by its name, or as people write it (`A*`). What is none of them gets clap's
+/// error, which suggests the one that is most like it.
+pub(super) fn one_of<T: Named, const N: usize>(all: [T; N], name: fn(T) -> &'static str) -> OneOf<T> {
+    OneOf { names: PossibleValuesParser::new(all.clone().map(name)), all: all.to_vec() }
+}
+
+/// What [`one_of`] reads.
+pub(super) trait Named:
+    FromStr<Err = UnknownName> + Clone + PartialEq + Send + Sync + 'static
+{
+}
+
+impl<T: FromStr<Err = UnknownName> + Clone + PartialEq + Send + Sync + 'static> Named for T {}
+
+#[derive(Clone)]
+pub(super) struct OneOf<T> {
+    names: PossibleValuesParser,
+    all: Vec<T>,
+}
+
+impl<T: Named> TypedValueParser for OneOf<T> {
+    type Value = T;
+
+    fn parse_ref(&self, command: &Command, arg: Option<&Arg>, text: &OsStr) -> Result<T, clap::Error> {
+        let value = text.to_str().and_then(|text| text.parse().ok());
+        match value.filter(|value| self.all.contains(value)) {
+            Some(value) => Ok(value),
+            None => self.names.clone().try_map(|name| name.parse()).parse_ref(command, arg, text),
+        }
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        self.names.possible_values()
+    }
 }
 
 /// Reads `X,Y`.
@@ -121,6 +153,15 @@ pub(super) fn parse_k(text: &str) -> Result<K, String> {
     }
 }
 
+/// Reads the number of moves of a neighborhood that some engine may take.
+pub(super) fn parse_neighbors(text: &str) -> Result<K, String> {
+    let most = 1_u64 << MAX_K;
+    let form = format!("expected a number of moves: 4, 8, 16 or another power of two up to {most}");
+    let moves: u64 = text.parse().map_err(|_| form.clone())?;
+    let k = K::from_neighbors(moves).map_err(|error| error.to_string())?;
+    if moves <= most { Ok(k) } else { Err(form) }
+}
+
 /// Reads a k whose moves can be computed, even if no grid graph takes it.
 pub(super) fn parse_any_k(text: &str) -> Result<FiniteK, String> {
     let max = FiniteK::MAX_MOVES;
@@ -131,6 +172,13 @@ pub(super) fn parse_any_k(text: &str) -> Result<FiniteK, String> {
         Ok(_) => Ok(k),
         Err(error) => Err(error.to_string()),
     }
+}
+
+/// Reads the number of moves of a neighborhood whose moves can be computed.
+pub(super) fn parse_any_neighbors(text: &str) -> Result<FiniteK, String> {
+    let moves = text.parse().map_err(|_| "expected a number of moves: 4, 8, 16, …".to_owned())?;
+    let k = FiniteK::from_neighbors(moves).map_err(|error| error.to_string())?;
+    k.radius().map_or_else(|error| Err(error.to_string()), |_| Ok(k))
 }
 
 /// Reads a ratio of lengths, at least 1.
@@ -173,10 +221,20 @@ mod tests {
 
     #[test]
     fn k_is_a_number_or_any() {
-        assert_eq!(parse_k("any"), Ok(K::Any));
+        for infinite in ["any", "inf", "Infinity", "∞"] {
+            assert_eq!(parse_k(infinite), Ok(K::Any));
+        }
         assert_eq!(parse_k("2"), Ok(K::Finite(FiniteK::N4)));
         for wrong in ["1", "13", "-3", "three", ""] {
             assert!(parse_k(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn neighbors_are_a_power_of_two() {
+        assert_eq!([parse_neighbors("8"), parse_neighbors("4096")], [Ok(K::N8), parse_k("12")]);
+        for wrong in ["0", "2", "6", "8192", "9223372036854775808", "-8", "eight", ""] {
+            assert!(parse_neighbors(wrong).is_err(), "{wrong}");
         }
     }
 }

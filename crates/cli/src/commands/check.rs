@@ -4,7 +4,7 @@ use std::{io, io::Write};
 
 use mediant::{Motion, Path, Space};
 use mediant_grid::PlacementKind;
-use mediant_moves::{FiniteK, K};
+use mediant_moves::K;
 use serde::Serialize;
 
 use crate::{
@@ -66,11 +66,11 @@ impl Rules {
     fn new(args: &CheckArgs, said: Option<Said>) -> Result<Self, Failure> {
         let args = &args.motion;
         let setup = said.map(|said| said.setup);
-        let over = args.k.or(said.map(|said| said.over)).unwrap_or(K::Any);
+        let over = args.k.given().or(said.map(|said| said.over)).unwrap_or(K::Any);
         let placement = match (args.placement, setup) {
             (None, Some(setup)) => setup.rules.placement(),
             // A path between centers can be at any angle, too.
-            _ => args.placement_for(args.k.unwrap_or(K::Finite(FiniteK::N8))),
+            _ => args.placement_for(args.k.given().unwrap_or(K::N8)),
         };
         let given = args.rules.at(placement)?;
         let is_given = args.rules.corners.is_some() || args.rules.gap.is_some();
@@ -78,7 +78,7 @@ impl Rules {
             Some(setup) if !is_given && setup.rules.placement() == placement => setup.rules,
             _ => given,
         };
-        let k = args.k.or(setup.map(|setup| setup.k)).unwrap_or(K::Finite(FiniteK::N8));
+        let k = args.k.given().or(setup.map(|setup| setup.k)).unwrap_or(K::N8);
         Ok(Self { motion: Motion::new(k, rules), over })
     }
 
@@ -88,7 +88,7 @@ impl Rules {
         let Motion { k, rules, .. } = self.motion;
         // Between centers no engine searches at any angle. For sight, every k is as good.
         let is_searched = k != K::Any || rules.placement() == PlacementKind::Corner;
-        let k = if is_searched { k } else { K::Finite(FiniteK::N8) };
+        let k = if is_searched { k } else { K::N8 };
         Ok(map.to_library().space(Motion::new(k, rules))?)
     }
 }

@@ -20,7 +20,7 @@ use crate::{
 
 /// Runs the command.
 pub(crate) fn moves(args: &MovesArgs, screen: &mut Screen) -> Result<(), Failure> {
-    if let Some(k) = args.k {
+    if let Some(k) = args.k() {
         let neighborhood = Neighborhood::new(k)?;
         facts(neighborhood, screen)?;
         if k.get() <= star::MAX_K {
@@ -31,8 +31,8 @@ pub(crate) fn moves(args: &MovesArgs, screen: &mut Screen) -> Result<(), Failure
         list(neighborhood.quadrant(), screen)?;
     }
     match args.ratio {
-        Some(ratio) => Ok(smallest(ratio, args.k.is_some(), screen)?),
-        None if args.k.is_none() => Err(Failure::NoK),
+        Some(ratio) => Ok(smallest(ratio, args.k().is_some(), screen)?),
+        None if args.k().is_none() => Err(Failure::NoK),
         None => Ok(()),
     }
 }

@@ -16,6 +16,7 @@ use crate::{
     run::{
         distances::{csv, furthest, rounded},
         query_error::explain,
+        report::motion_in_words,
     },
     terminal::{
         numbers::{count, grouped},
@@ -129,7 +130,8 @@ fn summary(
     let (at, distance) = furthest((first, 0.0), field.iter());
     let vertices = count(field.iter().count() as u64, "vertex", "vertices");
     let name = screen.paint(BOLD, printable(&map.name)).to_string();
-    write!(screen, "{name} · {motion} · {vertices} {how}, the furthest {at} at {distance:.4}")?;
+    let motion_words = motion_in_words(motion);
+    write!(screen, "{name} · {motion_words} · {vertices} {how}, the furthest {at} at {distance:.4}")?;
     if let (Some(frame), Some(meters)) = (map.frame, meters(distance)) {
         let (x, y) = frame.point_of(motion.rules.placement(), at);
         write!(screen, " cells: in the world ({x:.3}, {y:.3}) at {meters:.3} m")?;

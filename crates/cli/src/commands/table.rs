@@ -15,7 +15,11 @@ use crate::{
     check::file::{bytes, lines, shown},
     failure::{Ending, Failure},
     map::Map,
-    run::{distances::rounded, query_error::explain, report::falls_back},
+    run::{
+        distances::rounded,
+        query_error::explain,
+        report::{falls_back, k_in_words},
+    },
     terminal::{
         numbers::{count, time},
         screen::{BOLD, Screen},
@@ -250,7 +254,7 @@ impl Report<'_> {
         let made = EngineOption::ALL.into_iter().find(|option| option.kind == ValueKind::Levels);
         let made = made.and_then(|option| Some(option.describe(self.index.value(option)?)));
         let made = made.map_or_else(String::new, |made| format!(" · {made}"));
-        writeln!(screen, "{name} · {setup}{made}")?;
+        writeln!(screen, "{name} · {setup}{made} · {}", k_in_words(setup.k))?;
         if searched_by != setup.engine.kind() {
             writeln!(screen, "{}", falls_back(setup.engine.kind(), searched_by))?;
         }

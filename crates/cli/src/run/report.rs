@@ -2,13 +2,14 @@
 
 use std::io;
 
-use mediant::Engine;
+use mediant::{Engine, FiniteK, K, Motion};
 use mediant_search::Smoothing;
 
 use super::{
     answer::{Answer, Run},
     summary::Summary,
 };
+use crate::terminal::numbers::grouped;
 
 /// Reports a run: first the run, then its queries in order, last their summary.
 pub(crate) trait Report {
@@ -25,6 +26,19 @@ pub(crate) trait Report {
 /// That another engine searches in place of the one that was asked for.
 pub(crate) fn falls_back(engine: Engine, searched_by: Engine) -> String {
     format!("{engine} falls back to {searched_by}: on this map its graph would be slower than no index")
+}
+
+/// A k with the number of its moves, which people expect where k stands.
+pub(crate) fn k_in_words(k: K) -> String {
+    match k.finite().and_then(FiniteK::moves) {
+        Some(moves) => format!("k = {k} ({} moves)", grouped(moves)),
+        None => format!("k = {k}"),
+    }
+}
+
+/// Rules and k, with the number of its moves.
+pub(crate) fn motion_in_words(motion: Motion) -> String {
+    format!("{}, {}", motion.rules, k_in_words(motion.k))
 }
 
 /// The name of a smoothing, as `--smooth` takes it.

@@ -8,7 +8,7 @@ use mediant_search::{Limit, Path, Stopped};
 
 use super::{
     answer::{Answer, Answered, Found, Run},
-    report::{Report, falls_back, smoothing_name},
+    report::{Report, falls_back, k_in_words, smoothing_name},
     summary::{Ratios, References, Summary},
 };
 use crate::terminal::{
@@ -233,7 +233,7 @@ impl Report for TableReport<'_> {
         let last = parts.len() - 1;
         let words = parts.iter().enumerate();
         let words = words.map(|(i, part)| format!("{part}{}", if i < last { "," } else { " ·" }));
-        let problem = [format!("k = {} ·", setup.k), format!("{}, {rule}", setup.rules.placement())];
+        let problem = [format!("{} ·", k_in_words(setup.k)), format!("{}, {rule}", setup.rules.placement())];
         let text = wrap("", words.chain(problem), self.screen.columns());
         let rest = text.strip_prefix(name).unwrap_or_default();
         writeln!(self.screen, "{}{rest}", self.screen.paint(BOLD, name))?;

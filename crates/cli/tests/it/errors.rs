@@ -58,7 +58,7 @@ fn arguments_that_make_no_sense() {
     );
     check(
         "moves",
-        "give --k to list the moves of a neighborhood, --ratio to find the smallest k for a bound, or both",
+        "give --k or --neighbors to list the moves of a neighborhood, --ratio to find the smallest k for a bound, or both",
     );
     check(
         "moves --k 48",

@@ -107,7 +107,7 @@ fn the_table_says_how_often_a_plan_was_left() {
     let text = shown("--engine chpa --detour 1 --second squared");
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
     let head = "\nchpa, heuristic hk, variant complete, side 3, second heuristic squared, step 2,\n\
-                detours up to 1 · k = 3 · center, corners never\nsuboptimal · prepared in TIME\n";
+                detours up to 1 · k = 3 (8 moves) · center, corners never\nsuboptimal · prepared in TIME\n";
     assert!(text.contains(head), "{text}");
     let (_, queries, _) = told("run builtin:cave --engine chpa --detour 1 --second squared");
     let times = total(&queries, "fallbacks");
@@ -118,7 +118,8 @@ fn the_table_says_how_often_a_plan_was_left() {
     assert!(text.contains("\n  plan  left once\n"), "{text}");
     let text = shown("--engine hpa --levels 1 --unstraightened");
     assert!(
-        text.contains("\nhpa, 1 level, side 10, paths not straightened · k = 3 · ") && !text.contains("plan"),
+        text.contains("\nhpa, 1 level, side 10, paths not straightened · k = 3 (8 moves) · ")
+            && !text.contains("plan"),
         "{text}"
     );
 }

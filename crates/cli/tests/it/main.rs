@@ -15,4 +15,5 @@ mod subgoal;
 mod table;
 mod trace;
 mod wishes;
+mod words;
 mod world;

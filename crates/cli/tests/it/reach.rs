@@ -130,7 +130,7 @@ fn pictures_show_the_sources() {
 fn the_summary_says_what_was_reached() {
     assert_eq!(
         succeeds("reach builtin:cave --from 2,5 --within 40"),
-        "cave.map · center, corners never, k = 3 · 500 vertices within 40 of (2, 5), the furthest (36, 12) at \
+        "cave.map · center, corners never, k = 3 (8 moves) · 500 vertices within 40 of (2, 5), the furthest (36, 12) at \
          39.9706\n"
     );
     assert_eq!(
@@ -140,7 +140,7 @@ fn the_summary_says_what_was_reached() {
     );
     assert_eq!(
         succeeds("reach builtin:cave --from 2,5 --within 0"),
-        "cave.map · center, corners never, k = 3 · 1 vertex within 0 of (2, 5), the furthest (2, 5) at 0.0000\n"
+        "cave.map · center, corners never, k = 3 (8 moves) · 1 vertex within 0 of (2, 5), the furthest (2, 5) at 0.0000\n"
     );
 }
 
@@ -154,7 +154,7 @@ fn lengths_are_in_meters_in_the_world() {
     assert_eq!(succeeds(&format!("{line} -o -")), succeeds(&format!("{cells} -o -")));
     assert_eq!(
         succeeds(&line),
-        "isles.yaml · center, corners never, k = 3 · 558 vertices within 20 m of (16, 7), the furthest (50, 10) \
+        "isles.yaml · center, corners never, k = 3 (8 moves) · 558 vertices within 20 m of (16, 7), the furthest (50, 10) \
          at 39.9706 cells: in the world (22.250, 14.750) at 19.985 m\n"
     );
 }
@@ -187,7 +187,7 @@ fn arguments_that_make_no_sense() {
     );
     check(
         "reach builtin:cave --from 2,5 --k any --placement center",
-        "no engine searches center, corners never, k = any: choose a k from 2 to 12, or corners for k = any",
+        "no engine searches center, corners never, k = any: choose a k from 2 to 12, or placement corner for k = any",
     );
     check(
         "reach builtin:cave --from 2,5 --gap open",

@@ -81,7 +81,9 @@ fn an_index_says_which_levels_it_has() {
     let shown = |line: &str| redact_times(&crate::common::run(line).stdout);
     let text = shown(&format!("run builtin:cave --engine subgoal --index {index} --limit 1"));
     assert!(
-        text.contains("\nsubgoal, 2 levels · k = 3 · center, corners never\noptimal(3) · prepared in TIME\n"),
+        text.contains(
+            "\nsubgoal, 2 levels · k = 3 (8 moves) · center, corners never\noptimal(3) · prepared in TIME\n"
+        ),
         "{text}"
     );
     let text = shown("run builtin:cave --engine subgoal --k any --limit 1");

@@ -55,7 +55,7 @@ fn options_of_the_engine_are_named_and_all_fits_in_80_columns() {
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
     insta::assert_snapshot!(text);
     let paper = shown("run builtin:town --engine canonical --variant paper --limit 1");
-    assert!(paper.contains("\ncanonical, heuristic hk, variant paper · k = 3 · "), "{paper}");
+    assert!(paper.contains("\ncanonical, heuristic hk, variant paper · k = 3 (8 moves) · "), "{paper}");
     assert!(paper.contains("\nsuboptimal · prepared in TIME\n"), "{paper}");
 }
 

@@ -45,6 +45,7 @@ class Motion(TypedDict, total=False):
     """How an agent moves."""
 
     k: K
+    neighbors: SupportsIndex | None
     placement: Placement | None
     corners: Corners | None
     gap: Gap | None
@@ -155,6 +156,7 @@ class Grid:
         engine: Engine | None = None,
         *,
         k: K = 3,
+        neighbors: SupportsIndex | None = None,
         placement: Placement | None = None,
         corners: Corners | None = None,
         gap: Gap | None = None,

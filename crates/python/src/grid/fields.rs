@@ -24,7 +24,7 @@ impl Grid {
     ///     How far to go, in cells. What is exactly so far is in the field: the distance of a vertex, as a
     ///     limit, reaches that vertex.
     /// **motion
-    ///     ``k``, ``placement``, ``corners`` and ``gap``, as in `find`.
+    ///     ``k`` (or ``neighbors``), ``placement``, ``corners`` and ``gap``, as in `find`.
     ///
     /// Returns
     /// -------

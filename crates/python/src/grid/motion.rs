@@ -19,7 +19,7 @@ impl Grid {
     /// point : tuple of int
     ///     (row, column).
     /// **motion
-    ///     ``k``, ``placement``, ``corners`` and ``gap``, as in `find`.
+    ///     ``k`` (or ``neighbors``), ``placement``, ``corners`` and ``gap``, as in `find`.
     ///
     /// Returns
     /// -------

@@ -135,7 +135,9 @@ impl Grid {
     ///     Whether to count the events of the search, which makes it slower.
     /// k : int or "any"
     ///     The neighborhood, of 2**k directions: 2 is 4 directions, 3 (the default) 8, 4 is 16, up to 12;
-    ///     "any" is every direction.
+    ///     "any" is every direction. k = 3 has 8 moves, k = 8 has 256.
+    /// neighbors : int, optional
+    ///     The neighborhood by its number of moves, in place of `k`: 4, 8, 16, … 4096.
     /// placement : {"center", "corner"}
     ///     Whether paths lead between centers of cells (the default for a number k) or corners of cells (the
     ///     default for "any"). Corner (row, column) is the top left one of cell (row, column).
