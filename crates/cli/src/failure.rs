@@ -13,6 +13,9 @@ const QUERY_ERROR: u8 = 1;
 /// Exit status 2: bad arguments, or a file that cannot be read.
 pub(crate) const FAILURE: u8 = 2;
 
+/// Exit status 3: with `--require-path`, some query has no path.
+const NO_PATH: u8 = 3;
+
 /// How a command ended that could do what it was asked to.
 #[derive(Debug)]
 pub(crate) enum Ending {
@@ -22,6 +25,8 @@ pub(crate) enum Ending {
     QueryErrors(String),
     /// Some path does not hold; the output says which.
     BrokenPaths,
+    /// Some query has no path, and paths were required; this says how many.
+    NoPaths(String),
 }
 
 /// Why a command cannot do what it was asked to.
@@ -29,6 +34,8 @@ pub(crate) enum Ending {
 pub(crate) enum Failure {
     #[error(transparent)]
     Read(#[from] ReadError),
+    #[error("there is no command `{name}`; there are {known}")]
+    NoCommand { name: String, known: String },
     #[error(transparent)]
     OtherMap(#[from] MapMismatch),
     #[error(
@@ -51,8 +58,10 @@ pub(crate) enum Failure {
         corners[0].0, corners[0].1, corners[1].0, corners[1].1
     )]
     OutsideWorld { x: f64, y: f64, corners: [(f64, f64); 2] },
-    #[error("no queries: give --scen FILE, or --from X,Y and --to X,Y")]
+    #[error("no queries: give --scen FILE, --pairs FILE, or --from X,Y and --to X,Y")]
     NoQueries,
+    #[error("{}: no pair in it: write a line x1,y1,x2,y2 for each query", path.display())]
+    NoPairs { path: PathBuf },
     #[error("the scenario `{scenario}` has no instance: is it cut short?")]
     NoInstances { scenario: String },
     #[error(
@@ -127,6 +136,10 @@ pub(crate) fn finish(ending: Result<Ending, Failure>) -> ExitCode {
             ExitCode::from(QUERY_ERROR)
         }
         Ok(Ending::BrokenPaths) => ExitCode::from(QUERY_ERROR),
+        Ok(Ending::NoPaths(text)) => {
+            say_error(&text);
+            ExitCode::from(NO_PATH)
+        }
         Err(Failure::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(failure) => {
             say_error(&failure.to_string());

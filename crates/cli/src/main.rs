@@ -39,6 +39,10 @@ fn main() -> ExitCode {
         Command::Convert(args) => commands::convert::convert(&args, &mut screen).map(|()| Ending::Answered),
         Command::Build(args) => commands::build::build(&args, &mut screen).map(|()| Ending::Answered),
         Command::Demo(args) => commands::demo::demo(&args, &mut screen).map(|()| Ending::Answered),
+        Command::Completions(args) => {
+            commands::manual::completions(&args, &mut screen).map(|()| Ending::Answered)
+        }
+        Command::Man(args) => commands::manual::man(&args, &mut screen).map(|()| Ending::Answered),
         Command::Engines => commands::engines::list(&mut screen).map(|()| Ending::Answered),
         Command::Moves(args) => commands::moves::moves(&args, &mut screen).map(|()| Ending::Answered),
     };

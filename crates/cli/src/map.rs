@@ -12,8 +12,10 @@ use mediant_grid::{Grid, PlacementKind, Vertex};
 use crate::{
     args::{MapArgs, Place},
     builtin::Builtin,
+    check::file::{bytes, shown},
     draw::theme::Theme,
     failure::Failure,
+    terminal::message::say_warning,
 };
 
 /// A map with the name that reports give it.
@@ -114,8 +116,24 @@ impl Map {
             self.radius = self.cells(radius);
             let map = mediant::Map::from(Arc::clone(&self.ground)).for_disc(self.radius, motion)?;
             self.grid = Arc::clone(map.grid());
+            if self.radius > 0.0 && self.grid == self.ground {
+                say_warning(&self.radius_without_effect());
+            }
         }
         Ok(self)
+    }
+
+    /// What is said of a disc that fits wherever a point may be, as half a cell and less does between
+    /// centers: somebody who asks for one may have meant meters.
+    fn radius_without_effect(&self) -> String {
+        let advice = match (self.place, self.frame) {
+            (Some(_), None) => "; with --world it is in meters",
+            _ => "",
+        };
+        format!(
+            "a radius of {:.4} cells changes nothing: such a disc fits wherever a point may be{advice}",
+            self.radius
+        )
     }
 
     /// The map as the library searches it.
@@ -125,7 +143,7 @@ impl Map {
 
     /// A length of the command line in cells.
     pub(crate) fn cells(&self, length: f64) -> f64 {
-        self.frame.map_or(length, |frame| length / frame.resolution())
+        self.frame.map_or(length, |frame| frame.cells(length))
     }
 
     /// The map's characters: those of its file, or `.` and `@`.
@@ -155,6 +173,10 @@ impl Map {
 /// reports give it, too.
 pub(crate) fn load_scenario(path: &Path) -> Result<(String, Scenario), Failure> {
     match Builtin::of_path(path) {
+        None if path == Path::new("-") => {
+            let wrong = |source| ReadError::Scenario { path: shown(path), source };
+            Ok(("stdin".to_owned(), Scenario::from_bytes(bytes(path)?).map_err(wrong)?))
+        }
         None => Ok((file_name(path), Scenario::read(path)?)),
         Some(builtin) => {
             let builtin = builtin?;

@@ -22,7 +22,8 @@ pub enum WriteError {
         /// Its folder.
         folder: PathBuf,
     },
-    /// No file can be made in the folder. A file is written beside the old one first, and then takes its place.
+    /// No file can be made in the folder. A file is written beside the old one first, and then takes its
+    /// place.
     #[error(
         "{}: cannot be written: no file can be made in the folder {}: {source}; choose another folder",
         path.display(), folder.display()
@@ -70,12 +71,12 @@ pub enum WriteError {
 }
 
 /// A file that is being written. It takes the place of an older file of its name when it is whole, at
-/// [`replace`](Self::replace); until then the older one stays, and it stays for good if anything fails. So there is
-/// never half a file.
+/// [`replace`](Self::replace); until then the older one stays, and it stays for good if anything fails. So
+/// there is never half a file.
 ///
 /// It is written to another file in the same folder, `.mediant-….part`, which is then renamed. It keeps the
-/// permissions of the older file. A symbolic link stays one, and what it leads to is replaced. A device or a pipe
-/// (`/dev/stdout`) has no content to lose: it is written at once.
+/// permissions of the older file. A symbolic link stays one, and what it leads to is replaced. A device or
+/// a pipe (`/dev/stdout`) has no content to lose: it is written at once.
 ///
 /// Needs the feature `save`.
 ///

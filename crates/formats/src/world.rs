@@ -76,6 +76,12 @@ impl WorldFrame {
         self.resolution
     }
 
+    /// A length in meters, in cells: for radii, limits and tolerances, which are in cells everywhere else.
+    #[must_use]
+    pub const fn cells(&self, meters: f64) -> f64 {
+        meters / self.resolution
+    }
+
     /// The pose of the lower left corner: x and y in meters, yaw in radians.
     #[must_use]
     pub const fn origin(&self) -> [f64; 3] {

@@ -165,7 +165,7 @@ const fn of_setup(error: &SetupError) -> ErrorCode {
         | SetupError::OtherVariant { .. } => ErrorCode::EngineOption,
         SetupError::K { .. } | SetupError::NeedsFiniteK { .. } => ErrorCode::EngineK,
         SetupError::Placement { .. } | SetupError::Centers { .. } => ErrorCode::EngineRules,
-        SetupError::Without { .. } => ErrorCode::EngineWithout,
+        SetupError::Without { .. } | SetupError::NoIndex { .. } => ErrorCode::EngineWithout,
     }
 }
 

@@ -19,6 +19,10 @@
 //! # Ok::<(), mediant::Error>(())
 //! ```
 //!
+//! [`Space::engine_for`] says which engine we would take for how many paths: what people write as `auto`
+//! ([`EngineName`]), which is not an engine itself, since it has no guarantee and no index before it is
+//! known what is asked.
+//!
 //! A query can have wishes ([`Request`]): several ends, a tolerance, the nearest reachable vertex, limits. A
 //! search can go on [in steps](Planner#a-search-in-steps). [`Planner::distance`] measures without the path,
 //! [`Planner::distances`] and [`Planner::nearest`] to many [`Goals`]. A [`Field`] has the distances of all
@@ -74,6 +78,7 @@ mod capabilities;
 mod choice;
 mod code;
 mod configured;
+mod demand;
 mod engine;
 mod erased;
 mod error;
@@ -114,6 +119,7 @@ pub use configured::{
     CanonicalOptions, ChpaOptions, ConfiguredEngine, GuidedOptions, HpaOptions, JpsPlusOptions, JumpOptions,
     SubgoalOptions, SubgoalThetaOptions,
 };
+pub use demand::{Demand, EngineName};
 pub use engine::Engine;
 pub use error::Error;
 pub use exceptions::{ExceptedAnswer, Exceptions};

@@ -3,7 +3,7 @@
 use mediant_grid::{PlacementKind, Rules};
 use mediant_moves::{FiniteK, K};
 
-use crate::{engine::Engine, option::Levels};
+use crate::{engine::Engine, motion::Motion, option::Levels};
 
 /// The error for a setup whose parts do not fit together.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -93,6 +93,14 @@ pub enum SetupError {
     OtherVariant {
         /// The engine.
         engine: Engine,
+    },
+    /// A saved index, for a motion for which no engine has one.
+    #[error(
+        "no engine has an index for {motion}: choose k = 2 or 3, or placement corner, or name an engine that needs none"
+    )]
+    NoIndex {
+        /// The motion.
+        motion: Motion,
     },
     /// A saved index or all distances, for an engine that has none.
     #[error("{engine} has no {what}: choose {others}")]

@@ -3,8 +3,8 @@
 use std::time::Instant;
 
 use mediant::{
-    ConfiguredEngine, CornerRule, DiagonalGap, Engine, EngineOption, FiniteK, Guarantee, K, Limits, Motion,
-    OptionValue, PlacementKind, Query, Request, Rules, Smoothing, ValueKind, errors::absent,
+    ConfiguredEngine, CornerRule, DiagonalGap, Engine, EngineName, EngineOption, FiniteK, Guarantee, K,
+    Limits, Motion, OptionValue, PlacementKind, Query, Request, Rules, Smoothing, ValueKind, errors::absent,
 };
 use mediant_moves::Neighborhood;
 use numpy::PyArray2;
@@ -285,11 +285,12 @@ pub(crate) fn unknown_keyword(function: &str, name: &str, known: &str) -> PyErr 
     ))
 }
 
-/// An engine's name; `None` for `None`.
+/// An engine's name; `None` for `None` and `"auto"`.
 pub(crate) fn read_engine(value: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Engine>> {
     let Some(value) = value.filter(|value| !value.is_none()) else { return Ok(None) };
     let name = text("engine", "the name of an engine", value)?;
-    name.parse().map(Some).map_err(|error: mediant::UnknownName| raised_for("engine", error))
+    let name = name.parse().map_err(|error: mediant::UnknownName| raised_for("engine", error))?;
+    Ok(EngineName::engine(name))
 }
 
 /// Where the vertices are.

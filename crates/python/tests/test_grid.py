@@ -501,7 +501,7 @@ def test_neighbors_name_the_neighborhood_by_its_moves():
         assert grid.prepare("astar", neighbors=neighbors).k == k
     with pytest.raises(mediant.OptionError, match="no 2\\^k neighborhood has 6 moves: choose 4 or 8"):
         grid.path((0, 0), (2, 3), neighbors=6)
-    with pytest.raises(mediant.OptionError, match="neighbors"):
+    with pytest.raises(mediant.ArgumentError, match="neighbors"):
         grid.path((0, 0), (2, 3), k=3, neighbors=8)
 
 
@@ -511,3 +511,21 @@ def test_engines_and_infinity_have_several_names():
         assert grid.prepare(name).engine == engine
     for k in ["any", "inf", "∞", float("inf")]:
         assert grid.prepare("anya", k=k).k == "any"
+
+
+def test_a_radius_in_meters_where_there_is_a_world(tmp_path):
+    shades = " ".join("0" if (x, y) == (10, 5) else "254" for y in range(11) for x in range(21))
+    (tmp_path / "m.pgm").write_text(f"P2 21 11 255 {shades}")
+    (tmp_path / "m.yaml").write_text(
+        "image: m.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.25\n"
+    )
+    grid = mediant.Grid.open(tmp_path / "m.yaml")
+    assert (grid.for_disc(meters=0.22).to_numpy() == grid.for_disc(4.4).to_numpy()).all()
+    assert (grid.for_disc(0.22).to_numpy() == grid.to_numpy()).all()
+    for arguments in [{}, {"radius": 1, "meters": 1}]:
+        with pytest.raises(mediant.ArgumentError, match="radius"):
+            grid.for_disc(**arguments)
+    with pytest.raises(mediant.ArgumentError, match="meters"):
+        mediant.Grid.from_rows(["..."]).for_disc(meters=0.2)
+    with pytest.raises(mediant.ArgumentError, match="meters"):
+        grid.for_disc(meters=-0.2)

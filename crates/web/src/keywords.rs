@@ -2,8 +2,8 @@
 
 use js_sys::Reflect;
 use mediant::{
-    ConfiguredEngine, CornerRule, DiagonalGap, Engine, EngineOption, FiniteK, K, Limits, Motion, OptionValue,
-    PlacementKind, Query, Request, Rules, SetupError, Smoothing, ValueKind, errors::absent,
+    ConfiguredEngine, CornerRule, DiagonalGap, Engine, EngineName, EngineOption, FiniteK, K, Limits, Motion,
+    OptionValue, PlacementKind, Query, Request, Rules, SetupError, Smoothing, ValueKind, errors::absent,
 };
 use wasm_bindgen::prelude::*;
 
@@ -259,13 +259,14 @@ pub(crate) fn unknown_key(name: &str, key: &str, known: &str) -> JsValue {
     coded("argument", &format!("{name}: no key '{key}' is known{why}; the keys are {known}"))
 }
 
-/// An engine's name; `None` for undefined.
+/// An engine's name; `None` for undefined and `"auto"`.
 pub(crate) fn read_engine(value: &JsValue) -> Result<Option<Engine>, JsValue> {
     if value.is_undefined() || value.is_null() {
         return Ok(None);
     }
     let name = text("engine", "the name of an engine", value)?;
-    name.parse().map(Some).map_err(|error: mediant::UnknownName| raised_for("engine", error))
+    let name = name.parse().map_err(|error: mediant::UnknownName| raised_for("engine", error))?;
+    Ok(EngineName::engine(name))
 }
 
 /// The neighborhood by its number of moves.

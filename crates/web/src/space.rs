@@ -24,18 +24,31 @@ pub struct Space {
     pub(crate) inner: Inner,
 }
 
-/// The planner of a setup on a map, for a single path. What stops the search stops this, too.
-pub(crate) fn planner(setup: Setup, map: &Map, limits: &Limits) -> Result<Planner, JsValue> {
+/// The planner of a setup on a map, and its space, which may be there already. What stops the search stops this,
+/// too.
+pub(crate) fn planner(
+    setup: Setup,
+    map: &Map,
+    space: Option<Inner>,
+    limits: &Limits,
+) -> Result<(Inner, Planner), JsValue> {
     let raised = |error: Error| match error {
         Error::Stopped { .. } => coded("stopped", &format!("{error}: nothing was searched; allow more time")),
         error => raised(error),
     };
     setup.check().map_err(|error| raised(error.into()))?;
-    memory::check("the space", vertices(map), memory::SPACE)?;
-    let space = Space { inner: map.within(limits).space(setup.motion()).map_err(raised)? };
+    let inner = match space {
+        Some(space) => space,
+        None => {
+            memory::check("the space", vertices(map), memory::SPACE)?;
+            map.within(limits).space(setup.motion()).map_err(raised)?
+        }
+    };
+    let space = Space { inner };
     space.check_room("the search", memory::INDEX + memory::PLANNER)?;
-    let index = space.inner.within(limits).prepare_for_one_path(setup.engine).map_err(raised)?;
-    index.with_smoothing(setup.smoothing).try_planner().map_err(raised)
+    let index = space.inner.within(limits).prepare(setup.engine).map_err(raised)?;
+    let planner = index.with_smoothing(setup.smoothing).try_planner().map_err(raised)?;
+    Ok((space.inner, planner))
 }
 
 /// What `of` finds along a path, as x, y, ….

@@ -94,7 +94,7 @@ export interface Options {
 
 /** What `Grid.path` takes. */
 export interface How extends Motion, Wishes, Options {
-  /** The engine; by default one that prepares little. */
+  /** The engine; by default ("auto") one that prepares little. */
   readonly engine?: string;
 }
 

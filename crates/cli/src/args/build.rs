@@ -3,9 +3,12 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use mediant::Setup;
 
-use super::{map::MapArgs, options::IndexOptions, setup::SetupArgs};
+use super::{
+    map::MapArgs,
+    options::IndexOptions,
+    setup::{Asked, SetupArgs},
+};
 use crate::failure::Failure;
 
 #[derive(Args, Debug)]
@@ -22,11 +25,8 @@ pub(crate) struct BuildArgs {
 }
 
 impl BuildArgs {
-    /// The setup that the arguments ask for.
-    pub(crate) fn setup(&self) -> Result<Setup, Failure> {
-        let mut setup = self.setup.without_options()?;
-        self.options.choose(&mut setup.engine)?;
-        setup.check()?;
-        Ok(setup)
+    /// What the arguments ask for.
+    pub(crate) fn asked(&self) -> Result<Asked, Failure> {
+        self.setup.asked(self.options.given(), None)
     }
 }

@@ -19,7 +19,8 @@ pub(crate) struct MapArgs {
     #[arg(long, value_name = "R", help_heading = "Agent and map", allow_hyphen_values = true)]
     #[arg(value_parser = |text: &str| parse_amount(text, "cells"))]
     pub(crate) radius: Option<f64>,
-    /// Coordinates and the radius are in meters, in the frame of a ROS map
+    /// Coordinates and the radius are in meters, in the frame of a ROS map. Ends are moved to the nearest
+    /// vertex, and it is said how far
     #[arg(long, help_heading = "Agent and map")]
     pub(crate) world: bool,
     /// In a picture, pixels darker than this fraction are blocked; in a ROS map of mode scale or raw, cells

@@ -5,6 +5,7 @@ mod check;
 mod convert;
 mod demo;
 mod explain;
+mod manual;
 mod map;
 mod motion;
 mod moves;
@@ -24,12 +25,14 @@ pub(crate) use self::{
     convert::ConvertArgs,
     demo::DemoArgs,
     explain::explain,
+    manual::{CompletionsArgs, ManArgs},
     map::MapArgs,
     moves::MovesArgs,
     reach::ReachArgs,
     run::{Format, RunArgs},
+    setup::Asked,
     table::{TableArgs, TableFormat},
-    value::{MAX_K, Place, parse_place},
+    value::{MAX_K, Place, parse_pair, parse_place},
     wishes::WishArgs,
 };
 
@@ -61,6 +64,10 @@ pub(crate) enum Command {
     Engines,
     /// Solve a query on a bundled map for many k, and draw the paths.
     Demo(DemoArgs),
+    /// Print what a shell completes of this program's arguments.
+    Completions(CompletionsArgs),
+    /// Print the manual page of the program, or of a command, for man.
+    Man(ManArgs),
 }
 
 #[cfg(test)]

@@ -5,12 +5,15 @@ use clap::{
     builder::{PossibleValuesParser, ValueParser},
     error::ErrorKind,
 };
-use mediant::{ConfiguredEngine, EngineOption, OptionValue, SetupError, ValueKind};
+use mediant::{EngineOption, OptionValue, ValueKind};
 
 /// The options that were given, of those that a command takes: all, or only those that decide what an index
 /// holds.
 #[derive(Debug)]
-pub(crate) struct Options<const OF_INDEX: bool>(Vec<(&'static EngineOption, OptionValue)>);
+pub(crate) struct Options<const OF_INDEX: bool>(Given);
+
+/// Options that were given, with their values.
+pub(crate) type Given = Vec<(&'static EngineOption, OptionValue)>;
 
 /// The options of `mediant run`: all.
 pub(crate) type AllOptions = Options<false>;
@@ -24,9 +27,9 @@ impl<const OF_INDEX: bool> Options<OF_INDEX> {
         EngineOption::ALL.into_iter().filter(|option| !OF_INDEX || option.is_index_option)
     }
 
-    /// Chooses the options that were given.
-    pub(super) fn choose(&self, engine: &mut ConfiguredEngine) -> Result<(), SetupError> {
-        self.0.iter().try_for_each(|&(option, value)| engine.set(option, value))
+    /// The options that were given.
+    pub(super) fn given(&self) -> Given {
+        self.0.clone()
     }
 }
 

@@ -14,7 +14,7 @@ use mediant_search::Smoothing;
 use super::{
     map::MapArgs,
     options::AllOptions,
-    setup::SetupArgs,
+    setup::{Asked, SetupArgs},
     value::{one_of, parse_count},
     wishes::WishArgs,
 };
@@ -26,9 +26,13 @@ pub(crate) struct RunArgs {
     #[command(flatten)]
     pub(crate) map: MapArgs,
 
-    /// A MovingAI scenario file with the queries, or builtin:NAME
+    /// A MovingAI scenario file with the queries, or builtin:NAME; - is stdin
     #[arg(long, value_name = "FILE", conflicts_with_all = ["from", "to"])]
     pub(crate) scen: Option<PathBuf>,
+    /// A CSV file with the queries, a line x1,y1,x2,y2 for each, from the start to the goal (with --world
+    /// in meters); a first line of names is passed over; - is stdin
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scen", "from", "to", "distances"])]
+    pub(crate) pairs: Option<PathBuf>,
     /// Take the instances whose index, counted from 0, is divisible by N
     #[arg(long, value_name = "N", conflicts_with_all = ["from", "to"])]
     #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_count(text, &NonZeroUsize::MAX))]
@@ -54,12 +58,15 @@ pub(crate) struct RunArgs {
     #[arg(hide_possible_values = true, value_name = "linear|taut")]
     pub(crate) smooth: Option<SmoothArg>,
     /// Also find each query's shortest any-angle path by this engine, and say how much longer the path is
-    #[arg(long, value_name = "ENGINE", value_parser = one_of(REFERENCES, Engine::name))]
+    #[arg(long, value_name = "ENGINE", value_parser = one_of(REFERENCES.to_vec(), Engine::name))]
     pub(crate) reference: Option<Engine>,
     /// Load the engine's index from a file that `mediant build` wrote, instead of preparing it
     #[arg(long, value_name = "FILE")]
     pub(crate) index: Option<PathBuf>,
 
+    /// End with status 3 if any query has no path: if it is unreachable, nearest or stopped
+    #[arg(long, conflicts_with = "distances")]
+    pub(crate) require_path: bool,
     /// Time each query N times and report the best
     #[arg(long, value_name = "N", default_value = "1")]
     #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_count(text, &NonZeroU32::MAX))]
@@ -114,11 +121,13 @@ For a builtin map without queries, the queries are those of its own scenario.
 A trace is JSON for the Posthoc visualizer: every event of the search, then the path found.
 
 Exit status: 0 if every query was answered (found, unreachable, nearest or stopped), 1 if any was an error, 2 for bad arguments, \
-or a file that cannot be read or written.
+or a file that cannot be read or written, 3 with --require-path if no query was an error but any is without the \
+path that was asked for.
 
 Examples:
   mediant run builtin:archipelago
   mediant run arena.map --scen arena.map.scen --k 5 --placement corner --format jsonl
+  mediant run arena.map --pairs pairs.csv --format jsonl
   mediant run arena.map --from 1,11 --to 40,30 --draw
   mediant run arena.map --from 1,11 --to 40,30 --engine anya --draw
   mediant run arena.map --from 1,11 --to 40,30 --draw path.svg
@@ -136,16 +145,13 @@ Examples:
 const REFERENCES: [Engine; 2] = [Engine::Anya, Engine::Subgoal];
 
 impl RunArgs {
-    /// The setup that the arguments ask for.
-    pub(crate) fn setup(&self) -> Result<Setup, Failure> {
-        let mut setup = self.setup.without_options()?;
-        self.options.choose(&mut setup.engine)?;
-        setup.smoothing = self.smooth.map(|smooth| match smooth {
+    /// What the arguments ask for.
+    pub(crate) fn asked(&self) -> Result<Asked, Failure> {
+        let smoothing = self.smooth.map(|smooth| match smooth {
             SmoothArg::Linear => Smoothing::Linear,
             SmoothArg::Taut => Smoothing::Taut,
         });
-        setup.check()?;
-        Ok(setup)
+        self.setup.asked(self.options.given(), smoothing)
     }
 
     /// The files to be written.

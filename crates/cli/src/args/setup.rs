@@ -1,12 +1,16 @@
 //! The arguments that say what is searched and by which engine, and the setup that they make.
 
+use std::path::Path;
+
 use clap::{Args, ValueEnum};
-use mediant::{Engine, Setup};
-use mediant_grid::{PlacementKind, Rules};
-use mediant_moves::K;
+use mediant::{
+    Choice, ConfiguredEngine, Demand, Engine, EngineName, Index, K, Motion, Setup, Smoothing, Space,
+};
+use mediant_grid::PlacementKind;
 
 use super::{
     motion::{KArgs, RuleArgs},
+    options::Given,
     value::one_of,
 };
 use crate::failure::Failure;
@@ -14,9 +18,10 @@ use crate::failure::Failure;
 /// The arguments of a setup but the engine's options.
 #[derive(Args, Debug)]
 pub(crate) struct SetupArgs {
-    /// The algorithm; `mediant engines` says what each can do
-    #[arg(long, default_value_t, value_parser = one_of(Engine::ALL, Engine::name))]
-    pub(crate) engine: Engine,
+    /// The algorithm; `mediant engines` says what each can do. auto is the one that is best for as many paths
+    /// as are asked for, or the best that has an index
+    #[arg(long, default_value_t, value_parser = one_of(EngineName::all(), EngineName::name))]
+    engine: EngineName,
     #[command(flatten)]
     pub(crate) k: KArgs,
     /// Where the vertices are: at cell centers or at cell corners. center by default, corner for anya,
@@ -59,15 +64,88 @@ pub(crate) enum GapArg {
 }
 
 impl SetupArgs {
-    /// The setup without the engine's options. It may be one that [`Setup::check`] refuses.
-    pub(super) fn without_options(&self) -> Result<Setup, Failure> {
-        let k = self.k.given().unwrap_or(self.engine.capabilities().default_k);
-        Ok(Setup::new(self.engine, k, self.rules(k)?))
+    /// What is asked for. It may be something that [`Setup::check`] refuses.
+    pub(super) fn asked(&self, options: Given, smoothing: Option<Smoothing>) -> Result<Asked, Failure> {
+        let capabilities = self.engine.engine().map(Engine::capabilities);
+        let k = self.k.given().unwrap_or(capabilities.map_or(K::N8, |capabilities| capabilities.default_k));
+        let placement = match (self.placement, capabilities) {
+            (Some(placement), _) => placement.kind(),
+            (None, Some(capabilities)) => capabilities.default_rules(k).placement(),
+            (None, None) if k == K::Any => PlacementKind::Corner,
+            (None, None) => PlacementKind::Center,
+        };
+        let motion = Motion::new(k, self.rules.at(placement)?);
+        Ok(Asked { engine: self.engine, motion, options, smoothing })
+    }
+}
+
+/// What is asked for: an engine or `auto`, and all else that makes a setup.
+#[derive(Clone, Debug)]
+pub(crate) struct Asked {
+    pub(crate) engine: EngineName,
+    pub(crate) motion: Motion,
+    options: Given,
+    smoothing: Option<Smoothing>,
+}
+
+impl Asked {
+    /// Checks, before a map is read, what can be known without it; `needs_index` asks for an engine that has
+    /// one.
+    pub(crate) fn check(&self, needs_index: bool) -> Result<(), Failure> {
+        let Some(engine) = self.engine.engine() else { return Ok(()) };
+        let setup = self.with(engine)?;
+        setup.check()?;
+        if needs_index {
+            setup.index_version()?;
+        }
+        Ok(())
     }
 
-    /// The rules of motion. The rule of the other placement is an error.
-    fn rules(&self, k: K) -> Result<Rules, Failure> {
-        let default = || self.engine.capabilities().default_rules(k).placement();
-        self.rules.at(self.placement.map_or_else(default, PlacementArg::kind))
+    /// The setup of an engine.
+    fn with(&self, engine: Engine) -> Result<Setup, Failure> {
+        let mut engine = ConfiguredEngine::from(engine);
+        self.options.iter().try_for_each(|&(option, value)| engine.set(option, value))?;
+        Ok(self.of(engine))
+    }
+
+    fn of(&self, engine: ConfiguredEngine) -> Setup {
+        Setup { smoothing: self.smoothing, ..Setup::new(engine, self.motion.k, self.motion.rules) }
+    }
+
+    /// The setup for what is asked of a space, and why it is this one, if that was left open.
+    pub(crate) fn setup(&self, space: &Space, demand: Demand) -> Result<(Setup, Option<Choice>), Failure> {
+        match self.engine {
+            EngineName::Engine(engine) => Ok((self.with(engine)?, None)),
+            EngineName::Auto => {
+                let (engine, choice) = space.engine_with(demand, &self.options)?;
+                Ok((self.of(engine), Some(choice)))
+            }
+        }
+    }
+
+    /// The index of a space: a new one for what is asked, or that of a file, whose engine is the one that was
+    /// left open; and why its engine is this one.
+    pub(crate) fn index(
+        &self,
+        space: &Space,
+        demand: Demand,
+        file: Option<&Path>,
+    ) -> Result<(Index, Option<Choice>), Failure> {
+        let (index, choice) = match (file, self.engine) {
+            (None, _) => {
+                let (setup, choice) = self.setup(space, demand)?;
+                (space.prepare(setup.engine)?, choice)
+            }
+            (Some(path), EngineName::Engine(engine)) => {
+                (space.load_for(self.with(engine)?.engine, path)?, None)
+            }
+            (Some(path), EngineName::Auto) => {
+                let index = space.load(path)?;
+                let engine = index.setup().engine.kind();
+                let choice = Choice { engine, why: "the index is of this engine" };
+                (index.with_options(self.with(engine)?.engine)?, Some(choice))
+            }
+        };
+        Ok((index.with_smoothing(self.smoothing), choice))
     }
 }

@@ -3,19 +3,17 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use mediant::Setup;
 
 use super::{
     map::MapArgs,
     options::AllOptions,
-    setup::SetupArgs,
+    setup::{Asked, SetupArgs},
     value::{Place, parse_place},
 };
 use crate::failure::Failure;
 
 #[derive(Args, Debug)]
 #[command(after_help = TABLE_HELP)]
-#[command(mut_arg("engine", |arg| arg.default_value("subgoal")))]
 pub(crate) struct TableArgs {
     #[command(flatten)]
     pub(crate) map: MapArgs,
@@ -32,6 +30,9 @@ pub(crate) struct TableArgs {
     /// A file with more goals, one x,y a line; - is stdin
     #[arg(long, value_name = "FILE")]
     pub(crate) to_file: Option<PathBuf>,
+    /// End with status 3 if there is no way between any start and goal, with --nearest from any start
+    #[arg(long)]
+    pub(crate) require_path: bool,
     /// Find only the nearest goal of each start
     #[arg(long)]
     pub(crate) nearest: bool,
@@ -57,8 +58,9 @@ pub(crate) enum TableFormat {
 }
 
 const TABLE_HELP: &str = "\
-With hub labels (engine subgoal, the default, on most maps) all goals of a start are measured together, in far \
-less time than a query for each takes. With other engines each pair is a query.
+With hub labels (engine subgoal, on most maps) all goals of a start are measured together, in far less time than a \
+query for each takes. With other engines each pair is a query. By default, more than 1,000 pairs are measured by \
+subgoal, fewer by an engine that prepares little.
 
 Lengths are in cells. The table shows what fits on the screen; jsonl and csv have everything. CSV has a line for \
 each pair: start_x, start_y, goal_x, goal_y and distance, empty if there is no way. With --format jsonl: a line \
@@ -67,7 +69,7 @@ start, with \"start\" and \"distances\" (null: no way), with --nearest \"goal\",
 and \"distance\"; last a line {\"type\": \"summary\"} with \"nanos\", the time of all.
 
 Exit status: 0, 1 if a start or goal is blocked or outside the map, 2 for bad arguments, or a file that cannot be \
-read.
+read, 3 with --require-path if there is no way somewhere.
 
 Examples:
   mediant table builtin:town --from 10,3 --from 58,18 --to 6,6 --to 60,29
@@ -75,11 +77,8 @@ Examples:
   mediant table arena.map --k any --from 1,11 --to-file goals.txt --index arena.idx --format jsonl";
 
 impl TableArgs {
-    /// The setup that the arguments ask for.
-    pub(crate) fn setup(&self) -> Result<Setup, Failure> {
-        let mut setup = self.setup.without_options()?;
-        self.options.choose(&mut setup.engine)?;
-        setup.check()?;
-        Ok(setup)
+    /// What the arguments ask for.
+    pub(crate) fn asked(&self) -> Result<Asked, Failure> {
+        self.setup.asked(self.options.given(), None)
     }
 }

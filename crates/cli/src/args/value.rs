@@ -20,8 +20,8 @@ pub(crate) const MAX_K: u32 = GridGraph::<Centers>::MAX_K;
 
 /// Reads one of these values by its name, or as people write it (`A*`). What is none of them gets clap's
 /// error, which suggests the one that is most like it.
-pub(super) fn one_of<T: Named, const N: usize>(all: [T; N], name: fn(T) -> &'static str) -> OneOf<T> {
-    OneOf { names: PossibleValuesParser::new(all.clone().map(name)), all: all.to_vec() }
+pub(super) fn one_of<T: Named>(all: Vec<T>, name: fn(T) -> &'static str) -> OneOf<T> {
+    OneOf { names: PossibleValuesParser::new(all.iter().cloned().map(name)), all }
 }
 
 /// What [`one_of`] reads.
@@ -94,6 +94,15 @@ pub(crate) fn parse_place(text: &str) -> Result<Place, String> {
     let is_decimal = text.contains('.');
     let point = text.split_once(',').and_then(|(x, y)| number(x).zip(number(y))).filter(|_| is_decimal);
     point.map(|(x, y)| Place::Point(x, y)).ok_or(error)
+}
+
+/// Reads `X1,Y1,X2,Y2`: the places of a start and a goal.
+pub(crate) fn parse_pair(text: &str) -> Result<[Place; 2], String> {
+    let commas: Vec<usize> = text.match_indices(',').map(|(at, _)| at).collect();
+    match commas[..] {
+        [_, middle, _] => Ok([parse_place(&text[..middle])?, parse_place(&text[middle + 1..])?]),
+        _ => Err(format!("expected x1,y1,x2,y2 such as 1,11,40,30, found {} parts", commas.len() + 1)),
+    }
 }
 
 /// Reads `X,Y,YAW`: three finite numbers.

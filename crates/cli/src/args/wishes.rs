@@ -11,6 +11,7 @@ use super::value::{Place, parse_amount, parse_place, parse_whole};
 use crate::{
     failure::Failure,
     map::Map,
+    run::distances::rounded,
     terminal::numbers::{count, time},
 };
 
@@ -30,6 +31,10 @@ pub(crate) struct WishArgs {
     pub(crate) from: Vec<Vertex>,
     #[arg(skip)]
     pub(crate) to: Vec<Vertex>,
+    /// With `--world`, how far the starts and the goals were moved to the nearest vertices, in meters, of
+    /// several the furthest.
+    #[arg(skip)]
+    pub(crate) moved: Option<[f64; 2]>,
     /// Measure the path of each query without making it: with hub labels this takes less time
     #[arg(long, conflicts_with_all = ["tolerance", "nearest", "snap", "max_cost", "max_nodes", "deadline"])]
     #[arg(conflicts_with_all = ["distances", "draw", "trace"])]
@@ -67,7 +72,17 @@ impl WishArgs {
         let mut wishes = self.clone();
         (wishes.from, wishes.to) = (vertices(&self.from_places)?, vertices(&self.to_places)?);
         if let Some(frame) = map.frame {
-            let cells = |meters: f64| meters / frame.resolution();
+            let moved = |places: &[Place], at: &[Vertex]| {
+                let moved = places.iter().zip(at).map(|(place, &at)| {
+                    let ((x, y), (to_x, to_y)) = (place.point(), frame.point_of(placement, at));
+                    rounded((to_x - x).hypot(to_y - y))
+                });
+                moved.fold(0.0, f64::max)
+            };
+            let is_named = !self.from_places.is_empty();
+            wishes.moved = is_named
+                .then(|| [moved(&self.from_places, &wishes.from), moved(&self.to_places, &wishes.to)]);
+            let cells = |meters: f64| frame.cells(meters);
             (wishes.tolerance, wishes.max_cost) = (self.tolerance.map(cells), self.max_cost.map(cells));
         }
         Ok(wishes)

@@ -2,11 +2,13 @@
 
 use std::{fs, io::Write, time::Instant};
 
+use mediant::Demand;
+
 use crate::{
     args::BuildArgs,
     failure::Failure,
     map::{Map, file_name},
-    run::report::falls_back,
+    run::report::{by_auto, falls_back},
     terminal::{
         numbers::{grouped, time},
         progress::BuildProgress,
@@ -18,14 +20,15 @@ use crate::{
 
 /// Runs the command.
 pub(crate) fn build(args: &BuildArgs, screen: &mut Screen) -> Result<(), Failure> {
-    let setup = args.setup()?;
+    let asked = args.asked()?;
     // A setup without an index is refused before anything is computed.
-    setup.index_version()?;
-    let map = Map::load(&args.map)?.for_agent(&args.map, setup.motion())?;
+    asked.check(true)?;
+    let map = Map::load(&args.map)?.for_agent(&args.map, asked.motion)?;
     check_outputs(&args.map.map, &[&args.output])?;
     let progress = BuildProgress::new();
     let begin = Instant::now();
-    let space = setup.space(&map.to_library())?;
+    let space = map.to_library().space(asked.motion)?;
+    let (setup, choice) = asked.setup(&space, Demand::Index)?;
     let built = space.prepare_with_progress(setup.engine, &|step| progress.tell(step));
     let took = begin.elapsed();
     progress.clear();
@@ -41,6 +44,9 @@ pub(crate) fn build(args: &BuildArgs, screen: &mut Screen) -> Result<(), Failure
         setup.engine.kind(),
         printable(&map.name)
     )?;
+    if let Some(choice) = choice {
+        writeln!(screen, "{}", by_auto(choice))?;
+    }
     if built.searched_by() != setup.engine.kind() {
         writeln!(screen, "{}", falls_back(setup.engine.kind(), built.searched_by()))?;
     }

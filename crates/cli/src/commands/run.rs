@@ -14,9 +14,10 @@ use crate::{
         distances,
         jsonl::Jsonl,
         queries::Queries,
-        report::Report,
+        report::{Report, without_path},
         searchers::{Searcher, Searchers},
         session::{Finished, Session},
+        summary::Summary,
         table::TableReport,
         trace::TraceFile,
     },
@@ -26,42 +27,43 @@ use crate::{
 
 /// Runs the command.
 pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure> {
-    let setup = args.setup()?;
-    let reference = args.reference(setup.rules)?;
+    let asked = args.asked()?;
+    asked.check(args.index.is_some())?;
+    let (rules, placement) = (asked.motion.rules, asked.motion.rules.placement());
+    let reference = args.reference(rules)?;
     match &args.draw {
         Some(None) if args.format == Format::Jsonl => return Err(Failure::DrawJsonl),
         Some(Some(file)) => check_name(file)?,
         _ => {}
     }
     args.check_ends()?;
-    if args.index.is_some() {
-        setup.index_version()?;
-    }
     let map = match args.grounds {
         true => load(args)?.on_all_grounds(&args.map)?,
-        false => load(args)?.for_agent(&args.map, setup.motion())?,
+        false => load(args)?.for_agent(&args.map, asked.motion)?,
     };
     check_outputs(&args.map.map, &args.outputs())?;
-    let wishes = args.wishes.on(&map, setup.rules.placement())?;
+    let wishes = args.wishes.on(&map, placement)?;
     if let (Some(path), Some(from)) = (&args.distances, wishes.from.first()) {
-        return distances::write(setup, &map, *from, path, screen);
+        return distances::write(&asked, &map, *from, path, screen);
     }
-    let queries = Queries::load(args, &wishes, &map)?;
+    let queries = Queries::load(args, &wishes, &map, placement)?;
     if args.draw.is_some() && queries.len() > 1 {
         return Err(Failure::DrawMany);
     }
     if args.trace.is_some() && queries.len() > 1 {
         return Err(Failure::TraceMany);
     }
-    let mut searchers = Searchers::new(args, (setup, reference), &map, &queries)?;
+    let mut searchers = Searchers::new(args, &asked, reference, &map, &queries)?;
     let trace = args.trace.as_deref().map(TraceFile);
-    let Searcher { index, planner, .. } = searchers.first();
+    let Searcher { index, planner, choice, .. } = searchers.first();
+    let setup = index.setup();
     let run = Run {
         map: &map,
         scenario: queries.scenario_name(),
         queries: queries.len(),
         wishes: &wishes,
         setup,
+        choice: *choice,
         searched_by: index.searched_by(),
         options: EngineOption::ALL.map(|option| (option, index.value(option))).to_vec(),
         guarantee: planner.guarantee(),
@@ -96,7 +98,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
             writeln!(screen, "  drawn {}", printable(&file_name(path)))?;
         }
     }
-    Ok(ending(&queries, finished))
+    Ok(ending(&queries, finished, args.require_path))
 }
 
 /// The map, with its characters if they are to be drawn, or say which ground a cell is.
@@ -106,8 +108,10 @@ fn load(args: &RunArgs) -> Result<Map, Failure> {
 }
 
 /// What the program says and returns after the last query.
-fn ending(queries: &Queries, finished: Finished) -> Ending {
+fn ending(queries: &Queries, finished: Finished, requires_path: bool) -> Ending {
+    let Summary { queries: all, found, .. } = finished.summary;
     match (finished.first_error, queries) {
+        (None, _) if requires_path && found < all => Ending::NoPaths(without_path(all - found, all)),
         (None, _) => Ending::Answered,
         (Some((_, error)), Queries::Single(_)) => Ending::QueryErrors(error),
         (Some((index, error)), _) => {

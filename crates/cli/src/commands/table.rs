@@ -6,8 +6,8 @@ use std::{
     time::{Duration, Instant},
 };
 
-use mediant::{EngineOption, Error, Index, Setup, ValueKind};
-use mediant_grid::Vertex;
+use mediant::{Choice, Demand, EngineName, EngineOption, Error, Index, ValueKind};
+use mediant_grid::{PlacementKind, Vertex};
 use serde::Serialize;
 
 use crate::{
@@ -18,7 +18,7 @@ use crate::{
     run::{
         distances::rounded,
         query_error::explain,
-        report::{falls_back, k_in_words},
+        report::{by_auto, falls_back, k_in_words, without_path},
     },
     terminal::{
         numbers::{count, time},
@@ -30,42 +30,66 @@ use crate::{
 
 /// Runs the command.
 pub(crate) fn table(args: &TableArgs, screen: &mut Screen) -> Result<Ending, Failure> {
-    let setup = args.setup()?;
-    if args.index.is_some() {
-        setup.index_version()?;
-    }
-    let map = Map::load(&args.map)?.for_agent(&args.map, setup.motion())?;
-    let starts = ends(&map, setup, (&args.from, args.from_file.as_deref()), ("starts", "--from"))?;
-    let goals = ends(&map, setup, (&args.to, args.to_file.as_deref()), ("goals", "--to"))?;
+    let asked = args.asked()?;
+    asked.check(args.index.is_some())?;
+    let map = Map::load(&args.map)?.for_agent(&args.map, asked.motion)?;
+    let placement = asked.motion.rules.placement();
+    let starts = ends(&map, placement, (&args.from, args.from_file.as_deref()), ("starts", "--from"))?;
+    let goals = ends(&map, placement, (&args.to, args.to_file.as_deref()), ("goals", "--to"))?;
     let begin = Instant::now();
-    let space = setup.space(&map.to_library())?;
-    let index = match &args.index {
-        None => space.prepare(setup.engine)?,
-        Some(path) => space.load_for(setup.engine, path)?,
-    };
+    let space = map.to_library().space(asked.motion)?;
+    let pairs = Demand::Paths(starts.len() as u64 * goals.len() as u64);
+    let (index, choice) = asked.index(&space, pairs, args.index.as_deref())?;
     let preparation = begin.elapsed();
     let begin = Instant::now();
     let measured = match measure(args.nearest, &index, &starts, &goals) {
         Ok(measured) => measured,
         Err(Error::Query(error)) => {
-            return Ok(Ending::QueryErrors(explain(error, &map, setup.rules.placement())));
+            return Ok(Ending::QueryErrors(explain(error, &map, placement)));
         }
         Err(error) => return Err(error.into()),
     };
-    let report =
-        Report { map: &map, index: &index, starts, goals, measured, preparation, took: begin.elapsed() };
+    let report = Report {
+        map: &map,
+        index: &index,
+        choice,
+        starts,
+        goals,
+        measured,
+        preparation,
+        took: begin.elapsed(),
+    };
     match args.format {
         TableFormat::Table => report.table(screen)?,
         TableFormat::Jsonl => report.jsonl(screen)?,
         TableFormat::Csv => report.csv(screen)?,
     }
+    let (missing, all) = report.measured.missing();
+    if args.require_path && missing > 0 {
+        return Ok(Ending::NoPaths(without_path(missing, all)));
+    }
     Ok(Ending::Answered)
+}
+
+impl Measured {
+    /// How many lengths there are not, of how many.
+    fn missing(&self) -> (u64, u64) {
+        match self {
+            Self::All(table) => {
+                let lengths = table.values();
+                (lengths.iter().filter(|length| length.is_infinite()).count() as u64, lengths.len() as u64)
+            }
+            Self::Nearest(nearest) => {
+                (nearest.iter().filter(|goal| goal.is_none()).count() as u64, nearest.len() as u64)
+            }
+        }
+    }
 }
 
 /// The starts or the goals: those that were named, then those of a file.
 fn ends(
     map: &Map,
-    setup: Setup,
+    placement: PlacementKind,
     (named, file): (&[Place], Option<&Path>),
     (ends, option): (&'static str, &'static str),
 ) -> Result<Vec<Vertex>, Failure> {
@@ -80,7 +104,7 @@ fn ends(
     if places.is_empty() {
         return Err(Failure::NoEnds { ends, option });
     }
-    places.into_iter().map(|place| map.vertex(setup.rules.placement(), place)).collect()
+    places.into_iter().map(|place| map.vertex(placement, place)).collect()
 }
 
 /// What was measured, for each start.
@@ -105,6 +129,8 @@ fn measure(nearest: bool, index: &Index, starts: &[Vertex], goals: &[Vertex]) ->
 struct Report<'r> {
     map: &'r Map,
     index: &'r Index,
+    /// What `auto` chose.
+    choice: Option<Choice>,
     starts: Vec<Vertex>,
     goals: Vec<Vertex>,
     measured: Measured,
@@ -120,8 +146,10 @@ struct TableLine<'r> {
     map: &'r str,
     /// The setup as text.
     setup: String,
+    /// As in the line of a run, as are the next two.
     engine: &'static str,
-    /// The engine that searches, as in the line of a run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    asked: Option<&'static str>,
     searched_by: &'static str,
     starts: usize,
     goals: usize,
@@ -161,12 +189,13 @@ struct SummaryLine {
 
 impl Report<'_> {
     fn jsonl(&self, screen: &mut Screen) -> io::Result<()> {
-        let Self { map, index, starts, goals, measured, preparation, took } = self;
+        let Self { map, index, choice, starts, goals, measured, preparation, took } = self;
         let setup = index.setup();
         let head = TableLine {
             map: &map.name,
             setup: setup.to_string(),
-            engine: setup.engine.kind().name(),
+            engine: choice.map_or(setup.engine.kind(), |_| index.searched_by()).name(),
+            asked: choice.map(|_| EngineName::Auto.name()),
             searched_by: index.searched_by().name(),
             starts: starts.len(),
             goals: goals.len(),
@@ -255,6 +284,9 @@ impl Report<'_> {
         let made = made.and_then(|option| Some(option.describe(self.index.value(option)?)));
         let made = made.map_or_else(String::new, |made| format!(" · {made}"));
         writeln!(screen, "{name} · {setup}{made} · {}", k_in_words(setup.k))?;
+        if let Some(choice) = self.choice {
+            writeln!(screen, "{}", by_auto(choice))?;
+        }
         if searched_by != setup.engine.kind() {
             writeln!(screen, "{}", falls_back(setup.engine.kind(), searched_by))?;
         }

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use mediant::{Engine, EngineOption, OptionValue, Setup};
+use mediant::{Choice, Engine, EngineOption, OptionValue, Setup};
 use mediant_grid::{Rules, Vertex};
 use mediant_search::{Counters, Guarantee, Path, Request, Stopped};
 
@@ -18,6 +18,8 @@ pub(crate) struct Run<'r> {
     pub(crate) queries: usize,
     pub(crate) wishes: &'r WishArgs,
     pub(crate) setup: Setup,
+    /// Which engine `auto` took, and why; `None` for one that was named.
+    pub(crate) choice: Option<Choice>,
     /// The engine that searches: the setup's, or another one where subgoals would be slow.
     pub(crate) searched_by: Engine,
     /// All options of the catalog, each with its value if the engine has one.

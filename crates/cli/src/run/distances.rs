@@ -5,11 +5,12 @@ use std::{
     path::Path,
 };
 
-use mediant::{Error, Setup};
+use mediant::{Demand, Error};
 use mediant_grid::Vertex;
 
 use super::query_error::explain;
 use crate::{
+    args::Asked,
     failure::{Ending, Failure},
     map::{Map, file_name},
     terminal::{
@@ -22,13 +23,15 @@ use crate::{
 
 /// Writes the distances from a vertex to a file as CSV; for the path `-`, to the screen.
 pub(crate) fn write(
-    setup: Setup,
+    asked: &Asked,
     map: &Map,
     from: Vertex,
     path: &Path,
     screen: &mut Screen,
 ) -> Result<Ending, Failure> {
-    let found = match setup.space(&map.to_library())?.distances(setup.engine.kind(), from) {
+    let space = map.to_library().space(asked.motion)?;
+    let (setup, _) = asked.setup(&space, Demand::Distances)?;
+    let found = match space.distances(setup.engine.kind(), from) {
         Ok(found) => found,
         Err(Error::Query(error)) => {
             let placement = setup.rules.placement();

@@ -9,7 +9,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use mediant::{Engine, EngineOption, Levels, OptionValue, ValueKind, files::WorldFrame};
+use mediant::{Engine, EngineName, EngineOption, Levels, OptionValue, ValueKind, files::WorldFrame};
 use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Rules, Vertex};
 use mediant_moves::K;
 use mediant_search::Path;
@@ -100,13 +100,21 @@ struct RunLine<'r> {
     /// The side of a cell in meters; only with `--world`.
     #[serde(skip_serializing_if = "Option::is_none")]
     resolution: Option<f64>,
+    /// With `--world`, how far the start and the goal of a single query are from the vertices that are
+    /// nearest to them, in meters.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    moved: Option<[f64; 2]>,
     /// The scenario's file name.
     scenario: Option<&'r str>,
     queries: usize,
     /// Each wish that was named, by the name of its option, with `_` for `-`; `deadline_ms` for `--deadline`.
     #[serde(flatten)]
     wishes: WishFields,
+    /// The engine that was named; with `auto` the one that searches.
     engine: &'static str,
+    /// "auto" if the engine was left open; only then.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    asked: Option<&'static str>,
     /// The engine that searches. It is `engine`, but for subgoals of a map on which they would be slow: there
     /// it is one that prepares little.
     searched_by: &'static str,
@@ -181,10 +189,12 @@ impl<'r> From<&Run<'r>> for RunLine<'r> {
             grounds: run.grounds.then_some(true),
             radius: Some(run.map.radius).filter(|&radius| radius > 0.0),
             resolution: run.map.frame.map(|frame| frame.resolution()),
+            moved: run.wishes.moved,
             scenario: run.scenario,
             queries: run.queries,
             wishes: run.wishes.into(),
-            engine: setup.engine.kind().name(),
+            engine: run.choice.map_or(setup.engine.kind(), |_| run.searched_by).name(),
+            asked: run.choice.map(|_| EngineName::Auto.name()),
             searched_by: run.searched_by.name(),
             k: match setup.k {
                 K::Finite(k) => k.get().into(),

@@ -1,14 +1,17 @@
 //! The queries of a run.
 
+use std::path::Path;
+
 use mediant_formats::{Instance, Scenario};
-use mediant_grid::{Grid, Vertex};
+use mediant_grid::{Grid, PlacementKind, Vertex};
 use mediant_search::{End, Query};
 
 use crate::{
-    args::{RunArgs, WishArgs},
+    args::{RunArgs, WishArgs, parse_pair},
     builtin::is_builtin,
+    check::file::{bytes, lines, shown},
     failure::Failure,
-    map::{Map, load_scenario},
+    map::{Map, file_name, load_scenario},
     terminal::message::say_warning,
 };
 
@@ -23,15 +26,27 @@ pub(crate) struct Item {
     pub(crate) reference: Option<f64>,
 }
 
-/// A single query, or some of a scenario's.
+/// A single query, or some of a scenario's or of a list of pairs.
 pub(crate) enum Queries {
     Single(Query),
+    Pairs { name: String, pairs: Vec<Query>, every: usize, limit: usize },
     Scenario { name: String, scenario: Scenario, every: usize, limit: usize },
 }
 
 impl Queries {
     /// The queries that the arguments name.
-    pub(crate) fn load(args: &RunArgs, wishes: &WishArgs, map: &Map) -> Result<Self, Failure> {
+    pub(crate) fn load(
+        args: &RunArgs,
+        wishes: &WishArgs,
+        map: &Map,
+        placement: PlacementKind,
+    ) -> Result<Self, Failure> {
+        let every = args.every.map_or(1, usize::from);
+        let limit = args.limit.map_or(usize::MAX, usize::from);
+        if let Some(path) = &args.pairs {
+            let pairs = read_pairs(path, map, placement)?;
+            return Ok(Self::Pairs { name: file_name(&shown(path)), pairs, every, limit });
+        }
         let path = match (&args.scen, wishes.from.first(), wishes.to.first()) {
             (None, Some(&from), Some(&to)) => return Ok(Self::Single(Query::new(from, to))),
             (Some(path), ..) => path,
@@ -41,8 +56,6 @@ impl Queries {
         let (name, scenario) = load_scenario(path)?;
         scenario.check_map(&map.grid, &map.name)?;
         check_names(scenario.instances(), map)?;
-        let every = args.every.map_or(1, usize::from);
-        let limit = args.limit.map_or(usize::MAX, usize::from);
         // Whatever `every` and `limit` are, instance 0 is taken: only a scenario without instances has no
         // query.
         if scenario.instances().is_empty() {
@@ -55,7 +68,7 @@ impl Queries {
     pub(crate) fn scenario_name(&self) -> Option<&str> {
         match self {
             Self::Single(_) => None,
-            Self::Scenario { name, .. } => Some(name),
+            Self::Pairs { name, .. } | Self::Scenario { name, .. } => Some(name),
         }
     }
 
@@ -63,6 +76,7 @@ impl Queries {
     pub(crate) fn len(&self) -> usize {
         match self {
             Self::Single(_) => 1,
+            Self::Pairs { pairs, every, limit, .. } => pairs.len().div_ceil(*every).min(*limit),
             Self::Scenario { scenario, every, limit, .. } => {
                 scenario.instances().len().div_ceil(*every).min(*limit)
             }
@@ -71,18 +85,41 @@ impl Queries {
 
     /// The queries, in the order of the file.
     pub(crate) fn iter(&self) -> impl Iterator<Item = Item> {
-        let (single, instances, every, limit): (_, &[Instance], _, _) = match self {
-            Self::Single(query) => (Some(*query), &[], 1, 0),
-            Self::Scenario { scenario, every, limit, .. } => (None, scenario.instances(), *every, *limit),
+        let (single, pairs, instances, every, limit): (_, &[Query], &[Instance], _, _) = match self {
+            Self::Single(query) => (Some(*query), &[], &[], 1, 0),
+            Self::Pairs { pairs, every, limit, .. } => (None, pairs, &[], *every, *limit),
+            Self::Scenario { scenario, every, limit, .. } => {
+                (None, &[], scenario.instances(), *every, *limit)
+            }
         };
         let single = single.into_iter().map(|query| Item { index: 0, query, reference: None });
+        let pairs = pairs.iter().enumerate().step_by(every).take(limit);
+        let pairs = pairs.map(|(index, &query)| Item { index, query, reference: None });
         let instances = instances.iter().enumerate().step_by(every).take(limit);
-        single.chain(instances.map(|(index, instance)| Item {
+        single.chain(pairs).chain(instances.map(|(index, instance)| Item {
             index,
             query: Query::new(instance.start, instance.goal),
             reference: instance.known_optimal(),
         }))
     }
+}
+
+/// Reads a CSV of pairs: a line `x1,y1,x2,y2` for each query.
+fn read_pairs(path: &Path, map: &Map, placement: PlacementKind) -> Result<Vec<Query>, Failure> {
+    let bytes = bytes(path)?;
+    let mut pairs = Vec::new();
+    for (index, (line, text)) in lines(&bytes).enumerate() {
+        let wrong = |problem: String| Failure::PathFile { path: shown(path), line, problem };
+        let text = std::str::from_utf8(text).map_err(|error| wrong(error.to_string()))?;
+        let is_heading = index == 0 && text.starts_with(|letter: char| letter.is_alphabetic());
+        if is_heading {
+            continue;
+        }
+        let [start, goal] = parse_pair(text).map_err(wrong)?;
+        let vertex = |place| map.vertex(placement, place).map_err(|error| wrong(error.to_string()));
+        pairs.push(Query::new(vertex(start)?, vertex(goal)?));
+    }
+    if pairs.is_empty() { Err(Failure::NoPairs { path: shown(path) }) } else { Ok(pairs) }
 }
 
 /// Checks that a scenario is for this map. Maps of equal size differ by their names, but a renamed map is

@@ -3,21 +3,30 @@
 use mediant_grid::{Centers, Corners, Grid, Placement, PlacementKind, Vertex};
 use mediant_search::QueryError;
 
+use super::distances::rounded;
 use crate::map::Map;
 
 /// A query error in words; for a blocked end they name the nearest free vertex, and the radius if that is the
-/// reason.
+/// reason. Under `--world` they say it in meters, too.
 pub(crate) fn explain(error: QueryError, map: &Map, placement: PlacementKind) -> String {
     let QueryError::Blocked { end, at } = error else { return error.to_string() };
     let reason = if map.radius > 0.0 && is_free(&map.ground, placement, at) {
-        format!("the {end} {at} is too near to an obstacle for a radius of {:.4} cells", map.radius)
+        let meters = map.frame.map(|frame| rounded(map.radius * frame.resolution()));
+        let meters = meters.map_or_else(String::new, |meters| format!(" ({meters} m)"));
+        format!("the {end} {at} is too near to an obstacle for a radius of {:.4} cells{meters}", map.radius)
     } else {
         error.to_string()
     };
-    match nearest_free(&map.grid, placement, at) {
-        Some(free) => format!("{reason}; the nearest one is {free}"),
-        None => reason,
-    }
+    let free = nearest_free(&map.grid, placement, at);
+    let nearest = free.map_or_else(String::new, |free| format!("; the nearest one is {free}"));
+    let Some(frame) = map.frame else { return reason + &nearest };
+    let in_world = |at: Vertex| {
+        let (x, y) = frame.point_of(placement, at);
+        format!("({x:.3}, {y:.3}) m")
+    };
+    let nearest_in_world =
+        free.map_or_else(String::new, |free| format!(", the nearest one at {}", in_world(free)));
+    format!("{reason}{nearest}; in the world the {end} is at {}{nearest_in_world}", in_world(at))
 }
 
 fn is_free(grid: &Grid, placement: PlacementKind, at: Vertex) -> bool {

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use mediant::{Engine, FiniteK, K, Motion};
+use mediant::{Choice, Engine, FiniteK, K, Motion};
 use mediant_search::Smoothing;
 
 use super::{
@@ -26,6 +26,20 @@ pub(crate) trait Report {
 /// That another engine searches in place of the one that was asked for.
 pub(crate) fn falls_back(engine: Engine, searched_by: Engine) -> String {
     format!("{engine} falls back to {searched_by}: on this map its graph would be slower than no index")
+}
+
+/// Which engine `auto` took, and why.
+pub(crate) fn by_auto(choice: Choice) -> String {
+    format!("auto took {}: {}", choice.engine, choice.why)
+}
+
+/// That queries have no path.
+pub(crate) fn without_path(number: u64, all: u64) -> String {
+    match (number, all) {
+        (_, 1) => "there is no path, and --require-path asks for one".to_owned(),
+        (1, _) => format!("1 of {} has no path, and --require-path asks for all", grouped(all)),
+        _ => format!("{} of {} have no path, and --require-path asks for all", grouped(number), grouped(all)),
+    }
 }
 
 /// A k with the number of its moves, which people expect where k stands.

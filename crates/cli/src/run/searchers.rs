@@ -2,12 +2,16 @@
 
 use std::time::{Duration, Instant};
 
-use mediant::{Index, Planner, Setup, Space};
+use mediant::{Choice, Demand, Index, Planner, Setup, Space};
 use mediant_formats::Ground;
 use mediant_grid::{PlacementKind, Vertex};
 
 use super::queries::Queries;
-use crate::{args::RunArgs, failure::Failure, map::Map};
+use crate::{
+    args::{Asked, RunArgs},
+    failure::Failure,
+    map::Map,
+};
 
 /// A map with what answers queries on it.
 pub(crate) struct Searcher {
@@ -16,6 +20,8 @@ pub(crate) struct Searcher {
     pub(crate) map: Map,
     space: Space,
     pub(crate) index: Index,
+    /// Why its engine is this one, if that was left open.
+    pub(crate) choice: Option<Choice>,
     pub(crate) planner: Planner,
     /// The planner of `--reference`, which finds the shortest any-angle paths to compare with.
     pub(crate) any_angle: Option<Planner>,
@@ -36,23 +42,27 @@ impl Searchers {
     /// The searchers of the queries on a map.
     pub(crate) fn new(
         args: &RunArgs,
-        (setup, reference): (Setup, Option<Setup>),
+        asked: &Asked,
+        reference: Option<Setup>,
         map: &Map,
         queries: &Queries,
     ) -> Result<Self, Failure> {
-        let placement = setup.rules.placement();
+        let placement = asked.motion.rules.placement();
+        // For all grounds together, so that one engine searches them all.
+        let demand = Demand::Paths(queries.len() as u64);
         let mut preparation = Duration::ZERO;
         let mut make = |ground: Option<Ground>| {
             let map = match ground {
                 None => map.clone(),
-                Some(ground) => map.on_ground(ground)?.for_agent(&args.map, setup.motion())?,
+                Some(ground) => map.on_ground(ground)?.for_agent(&args.map, asked.motion)?,
             };
             let begin = Instant::now();
-            let (space, index) = prepare(args, setup, &map)?;
+            let space = map.to_library().space(asked.motion)?;
+            let (index, choice) = asked.index(&space, demand, args.index.as_deref())?;
             preparation += begin.elapsed();
             let planner = index.try_planner()?;
             let any_angle = reference.map(|setup| setup.planner(&map.to_library())).transpose()?;
-            Ok::<_, Failure>(Searcher { ground, map, space, index, planner, any_angle })
+            Ok::<_, Failure>(Searcher { ground, map, space, index, choice, planner, any_angle })
         };
         let stood_on = |ground: &Ground| {
             queries.iter().any(|item| map.ground_at(placement, item.query.start) == *ground)
@@ -85,14 +95,4 @@ impl Searchers {
         let all = self.others.iter().chain([&self.first]);
         all.map(|searcher| searcher.space.memory_bytes() + searcher.index.memory_bytes()).sum()
     }
-}
-
-/// The space of a map, and the index: a new one, or that of the file that the arguments name.
-fn prepare(args: &RunArgs, setup: Setup, map: &Map) -> Result<(Space, Index), Failure> {
-    let space = setup.space(&map.to_library())?;
-    let index = match &args.index {
-        None => space.prepare(setup.engine)?,
-        Some(path) => space.load_for(setup.engine, path)?,
-    };
-    Ok((space, index.with_smoothing(setup.smoothing)))
 }

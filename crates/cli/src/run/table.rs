@@ -8,7 +8,7 @@ use mediant_search::{Limit, Path, Stopped};
 
 use super::{
     answer::{Answer, Answered, Found, Run},
-    report::{Report, falls_back, k_in_words, smoothing_name},
+    report::{Report, by_auto, falls_back, k_in_words, smoothing_name},
     summary::{Ratios, References, Summary},
 };
 use crate::terminal::{
@@ -36,6 +36,8 @@ pub(crate) struct TableReport<'s> {
     may_fall_back: bool,
     /// Where vertices are in the world.
     world: Option<(WorldFrame, PlacementKind)>,
+    /// How far the ends were moved to vertices, in meters.
+    moved: Option<[f64; 2]>,
     rows: Vec<Answer>,
     /// The number of errors that have no row.
     more_errors: u64,
@@ -56,6 +58,7 @@ impl<'s> TableReport<'s> {
             any_angle: "",
             may_fall_back: false,
             world: None,
+            moved: None,
             rows: Vec::new(),
             more_errors: 0,
         }
@@ -161,6 +164,10 @@ impl<'s> TableReport<'s> {
         if let Some((frame, placement)) = self.world {
             let meters = path.cost() * frame.resolution();
             writeln!(self.screen, "  world {meters:.3} m, {}", in_world(frame, placement, path))?;
+            if let Some([start, goal]) = self.moved {
+                let line = format!("  moved to vertices: the start by {start:.3} m, the goal by {goal:.3} m");
+                writeln!(self.screen, "{line}")?;
+            }
         }
         match &row.outcome {
             Ok(Answered::Found(found)) => certificate(self.screen, found, self.any_angle),
@@ -213,6 +220,7 @@ impl Report for TableReport<'_> {
         let setup = run.setup;
         self.queries = run.queries;
         self.world = run.map.frame.map(|frame| (frame, setup.rules.placement()));
+        self.moved = run.wishes.moved.filter(|moved| moved.iter().any(|&meters| meters > 0.0));
         self.from_scenario = run.scenario.is_some();
         self.may_differ = run.wishes.nearest || run.wishes.has_limits();
         self.only_lengths = run.wishes.distance;
@@ -237,6 +245,9 @@ impl Report for TableReport<'_> {
         let text = wrap("", words.chain(problem), self.screen.columns());
         let rest = text.strip_prefix(name).unwrap_or_default();
         writeln!(self.screen, "{}{rest}", self.screen.paint(BOLD, name))?;
+        if let Some(choice) = run.choice {
+            writeln!(self.screen, "{}", by_auto(choice))?;
+        }
         if run.searched_by != setup.engine.kind() {
             writeln!(self.screen, "{}", falls_back(setup.engine.kind(), run.searched_by))?;
         }

@@ -170,12 +170,15 @@ fn shown(line: &str) -> String {
 #[test]
 fn a_single_path_is_certified_and_compared() {
     let query = "run builtin:archipelago --from 1,20 --to 70,20 --placement corner";
-    insta::assert_snapshot!("a_path_and_its_certificate", shown(&format!("{query} --k 4 --reference anya")));
+    insta::assert_snapshot!(
+        "a_path_and_its_certificate",
+        shown(&format!("{query} --engine astar --k 4 --reference anya"))
+    );
     insta::assert_snapshot!("an_any_angle_path", shown(&format!("{query} --engine anya --draw")));
     let best = shown(&format!("{query} --engine anya --reference anya"));
     assert!(best.contains("\n  no path at any angle is shorter (certificate)\n"), "{best}");
     assert!(best.contains("\n  as short as the one that anya finds, of length 71."), "{best}");
-    let plain = shown(query);
+    let plain = shown(&format!("{query} --engine astar"));
     assert!(
         plain.contains(" longer than the shortest path at any angle (certificate)\n")
             && !plain.contains("anya")

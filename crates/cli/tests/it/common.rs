@@ -1,6 +1,7 @@
 //! Runs the built program.
 
 use std::{
+    fs::File,
     path::PathBuf,
     process::{Command, Stdio},
 };
@@ -40,6 +41,19 @@ pub(crate) fn mediant_with<S: AsRef<str>>(args: &[S], variables: &[(&str, &str)]
 /// [`mediant`] for a command line of words without spaces.
 pub(crate) fn run(line: &str) -> Ran {
     mediant(&line.split(' ').collect::<Vec<_>>())
+}
+
+/// [`run`], with this text on stdin.
+pub(crate) fn run_on(line: &str, stdin: &str) -> Ran {
+    let folder = Files::new();
+    let file = File::open(folder.add("stdin", stdin)).expect("it was written");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mediant"));
+    let output = command.args(line.split(' ')).stdin(file).output().expect("the program starts");
+    Ran {
+        status: output.status.code(),
+        stdout: String::from_utf8(output.stdout).expect("stdout is UTF-8"),
+        stderr: String::from_utf8(output.stderr).expect("stderr is UTF-8"),
+    }
 }
 
 /// A folder of files for one test.

@@ -6,7 +6,7 @@ use mediant::{K, Map, Motion};
 use mediant_formats::{MapFile, MapOptions, MapSource, RosMap, read_map};
 
 use crate::{
-    common::{Files, add_example_files, bundled, run_examples, succeeds},
+    common::{Files, Ran, add_example_files, bundled, run, run_examples, succeeds},
     errors::check,
 };
 
@@ -55,7 +55,16 @@ fn a_map_keeps_the_characters_of_its_tiles() {
     let map = files.add("yard.map", text);
     let same = converted(&files, &map, "same.map");
     assert_eq!(fs::read_to_string(same).expect("a map"), text);
-    let agent = converted(&files, &format!("{map} --radius 0.1"), "agent.map");
+    let agent = files.path("agent.map");
+    let Ran { status, stderr, .. } = run(&format!("convert {map} --radius 0.1 -o {agent}"));
+    // A disc that small fits wherever a point may be, and it is said.
+    assert_eq!(
+        (stderr.as_str(), status),
+        (
+            "warning: a radius of 0.1000 cells changes nothing: such a disc fits wherever a point may be\n",
+            Some(0)
+        )
+    );
     assert_eq!(fs::read_to_string(agent).expect("a map"), "type octile\nheight 2\nwidth 3\nmap\n.@.\n@..\n");
 }
 

@@ -39,7 +39,10 @@ fn arguments_that_make_no_sense() {
         "run builtin:cave --k -3",
         "invalid value '-3' for '--k <K>': choose a number from 2 to 12, or any; see --help",
     );
-    check("run builtin:cave --k any", "astar needs a k from 2 to 12; for any choose anya, subgoal");
+    check(
+        "run builtin:cave --engine astar --k any",
+        "astar needs a k from 2 to 12; for any choose anya, subgoal",
+    );
     check(
         "run builtin:cave --every 0",
         "invalid value '0' for '--every <N>': expected a whole number from 1 up; see --help",
@@ -76,7 +79,7 @@ fn arguments_that_make_no_sense() {
 fn engines_and_values_that_do_not_exist() {
     check(
         "run builtin:cave --engine warp",
-        "invalid value 'warp' for '--engine <ENGINE>' [possible values: astar, dijkstra, wavefront, \
+        "invalid value 'warp' for '--engine <ENGINE>' [possible values: auto, astar, dijkstra, wavefront, \
          canonical, jps, jps-block, \
          jps-plus, theta, lazy-theta, anya, subgoal, subgoal-theta, hpa, chpa]; see --help",
     );
@@ -182,7 +185,7 @@ fn what_an_engine_does_not_take() {
             "--engine jps --variant paper",
             "jps takes no variant: leave it out, or choose canonical, chpa".to_owned(),
         ),
-        ("--jump-limit 3", format!("astar takes no jump limit: {jumpers}")),
+        ("--engine astar --jump-limit 3", format!("astar takes no jump limit: {jumpers}")),
         ("--engine jps-plus --jump-limit 3", format!("jps-plus takes no jump limit: {jumpers}")),
         (
             "--engine canonical --keep-intermediate",
@@ -196,7 +199,7 @@ fn what_an_engine_does_not_take() {
         ),
         ("--engine jps --index x.idx", format!("jps has no index: choose {indexed}")),
         (
-            "--from 2,5 --distances -",
+            "--engine astar --from 2,5 --distances -",
             "astar has no distances to all vertices: choose dijkstra, wavefront".to_owned(),
         ),
     ] {

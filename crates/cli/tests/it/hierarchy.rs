@@ -118,7 +118,7 @@ fn the_table_says_how_often_a_plan_was_left() {
     assert!(text.contains("\n  plan  left once\n"), "{text}");
     let text = shown("--engine hpa --levels 1 --unstraightened");
     assert!(
-        text.contains("\nhpa, 1 level, side 10, paths not straightened · k = 3 (8 moves) · ")
+        text.contains("\nhpa, 1 level, side 10, paths not straightened · k = 3 (8 moves) ·")
             && !text.contains("plan"),
         "{text}"
     );
@@ -215,13 +215,13 @@ fn options_that_an_engine_does_not_take_are_refused() {
     let choose = "leave it out, or choose";
     let small = "not k = 3 with corners one: choose one of these, or another engine";
     for (options, message) in [
-        ("--side 3", "astar takes no side: leave it out, or choose hpa, chpa".to_owned()),
+        ("--engine astar --side 3", "astar takes no side: leave it out, or choose hpa, chpa".to_owned()),
         ("--engine subgoal --side 3", "subgoal takes no side: leave it out, or choose hpa, chpa".to_owned()),
         ("--engine chpa --levels 2", format!("chpa takes no levels: {choose} subgoal, subgoal-theta, hpa")),
         ("--engine chpa --unstraightened", format!("chpa takes no option unstraightened: {choose} hpa")),
         ("--engine hpa --second hk", "hpa takes no second heuristic: leave it out, or choose chpa".to_owned()),
         ("--engine hpa --step 2", "hpa takes no step: leave it out, or choose chpa".to_owned()),
-        ("--detour 2", "astar takes no detour: leave it out, or choose chpa".to_owned()),
+        ("--engine astar --detour 2", "astar takes no detour: leave it out, or choose chpa".to_owned()),
         ("--engine hpa --variant paper", "hpa takes no variant: leave it out, or choose canonical, chpa".to_owned()),
         (
             "--engine chpa --variant exact",

@@ -42,7 +42,16 @@ fn keys(record: &Value) -> BTreeSet<&str> {
 /// The records of our own scenario of the bundled map `cave`, read from files.
 #[track_caller]
 fn cave() -> Vec<Value> {
-    records(&["run", &bundled("cave.map"), "--scen", &bundled("cave.map.scen"), "--format", "jsonl"])
+    records(&[
+        "run",
+        &bundled("cave.map"),
+        "--scen",
+        &bundled("cave.map.scen"),
+        "--engine",
+        "astar",
+        "--format",
+        "jsonl",
+    ])
 }
 
 /// The keys of a run's record that scripts rely on.
@@ -272,8 +281,20 @@ fn every_option_reaches_the_planner() {
                 ),
             };
             let (k, placement) = (k.to_string(), rules.placement().to_string());
-            let args =
-                ["run", &map, "--scen", &scen, "--k", &k, "--placement", &placement, "--format", "jsonl"];
+            let args = [
+                "run",
+                &map,
+                "--scen",
+                &scen,
+                "--engine",
+                "astar",
+                "--k",
+                &k,
+                "--placement",
+                &placement,
+                "--format",
+                "jsonl",
+            ];
             let records = records(&[&args[..], &options[..]].concat());
             let (run, queries, _) = parts(&records);
             assert_eq!((&run["placement"], &run["k"].to_string()), (&Value::from(placement), &k));
@@ -319,7 +340,7 @@ fn sum(queries: &[Value], count: &str) -> u64 {
 #[test]
 fn every_exact_engine_costs_the_same() {
     for k in [2, 3, 4] {
-        let (_, astar) = town(&format!(" --k {k}"));
+        let (_, astar) = town(&format!(" --engine astar --k {k}"));
         assert_eq!(sum(&astar, "scanned"), 0);
         for engine in ["dijkstra", "canonical", "jps", "jps-block", "jps-plus"] {
             if k > 3 && ["jps-block", "jps-plus"].contains(&engine) {
@@ -365,7 +386,7 @@ fn variants_and_jump_options_reach_the_planner() {
 
 #[test]
 fn smoothness_is_that_of_the_path() {
-    let (_, queries) = town(" --k 4 --placement corner");
+    let (_, queries) = town(" --engine astar --k 4 --placement corner");
     for query in &queries {
         let waypoints = query["path"].as_array().expect("a path").iter().map(|at| {
             let x = |i: usize| at[i].as_i64().expect("a coordinate") as i32;
@@ -377,8 +398,11 @@ fn smoothness_is_that_of_the_path() {
     }
     let mean =
         queries.iter().filter_map(|query| query["smoothness"].as_f64()).sum::<f64>() / queries.len() as f64;
-    let records =
-        records(&"run builtin:town --k 4 --placement corner --format jsonl".split(' ').collect::<Vec<_>>());
+    let records = records(
+        &"run builtin:town --engine astar --k 4 --placement corner --format jsonl"
+            .split(' ')
+            .collect::<Vec<_>>(),
+    );
     let (_, _, summary) = parts(&records);
     assert!((summary["mean_smoothness"].as_f64().expect("a number") - mean).abs() < 1e-9);
     assert!(summary["mean_updated"].as_f64() > Some(0.0) && summary["mean_scanned"].as_f64() == Some(0.0));

@@ -1,6 +1,7 @@
 //! The program, run as a user would.
 
 mod any_angle;
+mod auto;
 mod check;
 mod common;
 mod convert;
@@ -10,6 +11,7 @@ mod hierarchy;
 mod jsonl;
 mod many;
 mod outputs;
+mod pairs;
 mod reach;
 mod subgoal;
 mod table;

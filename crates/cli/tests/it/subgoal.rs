@@ -251,7 +251,10 @@ fn setups_without_a_subgoal_graph_are_refused() {
         assert_eq!(refused(&files, &format!("run builtin:cave {options}")), format!("error: {message}\n"));
     };
     for (options, message) in [
-        ("--levels 2", "astar takes no levels: leave it out, or choose subgoal, subgoal-theta, hpa"),
+        (
+            "--engine astar --levels 2",
+            "astar takes no levels: leave it out, or choose subgoal, subgoal-theta, hpa",
+        ),
         (
             "--engine subgoal --heuristic hk",
             "subgoal takes no heuristic: leave it out, or choose astar, canonical, jps, jps-block, \

@@ -4,18 +4,18 @@ use crate::common::{Files, Ran, mediant, mediant_with, redact_times, shown};
 
 #[test]
 fn a_few_queries_are_all_listed() {
-    insta::assert_snapshot!(shown("run builtin:town --every 2 --limit 6"));
+    insta::assert_snapshot!(shown("run builtin:town --every 2 --limit 6 --engine astar"));
 }
 
 #[test]
 fn of_many_queries_only_the_summary_is_shown() {
-    insta::assert_snapshot!(shown("run builtin:town --k 5 --placement corner --gap closed"));
+    insta::assert_snapshot!(shown("run builtin:town --k 5 --placement corner --gap closed --engine astar"));
 }
 
 #[test]
 fn a_single_query_shows_its_path_and_its_picture() {
     insta::assert_snapshot!(shown(
-        "run builtin:archipelago --from 1,20 --to 70,20 --k 4 --placement corner --draw"
+        "run builtin:archipelago --from 1,20 --to 70,20 --k 4 --placement corner --engine astar --draw"
     ));
 }
 
@@ -26,7 +26,8 @@ fn a_small_map_is_drawn_large() {
         "yard.map",
         "type octile\nheight 5\nwidth 8\nmap\n........\n..@@@...\n..@.....\n..@..@@@\n........\n",
     );
-    let Ran { stdout, .. } = mediant(&["run", &map, "--from", "0,4", "--to", "3,2", "--draw"]);
+    let Ran { stdout, .. } =
+        mediant(&["run", &map, "--from", "0,4", "--to", "3,2", "--engine", "astar", "--draw"]);
     insta::assert_snapshot!(redact_times(&stdout));
 }
 
@@ -36,7 +37,7 @@ fn errors_among_many_queries_are_listed() {
     let map = files.add("yard.map", "type octile\nheight 1\nwidth 9\nmap\n........@\n");
     let query = |i: usize| format!("0\tyard.map\t9\t1\t0\t0\t{}\t0\t{}\n", i % 10, i % 10);
     let scenario = files.add("yard.scen", format!("version 1\n{}", (0..120).map(query).collect::<String>()));
-    let Ran { status, stdout, .. } = mediant(&["run", &map, "--scen", &scenario]);
+    let Ran { status, stdout, .. } = mediant(&["run", &map, "--scen", &scenario, "--engine", "astar"]);
     assert_eq!(status, Some(1));
     insta::assert_snapshot!(redact_times(&stdout));
 }

@@ -262,15 +262,20 @@ fn a_stopped_search_has_a_trace() {
 
 #[test]
 fn the_table_says_what_was_asked_and_what_came_of_it() {
-    insta::assert_snapshot!("a_nearest_vertex", shown(&format!("{CAVE} --to 37,0 --nearest")));
-    insta::assert_snapshot!("a_stopped_search", shown(&format!("{CAVE} --to 62,33 --max-nodes 100")));
+    insta::assert_snapshot!("a_nearest_vertex", shown(&format!("{CAVE} --engine astar --to 37,0 --nearest")));
+    insta::assert_snapshot!(
+        "a_stopped_search",
+        shown(&format!("{CAVE} --engine astar --to 62,33 --max-nodes 100"))
+    );
     insta::assert_snapshot!(
         "several_ends",
-        shown("run builtin:cave --from 2,5 --from 57,3 --to 62,33 --to 28,21 --tolerance 1 --draw")
+        shown(
+            "run builtin:cave --engine astar --from 2,5 --from 57,3 --to 62,33 --to 28,21 --tolerance 1 --draw"
+        )
     );
     insta::assert_snapshot!(
         "stopped_queries",
-        shown("run builtin:cave --every 4 --max-cost 60 --nearest --snap")
+        shown("run builtin:cave --engine astar --every 4 --max-cost 60 --nearest --snap")
     );
     for line in [
         "run builtin:cave --every 4 --max-cost 60 --nearest --snap",
@@ -297,6 +302,7 @@ fn the_examples_of_the_help_run() {
     let files = Files::new();
     add_example_files(&files);
     files.add("arena.map.scen", "version 1\n0\tarena.map\t49\t49\t1\t11\t40\t30\t46.87\n");
+    files.add("pairs.csv", "1,11,40,30\n");
     let (map, index) = (files.path("arena.map"), files.path("arena.idx"));
     assert_eq!(mediant(&["build", &map, "--engine", "subgoal", "-o", &index]).status, Some(0));
     run_examples(&files, "run", 14);

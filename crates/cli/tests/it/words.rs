@@ -27,7 +27,7 @@ fn engines_are_read_as_people_write_them() {
 fn what_is_no_engine_is_told_with_those_that_are() {
     check(
         "run builtin:cave --engine jps++",
-        "invalid value 'jps++' for '--engine <ENGINE>' [possible values: astar, dijkstra, wavefront, canonical, \
+        "invalid value 'jps++' for '--engine <ENGINE>' [possible values: auto, astar, dijkstra, wavefront, canonical, \
          jps, jps-block, jps-plus, theta, lazy-theta, anya, subgoal, subgoal-theta, hpa, chpa]; tip: a similar \
          value exists: 'jps'; see --help",
     );

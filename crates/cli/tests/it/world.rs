@@ -82,6 +82,67 @@ fn a_disc_keeps_its_radius() {
 }
 
 #[test]
+fn ends_are_moved_and_it_is_said_how_far() {
+    let files = Files::new();
+    let map = depot(&files);
+    // The centers of the cells are at (-1.75, 1.25) and (17.75, 10.75).
+    let ends = "--world --from -1.71,1.28 --to 17.75,10.75";
+    let (ran, _) = lines(&map, ends);
+    assert_eq!(ran["moved"], serde_json::json!([0.05, 0.0]));
+    let Ran { stdout, .. } = run(&map, ends);
+    assert!(
+        stdout.contains("\n  moved to vertices: the start by 0.050 m, the goal by 0.000 m\n"),
+        "{stdout}"
+    );
+    let (ran, _) = lines(&map, "--world --placement corner --from -2,1 --to 18,10.7");
+    assert_eq!(ran["moved"], serde_json::json!([0.0, 0.2]));
+    let Ran { stdout, .. } = run(&map, "--world --from -1.75,1.25 --to 17.75,10.75");
+    assert!(!stdout.contains("moved"), "{stdout}");
+    let (ran, _) = lines(&map, "--from 0,19 --to 39,0");
+    assert!(ran.get("moved").is_none());
+}
+
+#[test]
+fn errors_in_the_world_are_in_meters_too() {
+    let files = Files::new();
+    let map = depot(&files);
+    let error = |options: &str| {
+        let Ran { stderr, status, .. } = run(&map, options);
+        assert_eq!(status, Some(1), "{stderr}");
+        stderr
+    };
+    assert_eq!(
+        error("--world --from 8.1,3.2 --to 17,3"),
+        "error: the start (20, 15) is blocked: choose a free vertex; the nearest one is (19, 15); in the world the \
+         start is at (8.250, 3.250) m, the nearest one at (7.750, 3.250) m\n"
+    );
+    assert_eq!(
+        error("--world --radius 0.75 --from 7.6,6.1 --to 15.25,6"),
+        "error: the start (19, 9) is too near to an obstacle for a radius of 1.5000 cells (0.75 m); the nearest one \
+         is (18, 9); in the world the start is at (7.750, 6.250) m, the nearest one at (7.250, 6.250) m\n"
+    );
+    assert_eq!(
+        error("--from 20,15 --to 39,3"),
+        "error: the start (20, 15) is blocked: choose a free vertex; the nearest one is (19, 15)\n"
+    );
+}
+
+#[test]
+fn a_radius_that_changes_nothing_is_told() {
+    let files = Files::new();
+    let map = depot(&files);
+    let said = |options: &str| run(&map, &format!("{options} --from 4,3 --to 15,3")).stderr;
+    let nothing = "cells changes nothing: such a disc fits wherever a point may be";
+    assert_eq!(
+        said("--radius 0.22"),
+        format!("warning: a radius of 0.2200 {nothing}; with --world it is in meters\n")
+    );
+    assert_eq!(said("--world --radius 0.2"), format!("warning: a radius of 0.4000 {nothing}\n"));
+    assert_eq!(said("--world --radius 0.4"), "");
+    assert_eq!(said("--radius 0"), "");
+}
+
+#[test]
 fn pictures_are_written() {
     let files = Files::new();
     let map = depot(&files);

@@ -203,7 +203,8 @@ impl<'g> Picture<'g> {
         out.write_all(self.svg().as_bytes())
     }
 
-    /// Writes the picture to a file, which it replaces as a whole: as PNG or SVG, after the end of the file's name.
+    /// Writes the picture to a file, which it replaces as a whole: as PNG or SVG, after the end of the
+    /// file's name.
     ///
     /// # Errors
     /// [`PictureError::Extension`] if the name ends otherwise, [`PictureError::Write`] if the file cannot be

@@ -121,9 +121,9 @@ impl RosMap {
     /// Needs the feature `save`.
     ///
     /// # Errors
-    /// [`WriteError`] for files that cannot be written; those that were there stay. A name that ends in `.png`
-    /// without that feature, or in `.pbm`, which has no gray, is an error before anything is written; so is
-    /// the name of the YAML file.
+    /// [`WriteError`] for files that cannot be written; those that were there stay. A name that ends in
+    /// `.png` without that feature, or in `.pbm`, which has no gray, is an error before anything is
+    /// written; so is the name of the YAML file.
     #[cfg(feature = "save")]
     pub fn save(&self, path: impl AsRef<Path>) -> Result<(), WriteError> {
         let path = path.as_ref();

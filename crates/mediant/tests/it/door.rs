@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use mediant::{
-    BrokenPath, Choice, CornerRule, Counters, DiagonalGap, End, Engine, Error, ErrorCode, Identity, K, Map,
-    Motion, Observer, Origin, Outcome, Path, Planner, Query, QueryError, Rectangle, Rules, Setup, Smoothing,
-    Space, Vertex, files::MapOptions,
+    BrokenPath, Choice, CornerRule, Counters, Demand, DiagonalGap, End, Engine, EngineName, Error, ErrorCode,
+    Identity, K, Map, Motion, Observer, Origin, Outcome, Path, Planner, Query, QueryError, Rectangle, Rules,
+    Setup, Smoothing, Space, Vertex, files::MapOptions,
 };
 use mediant_formats::IndexFile;
 use mediant_oracle::{Rng, caves};
@@ -163,6 +163,79 @@ fn the_choice_depends_on_the_motion() {
         assert_eq!(chosen, [one, some], "{motion}");
         assert_eq!(large.space(motion).expect("a space").engine().engine, many, "{motion}");
     }
+}
+
+/// `auto` knows how much is asked, and with options takes an engine that has them.
+#[test]
+fn the_engine_follows_what_is_asked() {
+    use Engine::{Canonical, Dijkstra, JpsBlock, JpsPlus, Subgoal};
+    let space =
+        |motion| Map::from_rows(["....", ".##.", "...."]).expect("a map").space(motion).expect("a space");
+    let centers = space(Motion::centers(K::N8));
+    let asked = |space: &Space, demand| space.engine_for(demand).map(|choice| choice.engine);
+    for (paths, engine) in [
+        (0, Canonical),
+        (1, Canonical),
+        (2, JpsBlock),
+        (1_000, JpsBlock),
+        (1_001, Subgoal),
+        (u64::MAX, Subgoal),
+    ] {
+        assert_eq!(asked(&centers, Demand::Paths(paths)), Ok(engine), "{paths}");
+    }
+    assert_eq!(asked(&centers, Demand::Distances), Ok(Dijkstra));
+    assert!(asked(&space(Motion::corners(K::ANY)), Demand::Distances).is_err());
+    for (motion, engine) in [
+        (Motion::centers(K::N8), Some(Subgoal)),
+        (Motion::new(K::N8, CornerRule::One), Some(JpsPlus)),
+        (Motion::corners(k(12)), Some(Subgoal)),
+        (Motion::corners(K::ANY), Some(Subgoal)),
+        (Motion::centers(K::N16), None),
+    ] {
+        let found = asked(&space(motion), Demand::Index);
+        assert_eq!(found.as_ref().ok(), engine.as_ref(), "{motion}");
+        if let Err(error) = found {
+            assert_eq!(Error::from(error).code(), ErrorCode::EngineWithout);
+        }
+    }
+    // For every demand and motion the engine takes the motion and does what is asked.
+    for rules in Rules::ALL {
+        for k in [K::N4, K::N8, K::N16, k(7).into()] {
+            let space = space(Motion::new(k, rules));
+            for demand in [Demand::Paths(1), Demand::Paths(9), Demand::Paths(u64::MAX), Demand::Distances] {
+                let engine = space.engine_for(demand).expect("there is one").engine;
+                assert!(Setup::new(engine, k, rules).check().is_ok(), "{engine}, {demand:?}");
+                assert!(demand != Demand::Distances || engine.capabilities().distances);
+            }
+        }
+    }
+}
+
+/// People write names in many ways; what is printed is one.
+#[test]
+fn names_are_read_as_people_write_them() {
+    for engine in Engine::ALL {
+        let name = engine.name();
+        let written =
+            [name.to_uppercase(), name.replace('-', "_"), name.replace('-', ""), format!("{name}*")];
+        for text in written {
+            assert_eq!(text.parse(), Ok(engine), "{text}");
+        }
+    }
+    for (text, engine) in
+        [("A*", Engine::AStar), ("jps+", Engine::JpsPlus), ("Lazy Theta*", Engine::LazyTheta)]
+    {
+        assert_eq!(text.parse(), Ok(engine), "{text}");
+        assert_eq!(text.parse(), Ok(EngineName::Engine(engine)), "{text}");
+    }
+    assert_eq!(("AUTO".parse(), "auto".parse::<Engine>().is_err()), (Ok(EngineName::Auto), true));
+    for text in ["", "*", "star", "jps++", "jps*plus", "+", "a"] {
+        assert!(text.parse::<Engine>().is_err(), "{text}");
+    }
+    let error = "warp".parse::<EngineName>().expect_err("no engine").to_string();
+    assert!(
+        error.starts_with("expected one of auto, astar, dijkstra, ") && error.ends_with(", found `warp`")
+    );
 }
 
 /// Random edits by seed, each engine's index along them: a repaired index answers as one made anew, is as

@@ -79,7 +79,7 @@ class Options(TypedDict, total=False):
 class FromGrid(Motion, Wishes, Options, total=False):
     """All of them, with the engine."""
 
-    engine: Engine | None
+    engine: Engine | Literal["auto"] | None
 
 @final
 class Grid:
@@ -153,7 +153,7 @@ class Grid:
     def engine(self, **motion: Unpack[Motion]) -> tuple[Engine, str]: ...
     def prepare(
         self,
-        engine: Engine | None = None,
+        engine: Engine | Literal["auto"] | None = None,
         *,
         k: K = 3,
         neighbors: SupportsIndex | None = None,
@@ -184,8 +184,9 @@ class Grid:
     ) -> NDArray[np.float64]: ...
     def for_disc(
         self,
-        radius: SupportsFloat,
+        radius: SupportsFloat | None = None,
         *,
+        meters: SupportsFloat | None = None,
         fit: Literal["centers", "whole-cells"] | None = None,
         outside: Literal["blocked", "open"] = "blocked",
         **motion: Unpack[Motion],

@@ -9,7 +9,7 @@ use crate::{
     arguments::{integer, point, positive, word},
     arrays::{PathPoints, rows_array},
     background::{detached, in_pool, on_thread},
-    errors::raised,
+    errors::{argument, raised},
     keywords::{Keywords, Takes},
 };
 
@@ -64,8 +64,10 @@ impl Grid {
     ///
     /// Parameters
     /// ----------
-    /// radius : float
-    ///     In cells.
+    /// radius : float, optional
+    ///     In cells. Half a cell and less changes nothing between centers.
+    /// meters : float, optional
+    ///     The radius in meters, in place of `radius`, for a grid with a `world`.
     /// fit : {"centers", "whole-cells"}, optional
     ///     Whether the disc must fit around the center of a cell, or around all of its points. By default the
     ///     looser one that keeps the radius along every path of the motion.
@@ -82,7 +84,9 @@ impl Grid {
     /// Raises
     /// ------
     /// ArgumentError
-    ///     For a radius that is negative or no number.
+    ///     For a radius that is negative or no number, none or two of them, or one in meters where there is
+    ///     no
+    ///     `world`.
     ///
     /// Examples
     /// --------
@@ -93,23 +97,25 @@ impl Grid {
     /// >>> grid.for_disc(0.6).is_free((0, 0))
     /// False
     #[pyo3(
-        signature = (radius, *, fit = None, outside = None, **motion),
-        text_signature = "($self, radius, *, fit=None, outside='blocked', **motion)"
+        signature = (radius = None, *, meters = None, fit = None, outside = None, **motion),
+        text_signature = "($self, radius=None, *, meters=None, fit=None, outside='blocked', **motion)"
     )]
     fn for_disc<'py>(
         &self,
-        radius: &Bound<'py, PyAny>,
+        py: Python<'py>,
+        radius: Option<&Bound<'py, PyAny>>,
+        meters: Option<&Bound<'py, PyAny>>,
         fit: Option<&Bound<'py, PyAny>>,
         outside: Option<&Bound<'py, PyAny>>,
         motion: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Self> {
         let motion = Keywords::read("for_disc", motion, Takes::MOTION)?.motion()?;
         let fit = read_fit(fit)?.unwrap_or_else(|| Fit::exact(motion.rules, motion.k));
-        let (radius_given, outside) = (positive("radius", radius)?, read_outside(outside)?);
+        let (cells, outside) = (self.radius(radius, meters)?, read_outside(outside)?);
         let measured = move |clearance: &Clearance, limits: &Limits| {
-            Ok(clearance.for_disc_interruptible(radius_given, limits.interrupt())?)
+            Ok(clearance.for_disc_interruptible(cells, limits.interrupt())?)
         };
-        let grid = self.measured(radius.py(), (fit, outside), measured)?;
+        let grid = self.measured(py, (fit, outside), measured)?;
         Ok(Self::new(grid.into(), self.shared.world))
     }
 
@@ -199,6 +205,18 @@ impl Grid {
 }
 
 impl Grid {
+    /// A radius in cells, of one that is given in cells or in meters.
+    fn radius(&self, cells: Option<&Bound<'_, PyAny>>, meters: Option<&Bound<'_, PyAny>>) -> PyResult<f64> {
+        match (cells, meters, self.shared.world) {
+            (Some(cells), None, _) => positive("radius", cells),
+            (None, Some(meters), Some(world)) => Ok(world.cells(positive("meters", meters)?)),
+            (None, Some(_), None) => {
+                Err(argument("meters", "this grid has no place in the world: give the radius in cells"))
+            }
+            _ => Err(argument("radius", "give it in cells, or as meters=")),
+        }
+    }
+
     /// What `of` takes from the measured clearance.
     fn measured<T: Send + 'static>(
         &self,

@@ -140,7 +140,7 @@ impl Grid {
     }
 
     /// The planners of an engine, kept for the next call: of the one that was asked for, or of one that
-    /// prepares next to nothing. Within, [`Error::Stopped`] by the time limit of the call.
+    /// prepares little. Within, [`Error::Stopped`] by the time limit of the call.
     fn planners(&self, py: Python<'_>, keywords: &Keywords) -> PyResult<Result<Arc<Planners>, Error>> {
         let motion = keywords.motion()?;
         let setup = |engine: Engine| -> PyResult<Setup> {

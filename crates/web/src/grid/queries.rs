@@ -1,7 +1,7 @@
 //! Paths at once.
 
 use js_sys::Int32Array;
-use mediant::{Choice, Outcome, Planner, Setup};
+use mediant::{Choice, Outcome, Planner, Setup, Space};
 use wasm_bindgen::prelude::*;
 
 use super::Grid;
@@ -12,9 +12,10 @@ use crate::{
     keywords::{Keywords, Takes},
 };
 
-/// The planner of the last path, for the next one.
+/// What the last path needed, for the next one.
 pub(super) struct Last {
     setup: Setup,
+    space: Space,
     planner: Planner,
 }
 
@@ -23,8 +24,8 @@ impl Grid {
     /// A shortest path from a start to a goal, or from any of several starts to any of several goals: its
     /// waypoints x, y, …; undefined if there is none.
     ///
-    /// The first call with some motion prepares a little; the grid keeps it for the next one. For many paths
-    /// prepare an index in a space.
+    /// The first call with some motion takes some milliseconds to prepare; the grid keeps that for the next
+    /// ones. For many paths prepare an index in a space.
     ///
     /// ```js
     /// grid.path([0, 0], [9, 0], { k: "any", nearest: true });
@@ -42,18 +43,25 @@ impl Grid {
         let keywords = Keywords::read("how", how, Takes::ALL)?;
         let (start, goal) = (Points::read("start", start)?, Points::read("goal", goal)?);
         let motion = keywords.motion()?;
-        let engine = keywords.engine.unwrap_or(Choice::for_one_path(motion).engine);
+        // It is kept elsewhere while it searches: a clock could call back.
+        let kept = self.last.try_borrow_mut().ok().and_then(|mut last| last.take());
+        let kept = kept.filter(|last| last.setup.motion() == motion);
+        // Not another one for the first path: the same call would give another path of the same length.
+        let engine = keywords.engine.unwrap_or(Choice::for_some_paths(motion).engine);
         let setup = Setup {
             smoothing: keywords.smoothing,
             ..Setup::new(keywords.configured(engine)?, motion.k, motion.rules)
         };
         // The time of the call begins before what it prepares.
         let request = keywords.request(&start, &goal);
-        // It is kept elsewhere while it searches: a clock could call back.
-        let kept = self.last.try_borrow_mut().ok().and_then(|mut last| last.take());
-        let mut last = match kept.filter(|last| last.setup == setup) {
-            Some(last) => last,
-            None => Last { setup, planner: crate::space::planner(setup, &self.map, &request.limits())? },
+        let mut last = match kept {
+            Some(last) if last.setup == setup => last,
+            kept => {
+                let limits = request.limits();
+                let space = kept.map(|last| last.space);
+                let (space, planner) = crate::space::planner(setup, &self.map, space, &limits)?;
+                Last { setup, space, planner }
+            }
         };
         let answer = last.planner.find(request);
         if let Ok(mut kept) = self.last.try_borrow_mut() {

@@ -1,0 +1,178 @@
+//! `auto`: the engine for what is asked.
+//!
+//! `auto` is a word of calls, not an [`Engine`]: an engine has capabilities, options and a guarantee,
+//! prepares indexes and is named by what it made, and `auto` has none of these before it is known what is
+//! asked. So it stands beside the engines, in [`EngineName`], and is gone once a [`Demand`] has met a
+//! [`Space`].
+
+use std::{fmt, str::FromStr};
+
+use crate::{
+    choice::Choice,
+    configured::ConfiguredEngine,
+    engine::Engine,
+    names::{UnknownName, means},
+    option::{EngineOption, OptionValue},
+    setup::Setup,
+    setup_error::SetupError,
+    space::Space,
+};
+
+/// What a space is asked for, as far as it decides which engine we would take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Demand {
+    /// So many paths or lengths, now.
+    Paths(u64),
+    /// The distances from a vertex to all others.
+    Distances,
+    /// An index, to be saved.
+    Index,
+}
+
+/// Up to so many paths an engine that prepares little is done sooner. On six maps of games, rooms and a city,
+/// of 512 × 512 cells and less, the preparation of subgoals took as long as 240 to 30,000 queries of
+/// block-based JPS at k = 3 (their geometric mean is 2,700), and as 380 to 25,000 of Anya at any angle.
+const MOST_PATHS_WITHOUT_INDEX: u64 = 1_000;
+
+impl Space {
+    /// The engine that we would take for what is asked, and why:
+    /// - for one path [`Choice::for_one_path`], for up to 1,000 [`Choice::for_some_paths`], for more
+    ///   [`Space::engine`];
+    /// - for all distances Dijkstra's algorithm;
+    /// - for an index subgoals, or JPS+ where they are not for this motion.
+    ///
+    /// ```
+    /// use mediant::{Demand, Engine, K, Map, Motion};
+    /// let space = Map::from_rows(["....", ".##."])?.space(Motion::centers(K::N8))?;
+    /// let engine = |demand| space.engine_for(demand).map(|choice| choice.engine);
+    /// assert_eq!(engine(Demand::Paths(1)), Ok(Engine::Canonical));
+    /// assert_eq!(engine(Demand::Paths(50)), Ok(Engine::JpsBlock));
+    /// assert_eq!(engine(Demand::Paths(5_000)), Ok(Engine::Subgoal));
+    /// assert_eq!(engine(Demand::Index), Ok(Engine::Subgoal));
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`SetupError`] where no engine does that for the space's motion: an index between centers from k = 4
+    /// on, all distances at any angle (a [`field`](Self::field) has them).
+    pub fn engine_for(&self, demand: Demand) -> Result<Choice, SetupError> {
+        let motion = self.motion();
+        let takes = |engine| Setup::new(engine, motion.k, motion.rules).check();
+        match demand {
+            Demand::Paths(0 | 1) => Ok(Choice::for_one_path(motion)),
+            Demand::Paths(2..=MOST_PATHS_WITHOUT_INDEX) => Ok(Choice::for_some_paths(motion)),
+            Demand::Paths(_) => Ok(self.engine()),
+            Demand::Distances => {
+                takes(Engine::Dijkstra)?;
+                Ok(Choice { engine: Engine::Dijkstra, why: "it finds the distances to all vertices" })
+            }
+            Demand::Index if takes(Engine::Subgoal).is_ok() => {
+                let why = "of the engines with an index it has the fastest queries";
+                Ok(Choice { engine: Engine::Subgoal, why })
+            }
+            Demand::Index if takes(Engine::JpsPlus).is_ok() => Ok(Choice {
+                engine: Engine::JpsPlus,
+                why: "it has an index, and subgoals are not for these rules",
+            }),
+            Demand::Index => Err(SetupError::NoIndex { motion }),
+        }
+    }
+
+    /// [`engine_for`](Self::engine_for), with options: the same engine if it takes them, else the first one
+    /// that takes them and does what is asked.
+    ///
+    /// # Errors
+    /// [`SetupError`] if there is none: that of the engine that we would take without the options.
+    pub fn engine_with(
+        &self,
+        demand: Demand,
+        options: &[(&EngineOption, OptionValue)],
+    ) -> Result<(ConfiguredEngine, Choice), SetupError> {
+        let motion = self.motion();
+        let with_options = |engine: Engine| -> Result<ConfiguredEngine, SetupError> {
+            let mut engine = ConfiguredEngine::from(engine);
+            options.iter().try_for_each(|&(option, value)| engine.set(option, value))?;
+            Setup::new(engine, motion.k, motion.rules).check()?;
+            Ok(engine)
+        };
+        let choice = self.engine_for(demand)?;
+        let refused = match with_options(choice.engine) {
+            Ok(engine) => return Ok((engine, choice)),
+            Err(refused) => refused,
+        };
+        let does = |engine: Engine| match demand {
+            Demand::Paths(_) => true,
+            Demand::Distances => engine.capabilities().distances,
+            Demand::Index => engine.capabilities().index.is_some(),
+        };
+        // What we recommend comes first, then the engines in the order of their list.
+        let others = [self.engine().engine].into_iter().chain(Engine::ALL).filter(|&engine| does(engine));
+        let other = others.filter_map(|engine| with_options(engine).ok()).next();
+        let why = "it takes the options that were given";
+        other.map(|engine| (engine, Choice { engine: engine.kind(), why })).ok_or(refused)
+    }
+}
+
+/// What is written where an engine is named: an engine, or `auto`, which is the best one for what is asked
+/// ([`Space::engine_for`]).
+///
+/// ```
+/// use mediant::{Engine, EngineName};
+/// assert_eq!("auto".parse(), Ok(EngineName::Auto));
+/// assert_eq!("JPS+".parse(), Ok(EngineName::Engine(Engine::JpsPlus)));
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum EngineName {
+    /// `auto`.
+    #[default]
+    Auto,
+    /// An engine.
+    Engine(Engine),
+}
+
+impl EngineName {
+    /// Both kinds of names: `auto`, then all engines.
+    #[must_use]
+    pub fn all() -> Vec<Self> {
+        [Self::Auto].into_iter().chain(Engine::ALL.map(Self::Engine)).collect()
+    }
+
+    /// The name, as people and scripts write it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Engine(engine) => engine.name(),
+        }
+    }
+
+    /// The engine; `None` for `auto`.
+    #[must_use]
+    pub const fn engine(self) -> Option<Engine> {
+        match self {
+            Self::Auto => None,
+            Self::Engine(engine) => Some(engine),
+        }
+    }
+}
+
+impl fmt::Display for EngineName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for EngineName {
+    type Err = UnknownName;
+
+    fn from_str(text: &str) -> Result<Self, UnknownName> {
+        if means(text, Self::Auto.name()) {
+            return Ok(Self::Auto);
+        }
+        text.parse().map(Self::Engine).map_err(|UnknownName { found, known }| UnknownName {
+            found,
+            known: format!("{}, {known}", Self::Auto),
+        })
+    }
+}
