@@ -164,8 +164,8 @@ impl Grid {
     /// >>> import mediant
     /// >>> mediant.Grid.from_rows(["..#", "..."]).shape
     /// (2, 3)
-    /// >>> mediant.Grid.from_rows(["#   #", "# # #"], free=" ").to_numpy().sum()
-    /// np.int64(5)
+    /// >>> mediant.Grid.from_rows(["#   #"], free=" ").to_numpy().tolist()
+    /// [[True, False, False, False, True]]
     #[staticmethod]
     #[pyo3(signature = (rows, *, free = None, blocked = None))]
     fn from_rows(
