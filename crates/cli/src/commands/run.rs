@@ -47,12 +47,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
         return distances::write(&asked, &map, *from, path, screen);
     }
     let queries = Queries::load(args, &wishes, &map, placement)?;
-    if args.draw.is_some() && queries.len() > 1 {
-        return Err(Failure::DrawMany);
-    }
-    if args.trace.is_some() && queries.len() > 1 {
-        return Err(Failure::TraceMany);
-    }
+    check_number(args, &queries)?;
     let mut searchers = Searchers::new(args, &asked, reference, &map, &queries)?;
     let trace = args.trace.as_deref().map(TraceFile);
     let Searcher { index, planner, choice, .. } = searchers.first();
@@ -99,6 +94,19 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
         }
     }
     Ok(ending(&queries, finished, args.require_path))
+}
+
+/// Checks that there is one query where only one can be shown.
+fn check_number(args: &RunArgs, queries: &Queries) -> Result<(), Failure> {
+    if queries.len() <= 1 {
+        Ok(())
+    } else if args.draw.is_some() {
+        Err(Failure::DrawMany)
+    } else if args.trace.is_some() {
+        Err(Failure::TraceMany)
+    } else {
+        Ok(())
+    }
 }
 
 /// The map, with its characters if they are to be drawn, or say which ground a cell is.
