@@ -2,7 +2,7 @@
 
 use std::{fmt, sync::Arc};
 
-use mediant_grid::{Identity, Vertex};
+use mediant_grid::{Identity, Interrupt, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{End, Query, QueryError, Request, parts::HasFreeSpace};
 use mediant_subgoal::{HubLabelSearch, HubLabels, SubgoalPlacement};
@@ -12,6 +12,7 @@ use crate::{
     index::{InFreeSpace, Index, Prepared},
     make,
     planner::Planner,
+    within::NEVER,
 };
 
 /// Goals that many starts ask for, prepared for the indexes of one map, rules and k: made by
@@ -70,14 +71,23 @@ impl Index {
     /// # Errors
     /// [`Error::Query`] for the first goal that is blocked or outside the map.
     pub fn goals<G: Into<Vertex>>(&self, goals: impl IntoIterator<Item = G>) -> Result<Goals, Error> {
-        let vertices: Vec<Vertex> = goals.into_iter().map(Into::into).collect();
+        self.goals_of(goals.into_iter().map(Into::into).collect(), &NEVER)
+    }
+
+    pub(crate) fn goals_of(&self, vertices: Vec<Vertex>, interrupt: &Interrupt) -> Result<Goals, Error> {
         vertices.iter().try_for_each(|&at| self.space().check_end(End::Goal, at))?;
-        let all = vertices.iter().copied();
+        // What is left out then is not missed: the error comes after it.
+        let mut going = Ok(());
+        let all = vertices.iter().copied().take_while(|_| {
+            going = interrupt.check("preparing goals");
+            going.is_ok()
+        });
         let by_hub = match &self.prepared {
             Prepared::FreeCenters(space, InFreeSpace::Labels(labels)) => Some(labels.goals(space, all)?),
             Prepared::FreeCorners(space, InFreeSpace::Labels(labels)) => Some(labels.goals(space, all)?),
             _ => None,
         };
+        going?;
         Ok(Goals(Arc::new(Inner { identity: self.identity(), vertices, by_hub })))
     }
 }

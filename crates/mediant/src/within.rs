@@ -279,8 +279,7 @@ impl Within<'_, Index> {
     /// # Errors
     /// Those of [`Index::goals`], and [`Error::Stopped`].
     pub fn goals<G: Into<Vertex>>(&self, goals: impl IntoIterator<Item = G>) -> Result<Goals, Error> {
-        self.limits.interrupt().check("preparing goals")?;
-        self.of.goals(goals)
+        self.of.goals_of(goals.into_iter().map(Into::into).collect(), self.limits.interrupt())
     }
 
     /// [`Index::table`].
