@@ -1,6 +1,6 @@
 //! Benchmarks on four generated maps: whole queries of each engine for every k that it takes up to 8 and for
-//! any-angle paths, the generation of successors, the open list, and what a space costs. Use these times only to compare one
-//! revision with another.
+//! any-angle paths, the generation of successors, the open list, and what a space costs. Use these times only
+//! to compare one revision with another.
 
 use std::{hint::black_box, sync::Arc};
 

@@ -35,8 +35,8 @@ impl<V> PerMotion<V> {
         Ok(self.cell(rules, k)?.get_or_init(compute))
     }
 
-    /// The value for these rules and this k, whose computing may be stopped: two threads that ask first at the
-    /// same time both compute it, and one is kept.
+    /// The value for these rules and this k, whose computing may be stopped: two threads that ask first at
+    /// the same time both compute it, and one is kept.
     ///
     /// # Errors
     /// Those of [`get`](Self::get); within, the error of `compute`.

@@ -202,10 +202,10 @@ impl Field {
         }
     }
 
-    /// The vertex to which the shortest path to the nearest source leads next: one move away; at any angle the
-    /// next corner of an obstacle on it, or the source. There it mostly bends, but it may go straight on, where
-    /// its line only touches the corner ([`path_from`](Self::path_from) has waypoints at bends alone). `None`
-    /// at a source, and where there is no distance.
+    /// The vertex to which the shortest path to the nearest source leads next: one move away; at any angle
+    /// the next corner of an obstacle on it, or the source. There it mostly bends, but it may go straight on,
+    /// where its line only touches the corner ([`path_from`](Self::path_from) has waypoints at bends alone).
+    /// `None` at a source, and where there is no distance.
     #[must_use]
     pub fn next(&self, at: impl Into<Vertex>) -> Option<Vertex> {
         let at = at.into();

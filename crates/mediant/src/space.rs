@@ -144,8 +144,8 @@ impl Space {
     }
 
     /// Whether a path may stand on this vertex; false outside the map. A vertex on a closed gap is free, too,
-    /// but a path starts or ends there only through the vertex's own cell, and if that is blocked, not at all:
-    /// it is [`connected`](Self::connected) to no other vertex then.
+    /// but a path starts or ends there only through the vertex's own cell, and if that is blocked, not at
+    /// all: it is [`connected`](Self::connected) to no other vertex then.
     #[must_use]
     pub fn is_free(&self, at: impl Into<Vertex>) -> bool {
         let at = at.into();
@@ -155,8 +155,8 @@ impl Space {
         }
     }
 
-    /// Whether there is a path over N(k) from one vertex to another, in constant time. (At k = 2 where corners
-    /// are always cut, paths at any angle connect more than this.)
+    /// Whether there is a path over N(k) from one vertex to another, in constant time. (At k = 2 where
+    /// corners are always cut, paths at any angle connect more than this.)
     #[must_use]
     pub fn connected(&self, from: impl Into<Vertex>, to: impl Into<Vertex>) -> bool {
         let (from, to) = (from.into(), to.into());
@@ -166,9 +166,9 @@ impl Space {
         }
     }
 
-    /// Whether the straight segment between two vertices obeys the rules of motion. It is judged for itself: a
-    /// closed gap that it passes is in its way, one at which it begins or ends is not. [`check`](Self::check)
-    /// judges whole paths.
+    /// Whether the straight segment between two vertices obeys the rules of motion. It is judged for itself:
+    /// a closed gap that it passes is in its way, one at which it begins or ends is not.
+    /// [`check`](Self::check) judges whole paths.
     #[must_use]
     pub fn sees(&self, from: impl Into<Vertex>, to: impl Into<Vertex>) -> bool {
         let (from, to) = (from.into(), to.into());

@@ -135,8 +135,9 @@ impl Guarantee {
     }
 
     /// A lower bound of the cost of every path at any angle between two vertices, when a path with this
-    /// guarantee costs `cost` and the straight line between them measures `straight`: the larger of `straight`
-    /// and `cost` divided by the [bound](Self::bound). In cells, up to the rounding that the guarantee allows.
+    /// guarantee costs `cost` and the straight line between them measures `straight`: the larger of
+    /// `straight` and `cost` divided by the [bound](Self::bound). In cells, up to the rounding that the
+    /// guarantee allows.
     #[must_use]
     pub fn lower_bound(self, rules: Rules, cost: f64, straight: f64) -> f64 {
         self.bound(rules).map_or(straight, |bound| straight.max(cost / bound))

@@ -81,9 +81,9 @@ pub trait Planner {
         self.solve_observed(query, &mut ())
     }
 
-    /// The length of the path that [`solve`](Self::solve) would find, in cells, as [`Guarantee::length`] tells
-    /// it; `None` if there is none. A planner that knows it without the path saves the path. At any angle the
-    /// length may then differ from that of the path by a factor of 1 + 2⁻³¹ (see
+    /// The length of the path that [`solve`](Self::solve) would find, in cells, as [`Guarantee::length`]
+    /// tells it; `None` if there is none. A planner that knows it without the path saves the path. At any
+    /// angle the length may then differ from that of the path by a factor of 1 + 2⁻³¹ (see
     /// [`Cost`](mediant_moves::Cost)).
     ///
     /// # Errors

@@ -24,8 +24,8 @@ pub struct Space {
     pub(crate) inner: Inner,
 }
 
-/// The planner of a setup on a map, and its space, which may be there already. What stops the search stops this,
-/// too.
+/// The planner of a setup on a map, and its space, which may be there already. What stops the search stops
+/// this, too.
 pub(crate) fn planner(
     setup: Setup,
     map: &Map,
@@ -97,7 +97,8 @@ impl Space {
     }
 
     /// Whether a path may stand on this vertex; false outside the map. A vertex on a closed gap is free, too,
-    /// but a path starts or ends there only through the vertex's own cell, and if that is blocked, not at all.
+    /// but a path starts or ends there only through the vertex's own cell, and if that is blocked, not at
+    /// all.
     #[wasm_bindgen(js_name = isFree)]
     pub fn is_free(
         &self,

@@ -469,8 +469,7 @@ fn messages_of_files() {
         let error = RosMap::read(&path).expect_err("an error");
         (error.to_string().replace(&format!("{}/", folder.path().display()), ""), error)
     };
-    let (message, _) = read();
-    assert_eq!(message, "a.yaml: no such file; check the path and the folder that you are in");
+    assert_eq!(read().0, "a.yaml: no such file; check the path and the folder that you are in");
     fs::write(&path, YAML).unwrap();
     let (message, error) = read();
     assert_eq!(
@@ -487,10 +486,10 @@ fn messages_of_files() {
     );
     fs::write(&path, YAML.replace("[-1, ", "[")).unwrap();
     let (message, error) = read();
-    assert!(message.starts_with("a.yaml: line 3: expected for `origin`"), "{message}");
-    assert!(matches!(error, ReadError::Ros { .. }));
-    let raster = Raster::parse(b"P1 1 1 0").unwrap();
-    let mut settings = RosSettings::new("a.pgm", -1.0, [0.0; 3]);
+    let begin = "a.yaml: line 3: expected for `origin`";
+    assert!(message.starts_with(begin) && matches!(error, ReadError::Ros { .. }), "{message}");
+    let (raster, mut settings) =
+        (Raster::parse(b"P1 1 1 0").unwrap(), RosSettings::new("a.pgm", -1.0, [0.0; 3]));
     let error = RosMap::new(settings.clone(), raster.clone()).expect_err("resolution");
     assert_eq!(
         error.to_string(),

@@ -186,8 +186,8 @@ impl Index {
     }
 
     /// The same index for planners with other options of its engine, such as another heuristic. Options that
-    /// are not named take their defaults, except those that decided what was prepared: the levels and the side
-    /// stay as they are. The smoothing stays, too.
+    /// are not named take their defaults, except those that decided what was prepared: the levels and the
+    /// side stay as they are. The smoothing stays, too.
     ///
     /// # Errors
     /// [`Error::Setup`] for another engine, or options that do not fit together; [`Error::Levels`] and

@@ -66,8 +66,8 @@ fn a_field_is_the_distances_of_paths() {
     }
 }
 
-/// Over N(k) all shortest paths between two vertices have the same length, whoever measures it, and as a limit
-/// it reaches the other vertex.
+/// Over N(k) all shortest paths between two vertices have the same length, whoever measures it, and as a
+/// limit it reaches the other vertex.
 #[test]
 fn all_that_is_measured_is_the_same_number() {
     let mut count = 0;

@@ -95,8 +95,8 @@ impl Path {
     /// shorter path, only a search tells.
     ///
     /// First it looks whether all waypoints are on the map and both ends are free, then at one segment after
-    /// another from the start. Standing still, at a waypoint that repeats the one before, is allowed. Whatever
-    /// is found first, [`BrokenPath::holds_up_to`] tells how far the path can still be followed.
+    /// another from the start. Standing still, at a waypoint that repeats the one before, is allowed.
+    /// Whatever is found first, [`BrokenPath::holds_up_to`] tells how far the path can still be followed.
     ///
     /// ```
     /// use std::sync::Arc;

@@ -23,8 +23,8 @@ pub(crate) use self::{
 ///
 /// Two consecutive waypoints are joined by one move of N(k), taken once or several times in a row, or in
 /// any-angle paths by a straight legal segment. A path from a vertex to itself has that vertex as its only
-/// waypoint. The paths of all engines and fields, and smoothed ones, turn at each waypoint between their ends;
-/// one that is made of given waypoints has those.
+/// waypoint. The paths of all engines and fields, and smoothed ones, turn at each waypoint between their
+/// ends; one that is made of given waypoints has those.
 ///
 /// A path knows no map: its waypoints may be anywhere, and [`check`](Self::check) asks whether it holds on a
 /// map. Places on it are vertices, whole or not: between centers, (x, y) is the middle of cell (x, y), at

@@ -86,8 +86,8 @@ fn check<P: Placement>(
         let is_equal = best.zip(found).map_or(best == found, |(a, b)| (a - b).abs() <= 1e-9 * a);
         assert!(is_equal, "{found:?}, by a single query {best:?}; {}", case(far));
 
-        // Limits: at a distance, as the field and as a path measures it, just below it, and at that of a vertex
-        // where the field may end early.
+        // Limits: at a distance, as the field and as a path measures it, just below it, and at that of a
+        // vertex where the field may end early.
         let (Some(limit), Some(length)) = (field.get(far), found) else { continue };
         sums[1] += 1;
         let at_most = Cost::from_bits(limit.to_bits() + (limit.to_bits() >> 31));

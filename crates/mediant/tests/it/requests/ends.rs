@@ -163,7 +163,7 @@ fn nearest(world: &World, starts: &[Vertex], goals: &[Vertex]) -> Vec<Vertex> {
     all.into_iter().filter(|&at| Some(distance(at)) == least).collect()
 }
 
-fn blocked(world: &World, rng: &mut Rng) -> Option<Vertex> {
+pub(super) fn blocked(world: &World, rng: &mut Rng) -> Option<Vertex> {
     let placement = world.space.motion().rules.placement();
     (0..40).map(|_| random_vertex(rng, &world.grid, placement)).find(|&at| !world.space.is_free(at))
 }
@@ -429,100 +429,4 @@ fn paths_at_any_angle_can_be_equally_long_in_different_pieces() {
             check(&world, setup, &mut planner, &asked);
         }
     }
-}
-
-/// A vertex that may be anywhere.
-fn anywhere(world: &World, rng: &mut Rng) -> Vertex {
-    let (width, height) = world.size();
-    let axis = |rng: &mut Rng, length: i32| match rng.below(8) {
-        0 => i32::MIN,
-        1 => i32::MAX,
-        2 => -1 - rng.below(9) as i32,
-        3 => length + rng.below(9) as i32,
-        _ => rng.below(length as u32) as i32,
-    };
-    Vertex::new(axis(rng, width), axis(rng, height))
-}
-
-#[test]
-fn ends_are_snapped_to_the_nearest_free_vertex() {
-    on_worlds(maps(1), |world, rng| {
-        for (setup, mut planner) in world.planners() {
-            for _ in 0..4 {
-                let query = Query::new(anywhere(world, rng), anywhere(world, rng));
-                let text = || world.text(setup, &query);
-                let snapped = world.snapped(query.start).zip(world.snapped(query.goal));
-                let Some((start, goal)) = snapped else {
-                    assert!(planner.find(query.snap()).is_err(), "{}", text());
-                    continue;
-                };
-                assert_eq!(planner.find(query.snap()), planner.find(Query::new(start, goal)), "{}", text());
-                let asked = asked_nearest(world, vec![start], vec![goal]);
-                if !asked.are_nearest {
-                    let request = query.snap().nearest();
-                    check(world, setup, &mut planner, &Asked { request, ..asked });
-                }
-            }
-        }
-    });
-}
-
-#[test]
-fn a_map_without_a_free_vertex_has_no_end_to_snap_to() {
-    for motion in motions() {
-        let world = World::new(0, Grid::from_fn(3, 2, |_, _| true).expect("a map"), motion);
-        for (setup, mut planner) in world.planners() {
-            for (start, goal) in [((0, 0), (1, 1)), ((i32::MIN, 0), (1, i32::MAX))] {
-                let at = Vertex::new(0, 0);
-                let request = Query::new(start, goal).snap().nearest().tolerance(2.0);
-                let error = Err(QueryError::Blocked { end: End::Start, at });
-                assert_eq!(planner.find(request), error, "{setup}");
-            }
-        }
-    }
-}
-
-#[test]
-fn wrong_ends_are_named() {
-    on_worlds(maps(1), |world, rng| {
-        let (Some(free), Some(wall)) = (world.free(rng), blocked(world, rng)) else { return };
-        let (width, height) = world.size();
-        let last = Vertex::new(width - 1, height - 1);
-        let beyond = Vertex::new(width, 0);
-        for (setup, mut planner) in world.planners() {
-            let mut is_wrong = |request: Request, error: QueryError| {
-                assert_eq!(planner.find(request.clone()), Err(error), "{}", world.text(setup, &request));
-                assert_eq!(planner.begin(request.clone()), Err(error), "{}", world.text(setup, &request));
-                assert_eq!(planner.step(1), Err(QueryError::NotBegun), "{}", world.text(setup, &request));
-            };
-            let none: [Vertex; 0] = [];
-            for (starts, goals, end) in [
-                (&none[..], &none[..], End::Start),
-                (&none, &[free], End::Start),
-                (&[free], &none, End::Goal),
-            ] {
-                let request = Request::between(starts.iter().copied(), goals.iter().copied());
-                is_wrong(request.clone(), QueryError::NoEnd { end });
-                is_wrong(request.snap().nearest().tolerance(3.0), QueryError::NoEnd { end });
-            }
-            for (at, is_outside) in [(wall, false), (beyond, true)] {
-                let error = |end: End| match is_outside {
-                    true => QueryError::Outside { end, at, last },
-                    false => QueryError::Blocked { end, at },
-                };
-                is_wrong(Request::between([free, at], [free]), error(End::Start));
-                is_wrong(Request::between([free, at], [free, at]).nearest(), error(End::Start));
-                is_wrong(Request::between([free], [free, at]), error(End::Goal));
-                is_wrong(Query::new(at, free).nearest().tolerance(1e9), error(End::Start));
-                is_wrong(Query::new(free, at).tolerance(0.0), error(End::Goal));
-            }
-            let outside = QueryError::Outside { end: End::Goal, at: beyond, last };
-            is_wrong(Query::new(free, beyond).nearest(), outside);
-            is_wrong(Query::new(free, beyond).tolerance(1e9), outside);
-            for radius in [f64::NAN, -0.5, f64::NEG_INFINITY] {
-                is_wrong(Query::new(free, free).tolerance(radius), QueryError::Tolerance);
-                is_wrong(Query::new(free, beyond).tolerance(radius).snap(), QueryError::Tolerance);
-            }
-        }
-    });
 }

@@ -5,6 +5,7 @@ mod ends;
 mod junk;
 mod limits;
 mod pockets;
+mod snapped;
 mod steps;
 
 use std::{fmt::Debug, ops::Range};
