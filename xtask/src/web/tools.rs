@@ -86,6 +86,7 @@ fn is_of(program: &Path, version: &str) -> bool {
 /// Installs the program, and the one that runs tests. First with the crates that its authors tested it with;
 /// a registry that lacks one of them may have a later one. Whether it worked is seen by the program itself.
 fn install(tools: &Path, version: &str) {
+    println!("The first time, the program wasm-bindgen {version} is compiled, which takes some minutes.");
     for locked in [&["--locked"][..], &[]] {
         let mut command = project::cargo();
         command.args(["install", "wasm-bindgen-cli", "--force", "--version", version]).args(locked);
