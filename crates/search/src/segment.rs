@@ -30,8 +30,12 @@ pub(crate) fn move_cost(v: Vector) -> Cost {
 /// paths are equal only if for each d they have the same sum of a, and then their costs are equal, too.
 pub(crate) fn length_cost(v: Vector) -> Cost {
     let mut a = v.gcd().max(1);
-    // A sum of two squares without common divisor: its odd prime divisors are 1 more than a multiple of 4.
+    // A sum of two squares without common divisor: 4 does not divide it, and its odd prime divisors are 1 more
+    // than a multiple of 4.
     let (mut rest, mut d) = (v.norm_squared() / u64::from(a).pow(2), 1);
+    if rest > 0 && rest % 2 == 0 {
+        (d, rest) = (2, rest / 2);
+    }
     for p in (5..).step_by(4).take_while(|p| p * p * p <= v.norm_squared()) {
         while rest % (p * p) == 0 {
             (a, rest) = (a * p as u32, rest / (p * p));
@@ -43,7 +47,7 @@ pub(crate) fn length_cost(v: Vector) -> Cost {
             break;
         }
     }
-    // What is left has two prime divisors at most.
+    // What is left is odd and has two prime divisors at most.
     let root = rest.isqrt();
     if root * root == rest {
         a *= root as u32

@@ -33,8 +33,9 @@ fn who_starts_in_water_moves_in_water() {
     let Ran { stderr, status, .. } = run(&format!("run {map} --grounds --from 1,0 --to 0,0"));
     assert_eq!(status, Some(1));
     assert!(stderr.contains("the goal (0, 0) is blocked"), "{stderr}");
-    let (ran, queries, _) = told(&format!("run {map} --grounds --radius 0.3 --from 1,0 --to 2,1"));
-    assert_eq!((&ran["radius"], &queries[0]["status"]), (&0.3.into(), &"found".into()));
+    // A disc keeps off other grounds: it fits into no part of the lake.
+    let Ran { stderr, status, .. } = run(&format!("run {map} --grounds --radius 0.6 --from 1,0 --to 2,1"));
+    assert!(status == Some(1) && stderr.contains("the start (1, 0) is blocked"), "{stderr}");
     // At corners of cells too, where a vertex has the ground of its own cell.
     let (_, queries, _) = told(&format!("run {map} --grounds --placement corner --from 1,0 --to 2,2"));
     assert_eq!(queries[0]["cost"], 1.0 + 2.0_f64.sqrt());

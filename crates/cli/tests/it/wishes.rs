@@ -305,7 +305,7 @@ fn the_examples_of_the_help_run() {
     files.add("pairs.csv", "1,11,40,30\n");
     let (map, index) = (files.path("arena.map"), files.path("arena.idx"));
     assert_eq!(mediant(&["build", &map, "--engine", "subgoal", "-o", &index]).status, Some(0));
-    run_examples(&files, "run", 14);
+    run_examples(&files, "run", 15);
 }
 
 #[test]

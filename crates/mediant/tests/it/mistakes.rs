@@ -97,8 +97,16 @@ fn each_mistake_has_its_code() {
     let parts = [in_maps_and_queries(), in_requests(), in_engines_and_indexes()];
     let mistakes: Vec<Mistake> = parts.into_iter().flatten().collect();
     // Those of other tests, of no call of the door, or of what only other versions do.
-    let elsewhere =
-        [Code::Mismatch, Code::GaveUp, Code::IndexEdit, Code::ScenarioFormat, Code::Memory, Code::Other];
+    let elsewhere = [
+        Code::Mismatch,
+        Code::GaveUp,
+        Code::IndexEdit,
+        Code::ScenarioFormat,
+        Code::Memory,
+        Code::Cancelled,
+        Code::Deadline,
+        Code::Other,
+    ];
     let made: Vec<Code> = mistakes.iter().map(|(code, _)| *code).collect();
     for code in Code::ALL {
         assert_eq!(made.contains(&code), !elsewhere.contains(&code), "{code}");
@@ -120,7 +128,8 @@ fn codes_keep_their_names() {
         "map-size map-ragged edit-outside k motion unknown-name setup-text engine-option engine-k \
          engine-rules engine-without mismatch start-blocked goal-blocked start-outside goal-outside gave-up \
          index-range index-options index-damaged index-engine index-edit file-missing file-unreadable \
-         file-unwritable map-format scenario-format no-end number not-begun memory map-tile other"
+         file-unwritable map-format scenario-format no-end number not-begun memory cancelled \
+         deadline map-tile other"
     );
 }
 

@@ -53,7 +53,7 @@ fn a_map_without_a_free_vertex_has_no_end_to_snap_to() {
             for (start, goal) in [((0, 0), (1, 1)), ((i32::MIN, 0), (1, i32::MAX))] {
                 let at = Vertex::new(0, 0);
                 let request = Query::new(start, goal).snap().nearest().tolerance(2.0);
-                let error = Err(QueryError::Blocked { end: End::Start, at });
+                let error = Err(QueryError::NothingFree { end: End::Start, at });
                 assert_eq!(planner.find(request), error, "{setup}");
             }
         }
