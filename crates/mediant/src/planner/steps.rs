@@ -7,6 +7,7 @@ use mediant_search::{Observer, Outcome, Path, QueryError, Request, Search, parts
 use super::Planner;
 use crate::{
     erased::Dynamic,
+    setup::Setup,
     space::{Placed, Space},
 };
 
@@ -42,7 +43,9 @@ impl Planner {
         let guarantee = self.search.guarantee();
         let space = self.index.space();
         let metric = self.metric.get_or_insert_with(|| metric(space));
-        let (is_any_angle, request) = (self.index.search_setup().paths() == K::Any, request.into());
+        // Smoothing connects nothing that the search does not.
+        let unsmoothed = Setup { smoothing: None, ..self.index.search_setup() };
+        let (is_any_angle, request) = (unsmoothed.paths() == K::Any, request.into());
         self.begun = Some(match space.placed() {
             Placed::Centers(layers) => {
                 let free = if is_any_angle { layers.at_any_angle() } else { &layers.free };

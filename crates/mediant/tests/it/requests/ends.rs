@@ -2,7 +2,7 @@
 
 use mediant::{
     CornerRule, End, Engine, Grid, Guarantee, K, Limit, Limits, Map, Motion, Outcome, Path, PlacementKind,
-    Planner, Query, QueryError, Request, Rules, Setup, Vertex,
+    Planner, Query, QueryError, Request, Rules, Setup, Smoothing, Vertex,
 };
 use mediant_oracle::{Rng, on_all_cores, random_vertex};
 
@@ -257,6 +257,11 @@ fn segments_between_two_blocked_cells_are_paths() {
         let alone = space.planner(Engine::AStar).expect("a planner").find(near);
         assert_eq!(alone, Ok(Outcome::Unreachable), "{engine}");
     }
+    // Nor do they where they are smoothed afterwards.
+    let smoothed = Setup { smoothing: Some(Smoothing::Taut), ..Setup::new(Engine::AStar, K::N4, rules) };
+    let mut planner = smoothed.prepare(&space).expect("an index").planner();
+    let answer = planner.find(Query::new((0, 0), (1, 1)).nearest()).expect("free ends");
+    assert_eq!(answer, Outcome::Nearest(Path::new(vec![(0, 0).into()])));
 }
 
 #[test]
