@@ -50,9 +50,9 @@ pub(crate) fn length_cost(v: Vector) -> Cost {
     // What is left is odd and has two prime divisors at most.
     let root = rest.isqrt();
     if root * root == rest {
-        a *= root as u32
+        a *= root as u32;
     } else {
-        d *= rest
+        d *= rest;
     }
     // IEEE 754 rounds the root correctly: the same d gives the same cost.
     Cost::from_bits(((d as f64).sqrt() * (1_u64 << Cost::FRACTION_BITS) as f64 + 0.5) as u64) * a

@@ -14,7 +14,8 @@
 //!
 //! **What holds of the paths.**
 //! - A path is found whenever there is one at any angle: whenever N(k) has one, since which vertices are
-//! reached does not depend on the parents; and at k = 2 where corners are always cut, whenever N(3) has one.
+//!   reached does not depend on the parents; and at k = 2 where corners are always cut, whenever N(3) has
+//!   one.
 //! - No path is shorter than the any-angle optimum.
 //! - With a consistent heuristic, as all admissible ones of this crate are, no path of Theta* is longer than
 //!   the optimum over N(k). Take an optimal path over N(k) to a vertex s that is about to be expanded, and
