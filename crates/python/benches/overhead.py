@@ -48,7 +48,11 @@ def one_by_one(index: mediant.Index, queries: list[peers.Query]) -> None:
         ("find to the next cell", index.find, near),
         ("path, the scenario's queries", index.path, queries),
         ("path, the same, ends as arrays", index.path, arrays),
-        ("path, the same, every cell", lambda start, goal: index.path(start, goal, points="touched"), queries),
+        (
+            "path, the same, every cell",
+            lambda start, goal: index.path(start, goal, points="touched"),
+            queries,
+        ),
         ("distance, the same", index.distance, queries),
         ("find, the same", index.find, queries),
     ]

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import array
 import pickle
+from array import array as array_of
 
 import calls
 import mediant
@@ -126,7 +126,9 @@ def test_unknown_keywords(call, tmp_path):
     listed = str(error.value).split("the keywords are ")[1].split(", ")
     assert sorted(listed) == sorted({p.name for p in call.parameters if p.is_keyword})
     for name in ("weights", "cost_map"):
-        with pytest.raises(TypeError, match=rf"'{name}' \(.*costs of cells are not supported\); the keywords"):
+        with pytest.raises(
+            TypeError, match=rf"'{name}' \(.*costs of cells are not supported\); the keywords"
+        ):
             things.call(call, {**good, name: [[1.0]]})
     with pytest.raises(TypeError, match=r"does not wrap around\); the keywords"):
         things.call(call, {**good, "wrap": True})
@@ -134,7 +136,9 @@ def test_unknown_keywords(call, tmp_path):
 
 def test_unknown_keywords_of_a_grid():
     blocked = np.zeros((2, 3), dtype=bool)
-    with pytest.raises(TypeError, match=r"'weights' \(.*not supported\); the keywords are above, below, values,"):
+    with pytest.raises(
+        TypeError, match=r"'weights' \(.*not supported\); the keywords are above, below, values,"
+    ):
         mediant.Grid(blocked, weights=np.ones((2, 3)))
     with pytest.raises(TypeError, match=r"unexpected keyword argument 'abov'; the keywords are above"):
         mediant.Grid(blocked, abov=3)
@@ -149,7 +153,9 @@ def test_places_of_arrays():
     assert mediant.Grid(blocked * 9, above=3, resolution=2).world.origin == (0.0, 0.0, 0.0)
     assert mediant.Grid(blocked).world is None
     edited = grid.edit((0, 0), [[True]])
-    assert edited.world.origin == grid.world.origin and pickle.loads(pickle.dumps(grid)).world.origin[2] == 0.25
+    assert (
+        edited.world.origin == grid.world.origin and pickle.loads(pickle.dumps(grid)).world.origin[2] == 0.25
+    )
     for wrong, name in [
         ({"origin": (1, 2)}, "origin: it needs"),
         ({"resolution": 0}, "resolution: "),
@@ -193,7 +199,7 @@ def test_occupancy(rng, dtype):
                 mediant.Grid.from_occupancy(np.ma.masked_equal(cells, -1), **how),
             ):
                 assert grid.to_numpy().tolist() == wanted, how
-    message = array.array("b", [0, 100, -1, 0])
+    message = array_of("b", [0, 100, -1, 0])
     grid = mediant.Grid.from_occupancy(message, 2, 2, resolution=0.5, origin=(1, 2, 0))
     assert grid.to_numpy().tolist() == [[True, False], [False, True]]
     masked = np.ma.masked_array([[0, 0]], mask=[[False, True]])
@@ -507,7 +513,12 @@ def test_neighbors_name_the_neighborhood_by_its_moves():
 
 def test_engines_and_infinity_have_several_names():
     grid = mediant.Grid.from_rows(["....", ".##.", "...."])
-    for name, engine in [("A*", "astar"), ("JPS+", "jps-plus"), ("Theta*", "theta"), ("jps_block", "jps-block")]:
+    for name, engine in [
+        ("A*", "astar"),
+        ("JPS+", "jps-plus"),
+        ("Theta*", "theta"),
+        ("jps_block", "jps-block"),
+    ]:
         assert grid.prepare(name).engine == engine
     for k in ["any", "inf", "∞", float("inf")]:
         assert grid.prepare("anya", k=k).k == "any"
@@ -517,7 +528,8 @@ def test_a_radius_in_meters_where_there_is_a_world(tmp_path):
     shades = " ".join("0" if (x, y) == (10, 5) else "254" for y in range(11) for x in range(21))
     (tmp_path / "m.pgm").write_text(f"P2 21 11 255 {shades}")
     (tmp_path / "m.yaml").write_text(
-        "image: m.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.25\n"
+        "image: m.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\n"
+        "occupied_thresh: 0.65\nfree_thresh: 0.25\n"
     )
     grid = mediant.Grid.open(tmp_path / "m.yaml")
     assert (grid.for_disc(meters=0.22).to_numpy() == grid.for_disc(4.4).to_numpy()).all()

@@ -172,7 +172,7 @@ impl AxialStops {
         let rule = JumpPointRule::of(graph);
         let mut words = Vec::with_capacity(Self::words(graph));
         let mut plane = |quarter: usize| {
-            let (vertical, forward) = (quarter % 2 == 0, quarter < 2);
+            let (vertical, forward) = (quarter.is_multiple_of(2), quarter < 2);
             let (matrix, length, lines) =
                 if vertical { (grid.columns(), height, width) } else { (grid.rows(), width, height) };
             let first = 64 * words.len() as i64;
