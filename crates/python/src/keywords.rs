@@ -27,7 +27,7 @@ const CORNERS: [(&str, CornerRule); 3] =
     [("never", CornerRule::Never), ("one", CornerRule::One), ("always", CornerRule::Always)];
 const GAPS: [(&str, DiagonalGap); 2] = [("open", DiagonalGap::Open), ("closed", DiagonalGap::Closed)];
 
-const MOTION_KEYWORDS: [&str; 4] = ["k", "placement", "corners", "gap"];
+const MOTION_KEYWORDS: [&str; 5] = ["k", "neighbors", "placement", "corners", "gap"];
 const WISH_KEYWORDS: [&str; 6] = ["nearest", "tolerance", "snap", "max_cost", "max_expansions", "timeout"];
 
 /// Which keywords a call takes.
@@ -56,7 +56,7 @@ impl Takes {
             "paths" => &["points", "threads", "progress", "invalid"],
             "distances" if self.wishes => &["threads", "progress", "invalid"],
             "field" | "distances" | "flow" => &["limit"],
-            "for_disc" => &["fit", "outside"],
+            "for_disc" => &["meters", "fit", "outside"],
             "widest_path" => &["surplus", "points"],
             _ => &[],
         };

@@ -127,7 +127,23 @@ def cells_of(oracle, path):
         entered, beside, _ = slow.footprint(oracle.placement, *d)
         cells = set(entered) | set(itertools.chain.from_iterable(beside))
         result.append({(a[0] + i, a[1] + j) for i, j in cells})
-    return CellRuns(result, None if oracle.at_corners or len(path) > 1 else [path[0].tolist()])
+    if oracle.at_corners:
+        return AllCells(set().union(*result))
+    return CellRuns(result, None if len(path) > 1 else [path[0].tolist()])
+
+
+class AllCells:
+    """A set of cells, for a path that may come back to one."""
+
+    def __init__(self, cells):
+        self.cells = cells
+
+    def __eq__(self, cells):
+        cells = [tuple(cell) for cell in cells]
+        assert all(a != b for a, b in zip(cells, cells[1:])), "no cell comes twice in a row"
+        return set(cells) == self.cells
+
+    __hash__ = None
 
 
 class CellRuns:

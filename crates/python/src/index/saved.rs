@@ -19,9 +19,11 @@ use crate::{
 impl Index {
     /// The same index for queries with other options of its engine, such as another heuristic or smoothing.
     ///
-    /// Parameters ---------- **options As in `Grid.prepare`. Those that are left out have their defaults,
-    /// except those that decided what is
-    ///     prepared: ``levels`` and ``side`` stay as they are.
+    /// Parameters
+    /// ----------
+    /// **options
+    ///     As in `Grid.prepare`. Those that are left out have their defaults, except those that decided what
+    ///     is prepared: ``levels`` and ``side`` stay as they are.
     ///
     /// Returns
     /// -------
