@@ -31,7 +31,7 @@ pub(crate) use self::{
 /// corners its upper left corner. Between centers add ½ to both to have (0, 0) at the corner of the map.
 ///
 /// Waypoints of maps are less than 2³¹ apart along each axis. Where they are not, [`moves`](Self::moves) and
-/// [`cells`](Self::cells) pass over the segment; all else is right there too.
+/// [`touched_cells`](Self::touched_cells) pass over the segment; all else is right there too.
 ///
 /// ```
 /// use mediant_search::Path;
