@@ -30,8 +30,8 @@ pub(crate) fn move_cost(v: Vector) -> Cost {
 /// paths are equal only if for each d they have the same sum of a, and then their costs are equal, too.
 pub(crate) fn length_cost(v: Vector) -> Cost {
     let mut a = v.gcd().max(1);
-    // A sum of two squares without common divisor: 4 does not divide it, and its odd prime divisors are 1 more
-    // than a multiple of 4.
+    // A sum of two squares without common divisor: 4 does not divide it, and its odd prime divisors are 1
+    // more than a multiple of 4.
     let (mut rest, mut d) = (v.norm_squared() / u64::from(a).pow(2), 1);
     if rest > 0 && rest % 2 == 0 {
         (d, rest) = (2, rest / 2);
