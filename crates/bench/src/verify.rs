@@ -6,6 +6,8 @@
 //! known cost. How many costs were compared is part of the result, so that a file that is skipped does not
 //! look like a success.
 
+mod scenarios;
+
 use std::{
     collections::BTreeMap,
     fmt::Write as _,
@@ -17,11 +19,11 @@ use std::{
 
 use clap::Args;
 use mediant::{Engine, Map, Planner, Setup};
-use mediant_formats::{MapFile, Scenario, scenario_tolerance};
+use mediant_formats::{MapFile, Scenario};
 use mediant_grid::{CornerRule, DiagonalGap, Rules};
-use mediant_moves::{FiniteK, K};
+use mediant_moves::K;
 use mediant_search::{Query, QueryError};
-use mediant_sets::{Error as SetError, Manifest, cache, files, progress, root};
+use mediant_sets::{Error as SetError, cache, files, progress, root};
 use rayon::prelude::*;
 
 /// The options of `cargo xtask verify`.
@@ -112,6 +114,8 @@ struct Tally {
     blocked: u64,
     /// Instances of [`OTHER_MAPS`] whose reference is shorter than any path on the map.
     shorter: u64,
+    /// Instances of [`OTHER_MAPS`] whose reference is longer than a path on the map.
+    longer: u64,
     /// The largest difference among the costs that agree, relative to the known cost.
     worst: f64,
     /// The sums of all costs found, and of the known ones.
@@ -152,6 +156,7 @@ impl Tally {
         self.compared += other.compared;
         self.blocked += other.blocked;
         self.shorter += other.shorter;
+        self.longer += other.longer;
         self.worst = self.worst.max(other.worst);
         self.sums = [self.sums[0] + other.sums[0], self.sums[1] + other.sums[1]];
         self.mismatches.extend(other.mismatches);
@@ -192,7 +197,7 @@ pub fn run_in(cache: &Path, options: &Options, out: &mut dyn io::Write) -> Resul
         writeln!(out, "{engine}")?;
         total = total.add(match &options.oracle {
             Some(folder) => against_references(cache, folder, engine, out)?,
-            None => against_scenarios(cache, options, engine, out)?,
+            None => scenarios::against_scenarios(cache, options, engine, out)?,
         });
     }
     if !total.mismatches.is_empty() {
@@ -211,134 +216,6 @@ pub fn run_in(cache: &Path, options: &Options, out: &mut dyn io::Write) -> Resul
         }
         _ => Ok(()),
     }
-}
-
-/// The setup of an engine for the problem of the scenario files: k = 3 between centers, no corner cut.
-fn scenarios_for(engine: Engine) -> Result<(Setup, Relation), VerifyError> {
-    let setup = Setup::new(engine, FiniteK::N8, Rules::Center(CornerRule::Never));
-    let unknown = || {
-        VerifyError::Wrong(format!(
-            "{engine} finds no paths over the moves of k = 3: their costs are not known"
-        ))
-    };
-    Relation::of(setup).map(|relation| (setup, relation)).ok_or_else(unknown)
-}
-
-fn against_scenarios(
-    cache: &Path,
-    options: &Options,
-    engine: Engine,
-    out: &mut dyn io::Write,
-) -> Result<Tally, VerifyError> {
-    let (setup, relation) = scenarios_for(engine)?;
-    let manifest = Manifest::read(&Manifest::path(&root()))?;
-    let asked = |name: &String| options.set.is_empty() || options.set.contains(name);
-    for name in &options.set {
-        manifest.set(name)?;
-    }
-    let mut total = Tally::default();
-    for set in manifest.sets.iter().filter(|set| asked(&set.name)) {
-        let folder = cache.join(&set.name);
-        if !folder.is_dir() {
-            if !options.set.is_empty() {
-                return Err(VerifyError::Wrong(format!(
-                    "set {0} is not there: cargo xtask download --set {0}",
-                    set.name
-                )));
-            }
-            continue;
-        }
-        let maps = options.maps(&folder)?;
-        let bar = progress(&set.name, maps.len());
-        let tallies: Vec<Tally> = maps
-            .par_iter()
-            .map(|map| {
-                scenario_of(setup, relation, map, options.every.get(), set.name == OTHER_MAPS)
-                    .inspect(|_| bar.inc(1))
-            })
-            .collect::<Result<_, _>>()?;
-        bar.finish_and_clear();
-        let tally = tallies.into_iter().fold(Tally::default(), Tally::add);
-        let seen = tally.compared + tally.blocked + tally.shorter;
-        if options.is_whole() && set.instances.is_some_and(|instances| instances != seen) {
-            return Err(VerifyError::Wrong(format!(
-                "set {}: {seen} instances, not all that it has",
-                set.name
-            )));
-        }
-        let known = if relation == Relation::Equal { KNOWN } else { (KNOWN.0, 0) };
-        if options.is_whole() && set.name == OTHER_MAPS && (tally.blocked, tally.shorter) != known {
-            let (blocked, shorter) = (tally.blocked, tally.shorter);
-            let wrong =
-                format!("{blocked} blocked and {shorter} shorter references in {OTHER_MAPS}, not {known:?}");
-            return Err(VerifyError::Wrong(wrong));
-        }
-        writeln!(
-            out,
-            "{:<12} {:>3} maps, {:>7} costs compared with the scenarios' optima: {}",
-            set.name,
-            maps.len(),
-            tally.compared,
-            tally.distance(relation),
-        )?;
-        if tally.blocked + tally.shorter > 0 {
-            writeln!(
-                out,
-                "{:<12} not compared, since made on other maps: {} instances with a blocked end, {} with a \
-                 shorter reference",
-                "", tally.blocked, tally.shorter
-            )?;
-        }
-        total = total.add(tally);
-    }
-    writeln!(out, "{:<12} {} costs compared", "in all", total.compared)?;
-    Ok(total)
-}
-
-/// The set whose scenarios were made on other maps than those it holds: their program could stand on cells
-/// that the files block. 2,446 instances start or end on a cell that is not land, and yet have an optimal
-/// length: 2,035 of them on water or trees, which are grounds of their own, and 411 on a cliff line `@` one
-/// cell wide. So a reference may be shorter than the best path on land, and never longer.
-const OTHER_MAPS: &str = "wc3maps512";
-/// How many instances of [`OTHER_MAPS`] have a blocked end, and how many others have a shorter reference:
-/// independent programs (`--oracle`) agree with us there.
-const KNOWN: (u64, u64) = (2_446, 5_182);
-
-/// Compares the costs of one map with its scenario. Scenarios state lengths with as few as six digits, and 0
-/// where there is no path (173 instances of set dao).
-fn scenario_of(
-    setup: Setup,
-    relation: Relation,
-    path: &Path,
-    every: usize,
-    other_map: bool,
-) -> Result<Tally, VerifyError> {
-    let grid = Arc::new(MapFile::read(path)?.to_grid());
-    let scenario = Scenario::read(path.with_extension("map.scen"))?;
-    let mut tally = Tally::default();
-    let mut planner = setup
-        .planner(&Map::from(Arc::clone(&grid)))
-        .map_err(|wrong| VerifyError::Wrong(format!("{}: {wrong}", path.display())))?;
-    for (index, instance) in scenario.instances().iter().enumerate().step_by(every) {
-        let reachable = instance.optimal > 0.0 || instance.start == instance.goal;
-        let optimal = reachable.then_some(instance.optimal);
-        let what = || format!("{setup}, {} instance {index}", path.display());
-        match cost(&mut planner, Query::new(instance.start, instance.goal)) {
-            Err(_) if other_map => tally.blocked += 1,
-            Ok(Some(cost))
-                if other_map
-                    && relation == Relation::Equal
-                    && cost > instance.optimal + 2.0 * scenario_tolerance(instance.optimal) =>
-            {
-                tally.shorter += 1;
-            }
-            found => {
-                let found = found.unwrap_or(None);
-                tally.compare(relation, what, found, optimal, scenario_tolerance(instance.optimal));
-            }
-        }
-    }
-    Ok(tally)
 }
 
 /// The cost of a query's answer; `None` where there is no path.

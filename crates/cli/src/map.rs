@@ -123,7 +123,7 @@ impl Map {
         Ok(self)
     }
 
-    /// What is said of a disc that fits wherever a point may be, as half a cell and less does between
+    /// The warning about a disc that fits wherever a point may be, as half a cell and less does between
     /// centers: somebody who asks for one may have meant meters.
     fn radius_without_effect(&self) -> String {
         let advice = match (self.place, self.frame) {

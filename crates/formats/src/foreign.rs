@@ -18,7 +18,7 @@ const SIGNATURES: [(&[u8], &str); 12] = [
     (b"version https://git-lfs", "a pointer of Git LFS (fetch the file itself by `git lfs pull`)"),
 ];
 
-/// What a file of a known kind is that is no map here, and what to do; `None` for others.
+/// The kind of a file that is no map here, and the way out; `None` for an unknown kind.
 pub(crate) fn kind(bytes: &[u8]) -> Option<&'static str> {
     if let Some((_, what)) = SIGNATURES.iter().find(|(signature, _)| bytes.starts_with(signature)) {
         return Some(what);
@@ -38,7 +38,7 @@ pub(crate) fn kind(bytes: &[u8]) -> Option<&'static str> {
     (page(b"<!doctype html") || page(b"<html")).then_some("an HTML page (download the file itself)")
 }
 
-/// What a file is, for an error message: its kind if it is known, else how it begins.
+/// The name of a file's kind for an error message; if it is unknown, the first bytes.
 pub(crate) fn kind_or_quote(bytes: &[u8]) -> String {
     kind(bytes).map_or_else(|| quote(bytes), str::to_owned)
 }

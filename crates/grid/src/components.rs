@@ -7,7 +7,7 @@ use crate::{
     interrupt::{Interrupt, Interrupted, uninterrupted},
 };
 
-/// What the search for components is doing.
+/// The stage that an interrupted call names.
 const DURING: &str = "finding connected components";
 
 /// Which free cells count as neighbors.

@@ -124,7 +124,7 @@ impl<P: Placement> GridGraph<P> {
         Ok(())
     }
 
-    /// What depends on the rules and k alone is taken from the tables of the process.
+    /// Tables that depend on the rules and k alone are those of the process.
     fn of(space: FreeSpace<P>, k: FiniteK) -> Result<Self, KError> {
         let (grid, tables) = (space.grid(), Tables::of::<P>(space.rule(), k)?);
         let (width, _) = P::vertices(grid);

@@ -8,7 +8,7 @@ use std::{
     },
 };
 
-/// What can stop work that takes long: a flag that another thread sets, and a deadline. Neither is set at
+/// A flag that another thread sets, and a deadline: either stops work that takes long. Neither is set at
 /// first, and then nothing stops it.
 ///
 /// **One way for all work.** Whatever can take longer than some milliseconds has a form that takes an
@@ -37,7 +37,7 @@ pub struct Interrupt {
     deadline: Option<Arc<dyn Fn() -> bool + Send + Sync>>,
 }
 
-/// What stopped the work.
+/// The flag or the deadline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum StoppedBy {
@@ -54,17 +54,17 @@ pub enum StoppedBy {
     StoppedBy::Deadline => "the deadline passed",
 })]
 pub struct Interrupted {
-    /// What stopped it.
+    /// The cause.
     pub by: StoppedBy,
-    /// What it was doing, such as 'measuring clearances'.
+    /// The stage, such as 'measuring clearances'.
     pub during: &'static str,
 }
 
 impl Interrupt {
-    /// What stops nothing.
+    /// An interrupt that stops nothing.
     pub const NEVER: Self = Self::new();
 
-    /// What stops nothing yet.
+    /// An interrupt that stops nothing yet.
     #[must_use]
     pub const fn new() -> Self {
         Self { cancel: None, deadline: None }

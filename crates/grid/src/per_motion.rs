@@ -1,4 +1,4 @@
-//! What depends on the rules of motion and k alone: the process computes it once.
+//! Values that depend on the rules of motion and k alone, which the process computes once.
 
 use std::sync::OnceLock;
 

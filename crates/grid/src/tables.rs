@@ -13,7 +13,7 @@ use crate::{
 /// The tables of all rules and k that were asked for.
 static KNOWN: PerMotion<Result<Tables, KError>> = PerMotion::new();
 
-/// What the search graphs of one placement, rule of motion and k have in common.
+/// The tables that all search graphs of one placement, rule of motion and k share.
 #[derive(Debug)]
 pub(crate) struct Tables {
     moves: Box<[(Vector, Cost)]>,

@@ -186,7 +186,7 @@ impl Tree {
     }
 }
 
-/// How a tree lies in the matrix of an octant.
+/// The place of an octant in a matrix of bits: its reflection from the first octant, and the bits a row.
 struct Placing<'a> {
     tree: &'a Tree,
     frame: Frame,

@@ -1,6 +1,6 @@
-//! What the library does not do.
+//! Features that the library does not have.
 
-/// What a map does not have, for errors about cells that hold costs.
+/// The answer to cells that hold costs.
 pub const NO_COSTS: &str = "a cell is free or blocked, and costs of cells are not supported";
 
 /// How names of parameters that people look for begin, in small letters without hyphens and underscores; and

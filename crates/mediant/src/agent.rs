@@ -197,7 +197,7 @@ impl Space {
         goal: impl Into<Vertex>,
         surplus: f64,
     ) -> Result<Option<WidestPath>, Error> {
-        self.widest_path_of([start.into(), goal.into()], surplus, &Limits::new())
+        self.within(&Limits::new()).widest_path(start, goal, surplus)
     }
 
     pub(crate) fn widest_path_of(

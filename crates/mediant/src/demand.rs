@@ -18,7 +18,7 @@ use crate::{
     space::Space,
 };
 
-/// What a space is asked for, as far as it decides which engine we would take.
+/// The use of a space, as far as it decides which engine is recommended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Demand {
@@ -106,7 +106,7 @@ impl Space {
             Demand::Distances => engine.capabilities().distances,
             Demand::Index => engine.capabilities().index.is_some(),
         };
-        // What we recommend comes first, then the engines in the order of their list.
+        // The recommended engine comes first, then the engines in the order of their list.
         let others = [self.engine().engine].into_iter().chain(Engine::ALL).filter(|&engine| does(engine));
         let other = others.filter_map(|engine| with_options(engine).ok()).next();
         let why = "it takes the options that were given";
@@ -114,7 +114,7 @@ impl Space {
     }
 }
 
-/// What is written where an engine is named: an engine, or `auto`, which is the best one for what is asked
+/// The name of an engine, or `auto`, which is the best one for what is asked
 /// ([`Space::engine_for`]).
 ///
 /// ```

@@ -36,9 +36,9 @@ pub enum Error {
     /// Work that a flag or a deadline stopped: see [`Within`](crate::Within).
     #[error("{} while {during}", if *by == Limit::Cancelled { "cancelled" } else { "the deadline passed" })]
     Stopped {
-        /// What stopped it.
+        /// The cause.
         by: Limit,
-        /// What it was doing, such as 'finding dead ends'.
+        /// The stage, such as 'finding dead ends'.
         during: &'static str,
     },
     /// A map that cannot be made.

@@ -115,15 +115,24 @@ impl Planner {
         exceptions: &Exceptions,
     ) -> Result<ExceptedAnswer, Error> {
         let request = request.into();
-        let Some(space) = exceptions.space(self.index().space(), &request)? else {
-            let searched_by = self.index().searched_by();
-            return Ok(ExceptedAnswer { outcome: self.find(request)?, searched_by });
-        };
+        let mut other = self.except(&request, exceptions)?;
+        let planner = other.as_mut().unwrap_or(self);
+        let searched_by = planner.index().searched_by();
+        Ok(ExceptedAnswer { outcome: planner.find(request)?, searched_by })
+    }
+
+    /// The planner of [`find_except`](Self::find_except), for one who wants its events or its steps; `None`
+    /// if the map already has the cells as the exceptions want them, so that this planner answers.
+    ///
+    /// # Errors
+    /// [`Error::EditCell`] for a cell outside the map, and [`Error::Stopped`] if the request's limits stop
+    /// what is prepared.
+    pub fn except(&self, request: &Request, exceptions: &Exceptions) -> Result<Option<Self>, Error> {
+        let Some(space) = exceptions.space(self.index().space(), request)? else { return Ok(None) };
         let Setup { engine, smoothing, .. } = self.index().setup();
         let is_online = engine.kind().capabilities().index.is_none();
         let engine = if is_online { engine } else { Choice::for_one_path(space.motion()).engine.into() };
         let index = space.within(&request.limits()).prepare_for_one_path(engine)?.with_smoothing(smoothing);
-        let outcome = index.try_planner()?.find(request)?;
-        Ok(ExceptedAnswer { outcome, searched_by: index.searched_by() })
+        Ok(Some(index.try_planner()?))
     }
 }

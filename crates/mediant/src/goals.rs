@@ -76,7 +76,7 @@ impl Index {
 
     pub(crate) fn goals_of(&self, vertices: Vec<Vertex>, interrupt: &Interrupt) -> Result<Goals, Error> {
         vertices.iter().try_for_each(|&at| self.space().check_end(End::Goal, at))?;
-        // What is left out then is not missed: the error comes after it.
+        // A stopped loop leaves goals out; the error after it says so.
         let mut going = Ok(());
         let all = vertices.iter().copied().take_while(|_| {
             going = interrupt.check("preparing goals");

@@ -63,9 +63,7 @@ impl Index {
         starts: impl IntoIterator<Item = S>,
         goals: impl IntoIterator<Item = G>,
     ) -> Result<Table, Error> {
-        let starts: Vec<Vertex> = starts.into_iter().map(Into::into).collect();
-        let goals: Vec<Vertex> = goals.into_iter().map(Into::into).collect();
-        self.table_of(&starts, &goals, &Limits::new())
+        self.within(&Limits::new()).table(starts, goals)
     }
 
     /// Of the limits only the deadline and the flag count.
@@ -105,10 +103,10 @@ impl Index {
     }
 }
 
-/// What is done here.
+/// The stage that an interrupted call names.
 const DURING: &str = "filling a table";
 
-/// What stops a table: once it has stopped one thread, the others ask no more.
+/// The limits of a table: once they have stopped one thread, the others ask no more.
 struct Stop<'l> {
     limits: &'l Limits,
     stopped: OnceLock<Interrupted>,

@@ -22,7 +22,7 @@ use crate::{
     table::Table,
 };
 
-/// What nothing stops.
+/// For work without limits.
 pub(crate) static NEVER: Interrupt = Interrupt::NEVER;
 
 /// A map, space or index whose work stops at a deadline or by a flag: each call that can take long is also a

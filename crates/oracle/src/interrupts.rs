@@ -1,4 +1,4 @@
-//! What is stopped, stops.
+//! A check that work stops when it is interrupted.
 
 use std::{
     fmt,

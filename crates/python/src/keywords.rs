@@ -316,7 +316,7 @@ fn read_k(value: &Bound<'_, PyAny>) -> PyResult<K> {
 
 /// The neighborhood by its number of moves.
 fn read_neighbors(value: &Bound<'_, PyAny>) -> PyResult<K> {
-    K::from_neighbors(integer("neighbors", value, 0)?).map_err(raised)
+    K::from_neighbors(integer("neighbors", value, 0)?).map_err(|error| raised_for("neighbors", error))
 }
 
 /// The moves of N(k), as (row, column) differences in angular order.

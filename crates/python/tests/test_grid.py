@@ -228,7 +228,7 @@ def test_occupancy_is_the_file_that_was_saved(tmp_path):
 def test_occupancy_mistakes():
     cells = np.zeros(6, dtype=np.int8)
     for wrong, error, text in [
-        ({}, mediant.ArgumentError, "width: cells in one row need it"),
+        ({}, mediant.ArgumentError, "occupancy: cells in one row need width="),
         ({"width": 4}, mediant.ArgumentError, "width: 6 cells do not fill rows of 4"),
         ({"width": 0}, mediant.ArgumentError, "width: 6 cells do not fill rows of 0"),
         ({"width": 3, "height": 3}, mediant.ArgumentError, "height: the cells are 3 columns and 2 rows"),

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use mediant_grid::{CornerRule, Rules};
+use mediant_grid::{CornerRule, Rules, Vertex};
 use mediant_moves::{BOUND_WITHOUT_CORNER_CUTTING, Cost, FiniteK, bound_at_centers, bound_at_corners};
 
 use crate::{
@@ -112,8 +112,14 @@ impl Guarantee {
     /// length. So paths that are equally long compare as equal.
     #[must_use]
     pub fn cost(self, path: &Path) -> Cost {
+        self.cost_along(path.waypoints())
+    }
+
+    /// The [`cost`](Self::cost) of the path with these waypoints.
+    #[must_use]
+    pub fn cost_along(self, waypoints: &[Vertex]) -> Cost {
         let of_segment = if let Self::Optimal(_) = self { move_cost } else { length_cost };
-        path.waypoints().windows(2).fold(Cost::ZERO, |cost, ends| cost + of_segment(ends[0].to(ends[1])))
+        waypoints.windows(2).fold(Cost::ZERO, |cost, ends| cost + of_segment(ends[0].to(ends[1])))
     }
 
     /// The length of a path with this guarantee, in cells, as it is told where no path is: of an optimal path

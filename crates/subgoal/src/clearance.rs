@@ -4,7 +4,7 @@ use mediant_grid::{BitIndex, BitMatrix, Grid, Interrupt, Interrupted, Vertex, lo
 
 use crate::placement::EdgeTables;
 
-/// What is done when these are made.
+/// The stage that an interrupted call names.
 const DURING: &str = "finding subgoals";
 
 /// What stops a walk from a center along a row, a column or a diagonal, as bits along that line. So the first

@@ -132,7 +132,7 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
     }
 }
 
-/// What is done here.
+/// The stage that an interrupted call names.
 pub(crate) const DURING: &str = "reading subgoals";
 
 /// The bytes behind the identity with which they begin, if that is the expected one.

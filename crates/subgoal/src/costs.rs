@@ -11,7 +11,7 @@ use crate::{
     placement::SubgoalPlacement,
 };
 
-/// What is done here.
+/// The stage that an interrupted call names.
 const DURING: &str = "measuring arcs";
 
 /// The subgoals between two questions of an interrupt.

@@ -51,7 +51,7 @@ pub(crate) fn planner(
     Ok((space.inner, planner))
 }
 
-/// What `of` finds along a path, as x, y, ….
+/// The points that `of` finds along a path, as x, y, ….
 fn along(path: &JsValue, of: impl FnOnce(&Path) -> Vec<(i32, i32)>) -> Result<Int32Array, JsValue> {
     let path = Path::new(path_points("path", path)?);
     // Waypoints may be anywhere. A step along an axis touches two cells at most, and a list may be half

@@ -70,7 +70,7 @@ fn mistakes_have_names_and_codes() {
     );
 }
 
-/// What is not there is said where people ask for it.
+/// Features that are absent are named where people ask for them.
 #[test]
 fn costs_of_cells() {
     let wrong =

@@ -25,7 +25,7 @@ pub(crate) struct BuildArgs {
 }
 
 impl BuildArgs {
-    /// What the arguments ask for.
+    /// The engine, its options and the motion of the arguments.
     pub(crate) fn asked(&self) -> Result<Asked, Failure> {
         self.setup.asked(self.options.given(), None)
     }

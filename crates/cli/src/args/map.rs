@@ -59,7 +59,7 @@ fn parse_ros(text: &str) -> Result<RosVersion, String> {
 }
 
 impl MapArgs {
-    /// How the file becomes a map.
+    /// The options for reading the map file.
     pub(crate) fn options(&self) -> Result<MapOptions, Failure> {
         let plain = MapOptions::default();
         Ok(MapOptions {

@@ -145,7 +145,7 @@ Examples:
 const REFERENCES: [Engine; 2] = [Engine::Anya, Engine::Subgoal];
 
 impl RunArgs {
-    /// What the arguments ask for.
+    /// The engine, its options and the motion of the arguments.
     pub(crate) fn asked(&self) -> Result<Asked, Failure> {
         let smoothing = self.smooth.map(|smooth| match smooth {
             SmoothArg::Linear => Smoothing::Linear,

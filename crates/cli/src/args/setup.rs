@@ -64,7 +64,7 @@ pub(crate) enum GapArg {
 }
 
 impl SetupArgs {
-    /// What is asked for. It may be something that [`Setup::check`] refuses.
+    /// The engine, its options and the motion. [`Setup::check`] may refuse them.
     pub(super) fn asked(&self, options: Given, smoothing: Option<Smoothing>) -> Result<Asked, Failure> {
         let capabilities = self.engine.engine().map(Engine::capabilities);
         let k = self.k.given().unwrap_or(capabilities.map_or(K::N8, |capabilities| capabilities.default_k));
@@ -79,7 +79,7 @@ impl SetupArgs {
     }
 }
 
-/// What is asked for: an engine or `auto`, and all else that makes a setup.
+/// A setup as the command line names it: its engine may be `auto`.
 #[derive(Clone, Debug)]
 pub(crate) struct Asked {
     pub(crate) engine: EngineName,

@@ -77,7 +77,7 @@ Examples:
   mediant table arena.map --k any --from 1,11 --to-file goals.txt --index arena.idx --format jsonl";
 
 impl TableArgs {
-    /// What the arguments ask for.
+    /// The engine, its options and the motion of the arguments.
     pub(crate) fn asked(&self) -> Result<Asked, Failure> {
         self.setup.asked(self.options.given(), None)
     }

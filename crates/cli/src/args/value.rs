@@ -24,7 +24,7 @@ pub(super) fn one_of<T: Named>(all: Vec<T>, name: fn(T) -> &'static str) -> OneO
     OneOf { names: PossibleValuesParser::new(all.iter().cloned().map(name)), all }
 }
 
-/// What [`one_of`] reads.
+/// The parser of [`one_of`].
 pub(super) trait Named:
     FromStr<Err = UnknownName> + Clone + PartialEq + Send + Sync + 'static
 {

@@ -4,6 +4,7 @@
 use std::time::{Duration, Instant};
 
 use clap::Args;
+use mediant::Exceptions;
 use mediant_grid::{PlacementKind, Vertex};
 use mediant_search::{Limits, Query, Request};
 
@@ -49,6 +50,20 @@ pub(crate) struct WishArgs {
     /// Move each start and goal that is blocked or outside the map to the free vertex nearest to it
     #[arg(long, conflicts_with = "distances")]
     pub(crate) snap: bool,
+    /// Starts and goals count as free, also where the map has them as blocked: agents mark their own cells
+    #[arg(long, conflicts_with_all = ["distance", "distances", "trace"])]
+    pub(crate) free_ends: bool,
+    /// For these queries, this cell counts as blocked (repeat it), such as that of another agent
+    #[arg(long = "block", value_name = "X,Y", conflicts_with_all = ["distance", "distances", "trace"])]
+    #[arg(allow_hyphen_values = true, value_parser = parse_place)]
+    blocked_places: Vec<Place>,
+    /// For these queries, this cell counts as free (repeat it)
+    #[arg(long = "unblock", value_name = "X,Y", conflicts_with_all = ["distance", "distances", "trace"])]
+    #[arg(allow_hyphen_values = true, value_parser = parse_place)]
+    free_places: Vec<Place>,
+    /// The cells of `--block` and `--unblock`, once the map is known.
+    #[arg(skip)]
+    pub(crate) cells: [Vec<Vertex>; 2],
     /// Stop a search once every path that is left costs more than this
     #[arg(long, value_name = "CELLS", conflicts_with = "distances")]
     #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_amount(text, "cells"))]
@@ -71,6 +86,10 @@ impl WishArgs {
         };
         let mut wishes = self.clone();
         (wishes.from, wishes.to) = (vertices(&self.from_places)?, vertices(&self.to_places)?);
+        let cells = |places: &[Place]| -> Result<Vec<Vertex>, Failure> {
+            places.iter().map(|&place| map.vertex(PlacementKind::Center, place)).collect()
+        };
+        wishes.cells = [cells(&self.blocked_places)?, cells(&self.free_places)?];
         if let Some(frame) = map.frame {
             let moved = |places: &[Place], at: &[Vertex]| {
                 let moved = places.iter().zip(at).map(|(place, &at)| {
@@ -108,6 +127,14 @@ impl WishArgs {
             request = request.within(self.limits());
         }
         request
+    }
+
+    /// The cells that count otherwise than on the map; `None` if none was asked for.
+    pub(crate) fn exceptions(&self) -> Option<Exceptions> {
+        let [blocked, free] = &self.cells;
+        let cells = Exceptions::new().blocked(blocked.iter().copied()).free(free.iter().copied());
+        let exceptions = if self.free_ends { cells.free_ends() } else { cells };
+        (exceptions != Exceptions::new()).then_some(exceptions)
     }
 
     fn limits(&self) -> Limits {
@@ -150,6 +177,14 @@ impl WishArgs {
         words.extend(self.distance.then(|| "lengths without paths".to_owned()));
         words.extend(self.nearest.then(|| "if there is no way, to the nearest vertex".to_owned()));
         words.extend(self.snap.then(|| "blocked ends moved to the nearest vertex".to_owned()));
+        words.extend(self.free_ends.then(|| "ends count as free".to_owned()));
+        let cells = [("blocked", &self.cells[0]), ("free", &self.cells[1])];
+        let cells = cells.into_iter().filter(|(_, cells)| !cells.is_empty());
+        words.extend(
+            cells.map(|(name, cells)| {
+                format!("{} {name}", count(cells.len() as u64, "more cell", "more cells"))
+            }),
+        );
         let limits = [
             self.max_cost.map(|cells| format!("cost {cells}")),
             self.max_nodes.map(|nodes| count(nodes, "node", "nodes")),

@@ -72,7 +72,7 @@ pub(crate) fn table(args: &TableArgs, screen: &mut Screen) -> Result<Ending, Fai
 }
 
 impl Measured {
-    /// How many lengths there are not, of how many.
+    /// The number of pairs without a path, and of all pairs.
     fn missing(&self) -> (u64, u64) {
         match self {
             Self::All(table) => {
@@ -129,7 +129,7 @@ fn measure(nearest: bool, index: &Index, starts: &[Vertex], goals: &[Vertex]) ->
 struct Report<'r> {
     map: &'r Map,
     index: &'r Index,
-    /// What `auto` chose.
+    /// The choice of `auto`.
     choice: Option<Choice>,
     starts: Vec<Vertex>,
     goals: Vec<Vertex>,

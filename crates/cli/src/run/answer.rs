@@ -43,6 +43,8 @@ pub(crate) struct Answer {
     pub(crate) item: Item,
     /// What was asked.
     pub(crate) request: Request,
+    /// The engine that searched in place of the run's, because cells count otherwise for the query.
+    pub(crate) searched_by: Option<Engine>,
     /// The outcome, or in words why the query cannot be answered.
     pub(crate) outcome: Result<Answered, String>,
     pub(crate) counters: Counters,

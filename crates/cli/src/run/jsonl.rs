@@ -155,6 +155,14 @@ struct WishFields {
     nearest: Option<bool>,
     #[serde(skip_serializing_if = "Option::is_none")]
     snap: Option<bool>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    free_ends: Option<bool>,
+    /// The cells that count as blocked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    block: Option<Vec<[i32; 2]>>,
+    /// The cells that count as free.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unblock: Option<Vec<[i32; 2]>>,
     /// In cells.
     #[serde(skip_serializing_if = "Option::is_none")]
     max_cost: Option<f64>,
@@ -166,9 +174,25 @@ struct WishFields {
 
 impl From<&WishArgs> for WishFields {
     fn from(wishes: &WishArgs) -> Self {
-        let &WishArgs { distance, tolerance, nearest, snap, max_cost, max_nodes, deadline, .. } = wishes;
-        let [distance, nearest, snap] = [distance, nearest, snap].map(|wish| wish.then_some(true));
-        Self { distance, tolerance, nearest, snap, max_cost, max_nodes, deadline_ms: deadline }
+        let &WishArgs {
+            distance, tolerance, nearest, snap, free_ends, max_cost, max_nodes, deadline, ..
+        } = wishes;
+        let [distance, nearest, snap, free_ends] =
+            [distance, nearest, snap, free_ends].map(|wish| wish.then_some(true));
+        let [block, unblock] = [0, 1]
+            .map(|at| Some(&wishes.cells[at]).filter(|cells| !cells.is_empty()).map(|cells| pairs(cells)));
+        Self {
+            distance,
+            tolerance,
+            nearest,
+            snap,
+            free_ends,
+            block,
+            unblock,
+            max_cost,
+            max_nodes,
+            deadline_ms: deadline,
+        }
     }
 }
 
@@ -259,6 +283,9 @@ struct QueryLine<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     goals: Option<Vec<[i32; 2]>>,
     status: Status,
+    /// The engine that searched in place of the run's; only where cells count otherwise for the query.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    searched_by: Option<&'static str>,
     /// What stopped the search; only if the status is "stopped".
     #[serde(skip_serializing_if = "Option::is_none")]
     stopped_by: Option<String>,
@@ -309,7 +336,7 @@ struct QueryLine<'a> {
 
 impl<'a> From<&'a Answer> for QueryLine<'a> {
     fn from(answer: &'a Answer) -> Self {
-        let Answer { item, request, outcome, counters, nanos } = answer;
+        let Answer { item, request, searched_by, outcome, counters, nanos } = answer;
         let (found, path) = (answer.found(), answer.path());
         let (start, goal) = answer.ends();
         let has_wishes = request.as_query().is_none();
@@ -323,6 +350,7 @@ impl<'a> From<&'a Answer> for QueryLine<'a> {
             goal: pair(goal),
             starts: has_wishes.then(|| pairs(request.starts())),
             goals: has_wishes.then(|| pairs(request.goals())),
+            searched_by: searched_by.map(Engine::name),
             status: match outcome {
                 Ok(Answered::Found(_)) => Status::Found,
                 Ok(Answered::Nearest(_)) => Status::Nearest,

@@ -1,4 +1,4 @@
-//! What answers the queries of a run: one planner, or with `--grounds` one for each ground that is stood on.
+//! The planners of a run: one, or with `--grounds` one for each ground that is stood on.
 
 use std::time::{Duration, Instant};
 

@@ -79,8 +79,15 @@ impl Session<'_> {
                 Ok(None) => Ok(Answered::Unreachable),
                 Err(error) => Err(explain(error, map, rules.placement())),
             };
-            return Ok(Answer { item, request: request(), outcome, counters, nanos });
+            return Ok(Answer { item, request: request(), searched_by: None, outcome, counters, nanos });
         }
+        let exceptions = run.wishes.exceptions();
+        let mut other = match &exceptions {
+            Some(exceptions) => planner.except(&request(), exceptions)?,
+            None => None,
+        };
+        let searched_by = other.as_ref().map(|planner| planner.index().searched_by());
+        let planner = other.as_mut().unwrap_or(planner);
         let Measured { outcome, counters, nanos } = Measured::new(planner, request, run.repeat);
         if let Some(trace) = self.trace.take() {
             trace.write((grid, rules.placement()), planner, (item.query, request()), &outcome)?;
@@ -95,7 +102,7 @@ impl Session<'_> {
             Ok(_) => Ok(Answered::Unreachable),
             Err(error) => Err(explain(error, map, rules.placement())),
         };
-        Ok(Answer { item, request: request(), outcome, counters, nanos })
+        Ok(Answer { item, request: request(), searched_by, outcome, counters, nanos })
     }
 }
 

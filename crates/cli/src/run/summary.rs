@@ -258,7 +258,7 @@ mod tests {
             fallbacks: 60,
         };
         let item = Item { index, query: ends, reference: Some(reference) };
-        Answer { item, request: ends.into(), outcome: Ok(outcome), counters, nanos }
+        Answer { item, request: ends.into(), searched_by: None, outcome: Ok(outcome), counters, nanos }
     }
 
     #[test]

@@ -36,7 +36,7 @@ pub(crate) struct TableReport<'s> {
     may_fall_back: bool,
     /// Where vertices are in the world.
     world: Option<(WorldFrame, PlacementKind)>,
-    /// How far the ends were moved to vertices, in meters.
+    /// The distance by which the ends were moved to vertices, in meters.
     moved: Option<[f64; 2]>,
     rows: Vec<Answer>,
     /// The number of errors that have no row.

@@ -402,3 +402,29 @@ fn ends_that_no_wish_mends() {
     let start = "the start (0, 0) is blocked: choose a free vertex; the nearest one is (2, 1)";
     check("run builtin:cave --from 0,0 --to 62,33 --nearest", start);
 }
+
+#[test]
+fn cells_count_otherwise_for_these_queries() {
+    let files = Files::new();
+    let map = files.add("agents.map", "type octile\nheight 3\nwidth 5\nmap\n.....\n@..@.\n.....\n");
+    let ends = format!("run {map} --from 3,1 --to 0,1");
+    assert_eq!(run(&ends).status, Some(1), "both ends are blocked");
+    for engine in ["auto", "astar", "subgoal", "hpa"] {
+        let (ran, queries, _) = told(&format!("{ends} --engine {engine} --free-ends"));
+        assert_eq!(
+            (&ran["wishes"]["free_ends"], &queries[0]["cost"]),
+            (&true.into(), &3.0.into()),
+            "{engine}"
+        );
+    }
+    let (ran, queries, _) = told(&format!("{ends} --engine subgoal --free-ends --block 1,1 --block 2,0"));
+    assert_eq!(ran["wishes"]["block"], serde_json::json!([[1, 1], [2, 0]]));
+    assert!(
+        queries[0]["cost"].as_f64() > Some(3.0) && queries[0]["searched_by"] == "canonical",
+        "{queries:?}"
+    );
+    let (_, queries, _) = told(&format!("run {map} --from 0,0 --to 0,2 --unblock 0,1"));
+    assert_eq!(queries[0]["cost"], 2.0);
+    let outside = run(&format!("{ends} --block 5,0"));
+    assert!(outside.stderr.contains("an edit of cell (5, 0), outside the map"), "{}", outside.stderr);
+}

@@ -95,7 +95,7 @@ pub enum MapError {
         column: usize,
         /// The character, quoted.
         found: String,
-        /// Those that are known.
+        /// The known characters.
         tiles: Tiles,
     },
     /// The file ends before the last row.

@@ -111,7 +111,7 @@ fn check_row(line: Line<'_>, width: u32, known: impl Fn(u8) -> bool, tiles: &Til
     let (row, rest) = line.text.split_at(line.text.len().min(expected));
     let spaces = rest.iter().rev().take_while(|byte| byte.is_ascii_whitespace()).count();
     let unknown = row.iter().position(|&tile| !known(tile));
-    // What is missing may be why a row ends in spaces.
+    // A row may end in spaces because cells are missing.
     let found = row.trim_ascii_end().len();
     match unknown {
         Some(at) if at < found => {

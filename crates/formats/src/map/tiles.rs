@@ -68,7 +68,7 @@ pub struct TileError {
     pub column: usize,
     /// The character.
     pub tile: char,
-    /// Those that are known.
+    /// The known characters.
     pub tiles: Tiles,
 }
 

@@ -1,4 +1,4 @@
-//! How a file becomes a map.
+//! Options for reading map files.
 
 use crate::{Fraction, Tiles};
 
@@ -59,16 +59,18 @@ pub enum Unknown {
 /// The `map_server` whose rules make occupancies of the pixels of a ROS map.
 ///
 /// A pixel is *occupied to* p = 1 − its shade, as a part of white, or to its shade if the map is negated.
+/// The proportion of mode scale is (p − `free_thresh`) / (`occupied_thresh` − `free_thresh`).
 ///
 /// | | ROS 2 | ROS 1 |
 /// |---|---|---|
-/// | shade | the luma in 8 bits, (306 red + 601 green + 117 blue) / 1024, rounded down | the mean of the channels, exactly |
+/// | shade | luma: ⌊(306 red + 601 green + 117 blue) / 1024⌋ in 8 bits | mean of the channels, exact |
 /// | arithmetic | single precision | exact |
 /// | free | p ≤ `free_thresh`, even if it is occupied, too | p < `free_thresh` |
 /// | occupied | p ≥ `occupied_thresh` | p > `occupied_thresh` |
-/// | scale, between | 100 · (p − `free_thresh`) / (`occupied_thresh` − `free_thresh`), the nearest, halves away from 0 | the same, halves to even |
+/// | scale, between | by proportion, 0 to 100, halves away from 0 | the same, halves to even |
 /// | raw | the luma of 0 to 100, others unknown | the nearest of 256 shades, the same |
-/// | pixels that are not opaque | unknown in trinary and scale | in trinary their opacity is one more channel of the mean; unknown in scale |
+/// | not opaque, trinary | unknown | the opacity is one more channel of the mean |
+/// | not opaque, scale | unknown | unknown |
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum RosVersion {
     /// The `map_server` of ROS 1, and that of nav2 until 2025.

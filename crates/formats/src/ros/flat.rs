@@ -79,7 +79,7 @@ fn braces(text: &str) -> Option<(usize, &str)> {
             return Some((before.matches('\n').count() + 1, inner));
         }
         rest = match line.strip_prefix("---") {
-            // What follows on the line may be the mapping.
+            // The mapping may follow on the same line.
             Some(after) if after.is_empty() || after.starts_with([' ', '\t']) => &rest[3..],
             _ if line.starts_with('%') => &rest[line.len()..],
             _ => return None,

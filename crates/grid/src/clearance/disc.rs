@@ -6,7 +6,7 @@ use crate::{
     interrupt::{Interrupt, Interrupted},
 };
 
-/// What the making of maps is doing.
+/// The stage that an interrupted call names.
 const DURING: &str = "making the map of a disc";
 
 impl Clearance {

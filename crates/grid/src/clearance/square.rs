@@ -3,7 +3,7 @@
 use super::SizeError;
 use crate::{Grid, interrupt::Interrupt};
 
-/// What the making of maps is doing.
+/// The stage that an interrupted call names.
 const DURING: &str = "making the map of a square";
 
 impl Grid {

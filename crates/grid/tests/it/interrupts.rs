@@ -1,4 +1,4 @@
-//! What takes long can be stopped anywhere.
+//! Long calls can be stopped anywhere.
 
 use std::sync::{
     Arc,

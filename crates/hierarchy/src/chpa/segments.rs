@@ -8,7 +8,7 @@ use crate::{
     window::{MAX_SIDE, Rows, Window, low_bits, on_map},
 };
 
-/// What is done when the index is made.
+/// The stage that an interrupted call names.
 const DURING: &str = "joining segments";
 
 /// The segments between two questions of an interrupt.

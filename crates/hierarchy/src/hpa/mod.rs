@@ -11,7 +11,7 @@ mod planner;
 mod search;
 mod straighten;
 
-/// What is done when the index is made.
+/// The stage that an interrupted call names.
 const DURING: &str = "joining clusters";
 
 pub use clustering::Clustering;

@@ -17,7 +17,7 @@ pub(crate) struct Source<'a> {
     pub(crate) for_one_path: bool,
     /// Hears how far the preparation is, on any thread.
     pub(crate) progress: &'a (dyn Fn(Progress) + Sync),
-    /// What may stop it.
+    /// Stops the preparation.
     pub(crate) interrupt: &'a Interrupt,
 }
 

@@ -1,4 +1,4 @@
-//! What takes long can be stopped anywhere, by the same call as everything else.
+//! Long calls of the library can be stopped anywhere.
 
 use std::sync::{
     Arc,
@@ -33,7 +33,7 @@ fn counting(last: usize) -> (Limits, Arc<AtomicUsize>) {
 /// Checks that a call ends with [`Error::Stopped`] at the first question, at 1, 10, 50 and 90 % of them and
 /// at the last, and asks no more.
 fn check<T>(name: &str, work: impl Fn(&Limits) -> Result<T, Error>) {
-    // What the process keeps, such as pruning rules, is made by the first call.
+    // The first call makes what the process keeps, such as pruning rules.
     drop(work(&Limits::new()));
     let (limits, asked) = counting(usize::MAX);
     if let Err(error) = work(&limits) {

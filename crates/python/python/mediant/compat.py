@@ -139,7 +139,11 @@ def _route(
         return [], math.inf
     cells = list(zip(answer.path[:, 0].tolist(), answer.path[:, 1].tolist()))
     mean = 0.5 * (float(each) + float(each))  # There, it is the mean of two cells, which overflows early.
-    return cells, mean * answer.distance if geometric else float(each) * len(cells)
+    if not geometric:
+        return cells, float(each) * len(cells)
+    # `answer.distance` is rounded as searches do, to a multiple of 2**-32 for each move.
+    diagonal = int(np.all(np.diff(answer.path, axis=0) != 0, axis=1).sum())
+    return cells, mean * (len(cells) - 1 - diagonal + math.sqrt(2) * diagonal)
 
 
 class Heuristic(IntEnum):

@@ -14,7 +14,7 @@ use pyo3::{
 
 use super::{Grid, occupancy::frame};
 use crate::{
-    arguments::{file, flag, number, point, text, word},
+    arguments::{file, flag, integer, number, point, text, word},
     arrays::{Criteria, bits_of, cells_of, map_of, map_of_bits, patch, png_of},
     background::detached,
     errors::{argument, exception, instead, raised, raised_for, wrong_type},
@@ -126,10 +126,10 @@ impl Grid {
             options.unknown = word("unknown", unknown, &words)?;
         }
         if let Some(ros) = ros {
-            options.ros = match ros.extract() {
-                Ok(1) => RosVersion::Ros1,
-                Ok(2) => RosVersion::Ros2,
-                _ => return Err(argument("ros", &format!("expected 1 or 2, found {}", ros.repr()?))),
+            options.ros = match integer("ros", ros, 1)? {
+                1 => RosVersion::Ros1,
+                2 => RosVersion::Ros2,
+                found => return Err(argument("ros", &format!("expected 1 or 2, found {found}"))),
             };
         }
         options.tiles = tiles(free, blocked)?;

@@ -176,7 +176,7 @@ fn rows<'py>(
         (&[cells], Some(width)) => {
             return Err(argument("width", &format!("{cells} cells do not fill rows of {width} cells")));
         }
-        (&[_], None) => return Err(argument("width", "cells in one row need it: message.info.width")),
+        (&[_], None) => return Err(argument(name, "cells in one row need width=, the message.info.width")),
         (shape, _) => {
             return Err(argument(
                 name,

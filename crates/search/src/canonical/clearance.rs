@@ -18,7 +18,7 @@ use mediant_grid::{CellOffset, GridGraph, Interrupt, Interrupted, Placement, Pla
 
 use crate::filled::filled;
 
-/// What is done when these are computed.
+/// The stage that an interrupted call names.
 const DURING: &str = "finding how far obstacles are";
 
 /// The clearance of each vertex, two bytes each; 255 also stands for all larger distances.

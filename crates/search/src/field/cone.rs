@@ -45,11 +45,11 @@ pub(super) struct Labels<'s> {
     pub(super) bends: &'s mut Vec<(f64, VertexId)>,
     pub(super) pending: &'s mut Vec<Piece>,
     pub(super) interrupt: &'s Interrupt,
-    /// How much work was done since the interrupt was asked: lines and vertices on them.
+    /// The work since the interrupt was asked: lines, and vertices on them.
     pub(super) unasked: usize,
 }
 
-/// How much work is done between two questions of an interrupt.
+/// The work between two questions of an interrupt.
 const WORK: usize = 1 << 13;
 
 /// Whether a path that comes to a corner along `u` may bend around one of its blocked cells. `turn` is called

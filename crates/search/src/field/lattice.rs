@@ -62,7 +62,7 @@ struct Scratch {
     arrived: Box<[u16]>,
 }
 
-/// How many expansions are made between two questions of an interrupt.
+/// The number of expansions between two questions of an interrupt.
 const LOOK: usize = crate::Limits::EXPANSIONS_PER_LOOK as usize;
 
 /// The vertex is to be expanded.

@@ -75,7 +75,7 @@ mod to_goal;
 #[cfg(test)]
 mod tests;
 
-/// What is done when jumps are found beforehand.
+/// The stage that an interrupted call names.
 const DURING: &str = "finding where jumps lead";
 
 pub use block_finder::BlockFinder;

@@ -1,4 +1,4 @@
-//! What is prepared, and fields, can be stopped anywhere.
+//! Preparations and fields can be stopped anywhere.
 
 use std::sync::{Arc, atomic::AtomicBool};
 

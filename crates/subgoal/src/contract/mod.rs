@@ -55,7 +55,7 @@ pub(crate) struct Contraction<G> {
     interrupt: Interrupt,
 }
 
-/// What is done here.
+/// The stage that an interrupted call names.
 const DURING: &str = "contracting subgoals";
 
 /// Scratch memory for finding shortcuts.

@@ -19,7 +19,7 @@ use mediant_grid::{Interrupt, Interrupted};
 
 use crate::contract::{ContractedGraph, SubgoalGeometry};
 
-/// What is done here.
+/// The stage that an interrupted call names.
 const DURING: &str = "finding hub labels";
 
 /// A hub of a subgoal.

@@ -132,6 +132,22 @@ where
         Ok(first?.map(|(goal, cost)| (goal as usize, cost)))
     }
 
+    /// The cost by which paths are compared, of the path that is not made.
+    fn exact_cost(&mut self, query: Query) -> Result<Cost, QueryError> {
+        self.begin(query, &mut ())?;
+        match self.answer.take() {
+            None => return Ok(Cost::MAX),
+            Some((_, Answer::Direct)) => {}
+            Some((query, Answer::Over(meeting))) => {
+                self.waypoints.clear();
+                if !self.write(query, meeting) {
+                    return Err(QueryError::GaveUp { why: DAMAGED });
+                }
+            }
+        }
+        Ok(self.guarantee().cost_along(&self.waypoints))
+    }
+
     /// The first of those goals to which the path is the shortest.
     fn first_of(
         &mut self,
@@ -145,8 +161,7 @@ where
             if best.is_some_and(|(_, (first, _))| at(first) == at(goal)) {
                 continue;
             }
-            let outcome = self.solve(Query::new(start, at(goal)))?;
-            let exact = outcome.path().map_or(Cost::MAX, |path| self.guarantee().cost(path));
+            let exact = self.exact_cost(Query::new(start, at(goal)))?;
             if best.is_none_or(|(least, _)| exact < least) {
                 best = Some((exact, (goal, cost)));
             }

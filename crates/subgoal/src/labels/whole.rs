@@ -15,7 +15,7 @@ use mediant_grid::{Interrupt, Interrupted};
 use super::merge::Label;
 use crate::chunks::in_chunks;
 
-/// What is done here.
+/// The stage that an interrupted call names.
 const DURING: &str = "checking hub labels";
 
 /// Drops the labels whose next subgoal has no label to the same hub that fits; `edge` is the cost of an edge.

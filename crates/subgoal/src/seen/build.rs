@@ -10,7 +10,7 @@ use crate::{
     placement::{BuildContext, EdgeFinder, Run},
 };
 
-/// What is done here.
+/// The stage that an interrupted call names.
 const DURING: &str = "finding what vertices see";
 
 /// The mask of all vertices.

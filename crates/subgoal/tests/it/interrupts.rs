@@ -13,7 +13,7 @@ fn by(error: &SubgoalError) -> Option<StoppedBy> {
     if let SubgoalError::Interrupted(error) = error { Some(error.by) } else { None }
 }
 
-/// What is made of a map that has hub labels.
+/// Graphs and labels of a map that has hub labels.
 fn check<P: SubgoalPlacement>(grid: Grid, rule: P::Rule, k: K) {
     let space = FreeSpace::<P>::new(Arc::new(grid), rule);
     let graph = SubgoalGraph::new(&space, k, Hierarchy::Contracted).expect("a graph");

@@ -12,7 +12,7 @@ use crate::{
     keywords::{Keywords, Takes},
 };
 
-/// What the last path needed, for the next one.
+/// The space and the planner of the last path, for the next one.
 pub(super) struct Last {
     setup: Setup,
     space: Space,

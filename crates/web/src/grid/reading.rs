@@ -121,7 +121,7 @@ impl Files {
     }
 }
 
-/// How a file becomes a map.
+/// The options for reading a map file.
 fn map_options(given: &JsValue) -> Result<MapOptions, JsValue> {
     let mut options = MapOptions::default();
     let (mut free, mut blocked) = (None, None);

@@ -48,7 +48,7 @@ use self::{find::DeadEndSearch, parts::Parts};
 
 pub(super) use self::opened::Opened;
 
-/// What is done when they are found.
+/// The stage that an interrupted call names.
 const DURING: &str = "finding dead ends";
 
 /// The dead ends of a map, which planners share: parts that no shortest path between vertices elsewhere

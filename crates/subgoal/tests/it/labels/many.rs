@@ -17,7 +17,7 @@ fn free<P: SubgoalPlacement>(space: &FreeSpace<P>) -> Vec<Vertex> {
     all.filter(|&at| space.is_free(at)).collect()
 }
 
-/// How many goals are as near as the nearest, up to rounding.
+/// The number of goals that are as near as the nearest, up to rounding.
 fn all_near(all: &[Option<Cost>], nearest: Option<(usize, Cost)>) -> usize {
     let Some((_, least)) = nearest else { return 0 };
     all.iter().flatten().filter(|cost| is_equal(K::Any, **cost, least)).count()
