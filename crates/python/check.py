@@ -94,7 +94,11 @@ def main() -> None:
         )
         stubtest = ["mypy.stubtest", "mediant", "--mypy-config-file", "pyproject.toml"]
         run("The stub", [*module, *stubtest, "--allowlist", str(ALLOWED)])
-    run("Tests and examples of docstrings", [*module, "pytest", "-rs", "tests"])
+    # What takes times has the cores to itself.
+    timed = "tests/test_interrupts.py"
+    tests = [*module, "pytest", "-rs"]
+    run("Tests and examples of docstrings", [*tests, "-n", "auto", "tests", "--ignore", timed])
+    run("Tests of interrupts", [*tests, timed])
     if wishes.long:
         calls = [*module, "pytest", "-n", "auto", "tests/test_mistakes.py"]
         run("200,000 mistaken calls", calls, MEDIANT_CALLS="200000")

@@ -35,7 +35,7 @@ pub struct Options {
     /// Of each scenario, only the instances whose index N divides
     #[arg(long, value_name = "N", default_value = "1")]
     every: NonZeroUsize,
-    /// Of each set, only every Nth map, the first among them
+    /// Of each set, only every Nth map, the first among them; of reference costs, every Nth file
     #[arg(long, value_name = "N", default_value = "1")]
     every_map: NonZeroUsize,
     /// The engines to verify, one after the other
@@ -196,7 +196,7 @@ pub fn run_in(cache: &Path, options: &Options, out: &mut dyn io::Write) -> Resul
     for &engine in &options.engine {
         writeln!(out, "{engine}")?;
         total = total.add(match &options.oracle {
-            Some(folder) => against_references(cache, folder, engine, out)?,
+            Some(folder) => against_references(cache, folder, options.every_map, engine, out)?,
             None => scenarios::against_scenarios(cache, options, engine, out)?,
         });
     }
@@ -241,6 +241,7 @@ fn reference_setup(name: &str, engine: Engine) -> Option<(Setup, &str)> {
 fn against_references(
     cache: &Path,
     folder: &Path,
+    every: NonZeroUsize,
     engine: Engine,
     out: &mut dyn io::Write,
 ) -> Result<Tally, VerifyError> {
@@ -253,7 +254,7 @@ fn against_references(
             }
         }
     }
-    let references = files(folder, ".csv")?;
+    let references: Vec<PathBuf> = files(folder, ".csv")?.into_iter().step_by(every.get()).collect();
     let bar = progress("references", references.len());
     let tallies: Vec<Compared> = references
         .par_iter()

@@ -71,6 +71,32 @@ fn count(text: &str, default: u64) -> Option<u64> {
     }
 }
 
+/// Whether the environment variable `MEDIANT_EXHAUSTIVE` is set: suites over all there is then leave nothing
+/// out.
+#[must_use]
+pub fn is_exhaustive() -> bool {
+    std::env::var_os("MEDIANT_EXHAUSTIVE").is_some()
+}
+
+/// The step by which a suite goes through all there is: 1 [if that is asked](is_exhaustive). Through maps it
+/// is odd, so that those of a sample differ in all cells.
+#[must_use]
+pub fn every(step: usize) -> usize {
+    if is_exhaustive() { 1 } else { step }
+}
+
+/// Every `step`-th map of 3 × 3 cells, or [all](every), with its number, whose bits are its cells: the
+/// smallest maps hold the oddest cases.
+///
+/// # Panics
+/// If the step is 0.
+pub fn maps_of_nine_cells(step: usize) -> impl Iterator<Item = (u64, Grid)> {
+    (0..1_u64 << 9).step_by(every(step)).map(|cells| {
+        let grid = Grid::from_fn(3, 3, |x, y| cells >> (3 * y + x) & 1 == 1);
+        (cells, grid.expect("a valid size"))
+    })
+}
+
 /// Calls `part` with each seed, on all cores, and returns the results, in no particular order.
 ///
 /// # Panics

@@ -49,7 +49,7 @@ mod random;
 mod validate;
 mod visibility;
 
-pub use case::{Case, describe, on_all_cores, seeds};
+pub use case::{Case, describe, every, is_exhaustive, maps_of_nine_cells, on_all_cores, seeds};
 pub use dijkstra::{Costs, Explicit};
 pub use generate::{
     adversarial, caves, maze, noise, random_free_vertex, random_grid, random_vertex, rooms, sparse,

@@ -28,15 +28,19 @@ pub(crate) const EXPERIMENTS: &[Experiment] = &[
 ];
 
 /// The experiments of these names, or of the pages of these names; all for none.
-pub(crate) fn chosen(names: &[String]) -> Result<Vec<&'static Experiment>, Error> {
+pub(crate) fn chosen(only: &[String], without: &[String]) -> Result<Vec<&'static Experiment>, Error> {
     let is =
         |experiment: &Experiment, name: &String| experiment.id == name || experiment.page.file() == *name;
-    if let Some(name) = names.iter().find(|name| !EXPERIMENTS.iter().any(|experiment| is(experiment, name))) {
+    let is_unknown = |name: &&String| !EXPERIMENTS.iter().any(|experiment| is(experiment, name));
+    if let Some(name) = only.iter().chain(without).find(is_unknown) {
         let known: Vec<&str> = EXPERIMENTS.iter().map(|experiment| experiment.id).collect();
         let pages = Page::ALL.map(Page::file).join(", ");
         let there = format!("there are {}, and the pages {pages}", known.join(", "));
         return Err(Error::Reproduce(format!("unknown experiment `{name}`: {there}")));
     }
-    let asked = |experiment: &&Experiment| names.is_empty() || names.iter().any(|name| is(experiment, name));
-    Ok(EXPERIMENTS.iter().filter(asked).collect())
+    let is_in = |names: &[String], experiment: &Experiment| names.iter().any(|name| is(experiment, name));
+    let is_asked = |experiment: &&Experiment| {
+        (only.is_empty() || is_in(only, experiment)) && !is_in(without, experiment)
+    };
+    Ok(EXPERIMENTS.iter().filter(is_asked).collect())
 }

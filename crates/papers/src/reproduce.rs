@@ -25,6 +25,9 @@ pub struct Options {
     /// Only these experiments, or all of these pages
     #[arg(long, value_name = "ID", num_args = 1..)]
     only: Vec<String>,
+    /// All but these experiments, or those of these pages
+    #[arg(long, value_name = "ID", num_args = 1..)]
+    without: Vec<String>,
     /// An even sample of everything: minutes instead of most of an hour
     #[arg(long)]
     quick: bool,
@@ -68,7 +71,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
 /// [`Error::Reproduce`] for an unknown experiment, and for counts that differ from the last run;
 /// [`Error::Set`] for an unknown set and for downloads; the errors of files.
 pub fn run_in(root: &Path, options: &Options) -> Result<(), Error> {
-    let experiments = chosen(&options.only)?;
+    let experiments = chosen(&options.only, &options.without)?;
     let results = root.join("docs").join("results");
     if options.render {
         return pages::write_all(options.out.as_deref().unwrap_or(&results));

@@ -17,7 +17,7 @@ fn grid() -> JsValue {
 }
 
 fn grid_of(rows: &str) -> JsValue {
-    Grid::from_rows(&json(rows)).unwrap_or_else(|error| panic!("{}", text(&error))).into()
+    Grid::from_rows(&json(rows), &NONE).unwrap_or_else(|error| panic!("{}", text(&error))).into()
 }
 
 fn at(x: i32, y: i32) -> JsValue {

@@ -10,7 +10,9 @@ use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 fn grid() -> JsValue {
-    Grid::from_rows(&json(r#"["...#....", ".#.#.##.", ".#...#.."]"#)).map(JsValue::from).expect("a grid")
+    Grid::from_rows(&json(r#"["...#....", ".#.#.##.", ".#...#.."]"#), &JsValue::UNDEFINED)
+        .map(JsValue::from)
+        .expect("a grid")
 }
 
 #[test]

@@ -90,9 +90,9 @@ fn install(tools: &Path, version: &str) {
     for locked in [&["--locked"][..], &[]] {
         let mut command = project::cargo();
         command.args(["install", "wasm-bindgen-cli", "--force", "--version", version]).args(locked);
-        // A few seconds of its time are worth less than minutes of optimizing it.
+        // It runs for seconds, and optimizing it would take minutes.
         command.args(["--profile", "dev", "--bin", "wasm-bindgen", "--bin", "wasm-bindgen-test-runner"]);
-        command.env("CARGO_PROFILE_DEV_OPT_LEVEL", "1").env("CARGO_PROFILE_DEV_DEBUG", "false");
+        command.env("CARGO_PROFILE_DEV_OPT_LEVEL", "0").env("CARGO_PROFILE_DEV_DEBUG", "false");
         let shown = format!("cargo install wasm-bindgen-cli --version {version} {}", locked.join(" "));
         if step(command.arg("--root").arg(tools), shown.trim_end()).is_ok() {
             return;

@@ -250,7 +250,7 @@ fn repaired_indexes_are_as_good_as_new_ones() {
         let mut indexes: Vec<_> = Setup::all(motion.k, motion.rules)
             .map(|setup| setup.prepare(&space).unwrap_or_else(|error| panic!("{setup}: {error}")))
             .collect();
-        for edit in 0..6 {
+        for edit in 0..3 {
             let mut side = |length| rng.below(length);
             let at = Rectangle { x: side(50), y: side(40), width: side(20), height: side(9) };
             space = space.edit(at, |x, y| (x * 7 + y * 3 + edit) % 5 == 0).expect("cells of the map");

@@ -10,7 +10,7 @@ use mediant::{
     Rectangle, Space,
 };
 
-const SIDE: u32 = 100;
+const SIDE: u32 = 60;
 
 fn map() -> Map {
     Map::from_fn(SIDE, SIDE, |x, y| x % 7 == 3 && y % 5 != 2).expect("a map")
@@ -63,7 +63,7 @@ fn maps_and_spaces_stop() {
     check("a disc", |limits| map.within(limits).for_disc(1.5, motion));
     check("a square", |limits| map.within(limits).for_square(2));
     check("a clearance", |limits| map.within(limits).clearance(Fit::Centers, Outside::Open));
-    check("a path", |limits| map.within(limits).path((0, 0), (99, 99)));
+    check("a path", |limits| map.within(limits).path((0, 0), (58, 58)));
 }
 
 /// The engines that prepare something of a map of this kind.
@@ -100,7 +100,7 @@ fn preparations_stop() {
 /// On noise labels do not pay: engines are compared, and nothing is kept.
 #[test]
 fn comparisons_stop() {
-    let map = Map::from_fn(150, 150, |x, y| (x * 7919 + y * 104_729 + x * y * 31) % 101 < 12).expect("a map");
+    let map = Map::from_fn(60, 60, |x, y| (x * 7919 + y * 104_729 + x * y * 31) % 101 < 12).expect("a map");
     let space = map.space(Motion::corners(K::ANY)).expect("a space");
     let engine = mediant::ConfiguredEngine::Subgoal(mediant::SubgoalOptions {
         memory: mediant::Memory::new(1000),
@@ -118,9 +118,9 @@ fn fields_tables_and_widest_paths_stop() {
         if motion.k != K::ANY {
             check("distances", |limits| space.within(limits).distances(Engine::Dijkstra, (0, 0)));
         }
-        check("a path", |limits| space.within(limits).path((0, 0), (99, 99)));
-        check("a widest path", |limits| space.within(limits).widest_path((0, 0), (99, 99), 0.2));
-        let ends: Vec<(i32, i32)> = (0..9).map(|i| (11 * i, 7)).filter(|&at| space.is_free(at)).collect();
+        check("a path", |limits| space.within(limits).path((0, 0), (58, 58)));
+        check("a widest path", |limits| space.within(limits).widest_path((0, 0), (58, 58), 0.2));
+        let ends: Vec<(i32, i32)> = (0..9).map(|i| (7 * i, 7)).filter(|&at| space.is_free(at)).collect();
         for engine in [Engine::Subgoal, space.engine().engine] {
             let Ok(index) = space.prepare(engine) else { continue };
             let table = |limits: &Limits| index.within(limits).table(ends.clone(), ends.clone());
@@ -132,7 +132,7 @@ fn fields_tables_and_widest_paths_stop() {
     let space = map().space(Motion::centers(K::N8)).expect("a space");
     check("layers", |limits| space.within(limits).distances(Engine::Wavefront, (0, 0)));
     let jps = space.prepare(Engine::JpsBlock).expect("an index");
-    let ends = [(0, 0), (99, 99)];
+    let ends = [(0, 0), (58, 58)];
     check("a table of searches", |limits| jps.within(limits).table(ends, ends));
     check("another k", |limits| jps.within(limits).for_k(K::N4));
 }
@@ -143,8 +143,8 @@ fn exceptions_stop() {
     let mut planner: Planner =
         map().space(Motion::centers(K::N8)).expect("a space").planner(Engine::Subgoal).expect("one");
     let mut find = |limits: Limits| {
-        let except = Exceptions::new().blocked([(50, 50)]);
-        planner.find_except(Query::new((0, 0), (99, 99)).within(limits), &except)
+        let except = Exceptions::new().blocked([(30, 30)]);
+        planner.find_except(Query::new((0, 0), (58, 58)).within(limits), &except)
     };
     let stopped = find(Limits::new().deadline(|| true)).expect_err("it is late");
     assert_eq!(stopped.to_string(), "the deadline passed while finding connected components");

@@ -169,7 +169,7 @@ fn an_index_that_was_loaded_can_be_prepared_again() {
 /// On noise the contraction leaves a core, and a search that passes it is slower than one without an index.
 #[test]
 fn on_noise_nothing_is_kept() {
-    let (map, setup) = (noisy(120, 5), setup("subgoal:any:open"));
+    let (map, setup) = (noisy(90, 5), setup("subgoal:any:open"));
     let made = index(setup, &map).expect("an index");
     let anya = index(super::setup("anya"), &map).expect("dead ends");
     assert_eq!((made.searched_by(), levels(&made)), (Engine::Anya, None));
@@ -190,7 +190,7 @@ fn on_noise_nothing_is_kept() {
 /// For every k it is compared with the engine that would search in its place.
 #[test]
 fn on_sparse_noise_jumps_or_anya_search_for_every_k() {
-    let map = noisy(120, 5);
+    let map = noisy(90, 5);
     for (text, engine) in [
         ("subgoal:3:closed", Engine::JpsBlock),
         ("subgoal:3:open", Engine::JpsBlock),
@@ -200,7 +200,7 @@ fn on_sparse_noise_jumps_or_anya_search_for_every_k() {
         assert_eq!((made.searched_by(), levels(&made)), (engine, None), "{text}");
     }
     // With more obstacles the hierarchy pays, whether as labels or with a core.
-    let index = index(setup("subgoal:3:never,memory=1"), &noisy(120, 25)).expect("an index");
+    let index = index(setup("subgoal:3:never,memory=1"), &noisy(90, 25)).expect("an index");
     assert_eq!((index.searched_by(), levels(&index)), (Engine::Subgoal, Some(Levels::Contracted)));
 }
 

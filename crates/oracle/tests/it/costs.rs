@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, VecDeque};
 use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Rules, Vertex};
 use mediant_moves::FiniteK;
 use mediant_oracle::{
-    Case, Explicit, describe, is_gap, neighborhood, segment_is_legal, turn_is_legal, validate,
+    Case, Explicit, describe, is_gap, neighborhood, seeds, segment_is_legal, turn_is_legal, validate,
 };
 
 const OPEN: Rules = Rules::Corner(DiagonalGap::Open);
@@ -133,7 +133,7 @@ fn blocked_and_outside_vertices_have_no_cost() {
 #[test]
 fn costs_agree_with_paths_with_each_other_and_with_sight() {
     let (mut found, mut in_sight) = (0, 0);
-    for seed in 0..400 {
+    for seed in seeds(200) {
         for rules in Rules::ALL {
             let Some(case) = Case::random(seed, rules) else { continue };
             let d = case.start.to(case.goal);
@@ -163,7 +163,7 @@ fn costs_agree_with_paths_with_each_other_and_with_sight() {
             }
         }
     }
-    assert_eq!((found > 5000, in_sight > 800), (true, true), "{found} paths, {in_sight} goals in sight");
+    assert!(found > 2500 && in_sight > 400, "{found} paths, {in_sight} goals in sight");
 }
 
 /// The optimal cost under closed gaps from a search over pairs of consecutive vertices, with

@@ -4,8 +4,8 @@
 use mediant_grid::{AsciiMap, DiagonalGap, Grid, PlacementKind, Rules, Vertex};
 use mediant_moves::FiniteK;
 use mediant_oracle::{
-    Explicit, Rng, Visibility, adversarial, describe, is_gap, random_free_vertex, seeds, suite_grid,
-    validate, vertex_is_free,
+    Explicit, Rng, Visibility, adversarial, describe, is_exhaustive, is_gap, maps_of_nine_cells,
+    random_free_vertex, seeds, suite_grid, validate, vertex_is_free,
 };
 
 const GAPS: [DiagonalGap; 2] = [DiagonalGap::Open, DiagonalGap::Closed];
@@ -96,22 +96,21 @@ fn free_vertices(grid: &Grid) -> Vec<Vertex> {
     all.filter(|&at| vertex_is_free(grid, PlacementKind::Corner, at)).collect()
 }
 
-/// Every map of 3 × 3 cells, from every vertex to every other: the smallest maps hold the oddest cases.
+/// From every vertex to every other.
 #[test]
 fn exact_on_every_map_of_nine_cells() {
     let mut tally = Tally::default();
-    for cells in 0..1_u32 << 9 {
-        let grid = Grid::from_fn(3, 3, |x, y| cells >> (3 * y + x) & 1 == 1).expect("a valid size");
+    for (cells, grid) in maps_of_nine_cells(3) {
         let starts = free_vertices(&grid);
         for gap in GAPS {
             for k in [k(2), k(3), k(4), None] {
-                tally.compare(&grid, gap, k, &starts, u64::from(cells));
+                tally.compare(&grid, gap, k, &starts, cells);
             }
         }
     }
-    // The maps are all there are, and so are the pairs.
-    assert_eq!((tally.found, tally.unreachable), (464_272, 130_288), "{tally:?}");
-    assert!(tally.bent > 80_000 && tally.bent_at_gap > 30_000 && tally.closed_end > 4000, "{tally:?}");
+    let (found, unreachable) = if is_exhaustive() { (464_272, 130_288) } else { (155_008, 43_264) };
+    assert_eq!((tally.found, tally.unreachable), (found, unreachable), "{tally:?}");
+    assert!(tally.bent > 25_000 && tally.bent_at_gap > 9_000 && tally.closed_end > 1200, "{tally:?}");
 }
 
 /// The maps of the suites up to 256 cells, every second one of those that are larger replaced by an
@@ -119,7 +118,7 @@ fn exact_on_every_map_of_nine_cells() {
 #[test]
 fn exact_on_random_maps() {
     let (mut tally, mut maps) = (Tally::default(), 0);
-    for seed in seeds(60) {
+    for seed in seeds(30) {
         let mut rng = Rng::new(seed ^ 0x5EED);
         let grid = match suite_grid(seed).0 {
             grid if grid.width() * grid.height() <= 256 => grid,

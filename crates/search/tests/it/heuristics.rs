@@ -300,7 +300,7 @@ fn check_within<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed:
 #[test]
 fn a_path_is_found_within_a_limit_if_the_shortest_is() {
     let mut seen = [0; 2];
-    for seed in seeds(20) {
+    for seed in seeds(10) {
         let grid = Arc::new(suite_grid(seed).0);
         for (rules, k) in Rules::ALL.into_iter().flat_map(|rules| [2, 3, 5].map(|k| (rules, k))) {
             let k = FiniteK::new(k).expect("k is at least 2");
@@ -311,5 +311,5 @@ fn a_path_is_found_within_a_limit_if_the_shortest_is() {
             seen.iter_mut().zip(more).for_each(|(seen, more)| *seen += more);
         }
     }
-    assert!(seen.iter().all(|&cases| cases > 2_000), "too few cases: {seen:?}");
+    assert!(seen.iter().all(|&cases| cases > 1_000), "too few cases: {seen:?}");
 }

@@ -57,8 +57,8 @@ fn costs_stay<P: SubgoalPlacement>(space: &FreeSpace<P>, k: K) {
 
 #[test]
 fn costs_are_those_of_the_graph_that_is_not_contracted() {
-    let noise = noise(&mut Rng::new(3), 70, 80, 15);
-    for grid in [&town(120, 140), &noise] {
+    let noise = noise(&mut Rng::new(3), 50, 60, 15);
+    for grid in [&town(90, 100), &noise] {
         costs_stay(&space::<Centers>(grid, CornerRule::Never), k(3));
         costs_stay(&space::<Corners>(grid, DiagonalGap::Open), k(3));
         costs_stay(&space::<Corners>(grid, DiagonalGap::Open), K::Any);

@@ -4,8 +4,8 @@
 use mediant_grid::{Centers, CornerRule, Corners, FreeSpace, Grid, PlacementKind, Rules, Vertex};
 use mediant_moves::{FiniteK, K};
 use mediant_oracle::{
-    Explicit, Rng, Visibility, describe, is_gap, on_all_cores, random_free_vertex, seeds, suite_grid,
-    validate, vertex_is_free,
+    Explicit, Rng, Visibility, describe, is_exhaustive, is_gap, maps_of_nine_cells, on_all_cores,
+    random_free_vertex, seeds, suite_grid, validate, vertex_is_free,
 };
 use mediant_search::{Counters, Guarantee, Outcome, Path, Planner, Query};
 use mediant_subgoal::{Hierarchy, SubgoalAStar, SubgoalGraph, SubgoalPlacement, SubgoalTheta};
@@ -183,9 +183,9 @@ fn sum(tallies: &[Tally]) -> Tally {
 
 #[test]
 fn sub_a_star_costs_what_the_visibility_graph_costs() {
-    let tallies = on_all_cores(seeds(300), check_corners);
+    let tallies = on_all_cores(seeds(150), check_corners);
     // A generator that went wrong must not make the suite empty.
-    let (maps, tally) = (seeds(300).end as usize, sum(&tallies));
+    let (maps, tally) = (seeds(150).end as usize, sum(&tallies));
     assert_eq!(tallies.len(), maps);
     assert!(tally.found > 200 * maps && tally.unreachable > 30 * maps, "{tally:?} on {maps} maps");
     assert!(tally.shortest > 200 * maps && tally.longer > 2 * maps, "{tally:?} on {maps} maps");
@@ -254,21 +254,22 @@ fn sub_a_star_costs_what_dijkstra_on_the_explicit_graph_costs() {
     assert!(2 * tally.longer > maps, "{tally:?} on {maps} maps");
 }
 
-/// Every map of 3 × 3 cells: the smallest maps hold the oddest gaps.
 #[test]
 fn all_is_exact_on_every_map_of_nine_cells() {
-    let check = |cells: u64| {
+    let maps: Vec<_> = maps_of_nine_cells(5).collect();
+    let check = |index: u64| {
         let mut tally = Tally::default();
-        let grid = Grid::from_fn(3, 3, |x, y| cells >> (3 * y + x) & 1 == 1).expect("a valid size");
+        let (cells, ref grid) = maps[index as usize];
         for (turn, k) in (0..).zip([k(2), k(3), k(4), K::Any]) {
             for rules in rules_of(k) {
                 let hierarchy = HIERARCHIES[(cells as usize + turn) % HIERARCHIES.len()];
-                tally.add(check_rules_explicitly(&grid, rules, k, hierarchy, cells));
+                tally.add(check_rules_explicitly(grid, rules, k, hierarchy, cells));
             }
         }
         tally
     };
-    let tally = sum(&on_all_cores(0..1 << 9, check));
-    assert_eq!((tally.found, tally.unreachable), (464_016, 127_472));
-    assert!(tally.shortest > 400_000 && tally.longer > 1000, "{tally:?}");
+    let tally = sum(&on_all_cores(0..maps.len() as u64, check));
+    let (found, unreachable) = if is_exhaustive() { (464_016, 127_472) } else { (91_800, 26_728) };
+    assert_eq!((tally.found, tally.unreachable), (found, unreachable));
+    assert!(tally.shortest > 80_000 && tally.longer > 200, "{tally:?}");
 }

@@ -2,7 +2,7 @@
 
 use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace, Grid, Identity, PlacementKind, Vertex};
 use mediant_moves::K;
-use mediant_oracle::{Rng, on_all_cores, random_free_vertex, seeds, suite_grid, validate};
+use mediant_oracle::{Rng, every, on_all_cores, random_free_vertex, seeds, suite_grid, validate};
 use mediant_search::{Outcome, Planner, Query};
 use mediant_subgoal::{SubgoalAStar, SubgoalError, SubgoalGraph, SubgoalTheta};
 
@@ -112,7 +112,7 @@ fn no_flipped_bit_makes_an_illegal_path() {
     let mut counts = [0; 2];
     for (k, hierarchy) in [k(3), K::Any].into_iter().flat_map(|k| HIERARCHIES.map(|h| (k, h))) {
         let bytes = graph(&space, k, hierarchy).to_bytes();
-        for bit in 0..8 * bytes.len() {
+        for bit in (0..8 * bytes.len()).step_by(every(7)) {
             let mut flipped = bytes.clone();
             flipped[bit / 8] ^= 1 << (bit % 8);
             let read = Graph::from_bytes(&space, k, &flipped);
@@ -122,7 +122,7 @@ fn no_flipped_bit_makes_an_illegal_path() {
             }
         }
     }
-    assert!(counts.iter().all(|&count| count > 1000), "{counts:?} refused, and read");
+    assert!(counts.iter().all(|&count| count > 140), "{counts:?} refused, and read");
 }
 
 /// Bytes with a wrong identity, that of the space and k that they are read for.

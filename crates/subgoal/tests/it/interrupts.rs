@@ -7,7 +7,7 @@ use mediant_moves::{FiniteK, K};
 use mediant_oracle::{Rng, check_interrupts, noise, rooms};
 use mediant_subgoal::{Hierarchy, HubLabels, PreparedSubgoals, SubgoalError, SubgoalGraph, SubgoalPlacement};
 
-const SIDE: u32 = 40;
+const SIDE: u32 = 24;
 
 fn by(error: &SubgoalError) -> Option<StoppedBy> {
     if let SubgoalError::Interrupted(error) = error { Some(error.by) } else { None }
@@ -54,7 +54,7 @@ fn what_is_built_at_centers_stops() {
 /// not there is an interrupt.
 #[test]
 fn comparisons_stop() {
-    let grid = Arc::new(noise(&mut Rng::new(5), 40, 40, 12));
+    let grid = Arc::new(noise(&mut Rng::new(5), 30, 30, 12));
     for k in [K::Any, FiniteK::N8.into(), FiniteK::N16.into()] {
         let space = FreeSpace::<Corners>::new(Arc::clone(&grid), DiagonalGap::Open);
         let build = |i: &Interrupt| PreparedSubgoals::within(&space, k, 1000, &|_| {}, i);

@@ -44,7 +44,7 @@ const star: Int32Array = moves(4);
 
 const motion: Motion = { k: 3, placement: "center", corners: "one" };
 const any: Motion = { k: "any", gap: "closed" };
-const factor: number | undefined = bound(motion);
+const factor: number | undefined = bound(motion) ?? bound({ neighbors: 8 });
 const why: string | undefined = checkSetup("anya", any, { smooth: "taut" });
 
 const picture: MapOptions = { threshold: 0.3, invert: true, unknown: "free", ros: 1, free: "W" };

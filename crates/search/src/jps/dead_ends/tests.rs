@@ -104,7 +104,7 @@ impl Test for Definition {
         let graph = GridGraph::<P>::new(Arc::clone(grid), FiniteK::new(k).unwrap(), rule).unwrap();
         let pruning = Pruning::new(&graph);
         let plain = uninterrupted(|never| AxialStops::new(&graph, never));
-        let reach = [1, 2, 3, 5, 8, REACH][seed as usize / 4 % 6];
+        let reach = [1, 2, 3, 5, 8, REACH][seed as usize % 6];
         let marked = planes(&graph, &pruning, reach);
         let count = graph.steps().len();
         for id in 0..graph.vertex_count() as u32 {
@@ -133,9 +133,9 @@ impl Test for Definition {
 #[test]
 fn dead_ends_are_those_of_the_definition() {
     let mut test = Definition::default();
-    on_all(grids(seeds(24)), &mut test);
+    on_all(grids(seeds(6)), &mut test);
     let Definition { dead, with_nodes, others } = test;
-    assert!(dead > 10_000 && with_nodes > 500 && others > 10_000, "{dead}, {with_nodes}, {others}");
+    assert!(dead > 2500 && with_nodes > 50 && others > 10_000, "{dead}, {with_nodes}, {others}");
 }
 
 /// Diagonal jumps stop where an axial jump leads on that passes dead ends, and where one leads to a dead
@@ -257,9 +257,9 @@ impl Test for Costs {
 #[test]
 fn searches_that_pass_dead_ends_lose_no_path() {
     let mut test = Costs::default();
-    on_all(grids(seeds(48)), &mut test);
+    on_all(grids(seeds(12)), &mut test);
     let [with, without] = test.expanded;
-    assert!(test.queries > 10_000, "{}", test.queries);
-    assert!(test.lists > 100_000, "{} jump lists", test.lists);
-    assert!(test.shorter > 1000 && with < without, "{}, {with} of {without} expansions", test.shorter);
+    assert!(test.queries > 2500, "{}", test.queries);
+    assert!(test.lists > 25_000, "{} jump lists", test.lists);
+    assert!(test.shorter > 250 && with < without, "{}, {with} of {without} expansions", test.shorter);
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use mediant_grid::{Centers, Grid, GridGraph, Identity, Placement, Vector, Vertex, uninterrupted};
 use mediant_moves::{Cost, FiniteK};
-use mediant_oracle::{Rng, noise};
+use mediant_oracle::{Rng, every, noise};
 
 use super::{
     super::{
@@ -162,7 +162,7 @@ fn bytes_of_another_length_are_refused() {
 fn every_flipped_bit_is_refused() {
     let graph = damaged_graph();
     let bytes = JumpTable::new(&graph).unwrap().to_bytes();
-    for bit in 0..8 * bytes.len() {
+    for bit in (0..8 * bytes.len()).step_by(every(7)) {
         let mut other = bytes.clone();
         other[bit / 8] ^= 1 << (bit % 8);
         let refused = JumpTable::from_bytes(&graph, &other);

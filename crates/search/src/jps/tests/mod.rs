@@ -7,7 +7,7 @@ use mediant_grid::{
     Centers, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vector, Vertex, VertexId, uninterrupted,
 };
 use mediant_moves::FiniteK;
-use mediant_oracle::{Rng, describe, is_gap, noise, seeds, suite_grid, wide_grid};
+use mediant_oracle::{Rng, describe, every, is_gap, noise, seeds, suite_grid, wide_grid};
 
 use super::{
     axial::{AxialStops, Scan},
@@ -294,7 +294,7 @@ impl Suite for Patterns {
 #[test]
 fn turns_are_those_of_the_definition_in_every_pattern() {
     // Each 3 × 3 pattern, and with it each 2 × 2 one, in the middle of a free map.
-    let grids = (0..512).map(|pattern: u64| {
+    let grids = (0..512).step_by(every(3)).map(|pattern: u64| {
         let blocked = |x: u32, y: u32| {
             (2..5).contains(&x) && (1..4).contains(&y) && pattern >> (x - 2 + 3 * (y - 1)) & 1 == 1
         };

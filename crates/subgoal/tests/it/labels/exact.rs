@@ -2,7 +2,9 @@
 
 use mediant_grid::{Centers, Corners, FreeSpace, Grid, Rules, Vertex};
 use mediant_moves::{Cost, K};
-use mediant_oracle::{Explicit, Visibility, describe, on_all_cores, seeds, suite_grid, validate};
+use mediant_oracle::{
+    Explicit, Visibility, describe, is_exhaustive, on_all_cores, seeds, suite_grid, validate,
+};
 use mediant_search::{Guarantee, Outcome, Planner, Query};
 use mediant_subgoal::{HubLabelSearch, HubLabels, SubgoalPlacement};
 
@@ -213,13 +215,12 @@ fn labels_cost_what_dijkstra_on_the_explicit_graph_costs() {
 /// The smallest maps hold the oddest gaps. A k for each map and rule, all by `MEDIANT_EXHAUSTIVE`.
 #[test]
 fn labels_are_exact_on_every_map_of_nine_cells() {
-    let is_whole = std::env::var_os("MEDIANT_EXHAUSTIVE").is_some();
     let check = |cells: u64| {
         let grid = Grid::from_fn(3, 3, |x, y| cells >> (3 * y + x) & 1 == 1).expect("a valid size");
         let ks = [k(2), k(3), k(4), K::Any]
             .into_iter()
             .zip(0..)
-            .filter(|(_, turn)| is_whole || cells % 4 == *turn);
+            .filter(|(_, turn)| is_exhaustive() || cells % 4 == *turn);
         let each = ks.flat_map(|(k, _)| rules_of(k).map(move |rules| (k, rules)));
         sum(each.map(|(k, rules)| check_rules(&grid, rules, k, 16, cells)).collect())
     };
