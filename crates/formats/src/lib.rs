@@ -85,7 +85,7 @@ pub use ros::{RosError, RosMap, RosMode, RosSettings};
 #[cfg(feature = "save")]
 pub use save::{NewFile, WriteError};
 pub use scenario::{Instance, MapMismatch, Scenario, ScenarioError, scenario_tolerance};
-pub use source::{MapFormat, MapSource, map_size_with, read_map, read_map_with};
+pub use source::{MapFormat, MapSource, map_size_with, read_map, read_map_interruptible, read_map_with};
 #[cfg(feature = "trace")]
 pub use trace::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
 pub use world::{WorldError, WorldFrame};

@@ -6,6 +6,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use mediant_grid::{Grid, GridError, Interrupt, Interrupted};
+
 #[cfg(feature = "index")]
 use crate::index::error::IndexError;
 use crate::{
@@ -17,6 +19,9 @@ use crate::{
 ///
 /// [`Grid::MAX_SIDE`]: mediant_grid::Grid::MAX_SIDE
 pub const MAX_FILE_BYTES: u64 = 2 << 30;
+
+/// After so many bytes an interrupt is asked.
+pub(crate) const PIECE: usize = 1 << 20;
 
 /// A file that cannot be read or parsed.
 #[derive(Debug, thiserror::Error)]
@@ -118,18 +123,45 @@ pub enum ReadError {
         // An error that can name two maps is large, and all that read files return this one.
         source: Box<IndexError>,
     },
+    /// An interrupt stopped the reading.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
 }
 
 impl ReadError {
+    /// This error of the picture in a file.
+    pub(crate) fn of_raster(path: &Path, error: RasterError) -> Self {
+        match error {
+            RasterError::Interrupted(interrupted) => interrupted.into(),
+            source => Self::Raster { path: path.to_owned(), source },
+        }
+    }
+
+    /// This error of the map in a file.
+    pub(crate) fn of_map(path: &Path, error: MapError) -> Self {
+        match error {
+            MapError::Interrupted(interrupted) => interrupted.into(),
+            source => Self::Map { path: path.to_owned(), source },
+        }
+    }
+
     /// This error of the picture that a YAML file names.
     pub(crate) fn of_image(self, yaml: &Path) -> Self {
-        Self::RosImage { path: yaml.to_owned(), source: Box::new(self) }
+        match self {
+            Self::Interrupted(interrupted) => interrupted.into(),
+            source => Self::RosImage { path: yaml.to_owned(), source: Box::new(source) },
+        }
     }
 }
 
 /// The bytes of a regular file. A device or pipe is refused before it is opened, since opening a pipe may
 /// never return.
 pub(crate) fn read_regular(path: &Path) -> Result<Vec<u8>, ReadError> {
+    read_regular_interruptible(path, &Interrupt::NEVER)
+}
+
+/// [`read_regular`], which an interrupt can stop; it asks for each mebibyte.
+pub(crate) fn read_regular_interruptible(path: &Path, interrupt: &Interrupt) -> Result<Vec<u8>, ReadError> {
     let unreadable = |source: io::Error| match source.kind() {
         io::ErrorKind::NotFound => ReadError::Missing { path: path.to_owned() },
         _ => ReadError::Unreadable { path: path.to_owned(), source },
@@ -149,9 +181,27 @@ pub(crate) fn read_regular(path: &Path) -> Result<Vec<u8>, ReadError> {
     // MAX_FILE_BYTES + 1 fits in 32 bits. The extra byte is for the read that finds the end of the file.
     bytes.try_reserve_exact(metadata.len() as usize + 1).map_err(|error| unreadable(error.into()))?;
     // The file may have grown since: one byte too many tells.
-    file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    let mut file = file.take(MAX_FILE_BYTES + 1);
+    loop {
+        interrupt.check("reading the file")?;
+        if file.by_ref().take(PIECE as u64).read_to_end(&mut bytes).map_err(unreadable)? == 0 {
+            break;
+        }
+    }
     if bytes.len() as u64 > MAX_FILE_BYTES {
         return Err(ReadError::TooLarge { path: path.to_owned() });
     }
     Ok(bytes)
+}
+
+/// The grid of a map that was read, whose sides were checked then.
+pub(crate) fn grid_of_checked_sides(
+    (width, height): (u32, u32),
+    interrupt: &Interrupt,
+    blocked: impl FnMut(u32, u32) -> bool,
+) -> Result<Grid, Interrupted> {
+    Grid::from_fn_interruptible(width, height, interrupt, blocked).map_err(|error| match error {
+        GridError::Interrupted(interrupted) => interrupted,
+        other => unreachable!("the sides were checked: {other}"),
+    })
 }

@@ -6,6 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use mediant_grid::Interrupted;
 use tempfile::{NamedTempFile, TempPath};
 
 /// Why a file cannot be written. What was there before is still there.
@@ -68,6 +69,9 @@ pub enum WriteError {
         /// The reason.
         source: io::Error,
     },
+    /// An interrupt stopped the writing.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
 }
 
 /// A file that is being written. It takes the place of an older file of its name when it is whole, at
@@ -196,7 +200,7 @@ impl Write for NewFile {
 }
 
 /// Adds the path of the file that cannot be written to an error.
-fn unwritable(path: &Path) -> impl FnOnce(io::Error) -> WriteError + use<> {
+pub(crate) fn unwritable(path: &Path) -> impl FnOnce(io::Error) -> WriteError + use<> {
     let path = path.to_owned();
     move |source| WriteError::Unwritable { path, source }
 }

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use mediant_grid::Grid;
+use mediant_grid::{Grid, Interrupt};
 
 use crate::{
     MapFile, MapOptions, Raster, RosMap, WorldFrame, foreign,
-    read::{ReadError, read_regular},
+    read::{ReadError, read_regular_interruptible},
     text::{Lines, words},
 };
 
@@ -75,7 +75,19 @@ pub struct MapSource {
 /// [`ReadError`] for a file that is missing, cannot be read, or is no map; the same of the picture that a
 /// YAML file names.
 pub fn read_map(path: impl AsRef<Path>, options: &MapOptions) -> Result<MapSource, ReadError> {
-    read_map_with(path, options, read_regular)
+    read_map_interruptible(path, options, &Interrupt::NEVER)
+}
+
+/// [`read_map`], which an interrupt can stop; it asks for each mebibyte of a file and each row of the map.
+///
+/// # Errors
+/// Those of [`read_map`], and [`ReadError::Interrupted`].
+pub fn read_map_interruptible(
+    path: impl AsRef<Path>,
+    options: &MapOptions,
+    interrupt: &Interrupt,
+) -> Result<MapSource, ReadError> {
+    source(path.as_ref(), options, |path| read_regular_interruptible(path, interrupt), interrupt)
 }
 
 /// Reads a map as [`read_map`] does, from wherever its files are: `read` gives the bytes of the file with a
@@ -99,25 +111,33 @@ pub fn read_map(path: impl AsRef<Path>, options: &MapOptions) -> Result<MapSourc
 pub fn read_map_with(
     path: impl AsRef<Path>,
     options: &MapOptions,
-    mut read: impl FnMut(&Path) -> Result<Vec<u8>, ReadError>,
+    read: impl FnMut(&Path) -> Result<Vec<u8>, ReadError>,
 ) -> Result<MapSource, ReadError> {
-    let path = path.as_ref();
+    source(path.as_ref(), options, read, &Interrupt::NEVER)
+}
+
+fn source(
+    path: &Path,
+    options: &MapOptions,
+    mut read: impl FnMut(&Path) -> Result<Vec<u8>, ReadError>,
+    interrupt: &Interrupt,
+) -> Result<MapSource, ReadError> {
     let bytes = read(path)?;
     let format = format_of(path, &bytes)?;
     let (grid, frame, tiles) = match format {
         MapFormat::MovingAi => {
-            let map = MapFile::from_bytes(bytes, options.tiles.clone())
-                .map_err(|source| ReadError::Map { path: path.to_owned(), source })?;
-            (map.to_grid(), None, Some(map))
+            let map = MapFile::from_bytes_interruptible(bytes, options.tiles.clone(), interrupt)
+                .map_err(|error| ReadError::of_map(path, error))?;
+            (map.to_grid_interruptible(interrupt)?, None, Some(map))
         }
         MapFormat::Picture => {
-            let raster = Raster::parse(&bytes)
-                .map_err(|source| ReadError::Raster { path: path.to_owned(), source })?;
-            (raster.to_grid(options), None, None)
+            let raster = Raster::parse_interruptible(&bytes, interrupt)
+                .map_err(|error| ReadError::of_raster(path, error))?;
+            (raster.to_grid_interruptible(options, interrupt)?, None, None)
         }
         MapFormat::Ros => {
-            let map = RosMap::from_yaml(path, &bytes, read)?;
-            (map.to_grid(options), Some(map.frame()), None)
+            let map = RosMap::from_yaml(path, &bytes, read, interrupt)?;
+            (map.to_grid_interruptible(options, interrupt)?, Some(map.frame()), None)
         }
     };
     Ok(MapSource { grid, frame, format, tiles })
@@ -141,13 +161,10 @@ pub fn map_size_with(
 ) -> Result<(u32, u32), ReadError> {
     let path = path.as_ref();
     let bytes = read(path)?;
-    let of_picture = |path: &Path, bytes: &[u8]| {
-        Raster::size(bytes).map_err(|source| ReadError::Raster { path: path.to_owned(), source })
-    };
+    let of_picture =
+        |path: &Path, bytes: &[u8]| Raster::size(bytes).map_err(|error| ReadError::of_raster(path, error));
     match format_of(path, &bytes)? {
-        MapFormat::MovingAi => {
-            MapFile::size(&bytes).map_err(|source| ReadError::Map { path: path.to_owned(), source })
-        }
+        MapFormat::MovingAi => MapFile::size(&bytes).map_err(|error| ReadError::of_map(path, error)),
         MapFormat::Picture => of_picture(path, &bytes),
         MapFormat::Ros => {
             let (_, image, bytes) = RosMap::files(path, &bytes, read)?;

@@ -170,7 +170,7 @@ pub enum Error {
     },
     /// A file that cannot be written.
     #[error(transparent)]
-    Write(#[from] WriteError),
+    Write(WriteError),
 }
 
 impl From<Interrupted> for Error {
@@ -197,12 +197,19 @@ impl From<SizeError> for Error {
     }
 }
 
+impl From<WriteError> for Error {
+    fn from(error: WriteError) -> Self {
+        match error {
+            WriteError::Interrupted(interrupted) => interrupted.into(),
+            error => Self::Write(error),
+        }
+    }
+}
+
 impl From<ReadError> for Error {
     fn from(error: ReadError) -> Self {
         match error {
-            ReadError::Index { source, .. } if matches!(*source, IndexError::Interrupted(_)) => {
-                Self::from(*source)
-            }
+            ReadError::Interrupted(interrupted) => interrupted.into(),
             error => Self::Read(error),
         }
     }

@@ -2,8 +2,11 @@
 
 use std::{path::Path as FilePath, sync::Arc};
 
-use mediant_formats::{MapOptions, ReadError, Tiles, WorldFrame, map_size_with, read_map, read_map_with};
+use mediant_formats::{
+    MapOptions, ReadError, Tiles, WorldFrame, map_size_with, read_map, read_map_interruptible, read_map_with,
+};
 use mediant_grid::{Grid, GridError, MapId, Rectangle, Vertex};
+use mediant_search::Limits;
 
 use crate::error::Error;
 
@@ -62,6 +65,20 @@ impl Map {
         options: &MapOptions,
     ) -> Result<(Self, Option<WorldFrame>), Error> {
         let source = read_map(path, options)?;
+        Ok((source.grid.into(), source.frame))
+    }
+
+    /// Reads a map as [`open_with`](Self::open_with) does, unless the deadline or the flag of the limits stops
+    /// it before it is done.
+    ///
+    /// # Errors
+    /// Those of [`open`](Self::open), and [`Error::Stopped`].
+    pub fn open_within(
+        path: impl AsRef<FilePath>,
+        options: &MapOptions,
+        limits: &Limits,
+    ) -> Result<(Self, Option<WorldFrame>), Error> {
+        let source = read_map_interruptible(path, options, limits.interrupt())?;
         Ok((source.grid.into(), source.frame))
     }
 

@@ -258,6 +258,14 @@ impl Within<'_, Space> {
 }
 
 impl Within<'_, Index> {
+    /// [`Index::save`]. An older file stays where this is stopped.
+    ///
+    /// # Errors
+    /// Those of [`Index::save`], and [`Error::Stopped`].
+    pub fn save(&self, path: impl AsRef<FilePath>) -> Result<(), Error> {
+        self.of.write(path.as_ref(), self.limits.interrupt())
+    }
+
     /// [`Index::repair`]; the index stays as it is.
     ///
     /// # Errors

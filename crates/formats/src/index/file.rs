@@ -7,9 +7,12 @@ use sha2::{Digest, Sha256};
 
 use super::{error::IndexError, header, key::IndexKey, layout::DIGEST_BYTES};
 use crate::{
-    read::{MAX_FILE_BYTES, ReadError, read_regular},
-    save::{NewFile, WriteError},
+    read::{MAX_FILE_BYTES, PIECE, ReadError, read_regular_interruptible},
+    save::{NewFile, WriteError, unwritable},
 };
+
+/// What is stopped, for messages.
+const WRITING: &str = "writing the index";
 
 /// A saved index: the key that says what it was built for, and a payload that only its engine understands.
 ///
@@ -104,9 +107,22 @@ impl IndexFile {
     /// [`WriteError`] if the operating system refuses, or if there is something at `path` that is no regular
     /// file.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), WriteError> {
+        self.write_interruptible(path, &Interrupt::NEVER)
+    }
+
+    /// [`write`](Self::write), which an interrupt can stop; it asks for each mebibyte. What was there before
+    /// stays then.
+    ///
+    /// # Errors
+    /// Those of [`write`](Self::write), and [`WriteError::Interrupted`].
+    pub fn write_interruptible(
+        &self,
+        path: impl AsRef<Path>,
+        interrupt: &Interrupt,
+    ) -> Result<(), WriteError> {
         let header = header::encode(&self.key, self.payload.len());
-        let digest = Sha256::new().chain_update(&header).chain_update(&self.payload).finalize();
-        replace(path.as_ref(), &[&header, &self.payload, &digest])
+        let digest = header::digest_of(&[&header, &self.payload], interrupt, WRITING)?;
+        replace(path.as_ref(), &[&header, &self.payload, &digest], interrupt)
     }
 
     /// Reads and parses a file.
@@ -120,12 +136,14 @@ impl IndexFile {
     /// [`read`](Self::read), which an interrupt can stop.
     ///
     /// # Errors
-    /// Those of [`read`](Self::read); [`IndexError::Interrupted`] as a [`ReadError::Index`].
+    /// Those of [`read`](Self::read), and [`ReadError::Interrupted`].
     pub fn read_interruptible(path: impl AsRef<Path>, interrupt: &Interrupt) -> Result<Self, ReadError> {
         let path = path.as_ref();
-        let bytes = read_regular(path)?;
-        Self::from_bytes_interruptible(bytes, interrupt)
-            .map_err(|source| ReadError::Index { path: path.to_owned(), source: source.into() })
+        let bytes = read_regular_interruptible(path, interrupt)?;
+        Self::from_bytes_interruptible(bytes, interrupt).map_err(|error| match error {
+            IndexError::Interrupted(interrupted) => interrupted.into(),
+            source => ReadError::Index { path: path.to_owned(), source: source.into() },
+        })
     }
 
     /// Checks that the index was built for this engine, version and identity: for the same map, rules of
@@ -153,7 +171,7 @@ impl IndexFile {
 }
 
 /// Writes a file of these parts to `path`, in the place of an older file.
-fn replace(path: &Path, parts: &[&[u8]]) -> Result<(), WriteError> {
+fn replace(path: &Path, parts: &[&[u8]], interrupt: &Interrupt) -> Result<(), WriteError> {
     if fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
         return Err(WriteError::NotRegular { path: path.to_owned() });
     }
@@ -161,5 +179,10 @@ fn replace(path: &Path, parts: &[&[u8]]) -> Result<(), WriteError> {
     if found > MAX_FILE_BYTES {
         return Err(WriteError::TooLarge { path: path.to_owned(), found });
     }
-    NewFile::write_with(path, |file| parts.iter().try_for_each(|part| file.write_all(part)))
+    let mut file = NewFile::create(path)?;
+    for piece in parts.iter().flat_map(|part| part.chunks(PIECE)) {
+        interrupt.check(WRITING)?;
+        file.write_all(piece).map_err(unwritable(path))?;
+    }
+    file.replace()
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use mediant_grid::{Identity, Interrupt};
+use mediant_grid::{Identity, Interrupt, Interrupted};
 use sha2::{Digest, Sha256};
 
 use super::{
@@ -10,7 +10,7 @@ use super::{
     key::IndexKey,
     layout::{DIGEST_BYTES, FORMAT_VERSION, HEADER_BYTES, MAGIC, NAME_BYTES, NAME_FORM, is_engine_name},
 };
-use crate::text::quote;
+use crate::{read::PIECE, text::quote};
 
 /// The header of an index with a payload of this many bytes.
 pub(super) fn encode(key: &IndexKey, payload: usize) -> Vec<u8> {
@@ -46,15 +46,24 @@ pub(super) fn decode(bytes: &[u8], interrupt: &Interrupt) -> Result<(IndexKey, R
         return Err(IndexError::Length { expected, found });
     }
     let (content, digest) = bytes.split_at(bytes.len() - DIGEST_BYTES);
-    let mut found = Sha256::new();
-    for piece in content.chunks(1 << 20) {
-        interrupt.check("checking the file of an index")?;
-        found.update(piece);
-    }
-    if found.finalize().as_slice() != digest {
+    if digest_of(&[content], interrupt, "checking the file of an index")? != digest {
         return Err(IndexError::Damaged);
     }
     Ok((header.key()?, HEADER_BYTES..content.len()))
+}
+
+/// The checksum of these parts in a row.
+pub(super) fn digest_of(
+    parts: &[&[u8]],
+    interrupt: &Interrupt,
+    during: &'static str,
+) -> Result<[u8; DIGEST_BYTES], Interrupted> {
+    let mut digest = Sha256::new();
+    for piece in parts.iter().flat_map(|part| part.chunks(PIECE)) {
+        interrupt.check(during)?;
+        digest.update(piece);
+    }
+    Ok(digest.finalize().into())
 }
 
 /// The bytes that were not yet decoded.

@@ -1,6 +1,6 @@
 //! Why a text is not a map.
 
-use mediant_grid::Grid;
+use mediant_grid::{Grid, Interrupted};
 
 use super::Tiles;
 
@@ -124,6 +124,9 @@ pub enum MapError {
         /// What the file has there.
         found: String,
     },
+    /// An interrupt stopped the reading.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
 }
 
 const HEADER_FORM: &str = "a MovingAI map begins with the lines `type octile`, `height N`, `width N` and \

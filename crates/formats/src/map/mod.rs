@@ -6,12 +6,12 @@ mod tiles;
 
 use std::{io, path::Path};
 
-use mediant_grid::Grid;
+use mediant_grid::{Grid, Interrupt, Interrupted, uninterrupted};
 
 pub use error::MapError;
 pub use tiles::{Ground, RowsError, TileError, Tiles, TilesError};
 
-use crate::read::{ReadError, read_regular};
+use crate::read::{ReadError, grid_of_checked_sides, read_regular};
 
 /// A MovingAI map: a header with height and width, and one character per cell.
 ///
@@ -59,7 +59,15 @@ impl MapFile {
     /// # Errors
     /// [`MapError`] says what is wrong and where.
     pub fn from_bytes(text: Vec<u8>, tiles: Tiles) -> Result<Self, MapError> {
-        let (width, rows) = parse::map(&text, &tiles)?;
+        Self::from_bytes_interruptible(text, tiles, &Interrupt::NEVER)
+    }
+
+    pub(crate) fn from_bytes_interruptible(
+        text: Vec<u8>,
+        tiles: Tiles,
+        interrupt: &Interrupt,
+    ) -> Result<Self, MapError> {
+        let (width, rows) = parse::map(&text, &tiles, interrupt)?;
         Ok(Self { text, width, rows, tiles })
     }
 
@@ -70,7 +78,7 @@ impl MapFile {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
         let path = path.as_ref();
         Self::from_bytes(read_regular(path)?, Tiles::default())
-            .map_err(|source| ReadError::Map { path: path.to_owned(), source })
+            .map_err(|error| ReadError::of_map(path, error))
     }
 
     /// The width and the height that the header states of a map that [`parse`](Self::parse) reads whole.
@@ -98,7 +106,11 @@ impl MapFile {
     /// The grid of the map.
     #[must_use]
     pub fn to_grid(&self) -> Grid {
-        self.grid_where(|tile| self.is_free(tile))
+        uninterrupted(|never| self.to_grid_interruptible(never))
+    }
+
+    pub(crate) fn to_grid_interruptible(&self, interrupt: &Interrupt) -> Result<Grid, Interrupted> {
+        self.grid_where(interrupt, |tile| self.is_free(tile))
     }
 
     /// The grid of a ground: its cells are free, and all others blocked. So no path leads from one ground to
@@ -114,7 +126,7 @@ impl MapFile {
     /// ```
     #[must_use]
     pub fn ground_grid(&self, ground: Ground) -> Grid {
-        self.grid_where(|tile| Ground::of_tile(tile) == Some(ground))
+        uninterrupted(|never| self.grid_where(never, |tile| Ground::of_tile(tile) == Some(ground)))
     }
 
     /// The ground of a cell; `None` for one that nobody can enter, and outside the map.
@@ -125,12 +137,11 @@ impl MapFile {
         Ground::of_tile(self.text[row + x])
     }
 
-    fn grid_where(&self, is_free: impl Fn(u8) -> bool) -> Grid {
+    fn grid_where(&self, interrupt: &Interrupt, is_free: impl Fn(u8) -> bool) -> Result<Grid, Interrupted> {
         let table: Vec<bool> = (0..=u8::MAX).map(is_free).collect();
-        Grid::from_fn(self.width, self.height(), |x, y| {
+        grid_of_checked_sides((self.width, self.height()), interrupt, |x, y| {
             !table[usize::from(self.text[self.rows[y as usize] + x as usize])]
         })
-        .expect("the parser checks width and height")
     }
 
     /// The number of columns, 1 to [`Grid::MAX_SIDE`].

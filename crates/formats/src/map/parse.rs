@@ -1,6 +1,6 @@
 //! Parses the text of a map.
 
-use mediant_grid::Grid;
+use mediant_grid::{Grid, Interrupt};
 
 use super::{Tiles, error::MapError};
 use crate::{
@@ -17,13 +17,13 @@ pub(super) fn size(text: &[u8]) -> Result<(u32, u32), MapError> {
 }
 
 /// The width of a map, and where each of its rows begins in the text.
-pub(super) fn map(text: &[u8], tiles: &Tiles) -> Result<(u32, Vec<usize>), MapError> {
+pub(super) fn map(text: &[u8], tiles: &Tiles, interrupt: &Interrupt) -> Result<(u32, Vec<usize>), MapError> {
     if text.is_empty() {
         return Err(MapError::Empty);
     }
     let mut lines = Lines::new(text);
     let (width, height) = parse_header(&mut lines)?;
-    Ok((width, parse_rows(&mut lines, width, height, tiles)?))
+    Ok((width, parse_rows(&mut lines, (width, height), tiles, interrupt)?))
 }
 
 /// The width and the height that the header states.
@@ -88,10 +88,16 @@ fn parse_side(line: usize, text: &[u8], side: &'static str) -> Result<u32, MapEr
 }
 
 /// Where each row begins. The list grows with the rows that the file has, not with the height that it states.
-fn parse_rows(lines: &mut Lines<'_>, width: u32, height: u32, tiles: &Tiles) -> Result<Vec<usize>, MapError> {
+fn parse_rows(
+    lines: &mut Lines<'_>,
+    (width, height): (u32, u32),
+    tiles: &Tiles,
+    interrupt: &Interrupt,
+) -> Result<Vec<usize>, MapError> {
     let (mut rows, table) = (Vec::new(), tiles.table());
     let known = |tile: u8| table[usize::from(tile)].is_some();
     while rows.len() < height as usize {
+        interrupt.check("reading the map")?;
         let Some(line) = lines.next() else {
             let line = lines.number() + 1;
             return Err(MapError::FewRows { line, row: rows.len() + 1, height });

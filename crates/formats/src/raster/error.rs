@@ -1,6 +1,6 @@
 //! Why bytes are not a picture.
 
-use mediant_grid::{Grid, GridError};
+use mediant_grid::{Grid, GridError, Interrupted};
 
 use super::Raster;
 
@@ -119,6 +119,9 @@ pub enum RasterError {
     /// There is not enough memory for the picture.
     #[error("not enough memory for the picture; scale it down or split it")]
     Memory,
+    /// An interrupt stopped the reading.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
 }
 
 const HEADER_FORM: &str = "a PGM begins with `P5`, the width, the height and the largest sample, a PBM with \

@@ -11,7 +11,7 @@ mod write;
 
 use std::path::Path;
 
-use mediant_grid::Grid;
+use mediant_grid::{Grid, Interrupt, Interrupted, uninterrupted};
 
 pub use error::RasterError;
 pub use options::{MapOptions, RosVersion, Unknown};
@@ -19,7 +19,7 @@ pub use write::RasterFormat;
 
 use crate::{
     foreign::kind_or_quote,
-    read::{ReadError, read_regular},
+    read::{ReadError, grid_of_checked_sides, read_regular},
 };
 use error::check_sides;
 use samples::Samples;
@@ -58,6 +58,9 @@ struct Opacities {
     samples: Samples,
 }
 
+/// What is stopped, for messages.
+const READING: &str = "reading the picture";
+
 const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 
 impl Raster {
@@ -85,14 +88,18 @@ impl Raster {
     /// [`RasterError`] says what is wrong. Memory grows with what was decoded, never with what the header
     /// states.
     pub fn parse(bytes: &[u8]) -> Result<Self, RasterError> {
+        Self::parse_interruptible(bytes, &Interrupt::NEVER)
+    }
+
+    pub(crate) fn parse_interruptible(bytes: &[u8], interrupt: &Interrupt) -> Result<Self, RasterError> {
         if bytes.starts_with(PNG_SIGNATURE) {
             #[cfg(feature = "png")]
-            return png::read(bytes);
+            return png::read(bytes, interrupt);
             #[cfg(not(feature = "png"))]
             return Err(RasterError::PngIsOff);
         }
         match netpbm::kind(bytes) {
-            Some(kind) => netpbm::read(kind, bytes),
+            Some(kind) => netpbm::read(kind, bytes, interrupt),
             None => Err(RasterError::Unknown { found: kind_or_quote(bytes) }),
         }
     }
@@ -121,8 +128,7 @@ impl Raster {
     /// [`ReadError`] for a file that is missing, cannot be read, or is no picture.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
         let path = path.as_ref();
-        Self::parse(&read_regular(path)?)
-            .map_err(|source| ReadError::Raster { path: path.to_owned(), source })
+        Self::parse(&read_regular(path)?).map_err(|error| ReadError::of_raster(path, error))
     }
 
     /// A picture of `width` × `height` opaque pixels; `shade(x, y)` is asked once for each, row by row. A
@@ -181,39 +187,68 @@ impl Raster {
     /// The grid of the picture, one cell a pixel: dark pixels are blocked, see [`MapOptions`].
     #[must_use]
     pub fn to_grid(&self, options: &MapOptions) -> Grid {
+        uninterrupted(|never| self.to_grid_interruptible(options, never))
+    }
+
+    pub(crate) fn to_grid_interruptible(
+        &self,
+        options: &MapOptions,
+        interrupt: &Interrupt,
+    ) -> Result<Grid, Interrupted> {
         let limit = options.threshold.ceil_of(self.white);
         let (white, invert) = (self.white, options.invert);
         let unknown = options.unknown == Unknown::Blocked;
         let dark = |shade: u32| (if invert { white - shade } else { shade }) < limit;
         match self.opaque() {
-            None => self.grid_where(|shade, _| dark(shade)),
+            None => self.grid_where(interrupt, |shade, _| dark(shade)),
             Some(opaque) => {
-                self.grid_where(|shade, opacity| if 2 * opacity < opaque { unknown } else { dark(shade) })
+                self.grid_where(
+                    interrupt,
+                    |shade, opacity| {
+                        if 2 * opacity < opaque { unknown } else { dark(shade) }
+                    },
+                )
             }
         }
     }
 
     /// The grid in which those cells are blocked for whose shade and opacity `blocked` says so. The opacity
     /// is 0 in pictures without.
-    pub(crate) fn grid_where(&self, blocked: impl Fn(u32, u32) -> bool) -> Grid {
+    pub(crate) fn grid_where(
+        &self,
+        interrupt: &Interrupt,
+        blocked: impl Fn(u32, u32) -> bool,
+    ) -> Result<Grid, Interrupted> {
         match &self.shades {
-            Samples::U8(shades) => self.grid_of(shades, blocked),
-            Samples::U16(shades) => self.grid_of(shades, blocked),
-            Samples::U32(shades) => self.grid_of(shades, blocked),
+            Samples::U8(shades) => self.grid_of(shades, interrupt, blocked),
+            Samples::U16(shades) => self.grid_of(shades, interrupt, blocked),
+            Samples::U32(shades) => self.grid_of(shades, interrupt, blocked),
         }
     }
 
-    fn grid_of<S: Copy + Into<u32>>(&self, shades: &[S], blocked: impl Fn(u32, u32) -> bool) -> Grid {
-        let width = self.width as usize;
-        let index = |x: u32, y: u32| y as usize * width + x as usize;
-        let grid = match &self.opacities {
-            None => Grid::from_fn(self.width, self.height, |x, y| blocked(shades[index(x, y)].into(), 0)),
-            Some(opacities) => Grid::from_fn(self.width, self.height, |x, y| {
-                let at = index(x, y);
+    fn grid_of<S: Copy + Into<u32>>(
+        &self,
+        shades: &[S],
+        interrupt: &Interrupt,
+        blocked: impl Fn(u32, u32) -> bool,
+    ) -> Result<Grid, Interrupted> {
+        match &self.opacities {
+            None => self.grid_by_pixel(interrupt, |at| blocked(shades[at].into(), 0)),
+            Some(opacities) => self.grid_by_pixel(interrupt, |at| {
                 blocked(shades[at].into(), opacities.samples.get(at).unwrap_or(0))
             }),
-        };
-        grid.expect("the sides were checked when the picture was made")
+        }
+    }
+
+    /// The grid in which those cells are blocked for whose number, row by row, `blocked` says so.
+    fn grid_by_pixel(
+        &self,
+        interrupt: &Interrupt,
+        blocked: impl Fn(usize) -> bool,
+    ) -> Result<Grid, Interrupted> {
+        let width = self.width as usize;
+        let blocked = |x: u32, y: u32| blocked(y as usize * width + x as usize);
+        grid_of_checked_sides((self.width, self.height), interrupt, blocked)
     }
 
     /// The number of columns, 1 to [`Grid::MAX_SIDE`].
@@ -268,25 +303,26 @@ impl Raster {
 
     /// The grid in which those cells are blocked for whose luma `blocked` says so, and for pixels that are
     /// not wholly opaque, where they count, `unknown`.
-    pub(crate) fn grid_of_lumas(&self, blocked: &[bool; 256], unknown: Option<bool>) -> Grid {
-        let (width, opaque) = (self.width as usize, self.opaque());
+    pub(crate) fn grid_of_lumas(
+        &self,
+        interrupt: &Interrupt,
+        blocked: &[bool; 256],
+        unknown: Option<bool>,
+    ) -> Result<Grid, Interrupted> {
+        let opaque = self.opaque();
         let hidden = self.opacities.as_ref().zip(opaque).zip(unknown);
         let of_gray = match self.lumas {
             Some(_) => Vec::new(),
             // Shades are few, and pixels many.
             None => (0..=self.white).map(|shade| blocked[usize::from(self.luma_of_gray(shade))]).collect(),
         };
-        let grid = Grid::from_fn(self.width, self.height, |x, y| {
-            let at = y as usize * width + x as usize;
-            match (&hidden, &self.lumas) {
-                (Some(((opacities, opaque), unknown)), _) if opacities.samples.get(at) < Some(*opaque) => {
-                    *unknown
-                }
-                (_, Some(lumas)) => lumas.get(at).is_none_or(|luma| blocked[luma as usize & 0xff]),
-                (_, None) => self.shades.get(at).is_none_or(|shade| of_gray[shade as usize]),
+        self.grid_by_pixel(interrupt, |at| match (&hidden, &self.lumas) {
+            (Some(((opacities, opaque), unknown)), _) if opacities.samples.get(at) < Some(*opaque) => {
+                *unknown
             }
-        });
-        grid.expect("the sides were checked when the picture was made")
+            (_, Some(lumas)) => lumas.get(at).is_none_or(|luma| blocked[luma as usize & 0xff]),
+            (_, None) => self.shades.get(at).is_none_or(|shade| of_gray[shade as usize]),
+        })
     }
 
     fn index(&self, x: u32, y: u32) -> Option<usize> {

@@ -4,7 +4,9 @@
 //! the height and (PGM) the largest sample, with white space and comments between them; then one byte of
 //! white space, and the rows from the top. Files hold one picture here.
 
-use super::{Raster, RasterError, error::check_sides, plain, samples::Samples};
+use mediant_grid::Interrupt;
+
+use super::{READING, Raster, RasterError, error::check_sides, plain, samples::Samples};
 use crate::text::quote;
 
 /// What the first two bytes say.
@@ -46,61 +48,70 @@ fn sides(kind: Kind, cursor: &mut Cursor<'_>) -> Result<(u32, u32), RasterError>
 }
 
 /// Reads a file of this kind.
-pub(super) fn read(kind: Kind, bytes: &[u8]) -> Result<Raster, RasterError> {
+pub(super) fn read(kind: Kind, bytes: &[u8], interrupt: &Interrupt) -> Result<Raster, RasterError> {
     let mut cursor = Cursor { bytes, at: 2 };
     let (width, height) = sides(kind, &mut cursor)?;
     let white = if matches!(kind, Kind::PlainBitmap | Kind::Bitmap) { 1 } else { cursor.maxval()? };
-    let mut shades = Samples::up_to(white);
-    match kind {
-        Kind::PlainBitmap => plain::bits(&mut cursor, width, height, &mut shades)?,
-        Kind::PlainGray => plain::samples(&mut cursor, width, height, white, &mut shades)?,
-        Kind::Bitmap => bits(cursor.pixels()?, width, height, &mut shades)?,
-        _ => samples(cursor.pixels()?, width, height, white, &mut shades)?,
-    }
+    let sides = (width, height);
+    let shades = match kind {
+        Kind::PlainBitmap => plain::bits(&mut cursor, sides, interrupt)?,
+        Kind::PlainGray => plain::samples(&mut cursor, sides, white, interrupt)?,
+        Kind::Bitmap => bits(cursor.pixels()?, sides, interrupt)?,
+        _ => samples(cursor.pixels()?, sides, white, interrupt)?,
+    };
     Ok(Raster { width, height, white, shades, opacities: None, lumas: None })
 }
 
 /// Rows of bits, each padded to whole bytes, highest bit first; 1 is black.
-fn bits(pixels: Pixels<'_>, width: u32, height: u32, shades: &mut Samples) -> Result<(), RasterError> {
+fn bits(
+    pixels: Pixels<'_>,
+    (width, height): (u32, u32),
+    interrupt: &Interrupt,
+) -> Result<Samples, RasterError> {
     let row_bytes = width.div_ceil(8);
     let pixels = check_length(pixels, u64::from(row_bytes) * u64::from(height))?;
+    let mut shades = Samples::up_to(1);
     for row in pixels.chunks_exact(row_bytes as usize) {
+        interrupt.check(READING)?;
         shades.extend((0..width as usize).map(|x| u32::from(row[x / 8] >> (7 - x % 8) & 1 == 0)))?;
     }
-    Ok(())
+    Ok(shades)
 }
 
 /// Rows of samples, of two bytes where the largest needs them, the higher byte first.
 fn samples(
     pixels: Pixels<'_>,
-    width: u32,
-    height: u32,
+    (width, height): (u32, u32),
     white: u32,
-    shades: &mut Samples,
-) -> Result<(), RasterError> {
+    interrupt: &Interrupt,
+) -> Result<Samples, RasterError> {
     let sample_bytes = if white > 0xff { 2 } else { 1 };
     let pixels = check_length(pixels, u64::from(width) * u64::from(height) * sample_bytes)?;
-    if white > 0xff {
-        let pair = |pair: &[u8]| u32::from(u16::from_be_bytes([pair[0], pair[1]]));
-        check_samples(pixels.chunks_exact(2).map(pair), width, white)?;
-        shades.extend(pixels.chunks_exact(2).map(pair))?;
-    } else {
-        check_samples(pixels.iter().copied().map(u32::from), width, white)?;
-        shades.extend(pixels.iter().copied().map(u32::from))?;
+    let mut shades = Samples::up_to(white);
+    for (y, row) in (0..).zip(pixels.chunks_exact(width as usize * sample_bytes as usize)) {
+        interrupt.check(READING)?;
+        if white > 0xff {
+            let pair = |pair: &[u8]| u32::from(u16::from_be_bytes([pair[0], pair[1]]));
+            check_samples(row.chunks_exact(2).map(pair), y, white)?;
+            shades.extend(row.chunks_exact(2).map(pair))?;
+        } else {
+            check_samples(row.iter().copied().map(u32::from), y, white)?;
+            shades.extend(row.iter().copied().map(u32::from))?;
+        }
     }
-    Ok(())
+    Ok(shades)
 }
 
-/// Checks that no sample is more than the largest that the header states.
-fn check_samples(samples: impl Iterator<Item = u32>, width: u32, white: u32) -> Result<(), RasterError> {
+/// Checks that no sample of row y is more than the largest that the header states.
+fn check_samples(samples: impl Iterator<Item = u32>, y: u32, white: u32) -> Result<(), RasterError> {
     // Of samples of whole bytes none can be.
     if white == 0xff || white == 0xffff {
         return Ok(());
     }
-    let Some((at, sample)) = samples.enumerate().find(|&(_, sample)| sample > white) else {
+    let Some((x, sample)) = samples.enumerate().find(|&(_, sample)| sample > white) else {
         return Ok(());
     };
-    let place = format!("pixel ({}, {})", at % width as usize, at / width as usize);
+    let place = format!("pixel ({x}, {y})");
     Err(RasterError::Sample { place, max: white, found: sample.to_string() })
 }
 

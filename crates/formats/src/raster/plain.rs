@@ -1,15 +1,16 @@
 //! Reads the pixels of plain PGM and PBM: numbers in text.
 
-use super::{RasterError, netpbm::Cursor, samples::Samples};
+use mediant_grid::Interrupt;
+
+use super::{READING, RasterError, netpbm::Cursor, samples::Samples};
 
 /// Bits, which need no space between them; 1 is black.
 pub(super) fn bits(
     cursor: &mut Cursor<'_>,
-    width: u32,
-    height: u32,
-    shades: &mut Samples,
-) -> Result<(), RasterError> {
-    read(cursor, width, height, 1, shades, |cursor| {
+    sides: (u32, u32),
+    interrupt: &Interrupt,
+) -> Result<Samples, RasterError> {
+    read(cursor, sides, 1, interrupt, |cursor| {
         let bit = cursor.peek().filter(|byte| matches!(byte, b'0' | b'1'))?;
         cursor.at += 1;
         Some(u32::from(bit == b'0'))
@@ -19,12 +20,11 @@ pub(super) fn bits(
 /// Numbers with white space between them.
 pub(super) fn samples(
     cursor: &mut Cursor<'_>,
-    width: u32,
-    height: u32,
+    sides: (u32, u32),
     white: u32,
-    shades: &mut Samples,
-) -> Result<(), RasterError> {
-    read(cursor, width, height, white, shades, |cursor| {
+    interrupt: &Interrupt,
+) -> Result<Samples, RasterError> {
+    read(cursor, sides, white, interrupt, |cursor| {
         let number = cursor.digits()?;
         u32::try_from(number).ok().filter(|&number| number <= white)
     })
@@ -33,16 +33,17 @@ pub(super) fn samples(
 /// Reads rows of samples; `next` returns the sample at the cursor, if it is one.
 fn read(
     cursor: &mut Cursor<'_>,
-    width: u32,
-    height: u32,
+    (width, height): (u32, u32),
     white: u32,
-    shades: &mut Samples,
+    interrupt: &Interrupt,
     next: impl Fn(&mut Cursor<'_>) -> Option<u32>,
-) -> Result<(), RasterError> {
+) -> Result<Samples, RasterError> {
+    let mut shades = Samples::up_to(white);
     let expected = u64::from(width) * u64::from(height);
     let unit = "samples";
     let mut row = Vec::new();
     for _ in 0..height {
+        interrupt.check(READING)?;
         row.clear();
         for x in 0..width {
             cursor.skip_space();
@@ -62,7 +63,7 @@ fn read(
     }
     cursor.skip_space();
     match cursor.peek() {
-        None => Ok(()),
+        None => Ok(shades),
         Some(_) => Err(RasterError::Long { unit, expected, found: cursor.word(cursor.at) }),
     }
 }

@@ -2,12 +2,13 @@
 
 use std::io::{self, Cursor};
 
+use mediant_grid::Interrupt;
 use png::{
     BitDepth, ColorType, Decoder, DecodingError, Encoder, EncodingError, Limits, Reader, Transformations,
 };
 
 use super::{
-    Opacities, Raster, RasterError,
+    Opacities, READING, Raster, RasterError,
     error::check_sides,
     samples::Samples,
     write::{pack_bits, push_sample, scaled},
@@ -47,7 +48,7 @@ pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), RasterError> {
 }
 
 /// Reads a PNG row by row: the decoder keeps a row, and the samples grow with what was decoded.
-pub(super) fn read(bytes: &[u8]) -> Result<Raster, RasterError> {
+pub(super) fn read(bytes: &[u8], interrupt: &Interrupt) -> Result<Raster, RasterError> {
     let mut decoder = decoder(bytes);
     // Palettes become colours, and gray of less than 8 bits becomes gray of 8, which changes no fraction of
     // white: 255 is a multiple of 1, 3 and 15.
@@ -59,7 +60,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raster, RasterError> {
     let interlaced = header.interlaced;
     let mut reader = decoder.read_info()?;
     check_palette(&reader)?;
-    let mut raster = read_rows(&mut reader, width, height)?;
+    let mut raster = read_rows(&mut reader, (width, height), interrupt)?;
     let expected = width as usize * height as usize;
     let decoded = raster.opacities.iter().map(|opacities| &opacities.samples);
     let decoded = decoded.chain(&raster.lumas).chain([&raster.shades]).map(Samples::len);
@@ -69,12 +70,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raster, RasterError> {
     // The end of the file belongs to the picture: without it the file was cut short.
     reader.finish()?;
     if interlaced {
-        raster.shades = in_order(&raster.shades, width, height, raster.white)?;
+        let sides = (width, height);
+        raster.shades = in_order(&raster.shades, sides, raster.white, interrupt)?;
         if let Some(Opacities { opaque, samples }) = &mut raster.opacities {
-            *samples = in_order(samples, width, height, *opaque)?;
+            *samples = in_order(samples, sides, *opaque, interrupt)?;
         }
         if let Some(lumas) = &mut raster.lumas {
-            *lumas = in_order(lumas, width, height, 0xff)?;
+            *lumas = in_order(lumas, sides, 0xff, interrupt)?;
         }
     }
     Ok(raster)
@@ -92,7 +94,11 @@ fn check_palette(reader: &Reader<Cursor<&[u8]>>) -> Result<(), RasterError> {
 }
 
 /// The picture, with its samples in the order of the file.
-fn read_rows(reader: &mut Reader<Cursor<&[u8]>>, width: u32, height: u32) -> Result<Raster, RasterError> {
+fn read_rows(
+    reader: &mut Reader<Cursor<&[u8]>>,
+    (width, height): (u32, u32),
+    interrupt: &Interrupt,
+) -> Result<Raster, RasterError> {
     let (color, depth) = reader.output_color_type();
     let channels = color.samples();
     let has_opacity = matches!(color, ColorType::GrayscaleAlpha | ColorType::Rgba);
@@ -104,6 +110,7 @@ fn read_rows(reader: &mut Reader<Cursor<&[u8]>>, width: u32, height: u32) -> Res
     let mut opacities = has_opacity.then(|| Opacities { opaque, samples: Samples::up_to(opaque) });
     let mut lumas = (colors == 3).then(|| Samples::up_to(0xff));
     while let Some(row) = reader.next_row()? {
+        interrupt.check(READING)?;
         let pixels = row.data().chunks_exact(channels * bytes);
         if let (1, 1, false) = (bytes, colors, has_opacity) {
             shades.extend(pixels.map(|pixel| pixel.iter().copied().map(u32::from).sum()))?;
@@ -132,7 +139,12 @@ fn luma([red, green, blue]: [u32; 3], white: u32) -> u32 {
 }
 
 /// The samples of an interlaced picture, row by row.
-fn in_order(samples: &Samples, width: u32, height: u32, largest: u32) -> Result<Samples, RasterError> {
+fn in_order(
+    samples: &Samples,
+    (width, height): (u32, u32),
+    largest: u32,
+    interrupt: &Interrupt,
+) -> Result<Samples, RasterError> {
     // For each pass, the number of its columns and the samples before it.
     let mut before = 0;
     let passes = PASSES.map(|[x, y, step_x, step_y]| {
@@ -153,6 +165,7 @@ fn in_order(samples: &Samples, width: u32, height: u32, largest: u32) -> Result<
     };
     let mut ordered = Samples::up_to(largest);
     for y in 0..height {
+        interrupt.check(READING)?;
         let rows = [0, 1, 2, 3, 4, 5, 6, 7].map(|x| row_of_pass(x, y));
         let row = (0..width as usize).map(|x| {
             let (start, step_bits) = rows[x % 8];

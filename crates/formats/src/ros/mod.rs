@@ -10,7 +10,7 @@ mod settings;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use mediant_grid::Grid;
+use mediant_grid::{Grid, Interrupt};
 
 pub use error::RosError;
 pub use settings::{RosMode, RosSettings};
@@ -87,7 +87,7 @@ impl RosMap {
     /// [`ReadError`] for a YAML file or a picture that is missing, cannot be read, or is wrong.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
         let path = path.as_ref();
-        Self::from_yaml(path, &read_regular(path)?, read_regular)
+        Self::from_yaml(path, &read_regular(path)?, read_regular, &Interrupt::NEVER)
     }
 
     /// The map whose YAML file has this path and this content; `read` gives the bytes of its picture.
@@ -95,10 +95,11 @@ impl RosMap {
         path: &Path,
         yaml: &[u8],
         read: impl FnMut(&Path) -> Result<Vec<u8>, ReadError>,
+        interrupt: &Interrupt,
     ) -> Result<Self, ReadError> {
         let (settings, image, bytes) = Self::files(path, yaml, read)?;
-        let raster = Raster::parse(&bytes)
-            .map_err(|source| ReadError::Raster { path: image, source }.of_image(path))?;
+        let raster = Raster::parse_interruptible(&bytes, interrupt)
+            .map_err(|error| ReadError::of_raster(&image, error).of_image(path))?;
         Self::new(settings, raster).map_err(|source| ReadError::Ros { path: path.to_owned(), source })
     }
 

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use mediant_grid::Grid;
+use mediant_grid::{Grid, Interrupt, Interrupted, uninterrupted};
 
 use super::{RosMap, RosMode};
 use crate::{MapOptions, RosVersion, Unknown};
@@ -12,6 +12,14 @@ impl RosMap {
     /// `options.unknown` says, all by the rules of `options.ros`. See [`MapOptions`].
     #[must_use]
     pub fn to_grid(&self, options: &MapOptions) -> Grid {
+        uninterrupted(|never| self.to_grid_interruptible(options, never))
+    }
+
+    pub(crate) fn to_grid_interruptible(
+        &self,
+        options: &MapOptions,
+        interrupt: &Interrupt,
+    ) -> Result<Grid, Interrupted> {
         let unknown = options.unknown == Unknown::Blocked;
         let (numerator, denominator) = options.threshold.parts();
         // p / 100 > 1 − threshold, in whole numbers.
@@ -20,13 +28,14 @@ impl RosMap {
             occupancy.map_or(unknown, |p| u64::from(p) * u64::from(denominator) > limit)
         };
         match options.ros {
-            RosVersion::Ros1 => self.grid_of_ros1(unknown, blocked),
+            RosVersion::Ros1 => self.grid_of_ros1(interrupt, unknown, blocked),
             RosVersion::Ros2 => {
                 let mut table = [unknown; 256];
                 for (gray, cell) in (0..=u8::MAX).zip(&mut table) {
                     *cell = blocked(self.of_luma(gray));
                 }
-                self.raster.grid_of_lumas(&table, (self.settings.mode != RosMode::Raw).then_some(unknown))
+                let hidden = (self.settings.mode != RosMode::Raw).then_some(unknown);
+                self.raster.grid_of_lumas(interrupt, &table, hidden)
             }
         }
     }
@@ -69,17 +78,23 @@ impl RosMap {
         }
     }
 
-    fn grid_of_ros1(&self, unknown: bool, blocked: impl Fn(Option<u8>) -> bool) -> Grid {
+    fn grid_of_ros1(
+        &self,
+        interrupt: &Interrupt,
+        unknown: bool,
+        blocked: impl Fn(Option<u8>) -> bool,
+    ) -> Result<Grid, Interrupted> {
         match self.raster.opaque() {
             Some(opaque) if self.settings.mode == RosMode::Trinary => {
-                self.raster.grid_where(|shade, opacity| blocked(self.trinary_of_four(shade, opacity, opaque)))
+                let of_four = |shade, opacity| self.trinary_of_four(shade, opacity, opaque);
+                self.raster.grid_where(interrupt, |shade, opacity| blocked(of_four(shade, opacity)))
             }
             opaque => {
                 // Shades are few, and pixels many.
                 let table: Vec<bool> =
                     (0..=self.raster.white()).map(|shade| blocked(self.of_shade(shade))).collect();
                 let hidden = opaque.filter(|_| self.settings.mode == RosMode::Scale);
-                self.raster.grid_where(|shade, opacity| match hidden {
+                self.raster.grid_where(interrupt, |shade, opacity| match hidden {
                     Some(opaque) if opacity < opaque => unknown,
                     _ => table.get(shade as usize).copied().unwrap_or(unknown),
                 })

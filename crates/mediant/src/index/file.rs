@@ -22,7 +22,11 @@ impl Index {
     /// [`Error::Setup`] for an engine whose index is not saved, [`Error::Write`] if the operating system
     /// refuses.
     pub fn save(&self, path: impl AsRef<FilePath>) -> Result<(), Error> {
-        Ok(self.file()?.write(path)?)
+        self.write(path.as_ref(), &NEVER)
+    }
+
+    pub(crate) fn write(&self, path: &FilePath, interrupt: &Interrupt) -> Result<(), Error> {
+        Ok(self.file()?.write_interruptible(path, interrupt)?)
     }
 
     /// The index as bytes, those of its file, for [`Space::index_from_bytes`].

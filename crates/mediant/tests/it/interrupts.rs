@@ -9,6 +9,7 @@ use mediant::{
     Engine, Error, ErrorCode, Exceptions, Fit, K, Limit, Limits, Map, Motion, Outside, Planner, Query,
     Rectangle, Space,
 };
+use mediant_formats::{MapFile, MapOptions, Raster, RasterFormat, RosMap};
 
 const SIDE: u32 = 60;
 
@@ -162,4 +163,56 @@ fn loading_stops() {
     check("loading for a map", |limits| space.map().within(limits).load(&file));
     check("loading for an engine", |limits| space.within(limits).load_for(Engine::Subgoal, &file));
     assert!(space.load(&file).is_ok());
+}
+
+/// So are files of maps of all kinds, row by row.
+#[test]
+fn opening_stops() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    let map = map();
+    let grid = map.grid();
+    let mut drawn = Vec::new();
+    MapFile::from_grid(grid).write(&mut drawn).expect("memory");
+    std::fs::write(path("hall.map"), drawn).expect("room");
+    let picture = Raster::from_grid(grid).expect("a picture");
+    let formats = [
+        ("plain.pbm", RasterFormat::PlainPbm),
+        ("plain.pgm", RasterFormat::PlainPgm),
+        ("hall.pbm", RasterFormat::Pbm),
+        ("hall.pgm", RasterFormat::Pgm),
+        ("hall.png", RasterFormat::Png),
+    ];
+    for (name, format) in formats {
+        let mut drawn = Vec::new();
+        picture.write(format, &mut drawn).expect("memory");
+        std::fs::write(path(name), drawn).expect("room");
+    }
+    let world = RosMap::from_grid(grid, "room.png", 0.5, [0.0; 3]).expect("a map");
+    world.save(path("room.yaml")).expect("room");
+    let options = MapOptions::default();
+    for name in formats.map(|(name, _)| name).into_iter().chain(["hall.map", "room.yaml"]) {
+        let open = |limits: &Limits| Map::open_within(path(name), &options, limits);
+        check(name, open);
+        assert_eq!(open(&Limits::new()).expect("a map").0, map, "{name}");
+    }
+}
+
+/// An older file stays.
+#[test]
+fn saving_stops() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("map.index");
+    let index = map().space(Motion::centers(K::N8)).and_then(|space| space.prepare(Engine::Subgoal));
+    let index = index.expect("an index");
+    std::fs::write(&file, "older").expect("room");
+    check("saving", |limits| {
+        let saved = index.within(limits).save(&file);
+        let content = std::fs::read(&file).expect("a file");
+        assert_eq!(content == b"older", saved.is_err());
+        std::fs::write(&file, "older").expect("room");
+        saved
+    });
+    let files = std::fs::read_dir(folder.path()).expect("a folder");
+    assert_eq!(files.count(), 1, "nothing else is left");
 }

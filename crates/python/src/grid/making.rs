@@ -133,7 +133,7 @@ impl Grid {
             };
         }
         options.tiles = tiles(free, blocked)?;
-        let read = move |_: &Limits| Map::open_with(path, &options);
+        let read = move |limits: &Limits| Map::open_within(path, &options, limits);
         let (map, world) = detached(py, u64::MAX, Limits::new(), read)?.map_err(raised)?;
         Ok(Self::new(map, world))
     }

@@ -109,7 +109,9 @@ impl Index {
     /// 5.0
     fn save(&self, py: Python<'_>, path: &Bound<'_, PyAny>) -> PyResult<()> {
         let path = file("path", path)?;
-        py.detach(|| self.planners.index().save(path)).map_err(raised)
+        let index = self.planners.index().clone();
+        let save = move |limits: &Limits| index.within(limits).save(path);
+        detached(py, u64::MAX, Limits::new(), save)?.map_err(raised)
     }
 
     /// The bytes of the index's file, for `Grid.index_from_bytes`.
