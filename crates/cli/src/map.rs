@@ -15,6 +15,7 @@ use crate::{
     check::file::{bytes, shown},
     draw::theme::Theme,
     failure::Failure,
+    run::distances::rounded,
     terminal::message::say_warning,
 };
 
@@ -166,6 +167,17 @@ impl Map {
                 })
             }
         }
+    }
+
+    /// How far places of the world are from the [vertices](Self::vertex) that are taken for them, at most, in
+    /// meters; `None` without `--world`.
+    pub(crate) fn moved(&self, placement: PlacementKind, places: &[Place], at: &[Vertex]) -> Option<f64> {
+        let frame = self.frame?;
+        let moved = places.iter().zip(at).map(|(place, &at)| {
+            let ((x, y), (to_x, to_y)) = (place.point(), frame.point_of(placement, at));
+            rounded((to_x - x).hypot(to_y - y))
+        });
+        Some(moved.fold(0.0, f64::max))
     }
 }
 

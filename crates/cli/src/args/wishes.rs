@@ -12,7 +12,6 @@ use super::value::{Place, parse_amount, parse_place, parse_whole};
 use crate::{
     failure::Failure,
     map::Map,
-    run::distances::rounded,
     terminal::numbers::{count, time},
 };
 
@@ -91,16 +90,11 @@ impl WishArgs {
         };
         wishes.cells = [cells(&self.blocked_places)?, cells(&self.free_places)?];
         if let Some(frame) = map.frame {
-            let moved = |places: &[Place], at: &[Vertex]| {
-                let moved = places.iter().zip(at).map(|(place, &at)| {
-                    let ((x, y), (to_x, to_y)) = (place.point(), frame.point_of(placement, at));
-                    rounded((to_x - x).hypot(to_y - y))
-                });
-                moved.fold(0.0, f64::max)
-            };
-            let is_named = !self.from_places.is_empty();
-            wishes.moved = is_named
-                .then(|| [moved(&self.from_places, &wishes.from), moved(&self.to_places, &wishes.to)]);
+            if !self.from_places.is_empty() {
+                let starts = map.moved(placement, &self.from_places, &wishes.from);
+                let goals = map.moved(placement, &self.to_places, &wishes.to);
+                wishes.moved = starts.zip(goals).map(Into::into);
+            }
             let cells = |meters: f64| frame.cells(meters);
             (wishes.tolerance, wishes.max_cost) = (self.tolerance.map(cells), self.max_cost.map(cells));
         }

@@ -93,6 +93,9 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
     // Who reads the CSV from stdout has no use for a summary in it.
     if outputs.iter().all(|(_, form)| *form != Form::Printed) {
         summary(&map, motion, &field, &sources, limit, screen)?;
+        if let Some(moved) = map.moved(placement, &args.from, &sources).filter(|&moved| moved > 0.0) {
+            writeln!(screen, "  moved to vertices: the sources by at most {moved:.3} m")?;
+        }
     }
     Ok(Ending::Answered)
 }

@@ -34,8 +34,9 @@ pub(crate) fn table(args: &TableArgs, screen: &mut Screen) -> Result<Ending, Fai
     asked.check(args.index.is_some())?;
     let map = Map::load(&args.map)?.for_agent(&args.map, asked.motion)?;
     let placement = asked.motion.rules.placement();
-    let starts = ends(&map, placement, (&args.from, args.from_file.as_deref()), ("starts", "--from"))?;
-    let goals = ends(&map, placement, (&args.to, args.to_file.as_deref()), ("goals", "--to"))?;
+    let (starts, starts_moved) =
+        ends(&map, placement, (&args.from, args.from_file.as_deref()), ("starts", "--from"))?;
+    let (goals, goals_moved) = ends(&map, placement, (&args.to, args.to_file.as_deref()), ("goals", "--to"))?;
     let begin = Instant::now();
     let space = map.to_library().space(asked.motion)?;
     let pairs = Demand::Paths(starts.len() as u64 * goals.len() as u64);
@@ -55,6 +56,7 @@ pub(crate) fn table(args: &TableArgs, screen: &mut Screen) -> Result<Ending, Fai
         choice,
         starts,
         goals,
+        moved: starts_moved.zip(goals_moved).map(Into::into),
         measured,
         preparation,
         took: begin.elapsed(),
@@ -86,13 +88,14 @@ impl Measured {
     }
 }
 
-/// The starts or the goals: those that were named, then those of a file.
+/// The starts or the goals: those that were named, then those of a file. And [how far](Map::moved) they are
+/// from what was asked for.
 fn ends(
     map: &Map,
     placement: PlacementKind,
     (named, file): (&[Place], Option<&Path>),
     (ends, option): (&'static str, &'static str),
-) -> Result<Vec<Vertex>, Failure> {
+) -> Result<(Vec<Vertex>, Option<f64>), Failure> {
     let mut places = named.to_vec();
     if let Some(path) = file {
         for (line, text) in lines(&bytes(path)?) {
@@ -104,7 +107,9 @@ fn ends(
     if places.is_empty() {
         return Err(Failure::NoEnds { ends, option });
     }
-    places.into_iter().map(|place| map.vertex(placement, place)).collect()
+    let at = places.iter().map(|&place| map.vertex(placement, place)).collect::<Result<Vec<_>, _>>()?;
+    let moved = map.moved(placement, &places, &at);
+    Ok((at, moved))
 }
 
 /// What was measured, for each start.
@@ -133,6 +138,8 @@ struct Report<'r> {
     choice: Option<Choice>,
     starts: Vec<Vertex>,
     goals: Vec<Vertex>,
+    /// How far the starts and the goals were moved to vertices, in meters, with `--world`.
+    moved: Option<[f64; 2]>,
     measured: Measured,
     preparation: Duration,
     took: Duration,
@@ -153,6 +160,9 @@ struct TableLine<'r> {
     searched_by: &'static str,
     starts: usize,
     goals: usize,
+    /// As in the line of a run: of all starts and of all goals the greatest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    moved: Option<[f64; 2]>,
     /// The time to prepare the index, or to load it.
     preprocess_ns: u64,
     /// The memory of the search space and the index, beyond the map.
@@ -189,7 +199,7 @@ struct SummaryLine {
 
 impl Report<'_> {
     fn jsonl(&self, screen: &mut Screen) -> io::Result<()> {
-        let Self { map, index, choice, starts, goals, measured, preparation, took } = self;
+        let Self { map, index, choice, starts, goals, moved, measured, preparation, took } = self;
         let setup = index.setup();
         let head = TableLine {
             map: &map.name,
@@ -199,6 +209,7 @@ impl Report<'_> {
             searched_by: index.searched_by().name(),
             starts: starts.len(),
             goals: goals.len(),
+            moved: *moved,
             preprocess_ns: preparation.as_nanos() as u64,
             index_bytes: index.space().memory_bytes() + index.memory_bytes(),
         };
@@ -293,7 +304,14 @@ impl Report<'_> {
         let starts = count(self.starts.len() as u64, "start", "starts");
         let goals = count(self.goals.len() as u64, "goal", "goals");
         let [preparation, took] = [self.preparation, self.took].map(|span| time(span.as_nanos() as f64));
-        writeln!(screen, "{starts}, {goals} · prepared in {preparation} · measured in {took}\n")
+        writeln!(screen, "{starts}, {goals} · prepared in {preparation} · measured in {took}")?;
+        if let Some([starts, goals]) = self.moved.filter(|moved| moved.iter().any(|&meters| meters > 0.0)) {
+            writeln!(
+                screen,
+                "moved to vertices: the starts by at most {starts:.3} m, the goals by at most {goals:.3} m"
+            )?;
+        }
+        writeln!(screen)
     }
 
     /// What the table shows of a start.

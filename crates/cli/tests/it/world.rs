@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::common::{Files, Ran, mediant};
+use super::common::{Files, Ran, mediant, succeeds};
 
 /// A map of 40 × 20 cells of 0.5 m, whose lower left corner is at (-2, 1): a wall across it in column 20,
 /// with a gap of three cells at the top, rows 0 to 2.
@@ -100,6 +100,24 @@ fn ends_are_moved_and_it_is_said_how_far() {
     assert!(!stdout.contains("moved"), "{stdout}");
     let (ran, _) = lines(&map, "--from 0,19 --to 39,0");
     assert!(ran.get("moved").is_none());
+}
+
+#[test]
+fn sources_and_ends_of_tables_are_moved_and_it_is_said_how_far() {
+    let files = Files::new();
+    let map = depot(&files);
+    let reach = |ends: &str| succeeds(&format!("reach {map} --world --within 3 {ends}"));
+    let moved = reach("--from -1.71,1.28 --from 17.75,10.75");
+    assert!(moved.contains("\n  moved to vertices: the sources by at most 0.050 m\n"), "{moved}");
+    assert!(!reach("--from -1.75,1.25").contains("moved"));
+    let table = |options: &str| succeeds(&format!("table {map} --world {options}"));
+    let moved = table("--from -1.75,1.25 --from -1.71,1.28 --to 17.75,10.75");
+    let line = "\nmoved to vertices: the starts by at most 0.050 m, the goals by at most 0.000 m\n";
+    assert!(moved.contains(line), "{moved}");
+    assert!(!table("--from -1.75,1.25 --to 17.75,10.75").contains("moved"));
+    let records = table("--from -1.75,1.25 --to 17.75,10.45 --format jsonl");
+    let head: Value = serde_json::from_str(records.lines().next().expect("a line")).expect("JSON");
+    assert_eq!(head["moved"], serde_json::json!([0.0, 0.2]));
 }
 
 #[test]
