@@ -141,6 +141,15 @@ ENDED = {
         "import tempfile\nfile = tempfile.mkdtemp() + '/index'\ngrid.prepare('hpa').save(file)",
         "grid.load(file)",
     ),
+    "open": (
+        "import tempfile\nfile = tempfile.mkdtemp() + '/map.pgm'\n"
+        "open(file, 'wb').write(b'P5 %d %d 255\\n' % (side, side) + np.uint8(255 * ~blocked).tobytes())",
+        "mediant.Grid.open(file)",
+    ),
+    "save": (
+        "import tempfile\nfile = tempfile.mkdtemp() + '/index'\nindex = grid.prepare('hpa')",
+        "index.save(file)",
+    ),
     "bytes": ("data = grid.prepare('chpa').to_bytes()", "grid.index_from_bytes(data)"),
     "field": ("", "grid.field((0, 0), k=6)"),
     "any-angle field": ("", "wide.field((0, 0), k='any')"),

@@ -117,6 +117,13 @@ fn spaces_and_indexes() {
     let space = ok(&grid, "space", &[json(r#"{"k": 3}"#)]);
     let motion = js_sys::JSON::stringify(&get(&space, "motion")).expect("JSON");
     assert_eq!(motion, r#"{"k":3,"placement":"center","corners":"never"}"#);
+    let eight = ok(&grid, "space", &[json(r#"{"neighbors": 8}"#)]);
+    assert_eq!(js_sys::JSON::stringify(&get(&eight, "motion")).expect("JSON"), motion);
+    let both = json(r#"{"neighbors": 8, "k": 3}"#);
+    assert_eq!(thrown(&grid, "space", &[both]), "MediantError argument");
+    assert_eq!(thrown(&grid, "space", &[json(r#"{"neighbors": 6}"#)]), "MediantError k");
+    // Engines as people write them.
+    assert_eq!(get(&ok(&space, "prepare", &["JPS+".into()]), "setup"), "jps-plus:3:never");
     // What a space says of its motion makes the same space.
     ok(&grid, "space", &[get(&space, "motion")]);
     assert_eq!(ok(&space, "isFree", &[at(3, 0)]), JsValue::FALSE);
