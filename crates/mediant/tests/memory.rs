@@ -3,12 +3,15 @@
 
 use std::{
     alloc::{GlobalAlloc, Layout, System},
-    sync::atomic::{AtomicUsize, Ordering},
+    sync::{
+        Arc,
+        atomic::{AtomicUsize, Ordering},
+    },
 };
 
 use mediant::{
-    ConfiguredEngine, Engine, Error, ErrorCode, FiniteK, Index, K, Levels, Map, Motion, Planner, Query,
-    Rules, Space,
+    ConfiguredEngine, Engine, Error, ErrorCode, FiniteK, Index, K, Levels, Limits, Map, Motion, Planner,
+    Query, Rules, Space,
 };
 
 /// The bytes that are allocated, by all threads.
@@ -159,6 +162,29 @@ fn eight_planners_share_one_index() {
         assert!(of_clones < 64 * 512, "{engine}: {of_clones}");
         drop(shared);
         is_refused(&space, configured, &index);
+        keeps_nothing_once_stopped(&space, configured);
+    }
+}
+
+/// Preparing again, stopped at 10, 50 and 90 % of its questions, keeps no memory.
+fn keeps_nothing_once_stopped(space: &Space, engine: ConfiguredEngine) {
+    let asked = Arc::new(AtomicUsize::new(0));
+    let stop_after = |questions: usize| {
+        let counter = Arc::clone(&asked);
+        asked.store(0, Ordering::Relaxed);
+        Limits::new().deadline(move || counter.fetch_add(1, Ordering::Relaxed) >= questions)
+    };
+    assert!(space.within(&stop_after(usize::MAX)).prepare(engine).is_ok());
+    let all = asked.load(Ordering::Relaxed);
+    // An engine that prepares nothing asks nothing.
+    for questions in [10, 50, 90].map(|percent| all * percent / 100).into_iter().filter(|_| all > 0) {
+        let limits = stop_after(questions);
+        let before = BYTES.load(Ordering::Relaxed);
+        let code = space.within(&limits).prepare(engine).map_err(|error| error.code()).err();
+        let more = BYTES.load(Ordering::Relaxed).saturating_sub(before);
+        assert_eq!(code, Some(ErrorCode::Deadline), "{}", engine.kind());
+        // Threads of a pool keep their queues.
+        assert!(more < 64 << 10, "{}: {more} bytes after question {questions} of {all}", engine.kind());
     }
 }
 

@@ -55,9 +55,11 @@ fn mistakes_have_names_and_codes() {
         assert_eq!(thrown(&grid, "space", &[json(motion)]), expected, "{motion}");
     }
     let unknown = call(&grid, "space", &[json(r#"{"K": 3}"#)]).expect_err("no key K");
-    assert!(text(&unknown).ends_with("no key 'K' is known; the keys are k, placement, corners, gap"));
+    assert!(
+        text(&unknown).ends_with("no key 'K' is known; the keys are k, neighbors, placement, corners, gap")
+    );
     let space = ok(&grid, "space", &[]);
-    assert_eq!(thrown(&space, "prepare", &["a*".into()]), "MediantError unknown-name");
+    assert_eq!(thrown(&space, "prepare", &["star".into()]), "MediantError unknown-name");
     assert_eq!(thrown(&space, "prepare", &["anya".into()]), "MediantError engine-rules");
     let wide = ok(&grid, "space", &[json(r#"{"k": 4}"#)]);
     assert_eq!(thrown(&wide, "prepare", &["jps-block".into()]), "MediantError engine-k");
@@ -110,7 +112,7 @@ fn costs_of_cells() {
         let motion = json(&format!(r#"{{"{key}": true}}"#));
         let error = text(&call(&grid(), "space", &[motion]).expect_err("an unknown key"));
         assert!(
-            error.contains(part) && error.ends_with("; the keys are k, placement, corners, gap"),
+            error.contains(part) && error.ends_with("; the keys are k, neighbors, placement, corners, gap"),
             "{error}"
         );
     }
