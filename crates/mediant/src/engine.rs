@@ -10,8 +10,8 @@ use crate::names::names;
 /// ```
 /// use mediant::{ConfiguredEngine, Engine};
 /// assert_eq!("jps-block".parse(), Ok(Engine::JpsBlock));
-/// assert_eq!(["A*", "a-star", "astar"].map(str::parse), [Ok(Engine::AStar); 3]);
-/// assert_eq!(["JPS+", "jps_plus"].map(str::parse), [Ok(Engine::JpsPlus); 2]);
+/// assert_eq!(["A*", "a-star", "astar"].map(|text| text.parse().ok()), [Some(Engine::AStar); 3]);
+/// assert_eq!(["JPS+", "jps_plus"].map(|text| text.parse().ok()), [Some(Engine::JpsPlus); 2]);
 /// assert_eq!(Engine::JpsPlus.to_string(), "jps-plus");
 /// assert_eq!(ConfiguredEngine::from(Engine::Anya), ConfiguredEngine::Anya);
 /// ```

@@ -68,8 +68,8 @@ impl Map {
         Ok((source.grid.into(), source.frame))
     }
 
-    /// Reads a map as [`open_with`](Self::open_with) does, unless the deadline or the flag of the limits stops
-    /// it before it is done.
+    /// Reads a map as [`open_with`](Self::open_with) does, unless the deadline or the flag of the limits
+    /// stops it before it is done.
     ///
     /// # Errors
     /// Those of [`open`](Self::open), and [`Error::Stopped`].
