@@ -169,8 +169,8 @@ impl Map {
         }
     }
 
-    /// How far places of the world are from the [vertices](Self::vertex) that are taken for them, at most, in
-    /// meters; `None` without `--world`.
+    /// The greatest distance of places of the world from their [vertices](Self::vertex), in meters; `None`
+    /// without `--world`.
     pub(crate) fn moved(&self, placement: PlacementKind, places: &[Place], at: &[Vertex]) -> Option<f64> {
         let frame = self.frame?;
         let moved = places.iter().zip(at).map(|(place, &at)| {

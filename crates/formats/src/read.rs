@@ -20,7 +20,7 @@ use crate::{
 /// [`Grid::MAX_SIDE`]: mediant_grid::Grid::MAX_SIDE
 pub const MAX_FILE_BYTES: u64 = 2 << 30;
 
-/// After so many bytes an interrupt is asked.
+/// The bytes between two questions to an interrupt.
 pub(crate) const PIECE: usize = 1 << 20;
 
 /// A file that cannot be read or parsed.

@@ -15,7 +15,7 @@ use mediant_sets::root;
 
 use crate::{
     Error, Options,
-    catalog::EXPERIMENTS,
+    catalog::{EXPERIMENTS, chosen},
     context::{Context, How, Request, Setting},
     experiment::FIGURES,
     maps, pages,
@@ -106,6 +106,15 @@ fn counts_are_held_against_those_of_the_last_run() {
     assert!(wrong.contains("1 numbers are not those of") && wrong.contains("row 0, nodes"), "{wrong}");
     let unknown = reproduce(folder.path(), &["--only", "rivera2018"]).unwrap_err().to_string();
     assert!(unknown.contains("rivera2018") && unknown.contains("rivera2017-tables"), "{unknown}");
+    assert!(reproduce(folder.path(), &["--without", "rivera2018"]).is_err());
+    let names = |only: &[&str], without: &[&str]| -> Vec<&str> {
+        let [only, without] =
+            [only, without].map(|names| names.iter().map(ToString::to_string).collect::<Vec<_>>());
+        chosen(&only, &without).unwrap().into_iter().map(|experiment| experiment.id).collect()
+    };
+    assert_eq!(names(&["hpa-games", "engines"], &["engines"]), ["hpa-games"]);
+    let most = names(&[], &["hpa-games", "kramm2018"]);
+    assert!(!most.is_empty() && most.iter().all(|id| *id != "hpa-games" && !id.starts_with("kramm2018")));
     assert!(reproduce(folder.path(), &["--sets", "dao2"]).is_err());
     let nothing = folder.path().join("nothing");
     let wrong = reproduce(folder.path(), &["--render", "--out", &nothing.display().to_string()]);

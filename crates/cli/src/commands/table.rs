@@ -88,8 +88,8 @@ impl Measured {
     }
 }
 
-/// The starts or the goals: those that were named, then those of a file. And [how far](Map::moved) they are
-/// from what was asked for.
+/// The starts or the goals, those that were named before those of a file, and their greatest
+/// [distance](Map::moved) from the places that were asked for.
 fn ends(
     map: &Map,
     placement: PlacementKind,
@@ -138,7 +138,7 @@ struct Report<'r> {
     choice: Option<Choice>,
     starts: Vec<Vertex>,
     goals: Vec<Vertex>,
-    /// How far the starts and the goals were moved to vertices, in meters, with `--world`.
+    /// The greatest distances of starts and of goals from their vertices, in meters; with `--world`.
     moved: Option<[f64; 2]>,
     measured: Measured,
     preparation: Duration,

@@ -11,7 +11,7 @@ use crate::{
     save::{NewFile, WriteError, unwritable},
 };
 
-/// What is stopped, for messages.
+/// The stage that an interruption names.
 const WRITING: &str = "writing the index";
 
 /// A saved index: the key that says what it was built for, and a payload that only its engine understands.

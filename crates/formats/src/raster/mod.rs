@@ -58,7 +58,7 @@ struct Opacities {
     samples: Samples,
 }
 
-/// What is stopped, for messages.
+/// The stage that an interruption names.
 const READING: &str = "reading the picture";
 
 const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";

@@ -10,6 +10,7 @@ use mediant::{
     Rectangle, Space,
 };
 use mediant_formats::{MapFile, MapOptions, Raster, RasterFormat, RosMap};
+use mediant_grid::Grid;
 
 const SIDE: u32 = 60;
 
@@ -191,9 +192,15 @@ fn opening_stops() {
     let world = RosMap::from_grid(grid, "room.png", 0.5, [0.0; 3]).expect("a map");
     world.save(path("room.yaml")).expect("room");
     let options = MapOptions::default();
+    let (limits, asked) = counting(usize::MAX);
+    Grid::from_fn_interruptible(SIDE, SIDE, limits.interrupt(), |_, _| false).expect("a map");
+    let made = asked.load(Ordering::Relaxed);
     for name in formats.map(|(name, _)| name).into_iter().chain(["hall.map", "room.yaml"]) {
         let open = |limits: &Limits| Map::open_within(path(name), &options, limits);
         check(name, open);
+        // Reading asks for each row, and not only making the map does.
+        let (limits, asked) = counting(usize::MAX);
+        assert!(open(&limits).is_ok() && asked.load(Ordering::Relaxed) >= made + SIDE as usize, "{name}");
         assert_eq!(open(&Limits::new()).expect("a map").0, map, "{name}");
     }
 }
