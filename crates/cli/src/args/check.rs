@@ -38,7 +38,8 @@ made of moves of N(k). For a path that does not hold, a line says where: the ind
 segment, counted from 0, with its ends, and the blocked cell. Queries without a path are passed over.
 
 With --radius a path must hold on the map of that agent, which is that of run with the same --k (for CSV 3 \
-by default). With --world, CSV is in meters.
+by default). With --world, CSV is in meters. A path that was found with --grounds must hold on the ground of \
+its start.
 
 With --format jsonl: a line {\"type\": \"path\"} for each path, with \"file\", \"index\", \"holds\", and \
 for one that does not hold \"error\", \"holds_up_to\" (the number of waypoints to which it can be \

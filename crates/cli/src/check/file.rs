@@ -40,6 +40,8 @@ pub(crate) struct Said {
     pub(crate) setup: Setup,
     /// The neighborhood whose moves make the segments of the paths.
     pub(crate) over: K,
+    /// Whether each path is on the ground of its start.
+    pub(crate) grounds: bool,
 }
 
 /// The lines of a run that are read; other keys are for others.
@@ -65,6 +67,8 @@ struct RunLine {
     gap: String,
     #[serde(default)]
     smooth: bool,
+    #[serde(default)]
+    grounds: bool,
 }
 
 impl RunLine {
@@ -75,7 +79,7 @@ impl RunLine {
         let setup = format!("{}:{k}:{rule}", self.engine).parse::<Setup>();
         let setup = setup.map_err(|error| format!("the run: {error}"))?;
         let over = if self.smooth { K::Any } else { setup.paths() };
-        Ok(Said { setup, over })
+        Ok(Said { setup, over, grounds: self.grounds })
     }
 }
 
@@ -236,6 +240,7 @@ mod tests {
                 corners: "one".to_owned(),
                 gap: "closed".to_owned(),
                 smooth,
+                grounds: false,
             };
             line.said()
         };

@@ -3,6 +3,7 @@
 use std::{io, io::Write};
 
 use mediant::{Motion, Path, Space};
+use mediant_formats::Ground;
 use mediant_grid::PlacementKind;
 use mediant_moves::K;
 use serde::Serialize;
@@ -95,21 +96,29 @@ impl Rules {
 
 /// Runs the command.
 pub(crate) fn check(args: &CheckArgs, screen: &mut Screen) -> Result<Ending, Failure> {
-    let map = Map::load(&args.map)?;
     let files = args.paths.iter().map(|path| Ok((shown(path).display().to_string(), read(path)?)));
     let files = files.collect::<Result<Vec<_>, Failure>>()?;
-    let mut ready: Option<(Rules, Space)> = None;
+    let by_ground = |path: &Listed| path.said.is_some_and(|said| said.grounds);
+    let needs_tiles = files.iter().any(|(_, listed)| listed.iter().any(by_ground));
+    let map = if needs_tiles { Map::load_with_tiles(&args.map)? } else { Map::load(&args.map)? };
+    let mut ready: Option<((Rules, Option<Ground>), Space)> = None;
     let (mut paths, mut broken) = (0_u64, 0_u64);
     for (file, listed) in &files {
         for path in listed {
             let rules = Rules::new(args, path.said)?;
-            let space = match ready.take() {
-                Some((of, space)) if of == rules => space,
-                _ => rules.space(args, map.clone())?,
-            };
             let waypoints = vertices(file, path, rules, &map)?;
+            let placement = rules.motion.rules.placement();
+            let start = waypoints.first().filter(|_| by_ground(path));
+            let ground = start.map(|&start| map.ground_at(placement, start));
+            let space = match ready.take() {
+                Some((of, space)) if of == (rules, ground) => space,
+                _ => {
+                    let on_ground = ground.map(|ground| map.on_ground(ground)).transpose()?;
+                    rules.space(args, on_ground.unwrap_or_else(|| map.clone()))?
+                }
+            };
             let fault = Fault::of(&Path::new(waypoints), &space, rules.over);
-            ready = Some((rules, space));
+            ready = Some(((rules, ground), space));
             paths += 1;
             broken += u64::from(fault.is_some());
             match (args.format, fault) {

@@ -71,6 +71,18 @@ fn a_scenario_runs_on_the_ground_of_each_start() {
         assert_eq!((&reference["compared"], &reference["equal"]), (&4.into(), &4.into()));
     }
     assert!(succeeds(&format!("run {map} --scen {scen} --grounds --limit 1 --draw")).contains("1.4142"));
+    // Its paths hold on the same grounds; without, those in water and among trees do not.
+    let ran = succeeds(&format!("run {map} --scen {scen} --grounds --format jsonl"));
+    let checked = |name: &str, ran: &str| {
+        let paths = files.add(name, ran);
+        let Ran { status, stdout, .. } = run(&format!("check {map} {paths} --format jsonl"));
+        let last = stdout.lines().last().expect("a summary").to_owned();
+        let last: serde_json::Value = serde_json::from_str(&last).expect("JSON");
+        (status, last["paths"].as_u64(), last["broken"].as_u64())
+    };
+    assert_eq!(checked("grounds.jsonl", &ran), (Some(0), Some(4), Some(0)));
+    let without = ran.replace("\"grounds\":true,", "");
+    assert_eq!(checked("land.jsonl", &without), (Some(1), Some(4), Some(3)));
 }
 
 #[test]

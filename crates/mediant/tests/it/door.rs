@@ -135,7 +135,9 @@ fn the_chosen_engine_finds_shortest_paths() {
                 space.motion(),
                 space.engine()
             );
-            for choice in [Choice::for_some_paths(space.motion()), Choice::for_one_path(space.motion())] {
+            let motion = space.motion();
+            let choices = [Choice::for_some_paths, Choice::for_one_path].map(|choice| choice(motion));
+            for choice in choices.into_iter().chain([Choice::for_next_path(motion, space.map())]) {
                 assert!((cost(choice.engine) - best).abs() < 1e-9, "{}: {choice}", space.motion());
             }
             let now = space.path(query.start, query.goal).expect("both ends are free").expect("there is one");
@@ -162,6 +164,23 @@ fn the_choice_depends_on_the_motion() {
         let chosen = [Choice::for_one_path(motion), Choice::for_some_paths(motion)].map(|one| one.engine);
         assert_eq!(chosen, [one, some], "{motion}");
         assert_eq!(large.space(motion).expect("a space").engine().engine, many, "{motion}");
+    }
+}
+
+/// A path after each edit of a small map: nothing is prepared that one path would not need.
+#[test]
+fn the_next_path_on_a_small_map_is_searched_at_once() {
+    use Engine::{AStar, Anya, Canonical, JpsBlock};
+    let maps = [(64, 64), (65, 64)].map(|(w, h)| Map::from_fn(w, h, |_, _| false).expect("a map"));
+    for (motion, engines) in [
+        (Motion::centers(K::N4), [Canonical, JpsBlock]),
+        (Motion::centers(K::N8), [Canonical, JpsBlock]),
+        (Motion::centers(K::N16), [AStar; 2]),
+        (Motion::corners(K::N8), [JpsBlock; 2]),
+        (Motion::corners(K::ANY), [Anya; 2]),
+    ] {
+        let chosen = [0, 1].map(|i: usize| Choice::for_next_path(motion, &maps[i]).engine);
+        assert_eq!(chosen, engines, "{motion}");
     }
 }
 

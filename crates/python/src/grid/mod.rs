@@ -9,7 +9,7 @@ mod queries;
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use mediant::{Engine, Error, Limits, Map, Motion, Planners, Setup, Space, files::WorldFrame};
+use mediant::{Choice, Engine, Error, Limits, Map, Motion, Planners, Setup, Space, files::WorldFrame};
 use pyo3::prelude::*;
 
 use crate::{
@@ -148,7 +148,7 @@ impl Grid {
             setup.smoothing = keywords.smoothing;
             Ok(setup)
         };
-        let engine = keywords.engine.unwrap_or_else(|| mediant::Choice::for_some_paths(motion).engine);
+        let engine = keywords.engine.unwrap_or_else(|| Choice::for_next_path(motion, self.map()).engine);
         let setup = setup(engine)?;
         if let Some(planners) = self.shared.planners.get(&setup) {
             return Ok(Ok(planners));

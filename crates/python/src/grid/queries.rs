@@ -162,7 +162,8 @@ impl Grid {
     /// timeout : float, optional
     ///     The most seconds that the call may take, with what it prepares.
     /// engine : str, optional
-    ///     The engine; by default one that prepares the grid in milliseconds.
+    ///     The engine; by default one that prepares the grid in milliseconds, or a small grid in
+    ///     microseconds.
     /// **options
     ///     Options of the engine: see `prepare`.
     ///

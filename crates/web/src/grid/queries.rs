@@ -47,7 +47,7 @@ impl Grid {
         let kept = self.last.try_borrow_mut().ok().and_then(|mut last| last.take());
         let kept = kept.filter(|last| last.setup.motion() == motion);
         // Not another one for the first path: the same call would give another path of the same length.
-        let engine = keywords.engine.unwrap_or(Choice::for_some_paths(motion).engine);
+        let engine = keywords.engine.unwrap_or(Choice::for_next_path(motion, &self.map).engine);
         let setup = Setup {
             smoothing: keywords.smoothing,
             ..Setup::new(keywords.configured(engine)?, motion.k, motion.rules)
