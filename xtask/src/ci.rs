@@ -20,7 +20,8 @@ const STEPS: [&[&str]; 5] = [
     &["check", "--package", "mediant-formats"],
 ];
 
-/// Targets whose pointers have 32 bits: a browser's, and Linux's. `.ci/run` also runs tests on the latter.
+/// Targets whose pointers have 32 bits: a browser's, and Linux's. Tests run on the first in `.ci/run`, on
+/// both in `.ci/night`.
 const TARGETS: [&str; 2] = ["wasm32-unknown-unknown", "i686-unknown-linux-gnu"];
 
 /// Runs all steps in order, up to the first that fails.
