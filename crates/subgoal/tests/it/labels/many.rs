@@ -23,8 +23,9 @@ fn all_near(all: &[Option<Cost>], nearest: Option<(usize, Cost)>) -> usize {
     all.iter().flatten().filter(|cost| is_equal(K::Any, **cost, least)).count()
 }
 
-/// Random goals, some twice, some equal to the start. Returns the numbers of goals with and without a path.
-fn check<P: SubgoalPlacement>(grid: &Grid, k: K, rule: P::Rule, seed: u64) -> [usize; 2] {
+/// Random goals, some twice, some equal to the start. Returns the numbers of goals without and with a path, and
+/// of starts at any angle to which several goals are the nearest.
+fn check<P: SubgoalPlacement>(grid: &Grid, k: K, rule: P::Rule, seed: u64) -> [usize; 3] {
     let (space, mut rng, mut counts) = (space::<P>(grid, rule), Rng::new(seed), [0, 0]);
     let (labels, free) = (labels(&space, k), free(&space));
     let mut planner = HubLabelSearch::new(&space, &labels).expect("the labels are for this space");
@@ -65,8 +66,7 @@ fn check<P: SubgoalPlacement>(grid: &Grid, k: K, rule: P::Rule, seed: u64) -> [u
             ties += usize::from(k == K::Any && all_near(&at_once, nearest) > 1);
         }
     }
-    assert!(k != K::Any || ties > 0 || free.len() < 9, "no two goals are equally near; seed {seed}");
-    counts
+    [counts[0], counts[1], ties]
 }
 
 /// Two goals that are equally far, one in sight and one around two corners: the first is the nearest.
@@ -96,16 +96,19 @@ fn many_goals_at_once_are_as_far_as_each() {
         };
         let gap = GAPS[seed as usize / 2 % 2];
         let any = [k(2), k(3), k(4), k(6), K::Any][seed as usize % 5];
-        let [a, b] = check::<Corners>(&grid, any, gap, seed);
-        let [c, d] =
+        let corners = check::<Corners>(&grid, any, gap, seed);
+        let at_two =
             check::<Centers>(&grid, k(2), [CornerRule::Always, CornerRule::Never][seed as usize % 2], seed);
-        let [e, f] = check::<Centers>(&grid, k(3), CornerRule::Never, seed);
-        [a + c + e, b + d + f]
+        let at_three = check::<Centers>(&grid, k(3), CornerRule::Never, seed);
+        [0, 1, 2].map(|part| corners[part] + at_two[part] + at_three[part])
     };
     let counts = on_all_cores(seeds(40), of);
-    let [unreachable, found] = [0, 1].map(|part| counts.iter().map(|counts| counts[part]).sum::<usize>());
+    let [unreachable, found, ties] =
+        [0, 1, 2].map(|part| counts.iter().map(|counts| counts[part]).sum::<usize>());
     let maps = seeds(40).end as usize;
-    assert!(unreachable > 15 * maps && found > 100 * maps, "{unreachable}, {found}");
+    // A fifth of the maps is searched at any angle.
+    let is_enough = unreachable > 15 * maps && found > 100 * maps && ties > maps / 5;
+    assert!(is_enough, "{unreachable}, {found}, {ties}");
 }
 
 const HALL: &str = "
