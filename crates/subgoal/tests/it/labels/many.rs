@@ -23,8 +23,8 @@ fn all_near(all: &[Option<Cost>], nearest: Option<(usize, Cost)>) -> usize {
     all.iter().flatten().filter(|cost| is_equal(K::Any, **cost, least)).count()
 }
 
-/// Random goals, some twice, some equal to the start. Returns the numbers of goals without and with a path, and
-/// of starts at any angle to which several goals are the nearest.
+/// Random goals, some twice, some equal to the start. Returns the numbers of goals without and with a path,
+/// and of starts at any angle to which several goals are the nearest.
 fn check<P: SubgoalPlacement>(grid: &Grid, k: K, rule: P::Rule, seed: u64) -> [usize; 3] {
     let (space, mut rng, mut counts) = (space::<P>(grid, rule), Rng::new(seed), [0, 0]);
     let (labels, free) = (labels(&space, k), free(&space));
