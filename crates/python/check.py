@@ -12,6 +12,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -82,6 +83,8 @@ def main() -> None:
     parser.add_argument("--cluster", action="store_true", help="test Dask and Ray, too")
     parser.add_argument("--keep", action="store_true", help="take the environment of the last run")
     wishes = parser.parse_args()
+    # What runs in the background of a shell ignores Ctrl-C, and so would the programs that test it.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     extras = "test,plot,batch,dask" + (",ray" if wishes.cluster else "")
     python = prepare(wheel_of(wishes.wheel), extras, wishes.keep)
     module = [python, "-m"]

@@ -266,6 +266,14 @@ impl Within<'_, Index> {
         self.of.write(path.as_ref(), self.limits.interrupt())
     }
 
+    /// [`Index::to_bytes`].
+    ///
+    /// # Errors
+    /// Those of [`Index::to_bytes`], and [`Error::Stopped`].
+    pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
+        self.of.bytes(self.limits.interrupt())
+    }
+
     /// [`Index::repair`]; the index stays as it is.
     ///
     /// # Errors

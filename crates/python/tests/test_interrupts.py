@@ -150,6 +150,7 @@ ENDED = {
         "import tempfile\nfile = tempfile.mkdtemp() + '/index'\nindex = grid.prepare('hpa')",
         "index.save(file)",
     ),
+    "to bytes": ("index = grid.prepare('hpa')", "index.to_bytes()"),
     "bytes": ("data = grid.prepare('chpa').to_bytes()", "grid.index_from_bytes(data)"),
     "field": ("", "grid.field((0, 0), k=6)"),
     "any-angle field": ("", "wide.field((0, 0), k='any')"),

@@ -7,7 +7,7 @@
 
 use std::num::NonZeroU32;
 
-use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted};
+use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted, uninterrupted};
 use mediant_moves::K;
 
 use crate::{
@@ -29,6 +29,14 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// What does not follow from the map, for [`from_bytes`](Self::from_bytes).
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
+        uninterrupted(|never| self.to_bytes_interruptible(never))
+    }
+
+    /// [`to_bytes`](Self::to_bytes), which an interrupt can stop.
+    ///
+    /// # Errors
+    /// [`Interrupted`], with nothing kept.
+    pub fn to_bytes_interruptible(&self, interrupt: &Interrupt) -> Result<Vec<u8>, Interrupted> {
         let count = self.subgoals();
         // On 32 bits this cannot overflow: in memory an arc takes three times as much.
         let mut bytes = Vec::with_capacity(Identity::BYTES + 4 * (3 + count + 2 * self.arcs()));
@@ -36,13 +44,15 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
         let mut write = |number: u32| bytes.extend(number.to_le_bytes());
         [code(self.hierarchy()), count as u32, self.arcs() as u32].into_iter().for_each(&mut write);
         for id in 0..count as u32 {
+            interrupt.check_every(1 << 16, id as usize, WRITING)?;
             write(2 * self.up(id).len() as u32 + u32::from(self.is_core(id)));
         }
-        for arc in &self.arcs {
+        for (number, arc) in self.arcs.iter().enumerate() {
+            interrupt.check_every(1 << 16, number, WRITING)?;
             write(arc.to);
             write(arc.middle);
         }
-        bytes
+        Ok(bytes)
     }
 
     /// The graph that [`to_bytes`](Self::to_bytes) wrote for the same free space and k. It answers exactly as
@@ -134,6 +144,7 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
 
 /// The stage that an interrupted call names.
 pub(crate) const DURING: &str = "reading subgoals";
+pub(crate) const WRITING: &str = "writing the index";
 
 /// The bytes behind the identity with which they begin, if that is the expected one.
 pub(crate) fn after_identity(bytes: &[u8], expected: Identity) -> Result<&[u8], SubgoalError> {

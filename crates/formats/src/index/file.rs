@@ -2,8 +2,7 @@
 
 use std::{fmt, fs, io::Write, path::Path};
 
-use mediant_grid::Interrupt;
-use sha2::{Digest, Sha256};
+use mediant_grid::{Interrupt, Interrupted, uninterrupted};
 
 use super::{error::IndexError, header, key::IndexKey, layout::DIGEST_BYTES};
 use crate::{
@@ -72,12 +71,20 @@ impl IndexFile {
     /// The bytes of the file.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
+        uninterrupted(|never| self.to_bytes_interruptible(never))
+    }
+
+    /// [`to_bytes`](Self::to_bytes), which an interrupt can stop.
+    ///
+    /// # Errors
+    /// [`Interrupted`], with nothing kept.
+    pub fn to_bytes_interruptible(&self, interrupt: &Interrupt) -> Result<Vec<u8>, Interrupted> {
         let mut bytes = header::encode(&self.key, self.payload.len());
         bytes.reserve_exact(self.payload.len() + DIGEST_BYTES);
         bytes.extend_from_slice(&self.payload);
-        let digest = Sha256::digest(&bytes);
+        let digest = header::digest_of(&[&bytes], interrupt, WRITING)?;
         bytes.extend_from_slice(&digest);
-        bytes
+        Ok(bytes)
     }
 
     /// Parses the bytes of a file, and keeps the payload in the same allocation. The length that the header

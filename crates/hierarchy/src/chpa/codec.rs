@@ -16,7 +16,7 @@ impl SegmentGraph {
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let identity: [u8; Identity::BYTES] = self.identity.to_bytes();
-        identity.iter().chain(&self.side.to_le_bytes()).chain(&self.edges).copied().collect()
+        [&identity[..], &self.side.to_le_bytes(), &self.edges].concat()
     }
 
     /// The index of a grid graph from its bytes. It gives the same answers as the index that was written.

@@ -5,10 +5,12 @@
 //! and row by row: the number n of its nodes, and the n(n − 1)/2 costs from each node to those after it, in
 //! units of 2⁻¹⁶ cells. The nodes themselves are not stored: they follow from the map.
 
-use mediant_grid::{Centers, GridGraph, Interrupt};
+use mediant_grid::{Centers, GridGraph, Interrupt, Interrupted, uninterrupted};
 
 use super::{DURING, clustering::Clustering, fixed_cost::FixedCost, graph::ClusterGraph, level::Cluster};
 use crate::{HierarchyError, bytes::WordReader, check};
+
+const WRITING: &str = "writing the index";
 
 impl ClusterGraph {
     /// The version of the format of [`to_bytes`](Self::to_bytes).
@@ -17,17 +19,28 @@ impl ClusterGraph {
     /// The index as bytes, without what follows from the map. [`from_bytes`](Self::from_bytes) reads them.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
+        uninterrupted(|never| self.to_bytes_interruptible(never))
+    }
+
+    /// [`to_bytes`](Self::to_bytes), which an interrupt can stop.
+    ///
+    /// # Errors
+    /// [`Interrupted`], with nothing kept.
+    pub fn to_bytes_interruptible(&self, interrupt: &Interrupt) -> Result<Vec<u8>, Interrupted> {
+        let mut bytes = self.identity.to_bytes().to_vec();
+        let mut write = |word: u32| bytes.extend(word.to_le_bytes());
         let Clustering { side, levels } = self.clustering;
-        let mut words = vec![side, levels];
-        for Cluster { count, costs } in self.levels.iter().flat_map(|level| &level.clusters) {
-            words.push(*count);
+        [side, levels].into_iter().for_each(&mut write);
+        let clusters = self.levels.iter().flat_map(|level| &level.clusters);
+        for (number, Cluster { count, costs }) in clusters.enumerate() {
+            interrupt.check_every(64, number, WRITING)?;
+            write(*count);
             for from in 0..*count as usize {
                 let later = &costs[from * *count as usize..][from + 1..*count as usize];
-                words.extend(later.iter().map(|cost| cost.to_bits()));
+                later.iter().for_each(|cost| write(cost.to_bits()));
             }
         }
-        let words = words.into_iter().flat_map(u32::to_le_bytes);
-        self.identity.to_bytes().into_iter().chain(words).collect()
+        Ok(bytes)
     }
 
     /// The index of a grid graph from its bytes. It gives the same answers as the index that was written.

@@ -26,7 +26,7 @@ impl Index {
     }
 
     pub(crate) fn write(&self, path: &FilePath, interrupt: &Interrupt) -> Result<(), Error> {
-        Ok(self.file()?.write_interruptible(path, interrupt)?)
+        Ok(self.file(interrupt)?.write_interruptible(path, interrupt)?)
     }
 
     /// The index as bytes, those of its file, for [`Space::index_from_bytes`].
@@ -34,15 +34,19 @@ impl Index {
     /// # Errors
     /// [`Error::Setup`] for an engine whose index is not saved.
     pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
-        Ok(self.file()?.to_bytes())
+        self.bytes(&NEVER)
     }
 
-    fn file(&self) -> Result<IndexFile, Error> {
+    pub(crate) fn bytes(&self, interrupt: &Interrupt) -> Result<Vec<u8>, Error> {
+        Ok(self.file(interrupt)?.to_bytes_interruptible(interrupt)?)
+    }
+
+    fn file(&self, interrupt: &Interrupt) -> Result<IndexFile, Error> {
         let engine = self.setup.engine.kind();
         let payload = match self.substitute {
             // The placement makes no difference.
             Some(_) => Some(PreparedSubgoals::<Corners>::Nothing(self.identity()).to_bytes()),
-            None => self.prepared.to_bytes(),
+            None => self.prepared.to_bytes(interrupt)?,
         };
         let payload = payload.ok_or_else(|| SetupError::without_index(engine))?;
         Ok(IndexFile::new(key(engine, &self.space)?, payload))

@@ -2,7 +2,7 @@
 
 use std::{num::NonZeroU32, sync::Arc};
 
-use mediant_grid::{Centers, Corners, FreeSpace, GridGraph};
+use mediant_grid::{Centers, Corners, FreeSpace, GridGraph, Interrupt, Interrupted};
 use mediant_hierarchy::{ClusterGraph, Clustering, SegmentGraph};
 use mediant_search::{DeadEnds, JumpTable, Pruning, parts::BlockFinder};
 use mediant_subgoal::{HubLabels, SubgoalGraph, SubgoalPlacement};
@@ -72,12 +72,12 @@ impl Prepared {
     }
 
     /// The bytes of a saved index; `None` where there is nothing to save.
-    pub(super) fn to_bytes(&self) -> Option<Vec<u8>> {
+    pub(super) fn to_bytes(&self, interrupt: &Interrupt) -> Result<Option<Vec<u8>>, Interrupted> {
         match self {
-            Self::Centers(_, parts) => parts.to_bytes(),
-            Self::Corners(_, parts) => parts.to_bytes(),
-            Self::FreeCenters(_, parts) => parts.to_bytes(),
-            Self::FreeCorners(_, parts) => parts.to_bytes(),
+            Self::Centers(_, parts) => parts.to_bytes(interrupt),
+            Self::Corners(_, parts) => parts.to_bytes(interrupt),
+            Self::FreeCenters(_, parts) => parts.to_bytes(interrupt),
+            Self::FreeCorners(_, parts) => parts.to_bytes(interrupt),
         }
     }
 
@@ -190,12 +190,12 @@ impl Prepared {
 }
 
 impl<P: SubgoalPlacement> InFreeSpace<P> {
-    fn to_bytes(&self) -> Option<Vec<u8>> {
-        match self {
+    fn to_bytes(&self, interrupt: &Interrupt) -> Result<Option<Vec<u8>>, Interrupted> {
+        Ok(match self {
             Self::Nothing | Self::DeadEnds(_) => None,
-            Self::Subgoals(graph) => Some(graph.to_bytes()),
-            Self::Labels(labels) => Some(labels.to_bytes()),
-        }
+            Self::Subgoals(graph) => Some(graph.to_bytes_interruptible(interrupt)?),
+            Self::Labels(labels) => Some(labels.to_bytes_interruptible(interrupt)?),
+        })
     }
 
     fn memory_bytes(&self) -> usize {
@@ -217,13 +217,14 @@ impl<P: SubgoalPlacement> InFreeSpace<P> {
 }
 
 impl<P: SubgoalPlacement> OnGridGraph<P> {
-    fn to_bytes(&self) -> Option<Vec<u8>> {
-        match self {
+    fn to_bytes(&self, interrupt: &Interrupt) -> Result<Option<Vec<u8>>, Interrupted> {
+        Ok(match self {
             Self::Nothing | Self::Pruning(_) | Self::Blocks(..) => None,
-            Self::Table(_, table) => Some(table.to_bytes()),
-            Self::Clusters(graph) => Some(graph.to_bytes()),
+            Self::Table(_, table) => Some(table.to_bytes_interruptible(interrupt)?),
+            Self::Clusters(graph) => Some(graph.to_bytes_interruptible(interrupt)?),
+            // A byte a segment is copied as fast as memory.
             Self::Segments(graph) => Some(graph.to_bytes()),
-        }
+        })
     }
 
     fn memory_bytes(&self) -> usize {

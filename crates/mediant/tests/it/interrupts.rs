@@ -210,16 +210,25 @@ fn opening_stops() {
 fn saving_stops() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("map.index");
-    let index = map().space(Motion::centers(K::N8)).and_then(|space| space.prepare(Engine::Subgoal));
-    let index = index.expect("an index");
+    let space = map().space(Motion::centers(K::N8)).expect("a space");
     std::fs::write(&file, "older").expect("room");
-    check("saving", |limits| {
-        let saved = index.within(limits).save(&file);
-        let content = std::fs::read(&file).expect("a file");
-        assert_eq!(content == b"older", saved.is_err());
-        std::fs::write(&file, "older").expect("room");
-        saved
-    });
+    for engine in [Engine::Subgoal, Engine::JpsPlus, Engine::Hpa, Engine::Chpa] {
+        let index = space.prepare(engine).expect("an index");
+        check(&format!("saving {engine}"), |limits| {
+            let saved = index.within(limits).save(&file);
+            let content = std::fs::read(&file).expect("a file");
+            assert_eq!(content == b"older", saved.is_err());
+            std::fs::write(&file, "older").expect("room");
+            saved
+        });
+        // The bytes are asked for before their checksum, but for those that are copied.
+        let (limits, asked) = counting(usize::MAX);
+        let bytes = index.within(&limits).to_bytes().expect("an index");
+        let pieces = bytes.len().div_ceil(1 << 20);
+        assert!(engine == Engine::Chpa || asked.load(Ordering::Relaxed) > pieces, "{engine}");
+        assert_eq!(bytes, index.to_bytes().expect("an index"));
+        check(&format!("the bytes of {engine}"), |limits| index.within(limits).to_bytes());
+    }
     let files = std::fs::read_dir(folder.path()).expect("a folder");
     assert_eq!(files.count(), 1, "nothing else is left");
 }

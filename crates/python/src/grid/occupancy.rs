@@ -166,7 +166,9 @@ fn rows<'py>(
     let array = array
         .cast_into::<PyUntypedArray>()
         .map_err(|_| wrong_type(name, "an array of integers", occupancy))?;
-    if !matches!(array.dtype().kind(), b'i' | b'u') && !array.is_empty() {
+    // NumPy makes an empty list one of floats.
+    let is_empty_list = array.is_empty() && array.dtype().kind() == b'f';
+    if !matches!(array.dtype().kind(), b'i' | b'u') && !is_empty_list {
         let wrong = format!("{name}: expected integers from -1 to 100, found {}", array.dtype());
         return Err(PyTypeError::new_err(wrong));
     }

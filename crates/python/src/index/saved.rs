@@ -133,7 +133,9 @@ impl Index {
     /// >>> grid.index_from_bytes(grid.prepare().to_bytes()).engine
     /// 'subgoal'
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = py.detach(|| self.planners.index().to_bytes()).map_err(raised)?;
+        let index = self.planners.index().clone();
+        let write = move |limits: &Limits| index.within(limits).to_bytes();
+        let bytes = detached(py, u64::MAX, Limits::new(), write)?.map_err(raised)?;
         Ok(PyBytes::new(py, &bytes))
     }
 

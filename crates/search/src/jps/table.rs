@@ -16,6 +16,8 @@ use mediant_moves::KError;
 use super::{block_finder::BlockFinder, lists::JumpLists, planes::JumpPlanes};
 use crate::canonical::Pruning;
 
+const WRITING: &str = "writing the index";
+
 /// The jumps from all jump points of a grid graph: 2.8 to 5.6 bytes a vertex on the benchmark maps at k = 3.
 /// Immutable; share it between planners.
 ///
@@ -140,8 +142,20 @@ impl JumpTable {
     /// and makes the rest from the map.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
-        let words = self.lists.words().flat_map(u32::to_le_bytes);
-        self.identity().to_bytes().into_iter().chain(words).collect()
+        uninterrupted(|never| self.to_bytes_interruptible(never))
+    }
+
+    /// [`to_bytes`](Self::to_bytes), which an interrupt can stop.
+    ///
+    /// # Errors
+    /// [`Interrupted`], with nothing kept.
+    pub fn to_bytes_interruptible(&self, interrupt: &Interrupt) -> Result<Vec<u8>, Interrupted> {
+        let mut bytes = self.identity().to_bytes().to_vec();
+        for (number, word) in self.lists.words().enumerate() {
+            interrupt.check_every(1 << 16, number, WRITING)?;
+            bytes.extend(word.to_le_bytes());
+        }
+        Ok(bytes)
     }
 
     /// The table from its bytes. Every word is checked, so an accepted table is the one that

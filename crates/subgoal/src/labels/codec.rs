@@ -17,7 +17,7 @@ use mediant_search::parts::Metric;
 
 use super::{Geometry, HubLabels, pack::Packed};
 use crate::{
-    codec::{DURING, LABELS, after_identity},
+    codec::{DURING, LABELS, WRITING, after_identity},
     error::SubgoalError,
     hierarchy::Hierarchy,
     placement::SubgoalPlacement,
@@ -30,17 +30,26 @@ impl<P: SubgoalPlacement> HubLabels<P> {
     /// that of [`SubgoalGraph`](crate::SubgoalGraph::VERSION).
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
+        uninterrupted(|never| self.to_bytes_interruptible(never))
+    }
+
+    /// [`to_bytes`](Self::to_bytes), which an interrupt can stop.
+    ///
+    /// # Errors
+    /// [`Interrupted`], with nothing kept.
+    pub fn to_bytes_interruptible(&self, interrupt: &Interrupt) -> Result<Vec<u8>, Interrupted> {
         let mut bytes = Vec::with_capacity(self.memory_bytes() + 64);
         bytes.extend(self.identity.to_bytes());
         bytes.extend(LABELS.to_le_bytes());
         // So that words of 64 bits begin at multiples of 8.
         bytes.extend(self.packed.cost_bits.to_le_bytes());
-        let mut out = Writer { bytes };
-        self.geometry.seen.write(&mut out);
-        self.packed.write(&mut out);
-        let Writer { mut bytes } = out;
-        bytes.extend(uninterrupted(|never| checksum(&bytes, never)).to_le_bytes());
-        bytes
+        let mut out = Writer { bytes, interrupt };
+        self.geometry.seen.write(&mut out)?;
+        self.packed.write(&mut out)?;
+        let Writer { mut bytes, .. } = out;
+        let sum = checksum(&bytes, interrupt)?;
+        bytes.extend(sum.to_le_bytes());
+        Ok(bytes)
     }
 
     /// The labels that [`to_bytes`](Self::to_bytes) wrote for the same free space and k. They answer exactly
@@ -118,18 +127,23 @@ fn checksum(bytes: &[u8], interrupt: &Interrupt) -> Result<u64, Interrupted> {
 }
 
 /// Writes parts.
-pub(crate) struct Writer {
+pub(crate) struct Writer<'i> {
     bytes: Vec<u8>,
+    interrupt: &'i Interrupt,
 }
 
-impl Writer {
-    pub(crate) fn part32(&mut self, words: impl ExactSizeIterator<Item = u32>) {
+impl Writer<'_> {
+    pub(crate) fn part32(&mut self, words: impl ExactSizeIterator<Item = u32>) -> Result<(), Interrupted> {
         self.bytes.extend((words.len() as u64).to_le_bytes());
         let is_odd = words.len() % 2 == 1;
-        words.for_each(|word| self.bytes.extend(word.to_le_bytes()));
+        for (number, word) in words.enumerate() {
+            self.interrupt.check_every(1 << 16, number, WRITING)?;
+            self.bytes.extend(word.to_le_bytes());
+        }
         if is_odd {
             self.bytes.extend([0; 4]);
         }
+        Ok(())
     }
 
     pub(crate) fn part8(&mut self, bytes: &[u8]) {
@@ -138,9 +152,13 @@ impl Writer {
         self.bytes.resize(self.bytes.len().next_multiple_of(8), 0);
     }
 
-    pub(crate) fn part64(&mut self, words: &[u64]) {
+    pub(crate) fn part64(&mut self, words: &[u64]) -> Result<(), Interrupted> {
         self.bytes.extend((words.len() as u64).to_le_bytes());
-        words.iter().for_each(|word| self.bytes.extend(word.to_le_bytes()));
+        for (number, word) in words.iter().enumerate() {
+            self.interrupt.check_every(1 << 16, number, WRITING)?;
+            self.bytes.extend(word.to_le_bytes());
+        }
+        Ok(())
     }
 }
 

@@ -170,13 +170,16 @@ impl Packed {
         Ok(Some(Self { sides, groups, labels, following: Box::default(), cost_bits }))
     }
 
-    pub(super) fn write(&self, out: &mut Writer) {
+    pub(super) fn write(&self, out: &mut Writer<'_>) -> Result<(), Interrupted> {
         let slots = self.sides.len() as u32 - 1;
-        out.part32((0..slots as usize).map(|slot| self.groups(slot as u32, 1).len() as u32));
-        out.part32(self.groups[1..].iter().map(|group| group.to));
-        out.part32((1..self.groups.len()).map(|group| (self.groups[group].end() - self.begin(group)) as u32));
-        out.part64(&self.labels);
+        out.part32((0..slots as usize).map(|slot| self.groups(slot as u32, 1).len() as u32))?;
+        out.part32(self.groups[1..].iter().map(|group| group.to))?;
+        out.part32(
+            (1..self.groups.len()).map(|group| (self.groups[group].end() - self.begin(group)) as u32),
+        )?;
+        out.part64(&self.labels)?;
         out.part8(&self.following);
+        Ok(())
     }
 
     /// The labels that were written for these subgoals; `None` if there are none of them.

@@ -1,17 +1,19 @@
 //! A seen index as bytes.
 
+use mediant_grid::Interrupted;
+
 use super::{Entry, SIDE, SeenIndex, Tile};
 use crate::labels::{Reader, Writer};
 
 impl SeenIndex {
-    pub(crate) fn write(&self, out: &mut Writer) {
+    pub(crate) fn write(&self, out: &mut Writer<'_>) -> Result<(), Interrupted> {
         let halves = |index: usize| {
             let Tile { first, slot } = self.tiles[index / 2];
             if index.is_multiple_of(2) { first } else { slot }
         };
-        out.part32((0..2 * self.tiles.len()).map(halves));
-        out.part32(self.entries.iter().map(|entry| u32::from(entry.after) << 16 | u32::from(entry.mask)));
-        out.part64(&self.masks);
+        out.part32((0..2 * self.tiles.len()).map(halves))?;
+        out.part32(self.entries.iter().map(|entry| u32::from(entry.after) << 16 | u32::from(entry.mask)))?;
+        out.part64(&self.masks)
     }
 
     /// The index that was written, for a map with so many vertices and slots; `None` if it is none of such a
