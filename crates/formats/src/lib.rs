@@ -7,7 +7,7 @@
 //! |---|---|---|
 //! | MovingAI `.map` | [`MapFile`] | `.`, `G` and `S` are free: [`Tiles`] |
 //! | PGM and PBM, P1, P2, P4, P5; PNG | [`Raster`] | dark and transparent pixels are blocked: [`MapOptions`] |
-//! | ROS `map_server`: YAML, picture | [`RosMap`] | blocked: occupied, unknown: [`RosVersion`]; meters: [`WorldFrame`] |
+//! | ROS `map_server`: YAML, picture | [`RosMap`] | free cells by [`RosVersion`]; meters by [`WorldFrame`] |
 //!
 //! [`read_map_with`] does so where files are not on a disk, and [`map_size_with`] only looks at the header.
 //!

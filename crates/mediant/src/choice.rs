@@ -22,8 +22,9 @@ pub struct Choice {
 /// (`docs/performance.md`, 'How it grows'), and where they do not, another engine searches.
 const MOST_CELLS_FOR_SUBGOALS: u64 = 1 << 24;
 
-/// Up to so many cells the preparation of block-based JPS takes longer than a handful of queries.
-const MOST_CELLS_FOR_SEARCH_AT_ONCE: u64 = 1 << 12;
+/// The most cells of a map on which the next path is searched without the preparation of block-based JPS,
+/// which takes longer than a handful of queries there.
+const MOST_CELLS_WITHOUT_BLOCKS: u64 = 1 << 12;
 
 /// Block-based JPS, for more than one path at k = 2 and 3.
 const BLOCKS: Choice = Choice { engine: Engine::JpsBlock, why: "it reads the map by words of 64 cells" };
@@ -79,12 +80,12 @@ impl Choice {
     /// For the next path on a map that may change before the one after it: on maps of up to 64 × 64 cells,
     /// between their centers, as for one path; else as for some.
     ///
-    /// On 64 × 64 cells (empty, random, rooms) canonical A* took 22 to 62 µs for a map, its space and one
-    /// path at k = 3, block-based JPS 106 to 134 µs. A further path took 6 to 29 µs against 4 to 26: at most
-    /// 2.6 times as long, in rooms.
+    /// Called from Python on 64 × 64 cells (empty, random, rooms), canonical A* took 22 to 62 µs for a map,
+    /// its space and one path at k = 3, block-based JPS 106 to 134 µs. A further path took 6 to 29 µs against
+    /// 4 to 26: at most 2.6 times as long, in rooms.
     #[must_use]
     pub fn for_next_path(motion: Motion, map: &Map) -> Self {
-        let is_small = cells(map) <= MOST_CELLS_FOR_SEARCH_AT_ONCE;
+        let is_small = cells(map) <= MOST_CELLS_WITHOUT_BLOCKS;
         match motion.rules.placement() {
             PlacementKind::Center if is_small => Self::for_one_path(motion),
             _ => Self::for_some_paths(motion),

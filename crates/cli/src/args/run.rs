@@ -121,8 +121,8 @@ For a builtin map without queries, the queries are those of its own scenario.
 A trace is JSON for the Posthoc visualizer: every event of the search, then the path found.
 
 Exit status: 0 if every query was answered (found, unreachable, nearest or stopped), 1 if any was an error, \
-2 for bad arguments, or a file that cannot be read or written, 3 with --require-path if no query was an error but any is without the \
-path that was asked for.
+2 for bad arguments, or a file that cannot be read or written, 3 with --require-path if no query was an \
+error but any is without the path that was asked for.
 
 Examples:
   mediant run builtin:archipelago
