@@ -49,6 +49,11 @@ pub(crate) enum Failure {
     NoWorld { map: String },
     #[error("the map {map} has no characters for tiles: leave {option} out, or give a MovingAI map")]
     NoTiles { map: String, option: &'static str },
+    #[error(
+        "{}: its paths are on the grounds of a MovingAI map, and {map} has none: give the map that they were \
+         made on", path.display()
+    )]
+    NoGrounds { path: PathBuf, map: String },
     #[error(transparent)]
     Tiles(#[from] TilesError),
     #[error("({x}, {y}) is no vertex: write whole numbers, such as 3,14, or meters with --world")]

@@ -75,6 +75,11 @@ impl Map {
         Self { name, ground: Arc::clone(&grid), grid, radius: 0.0, theme, frame: None, place: None, tiles }
     }
 
+    /// Whether it is a MovingAI map that was loaded [with its characters](Self::load_with_tiles).
+    pub(crate) fn has_tiles(&self) -> bool {
+        self.tiles.is_some()
+    }
+
     /// The map on which the cells of all grounds of a MovingAI map are free. It knows the radius of the
     /// agent, but not where it fits, which depends on the ground.
     pub(crate) fn on_all_grounds(self, args: &MapArgs) -> Result<Self, Failure> {

@@ -99,8 +99,11 @@ pub(crate) fn check(args: &CheckArgs, screen: &mut Screen) -> Result<Ending, Fai
     let files = args.paths.iter().map(|path| Ok((shown(path).display().to_string(), read(path)?)));
     let files = files.collect::<Result<Vec<_>, Failure>>()?;
     let by_ground = |path: &Listed| path.said.is_some_and(|said| said.grounds);
-    let needs_tiles = files.iter().any(|(_, listed)| listed.iter().any(by_ground));
-    let map = if needs_tiles { Map::load_with_tiles(&args.map)? } else { Map::load(&args.map)? };
+    let of_grounds = files.iter().find(|(_, listed)| listed.iter().any(by_ground));
+    let map = if of_grounds.is_some() { Map::load_with_tiles(&args.map)? } else { Map::load(&args.map)? };
+    if let Some((file, _)) = of_grounds.filter(|_| !map.has_tiles()) {
+        return Err(Failure::NoGrounds { path: file.into(), map: map.name });
+    }
     let mut ready: Option<((Rules, Option<Ground>), Space)> = None;
     let (mut paths, mut broken) = (0_u64, 0_u64);
     for (file, listed) in &files {

@@ -83,6 +83,13 @@ fn a_scenario_runs_on_the_ground_of_each_start() {
     assert_eq!(checked("grounds.jsonl", &ran), (Some(0), Some(4), Some(0)));
     let without = ran.replace("\"grounds\":true,", "");
     assert_eq!(checked("land.jsonl", &without), (Some(1), Some(4), Some(3)));
+    let picture = files.add("lake.pgm", "P2 4 2 255  255 255 255 255  255 255 255 255");
+    let paths = files.add("grounds.jsonl", &ran);
+    assert_eq!(
+        fails(&files, &format!("check {picture} {paths}")),
+        "error: grounds.jsonl: its paths are on the grounds of a MovingAI map, and lake.pgm has none: give the \
+         map that they were made on\n"
+    );
 }
 
 #[test]

@@ -1,7 +1,9 @@
 // The first sight: fast, from one server, and what the package answers.
 
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { test } from "node:test";
+import { fileURLToPath } from "node:url";
 import { lanes, rows, scene } from "../act.mjs";
 import { picture, Site } from "../browser.mjs";
 import { lengthOf, load } from "../truth.mjs";
@@ -17,13 +19,27 @@ async function firstPath() {
   return time;
 }
 
+/** How many times as long as usual this machine takes now, by the fixed loop of `.ci/common`; at least 1. */
+function slowness() {
+  const common = fileURLToPath(new URL("../../../../.ci/common", import.meta.url));
+  const loop = 'source "$0" && echo "$(yardstick) $usual"';
+  const said = execFileSync("bash", ["-c", loop, common], { encoding: "utf8" });
+  const [now, usual] = said.split(" ").map(Number);
+  return Math.max(1, now / usual);
+}
+
 test("the first path is there within a second of a cold load", async (t) => {
-  // The first load of all also starts processes of the browser. On a machine that is slow or does other work
-  // loads differ by half; a page that is slow is so at each load.
-  const times = [await firstPath()];
-  while (times.length < 3 || (times.length < 30 && Math.min(...times) >= 1000)) times.push(await firstPath());
-  t.diagnostic(`first path after ${times.map((time) => time.toFixed(0)).join(", ")} ms`);
-  assert.ok(Math.min(...times) < 1000, `${times}`);
+  // The first load of all also starts processes of the browser. On a machine that does other work loads
+  // differ by half; a page that is slow is so at each load.
+  const loads = [];
+  const best = () => Math.min(...loads.map(({ time, slow }) => time / slow));
+  while (loads.length < 3 || (loads.length < 20 && best() >= 1000)) {
+    const slow = slowness();
+    loads.push({ time: await firstPath(), slow });
+  }
+  const said = loads.map(({ time, slow }) => `${time.toFixed(0)} ms at ${slow.toFixed(2)} of the usual time`);
+  t.diagnostic(`first path after ${said.join(", ")}`);
+  assert.ok(best() < 1000, `${said}`);
 });
 
 test("the page shows the path that the package finds", async () => {
