@@ -155,14 +155,14 @@ fn most_allocations(planner: &mut Solve<'_>, queries: &[Query], case: &str) -> u
         most = most.max(ALLOCATIONS.get() - before - path);
         found += path;
     }
-    assert!(found > 50, "only {found} paths were found: {case}");
+    assert!(found > 25, "only {found} paths were found: {case}");
     most
 }
 
 #[test]
 fn a_warm_query_allocates_its_path_and_nothing_else() {
     let grid = cave();
-    let queries = random_queries(&mut Rng::new(1), &grid, 120);
+    let queries = random_queries(&mut Rng::new(1), &grid, 60);
     for number in [2, 3] {
         let grid_graph = grid_graph(&grid, k(number), CornerRule::Never);
         for (side, levels) in [(10, 1), (6, 3), (2, 4), (64, 1)] {
