@@ -76,7 +76,11 @@ pub enum Error {
     #[error(transparent)]
     Size(SizeError),
     /// Motion that no engine searches.
-    #[error("no engine searches {motion}: choose a k from 2 to {max}, or placement corner for k = any")]
+    #[error(
+        "no engine searches {motion}: choose a k from 2 to {max} (4 to {} neighbors), or placement corner for \
+         k = any",
+        1_u64 << max
+    )]
     Motion {
         /// The motion.
         motion: Motion,

@@ -512,6 +512,8 @@ def test_neighbors_name_the_neighborhood_by_its_moves():
         grid.path((0, 0), (2, 3), neighbors=6)
     with pytest.raises(mediant.ArgumentError, match="neighbors"):
         grid.path((0, 0), (2, 3), k=3, neighbors=8)
+    with pytest.raises(mediant.OptionError, match=r"k = 31: .* \(4 to 4096 neighbors\)"):
+        grid.prepare("astar", neighbors=2**31)
 
 
 def test_engines_and_infinity_have_several_names():

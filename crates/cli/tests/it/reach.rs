@@ -188,7 +188,7 @@ fn arguments_that_make_no_sense() {
     );
     check(
         "reach builtin:cave --from 2,5 --k any --placement center",
-        "no engine searches center, corners never, k = any: choose a k from 2 to 12, or placement corner for k = any",
+        "no engine searches center, corners never, k = any: choose a k from 2 to 12 (4 to 4096 neighbors), or placement corner for k = any",
     );
     check(
         "reach builtin:cave --from 2,5 --gap open",
