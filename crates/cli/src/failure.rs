@@ -122,7 +122,8 @@ pub(crate) enum Failure {
     #[error("--distance is for one start and one goal: for several there is mediant table")]
     DistanceEnds,
     #[error(
-        "give --k or --neighbors to list the moves of a neighborhood, --ratio to find the smallest k for a bound, or both"
+        "give --k or --neighbors to list the moves of a neighborhood, --ratio to find the smallest k for a bound, \
+         or both"
     )]
     NoK,
     #[error(transparent)]

@@ -60,6 +60,11 @@ pub struct Interrupted {
     pub during: &'static str,
 }
 
+impl Interrupted {
+    /// The stage in which an index is made into bytes, or written to a file, whatever its engine.
+    pub const WRITING: &'static str = "writing the index";
+}
+
 impl Interrupt {
     /// An interrupt that stops nothing.
     pub const NEVER: Self = Self::new();

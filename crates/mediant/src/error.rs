@@ -79,7 +79,7 @@ pub enum Error {
     #[error(
         "no engine searches {motion}: choose a k from 2 to {max} (4 to {} neighbors), or placement corner for \
          k = any",
-        1_u64 << max
+        2_u64.saturating_pow(*max)
     )]
     Motion {
         /// The motion.

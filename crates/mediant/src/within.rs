@@ -269,7 +269,7 @@ impl Within<'_, Index> {
     /// [`Index::to_bytes`].
     ///
     /// # Errors
-    /// Those of [`Index::to_bytes`], and [`Error::Stopped`].
+    /// [`Error::Stopped`], and the errors of [`Index::to_bytes`].
     pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
         self.of.bytes(self.limits.interrupt())
     }

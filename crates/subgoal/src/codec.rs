@@ -44,11 +44,11 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
         let mut write = |number: u32| bytes.extend(number.to_le_bytes());
         [code(self.hierarchy()), count as u32, self.arcs() as u32].into_iter().for_each(&mut write);
         for id in 0..count as u32 {
-            interrupt.check_every(1 << 16, id as usize, WRITING)?;
+            interrupt.check_every(1 << 16, id as usize, Interrupted::WRITING)?;
             write(2 * self.up(id).len() as u32 + u32::from(self.is_core(id)));
         }
         for (number, arc) in self.arcs.iter().enumerate() {
-            interrupt.check_every(1 << 16, number, WRITING)?;
+            interrupt.check_every(1 << 16, number, Interrupted::WRITING)?;
             write(arc.to);
             write(arc.middle);
         }
@@ -144,7 +144,6 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
 
 /// The stage that an interrupted call names.
 pub(crate) const DURING: &str = "reading subgoals";
-pub(crate) const WRITING: &str = "writing the index";
 
 /// The bytes behind the identity with which they begin, if that is the expected one.
 pub(crate) fn after_identity(bytes: &[u8], expected: Identity) -> Result<&[u8], SubgoalError> {

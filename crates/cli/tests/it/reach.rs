@@ -130,8 +130,8 @@ fn pictures_show_the_sources() {
 fn the_summary_says_what_was_reached() {
     assert_eq!(
         succeeds("reach builtin:cave --from 2,5 --within 40"),
-        "cave.map · center, corners never, k = 3 (8 moves) · 500 vertices within 40 of (2, 5), the furthest (36, 12) at \
-         39.9706\n"
+        "cave.map · center, corners never, k = 3 (8 moves) · 500 vertices within 40 of (2, 5), the furthest \
+         (36, 12) at 39.9706\n"
     );
     assert_eq!(
         succeeds("reach builtin:cave --from 2,5 --from 57,3 --k any"),
@@ -140,7 +140,8 @@ fn the_summary_says_what_was_reached() {
     );
     assert_eq!(
         succeeds("reach builtin:cave --from 2,5 --within 0"),
-        "cave.map · center, corners never, k = 3 (8 moves) · 1 vertex within 0 of (2, 5), the furthest (2, 5) at 0.0000\n"
+        "cave.map · center, corners never, k = 3 (8 moves) · 1 vertex within 0 of (2, 5), the furthest \
+         (2, 5) at 0.0000\n"
     );
 }
 
@@ -154,8 +155,8 @@ fn lengths_are_in_meters_in_the_world() {
     assert_eq!(succeeds(&format!("{line} -o -")), succeeds(&format!("{cells} -o -")));
     assert_eq!(
         succeeds(&line),
-        "isles.yaml · center, corners never, k = 3 (8 moves) · 558 vertices within 20 m of (16, 7), the furthest (50, 10) \
-         at 39.9706 cells: in the world (22.250, 14.750) at 19.985 m\n  \
+        "isles.yaml · center, corners never, k = 3 (8 moves) · 558 vertices within 20 m of (16, 7), the furthest \
+         (50, 10) at 39.9706 cells: in the world (22.250, 14.750) at 19.985 m\n  \
          moved to vertices: the sources by at most 0.071 m\n"
     );
 }
@@ -188,7 +189,8 @@ fn arguments_that_make_no_sense() {
     );
     check(
         "reach builtin:cave --from 2,5 --k any --placement center",
-        "no engine searches center, corners never, k = any: choose a k from 2 to 12 (4 to 4096 neighbors), or placement corner for k = any",
+        "no engine searches center, corners never, k = any: choose a k from 2 to 12 \
+         (4 to 4096 neighbors), or placement corner for k = any",
     );
     check(
         "reach builtin:cave --from 2,5 --gap open",

@@ -10,9 +10,6 @@ use crate::{
     save::{NewFile, WriteError, unwritable},
 };
 
-/// The stage that an interruption names.
-const WRITING: &str = "writing the index";
-
 /// A saved index: the key that says what it was built for, and a payload that only its engine understands.
 ///
 /// Needs the feature `index`.
@@ -82,7 +79,7 @@ impl IndexFile {
         let mut bytes = header::encode(&self.key, self.payload.len());
         bytes.reserve_exact(self.payload.len() + DIGEST_BYTES);
         bytes.extend_from_slice(&self.payload);
-        let digest = header::digest_of(&[&bytes], interrupt, WRITING)?;
+        let digest = header::digest_of(&[&bytes], interrupt, Interrupted::WRITING)?;
         bytes.extend_from_slice(&digest);
         Ok(bytes)
     }
@@ -128,7 +125,7 @@ impl IndexFile {
         interrupt: &Interrupt,
     ) -> Result<(), WriteError> {
         let header = header::encode(&self.key, self.payload.len());
-        let digest = header::digest_of(&[&header, &self.payload], interrupt, WRITING)?;
+        let digest = header::digest_of(&[&header, &self.payload], interrupt, Interrupted::WRITING)?;
         replace(path.as_ref(), &[&header, &self.payload, &digest], interrupt)
     }
 
@@ -188,7 +185,7 @@ fn replace(path: &Path, parts: &[&[u8]], interrupt: &Interrupt) -> Result<(), Wr
     }
     let mut file = NewFile::create(path)?;
     for piece in parts.iter().flat_map(|part| part.chunks(PIECE)) {
-        interrupt.check(WRITING)?;
+        interrupt.check(Interrupted::WRITING)?;
         file.write_all(piece).map_err(unwritable(path))?;
     }
     file.replace()

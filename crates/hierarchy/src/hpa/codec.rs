@@ -10,8 +10,6 @@ use mediant_grid::{Centers, GridGraph, Interrupt, Interrupted, uninterrupted};
 use super::{DURING, clustering::Clustering, fixed_cost::FixedCost, graph::ClusterGraph, level::Cluster};
 use crate::{HierarchyError, bytes::WordReader, check};
 
-const WRITING: &str = "writing the index";
-
 impl ClusterGraph {
     /// The version of the format of [`to_bytes`](Self::to_bytes).
     pub const VERSION: u32 = 2;
@@ -33,7 +31,7 @@ impl ClusterGraph {
         [side, levels].into_iter().for_each(&mut write);
         let clusters = self.levels.iter().flat_map(|level| &level.clusters);
         for (number, Cluster { count, costs }) in clusters.enumerate() {
-            interrupt.check_every(64, number, WRITING)?;
+            interrupt.check_every(64, number, Interrupted::WRITING)?;
             write(*count);
             for from in 0..*count as usize {
                 let later = &costs[from * *count as usize..][from + 1..*count as usize];

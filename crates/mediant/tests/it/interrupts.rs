@@ -221,7 +221,7 @@ fn saving_stops() {
             std::fs::write(&file, "older").expect("room");
             saved
         });
-        // The bytes are asked for before their checksum, but for those that are copied.
+        // Making the bytes asks the interrupt, too, not only their checksum; those of CHPA* are copied.
         let (limits, asked) = counting(usize::MAX);
         let bytes = index.within(&limits).to_bytes().expect("an index");
         let pieces = bytes.len().div_ceil(1 << 20);

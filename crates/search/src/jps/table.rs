@@ -16,8 +16,6 @@ use mediant_moves::KError;
 use super::{block_finder::BlockFinder, lists::JumpLists, planes::JumpPlanes};
 use crate::canonical::Pruning;
 
-const WRITING: &str = "writing the index";
-
 /// The jumps from all jump points of a grid graph: 2.8 to 5.6 bytes a vertex on the benchmark maps at k = 3.
 /// Immutable; share it between planners.
 ///
@@ -152,7 +150,7 @@ impl JumpTable {
     pub fn to_bytes_interruptible(&self, interrupt: &Interrupt) -> Result<Vec<u8>, Interrupted> {
         let mut bytes = self.identity().to_bytes().to_vec();
         for (number, word) in self.lists.words().enumerate() {
-            interrupt.check_every(1 << 16, number, WRITING)?;
+            interrupt.check_every(1 << 16, number, Interrupted::WRITING)?;
             bytes.extend(word.to_le_bytes());
         }
         Ok(bytes)

@@ -17,7 +17,7 @@ use mediant_search::parts::Metric;
 
 use super::{Geometry, HubLabels, pack::Packed};
 use crate::{
-    codec::{DURING, LABELS, WRITING, after_identity},
+    codec::{DURING, LABELS, after_identity},
     error::SubgoalError,
     hierarchy::Hierarchy,
     placement::SubgoalPlacement,
@@ -137,7 +137,7 @@ impl Writer<'_> {
         self.bytes.extend((words.len() as u64).to_le_bytes());
         let is_odd = words.len() % 2 == 1;
         for (number, word) in words.enumerate() {
-            self.interrupt.check_every(1 << 16, number, WRITING)?;
+            self.interrupt.check_every(1 << 16, number, Interrupted::WRITING)?;
             self.bytes.extend(word.to_le_bytes());
         }
         if is_odd {
@@ -155,7 +155,7 @@ impl Writer<'_> {
     pub(crate) fn part64(&mut self, words: &[u64]) -> Result<(), Interrupted> {
         self.bytes.extend((words.len() as u64).to_le_bytes());
         for (number, word) in words.iter().enumerate() {
-            self.interrupt.check_every(1 << 16, number, WRITING)?;
+            self.interrupt.check_every(1 << 16, number, Interrupted::WRITING)?;
             self.bytes.extend(word.to_le_bytes());
         }
         Ok(())
