@@ -2,7 +2,7 @@
 
 use std::{io, path::PathBuf, process::ExitCode};
 
-use mediant::{Engine, SetupError};
+use mediant::{Engine, SetupError, call::CallError};
 use mediant_formats::{MapMismatch, PictureError, ReadError, RosError, TilesError, WriteError};
 use mediant_grid::{PlacementKind, Vertex};
 
@@ -69,10 +69,8 @@ pub(crate) enum Failure {
     NoPairs { path: PathBuf },
     #[error("the scenario `{scenario}` has no instance: is it cut short?")]
     NoInstances { scenario: String },
-    #[error(
-        "{option} does not apply to --placement {placement}: leave it out, or choose --placement {other}"
-    )]
-    NotApplicable { option: &'static str, placement: &'static str, other: &'static str },
+    #[error("{}{}", if .0.parameter().is_some() { "--" } else { "" }, .0)]
+    Call(#[from] CallError),
     #[error(
         "--reference {engine} finds no any-angle paths at --placement {placement}: leave it out, or choose \
          --placement corner"

@@ -55,6 +55,8 @@ mod grid_graph;
 mod identity;
 mod interrupt;
 mod line_of_sight;
+#[doc(hidden)]
+pub mod names;
 mod obstruction;
 mod per_motion;
 mod placement;

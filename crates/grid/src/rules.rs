@@ -3,6 +3,8 @@
 
 use std::fmt;
 
+use crate::names;
+
 /// Where the vertices of the search graph are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PlacementKind {
@@ -101,20 +103,9 @@ impl From<DiagonalGap> for Rules {
     }
 }
 
-/// Displays a value by the name that the `mediant` program accepts and prints.
-macro_rules! names {
-    ($type:ty: $($variant:path => $name:literal),+) => {
-        impl fmt::Display for $type {
-            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.pad(match self { $($variant => $name),+ })
-            }
-        }
-    };
-}
-
-names!(PlacementKind: PlacementKind::Center => "center", PlacementKind::Corner => "corner");
-names!(CornerRule: CornerRule::Never => "never", CornerRule::One => "one", CornerRule::Always => "always");
-names!(DiagonalGap: DiagonalGap::Open => "open", DiagonalGap::Closed => "closed");
+names!(PlacementKind: Center => "center" | "centers", Corner => "corner" | "corners");
+names!(CornerRule: Never => "never", One => "one", Always => "always");
+names!(DiagonalGap: Open => "open", Closed => "closed");
 
 impl fmt::Display for Rules {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -6,7 +6,7 @@ use mediant_moves::K;
 use mediant_search::JumpTable;
 use mediant_subgoal::SubgoalGraph;
 
-use crate::{engine::Engine, option::Variant};
+use crate::{engine::Engine, option::Variant, setup_error::SetupError};
 
 /// What an engine can do, whatever its options.
 ///
@@ -68,6 +68,14 @@ impl Capabilities {
 }
 
 impl Engine {
+    /// The version of its saved index.
+    ///
+    /// # Errors
+    /// [`SetupError::Without`] for an engine whose index is not saved.
+    pub fn index_version(self) -> Result<u32, SetupError> {
+        self.capabilities().index.ok_or_else(|| SetupError::without_index(self))
+    }
+
     /// What the engine can do.
     #[must_use]
     pub const fn capabilities(self) -> Capabilities {

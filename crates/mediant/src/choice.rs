@@ -2,11 +2,11 @@
 
 use mediant_grid::{PlacementKind, Vertex};
 use mediant_moves::K;
-use mediant_search::{Limits, Outcome, Path, Query};
+use mediant_search::{Limits, Outcome, Path, Query, Request};
 
 use crate::{
-    configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion, setup::Setup,
-    space::Space,
+    call::Call, configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion,
+    setup::Setup, space::Space,
 };
 
 /// The engine that we would take, and why.
@@ -93,8 +93,7 @@ impl Choice {
     }
 
     /// For many paths in a space.
-    pub(crate) fn for_many_paths(space: &Space) -> Self {
-        let (motion, map) = (space.motion(), space.map());
+    pub(crate) fn for_many_paths(motion: Motion, map: &Map) -> Self {
         let takes_subgoals = Setup::new(Engine::Subgoal, motion.k, motion.rules).check().is_ok();
         if takes_subgoals && cells(map) <= MOST_CELLS_FOR_SUBGOALS {
             let why =
@@ -131,7 +130,7 @@ impl Space {
     /// ```
     #[must_use]
     pub fn engine(&self) -> Choice {
-        Choice::for_many_paths(self)
+        Choice::for_many_paths(self.motion(), self.map())
     }
 
     /// A shortest path, by an engine that prepares little; `None` if there is none. For more than a few
@@ -147,14 +146,7 @@ impl Space {
     pub(crate) fn path_of(&self, query: Query, limits: &Limits) -> Result<Option<Path>, Error> {
         self.check_query(query)?;
         let index = self.within(limits).prepare_for_one_path(Choice::for_one_path(self.motion()))?;
-        let mut planner = index.try_planner()?;
-        if limits.interrupt().is_never() {
-            return Ok(planner.find(query)?.into_path());
-        }
-        match planner.find(query.within(limits.clone()))? {
-            Outcome::Stopped(stopped) => Err(Error::Stopped { by: stopped.by, during: "searching a path" }),
-            answer => Ok(answer.into_path()),
-        }
+        whole(index.try_planner()?.find(within(query, limits))?)
     }
 }
 
@@ -162,12 +154,34 @@ impl Map {
     /// A shortest path from one cell to another over k = 3: along rows, columns and diagonals between the
     /// centers of cells, without cutting corners. `None` if there is none.
     ///
-    /// This prepares the map each time. For more than one path, or other motion, make a [`Space`].
+    /// The first call prepares a little, for some milliseconds on large maps, and the map keeps it for the
+    /// next one. For many paths prepare an index; for other motion make a [`Space`].
     ///
     /// # Errors
     /// [`Error::Query`] for a start or goal that is blocked or outside the map.
     pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
-        self.space(Motion::centers(K::N8))?.path(start, goal)
+        self.path_of(Query::new(start, goal), &Limits::new())
+    }
+
+    /// Of the limits only the deadline and the flag count.
+    pub(crate) fn path_of(&self, query: Query, limits: &Limits) -> Result<Option<Path>, Error> {
+        let setup = self.setup(&Call::default())?;
+        let planners = self.keep_planners(&setup, limits)?;
+        planners.try_make_ready()?;
+        whole(planners.find(within(query, limits))?)
+    }
+}
+
+/// The query, within limits if there are any.
+fn within(query: Query, limits: &Limits) -> Request {
+    if limits.interrupt().is_never() { query.into() } else { query.within(limits.clone()) }
+}
+
+/// The path of an outcome that no limit has stopped.
+fn whole(outcome: Outcome) -> Result<Option<Path>, Error> {
+    match outcome {
+        Outcome::Stopped(stopped) => Err(Error::Stopped { by: stopped.by, during: "searching a path" }),
+        answer => Ok(answer.into_path()),
     }
 }
 

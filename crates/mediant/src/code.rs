@@ -1,12 +1,12 @@
 //! Stable names for the kinds of mistakes.
 
 use mediant_formats::{IndexError, ReadError};
-use mediant_grid::GridError;
+use mediant_grid::{GridError, names};
 use mediant_hierarchy::HierarchyError;
 use mediant_search::{End, JumpError, Limit, QueryError};
 use mediant_subgoal::SubgoalError;
 
-use crate::{error::Error, names::names, setup_error::SetupError};
+use crate::{call::CallError, error::Error, setup_error::SetupError};
 
 /// The kind of a mistake. The names are the same in all languages, and stay from version to version; new
 /// ones may come.
@@ -77,8 +77,12 @@ pub enum ErrorCode {
     Memory,
     /// Work that a flag stopped.
     Cancelled,
-    /// Work that a deadline stopped.
-    Deadline,
+    /// Work that a limit stopped: on its time, on cost or expansions.
+    Stopped,
+    /// An argument of another type, or with a value that it cannot have.
+    Argument,
+    /// A path that does not hold on a map.
+    BrokenPath,
     /// A map with a character that is neither free nor blocked, or with characters that cannot be either.
     MapTile,
     /// A mistake of a kind that has no name yet.
@@ -118,7 +122,9 @@ names!(ErrorCode:
     NotBegun => "not-begun",
     Memory => "memory",
     Cancelled => "cancelled",
-    Deadline => "deadline",
+    Stopped => "stopped",
+    Argument => "argument",
+    BrokenPath => "broken-path",
     MapTile => "map-tile",
     Other => "other",
 );
@@ -150,9 +156,20 @@ impl Error {
             Self::Write(_) => ErrorCode::FileUnwritable,
             Self::OutOfMemory { .. } => ErrorCode::Memory,
             Self::Stopped { by: Limit::Cancelled, .. } => ErrorCode::Cancelled,
-            Self::Stopped { .. } => ErrorCode::Deadline,
+            Self::Stopped { .. } => ErrorCode::Stopped,
+            Self::Call(error) => of_call(error),
+            Self::Broken(_) => ErrorCode::BrokenPath,
             Self::Grid(_) => ErrorCode::Other,
         }
+    }
+}
+
+const fn of_call(error: &CallError) -> ErrorCode {
+    match error {
+        CallError::Type { .. } | CallError::Value { .. } | CallError::Together { .. } => ErrorCode::Argument,
+        CallError::Name { .. } => ErrorCode::UnknownName,
+        CallError::K(_) => ErrorCode::K,
+        CallError::Setup(error) => of_setup(error),
     }
 }
 

@@ -7,11 +7,14 @@
 
 use std::{fmt, str::FromStr};
 
+use mediant_grid::names::{UnknownName, means};
+
 use crate::{
     choice::Choice,
     configured::ConfiguredEngine,
     engine::Engine,
-    names::{UnknownName, means},
+    map::Map,
+    motion::Motion,
     option::{EngineOption, OptionValue},
     setup::Setup,
     setup_error::SetupError,
@@ -37,7 +40,7 @@ const MOST_PATHS_WITHOUT_INDEX: u64 = 1_000;
 
 impl Space {
     /// The engine that we would take for what is asked, and why:
-    /// - for one path [`Choice::for_one_path`], for up to 1,000 [`Choice::for_some_paths`], for more
+    /// - for one path [`Choice::for_next_path`], for up to 1,000 [`Choice::for_some_paths`], for more
     ///   [`Space::engine`];
     /// - for all distances Dijkstra's algorithm;
     /// - for an index subgoals, or JPS+ where they are not for this motion.
@@ -57,57 +60,63 @@ impl Space {
     /// [`SetupError`] where no engine does that for the space's motion: an index between centers from k = 4
     /// on, all distances at any angle (a [`field`](Self::field) has them).
     pub fn engine_for(&self, demand: Demand) -> Result<Choice, SetupError> {
-        let motion = self.motion();
+        demand.choice(self.motion(), self.map())
+    }
+}
+
+impl Demand {
+    /// The engine that we would take for this on a map: see [`Space::engine_for`].
+    pub(crate) fn choice(self, motion: Motion, map: &Map) -> Result<Choice, SetupError> {
         let takes = |engine| Setup::new(engine, motion.k, motion.rules).check();
-        match demand {
-            Demand::Paths(0 | 1) => Ok(Choice::for_one_path(motion)),
-            Demand::Paths(2..=MOST_PATHS_WITHOUT_INDEX) => Ok(Choice::for_some_paths(motion)),
-            Demand::Paths(_) => Ok(self.engine()),
-            Demand::Distances => {
+        match self {
+            Self::Paths(0 | 1) => Ok(Choice::for_next_path(motion, map)),
+            Self::Paths(2..=MOST_PATHS_WITHOUT_INDEX) => Ok(Choice::for_some_paths(motion)),
+            Self::Paths(_) => Ok(Choice::for_many_paths(motion, map)),
+            Self::Distances => {
                 takes(Engine::Dijkstra)?;
                 Ok(Choice { engine: Engine::Dijkstra, why: "it finds the distances to all vertices" })
             }
-            Demand::Index if takes(Engine::Subgoal).is_ok() => {
+            Self::Index if takes(Engine::Subgoal).is_ok() => {
                 let why = "of the engines with an index it has the fastest queries";
                 Ok(Choice { engine: Engine::Subgoal, why })
             }
-            Demand::Index if takes(Engine::JpsPlus).is_ok() => Ok(Choice {
+            Self::Index if takes(Engine::JpsPlus).is_ok() => Ok(Choice {
                 engine: Engine::JpsPlus,
                 why: "it has an index, and subgoals are not for these rules",
             }),
-            Demand::Index => Err(SetupError::NoIndex { motion }),
+            Self::Index => Err(SetupError::NoIndex { motion }),
         }
     }
 
-    /// [`engine_for`](Self::engine_for), with options: the same engine if it takes them, else the first one
-    /// that takes them and does what is asked.
+    /// The same with options: the same engine if it takes them, else the first one that takes them and does
+    /// what is asked.
     ///
     /// # Errors
     /// [`SetupError`] if there is none: that of the engine that we would take without the options.
-    pub fn engine_with(
-        &self,
-        demand: Demand,
+    pub(crate) fn choice_with(
+        self,
+        (motion, map): (Motion, &Map),
         options: &[(&EngineOption, OptionValue)],
     ) -> Result<(ConfiguredEngine, Choice), SetupError> {
-        let motion = self.motion();
         let with_options = |engine: Engine| -> Result<ConfiguredEngine, SetupError> {
             let mut engine = ConfiguredEngine::from(engine);
             options.iter().try_for_each(|&(option, value)| engine.set(option, value))?;
             Setup::new(engine, motion.k, motion.rules).check()?;
             Ok(engine)
         };
-        let choice = self.engine_for(demand)?;
+        let choice = self.choice(motion, map)?;
         let refused = match with_options(choice.engine) {
             Ok(engine) => return Ok((engine, choice)),
             Err(refused) => refused,
         };
-        let does = |engine: Engine| match demand {
-            Demand::Paths(_) => true,
-            Demand::Distances => engine.capabilities().distances,
-            Demand::Index => engine.capabilities().index.is_some(),
+        let does = |engine: Engine| match self {
+            Self::Paths(_) => true,
+            Self::Distances => engine.capabilities().distances,
+            Self::Index => engine.capabilities().index.is_some(),
         };
         // The recommended engine comes first, then the engines in the order of their list.
-        let others = [self.engine().engine].into_iter().chain(Engine::ALL).filter(|&engine| does(engine));
+        let recommended = Choice::for_many_paths(motion, map).engine;
+        let others = [recommended].into_iter().chain(Engine::ALL).filter(|&engine| does(engine));
         let other = others.filter_map(|engine| with_options(engine).ok()).next();
         let why = "it takes the options that were given";
         other.map(|engine| (engine, Choice { engine: engine.kind(), why })).ok_or(refused)

@@ -1,6 +1,6 @@
 //! The names of the engines.
 
-use crate::names::names;
+use mediant_grid::names;
 
 /// An engine without its options.
 ///

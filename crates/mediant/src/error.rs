@@ -3,15 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use mediant_formats::{IndexError, ReadError, RowsError, TileError, TilesError, WriteError};
-use mediant_grid::{GridError, Interrupted, Mismatch, Rectangle, SizeError, Vertex};
+use mediant_grid::{GridError, Interrupted, Mismatch, Rectangle, SizeError, Vertex, names::UnknownName};
 use mediant_hierarchy::HierarchyError;
 use mediant_moves::KError;
-use mediant_search::{JumpError, Limit, QueryError};
+use mediant_search::{BrokenPath, JumpError, Limit, QueryError};
 use mediant_subgoal::SubgoalError;
 
 use crate::{
+    call::CallError,
     motion::Motion,
-    names::UnknownName,
     option::{Levels, Memory},
     setup_error::SetupError,
     text::TextError,
@@ -34,7 +34,7 @@ use crate::{
 #[non_exhaustive]
 pub enum Error {
     /// Work that a flag or a deadline stopped: see [`Within`](crate::Within).
-    #[error("{} while {during}", if *by == Limit::Cancelled { "cancelled" } else { "the deadline passed" })]
+    #[error("{} while {during}", if *by == Limit::Cancelled { "cancelled" } else { "the timeout passed" })]
     Stopped {
         /// The cause.
         by: Limit,
@@ -87,6 +87,12 @@ pub enum Error {
         /// The largest finite k.
         max: u32,
     },
+    /// A parameter of a call with a value that it cannot have.
+    #[error(transparent)]
+    Call(#[from] CallError),
+    /// A path that does not hold on a map.
+    #[error(transparent)]
+    Broken(#[from] BrokenPath),
     /// A number that is no k.
     #[error(transparent)]
     K(#[from] KError),

@@ -12,7 +12,6 @@ pub use mediant_subgoal::SubgoalError;
 
 pub use crate::{
     absent::{NO_COSTS, absent},
-    names::UnknownName,
     setup_error::SetupError,
     text::TextError,
 };

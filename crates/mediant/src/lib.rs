@@ -74,6 +74,8 @@
 
 mod absent;
 mod agent;
+mod answer;
+pub mod call;
 mod capabilities;
 mod choice;
 mod code;
@@ -92,13 +94,13 @@ mod index;
 mod make;
 mod map;
 mod motion;
-mod names;
 mod option;
 mod path_check;
 mod planner;
 mod planners;
 #[cfg(doctest)]
 mod readme;
+mod recent;
 mod scratch;
 mod setup;
 mod setup_error;
@@ -112,6 +114,7 @@ mod trace;
 mod within;
 
 pub use agent::{Disc, WidestPath};
+pub use answer::{Answer, Status};
 pub use capabilities::Capabilities;
 pub use choice::Choice;
 pub use code::ErrorCode;
@@ -127,9 +130,11 @@ pub use field::{Field, Fields};
 pub use goals::Goals;
 pub use index::{Index, Origin};
 pub use map::Map;
+#[doc(hidden)]
+pub use mediant_grid::names;
 pub use mediant_grid::{
     Clearance, CornerRule, DiagonalGap, Fit, Grid, Identity, MapId, Mismatch, Obstruction, Outside,
-    PlacementKind, Rectangle, Rules, Vertex,
+    PlacementKind, Rectangle, Rules, Vertex, names::UnknownName,
 };
 pub use mediant_moves::{Cost, FiniteK, K};
 pub use mediant_search::{
@@ -138,7 +143,6 @@ pub use mediant_search::{
 };
 pub use mediant_subgoal::{Progress, Stage};
 pub use motion::Motion;
-pub use names::UnknownName;
 pub use option::{
     EngineOption, HeuristicName, Levels, Memory, OptionValue, UnknownLevels, UnknownMemory, ValueKind,
     Variant,

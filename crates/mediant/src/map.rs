@@ -8,12 +8,13 @@ use mediant_formats::{
 use mediant_grid::{Grid, GridError, MapId, Rectangle, Vertex};
 use mediant_search::Limits;
 
-use crate::error::Error;
+use crate::{error::Error, recent::Recent};
 
 /// A map: a rectangle of cells, each free or blocked. Cell (x, y) is the one in column x from the left and
 /// row y from the top, both from 0. Everything outside is blocked.
 ///
-/// A map never changes; [`edit`](Self::edit) makes another one. Clones share it.
+/// A map never changes; [`edit`](Self::edit) makes another one. Clones share it, and what their paths
+/// [prepared](Self::path) last.
 ///
 /// ```
 /// use mediant::Map;
@@ -28,9 +29,10 @@ use crate::error::Error;
 /// assert!((path.cost() - 11.0).abs() < 1e-9);
 /// # Ok::<(), mediant::Error>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct Map {
     grid: Arc<Grid>,
+    recent: Arc<Recent>,
 }
 
 impl Map {
@@ -236,6 +238,10 @@ impl Map {
         self.grid.id()
     }
 
+    pub(crate) fn recent(&self) -> &Recent {
+        &self.recent
+    }
+
     /// The bit-packed grid, for the typed crates.
     #[must_use]
     pub const fn grid(&self) -> &Arc<Grid> {
@@ -243,14 +249,23 @@ impl Map {
     }
 }
 
+/// Maps with the same cells are one map.
+impl PartialEq for Map {
+    fn eq(&self, other: &Self) -> bool {
+        self.grid == other.grid
+    }
+}
+
+impl Eq for Map {}
+
 impl From<Grid> for Map {
     fn from(grid: Grid) -> Self {
-        Self { grid: Arc::new(grid) }
+        Arc::new(grid).into()
     }
 }
 
 impl From<Arc<Grid>> for Map {
     fn from(grid: Arc<Grid>) -> Self {
-        Self { grid }
+        Self { grid, recent: Arc::default() }
     }
 }

@@ -103,7 +103,7 @@ impl Setup {
     /// # Errors
     /// [`SetupError::Without`] for an engine whose index is not saved.
     pub fn index_version(&self) -> Result<u32, SetupError> {
-        self.capabilities().index.ok_or_else(|| SetupError::without_index(self.engine.kind()))
+        self.engine.kind().index_version()
     }
 
     /// The guarantee of the planner's paths.

@@ -113,7 +113,9 @@ impl Space {
             Rules::Center(rule) => Placed::Centers(Layers::new(map, motion, rule, interrupt)?),
             Rules::Corner(gap) => Placed::Corners(Layers::new(map, motion, gap, interrupt)?),
         };
-        Ok(Self { inner: Arc::new(Inner { map: map.clone(), motion, placed }) })
+        // Without what the map keeps, of which this space may become a part.
+        let map = Arc::clone(map.grid()).into();
+        Ok(Self { inner: Arc::new(Inner { map, motion, placed }) })
     }
 
     /// The same rules and k on an edited map: see [`Map::edit`]. This space stays as it is.

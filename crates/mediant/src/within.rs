@@ -92,7 +92,7 @@ impl Within<'_, Map> {
     /// # Errors
     /// Those of [`Map::path`], and [`Error::Stopped`].
     pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
-        self.space(Motion::centers(K::N8))?.within(self.limits).path(start, goal)
+        self.of.path_of(Query::new(start, goal), self.limits)
     }
 
     /// [`Map::clearance`].

@@ -1,6 +1,6 @@
 //! The answer to a query.
 
-use mediant::{Counters, Error, Guarantee, Limit, Outcome, PlacementKind, Stopped};
+use mediant::{Counters, Error, ErrorCode, Guarantee, Limit, Outcome, PlacementKind, Stopped};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 
@@ -70,25 +70,6 @@ impl Answer {
     }
 }
 
-/// The name of a limit.
-const fn limit_name(limit: Limit) -> &'static str {
-    match limit {
-        Limit::Cost => "cost",
-        Limit::Expansions => "expansions",
-        _ => "timeout",
-    }
-}
-
-/// The status of an outcome.
-pub(crate) const fn status(outcome: &Outcome) -> &'static str {
-    match outcome {
-        Outcome::Found(_) => "found",
-        Outcome::Nearest(_) => "nearest",
-        Outcome::Stopped(_) => "stopped",
-        _ => "unreachable",
-    }
-}
-
 impl Answer {
     /// The answer with its arrays, of an engine with this guarantee.
     pub(crate) fn new(
@@ -98,38 +79,17 @@ impl Answer {
         placement: PlacementKind,
         (guarantee, counters): (Guarantee, Option<Counters>),
     ) -> PyResult<Self> {
-        let path = outcome.path().map(|path| points.array(py, path, placement)).transpose()?;
-        let (stopped_by, best, lower_bound) = match outcome {
-            Outcome::Stopped(Stopped { by, best, lower_bound, .. }) => {
-                (Some(limit_name(*by)), Some(points.array(py, best, placement)?), *lower_bound)
-            }
-            Outcome::Found(path) if is_optimal(guarantee) => (None, None, guarantee.length(path)),
-            Outcome::Found(_) => (None, None, 0.0),
-            _ => (None, None, f64::INFINITY),
-        };
+        let told = mediant::Answer::new(outcome, guarantee);
+        let array = |path| points.array(py, path, placement).map(Bound::unbind);
         Ok(Self {
-            status: status(outcome),
-            path: path.map(Bound::unbind),
-            distance: distance(guarantee, outcome),
-            stopped_by,
-            best: best.map(Bound::unbind),
-            lower_bound,
+            status: told.status().name(),
+            path: told.path().map(array).transpose()?,
+            distance: told.distance(),
+            stopped_by: told.stopped_by().map(Limit::name),
+            best: told.best().map(array).transpose()?,
+            lower_bound: told.lower_bound(),
             counters: counters.map(|counters| in_dict(py, counters)).transpose()?,
         })
-    }
-}
-
-/// Whether the paths of an engine are shortest.
-const fn is_optimal(guarantee: Guarantee) -> bool {
-    matches!(guarantee, Guarantee::Optimal(_) | Guarantee::OptimalAnyAngle)
-}
-
-/// The distance of an outcome, the same number as that of tables and fields: infinite where no path leads,
-/// nan where it is not known.
-pub(crate) fn distance(guarantee: Guarantee, outcome: &Outcome) -> f64 {
-    match outcome {
-        Outcome::Unreachable => f64::INFINITY,
-        outcome => outcome.path().map_or(f64::NAN, |path| guarantee.length(path)),
     }
 }
 
@@ -147,10 +107,10 @@ pub(crate) fn whole(
     let text = format!(
         "the search was stopped by its limit ({}): no path is shorter than {lower_bound:.3} cells; the best so \
          far is in the error's answer",
-        limit_name(*by)
+        by.name()
     );
     let answer = Answer::new(py, &outcome, points, placement, (Guarantee::Suboptimal, None))?;
-    Err(made(py, "LimitReached", (text, "stopped", answer)))
+    Err(made(py, "LimitReached", (text, ErrorCode::Stopped.name(), answer)))
 }
 
 /// The answer to a query whose preparation was stopped, and the exception in its place.
@@ -163,7 +123,7 @@ pub(crate) fn before_search(
 ) -> PyResult<(Answer, PyErr)> {
     let answer = || Answer::new(py, outcome, points, placement, (Guarantee::Suboptimal, None));
     let text = format!("{error}: nothing was searched; allow more time, or prepare an index before");
-    Ok((answer()?, made(py, "LimitReached", (text, "stopped", answer()?))))
+    Ok((answer()?, made(py, "LimitReached", (text, ErrorCode::Stopped.name(), answer()?))))
 }
 
 /// The counters by name.

@@ -1,8 +1,8 @@
 //! Points and numbers, as a call was given them. Each mistake names its argument.
 
-use std::path::PathBuf;
+use std::{path::PathBuf, str::FromStr};
 
-use mediant::Vertex;
+use mediant::{UnknownName, Vertex};
 use numpy::{PyArrayDescrMethods, PyReadonlyArray2, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::{
     exceptions::{PyOverflowError, PyTypeError},
@@ -10,7 +10,7 @@ use pyo3::{
     types::{PyBool, PyBytes, PyInt, PyMemoryView, PyString, PyTuple},
 };
 
-use crate::errors::{argument, far_outside, instead, wrong_type};
+use crate::errors::{argument, far_outside, instead, raised_for, wrong_type};
 
 /// What a point looks like.
 const POINT: &str = "a point (row, column) of two integers";
@@ -238,12 +238,8 @@ pub(crate) fn bytes(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<u8>> {
     Ok(bytes.cast::<PyBytes>()?.as_bytes().to_vec())
 }
 
-/// One of several words, each with its meaning.
-pub(crate) fn word<T: Copy>(name: &str, value: &Bound<'_, PyAny>, words: &[(&str, T)]) -> PyResult<T> {
-    let known = || words.iter().map(|(word, _)| format!("'{word}'")).collect::<Vec<_>>().join(", ");
-    let text = text(name, &format!("one of {}", known()), value)?;
-    let found = words.iter().find(|(word, _)| *word == text);
-    found
-        .map(|&(_, meaning)| meaning)
-        .ok_or_else(|| argument(name, &format!("expected one of {}, found '{text}'", known())))
+/// One of the names of an enum.
+pub(crate) fn word<T: FromStr<Err = UnknownName>>(name: &str, value: &Bound<'_, PyAny>) -> PyResult<T> {
+    let known = || "".parse::<T>().err().map_or(String::new(), |error| error.known);
+    text(name, &format!("one of {}", known()), value)?.parse().map_err(|error| raised_for(name, error))
 }

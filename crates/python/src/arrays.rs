@@ -1,6 +1,6 @@
 //! Maps from arrays, and arrays from paths.
 
-use mediant::{Grid, Limits, Map, Path, PlacementKind, Vertex, errors::NO_COSTS};
+use mediant::{Grid, Limits, Map, Path, PlacementKind, Vertex, errors::NO_COSTS, names};
 use mediant_formats::Picture;
 use numpy::{
     PyArray1, PyArray2, PyArrayDescrMethods, PyReadonlyArray2, PyUntypedArray, PyUntypedArrayMethods,
@@ -231,11 +231,11 @@ pub(crate) enum PathPoints {
     Touched,
 }
 
+names!(PathPoints: Waypoints => "waypoints", Vertices => "vertices", Touched => "touched");
+
 impl PathPoints {
     pub(crate) fn read(value: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
-        let words =
-            [("waypoints", Self::Waypoints), ("vertices", Self::Vertices), ("touched", Self::Touched)];
-        value.map_or(Ok(Self::Waypoints), |value| word("points", value, &words))
+        value.map_or(Ok(Self::Waypoints), |value| word("points", value))
     }
 
     /// Adds the points of a path to a flat list of rows and columns.

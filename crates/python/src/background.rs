@@ -10,7 +10,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use mediant::{EngineOption, Index, Levels, Limits, OptionValue, ValueKind};
+use mediant::{Index, Levels, Limits};
 use pyo3::prelude::*;
 
 /// How often signals are looked at.
@@ -23,18 +23,9 @@ const PATIENCE: Duration = Duration::from_millis(200);
 /// Up to this many cells, whatever is not a preparation takes a few milliseconds.
 const QUICK_CELLS: u64 = 1 << 20;
 
-/// The levels of an index, or what it has instead, if it has any.
-pub(crate) fn levels(index: &Index) -> Option<Levels> {
-    let option = EngineOption::ALL.into_iter().find(|option| option.kind == ValueKind::Levels)?;
-    match index.value(option) {
-        Some(OptionValue::Levels(levels)) => Some(levels),
-        _ => None,
-    }
-}
-
 /// Whether hub labels answer: in microseconds on a map of any size.
 pub(crate) fn has_labels(index: &Index) -> bool {
-    levels(index) == Some(Levels::Labels) && index.setup().smoothing.is_none()
+    index.levels() == Some(Levels::Labels) && index.setup().smoothing.is_none()
 }
 
 /// Whether a search on an index can take so long that it is watched: more expansions, each of more moves,

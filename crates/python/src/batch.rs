@@ -11,7 +11,8 @@ use std::{
 };
 
 use mediant::{
-    Error, Guarantee, Index, Outcome, PlacementKind, Planner, Planners, Query, QueryError, Request, Vertex,
+    Answer, Error, Guarantee, Index, Outcome, PlacementKind, Planner, Planners, Query, QueryError, Request,
+    Status, Vertex, names,
 };
 use numpy::PyArray1;
 use pyo3::{prelude::*, types::PyDict};
@@ -20,18 +21,16 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 pub(crate) use self::goals::{NearestArrays, nearest, table};
 
 use crate::{
-    answer,
     arguments::{Points, integer, word},
     arrays::{PathPoints, rows_array},
     background::{in_pool, is_watched, with_flag},
     errors::{argument, exception, raised, wrong_type},
-    keywords::{Keywords, Takes},
+    keywords::{Keywords, WISHES},
     paths::Paths,
 };
 
-/// The statuses of answers, by number.
-const STATUSES: [&str; 5] = ["found", "unreachable", "nearest", "stopped", "invalid"];
-const INVALID: u8 = 4;
+/// The number of the status `invalid`, which follows those of answers.
+const INVALID: u8 = Status::ALL.len() as u8;
 
 /// The most distances in a table: of 16 GiB.
 const MOST_IN_TABLE: usize = 1 << 31;
@@ -60,6 +59,15 @@ impl Numbered {
     }
 }
 
+/// What becomes of a query with an invalid end.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Invalid {
+    Raise,
+    None,
+}
+
+names!(Invalid: Raise => "raise", None => "none");
+
 impl<'py> Batch<'py> {
     /// The keywords of a batch. By default a query with an invalid end is an error.
     pub(crate) fn read(
@@ -67,8 +75,7 @@ impl<'py> Batch<'py> {
         progress: Option<&Bound<'py, PyAny>>,
         invalid: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Self> {
-        let raises =
-            invalid.map_or(Ok(true), |value| word("invalid", value, &[("raise", true), ("none", false)]))?;
+        let raises = invalid.map_or(Ok(Invalid::Raise), |value| word("invalid", value))? == Invalid::Raise;
         Ok(Self { threads: read_threads(threads)?, progress: callback(progress)?, raises })
     }
 
@@ -153,7 +160,7 @@ impl Queries {
         goals: &Bound<'py, PyAny>,
         wishes: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Self> {
-        let keywords = Keywords::read(function, wishes, Takes::WISHES)?;
+        let keywords = Keywords::read(function, wishes, WISHES)?;
         let (starts, goals) = (Points::read("starts", starts)?, Points::read("goals", goals)?);
         let is_one = |ends: &Points| matches!(ends, Points::One(_));
         let has_single = is_one(&starts) || is_one(&goals);
@@ -198,24 +205,21 @@ impl Queries {
 
     /// Whether their searches are watched.
     fn are_watched(&self, index: &Index) -> bool {
-        is_watched(index, self.keywords.has_no_wishes())
+        is_watched(index, self.keywords.call.wishes().is_none())
     }
 
     /// A query with its wishes. The flag cancels it.
     fn request(&self, index: usize, watch: Option<&Arc<AtomicBool>>) -> Request {
-        let (query, keywords) = (self.query(index), &self.keywords);
-        if keywords.has_no_wishes() && watch.is_none() {
-            return query.into();
-        }
-        let mut limits = keywords.limits();
+        let (query, wishes) = (self.query(index), self.keywords.call.wishes());
+        let mut limits = wishes.limits();
         if let Some(flag) = watch {
             limits = limits.cancel(Arc::clone(flag));
         }
-        if let Some(seconds) = keywords.timeout() {
+        if let Some(seconds) = wishes.timeout {
             let begin = Instant::now();
             limits = limits.deadline(move || begin.elapsed().as_secs_f64() >= seconds);
         }
-        keywords.wish(query.into(), limits)
+        wishes.request(&[query.start], &[query.goal], limits)
     }
 }
 
@@ -239,16 +243,14 @@ impl Chunk {
         (points, placement, guarantee): (PathPoints, PlacementKind, Guarantee),
     ) {
         let known = self.points.len();
-        let status = answer.as_ref().map_or(INVALID, |outcome| {
-            if let Some(path) = outcome.path() {
-                points.add(path, placement, &mut self.points);
-            }
-            let name = answer::status(outcome);
-            STATUSES.iter().position(|&status| status == name).unwrap_or_default() as u8
-        });
-        self.statuses.push(status);
+        let told = answer.as_ref().map(|outcome| Answer::new(outcome, guarantee));
+        if let Some(path) = told.ok().and_then(|told| told.path()) {
+            points.add(path, placement, &mut self.points);
+        }
+        self.statuses.push(told.map_or(INVALID, |told| told.status() as u8));
         self.lengths.push(((self.points.len() - known) / 2) as u32);
-        self.add_distance(index, answer.map(|outcome| answer::distance(guarantee, &outcome)));
+        let distance = told.map(|told| told.distance()).map_err(Clone::clone);
+        self.add_distance(index, distance);
     }
 
     fn add_distance(&mut self, index: usize, answer: Result<f64, QueryError>) {
@@ -339,14 +341,14 @@ pub(crate) fn distances<'py>(
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let (is_watched, guarantee) =
         (queries.are_watched(planners.index()), planners.index().setup().guarantee());
-    let is_plain = queries.keywords.has_no_wishes() && !is_watched;
+    let is_plain = queries.keywords.call.wishes().is_none() && !is_watched;
     let all = Numbered::queries(queries.count());
     let answer = move |chunk: &mut Chunk, planner: &mut Planner, index: usize, flag: &Arc<AtomicBool>| {
         let found = if is_plain {
             planner.distance(queries.query(index)).map(|distance| distance.unwrap_or(f64::INFINITY))
         } else {
             let request = queries.request(index, is_watched.then_some(flag));
-            planner.find(request).map(|outcome| answer::distance(guarantee, &outcome))
+            planner.find(request).map(|outcome| Answer::new(&outcome, guarantee).distance())
         };
         chunk.add_distance(index, found);
     };

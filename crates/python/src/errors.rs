@@ -1,6 +1,6 @@
 //! The library's errors as the exceptions of `mediant.errors`.
 
-use mediant::{BrokenPath, Error, ErrorCode, QueryError, Vertex};
+use mediant::{BrokenPath, Error, ErrorCode, QueryError, Vertex, call::Spelling};
 use pyo3::{
     call::PyCallArgs,
     exceptions::{PyException, PyMemoryError, PyTypeError},
@@ -36,6 +36,8 @@ const fn class(code: ErrorCode) -> &'static str {
         | ErrorCode::Number
         | ErrorCode::NotBegun => "QueryError",
         ErrorCode::IndexDamaged | ErrorCode::IndexEngine => "IndexFileError",
+        ErrorCode::Argument => "ArgumentError",
+        ErrorCode::BrokenPath => "BrokenPathError",
         ErrorCode::FileMissing => "MissingFileError",
         ErrorCode::FileUnreadable
         | ErrorCode::FileUnwritable
@@ -55,18 +57,26 @@ pub(crate) fn raised(error: impl Into<Error>) -> PyErr {
     if code == ErrorCode::Memory {
         return PyMemoryError::new_err(error.to_string());
     }
-    exception(class(code), &error.to_string(), code.name())
+    let text = match &error {
+        Error::Call(error) => error.text(Spelling::Snake),
+        error => error.to_string(),
+    };
+    exception(class(code), &text, code.name())
 }
 
 /// The exception for an argument that has a value which it cannot have.
 pub(crate) fn argument(name: &str, wrong: &str) -> PyErr {
-    exception("ArgumentError", &format!("{name}: {wrong}"), "argument")
+    exception("ArgumentError", &format!("{name}: {wrong}"), ErrorCode::Argument.name())
 }
 
 /// The exception for an argument of another type.
 pub(crate) fn wrong_type(name: &str, expected: &str, found: &Bound<'_, PyAny>) -> PyErr {
-    let kind = found.get_type().name().map_or_else(|_| "another type".to_owned(), |name| name.to_string());
-    PyTypeError::new_err(format!("{name}: expected {expected}, found {kind}"))
+    PyTypeError::new_err(format!("{name}: expected {expected}, found {}", class_name(found)))
+}
+
+/// The name of a value's class.
+pub(crate) fn class_name(value: &Bound<'_, PyAny>) -> String {
+    value.get_type().name().map_or_else(|_| "another type".to_owned(), |name| name.to_string())
 }
 
 /// The exception that stands for another one, which it names as its cause. What is no mistake of an argument
@@ -94,11 +104,11 @@ pub(crate) fn raised_for(name: &str, error: impl Into<Error>) -> PyErr {
 /// The exception for an end whose numbers are larger than those of any map.
 pub(crate) fn far_outside(name: &str) -> PyErr {
     let code = match name {
-        "start" | "starts" => "start-outside",
-        "goal" | "goals" => "goal-outside",
-        _ => "argument",
+        "start" | "starts" => ErrorCode::StartOutside,
+        "goal" | "goals" => ErrorCode::GoalOutside,
+        _ => ErrorCode::Argument,
     };
-    exception("QueryError", &format!("{name}: a row or column beyond that of any map"), code)
+    exception("QueryError", &format!("{name}: a row or column beyond that of any map"), code.name())
 }
 
 /// An exception of `mediant.errors`.
@@ -109,7 +119,7 @@ pub(crate) fn exception(class: &str, message: &str, code: &str) -> PyErr {
 /// The exception for a path that does not hold.
 pub(crate) fn broken(error: BrokenPath) -> PyErr {
     let (message, holds_up_to) = (broken_in_rows(error).to_string(), error.holds_up_to());
-    Python::attach(|py| made(py, "BrokenPathError", (message, "broken-path", holds_up_to)))
+    Python::attach(|py| made(py, "BrokenPathError", (message, ErrorCode::BrokenPath.name(), holds_up_to)))
 }
 
 /// The exception of this class, or the one that prevents it.

@@ -4,9 +4,8 @@ use mediant::{Vertex, files::WorldFrame};
 use pyo3::prelude::*;
 
 use crate::{
-    arguments::{Points, number},
+    arguments::{Points, number, word},
     arrays::rows_array,
-    keywords::placement,
 };
 
 /// Where a map is in the world: `Grid.world`.
@@ -124,5 +123,5 @@ impl World {
 }
 
 fn kind(value: Option<&Bound<'_, PyAny>>) -> PyResult<mediant::PlacementKind> {
-    value.map_or(Ok(mediant::PlacementKind::Center), placement)
+    value.map_or(Ok(mediant::PlacementKind::Center), |value| word("placement", value))
 }

@@ -1,5 +1,7 @@
 //! Progress of building a graph.
 
+use mediant_grid::names;
+
 /// How much of a subgoal graph is built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
@@ -23,3 +25,5 @@ pub enum Stage {
     /// Finding the labels of each subgoal.
     Labels,
 }
+
+names!(Stage: Edges => "edges", Hierarchy => "hierarchy", Sight => "sight", Labels => "labels");

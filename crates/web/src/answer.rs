@@ -1,19 +1,10 @@
 //! The answer to a query, and values that go out.
 
 use js_sys::{Int32Array, Object, Reflect};
-use mediant::{Guarantee, Limit, Motion, Outcome, Path, Rules, Stopped, Vertex};
+use mediant::{Answer, Guarantee, Motion, Outcome, Path, Rules, Status, Vertex};
 use wasm_bindgen::{JsCast, prelude::*};
 
 use crate::types::{JsAnswer, JsMotion};
-
-/// The name of a limit.
-const fn limit_name(limit: Limit) -> &'static str {
-    match limit {
-        Limit::Cost => "cost",
-        Limit::Expansions => "expansions",
-        _ => "timeout",
-    }
-}
 
 /// An object with these keys; those without a value are left out.
 pub(crate) fn object_of<T: JsCast>(entries: impl IntoIterator<Item = (&'static str, Option<JsValue>)>) -> T {
@@ -38,53 +29,25 @@ pub(crate) fn pair(at: Vertex) -> js_sys::Array {
     js_sys::Array::of2(&at.x.into(), &at.y.into())
 }
 
-/// The words of answers, made once.
-struct Words {
-    found: JsValue,
-    unreachable: JsValue,
-    nearest: JsValue,
-    stopped: JsValue,
-}
-
 thread_local! {
-    static WORDS: Words = Words {
-        found: "found".into(),
-        unreachable: "unreachable".into(),
-        nearest: "nearest".into(),
-        stopped: "stopped".into(),
-    };
+    /// The words of all statuses, made once.
+    static STATUSES: [JsValue; Status::ALL.len()] = Status::ALL.map(|status| status.name().into());
 }
 
 /// The answer of an engine with this guarantee as an object. It is made key by key through setters, which
 /// take a fifth of the time of keys that are texts: a query can take microseconds.
 pub(crate) fn answer(outcome: &Outcome, guarantee: Guarantee) -> JsAnswer {
-    let answer: JsAnswer = Object::new().unchecked_into();
-    WORDS.with(|words| {
-        answer.set_status(match outcome {
-            Outcome::Found(_) => &words.found,
-            Outcome::Nearest(_) => &words.nearest,
-            Outcome::Stopped(_) => &words.stopped,
-            _ => &words.unreachable,
-        });
-    });
-    if let Some(path) = outcome.path() {
+    let (told, answer) = (Answer::new(outcome, guarantee), Object::new().unchecked_into::<JsAnswer>());
+    STATUSES.with(|statuses| answer.set_status(&statuses[told.status() as usize]));
+    if let Some(path) = told.path() {
         answer.set_path(flat(path));
     }
-    answer.set_distance(match outcome {
-        Outcome::Unreachable => f64::INFINITY,
-        // The same number as that of tables and fields.
-        outcome => outcome.path().map_or(f64::NAN, |path| guarantee.length(path)),
-    });
-    answer.set_lower_bound(match outcome {
-        Outcome::Stopped(Stopped { lower_bound, .. }) => *lower_bound,
-        Outcome::Found(path) if matches!(guarantee, Guarantee::Optimal(_) | Guarantee::OptimalAnyAngle) => {
-            guarantee.length(path)
-        }
-        Outcome::Found(_) => 0.0,
-        _ => f64::INFINITY,
-    });
-    if let Outcome::Stopped(Stopped { by, best, .. }) = outcome {
-        answer.set_stopped_by(limit_name(*by));
+    answer.set_distance(told.distance());
+    answer.set_lower_bound(told.lower_bound());
+    if let Some(limit) = told.stopped_by() {
+        answer.set_stopped_by(limit.name());
+    }
+    if let Some(best) = told.best() {
         answer.set_best(flat(best));
     }
     answer
@@ -94,12 +57,12 @@ pub(crate) fn answer(outcome: &Outcome, guarantee: Guarantee) -> JsAnswer {
 pub(crate) fn motion(motion: Motion) -> JsMotion {
     let k = motion.k.finite().map_or_else(|| JsValue::from("any"), |k| k.get().into());
     let (corners, gap) = match motion.rules {
-        Rules::Center(rule) => (Some(rule.to_string().into()), None),
-        Rules::Corner(gap) => (None, Some(gap.to_string().into())),
+        Rules::Center(rule) => (Some(rule.name().into()), None),
+        Rules::Corner(gap) => (None, Some(gap.name().into())),
     };
     object_of([
         ("k", Some(k)),
-        ("placement", Some(motion.rules.placement().to_string().into())),
+        ("placement", Some(motion.rules.placement().name().into())),
         ("corners", corners),
         ("gap", gap),
     ])

@@ -1,10 +1,12 @@
 //! Points, numbers and bytes, as a call was given them. Each mistake names its argument.
 
+use std::str::FromStr;
+
 use js_sys::{Array, Int32Array, Uint8Array, Uint8ClampedArray};
-use mediant::Vertex;
+use mediant::{ErrorCode, UnknownName, Vertex};
 use wasm_bindgen::{JsCast, convert::TryFromJsValue, prelude::*};
 
-use crate::errors::{argument, coded, no_memory, wrong_type};
+use crate::errors::{argument, coded, no_memory, raised_for, wrong_type};
 
 /// What a point looks like.
 const POINT: &str = "a point [x, y] of two integers";
@@ -121,9 +123,9 @@ fn coordinate(name: &str, value: &JsValue) -> Result<i32, JsValue> {
 /// The error for an end whose numbers are larger than those of any map.
 fn far_outside(name: &str) -> JsValue {
     let code = match name {
-        "start" => "start-outside",
-        "goal" | "goals" => "goal-outside",
-        _ => "argument",
+        "start" => ErrorCode::StartOutside,
+        "goal" | "goals" => ErrorCode::GoalOutside,
+        _ => ErrorCode::Argument,
     };
     coded(code, &format!("{name}: an x or y beyond that of any map"))
 }
@@ -196,16 +198,11 @@ pub(crate) fn room<T: Clone>(length: usize, value: T, what: &str) -> Result<Vec<
     Ok(made)
 }
 
-/// One of several words, each with its meaning.
-pub(crate) fn word<T: Copy>(name: &str, value: &JsValue, words: &[(&str, T)]) -> Result<T, JsValue> {
-    let known = || words.iter().map(|(word, _)| format!("'{word}'")).collect::<Vec<_>>().join(", ");
-    let Some(text) = value.as_string() else {
-        return Err(wrong_type(name, &format!("one of {}", known()), value));
-    };
-    let found = words.iter().find(|(word, _)| *word == text);
-    found
-        .map(|&(_, meaning)| meaning)
-        .ok_or_else(|| argument(name, &format!("expected one of {}, found '{text}'", known())))
+/// One of the names of an enum.
+pub(crate) fn word<T: FromStr<Err = UnknownName>>(name: &str, value: &JsValue) -> Result<T, JsValue> {
+    let known = || "".parse::<T>().err().map_or(String::new(), |error| error.known);
+    let text = value.as_string().ok_or_else(|| wrong_type(name, &format!("one of {}", known()), value))?;
+    text.parse().map_err(|error| raised_for(name, error))
 }
 
 #[wasm_bindgen]

@@ -1,13 +1,16 @@
 //! The library's errors as those of JavaScript.
 
-use mediant::{BrokenPath, Error};
+use mediant::{BrokenPath, Error, ErrorCode, call::Spelling};
 use wasm_bindgen::prelude::*;
 
 /// The error for a mistake that the library found: an `Error` with the name `MediantError` and the `code` of
 /// the library.
 pub(crate) fn raised(error: impl Into<Error>) -> JsValue {
     let error = error.into();
-    coded(error.code().name(), &error.to_string())
+    match &error {
+        Error::Call(wrong) => coded(error.code(), &wrong.text(Spelling::Camel)),
+        error => coded(error.code(), &error.to_string()),
+    }
 }
 
 /// The error of the library about an argument that has another name than its own.
@@ -18,12 +21,12 @@ pub(crate) fn raised_for(name: &str, error: impl Into<Error>) -> JsValue {
         Error::Query(error) => error.to_string().replacen("the start", &format!("the {name}"), 1),
         error => format!("{name}: {error}"),
     };
-    coded(error.code().name(), &text)
+    coded(error.code(), &text)
 }
 
 /// The error for an argument that has a value which it cannot have.
 pub(crate) fn argument(name: &str, wrong: &str) -> JsValue {
-    coded("argument", &format!("{name}: {wrong}"))
+    coded(ErrorCode::Argument, &format!("{name}: {wrong}"))
 }
 
 /// The error for an argument of another type.
@@ -34,27 +37,27 @@ pub(crate) fn wrong_type(name: &str, expected: &str, found: &JsValue) -> JsValue
 /// The error for what needs more memory than WebAssembly has.
 pub(crate) fn no_memory(what: &str) -> JsValue {
     coded(
-        "memory",
+        ErrorCode::Memory,
         &format!("{what} needs more memory than there is: free what is not needed, or take a smaller map"),
     )
 }
 
 /// The error for a path that does not hold.
 pub(crate) fn broken(error: &BrokenPath) -> JsValue {
-    coded("broken-path", &error.to_string())
+    coded(ErrorCode::BrokenPath, &error.to_string())
 }
 
 /// An `Error` with the name `MediantError` and a code.
-pub(crate) fn coded(code: &str, text: &str) -> JsValue {
+pub(crate) fn coded(code: ErrorCode, text: &str) -> JsValue {
     let error = js_sys::Error::new(text);
     error.set_name("MediantError");
     // An object that was just made takes every key.
-    _ = js_sys::Reflect::set(&error, &"code".into(), &code.into());
+    _ = js_sys::Reflect::set(&error, &"code".into(), &code.name().into());
     error.into()
 }
 
 /// What a value is, for an error.
-fn kind(value: &JsValue) -> String {
+pub(crate) fn kind(value: &JsValue) -> String {
     if value.is_undefined() {
         return "undefined".to_owned();
     }

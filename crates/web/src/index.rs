@@ -1,7 +1,7 @@
 //! What an engine prepared.
 
 use js_sys::Uint8Array;
-use mediant::{EngineOption, Index as Inner, Levels, OptionValue, Origin, ValueKind};
+use mediant::{Index as Inner, Levels};
 use wasm_bindgen::prelude::*;
 
 use crate::{
@@ -43,11 +43,10 @@ impl Index {
         unchecked_return_type = "number | \"all\" | \"contracted\" | \"labels\" | undefined"
     )]
     pub fn levels(&self) -> JsValue {
-        let option = EngineOption::ALL.into_iter().find(|option| option.kind == ValueKind::Levels);
-        match option.and_then(|option| self.inner.value(option)) {
-            Some(OptionValue::Levels(Levels::Number(number))) => number.get().into(),
-            Some(OptionValue::Levels(levels)) => levels.to_string().into(),
-            _ => JsValue::UNDEFINED,
+        match self.inner.levels() {
+            Some(Levels::Number(number)) => number.get().into(),
+            Some(levels) => levels.to_string().into(),
+            None => JsValue::UNDEFINED,
         }
     }
 
@@ -89,13 +88,7 @@ impl Index {
         unchecked_return_type = "\"prepared\" | \"loaded\" | \"repaired\" | \"unchanged\""
     )]
     pub fn origin(&self) -> String {
-        let name = match self.inner.origin() {
-            Origin::Loaded => "loaded",
-            Origin::Repaired => "repaired",
-            Origin::Unchanged => "unchanged",
-            _ => "prepared",
-        };
-        name.to_owned()
+        self.inner.origin().name().to_owned()
     }
 
     /// The space that it belongs to.

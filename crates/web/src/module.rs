@@ -1,14 +1,14 @@
 //! What needs no map.
 
 use js_sys::{Array, Int32Array};
-use mediant::{ConfiguredEngine, Engine, Guarantee, Motion, Setup};
+use mediant::{ConfiguredEngine, Engine, Guarantee, Motion, Setup, call::Spelling};
 use mediant_moves::Neighborhood;
 use wasm_bindgen::{JsCast, prelude::*};
 
 use crate::{
     answer::object_of,
     errors::{argument, raised},
-    keywords::{Keywords, Takes, key, read_engine, read_k},
+    keywords::{Keywords, MOTION, OPTIONS, call_error, read_engine},
     types::JsEngines,
 };
 
@@ -21,7 +21,7 @@ use crate::{
 /// @throws MediantError `k` for a k below 2, `argument` for one above 12.
 #[wasm_bindgen]
 pub fn moves(#[wasm_bindgen(unchecked_param_type = "number")] k: &JsValue) -> Result<Int32Array, JsValue> {
-    let finite = read_k(k)?.finite().filter(|k| k.get() <= 12);
+    let finite = Keywords::default().with("k", k)?.motion()?.k.finite().filter(|k| k.get() <= 12);
     let finite = finite.ok_or_else(|| argument("k", "expected an integer from 2 to 12"))?;
     let neighborhood = Neighborhood::new(finite).map_err(raised)?;
     let steps = (0..neighborhood.len()).filter_map(|index| neighborhood.get(index));
@@ -37,7 +37,7 @@ pub fn moves(#[wasm_bindgen(unchecked_param_type = "number")] k: &JsValue) -> Re
 pub fn bound(
     #[wasm_bindgen(unchecked_param_type = "Motion")] motion: &JsValue,
 ) -> Result<Option<f64>, JsValue> {
-    let Motion { k, rules, .. } = Keywords::read("motion", motion, Takes::MOTION)?.motion()?;
+    let Motion { k, rules, .. } = Keywords::read("motion", motion, MOTION)?.motion()?;
     let guarantee = k.finite().map_or(Guarantee::OptimalAnyAngle, Guarantee::Optimal);
     Ok(guarantee.bound(rules))
 }
@@ -64,7 +64,12 @@ fn info(engine: Engine) -> JsValue {
         ("guarantee", Some(can.guarantee.into())),
         ("paper", Some(can.paper.into())),
         ("index", Some(can.index.is_some().into())),
-        ("options", Some(texts(options.map(key).chain(["smooth".to_owned()])))),
+        (
+            "options",
+            Some(texts(
+                options.map(|option| Spelling::Camel.spell(option.name)).chain(["smooth".to_owned()]),
+            )),
+        ),
     ])
 }
 
@@ -84,15 +89,12 @@ pub fn check_setup(
     let Some(engine) = read_engine(engine)? else {
         return Err(crate::errors::wrong_type("engine", "the name of an engine", engine));
     };
-    let options = Keywords::read("options", options, Takes::OPTIONS)?;
-    let mut motion = Keywords::read("motion", motion, Takes::MOTION)?;
-    motion.engine = Some(engine);
-    let motion = motion.motion()?;
-    let configured = match options.try_configured(engine) {
-        Ok(configured) => configured,
-        Err(wrong) => return Ok(Some(wrong.to_string())),
+    let keywords = Keywords::read("options", options, OPTIONS)?.and("motion", motion, MOTION)?;
+    let call = keywords.call.with_engine(Some(engine));
+    let wrong = match call.motion().map_err(call_error)? {
+        Motion { k, rules, .. } => call.configured(engine).and_then(|own| Setup::new(own, k, rules).check()),
     };
-    Ok(Setup::new(configured, motion.k, motion.rules).check().err().map(|wrong| wrong.to_string()))
+    Ok(wrong.err().map(|wrong| wrong.to_string()))
 }
 
 /// The version of the package.

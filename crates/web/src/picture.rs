@@ -12,7 +12,6 @@ use crate::{
     errors::{coded, no_memory},
     field::Field,
     grid::Grid,
-    keywords::PLACEMENTS,
     memory,
     trace::Trace,
 };
@@ -76,7 +75,10 @@ impl Picture {
 
 /// The error for what has vertices of another map.
 fn other_size(name: &str) -> JsValue {
-    coded("mismatch", &format!("{name}: it belongs to a map of another size, or to another placement"))
+    coded(
+        mediant::ErrorCode::Mismatch,
+        &format!("{name}: it belongs to a map of another size, or to another placement"),
+    )
 }
 
 #[wasm_bindgen]
@@ -90,7 +92,7 @@ impl Picture {
         let grid: Grid = object("grid", "Grid", grid)?;
         Ok(Self {
             map: grid.map.clone(),
-            placement: word("placement", placement, &PLACEMENTS)?,
+            placement: word("placement", placement)?,
             field: None,
             expanded: Vec::new(),
             open: Vec::new(),

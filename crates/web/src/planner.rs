@@ -14,7 +14,7 @@ use crate::{
     arguments::{Points, integer, object, point},
     errors::{argument, raised},
     goals::Goals,
-    keywords::{Keywords, Takes},
+    keywords::{Keywords, WISHES},
     trace::Trace,
     types::JsAnswer,
 };
@@ -123,7 +123,7 @@ impl Planner {
         #[wasm_bindgen(unchecked_optional_param_type = "Wishes")] wishes: &JsValue,
         #[wasm_bindgen(unchecked_optional_param_type = "Trace")] trace: &JsValue,
     ) -> Result<JsAnswer, JsValue> {
-        let keywords = Keywords::read("wishes", wishes, Takes::WISHES)?;
+        let keywords = Keywords::read("wishes", wishes, WISHES)?;
         let (start, goal) = (Points::read("start", start)?, Points::read("goal", goal)?);
         let trace = trace_of(trace)?;
         let mut state = self.idle()?;
@@ -192,7 +192,7 @@ impl Planner {
         #[wasm_bindgen(unchecked_param_type = "Points")] goal: &JsValue,
         #[wasm_bindgen(unchecked_optional_param_type = "Wishes")] wishes: &JsValue,
     ) -> Result<(), JsValue> {
-        let keywords = Keywords::read("wishes", wishes, Takes::WISHES)?;
+        let keywords = Keywords::read("wishes", wishes, WISHES)?;
         let (start, goal) = (Points::read("start", start)?, Points::read("goal", goal)?);
         self.idle()?.inner.begin(keywords.request(&start, &goal)).map_err(raised)
     }

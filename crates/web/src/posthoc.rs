@@ -60,7 +60,7 @@ impl Trace {
                 tracer.finish()
             };
             let Text(text) = write().map_err(|_| no_memory("the trace's text"))?;
-            String::from_utf8(text).map_err(|_| coded("other", "the trace is no text"))
+            String::from_utf8(text).map_err(|_| coded(mediant::ErrorCode::Other, "the trace is no text"))
         })
     }
 }

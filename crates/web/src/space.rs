@@ -3,17 +3,17 @@
 use std::cell::RefCell;
 
 use js_sys::{Function, Int32Array, JsString};
-use mediant::{Error, Limits, Map, Motion, Path, Planner, Progress, Setup, Space as Inner, Stage, Vertex};
+use mediant::{Demand, Limits, Map, Motion, Path, Progress, Space as Inner, Vertex};
 use wasm_bindgen::{JsCast, prelude::*};
 
 use crate::{
     answer,
     arguments::{Points, bytes, path_points, point, positive},
-    errors::{broken, coded, raised, raised_for, wrong_type},
+    errors::{broken, raised, raised_for, wrong_type},
     field::Field,
     grid::{Edit, Grid},
     index::Index,
-    keywords::{Keywords, Takes, read_engine},
+    keywords::{Keywords, OPTIONS},
     memory,
     types::{JsChoice, JsMotion},
 };
@@ -22,33 +22,6 @@ use crate::{
 #[wasm_bindgen]
 pub struct Space {
     pub(crate) inner: Inner,
-}
-
-/// The planner of a setup on a map, and its space, which may be there already. What stops the search stops
-/// this, too.
-pub(crate) fn planner(
-    setup: Setup,
-    map: &Map,
-    space: Option<Inner>,
-    limits: &Limits,
-) -> Result<(Inner, Planner), JsValue> {
-    let raised = |error: Error| match error {
-        Error::Stopped { .. } => coded("stopped", &format!("{error}: nothing was searched; allow more time")),
-        error => raised(error),
-    };
-    setup.check().map_err(|error| raised(error.into()))?;
-    let inner = match space {
-        Some(space) => space,
-        None => {
-            memory::check("the space", vertices(map), memory::SPACE)?;
-            map.within(limits).space(setup.motion()).map_err(raised)?
-        }
-    };
-    let space = Space { inner };
-    space.check_room("the search", memory::INDEX + memory::PLANNER)?;
-    let index = space.inner.within(limits).prepare(setup.engine).map_err(raised)?;
-    let planner = index.with_smoothing(setup.smoothing).try_planner().map_err(raised)?;
-    Ok((space.inner, planner))
 }
 
 /// The points that `of` finds along a path, as x, y, ….
@@ -65,7 +38,7 @@ fn along(path: &JsValue, of: impl FnOnce(&Path) -> Vec<(i32, i32)>) -> Result<In
 }
 
 /// The most vertices that a map can have.
-fn vertices(map: &Map) -> u64 {
+pub(crate) fn vertices(map: &Map) -> u64 {
     (u64::from(map.width()) + 1) * (u64::from(map.height()) + 1)
 }
 
@@ -211,9 +184,8 @@ impl Space {
         )]
         progress: &JsValue,
     ) -> Result<Index, JsValue> {
-        let engine = read_engine(engine)?.unwrap_or_else(|| self.inner.engine().engine);
-        let keywords = Keywords::read("options", options, Takes::OPTIONS)?;
-        let configured = keywords.configured(engine)?;
+        let keywords = Keywords::read("options", options, OPTIONS)?.with("engine", engine)?;
+        let (setup, _) = self.inner.setup(&keywords.call, Demand::Paths(u64::MAX)).map_err(raised)?;
         let listener = match progress.dyn_ref::<Function>() {
             Some(function) => Some(function.clone()),
             None if progress.is_undefined() || progress.is_null() => None,
@@ -222,9 +194,9 @@ impl Space {
         self.check_room("the index", memory::INDEX)?;
         let listening = Listening::begin(listener);
         let limits = Limits::new().deadline(has_thrown);
-        let index = self.inner.within(&limits).prepare_with_progress(configured, &tell);
+        let index = self.inner.within(&limits).prepare_with_progress(setup.engine, &tell);
         listening.end()?;
-        Ok(Index { inner: index.map_err(raised)?.with_smoothing(keywords.smoothing) })
+        Ok(Index { inner: index.map_err(raised)?.with_smoothing(setup.smoothing) })
     }
 
     /// The index of bytes that `Index.toBytes` gave for the same map and motion.
@@ -236,12 +208,10 @@ impl Space {
         #[wasm_bindgen(unchecked_param_type = "Uint8Array")] index: &JsValue,
         #[wasm_bindgen(unchecked_optional_param_type = "Options")] options: &JsValue,
     ) -> Result<Index, JsValue> {
-        let keywords = Keywords::read("options", options, Takes::OPTIONS)?;
-        let mut index = self.inner.index_from_bytes(bytes("bytes", index)?).map_err(raised)?;
-        if keywords.has_options() {
-            let configured = keywords.configured(index.setup().engine.kind())?;
-            index = index.with_options(configured).map_err(raised)?.with_smoothing(keywords.smoothing);
-        }
+        let keywords = Keywords::read("options", options, OPTIONS)?;
+        let index = self.inner.index_from_bytes(bytes("bytes", index)?).map_err(raised)?;
+        let call = keywords.call;
+        let index = if call.has_options() { index.with_call(&call).map_err(raised)? } else { index };
         Ok(Index { inner: index })
     }
 
@@ -338,12 +308,7 @@ fn has_thrown() -> bool {
 fn tell(progress: Progress) {
     let listener = LISTENERS.with_borrow(|listeners| listeners.last().cloned());
     let Some((Some(function), None)) = listener else { return };
-    let stage = match progress.stage {
-        Stage::Edges => "edges",
-        Stage::Hierarchy => "hierarchy",
-        Stage::Sight => "sight",
-        Stage::Labels => "labels",
-    };
+    let stage = progress.stage.name();
     let [done, total] = [progress.done, progress.total].map(|count| JsValue::from(count as f64));
     let called = function.call3(&JsValue::UNDEFINED, &JsString::from(stage), &done, &total);
     if let Err(thrown) = called {

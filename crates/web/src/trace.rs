@@ -108,7 +108,7 @@ impl Trace {
         let row = row_of(space);
         if events.row.is_some_and(|known| known != row) {
             let text = "trace: it has events of a space of another size: clear it first";
-            return Err(coded("mismatch", text));
+            return Err(coded(mediant::ErrorCode::Mismatch, text));
         }
         events.row = Some(row);
         Ok(events)
@@ -125,7 +125,10 @@ impl Trace {
             return Err(argument("trace", "it does not keep all events: make it by new Trace(true)"));
         };
         if events.row.is_some_and(|row| row != row_of(space)) {
-            return Err(coded("mismatch", "planner: it searches a map of another size than the trace has"));
+            return Err(coded(
+                mediant::ErrorCode::Mismatch,
+                "planner: it searches a map of another size than the trace has",
+            ));
         }
         if events.is_cut {
             return Err(no_memory("the trace"));
@@ -170,7 +173,7 @@ fn row_of(space: &Inner) -> u32 {
 
 /// The error for a trace that a search is writing to.
 fn in_use() -> JsValue {
-    coded("argument", "trace: a search is writing to it: wait until it has ended")
+    coded(mediant::ErrorCode::Argument, "trace: a search is writing to it: wait until it has ended")
 }
 
 #[wasm_bindgen]

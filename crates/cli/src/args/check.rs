@@ -4,7 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{map::MapArgs, motion::MotionArgs, run::Format};
+use super::{
+    flags::{Flags, MOTION},
+    map::MapArgs,
+    run::Format,
+};
 
 #[derive(Args, Debug)]
 #[command(after_help = CHECK_HELP)]
@@ -18,7 +22,7 @@ pub(crate) struct CheckArgs {
     #[arg(required = true, value_name = "PATHS")]
     pub(crate) paths: Vec<PathBuf>,
     #[command(flatten)]
-    pub(crate) motion: MotionArgs,
+    pub(crate) motion: Flags<MOTION>,
     /// Lines for people, or one JSON object a line for programs
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
+    flags::{Flags, MOTION},
     map::MapArgs,
-    motion::MotionArgs,
     value::{parse_amount, parse_pose},
 };
 
@@ -32,7 +32,7 @@ pub(crate) struct ConvertArgs {
     #[arg(long, value_name = "X,Y,YAW", allow_hyphen_values = true, value_parser = parse_pose)]
     pub(crate) origin: Option<[f64; 3]>,
     #[command(flatten)]
-    pub(crate) motion: MotionArgs,
+    pub(crate) motion: Flags<MOTION>,
 }
 
 const K_HELP: &str = "With --radius, the k of the agent's paths: 2 to 12, or any. 3 by default";

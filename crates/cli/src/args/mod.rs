@@ -5,17 +5,16 @@ mod check;
 mod convert;
 mod demo;
 mod explain;
+mod flags;
 mod manual;
 mod map;
-mod motion;
 mod moves;
-mod options;
+mod query;
 mod reach;
 mod run;
 mod setup;
 mod table;
 mod value;
-mod wishes;
 
 use clap::{Parser, Subcommand};
 
@@ -28,12 +27,12 @@ pub(crate) use self::{
     manual::{CompletionsArgs, ManArgs},
     map::MapArgs,
     moves::MovesArgs,
+    query::QueryArgs,
     reach::ReachArgs,
     run::{Format, RunArgs},
     setup::Asked,
     table::{TableArgs, TableFormat},
     value::{MAX_K, Place, parse_pair, parse_place},
-    wishes::WishArgs,
 };
 
 /// Pathfinding on the 2^k neighborhoods of a grid: from the 4-connected grid (k = 2) towards any angle.

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
+    flags::{Flags, MOTION},
     map::MapArgs,
-    motion::MotionArgs,
     value::{Place, parse_amount, parse_place},
 };
 
@@ -25,7 +25,7 @@ pub(crate) struct ReachArgs {
     #[arg(value_parser = |text: &str| parse_amount(text, "cells"))]
     pub(crate) within: Option<f64>,
     #[command(flatten)]
-    pub(crate) motion: MotionArgs,
+    pub(crate) motion: Flags<MOTION>,
     /// Write the distances to this file (repeat it for several): .png and .svg are pictures, .csv has x, y
     /// and distance of all that is reached, .npy is an array for NumPy; - prints the CSV
     #[arg(short, long, value_name = "FILE")]

@@ -9,14 +9,12 @@ use clap::{ArgGroup, Args, ValueEnum};
 use mediant::{Engine, Setup};
 use mediant_grid::Rules;
 use mediant_moves::K;
-use mediant_search::Smoothing;
 
 use super::{
+    flags::{ENGINE, Flags, MOTION, OPTIONS, SMOOTH, WISHES},
     map::MapArgs,
-    options::AllOptions,
-    setup::{Asked, SetupArgs},
+    query::QueryArgs,
     value::{one_of, parse_count},
-    wishes::WishArgs,
 };
 use crate::failure::Failure;
 
@@ -46,17 +44,10 @@ pub(crate) struct RunArgs {
     #[arg(long, conflicts_with_all = ["free", "blocked", "index", "distances"])]
     pub(crate) grounds: bool,
     #[command(flatten)]
-    pub(crate) wishes: WishArgs,
+    pub(crate) query: QueryArgs,
 
     #[command(flatten)]
-    pub(crate) setup: SetupArgs,
-    #[command(flatten)]
-    pub(crate) options: AllOptions,
-    /// Make each path shorter afterwards, by straight segments at any angle: linear (the default) looks for
-    /// the next vertex in sight along the path, taut pulls the path tight around the corners
-    #[arg(long, value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "linear")]
-    #[arg(hide_possible_values = true, value_name = "linear|taut")]
-    pub(crate) smooth: Option<SmoothArg>,
+    pub(crate) flags: Flags<{ MOTION | WISHES | ENGINE | OPTIONS | SMOOTH }>,
     /// Also find each query's shortest any-angle path by this engine, and say how much longer the path is
     #[arg(long, value_name = "ENGINE", value_parser = one_of(REFERENCES.to_vec(), Engine::name))]
     pub(crate) reference: Option<Engine>,
@@ -79,20 +70,15 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "FILE", num_args = 0..=1)]
     pub(crate) draw: Option<Option<PathBuf>>,
     /// Write the events of a single query's search to this file, for the Posthoc visualizer
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["nearest", "tolerance", "timeout"])]
     pub(crate) trace: Option<PathBuf>,
     /// Write the distances from --from to all vertices to this file, as CSV (`-` is stdout); needs an engine
     /// that finds them
     #[arg(long, value_name = "FILE", requires = "from")]
     #[arg(conflicts_with_all = ["scen", "every", "limit", "smooth", "reference", "index", "repeat"])]
-    #[arg(conflicts_with_all = ["format", "draw", "trace"])]
+    #[arg(conflicts_with_all = ["format", "draw", "trace", "nearest", "snap", "tolerance"])]
+    #[arg(conflicts_with_all = ["max-cost", "max-expansions", "timeout"])]
     pub(crate) distances: Option<PathBuf>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SmoothArg {
-    Linear,
-    Taut,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -145,15 +131,6 @@ Examples:
 const REFERENCES: [Engine; 2] = [Engine::Anya, Engine::Subgoal];
 
 impl RunArgs {
-    /// The engine, its options and the motion of the arguments.
-    pub(crate) fn asked(&self) -> Result<Asked, Failure> {
-        let smoothing = self.smooth.map(|smooth| match smooth {
-            SmoothArg::Linear => Smoothing::Linear,
-            SmoothArg::Taut => Smoothing::Taut,
-        });
-        self.setup.asked(self.options.given(), smoothing)
-    }
-
     /// The files to be written.
     pub(crate) fn outputs(&self) -> Vec<&Path> {
         let drawn = self.draw.iter().flatten().chain(&self.trace);
@@ -163,13 +140,13 @@ impl RunArgs {
 
     /// Checks that a single query has several ends only where that has a meaning.
     pub(crate) const fn check_ends(&self) -> Result<(), Failure> {
-        if !self.wishes.has_several_ends() {
+        if !self.query.has_several_ends() {
             Ok(())
         } else if self.trace.is_some() {
             Err(Failure::TraceEnds)
         } else if self.distances.is_some() {
             Err(Failure::DistancesEnds)
-        } else if self.wishes.distance {
+        } else if self.query.distance {
             Err(Failure::DistanceEnds)
         } else {
             Ok(())

@@ -5,12 +5,10 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::{
+    flags::{ENGINE, Flags, MOTION, OPTIONS},
     map::MapArgs,
-    options::AllOptions,
-    setup::{Asked, SetupArgs},
     value::{Place, parse_place},
 };
-use crate::failure::Failure;
 
 #[derive(Args, Debug)]
 #[command(after_help = TABLE_HELP)]
@@ -38,9 +36,7 @@ pub(crate) struct TableArgs {
     pub(crate) nearest: bool,
 
     #[command(flatten)]
-    pub(crate) setup: SetupArgs,
-    #[command(flatten)]
-    pub(crate) options: AllOptions,
+    pub(crate) flags: Flags<{ MOTION | ENGINE | OPTIONS }>,
     /// Load the engine's index from a file that `mediant build` wrote, instead of preparing it
     #[arg(long, value_name = "FILE")]
     pub(crate) index: Option<PathBuf>,
@@ -75,10 +71,3 @@ Examples:
   mediant table builtin:town --from 10,3 --from 58,18 --to 6,6 --to 60,29
   mediant table arena.map --from-file homes.txt --to-file hotels.txt --nearest --format csv
   mediant table arena.map --k any --from 1,11 --to-file goals.txt --index arena.idx --format jsonl";
-
-impl TableArgs {
-    /// The engine, its options and the motion of the arguments.
-    pub(crate) fn asked(&self) -> Result<Asked, Failure> {
-        self.setup.asked(self.options.given(), None)
-    }
-}

@@ -13,7 +13,7 @@ use clap::{
 };
 use mediant::UnknownName;
 use mediant_grid::{Centers, GridGraph, Vertex};
-use mediant_moves::{FiniteK, K, ParseKError};
+use mediant_moves::FiniteK;
 
 /// The largest k that grid graphs take.
 pub(crate) const MAX_K: u32 = GridGraph::<Centers>::MAX_K;
@@ -135,40 +135,12 @@ pub(super) fn parse_count<N: FromStr<Err = ParseIntError> + Display>(
     })
 }
 
-/// Reads a whole number from 0 up.
-pub(super) fn parse_whole(text: &str) -> Result<u64, String> {
-    text.parse().map_err(|error: ParseIntError| match error.kind() {
-        IntErrorKind::PosOverflow => format!("expected a whole number from 0 to {}", u64::MAX),
-        _ => "expected a whole number from 0 up".to_owned(),
-    })
-}
-
 /// Reads a number of these units, 0 or more.
 pub(super) fn parse_amount(text: &str, units: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(amount) if amount >= 0.0 && amount.is_finite() => Ok(amount),
         _ => Err(format!("expected a number of {units}, 0 or more, such as 2.5")),
     }
-}
-
-/// Reads a k that some engine may take.
-pub(super) fn parse_k(text: &str) -> Result<K, String> {
-    let form = format!("choose a number from 2 to {MAX_K}, or any");
-    match text.parse() {
-        Err(ParseKError::K(error)) => Err(format!("{error}; {form}")),
-        Ok(K::Finite(k)) if k.get() > MAX_K => Err(format!("k = {k} is too large; {form}")),
-        Ok(k) => Ok(k),
-        Err(_) => Err(form),
-    }
-}
-
-/// Reads the number of moves of a neighborhood that some engine may take.
-pub(super) fn parse_neighbors(text: &str) -> Result<K, String> {
-    let most = 1_u64 << MAX_K;
-    let form = format!("expected a number of moves: 4, 8, 16 or another power of two up to {most}");
-    let moves: u64 = text.parse().map_err(|_| form.clone())?;
-    let k = K::from_neighbors(moves).map_err(|error| error.to_string())?;
-    if moves <= most { Ok(k) } else { Err(form) }
 }
 
 /// Reads a k whose moves can be computed, even if no grid graph takes it.
@@ -225,25 +197,6 @@ mod tests {
         assert_eq!([parse_amount("2.5", "cells"), parse_amount("0", "cells")], [Ok(2.5), Ok(0.0)]);
         for wrong in ["-1", "nan", "NaN", "inf", "1e999", "-1e-9", "two", ""] {
             assert!(parse_amount(wrong, "cells").is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn k_is_a_number_or_any() {
-        for infinite in ["any", "inf", "Infinity", "∞"] {
-            assert_eq!(parse_k(infinite), Ok(K::Any));
-        }
-        assert_eq!(parse_k("2"), Ok(K::Finite(FiniteK::N4)));
-        for wrong in ["1", "13", "-3", "three", ""] {
-            assert!(parse_k(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn neighbors_are_a_power_of_two() {
-        assert_eq!([parse_neighbors("8"), parse_neighbors("4096")], [Ok(K::N8), parse_k("12")]);
-        for wrong in ["0", "2", "6", "8192", "9223372036854775808", "-8", "eight", ""] {
-            assert!(parse_neighbors(wrong).is_err(), "{wrong}");
         }
     }
 }

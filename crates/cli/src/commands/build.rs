@@ -5,7 +5,7 @@ use std::{fs, io::Write, time::Instant};
 use mediant::Demand;
 
 use crate::{
-    args::BuildArgs,
+    args::{Asked, BuildArgs},
     failure::Failure,
     map::{Map, file_name},
     run::report::{by_auto, falls_back},
@@ -20,15 +20,14 @@ use crate::{
 
 /// Runs the command.
 pub(crate) fn build(args: &BuildArgs, screen: &mut Screen) -> Result<(), Failure> {
-    let asked = args.asked()?;
     // A setup without an index is refused before anything is computed.
-    asked.check(true)?;
+    let asked = Asked::of(&args.flags.0, true)?;
     let map = Map::load(&args.map)?.for_agent(&args.map, asked.motion)?;
     check_outputs(&args.map.map, &[&args.output])?;
     let progress = BuildProgress::new();
     let begin = Instant::now();
     let space = map.to_library().space(asked.motion)?;
-    let (setup, choice) = asked.setup(&space, Demand::Index)?;
+    let (setup, choice) = space.setup(&asked.call, Demand::Index)?;
     let built = space.prepare_with_progress(setup.engine, &|step| progress.tell(step));
     let took = begin.elapsed();
     progress.clear();

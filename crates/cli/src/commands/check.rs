@@ -65,22 +65,13 @@ struct Rules {
 impl Rules {
     /// What the arguments say, else what the run says, else what is usual.
     fn new(args: &CheckArgs, said: Option<Said>) -> Result<Self, Failure> {
-        let args = &args.motion;
-        let setup = said.map(|said| said.setup);
-        let over = args.k.given().or(said.map(|said| said.over)).unwrap_or(K::Any);
-        let placement = match (args.placement, setup) {
-            (None, Some(setup)) => setup.rules.placement(),
-            // A path between centers can be at any angle, too.
-            _ => args.placement_for(args.k.given().unwrap_or(K::N8)),
+        let call = &args.motion.0;
+        let over = call.k()?.or(said.map(|said| said.over)).unwrap_or(K::Any);
+        let motion = match said {
+            Some(Said { setup, .. }) => call.motion_from(Motion::new(setup.k, setup.rules))?,
+            None => call.motion()?,
         };
-        let given = args.rules.at(placement)?;
-        let is_given = args.rules.corners.is_some() || args.rules.gap.is_some();
-        let rules = match setup {
-            Some(setup) if !is_given && setup.rules.placement() == placement => setup.rules,
-            _ => given,
-        };
-        let k = args.k.given().or(setup.map(|setup| setup.k)).unwrap_or(K::N8);
-        Ok(Self { motion: Motion::new(k, rules), over })
+        Ok(Self { motion, over })
     }
 
     /// The map of the agent that the arguments name, with the rules.

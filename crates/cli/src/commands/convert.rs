@@ -40,7 +40,7 @@ impl Form {
 /// Runs the command.
 pub(crate) fn convert(args: &ConvertArgs, screen: &mut Screen) -> Result<(), Failure> {
     let (path, form) = (args.output.as_path(), Form::of(&args.output)?);
-    let motion = args.motion.motion()?;
+    let motion = args.motion.0.motion()?;
     if !matches!(form, Form::Ros) {
         let given = [("--resolution", args.resolution.is_some()), ("--origin", args.origin.is_some())];
         if let Some((option, _)) = given.into_iter().find(|(_, is_given)| *is_given) {

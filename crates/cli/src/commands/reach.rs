@@ -56,7 +56,7 @@ impl Form {
 
 /// Runs the command.
 pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Failure> {
-    let motion = args.motion.motion()?;
+    let motion = args.motion.0.motion()?;
     let outputs = args.output.iter().map(|path| Ok((path.as_path(), Form::of(path)?)));
     let outputs = outputs.collect::<Result<Vec<_>, Failure>>()?;
     let map = Map::load(&args.map)?.for_agent(&args.map, motion)?;

@@ -5,7 +5,7 @@ use std::io::{self, IsTerminal, Write};
 use mediant::EngineOption;
 
 use crate::{
-    args::{Format, RunArgs},
+    args::{Asked, Format, RunArgs},
     draw::query::{Drawing, check_name},
     failure::{Ending, Failure},
     map::{Map, file_name},
@@ -27,8 +27,7 @@ use crate::{
 
 /// Runs the command.
 pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure> {
-    let asked = args.asked()?;
-    asked.check(args.index.is_some())?;
+    let asked = Asked::of(&args.flags.0, args.index.is_some())?;
     let (rules, placement) = (asked.motion.rules, asked.motion.rules.placement());
     let reference = args.reference(rules)?;
     match &args.draw {
@@ -42,11 +41,11 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
         false => load(args)?.for_agent(&args.map, asked.motion)?,
     };
     check_outputs(&args.map.map, &args.outputs())?;
-    let wishes = args.wishes.on(&map, placement)?;
-    if let (Some(path), Some(from)) = (&args.distances, wishes.from.first()) {
+    let query = args.query.on(asked.call.wishes(), &map, placement)?;
+    if let (Some(path), Some(from)) = (&args.distances, query.from.first()) {
         return distances::write(&asked, &map, *from, path, screen);
     }
-    let queries = Queries::load(args, &wishes, &map, placement)?;
+    let queries = Queries::load(args, &query, &map, placement)?;
     check_number(args, &queries)?;
     let mut searchers = Searchers::new(args, &asked, reference, &map, &queries)?;
     let trace = args.trace.as_deref().map(TraceFile);
@@ -56,7 +55,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
         map: &map,
         scenario: queries.scenario_name(),
         queries: queries.len(),
-        wishes: &wishes,
+        query: &query,
         setup,
         choice: *choice,
         searched_by: index.searched_by(),
@@ -84,7 +83,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     drop(report);
     if let (Some(target), Some(item)) = (&args.draw, queries.iter().next()) {
         let Searcher { map, planner, .. } = searchers.of(item.query.start);
-        let drawing = Drawing { map, setup, request: wishes.request(item.query) };
+        let drawing = Drawing { map, setup, request: query.request(item.query) };
         match target {
             None => drawing.on_screen(&finished.path, screen)?,
             Some(path) => drawing.to_file(path, planner, &finished.path)?,

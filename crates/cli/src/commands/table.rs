@@ -11,7 +11,7 @@ use mediant_grid::{PlacementKind, Vertex};
 use serde::Serialize;
 
 use crate::{
-    args::{Place, TableArgs, TableFormat, parse_place},
+    args::{Asked, Place, TableArgs, TableFormat, parse_place},
     check::file::{bytes, lines, shown},
     failure::{Ending, Failure},
     map::Map,
@@ -30,8 +30,7 @@ use crate::{
 
 /// Runs the command.
 pub(crate) fn table(args: &TableArgs, screen: &mut Screen) -> Result<Ending, Failure> {
-    let asked = args.asked()?;
-    asked.check(args.index.is_some())?;
+    let asked = Asked::of(&args.flags.0, args.index.is_some())?;
     let map = Map::load(&args.map)?.for_agent(&args.map, asked.motion)?;
     let placement = asked.motion.rules.placement();
     let (starts, starts_moved) =

@@ -7,7 +7,7 @@ use mediant_grid::{Rules, Vertex};
 use mediant_search::{Counters, Guarantee, Path, Request, Stopped};
 
 use super::queries::Item;
-use crate::{args::WishArgs, map::Map};
+use crate::{args::QueryArgs, map::Map};
 
 /// What is run: the map, the setup, and what its preparation took.
 pub(crate) struct Run<'r> {
@@ -16,7 +16,7 @@ pub(crate) struct Run<'r> {
     pub(crate) scenario: Option<&'r str>,
     /// The number of queries.
     pub(crate) queries: usize,
-    pub(crate) wishes: &'r WishArgs,
+    pub(crate) query: &'r QueryArgs,
     pub(crate) setup: Setup,
     /// Which engine `auto` took, and why; `None` for one that was named.
     pub(crate) choice: Option<Choice>,

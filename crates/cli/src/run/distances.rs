@@ -30,7 +30,7 @@ pub(crate) fn write(
     screen: &mut Screen,
 ) -> Result<Ending, Failure> {
     let space = map.to_library().space(asked.motion)?;
-    let (setup, _) = asked.setup(&space, Demand::Distances)?;
+    let (setup, _) = space.setup(&asked.call, Demand::Distances)?;
     let found = match space.distances(setup.engine.kind(), from) {
         Ok(found) => found,
         Err(Error::Query(error)) => {

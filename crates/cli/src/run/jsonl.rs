@@ -18,10 +18,11 @@ use serde_json::Value;
 
 use super::{
     answer::{Answer, Answered, Found, Run},
-    report::{Report, smoothing_name},
+    report::Report,
     summary::Summary,
 };
-use crate::{args::WishArgs, terminal::screen::Screen};
+use crate::{args::QueryArgs, terminal::screen::Screen};
+use mediant::{Smoothing, call::Wishes};
 
 /// Writes each record as it comes, and flushes often: an interrupted run loses the current query and the
 /// records of less than a second.
@@ -58,7 +59,7 @@ impl<'s> Jsonl<'s> {
 impl Report for Jsonl<'_> {
     fn begin(&mut self, run: &Run<'_>) -> io::Result<()> {
         self.world = run.map.frame.map(|frame| (frame, run.setup.rules.placement()));
-        self.only_lengths = run.wishes.distance;
+        self.only_lengths = run.query.distance;
         self.line(&RunLine::from(run))?;
         self.flush()
     }
@@ -107,7 +108,7 @@ struct RunLine<'r> {
     /// The scenario's file name.
     scenario: Option<&'r str>,
     queries: usize,
-    /// Each wish that was named, by the name of its option, with `_` for `-`; `deadline_ms` for `--deadline`.
+    /// Each wish that was named, by the name of its option, with `_` for `-`; `timeout_ms` for `--timeout`.
     #[serde(flatten)]
     wishes: WishFields,
     /// The engine that was named; with `auto` the one that searches.
@@ -167,20 +168,18 @@ struct WishFields {
     #[serde(skip_serializing_if = "Option::is_none")]
     max_cost: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    max_nodes: Option<u64>,
+    max_expansions: Option<u64>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    deadline_ms: Option<f64>,
+    timeout_ms: Option<f64>,
 }
 
-impl From<&WishArgs> for WishFields {
-    fn from(wishes: &WishArgs) -> Self {
-        let &WishArgs {
-            distance, tolerance, nearest, snap, free_ends, max_cost, max_nodes, deadline, ..
-        } = wishes;
+impl From<&QueryArgs> for WishFields {
+    fn from(query: &QueryArgs) -> Self {
+        let &Wishes { nearest, snap, tolerance, max_cost, max_expansions, timeout, .. } = &query.wishes;
         let [distance, nearest, snap, free_ends] =
-            [distance, nearest, snap, free_ends].map(|wish| wish.then_some(true));
+            [query.distance, nearest, snap, query.free_ends].map(|wish| wish.then_some(true));
         let [block, unblock] = [0, 1]
-            .map(|at| Some(&wishes.cells[at]).filter(|cells| !cells.is_empty()).map(|cells| pairs(cells)));
+            .map(|at| Some(&query.cells[at]).filter(|cells| !cells.is_empty()).map(|cells| pairs(cells)));
         Self {
             distance,
             tolerance,
@@ -190,8 +189,8 @@ impl From<&WishArgs> for WishFields {
             block,
             unblock,
             max_cost,
-            max_nodes,
-            deadline_ms: deadline,
+            max_expansions,
+            timeout_ms: timeout,
         }
     }
 }
@@ -213,10 +212,10 @@ impl<'r> From<&Run<'r>> for RunLine<'r> {
             grounds: run.grounds.then_some(true),
             radius: Some(run.map.radius).filter(|&radius| radius > 0.0),
             resolution: run.map.frame.map(|frame| frame.resolution()),
-            moved: run.wishes.moved,
+            moved: run.query.moved,
             scenario: run.scenario,
             queries: run.queries,
-            wishes: run.wishes.into(),
+            wishes: run.query.into(),
             engine: run.choice.map_or(setup.engine.kind(), |_| run.searched_by).name(),
             asked: run.choice.map(|_| EngineName::Auto.name()),
             searched_by: run.searched_by.name(),
@@ -229,7 +228,7 @@ impl<'r> From<&Run<'r>> for RunLine<'r> {
             gap: gap.to_string(),
             options: run.options.iter().map(|&(option, value)| json_of(option, value)).collect(),
             smooth: setup.smoothing.is_some(),
-            smoothing: setup.smoothing.map(smoothing_name),
+            smoothing: setup.smoothing.map(Smoothing::name),
             any_angle: run.reference.map(Engine::name),
             guarantee: run.guarantee.to_string(),
             repeat: run.repeat,

@@ -7,7 +7,7 @@ use mediant_grid::{Grid, PlacementKind, Vertex};
 use mediant_search::{End, Query};
 
 use crate::{
-    args::{RunArgs, WishArgs, parse_pair},
+    args::{QueryArgs, RunArgs, parse_pair},
     builtin::is_builtin,
     check::file::{bytes, lines, shown},
     failure::Failure,
@@ -37,7 +37,7 @@ impl Queries {
     /// The queries that the arguments name.
     pub(crate) fn load(
         args: &RunArgs,
-        wishes: &WishArgs,
+        wishes: &QueryArgs,
         map: &Map,
         placement: PlacementKind,
     ) -> Result<Self, Failure> {

@@ -3,7 +3,6 @@
 use std::io;
 
 use mediant::{Choice, Engine, FiniteK, K, Motion};
-use mediant_search::Smoothing;
 
 use super::{
     answer::{Answer, Run},
@@ -53,12 +52,4 @@ pub(crate) fn k_in_words(k: K) -> String {
 /// Rules and k, with the number of its moves.
 pub(crate) fn motion_in_words(motion: Motion) -> String {
     format!("{}, {}", motion.rules, k_in_words(motion.k))
-}
-
-/// The name of a smoothing, as `--smooth` takes it.
-pub(super) const fn smoothing_name(smoothing: Smoothing) -> &'static str {
-    match smoothing {
-        Smoothing::Linear => "linear",
-        Smoothing::Taut => "taut",
-    }
 }

@@ -42,7 +42,7 @@ impl Session<'_> {
         run: &Run<'_>,
     ) -> Result<Finished, Failure> {
         self.report.begin(run)?;
-        let mut tally = Tally::new(run.wishes);
+        let mut tally = Tally::new(&run.query.wishes);
         let (mut first_error, mut path) = (None, Vec::new());
         for item in self.queries.iter() {
             let answer = self.answer(searchers.of(item.query.start), run, item)?;
@@ -65,8 +65,8 @@ impl Session<'_> {
     fn answer(&mut self, searcher: &mut Searcher, run: &Run<'_>, item: Item) -> Result<Answer, Failure> {
         let Searcher { map, planner, any_angle, .. } = searcher;
         let (grid, rules) = (&*map.grid, run.setup.rules);
-        let request = || run.wishes.request(item.query);
-        if run.wishes.distance {
+        let request = || run.query.request(item.query);
+        if run.query.distance {
             let (Measured { counters, nanos, .. }, length) =
                 Measured::distance(planner, item.query, run.repeat);
             let outcome = match length {
@@ -81,7 +81,7 @@ impl Session<'_> {
             };
             return Ok(Answer { item, request: request(), searched_by: None, outcome, counters, nanos });
         }
-        let exceptions = run.wishes.exceptions();
+        let exceptions = run.query.exceptions();
         let mut other = match &exceptions {
             Some(exceptions) => planner.except(&request(), exceptions)?,
             None => None,

@@ -1,11 +1,11 @@
 //! The summary of a run.
 
+use mediant::call::Wishes;
 use mediant_formats::scenario_tolerance;
 use mediant_search::Path;
 use serde::Serialize;
 
 use super::answer::{Answer, Answered, Found};
-use crate::args::WishArgs;
 
 /// The sums and means of a run: times and counts of the answered queries, costs of those whose path was
 /// found.
@@ -102,7 +102,7 @@ pub(crate) struct Tally {
 
 impl Tally {
     /// No answers yet to queries with these wishes.
-    pub(crate) fn new(wishes: &WishArgs) -> Self {
+    pub(crate) fn new(wishes: &Wishes) -> Self {
         let (nearest, stopped) = (wishes.nearest.then_some(0), wishes.has_limits().then_some(0));
         Self { nearest, stopped, ..Self::default() }
     }

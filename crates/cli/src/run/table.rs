@@ -8,7 +8,7 @@ use mediant_search::{Limit, Path, Stopped};
 
 use super::{
     answer::{Answer, Answered, Found, Run},
-    report::{Report, by_auto, falls_back, k_in_words, smoothing_name},
+    report::{Report, by_auto, falls_back, k_in_words},
     summary::{Ratios, References, Summary},
 };
 use crate::terminal::{
@@ -220,10 +220,10 @@ impl Report for TableReport<'_> {
         let setup = run.setup;
         self.queries = run.queries;
         self.world = run.map.frame.map(|frame| (frame, setup.rules.placement()));
-        self.moved = run.wishes.moved.filter(|moved| moved.iter().any(|&meters| meters > 0.0));
+        self.moved = run.query.moved.filter(|moved| moved.iter().any(|&meters| meters > 0.0));
         self.from_scenario = run.scenario.is_some();
-        self.may_differ = run.wishes.nearest || run.wishes.has_limits();
-        self.only_lengths = run.wishes.distance;
+        self.may_differ = run.query.wishes.nearest || run.query.wishes.has_limits();
+        self.only_lengths = run.query.distance;
         self.is_reference = setup.solves_scenarios();
         self.any_angle = run.reference.map_or("", Engine::name);
         self.may_fall_back = setup.engine.detour().is_some();
@@ -237,7 +237,7 @@ impl Report for TableReport<'_> {
         let name = setup.engine.kind().name();
         let mut parts = vec![name.to_owned()];
         parts.extend(options(run));
-        parts.extend(setup.smoothing.map(|smoothing| format!("smoothing {}", smoothing_name(smoothing))));
+        parts.extend(setup.smoothing.map(|smoothing| format!("smoothing {}", smoothing)));
         let last = parts.len() - 1;
         let words = parts.iter().enumerate();
         let words = words.map(|(i, part)| format!("{part}{}", if i < last { "," } else { " ·" }));
@@ -258,7 +258,7 @@ impl Report for TableReport<'_> {
         }
         let preparation = time(run.preparation.as_nanos() as f64);
         writeln!(self.screen, "{} · prepared in {preparation}", run.guarantee)?;
-        let wishes = run.wishes.in_words();
+        let wishes = run.query.in_words();
         if !wishes.is_empty() {
             let words = wishes.join(" · ");
             let words = words.split(' ').map(str::to_owned);
@@ -391,8 +391,8 @@ fn stop(screen: &mut Screen, stopped: &Stopped) -> io::Result<()> {
     let Stopped { by, best, lower_bound, .. } = stopped;
     let by = match by {
         Limit::Cost => " by --max-cost",
-        Limit::Expansions => " by --max-nodes",
-        Limit::Deadline => " by --deadline",
+        Limit::Expansions => " by --max-expansions",
+        Limit::Timeout => " by --timeout",
         _ => "",
     };
     writeln!(screen, "  stopped{by}: this path is the best so far, of length {:.4}", best.cost())?;

@@ -1,5 +1,7 @@
 //! Options for reading map files.
 
+use mediant_grid::names;
+
 use crate::{Fraction, Tiles};
 
 /// Which cells of a map are blocked: which pixels of a picture, which characters of a MovingAI map, and by
@@ -55,6 +57,8 @@ pub enum Unknown {
     /// They are free.
     Free,
 }
+
+names!(Unknown: Blocked => "blocked", Free => "free");
 
 /// The `map_server` whose rules make occupancies of the pixels of a ROS map.
 ///

@@ -2,7 +2,7 @@
 
 use mediant_moves::{FiniteK, K};
 
-use crate::{CornerRule, Rules};
+use crate::{CornerRule, Rules, names};
 
 /// Which points keep an agent's distance, and so what is free on the agent's map. What each is worth for a
 /// disc that moves is stated and proven [in `Clearance`](super::Clearance#guarantees).
@@ -21,6 +21,8 @@ pub enum Fit {
     /// above 0 keeps off all cells that touch a blocked one.
     WholeCells,
 }
+
+names!(Fit: Centers => "centers", WholeCells => "whole-cells");
 
 impl Fit {
     /// The looser one of the fits that keep a disc's radius along every path over N(k) under these rules.
@@ -52,3 +54,5 @@ pub enum Outside {
     /// inflate and the edge of the map does not.
     Open,
 }
+
+names!(Outside: Blocked => "blocked", Open => "open");

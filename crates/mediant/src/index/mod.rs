@@ -10,7 +10,7 @@ mod subgoals;
 
 use std::{num::NonZeroU32, sync::Arc};
 
-use mediant_grid::{Corners, FreeSpace, GridGraph, Identity, Interrupt};
+use mediant_grid::{Corners, FreeSpace, GridGraph, Identity, Interrupt, names};
 use mediant_moves::K;
 use mediant_search::{DeadEnds, JumpTable, Smoothing, parts::BlockFinder};
 use mediant_subgoal::{Progress, SubgoalPlacement};
@@ -18,12 +18,13 @@ use mediant_subgoal::{Progress, SubgoalPlacement};
 pub(crate) use self::parts::{InFreeSpace, OnGridGraph, Prepared};
 pub(crate) use self::source::Source;
 use crate::{
+    call::Call,
     configured::ConfiguredEngine,
     engine::Engine,
     error::Error,
     motion::Motion,
     option::{
-        EngineOption, OptionValue, Variant,
+        EngineOption, Levels, OptionValue, Variant,
         description::{LEVELS, SIDE},
     },
     scratch,
@@ -73,6 +74,13 @@ pub enum Origin {
     /// It is the index of an equal map.
     Unchanged,
 }
+
+names!(Origin:
+    Prepared => "prepared",
+    Loaded => "loaded",
+    Repaired => "repaired",
+    Unchanged => "unchanged",
+);
 
 impl Space {
     /// Prepares what an engine needs. The index belongs to this space; any number of planners share it.
@@ -203,6 +211,24 @@ impl Index {
     #[must_use]
     pub fn with_smoothing(self, smoothing: Option<Smoothing>) -> Self {
         Self { setup: Setup { smoothing, ..self.setup }, ..self }
+    }
+
+    /// The same index with the options and the smoothing of a call.
+    ///
+    /// # Errors
+    /// Those of [`with_options`](Self::with_options).
+    pub fn with_call(&self, call: &Call) -> Result<Self, Error> {
+        let engine = call.configured(self.setup.engine.kind())?;
+        Ok(self.clone().with_options(engine)?.with_smoothing(call.smoothing()))
+    }
+
+    /// The levels of its subgoal graph or clusters, or what it has instead; `None` for an index without any.
+    #[must_use]
+    pub fn levels(&self) -> Option<Levels> {
+        match self.value(&LEVELS) {
+            Some(OptionValue::Levels(levels)) => Some(levels),
+            _ => None,
+        }
     }
 
     /// The space that it belongs to.

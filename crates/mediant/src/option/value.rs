@@ -9,7 +9,7 @@ use super::{
     levels::{Levels, UnknownLevels},
     memory::{Memory, UnknownMemory},
 };
-use crate::names::{UnknownName, names};
+use mediant_grid::{names, names::UnknownName};
 
 /// The heuristic that guides a search.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -96,12 +96,13 @@ impl ValueKind {
         }
     }
 
-    /// The names of all values of this kind; empty for a kind whose values are not names.
+    /// The names among the values of this kind.
     pub(super) fn names(self) -> Vec<&'static str> {
         match self {
             Self::Heuristic => HeuristicName::ALL.map(HeuristicName::name).to_vec(),
             Self::Variant => Variant::ALL.map(Variant::name).to_vec(),
-            Self::Flag | Self::Number | Self::Levels | Self::Memory => Vec::new(),
+            Self::Levels => vec!["all", "contracted", "labels"],
+            Self::Flag | Self::Number | Self::Memory => Vec::new(),
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::{
     arrays::{PathPoints, rows_array},
     background::{detached, in_pool, on_thread},
     errors::{argument, raised},
-    keywords::{Keywords, Takes},
+    keywords::{Keywords, MOTION},
 };
 
 #[pymethods]
@@ -109,7 +109,7 @@ impl Grid {
         outside: Option<&Bound<'py, PyAny>>,
         motion: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Self> {
-        let motion = Keywords::read("for_disc", motion, Takes::MOTION)?.motion()?;
+        let motion = Keywords::read("for_disc", motion, MOTION)?.motion()?;
         let fit = read_fit(fit)?.unwrap_or_else(|| Fit::exact(motion.rules, motion.k));
         let (cells, outside) = (self.radius(radius, meters)?, read_outside(outside)?);
         let measured = move |clearance: &Clearance, limits: &Limits| {
@@ -233,10 +233,9 @@ impl Grid {
 
 fn read_fit(value: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Fit>> {
     let Some(value) = value.filter(|value| !value.is_none()) else { return Ok(None) };
-    word("fit", value, &[("centers", Fit::Centers), ("whole-cells", Fit::WholeCells)]).map(Some)
+    word("fit", value).map(Some)
 }
 
 fn read_outside(value: Option<&Bound<'_, PyAny>>) -> PyResult<Outside> {
-    let words = [("blocked", Outside::Blocked), ("open", Outside::Open)];
-    value.map_or(Ok(Outside::Blocked), |value| word("outside", value, &words))
+    value.map_or(Ok(Outside::Blocked), |value| word("outside", value))
 }

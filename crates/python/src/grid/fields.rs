@@ -9,7 +9,7 @@ use crate::{
     background::detached,
     errors::raised_for,
     field::Field,
-    keywords::{Keywords, Takes},
+    keywords::{Keywords, MOTION},
 };
 
 #[pymethods]
@@ -173,7 +173,7 @@ impl Grid {
         motion: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Field> {
         let py = sources.py();
-        let motion = Keywords::read(function, motion, Takes::MOTION)?.motion()?;
+        let motion = Keywords::read(function, motion, MOTION)?.motion()?;
         let sources = Points::read("sources", sources)?.into_vec();
         let limit =
             limit.filter(|limit| !limit.is_none()).map(|limit| positive("limit", limit)).transpose()?;

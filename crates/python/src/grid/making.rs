@@ -4,7 +4,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use mediant::{
     CornerRule, Identity, Limits, Map, PlacementKind, Rectangle, Rules,
-    files::{Fraction, MapOptions, RosVersion, Tiles, Unknown, WorldFrame},
+    files::{Fraction, MapOptions, RosVersion, Tiles, WorldFrame},
 };
 use mediant_formats::Picture;
 use pyo3::{
@@ -122,8 +122,7 @@ impl Grid {
         }
         options.invert = invert.map_or(Ok(false), |invert| flag("invert", invert))?;
         if let Some(unknown) = unknown {
-            let words = [("blocked", Unknown::Blocked), ("free", Unknown::Free)];
-            options.unknown = word("unknown", unknown, &words)?;
+            options.unknown = word("unknown", unknown)?;
         }
         if let Some(ros) = ros {
             options.ros = match integer("ros", ros, 1)? {

@@ -1,4 +1,4 @@
-//! Grids: maps, with the spaces and planners that were used last.
+//! Grids: maps with their place in the world.
 
 mod agents;
 mod fields;
@@ -7,15 +7,15 @@ mod motion;
 mod occupancy;
 mod queries;
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
-use mediant::{Choice, Engine, Error, Limits, Map, Motion, Planners, Setup, Space, files::WorldFrame};
+use mediant::{Error, Limits, Map, Motion, Planners, Space, files::WorldFrame};
 use pyo3::prelude::*;
 
 use crate::{
     background::{detached, in_pool, on_thread},
     errors::raised,
-    keywords::Keywords,
+    keywords::{Keywords, call_error},
 };
 
 /// A map: which cells are blocked. Cell (row, column) is counted from the top left corner.
@@ -78,39 +78,11 @@ pub(crate) struct Grid {
 struct Shared {
     map: Map,
     world: Option<WorldFrame>,
-    spaces: Recent<Motion, Space>,
-    planners: Recent<Setup, Arc<Planners>>,
-}
-
-/// The values that were used last, by key.
-struct Recent<K, V>(Mutex<Vec<(K, V)>>);
-
-impl<K: PartialEq, V: Clone> Recent<K, V> {
-    /// How many are kept. Who asks for more in turn should prepare an index each.
-    const MOST: usize = 4;
-
-    const fn new() -> Self {
-        Self(Mutex::new(Vec::new()))
-    }
-
-    fn get(&self, key: &K) -> Option<V> {
-        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let at = kept.iter().position(|(known, _)| known == key)?;
-        kept[..=at].rotate_right(1);
-        Some(kept[0].1.clone())
-    }
-
-    fn put(&self, key: K, value: V) {
-        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.insert(0, (key, value));
-        kept.truncate(Self::MOST);
-    }
 }
 
 impl Grid {
     pub(crate) fn new(map: Map, world: Option<WorldFrame>) -> Self {
-        let (spaces, planners) = (Recent::new(), Recent::new());
-        Self { shared: Arc::new(Shared { map, world, spaces, planners }) }
+        Self { shared: Arc::new(Shared { map, world }) }
     }
 
     pub(crate) fn map(&self) -> &Map {
@@ -128,55 +100,32 @@ impl Grid {
     }
 
     fn space_within(&self, py: Python<'_>, motion: Motion, limits: Limits) -> PyResult<Result<Space, Error>> {
-        if let Some(space) = self.shared.spaces.get(&motion) {
+        if let Some(space) = self.map().kept_space(motion) {
             return Ok(Ok(space));
         }
         let map = self.map().clone();
-        let space = detached(py, self.cells(), limits, move |limits| map.within(limits).space(motion))?;
-        if let Ok(space) = &space {
-            self.shared.spaces.put(motion, space.clone());
-        }
-        Ok(space)
+        detached(py, self.cells(), limits, move |limits| map.keep_space(motion, limits))
     }
 
-    /// The planners of an engine, kept for the next call: of the one that was asked for, or of one that
-    /// prepares little. Within, [`Error::Stopped`] by the time limit of the call.
+    /// The planners of a call, kept for the next one. Within, [`Error::Stopped`] by its time limit.
     fn planners(&self, py: Python<'_>, keywords: &Keywords) -> PyResult<Result<Arc<Planners>, Error>> {
-        let motion = keywords.motion()?;
-        let setup = |engine: Engine| -> PyResult<Setup> {
-            let mut setup = Setup::new(keywords.configured(engine)?, motion.k, motion.rules);
-            setup.smoothing = keywords.smoothing;
-            Ok(setup)
-        };
-        let engine = keywords.engine.unwrap_or_else(|| Choice::for_next_path(motion, self.map()).engine);
-        let setup = setup(engine)?;
-        if let Some(planners) = self.shared.planners.get(&setup) {
+        let setup = self.map().setup(&keywords.call).map_err(call_error)?;
+        if let Some(planners) = self.map().kept_planners(&setup) {
             return Ok(Ok(planners));
         }
-        let limits = keywords.preparation();
-        let space = match self.space_within(py, motion, limits.clone())? {
-            Ok(space) => space,
-            Err(error) => return stopped(error),
-        };
-        let prepare = move |limits: &Limits| space.within(limits).prepare(setup.engine);
-        let index = if setup.index_version().is_err() {
+        let (map, limits) = (self.map().clone(), keywords.preparation());
+        let prepare = move |limits: &Limits| map.keep_planners(&setup, limits);
+        let planners = if setup.index_version().is_err() {
             detached(py, self.cells(), limits, prepare)?
         } else {
             on_thread(py, limits, move |limits| in_pool(None, || prepare(limits)), |_| Ok(()))?
         };
-        let index = match index {
-            Ok(index) => index.with_smoothing(setup.smoothing),
-            Err(error) => return stopped(error),
-        };
-        let planners = Arc::new(Planners::new(index));
-        self.shared.planners.put(setup, Arc::clone(&planners));
-        Ok(Ok(planners))
+        match planners {
+            Ok(planners) => Ok(Ok(planners)),
+            Err(error) if matches!(error, Error::Stopped { .. }) => Ok(Err(error)),
+            Err(error) => Err(raised(error)),
+        }
     }
-}
-
-/// An error that a limit caused; others are raised.
-fn stopped<T>(error: Error) -> PyResult<Result<T, Error>> {
-    if matches!(error, Error::Stopped { .. }) { Ok(Err(error)) } else { Err(raised(error)) }
 }
 
 impl PartialEq for Grid {

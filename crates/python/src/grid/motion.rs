@@ -7,7 +7,7 @@ use super::Grid;
 use crate::{
     arguments::{path_points, point as vertex},
     errors::broken,
-    keywords::{Keywords, Takes},
+    keywords::{Keywords, MOTION},
 };
 
 #[pymethods]
@@ -200,6 +200,6 @@ impl Grid {
         py: Python<'_>,
         motion: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<mediant::Space> {
-        self.space(py, Keywords::read(function, motion, Takes::MOTION)?.motion()?)
+        self.space(py, Keywords::read(function, motion, MOTION)?.motion()?)
     }
 }

@@ -1,6 +1,9 @@
 //! Grids of robots: from the cells of an occupancy message, with a place in the world.
 
-use mediant::{Map, files::WorldFrame};
+use mediant::{
+    Map,
+    files::{Unknown, WorldFrame},
+};
 use numpy::{PyArrayDescrMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::{exceptions::PyTypeError, prelude::*};
 
@@ -83,8 +86,8 @@ impl Grid {
         let rows = rows(occupancy, side("width", width)?, side("height", height)?)?;
         let occupied = percent("occupied", occupied, 65.0)?;
         let free = percent("free", free, 25.0)?;
-        let words = [("blocked", true), ("free", false)];
-        let blocks_unknown = unknown.map_or(Ok(true), |unknown| word("unknown", unknown, &words))?;
+        let unknown = unknown.map_or(Ok(Unknown::Blocked), |unknown| word("unknown", unknown))?;
+        let blocks_unknown = unknown == Unknown::Blocked;
         let meets = |method: &str, limit: f64| rows.call_method1(method, (limit,));
         let both =
             |a: Bound<'_, PyAny>, b: Bound<'_, PyAny>| a.call_method1("__and__", (b,)).map(Bound::unbind);

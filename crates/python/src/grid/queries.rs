@@ -5,7 +5,7 @@ use std::sync::{
     atomic::{AtomicUsize, Ordering},
 };
 
-use mediant::{Error, Limit, Limits, Outcome, Progress, Stage, Stopped};
+use mediant::{Demand, Error, Limit, Limits, Outcome, Progress, Stage, Stopped};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 
@@ -18,7 +18,7 @@ use crate::{
     batch::{callback, read_threads},
     errors::raised,
     index::{Asked, Index},
-    keywords::{Keywords, Takes, read_engine},
+    keywords::{ALL, Keywords, OPTIONS, PREPARATION},
 };
 
 #[pymethods]
@@ -71,7 +71,7 @@ impl Grid {
         points: Option<&Bound<'py, PyAny>>,
         how: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
-        let keywords = Keywords::read("path", how, Takes::ALL)?;
+        let keywords = Keywords::read("path", how, ALL)?;
         let planners = match self.planners(py, &keywords)? {
             Ok(planners) => planners,
             Err(error) => return Err(self.unprepared(&keywords, start, &error, points)?.1),
@@ -113,7 +113,7 @@ impl Grid {
         goal: &Bound<'py, PyAny>,
         how: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<f64> {
-        let keywords = Keywords::read("distance", how, Takes::ALL)?;
+        let keywords = Keywords::read("distance", how, ALL)?;
         let planners = match self.planners(py, &keywords)? {
             Ok(planners) => planners,
             Err(error) => return Err(self.unprepared(&keywords, start, &error, None)?.1),
@@ -202,7 +202,7 @@ impl Grid {
         counters: Option<&Bound<'py, PyAny>>,
         how: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Answer> {
-        let keywords = Keywords::read("find", how, Takes::ALL)?;
+        let keywords = Keywords::read("find", how, ALL)?;
         let planners = match self.planners(py, &keywords)? {
             Ok(planners) => planners,
             Err(error) => return Ok(self.unprepared(&keywords, start, &error, points)?.0),
@@ -270,22 +270,21 @@ impl Grid {
         progress: Option<&Bound<'py, PyAny>>,
         how: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Index> {
-        let mut keywords = Keywords::read("prepare", how, Takes::PREPARATION)?;
-        keywords.engine = read_engine(engine)?;
+        let keywords = Keywords::read("prepare", how, PREPARATION)?.with("engine", engine)?;
         let (threads, progress) = (read_threads(threads)?, callback(progress)?);
         let space = self.space(py, keywords.motion()?)?;
-        let engine = keywords.configured(keywords.engine.unwrap_or_else(|| space.engine().engine))?;
+        let (setup, _) = space.setup(&keywords.call, Demand::Paths(u64::MAX)).map_err(raised)?;
         let told = Arc::new(Told::default());
         let teller = Arc::clone(&told);
         let work = move |limits: &Limits| {
             let tell = |progress| teller.tell(progress);
-            in_pool(threads, || space.within(limits).prepare_with_progress(engine, &tell))
+            in_pool(threads, || space.within(limits).prepare_with_progress(setup.engine, &tell))
         };
         let index = on_thread(py, Limits::new(), work, |_| match (&progress, told.last()) {
             (Some(progress), Some(last)) => progress.call1(last).map(drop),
             _ => Ok(()),
         })?;
-        let index = index.map_err(raised)?.with_smoothing(keywords.smoothing);
+        let index = index.map_err(raised)?.with_smoothing(setup.smoothing);
         if let (Some(progress), Some(last)) = (&progress, told.last()) {
             progress.call1(last)?;
         }
@@ -325,7 +324,7 @@ impl Grid {
         path: &Bound<'_, PyAny>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Index> {
-        let (path, keywords) = (file("path", path)?, Keywords::read("load", options, Takes::OPTIONS)?);
+        let (path, keywords) = (file("path", path)?, Keywords::read("load", options, OPTIONS)?);
         let map = self.map().clone();
         let work = move |limits: &Limits| map.within(limits).load(path);
         let index = detached(py, u64::MAX, Limits::new(), work)?.map_err(raised)?;
@@ -361,7 +360,7 @@ impl Grid {
         data: &Bound<'_, PyAny>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Index> {
-        let keywords = Keywords::read("index_from_bytes", options, Takes::OPTIONS)?;
+        let keywords = Keywords::read("index_from_bytes", options, OPTIONS)?;
         let (map, data) = (self.map().clone(), bytes("data", data)?);
         let work = move |limits: &Limits| map.within(limits).index_from_bytes(data);
         let index = detached(py, u64::MAX, Limits::new(), work)?.map_err(raised)?;
@@ -378,7 +377,7 @@ impl Grid {
         error: &Error,
         points: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<(Answer, PyErr)> {
-        let by = if let Error::Stopped { by, .. } = error { *by } else { Limit::Deadline };
+        let by = if let Error::Stopped { by, .. } = error { *by } else { Limit::Timeout };
         let start_at = Points::read("start", start)?.as_slice().first().copied().unwrap_or_default();
         let outcome = Outcome::Stopped(Stopped::before_search(by, start_at));
         let (points, placement) = (PathPoints::read(points)?, keywords.motion()?.rules.placement());
@@ -387,12 +386,9 @@ impl Grid {
 
     /// An index that was read, with the options of a call.
     fn with_options(&self, index: mediant::Index, keywords: &Keywords) -> PyResult<Index> {
-        if !keywords.has_options() {
-            return Ok(Index::new(self.clone(), index));
-        }
-        let engine = keywords.configured(index.setup().engine.kind())?;
-        let index = index.with_options(engine).map_err(raised)?;
-        Ok(Index::new(self.clone(), index.with_smoothing(keywords.smoothing)))
+        let call = &keywords.call;
+        let index = if call.has_options() { index.with_call(call).map_err(raised)? } else { index };
+        Ok(Index::new(self.clone(), index))
     }
 }
 
@@ -406,23 +402,15 @@ struct Told {
 }
 
 impl Told {
-    const STAGES: [(Stage, &'static str); 4] = [
-        (Stage::Edges, "edges"),
-        (Stage::Hierarchy, "hierarchy"),
-        (Stage::Sight, "sight"),
-        (Stage::Labels, "labels"),
-    ];
-
     fn tell(&self, progress: Progress) {
-        let stage = Self::STAGES.iter().position(|&(stage, _)| stage == progress.stage).unwrap_or_default();
         self.done.store(progress.done, Ordering::Relaxed);
         self.total.store(progress.total, Ordering::Relaxed);
-        self.stage.store(stage + 1, Ordering::Relaxed);
+        self.stage.store(progress.stage as usize + 1, Ordering::Relaxed);
     }
 
     fn last(&self) -> Option<(&'static str, usize, usize)> {
         let stage = self.stage.load(Ordering::Relaxed).checked_sub(1)?;
-        let (_, name) = Self::STAGES.get(stage)?;
+        let name = Stage::ALL.get(stage)?.name();
         Some((name, self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed)))
     }
 }

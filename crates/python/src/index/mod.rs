@@ -10,7 +10,7 @@ use mediant::{Guarantee, Index as Prepared, K, Levels, Planners, Setup};
 use pyo3::prelude::*;
 
 pub(crate) use self::queries::Asked;
-use crate::{background::levels, grid::Grid};
+use crate::grid::Grid;
 
 /// What an engine prepared of a grid: paths in microseconds.
 ///
@@ -114,7 +114,7 @@ impl Index {
     /// The levels of its subgoal graph or clusters, or what it has instead.
     #[getter]
     fn levels<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-        Ok(match levels(self.planners.index()) {
+        Ok(match self.planners.index().levels() {
             Some(Levels::Number(number)) => Some(number.get().into_pyobject(py)?.into_any()),
             Some(levels) => Some(levels.to_string().into_pyobject(py)?.into_any()),
             None => None,
@@ -136,12 +136,7 @@ impl Index {
     /// How it came about.
     #[getter]
     fn origin(&self) -> &'static str {
-        match self.planners.index().origin() {
-            mediant::Origin::Loaded => "loaded",
-            mediant::Origin::Repaired => "repaired",
-            mediant::Origin::Unchanged => "unchanged",
-            _ => "prepared",
-        }
+        self.planners.index().origin().name()
     }
 
     /// What is guaranteed of its paths.

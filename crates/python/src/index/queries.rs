@@ -13,7 +13,7 @@ use crate::{
     arrays::PathPoints,
     background::{Interruption, is_watched, on_thread},
     errors::raised,
-    keywords::{Keywords, Takes},
+    keywords::{Keywords, WISHES},
 };
 
 /// A query on planners, as it was asked.
@@ -33,7 +33,7 @@ impl Asked<'_, '_> {
     /// The query, if no more is asked than a path from one vertex to another.
     fn plain(&self, (start, goal): &(Points, Points)) -> Option<Query> {
         match (start, goal) {
-            (Points::One(start), Points::One(goal)) if self.keywords.has_no_wishes() => {
+            (Points::One(start), Points::One(goal)) if self.keywords.call.wishes().is_none() => {
                 Some(Query::new(*start, *goal))
             }
             _ => None,
@@ -43,7 +43,8 @@ impl Asked<'_, '_> {
     /// Answers it with the GIL released.
     fn outcome(&self, ends: &(Points, Points), counts: bool) -> PyResult<(Outcome, Option<Counters>)> {
         let is_plain = self.plain(ends).is_some();
-        let is_watched = self.keywords.timeout().is_some() || is_watched(self.planners.index(), is_plain);
+        let is_watched =
+            self.keywords.call.wishes().timeout.is_some() || is_watched(self.planners.index(), is_plain);
         let ready = if is_watched && !self.planners.is_ready() {
             let planners = Arc::clone(self.planners);
             on_thread(self.start.py(), Limits::new(), move |_| planners.try_make_ready(), |_| Ok(()))?
@@ -89,7 +90,7 @@ impl Asked<'_, '_> {
         let setup = index.setup();
         let (outcome, placement) = (self.outcome(&ends, false)?.0, setup.rules.placement());
         let outcome = answer::whole(py, outcome, PathPoints::Waypoints, placement)?;
-        Ok(answer::distance(setup.guarantee(), &outcome))
+        Ok(mediant::Answer::new(&outcome, setup.guarantee()).distance())
     }
 
     /// `find`.
@@ -150,7 +151,7 @@ impl Index {
         points: Option<&Bound<'py, PyAny>>,
         wishes: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
-        let keywords = Keywords::read("path", wishes, Takes::WISHES)?;
+        let keywords = Keywords::read("path", wishes, WISHES)?;
         Asked { planners: &self.planners, start, goal, keywords }.path(py, points)
     }
 
@@ -187,7 +188,7 @@ impl Index {
         goal: &Bound<'py, PyAny>,
         wishes: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<f64> {
-        let keywords = Keywords::read("distance", wishes, Takes::WISHES)?;
+        let keywords = Keywords::read("distance", wishes, WISHES)?;
         Asked { planners: &self.planners, start, goal, keywords }.distance(py)
     }
 
@@ -234,7 +235,7 @@ impl Index {
         counters: Option<&Bound<'py, PyAny>>,
         wishes: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Answer> {
-        let keywords = Keywords::read("find", wishes, Takes::WISHES)?;
+        let keywords = Keywords::read("find", wishes, WISHES)?;
         Asked { planners: &self.planners, start, goal, keywords }.find(py, points, counters)
     }
 }

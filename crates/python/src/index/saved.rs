@@ -12,7 +12,7 @@ use crate::{
     background::{detached, in_pool, on_thread},
     errors::{raised, wrong_type},
     grid::Grid,
-    keywords::{Keywords, Takes},
+    keywords::{Keywords, OPTIONS},
 };
 
 #[pymethods]
@@ -44,10 +44,8 @@ impl Index {
     /// 'astar:3:never,euclidean'
     #[pyo3(signature = (**options))]
     fn with_options(&self, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let keywords = Keywords::read("with_options", options, Takes::OPTIONS)?;
-        let index = self.planners.index().clone();
-        let engine = keywords.configured(index.setup().engine.kind())?;
-        let index = index.with_options(engine).map_err(raised)?.with_smoothing(keywords.smoothing);
+        let keywords = Keywords::read("with_options", options, OPTIONS)?;
+        let index = self.planners.index().with_call(&keywords.call).map_err(raised)?;
         Ok(Self::new(self.grid.clone(), index))
     }
 

@@ -5,7 +5,7 @@ use std::{
     sync::{Arc, atomic::AtomicBool},
 };
 
-use mediant_grid::{Interrupt, StoppedBy, Vertex};
+use mediant_grid::{Interrupt, StoppedBy, Vertex, names};
 use mediant_moves::Cost;
 
 use crate::{limit::greatest_cost, path::Path, query::QueryError};
@@ -40,8 +40,8 @@ pub enum Limit {
     Cost,
     /// The number of expansions.
     Expansions,
-    /// The deadline.
-    Deadline,
+    /// The deadline, which is that of a time limit.
+    Timeout,
     /// The flag that cancels it.
     Cancelled,
 }
@@ -50,21 +50,12 @@ impl From<StoppedBy> for Limit {
     fn from(by: StoppedBy) -> Self {
         match by {
             StoppedBy::Cancelled => Self::Cancelled,
-            _ => Self::Deadline,
+            _ => Self::Timeout,
         }
     }
 }
 
-impl fmt::Display for Limit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::Cost => "cost",
-            Self::Expansions => "expansions",
-            Self::Deadline => "deadline",
-            Self::Cancelled => "cancelled",
-        })
-    }
-}
+names!(Limit: Cost => "cost", Expansions => "expansions", Timeout => "timeout", Cancelled => "cancelled");
 
 /// The answer of a search that was stopped.
 #[derive(Clone, Debug, PartialEq)]
@@ -149,7 +140,8 @@ impl Limits {
     }
 
     /// Whether there are none.
-    pub(super) const fn are_none(&self) -> bool {
+    #[must_use]
+    pub const fn are_none(&self) -> bool {
         self.cost.is_none() && self.expansions.is_none() && self.interrupt.is_never()
     }
 
@@ -166,7 +158,7 @@ impl Limits {
         if self.interrupt.is_cancelled() {
             return Some(Limit::Cancelled);
         }
-        (looks_at_deadline && self.interrupt.is_over()).then_some(Limit::Deadline)
+        (looks_at_deadline && self.interrupt.is_over()).then_some(Limit::Timeout)
     }
 }
 

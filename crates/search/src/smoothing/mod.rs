@@ -9,7 +9,7 @@ mod taut;
 
 use std::ops::Deref;
 
-use mediant_grid::{FreeSpace, GridGraph, Identity, Mismatch, Placement, Vertex};
+use mediant_grid::{FreeSpace, GridGraph, Identity, Mismatch, Placement, Vertex, names};
 
 pub use self::{linear::smooth, taut::pull_taut};
 
@@ -29,6 +29,8 @@ pub enum Smoothing {
     /// By [`pull_taut`]: until no waypoint can be left out or moved.
     Taut,
 }
+
+names!(Smoothing: Linear => "linear", Taut => "taut");
 
 impl Smoothing {
     /// Smooths a path.

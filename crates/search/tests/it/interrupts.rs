@@ -118,6 +118,6 @@ fn limits_hold_an_interrupt() {
     let stopped = limits.interrupt().check("waiting").expect_err("the flag is set");
     assert_eq!(Limit::from(stopped.by), Limit::Cancelled);
     let late = Limits::new().deadline(|| true).interrupt().check("waiting").expect_err("it is late");
-    assert_eq!(Limit::from(late.by), Limit::Deadline);
+    assert_eq!(Limit::from(late.by), Limit::Timeout);
     assert!(Limits::new().cost(3.0).expansions(4).interrupt().is_never());
 }

@@ -8,7 +8,7 @@ use super::Grid;
 use crate::{
     arguments::{integer_32, positive, room},
     errors::raised,
-    keywords::{Keywords, Takes},
+    keywords::{Keywords, MOTION},
 };
 
 #[wasm_bindgen]
@@ -37,7 +37,7 @@ impl Grid {
         #[wasm_bindgen(unchecked_param_type = "number")] radius: &JsValue,
         #[wasm_bindgen(unchecked_optional_param_type = "Motion")] motion: &JsValue,
     ) -> Result<Self, JsValue> {
-        let motion = Keywords::read("motion", motion, Takes::MOTION)?.motion()?;
+        let motion = Keywords::read("motion", motion, MOTION)?.motion()?;
         let map = self.map.for_disc(positive("radius", radius)?, motion);
         Ok(Self::new(map.map_err(raised)?))
     }

@@ -4,17 +4,14 @@ mod agents;
 mod queries;
 mod reading;
 
-use std::{cell::RefCell, rc::Rc};
-
 use js_sys::{Array, ArrayBuffer, Uint8Array, Uint8ClampedArray};
 use mediant::{Grid as Bits, Map, Rectangle, errors::NO_COSTS};
 use wasm_bindgen::{JsCast, prelude::*};
 
-use self::queries::Last;
 use crate::{
     arguments::{bytes, integer, integer_32, room, text},
     errors::{argument, raised, wrong_type},
-    keywords::{Keywords, Takes},
+    keywords::{Keywords, MOTION},
     space::Space,
 };
 
@@ -30,12 +27,11 @@ use crate::{
 #[wasm_bindgen]
 pub struct Grid {
     pub(crate) map: Map,
-    last: Rc<RefCell<Option<Last>>>,
 }
 
 impl Grid {
     pub(crate) fn new(map: Map) -> Self {
-        Self { map, last: Rc::default() }
+        Self { map }
     }
 }
 
@@ -151,14 +147,14 @@ impl Grid {
         &self,
         #[wasm_bindgen(unchecked_optional_param_type = "Motion")] motion: &JsValue,
     ) -> Result<Space, JsValue> {
-        let motion = Keywords::read("motion", motion, Takes::MOTION)?.motion()?;
+        let motion = Keywords::read("motion", motion, MOTION)?.motion()?;
         Space::of(&self.map, motion)
     }
 
     /// A second handle to the same map, for arguments of calls.
     #[wasm_bindgen(js_name = __share, skip_typescript)]
     pub fn share(&self) -> Self {
-        Self { map: self.map.clone(), last: Rc::clone(&self.last) }
+        Self { map: self.map.clone() }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Paths at once.
 
 use js_sys::Int32Array;
-use mediant::{Choice, Outcome, Planner, Setup, Space};
+use mediant::{Error, ErrorCode, Outcome};
 use wasm_bindgen::prelude::*;
 
 use super::Grid;
@@ -9,15 +9,10 @@ use crate::{
     answer::flat,
     arguments::Points,
     errors::{coded, raised},
-    keywords::{Keywords, Takes},
+    keywords::{ALL, Keywords, call_error},
+    memory,
+    space::vertices,
 };
-
-/// The space and the planner of the last path, for the next one.
-pub(super) struct Last {
-    setup: Setup,
-    space: Space,
-    planner: Planner,
-}
 
 #[wasm_bindgen]
 impl Grid {
@@ -40,41 +35,30 @@ impl Grid {
         #[wasm_bindgen(unchecked_param_type = "Points")] goal: &JsValue,
         #[wasm_bindgen(unchecked_optional_param_type = "How")] how: &JsValue,
     ) -> Result<Option<Int32Array>, JsValue> {
-        let keywords = Keywords::read("how", how, Takes::ALL)?;
+        let keywords = Keywords::read("how", how, ALL)?;
         let (start, goal) = (Points::read("start", start)?, Points::read("goal", goal)?);
-        let motion = keywords.motion()?;
-        // It is kept elsewhere while it searches: a clock could call back.
-        let kept = self.last.try_borrow_mut().ok().and_then(|mut last| last.take());
-        let kept = kept.filter(|last| last.setup.motion() == motion);
-        // Not another one for the first path: the same call would give another path of the same length.
-        let engine = keywords.engine.unwrap_or(Choice::for_next_path(motion, &self.map).engine);
-        let setup = Setup {
-            smoothing: keywords.smoothing,
-            ..Setup::new(keywords.configured(engine)?, motion.k, motion.rules)
-        };
         // The time of the call begins before what it prepares.
         let request = keywords.request(&start, &goal);
-        let mut last = match kept {
-            Some(last) if last.setup == setup => last,
-            kept => {
-                let limits = request.limits();
-                let space = kept.map(|last| last.space);
-                let (space, planner) = crate::space::planner(setup, &self.map, space, &limits)?;
-                Last { setup, space, planner }
-            }
-        };
-        let answer = last.planner.find(request);
-        if let Ok(mut kept) = self.last.try_borrow_mut() {
-            *kept = Some(last);
+        let setup = self.map.setup(&keywords.call).map_err(call_error)?;
+        if self.map.kept_planners(&setup).is_none() {
+            let bytes = memory::SPACE + memory::INDEX + memory::PLANNER;
+            memory::check("the search", vertices(&self.map), bytes)?;
         }
-        match answer.map_err(raised)? {
+        let planners = self.map.keep_planners(&setup, &request.limits()).map_err(|error| match error {
+            Error::Stopped { .. } => {
+                coded(ErrorCode::Stopped, &format!("{error}: nothing was searched; allow more time"))
+            }
+            error => raised(error),
+        })?;
+        planners.try_make_ready().map_err(raised)?;
+        match planners.find(request).map_err(raised)? {
             Outcome::Stopped(stopped) => {
                 let text = format!(
                     "the search was stopped by its limit ({}): no path is shorter than {:.3} cells; Planner.find \
                      gives the best so far",
                     stopped.by, stopped.lower_bound
                 );
-                Err(coded("stopped", &text))
+                Err(coded(ErrorCode::Stopped, &text))
             }
             outcome => Ok(outcome.path().map(flat)),
         }

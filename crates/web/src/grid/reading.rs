@@ -4,9 +4,9 @@ use std::path::Path;
 
 use js_sys::{Array, Uint8Array};
 use mediant::{
-    Error, Map,
+    Error, ErrorCode, Map,
     errors::ReadError,
-    files::{Fraction, MapOptions, RosVersion, Tiles, Unknown},
+    files::{Fraction, MapOptions, RosVersion, Tiles},
 };
 use mediant_formats::MapFile;
 use wasm_bindgen::{JsCast, prelude::*};
@@ -115,7 +115,7 @@ impl Files {
                 "{}: the picture that the key `image` names is missing: give it as files['{name}']",
                 self.name
             );
-            return coded("file-missing", &text);
+            return coded(ErrorCode::FileMissing, &text);
         }
         raised(error)
     }
@@ -134,8 +134,7 @@ fn map_options(given: &JsValue) -> Result<MapOptions, JsValue> {
             }
             "invert" => options.invert = flag(&key, &value)?,
             "unknown" => {
-                options.unknown =
-                    word(&key, &value, &[("blocked", Unknown::Blocked), ("free", Unknown::Free)])?;
+                options.unknown = word(&key, &value)?;
             }
             "ros" => {
                 options.ros = match value.as_f64() {

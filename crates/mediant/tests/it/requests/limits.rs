@@ -251,7 +251,7 @@ fn check_deadline(world: &World, setup: Setup, planner: &mut Planner, known: &Kn
         let (answer, seen, log) = ask(planner, over);
         assert_eq!(seen, all[..=over], "{}", text());
         let stopped = stopped(answer).unwrap_or_else(|| panic!("{}", text()));
-        assert_eq!((stopped.by, planner.expansions()), (Limit::Deadline, all[over]), "{}", text());
+        assert_eq!((stopped.by, planner.expansions()), (Limit::Timeout, all[over]), "{}", text());
         check_stopped(world, setup, planner, known, &stopped, (&log, f64::INFINITY));
     }
     all.len() - 1

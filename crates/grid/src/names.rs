@@ -1,17 +1,18 @@
-//! Enums whose values have names that people type.
+//! Enums whose values have names that people type: the one place where a word stands.
 
 /// The error for a text that is none of an enum's names.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected one of {known}, found `{found}`")]
 pub struct UnknownName {
-    /// What was found.
+    /// The text.
     pub found: String,
     /// All names, separated by commas.
     pub known: String,
 }
 
 /// A name as it is compared: small letters, without hyphens, underscores and spaces, `+` and `*` as words.
-pub(crate) fn letters(text: &str) -> String {
+#[must_use]
+pub fn letters(text: &str) -> String {
     let mut letters = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {
@@ -26,15 +27,21 @@ pub(crate) fn letters(text: &str) -> String {
 
 /// Whether a text means a name: they are the same but for capitals, hyphens, underscores and spaces, `+` for
 /// `plus` and `*` for `star`. People write the star of an algorithm that the name leaves out (`Theta*`).
-pub(crate) fn means(text: &str, name: &str) -> bool {
+#[must_use]
+pub fn means(text: &str, name: &str) -> bool {
+    if text == name {
+        return true;
+    }
     let (text, name) = (letters(text), letters(name));
     text == name || text.strip_suffix("star") == Some(&*name)
 }
 
 /// Gives an enum `ALL`, `name`, [`Display`](std::fmt::Display) and [`FromStr`](std::str::FromStr) by the name
-/// of each variant, or what [`means`] it.
+/// of each variant, or what [`means`](crate::names::means) it, or another name that is read, too.
+#[macro_export]
+#[doc(hidden)]
 macro_rules! names {
-    ($type:ident: $($variant:ident => $name:literal),+ $(,)?) => {
+    ($type:ident: $($variant:ident => $name:literal $(| $other:literal)*),+ $(,)?) => {
         impl $type {
             /// All values.
             pub const ALL: [Self; [$($name),+].len()] = [$(Self::$variant),+];
@@ -56,15 +63,15 @@ macro_rules! names {
             type Err = $crate::names::UnknownName;
 
             fn from_str(text: &str) -> Result<Self, $crate::names::UnknownName> {
-                Self::ALL.into_iter().find(|value| $crate::names::means(text, value.name())).ok_or_else(|| {
-                    $crate::names::UnknownName {
-                        found: text.to_owned(),
-                        known: Self::ALL.map(Self::name).join(", "),
+                let means = $crate::names::means;
+                $(
+                    if means(text, $name) $(|| means(text, $other))* {
+                        return Ok(Self::$variant);
                     }
-                })
+                )+
+                let known = Self::ALL.map(Self::name).join(", ");
+                Err($crate::names::UnknownName { found: text.to_owned(), known })
             }
         }
     };
 }
-
-pub(crate) use names;

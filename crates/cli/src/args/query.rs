@@ -4,11 +4,11 @@
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use mediant::Exceptions;
+use mediant::{Exceptions, call::Wishes};
 use mediant_grid::{PlacementKind, Vertex};
-use mediant_search::{Limits, Query, Request};
+use mediant_search::{Query, Request};
 
-use super::value::{Place, parse_amount, parse_place, parse_whole};
+use super::value::{Place, parse_place};
 use crate::{
     failure::Failure,
     map::Map,
@@ -17,7 +17,7 @@ use crate::{
 
 /// Which path is asked for between which ends, and what stops the search for it.
 #[derive(Args, Clone, Debug)]
-pub(crate) struct WishArgs {
+pub(crate) struct QueryArgs {
     /// The start of a single query. Of several (repeat it), the one with the shortest path is taken
     #[arg(id = "from", long = "from", value_name = "X,Y", requires = "aim")]
     #[arg(allow_hyphen_values = true, value_parser = parse_place)]
@@ -36,19 +36,10 @@ pub(crate) struct WishArgs {
     #[arg(skip)]
     pub(crate) moved: Option<[f64; 2]>,
     /// Measure the path of each query without making it: with hub labels this takes less time
-    #[arg(long, conflicts_with_all = ["tolerance", "nearest", "snap", "max_cost", "max_nodes", "deadline"])]
+    #[arg(long, conflicts_with_all = ["tolerance", "nearest", "snap", "max-cost"])]
+    #[arg(conflicts_with_all = ["max-expansions", "timeout"])]
     #[arg(conflicts_with_all = ["distances", "draw", "trace"])]
     pub(crate) distance: bool,
-    /// Let paths end at any free vertex at most so far from the goal, in a straight line
-    #[arg(long, value_name = "CELLS", conflicts_with_all = ["distances", "trace"])]
-    #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_amount(text, "cells"))]
-    pub(crate) tolerance: Option<f64>,
-    /// Where there is no way to the goal, find the path to the reachable vertex nearest to it
-    #[arg(long, conflicts_with_all = ["distances", "trace"])]
-    pub(crate) nearest: bool,
-    /// Move each start and goal that is blocked or outside the map to the free vertex nearest to it
-    #[arg(long, conflicts_with = "distances")]
-    pub(crate) snap: bool,
     /// Starts and goals count as free, also where the map has them as blocked: agents mark their own cells
     #[arg(long, conflicts_with_all = ["distance", "distances", "trace"])]
     pub(crate) free_ends: bool,
@@ -63,64 +54,51 @@ pub(crate) struct WishArgs {
     /// The cells of `--block` and `--unblock`, once the map is known.
     #[arg(skip)]
     pub(crate) cells: [Vec<Vertex>; 2],
-    /// Stop a search once every path that is left costs more than this
-    #[arg(long, value_name = "CELLS", conflicts_with = "distances")]
-    #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_amount(text, "cells"))]
-    pub(crate) max_cost: Option<f64>,
-    /// Stop a search after N expanded nodes
-    #[arg(long, value_name = "N", conflicts_with = "distances")]
-    #[arg(allow_negative_numbers = true, value_parser = parse_whole)]
-    pub(crate) max_nodes: Option<u64>,
-    /// Stop a search after so many milliseconds
-    #[arg(long, value_name = "MS", conflicts_with_all = ["distances", "trace"])]
-    #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_amount(text, "milliseconds"))]
-    pub(crate) deadline: Option<f64>,
+    /// What is asked beyond the ends, with lengths in cells once the map is known.
+    #[arg(skip)]
+    pub(crate) wishes: Wishes,
 }
 
-impl WishArgs {
+impl QueryArgs {
     /// Finds the vertices at the places that were named, and measures lengths in cells.
-    pub(crate) fn on(&self, map: &Map, placement: PlacementKind) -> Result<Self, Failure> {
+    pub(crate) fn on(&self, wishes: &Wishes, map: &Map, placement: PlacementKind) -> Result<Self, Failure> {
         let vertices = |places: &[Place]| -> Result<Vec<Vertex>, Failure> {
             places.iter().map(|&place| map.vertex(placement, place)).collect()
         };
-        let mut wishes = self.clone();
-        (wishes.from, wishes.to) = (vertices(&self.from_places)?, vertices(&self.to_places)?);
+        let mut asked = self.clone();
+        asked.wishes = wishes.clone();
+        (asked.from, asked.to) = (vertices(&self.from_places)?, vertices(&self.to_places)?);
         let cells = |places: &[Place]| -> Result<Vec<Vertex>, Failure> {
             places.iter().map(|&place| map.vertex(PlacementKind::Center, place)).collect()
         };
-        wishes.cells = [cells(&self.blocked_places)?, cells(&self.free_places)?];
+        asked.cells = [cells(&self.blocked_places)?, cells(&self.free_places)?];
         if let Some(frame) = map.frame {
             if !self.from_places.is_empty() {
-                let starts = map.moved(placement, &self.from_places, &wishes.from);
-                let goals = map.moved(placement, &self.to_places, &wishes.to);
-                wishes.moved = starts.zip(goals).map(Into::into);
+                let starts = map.moved(placement, &self.from_places, &asked.from);
+                let goals = map.moved(placement, &self.to_places, &asked.to);
+                asked.moved = starts.zip(goals).map(Into::into);
             }
             let cells = |meters: f64| frame.cells(meters);
-            (wishes.tolerance, wishes.max_cost) = (self.tolerance.map(cells), self.max_cost.map(cells));
+            asked.wishes.tolerance = wishes.tolerance.map(cells);
+            asked.wishes.max_cost = wishes.max_cost.map(cells);
         }
-        Ok(wishes)
+        Ok(asked)
     }
 
     /// The request for the path of a query. Its deadline runs from now on.
     pub(crate) fn request(&self, query: Query) -> Request {
-        let mut request = if self.has_several_ends() {
-            Request::between(self.from.iter().copied(), self.to.iter().copied())
+        let mut limits = self.wishes.limits();
+        if let Some(millis) = self.wishes.timeout {
+            let begin = Instant::now();
+            // So long that no duration holds it is no deadline.
+            let span = Duration::try_from_secs_f64(millis / 1e3).unwrap_or(Duration::MAX);
+            limits = limits.deadline(move || begin.elapsed() >= span);
+        }
+        if self.has_several_ends() {
+            self.wishes.request(&self.from, &self.to, limits)
         } else {
-            query.into()
-        };
-        if let Some(cells) = self.tolerance {
-            request = request.tolerance(cells);
+            self.wishes.request(&[query.start], &[query.goal], limits)
         }
-        if self.nearest {
-            request = request.nearest();
-        }
-        if self.snap {
-            request = request.snap();
-        }
-        if self.has_limits() {
-            request = request.within(self.limits());
-        }
-        request
     }
 
     /// The cells that count otherwise than on the map; `None` if none was asked for.
@@ -131,35 +109,14 @@ impl WishArgs {
         (exceptions != Exceptions::new()).then_some(exceptions)
     }
 
-    fn limits(&self) -> Limits {
-        let mut limits = Limits::new();
-        if let Some(cells) = self.max_cost {
-            limits = limits.cost(cells);
-        }
-        if let Some(nodes) = self.max_nodes {
-            limits = limits.expansions(nodes);
-        }
-        if let Some(millis) = self.deadline {
-            let begin = Instant::now();
-            // So long that no duration holds it is no deadline.
-            let span = Duration::try_from_secs_f64(millis / 1e3).unwrap_or(Duration::MAX);
-            limits = limits.deadline(move || begin.elapsed() >= span);
-        }
-        limits
-    }
-
     /// Whether a single query has more than one start or goal.
     pub(crate) const fn has_several_ends(&self) -> bool {
         self.from_places.len() > 1 || self.to_places.len() > 1
     }
 
-    /// Whether a search may be stopped.
-    pub(crate) const fn has_limits(&self) -> bool {
-        self.max_cost.is_some() || self.max_nodes.is_some() || self.deadline.is_some()
-    }
-
     /// The wishes in words, without the coordinates.
     pub(crate) fn in_words(&self) -> Vec<String> {
+        let wishes = &self.wishes;
         let several = |ends: &[Vertex], name| (ends.len() > 1).then(|| format!("{} {name}", ends.len()));
         let several = match (several(&self.from, "starts"), several(&self.to, "goals")) {
             (Some(starts), Some(goals)) => Some(format!("from any of {starts} to any of {goals}")),
@@ -167,10 +124,10 @@ impl WishArgs {
             (None, goals) => goals.map(|goals| format!("to any of {goals}")),
         };
         let mut words: Vec<String> = several.into_iter().collect();
-        words.extend(self.tolerance.map(|cells| format!("within {} of the goal", of_cells(cells))));
+        words.extend(wishes.tolerance.map(|cells| format!("within {} of the goal", of_cells(cells))));
         words.extend(self.distance.then(|| "lengths without paths".to_owned()));
-        words.extend(self.nearest.then(|| "if there is no way, to the nearest vertex".to_owned()));
-        words.extend(self.snap.then(|| "blocked ends moved to the nearest vertex".to_owned()));
+        words.extend(wishes.nearest.then(|| "if there is no way, to the nearest vertex".to_owned()));
+        words.extend(wishes.snap.then(|| "blocked ends moved to the nearest vertex".to_owned()));
         words.extend(self.free_ends.then(|| "ends count as free".to_owned()));
         let cells = [("blocked", &self.cells[0]), ("free", &self.cells[1])];
         let cells = cells.into_iter().filter(|(_, cells)| !cells.is_empty());
@@ -180,12 +137,12 @@ impl WishArgs {
             }),
         );
         let limits = [
-            self.max_cost.map(|cells| format!("cost {cells}")),
-            self.max_nodes.map(|nodes| count(nodes, "node", "nodes")),
-            self.deadline.map(|millis| time(millis * 1e6)),
+            wishes.max_cost.map(|cells| format!("cost {cells}")),
+            wishes.max_expansions.map(|most| count(most, "expansion", "expansions")),
+            wishes.timeout.map(|millis| time(millis * 1e6)),
         ];
         let limits: Vec<String> = limits.into_iter().flatten().collect();
-        words.extend(self.has_limits().then(|| format!("limits: {}", limits.join(", "))));
+        words.extend(wishes.has_limits().then(|| format!("limits: {}", limits.join(", "))));
         words
     }
 }
@@ -202,12 +159,12 @@ mod tests {
     use super::*;
     use crate::args::{Cli, Command};
 
-    fn wishes(options: &str) -> WishArgs {
+    fn wishes(options: &str) -> QueryArgs {
         let words = "mediant run builtin:cave".split(' ').chain(options.split_whitespace());
         match Cli::try_parse_from(words).map(|cli| cli.command) {
             Ok(Command::Run(run)) => {
                 let map = Map::load(&run.map).expect("a bundled map");
-                run.wishes.on(&map, PlacementKind::Center).expect("vertices")
+                run.query.on(run.flags.0.wishes(), &map, PlacementKind::Center).expect("vertices")
             }
             other => panic!("{other:?}"),
         }

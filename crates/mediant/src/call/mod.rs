@@ -1,0 +1,225 @@
+//! A call, as every language makes it: parameters by name, each with a value, and what they mean together.
+//!
+//! Rust has types for all of this. The program, Python and JavaScript have texts, numbers and objects: they
+//! look a name up in [`PARAMETERS`], hand its value to a [`Call`] as a [`Value`], and take [`Motion`],
+//! [`Setup`], wishes and limits out of it. So a name, a default, a check and its error stand here alone.
+//!
+//! ```
+//! use mediant::call::{Call, Group, Parameter, Spelling, Value};
+//!
+//! let mut call = Call::default();
+//! for (name, value) in [("k", Value::Integer(4)), ("max_cost", Value::Number(20.0))] {
+//!     let parameter = Parameter::find(name, Spelling::Snake, &Group::ALL).ok_or("no such parameter")?;
+//!     call.set(parameter, value)?;
+//! }
+//! assert_eq!(call.motion()?.to_string(), "center, corners never, k = 4");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod error;
+mod parameter;
+mod value;
+mod wishes;
+
+use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Rules};
+use mediant_moves::K;
+use mediant_search::Smoothing;
+
+pub use self::{
+    error::CallError,
+    parameter::{Group, Kind, PARAMETERS, Parameter, Spelling, Unit},
+    value::Value,
+    wishes::Wishes,
+};
+use self::{error::Wrong, parameter::Meaning};
+use crate::{
+    choice::Choice,
+    configured::ConfiguredEngine,
+    demand::Demand,
+    engine::Engine,
+    map::Map,
+    motion::Motion,
+    option::{EngineOption, OptionValue},
+    setup::Setup,
+    setup_error::SetupError,
+};
+
+/// The parameters that a call was given.
+#[derive(Clone, Debug, Default)]
+pub struct Call {
+    k: Option<K>,
+    neighbors: Option<K>,
+    placement: Option<PlacementKind>,
+    corners: Option<CornerRule>,
+    gap: Option<DiagonalGap>,
+    engine: Option<Engine>,
+    options: Vec<(&'static EngineOption, OptionValue)>,
+    smoothing: Option<Smoothing>,
+    wishes: Wishes,
+}
+
+impl Call {
+    /// Gives a parameter its value. [`Value::Absent`] leaves it as it is by default.
+    ///
+    /// # Errors
+    /// [`CallError`] for a value that the parameter cannot have; it names the parameter.
+    pub fn set(&mut self, parameter: &'static Parameter, value: Value<'_>) -> Result<(), CallError> {
+        if matches!(value, Value::Absent) {
+            return Ok(());
+        }
+        self.read(parameter, &value).map_err(|wrong| wrong.of(parameter))
+    }
+
+    fn read(&mut self, parameter: &'static Parameter, value: &Value<'_>) -> Result<(), Wrong> {
+        match parameter.meaning {
+            Meaning::K => self.k = Some(value.k()?),
+            Meaning::Neighbors => self.neighbors = Some(value.neighbors()?),
+            Meaning::Placement => self.placement = Some(value.name()?),
+            Meaning::Corners => self.corners = Some(value.name()?),
+            Meaning::Gap => self.gap = Some(value.name()?),
+            Meaning::Engine => self.engine = value.engine()?,
+            Meaning::Option(option) => {
+                self.options.retain(|(known, _)| known.name != option.name);
+                self.options.extend(value.option(option)?.map(|value| (option, value)));
+            }
+            Meaning::Smooth => self.smoothing = Some(value.name()?),
+            Meaning::Nearest => self.wishes.nearest = value.flag()?,
+            Meaning::Snap => self.wishes.snap = value.flag()?,
+            // Within 0 cells of the goal is the goal.
+            Meaning::Tolerance => self.wishes.tolerance = Some(value.length()?).filter(|&cells| cells > 0.0),
+            Meaning::MaxCost => self.wishes.max_cost = Some(value.length()?),
+            Meaning::MaxExpansions => self.wishes.max_expansions = value.count()?,
+            Meaning::Timeout => self.wishes.timeout = Some(value.length()?),
+        }
+        Ok(())
+    }
+
+    /// The engine that was named; `None` for `auto`.
+    #[must_use]
+    pub const fn engine(&self) -> Option<Engine> {
+        self.engine
+    }
+
+    /// Names the engine, where a language has it beside the parameters.
+    #[must_use]
+    pub const fn with_engine(mut self, engine: Option<Engine>) -> Self {
+        self.engine = engine;
+        self
+    }
+
+    /// The neighborhood, if it was named.
+    ///
+    /// # Errors
+    /// [`CallError`] for two names of it.
+    pub fn k(&self) -> Result<Option<K>, CallError> {
+        if self.k.is_some() && self.neighbors.is_some() {
+            let why = "it names the neighborhood, as k does: give one";
+            return Err(CallError::Together { parameter: Parameter::of(Meaning::Neighbors), why });
+        }
+        Ok(self.k.or(self.neighbors))
+    }
+
+    /// How the agent moves. What was left out, the engine decides, if it takes only that: k = 3 between
+    /// centers under `never`, but any angle between corners for [`Engine::Anya`].
+    ///
+    /// # Errors
+    /// [`CallError`] for two names of the neighborhood, and for the rule of the other placement.
+    pub fn motion(&self) -> Result<Motion, CallError> {
+        let capabilities = self.engine.unwrap_or_default().capabilities();
+        let k = self.k()?.unwrap_or(capabilities.default_k);
+        self.motion_from(Motion::new(k, capabilities.default_rules(k)))
+    }
+
+    /// How the agent moves, where what was left out is as usual.
+    ///
+    /// # Errors
+    /// Those of [`motion`](Self::motion).
+    pub fn motion_from(&self, usual: Motion) -> Result<Motion, CallError> {
+        let together = |meaning, why| Err(CallError::Together { parameter: Parameter::of(meaning), why });
+        let rules = match (self.placement, self.corners, self.gap) {
+            (_, Some(_), Some(_)) | (Some(PlacementKind::Center), None, Some(_)) => {
+                return together(Meaning::Gap, "it is for placement corner; at centers there is corners");
+            }
+            (Some(PlacementKind::Corner), Some(_), None) => {
+                return together(Meaning::Corners, "it is for placement center; at corners there is gap");
+            }
+            (_, Some(corners), None) => Rules::Center(corners),
+            (_, None, Some(gap)) => Rules::Corner(gap),
+            (Some(placement), ..) if placement != usual.rules.placement() => match placement {
+                PlacementKind::Center => Rules::Center(CornerRule::default()),
+                PlacementKind::Corner => Rules::Corner(DiagonalGap::default()),
+            },
+            _ => usual.rules,
+        };
+        Ok(Motion::new(self.k()?.unwrap_or(usual.k), rules))
+    }
+
+    /// Checks all that can be known without a map: the motion, and whether an engine that was named takes it
+    /// and the options.
+    ///
+    /// # Errors
+    /// Those of [`motion`](Self::motion), and [`SetupError`].
+    pub fn check(&self) -> Result<(), CallError> {
+        let motion = self.motion()?;
+        if let Some(engine) = self.engine {
+            Setup::new(self.configured(engine)?, motion.k, motion.rules).check()?;
+        }
+        Ok(())
+    }
+
+    /// An engine with the options that were given.
+    ///
+    /// # Errors
+    /// [`SetupError::Option`] for an option that the engine does not take.
+    pub fn configured(&self, engine: Engine) -> Result<ConfiguredEngine, SetupError> {
+        let mut configured = ConfiguredEngine::from(engine);
+        self.options.iter().try_for_each(|&(option, value)| configured.set(option, value))?;
+        Ok(configured)
+    }
+
+    /// The setup for what is asked of a space, and why its engine is this one, if that was left open: then it
+    /// is the best one for that, among those that take the options.
+    ///
+    /// # Errors
+    /// [`SetupError`] for an engine that does not take the motion or the options.
+    pub(crate) fn setup(
+        &self,
+        demand: Demand,
+        (motion, map): (Motion, &Map),
+    ) -> Result<(Setup, Option<Choice>), SetupError> {
+        let (engine, choice) = match self.engine {
+            Some(engine) => (self.configured(engine)?, None),
+            None => {
+                let (engine, choice) = demand.choice_with((motion, map), &self.options)?;
+                (engine, Some(choice))
+            }
+        };
+        let setup = Setup { smoothing: self.smoothing, ..Setup::new(engine, motion.k, motion.rules) };
+        setup.check()?;
+        Ok((setup, choice))
+    }
+
+    /// The options that were given, with their values.
+    #[must_use]
+    pub fn options(&self) -> &[(&'static EngineOption, OptionValue)] {
+        &self.options
+    }
+
+    /// How paths are smoothed.
+    #[must_use]
+    pub const fn smoothing(&self) -> Option<Smoothing> {
+        self.smoothing
+    }
+
+    /// Whether options or a smoothing were given.
+    #[must_use]
+    pub const fn has_options(&self) -> bool {
+        !self.options.is_empty() || self.smoothing.is_some()
+    }
+
+    /// What is asked of a path beyond its ends.
+    #[must_use]
+    pub const fn wishes(&self) -> &Wishes {
+        &self.wishes
+    }
+}

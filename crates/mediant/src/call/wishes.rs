@@ -1,0 +1,64 @@
+//! What is asked of a path beyond its ends.
+
+use mediant_grid::Vertex;
+use mediant_search::{Limits, Query, Request};
+
+/// What is asked of a path beyond its ends. By default nothing is.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Wishes {
+    /// Where there is no way, the path to the reachable vertex nearest to the goal.
+    pub nearest: bool,
+    /// Blocked ends are moved to the nearest free vertex.
+    pub snap: bool,
+    /// The path may end within this many cells of the goal.
+    pub tolerance: Option<f64>,
+    /// The greatest length of a path, in cells.
+    pub max_cost: Option<f64>,
+    /// The greatest number of expansions.
+    pub max_expansions: Option<u64>,
+    /// The most time, in the language's unit: seconds in Python, milliseconds in the program and in
+    /// JavaScript. Its clock is the caller's.
+    pub timeout: Option<f64>,
+}
+
+impl Wishes {
+    /// Whether no more is asked than a path from one vertex to another.
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Whether a limit may stop the search.
+    #[must_use]
+    pub const fn has_limits(&self) -> bool {
+        self.max_cost.is_some() || self.max_expansions.is_some() || self.timeout.is_some()
+    }
+
+    /// The limits on cost and expansions.
+    #[must_use]
+    pub fn limits(&self) -> Limits {
+        let limits = self.max_cost.map_or(Limits::new(), |cells| Limits::new().cost(cells));
+        self.max_expansions.map_or(limits.clone(), |count| limits.expansions(count))
+    }
+
+    /// The request for the shortest path from any start to any goal within limits, which are those of
+    /// [`limits`](Self::limits) with a deadline or a flag of the caller's.
+    #[must_use]
+    pub fn request(&self, starts: &[Vertex], goals: &[Vertex], limits: Limits) -> Request {
+        let mut request = match (starts, goals) {
+            (&[start], &[goal]) => Query::new(start, goal).into(),
+            _ => Request::between(starts.iter().copied(), goals.iter().copied()),
+        };
+        if !limits.are_none() {
+            request = request.within(limits);
+        }
+        if let Some(cells) = self.tolerance {
+            request = request.tolerance(cells);
+        }
+        if self.nearest {
+            request = request.nearest();
+        }
+        if self.snap { request.snap() } else { request }
+    }
+}

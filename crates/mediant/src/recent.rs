@@ -1,0 +1,129 @@
+//! The spaces and planners that the paths of a map used last.
+//!
+//! `map.path`, and the same call of every language, prepares a little at its first use. It is kept with the
+//! map, so the next call with the same parameters finds it there.
+
+use std::{
+    fmt,
+    sync::{Arc, Mutex, PoisonError},
+};
+
+use mediant_search::Limits;
+
+use crate::{
+    call::{Call, CallError},
+    choice::Choice,
+    demand::Demand,
+    error::Error,
+    map::Map,
+    motion::Motion,
+    planners::Planners,
+    setup::Setup,
+    setup_error::SetupError,
+    space::Space,
+};
+
+/// The last spaces and planners of a map, by motion and by setup.
+#[derive(Default)]
+pub(crate) struct Recent {
+    spaces: Kept<Motion, Space>,
+    planners: Kept<Setup, Arc<Planners>>,
+}
+
+/// The values that were used last, by key, the last one first.
+struct Kept<K, V>(Mutex<Vec<(K, V)>>);
+
+impl<K, V> Default for Kept<K, V> {
+    fn default() -> Self {
+        Self(Mutex::new(Vec::new()))
+    }
+}
+
+impl<K: PartialEq, V: Clone> Kept<K, V> {
+    /// As many are kept. Who asks for more in turn should prepare an index each.
+    const MOST: usize = 4;
+
+    fn get(&self, key: &K) -> Option<V> {
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let at = kept.iter().position(|(known, _)| known == key)?;
+        kept[..=at].rotate_right(1);
+        Some(kept[0].1.clone())
+    }
+
+    fn put(&self, key: K, value: &V) {
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.insert(0, (key, value.clone()));
+        kept.truncate(Self::MOST);
+    }
+}
+
+/// What is kept says nothing of the map.
+impl fmt::Debug for Recent {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Recent")
+    }
+}
+
+impl Map {
+    /// The setup of a call: of the engine that it names, or for the next path on this map, which may change
+    /// before the one after it ([`Demand::Paths`] of one).
+    ///
+    /// # Errors
+    /// [`CallError`] for parameters that do not go together.
+    pub fn setup(&self, call: &Call) -> Result<Setup, CallError> {
+        Ok(call.setup(Demand::Paths(1), (call.motion()?, self))?.0)
+    }
+
+    /// The space of a motion, if it is kept with the map.
+    #[must_use]
+    pub fn kept_space(&self, motion: Motion) -> Option<Space> {
+        self.recent().spaces.get(&motion)
+    }
+
+    /// The space of a motion, kept with the map for the next call. [`space`](Self::space) makes one that is
+    /// not kept. Of the limits the deadline and the flag count.
+    ///
+    /// # Errors
+    /// Those of [`space`](Self::space), and [`Error::Stopped`].
+    pub fn keep_space(&self, motion: Motion, limits: &Limits) -> Result<Space, Error> {
+        if let Some(space) = self.kept_space(motion) {
+            return Ok(space);
+        }
+        let space = self.within(limits).space(motion)?;
+        self.recent().spaces.put(motion, &space);
+        Ok(space)
+    }
+
+    /// The planners of a setup, if they are kept with the map.
+    #[must_use]
+    pub fn kept_planners(&self, setup: &Setup) -> Option<Arc<Planners>> {
+        self.recent().planners.get(setup)
+    }
+
+    /// The planners of a setup, kept with the map for the next call: of each map those of the last four
+    /// setups. Of the limits the deadline and the flag count.
+    ///
+    /// # Errors
+    /// Those of [`space`](Self::space) and [`Space::prepare`], and [`Error::Stopped`].
+    pub fn keep_planners(&self, setup: &Setup, limits: &Limits) -> Result<Arc<Planners>, Error> {
+        if let Some(planners) = self.kept_planners(setup) {
+            return Ok(planners);
+        }
+        let space = self.keep_space(setup.motion(), limits)?;
+        let index = space.within(limits).prepare(setup.engine)?;
+        let planners = Arc::new(Planners::new(index.with_smoothing(setup.smoothing)));
+        self.recent().planners.put(*setup, &planners);
+        Ok(planners)
+    }
+}
+
+impl Space {
+    /// The setup of a call in this space, whose motion is the space's, for what is asked; and why its engine
+    /// is this one, if the call leaves that open.
+    ///
+    /// # Errors
+    /// [`SetupError`] for an engine that does not take the motion or the options.
+    pub fn setup(&self, call: &Call, demand: Demand) -> Result<(Setup, Option<Choice>), SetupError> {
+        call.setup(demand, (self.motion(), self.map()))
+    }
+}
