@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use mediant::Vertex;
 use mediant_formats::{MapFile, ReadError, Scenario, Tiles};
-use mediant_grid::Vertex;
 
 use crate::{draw::theme::Theme, failure::Failure};
 

@@ -3,11 +3,10 @@
 use std::{path::Path, sync::Arc};
 
 use mediant::{
-    Motion,
+    Grid, Motion, PlacementKind, Vertex,
     files::{Tiles, WorldFrame},
 };
 use mediant_formats::{Ground, MapFile, ReadError, Scenario, read_map};
-use mediant_grid::{Grid, PlacementKind, Vertex};
 
 use crate::{
     args::{MapArgs, Place},

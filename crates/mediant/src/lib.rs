@@ -136,6 +136,8 @@ pub use mediant_grid::{
     Clearance, CornerRule, DiagonalGap, Fit, Grid, Identity, MapId, Mismatch, Obstruction, Outside,
     PlacementKind, Rectangle, Rules, Vertex, names::UnknownName,
 };
+/// The mathematics of the neighborhoods: moves, h_k, bounds.
+pub use mediant_moves as moves;
 pub use mediant_moves::{Cost, FiniteK, K};
 pub use mediant_search::{
     BrokenPath, Counters, End, Guarantee, Limit, Limits, NodeEvent, Observer, Outcome, Path, Query,

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use mediant_grid::{CornerRule, DiagonalGap, Rules};
+use mediant_grid::{Centers, CornerRule, DiagonalGap, GridGraph, Rules};
 use mediant_moves::K;
 
 /// How an agent moves: where the vertices of its paths are, by which rule, and in which directions (k).
@@ -30,6 +30,9 @@ pub struct Motion {
 }
 
 impl Motion {
+    /// The largest finite k that an engine searches over.
+    pub const MAX_K: u32 = GridGraph::<Centers>::MAX_K;
+
     /// N(k) under a [`CornerRule`] (vertices at centers), a [`DiagonalGap`] (vertices at corners), or either
     /// of them as [`Rules`].
     #[must_use]

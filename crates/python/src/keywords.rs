@@ -6,8 +6,8 @@ use mediant::{
     Guarantee, Limits, Motion, Request,
     call::{Call, CallError, Group, Kind, Parameter, Spelling, Value},
     errors::absent,
+    moves::Neighborhood,
 };
-use mediant_moves::Neighborhood;
 use numpy::PyArray2;
 use pyo3::{
     exceptions::{PyOverflowError, PyTypeError},
@@ -202,7 +202,8 @@ pub(crate) fn unknown_keyword(function: &str, name: &str, known: &str) -> PyErr 
 /// 16
 #[pyfunction]
 pub(crate) fn moves<'py>(k: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<i32>>> {
-    let finite = Keywords::default().with("k", Some(k))?.motion()?.k.finite().filter(|k| k.get() <= 12);
+    let finite =
+        Keywords::default().with("k", Some(k))?.motion()?.k.finite().filter(|k| k.get() <= Motion::MAX_K);
     let finite = finite.ok_or_else(|| argument("k", "expected an integer from 2 to 12"))?;
     let neighborhood = Neighborhood::new(finite).map_err(raised)?;
     let flat: Vec<i32> = (0..neighborhood.len())

@@ -1,8 +1,7 @@
 //! What needs no map.
 
 use js_sys::{Array, Int32Array};
-use mediant::{ConfiguredEngine, Engine, Guarantee, Motion, Setup, call::Spelling};
-use mediant_moves::Neighborhood;
+use mediant::{ConfiguredEngine, Engine, Guarantee, Motion, Setup, call::Spelling, moves::Neighborhood};
 use wasm_bindgen::{JsCast, prelude::*};
 
 use crate::{
@@ -21,7 +20,7 @@ use crate::{
 /// @throws MediantError `k` for a k below 2, `argument` for one above 12.
 #[wasm_bindgen]
 pub fn moves(#[wasm_bindgen(unchecked_param_type = "number")] k: &JsValue) -> Result<Int32Array, JsValue> {
-    let finite = Keywords::default().with("k", k)?.motion()?.k.finite().filter(|k| k.get() <= 12);
+    let finite = Keywords::default().with("k", k)?.motion()?.k.finite().filter(|k| k.get() <= Motion::MAX_K);
     let finite = finite.ok_or_else(|| argument("k", "expected an integer from 2 to 12"))?;
     let neighborhood = Neighborhood::new(finite).map_err(raised)?;
     let steps = (0..neighborhood.len()).filter_map(|index| neighborhood.get(index));

@@ -32,7 +32,7 @@ pub(crate) use self::{
     run::{Format, RunArgs},
     setup::Asked,
     table::{TableArgs, TableFormat},
-    value::{MAX_K, Place, parse_pair, parse_place},
+    value::{Place, parse_pair, parse_place},
 };
 
 /// Pathfinding on the 2^k neighborhoods of a grid: from the 4-connected grid (k = 2) towards any angle.

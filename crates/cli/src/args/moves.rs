@@ -1,7 +1,7 @@
 //! The arguments of `mediant moves`.
 
 use clap::Args;
-use mediant_moves::FiniteK;
+use mediant::FiniteK;
 
 use super::value::{parse_any_k, parse_any_neighbors, parse_ratio};
 

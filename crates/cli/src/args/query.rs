@@ -4,9 +4,7 @@
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use mediant::{Exceptions, call::Wishes};
-use mediant_grid::{PlacementKind, Vertex};
-use mediant_search::{Query, Request};
+use mediant::{Exceptions, PlacementKind, Query, Request, Vertex, call::Wishes};
 
 use super::value::{Place, parse_place};
 use crate::{
@@ -179,7 +177,7 @@ mod tests {
             assert_eq!(wishes.in_words(), [""; 0], "{options}");
         }
         for options in
-            ["--tolerance 0", "--nearest", "--snap", "--max-cost 1", "--max-nodes 0", "--deadline 9"]
+            ["--tolerance 1", "--nearest", "--snap", "--max-cost 1", "--max-nodes 0", "--deadline 9"]
         {
             let wishes = wishes(options);
             assert_eq!(wishes.request(query).as_query(), None, "{options}");

@@ -6,9 +6,7 @@ use std::{
 };
 
 use clap::{ArgGroup, Args, ValueEnum};
-use mediant::{Engine, Setup};
-use mediant_grid::Rules;
-use mediant_moves::K;
+use mediant::{Engine, K, Rules, Setup};
 
 use super::{
     flags::{ENGINE, Flags, MOTION, OPTIONS, SMOOTH, WISHES},

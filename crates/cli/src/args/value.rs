@@ -11,12 +11,7 @@ use clap::{
     Arg, Command,
     builder::{PossibleValue, PossibleValuesParser, TypedValueParser},
 };
-use mediant::UnknownName;
-use mediant_grid::{Centers, GridGraph, Vertex};
-use mediant_moves::FiniteK;
-
-/// The largest k that grid graphs take.
-pub(crate) const MAX_K: u32 = GridGraph::<Centers>::MAX_K;
+use mediant::{FiniteK, UnknownName, Vertex};
 
 /// Reads one of these values by its name, or as people write it (`A*`). What is none of them gets clap's
 /// error, which suggests the one that is most like it.

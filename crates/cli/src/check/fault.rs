@@ -2,9 +2,7 @@
 
 use std::fmt;
 
-use mediant::{BrokenPath, Path, Space};
-use mediant_grid::Vertex;
-use mediant_moves::K;
+use mediant::{BrokenPath, K, Path, Space, Vertex};
 
 /// What is wrong with a path.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,10 +6,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use mediant::Setup;
+use mediant::{K, Setup, Vertex};
 use mediant_formats::{MAX_FILE_BYTES, ReadError};
-use mediant_grid::Vertex;
-use mediant_moves::K;
 use serde::Deserialize;
 use serde_json::Value;
 

@@ -2,10 +2,8 @@
 
 use std::{io, io::Write};
 
-use mediant::{Motion, Path, Space};
+use mediant::{K, Motion, Path, PlacementKind, Space};
 use mediant_formats::Ground;
-use mediant_grid::PlacementKind;
-use mediant_moves::K;
 use serde::Serialize;
 
 use crate::{

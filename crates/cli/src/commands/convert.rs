@@ -2,8 +2,8 @@
 
 use std::{io::Write, path::Path};
 
+use mediant::Grid;
 use mediant_formats::{MapFile, Raster, RasterFormat, RosError, RosMap};
-use mediant_grid::Grid;
 
 use crate::{
     args::ConvertArgs,

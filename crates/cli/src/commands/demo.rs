@@ -3,11 +3,10 @@
 use std::io::{self, Write};
 
 use anstyle::RgbColor;
-use mediant::files::Tiles;
-use mediant::{Engine, Setup};
-use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Rules, Vertex};
-use mediant_moves::{FiniteK, K};
-use mediant_search::{Outcome, Query};
+use mediant::{
+    CornerRule, DiagonalGap, Engine, FiniteK, K, Outcome, PlacementKind, Query, Rules, Setup, Vertex,
+    files::Tiles,
+};
 
 use crate::{
     args::DemoArgs,

@@ -2,13 +2,16 @@
 
 use std::io::{self, Write};
 
-use mediant_moves::{
-    BOUND_WITHOUT_CORNER_CUTTING, FiniteK, KError, Neighborhood, Parity, Quadrant, Vector, bound_at_centers,
-    bound_at_corners, level, parents, smallest_k_at_centers, smallest_k_at_corners,
+use mediant::{
+    Motion,
+    moves::{
+        BOUND_WITHOUT_CORNER_CUTTING, FiniteK, KError, Neighborhood, Parity, Quadrant, Vector,
+        bound_at_centers, bound_at_corners, level, parents, smallest_k_at_centers, smallest_k_at_corners,
+    },
 };
 
 use crate::{
-    args::{MAX_K, MovesArgs},
+    args::MovesArgs,
     draw::star,
     failure::Failure,
     terminal::{
@@ -137,9 +140,10 @@ fn smallest(ratio: f64, after_moves: bool, screen: &mut Screen) -> io::Result<()
             None => writeln!(screen, "  {place}   {none}")?,
         }
     }
-    if places.iter().any(|&(_, k, _)| k.is_some_and(|k| k.get() > MAX_K)) {
+    if places.iter().any(|&(_, k, _)| k.is_some_and(|k| k.get() > Motion::MAX_K)) {
         let note = format!(
-            "  `mediant run` takes k up to {MAX_K}, or any; `mediant moves` up to {}",
+            "  `mediant run` takes k up to {}, or any; `mediant moves` up to {}",
+            Motion::MAX_K,
             FiniteK::MAX_MOVES
         );
         writeln!(screen, "{}", screen.paint(DIM, note))?;

@@ -5,9 +5,8 @@ use std::{
     path::Path,
 };
 
-use mediant::{Error, Field, Motion};
+use mediant::{Error, Field, Motion, Vertex};
 use mediant_formats::Picture;
-use mediant_grid::Vertex;
 
 use crate::{
     args::ReachArgs,

@@ -6,8 +6,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use mediant::{Choice, Demand, EngineName, EngineOption, Error, Index, ValueKind};
-use mediant_grid::{PlacementKind, Vertex};
+use mediant::{Choice, Demand, EngineName, EngineOption, Error, Index, PlacementKind, ValueKind, Vertex};
 use serde::Serialize;
 
 use crate::{

@@ -6,8 +6,8 @@
 use std::io::{self, Write};
 
 use anstyle::{Reset, RgbColor};
+use mediant::{PlacementKind, Vertex};
 use mediant_formats::MapFile;
-use mediant_grid::{PlacementKind, Vertex};
 
 use super::{
     braille::{DOT_COLUMNS, DOT_ROWS, Glyph, Sheet, Stroke, steps},

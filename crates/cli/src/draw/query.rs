@@ -5,9 +5,8 @@ use std::{
     path::Path,
 };
 
-use mediant::{NodeEvent, Observer, Planner, Request, Setup};
+use mediant::{NodeEvent, Observer, Planner, Request, Setup, Vertex};
 use mediant_formats::{Picture, PictureError};
-use mediant_grid::Vertex;
 
 use super::{braille::Stroke, picture::Canvas, theme::INKS};
 use crate::{failure::Failure, map::Map, terminal::screen::Screen, write::extension};

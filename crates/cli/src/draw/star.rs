@@ -3,8 +3,7 @@
 use std::io::{self, Write};
 
 use anstyle::RgbColor;
-use mediant_grid::Vector;
-use mediant_moves::{Neighborhood, level};
+use mediant::moves::{Neighborhood, Vector, level};
 
 use super::braille::{DOT_COLUMNS, DOT_ROWS, Sheet, steps};
 use crate::terminal::screen::Screen;

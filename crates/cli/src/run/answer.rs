@@ -2,9 +2,10 @@
 
 use std::time::Duration;
 
-use mediant::{Choice, Engine, EngineOption, OptionValue, Setup};
-use mediant_grid::{Rules, Vertex};
-use mediant_search::{Counters, Guarantee, Path, Request, Stopped};
+use mediant::{
+    Choice, Counters, Engine, EngineOption, Guarantee, OptionValue, Path, Request, Rules, Setup, Stopped,
+    Vertex,
+};
 
 use super::queries::Item;
 use crate::{args::QueryArgs, map::Map};

@@ -5,8 +5,7 @@ use std::{
     path::Path,
 };
 
-use mediant::{Demand, Error};
-use mediant_grid::Vertex;
+use mediant::{Demand, Error, Vertex};
 
 use super::query_error::explain;
 use crate::{

@@ -9,10 +9,10 @@ use std::{
     time::{Duration, Instant},
 };
 
-use mediant::{Engine, EngineName, EngineOption, Levels, OptionValue, ValueKind, files::WorldFrame};
-use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Rules, Vertex};
-use mediant_moves::K;
-use mediant_search::Path;
+use mediant::{
+    CornerRule, DiagonalGap, Engine, EngineName, EngineOption, K, Levels, OptionValue, Path, PlacementKind,
+    Rules, Smoothing, ValueKind, Vertex, call::Wishes, files::WorldFrame,
+};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -22,7 +22,6 @@ use super::{
     summary::Summary,
 };
 use crate::{args::QueryArgs, terminal::screen::Screen};
-use mediant::{Smoothing, call::Wishes};
 
 /// Writes each record as it comes, and flushes often: an interrupted run loses the current query and the
 /// records of less than a second.

@@ -2,8 +2,7 @@
 
 use std::{hint::black_box, time::Instant};
 
-use mediant::Planner;
-use mediant_search::{Counters, Outcome, Query, QueryError, Request};
+use mediant::{Counters, Outcome, Planner, Query, QueryError, Request};
 
 /// The answer of a planner, with counts and time.
 pub(crate) struct Measured {

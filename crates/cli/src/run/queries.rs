@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
+use mediant::{End, Grid, PlacementKind, Query, Vertex};
 use mediant_formats::{Instance, Scenario};
-use mediant_grid::{Grid, PlacementKind, Vertex};
-use mediant_search::{End, Query};
 
 use crate::{
     args::{QueryArgs, RunArgs, parse_pair},

@@ -1,7 +1,6 @@
 //! Query errors in words.
 
-use mediant_grid::{Centers, Corners, Grid, Placement, PlacementKind, Vertex};
-use mediant_search::QueryError;
+use mediant::{Grid, PlacementKind, QueryError, Vertex};
 
 use super::distances::rounded;
 use crate::map::Map;
@@ -10,7 +9,7 @@ use crate::map::Map;
 /// reason. Under `--world` they say it in meters, too.
 pub(crate) fn explain(error: QueryError, map: &Map, placement: PlacementKind) -> String {
     let QueryError::Blocked { end, at } = error else { return error.to_string() };
-    let reason = if map.radius > 0.0 && is_free(&map.ground, placement, at) {
+    let reason = if map.radius > 0.0 && placement.is_free(&map.ground, at) {
         let meters = map.frame.map(|frame| rounded(map.radius * frame.resolution()));
         let meters = meters.map_or_else(String::new, |meters| format!(" ({meters} m)"));
         format!("the {end} {at} is too near to an obstacle for a radius of {:.4} cells{meters}", map.radius)
@@ -29,13 +28,6 @@ pub(crate) fn explain(error: QueryError, map: &Map, placement: PlacementKind) ->
     format!("{reason}{nearest}; in the world the {end} is at {}{nearest_in_world}", in_world(at))
 }
 
-fn is_free(grid: &Grid, placement: PlacementKind, at: Vertex) -> bool {
-    match placement {
-        PlacementKind::Center => Centers::is_free(grid, at),
-        PlacementKind::Corner => Corners::is_free(grid, at),
-    }
-}
-
 /// The free vertex nearest to `at`, of equally near ones the first row by row; `None` if there is none
 /// nearby.
 fn nearest_free(grid: &Grid, placement: PlacementKind, at: Vertex) -> Option<Vertex> {
@@ -43,5 +35,5 @@ fn nearest_free(grid: &Grid, placement: PlacementKind, at: Vertex) -> Option<Ver
     const REACH: i32 = 64;
     let around =
         (-REACH..=REACH).flat_map(|dy| (-REACH..=REACH).map(move |dx| Vertex::new(at.x + dx, at.y + dy)));
-    around.filter(|&v| is_free(grid, placement, v)).min_by_key(|&v| at.to(v).norm_squared())
+    around.filter(|&v| placement.is_free(grid, v)).min_by_key(|&v| at.to(v).norm_squared())
 }

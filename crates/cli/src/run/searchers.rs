@@ -2,9 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use mediant::{Choice, Demand, Index, Planner, Setup, Space};
+use mediant::{Choice, Demand, Index, PlacementKind, Planner, Setup, Space, Vertex};
 use mediant_formats::Ground;
-use mediant_grid::{PlacementKind, Vertex};
 
 use super::queries::Queries;
 use crate::{

@@ -1,8 +1,6 @@
 //! Answers queries one after the other on one warm planner.
 
-use mediant::Planner;
-use mediant_grid::Vertex;
-use mediant_search::{Outcome, Path, Query};
+use mediant::{Outcome, Path, Planner, Query, Vertex};
 
 use super::{
     answer::{Answer, Answered, Found, Run, ends},

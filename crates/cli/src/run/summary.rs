@@ -1,8 +1,7 @@
 //! The summary of a run.
 
-use mediant::call::Wishes;
+use mediant::{Path, call::Wishes};
 use mediant_formats::scenario_tolerance;
-use mediant_search::Path;
 use serde::Serialize;
 
 use super::answer::{Answer, Answered, Found};
@@ -235,8 +234,8 @@ fn median(sorted: &[u64]) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use mediant_grid::Vertex;
-    use mediant_search::{Counters, Query};
+    use mediant::Vertex;
+    use mediant::{Counters, Query};
 
     use super::*;
     use crate::run::queries::Item;

@@ -2,9 +2,7 @@
 
 use std::io::{self, Write};
 
-use mediant::{Engine, OptionValue, files::WorldFrame};
-use mediant_grid::{PlacementKind, Vertex};
-use mediant_search::{Limit, Path, Stopped};
+use mediant::{Engine, Limit, OptionValue, Path, PlacementKind, Stopped, Vertex, files::WorldFrame};
 
 use super::{
     answer::{Answer, Answered, Found, Run},

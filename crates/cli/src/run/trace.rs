@@ -2,10 +2,8 @@
 
 use std::{io, path};
 
-use mediant::{Planner, Tracer};
+use mediant::{Grid, Outcome, PlacementKind, Planner, Query, QueryError, Request, Tracer};
 use mediant_formats::NewFile;
-use mediant_grid::{Grid, PlacementKind};
-use mediant_search::{Outcome, Query, QueryError, Request};
 
 use crate::{failure::Failure, write::write_file};
 
