@@ -51,7 +51,7 @@ pub enum StoppedBy {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 #[error("{} while {during}", match by {
     StoppedBy::Cancelled => "cancelled",
-    StoppedBy::Deadline => "the deadline passed",
+    StoppedBy::Deadline => "out of time",
 })]
 pub struct Interrupted {
     /// The cause.

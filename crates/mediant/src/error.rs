@@ -34,7 +34,7 @@ use crate::{
 #[non_exhaustive]
 pub enum Error {
     /// Work that a flag or a deadline stopped: see [`Within`](crate::Within).
-    #[error("{} while {during}", if *by == Limit::Cancelled { "cancelled" } else { "the timeout passed" })]
+    #[error("{} while {during}", if *by == Limit::Cancelled { "cancelled" } else { "out of time" })]
     Stopped {
         /// The cause.
         by: Limit,

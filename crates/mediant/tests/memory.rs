@@ -182,7 +182,7 @@ fn keeps_nothing_once_stopped(space: &Space, engine: ConfiguredEngine) {
         let before = BYTES.load(Ordering::Relaxed);
         let code = space.within(&limits).prepare(engine).map_err(|error| error.code()).err();
         let more = BYTES.load(Ordering::Relaxed).saturating_sub(before);
-        assert_eq!(code, Some(ErrorCode::Deadline), "{}", engine.kind());
+        assert_eq!(code, Some(ErrorCode::Stopped), "{}", engine.kind());
         // Threads of a pool keep their queues.
         assert!(more < 64 << 10, "{}: {more} bytes after question {questions} of {all}", engine.kind());
     }

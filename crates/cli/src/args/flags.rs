@@ -108,7 +108,7 @@ fn flag(parameter: &'static Parameter) -> Arg {
 /// What help says of a parameter.
 fn help(parameter: &Parameter) -> String {
     let unit = match parameter.unit {
-        Some(Unit::Time) => ", in milliseconds",
+        Some(Unit::Time) => ", in milliseconds, for each query",
         _ => "",
     };
     let default = parameter.default.map_or(String::new(), |default| format!(" [default: {default}]"));

@@ -177,7 +177,7 @@ mod tests {
             assert_eq!(wishes.in_words(), [""; 0], "{options}");
         }
         for options in
-            ["--tolerance 1", "--nearest", "--snap", "--max-cost 1", "--max-nodes 0", "--deadline 9"]
+            ["--tolerance 1", "--nearest", "--snap", "--max-cost 1", "--max-expansions 0", "--timeout 9"]
         {
             let wishes = wishes(options);
             assert_eq!(wishes.request(query).as_query(), None, "{options}");
@@ -197,7 +197,7 @@ mod tests {
 
     #[test]
     fn a_deadline_that_no_clock_reaches_is_none() {
-        let wishes = wishes("--deadline 1e300 --tolerance 1");
+        let wishes = wishes("--timeout 1e300 --tolerance 1");
         assert!(wishes.request(Query::new((0, 0), (1, 1))).as_query().is_none());
         assert_eq!(wishes.in_words()[0], "within 1 cell of the goal");
     }

@@ -120,7 +120,7 @@ Examples:
   mediant run builtin:town --k 4 --placement corner --smooth --reference anya
   mediant run arena.map --from 1,11 --to 40,30 --to 30,5 --to 8,40
   mediant run arena.map --from 1,11 --to 40,30 --snap --nearest --tolerance 1.5
-  mediant run arena.map --scen arena.map.scen --max-nodes 1000 --max-cost 60 --deadline 0.5
+  mediant run arena.map --scen arena.map.scen --max-expansions 1000 --max-cost 60 --timeout 0.5
   mediant run arena.map --scen arena.map.scen --engine subgoal --memory 8MB --distance
   mediant run arena.map --scen arena.map.scen --grounds
   mediant run arena.map --from 1,11 --engine dijkstra --distances -";

@@ -215,7 +215,8 @@ fn what_does_not_go_together_is_refused() {
         ),
         (
             "--engine anya --corners one",
-            "--corners does not apply to --placement corner: leave it out, or choose --placement center",
+            "anya needs placement corner; for center choose astar, dijkstra, wavefront, canonical, jps, jps-block, \
+             jps-plus, theta, lazy-theta, subgoal, hpa, chpa",
         ),
         (
             "--reference anya",

@@ -266,8 +266,8 @@ fn files_without_paths() {
     check("check builtin:cave", "the following required arguments were not provided: <PATHS>...; see --help");
     let file = files.add("p.csv", "2,5\n");
     check(
-        &format!("check builtin:cave {file} --gap open"),
-        "--gap does not apply to --placement center: leave it out, or choose --placement corner",
+        &format!("check builtin:cave {file} --placement center --gap open"),
+        "--gap: it is for placement corner; at centers there is corners",
     );
 }
 

@@ -27,17 +27,17 @@ fn arguments_that_make_no_sense() {
     );
     check(
         "run builtin:cave --k 1",
-        "invalid value '1' for '--k <K>': k = 1 is too small: the smallest 2^k neighborhood is the \
-         4-connected one, k = 2; \
-         choose a number from 2 to 12, or any; see --help",
+        "invalid value '1' for '--k <N|any>': k = 1 is too small: the smallest 2^k neighborhood is the \
+         4-connected one, k = 2; see --help",
     );
     check(
         "run builtin:cave --k 13",
-        "invalid value '13' for '--k <K>': k = 13 is too large; choose a number from 2 to 12, or any; see --help",
+        "no engine searches center, corners never, k = 13: choose a k from 2 to 12 (4 to 4096 neighbors), or placement \
+         corner for k = any",
     );
     check(
         "run builtin:cave --k -3",
-        "invalid value '-3' for '--k <K>': choose a number from 2 to 12, or any; see --help",
+        "invalid value '-3' for '--k <N|any>': expected an integer of 0 or more, found -3; see --help",
     );
     check(
         "run builtin:cave --engine astar --k any",
@@ -85,16 +85,16 @@ fn engines_and_values_that_do_not_exist() {
     );
     check(
         "run builtin:cave --engine canonical --variant best",
-        "invalid value 'best' for '--variant <VARIANT>' [possible values: exact, complete, paper]; see --help",
+        "invalid value 'best' for '--variant <exact|complete|paper>': expected one of exact, complete, paper, found `best`; see --help",
     );
     check(
         "run builtin:cave --heuristic manhattan",
-        "invalid value 'manhattan' for '--heuristic <HEURISTIC>' [possible values: hk, euclidean, zero, \
-         squared]; see --help",
+        "invalid value 'manhattan' for '--heuristic <HEURISTIC>': expected one of hk, euclidean, zero, squared, found \
+         `manhattan`; see --help",
     );
     check(
         "run builtin:cave --engine jps --jump-limit 0",
-        "invalid value '0' for '--jump-limit <N>': expected a whole number from 1 up; see --help",
+        "invalid value '0' for '--jump-limit <N>': expected an integer of 1 or more, found 0; see --help",
     );
     check(
         "build builtin:cave --engine jps-plus",
@@ -132,12 +132,12 @@ fn arguments_that_are_no_vertices() {
 #[test]
 fn options_that_do_not_go_together() {
     check(
-        "run builtin:cave --gap open",
-        "--gap does not apply to --placement center: leave it out, or choose --placement corner",
+        "run builtin:cave --placement center --gap open",
+        "--gap: it is for placement corner; at centers there is corners",
     );
     check(
         "run builtin:cave --placement corner --corners never",
-        "--corners does not apply to --placement corner: leave it out, or choose --placement center",
+        "--corners: it is for placement center; at corners there is gap",
     );
     check(
         "run builtin:cave --from 1,2 --to 3,4 --every 2",
@@ -210,8 +210,8 @@ fn what_an_engine_does_not_take() {
         "canonical has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa",
     );
     check(
-        "build builtin:cave --engine jps-plus --gap open -o x.idx",
-        "--gap does not apply to --placement center: leave it out, or choose --placement corner",
+        "build builtin:cave --engine jps-plus --placement center --gap open -o x.idx",
+        "--gap: it is for placement corner; at centers there is corners",
     );
 }
 

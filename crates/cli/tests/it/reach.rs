@@ -193,8 +193,8 @@ fn arguments_that_make_no_sense() {
          (4 to 4096 neighbors), or placement corner for k = any",
     );
     check(
-        "reach builtin:cave --from 2,5 --gap open",
-        "--gap does not apply to --placement center: leave it out, or choose --placement corner",
+        "reach builtin:cave --from 2,5 --placement center --gap open",
+        "--gap: it is for placement corner; at centers there is corners",
     );
     let known = "expected a name that ends in .png, .svg, .csv or .npy (- prints CSV)";
     for name in ["near.gif", "near", ".png"] {

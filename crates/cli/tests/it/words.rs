@@ -70,21 +70,24 @@ fn neighbors_stand_for_k() {
     );
     check(
         "run builtin:cave --neighbors 8192",
-        "invalid value '8192' for '--neighbors <N>': expected a number of moves: 4, 8, 16 or another power of two up \
-         to 4096; see --help",
+        "no engine searches center, corners never, k = 13: choose a k from 2 to 12 (4 to 4096 neighbors), or placement \
+         corner for k = any",
     );
     for command in [
         "run builtin:cave",
         "reach builtin:cave --from 2,5",
-        "moves",
-        "table builtin:cave",
+        "table builtin:cave --from 2,5 --to 2,5",
         "build builtin:cave -o x",
     ] {
         check(
             &format!("{command} --k 3 --neighbors 8"),
-            "the argument '--k <K>' cannot be used with '--neighbors <N>'; see --help",
+            "--neighbors: it names the neighborhood, as k does: give one",
         );
     }
+    check(
+        "moves --k 3 --neighbors 8",
+        "the argument '--k <K>' cannot be used with '--neighbors <N>'; see --help",
+    );
 }
 
 #[test]

@@ -87,7 +87,7 @@ fn a_flag_comes_before_a_deadline() {
     let [cancelled, late] = [StoppedBy::Cancelled, StoppedBy::Deadline]
         .map(|by| Interrupted { by, during: "measuring clearances" }.to_string());
     assert_eq!(cancelled, "cancelled while measuring clearances");
-    assert_eq!(late, "the deadline passed while measuring clearances");
+    assert_eq!(late, "out of time while measuring clearances");
     assert_eq!(Interrupt::NEVER.check("waiting"), Ok(()));
     assert_eq!(interrupt.check_every(8, 7, "waiting"), Ok(()));
     assert!(interrupt.check_every(8, 16, "waiting").is_err());

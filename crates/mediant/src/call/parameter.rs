@@ -235,12 +235,7 @@ pub static PARAMETERS: [Parameter; 24] = [
     ),
     Parameter {
         unit: Some(Unit::Time),
-        ..wish(
-            "timeout",
-            Kind::Length,
-            Meaning::Timeout,
-            "The most time that the call may take, with what it prepares",
-        )
+        ..wish("timeout", Kind::Length, Meaning::Timeout, "The most time that the answer may take")
     },
     Parameter {
         name: "engine",

@@ -36,6 +36,12 @@ impl<'a> From<&'a str> for Value<'a> {
     }
 }
 
+impl From<i64> for Value<'_> {
+    fn from(number: i64) -> Self {
+        Self::Integer(number)
+    }
+}
+
 impl From<bool> for Value<'_> {
     fn from(flag: bool) -> Self {
         Self::Flag(flag)
@@ -148,17 +154,16 @@ impl Value<'_> {
 
     /// The value of an engine's option; `None` for a flag that is false.
     pub(super) fn option(&self, option: &EngineOption) -> Result<Option<OptionValue>, Wrong> {
+        let takes_numbers = matches!(option.kind, ValueKind::Levels | ValueKind::Memory);
         let text = match option.kind {
             ValueKind::Flag if self.flag()? => String::new(),
             ValueKind::Flag => return Ok(None),
             ValueKind::Number => self.integer(1)?.to_string(),
             _ => match self {
                 Self::Text(text) => text.to_string(),
-                Self::Integer(_) | Self::Number(_)
-                    if matches!(option.kind, ValueKind::Levels | ValueKind::Memory) =>
-                {
-                    self.integer(1)?.to_string()
-                }
+                // The option says what it expects.
+                Self::Integer(number) if takes_numbers => number.to_string(),
+                Self::Number(number) if takes_numbers => number.to_string(),
                 other => return Err(other.of_another_type("a name")),
             },
         };

@@ -4,7 +4,9 @@ use std::num::NonZeroU32;
 
 use mediant::{
     ConfiguredEngine, Engine, EngineOption, Error, ErrorCode as Code, FiniteK, Grid, HpaOptions, Index, K,
-    Limits, Map, Motion, Query, Rectangle, Request, Setup, Space, Vertex, errors::absent,
+    Limits, Map, Motion, Path, Query, Rectangle, Request, Setup, Space, Vertex,
+    call::{Call, CallError, Group, Parameter, Spelling, Value},
+    errors::absent,
 };
 use mediant_formats::{IndexFile, IndexKey};
 
@@ -19,6 +21,13 @@ fn walkers() -> Space {
 
 fn clusters() -> Index {
     walkers().prepare(Engine::Hpa).expect("an index")
+}
+
+/// A call with one parameter.
+fn call(name: &str, value: Value<'_>) -> Result<Call, CallError> {
+    let mut call = Call::default();
+    let parameter = Parameter::find(name, Spelling::Kebab, &Group::ALL).expect("a parameter");
+    call.set(parameter, value).map(|()| call)
 }
 
 /// Mistakes in maps, motion and queries.
@@ -39,6 +48,11 @@ fn in_maps_and_queries() -> Vec<Mistake> {
         (Code::K, FiniteK::new(1).map(drop).map_err(Error::from)),
         (Code::Motion, map().space(Motion::centers(K::ANY)).map(drop)),
         (Code::Motion, map().space(Motion::corners(k(13))).map(drop)),
+        (Code::Argument, call("nearest", 1.into()).map(drop).map_err(Error::from)),
+        (Code::Argument, call("tolerance", Value::Number(-1.0)).map(drop).map_err(Error::from)),
+        (Code::UnknownName, call("corners", "sometimes".into()).map(drop).map_err(Error::from)),
+        (Code::K, call("k", 1.into()).map(drop).map_err(Error::from)),
+        (Code::BrokenPath, walkers().check(&Path::new(vec![(6, 0).into()])).map_err(Error::from)),
         (Code::StartBlocked, map().path((6, 0), (0, 0)).map(drop)),
         (Code::GoalBlocked, map().path((0, 0), (6, 0)).map(drop)),
         (Code::StartOutside, map().path((-1, 0), (0, 0)).map(drop)),
@@ -104,7 +118,7 @@ fn each_mistake_has_its_code() {
         Code::ScenarioFormat,
         Code::Memory,
         Code::Cancelled,
-        Code::Deadline,
+        Code::Stopped,
         Code::Other,
     ];
     let made: Vec<Code> = mistakes.iter().map(|(code, _)| *code).collect();
@@ -129,7 +143,7 @@ fn codes_keep_their_names() {
          engine-rules engine-without mismatch start-blocked goal-blocked start-outside goal-outside gave-up \
          index-range index-options index-damaged index-engine index-edit file-missing file-unreadable \
          file-unwritable map-format scenario-format no-end number not-begun memory cancelled \
-         deadline map-tile other"
+         stopped argument broken-path map-tile other"
     );
 }
 
