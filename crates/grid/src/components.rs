@@ -22,8 +22,8 @@ pub enum Connectivity {
 /// The connected components of a grid's free cells.
 ///
 /// They are found by runs of free cells: each run of a row is joined with the runs that it meets in the row
-/// above. What is kept is a label for each run of each word of the map, so that the memory follows the
-/// runs, not the cells: a sixteenth of a byte a cell, and four bytes a run.
+/// above. A label is stored for each run of each word of the map, so the memory follows the runs, not the
+/// cells: a sixteenth of a byte a cell, and four bytes a run.
 ///
 /// ```
 /// use std::sync::Arc;

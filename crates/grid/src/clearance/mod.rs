@@ -2,8 +2,7 @@
 //!
 //! **The key decision: an agent's map is a map.** Which cells are free for a disc is a [`Grid`] like any
 //! other, so every engine searches it, and everything that can be prepared of a map can be prepared of it.
-//! What this is worth for the disc that moves along a path of that map is stated and proven in
-//! [`Clearance`], for each placement.
+//! [`Clearance`] proves which distance the disc keeps along a path of that map, for each placement.
 //!
 //! One exact squared Euclidean distance transform, [`transform`], serves all radii: [`columns`] finds how far
 //! the nearest obstacle is in each column, and [`envelope`] combines the columns row by row. A map for one
@@ -174,13 +173,13 @@ impl Clearance {
         &self.grid
     }
 
-    /// What was measured.
+    /// The points that were measured.
     #[must_use]
     pub const fn fit(&self) -> Fit {
         self.fit
     }
 
-    /// Whether the outside of the map counts as an obstacle.
+    /// The outside of the map: an obstacle or not.
     #[must_use]
     pub const fn outside(&self) -> Outside {
         self.outside

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::interrupt::{Interrupt, Interrupted};
 
-/// What a thread reuses from band to band.
+/// A thread's scratch memory, kept from band to band.
 #[derive(Default)]
 struct Scratch {
     upwards: columns::Distances,
