@@ -87,7 +87,7 @@ impl<N: Norm> Frontier<N> {
         }
     }
 
-    /// What it measures by.
+    /// The norm of segments.
     pub(super) const fn norm(&self) -> &N {
         &self.norm
     }

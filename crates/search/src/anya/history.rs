@@ -10,7 +10,7 @@ pub(super) struct RootHistory {
     blocks: Box<[u32]>,
     /// The number of blocks side by side.
     width: usize,
-    /// Those of the blocks, one block after the other. The first is of no block and stays empty.
+    /// The entries of the blocks, one block after the other. The first is of no block and stays empty.
     entries: Vec<[Entry; BLOCK]>,
     generation: u32,
 }

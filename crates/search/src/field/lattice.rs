@@ -112,7 +112,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
         Ok(Self { graph, pruning, open, scratch })
     }
 
-    /// What it belongs to: its map, rules and k.
+    /// The identity: its map, rules and k.
     #[must_use]
     pub fn identity(&self) -> Identity {
         self.graph.identity()
@@ -140,7 +140,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
     /// [`EXPANSIONS_PER_LOOK`]: crate::Limits::EXPANSIONS_PER_LOOK
     ///
     /// # Errors
-    /// Those of [`field`](Self::field), and [`FieldError::Interrupted`].
+    /// As for [`field`](Self::field), and [`FieldError::Interrupted`].
     pub fn field_interruptible(
         &mut self,
         query: FieldQuery<'_>,
@@ -154,7 +154,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
     /// The same in the memory of a field that is not needed any more.
     ///
     /// # Errors
-    /// Those of [`field`](Self::field); the field is lost.
+    /// As for [`field`](Self::field); the field is lost.
     pub fn field_in(&mut self, query: FieldQuery<'_>, old: Field<G>) -> Result<Field<G>, FieldError> {
         let sources = query.check(&self.graph)?;
         let mut costs = old.into_costs();

@@ -41,7 +41,7 @@ pub struct JumpMoves<P: Placement, J> {
     limit: u32,
     /// Whether intermediate jump points become nodes.
     keeps_intermediate: bool,
-    /// What this search depends on.
+    /// The options of this search's jumps.
     rules: JumpRules,
 }
 

@@ -55,9 +55,9 @@ pub type LazyThetaStar<G, H> = Theta<G, H, Lazy>;
 /// Its scratch memory is half a byte a vertex, and 24 bytes for each that searches touch. The cost of a
 /// segment is that of a move of its displacement, [`Cost::of_move`](mediant_moves::Cost::of_move).
 ///
-/// What is connected by segments is what N(3) connects. At k = 2 this differs from what N(2) connects where
-/// corners are always cut: segments then lead between two blocked cells that meet diagonally. So a query
-/// whose ends N(2) does not connect is searched over N(3), on a graph that is made when it is first needed.
+/// Segments connect the same vertices as N(3). N(2) connects fewer where corners are always cut: segments
+/// then lead between two blocked cells that meet diagonally. So a query whose ends N(2) does not connect is
+/// searched over N(3), on a graph that is made when it is first needed.
 #[derive(Clone, Debug)]
 pub struct Theta<G: Deref, H, S>
 where

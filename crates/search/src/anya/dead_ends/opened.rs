@@ -1,4 +1,4 @@
-//! What is open for a query.
+//! The dead ends and parts that are open for a query.
 
 use std::sync::Arc;
 
@@ -105,7 +105,7 @@ impl Opened {
         Run { is_vertical: true, line: x, first, end: column.first_free(y, self.rows.height() as i32) }
     }
 
-    /// Opens the closed dead ends on the side of a run where its door is. Those that have their own door
+    /// Opens the closed dead ends on the side of a run where its door is. Dead ends with a door of their own
     /// there are not needed, but two bits do not tell.
     fn open_behind_door(&mut self, grid: &Grid, run: Run) {
         let Run { is_vertical, line, first, end } = run;

@@ -139,14 +139,15 @@ impl RunVertex {
     }
 }
 
-/// What a depth-first search knows of a vertex.
+/// The state of a vertex in the depth-first search for bridges.
 #[derive(Clone, Copy)]
 struct Visit {
     /// When it was first reached, from 1 on; 0 if it was not.
     time: u32,
     /// The neighbor from which it was reached; itself where the search began.
     parent: u32,
-    /// The next neighbor to look at; later the earliest time that is reached from it and its descendants.
+    /// The next neighbor to look at; later the vertex's low link, the earliest time that it or a descendant
+    /// reaches.
     next: u32,
 }
 
