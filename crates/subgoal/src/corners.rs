@@ -22,7 +22,7 @@ pub struct CornerScratch {
     direct: DirectFilter,
 }
 
-/// What makes visibility sweeps fast.
+/// Row summary and tangent subgoals, for visibility sweeps.
 #[derive(Clone, Debug)]
 pub struct SightTables {
     row_summary: RowSummary,

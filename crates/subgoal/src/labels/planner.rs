@@ -42,7 +42,7 @@ pub struct HubLabelSearch<S, I> {
     as_near: Vec<(u32, Cost)>,
 }
 
-/// What is known of a query that was answered.
+/// The form of the last query's answer, from which its path follows.
 #[derive(Clone, Copy, Debug)]
 enum Answer {
     /// The waypoints are a path that is plain to see.
