@@ -49,7 +49,7 @@ pub struct ChpaStar<G, I, H1, H2> {
     phase: Phase,
 }
 
-/// What the planner is doing.
+/// The phase of the current search.
 #[derive(Clone, Copy, Debug)]
 enum Phase {
     /// Nothing: no search was begun, or it is over.
@@ -70,7 +70,7 @@ struct Leg {
     has_begun: bool,
 }
 
-/// What CHPA* does where a checkpoint cannot be reached, or only by a detour. Both happen, since segments do
+/// CHPA*'s fallback where a checkpoint cannot be reached, or only by a detour. Both happen, since segments do
 /// not tell whether paths lead through them ('preprocessing edge cases' in the paper, Section 6).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FallbackPolicy {
@@ -141,7 +141,7 @@ where
         Self { step, ..self }
     }
 
-    /// What to do where a checkpoint cannot be reached.
+    /// Sets the fallback where a checkpoint cannot be reached.
     #[must_use]
     pub fn with_fallback_policy(self, fallback: FallbackPolicy) -> Self {
         Self { fallback, ..self }

@@ -58,7 +58,7 @@ pub struct HpaStar<G, I> {
     second_tree: Option<SearchTree>,
 }
 
-/// What the planner is doing.
+/// The phase of the current search.
 #[derive(Clone, Copy, Debug)]
 enum Phase {
     /// Nothing: no search was begun, or there is no path.
