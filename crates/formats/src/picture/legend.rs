@@ -1,4 +1,4 @@
-//! What the signs of an SVG picture mean.
+//! The legend of an SVG picture.
 
 use super::{
     Picture,

@@ -16,8 +16,8 @@ pub(super) struct Entry<'a> {
     pub(super) value: &'a str,
 }
 
-/// Those keys of a file that are `wanted`, in their order, and the number of its lines. Others are not kept:
-/// a file may have very many.
+/// The `wanted` keys of a file, in their order, and the number of its lines. Others are not kept: a file may
+/// have very many.
 pub(super) fn entries(
     bytes: &[u8],
     wanted: impl Fn(&str) -> bool,
@@ -134,7 +134,7 @@ fn split_key(line: &str) -> Option<(String, &str)> {
     plain.then(|| (key.trim_end().to_owned(), rest))
 }
 
-/// What follows a colon that ends a key.
+/// The text after a colon that ends a key.
 fn after_colon(text: &str) -> Option<&str> {
     let rest = text.strip_prefix(':')?;
     (rest.is_empty() || rest.starts_with([' ', '\t'])).then_some(rest)
@@ -182,7 +182,7 @@ pub(super) fn skip_blank(text: &str) -> &str {
     rest
 }
 
-/// What a plain scalar cannot begin with.
+/// Characters that begin no plain scalar.
 const RESERVED: [char; 16] = ['[', ']', '{', '}', ',', '&', '*', '!', '|', '>', '%', '@', '`', '#', '?', ':'];
 
 /// A scalar at the start of the text, and what follows it. In a list in brackets, `flow`, a comma or a

@@ -6,8 +6,8 @@ use super::{
 };
 use crate::text::quote;
 
-/// Those keys of a mapping that are `wanted`, and the number of the file's lines. `text` begins after the
-/// brace, which is in line `line`.
+/// The `wanted` keys of a mapping, and the number of the file's lines. `text` begins after the brace, which
+/// is in line `line`.
 pub(super) fn entries(
     line: usize,
     text: &str,

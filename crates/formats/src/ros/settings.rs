@@ -33,7 +33,7 @@ impl fmt::Display for RosMode {
     }
 }
 
-/// What the YAML file of a ROS map says, as `map_server` reads it and `map_saver` writes it.
+/// The settings of a ROS map's YAML file, as `map_server` reads and `map_saver` writes them.
 ///
 /// ```
 /// use mediant_formats::{RosMode, RosSettings};
@@ -167,7 +167,7 @@ impl<'a> Value<'a> {
         RosError::Value { line: self.line, key: self.key, expected, found, example: self.example }
     }
 
-    /// What `read` makes of the scalar.
+    /// The value as one scalar, converted by `read`.
     fn scalar<T>(&self, expected: &'static str, read: impl FnOnce(&str) -> Option<T>) -> Result<T, RosError> {
         flat::scalar(self.text).and_then(|text| read(&text)).ok_or_else(|| self.error(expected))
     }
