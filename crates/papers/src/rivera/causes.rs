@@ -1,7 +1,7 @@
 //! Why numbers differ from the published ones.
 //!
-//! What a run measures comes from its record. What was measured once, by code that is not in the repository,
-//! is said to be a guess.
+//! Numbers that a run measures come from its record. A cause that was measured once, by code that is not in
+//! the repository, is called a guess.
 
 use mediant_report::Record;
 

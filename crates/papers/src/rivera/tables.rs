@@ -20,7 +20,7 @@ use crate::{
 
 /// The five StarCraft maps.
 const STARCRAFT: [&str; 5] = ["Cauldron", "Expedition", "Octopus", "PrimevalIsles", "TheFrozenSea"];
-/// What is counted, in the order of the numbers of [`Counted`].
+/// The counts, in the order of the numbers of [`Counted`].
 const COUNTS: [Measure; 4] = [Measure::Cost, Measure::Moves, Measure::Expanded, Measure::Percolations];
 /// The part of the problems of a map that are timed.
 const TIMED: usize = 10;

@@ -81,7 +81,7 @@ fn printed(algorithm: Algorithm) -> impl Iterator<Item = (Heuristic, Measure)> {
     })
 }
 
-/// What a column is called.
+/// The name of a column.
 fn column((heuristic, measure): (Heuristic, Measure)) -> String {
     let unit = if measure == Measure::Time { " (ms)" } else { "" };
     match measure {
