@@ -28,7 +28,7 @@ pub use tree::Tree;
 /// shrinks.
 pub const EXCEPTIONS: &[Exception] = &[];
 
-/// What the rules about the files find, sorted.
+/// The findings of the rules about files, sorted.
 #[must_use]
 pub fn check_files(tree: &Tree, exceptions: &[Exception]) -> Vec<Finding> {
     let mut findings = Vec::new();
@@ -59,7 +59,7 @@ pub fn check(root: &Path) -> Result<Vec<Finding>, Error> {
 /// Prints all findings.
 ///
 /// # Errors
-/// Those of [`check`], and [`Error::Tidy`] if there is a finding.
+/// As for [`check`], and [`Error::Tidy`] if there is a finding.
 pub fn run() -> Result<(), Error> {
     let findings = check(&root())?;
     for finding in &findings {

@@ -312,7 +312,7 @@ fn what_is_published() {
     assert_eq!(findings.iter().map(short).collect::<Vec<_>>(), expected);
 }
 
-/// What a rule finds in the list of `cargo tree`, by the crate that the rule is about.
+/// The findings in a list of `cargo tree`, by the rule of a crate.
 #[track_caller]
 fn compiled(package: &str, tree: &str) -> Vec<String> {
     let rule = COMPILED.iter().find(|rule| rule.package == package).expect("a rule");
