@@ -105,8 +105,8 @@ pub struct Clearance {
     outside: Outside,
     /// Whether there is no obstacle at all.
     unlimited: bool,
-    /// The squared distance of each point of the lattice: of centers in half cells, of corner vertices in
-    /// cells. See [`transform`].
+    /// The squared distance of each center, in half cells, or of each corner vertex, in cells. See
+    /// [`transform`].
     squared: Box<[u32]>,
 }
 
@@ -199,12 +199,12 @@ impl Clearance {
         }
     }
 
-    /// The columns of the lattice.
+    /// The centers or corner vertices of a row.
     fn columns(&self) -> usize {
         self.grid.width() as usize + usize::from(self.fit == Fit::WholeCells)
     }
 
-    /// The stored square of a point of the lattice.
+    /// The stored square of a center or corner vertex.
     fn squared(&self, at: Vertex) -> Option<u32> {
         let (x, y) = (usize::try_from(at.x).ok()?, usize::try_from(at.y).ok()?);
         let row = self.squared.chunks_exact(self.columns()).nth(y)?;

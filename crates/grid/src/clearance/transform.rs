@@ -1,4 +1,4 @@
-//! Squared distances of all points of a lattice.
+//! Squared distances of all cell centers or corner vertices.
 
 use super::{
     Outside,
