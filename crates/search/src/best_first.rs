@@ -16,7 +16,7 @@ use crate::{
     planner::{Planner, Status},
     query::{Query, QueryError},
     successors::{ExpandedNode, KnownPath, Successor, Successors},
-    trace::{extend_back, trace_back},
+    trace_back::{extend_back, trace_back},
 };
 
 /// Best-first search on a grid graph: takes the node of least f = g + h from the open list until that is the

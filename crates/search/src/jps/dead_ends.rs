@@ -160,14 +160,14 @@ impl DeadEndRows {
 }
 
 /// Finds the dead ends of a grid graph.
-pub(super) struct DeadEnds<'g, P: Placement> {
+pub(super) struct DeadEndFinder<'g, P: Placement> {
     pub(super) graph: &'g GridGraph<P>,
     pub(super) table: &'g PatternTable,
     pub(super) leads: &'g Leads,
     pub(super) reach: u32,
 }
 
-impl<P: Placement> DeadEnds<'_, P> {
+impl<P: Placement> DeadEndFinder<'_, P> {
     /// Marks all dead ends.
     pub(super) fn mark(
         &self,

@@ -51,7 +51,7 @@
 //! which the search goes on. From k = 9 on, where forced successors are not tabulated, every jump ends so
 //! after one step.
 //!
-//! Its speed comes from: bit planes that combine the three rows of cells along an axial jump, so that a scan
+//! The speed comes from: bit planes that combine the three rows of cells along an axial jump, so that a scan
 //! loads one row; bit planes that hold each diagonal in the order of a jump, with the places where it stops
 //! and which axial jump leads on from there; cut jumps; passing dead ends; one loop over the jumps of a node,
 //! in which all that a search or a node has in common is found before; and, for JPS+, lists of where all

@@ -6,7 +6,7 @@ use mediant_grid::{CornerRule, GridGraph, Identity, Placement, Rules, Vertex, Ve
 use mediant_moves::FiniteK;
 
 use super::{
-    search::{Parents, Search},
+    search::{Parents, ThetaSearch},
     sight_cache::SightCache,
     sight_check::{Eager, Lazy, SightCheck},
 };
@@ -109,12 +109,12 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic, S: SightCheck>
     }
 
     /// The search, with its memory.
-    fn search<'s, O: Observer>(&'s mut self, observer: &'s mut O) -> Search<'s, P, H, S, O> {
+    fn search<'s, O: Observer>(&'s mut self, observer: &'s mut O) -> ThetaSearch<'s, P, H, S, O> {
         let Self { graph, heuristic, nodes, open, sight, ends: [start, goal], check, .. } = self;
         let wider = self.wider.as_deref().filter(|_| self.is_wider);
         let (graph, heuristic, check) = (wider.unwrap_or(graph), *heuristic, *check);
         let (start, goal, goal_at) = (*start, *goal, graph.vertex(*goal));
-        Search { graph, heuristic, nodes, open, sight, observer, start, goal, goal_at, check }
+        ThetaSearch { graph, heuristic, nodes, open, sight, observer, start, goal, goal_at, check }
     }
 }
 

@@ -81,7 +81,7 @@ struct Kinds {
 
 /// A run of cells of a row, or of a column.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Run {
+pub(super) struct CellRun {
     pub(super) is_vertical: bool,
     /// Its row or column.
     pub(super) line: i32,
@@ -89,7 +89,7 @@ pub(super) struct Run {
     pub(super) end: i32,
 }
 
-impl Run {
+impl CellRun {
     const fn first_cell(self) -> (i32, i32) {
         if self.is_vertical { (self.line, self.first) } else { (self.first, self.line) }
     }
