@@ -96,13 +96,13 @@ pub trait EdgeFinder: Placement {
         context: BuildContext<'_, Self>,
         scratch: &mut Self::Scratch,
         subgoal: Vertex,
-        visit: impl FnMut(Run),
+        visit: impl FnMut(VertexRun),
     );
 }
 
 /// A run of vertices along a row or a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Run {
+pub struct VertexRun {
     /// The vertex with the least coordinates.
     pub(crate) first: Vertex,
     /// The number of vertices.

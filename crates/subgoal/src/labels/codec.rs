@@ -3,8 +3,8 @@
 //! First the [`Identity`](mediant_grid::Identity), 32 bytes, and the code of labels, a `u32`; then the parts,
 //! and a checksum of all that, 8 bytes. A part is the number of its words and the words, `u32`, `u64` or
 //! bytes, all little endian, and zeros up to a multiple of 8 bytes. The parts are: of the [seen
-//! index](crate::seen) the tiles, the entries and the masks; the number of groups of each slot; of each group
-//! its subgoal and the number of its labels; the labels, which hold the costs; the byte beside each
+//! index](crate::seen) its blocks, entries and masks; the number of groups of each slot; of each group its
+//! subgoal and the number of its labels; the labels, which hold the costs; the byte beside each
 //! [label](super::chain). Data that follow from the map and its subgoals are not stored.
 //!
 //! Reading them takes about as long as copying them.

@@ -29,7 +29,7 @@ pub(super) fn keep_whole(
     let all = &*labels;
     let dropped = in_chunks(
         all.len(),
-        || Chains { place: vec![0; all.len()], state: Vec::new(), chain: Vec::new() },
+        || HubChains { place: vec![0; all.len()], state: Vec::new(), chain: Vec::new() },
         &|_| {},
         |chains, hubs| {
             let mut dropped = Vec::new();
@@ -93,7 +93,7 @@ impl ByHub {
 }
 
 /// Scratch memory for following labels to a hub.
-struct Chains {
+struct HubChains {
     /// By subgoal, one more than the number of its label of the hub; 0 for none.
     place: Vec<u32>,
     /// Of each label, whether it leads to the hub, if that is known.
@@ -102,7 +102,7 @@ struct Chains {
     chain: Vec<usize>,
 }
 
-impl Chains {
+impl HubChains {
     /// Finds the labels of a hub that do not lead there.
     fn find_broken(
         &mut self,
