@@ -11,7 +11,7 @@ mod outline;
 mod paint;
 mod raster;
 mod svg;
-mod tiles;
+mod vertex_colors;
 
 use std::{fmt, io, io::Write, path::Path as FilePath};
 

@@ -10,7 +10,7 @@ use super::{RosError, flow};
 use crate::text::{Line, Lines, quote};
 
 /// A key with its value, which is still text.
-pub(super) struct Entry<'a> {
+pub(super) struct YamlEntry<'a> {
     pub(super) line: usize,
     pub(super) key: String,
     pub(super) value: &'a str,
@@ -21,7 +21,7 @@ pub(super) struct Entry<'a> {
 pub(super) fn entries(
     bytes: &[u8],
     wanted: impl Fn(&str) -> bool,
-) -> Result<(Vec<Entry<'_>>, usize), RosError> {
+) -> Result<(Vec<YamlEntry<'_>>, usize), RosError> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let before = &bytes[..error.valid_up_to()];
         RosError::NoText { line: before.iter().filter(|&&byte| byte == b'\n').count() + 1 }
@@ -33,7 +33,7 @@ pub(super) fn entries(
     let mut indent: Option<usize> = None;
     // Of the last key, whether it is wanted and where its value begins.
     let mut last: Option<(bool, usize)> = None;
-    let mut entries: Vec<Entry<'_>> = Vec::new();
+    let mut entries: Vec<YamlEntry<'_>> = Vec::new();
     let mut lines = Lines::new(text.as_bytes());
     for line in lines.by_ref() {
         let whole = &text[line.start..line.start + line.text.len()];
@@ -59,7 +59,7 @@ pub(super) fn entries(
                 let (key, value) = split_key(content).ok_or_else(|| line_error(line))?;
                 last = Some((wanted(&key), start_of_content + content.len() - value.len()));
                 if wanted(&key) {
-                    entries.push(Entry { line: line.number, key, value });
+                    entries.push(YamlEntry { line: line.number, key, value });
                 }
             }
             Role::Directive => return Err(line_error(line)),

@@ -2,7 +2,7 @@
 
 use super::{
     RosError,
-    flat::{Entry, is_blank, skip_blank, take_scalar},
+    flat::{YamlEntry, is_blank, skip_blank, take_scalar},
 };
 use crate::text::quote;
 
@@ -12,7 +12,7 @@ pub(super) fn entries(
     line: usize,
     text: &str,
     wanted: impl Fn(&str) -> bool,
-) -> Result<(Vec<Entry<'_>>, usize), RosError> {
+) -> Result<(Vec<YamlEntry<'_>>, usize), RosError> {
     let line_of = |rest: &str| line + text[..text.len() - rest.len()].matches('\n').count();
     let wrong = |rest: &str| {
         let found = rest.lines().next().unwrap_or_default();
@@ -31,7 +31,7 @@ pub(super) fn entries(
         let length = value_length(after).ok_or_else(|| wrong(rest))?;
         let (value, next) = after.split_at(length);
         if wanted(&key) {
-            entries.push(Entry { line: line_of(rest), key, value });
+            entries.push(YamlEntry { line: line_of(rest), key, value });
         }
         rest = skip_blank(next.strip_prefix(',').unwrap_or(next));
     }

@@ -4,7 +4,7 @@ use std::{fmt, fmt::Write as _};
 
 use super::{
     RosError,
-    flat::{self, Entry},
+    flat::{self, YamlEntry},
 };
 use crate::{
     Fraction,
@@ -152,7 +152,7 @@ struct Value<'a> {
 }
 
 impl<'a> Value<'a> {
-    fn find(entries: &[Entry<'a>], lines: usize, key: &'static str) -> Result<Self, RosError> {
+    fn find(entries: &[YamlEntry<'a>], lines: usize, key: &'static str) -> Result<Self, RosError> {
         let example = KEYS.iter().find(|(name, _)| *name == key).map_or("", |(_, example)| *example);
         let mut found = entries.iter().filter(|entry| entry.key == key);
         let first = found.next().ok_or(RosError::MissingKey { line: lines + 1, key, example })?;
