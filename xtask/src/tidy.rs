@@ -3,6 +3,7 @@
 //! Each finding states the reason of its rule. The same check is a test of this crate, so that `cargo test`
 //! holds it too.
 
+mod clauses;
 mod dependencies;
 mod finding;
 mod links;
@@ -19,6 +20,7 @@ use mediant_sets::root;
 
 use crate::{Error, project};
 
+pub use clauses::MOST_CLAUSES;
 pub use dependencies::{COMPILED, Compiled, check_compiled, check_packages};
 pub use finding::{Exception, Finding};
 pub use published::check_published;
@@ -37,6 +39,7 @@ pub fn check_files(tree: &Tree, exceptions: &[Exception]) -> Vec<Finding> {
     modules::check(tree, &mut findings);
     links::check(tree, &mut findings);
     width::check(tree, &mut findings);
+    clauses::check(tree, &mut findings);
     findings.sort();
     findings
 }

@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, path::PathBuf};
 use mediant_sets::root;
 use xtask::{
     project::{self, Dependency, Kind, Package},
-    tidy::{self, COMPILED, Exception, Finding, Tree},
+    tidy::{self, COMPILED, Exception, Finding, MOST_CLAUSES, Tree},
 };
 
 #[test]
@@ -214,6 +214,25 @@ fn links() {
         "docs/b.md:1: `/README.md` is no file of the project",
     ];
     assert_eq!(found(&files, &[]), expected);
+}
+
+#[test]
+fn comments_that_name_no_thing() {
+    let file = |lines: usize| {
+        let begins = ["/// What", "    /// Those", "// What", "//What"];
+        let lines = begins.iter().cycle().take(lines).map(|begin| format!("{begin} it is.\n"));
+        // Code, strings and other words do not count.
+        lines.collect::<String>() + "// Whatever.\nfn f() { g(\"// What it is\"); } // What it does.\n"
+    };
+    let (first, last) = (MOST_CLAUSES / 2, MOST_CLAUSES - MOST_CLAUSES / 2);
+    let found_in =
+        |first, last| found(&[PACKAGE, ("a/src/main.rs", &file(first)), ("a/build.rs", &file(last))], &[]);
+    assert_eq!(found_in(first, last), [""; 0]);
+    let expected = format!(
+        "xtask/src/tidy/clauses.rs: {} lines of comments begin with `What` or `Those`, at most {MOST_CLAUSES}",
+        MOST_CLAUSES + 1
+    );
+    assert_eq!(found_in(first, last + 1), [expected]);
 }
 
 #[test]
