@@ -52,7 +52,7 @@ pub enum Error {
     /// A tool or crate that a chore needs and this machine lacks.
     #[error("{what}; {mend}")]
     Lacking {
-        /// The lack, in words.
+        /// The missing tool or crate, in words.
         what: String,
         /// How to get it.
         mend: String,

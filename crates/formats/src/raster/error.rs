@@ -40,7 +40,7 @@ pub enum RasterError {
         column: usize,
         /// The expected number or white space.
         expected: &'static str,
-        /// The text in its place, quoted.
+        /// The text found there.
         found: String,
     },
     /// A side is 0 or longer than [`Grid::MAX_SIDE`].
@@ -75,7 +75,7 @@ pub enum RasterError {
         place: String,
         /// The largest sample, from the header.
         max: u32,
-        /// The text in its place, quoted.
+        /// The text found there.
         found: String,
     },
     /// The file ends before the last pixel.

@@ -70,7 +70,7 @@ impl<'q> FieldQuery<'q> {
     }
 }
 
-/// Why a [`FieldQuery`] has no field.
+/// The reason why a [`FieldQuery`] cannot be answered.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FieldError {
