@@ -58,7 +58,7 @@ fn other_targets() -> Result<(), Error> {
     Ok(())
 }
 
-/// What rustup prints; empty where there is none.
+/// The output of rustup; empty where there is none.
 fn said_by_rustup(arguments: &[&str]) -> String {
     let output = Command::new("rustup").args(arguments).stderr(Stdio::null()).output();
     output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned()).unwrap_or_default()

@@ -25,7 +25,7 @@ pub struct Options {
 /// Fetches the sets that the options name into the project's cache, and prints a line for each.
 ///
 /// # Errors
-/// Those of [`run_in`].
+/// As for [`run_in`].
 pub fn run(options: &Options) -> Result<(), Error> {
     run_in(&root(), options)
 }

@@ -1,4 +1,4 @@
-//! What can go wrong with a chore: one line each.
+//! Errors of a chore, whose messages are one line each.
 
 use std::{
     io,
@@ -26,7 +26,7 @@ pub enum Error {
     Io {
         /// The file or folder.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
     /// A package without a file that belongs in each.
@@ -49,10 +49,10 @@ pub enum Error {
         /// The command.
         command: String,
     },
-    /// What a chore needs, and this machine lacks.
+    /// A tool or crate that a chore needs and this machine lacks.
     #[error("{what}; {mend}")]
     Lacking {
-        /// What is not there.
+        /// The missing tool or crate, in words.
         what: String,
         /// How to get it.
         mend: String,

@@ -23,7 +23,7 @@ use crate::{
     project::{self, published},
 };
 
-/// What belongs in each package.
+/// The files of every package.
 const FILES: [&str; 2] = ["LICENSE", "README.md"];
 
 /// Packs, unpacks and compiles.

@@ -47,13 +47,13 @@ pub struct Package {
     pub dependencies: Vec<Dependency>,
     /// The registries that take it: none for `publish = false`, any where the line is missing.
     pub publish: Option<Vec<String>>,
-    /// What it is, in a line.
+    /// Its description, in a line.
     pub description: Option<String>,
     /// Its README, from its folder.
     pub readme: Option<PathBuf>,
     /// Its features.
     pub features: BTreeMap<String, Vec<String>>,
-    /// What other programs than cargo read, docs.rs among them.
+    /// Settings of other programs than cargo, docs.rs among them.
     #[serde(default)]
     pub metadata: Value,
 }
@@ -63,11 +63,11 @@ pub struct Package {
 pub struct Dependency {
     /// The other crate.
     pub name: String,
-    /// What it is needed for.
+    /// The kind; `None` for the crate itself.
     pub kind: Option<Kind>,
 }
 
-/// What a dependency is needed for, if not for the crate itself.
+/// The use of a dependency, if not by the crate itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {

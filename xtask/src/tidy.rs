@@ -3,6 +3,7 @@
 //! Each finding states the reason of its rule. The same check is a test of this crate, so that `cargo test`
 //! holds it too.
 
+mod clauses;
 mod dependencies;
 mod finding;
 mod links;
@@ -19,6 +20,7 @@ use mediant_sets::root;
 
 use crate::{Error, project};
 
+pub use clauses::MOST_CLAUSES;
 pub use dependencies::{COMPILED, Compiled, check_compiled, check_packages};
 pub use finding::{Exception, Finding};
 pub use published::check_published;
@@ -28,7 +30,7 @@ pub use tree::Tree;
 /// shrinks.
 pub const EXCEPTIONS: &[Exception] = &[];
 
-/// What the rules about the files find, sorted.
+/// The findings of the rules about files, sorted.
 #[must_use]
 pub fn check_files(tree: &Tree, exceptions: &[Exception]) -> Vec<Finding> {
     let mut findings = Vec::new();
@@ -37,6 +39,7 @@ pub fn check_files(tree: &Tree, exceptions: &[Exception]) -> Vec<Finding> {
     modules::check(tree, &mut findings);
     links::check(tree, &mut findings);
     width::check(tree, &mut findings);
+    clauses::check(tree, &mut findings);
     findings.sort();
     findings
 }
@@ -59,7 +62,7 @@ pub fn check(root: &Path) -> Result<Vec<Finding>, Error> {
 /// Prints all findings.
 ///
 /// # Errors
-/// Those of [`check`], and [`Error::Tidy`] if there is a finding.
+/// As for [`check`], and [`Error::Tidy`] if there is a finding.
 pub fn run() -> Result<(), Error> {
     let findings = check(&root())?;
     for finding in &findings {

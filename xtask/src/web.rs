@@ -2,8 +2,8 @@
 //!
 //! It compiles `mediant-web` to WebAssembly, has the program `wasm-bindgen` write its JavaScript, and puts
 //! two folders together, in `target/web`: `package`, which `npm publish` and `npm install` take, and `page`,
-//! which any web server takes. What it needs besides Rust is had from Cargo. There is no bundler: the page is
-//! what `crates/web/page` holds, with the package and the maps beside it.
+//! which any web server takes. Its tools besides Rust come from Cargo. There is no bundler: the page is what
+//! `crates/web/page` holds, with the package and the maps beside it.
 
 mod modules;
 mod page;
@@ -30,7 +30,7 @@ use parts::{File, write_folder};
 
 /// The crate.
 const CRATE: &str = "mediant-web";
-/// What the module may weigh when it was compressed as web servers do, in bytes.
+/// The largest size of the module, compressed as web servers do, in bytes.
 const LARGEST: usize = 700_000;
 
 /// The options of `cargo xtask web`.
@@ -74,7 +74,7 @@ pub fn run(options: Options) -> Result<(), Error> {
 
 /// Runs `wasm-bindgen` on the compiled module.
 fn bind(program: &Path, module: &Path, out: &Path) -> Result<(), Error> {
-    // What an older version wrote there would be taken for a part of the package.
+    // Files of an older version would be taken for a part of the package.
     if out.exists() {
         fs::remove_dir_all(out).map_err(Error::at(out))?;
     }

@@ -5,7 +5,7 @@ use std::{collections::BTreeMap, path::PathBuf};
 use mediant_sets::root;
 use xtask::{
     project::{self, Dependency, Kind, Package},
-    tidy::{self, COMPILED, Exception, Finding, Tree},
+    tidy::{self, COMPILED, Exception, Finding, MOST_CLAUSES, Tree},
 };
 
 #[test]
@@ -217,6 +217,25 @@ fn links() {
 }
 
 #[test]
+fn comments_that_name_no_thing() {
+    let file = |lines: usize| {
+        let begins = ["/// What", "    /// Those", "// What", "//What"];
+        let lines = begins.iter().cycle().take(lines).map(|begin| format!("{begin} it is.\n"));
+        // Code, strings and other words do not count.
+        lines.collect::<String>() + "// Whatever.\nfn f() { g(\"// What it is\"); } // What it does.\n"
+    };
+    let (first, last) = (MOST_CLAUSES / 2, MOST_CLAUSES - MOST_CLAUSES / 2);
+    let found_in =
+        |first, last| found(&[PACKAGE, ("a/src/main.rs", &file(first)), ("a/build.rs", &file(last))], &[]);
+    assert_eq!(found_in(first, last), [""; 0]);
+    let expected = format!(
+        "xtask/src/tidy/clauses.rs: {} lines of comments begin with `What` or `Those`, at most {MOST_CLAUSES}",
+        MOST_CLAUSES + 1
+    );
+    assert_eq!(found_in(first, last + 1), [expected]);
+}
+
+#[test]
 fn dependencies() {
     let package = |name: &str, dependencies: &[(&str, Option<Kind>)]| Package {
         name: name.to_owned(),
@@ -312,7 +331,7 @@ fn what_is_published() {
     assert_eq!(findings.iter().map(short).collect::<Vec<_>>(), expected);
 }
 
-/// What a rule finds in the list of `cargo tree`, by the crate that the rule is about.
+/// The findings in a list of `cargo tree`, by the rule of a crate.
 #[track_caller]
 fn compiled(package: &str, tree: &str) -> Vec<String> {
     let rule = COMPILED.iter().find(|rule| rule.package == package).expect("a rule");

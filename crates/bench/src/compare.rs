@@ -79,7 +79,7 @@ pub enum CompareError {
     Write {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
     /// The tables cannot be printed.
@@ -90,7 +90,7 @@ pub enum CompareError {
 /// Measures what the options name, and prints the tables.
 ///
 /// # Errors
-/// Those of [`run_in`].
+/// As for [`run_in`].
 pub fn run(options: &Options) -> Result<(), CompareError> {
     run_in(&root(), options, &mut io::stdout().lock())
 }

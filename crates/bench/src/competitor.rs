@@ -50,7 +50,7 @@ pub(crate) enum Runner {
 }
 
 /// An answer as its competitor gives it.
-pub(crate) enum Answer {
+pub(crate) enum CompetitorAnswer {
     Outcome(Outcome),
     Cells(Option<(Vec<(u16, u16)>, Length)>),
     Points(Option<Vec<Point>>),
@@ -100,18 +100,18 @@ impl Runner {
         }
     }
 
-    pub(crate) fn solve(&mut self, query: Query) -> Result<Answer, QueryError> {
+    pub(crate) fn solve(&mut self, query: Query) -> Result<CompetitorAnswer, QueryError> {
         Ok(match self {
-            Self::Ours(planner, _) => Answer::Outcome(planner.find(query)?),
-            Self::Distance(planner, _) => Answer::Length(planner.distance(query)?),
-            Self::Typed(planner) => Answer::Outcome(planner.solve(query)?),
-            Self::Bools(map) => Answer::Cells(map.solve(query)),
-            Self::Pathing(pathing) => Answer::Points(solve_on(pathing, query)),
+            Self::Ours(planner, _) => CompetitorAnswer::Outcome(planner.find(query)?),
+            Self::Distance(planner, _) => CompetitorAnswer::Length(planner.distance(query)?),
+            Self::Typed(planner) => CompetitorAnswer::Outcome(planner.solve(query)?),
+            Self::Bools(map) => CompetitorAnswer::Cells(map.solve(query)),
+            Self::Pathing(pathing) => CompetitorAnswer::Points(solve_on(pathing, query)),
         })
     }
 }
 
-impl Answer {
+impl CompetitorAnswer {
     /// The path's length in cells; `None` where there is no path.
     pub(crate) fn cost(&self) -> Option<f64> {
         match self {

@@ -18,7 +18,7 @@
 //! * [`compare`] and [`verify`]: the programs behind `cargo xtask compare` and `cargo xtask verify`. `verify`
 //!   measures no time, but needs the same: all engines, and the benchmark sets.
 //!
-//! What is not here: the benchmark sets (`mediant-sets`), and tables and files of results (`mediant-report`,
+//! Not here: the benchmark sets (`mediant-sets`), and tables and files of results (`mediant-report`,
 //! `mediant-papers`). The criterion benches are in `benches/`.
 
 mod baseline;

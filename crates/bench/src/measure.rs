@@ -80,7 +80,7 @@ pub enum MeasureError {
         index: usize,
         /// The length that it must have.
         expected: f64,
-        /// Who found that length.
+        /// The source of that length: the scenario or a competitor.
         by: &'static str,
         /// The length that was found, or `none`.
         found: String,

@@ -1,4 +1,4 @@
-//! What is prepared of a map before the first query.
+//! Preparation before the first query: its time and memory.
 
 use mediant::{EngineOption, Index, Levels, OptionValue, Space};
 use serde::{Deserialize, Serialize};
@@ -12,11 +12,11 @@ pub struct Preparation {
     pub bytes: u64,
     /// The part of it that the index takes; the rest is the search space.
     pub index_bytes: u64,
-    /// What the engine `subgoal` keeps; `None` for other engines.
+    /// The kind of index of `subgoal`; `None` for other engines.
     pub kept: Option<Kept>,
 }
 
-/// What the engine `subgoal` keeps of a map.
+/// The kind of index that the engine `subgoal` keeps of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kept {

@@ -39,7 +39,7 @@ pub enum ProblemError {
     Map {
         /// The map's name.
         name: String,
-        /// What is wrong.
+        /// The fault.
         source: MapError,
     },
     /// A file that is no scenario.
@@ -47,7 +47,7 @@ pub enum ProblemError {
     Scenario {
         /// The map's name.
         name: String,
-        /// What is wrong.
+        /// The fault.
         source: ScenarioError,
     },
     /// The scenario of another map.
@@ -58,7 +58,7 @@ pub enum ProblemError {
     Instances {
         /// The map's name.
         name: String,
-        /// What is wrong.
+        /// The fault.
         wrong: String,
     },
 }

@@ -11,7 +11,7 @@ use mediant_moves::K;
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReferenceTimings {
-    /// What the file is, in a sentence.
+    /// A description of the file, in a sentence.
     pub about: String,
     /// Where, when and how the times were taken.
     pub measured: Measured,
@@ -37,7 +37,7 @@ pub struct Measured {
     pub date: String,
     /// The machine.
     pub machine: String,
-    /// What was timed.
+    /// The definition of the times, with their unit.
     pub time: String,
 }
 
@@ -63,7 +63,7 @@ pub struct ReferenceProgram {
     pub optimal: bool,
     /// Its language, where not C++ or Rust.
     pub language: Option<String>,
-    /// What its paths consist of: `cells` or `turning points`.
+    /// The vertices of its paths: `cells` or `turning points`.
     pub returns: Option<String>,
     /// Its version.
     pub version: Option<String>,

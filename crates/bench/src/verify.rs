@@ -61,7 +61,7 @@ impl Options {
     }
 }
 
-/// What makes `verify` fail.
+/// A failure of `verify`.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum VerifyError {
@@ -182,7 +182,7 @@ impl Tally {
 /// Compares, and prints what was compared.
 ///
 /// # Errors
-/// Those of [`run_in`].
+/// As for [`run_in`].
 pub fn run(options: &Options) -> Result<(), VerifyError> {
     run_in(&cache(&root()), options, &mut io::stdout().lock())
 }

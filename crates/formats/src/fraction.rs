@@ -27,7 +27,7 @@ pub struct Fraction {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected a number of 0 to 1, found `{found}`; write for instance 0.5")]
 pub struct FractionError {
-    /// What there is instead.
+    /// The text or number.
     pub found: String,
 }
 

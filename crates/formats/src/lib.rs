@@ -48,9 +48,8 @@
 //!
 //! No feature is on by default, and none changes what is there without it.
 //!
-//! What is not here: searches and engines. Indexes, traces and pictures are made of names, numbers and
-//! bytes. It is not checked whether a query's start or goal is free, since that depends on where the vertices
-//! are.
+//! Not here: searches and engines. Indexes, traces and pictures are made of names, numbers and bytes. It is
+//! not checked whether a query's start or goal is free, since that depends on where the vertices are.
 
 mod foreign;
 mod fraction;

@@ -67,7 +67,7 @@ pub enum ReadError {
     Map {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault in the file.
         source: MapError,
     },
     /// The file is no picture.
@@ -75,7 +75,7 @@ pub enum ReadError {
     Raster {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault in the file.
         source: RasterError,
     },
     /// The file is no YAML file of a ROS map.
@@ -83,7 +83,7 @@ pub enum ReadError {
     Ros {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault in the file.
         source: RosError,
     },
     /// The picture that the YAML file of a ROS map names cannot be read.
@@ -91,7 +91,7 @@ pub enum ReadError {
     RosImage {
         /// The YAML file.
         path: PathBuf,
-        /// What is wrong with the picture.
+        /// The error of the picture.
         source: Box<ReadError>,
     },
     /// The file is none of the kinds of maps, by its content and by its name.
@@ -110,7 +110,7 @@ pub enum ReadError {
     Scenario {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault in the file.
         source: ScenarioError,
     },
     /// The file is no index. Needs the feature `index`.
@@ -119,7 +119,7 @@ pub enum ReadError {
     Index {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault in the file.
         // An error that can name two maps is large, and all that read files return this one.
         source: Box<IndexError>,
     },

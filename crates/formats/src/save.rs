@@ -9,7 +9,7 @@ use std::{
 use mediant_grid::Interrupted;
 use tempfile::{NamedTempFile, TempPath};
 
-/// Why a file cannot be written. What was there before is still there.
+/// Why a file cannot be written. An older file is still there.
 ///
 /// Needs the feature `save`.
 #[derive(Debug, thiserror::Error)]
@@ -135,7 +135,7 @@ impl NewFile {
     /// Begins a file.
     ///
     /// # Errors
-    /// Those of [`check`](Self::check), and [`WriteError::Folder`] for a folder in which no file can be made.
+    /// As for [`check`](Self::check), and [`WriteError::Folder`] for a folder in which no file can be made.
     pub fn create(path: impl AsRef<Path>) -> Result<Self, WriteError> {
         let path = path.as_ref();
         Self::check(path)?;
@@ -163,7 +163,7 @@ impl NewFile {
     /// Writes a file by a function, and puts it in the place of an older one if the function succeeds.
     ///
     /// # Errors
-    /// Those of [`create`](Self::create), of the function, and of [`replace`](Self::replace).
+    /// Errors of [`create`](Self::create), of the function, and of [`replace`](Self::replace).
     pub fn write_with(
         path: impl AsRef<Path>,
         write: impl FnOnce(&mut Self) -> io::Result<()>,

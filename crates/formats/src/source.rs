@@ -81,7 +81,7 @@ pub fn read_map(path: impl AsRef<Path>, options: &MapOptions) -> Result<MapSourc
 /// [`read_map`], which an interrupt can stop; it asks for each mebibyte of a file and each row of the map.
 ///
 /// # Errors
-/// Those of [`read_map`], and [`ReadError::Interrupted`].
+/// As for [`read_map`], and [`ReadError::Interrupted`].
 pub fn read_map_interruptible(
     path: impl AsRef<Path>,
     options: &MapOptions,
@@ -107,7 +107,7 @@ pub fn read_map_interruptible(
 /// ```
 ///
 /// # Errors
-/// Those of `read`, and [`ReadError`] for what is no map.
+/// Errors of `read`, and [`ReadError`] for a file that is no map.
 pub fn read_map_with(
     path: impl AsRef<Path>,
     options: &MapOptions,
@@ -154,7 +154,7 @@ fn source(
 /// ```
 ///
 /// # Errors
-/// Those of `read`, and [`ReadError`] for a header that is wrong, or states sides that no map has.
+/// Errors of `read`, and [`ReadError`] for a header that is wrong, or states sides that no map has.
 pub fn map_size_with(
     path: impl AsRef<Path>,
     mut read: impl FnMut(&Path) -> Result<Vec<u8>, ReadError>,

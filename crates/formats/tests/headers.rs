@@ -35,7 +35,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static COUNTING: Counting = Counting;
 
-/// What reading needs besides the pixels: the decoder of PNG has tables, and buffers for a few rows.
+/// Memory of a reader besides the pixels: the decoder of PNG has tables, and buffers for a few rows.
 const SLACK: usize = 1 << 20;
 
 /// The most bytes that reading allocates at a time, and whether there was a picture.

@@ -22,8 +22,8 @@ pub enum Connectivity {
 /// The connected components of a grid's free cells.
 ///
 /// They are found by runs of free cells: each run of a row is joined with the runs that it meets in the row
-/// above. What is kept is a label for each run of each word of the map, so that the memory follows the
-/// runs, not the cells: a sixteenth of a byte a cell, and four bytes a run.
+/// above. A label is stored for each run of each word of the map, so the memory follows the runs, not the
+/// cells: a sixteenth of a byte a cell, and four bytes a run.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -50,7 +50,7 @@ pub struct Components {
 
 /// A run of free cells in one row: columns `first` to `last`.
 #[derive(Clone, Copy)]
-struct Run {
+struct RowRun {
     first: u32,
     last: u32,
     set: u32,
@@ -76,7 +76,7 @@ impl Components {
         let rows = grid.rows();
         let mut first = Vec::with_capacity(rows.words().len());
         let (mut sets, mut labels) = (Sets::default(), Vec::new());
-        let (mut above, mut row): (Vec<Run>, Vec<Run>) = (Vec::new(), Vec::new());
+        let (mut above, mut row): (Vec<RowRun>, Vec<RowRun>) = (Vec::new(), Vec::new());
         for y in 0..grid.height() as i32 {
             interrupt.check(DURING)?;
             let start = rows.index(0, y).0 as usize / 64;
@@ -93,7 +93,7 @@ impl Components {
                     match row.last_mut() {
                         // A run that reaches the end of a word goes on in the next one.
                         Some(open) if bit == 0 && open.last + 1 == base => open.last += length,
-                        _ => row.push(Run { first: run, last: run + length - 1, set: sets.add() }),
+                        _ => row.push(RowRun { first: run, last: run + length - 1, set: sets.add() }),
                     }
                     labels.extend(row.last().map(|run| run.set));
                     free &= (!0_u64).checked_shl(bit + length).unwrap_or(0);
@@ -172,7 +172,7 @@ impl Sets {
     }
 
     /// Joins the runs of a row with those that they meet in the row above; runs `reach` columns apart meet.
-    fn join_rows(&mut self, above: &[Run], row: &[Run], reach: u32) {
+    fn join_rows(&mut self, above: &[RowRun], row: &[RowRun], reach: u32) {
         let mut met = 0;
         for run in row {
             // Runs above that end before this one begins do not meet the later ones either.

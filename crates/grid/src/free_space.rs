@@ -1,4 +1,4 @@
-//! What does not depend on k: vertices, sight, gaps, components.
+//! The free space, which no k changes: vertices, sight, gaps, components.
 
 use std::sync::Arc;
 
@@ -87,8 +87,8 @@ impl<P: Placement> FreeSpace<P> {
         }
     }
 
-    /// What it belongs to: its map and rules, and every k; or k = 2 alone, where that has components of its
-    /// own ([`for_k`](Self::for_k)).
+    /// The identity: its map and rules, and every k; or k = 2 alone, where that has components of its own
+    /// ([`for_k`](Self::for_k)).
     #[must_use]
     pub fn identity(&self) -> Identity {
         let is_for_all = self.connectivity == P::connectivity(self.rule, None);

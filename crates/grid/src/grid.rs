@@ -76,7 +76,7 @@ impl Grid {
     /// [`from_fn`](Self::from_fn), which an interrupt can stop; it asks before each row.
     ///
     /// # Errors
-    /// Those of [`from_fn`](Self::from_fn), and [`GridError::Interrupted`].
+    /// As for [`from_fn`](Self::from_fn), and [`GridError::Interrupted`].
     pub fn from_fn_interruptible(
         width: u32,
         height: u32,
@@ -99,7 +99,7 @@ impl Grid {
     /// ```
     ///
     /// # Errors
-    /// Those of [`from_fn`](Self::from_fn).
+    /// As for [`from_fn`](Self::from_fn).
     pub fn from_words(width: u32, height: u32, word: impl FnMut(u32, u32) -> u64) -> Result<Self, GridError> {
         Self::from_words_interruptible(width, height, &Interrupt::NEVER, word)
     }
@@ -107,7 +107,7 @@ impl Grid {
     /// [`from_words`](Self::from_words), which an interrupt can stop; it asks before each row.
     ///
     /// # Errors
-    /// Those of [`from_words`](Self::from_words), and [`GridError::Interrupted`].
+    /// As for [`from_words`](Self::from_words), and [`GridError::Interrupted`].
     pub fn from_words_interruptible(
         width: u32,
         height: u32,

@@ -85,7 +85,7 @@ pub struct GridGraph<P: Placement> {
     octants: Arc<[Octant]>,
 }
 
-/// What does not depend on k: the map, vertices, sight, gaps, components.
+/// The free space, which no k changes: the map, vertices, sight, gaps, components.
 impl<P: Placement> Deref for GridGraph<P> {
     type Target = FreeSpace<P>;
 
@@ -138,7 +138,7 @@ impl<P: Placement> GridGraph<P> {
         })
     }
 
-    /// What it belongs to: its map, rules and k.
+    /// The identity: its map, rules and k.
     #[must_use]
     pub fn identity(&self) -> Identity {
         Identity { k: Some(self.k.into()), ..self.space.identity() }

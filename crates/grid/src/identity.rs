@@ -1,4 +1,4 @@
-//! What belongs together: the identity of a map, and of what is prepared on it.
+//! Identities of maps and of everything prepared on them, which decide what may be joined.
 
 use std::fmt;
 
@@ -102,7 +102,7 @@ const fn mix(word: u64) -> u64 {
     word ^ word >> 31
 }
 
-/// What something belongs to: a map, a placement with its rule of motion, and a k. Everything that is
+/// The map, the placement with its rule of motion, and the k that something belongs to. Everything that is
 /// prepared carries it, and every constructor that joins two things compares them, in constant time.
 ///
 /// ```
@@ -150,13 +150,13 @@ impl fmt::Display for Identity {
      make a new one"
 )]
 pub struct Mismatch {
-    /// What the first of them is.
+    /// The name of the first, such as 'the planner'.
     pub prepared: &'static str,
-    /// What it belongs to.
+    /// The identity of the first.
     pub belongs_to: Identity,
-    /// What the other one is.
+    /// The name of the other.
     pub other: &'static str,
-    /// What that belongs to.
+    /// The identity of the other.
     pub other_belongs_to: Identity,
 }
 

@@ -81,8 +81,8 @@ impl Interrupt {
         Self { cancel: Some(flag), ..self }
     }
 
-    /// Whether it is time to stop. It is asked often, by any of the threads that work, and once it has said
-    /// yes, it must go on saying so. Libraries read no clock; the caller does.
+    /// A function that says whether it is time to stop. Any of the threads that work asks it often, and after
+    /// its first yes it must go on saying yes. Libraries read no clock; the caller does.
     #[must_use]
     pub fn deadline(self, is_over: impl Fn() -> bool + Send + Sync + 'static) -> Self {
         Self { deadline: Some(Arc::new(is_over)), ..self }
@@ -132,7 +132,7 @@ impl Interrupt {
     /// Asks once for each so many steps, of which this is the one with that number.
     ///
     /// # Errors
-    /// Those of [`check`](Self::check).
+    /// As for [`check`](Self::check).
     #[inline]
     pub fn check_every(&self, steps: usize, step: usize, during: &'static str) -> Result<(), Interrupted> {
         if step.is_multiple_of(steps) { self.check(during) } else { Ok(()) }

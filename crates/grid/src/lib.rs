@@ -19,12 +19,12 @@
 //! agent of n × n cells. Whatever searches a grid searches these too, and what the agent's paths are worth is
 //! proven for each placement and rule. [`Clearance::widest`] finds paths that keep off walls.
 //!
-//! **One way to stop.** What can take longer than some milliseconds has a form that takes an [`Interrupt`],
-//! here and in all crates above: a flag, a deadline, or both, asked at bounded intervals of work. What was
-//! stopped returns [`Interrupted`], keeps no memory and leaves no thread at work. The plain form is the same
-//! with [`Interrupt::NEVER`].
+//! **One way to stop.** A call that can take longer than some milliseconds has a form that takes an
+//! [`Interrupt`], here and in all crates above: a flag, a deadline, or both, asked at bounded intervals of
+//! work. A stopped call returns [`Interrupted`], keeps no memory and leaves no thread at work. The plain form
+//! is the same with [`Interrupt::NEVER`].
 //!
-//! What is not here: files (`mediant-formats`) and searches (`mediant-search`).
+//! Not here: files (`mediant-formats`) and searches (`mediant-search`).
 //!
 //! ```
 //! use std::sync::Arc;

@@ -39,7 +39,7 @@ impl<V> PerMotion<V> {
     /// the same time both compute it, and one is kept.
     ///
     /// # Errors
-    /// Those of [`get`](Self::get); within, the error of `compute`.
+    /// As for [`get`](Self::get); within, the error of `compute`.
     pub fn get_or_stop<E>(
         &self,
         rules: Rules,

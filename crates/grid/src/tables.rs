@@ -21,8 +21,8 @@ pub(crate) struct Tables {
     short: Box<[u8]>,
     /// The moves of an octant beyond N(3); none up to k = 3.
     tree: Tree,
-    /// The octants of the last map. Those of more maps are not kept: so what the process keeps is bounded by
-    /// the number of rules and k.
+    /// The octants of the last map. Octants of more maps are not kept, so the number of rules and k bounds
+    /// the memory of the process.
     last: Mutex<Option<Placed>>,
 }
 

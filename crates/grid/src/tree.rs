@@ -110,7 +110,7 @@ fn shared(swept: &[Swept]) -> Vec<u128> {
 /// Where the cells of a move begin and end in the list that holds those of all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Places {
-    /// Those that its whole subtree sweeps, and no larger one.
+    /// The cells that its whole subtree sweeps, and no larger one.
     shared: (u32, u32),
     /// The end of the other cells that the move sweeps; they begin where the shared ones end.
     own: u32,

@@ -59,7 +59,7 @@ pub(crate) fn after_identity<'b>(
     Ok(rest)
 }
 
-/// What errors call an index.
+/// The name of an index in errors.
 const INDEX: &str = "the index";
 
 /// Checks that so many nodes or segments can be addressed. On 64 bits every map's can, on 32 bits not those

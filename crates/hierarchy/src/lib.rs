@@ -50,9 +50,9 @@
 //! `docs/measurements/hierarchy.md`. In short, paths of HPA* are 0.2 to 0.4 % longer than optimal in the mean
 //! on maps of games.
 //!
-//! **What is not here.** No path is promised to be optimal; `mediant-search` and `mediant-subgoal` have the
-//! engines that promise it. There are no hierarchies for k above 3, for corners that may be cut at k = 3, or
-//! for corner placement. There are no files: an index is written to and read from bytes.
+//! **Not here.** No path is promised to be optimal; `mediant-search` and `mediant-subgoal` have the engines
+//! that promise it. There are no hierarchies for k above 3, for corners that may be cut at k = 3, or for
+//! corner placement. There are no files: an index is written to and read from bytes.
 
 mod bytes;
 mod check;

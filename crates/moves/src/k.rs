@@ -44,7 +44,7 @@ impl K {
     /// The neighborhood of so many moves: 4 are k = 2, 8 are k = 3, 16 are k = 4.
     ///
     /// # Errors
-    /// Those of [`FiniteK::from_neighbors`].
+    /// As for [`FiniteK::from_neighbors`].
     pub const fn from_neighbors(moves: u64) -> Result<Self, KError> {
         match FiniteK::from_neighbors(moves) {
             Ok(k) => Ok(Self::Finite(k)),

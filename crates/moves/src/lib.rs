@@ -9,8 +9,8 @@
 //! walk over k − 2 levels of mediants, in registers. The only table is [`CostTable`], for searches that look
 //! costs up.
 //!
-//! What is not here: obstacles. Which cells a move sweeps on a map is defined in `mediant-grid`. Measurements
-//! are in `docs/measurements/moves.md`.
+//! Obstacles are not here. Which cells a move sweeps on a map is defined in `mediant-grid`. Measurements are
+//! in `docs/measurements/moves.md`.
 //!
 //! The crate is `no_std` and has no dependencies. Feature `std` (default) uses the hardware's square roots.
 //! Feature `alloc` (default, implied by `std`) adds what needs a heap: [`CostTable`], [`DecompositionTree`],

@@ -5,7 +5,7 @@
 
 use crate::{FiniteK, KError, Vector};
 
-/// Whether a move stands at an even or an odd index of its quadrant (Rivera 2017, 'Canonical Orderings').
+/// The parity of a move's index in its quadrant (Rivera 2017, 'Canonical Orderings').
 ///
 /// For k ≥ 3 the odd-indexed moves of N(k) are those that N(k − 1) lacks, the moves of level k.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

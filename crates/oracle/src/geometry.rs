@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn only_inner_lattice_corners_are_passed() {
+    fn only_inner_corner_points_are_passed() {
         let segment = Segment { from: [0, 0], by: [8, 4] };
         assert_eq!(segment.corner_at(Fraction::new(1, 2)), Some([2, 1]));
         assert_eq!(segment.corner_at(Fraction::new(1, 4)), None);

@@ -17,7 +17,7 @@
 //! * [`check_interrupts`]: that work can be stopped anywhere, and then stops.
 //! * [`describe`]: the query and its map, for the message of a failing test.
 //!
-//! What is not here: speed. It is meant for small maps.
+//! Speed is no aim: it is meant for small maps.
 //!
 //! ```
 //! use mediant_grid::{AsciiMap, CornerRule, Rules};

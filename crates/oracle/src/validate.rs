@@ -1,4 +1,4 @@
-//! Whether a path is legal and has the stated cost.
+//! Validation of a path: its moves and its stated cost.
 
 use std::{error::Error, fmt};
 
@@ -13,7 +13,7 @@ use crate::{
 /// The largest relative difference between a stated cost and the length of the path.
 const TOLERANCE: f64 = 1e-9;
 
-/// What is wrong with a path, and where.
+/// A fault of a path, and its place.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Fault {
@@ -137,7 +137,7 @@ impl fmt::Display for Fault {
 
 impl Error for Fault {}
 
-/// Whether `waypoints` is a legal path from `start` to `goal` whose length is `cost`, in cells.
+/// Checks that `waypoints` is a legal path from `start` to `goal` whose length is `cost`, in cells.
 ///
 /// With k, two consecutive waypoints must be joined by repetitions of one move of N(k), each of them legal;
 /// for k = `None`, by one legal segment. If start and goal are the same, the path is this one waypoint, with

@@ -34,7 +34,7 @@ const VARIANTS: [(&str, u32, &str); 8] = [
     ("bounded JPS with smoothing", 5, "jps:5:open,smooth"),
     ("bounded JPS with smoothing", 6, "jps:6:open,smooth"),
 ];
-/// Our setups without a counterpart. Those that differ in smoothing alone stand together, so that they share
+/// Our setups without a counterpart. Setups that differ in smoothing alone stand together, so that they share
 /// an index.
 const OURS: [&str; 11] = [
     "jps-block:3:open,smooth",

@@ -53,7 +53,7 @@ fn measure(context: &Context<'_>) -> Result<Findings, Error> {
     findings(context, ours.chain(distances).collect::<Result<_, Error>>()?)
 }
 
-/// What a setup is called in tables: a subgoal engine by what it keeps of a map, if it may.
+/// The name of a setup in tables: a subgoal engine's says which index it may keep.
 fn called(setup: &str) -> String {
     let is_subgoal =
         |setup: &str| setup.parse::<Setup>().is_ok_and(|parsed| parsed.engine.kind() == Engine::Subgoal);
@@ -65,7 +65,7 @@ fn called(setup: &str) -> String {
     }
 }
 
-/// Where what a table calls hub labels are none.
+/// The maps on which a setup of hub labels keeps none.
 fn exceptions(record: &Record) -> String {
     let mut all = Vec::new();
     for setup in SETUPS {

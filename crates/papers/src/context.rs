@@ -20,7 +20,7 @@ use crate::{
 /// The timed passes over the queries of a map, of which the median counts.
 const PASSES: u32 = 3;
 
-/// What is asked of a run.
+/// The options of a run.
 #[derive(Clone, Debug)]
 pub(super) struct Request {
     /// Whether an even sample of everything is enough.
@@ -44,7 +44,7 @@ pub(super) struct Setting {
     parts: PathBuf,
 }
 
-/// Whether the maps of a step are measured at once or in turn.
+/// The order in which the maps of a step are measured: at once or in turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum How {
     /// Several at once: nothing in it is timed.
@@ -128,7 +128,7 @@ impl Setting {
     }
 }
 
-/// What an experiment sees of a run.
+/// A run's setting, for one experiment.
 pub(super) struct Context<'a> {
     setting: &'a Setting,
     /// The experiment.
@@ -138,7 +138,7 @@ pub(super) struct Context<'a> {
 }
 
 impl<'a> Context<'a> {
-    /// What the experiment `id`, which runs on `sets`, sees of a run.
+    /// The setting for the experiment `id`, which runs on `sets`.
     pub(super) const fn new(setting: &'a Setting, id: &'static str, sets: &'static [&'static str]) -> Self {
         Self { setting, id, sets }
     }

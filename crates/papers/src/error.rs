@@ -1,4 +1,4 @@
-//! What keeps a table from being reproduced: one line each.
+//! Errors of a reproduction, whose messages are one line each.
 
 use std::{
     io,
@@ -23,7 +23,7 @@ pub enum Error {
     Io {
         /// The file or folder.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
 }

@@ -78,9 +78,9 @@ impl Page {
     }
 }
 
-/// What an experiment found; with its provenance it becomes a record.
+/// The results of an experiment; with their provenance they become a record.
 pub(super) struct Findings {
-    /// What the rows hold.
+    /// The columns of the rows.
     pub(super) columns: Vec<Column>,
     pub(super) rows: Vec<Row>,
     /// The numbers of maps and of queries (or other cases) that the figures are over.

@@ -93,7 +93,7 @@ fn tiled(grid: &Grid, times: u32) -> Result<Grid, Error> {
     Grid::from_fn(width * times, height * times, blocked).map_err(|wrong| Error::Reproduce(wrong.to_string()))
 }
 
-/// What a setup takes on the tiles.
+/// A setup's times and memory on the tiled map.
 #[derive(Serialize, Deserialize)]
 struct OnTiles {
     cells: f64,
@@ -214,7 +214,7 @@ fn show(record: &Record) -> Section {
     section
 }
 
-/// What is shown of the rows.
+/// A quantity of the rows that is shown.
 #[derive(Clone, Copy)]
 struct Measure {
     word: &'static str,

@@ -11,8 +11,8 @@
 //! `pages` draw, from records alone. To add an experiment: a module with an `Experiment`, and its line in
 //! `catalog`.
 //!
-//! What is not here: how a query is timed (`mediant-bench`), what records, tables and charts are
-//! (`mediant-report`), and where the maps come from (`mediant-sets`).
+//! Not here: the timing of queries (`mediant-bench`), records, tables and charts (`mediant-report`), and the
+//! source of the maps (`mediant-sets`).
 #![allow(
     clippy::print_stdout,
     clippy::print_stderr,

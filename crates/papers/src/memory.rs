@@ -1,5 +1,4 @@
-//! What a query at any angle costs, and what memory it takes: next to nothing prepared, a contraction, hub
-//! labels, and EHL.
+//! Time of a query at any angle against memory: next to nothing prepared, a contraction, hub labels, and EHL.
 
 mod published;
 
@@ -31,7 +30,7 @@ pub(super) const MEMORY: Experiment = Experiment {
 const LABELS: &str = "subgoal:any:closed,memory=1GB";
 const CONTRACTION: &str = "subgoal:any:closed,levels=contracted";
 const ANYA: &str = "anya:any:closed";
-/// What the library makes within budgets of memory; the last without one being named.
+/// The library within budgets of memory; the last is the default budget.
 const BUDGETS: [&str; 4] = [
     "subgoal:any:closed,memory=1MB",
     "subgoal:any:closed,memory=4MB",

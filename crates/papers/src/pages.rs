@@ -16,7 +16,7 @@ use crate::{
     wrap::wrapped,
 };
 
-/// What the marks of tables mean.
+/// The legend of the marks in tables.
 const MARKS: &str = "✓ as published: to the printed digits if the instances are the same, else within 3 % or \
                      the stated tolerance. ≈ within two standard errors of the difference, as another draw \
                      of the instances could be. ✗ differs: [deviations](deviations.md) says why. – not \

@@ -60,7 +60,7 @@ pub struct Options {
 /// Measures and writes the pages.
 ///
 /// # Errors
-/// Those of [`run_in`].
+/// As for [`run_in`].
 pub fn run(options: &Options) -> Result<(), Error> {
     run_in(&root(), options)
 }

@@ -31,7 +31,7 @@ pub(super) const RUNS: Experiment = Experiment {
     show,
 };
 
-/// The maps of Section 4, all of 768 × 768 tiles.
+/// The maps of Section 4, all of 768 × 768 cells.
 const MAPS: [&str; 4] = ["ArcticStation", "BrokenSteppes", "Enigma", "Nightshade"];
 /// How many instances the paper draws of each scenario.
 const DRAWN: usize = 200;

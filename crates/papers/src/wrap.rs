@@ -42,7 +42,7 @@ fn wrap(line: &str, text: &mut String) {
     }
 }
 
-/// What the further lines of a quote or list item begin with.
+/// The indent of further lines of a quote or list item.
 fn indent(line: &str) -> String {
     let first = line.split(' ').next().unwrap_or_default();
     match first {

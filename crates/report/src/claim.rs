@@ -12,7 +12,7 @@
 pub struct Claim {
     /// Where it is published: a table and column, a figure, a section.
     pub source: String,
-    /// What the number is.
+    /// The quantity, in words.
     pub what: String,
     /// The number as published.
     pub published: f64,
@@ -31,7 +31,7 @@ pub struct Claim {
     pub unit: String,
 }
 
-/// Whether our number agrees with a published one.
+/// The verdict on our number beside a published one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// Ours is within the tolerance.
@@ -112,7 +112,7 @@ impl Claim {
         Some(self.ours? / self.published - 1.0)
     }
 
-    /// Whether ours agrees with the published number.
+    /// The verdict on our number beside the published one.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         match self.difference().map(f64::abs) {

@@ -9,8 +9,8 @@ use std::{
 
 use crate::Machine;
 
-/// What git calls the sources at `root`, with `-dirty` if they differ from it; `unknown` where git does not
-/// answer.
+/// The revision of the sources at `root` by `git describe`, with `-dirty` if files differ from it; `unknown`
+/// where git does not answer.
 #[must_use]
 pub fn revision(root: &Path) -> String {
     let git = Command::new("git")

@@ -13,8 +13,8 @@
 //! * [`stats`]: means, medians, ratios of means with their standard errors.
 //! * [`Chart`], [`GridDrawing`], [`TreeDrawing`]: figures as SVG.
 //!
-//! What is not here: engines, measurements (`mediant-bench`), and the choice of tables and figures, which is
-//! part of each experiment.
+//! Not here: engines, measurements (`mediant-bench`), and the choice of tables and figures, which is part of
+//! each experiment.
 
 mod claim;
 mod figure;

@@ -16,7 +16,7 @@ use crate::{
     planner::{Planner, Status},
     query::{Query, QueryError},
     successors::{ExpandedNode, KnownPath, Successor, Successors},
-    trace::{extend_back, trace_back},
+    trace_back::{extend_back, trace_back},
 };
 
 /// Best-first search on a grid graph: takes the node of least f = g + h from the open list until that is the
@@ -264,7 +264,7 @@ fn arrival<P: Placement, N: ParentPointer>(
     by
 }
 
-/// What an observer is told of the best open node: its f, or its g where f says nothing.
+/// The best open node's bound for an observer: its f, or its g where f is no bound.
 fn least<H: Heuristic, N: ParentPointer>(best: Entry, nodes: &NodeStore<N>) -> Cost {
     if H::ADMISSIBLE { best.f() } else { nodes.get(best.id()).map_or(Cost::ZERO, |node| node.g) }
 }

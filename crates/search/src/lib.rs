@@ -68,7 +68,7 @@ mod segment;
 mod smoothing;
 mod successors;
 mod theta;
-mod trace;
+mod trace_back;
 mod wavefront;
 
 pub use anya::{Anya, DeadEnds, EuclideanNorm, LatticeNorm, Norm};

@@ -1,6 +1,6 @@
 //! The rule of all limits on a length.
 //!
-//! **What lies exactly at a limit is within it.** A limit is often a length that was found before, and a
+//! **A length exactly at a limit is within it.** A limit is often a length that was found before, and a
 //! length is rounded: over N(k) as a sum of [`Cost`]s, which is off by at most 2⁻³³ of itself, and as a sum
 //! of roots in `f64`, which is off by far less. So each limit is taken as longer by 2⁻³¹ of itself, which is
 //! room for the rounding of both lengths that are compared.

@@ -1,4 +1,4 @@
-//! What a search remembers of each vertex, without clearing it between searches.
+//! The search nodes of a grid graph, which are not cleared between searches.
 
 use mediant_grid::{Centers, GridGraph, VertexId};
 use mediant_moves::Cost;

@@ -53,7 +53,7 @@ impl Outcome {
     }
 }
 
-/// What an engine guarantees of the length of its paths. Every engine finds a path whenever there is one; one
+/// An engine's guarantee of the length of its paths. Every engine finds a path whenever there is one; one
 /// that may fail says so by [`QueryError::GaveUp`](crate::QueryError::GaveUp).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Guarantee {

@@ -53,10 +53,10 @@ pub trait Planner {
     /// memory of its search to make the path that it has found may know no other paths then.
     fn path_to(&mut self, at: Vertex) -> Option<Path>;
 
-    /// What is guaranteed of the paths.
+    /// The guarantee of the paths.
     fn guarantee(&self) -> Guarantee;
 
-    /// What the answers are for: the map, the rules of motion and k.
+    /// The identity of the answers: the map, the rules of motion and k.
     fn identity(&self) -> Identity;
 
     /// Answers a query, watched by an observer, which cannot pause the search.
@@ -87,7 +87,7 @@ pub trait Planner {
     /// [`Cost`](mediant_moves::Cost)).
     ///
     /// # Errors
-    /// Those of [`solve`](Self::solve).
+    /// As for [`solve`](Self::solve).
     fn distance(&mut self, query: Query) -> Result<Option<f64>, QueryError> {
         let outcome = self.solve(query)?;
         Ok(outcome.path().map(|path| self.guarantee().length(path)))

@@ -32,7 +32,7 @@ impl Query {
     /// constant time, where a search would expand all vertices that it can reach.
     ///
     /// # Errors
-    /// Those of [`check`](Self::check).
+    /// As for [`check`](Self::check).
     pub fn ends<P: Placement>(
         self,
         space: &FreeSpace<P>,

@@ -47,7 +47,7 @@ pub(crate) fn length_cost(v: Vector) -> Cost {
             break;
         }
     }
-    // What is left is odd and has two prime divisors at most.
+    // The rest is odd and has two prime divisors at most.
     let root = rest.isqrt();
     if root * root == rest {
         a *= root as u32;

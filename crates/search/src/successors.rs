@@ -41,7 +41,7 @@ pub struct Successor {
     pub by: usize,
 }
 
-/// What is known of a successor where the new path to it does not replace the known one.
+/// The known path to a successor, where the new one does not replace it.
 ///
 /// Two words, so that it is returned in registers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,7 +84,7 @@ impl KnownPath {
 /// A search with successors of one's own: see
 /// [`BestFirst::with_successors`](crate::parts::BestFirst::with_successors).
 pub trait Successors<P: Placement>: Debug {
-    /// What a node stores to know its parent.
+    /// The pointer from a node to its parent.
     type ParentPointer: ParentPointer;
 
     /// Whether the successors of a node depend on the move by which it was reached. (Under closed gaps they
@@ -127,7 +127,7 @@ pub trait Successors<P: Placement>: Debug {
     /// Turns the pruning on again.
     fn end_unpruned_retry(&mut self) {}
 
-    /// What is guaranteed of the paths, when the heuristic is admissible.
+    /// The guarantee of the paths, when the heuristic is admissible.
     fn guarantee(&self, graph: &GridGraph<P>) -> Guarantee {
         Guarantee::Optimal(graph.k())
     }

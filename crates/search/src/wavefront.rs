@@ -36,7 +36,7 @@ use crate::{
     path::Path,
     planner::{Planner, Status},
     query::{Query, QueryError},
-    trace::trace_back,
+    trace_back::trace_back,
 };
 
 /// The wavefront algorithm on a grid graph.

@@ -9,7 +9,7 @@ use indicatif::{HumanCount, ProgressBar};
 
 use crate::{Contents, Error, Set, Source, unpack::extract};
 
-/// What is known of a set after it was provided.
+/// The state of a set after it was provided.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Report {
     /// The set.
@@ -47,7 +47,7 @@ impl Cache {
     /// [`install`](Self::install).
     ///
     /// # Errors
-    /// Those of [`install`](Self::install).
+    /// As for [`install`](Self::install).
     pub fn provide(&self, set: &Set) -> Result<Report, Error> {
         match examine(set, &self.folder.join(&set.name), false) {
             Ok(report) => Ok(report),
@@ -56,7 +56,7 @@ impl Cache {
     }
 
     /// Fetches the archives of a set (unless they are there), unpacks them beside its place, verifies the
-    /// files, and only then puts them in place of what was there.
+    /// files, and only then replaces the older files by them.
     ///
     /// # Errors
     /// Any [`Error`]. The folder of the set is then unchanged, and bad archives that were downloaded are

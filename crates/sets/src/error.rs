@@ -1,4 +1,4 @@
-//! What can go wrong with a benchmark set: one line each.
+//! Errors of a benchmark set, whose messages are one line each.
 
 use std::{
     io,
@@ -22,7 +22,7 @@ pub enum Error {
         "{url}: {source}; check the network, or name a folder or site that holds the same files by --mirror"
     )]
     Network {
-        /// What was asked for.
+        /// The address.
         url: String,
         /// Why there was no answer.
         source: Box<dyn std::error::Error + Send + Sync>,
@@ -36,7 +36,7 @@ pub enum Error {
     /// The server refuses.
     #[error("{url}: expected the file, found HTTP status {status}; try again later or use --mirror")]
     Status {
-        /// What was asked for.
+        /// The address.
         url: String,
         /// The code of the answer.
         status: u16,
@@ -44,7 +44,7 @@ pub enum Error {
     /// The connection ended before the file did.
     #[error("{url}: cut off after {found} of {expected} bytes; run again to resume")]
     Cut {
-        /// What was asked for.
+        /// The address.
         url: String,
         /// The bytes that are on disk.
         found: u64,
@@ -56,7 +56,7 @@ pub enum Error {
     Zip {
         /// The archive.
         name: String,
-        /// What the reader says.
+        /// The reader's message.
         why: String,
     },
     /// An error in archives that were downloaded.
@@ -67,7 +67,7 @@ pub enum Error {
     Archive {
         /// The archive.
         name: String,
-        /// What is wrong with it.
+        /// The fault.
         why: String,
     },
     /// Files that are not those of the manifest.
@@ -94,7 +94,7 @@ pub enum Error {
     Manifest {
         /// The manifest.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The fault.
         source: serde_json::Error,
     },
     /// A file or folder that the system refuses.
@@ -102,7 +102,7 @@ pub enum Error {
     Io {
         /// The file or folder.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: io::Error,
     },
 }

@@ -40,7 +40,7 @@ pub struct Set {
     pub maps: Option<BTreeMap<String, String>>,
 }
 
-/// What a folder with maps and scenarios holds.
+/// The maps and instances of a set's folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Contents {
     /// The digest of each map, by file name.

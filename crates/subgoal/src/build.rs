@@ -51,7 +51,7 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
     }
 }
 
-/// What every subgoal graph is built on.
+/// The subgoals, metric and tables from which a subgoal graph is built.
 pub(crate) struct Ground<P: SubgoalPlacement> {
     pub(crate) subgoals: Subgoals,
     pub(crate) metric: Metric,

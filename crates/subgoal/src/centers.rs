@@ -11,7 +11,7 @@ use crate::{
     clearance::{ClearanceBits, DiagonalClearance, convex_corners, zeros_after, zeros_before},
     error::SubgoalError,
     hierarchy::Hierarchy,
-    placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, Run, SubgoalPlacement},
+    placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, SubgoalPlacement, VertexRun},
     worth::{self, Compare},
 };
 
@@ -120,11 +120,16 @@ impl EdgeFinder for Centers {
         (0, Self::class(edge).into())
     }
 
-    fn runs_to(context: BuildContext<'_, Self>, (): &mut (), subgoal: Vertex, mut run: impl FnMut(Run)) {
+    fn runs_to(
+        context: BuildContext<'_, Self>,
+        (): &mut (),
+        subgoal: Vertex,
+        mut run: impl FnMut(VertexRun),
+    ) {
         let BuildContext { space, tables, k, .. } = context;
         let (from, kind, costs) = (subgoal, EdgeKind::Query, (Cost::ZERO, Cost::ZERO));
         // Paths that begin or end at a subgoal have no other edge there.
-        run(Run { first: subgoal, length: 1, is_column: false, is_right: false });
+        run(VertexRun { first: subgoal, length: 1, is_column: false, is_right: false });
         EdgeSearch { grid: space.grid(), clearance: tables, from, kind, costs, visit: |_, _| {}, run }
             .run(k == K::Finite(FiniteK::N8));
     }
@@ -164,7 +169,7 @@ struct Cone {
     b: i32,
 }
 
-impl<F: FnMut(Vector, Cost), R: FnMut(Run)> EdgeSearch<'_, F, R> {
+impl<F: FnMut(Vector, Cost), R: FnMut(VertexRun)> EdgeSearch<'_, F, R> {
     /// Reports the cells from `u` to `length` · `u` beyond a cell, where u is an axis move.
     #[inline]
     fn report(&mut self, is_row: bool, (x, y): (i32, i32), u: i32, length: i32) {
@@ -172,7 +177,7 @@ impl<F: FnMut(Vector, Cost), R: FnMut(Run)> EdgeSearch<'_, F, R> {
             let start = if u > 0 { 1 } else { -length };
             let (x, y) = if is_row { (x + start, y) } else { (x, y + start) };
             let first = self.from + Vector::new(x, y);
-            (self.run)(Run { first, length, is_column: !is_row, is_right: false });
+            (self.run)(VertexRun { first, length, is_column: !is_row, is_right: false });
         }
     }
 

@@ -10,7 +10,7 @@ use mediant_grid::Interrupted;
 /// Subgoals that one thread handles at a time.
 const CHUNK: usize = 64;
 
-/// What `work` makes of each chunk of the numbers below `count`, in order; an error of one ends it.
+/// The results of `work` on each chunk of the numbers below `count`, in order; an error of one ends it.
 pub(crate) fn in_chunks<S, T: Send>(
     count: usize,
     scratch: impl Fn() -> S + Send + Sync,

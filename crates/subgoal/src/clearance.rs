@@ -7,8 +7,8 @@ use crate::placement::EdgeTables;
 /// The stage that an interrupted call names.
 const DURING: &str = "finding subgoals";
 
-/// What stops a walk from a center along a row, a column or a diagonal, as bits along that line. So the first
-/// stop ahead or behind is found a word at a time.
+/// Obstacles and subgoals along each row, column and diagonal, as bits, which stop a walk from a center. The
+/// first stop ahead or behind is found a word at a time.
 #[derive(Clone, Debug)]
 pub struct ClearanceBits {
     /// Blocked cells and subgoals, row by row.

@@ -26,7 +26,7 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// The version of the format that [`to_bytes`](Self::to_bytes) writes.
     pub const VERSION: u32 = 3;
 
-    /// What does not follow from the map, for [`from_bytes`](Self::from_bytes).
+    /// The graph without what follows from the map, for [`from_bytes`](Self::from_bytes).
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         uninterrupted(|never| self.to_bytes_interruptible(never))
@@ -72,7 +72,7 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// [`from_bytes`](Self::from_bytes), which an interrupt can stop.
     ///
     /// # Errors
-    /// Those of [`from_bytes`](Self::from_bytes), and [`SubgoalError::Interrupted`].
+    /// As for [`from_bytes`](Self::from_bytes), and [`SubgoalError::Interrupted`].
     pub fn from_bytes_interruptible(
         space: &FreeSpace<P>,
         k: impl Into<K>,
@@ -197,8 +197,8 @@ fn read_arcs(
 }
 
 impl<P: SubgoalPlacement> PreparedSubgoals<P> {
-    /// What does not follow from the map, for [`from_bytes`](Self::from_bytes): the bytes of the labels,
-    /// those of the graph, or of neither only what they would belong to, and a code.
+    /// The bytes of the labels or of the graph, for [`from_bytes`](Self::from_bytes); where neither is kept,
+    /// an identity and a code.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         match self {
@@ -208,10 +208,11 @@ impl<P: SubgoalPlacement> PreparedSubgoals<P> {
         }
     }
 
-    /// What [`to_bytes`](Self::to_bytes) wrote for the same free space and k. A graph may have levels.
+    /// Reads the bytes of [`to_bytes`](Self::to_bytes) for the same free space and k. A graph may have
+    /// levels.
     ///
     /// # Errors
-    /// Those of [`HubLabels::from_bytes`] and [`SubgoalGraph::from_bytes`].
+    /// As for [`HubLabels::from_bytes`] and [`SubgoalGraph::from_bytes`].
     pub fn from_bytes(space: &FreeSpace<P>, k: impl Into<K>, bytes: &[u8]) -> Result<Self, SubgoalError> {
         Self::from_bytes_interruptible(space, k, bytes, &Interrupt::NEVER)
     }
@@ -219,7 +220,7 @@ impl<P: SubgoalPlacement> PreparedSubgoals<P> {
     /// [`from_bytes`](Self::from_bytes), which an interrupt can stop.
     ///
     /// # Errors
-    /// Those of [`from_bytes`](Self::from_bytes), and [`SubgoalError::Interrupted`].
+    /// As for [`from_bytes`](Self::from_bytes), and [`SubgoalError::Interrupted`].
     pub fn from_bytes_interruptible(
         space: &FreeSpace<P>,
         k: impl Into<K>,

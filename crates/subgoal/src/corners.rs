@@ -11,7 +11,7 @@ use crate::{
     direct_reachability::DirectFilter,
     error::SubgoalError,
     hierarchy::Hierarchy,
-    placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, EdgeTables, Run, SubgoalPlacement},
+    placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, EdgeTables, SubgoalPlacement, VertexRun},
     worth::{self, Compare},
 };
 
@@ -22,7 +22,7 @@ pub struct CornerScratch {
     direct: DirectFilter,
 }
 
-/// What makes visibility sweeps fast.
+/// Row summary and tangent subgoals, for visibility sweeps.
 #[derive(Clone, Debug)]
 pub struct SightTables {
     row_summary: RowSummary,
@@ -178,7 +178,7 @@ impl EdgeFinder for Corners {
         context: BuildContext<'_, Self>,
         scratch: &mut CornerScratch,
         subgoal: Vertex,
-        mut visit: impl FnMut(Run),
+        mut visit: impl FnMut(VertexRun),
     ) {
         let BuildContext { space, tables: SightTables { row_summary, tangents }, .. } = context;
         let [same, opposite] = tangents;
@@ -190,7 +190,7 @@ impl EdgeFinder for Corners {
             let targets = Targets { same, opposite };
             scratch.sweep.runs(space, row_summary, targets, subgoal, quadrant, |line, first, last| {
                 let length = last - first + 1;
-                visit(Run { first: Vertex::new(first, line), length, is_column: false, is_right });
+                visit(VertexRun { first: Vertex::new(first, line), length, is_column: false, is_right });
             });
         }
     }

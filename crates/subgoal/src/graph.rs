@@ -92,7 +92,7 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
         self.k
     }
 
-    /// What it belongs to: the map and the rules of motion of its free space, and its k.
+    /// The identity: map and rules of motion of its free space, and its k.
     #[must_use]
     pub const fn identity(&self) -> Identity {
         self.identity

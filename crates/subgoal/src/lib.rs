@@ -73,9 +73,9 @@
 //! [`PreparedSubgoals::within`] makes [`HubLabels`] of the contraction where they fit in a budget of memory.
 //! Where they do not, it keeps the contraction, or nothing if an engine that prepares nothing is faster. A
 //! label is a list of hubs with distances; the distance between two subgoals is the least sum over a common
-//! hub. What start and goal see is stored as well, so that neither end needs geometry. Which hubs, what a
-//! query does not read, and why no shortest path is lost is told in `labels/mod.rs`. [`Goals`] answer one
-//! start to many goals, and the nearest of many.
+//! hub. The subgoals that each vertex sees are stored as well, so neither end needs geometry. `labels/mod.rs`
+//! defines the hubs, and proves that no shortest path is lost. [`Goals`] answer one start to many goals, and
+//! the nearest of many.
 //!
 //! # What this crate does not do
 //!

@@ -1,4 +1,4 @@
-//! What a placement of the vertices decides: which vertices are subgoals, and which edges join them.
+//! Subgoals and edges by placement of the vertices.
 
 use mediant_grid::{BitMatrix, FreeSpace, Interrupt, Interrupted, Placement, Vector, Vertex};
 use mediant_moves::{Cost, K};
@@ -33,16 +33,16 @@ pub trait EdgeFinder: Placement {
     /// Scratch memory of [`edges_from`](Self::edges_from).
     type Scratch: Default + Send;
 
-    /// What follows from the map alone and makes finding edges fast.
+    /// Tables of a map for finding edges.
     type Tables: EdgeTables;
 
-    /// Whether this free space has subgoal graphs for this k.
+    /// Checks that this free space has subgoal graphs for this k.
     fn check(space: &FreeSpace<Self>, k: K) -> Result<(), SubgoalError>;
 
     /// The subgoals, a bit for each vertex in a frame of zeros.
     fn subgoals(space: &FreeSpace<Self>, interrupt: &Interrupt) -> Result<BitMatrix, Interrupted>;
 
-    /// What makes finding edges fast.
+    /// The tables of a map for finding edges.
     fn tables(
         space: &FreeSpace<Self>,
         subgoals: &BitMatrix,
@@ -74,13 +74,13 @@ pub trait EdgeFinder: Placement {
     /// The directions in which a path may leave a side of a subgoal at which it arrived along an edge.
     fn departures(k: K, bits: u32, arrival: Vector) -> Self::Departures;
 
-    /// What of an edge is worth keeping beside it, in four bits.
+    /// The class of an edge by its direction, in four bits, for [`allows`](Self::allows).
     fn class(edge: Vector) -> u32;
 
     /// Whether a path may leave along an edge of a class.
     fn allows(departures: Self::Departures, edge: impl Fn() -> Vector, class: u32) -> bool;
 
-    /// What tells whether a path may leave along any of the sorted edges of a side.
+    /// A summary of the sorted edges of a side, for [`leads_on`](Self::leads_on).
     fn summary(bits: u32, edges: impl Iterator<Item = Vector>) -> u32;
 
     /// Whether a path that arrives along an edge may leave along any of those with this summary.
@@ -96,13 +96,13 @@ pub trait EdgeFinder: Placement {
         context: BuildContext<'_, Self>,
         scratch: &mut Self::Scratch,
         subgoal: Vertex,
-        visit: impl FnMut(Run),
+        visit: impl FnMut(VertexRun),
     );
 }
 
 /// A run of vertices along a row or a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Run {
+pub struct VertexRun {
     /// The vertex with the least coordinates.
     pub(crate) first: Vertex,
     /// The number of vertices.
@@ -114,7 +114,7 @@ pub struct Run {
     pub(crate) is_right: bool,
 }
 
-/// What follows from a map alone and makes finding edges fast.
+/// Tables of a map for finding edges.
 pub trait EdgeTables: Clone + std::fmt::Debug + Send + Sync {
     /// The memory used, in bytes.
     fn memory_bytes(&self) -> usize;
@@ -148,7 +148,7 @@ impl EdgeKind {
     }
 }
 
-/// What finding edges depends on.
+/// The free space, subgoals and tables for finding edges.
 #[derive(Debug)]
 pub struct BuildContext<'m, P: EdgeFinder> {
     pub(crate) space: &'m FreeSpace<P>,

@@ -14,7 +14,7 @@ use mediant_search::{
 
 use self::{
     descent::Descent,
-    search::{Search, Unpacking, Waypoint, may_join},
+    search::{SubgoalThetaSearch, Unpacking, Waypoint, may_join},
 };
 use crate::{arc::NONE, graph::SubgoalGraph, placement::SubgoalPlacement};
 
@@ -142,7 +142,8 @@ where
         graph.query_edges(space, scratch, goal, query_edges);
         descent.start_search(graph, query_edges);
         graph.query_edges(space, scratch, start, query_edges);
-        Search { space, graph, tree, descent, bends, unpacking, observer, goal }.begin(start, query_edges);
+        SubgoalThetaSearch { space, graph, tree, descent, bends, unpacking, observer, goal }
+            .begin(start, query_edges);
         self.status = Status::Searching;
         Ok(self.status)
     }
@@ -151,7 +152,8 @@ where
         if let (Some(Query { goal, .. }), Status::Searching) = (self.query, self.status) {
             let Self { space, graph, tree, descent, bends, unpacking, last, .. } = self;
             let (space, graph) = (space.free_space(), &**graph);
-            let mut search = Search { space, graph, tree, descent, bends, unpacking, observer, goal };
+            let mut search =
+                SubgoalThetaSearch { space, graph, tree, descent, bends, unpacking, observer, goal };
             self.status = search.run(last);
         }
         Ok(self.status)

@@ -1,4 +1,4 @@
-//! Whether a graph that keeps a large core is worth having.
+//! The comparison of a graph that keeps a large core with an engine that prepares nothing.
 //!
 //! In noise and on open ground with sparse obstacles there is no hierarchy: most subgoals stay in the core,
 //! and each search goes through it. Whether that is faster than an engine that prepares nothing depends on

@@ -1,4 +1,4 @@
-//! What each crate may depend on.
+//! The dependencies that each crate may have.
 
 use std::collections::BTreeSet;
 
@@ -33,7 +33,7 @@ const LAYERS: [Layer; 16] = [
     layer(SEARCH, &[MOVES, GRID], LOW),
     layer(SUBGOAL, &[MOVES, GRID, SEARCH], LOW),
     layer(HIERARCHY, &[MOVES, GRID, SEARCH], LOW),
-    // What people depend on.
+    // The crates that people depend on.
     layer(FORMATS, &[GRID], "reading a file needs no search"),
     layer(
         LIBRARY,
@@ -55,7 +55,7 @@ const LAYERS: [Layer; 16] = [
         &[MOVES, LIBRARY, FORMATS],
         "the package is thin: names, conversions and words on top of the library",
     ),
-    // What proves it.
+    // Tests and measurements.
     layer(ORACLE, &[MOVES, GRID], "a reference that shares code with what it checks shares its errors"),
     layer(REPORT, &[MOVES, GRID], "results can be looked at without the engines that made them"),
     layer(SETS, &[GRID, FORMATS], "a set is downloaded and verified without an engine"),
@@ -85,7 +85,7 @@ const SETS: &str = "mediant-sets";
 const BENCH: &str = "mediant-bench";
 const LOW: &str = "an engine stands on the layers below it, and serves programs of any kind";
 
-/// Compares what the crates say that they need with the layers.
+/// Compares the dependencies of the crates with the layers.
 #[must_use]
 pub fn check_packages(packages: &[Package]) -> Vec<Finding> {
     let mut findings = Vec::new();
@@ -118,12 +118,12 @@ pub fn check_packages(packages: &[Package]) -> Vec<Finding> {
     findings
 }
 
-/// What a crate must not compile, by itself or by what it depends on.
+/// The crates that a crate must not compile, by itself or by its dependencies.
 #[derive(Clone, Copy, Debug)]
 pub struct Compiled {
     /// The crate.
     pub package: &'static str,
-    /// What `cargo tree` is asked besides.
+    /// Further options of `cargo tree`.
     options: &'static [&'static str],
     /// The crates; those whose names go on after `-` or `_` are meant too.
     never: &'static [&'static str],
@@ -167,7 +167,7 @@ impl Compiled {
     }
 }
 
-/// Looks for what must not be compiled in what `cargo tree` lists.
+/// Looks for forbidden crates in the list of `cargo tree`.
 #[must_use]
 pub fn check_compiled(rule: &Compiled, tree: &str) -> Vec<Finding> {
     let is = |name: &str, never: &&str| {

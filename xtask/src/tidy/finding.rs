@@ -22,7 +22,7 @@ pub struct Finding {
     pub file: PathBuf,
     /// From 1; 0 for the whole file.
     pub line: usize,
-    /// What is wrong, and why that matters.
+    /// The fault, and why it matters.
     pub message: String,
 }
 

@@ -1,11 +1,11 @@
-//! What a published crate needs to say and to hold, and that no other is published.
+//! Requirements of published crates, and a check that no other is published.
 
 use std::path::Path;
 
 use super::{finding::Finding, links, tree::Tree};
 use crate::project::{Package, published};
 
-/// Checks what the crates say of themselves, and the files that travel with their packages.
+/// Checks the manifests of the crates, and the files that travel with their packages.
 #[must_use]
 pub fn check_published(packages: &[Package], tree: &Tree) -> Vec<Finding> {
     let mut findings = Vec::new();
@@ -29,7 +29,7 @@ pub fn check_published(packages: &[Package], tree: &Tree) -> Vec<Finding> {
     findings
 }
 
-/// What its `Cargo.toml` says.
+/// Checks description and docs.rs settings in its `Cargo.toml`.
 fn describes_itself(package: &Package, find: &mut impl FnMut(&Path, usize, &str)) {
     let manifest = &package.manifest_path;
     if package.description.as_ref().is_none_or(String::is_empty) {
@@ -41,7 +41,7 @@ fn describes_itself(package: &Package, find: &mut impl FnMut(&Path, usize, &str)
     }
 }
 
-/// The files beside it.
+/// Checks the license and README beside it.
 fn travels(package: &Package, tree: &Tree, find: &mut impl FnMut(&Path, usize, &str)) {
     let folder = package.manifest_path.parent().unwrap_or(Path::new(""));
     let license = folder.join("LICENSE");

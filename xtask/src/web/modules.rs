@@ -56,7 +56,7 @@ fn imported(line: &str) -> Option<&str> {
     (is_code && (names.ends_with("from") || names == "import") && rest.starts_with('.')).then_some(rest)
 }
 
-/// What a relative path means in a module.
+/// The path that a relative path in a module leads to.
 fn beside(module: &str, relative: &str) -> String {
     let mut parts: Vec<&str> = Path::new(module)
         .parent()

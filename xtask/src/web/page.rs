@@ -17,7 +17,7 @@ use crate::Error;
 const WORKER: &str = "offline.js";
 /// Where the service worker says its version. A browser looks for a new one by comparing the file.
 const UNVERSIONED: &str = "const VERSION = \"\";";
-/// What lies beside the sources of the page and is no part of it, or put there anew.
+/// Files beside the sources of the page that are no part of it, or are put there anew.
 const LEFT_OUT: [&str; 4] = ["types.d.ts", "files.json", "mediant/", "maps/"];
 
 /// Writes the page, and returns its version.

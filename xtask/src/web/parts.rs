@@ -45,7 +45,7 @@ fn walk(folder: &Path, prefix: &str, paths: &mut Vec<String>) -> Result<(), Erro
     Ok(())
 }
 
-/// Makes a folder hold these files and no others. Those that it has already stay untouched.
+/// Makes a folder hold these files and no others. Files that are the same stay untouched.
 pub(super) fn write_folder(folder: &Path, files: &[File]) -> Result<(), Error> {
     fs::create_dir_all(folder).map_err(Error::at(folder))?;
     let wanted: BTreeSet<&str> = files.iter().map(|file| &*file.path).collect();

@@ -1,4 +1,4 @@
-//! What builds the package: Rust for WebAssembly, and the program `wasm-bindgen`.
+//! The tools that build the package: Rust for WebAssembly, and the program `wasm-bindgen`.
 
 use std::{
     env, fs,

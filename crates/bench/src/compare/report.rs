@@ -1,4 +1,4 @@
-//! What a comparison found, as text and as JSON.
+//! The results of a comparison, as text and as JSON.
 
 use std::path::Path;
 
@@ -21,7 +21,7 @@ pub(super) struct Results<'a> {
     pub(super) every: u32,
     /// The timed passes, of which the median counts.
     pub(super) passes: u32,
-    /// What was measured, of each map.
+    /// The measurements, map by map.
     pub(super) records: Vec<MapRecord>,
     /// For each map, the comparisons of the setups in their order.
     pub(super) comparisons: Vec<Vec<Comparison>>,
@@ -97,7 +97,7 @@ fn times(results: &Results<'_>) -> Table {
     table
 }
 
-/// What the library adds to a query over a typed planner, where those were timed: a line for each setup.
+/// The library's overhead over a typed planner, where that was timed: a line for each setup.
 fn door(results: &Results<'_>) -> Vec<String> {
     let micros = |record: &MapRecord, name: &str| {
         record.timings.iter().find(|timing| timing.competitor == name).map(|timing| timing.micros)
@@ -199,7 +199,7 @@ fn cell(value: Option<f64>) -> String {
 /// The file that `--json` asks for.
 #[derive(Serialize)]
 struct Figures<'a> {
-    /// What git calls the sources, `-dirty` if they differ from it.
+    /// The revision by `git describe`, with `-dirty` if files differ from it.
     revision: String,
     machine: Machine,
     unit: &'static str,

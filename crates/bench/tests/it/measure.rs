@@ -60,7 +60,7 @@ fn all_competitors_answer_all_queries() {
         assert_eq!((record.instances, record.timings.len()), (problem.len(), 21), "seed {seed}");
         for timing in &record.timings {
             assert_eq!(timing.passes.len(), 2, "seed {seed}");
-            // What baselines prepare is not measured.
+            // The preparation of baselines is not measured.
             let ours = Baseline::ALL.iter().all(|baseline| baseline.name() != timing.competitor);
             assert_eq!(timing.preparation.is_some_and(|made| made.bytes > 0 && made.seconds > 0.0), ours);
             assert!(timing.passes.iter().all(|&pass| pass > 0.0) && timing.micros > 0.0, "seed {seed}");

@@ -1,4 +1,4 @@
-//! What `verify` calls a success: as many costs as expected, all of them right.
+//! `verify` succeeds with as many costs as expected, all of them right.
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use std::{fs, path::Path};
@@ -23,7 +23,7 @@ fn cache(optimal: &str) -> tempfile::TempDir {
     cache
 }
 
-/// What is wrong, if anything. Of the set's many instances there is one, so not every one is asked for.
+/// The error of `verify`, if any. Of the set's many instances there is one, so not every one is asked for.
 fn verify(cache: &Path, arguments: &[&str]) -> Option<String> {
     let arguments = ["verify", "--every", "2"].iter().chain(arguments);
     run_in(cache, &Cli::parse_from(arguments).options, &mut Vec::new()).err().map(|error| error.to_string())

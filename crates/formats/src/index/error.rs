@@ -40,9 +40,9 @@ pub enum IndexError {
     /// The checksum is right, but a field of the header has a value that it cannot have.
     #[error("expected {expected}, found {found}: another program wrote this index; {PREPARE_AGAIN}")]
     Field {
-        /// What the field can hold.
+        /// The values that the field can have.
         expected: &'static str,
-        /// What it holds, quoted.
+        /// Its value, quoted.
         found: String,
     },
     /// An engine's name that cannot be saved.

@@ -47,7 +47,7 @@ impl IndexFile {
         Self { key, payload }
     }
 
-    /// What the index was built for.
+    /// The key of the index.
     #[must_use]
     pub const fn key(&self) -> &IndexKey {
         &self.key
@@ -96,7 +96,7 @@ impl IndexFile {
     /// [`from_bytes`](Self::from_bytes), which an interrupt can stop; it asks for each mebibyte.
     ///
     /// # Errors
-    /// Those of [`from_bytes`](Self::from_bytes), and [`IndexError::Interrupted`].
+    /// As for [`from_bytes`](Self::from_bytes), and [`IndexError::Interrupted`].
     pub fn from_bytes_interruptible(mut bytes: Vec<u8>, interrupt: &Interrupt) -> Result<Self, IndexError> {
         let (key, payload) = header::decode(&bytes, interrupt)?;
         bytes.truncate(payload.end);
@@ -114,11 +114,11 @@ impl IndexFile {
         self.write_interruptible(path, &Interrupt::NEVER)
     }
 
-    /// [`write`](Self::write), which an interrupt can stop; it asks for each mebibyte. What was there before
-    /// stays then.
+    /// [`write`](Self::write), which an interrupt can stop; it asks for each mebibyte. An older file stays
+    /// then.
     ///
     /// # Errors
-    /// Those of [`write`](Self::write), and [`WriteError::Interrupted`].
+    /// As for [`write`](Self::write), and [`WriteError::Interrupted`].
     pub fn write_interruptible(
         &self,
         path: impl AsRef<Path>,
@@ -140,7 +140,7 @@ impl IndexFile {
     /// [`read`](Self::read), which an interrupt can stop.
     ///
     /// # Errors
-    /// Those of [`read`](Self::read), and [`ReadError::Interrupted`].
+    /// As for [`read`](Self::read), and [`ReadError::Interrupted`].
     pub fn read_interruptible(path: impl AsRef<Path>, interrupt: &Interrupt) -> Result<Self, ReadError> {
         let path = path.as_ref();
         let bytes = read_regular_interruptible(path, interrupt)?;

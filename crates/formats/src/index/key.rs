@@ -1,12 +1,12 @@
-//! What an index was built for.
+//! Keys of saved indexes.
 
 use mediant_grid::Identity;
 
 use super::{error::IndexError, layout::is_engine_name};
 use crate::text::quote;
 
-/// What an index was built for: the engine, the version of its payload, and the identity of what it belongs
-/// to: map, rules of motion and k. All must be the same where it is used.
+/// The key of an index: its engine, the version of its payload, and the map, rules of motion and k that it
+/// belongs to. All must be the same where it is used.
 ///
 /// Needs the feature `index`.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -17,7 +17,7 @@ pub struct IndexKey {
 }
 
 impl IndexKey {
-    /// The key of an index that `engine` built for what `identity` says.
+    /// The key of an index that `engine` built for this identity.
     ///
     /// `engine` is a name of 1 to 16 printable ASCII characters without blanks, `version` the version of its
     /// payload.

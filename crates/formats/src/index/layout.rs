@@ -17,7 +17,7 @@
 pub(super) const MAGIC: [u8; 8] = *b"\x89MEDIDX\n";
 pub(super) const FORMAT_VERSION: u32 = 2;
 pub(super) const NAME_BYTES: usize = 16;
-/// What [`is_engine_name`] accepts, for error messages.
+/// The names that [`is_engine_name`] accepts, for error messages.
 pub(super) const NAME_FORM: &str = "an engine's name of 1 to 16 printable ASCII characters without blanks";
 /// The length of everything before the payload.
 pub(super) const HEADER_BYTES: usize = 72;

@@ -20,7 +20,7 @@ pub enum MapError {
         line: usize,
         /// The lines that the header could have there.
         expected: &'static str,
-        /// What the file has there.
+        /// The text found there.
         found: String,
     },
     /// The height or the width is no number, zero, or too large.
@@ -37,7 +37,7 @@ pub enum MapError {
         column: usize,
         /// `height` or `width`.
         side: &'static str,
-        /// What the file has there.
+        /// The text found there.
         found: String,
     },
     /// A row has fewer cells than the width.
@@ -121,7 +121,7 @@ pub enum MapError {
         line: usize,
         /// The height.
         height: u32,
-        /// What the file has there.
+        /// The text found there.
         found: String,
     },
     /// An interrupt stopped the reading.

@@ -177,7 +177,7 @@ impl MapFile {
     /// Writes the text of the file, byte for byte.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn write(&self, mut out: impl io::Write) -> io::Result<()> {
         out.write_all(&self.text)
     }

@@ -7,9 +7,9 @@ use mediant_grid::{Grid, GridError};
 /// Which characters of a map in text are free cells, and which are blocked: those of a MovingAI map, and of
 /// rows of text.
 ///
-/// By default `.`, `G` and `S` are free, `@`, `O`, `T`, `W` and `#` blocked, and all others errors. Who names
-/// the free ones says that all others are blocked, and the other way round; who names both says that all
-/// others are errors. A letter stands for its small form too.
+/// By default `.`, `G` and `S` are free, `@`, `O`, `T`, `W` and `#` blocked, and all others errors. If only
+/// the free ones are named, all others are blocked, and the other way round; if both are named, all others
+/// are errors. A letter stands for its small form too.
 ///
 /// ```
 /// use mediant_formats::Tiles;
@@ -176,7 +176,8 @@ impl fmt::Display for Tiles {
     }
 }
 
-/// A ground of the MovingAI benchmark. Who starts on one stays on it: no step leads from one to another.
+/// A ground of the MovingAI benchmark. A path stays on the ground where it starts: no step leads from one to
+/// another.
 ///
 /// Sturtevant, *Benchmarks for Grid-Based Pathfinding* (2012), Section III: passable terrain, swamp that can
 /// be entered from it, water, and trees.

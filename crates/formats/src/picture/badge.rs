@@ -51,7 +51,7 @@ impl Letter {
         self.line().iter().map(|&(dx, dy)| (x + size * dx, y + size * dy)).collect()
     }
 
-    /// What it stands for.
+    /// The end of a path that it marks.
     pub(super) const fn name(self) -> &'static str {
         match self {
             Self::S => "start",

@@ -44,7 +44,7 @@ pub(super) const PATHS_IN_FIELD: [Rgb; 8] = [
     [0x7a, 0x4a, 0x1e],
 ];
 
-/// What was expanded first and last, and what was open.
+/// The colors of vertices expanded first and last, and of open ones.
 const EXPANDED: [Rgb; 2] = [[0xdc, 0xee, 0xf9], [0x7d, 0xb8, 0xdf]];
 pub(super) const OPEN: Rgb = [0xff, 0xce, 0x7a];
 

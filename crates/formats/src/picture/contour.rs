@@ -2,7 +2,7 @@
 
 use mediant_grid::PlacementKind;
 
-use super::{Picture, tiles::range};
+use super::{Picture, vertex_colors::range};
 
 /// About so many lines are drawn.
 const LINES: f32 = 20.0;

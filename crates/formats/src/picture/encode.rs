@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use png::{BitDepth, ColorType, DeflateCompression, Encoder, EncodingError, Filter};
 
-use super::{color::Rgb, raster::Image, tiles::Tiles};
+use super::{color::Rgb, raster::Image, vertex_colors::VertexColors};
 
 /// Writes an image as PNG: with a palette if it has at most 256 colors.
 pub(super) fn png(image: &Image, out: impl Write) -> io::Result<()> {
@@ -31,12 +31,12 @@ pub(super) fn png(image: &Image, out: impl Write) -> io::Result<()> {
 }
 
 /// Writes the colors of vertices, a pixel each; those without a color are transparent.
-pub(super) fn png_of_tiles(tiles: &Tiles, out: impl Write) -> io::Result<()> {
-    let mut encoder = Encoder::new(out, tiles.columns, tiles.rows);
+pub(super) fn png_of_colors(painted: &VertexColors, out: impl Write) -> io::Result<()> {
+    let mut encoder = Encoder::new(out, painted.columns, painted.rows);
     encoder.set_color(ColorType::Rgba);
     encoder.set_depth(BitDepth::Eight);
-    let pixels = tiles.rows().flatten();
-    let bytes: Vec<u8> = pixels.flat_map(|tile| tile.map_or([0; 4], |[r, g, b]| [r, g, b, 255])).collect();
+    let pixels = painted.rows().flatten();
+    let bytes: Vec<u8> = pixels.flat_map(|color| color.map_or([0; 4], |[r, g, b]| [r, g, b, 255])).collect();
     write(encoder, &bytes)
 }
 

@@ -1,10 +1,10 @@
-//! What the signs of an SVG picture mean.
+//! The legend of an SVG picture.
 
 use super::{
     Picture,
     color::{self, Rgb, hex},
     svg::{escape, number},
-    tiles::range,
+    vertex_colors::range,
 };
 
 /// The height of a line.
@@ -19,7 +19,7 @@ const BAR: f64 = 120.0;
 /// The sign before a name.
 enum Sample {
     Line(usize, f64),
-    Tile(Rgb),
+    Square(Rgb),
     Badge(&'static str),
     Bar,
 }
@@ -61,10 +61,10 @@ fn entries(picture: &Picture<'_>) -> Vec<(Sample, String)> {
     entries.extend(ends.into_iter().map(|name| (Sample::Badge(name), name.to_owned())));
     if !picture.expanded.is_empty() {
         entries
-            .push((Sample::Tile(color::of_expanded(0.7)), format!("expanded: {}", picture.expanded.len())));
+            .push((Sample::Square(color::of_expanded(0.7)), format!("expanded: {}", picture.expanded.len())));
     }
     if !picture.open.is_empty() {
-        entries.push((Sample::Tile(color::OPEN), format!("open: {}", picture.open.len())));
+        entries.push((Sample::Square(color::OPEN), format!("open: {}", picture.open.len())));
     }
     if let Some((least, greatest)) = range(&picture.field) {
         entries.push((Sample::Bar, format!("{} to {}", number(least.into()), number(greatest.into()))));
@@ -79,7 +79,7 @@ fn sign(sample: &Sample, x: f64, y: f64) -> String {
             let width = number(*width);
             format!("<path class=\"p{index}\" stroke-width=\"{width}\" d=\"M{at} {line}H{end}\"/>\n")
         }
-        Sample::Tile(ink) => {
+        Sample::Square(ink) => {
             let (top, ink) = (number(y - 6.0), hex(*ink));
             format!("<rect x=\"{at}\" y=\"{top}\" width=\"20\" height=\"12\" rx=\"2\" fill=\"{ink}\"/>\n")
         }

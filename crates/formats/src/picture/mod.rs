@@ -11,7 +11,7 @@ mod outline;
 mod paint;
 mod raster;
 mod svg;
-mod tiles;
+mod vertex_colors;
 
 use std::{fmt, io, io::Write, path::Path as FilePath};
 
@@ -184,7 +184,7 @@ impl<'g> Picture<'g> {
     /// Writes the picture as PNG.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn write_png(&self, out: impl Write) -> io::Result<()> {
         encode::png(&self.pixels(), out)
     }
@@ -198,7 +198,7 @@ impl<'g> Picture<'g> {
     /// Writes the picture as SVG.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn write_svg(&self, mut out: impl Write) -> io::Result<()> {
         out.write_all(self.svg().as_bytes())
     }

@@ -37,7 +37,7 @@ impl<'g> Tracer<'g> {
         Self { grid, seen: vec![0; cells.div_ceil(64)] }
     }
 
-    /// What is outside the map is not filled.
+    /// Whether a cell is blocked; cells outside the map are not filled.
     fn is_filled(&self, x: i32, y: i32) -> bool {
         let inside = (x as u32) < self.grid.width() && (y as u32) < self.grid.height();
         inside && self.grid.is_blocked(x, y)

@@ -8,15 +8,15 @@ use super::{
     contour,
     layout::{Layout, MARGIN},
     raster::{Image, Mask},
-    tiles::Tiles,
+    vertex_colors::VertexColors,
 };
 
 impl Picture<'_> {
     /// The whole picture.
     pub(super) fn pixels(&self) -> Image {
         let layout = self.layout();
-        let tiles = Tiles::of(self);
-        let mut image = self.base(tiles.as_ref(), layout, MARGIN);
+        let painted = VertexColors::of(self);
+        let mut image = self.base(painted.as_ref(), layout, MARGIN);
         self.grid_lines(&mut image, layout);
         let contours = contour::lines(self);
         if !(contours.is_empty() && self.paths.is_empty() && self.ends().next().is_none()) {
@@ -32,7 +32,7 @@ impl Picture<'_> {
     }
 
     /// Walls, free cells and the colors of vertices, inside a margin.
-    pub(super) fn base(&self, tiles: Option<&Tiles>, layout: Layout, margin: u32) -> Image {
+    pub(super) fn base(&self, painted: Option<&VertexColors>, layout: Layout, margin: u32) -> Image {
         let Layout { width, height, cell, .. } = layout;
         let mut image = Image::new(width + 2 * margin, height + 2 * margin, color::PAGE);
         let wall = self.wall();
@@ -43,9 +43,9 @@ impl Picture<'_> {
             let row = (y / cell, self.vertex_at(y, cell));
             if last.replace(row) != Some(row) || layout.cells > 1 {
                 if layout.cells > 1 {
-                    self.mean_row(tiles, layout, y, &mut line);
+                    self.mean_row(painted, layout, y, &mut line);
                 } else {
-                    self.row(tiles, cell, row, wall, &mut line);
+                    self.row(painted, cell, row, wall, &mut line);
                 }
             }
             for (pixel, &color) in image.row_mut(margin + y, margin, width).iter_mut().zip(&line) {
@@ -68,14 +68,21 @@ impl Picture<'_> {
         }
     }
 
-    fn row(&self, tiles: Option<&Tiles>, cell: u32, (y, vertex_y): (u32, u32), wall: Rgb, line: &mut [Rgb]) {
+    fn row(
+        &self,
+        painted: Option<&VertexColors>,
+        cell: u32,
+        (y, vertex_y): (u32, u32),
+        wall: Rgb,
+        line: &mut [Rgb],
+    ) {
         for (cells, x) in line.chunks_mut(cell as usize).zip(0..) {
             if self.grid.is_blocked(x, y as i32) {
                 cells.fill(wall);
-            } else if let Some(tiles) = tiles {
+            } else if let Some(painted) = painted {
                 let left = x as u32 * cell;
                 for (pixel, column) in cells.iter_mut().zip(left..) {
-                    *pixel = tiles.get(self.vertex_at(column, cell), vertex_y).unwrap_or(color::FREE);
+                    *pixel = painted.get(self.vertex_at(column, cell), vertex_y).unwrap_or(color::FREE);
                 }
             } else {
                 cells.fill(color::FREE);
@@ -84,7 +91,7 @@ impl Picture<'_> {
     }
 
     /// A row of pixels that each show the mean of several cells.
-    fn mean_row(&self, tiles: Option<&Tiles>, layout: Layout, y: u32, line: &mut [Rgb]) {
+    fn mean_row(&self, painted: Option<&VertexColors>, layout: Layout, y: u32, line: &mut [Rgb]) {
         let (n, wall) = (layout.cells, self.wall());
         let end = |first: u32, side: u32| first.saturating_add(n).min(side);
         let rows = y * n..end(y * n, self.grid.height());
@@ -95,7 +102,7 @@ impl Picture<'_> {
                     let color = if self.grid.is_blocked(x as i32, y as i32) {
                         wall
                     } else {
-                        tiles.and_then(|tiles| tiles.get(x, y)).unwrap_or(color::FREE)
+                        painted.and_then(|painted| painted.get(x, y)).unwrap_or(color::FREE)
                     };
                     sum = [0, 1, 2].map(|i| sum[i] + u32::from(color[i]));
                     count += 1;

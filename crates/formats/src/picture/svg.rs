@@ -11,7 +11,7 @@ use super::{
     layout::{Layout, MARGIN},
     legend::legend,
     outline::outlines,
-    tiles::Tiles,
+    vertex_colors::VertexColors,
 };
 
 /// Longer outlines, in bytes, are replaced by pixels.
@@ -88,9 +88,9 @@ pub(super) fn document(picture: &Picture<'_>) -> String {
 fn map(picture: &Picture<'_>, layout: Layout, body: &mut String) -> bool {
     let (columns, rows) = (picture.grid.width(), picture.grid.height());
     let Layout { width, height, .. } = layout;
-    let tiles = Tiles::of(picture);
+    let painted = VertexColors::of(picture);
     let walls = if layout.cells > 1 { None } else { outlines(picture.grid, LONGEST_OUTLINE) };
-    let is_plain = tiles.is_none() && walls.is_some();
+    let is_plain = painted.is_none() && walls.is_some();
     // The last pixels of a map can lie across its border.
     let reach = |pixels: u32| pixels / layout.cell * layout.cells;
     let size = (reach(width), reach(height));
@@ -103,8 +103,8 @@ fn map(picture: &Picture<'_>, layout: Layout, body: &mut String) -> bool {
     );
     if let Some(walls) = walls {
         _ = writeln!(body, "<rect class=\"free\" width=\"{columns}\" height=\"{rows}\"/>");
-        if let Some(tiles) = &tiles {
-            colors(picture.placement, tiles, body);
+        if let Some(painted) = &painted {
+            colors(picture.placement, painted, body);
         }
         if layout.is_outlined() {
             let lines = (1..columns).map(|x| format!("M{x} 0v{rows}"));
@@ -118,7 +118,7 @@ fn map(picture: &Picture<'_>, layout: Layout, body: &mut String) -> bool {
     } else {
         let pixel_a_cell =
             Layout { cell: 1, width: width / layout.cell, height: height / layout.cell, ..layout };
-        let base = picture.base(tiles.as_ref(), pixel_a_cell, 0);
+        let base = picture.base(painted.as_ref(), pixel_a_cell, 0);
         pixels((0.0, 0.0), size, |out| encode::png(&base, out), body);
     }
     let contours = contour::lines(picture);
@@ -146,15 +146,15 @@ fn map(picture: &Picture<'_>, layout: Layout, body: &mut String) -> bool {
 }
 
 /// The colors of vertices, as squares around them.
-fn colors(placement: PlacementKind, tiles: &Tiles, body: &mut String) {
+fn colors(placement: PlacementKind, painted: &VertexColors, body: &mut String) {
     let shift = if placement == PlacementKind::Center { 0.0 } else { -0.5 };
-    let size = (tiles.columns, tiles.rows);
+    let size = (painted.columns, painted.rows);
     if u64::from(size.0) * u64::from(size.1) > MOST_SHAPES {
-        pixels((shift, shift), size, |out| encode::png_of_tiles(tiles, out), body);
+        pixels((shift, shift), size, |out| encode::png_of_colors(painted, out), body);
         return;
     }
     let mut shapes: BTreeMap<Rgb, String> = BTreeMap::new();
-    for (row, y) in tiles.rows().zip(0..) {
+    for (row, y) in painted.rows().zip(0..) {
         let mut x = 0;
         for run in row.chunk_by(|a, b| a == b) {
             if let Some(ink) = run.first().copied().flatten() {

@@ -38,9 +38,9 @@ pub enum RasterError {
         line: usize,
         /// The column, in bytes from 1.
         column: usize,
-        /// What should stand there.
+        /// The expected number or white space.
         expected: &'static str,
-        /// What the file has there.
+        /// The text found there.
         found: String,
     },
     /// A side is 0 or longer than [`Grid::MAX_SIDE`].
@@ -75,7 +75,7 @@ pub enum RasterError {
         place: String,
         /// The largest sample, from the header.
         max: u32,
-        /// What the file has there.
+        /// The text found there.
         found: String,
     },
     /// The file ends before the last pixel.
@@ -101,7 +101,7 @@ pub enum RasterError {
         unit: &'static str,
         /// Their number, by the header.
         expected: u64,
-        /// What follows them.
+        /// The rest of the file.
         found: String,
     },
     /// The header of a binary PGM or PBM ends in CR LF, and there is more after the pixels.
@@ -113,7 +113,7 @@ pub enum RasterError {
     /// A PNG that is damaged, cut short, or of a kind that does not exist.
     #[error("the PNG cannot be read: {message}; save the picture anew")]
     Png {
-        /// What the decoder says.
+        /// The decoder's message.
         message: String,
     },
     /// There is not enough memory for the picture.

@@ -9,7 +9,7 @@ use mediant_grid::Interrupt;
 use super::{READING, Raster, RasterError, error::check_sides, plain, samples::Samples};
 use crate::text::quote;
 
-/// What the first two bytes say.
+/// The kind of a file, by its first two bytes.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     PlainBitmap,
@@ -203,7 +203,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// What follows the one byte of white space, or the comment, after the header of a binary file.
+    /// The bytes after the header of a binary file, and its one byte of white space or comment.
     fn pixels(mut self) -> Result<Pixels<'a>, RasterError> {
         match self.peek() {
             Some(b'#') => self.skip_line(),

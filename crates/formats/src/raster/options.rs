@@ -27,10 +27,10 @@ pub struct MapOptions {
     /// Takes the picture as a negative: light pixels are blocked. Off by default. A ROS map states this
     /// itself, by `negate`, and is not inverted by this.
     pub invert: bool,
-    /// What becomes of pixels that say nothing: those that are less than half opaque, and the unknown cells
-    /// of a ROS map. Blocked by default.
+    /// The state of unknown cells: pixels less than half opaque, and the unknown cells of a ROS map. Blocked
+    /// by default.
     pub unknown: Unknown,
-    /// By whose rules the picture of a ROS map is read. Those of ROS 2 by default.
+    /// By whose rules the picture of a ROS map is read. ROS 2's by default.
     pub ros: RosVersion,
     /// Which characters of a MovingAI map are free.
     pub tiles: Tiles,
@@ -48,7 +48,7 @@ impl Default for MapOptions {
     }
 }
 
-/// What becomes of cells about which nothing is known.
+/// The state of unknown cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Unknown {
     /// They are blocked.

@@ -35,7 +35,7 @@ impl From<DecodingError> for RasterError {
     }
 }
 
-/// What reads a PNG.
+/// A decoder with a limit on its memory.
 fn decoder(bytes: &[u8]) -> Decoder<Cursor<&[u8]>> {
     Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: DECODER_BYTES })
 }

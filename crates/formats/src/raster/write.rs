@@ -61,7 +61,7 @@ impl Raster {
     /// ```
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn write(&self, format: RasterFormat, mut out: impl Write) -> io::Result<()> {
         let (width, height) = (self.width, self.height);
         let maxval = if 255 % self.white == 0 { 255 } else { self.white.min(0xffff) };

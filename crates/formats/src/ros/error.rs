@@ -52,9 +52,9 @@ pub enum RosError {
         line: usize,
         /// The key.
         key: &'static str,
-        /// What it should be.
+        /// The values that it can have.
         expected: &'static str,
-        /// What the file has, quoted.
+        /// The value, quoted.
         found: String,
         /// A value that it could have.
         example: &'static str,

@@ -10,18 +10,18 @@ use super::{RosError, flow};
 use crate::text::{Line, Lines, quote};
 
 /// A key with its value, which is still text.
-pub(super) struct Entry<'a> {
+pub(super) struct YamlEntry<'a> {
     pub(super) line: usize,
     pub(super) key: String,
     pub(super) value: &'a str,
 }
 
-/// Those keys of a file that are `wanted`, in their order, and the number of its lines. Others are not kept:
-/// a file may have very many.
+/// The `wanted` keys of a file, in their order, and the number of its lines. Others are not kept: a file may
+/// have very many.
 pub(super) fn entries(
     bytes: &[u8],
     wanted: impl Fn(&str) -> bool,
-) -> Result<(Vec<Entry<'_>>, usize), RosError> {
+) -> Result<(Vec<YamlEntry<'_>>, usize), RosError> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let before = &bytes[..error.valid_up_to()];
         RosError::NoText { line: before.iter().filter(|&&byte| byte == b'\n').count() + 1 }
@@ -33,7 +33,7 @@ pub(super) fn entries(
     let mut indent: Option<usize> = None;
     // Of the last key, whether it is wanted and where its value begins.
     let mut last: Option<(bool, usize)> = None;
-    let mut entries: Vec<Entry<'_>> = Vec::new();
+    let mut entries: Vec<YamlEntry<'_>> = Vec::new();
     let mut lines = Lines::new(text.as_bytes());
     for line in lines.by_ref() {
         let whole = &text[line.start..line.start + line.text.len()];
@@ -59,7 +59,7 @@ pub(super) fn entries(
                 let (key, value) = split_key(content).ok_or_else(|| line_error(line))?;
                 last = Some((wanted(&key), start_of_content + content.len() - value.len()));
                 if wanted(&key) {
-                    entries.push(Entry { line: line.number, key, value });
+                    entries.push(YamlEntry { line: line.number, key, value });
                 }
             }
             Role::Directive => return Err(line_error(line)),
@@ -134,7 +134,7 @@ fn split_key(line: &str) -> Option<(String, &str)> {
     plain.then(|| (key.trim_end().to_owned(), rest))
 }
 
-/// What follows a colon that ends a key.
+/// The text after a colon that ends a key.
 fn after_colon(text: &str) -> Option<&str> {
     let rest = text.strip_prefix(':')?;
     (rest.is_empty() || rest.starts_with([' ', '\t'])).then_some(rest)
@@ -182,7 +182,7 @@ pub(super) fn skip_blank(text: &str) -> &str {
     rest
 }
 
-/// What a plain scalar cannot begin with.
+/// Characters that begin no plain scalar.
 const RESERVED: [char; 16] = ['[', ']', '{', '}', ',', '&', '*', '!', '|', '>', '%', '@', '`', '#', '?', ':'];
 
 /// A scalar at the start of the text, and what follows it. In a list in brackets, `flow`, a comma or a

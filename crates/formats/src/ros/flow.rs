@@ -2,17 +2,17 @@
 
 use super::{
     RosError,
-    flat::{Entry, is_blank, skip_blank, take_scalar},
+    flat::{YamlEntry, is_blank, skip_blank, take_scalar},
 };
 use crate::text::quote;
 
-/// Those keys of a mapping that are `wanted`, and the number of the file's lines. `text` begins after the
-/// brace, which is in line `line`.
+/// The `wanted` keys of a mapping, and the number of the file's lines. `text` begins after the brace, which
+/// is in line `line`.
 pub(super) fn entries(
     line: usize,
     text: &str,
     wanted: impl Fn(&str) -> bool,
-) -> Result<(Vec<Entry<'_>>, usize), RosError> {
+) -> Result<(Vec<YamlEntry<'_>>, usize), RosError> {
     let line_of = |rest: &str| line + text[..text.len() - rest.len()].matches('\n').count();
     let wrong = |rest: &str| {
         let found = rest.lines().next().unwrap_or_default();
@@ -31,7 +31,7 @@ pub(super) fn entries(
         let length = value_length(after).ok_or_else(|| wrong(rest))?;
         let (value, next) = after.split_at(length);
         if wanted(&key) {
-            entries.push(Entry { line: line_of(rest), key, value });
+            entries.push(YamlEntry { line: line_of(rest), key, value });
         }
         rest = skip_blank(next.strip_prefix(',').unwrap_or(next));
     }

@@ -147,7 +147,7 @@ impl RosMap {
         yaml.replace()
     }
 
-    /// What the YAML file says.
+    /// The settings in the YAML file.
     #[must_use]
     pub const fn settings(&self) -> &RosSettings {
         &self.settings

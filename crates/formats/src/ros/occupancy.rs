@@ -139,7 +139,7 @@ impl RosMap {
         }
     }
 
-    /// Whether a pixel is free, between the thresholds, or occupied.
+    /// A pixel against both thresholds: `Less` if it is free, `Equal` between them, `Greater` if occupied.
     fn threshold(&self, shade: u64, white: u64) -> Ordering {
         let occupied = if self.settings.negate { shade } else { white - shade };
         if self.settings.occupied_thresh.compare(occupied, white) == Ordering::Greater {

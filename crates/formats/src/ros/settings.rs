@@ -4,7 +4,7 @@ use std::{fmt, fmt::Write as _};
 
 use super::{
     RosError,
-    flat::{self, Entry},
+    flat::{self, YamlEntry},
 };
 use crate::{
     Fraction,
@@ -33,7 +33,7 @@ impl fmt::Display for RosMode {
     }
 }
 
-/// What the YAML file of a ROS map says, as `map_server` reads it and `map_saver` writes it.
+/// The settings of a ROS map's YAML file, as `map_server` reads and `map_saver` writes them.
 ///
 /// ```
 /// use mediant_formats::{RosMode, RosSettings};
@@ -152,7 +152,7 @@ struct Value<'a> {
 }
 
 impl<'a> Value<'a> {
-    fn find(entries: &[Entry<'a>], lines: usize, key: &'static str) -> Result<Self, RosError> {
+    fn find(entries: &[YamlEntry<'a>], lines: usize, key: &'static str) -> Result<Self, RosError> {
         let example = KEYS.iter().find(|(name, _)| *name == key).map_or("", |(_, example)| *example);
         let mut found = entries.iter().filter(|entry| entry.key == key);
         let first = found.next().ok_or(RosError::MissingKey { line: lines + 1, key, example })?;
@@ -167,7 +167,7 @@ impl<'a> Value<'a> {
         RosError::Value { line: self.line, key: self.key, expected, found, example: self.example }
     }
 
-    /// What `read` makes of the scalar.
+    /// The value as one scalar, converted by `read`.
     fn scalar<T>(&self, expected: &'static str, read: impl FnOnce(&str) -> Option<T>) -> Result<T, RosError> {
         flat::scalar(self.text).and_then(|text| read(&text)).ok_or_else(|| self.error(expected))
     }

@@ -16,7 +16,7 @@ pub enum ScenarioError {
          a MovingAI scenario begins with its version, followed by one line per query"
     )]
     Version {
-        /// What the file has there.
+        /// The text found there.
         found: String,
     },
     /// A line has too few or too many fields.
@@ -45,7 +45,7 @@ pub enum ScenarioError {
         field: &'static str,
         /// The values that the field can have.
         expected: &'static str,
-        /// What the file has there.
+        /// The text found there.
         found: String,
     },
     /// A query that a scenario file cannot hold.

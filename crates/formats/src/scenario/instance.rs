@@ -50,7 +50,7 @@ pub fn scenario_tolerance(optimal: f64) -> f64 {
     f64::max(0.005, 1e-5 * optimal)
 }
 
-/// What [`is_map_name`] accepts, for error messages.
+/// The names that [`is_map_name`] accepts, for error messages.
 pub(super) const MAP_NAMES: &str = "a UTF-8 name without control characters and without spaces around it";
 
 /// Whether a line with tabs can hold this name and give it back.
@@ -58,7 +58,7 @@ pub(super) fn is_map_name(name: &str) -> bool {
     !name.is_empty() && name.trim_matches(' ') == name && !name.contains(char::is_control)
 }
 
-/// What [`is_length`] accepts, for error messages.
+/// The lengths that [`is_length`] accepts, for error messages.
 pub(super) const LENGTHS: &str = "a length of 0 or more";
 
 /// Whether a path can have this length: neither negative nor infinite, and not −0 either.

@@ -1,4 +1,4 @@
-//! Whether a scenario fits a map.
+//! The error of a scenario that does not fit a map.
 
 use std::fmt;
 

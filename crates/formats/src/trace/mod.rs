@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use render::render;
 
-/// What a trace says before its events.
+/// The header of a trace: placement and map.
 ///
 /// Needs the feature `trace`.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +22,7 @@ pub struct TraceHeader<'g> {
     pub map: Option<&'g Grid>,
 }
 
-/// What happened to a vertex.
+/// An event of a vertex in a search.
 ///
 /// Needs the feature `trace`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
@@ -116,7 +116,7 @@ impl<'g, W: Write> TraceWriter<'g, W> {
     /// Begins a trace.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn new(mut out: W, header: &TraceHeader<'g>) -> io::Result<Self> {
         write!(out, "{{\"version\":\"{VERSION}\",\n\"render\":{},\n\"events\":[", render(header.placement))?;
         Ok(Self { out, map: header.map, events: 0 })
@@ -125,7 +125,7 @@ impl<'g, W: Write> TraceWriter<'g, W> {
     /// Writes an event.
     ///
     /// # Errors
-    /// Those of the writer. The trace is then incomplete.
+    /// Errors of the writer. The trace is then incomplete.
     pub fn event(&mut self, kind: TraceEventKind, event: &TraceEvent) -> io::Result<()> {
         let &TraceEvent { id, parent, x, y, f, g } = event;
         let line = Line { kind, id, parent, x, y, f, g };
@@ -156,7 +156,7 @@ impl<'g, W: Write> TraceWriter<'g, W> {
     /// Ends the document, flushes, and gives the writer back.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn finish(mut self) -> io::Result<W> {
         self.out.write_all(b"\n]}\n")?;
         self.out.flush()?;

@@ -215,7 +215,7 @@ fn messages_of_png() {
     flipped[17] ^= 1;
     assert!(message(&flipped).starts_with("the PNG cannot be read: CRC error"), "{}", message(&flipped));
     assert_eq!(message(&png[..20]), "the PNG cannot be read: the file ends early; save the picture anew");
-    // What follows the last chunk belongs to somebody else.
+    // Bytes after the last chunk are not the picture's.
     assert_eq!(shades(&parse(&[&png[..], b"more"].concat())), "0 1 | 2 3 | of 255");
     // Without its last chunk it is cut short, though all pixels are there.
     assert_eq!(message(&png[..png.len() - 12]), message(&png[..20]));

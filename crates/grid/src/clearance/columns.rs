@@ -24,7 +24,7 @@ const KEEP: [[u16; 8]; 256] = {
     keep
 };
 
-/// A row of distances in whole words of 64 columns. Those beyond the last column mean nothing.
+/// A row of distances in whole words of 64 columns. Values beyond the last column mean nothing.
 pub(super) type Distances = Vec<u16>;
 
 /// The distances of the row y from those of the row before it in the direction of a pass.
@@ -69,7 +69,7 @@ pub(super) fn rows(sites: Sites<'_>, band: usize) -> std::ops::Range<usize> {
     band * BAND..sites.size().1.min((band + 1) * BAND)
 }
 
-/// What lies beyond each band, from the bands by themselves and the distances of the rows beyond the map.
+/// The distances just beyond each band, carried from band to band; `outside` is the one at the map's edge.
 ///
 /// `check` is asked before each band.
 pub(super) fn beyond(
@@ -78,7 +78,7 @@ pub(super) fn beyond(
     outside: u16,
     check: impl Fn() -> Result<(), Interrupted>,
 ) -> Result<Vec<Beyond>, Interrupted> {
-    // What a band says of itself is replaced by what the bands before it say; `carried` includes the band.
+    // Replaces a band's own distances by those carried from before it; `carried` then includes the band.
     fn carry(own: &mut Distances, carried: &mut Distances, rows: usize) {
         for (own, carried) in own.iter_mut().zip(carried.iter_mut()) {
             let through = carried.saturating_add(rows as u16).min(*own);

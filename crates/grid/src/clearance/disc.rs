@@ -11,8 +11,8 @@ const DURING: &str = "making the map of a disc";
 
 impl Clearance {
     /// The map of a disc whose radius is given in cells: a cell is free if the disc fits, touching obstacles
-    /// allowed. What that means of each cell is said by the [`Fit`]; radius 0 is the map itself. All
-    /// engines can search it.
+    /// allowed. The [`Fit`] says which points of a cell count; radius 0 is the map itself. All engines can
+    /// search it.
     ///
     /// The number is taken exactly as it is: a disc of radius ½ passes through a corridor of one cell, and
     /// one of the next larger number does not.
@@ -26,7 +26,7 @@ impl Clearance {
     /// [`for_disc`](Self::for_disc), which an interrupt can stop; it asks before each row.
     ///
     /// # Errors
-    /// Those of [`for_disc`](Self::for_disc), and [`SizeError::Interrupted`].
+    /// As for [`for_disc`](Self::for_disc), and [`SizeError::Interrupted`].
     pub fn for_disc_interruptible(&self, radius: f64, interrupt: &Interrupt) -> Result<Grid, SizeError> {
         let least = least_square(radius, self.scale())?;
         // No stored square is larger than `u32::MAX`, so larger discs fit nowhere.

@@ -1,11 +1,11 @@
-//! What is measured, and whether the outside of a map counts.
+//! Options of a clearance: the points that keep an agent's distance, and the outside of the map.
 
 use mediant_moves::{FiniteK, K};
 
 use crate::{CornerRule, Rules, names};
 
-/// Which points keep an agent's distance, and so what is free on the agent's map. What each is worth for a
-/// disc that moves is stated and proven [in `Clearance`](super::Clearance#guarantees).
+/// The points of a cell that keep an agent's distance: they decide which cells are free on its map. The
+/// guarantees for a disc that moves are proven [in `Clearance`](super::Clearance#guarantees).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Fit {
     /// The centers of cells: a cell is free if the disc around its center fits. Robots' costmaps do so.
@@ -44,7 +44,8 @@ impl Fit {
     }
 }
 
-/// Whether an agent may stick out over the edge of the map. (The point that moves never leaves the map.)
+/// The outside of the map, over which an agent may stick out or not. (The point that moves never leaves the
+/// map.)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Outside {
     /// It may not: the outside is an obstacle, as the rules of motion have it.

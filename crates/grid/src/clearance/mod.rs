@@ -2,8 +2,7 @@
 //!
 //! **The key decision: an agent's map is a map.** Which cells are free for a disc is a [`Grid`] like any
 //! other, so every engine searches it, and everything that can be prepared of a map can be prepared of it.
-//! What this is worth for the disc that moves along a path of that map is stated and proven in
-//! [`Clearance`], for each placement.
+//! [`Clearance`] proves which distance the disc keeps along a path of that map, for each placement.
 //!
 //! One exact squared Euclidean distance transform, [`transform`], serves all radii: [`columns`] finds how far
 //! the nearest obstacle is in each column, and [`envelope`] combines the columns row by row. A map for one
@@ -106,8 +105,8 @@ pub struct Clearance {
     outside: Outside,
     /// Whether there is no obstacle at all.
     unlimited: bool,
-    /// The squared distance of each point of the lattice: of centers in half cells, of corner vertices in
-    /// cells. See [`transform`].
+    /// The squared distance of each center, in half cells, or of each corner vertex, in cells. See
+    /// [`transform`].
     squared: Box<[u32]>,
 }
 
@@ -174,13 +173,13 @@ impl Clearance {
         &self.grid
     }
 
-    /// What was measured.
+    /// The points that were measured.
     #[must_use]
     pub const fn fit(&self) -> Fit {
         self.fit
     }
 
-    /// Whether the outside of the map counts as an obstacle.
+    /// The outside of the map: an obstacle or not.
     #[must_use]
     pub const fn outside(&self) -> Outside {
         self.outside
@@ -200,12 +199,12 @@ impl Clearance {
         }
     }
 
-    /// The columns of the lattice.
+    /// The centers or corner vertices of a row.
     fn columns(&self) -> usize {
         self.grid.width() as usize + usize::from(self.fit == Fit::WholeCells)
     }
 
-    /// The stored square of a point of the lattice.
+    /// The stored square of a center or corner vertex.
     fn squared(&self, at: Vertex) -> Option<u32> {
         let (x, y) = (usize::try_from(at.x).ok()?, usize::try_from(at.y).ok()?);
         let row = self.squared.chunks_exact(self.columns()).nth(y)?;

@@ -1,9 +1,9 @@
-//! The lattice points to which distances are measured, by words.
+//! The centers or corner vertices to which distances are measured, by words.
 
 use super::{Fit, Outside};
 use crate::BitMatrix;
 
-/// The points of a lattice that lie on obstacles: of cell centers, or of corner vertices.
+/// The cell centers, or the corner vertices, that lie on obstacles.
 ///
 /// A blocked cell is a closed square. The point of it that is nearest to a corner vertex is a corner vertex,
 /// so the distance to a blocked cell is that to the nearest of its corners. For centers see
@@ -16,7 +16,7 @@ pub(super) struct Sites<'g> {
 }
 
 impl Sites<'_> {
-    /// The columns and rows of the lattice.
+    /// The columns and rows of centers or corner vertices.
     pub(super) const fn size(self) -> (usize, usize) {
         let more = matches!(self.fit, Fit::WholeCells) as usize;
         (self.rows.width() as usize + more, self.rows.height() as usize + more)

@@ -50,7 +50,7 @@ impl Grid {
     /// through the map, in words.
     ///
     /// # Errors
-    /// Those of [`for_square`](Self::for_square), and [`SizeError::Interrupted`].
+    /// As for [`for_square`](Self::for_square), and [`SizeError::Interrupted`].
     pub fn for_square_interruptible(&self, n: u32, interrupt: &Interrupt) -> Result<Self, SizeError> {
         let (width, height) = (self.width(), self.height());
         if n == 0 {

@@ -1,4 +1,4 @@
-//! Squared distances of all points of a lattice.
+//! Squared distances of all cell centers or corner vertices.
 
 use super::{
     Outside,
@@ -8,7 +8,7 @@ use super::{
 };
 use crate::interrupt::{Interrupt, Interrupted};
 
-/// What a thread reuses from band to band.
+/// A thread's scratch memory, kept from band to band.
 #[derive(Default)]
 struct Scratch {
     upwards: columns::Distances,

@@ -18,7 +18,7 @@ pub struct Widest<T> {
     pub radius: f64,
     /// The map of that disc.
     pub map: Arc<Grid>,
-    /// What the search found on this map.
+    /// The result of the search on this map.
     pub found: T,
 }
 
@@ -32,13 +32,14 @@ impl Clearance {
     ///
     /// # What is promised
     ///
-    /// The *width* of a path is the largest radius of a disc on whose map it is legal. What that means of the
-    /// disc that moves along it is said [above](Self#guarantees). Let `search` be an engine that finds
-    /// shortest paths, and let it answer with its path if that is at most so long, and with nothing
-    /// otherwise. Then no path that is at most so long is wider than the one that is returned. If the limit
-    /// is the length of the shortest path on the map itself, the result is a shortest path that keeps off
-    /// walls as far as any shortest path does, measured where it comes nearest. With 1.1 times that length,
-    /// it keeps off as far as a surplus of 10 % can buy. How far it keeps off elsewhere is not promised.
+    /// The *width* of a path is the largest radius of a disc on whose map it is legal.
+    /// [Guarantees](Self#guarantees) of the disc that moves along it are above. Let `search` be an engine
+    /// that finds shortest paths, and let it answer with its path if that is at most so long, and with
+    /// nothing otherwise. Then no path that is at most so long is wider than the one that is returned. If the
+    /// limit is the length of the shortest path on the map itself, the result is a shortest path that keeps
+    /// off walls as far as any shortest path does, measured where it comes nearest. With 1.1 times that
+    /// length, it keeps off as far as a surplus of 10 % can buy. How far it keeps off elsewhere is not
+    /// promised.
     ///
     /// This needs that what is legal on the map of a disc is legal on those of smaller ones, which holds
     /// under all rules, but for one case: under [`DiagonalGap::Closed`](crate::DiagonalGap::Closed), for ends
@@ -93,7 +94,7 @@ impl Clearance {
     /// each row of a map.
     ///
     /// # Errors
-    /// Those of [`widest`](Self::widest), and that of an interrupt.
+    /// As for [`widest`](Self::widest), and the error of an interrupt.
     pub fn widest_interruptible<T, E: From<Interrupted>>(
         &self,
         at_most: f64,

@@ -64,7 +64,7 @@ pub struct SegmentCells {
     read: i32,
     /// Rows that were read, the next one last: row, first and last column.
     runs: Vec<(i32, i32, i32)>,
-    /// What is left of the row at hand: row, next and last column.
+    /// Cells left in the current row: row, next and last column.
     columns: Option<(i32, i32, i32)>,
 }
 

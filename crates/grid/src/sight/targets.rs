@@ -1,4 +1,4 @@
-//! What a visibility sweep looks for, and in which directions.
+//! The targets of a visibility sweep, and its directions.
 
 use crate::BitMatrix;
 

@@ -1,16 +1,15 @@
-//! What a visibility sweep does with the intervals that it follows: it looks for targets, or for all
-//! vertices.
+//! Visitors of the intervals of a visibility sweep: one finds targets, one all vertices.
 
 use crate::{BitRow, Vertex};
 
 use super::{row_summary::RowSummary, sweep::Piece, targets::Targets};
 
-/// What a sweep looks for in the intervals that it follows.
+/// A visitor of the intervals that a sweep follows.
 pub(super) trait Visitor<'m> {
-    /// What it knows of a line.
+    /// The targets on one line; nothing where all vertices count.
     type Line: Copy;
 
-    /// What it knows of line `y`.
+    /// The targets on line `y`.
     fn line(&self, y: i32) -> Self::Line;
 
     /// The same of the line that is `lines` lines below.

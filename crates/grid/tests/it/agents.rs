@@ -1,4 +1,4 @@
-//! What is guaranteed of agents that move along legal paths of their maps, in exact fractions.
+//! The guarantees of agents that move along legal paths of their maps, in exact fractions.
 
 use std::sync::Arc;
 

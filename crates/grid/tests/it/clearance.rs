@@ -154,7 +154,7 @@ fn the_longest_maps() {
     assert_eq!(points, 132);
 }
 
-/// What cells are free, and the radii at which that changes.
+/// The free cells of a disc's map, and the radii at which they change.
 #[test]
 fn maps_of_discs_have_the_cells_that_the_disc_keeps_off_from() {
     for seed in seeds(100) {

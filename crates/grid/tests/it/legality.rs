@@ -121,8 +121,7 @@ fn long_moves_of_large_k_are_legal_as_brute_force_says() {
             }
         }
     }
-    // The rules of centers differ on these maps. Those of corners cannot: no move has a vertex between its
-    // ends.
+    // The rules of centers differ on these maps. The gap rules cannot: no move has a vertex between its ends.
     let [never, one, always, open, closed] = legal;
     assert!(never < one && one < always && open == closed && open > 10_000, "{legal:?}");
 }

@@ -1,4 +1,4 @@
-//! What a vertex sees, against line of sight to every corner of an obstacle.
+//! The visibility sweep against line of sight to every corner of an obstacle.
 
 use std::sync::Arc;
 

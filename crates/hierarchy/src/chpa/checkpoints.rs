@@ -7,7 +7,7 @@ use mediant_grid::{Centers, GridGraph, Vertex};
 use super::segments::SegmentGraph;
 
 impl SegmentGraph {
-    /// Appends the checkpoints of a path over segments: for each `step`-th segment the tile at which the path
+    /// Appends the checkpoints of a path over segments: for each `step`-th segment the cell at which the path
     /// enters it. There is none in the goal's segment: the goal itself stands for it.
     pub(crate) fn append_checkpoints(
         &self,
@@ -23,30 +23,30 @@ impl SegmentGraph {
         checkpoints.extend(edges.filter_map(|edge| self.checkpoint(grid_graph, edge[0], edge[1])));
     }
 
-    /// The tile at which a path enters the segment `target` from its neighbor `origin`: of the free tiles
+    /// The cell at which a path enters the segment `target` from its neighbor `origin`: of the free cells
     /// along the wall between the two, the one nearest to the middle; of two equally near, the left or upper
-    /// one. `None` if no tile is free.
+    /// one. `None` if no cell is free.
     fn checkpoint(&self, grid_graph: &GridGraph<Centers>, origin: u32, target: u32) -> Option<Vertex> {
         let at = self.position(target);
         let d = self.position(origin).to(at);
         let side = self.side as i32;
-        // The coordinate along one axis, of the tiles at the wall, or of the tile that is `along` tiles from
+        // The coordinate along one axis, of the cells at the wall, or of the cell that is `along` cells from
         // its beginning.
-        let tile = |first: i32, d: i32, along: i32, cells: u32| {
-            let tile = match d {
+        let coordinate = |first: i32, d: i32, along: i32, cells: u32| {
+            let at = match d {
                 1 => first,
                 -1 => first + side - 1,
                 _ => first + along,
             };
-            // Beyond the map, the nearest tile on it.
-            tile.min(cells as i32 - 1)
+            // Beyond the map, the nearest cell on it.
+            at.min(cells as i32 - 1)
         };
         from_the_middle(side)
             .map(|along| {
-                let x = tile(at.x * side, d.x, along, self.size.0);
-                Vertex::new(x, tile(at.y * side, d.y, along, self.size.1))
+                let x = coordinate(at.x * side, d.x, along, self.size.0);
+                Vertex::new(x, coordinate(at.y * side, d.y, along, self.size.1))
             })
-            .find(|&tile| grid_graph.is_free(tile))
+            .find(|&cell| grid_graph.is_free(cell))
     }
 }
 
@@ -60,7 +60,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_tile_of_a_wall_is_tried_once_the_middle_one_first() {
+    fn each_cell_of_a_wall_is_tried_once_the_middle_one_first() {
         assert_eq!(from_the_middle(1).collect::<Vec<_>>(), [0]);
         assert_eq!(from_the_middle(3).collect::<Vec<_>>(), [1, 0, 2]);
         assert_eq!(from_the_middle(4).collect::<Vec<_>>(), [2, 1, 3, 0]);

@@ -12,15 +12,15 @@ use mediant_search::{
     parts::{NodeStore, Part, SearchTree},
 };
 
-use super::{search::Search, segments::SegmentGraph};
+use super::{search::SegmentSearch, segments::SegmentGraph};
 use crate::{HierarchyError, check, waypoints::waypoints};
 
-/// CHPA* (Teleiša & Čalnerytė 2023): A* over segments finds checkpoints, A* over tiles finds a path from each
+/// CHPA* (Teleiša & Čalnerytė 2023): A* over segments finds checkpoints, A* over cells finds a path from each
 /// to the next.
 ///
-/// There is a checkpoint in each [`step`](Self::with_step)-th segment of the path over segments: the tile at
+/// There is a checkpoint in each [`step`](Self::with_step)-th segment of the path over segments: the cell at
 /// which this path enters it, the free one nearest to the middle of the wall. `H1` is the heuristic of the
-/// search over segments, whose costs are counted in segments, `H2` that of the searches over tiles. Where a
+/// search over segments, whose costs are counted in segments, `H2` that of the searches over cells. Where a
 /// checkpoint cannot be reached, the [`FallbackPolicy`] says what happens.
 ///
 /// `G` and `I` are how the planner holds the grid graph and its index: by reference or by `Arc`. A planner
@@ -34,7 +34,7 @@ pub struct ChpaStar<G, I, H1, H2> {
     grid_graph: G,
     index: I,
     heuristic: H1,
-    tile_search: AStar<G, H2>,
+    cell_search: AStar<G, H2>,
     step: NonZeroU32,
     fallback: FallbackPolicy,
     tree: SearchTree,
@@ -49,7 +49,7 @@ pub struct ChpaStar<G, I, H1, H2> {
     phase: Phase,
 }
 
-/// What the planner is doing.
+/// The phase of the current search.
 #[derive(Clone, Copy, Debug)]
 enum Phase {
     /// Nothing: no search was begun, or it is over.
@@ -57,7 +57,7 @@ enum Phase {
     /// Phase 1: it searches a path over segments.
     Segments,
     /// Phase 2: it extends the path to the next checkpoint.
-    Tiles(Leg),
+    Cells(Leg),
 }
 
 /// Which checkpoint the path is to be extended to.
@@ -70,7 +70,7 @@ struct Leg {
     has_begun: bool,
 }
 
-/// What CHPA* does where a checkpoint cannot be reached, or only by a detour. Both happen, since segments do
+/// CHPA*'s fallback where a checkpoint cannot be reached, or only by a detour. Both happen, since segments do
 /// not tell whether paths lead through them ('preprocessing edge cases' in the paper, Section 6).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FallbackPolicy {
@@ -99,8 +99,8 @@ impl ChpaStar<(), (), (), ()> {
     /// The scratch memory that a planner on this graph and index takes when it is made, in bytes.
     #[must_use]
     pub fn scratch_bytes(grid_graph: &GridGraph<Centers>, index: &SegmentGraph) -> usize {
-        let tiles = NodeStore::<()>::bytes(grid_graph.vertex_count());
-        SearchTree::<()>::bytes(index.segments()).saturating_add(tiles)
+        let cells = NodeStore::<()>::bytes(grid_graph.vertex_count());
+        SearchTree::<()>::bytes(index.segments()).saturating_add(cells)
     }
 }
 
@@ -122,7 +122,7 @@ where
             tree: SearchTree::new(index.segments()),
             index,
             heuristic: first,
-            tile_search: AStar::new(grid_graph.clone(), second),
+            cell_search: AStar::new(grid_graph.clone(), second),
             step: NonZeroU32::MIN.saturating_add(1),
             fallback: FallbackPolicy::default(),
             segments: Vec::new(),
@@ -141,7 +141,7 @@ where
         Self { step, ..self }
     }
 
-    /// What to do where a checkpoint cannot be reached.
+    /// Sets the fallback where a checkpoint cannot be reached.
     #[must_use]
     pub fn with_fallback_policy(self, fallback: FallbackPolicy) -> Self {
         Self { fallback, ..self }
@@ -165,7 +165,7 @@ where
     pub fn repair(&mut self, grid_graph: G, changed: Rectangle) -> Result<(), HierarchyError> {
         check::same_moves(self.index.identity, &grid_graph)?;
         self.index.repair(self.grid_graph.grid(), grid_graph.grid(), changed)?;
-        self.tile_search.set_graph(grid_graph.clone());
+        self.cell_search.set_graph(grid_graph.clone());
         self.grid_graph = grid_graph;
         Ok(())
     }
@@ -200,19 +200,19 @@ where
             }
             self.phase = Phase::Over(Status::Unreachable);
             self.plan(status == Status::Found, observer)?;
-            self.phase = Phase::Tiles(Leg { next: 0, skip: 1, has_begun: false });
+            self.phase = Phase::Cells(Leg { next: 0, skip: 1, has_begun: false });
         }
-        while let Phase::Tiles(leg) = self.phase {
+        while let Phase::Cells(leg) = self.phase {
             let phase = self.extend(leg, observer);
             self.phase = *phase.as_ref().unwrap_or(&Phase::Over(Status::Unreachable));
             phase?;
-            if let Phase::Tiles(Leg { has_begun: true, .. }) = self.phase {
+            if let Phase::Cells(Leg { has_begun: true, .. }) = self.phase {
                 return Ok(Status::Searching);
             }
         }
         Ok(match self.phase {
             Phase::Over(status) => status,
-            Phase::Segments | Phase::Tiles(_) => Status::Searching,
+            Phase::Segments | Phase::Cells(_) => Status::Searching,
         })
     }
 
@@ -242,9 +242,9 @@ where
     H2: Heuristic,
 {
     /// The search of phase 1, with its memory.
-    fn search<'s, O: Observer>(&'s mut self, observer: &'s mut O) -> Search<'s, H1, O> {
+    fn search<'s, O: Observer>(&'s mut self, observer: &'s mut O) -> SegmentSearch<'s, H1, O> {
         let Self { grid_graph, index, heuristic, tree, query, .. } = self;
-        Search { grid_graph, graph: index, heuristic: *heuristic, tree, query: *query, observer }
+        SegmentSearch { grid_graph, graph: index, heuristic: *heuristic, tree, query: *query, observer }
     }
 
     /// Between the phases: makes the checkpoints.
@@ -271,7 +271,7 @@ where
     /// Phase 2: extends the path to the next checkpoint. The complete planner takes the next one that can be
     /// reached without a detour, and may take any to the last, the goal.
     fn extend(&mut self, leg: Leg, observer: &mut impl Observer) -> Result<Phase, QueryError> {
-        let Self { grid_graph, tile_search, checkpoints, path, length, fallback, .. } = self;
+        let Self { grid_graph, cell_search, checkpoints, path, length, fallback, .. } = self;
         let Leg { next, skip, has_begun } = leg;
         let (Some(&at), Some(&to)) = (path.last(), checkpoints.get(next)) else {
             return Ok(Phase::Over(Status::Found));
@@ -284,21 +284,21 @@ where
                 }
                 FallbackPolicy::Complete { .. } | FallbackPolicy::Paper => Cost::MAX,
             };
-            tile_search.begin_within(Query::new(at, to), limit, observer)?;
+            cell_search.begin_within(Query::new(at, to), limit, observer)?;
         }
         // Whether this leg becomes part of the path is not known yet.
-        let status = tile_search.proceed(&mut Part::pausing(observer, *length))?;
+        let status = cell_search.proceed(&mut Part::pausing(observer, *length))?;
         Ok(match (status, *fallback) {
-            (Status::Searching, _) => Phase::Tiles(Leg { has_begun: true, ..leg }),
+            (Status::Searching, _) => Phase::Cells(Leg { has_begun: true, ..leg }),
             (Status::Found, _) => {
                 let known = path.len();
-                tile_search.extend_to(path, to);
+                cell_search.extend_to(path, to);
                 let costs = grid_graph.costs();
                 for ends in path[known - 1..].windows(2) {
                     *length += costs.distance(ends[0].to(ends[1]));
                     observer.reached(ends[1], *length);
                 }
-                Phase::Tiles(Leg { next: next + 1, skip: 1, has_begun: false })
+                Phase::Cells(Leg { next: next + 1, skip: 1, has_begun: false })
             }
             (Status::Unreachable, FallbackPolicy::Paper) => {
                 return Err(QueryError::GaveUp { why: "a checkpoint cannot be reached" });
@@ -308,7 +308,7 @@ where
             }
             (Status::Unreachable, FallbackPolicy::Complete { .. }) => {
                 observer.fell_back();
-                Phase::Tiles(Leg { next: (next + skip).min(last), skip: 2 * skip, has_begun: false })
+                Phase::Cells(Leg { next: (next + skip).min(last), skip: 2 * skip, has_begun: false })
             }
         })
     }

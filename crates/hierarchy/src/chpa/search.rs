@@ -9,7 +9,7 @@ use mediant_search::{Heuristic, NodeEvent, Observer, Query, Status, parts::Searc
 use super::segments::SegmentGraph;
 
 /// The search over segments. Costs and the heuristic count in segments.
-pub(crate) struct Search<'s, H, O> {
+pub(crate) struct SegmentSearch<'s, H, O> {
     pub(crate) grid_graph: &'s GridGraph<Centers>,
     pub(crate) graph: &'s SegmentGraph,
     pub(crate) heuristic: H,
@@ -18,7 +18,7 @@ pub(crate) struct Search<'s, H, O> {
     pub(crate) observer: &'s mut O,
 }
 
-impl<H: Heuristic, O: Observer> Search<'_, H, O> {
+impl<H: Heuristic, O: Observer> SegmentSearch<'_, H, O> {
     /// Makes the start's segment the only one that is known.
     pub(crate) fn begin(&mut self) {
         let start = self.graph.segment_at(self.query.start);

@@ -23,16 +23,16 @@ pub(crate) const SOUTH_WEST: u8 = 8;
 /// The index of CHPA*: the map in segments, and which neighboring segments are joined (Teleiša & Čalnerytė
 /// 2023, Section 3).
 ///
-/// A window that is one tile longer than a segment slides over the map. It joins two segments side by side if
+/// A window that is one cell longer than a segment slides over the map. It joins two segments side by side if
 /// a 4-connected path within it leads from its first column to its last, which belongs to the second segment;
 /// likewise downward, with the window turned. The paper says 'any valid path along the window', but not
-/// between which of its tiles. A map whose sides are no multiples of the segment's is padded with copies of
+/// between which of its cells. A map whose sides are no multiples of the segment's is padded with copies of
 /// its last column and row.
 ///
-/// For k = 3, which the paper leaves open, a window that is one tile longer both ways joins diagonal
-/// neighbors: if such a path leads from one of the segment's two far sides to the one tile of the neighbor.
+/// For k = 3, which the paper leaves open, a window that is one cell longer both ways joins diagonal
+/// neighbors: if such a path leads from one of the segment's two far sides to the one cell of the neighbor.
 ///
-/// The index does not tell which tiles *within* a segment are connected. So segments may be joined although
+/// The index does not tell which cells *within* a segment are connected. So segments may be joined although
 /// no path leads through them, or not joined although one does; what a planner then does is its
 /// [`FallbackPolicy`](crate::FallbackPolicy). An index is changed only by [`repair`](Self::repair); any
 /// number of planners share it.
@@ -50,7 +50,7 @@ pub struct SegmentGraph {
 impl SegmentGraph {
     /// The side of the paper's segments.
     pub const PAPER_SIDE: u32 = 3;
-    /// The longest side of segments. The window is one tile longer, and each of its rows is one word.
+    /// The longest side of segments. The window is one cell longer, and each of its rows is one word.
     pub const MAX_SIDE: u32 = MAX_SIDE - 1;
 
     /// Makes the index of a map, with segments of `side` × `side` cells: 1 to [`MAX_SIDE`](Self::MAX_SIDE).
@@ -65,7 +65,7 @@ impl SegmentGraph {
     /// [`new`](Self::new), which an interrupt can stop; it asks every few segments.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new), and [`HierarchyError::Interrupted`].
+    /// As for [`new`](Self::new), and [`HierarchyError::Interrupted`].
     pub fn interruptible(
         grid_graph: &GridGraph<Centers>,
         side: u32,
@@ -114,7 +114,7 @@ impl SegmentGraph {
     /// A copy of the index, [repaired](Self::repair). An interrupt can stop it; this index stays as it is.
     ///
     /// # Errors
-    /// Those of [`repair`](Self::repair), and [`HierarchyError::Interrupted`].
+    /// As for [`repair`](Self::repair), and [`HierarchyError::Interrupted`].
     pub fn repaired(
         &self,
         before: &Grid,
@@ -138,7 +138,7 @@ impl SegmentGraph {
         check::change(self.identity, before, after, changed)?;
         // Where no cell of the rectangle is on the map, the maps are equal.
         let Some([columns, rows]) = on_map(changed, self.size) else { return Ok(()) };
-        // The windows of a segment reach one tile beyond it to the left, to the right, and downward.
+        // The windows of a segment reach one cell beyond it to the left, to the right, and downward.
         let side = self.side;
         let first = |cell: u32| cell.saturating_sub(1) / side;
         for y in first(rows.start)..rows.end.div_ceil(self.side) {
@@ -152,7 +152,7 @@ impl SegmentGraph {
         Ok(())
     }
 
-    /// What it belongs to: the map, the rules of motion and the k of its grid graph.
+    /// The identity of its grid graph: map, rules of motion and k.
     #[must_use]
     pub const fn identity(&self) -> Identity {
         self.identity
@@ -192,7 +192,7 @@ impl SegmentGraph {
         Vertex::new((segment % self.columns) as i32, (segment / self.columns) as i32)
     }
 
-    /// The tile in the middle of a segment; beyond the map, the nearest tile on it.
+    /// The cell in the middle of a segment; beyond the map, the nearest cell on it.
     pub(crate) const fn center(&self, segment: u32) -> Vertex {
         let (at, side) = (self.position(segment), self.side as i32);
         let (x, y) = (at.x * side + side / 2, at.y * side + side / 2);

@@ -58,7 +58,7 @@ impl ClusterGraph {
     /// [`from_bytes`](Self::from_bytes), which an interrupt can stop.
     ///
     /// # Errors
-    /// Those of [`from_bytes`](Self::from_bytes), and [`HierarchyError::Interrupted`].
+    /// As for [`from_bytes`](Self::from_bytes), and [`HierarchyError::Interrupted`].
     pub fn from_bytes_interruptible(
         grid_graph: &GridGraph<Centers>,
         bytes: &[u8],

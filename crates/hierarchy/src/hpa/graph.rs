@@ -51,7 +51,7 @@ impl ClusterGraph {
     /// [`new`](Self::new), which an interrupt can stop; it asks for each search within a cluster.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new), and [`HierarchyError::Interrupted`].
+    /// As for [`new`](Self::new), and [`HierarchyError::Interrupted`].
     pub fn interruptible(
         grid_graph: &GridGraph<Centers>,
         clustering: Clustering,
@@ -99,7 +99,7 @@ impl ClusterGraph {
     /// A copy of the index, [repaired](Self::repair). An interrupt can stop it; this index stays as it is.
     ///
     /// # Errors
-    /// Those of [`repair`](Self::repair), and [`HierarchyError::Interrupted`].
+    /// As for [`repair`](Self::repair), and [`HierarchyError::Interrupted`].
     pub fn repaired(
         &self,
         before: &Grid,
@@ -133,7 +133,7 @@ impl ClusterGraph {
         Ok(())
     }
 
-    /// What it belongs to: the map, the rules of motion and the k of its grid graph.
+    /// The identity of its grid graph: map, rules of motion and k.
     #[must_use]
     pub const fn identity(&self) -> Identity {
         self.identity

@@ -155,7 +155,7 @@ impl Level {
         at.y as u32 / self.side * self.columns + at.x as u32 / self.side
     }
 
-    /// Whether a vertex is in a cluster. Those at the right and lower edge count in full, also beyond the
+    /// Whether a vertex is in a cluster. Clusters at the right and lower edge count in full, also beyond the
     /// map.
     const fn is_in_cluster(&self, at: Vertex) -> bool {
         at.x >= 0

@@ -14,7 +14,7 @@ use super::{
     fixed_cost::FixedCost,
     graph::ClusterGraph,
     level::{Bounds, Level, Node},
-    search::{Endpoint, Goal, Search, search},
+    search::{Endpoint, Goal, HpaSearch, search},
     straighten::{Straighten, free_elbow},
 };
 use crate::{
@@ -58,7 +58,7 @@ pub struct HpaStar<G, I> {
     second_tree: Option<SearchTree>,
 }
 
-/// What the planner is doing.
+/// The phase of the current search.
 #[derive(Clone, Copy, Debug)]
 enum Phase {
     /// Nothing: no search was begun, or there is no path.
@@ -322,7 +322,7 @@ where
         });
         let to = Some(Goal { endpoint: to, direct });
         let estimate = |at: Vertex| index.costs.distance(at.to(goal));
-        let mut search = Search { level, bounds: Bounds::ALL, tree, estimate, observer };
+        let mut search = HpaSearch { level, bounds: Bounds::ALL, tree, estimate, observer };
         if begins {
             search.begin(from, to);
             return Status::Searching;

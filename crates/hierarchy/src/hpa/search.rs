@@ -54,13 +54,13 @@ pub(crate) fn search(
     goal: Option<Goal<'_>>,
     observer: &mut impl Observer,
 ) -> bool {
-    let mut search = Search { level, bounds, tree, estimate, observer: &mut Part::new(observer) };
+    let mut search = HpaSearch { level, bounds, tree, estimate, observer: &mut Part::new(observer) };
     search.begin(start, goal);
     search.run(goal) == Status::Found
 }
 
-/// A search.
-pub(crate) struct Search<'s, E, O> {
+/// A search on the nodes of one level, within bounds.
+pub(crate) struct HpaSearch<'s, E, O> {
     pub(crate) level: &'s Level,
     pub(crate) bounds: Bounds,
     pub(crate) tree: &'s mut SearchTree,
@@ -68,7 +68,7 @@ pub(crate) struct Search<'s, E, O> {
     pub(crate) observer: &'s mut O,
 }
 
-impl<E: Fn(Vertex) -> Cost, O: Observer> Search<'_, E, O> {
+impl<E: Fn(Vertex) -> Cost, O: Observer> HpaSearch<'_, E, O> {
     /// Forgets the last search, and generates the nodes around the start's cluster.
     pub(crate) fn begin(&mut self, start: Endpoint<'_>, goal: Option<Goal<'_>>) {
         let level = self.level;

@@ -52,7 +52,7 @@ fn lowest_cells(grid: &Grid, side: i32) -> Cells {
     cells
 }
 
-/// Those cells of the level below from which a step leads to another of them in another cluster of this side.
+/// The cells of the level below from which a step leads to another of them in another cluster of this side.
 fn upper_cells(below: &Cells, side: i32) -> Cells {
     let cluster = |(x, y): (i32, i32)| (x / side, y / side);
     let leads_out = |&&(x, y): &&(i32, i32)| {

@@ -1,4 +1,4 @@
-//! What several suites need: maps, indexes, planners, queries.
+//! Maps, indexes, planners and queries that several suites share.
 #![allow(dead_code, reason = "each suite uses a part")]
 
 use std::{num::NonZeroU32, ops::Deref, sync::Arc};

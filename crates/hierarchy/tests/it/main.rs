@@ -1,5 +1,4 @@
-//! What the hierarchies promise, held against definitions, slow references and new indexes, on seeded random
-//! maps.
+//! The hierarchies against their definitions, slow references and new indexes, on seeded random maps.
 
 mod clusters;
 mod common;

@@ -1,6 +1,6 @@
 //! The index of CHPA* has the edges of the definition: a window slides over the padded map, and joins
 //! segments where a 4-connected path leads through it (Teleiša & Čalnerytė 2023, Section 3). Diagonal edges,
-//! for eight neighbors, are not in the paper: there the path leads to the corner tile of the diagonal
+//! for eight neighbors, are not in the paper: there the path leads to the corner cell of the diagonal
 //! neighbor.
 
 use crate::common::{grid_graph, k, map, segments};
@@ -14,14 +14,14 @@ const SOUTH_EAST: u8 = 4;
 const SOUTH_WEST: u8 = 8;
 const EDGES: [u8; 4] = [EAST, SOUTH, SOUTH_EAST, SOUTH_WEST];
 
-/// Whether each tile of a window is free, row by row.
+/// Whether each cell of a window is free, row by row.
 struct Window {
     width: usize,
     free: Vec<bool>,
 }
 
 impl Window {
-    /// A tile beyond the map is free if the nearest tile on it is.
+    /// A cell beyond the map is free if the nearest cell on it is.
     fn new(grid: &Grid, left: i32, top: i32, width: usize, height: usize) -> Self {
         let is_free = |i: usize| {
             let (x, y) = (left + (i % width) as i32, top + (i / width) as i32);
@@ -30,11 +30,11 @@ impl Window {
         Self { width, free: (0..width * height).map(is_free).collect() }
     }
 
-    /// Whether a 4-connected path leads from a free tile in `from` to a free tile in `to`.
+    /// Whether a 4-connected path leads from a free cell in `from` to a free cell in `to`.
     fn joins(&self, from: impl Fn(usize, usize) -> bool, to: impl Fn(usize, usize) -> bool) -> bool {
         let (width, height) = (self.width, self.free.len() / self.width);
-        let tiles = || (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-        let mut trail: Vec<_> = tiles().filter(|&(x, y)| from(x, y)).collect();
+        let cells = || (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        let mut trail: Vec<_> = cells().filter(|&(x, y)| from(x, y)).collect();
         let mut seen = vec![false; self.free.len()];
         while let Some((x, y)) = trail.pop() {
             let is_on = x < width && y < height;
@@ -44,7 +44,7 @@ impl Window {
             // Left of and above the window, numbers wrap around to ones that are outside as well.
             trail.extend([(x + 1, y), (x.wrapping_sub(1), y), (x, y + 1), (x, y.wrapping_sub(1))]);
         }
-        tiles().any(|(x, y)| to(x, y) && seen[y * width + x])
+        cells().any(|(x, y)| to(x, y) && seen[y * width + x])
     }
 }
 
@@ -128,9 +128,9 @@ fn edges_are_those_of_the_definition() {
     assert!(counts.iter().flatten().all(|&count| count > maps), "{counts:?} on {maps} maps");
 }
 
-/// Every map of 3 × 3 tiles, in segments of side 1, 2 and 3.
+/// Every map of 3 × 3 cells, in segments of side 1, 2 and 3.
 #[test]
-fn edges_are_right_on_every_map_of_nine_tiles() {
+fn edges_are_right_on_every_map_of_nine_cells() {
     let check = |cells: u64| {
         let grid = Grid::from_fn(3, 3, |x, y| cells >> (3 * y + x) & 1 == 1).expect("a valid size");
         let cases = [1, 2, 3].into_iter().flat_map(|side| [2, 3].map(|number| (side, number)));

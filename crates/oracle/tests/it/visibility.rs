@@ -26,7 +26,7 @@ fn is_same(a: Option<f64>, b: Option<f64>) -> bool {
     }
 }
 
-/// What was seen on the way: a suite that meets too little of it proves nothing.
+/// Counts of the cases that the suite met: one that meets too few proves nothing.
 #[derive(Debug, Default)]
 struct Tally {
     found: u64,

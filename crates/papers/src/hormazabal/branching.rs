@@ -82,7 +82,7 @@ impl Graphs {
     }
 }
 
-/// What is counted and what it is divided by.
+/// A definition of the branching factor: the arcs that count, and the divisor.
 #[derive(Clone, Copy, Debug)]
 enum Sense {
     OneLevel,

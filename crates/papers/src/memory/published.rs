@@ -1,5 +1,5 @@
-//! What EHL takes: Euclidean hub labels (Du, Shen & Cheema 2023) and EHL* (the same with regions merged under
-//! a budget of memory).
+//! Time and memory of EHL, Euclidean hub labels (Du, Shen & Cheema 2023), and of EHL* (the same with regions
+//! merged under a budget of memory).
 //!
 //! The authors' programs ran on 22 November 2026 on the instances of this comparison, one thread, warm,
 //! median of the passes, beside Mediant and the two baselines, on two virtual cores of an AMD EPYC

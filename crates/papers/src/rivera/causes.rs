@@ -1,13 +1,13 @@
 //! Why numbers differ from the published ones.
 //!
-//! What a run measures comes from its record. What was measured once, by code that is not in the repository,
-//! is said to be a guess.
+//! Numbers that a run measures come from its record. A cause that was measured once, by code that is not in
+//! the repository, is called a guess.
 
 use mediant_report::Record;
 
 use super::{
     published::SETS,
-    searches::{Algorithm, Heuristic, KS, Measure, Search},
+    searches::{Algorithm, Heuristic, KS, Measure, SearchKey},
 };
 
 /// Of other problems.
@@ -55,7 +55,7 @@ const CANONICAL_TIES: &str = "Our guess: ties, as in Table 1. Measured once, by 
                               instead of 1.03 and 1.11 (published 0.91 and 0.85).";
 
 /// Why a number of the tables differs, where it does.
-pub(super) fn of(record: &Record, search: Search, measure: Measure) -> String {
+pub(super) fn of(record: &Record, search: SearchKey, measure: Measure) -> String {
     match (search.algorithm, search.heuristic, measure) {
         (_, _, Measure::Time) => time(record, search),
         (_, _, Measure::Cost | Measure::Moves) => [BOXES, DRAW].join("\n"),
@@ -69,8 +69,8 @@ pub(super) fn of(record: &Record, search: Search, measure: Measure) -> String {
 /// The nanoseconds of an expansion by k, on StarCraft, here and as published.
 fn expansions(record: &Record, algorithm: Algorithm, heuristic: Heuristic) -> [Vec<(f64, f64)>; 2] {
     let moves = |k: u32| f64::from(1_u32 << k);
-    let of = |number: &dyn Fn(Search) -> Option<f64>| {
-        let searches = KS.map(|k| Search { algorithm, heuristic, k });
+    let of = |number: &dyn Fn(SearchKey) -> Option<f64>| {
+        let searches = KS.map(|k| SearchKey { algorithm, heuristic, k });
         searches.into_iter().filter_map(|search| Some((moves(search.k), number(search)?))).collect()
     };
     [
@@ -101,7 +101,7 @@ const NO_TIMES: &str = "The program and the machine are others. StarCraft, on wh
                         expansion is taken apart, was left out.";
 
 /// Of times: what an expansion takes, a fixed part and a part for each move.
-fn time(record: &Record, search: Search) -> String {
+fn time(record: &Record, search: SearchKey) -> String {
     let [ours, theirs] = expansions(record, search.algorithm, search.heuristic);
     let Some((ours, theirs)) = line(&ours).zip(line(&theirs)) else {
         return NO_TIMES.to_owned();
@@ -123,8 +123,8 @@ fn time(record: &Record, search: Search) -> String {
 /// A* with both heuristics at a k on StarCraft: nanoseconds an expansion and expansions, with h_k over
 /// Euclidean.
 fn heuristics(record: &Record, algorithm: Algorithm, k: u32) -> Option<[f64; 4]> {
-    let ratio = |number: &dyn Fn(Search) -> Option<f64>| {
-        let of = |heuristic| number(Search { algorithm, heuristic, k });
+    let ratio = |number: &dyn Fn(SearchKey) -> Option<f64>| {
+        let of = |heuristic| number(SearchKey { algorithm, heuristic, k });
         Some(of(Heuristic::Hk)? / of(Heuristic::Euclidean)?)
     };
     let time = ratio(&|search| search.number(record, "sc1", "micros"))?;
@@ -156,7 +156,7 @@ pub(super) fn faster(record: &Record, algorithm: Algorithm) -> String {
 pub(super) fn canonical(record: &Record) -> String {
     let times = |algorithm, searches: &[(&str, Heuristic, u32)]| {
         let each = searches.iter().filter_map(|&(set, heuristic, k)| {
-            let search = Search { algorithm, heuristic, k };
+            let search = SearchKey { algorithm, heuristic, k };
             let number = |column| search.number(record, set, column);
             Some(1e3 * number("micros")? / number("timed_expanded")?)
         });

@@ -4,7 +4,7 @@ use mediant_report::{Axis, Chart, Mark, Record, Series};
 
 use super::{
     published::SETS,
-    searches::{Algorithm, Heuristic, KS, Measure, Search},
+    searches::{Algorithm, Heuristic, KS, Measure, SearchKey},
 };
 
 /// The searches that are shown.
@@ -23,9 +23,9 @@ fn neighbors() -> Axis {
 /// The points of a curve: for each k, what `number` finds of its search.
 fn points(
     (algorithm, heuristic): (Algorithm, Heuristic),
-    number: impl Fn(Search) -> Option<f64>,
+    number: impl Fn(SearchKey) -> Option<f64>,
 ) -> Vec<(f64, f64)> {
-    let point = |k: u32| Some((f64::from(1_u32 << k), number(Search { algorithm, heuristic, k })?));
+    let point = |k: u32| Some((f64::from(1_u32 << k), number(SearchKey { algorithm, heuristic, k })?));
     KS.into_iter().filter_map(point).collect()
 }
 
@@ -35,7 +35,7 @@ fn name((algorithm, heuristic): (Algorithm, Heuristic), whose: &str) -> String {
 
 /// Figure 3: the time of each search against the number of neighbors. None if no time was taken on that set.
 pub(super) fn runtime(record: &Record, set: &str) -> Option<String> {
-    let ours = |search: Search| Some(search.number(record, set, "micros")? / 1000.0);
+    let ours = |search: SearchKey| Some(search.number(record, set, "micros")? / 1000.0);
     let mut chart =
         Chart::new(format!("Time of a query on {}", title(set)), neighbors(), Axis::new("ms").log())
             .note(note(record, set)?);
@@ -55,10 +55,10 @@ pub(super) fn runtime(record: &Record, set: &str) -> Option<String> {
 
 /// The time of an expansion against the number of neighbors.
 pub(super) fn expansion(record: &Record, set: &str) -> Option<String> {
-    let ours = |search: Search| {
+    let ours = |search: SearchKey| {
         Some(1000.0 * search.number(record, set, "micros")? / search.number(record, set, "timed_expanded")?)
     };
-    let theirs = |search: Search| {
+    let theirs = |search: SearchKey| {
         Some(1e6 * search.published(set, Measure::Time)? / search.published(set, Measure::Expanded)?)
     };
     let title = format!("Time of an expansion on {}", title(set));

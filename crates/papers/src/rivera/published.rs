@@ -1,6 +1,6 @@
 //! Tables 1 and 2 of Rivera, Hernández & Baier 2017 as printed.
 
-use super::searches::{Algorithm, Heuristic, KS, Measure, Search};
+use super::searches::{Algorithm, Heuristic, KS, Measure, SearchKey};
 
 /// The sets by their names here and in the paper.
 pub(super) const SETS: [(&str, &str); 3] = [("sc1", "StarCraft"), ("bg512", "BG"), ("wc3maps512", "WC3")];
@@ -62,7 +62,7 @@ const TABLE_2: [[[f64; 6]; 6]; 3] = [
     ],
 ];
 
-impl Search {
+impl SearchKey {
     /// A printed number; none where the paper prints none.
     pub(super) fn published(self, set: &str, measure: Measure) -> Option<f64> {
         let Self { algorithm, heuristic, k } = self;
@@ -109,7 +109,7 @@ mod tests {
             ("bundled", AStar, Hk, 3, Measure::Time, None),
         ];
         for (set, algorithm, heuristic, k, measure, expected) in cases {
-            let found = Search { algorithm, heuristic, k }.published(set, measure);
+            let found = SearchKey { algorithm, heuristic, k }.published(set, measure);
             assert_eq!(found, expected, "{set} {algorithm:?} {heuristic:?} {k} {measure:?}");
         }
     }

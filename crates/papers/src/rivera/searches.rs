@@ -103,13 +103,13 @@ impl Measure {
 
 /// One search: a row of the record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Search {
+pub(super) struct SearchKey {
     pub(super) algorithm: Algorithm,
     pub(super) heuristic: Heuristic,
     pub(super) k: u32,
 }
 
-impl Search {
+impl SearchKey {
     /// All searches; those of one k follow each other.
     pub(super) fn all() -> impl Iterator<Item = Self> {
         KS.into_iter().flat_map(|k| {

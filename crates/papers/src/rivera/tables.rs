@@ -9,7 +9,7 @@ use mediant_grid::Rules;
 use mediant_report::{Column, Row};
 use mediant_search::Query;
 
-use super::searches::{Algorithm, Heuristic, Measure, Search};
+use super::searches::{Algorithm, Heuristic, Measure, SearchKey};
 use crate::{
     Error,
     context::{Context, How},
@@ -20,7 +20,7 @@ use crate::{
 
 /// The five StarCraft maps.
 const STARCRAFT: [&str; 5] = ["Cauldron", "Expedition", "Octopus", "PrimevalIsles", "TheFrozenSea"];
-/// What is counted, in the order of the numbers of [`Counted`].
+/// The counts, in the order of the numbers of [`Counted`].
 const COUNTS: [Measure; 4] = [Measure::Cost, Measure::Moves, Measure::Expanded, Measure::Percolations];
 /// The part of the problems of a map that are timed.
 const TIMED: usize = 10;
@@ -134,7 +134,7 @@ fn queries(context: &Context<'_>, map: &Map) -> Result<Vec<Query>, Error> {
 fn counts(context: &Context<'_>, map: &Map) -> Result<Counted, Error> {
     let (grid, queries) = (map.grid()?, queries(context, map)?);
     let mut study = Study::new(&grid, &queries, 0);
-    let one = |search: Search| {
+    let one = |search: SearchKey| {
         let found = run(&mut study, &search.setup())?.answers.into_iter().map(|answer| {
             let answer = answer.ok_or_else(|| {
                 Error::Reproduce(format!(
@@ -148,27 +148,27 @@ fn counts(context: &Context<'_>, map: &Map) -> Result<Counted, Error> {
         });
         found.collect()
     };
-    Search::all().map(one).collect()
+    SearchKey::all().map(one).collect()
 }
 
 fn times(context: &Context<'_>, map: &Map) -> Result<Timed, Error> {
     let (grid, mut queries) = (map.grid()?, queries(context, map)?);
     queries.truncate(timed_of(queries.len()));
     let mut study = Study::new(&grid, &queries, context.passes());
-    let one = |search: Search| {
+    let one = |search: SearchKey| {
         if search.algorithm == Algorithm::Exact && search.heuristic == Heuristic::Euclidean {
             return Ok(None);
         }
         let micros = run(&mut study, &search.setup())?.micros;
         Ok(micros.map(|micros| micros * queries.len() as f64))
     };
-    Search::all().map(one).collect()
+    SearchKey::all().map(one).collect()
 }
 
 /// The rows of a set from the numbers of its maps.
 fn rows_of(set: &str, counted: &[&Counted], timed: &[&Timed]) -> Vec<Row> {
-    let searches: Vec<Search> = Search::all().collect();
-    let row = |(at, &search): (usize, &Search)| {
+    let searches: Vec<SearchKey> = SearchKey::all().collect();
+    let row = |(at, &search): (usize, &SearchKey)| {
         let reference =
             search.reference().and_then(|reference| searches.iter().position(|&search| search == reference));
         let all = || counted.iter().flat_map(|searches| &searches[at]);
@@ -242,7 +242,7 @@ mod tests {
 
     #[test]
     fn rows_are_of_their_searches() {
-        let searches: Vec<Search> = Search::all().collect();
+        let searches: Vec<SearchKey> = SearchKey::all().collect();
         assert_eq!((searches.len(), timed_of(50), timed_of(1)), (36, 5, 1));
         let setups: Vec<String> = searches.iter().map(|search| search.setup()).collect();
         assert_eq!(setups[0], "astar:2:never");

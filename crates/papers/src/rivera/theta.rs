@@ -17,7 +17,7 @@ use crate::{
 const TIMED: usize = 60;
 /// The setup of Theta* of the paper: the octile distance as its heuristic.
 const THETA: &str = "theta:3:open";
-/// What stands in the key column `search` for A* and for Theta*.
+/// The keys of A* and of Theta* in the column `search`.
 const A_STAR: &str = "astar";
 const THETA_STAR: &str = "theta";
 /// The paper says that from this k on A* finds shorter paths than Theta*, and that at this k it is so many
@@ -95,7 +95,7 @@ fn columns() -> Vec<Column> {
     ]
 }
 
-/// The lengths of all searches. Those of A* are the optima over N(k), which subgoal graphs find in less time.
+/// The lengths of all searches. A*'s are the optima over N(k), which subgoal graphs find in less time.
 fn lengths(map: &Map, every: usize) -> Result<Vec<Lengths>, Error> {
     let (grid, queries) = (map.grid()?, map.queries(every)?);
     let mut study = Study::new(&grid, &queries, 0);

@@ -3,13 +3,13 @@
 //! **The key decision: we write the SVG ourselves and use no plotting library.** A figure is one file in the
 //! repository, next to the numbers that it shows, and must be fit for that. It follows the page's light or
 //! dark scheme, by a style sheet inside the file. The same numbers give the same bytes, so that a changed
-//! figure is a changed result. It has no raster image and no font. What the reproductions draw (points,
-//! lines, bounds, small maps, trees) needs no more than this module.
+//! figure is a changed result. It has no raster image and no font. The figures of the reproductions (points,
+//! lines, bounds, small maps, trees) need no more than this module.
 //!
 //! Series differ in color (the eight of Okabe and Ito, which color-blind readers can tell apart), in marker
 //! and in dash.
 //!
-//! What is not here: interaction, error bars, surfaces.
+//! Not here: interaction, error bars, surfaces.
 
 mod axis;
 mod canvas;

@@ -205,7 +205,7 @@ impl<'a> Plot<'a> {
             let (x, y) = (self.x.fraction(x), self.y.fraction(y));
             let clamped = [x, y].into_iter().any(|at| is_below(at) || is_above(at));
             if styled.is_reference() {
-                // A reference is not clamped, but cut later, so that it keeps its slope. What has no
+                // A reference is not clamped, but cut later, so that it keeps its slope. A number without a
                 // logarithm is at the low end.
                 let at = [x, y].map(|at| if at == f64::NEG_INFINITY { 0.0 } else { at });
                 return Some(Placed { at: self.at((at[0], at[1])), clamped });

@@ -1,8 +1,8 @@
-//! What the columns of a record hold.
+//! Columns of a record: name, kind, unit, meaning.
 
 use serde::{Deserialize, Serialize};
 
-/// What a column holds.
+/// The kind of a column's values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ColumnKind {
@@ -24,7 +24,7 @@ pub struct Column {
     /// The unit; empty for text and for numbers without one.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub unit: String,
-    /// What it means, in words.
+    /// Its meaning, in words.
     pub about: String,
 }
 

@@ -29,11 +29,11 @@ use super::{
 pub struct Record {
     /// The name of the experiment, one word. Its files are called after it.
     pub id: String,
-    /// What was measured, in one line.
+    /// The measured quantity, in one line.
     pub title: String,
     /// Where the numbers come from.
     pub provenance: Provenance,
-    /// What the rows hold.
+    /// The columns of the rows.
     pub columns: Vec<Column>,
     /// The results.
     pub rows: Vec<Row>,

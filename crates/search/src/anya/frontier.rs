@@ -39,7 +39,7 @@ pub(super) struct Frontier<N: Norm> {
     roots: Vec<Root<N::Length>>,
     history: RootHistory,
     nodes: Vec<Node>,
-    open: BinaryHeap<Reverse<Entry>>,
+    open: BinaryHeap<Reverse<FrontierEntry>>,
     /// Whether the best entry was taken already: the next one that is pushed takes its place, so that the
     /// heap is put in order once for both.
     is_taken: bool,
@@ -53,9 +53,9 @@ pub(super) struct Frontier<N: Norm> {
 /// The order is total, and the same on every platform, since IEEE 754 defines sums, products, quotients and
 /// roots exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Entry(u128);
+struct FrontierEntry(u128);
 
-impl Entry {
+impl FrontierEntry {
     #[inline]
     fn new((f, tie): (u64, u32), number: u32) -> Self {
         Self(u128::from(f) << 64 | u128::from(tie) << 32 | u128::from(number))
@@ -87,7 +87,7 @@ impl<N: Norm> Frontier<N> {
         }
     }
 
-    /// What it measures by.
+    /// The norm of segments.
     pub(super) const fn norm(&self) -> &N {
         &self.norm
     }
@@ -142,7 +142,7 @@ impl<N: Norm> Frontier<N> {
         let number = self.nodes.len() as u32;
         let priority = N::priority(self.root(node.root).g, h);
         self.nodes.push(node);
-        let entry = Reverse(Entry::new(priority, number));
+        let entry = Reverse(FrontierEntry::new(priority, number));
         if std::mem::take(&mut self.is_taken)
             && let Some(mut best) = self.open.peek_mut()
         {

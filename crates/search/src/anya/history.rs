@@ -10,8 +10,8 @@ pub(super) struct RootHistory {
     blocks: Box<[u32]>,
     /// The number of blocks side by side.
     width: usize,
-    /// Those of the blocks, one block after the other. The first is of no block and stays empty.
-    entries: Vec<[Entry; BLOCK]>,
+    /// The entries of the blocks, one block after the other. The first is of no block and stays empty.
+    entries: Vec<[RootEntry; BLOCK]>,
     generation: u32,
 }
 
@@ -20,13 +20,13 @@ const BLOCK: usize = 256;
 
 /// The number of a root, and the search in which it became one.
 #[derive(Clone, Copy, Debug)]
-struct Entry {
+struct RootEntry {
     generation: u32,
     root: u32,
 }
 
 impl RootHistory {
-    const EMPTY: [Entry; BLOCK] = [Entry { generation: 0, root: 0 }; BLOCK];
+    const EMPTY: [RootEntry; BLOCK] = [RootEntry { generation: 0, root: 0 }; BLOCK];
 
     /// An empty history for a map of so many columns and rows of vertices.
     pub(super) fn new(columns: u32, rows: u32) -> Self {
@@ -61,14 +61,14 @@ impl RootHistory {
     #[inline]
     pub(super) fn get(&self, at: Vertex) -> Option<u32> {
         let (block, place) = self.place(at);
-        let Entry { generation, root } = self.entries[self.blocks[block] as usize][place];
+        let RootEntry { generation, root } = self.entries[self.blocks[block] as usize][place];
         (generation == self.generation).then_some(root)
     }
 
     /// Makes a root the best one at its vertex, which is on the map.
     #[inline]
     pub(super) fn set(&mut self, at: Vertex, root: u32) {
-        *self.entry(at) = Entry { generation: self.generation, root };
+        *self.entry(at) = RootEntry { generation: self.generation, root };
     }
 
     /// The best root at a vertex of the map, and where its number is kept. If there is none yet, the caller
@@ -84,7 +84,7 @@ impl RootHistory {
 
     /// The entry of a vertex of the map, in a block that has memory.
     #[inline]
-    fn entry(&mut self, at: Vertex) -> &mut Entry {
+    fn entry(&mut self, at: Vertex) -> &mut RootEntry {
         let (block, place) = self.place(at);
         if self.blocks[block] == 0 {
             self.add_block(block);

@@ -11,7 +11,7 @@ use super::{
     frontier::Frontier,
     history::RootHistory,
     norm::{EuclideanNorm, LatticeNorm, Norm},
-    search::Search,
+    search::AnyaSearch,
 };
 use crate::{
     observer::{NodeEvent, Observer},
@@ -124,7 +124,7 @@ impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Anya<S, N> {
     fn run(&mut self, observer: &mut impl Observer) -> Status {
         let Self { space, opened, frontier, next, goal, last, .. } = self;
         let rows = Self::rows(space, opened.as_ref());
-        let mut search = Search { space, rows, frontier, goal: *goal, observer, next };
+        let mut search = AnyaSearch { space, rows, frontier, goal: *goal, observer, next };
         loop {
             let Some((f, node)) = search.frontier.best() else { return Status::Unreachable };
             let is_current = search.frontier.root(node.root).is_current;
@@ -164,7 +164,7 @@ impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Planner for Anya<S, N> {
                 opened.open(space.grid(), [query.start, query.goal]);
             }
             let rows = Self::rows(space, opened.as_ref());
-            Search { space, rows, frontier, goal: *goal, observer, next }.start(query.start);
+            AnyaSearch { space, rows, frontier, goal: *goal, observer, next }.start(query.start);
             self.status = Status::Searching;
         }
         Ok(self.status)

@@ -13,7 +13,7 @@ use super::{
 use crate::observer::{NodeEvent, Observer};
 
 /// A search.
-pub(super) struct Search<'s, N: Norm, O> {
+pub(super) struct AnyaSearch<'s, N: Norm, O> {
     pub(super) space: &'s FreeSpace<Corners>,
     /// The rows of the map, of which dead ends may be left out.
     pub(super) rows: &'s BitMatrix,
@@ -24,7 +24,7 @@ pub(super) struct Search<'s, N: Norm, O> {
     pub(super) next: &'s mut Vec<Successor>,
 }
 
-impl<N: Norm, O: Observer> Search<'_, N, O> {
+impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
     /// Forgets the last search and queues the nodes that the start sees.
     pub(super) fn start(&mut self, at: Vertex) {
         self.frontier.start(at);

@@ -14,7 +14,7 @@ pub(crate) struct MoveTable<P: Placement> {
     rule: P::Rule,
 }
 
-/// What makes a path legal, by offsets from one vertex.
+/// The conditions under which a path is legal, by offsets from one vertex.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Requirements {
     /// The cells that must be free.
@@ -80,7 +80,7 @@ impl<P: Placement> MoveTable<P> {
         each(&[vec![v; n / 2], vec![u; m], vec![v; n - n / 2]].concat());
     }
 
-    /// What makes a sequence of moves legal that begins at `start`.
+    /// The conditions under which a sequence of moves from `start` is legal.
     pub(crate) fn requirements(&self, start: Vector, sequence: &[usize]) -> Requirements {
         let mut required = Requirements::default();
         let mut at = start;

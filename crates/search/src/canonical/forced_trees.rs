@@ -74,7 +74,7 @@ fn row_of(grid: &Grid, at: Vertex, row: i32) -> u64 {
     load(rows.words(), rows.index(at.x - Cells::HALF, at.y + row - Cells::HALF))
 }
 
-/// What makes a move legal.
+/// The footprint of a move, as a mask.
 #[derive(Clone, Copy, Debug)]
 struct StepTest {
     free: Zone,

@@ -63,7 +63,7 @@
 //!
 //! For k ≥ 4 two bytes a vertex store the distances to the nearest obstacle and to the nearest corner of one
 //! (module `clearance`). Far from corners, also along walls, there are no forced successors; on open ground
-//! not even legality is tested. What the trees find is remembered for each vertex and arriving move (module
+//! not even legality is tested. A cache keeps the trees' results by vertex and arriving move (module
 //! `forced_cache`).
 //!
 //! # Closed gaps

@@ -46,7 +46,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> PaperCanonical
     #[must_use]
     pub fn new(graph: G, heuristic: H) -> Self {
         let is_jump_point = |pattern| {
-            // Those grid points around the vertex whose four cells the pattern holds.
+            // The grid points around the vertex whose four cells the pattern holds.
             [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().any(|(x, y)| {
                 let cells = [(-1, -1), (0, -1), (-1, 0), (0, 0)].map(|(dx, dy)| (x + dx, y + dy));
                 cells.iter().all(|&(dx, dy)| P::pattern_holds(dx, dy))

@@ -70,7 +70,7 @@ impl PatternTable {
         self.successors.get(by * self.patterns + pattern).copied().unwrap_or(0)
     }
 
-    /// Those of these successors that are forced.
+    /// The forced ones of these successors.
     #[inline]
     pub(crate) fn forced(&self, by: usize, successors: u8) -> u8 {
         successors & !self.natural[by & 7]

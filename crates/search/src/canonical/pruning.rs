@@ -31,7 +31,7 @@ pub struct Pruning<P: Placement> {
     forced_cache: Option<ForcedCache>,
 }
 
-/// What is known of a vertex for a path that arrives there by a given move.
+/// The pruning rule at one vertex for one arriving move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct LocalRule {
     /// Whether it has any forced successor, and so is a jump point.
@@ -95,7 +95,7 @@ impl<P: Placement> Pruning<P> {
         Ok(Self { identity: graph.identity(), rule, clearance, forced_cache })
     }
 
-    /// What it belongs to: the map, the rules of motion and the k of its grid graph.
+    /// The identity of its grid graph: map, rules of motion and k.
     #[must_use]
     pub const fn identity(&self) -> Identity {
         self.identity
@@ -254,7 +254,7 @@ impl<P: Placement> Pruning<P> {
         self.clearance.as_ref().map_or(nothing_known, |clearance| clearance.of(node.id))
     }
 
-    /// What is known of a vertex for a path that arrives there by move `by`.
+    /// The rule at a vertex for arriving move `by`.
     #[inline]
     pub(crate) fn local_rule(&self, graph: &GridGraph<P>, node: &ExpandedNode, by: usize) -> LocalRule {
         let all = LocalRule { forced: false, ahead: true, steps: 0 };

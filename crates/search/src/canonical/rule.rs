@@ -57,7 +57,7 @@ impl<P: Placement> CanonicalRule<P> {
         Ok(Self { k, rule, radius, corner_distance, lookup })
     }
 
-    /// What it belongs to: its rules of motion and k, and every map.
+    /// The identity: its rules of motion and k, and every map.
     #[must_use]
     pub fn identity(&self) -> Identity {
         Identity { map: None, rules: P::rules(self.rule), k: Some(self.k.into()) }

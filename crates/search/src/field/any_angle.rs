@@ -64,7 +64,7 @@ impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
         Ok(Self { space, corners, open: BinaryHeap::new(), bends: Vec::new(), pending: Vec::new() })
     }
 
-    /// What it belongs to: its map and rules, and k = ∞.
+    /// The identity: its map and rules, and k = ∞.
     #[must_use]
     pub fn identity(&self) -> Identity {
         Identity { k: Some(K::Any), ..self.space.identity() }
@@ -90,7 +90,7 @@ impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
     /// can be used on.
     ///
     /// # Errors
-    /// Those of [`field`](Self::field), and [`FieldError::Interrupted`].
+    /// As for [`field`](Self::field), and [`FieldError::Interrupted`].
     pub fn field_interruptible(
         &mut self,
         query: FieldQuery<'_>,

@@ -1,4 +1,4 @@
-//! What a root of an any-angle field labels: the vertices of a cone, line by line.
+//! Labels the vertices of a root's cone in an any-angle field, line by line.
 
 use mediant_grid::{
     BitMatrix, Corners, FreeSpace, Interrupt, Interrupted, Vertex, VertexId,

@@ -58,7 +58,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Field<G> {
         &self.graph
     }
 
-    /// What it belongs to: its map, rules and k.
+    /// The identity: its map, rules and k.
     #[must_use]
     pub fn identity(&self) -> Identity {
         self.graph.identity()

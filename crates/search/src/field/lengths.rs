@@ -44,7 +44,7 @@ impl<S> AnyAngleField<S> {
 }
 
 impl<S: Deref<Target = FreeSpace<Corners>>> AnyAngleField<S> {
-    /// What it belongs to: its map and rules, and k = ∞.
+    /// The identity: its map and rules, and k = ∞.
     #[must_use]
     pub fn identity(&self) -> Identity {
         Identity { k: Some(K::Any), ..self.space.identity() }

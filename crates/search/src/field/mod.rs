@@ -55,13 +55,13 @@ mod buckets;
 mod cone;
 mod costs;
 mod gaps;
-mod lattice;
+mod grid_graph;
 mod lengths;
 mod open_ground;
 mod query;
 
 pub use any_angle::AnyAngleFields;
 pub use costs::Field;
-pub use lattice::Fields;
+pub use grid_graph::Fields;
 pub use lengths::AnyAngleField;
 pub use query::{FieldError, FieldQuery};

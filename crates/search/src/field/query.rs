@@ -1,4 +1,4 @@
-//! What a field is asked for, and what can be wrong with that.
+//! Queries of fields, and their errors.
 
 use mediant_grid::{FreeSpace, Interrupted, Placement, Vertex, VertexId};
 use mediant_moves::Cost;
@@ -8,7 +8,7 @@ use crate::{
     query::{Query, QueryError},
 };
 
-/// What a field is to hold: its sources, and how far it reaches.
+/// The sources of a field, and its limit.
 ///
 /// ```
 /// use mediant_search::FieldQuery;
@@ -70,7 +70,7 @@ impl<'q> FieldQuery<'q> {
     }
 }
 
-/// What is wrong with a [`FieldQuery`].
+/// The reason why a [`FieldQuery`] cannot be answered.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FieldError {

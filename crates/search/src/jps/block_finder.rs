@@ -42,7 +42,7 @@ impl BlockFinder {
     /// [`new`](Self::new), which an interrupt can stop; it asks for each row.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new), and [`JumpError::Interrupted`].
+    /// As for [`new`](Self::new), and [`JumpError::Interrupted`].
     pub fn interruptible<P: Placement>(
         graph: &GridGraph<P>,
         pruning: &Pruning<P>,

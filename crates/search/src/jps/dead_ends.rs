@@ -49,7 +49,7 @@ struct Band {
 }
 
 impl Band {
-    /// Those of 64 numbers that it holds: the first one and those that follow it upwards or downwards.
+    /// The band as a mask of 64 numbers: `number` and the next 63 upwards or downwards.
     #[inline]
     const fn of(self, number: i32, up: bool) -> u64 {
         let highest = if up { number.wrapping_add(63) } else { number };
@@ -85,7 +85,7 @@ impl NearGoal {
         Self { rows: none, columns: none }
     };
 
-    /// What is near a goal, where dead ends reach so far.
+    /// The rows and columns within `reach` of the goal's cross.
     pub(super) fn new(goal: Vertex, axial: &AxialStops, reach: u32) -> Self {
         let [down, right, up, left] = [0, 1, 2, 3].map(|quarter| axial.legal_steps(goal, quarter));
         let band = |at: i32, before: u32, after: u32| Band {
@@ -160,14 +160,14 @@ impl DeadEndRows {
 }
 
 /// Finds the dead ends of a grid graph.
-pub(super) struct DeadEnds<'g, P: Placement> {
+pub(super) struct DeadEndFinder<'g, P: Placement> {
     pub(super) graph: &'g GridGraph<P>,
     pub(super) table: &'g PatternTable,
     pub(super) leads: &'g Leads,
     pub(super) reach: u32,
 }
 
-impl<P: Placement> DeadEnds<'_, P> {
+impl<P: Placement> DeadEndFinder<'_, P> {
     /// Marks all dead ends.
     pub(super) fn mark(
         &self,

@@ -162,7 +162,7 @@ pub(super) struct DiagonalScan<'s> {
     /// The bit of the first of 64 vertices, and after how many steps the jump enters it.
     place: u64,
     first: u32,
-    /// Those of them that stop it and at which it has not stopped yet.
+    /// The stops among these vertices that are still to come, as a mask.
     stops: u64,
 }
 

@@ -16,7 +16,7 @@ use crate::{
     successors::{ExpandedNode, KnownPath, Successor},
 };
 
-/// What the jumps from one node depend on.
+/// The graph, goal and rules for the jumps from one node.
 pub struct JumpContext<'c, P: Placement> {
     pub(crate) graph: &'c GridGraph<P>,
     pub(crate) pruning: &'c Pruning<P>,
@@ -28,7 +28,7 @@ pub struct JumpContext<'c, P: Placement> {
     pub(super) to_goal: ToGoal,
 }
 
-/// What the jumps of one search depend on.
+/// The options of all jumps of one search.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct JumpRules {
     /// Whether all jumps are made step by step.
@@ -44,7 +44,7 @@ pub(super) struct JumpRules {
 }
 
 impl JumpRules {
-    /// Those of a search before it begins.
+    /// The options before a search begins.
     pub(super) const PLAIN: Self = Self {
         stepwise: false,
         limit: u32::MAX,
@@ -74,7 +74,7 @@ pub(super) const fn in_order(moves: u8) -> [u8; 2] {
 /// Axial jumps repeat an even-indexed move, diagonal jumps an odd-indexed one. All methods but
 /// [`identity`](Self::identity) are for this crate alone.
 pub trait JumpFinder<P: Placement>: Debug {
-    /// What it belongs to; `None` for what serves every grid graph.
+    /// The identity of its grid graph; `None` if it serves every one.
     fn identity(&self) -> Option<Identity>;
 
     /// Where dead ends count as jump points in a search for this goal.
@@ -111,7 +111,7 @@ pub trait JumpFinder<P: Placement>: Debug {
         context.step_diagonal(self, from, index, scanned, visit);
     }
 
-    /// What makes jumps by words, if it has that. Then a goal in sight is looked for at every node.
+    /// Its finder of jumps by words, if it has one. Then a goal in sight is looked for at every node.
     #[doc(hidden)]
     #[inline]
     fn by_words(&self) -> Option<&BlockFinder> {
@@ -378,7 +378,7 @@ impl<P: Placement> JumpContext<'_, P> {
     }
 }
 
-/// What becomes of a diagonal jump at one of its vertices.
+/// The outcome of a diagonal jump at one of its vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Turn {
     /// It goes on.

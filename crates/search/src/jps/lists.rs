@@ -1,6 +1,6 @@
 //! Jump lists: where all jumps from a jump point lead, found beforehand.
 //!
-//! What the jumps from a jump point come to depends on the map, but for two things: a goal may lie on one of
+//! Where the jumps from a jump point lead depends on the map, but for two things: a goal may lie on one of
 //! them, and near the goal they do not pass [dead ends](super::dead_ends). So a list says, for each move by
 //! which a path goes on from a jump point,
 //! - how often the move can be repeated, which tells whether the goal is in sight, and
@@ -8,8 +8,8 @@
 //!   the goal alone, and those that hold elsewhere alone.
 //!
 //! Lists are replayed by one loop that scans nothing. They belong to jump points where a path arrives by an
-//! even move; that is all of them, unless diagonal moves have forced successors. What has no list is
-//! scanned: jumps from the start, from dead ends, and those too long for a word.
+//! even move; that is all of them, unless diagonal moves have forced successors. Jumps without a list are
+//! scanned: from the start, from dead ends, and those too long for a word.
 //!
 //! On maps of games there is one list for 20 to 170 cells, of five to ten words. In noise there are so many
 //! that there are none: see [`VERTICES_A_LIST`].
@@ -42,7 +42,7 @@ const FEW_WORDS: usize = 1 << 16;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct JumpLists {
     legs: [Leg; 8],
-    /// What leads from the index of an odd move to those of the even moves beside it, and to its own.
+    /// Differences from an odd move's index to those of the even moves beside it, and to its own.
     turns: [u8; 4],
     /// For each even move, by 64 vertices.
     places: Vec<Place>,
@@ -72,7 +72,7 @@ impl Place {
 /// The most steps that a word can say.
 const MOST_STEPS: u32 = (1 << 13) - 1;
 
-/// What is known of the jumps by one move.
+/// The head of the jumps by one move in a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Group {
     index: usize,
@@ -135,7 +135,7 @@ impl Jump {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Leg {
     v: Vector,
-    /// What it adds to the id of a vertex.
+    /// The difference of vertex ids along the move.
     offset: i32,
     cost: Cost,
 }
@@ -432,7 +432,7 @@ impl<P: Placement> Recorder<'_, P> {
         jumps
     }
 
-    /// What jumps depend on where there is no goal.
+    /// The context of jumps without a goal.
     fn context<'c>(&'c self, node: &ExpandedNode, rules: &'c JumpRules) -> JumpContext<'c, P> {
         let (graph, pruning, to_goal) = (self.graph, self.pruning, ToGoal::default());
         JumpContext { graph, pruning, goal: node.at, rules, stepwise: false, to_goal }

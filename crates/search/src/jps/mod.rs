@@ -40,18 +40,18 @@
 //!
 //! **A goal in sight** ([`BlockJps`], [`JpsPlus`]). If the path to the goal that goes on by one of the moves
 //! from a node, and then straight on by a move beside it, has nothing in its way, no path from the node to
-//! the goal is cheaper. Those that cost as much have the same moves in another order, so it is the earliest
+//! the goal is cheaper. Paths that cost as much have the same moves in another order, so it is the earliest
 //! of them: all of its odd moves come first. So no jump need be made from there.
 //!
 //! **Dead ends.** Most jump points on maps of games are dead ends: from there a path can only go straight on,
-//! or comes to an end near by. [`BlockJps`] and [`JpsPlus`] pass them, but for those near the goal. What they
-//! are, and why nothing is lost, is said in the module `dead_ends`.
+//! or comes to an end near by. [`BlockJps`] and [`JpsPlus`] pass them, but for those near the goal. The
+//! module `dead_ends` defines them, and proves that nothing is lost.
 //!
 //! **Bounded jumps** (Sturtevant & Rabin 2016): a jump of more steps than the jump limit ends in a node, from
 //! which the search goes on. From k = 9 on, where forced successors are not tabulated, every jump ends so
 //! after one step.
 //!
-//! What made it fast: bit planes that combine the three rows of cells along an axial jump, so that a scan
+//! The speed comes from: bit planes that combine the three rows of cells along an axial jump, so that a scan
 //! loads one row; bit planes that hold each diagonal in the order of a jump, with the places where it stops
 //! and which axial jump leads on from there; cut jumps; passing dead ends; one loop over the jumps of a node,
 //! in which all that a search or a node has in common is found before; and, for JPS+, lists of where all

@@ -5,7 +5,7 @@ use mediant_moves::KError;
 
 use super::{
     axial::AxialStops,
-    dead_ends::{DeadEndRows, DeadEnds, REACH},
+    dead_ends::{DeadEndFinder, DeadEndRows, REACH},
     diagonals::DiagonalStops,
     stop_rows::Leads,
     table::JumpTable,
@@ -63,7 +63,8 @@ impl JumpPlanes {
         let leads = Leads::new(graph, &dead_ends, interrupt)?;
         let table = pruning.table().filter(|_| reach > 0 && !graph.has_closed_gaps());
         if let Some(table) = table {
-            let dead_ends = DeadEnds { graph, table, leads: &leads, reach }.mark(&mut axial, interrupt)?;
+            let dead_ends =
+                DeadEndFinder { graph, table, leads: &leads, reach }.mark(&mut axial, interrupt)?;
             if !dead_ends.is_empty() {
                 let live = Leads::new(graph, &dead_ends, interrupt)?;
                 let diagonals = DiagonalStops::new(graph, pruning, [&leads, &live], interrupt)?;

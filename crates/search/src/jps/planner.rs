@@ -29,7 +29,8 @@ pub type Jps<G, H, P> = JumpPointSearch<G, H, P, StepwiseFinder>;
 /// Block-based jump point search (Harabor & Grastien 2014), for k = 2 and 3.
 pub type BlockJps<G, H, P> = JumpPointSearch<G, H, P, BlockFinder>;
 
-/// JPS+ (Harabor & Grastien 2014): jump point search that looks axial jumps up in a table, for k = 2 and 3.
+/// JPS+ (Harabor & Grastien 2014): jump point search by lists of where all jumps from each jump point lead,
+/// precomputed, for k = 2 and 3.
 pub type JpsPlus<G, H, P> = JumpPointSearch<G, H, P, Arc<JumpTable>>;
 
 /// The jump points to which a node leads.
@@ -41,7 +42,7 @@ pub struct JumpMoves<P: Placement, J> {
     limit: u32,
     /// Whether intermediate jump points become nodes.
     keeps_intermediate: bool,
-    /// What this search depends on.
+    /// The options of this search's jumps.
     rules: JumpRules,
 }
 

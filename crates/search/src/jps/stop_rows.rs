@@ -49,7 +49,7 @@ impl Leads {
     }
 }
 
-/// What decides where jumps by one odd move stop, in rows of the map.
+/// Finds where jumps by one odd move stop, row by row.
 pub(super) struct StopRows<'g, P: Placement> {
     graph: &'g GridGraph<P>,
     pruning: &'g Pruning<P>,
@@ -103,7 +103,7 @@ impl<'g, P: Placement> StopRows<'g, P> {
         stops.collect()
     }
 
-    /// Those of the vertices that have a forced successor of the odd move.
+    /// Of 64 vertices, those with a forced successor of the odd move.
     fn forced(&self, (x, y): (i32, i32), enters: u64) -> u64 {
         let is_forced = |i: u64| {
             let pattern = pattern_at(self.graph, Vertex::new(x + i as i32, y));

@@ -1,4 +1,4 @@
-//! What JPS+ knows beforehand (Harabor & Grastien 2014, 'Improving Jump Point Search'), for k ≤ 3.
+//! The jump table of JPS+ (Harabor & Grastien 2014, 'Improving Jump Point Search'), for k ≤ 3.
 //!
 //! The original stores for every vertex and each of the eight moves how far a jump leads: eight or sixteen
 //! bytes a vertex. But jumps begin at jump points, and these are few. So a table holds their
@@ -106,7 +106,7 @@ impl JumpTable {
     /// [`new`](Self::new), which an interrupt can stop; it asks for each row, and every few jump points.
     ///
     /// # Errors
-    /// Those of [`new`](Self::new), and [`JumpError::Interrupted`].
+    /// As for [`new`](Self::new), and [`JumpError::Interrupted`].
     pub fn interruptible<P: Placement>(
         graph: &GridGraph<P>,
         interrupt: &Interrupt,
@@ -169,7 +169,7 @@ impl JumpTable {
     /// [`from_bytes`](Self::from_bytes), which an interrupt can stop.
     ///
     /// # Errors
-    /// Those of [`from_bytes`](Self::from_bytes), and [`JumpError::Interrupted`].
+    /// As for [`from_bytes`](Self::from_bytes), and [`JumpError::Interrupted`].
     pub fn from_bytes_interruptible<P: Placement>(
         graph: &GridGraph<P>,
         bytes: &[u8],
@@ -192,7 +192,7 @@ impl JumpTable {
         Ok(table)
     }
 
-    /// What it belongs to: the map, the rules of motion and the k of its grid graph.
+    /// The identity of its grid graph: map, rules of motion and k.
     #[must_use]
     pub const fn identity(&self) -> Identity {
         self.blocks.identity

@@ -1,4 +1,4 @@
-//! Jumps from a table (JPS+).
+//! Jumps by the lists of a jump table (JPS+).
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Whether a path holds on a map, and where not.
+//! The check that a path holds on a map.
 
 use std::fmt;
 
@@ -89,7 +89,7 @@ impl BrokenPath {
 }
 
 impl Path {
-    /// Whether the path obeys the rules of motion on this map, at any angle: whether it still holds, for
+    /// Checks that the path obeys the rules of motion on this map, at any angle: that it still holds, for
     /// instance after the map was edited. It asks for sight along each segment, so it costs far less than a
     /// search. [`is_over`](Self::is_over) asks whether its segments are moves of N(k). Whether there is a
     /// shorter path, only a search tells.

@@ -23,7 +23,7 @@ pub(super) struct Pair {
 /// The pairs of start and goal that a request asks for.
 #[derive(Debug)]
 pub(super) struct Ends {
-    /// Those that are connected, by their least cost, then by rank.
+    /// The connected pairs, by their least cost, then by rank.
     pub(super) pairs: Vec<Pair>,
     /// The first start.
     pub(super) start: Vertex,

@@ -1,4 +1,4 @@
-//! What stops a search before it has its answer.
+//! Limits that stop a search before it has its answer.
 
 use std::{
     fmt,
@@ -109,7 +109,7 @@ impl Limits {
         self
     }
 
-    /// Whether it is time to stop: asked at first and after each
+    /// A function that says whether it is time to stop, called at first and after each
     /// [`EXPANSIONS_PER_LOOK`](Self::EXPANSIONS_PER_LOOK) expansions. Libraries read no clock; the caller
     /// does.
     #[must_use]

@@ -1,4 +1,4 @@
-//! What can be asked beyond a path from one vertex to another.
+//! Requests: queries with several ends, a tolerance, limits.
 
 mod ends;
 mod limits;
@@ -31,7 +31,7 @@ pub struct Request {
     wishes: Option<Box<Wishes>>,
 }
 
-/// What is asked beyond the query.
+/// The wishes of a request beyond its query.
 #[derive(Clone, Debug)]
 pub(crate) struct Wishes {
     pub(crate) starts: Vec<Vertex>,

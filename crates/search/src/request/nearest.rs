@@ -5,8 +5,8 @@ use mediant_moves::Cost;
 
 use crate::metric::Metric;
 
-/// Those vertices of the map that `accepts` accepts and that are nearest to `to`, row by row, and their
-/// distance. Looks at the vertices around `to`, row by row, as far as the nearest one.
+/// The nearest vertices to `to` that `accepts` accepts, row by row, and their distance. Looks at the vertices
+/// around `to`, row by row, as far as the nearest one.
 ///
 /// Along a row, and along the column of `to`, both metrics grow with the distance, and none is less than it.
 pub(super) fn nearest<P: Placement>(

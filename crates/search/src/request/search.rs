@@ -67,9 +67,9 @@ pub struct Search {
     answer: Option<Result<Outcome, QueryError>>,
 }
 
-/// Whether a search leads from all goals at once to the only start: for a goal with a tolerance, where it
-/// takes one search instead of one for each vertex near the goal. It does not tell which of several equally
-/// near goals comes first, so it is not for the vertices nearest to a goal that cannot be reached.
+/// The state of a search from all goals at once to the only start: for a goal with a tolerance it replaces
+/// one search for each vertex near the goal. It does not tell which of several equally near goals comes
+/// first, so it is not for the vertices nearest to a goal that cannot be reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Backward {
     No,
@@ -159,7 +159,7 @@ impl Search {
     /// Continues until the answer is there. The observer is not asked to pause.
     ///
     /// # Errors
-    /// Those of [`step`](Self::step).
+    /// As for [`step`](Self::step).
     pub fn finish(
         &mut self,
         planner: &mut impl Planner,

@@ -1,4 +1,4 @@
-//! What watches a search for a request.
+//! The observer of a search for a request, which enforces its limits.
 
 use mediant_grid::Vertex;
 use mediant_moves::Cost;
@@ -21,7 +21,7 @@ pub(super) enum Pause {
     Beaten,
 }
 
-/// What is known of a search.
+/// The progress of a request through the searches of its pairs.
 #[derive(Debug)]
 pub(super) struct Progress {
     pub(super) limits: Limits,

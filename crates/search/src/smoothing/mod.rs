@@ -43,7 +43,7 @@ impl Smoothing {
     }
 }
 
-/// What has a free space: [`FreeSpace`] itself and [`GridGraph`].
+/// Owners of a free space: [`FreeSpace`] itself and [`GridGraph`].
 pub trait HasFreeSpace {
     /// Its placement.
     type Placement: Placement;
@@ -51,7 +51,7 @@ pub trait HasFreeSpace {
     /// The free space.
     fn free_space(&self) -> &FreeSpace<Self::Placement>;
 
-    /// What it belongs to: for a grid graph with its k, for a free space with every k.
+    /// The identity: of a grid graph with its k, of a free space with every k.
     fn identity(&self) -> Identity;
 }
 

@@ -55,7 +55,7 @@ pub fn pull_taut<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Ve
     let mut index = 1;
     while index + 1 < string.path.len() {
         if string.pull(index) {
-            // What was found out about the three waypoints before may depend on a waypoint that is gone.
+            // Results for the three waypoints before may depend on a waypoint that is gone.
             index = index.saturating_sub(3).max(1);
         } else {
             index += 1;

@@ -12,7 +12,7 @@
 //! are shorter than h_k. Reopening makes paths at most 1.6 % shorter and costs up to ten times the expansions
 //! (`docs/measurements/search.md`).
 //!
-//! **What holds of the paths.**
+//! **Properties of the paths.**
 //! - A path is found whenever there is one at any angle: whenever N(k) has one, since which vertices are
 //!   reached does not depend on the parents; and at k = 2 where corners are always cut, whenever N(3) has
 //!   one.

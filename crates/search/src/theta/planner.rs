@@ -6,7 +6,7 @@ use mediant_grid::{CornerRule, GridGraph, Identity, Placement, Rules, Vertex, Ve
 use mediant_moves::FiniteK;
 
 use super::{
-    search::{Parents, Search},
+    search::{Parents, ThetaSearch},
     sight_cache::SightCache,
     sight_check::{Eager, Lazy, SightCheck},
 };
@@ -55,9 +55,9 @@ pub type LazyThetaStar<G, H> = Theta<G, H, Lazy>;
 /// Its scratch memory is half a byte a vertex, and 24 bytes for each that searches touch. The cost of a
 /// segment is that of a move of its displacement, [`Cost::of_move`](mediant_moves::Cost::of_move).
 ///
-/// What is connected by segments is what N(3) connects. At k = 2 this differs from what N(2) connects where
-/// corners are always cut: segments then lead between two blocked cells that meet diagonally. So a query
-/// whose ends N(2) does not connect is searched over N(3), on a graph that is made when it is first needed.
+/// Segments connect the same vertices as N(3). N(2) connects fewer where corners are always cut: segments
+/// then lead between two blocked cells that meet diagonally. So a query whose ends N(2) does not connect is
+/// searched over N(3), on a graph that is made when it is first needed.
 #[derive(Clone, Debug)]
 pub struct Theta<G: Deref, H, S>
 where
@@ -109,12 +109,12 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic, S: SightCheck>
     }
 
     /// The search, with its memory.
-    fn search<'s, O: Observer>(&'s mut self, observer: &'s mut O) -> Search<'s, P, H, S, O> {
+    fn search<'s, O: Observer>(&'s mut self, observer: &'s mut O) -> ThetaSearch<'s, P, H, S, O> {
         let Self { graph, heuristic, nodes, open, sight, ends: [start, goal], check, .. } = self;
         let wider = self.wider.as_deref().filter(|_| self.is_wider);
         let (graph, heuristic, check) = (wider.unwrap_or(graph), *heuristic, *check);
         let (start, goal, goal_at) = (*start, *goal, graph.vertex(*goal));
-        Search { graph, heuristic, nodes, open, sight, observer, start, goal, goal_at, check }
+        ThetaSearch { graph, heuristic, nodes, open, sight, observer, start, goal, goal_at, check }
     }
 }
 

@@ -61,7 +61,7 @@ impl ParentPointer for Parents {
 }
 
 /// One search.
-pub(super) struct Search<'s, P: Placement, H, S, O> {
+pub(super) struct ThetaSearch<'s, P: Placement, H, S, O> {
     pub(super) graph: &'s GridGraph<P>,
     pub(super) heuristic: H,
     pub(super) nodes: &'s mut NodeStore<Parents>,
@@ -82,7 +82,7 @@ struct PathEnd {
     g: Cost,
 }
 
-impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> Search<'_, P, H, S, O> {
+impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> ThetaSearch<'_, P, H, S, O> {
     /// Makes the start the only node that is known.
     pub(super) fn begin(&mut self) {
         let at = self.graph.vertex(self.start);

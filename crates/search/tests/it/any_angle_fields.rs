@@ -76,7 +76,7 @@ fn check_all(grid: &Arc<Grid>, gap: DiagonalGap, counts: &[usize], seed: u64) ->
             (query.until(&[first, far]).within(0.5 * limit), 0.5 * limit),
         ] {
             let range = fields.field(query).unwrap();
-            // The same paths, so the same sums. What differs in the last digits is at the limit, too.
+            // The same paths, so the same sums. Lengths that differ in the last digits are at the limit, too.
             let within = all.iter().copied().filter(|&(_, length)| length <= limit * (1.0 + 2_f64.powi(-31)));
             assert!(range.iter().eq(within), "{query:?}; {}", case(far));
         }

@@ -58,7 +58,7 @@ struct Judge<'g, P: Placement> {
     vertices: Vec<Vertex>,
     /// By vertex number.
     legal: Vec<MoveSet>,
-    /// What Dijkstra's algorithm finds, by the indices of start and goal in `vertices`.
+    /// The distances by Dijkstra's algorithm, by the indices of start and goal in `vertices`.
     distances: Vec<Vec<Option<Cost>>>,
     compared: u64,
 }
@@ -115,7 +115,7 @@ impl<'g, P: Placement> Judge<'g, P> {
         }
     }
 
-    /// What the moves of a path cost, if it is legal.
+    /// The cost of a path's moves, if it is legal.
     fn cost(&self, path: &Path, start: Vertex, goal: Vertex) -> Result<Cost, &'static str> {
         let grid_graph = self.grid_graph;
         let (mut at, mut by, mut cost) = (start, None, Cost::ZERO);

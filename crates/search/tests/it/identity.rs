@@ -1,5 +1,5 @@
-//! What was prepared for one grid graph is used on no other: every pair of two things that can be joined is
-//! refused with an error that names both, or accepted if they are for the same map, rules and k.
+//! Nothing prepared for one grid graph is used on another: each pair that can be joined is refused with an
+//! error that names both, or accepted if both are for the same map, rules and k.
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use std::sync::Arc;
@@ -62,7 +62,7 @@ fn mismatch(error: JumpError) -> Mismatch {
     }
 }
 
-/// What joins two things, which belong to these, and whether it refused.
+/// An attempt to join two things of these identities, and its result.
 struct Joined {
     by: &'static str,
     identities: [Identity; 2],

@@ -37,8 +37,8 @@ fn random_path(rng: &mut Rng, grid: &Grid, rules: Rules) -> Option<Path> {
     Some(Path::new(waypoints))
 }
 
-/// What is wrong with a path, found by brute force in the order of [`Path::check`], as the index of a
-/// waypoint or segment.
+/// A path's first fault, by brute force in the order of [`Path::check`], as the index of a waypoint or
+/// segment.
 fn first_fault(grid: &Grid, rules: Rules, waypoints: &[Vertex]) -> Option<(&'static str, usize)> {
     let kind = rules.placement();
     let (width, height) = match kind {

@@ -28,7 +28,7 @@ struct State {
     stop: bool,
 }
 
-/// What a request asks for.
+/// The path and the headers of a request.
 struct Request {
     path: String,
     range: Option<String>,

@@ -1,4 +1,4 @@
-//! What contracting subgoals would take, found for many of them at once.
+//! Shortcuts of subgoals that may be contracted, found for many of them at once.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -6,7 +6,7 @@ use mediant_grid::Interrupted;
 
 use super::{Contraction, ShortcutFinder, Shortcuts, SubgoalGeometry};
 
-/// What contracting a subgoal takes.
+/// The shortcuts that contracting a subgoal takes, with the work to find them.
 pub(super) struct Evaluation {
     pub(super) id: u32,
     pub(super) shortcuts: Shortcuts,

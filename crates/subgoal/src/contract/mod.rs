@@ -78,8 +78,8 @@ pub(crate) struct ContractedGraph {
     pub(crate) arcs: Vec<Vec<OverlayArc>>,
     /// Which subgoals were contracted.
     pub(crate) contracted: Vec<bool>,
-    /// Those that were contracted, first contracted first.
-    #[allow(dead_code, reason = "for labels that are ranked by it")]
+    /// The contracted subgoals, first contracted first.
+    #[cfg(test)]
     pub(crate) order: Vec<u32>,
 }
 
@@ -102,7 +102,12 @@ impl<G: SubgoalGeometry> Contraction<G> {
     }
 
     pub(crate) fn finish(self) -> ContractedGraph {
-        ContractedGraph { arcs: self.arcs, contracted: self.contracted, order: self.order }
+        ContractedGraph {
+            arcs: self.arcs,
+            contracted: self.contracted,
+            #[cfg(test)]
+            order: self.order,
+        }
     }
 
     /// Makes the next level. In the order of their numbers, contracts all subgoals that need no shortcut, or

@@ -2,9 +2,9 @@
 //!
 //! # The rule
 //!
-//! Those of a round, the *candidates*, are never neighbors. The shortcuts of each are found on the graph as
-//! it is. A candidate whose true priority is not the least waits; the others are contracted in the order of
-//! their numbers. So searches need no order, and threads change nothing.
+//! The subgoals of a round, the *candidates*, are never neighbors. The shortcuts of each are found on the
+//! graph as it is. A candidate whose true priority is not the least waits; the others are contracted in the
+//! order of their numbers. So searches need no order, and threads change nothing.
 //!
 //! # Why it is exact
 //!

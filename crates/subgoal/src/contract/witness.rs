@@ -31,7 +31,7 @@ struct WitnessNode {
     target: u32,
 }
 
-/// What a witness search goes through.
+/// The graph of a witness search.
 pub(super) struct WitnessGraph<'c> {
     pub(super) arcs: &'c [Vec<OverlayArc>],
     /// The subgoals of the current round.

@@ -60,7 +60,7 @@ impl<P: SubgoalPlacement> PreparedSubgoals<P> {
     /// shares with them all but the labels.
     ///
     /// # Errors
-    /// Those of [`within`](Self::within), and [`SubgoalError::Mismatch`] for labels of another free space.
+    /// As for [`within`](Self::within), and [`SubgoalError::Mismatch`] for labels of another free space.
     pub fn beside(
         labels: &HubLabels<P>,
         space: &FreeSpace<P>,
@@ -80,7 +80,7 @@ impl<P: SubgoalPlacement> PreparedSubgoals<P> {
     /// [`Anya`](mediant_search::Anya) beyond.)
     ///
     /// # Errors
-    /// Those of [`beside`](Self::beside).
+    /// As for [`beside`](Self::beside).
     pub fn compared(
         space: &FreeSpace<P>,
         k: impl Into<K>,
@@ -149,7 +149,7 @@ impl<P: SubgoalPlacement> HubLabels<P> {
     /// the labels.
     ///
     /// # Errors
-    /// Those of [`within`](Self::within), and [`SubgoalError::Mismatch`] for another free space.
+    /// As for [`within`](Self::within), and [`SubgoalError::Mismatch`] for another free space.
     pub fn for_k(
         &self,
         space: &FreeSpace<P>,
@@ -186,7 +186,7 @@ impl<P: SubgoalPlacement> HubLabels<P> {
     }
 }
 
-/// What labels for another k share with these, if they belong to a free space.
+/// The geometry that labels for another k share with these, if these belong to the free space.
 fn shared<'s, P: SubgoalPlacement>(
     space: &FreeSpace<P>,
     beside: Option<&'s HubLabels<P>>,
@@ -195,7 +195,7 @@ fn shared<'s, P: SubgoalPlacement>(
     Ok(beside.filter(|_| P::SHARES_SIGHT).map(|labels| &labels.geometry))
 }
 
-/// What depends on the map, and the labels.
+/// The geometry, which is that of the map, and the labels.
 fn parts<P: SubgoalPlacement>(
     space: &FreeSpace<P>,
     ground: &Ground<P>,

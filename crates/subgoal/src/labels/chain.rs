@@ -13,10 +13,10 @@ use mediant_moves::K;
 use super::pack::Packed;
 use crate::{chunks::in_chunks, placement::EdgeFinder, subgoals::Subgoals};
 
-/// What a byte says of a label that has to be searched for.
+/// The byte of a label whose successor has to be searched for.
 const SEARCH: u8 = u8::MAX;
 
-/// What ways to hubs follow from.
+/// Follows labels to their hubs.
 pub(super) struct Chains<'l, P> {
     packed: &'l Packed,
     subgoals: &'l Subgoals,

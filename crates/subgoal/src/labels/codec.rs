@@ -3,9 +3,9 @@
 //! First the [`Identity`](mediant_grid::Identity), 32 bytes, and the code of labels, a `u32`; then the parts,
 //! and a checksum of all that, 8 bytes. A part is the number of its words and the words, `u32`, `u64` or
 //! bytes, all little endian, and zeros up to a multiple of 8 bytes. The parts are: of the [seen
-//! index](crate::seen) the tiles, the entries and the masks; the number of groups of each slot; of each group
-//! its subgoal and the number of its labels; the labels, which hold the costs; the byte beside each
-//! [label](super::chain). What follows from the map and its subgoals is not stored.
+//! index](crate::seen) its blocks, entries and masks; the number of groups of each slot; of each group its
+//! subgoal and the number of its labels; the labels, which hold the costs; the byte beside each
+//! [label](super::chain). Data that follow from the map and its subgoals are not stored.
 //!
 //! Reading them takes about as long as copying them.
 
@@ -26,8 +26,8 @@ use crate::{
 };
 
 impl<P: SubgoalPlacement> HubLabels<P> {
-    /// What does not follow from the map, for [`from_bytes`](Self::from_bytes). The version of the format is
-    /// that of [`SubgoalGraph`](crate::SubgoalGraph::VERSION).
+    /// The labels without what follows from the map, for [`from_bytes`](Self::from_bytes). The version of the
+    /// format is that of [`SubgoalGraph`](crate::SubgoalGraph::VERSION).
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         uninterrupted(|never| self.to_bytes_interruptible(never))
@@ -69,7 +69,7 @@ impl<P: SubgoalPlacement> HubLabels<P> {
     /// [`from_bytes`](Self::from_bytes), which an interrupt can stop: it asks for each part of the bytes.
     ///
     /// # Errors
-    /// Those of [`from_bytes`](Self::from_bytes), and [`SubgoalError::Interrupted`].
+    /// As for [`from_bytes`](Self::from_bytes), and [`SubgoalError::Interrupted`].
     pub fn from_bytes_interruptible(
         space: &FreeSpace<P>,
         k: impl Into<K>,

@@ -21,7 +21,7 @@ pub(super) struct Meeting {
 }
 
 impl Meeting {
-    /// What costs more than any path.
+    /// No path: its cost exceeds all others.
     const NONE: Self = Self { cost: Cost::from_bits(1 << MOST_COST_BITS), hub: 0, first: 0, last: 0 };
 }
 
@@ -64,7 +64,7 @@ struct Way {
 }
 
 impl Way {
-    /// What costs more than any way.
+    /// No way: its cost exceeds all others.
     const NONE: Self = Self { cost: FIRST_QUERY << MOST_COST_BITS, first: 0 };
 
     /// Takes the cheaper way, without a branch.
@@ -75,7 +75,7 @@ impl Way {
     }
 }
 
-/// The largest number of a query. What the last one left, less the number of this one, plus a path's cost
+/// The largest number of a query. An entry of the last query, less this query's number, plus a path's cost
 /// must not overflow.
 const FIRST_QUERY: u64 = (1 << (u64::BITS - MOST_COST_BITS - 1)) - 1;
 

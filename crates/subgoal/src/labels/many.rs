@@ -150,7 +150,7 @@ impl ToMany {
         let mut best = self.hubs.iter().filter_map(over).min();
         for (&goal, number) in goals.goals.iter().zip(0..) {
             if let Some(cost) = self.direct(index, [start, goal], best.map(|(cost, _)| cost)) {
-                // What was summed up over subgoals on the line may be cut off.
+                // Costs summed over subgoals on the line may be cut off, so the line replaces its own sum.
                 best = match best {
                     Some((_, other)) if other == number => Some((cost, number)),
                     Some(known) => Some(known.min((cost, number))),

@@ -8,17 +8,17 @@
 //!
 //! # Which hubs
 //!
-//! Those of the contraction hierarchy: h is a hub of c if it is the highest subgoal on all shortest paths
-//! between them. On the shortest paths between two subgoals the highest subgoal is a hub of both
-//! ([`merge`]). The graph has taut edges only, so it need not have shortest paths between subgoals that no
-//! shortest path of a query passes one after the other; their labels may be missing, or longer. Costs are
-//! compared as in the contraction, by (h_k, Euclidean length).
+//! The hubs of the contraction hierarchy: h is a hub of c if it is the highest subgoal on all shortest paths
+//! between them. On the shortest paths between two subgoals the highest subgoal is a hub of both ([`merge`]).
+//! The graph has taut edges only, so it need not have shortest paths between subgoals that no shortest path
+//! of a query passes one after the other; their labels may be missing, or longer. Costs are compared as in
+//! the contraction, by (h_k, Euclidean length).
 //!
 //! # A query
 //!
-//! What start and goal see is looked up ([`SeenIndex`]). Each subgoal that the start sees writes the costs to
-//! its hubs into an array, and each that the goal sees reads them ([`join`]). What is not read, and why no
-//! shortest path is lost:
+//! The subgoals that start and goal see are looked up ([`SeenIndex`]). Each subgoal that the start sees
+//! writes the costs to its hubs into an array, and each that the goal sees reads them ([`join`]). Two rules
+//! leave labels unread and lose no shortest path:
 //!
 //! - *Bends.* A path from the start over c goes on along an edge. If the bend at c is not taut, it is no
 //!   shortest path. The labels of a subgoal are grouped by the first edge of their paths. The edges on one
@@ -60,7 +60,7 @@ use crate::{
     subgoals::Subgoals,
 };
 
-/// What depends on the map and its rules, and at corners not on k.
+/// The parts of an index that depend on the map and its rules, and at corners not on k.
 #[derive(Clone, Debug)]
 pub(crate) struct Geometry {
     pub(crate) subgoals: Subgoals,
@@ -105,13 +105,13 @@ impl<P: SubgoalPlacement> HubLabels<P> {
         self.k
     }
 
-    /// What it belongs to: the map and the rules of motion of its free space, and its k.
+    /// The identity: map and rules of motion of its free space, and its k.
     #[must_use]
     pub const fn identity(&self) -> Identity {
         self.identity
     }
 
-    /// The memory used, in bytes. What labels for several k share counts for each.
+    /// The memory used, in bytes. A geometry that labels for several k share counts for each.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
         self.geometry.memory_bytes() + self.packed.memory_bytes()

@@ -18,7 +18,7 @@ use crate::{
 pub(crate) struct Side {
     /// 16 times the number of its first group, plus how paths bend here.
     first: u32,
-    /// What tells whether a path may leave along any of its edges.
+    /// The [summary](EdgeFinder::summary) of its edges.
     pub(crate) edges: u32,
 }
 
@@ -35,7 +35,7 @@ impl Side {
         Some(Self { first: first << 4 | bends, edges: P::summary(bends, edges) })
     }
 
-    /// What comes after the last side.
+    /// The sentinel after the last side.
     const fn last(groups: usize) -> Self {
         Self { first: (groups as u32) << 4, edges: 0 }
     }
@@ -58,7 +58,7 @@ pub(crate) struct Group {
 }
 
 impl Group {
-    /// What comes before the first group.
+    /// The sentinel before the first group.
     const BEFORE: Self = Self { to: 0, bits: 0 };
 
     fn new(to: u32, class: u32, end: usize) -> Option<Self> {
@@ -261,7 +261,7 @@ impl Packed {
     }
 }
 
-/// What takes the cost in units of [`Cost`](mediant_moves::Cost) from that by which the contraction compares.
+/// Cuts the contraction's cost off to units of [`Cost`](mediant_moves::Cost).
 pub(super) fn in_cells<P: EdgeFinder>(context: BuildContext<'_, P>) -> CutOff {
     match (context.criterion, context.k) {
         (EdgeCriterion::Direct, _) => |cost| cost as u64,

@@ -36,15 +36,15 @@ pub struct HubLabelSearch<S, I> {
     waypoints: Vec<Vertex>,
     /// Scratch memory: the subgoals from the hub to the goal, in the other direction.
     chain: Vec<Vertex>,
-    answer: Option<(Query, Answer)>,
+    answer: Option<(Query, AnswerForm)>,
     to_many: ToMany,
     /// Scratch memory: the goals that are as near as the nearest one, up to rounding.
     as_near: Vec<(u32, Cost)>,
 }
 
-/// What is known of a query that was answered.
+/// The form of the last query's answer, from which its path follows.
 #[derive(Clone, Copy, Debug)]
-enum Answer {
+enum AnswerForm {
     /// The waypoints are a path that is plain to see.
     Direct,
     /// The path turns over these subgoals.
@@ -137,8 +137,8 @@ where
         self.begin(query, &mut ())?;
         match self.answer.take() {
             None => return Ok(Cost::MAX),
-            Some((_, Answer::Direct)) => {}
-            Some((query, Answer::Over(meeting))) => {
+            Some((_, AnswerForm::Direct)) => {}
+            Some((query, AnswerForm::Over(meeting))) => {
                 self.waypoints.clear();
                 if !self.write(query, meeting) {
                     return Err(QueryError::GaveUp { why: DAMAGED });
@@ -225,7 +225,8 @@ where
         } else {
             direct_path(space, labels.k, start, goal, &mut self.waypoints)
         };
-        let answer = if is_direct { Some(Answer::Direct) } else { self.meeting(query)?.map(Answer::Over) };
+        let answer =
+            if is_direct { Some(AnswerForm::Direct) } else { self.meeting(query)?.map(AnswerForm::Over) };
         self.answer = answer.map(|answer| (query, answer));
         Ok(if self.answer.is_some() { Status::Found } else { Status::Unreachable })
     }
@@ -242,7 +243,7 @@ where
         if at != query.goal {
             return None;
         }
-        if let Answer::Over(meeting) = answer {
+        if let AnswerForm::Over(meeting) = answer {
             self.waypoints.clear();
             if !self.write(query, meeting) {
                 return None;

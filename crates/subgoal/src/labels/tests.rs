@@ -17,7 +17,7 @@ use crate::{
     placement::{BuildContext, EdgeCriterion, SubgoalPlacement},
 };
 
-/// What a query reads of a label: the cost over N(k), or of the line.
+/// The length that a query reads from a label: the cost over N(k), or of the line.
 fn length(k: K, criterion_is_taut: bool, cost: u128) -> f64 {
     match (criterion_is_taut, k) {
         (false, _) => cost as f64 / 2_f64.powi(32),
@@ -193,7 +193,7 @@ fn every_pair_has_a_common_hub_and_every_label_leads_to_its_hub() {
     );
 }
 
-/// What leads to a label that was dropped is dropped, too; so is what costs less than its edges.
+/// A label that leads to a dropped one is dropped, too; so is one that costs less than its edges.
 #[test]
 fn labels_that_lead_nowhere_are_dropped_one_after_another() {
     let label = Label::new;

@@ -1,4 +1,4 @@
-//! Dropping labels that do not lead to their hubs.
+//! Pruning labels that do not lead to their hubs.
 //!
 //! A label says which subgoal comes next on the way to its hub, and a path is followed from label to label.
 //! If the label of c to h is the distance between them, the next subgoal n has such a label, too. If a higher
@@ -7,8 +7,8 @@
 //!
 //! Other labels are longer than the distance: the edges of the graph are taut, and shortcuts at bends that
 //! are not taut were skipped, so between some subgoals the graph has no shortest path. No shortest path of a
-//! query leads over them, but over N(k) some paths over them cost as little. So those that lead nowhere are
-//! dropped; no label that is a distance is.
+//! query leads over them, but over N(k) some paths over them cost as little. So labels that lead nowhere are
+//! pruned; no label that is a distance is.
 
 use mediant_grid::{Interrupt, Interrupted};
 
@@ -18,7 +18,8 @@ use crate::chunks::in_chunks;
 /// The stage that an interrupted call names.
 const DURING: &str = "checking hub labels";
 
-/// Drops the labels whose next subgoal has no label to the same hub that fits; `edge` is the cost of an edge.
+/// Prunes labels whose parent chain misses the hub, or costs more than they say; `edge` is the cost of an
+/// edge.
 pub(super) fn keep_whole(
     labels: &mut [Vec<Label>],
     interrupt: &Interrupt,
@@ -28,7 +29,7 @@ pub(super) fn keep_whole(
     let all = &*labels;
     let dropped = in_chunks(
         all.len(),
-        || Chains { place: vec![0; all.len()], state: Vec::new(), chain: Vec::new() },
+        || HubChains { place: vec![0; all.len()], state: Vec::new(), chain: Vec::new() },
         &|_| {},
         |chains, hubs| {
             let mut dropped = Vec::new();
@@ -92,16 +93,16 @@ impl ByHub {
 }
 
 /// Scratch memory for following labels to a hub.
-struct Chains {
+struct HubChains {
     /// By subgoal, one more than the number of its label of the hub; 0 for none.
     place: Vec<u32>,
     /// Of each label, whether it leads to the hub, if that is known.
     state: Vec<Option<bool>>,
-    /// Those that are followed.
+    /// The labels followed so far.
     chain: Vec<usize>,
 }
 
-impl Chains {
+impl HubChains {
     /// Finds the labels of a hub that do not lead there.
     fn find_broken(
         &mut self,

@@ -4,10 +4,10 @@ use std::collections::HashMap;
 
 use mediant_grid::{FreeSpace, Interrupt, Interrupted, Placement, Vertex};
 
-use super::{Entry, SIDE, SeenIndex, Tile};
+use super::{Block, SIDE, SeenEntry, SeenIndex};
 use crate::{
     chunks::in_chunks,
-    placement::{BuildContext, EdgeFinder, Run},
+    placement::{BuildContext, EdgeFinder, VertexRun},
 };
 
 /// The stage that an interrupted call names.
@@ -18,10 +18,10 @@ const FULL: u64 = !0;
 /// The number of the mask of no vertex.
 const EMPTY: u16 = 1;
 
-/// Which vertices of a tile are joined to a slot.
+/// Which vertices of a block are joined to a slot.
 #[derive(Clone, Copy, Debug)]
 struct Link {
-    tile: u32,
+    block: u32,
     slot: u32,
     mask: u64,
 }
@@ -55,12 +55,12 @@ impl SeenIndex {
         for links in &mut links {
             interrupt.check(DURING)?;
             for link in links {
-                let free = free[link.tile as usize];
+                let free = free[link.block as usize];
                 link.mask = if link.mask & free == free { FULL } else { link.mask & free };
             }
         }
         let total: usize = links.iter().map(Vec::len).sum();
-        if size_of::<Entry>() * total + size_of::<Tile>() * count > most {
+        if size_of::<SeenEntry>() * total + size_of::<Block>() * count > most {
             return Ok(None);
         }
         Self::of_links(&links, columns, count, most_masks, interrupt).map(Some)
@@ -75,60 +75,60 @@ impl SeenIndex {
         interrupt: &Interrupt,
     ) -> Result<Self, Interrupted> {
         let (masks, numbers) = dictionary(links, most_masks, interrupt)?;
-        let (tiles, entries) = entries(links, &numbers, count, interrupt)?;
-        let most = tiles.windows(2).map(|ends| (ends[1].first - ends[0].first) as usize).max().unwrap_or(0);
-        Ok(Self { columns, tiles: tiles.into(), entries: entries.into(), masks: masks.into(), most })
+        let (blocks, entries) = entries(links, &numbers, count, interrupt)?;
+        let most = blocks.windows(2).map(|ends| (ends[1].first - ends[0].first) as usize).max().unwrap_or(0);
+        Ok(Self { columns, blocks: blocks.into(), entries: entries.into(), masks: masks.into(), most })
     }
 }
 
-/// The tiles and their entries: counted, then written.
+/// The blocks and their entries: counted, then written.
 fn entries(
     links: &[Vec<Link>],
     numbers: &HashMap<u64, u16>,
     count: usize,
     interrupt: &Interrupt,
-) -> Result<(Vec<Tile>, Vec<Entry>), Interrupted> {
-    let mut tiles = vec![Tile::default(); count + 1];
-    // By tile, one more than the last slot; 0 for none.
+) -> Result<(Vec<Block>, Vec<SeenEntry>), Interrupted> {
+    let mut blocks = vec![Block::default(); count + 1];
+    // By block, one more than the last slot; 0 for none.
     let mut last = vec![0; count];
     for links in links {
         interrupt.check(DURING)?;
         for link in links {
-            let tile = link.tile as usize;
-            if last[tile] == 0 {
-                tiles[tile].slot = link.slot;
+            let block = link.block as usize;
+            if last[block] == 0 {
+                blocks[block].slot = link.slot;
             }
-            for_entries(link, &mut last[tile], numbers, |_| tiles[tile + 1].first += 1);
+            for_entries(link, &mut last[block], numbers, |_| blocks[block + 1].first += 1);
         }
     }
-    for tile in 0..count {
-        tiles[tile + 1].first += tiles[tile].first;
+    for block in 0..count {
+        blocks[block + 1].first += blocks[block].first;
     }
     last.fill(0);
-    let mut next: Vec<u32> = tiles.iter().map(|tile| tile.first).collect();
-    let mut entries = vec![Entry { after: 0, mask: 0 }; next[count] as usize];
+    let mut next: Vec<u32> = blocks.iter().map(|block| block.first).collect();
+    let mut entries = vec![SeenEntry { after: 0, mask: 0 }; next[count] as usize];
     for links in links {
         interrupt.check(DURING)?;
         for link in links {
-            let tile = link.tile as usize;
-            for_entries(link, &mut last[tile], numbers, |entry| {
-                entries[next[tile] as usize] = entry;
-                next[tile] += 1;
+            let block = link.block as usize;
+            for_entries(link, &mut last[block], numbers, |entry| {
+                entries[next[block] as usize] = entry;
+                next[block] += 1;
             });
         }
     }
-    Ok((tiles, entries))
+    Ok((blocks, entries))
 }
 
-/// Visits the entries of a link. `last` is one more than the slot before it in its tile; 0 for none.
-fn for_entries(link: &Link, last: &mut u32, numbers: &HashMap<u64, u16>, mut visit: impl FnMut(Entry)) {
+/// Visits the entries of a link. `last` is one more than the slot before it in its block; 0 for none.
+fn for_entries(link: &Link, last: &mut u32, numbers: &HashMap<u64, u16>, mut visit: impl FnMut(SeenEntry)) {
     let mut after = if *last == 0 { 0 } else { link.slot + 1 - *last };
     *last = link.slot + 1;
     while after > u32::from(u16::MAX) {
-        visit(Entry { after: u16::MAX, mask: EMPTY });
+        visit(SeenEntry { after: u16::MAX, mask: EMPTY });
         after -= u32::from(u16::MAX);
     }
-    let mut add = |mask: u16| visit(Entry { after: std::mem::take(&mut after) as u16, mask });
+    let mut add = |mask: u16| visit(SeenEntry { after: std::mem::take(&mut after) as u16, mask });
     match numbers.get(&link.mask) {
         Some(&number) => add(number),
         None => rows_of(link.mask).filter_map(|row| numbers.get(&row)).for_each(|&number| add(number)),
@@ -150,14 +150,14 @@ fn links<P: EdgeFinder>(
             let subgoal = context.subgoals.vertex(id);
             P::runs_to(context, scratch, subgoal, |run| sides[usize::from(run.is_right)].add(columns, run));
             for (side, marks) in (0..).zip(&mut *sides) {
-                marks.take(|tile, mask| links.push(Link { tile, slot: id * P::SIDES + side, mask }));
+                marks.take(|block, mask| links.push(Link { block, slot: id * P::SIDES + side, mask }));
             }
         }
         Ok(links)
     })
 }
 
-/// The free vertices of each tile.
+/// The free vertices of each block.
 fn free_vertices<P: Placement>(
     space: &FreeSpace<P>,
     columns: u32,
@@ -226,7 +226,7 @@ fn counted_masks(links: &[Vec<Link>], interrupt: &Interrupt) -> Result<Vec<(usiz
     Ok(same.map(|same| (same.iter().map(|(_, count)| count).sum(), same[0].0)).collect())
 }
 
-/// The vertices that are joined to one side of a subgoal, by tile.
+/// The vertices that are joined to one side of a subgoal, by block.
 #[derive(Debug)]
 struct Marks {
     masks: Vec<u64>,
@@ -238,8 +238,8 @@ impl Marks {
         Self { masks: vec![0; count], touched: Vec::new() }
     }
 
-    fn add(&mut self, columns: u32, run: Run) {
-        let Run { first: Vertex { x, y }, length, is_column, .. } = run;
+    fn add(&mut self, columns: u32, run: VertexRun) {
+        let VertexRun { first: Vertex { x, y }, length, is_column, .. } = run;
         let (mut at, end) = if is_column { (y, y + length) } else { (x, x + length) };
         while at < end {
             let next = end.min((at / SIDE + 1) * SIDE);
@@ -250,10 +250,10 @@ impl Marks {
             } else {
                 (at, y, (0xFF_u64 >> (SIDE - count)) << (SIDE * (y % SIDE) + low))
             };
-            let tile = (y / SIDE) as u32 * columns + (x / SIDE) as u32;
-            let known = &mut self.masks[tile as usize];
+            let block = (y / SIDE) as u32 * columns + (x / SIDE) as u32;
+            let known = &mut self.masks[block as usize];
             if *known == 0 {
-                self.touched.push(tile);
+                self.touched.push(block);
             }
             *known |= mask;
             at = next;
@@ -262,8 +262,8 @@ impl Marks {
 
     /// Gives the masks, and forgets them.
     fn take(&mut self, mut visit: impl FnMut(u32, u64)) {
-        for tile in self.touched.drain(..) {
-            visit(tile, std::mem::take(&mut self.masks[tile as usize]));
+        for block in self.touched.drain(..) {
+            visit(block, std::mem::take(&mut self.masks[block as usize]));
         }
     }
 }

@@ -2,16 +2,16 @@
 
 use mediant_grid::Interrupted;
 
-use super::{Entry, SIDE, SeenIndex, Tile};
+use super::{Block, SIDE, SeenEntry, SeenIndex};
 use crate::labels::{Reader, Writer};
 
 impl SeenIndex {
     pub(crate) fn write(&self, out: &mut Writer<'_>) -> Result<(), Interrupted> {
         let halves = |index: usize| {
-            let Tile { first, slot } = self.tiles[index / 2];
+            let Block { first, slot } = self.blocks[index / 2];
             if index.is_multiple_of(2) { first } else { slot }
         };
-        out.part32((0..2 * self.tiles.len()).map(halves))?;
+        out.part32((0..2 * self.blocks.len()).map(halves))?;
         out.part32(self.entries.iter().map(|entry| u32::from(entry.after) << 16 | u32::from(entry.mask)))?;
         out.part64(&self.masks)
     }
@@ -21,29 +21,29 @@ impl SeenIndex {
     pub(crate) fn read(reader: &mut Reader<'_>, (width, height): (u32, u32), slots: u32) -> Option<Self> {
         let [columns, rows] = [width, height].map(|side| side.div_ceil(SIDE as u32));
         let mut words = reader.part32()?;
-        let mut tiles = Vec::with_capacity(words.len() / 2);
+        let mut blocks = Vec::with_capacity(words.len() / 2);
         while let Some((first, slot)) = words.next().zip(words.next()) {
-            tiles.push(Tile { first, slot });
+            blocks.push(Block { first, slot });
         }
-        let entry = |word: u32| Entry { after: (word >> 16) as u16, mask: word as u16 };
-        let entries: Box<[Entry]> = reader.part32()?.map(entry).collect();
+        let entry = |word: u32| SeenEntry { after: (word >> 16) as u16, mask: word as u16 };
+        let entries: Box<[SeenEntry]> = reader.part32()?.map(entry).collect();
         let masks = reader.part64()?;
-        let index = Self { columns, tiles: tiles.into(), entries, masks, most: 0 };
-        if index.tiles.len() != columns as usize * rows as usize + 1 {
+        let index = Self { columns, blocks: blocks.into(), entries, masks, most: 0 };
+        if index.blocks.len() != columns as usize * rows as usize + 1 {
             return None;
         }
-        let most = index.most_of_a_tile(slots)?;
+        let most = index.most_of_a_block(slots)?;
         Some(Self { most, ..index })
     }
 
-    /// The most entries of a tile; `None` if a number is out of its range.
-    fn most_of_a_tile(&self, slots: u32) -> Option<usize> {
+    /// The most entries of a block; `None` if a number is out of its range.
+    fn most_of_a_block(&self, slots: u32) -> Option<usize> {
         let masks = self.entries.iter().map(|entry| entry.mask).max().map_or(0, |mask| usize::from(mask) + 1);
-        if masks > self.masks.len() || self.tiles.last()?.first as usize != self.entries.len() {
+        if masks > self.masks.len() || self.blocks.last()?.first as usize != self.entries.len() {
             return None;
         }
         let mut most = 0;
-        for ends in self.tiles.windows(2) {
+        for ends in self.blocks.windows(2) {
             let entries = self.entries.get(ends[0].first as usize..ends[1].first as usize)?;
             let come: u64 = entries.iter().map(|entry| u64::from(entry.after)).sum();
             if !entries.is_empty() && u64::from(ends[0].slot) + come >= u64::from(slots) {

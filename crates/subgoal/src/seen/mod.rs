@@ -1,10 +1,10 @@
 //! Which subgoals each vertex is joined to: what makes the ends of a query a look-up.
 //!
-//! The vertices are cut into tiles of 8 × 8. A tile has an entry for each side of a subgoal to which one of
+//! The vertices are cut into blocks of 8 × 8. A block has an entry for each side of a subgoal to which one of
 //! its vertices is joined: a *slot*, which is the number of the subgoal and the side, and a *mask* of 64
-//! bits, which says for which vertices. To look a vertex up is to test one bit of each entry of its tile.
+//! bits, which says for which vertices. To look a vertex up is to test one bit of each entry of its block.
 //!
-//! **Small.** An entry takes four bytes. The slots of a tile ascend, and 16 bits hold how far; where they do
+//! **Small.** An entry takes four bytes. The slots of a block ascend, and 16 bits hold how far; where they do
 //! not suffice, an entry without vertices stands between. The masks are numbers of a dictionary. It holds the
 //! most frequent ones, and all that lie within one row: a mask that is not in it becomes an entry for each
 //! of its rows. Bits of vertices that are not free do not matter, so a mask of all free vertices counts as
@@ -18,35 +18,35 @@ mod codec;
 
 use mediant_grid::Vertex;
 
-/// The vertices of a tile along each side: a word has a bit for each vertex.
+/// The vertices of a block along each side: a word has a bit for each vertex.
 const SIDE: i32 = 8;
 
 /// For each vertex, the subgoals to which the edges of a query join it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct SeenIndex {
-    /// The tiles of a row.
+    /// The blocks of a row.
     pub(crate) columns: u32,
     /// Row by row, and one more that ends the last.
-    pub(crate) tiles: Box<[Tile]>,
-    pub(crate) entries: Box<[Entry]>,
+    pub(crate) blocks: Box<[Block]>,
+    pub(crate) entries: Box<[SeenEntry]>,
     /// The dictionary. The first one is full, the second empty.
     pub(crate) masks: Box<[u64]>,
-    /// The most entries of a tile.
+    /// The most entries of a block.
     pub(crate) most: usize,
 }
 
-/// A tile of vertices.
+/// A block of vertices.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Tile {
+pub(crate) struct Block {
     /// The number of its first entry.
     pub(crate) first: u32,
     /// The slot of its first entry, less how far that has come.
     pub(crate) slot: u32,
 }
 
-/// Which vertices of a tile are joined to one side of a subgoal.
+/// Which vertices of a block are joined to one side of a subgoal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Entry {
+pub(crate) struct SeenEntry {
     /// How much larger its slot is than that of the entry before.
     pub(crate) after: u16,
     /// The number of its mask.
@@ -60,7 +60,8 @@ impl SeenIndex {
     pub(crate) fn slots(&self, at: Vertex, slots: &mut [u32]) -> usize {
         let number = ((at.y / SIDE) as u32 * self.columns + (at.x / SIDE) as u32) as usize;
         let bit = (at.y % SIDE) * SIDE + at.x % SIDE;
-        let Some(&[Tile { first, mut slot }, Tile { first: end, .. }]) = self.tiles.get(number..number + 2)
+        let Some(&[Block { first, mut slot }, Block { first: end, .. }]) =
+            self.blocks.get(number..number + 2)
         else {
             return 0;
         };
@@ -76,6 +77,6 @@ impl SeenIndex {
 
     /// The memory used, in bytes.
     pub(crate) const fn memory_bytes(&self) -> usize {
-        size_of_val(&*self.tiles) + size_of_val(&*self.entries) + size_of_val(&*self.masks)
+        size_of_val(&*self.blocks) + size_of_val(&*self.entries) + size_of_val(&*self.masks)
     }
 }

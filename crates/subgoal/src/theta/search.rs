@@ -45,7 +45,7 @@ pub(super) fn may_join<P: SubgoalPlacement>(space: &FreeSpace<P>, from: Vertex, 
 }
 
 /// One search.
-pub(super) struct Search<'s, P: SubgoalPlacement, O> {
+pub(super) struct SubgoalThetaSearch<'s, P: SubgoalPlacement, O> {
     pub(super) space: &'s FreeSpace<P>,
     pub(super) graph: &'s SubgoalGraph<P>,
     /// The parent of a subgoal is the number of the last bend before it.
@@ -69,7 +69,7 @@ struct Node {
     own_bend: Option<u32>,
 }
 
-impl<P: SubgoalPlacement, O: Observer> Search<'_, P, O> {
+impl<P: SubgoalPlacement, O: Observer> SubgoalThetaSearch<'_, P, O> {
     /// Puts the subgoals that the start is joined to on the open list.
     pub(super) fn begin(&mut self, start: Vertex, query_edges: &[(u32, Cost)]) {
         self.tree.start_search();

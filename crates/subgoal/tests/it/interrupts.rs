@@ -50,8 +50,8 @@ fn what_is_built_at_centers_stops() {
     check::<Centers>(rooms(&mut Rng::new(4), SIDE, SIDE), CornerRule::Never, FiniteK::N8.into());
 }
 
-/// In noise a core is left, and the other engine answers queries, too. What is kept is the same whether or
-/// not there is an interrupt.
+/// In noise a core is left, and the other engine answers queries, too. The same is kept with and without an
+/// interrupt.
 #[test]
 fn comparisons_stop() {
     let grid = Arc::new(noise(&mut Rng::new(5), 30, 30, 12));

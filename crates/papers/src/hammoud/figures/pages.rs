@@ -5,7 +5,7 @@ use mediant_report::{Axis, Chart, Claim, Mark, Record, Row, Series, Table, numbe
 use super::{ENGINES, RULES};
 use crate::experiment::Section;
 
-/// What the paper compares: its A* cuts no corners, its JPS does.
+/// The two searches that the paper compares: its A* cuts no corners, its JPS does.
 const ASTAR: (&str, &str) = ("never", "astar");
 const JPS: (&str, &str) = ("one", "jps");
 
@@ -177,7 +177,7 @@ fn short(value: Option<f64>) -> String {
     value.map_or("–".to_owned(), number)
 }
 
-/// What the paper says of its figures, with our numbers.
+/// The paper's statements on its figures, with our numbers.
 fn summary(section: &mut Section, sizes: &[Size<'_>]) {
     let mut table = Table::new([
         "maps",

@@ -5,7 +5,7 @@ use std::{cmp::Reverse, collections::BinaryHeap, f64::consts::SQRT_2};
 use mediant_grid::{Grid, Vertex};
 use mediant_search::Query;
 
-/// What a plain A* does.
+/// The work of a plain A*, and its result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Work {
     /// The length of the path.

@@ -6,7 +6,7 @@ use super::{
     super::{
         causes, charts,
         published::SETS,
-        searches::{Algorithm, BASE, Heuristic, KS, Measure, Search},
+        searches::{Algorithm, BASE, Heuristic, KS, Measure, SearchKey},
     },
     error_column,
 };
@@ -81,7 +81,7 @@ fn printed(algorithm: Algorithm) -> impl Iterator<Item = (Heuristic, Measure)> {
     })
 }
 
-/// What a column is called.
+/// The name of a column.
 fn column((heuristic, measure): (Heuristic, Measure)) -> String {
     let unit = if measure == Measure::Time { " (ms)" } else { "" };
     match measure {
@@ -91,7 +91,7 @@ fn column((heuristic, measure): (Heuristic, Measure)) -> String {
 }
 
 /// Our value of a published number, in its unit.
-fn ours(record: &Record, set: &str, search: Search, measure: Measure) -> Option<f64> {
+fn ours(record: &Record, set: &str, search: SearchKey, measure: Measure) -> Option<f64> {
     let unit = if measure == Measure::Time { 1000.0 } else { 1.0 };
     Some(search.number(record, set, measure.column())? / unit)
 }
@@ -110,7 +110,7 @@ fn table(record: &Record, set: &str, algorithm: Algorithm) -> Table {
     let heading = ["".to_owned(), "2^k".to_owned()].into_iter().chain(KS.map(|k| (1 << k).to_string()));
     let mut table = Table::new(heading).names(2);
     for (heuristic, measure) in printed(algorithm) {
-        let searches = KS.map(|k| Search { algorithm, heuristic, k });
+        let searches = KS.map(|k| SearchKey { algorithm, heuristic, k });
         let row = |first: &str, second: &str, texts: [String; 6]| {
             [first.to_owned(), second.to_owned()].into_iter().chain(texts).collect::<Vec<_>>()
         };
@@ -147,7 +147,7 @@ fn table(record: &Record, set: &str, algorithm: Algorithm) -> Table {
 
 /// A number of the tables as a claim: a ratio, if the search has a reference. None for a time without a
 /// reference.
-fn claim(record: &Record, set: &str, search: Search, measure: Measure) -> Option<Claim> {
+fn claim(record: &Record, set: &str, search: SearchKey, measure: Measure) -> Option<Claim> {
     let number = if search.algorithm == Algorithm::AStar { 1 } else { 2 };
     let source = format!("Table {number}, {}", column((search.heuristic, measure)));
     let (mut published, mut here) = (search.published(set, measure)?, ours(record, set, search, measure));
@@ -173,13 +173,13 @@ fn claim(record: &Record, set: &str, search: Search, measure: Measure) -> Option
 }
 
 /// The claims of those searches of both tables that are asked for.
-fn claims(record: &Record, asked: impl Fn(Search) -> bool) -> Vec<Claim> {
+fn claims(record: &Record, asked: impl Fn(SearchKey) -> bool) -> Vec<Claim> {
     let mut claims = Vec::new();
     for algorithm in [Algorithm::AStar, Algorithm::Paper] {
         for (heuristic, measure) in printed(algorithm) {
             for (set, _) in SETS {
                 let searches = KS
-                    .map(|k| Search { algorithm, heuristic, k })
+                    .map(|k| SearchKey { algorithm, heuristic, k })
                     .into_iter()
                     .filter(|&search| asked(search));
                 claims.extend(searches.filter_map(|search| claim(record, set, search, measure)));
@@ -199,7 +199,7 @@ fn count(holds: impl Iterator<Item = Option<bool>>) -> Option<f64> {
 /// what is claimed.
 fn sentences(record: &Record) -> Vec<Claim> {
     let time = |set: &str, algorithm, heuristic, k| {
-        ours(record, set, Search { algorithm, heuristic, k }, Measure::Time)
+        ours(record, set, SearchKey { algorithm, heuristic, k }, Measure::Time)
     };
     let less = |a: Option<f64>, b: Option<f64>| a.zip(b).map(|(a, b)| a < b);
     let all = || SETS.into_iter().flat_map(|(set, _)| KS.map(|k| (set, k)));
@@ -207,7 +207,7 @@ fn sentences(record: &Record) -> Vec<Claim> {
     let source = "Empirical Findings";
     let (a_star, paper, hk, euclidean) =
         (Algorithm::AStar, Algorithm::Paper, Heuristic::Hk, Heuristic::Euclidean);
-    let cost = |set, k| ours(record, set, Search { algorithm: a_star, heuristic: hk, k }, Measure::Cost);
+    let cost = |set, k| ours(record, set, SearchKey { algorithm: a_star, heuristic: hk, k }, Measure::Cost);
     let said = |what: &str, published: f64, of: usize, ours, cause: &str| {
         Claim::new(source, what, published, ours).within(0.0).written(0, &format!(" of {of}")).because(cause)
     };
@@ -279,7 +279,7 @@ fn rules(record: &Record, sets: &[&str]) -> Table {
     for &set in sets {
         for k in KS {
             let of = |algorithm, measure| {
-                ours(record, set, Search { algorithm, heuristic: Heuristic::Hk, k }, measure)
+                ours(record, set, SearchKey { algorithm, heuristic: Heuristic::Hk, k }, measure)
             };
             let longer = of(Algorithm::Paper, Measure::Cost).zip(of(Algorithm::AStar, Measure::Cost));
             let longer = longer

@@ -2,7 +2,7 @@
 
 use mediant_grid::{BitMatrix, Corners, DiagonalGap, FreeSpace, Interrupt, Interrupted};
 
-use super::{DURING, Kinds, Run};
+use super::{CellRun, DURING, Kinds};
 
 /// The most cells of a dead end. Rooms are made of longer runs: single doors lead to them, so they are parts,
 /// and one run opens them. As dead ends they would be opened run by run for each query that ends there; on
@@ -73,17 +73,17 @@ impl DeadEndSearch {
     }
 
     /// The first run of free cells of a line from `from` on.
-    fn run_from(&self, is_vertical: bool, line: i32, from: i32) -> Option<Run> {
+    fn run_from(&self, is_vertical: bool, line: i32, from: i32) -> Option<CellRun> {
         let lines = self.lines(is_vertical);
         let (row, length) = (lines.row(line), lines.width() as i32);
         let first = row.first_free(from, length);
-        (first < length).then(|| Run { is_vertical, line, first, end: row.first_blocked(first, length) })
+        (first < length).then(|| CellRun { is_vertical, line, first, end: row.first_blocked(first, length) })
     }
 
     /// Blocks a run if it is a dead end, then the one behind its door if that is one now, and so on.
     fn block_chain(
         &mut self,
-        mut run: Run,
+        mut run: CellRun,
         across: &mut [bool],
         interrupt: &Interrupt,
     ) -> Result<(), Interrupted> {
@@ -112,8 +112,8 @@ impl DeadEndSearch {
 
     /// The door of a dead end: on which side it is, and from where to where; `None` for other runs, and for
     /// those that are too long.
-    fn door(&self, run: Run) -> Option<(i32, (i32, i32))> {
-        let Run { is_vertical, line, first, end } = run;
+    fn door(&self, run: CellRun) -> Option<(i32, (i32, i32))> {
+        let CellRun { is_vertical, line, first, end } = run;
         if end - first > LONGEST {
             return None;
         }

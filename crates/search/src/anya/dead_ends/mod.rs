@@ -3,10 +3,10 @@
 //! **A dead end** is a short run of free cells, along a row or a column and as long as it can be, that one
 //! *door* leads into: its long sides are blocked but for one stretch, and no gap that paths may pass is at
 //! its corners. The door is a segment of a grid line. A path that enters by it and leaves by it again is no
-//! shorter, in any norm, than the one that keeps to the segment instead, which is as free. So without the
-//! run the same taut paths lead from vertex to vertex, except to those at its cells. Then the run may count
-//! as blocked, and others may have one door left: the search goes on until there are none. What is left of a
-//! map are its rooms, and the ways around its obstacles.
+//! shorter, in any norm, than the one that keeps to the segment instead, which is as free. So without the run
+//! the same taut paths lead from vertex to vertex, except to those at its cells. Then the run may count as
+//! blocked, and others may have one door left: the search goes on until there are none. Rooms and the ways
+//! around obstacles remain.
 //!
 //! **No corner is added** by blocking the run: beyond its door the wall is straight, or goes on from where
 //! the run ended. So every place at which a path turns is one of the map itself, and every gap is, too.
@@ -64,11 +64,11 @@ pub struct DeadEnds {
     /// The same in columns.
     columns: BitMatrix,
     kinds: Kinds,
-    /// What is left of the map without dead ends, in the parts of its rows, and in those of its columns.
+    /// The parts of the map without dead ends: of its rows, and of its columns.
     parts: [Parts; 2],
 }
 
-/// Of which kind of run the cells of dead ends are.
+/// The kind of run of each cell of a dead end, a bit each.
 #[derive(Clone, Debug)]
 struct Kinds {
     /// Whether the run is part of a column, in rows.
@@ -81,7 +81,7 @@ struct Kinds {
 
 /// A run of cells of a row, or of a column.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Run {
+pub(super) struct CellRun {
     pub(super) is_vertical: bool,
     /// Its row or column.
     pub(super) line: i32,
@@ -89,7 +89,7 @@ pub(super) struct Run {
     pub(super) end: i32,
 }
 
-impl Run {
+impl CellRun {
     const fn first_cell(self) -> (i32, i32) {
         if self.is_vertical { (self.line, self.first) } else { (self.first, self.line) }
     }
@@ -137,13 +137,13 @@ impl DeadEnds {
         Ok(Self { identity: space.identity(), rows, columns, kinds, parts })
     }
 
-    /// What they belong to: the map and the rule of motion, for every k.
+    /// Their identity: the map and the rule of motion, for every k.
     #[must_use]
     pub const fn identity(&self) -> Identity {
         self.identity
     }
 
-    /// The memory that those of a map take, in bytes, but for what its parts take.
+    /// The memory of a map's dead ends without its parts, in bytes.
     #[must_use]
     pub fn bytes(space: &FreeSpace<Corners>) -> usize {
         3 * size_of_val(space.grid().rows().words()) + 2 * size_of_val(space.grid().columns().words())

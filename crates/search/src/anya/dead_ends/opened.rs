@@ -1,11 +1,11 @@
-//! What is open for a query.
+//! The dead ends and parts that are open for a query.
 
 use std::sync::Arc;
 
 use mediant_grid::{BitMatrix, Grid, Vertex};
 
 use super::{
-    DeadEnds, Run,
+    CellRun, DeadEnds,
     parts::{Part, Parts},
 };
 
@@ -16,7 +16,7 @@ pub(in super::super) struct Opened {
     /// The rows of the map as far as the query needs it.
     rows: BitMatrix,
     /// The dead ends that are open for the query.
-    open: Vec<Run>,
+    open: Vec<CellRun>,
     of_rows: OpenParts,
     of_columns: OpenParts,
 }
@@ -27,7 +27,7 @@ struct OpenParts {
     /// The rows of the map without the runs that shut bridges.
     rows: BitMatrix,
     /// The runs that open or shut a bridge for the query, and whether they were blocked before.
-    bridges: Vec<(Run, bool)>,
+    bridges: Vec<(CellRun, bool)>,
     /// The parts that the query needs, which are not open yet.
     needed: Vec<u32>,
 }
@@ -91,24 +91,24 @@ impl Opened {
     }
 
     /// The dead end of a row that a cell is part of.
-    fn horizontal_run(&self, grid: &Grid, x: i32, y: i32) -> Run {
+    fn horizontal_run(&self, grid: &Grid, x: i32, y: i32) -> CellRun {
         let (free, vertical) = (grid.rows().row(y), self.dead_ends.kinds.vertical.row(y));
         let first = free.run_start(x, vertical.run_start(x, 0));
         let end = free.first_blocked(x, vertical.first_blocked(x, grid.width() as i32));
-        Run { is_vertical: false, line: y, first, end }
+        CellRun { is_vertical: false, line: y, first, end }
     }
 
     /// The dead end of a column that a cell is part of.
-    fn vertical_run(&self, x: i32, y: i32) -> Run {
+    fn vertical_run(&self, x: i32, y: i32) -> CellRun {
         let column = self.dead_ends.kinds.vertical_columns.row(x);
         let first = column.blocked_start(y, 0);
-        Run { is_vertical: true, line: x, first, end: column.first_free(y, self.rows.height() as i32) }
+        CellRun { is_vertical: true, line: x, first, end: column.first_free(y, self.rows.height() as i32) }
     }
 
-    /// Opens the closed dead ends on the side of a run where its door is. Those that have their own door
+    /// Opens the closed dead ends on the side of a run where its door is. Dead ends with a door of their own
     /// there are not needed, but two bits do not tell.
-    fn open_behind_door(&mut self, grid: &Grid, run: Run) {
-        let Run { is_vertical, line, first, end } = run;
+    fn open_behind_door(&mut self, grid: &Grid, run: CellRun) {
+        let CellRun { is_vertical, line, first, end } = run;
         let (x, y) = run.first_cell();
         let beside = line + if self.dead_ends.kinds.beyond.row(y).is_blocked(x) { 1 } else { -1 };
         if is_vertical {
@@ -189,7 +189,7 @@ impl OpenParts {
         self.needed.clear();
     }
 
-    fn set(&mut self, run: Run, value: bool, other: &BitMatrix, both: &mut BitMatrix) {
+    fn set(&mut self, run: CellRun, value: bool, other: &BitMatrix, both: &mut BitMatrix) {
         run.set_in(&mut self.rows, other, both, value);
         self.bridges.push((run, !value));
     }

@@ -3,11 +3,15 @@
 //!
 //! **Graph.** The runs of free cells of a map's rows are the vertices of a graph. Its edges are the *doors*:
 //! the segments at which runs of two rows touch, and gaps that paths may pass. A door is a *bridge* if there
-//! is no way around it, and a part is what bridges leave together. So parts are the nodes of a tree (one for
-//! each component of the map). A path that crosses a bridge and comes back is no shorter, in any norm, than
-//! one that keeps to the segment between both places, which is straight and free. So paths need those parts
-//! alone that are between their ends in the tree. A bridge is shut by blocking the run beyond it. For what is
-//! on this side, that run is a dead end like those of the module above: no corner is added.
+//! is no way around it, and the parts are the 2-edge-connected components: the sets of runs that bridges
+//! leave together. Tarjan's low links find them in linear time (*Depth-first search and linear graph
+//! algorithms*, 1972): a depth-first search numbers the runs, and the door by which it enters a run is a
+//! bridge if no other door leads from that run or its descendants to a run with a lower number. So parts are
+//! the nodes of a tree (one for each component of the map). A path that crosses a bridge and comes back is no
+//! shorter, in any norm, than one that keeps to the segment between both places, which is straight and free.
+//! So paths need those parts alone that are between their ends in the tree. A bridge is shut by blocking the
+//! run beyond it. For what is on this side, that run is a dead end like those of the module above: no corner
+//! is added.
 //!
 //! A run between two bridges, as in a corridor, is no part of its own, but goes with what is beyond it. So a
 //! path through a long corridor needs few parts.
@@ -17,7 +21,7 @@
 
 use mediant_grid::{BitMatrix, Interrupt, Interrupted};
 
-use super::{DURING, Run};
+use super::{CellRun, DURING};
 
 /// The runs that are handled between two questions of an interrupt.
 const PIECE: usize = 1 << 14;
@@ -37,9 +41,9 @@ pub(super) struct Parts {
 pub(super) struct Part {
     pub(super) parent: u32,
     /// The run at its side of the bridge to the parent.
-    pub(super) inner: Run,
+    pub(super) inner: CellRun,
     /// The run of the parent there.
-    pub(super) outer: Run,
+    pub(super) outer: CellRun,
 }
 
 /// A run of a row, from one column up to another, in a part. Maps have at most 2¹⁵ columns.
@@ -63,7 +67,7 @@ impl Parts {
         let mut runs = Vec::new();
         let mut rows = vec![0; map.height() as usize + 1];
         for (vertex, &part) in graph.vertices.iter().zip(&of).filter(|&(_, &part)| part != 0) {
-            let Run { line, first, end, .. } = vertex.run;
+            let CellRun { line, first, end, .. } = vertex.run;
             runs.push(PartRun { first: first as u16, end: end as u16, part });
             rows[line as usize + 1] = runs.len() as u32;
         }
@@ -120,7 +124,7 @@ struct RunGraph {
 
 /// A run with its neighbors: vertices in a row above and below.
 struct RunVertex {
-    run: Run,
+    run: CellRun,
     above: (u32, u32),
     below: (u32, u32),
 }
@@ -139,14 +143,15 @@ impl RunVertex {
     }
 }
 
-/// What a depth-first search knows of a vertex.
+/// The state of a vertex in Tarjan's search for bridges.
 #[derive(Clone, Copy)]
 struct Visit {
     /// When it was first reached, from 1 on; 0 if it was not.
     time: u32,
     /// The neighbor from which it was reached; itself where the search began.
     parent: u32,
-    /// The next neighbor to look at; later the earliest time that is reached from it and its descendants.
+    /// The next neighbor to look at; later the vertex's low link, the earliest time that it or a descendant
+    /// reaches.
     next: u32,
 }
 
@@ -176,7 +181,7 @@ impl RunGraph {
                     *below = (if below.1 == 0 { number } else { below.0 }, number + 1);
                     last += 1;
                 }
-                let run = Run { is_vertical, line: y, first, end };
+                let run = CellRun { is_vertical, line: y, first, end };
                 vertices.push(RunVertex { run, above: (above as u32, last as u32), below: (0, 0) });
                 first = row.first_free(end, width);
             }
@@ -228,7 +233,7 @@ impl RunGraph {
         let mut visits = vec![Visit { time: 0, parent: 0, next: 0 }; count as usize];
         let mut order = Vec::with_capacity(count as usize);
         let longest = (0..count).max_by_key(|&v| {
-            let Run { first, end, .. } = self.vertices[v as usize].run;
+            let CellRun { first, end, .. } = self.vertices[v as usize].run;
             end - first
         });
         for from in longest.into_iter().chain(0..count) {

@@ -14,7 +14,7 @@ use crate::{
     successors::{ExpandedNode, KnownPath, Successors},
 };
 
-/// What a rule of motion is tested for.
+/// A test that runs under each rule of motion.
 trait Test {
     fn on<P: Placement>(&mut self, grid: &Arc<Grid>, rule: P::Rule, k: u32, seed: u64);
 }

@@ -34,7 +34,7 @@ fn slots(index: &SeenIndex, at: Vertex) -> BTreeSet<u32> {
     found
 }
 
-/// Maps of several tiles, with words and tiles that end in the middle.
+/// Maps of several blocks, with words and blocks that end in the middle.
 fn map(seed: u64) -> Grid {
     let mut rng = Rng::new(seed);
     let (width, height) = (1 + rng.below(90), 1 + rng.below(30));
@@ -173,7 +173,7 @@ fn slots_may_be_far_apart() {
     let far = u32::from(u16::MAX);
     let last = 9 * far + 17;
     let links = [(1, 3, 1), (1, 4, FULL), (1, 3 + far, 1), (1, 4 + 2 * far, 2), (1, last, 3), (2, last, 1)];
-    let links = links.map(|(tile, slot, mask)| Link { tile, slot, mask }).to_vec();
+    let links = links.map(|(block, slot, mask)| Link { block, slot, mask }).to_vec();
     let index = uninterrupted(|never| SeenIndex::of_links(&[links], 3, 3, 65_536, never));
     let at = |x| slots(&index, Vertex::new(x, 0)).into_iter().collect::<Vec<_>>();
     assert_eq!(at(0), []);
@@ -192,7 +192,7 @@ fn it_keeps_within_its_memory() {
     let of = |most| uninterrupted(|never| SeenIndex::new(ground.context(&space), most, &|_| {}, never));
     let within = |most| of(most).is_some();
     assert!(within(whole.memory_bytes()) && !within(0) && !within(whole.entries.len() * 4));
-    let size = (whole.columns, whole.tiles.len() - 1);
+    let size = (whole.columns, whole.blocks.len() - 1);
     let links = uninterrupted(|never| links(ground.context(&space), size, &|_| {}, never));
     assert!(links.iter().flatten().count() >= whole.entries.len());
 }

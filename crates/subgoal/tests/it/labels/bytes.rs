@@ -13,10 +13,10 @@ use mediant_subgoal::{
 
 use crate::common::{GAPS, graph, identity, k, labels, space, with_checksum};
 
-/// What a planner says, however wrong its labels are.
+/// The answers of a planner, however wrong its labels are.
 type Answers = Vec<[Result<Option<u64>, QueryError>; 2]>;
 
-/// Queries between some free vertices, and what labels say of them.
+/// The answers that labels give to queries between some free vertices.
 fn answers<P: SubgoalPlacement>(space: &FreeSpace<P>, labels: &HubLabels<P>) -> Answers {
     let (width, height) = P::vertices(space.grid());
     let all = (0..height as i32).flat_map(|y| (0..width as i32).map(move |x| (x, y).into()));

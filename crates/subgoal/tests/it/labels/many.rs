@@ -219,7 +219,7 @@ fn a_planner_answers_the_thousandth_query_as_the_first() {
     }
 }
 
-/// What a planner was made for it says; goals of other labels are no use, and no panic.
+/// Goals of other labels are refused, without a panic.
 #[test]
 fn goals_of_other_labels_are_refused() {
     let small = space::<Corners>(&rooms(&mut Rng::new(1), 9, 9), DiagonalGap::Open);

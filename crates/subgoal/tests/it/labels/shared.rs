@@ -65,7 +65,7 @@ fn labels_and_goals_are_shared_and_planners_sent() {
     assert_send::<HubLabelSearch<Arc<FreeSpace<Corners>>, Arc<HubLabels<Corners>>>>();
 }
 
-/// What is prepared, and the progress reports, in order.
+/// The prepared index, with its progress reports in order.
 fn told<P: SubgoalPlacement>(
     space: &FreeSpace<P>,
     k: K,

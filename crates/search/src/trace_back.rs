@@ -30,7 +30,7 @@ pub(crate) fn trace_back<P: Placement, N: ParentPointer>(
     Path::new(waypoints)
 }
 
-/// As many waypoints as most paths have. Those of longer paths are gone through twice.
+/// As many waypoints as most paths have. Longer paths are gone through twice.
 const FEW: usize = 16;
 
 /// Adds the waypoints of the path that a search found, without its start. Waypoints stand where the direction

@@ -8,43 +8,43 @@ use super::{
 };
 
 /// A color for some vertices, row by row.
-pub(super) struct Tiles {
+pub(super) struct VertexColors {
     pub(super) columns: u32,
     pub(super) rows: u32,
     colors: Vec<Option<Rgb>>,
 }
 
-impl Tiles {
+impl VertexColors {
     /// `None` if nothing is painted.
     pub(super) fn of(picture: &Picture<'_>) -> Option<Self> {
         if picture.field.is_empty() && picture.expanded.is_empty() && picture.open.is_empty() {
             return None;
         }
         let (columns, rows) = picture.vertices();
-        let mut tiles = Self { columns, rows, colors: vec![None; columns as usize * rows as usize] };
+        let mut painted = Self { columns, rows, colors: vec![None; columns as usize * rows as usize] };
         if let Some((least, greatest)) = range(&picture.field) {
             let width = (greatest - least).max(f32::MIN_POSITIVE);
-            for (tile, value) in tiles.colors.iter_mut().zip(&picture.field) {
+            for (color_of_vertex, value) in painted.colors.iter_mut().zip(&picture.field) {
                 if !value.is_nan() {
-                    *tile = Some(color::of_field((value - least) / width));
+                    *color_of_vertex = Some(color::of_field((value - least) / width));
                 }
             }
         }
         for &at in &picture.open {
-            tiles.paint(at, color::OPEN);
+            painted.paint(at, color::OPEN);
         }
         let last = picture.expanded.len().saturating_sub(1).max(1) as f32;
         for (&at, index) in picture.expanded.iter().zip(0_u32..) {
-            tiles.paint(at, color::of_expanded(index as f32 / last));
+            painted.paint(at, color::of_expanded(index as f32 / last));
         }
-        Some(tiles)
+        Some(painted)
     }
 
     /// A search over a field leaves some of the field's color.
     fn paint(&mut self, at: Vertex, ink: Rgb) {
         let Some(index) = self.index(at.x, at.y) else { return };
-        if let Some(tile) = self.colors.get_mut(index) {
-            *tile = Some(tile.map_or(ink, |below| color::mixed(below, ink, 150)));
+        if let Some(known) = self.colors.get_mut(index) {
+            *known = Some(known.map_or(ink, |below| color::mixed(below, ink, 150)));
         }
     }
 

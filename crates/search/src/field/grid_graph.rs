@@ -1,4 +1,4 @@
-//! The search behind a field over N(k).
+//! The search on a grid graph behind a field over N(k).
 
 use std::{ops::Deref, sync::Arc};
 
@@ -112,7 +112,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
         Ok(Self { graph, pruning, open, scratch })
     }
 
-    /// What it belongs to: its map, rules and k.
+    /// The identity: its map, rules and k.
     #[must_use]
     pub fn identity(&self) -> Identity {
         self.graph.identity()
@@ -140,7 +140,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
     /// [`EXPANSIONS_PER_LOOK`]: crate::Limits::EXPANSIONS_PER_LOOK
     ///
     /// # Errors
-    /// Those of [`field`](Self::field), and [`FieldError::Interrupted`].
+    /// As for [`field`](Self::field), and [`FieldError::Interrupted`].
     pub fn field_interruptible(
         &mut self,
         query: FieldQuery<'_>,
@@ -154,7 +154,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
     /// The same in the memory of a field that is not needed any more.
     ///
     /// # Errors
-    /// Those of [`field`](Self::field); the field is lost.
+    /// As for [`field`](Self::field); the field is lost.
     pub fn field_in(&mut self, query: FieldQuery<'_>, old: Field<G>) -> Result<Field<G>, FieldError> {
         let sources = query.check(&self.graph)?;
         let mut costs = old.into_costs();
@@ -184,7 +184,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
         }
         let targets: Vec<usize> =
             query.until.iter().filter_map(|&at| graph.id(at)).map(VertexId::index).collect();
-        let mut search = Search {
+        let mut search = FieldSearch {
             graph,
             table: self.pruning.as_ref().and_then(|pruning| pruning.table()),
             pruning: self.pruning.as_deref(),
@@ -214,8 +214,8 @@ fn bucket_width<P: Placement>(graph: &GridGraph<P>, open: &OpenGround) -> u32 {
     if 2 * open.count() >= free { 3 } else { 1 }
 }
 
-/// A search without a goal.
-struct Search<'s, P: Placement> {
+/// A search of all vertices from the sources, without a goal.
+struct FieldSearch<'s, P: Placement> {
     graph: &'s GridGraph<P>,
     pruning: Option<&'s Pruning<P>>,
     /// The pruning rule and the open ground, for k ≤ 3.
@@ -238,7 +238,7 @@ struct Head {
     by: u16,
 }
 
-impl<P: Placement> Search<'_, P> {
+impl<P: Placement> FieldSearch<'_, P> {
     /// Expands bucket after bucket, until all targets are final or nothing is queued.
     fn run(&mut self, targets: &[usize], interrupt: &Interrupt) -> Result<(), Interrupted> {
         let mut expansions = 0_usize;
