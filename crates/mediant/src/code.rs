@@ -139,7 +139,6 @@ impl Error {
             Self::Tile(_) | Self::Tiles(_) => ErrorCode::MapTile,
             Self::Edit { .. } | Self::EditCell { .. } => ErrorCode::EditOutside,
             Self::Size(_) => ErrorCode::Number,
-            Self::Motion { .. } => ErrorCode::Motion,
             Self::K(_) => ErrorCode::K,
             Self::Name(_) => ErrorCode::UnknownName,
             Self::Text(_) => ErrorCode::SetupText,
@@ -168,7 +167,7 @@ const fn of_call(error: &CallError) -> ErrorCode {
     match error {
         CallError::Type { .. } | CallError::Value { .. } | CallError::Together { .. } => ErrorCode::Argument,
         CallError::Name { .. } => ErrorCode::UnknownName,
-        CallError::K(_) => ErrorCode::K,
+        CallError::K { .. } => ErrorCode::K,
         CallError::Setup(error) => of_setup(error),
     }
 }
@@ -180,6 +179,7 @@ const fn of_setup(error: &SetupError) -> ErrorCode {
         | SetupError::MemoryWithoutLabels { .. }
         | SetupError::OtherEngine { .. }
         | SetupError::OtherVariant { .. } => ErrorCode::EngineOption,
+        SetupError::Motion { .. } => ErrorCode::Motion,
         SetupError::K { .. } | SetupError::NeedsFiniteK { .. } => ErrorCode::EngineK,
         SetupError::Placement { .. } | SetupError::Centers { .. } => ErrorCode::EngineRules,
         SetupError::Without { .. } | SetupError::NoIndex { .. } => ErrorCode::EngineWithout,

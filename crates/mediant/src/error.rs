@@ -11,7 +11,6 @@ use mediant_subgoal::SubgoalError;
 
 use crate::{
     call::CallError,
-    motion::Motion,
     option::{Levels, Memory},
     setup_error::SetupError,
     text::TextError,
@@ -75,18 +74,6 @@ pub enum Error {
     /// An agent without a size.
     #[error(transparent)]
     Size(SizeError),
-    /// Motion that no engine searches.
-    #[error(
-        "no engine searches {motion}: choose a k from 2 to {max} (4 to {} neighbors), or placement corner for \
-         k = any",
-        2_u64.saturating_pow(*max)
-    )]
-    Motion {
-        /// The motion.
-        motion: Motion,
-        /// The largest finite k.
-        max: u32,
-    },
     /// A parameter of a call with a value that it cannot have.
     #[error(transparent)]
     Call(#[from] CallError),

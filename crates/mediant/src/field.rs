@@ -10,6 +10,7 @@ use mediant_search::{
 
 use crate::{
     error::Error,
+    setup_error::SetupError,
     shared_rules::{Shared, pruning},
     space::{Layers, Placed, Space},
     within::NEVER,
@@ -98,8 +99,7 @@ impl Space {
                 Makers::AnyAngle(AnyAngleFields::interruptible(Arc::clone(&layers.free), interrupt)?)
             }
             (Placed::Centers(_), None) => {
-                let (motion, max) = (self.motion(), GridGraph::<Centers>::MAX_K);
-                return Err(Error::Motion { motion, max });
+                return Err(SetupError::Motion { motion: self.motion() }.into());
             }
         };
         Ok(Fields { inner })

@@ -2,8 +2,10 @@
 
 use std::fmt;
 
-use mediant_grid::{Centers, CornerRule, DiagonalGap, GridGraph, Rules};
+use mediant_grid::{Centers, CornerRule, DiagonalGap, GridGraph, PlacementKind, Rules};
 use mediant_moves::K;
+
+use crate::setup_error::SetupError;
 
 /// How an agent moves: where the vertices of its paths are, by which rule, and in which directions (k).
 ///
@@ -50,6 +52,17 @@ impl Motion {
     #[must_use]
     pub fn corners(k: impl Into<K>) -> Self {
         Self::new(k, DiagonalGap::default())
+    }
+}
+
+impl Motion {
+    /// Checks that an engine searches it: at a k that is not too large, and at any angle only between corners.
+    pub(crate) fn check(self) -> Result<(), SetupError> {
+        let is_searched = match self.k {
+            K::Finite(k) => k.get() <= Self::MAX_K,
+            K::Any => self.rules.placement() == PlacementKind::Corner,
+        };
+        if is_searched { Ok(()) } else { Err(SetupError::Motion { motion: self }) }
     }
 }
 

@@ -19,6 +19,17 @@ pub enum SetupError {
         /// The engines that take it.
         others: String,
     },
+    /// Motion that no engine searches.
+    #[error(
+        "no engine searches {motion}: choose a k from 2 to {} (4 to {} neighbors), or placement corner for \
+         k = any",
+        Motion::MAX_K,
+        2_u64.saturating_pow(Motion::MAX_K)
+    )]
+    Motion {
+        /// The motion.
+        motion: Motion,
+    },
     /// A finite k that is larger than the engine takes.
     #[error("{engine} needs a k from 2 to {max}, found {k}")]
     K {

@@ -3,10 +3,10 @@
 use std::sync::{Arc, OnceLock};
 
 use mediant_grid::{
-    Centers, Corners, FreeSpace, GridGraph, Identity, Interrupt, Interrupted, Placement, PlacementKind,
-    Rectangle, Rules, Vertex,
+    Centers, Corners, FreeSpace, GridGraph, Identity, Interrupt, Interrupted, Placement, Rectangle, Rules,
+    Vertex,
 };
-use mediant_moves::{FiniteK, K};
+use mediant_moves::FiniteK;
 use mediant_search::{End, Query, QueryError, Wavefront};
 
 use crate::{
@@ -92,7 +92,7 @@ impl Map {
     /// This map with rules of motion and a k.
     ///
     /// # Errors
-    /// [`Error::Motion`] where no engine searches: at k above 12, and between centers at any angle.
+    /// [`SetupError::Motion`] where no engine searches: at k above 12, and between centers at any angle.
     pub fn space(&self, motion: Motion) -> Result<Space, Error> {
         Space::new(self, motion, &NEVER)
     }
@@ -101,14 +101,7 @@ impl Map {
 impl Space {
     /// A map with rules of motion and a k.
     pub(crate) fn new(map: &Map, motion: Motion, interrupt: &Interrupt) -> Result<Self, Error> {
-        let max = GridGraph::<Centers>::MAX_K;
-        let is_searched = match motion.k {
-            K::Finite(k) => k.get() <= max,
-            K::Any => motion.rules.placement() == PlacementKind::Corner,
-        };
-        if !is_searched {
-            return Err(Error::Motion { motion, max });
-        }
+        motion.check()?;
         let placed = match motion.rules {
             Rules::Center(rule) => Placed::Centers(Layers::new(map, motion, rule, interrupt)?),
             Rules::Corner(gap) => Placed::Corners(Layers::new(map, motion, gap, interrupt)?),

@@ -235,7 +235,7 @@ def test_occupancy_mistakes():
         ({"width": 3, "occupied": 101}, mediant.ArgumentError, "occupied: expected a percentage"),
         ({"width": 3, "free": -1}, mediant.ArgumentError, "free: expected a percentage"),
         ({"width": 3, "free": 0.25j}, TypeError, "free: expected a number"),
-        ({"width": 3, "unknown": "wall"}, mediant.ArgumentError, "unknown: expected one of"),
+        ({"width": 3, "unknown": "wall"}, mediant.OptionError, "unknown: expected one of"),
         ({"width": 3, "occupancy": cells / 100}, TypeError, "occupancy: expected integers from -1 to 100"),
         ({"width": 3, "occupancy": cells > 0}, TypeError, "occupancy: expected integers"),
         ({"occupancy": np.zeros((0, 2), dtype="S2")}, TypeError, "occupancy: expected integers"),

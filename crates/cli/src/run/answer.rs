@@ -1,13 +1,13 @@
 //! What there is to report of a run: what is run, and the answer of each query.
 
-use std::time::Duration;
+use std::{fmt, time::Duration};
 
 use mediant::{
-    Choice, Counters, Engine, EngineOption, Guarantee, OptionValue, Path, Request, Rules, Setup, Stopped,
-    Vertex,
+    Choice, Counters, Engine, EngineOption, ErrorCode, Guarantee, OptionValue, Path, PlacementKind,
+    QueryError, Request, Rules, Setup, Stopped, Vertex,
 };
 
-use super::queries::Item;
+use super::{queries::Item, query_error::explain};
 use crate::{args::QueryArgs, map::Map};
 
 /// What is run: the map, the setup, and what its preparation took.
@@ -46,11 +46,33 @@ pub(crate) struct Answer {
     pub(crate) request: Request,
     /// The engine that searched in place of the run's, because cells count otherwise for the query.
     pub(crate) searched_by: Option<Engine>,
-    /// The outcome, or in words why the query cannot be answered.
-    pub(crate) outcome: Result<Answered, String>,
+    /// The outcome, or why the query cannot be answered.
+    pub(crate) outcome: Result<Answered, Unanswered>,
     pub(crate) counters: Counters,
     /// The time of the query alone on a warm planner, the best of all repetitions; 0 for errors.
     pub(crate) nanos: u64,
+}
+
+/// Why a query cannot be answered.
+#[derive(Clone, Debug)]
+pub(crate) struct Unanswered {
+    /// In words.
+    pub(crate) text: String,
+    /// The library's code.
+    pub(crate) code: ErrorCode,
+}
+
+impl Unanswered {
+    /// The error of a query on a map.
+    pub(crate) fn new(error: QueryError, map: &Map, placement: PlacementKind) -> Self {
+        Self { code: mediant::Error::from(error.clone()).code(), text: explain(error, map, placement) }
+    }
+}
+
+impl fmt::Display for Unanswered {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
 }
 
 /// How a query was answered.

@@ -110,6 +110,8 @@ struct RunLine<'r> {
     /// Each wish that was named, by the name of its option, with `_` for `-`; `timeout_ms` for `--timeout`.
     #[serde(flatten)]
     wishes: WishFields,
+    /// The setup as text: the same text, the same answers.
+    setup: String,
     /// The engine that was named; with `auto` the one that searches.
     engine: &'static str,
     /// "auto" if the engine was left open; only then.
@@ -215,6 +217,7 @@ impl<'r> From<&Run<'r>> for RunLine<'r> {
             scenario: run.scenario,
             queries: run.queries,
             wishes: run.query.into(),
+            setup: setup.to_string(),
             engine: run.choice.map_or(setup.engine.kind(), |_| run.searched_by).name(),
             asked: run.choice.map(|_| EngineName::Auto.name()),
             searched_by: run.searched_by.name(),
@@ -330,6 +333,9 @@ struct QueryLine<'a> {
     /// What is wrong with the query; only if the status is "error".
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<&'a str>,
+    /// The library's code of the error.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    code: Option<&'static str>,
 }
 
 impl<'a> From<&'a Answer> for QueryLine<'a> {
@@ -373,7 +379,8 @@ impl<'a> From<&'a Answer> for QueryLine<'a> {
             scanned: counters.scanned,
             fallbacks: counters.fallbacks,
             nanos: *nanos,
-            error: outcome.as_ref().err().map(String::as_str),
+            error: outcome.as_ref().err().map(|error| &*error.text),
+            code: outcome.as_ref().err().map(|error| error.code.name()),
         }
     }
 }

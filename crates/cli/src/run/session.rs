@@ -3,10 +3,9 @@
 use mediant::{Outcome, Path, Planner, Query, Vertex};
 
 use super::{
-    answer::{Answer, Answered, Found, Run, ends},
+    answer::{Answer, Answered, Found, Run, Unanswered, ends},
     measure::Measured,
     queries::{Item, Queries},
-    query_error::explain,
     report::Report,
     searchers::{Searcher, Searchers},
     summary::{Summary, Tally},
@@ -46,7 +45,7 @@ impl Session<'_> {
             let answer = self.answer(searchers.of(item.query.start), run, item)?;
             tally.add(&answer);
             if let Err(error) = &answer.outcome {
-                first_error.get_or_insert_with(|| (item.index, error.clone()));
+                first_error.get_or_insert_with(|| (item.index, error.to_string()));
             }
             path.clear();
             path.extend(answer.path().into_iter().flat_map(Path::waypoints));
@@ -75,7 +74,7 @@ impl Session<'_> {
                     Ok(Answered::Found(found))
                 }
                 Ok(None) => Ok(Answered::Unreachable),
-                Err(error) => Err(explain(error, map, rules.placement())),
+                Err(error) => Err(Unanswered::new(error, map, rules.placement())),
             };
             return Ok(Answer { item, request: request(), searched_by: None, outcome, counters, nanos });
         }
@@ -98,7 +97,7 @@ impl Session<'_> {
             Ok(Outcome::Nearest(path)) => Ok(Answered::Nearest(path)),
             Ok(Outcome::Stopped(stopped)) => Ok(Answered::Stopped(stopped)),
             Ok(_) => Ok(Answered::Unreachable),
-            Err(error) => Err(explain(error, map, rules.placement())),
+            Err(error) => Err(Unanswered::new(error, map, rules.placement())),
         };
         Ok(Answer { item, request: request(), searched_by, outcome, counters, nanos })
     }

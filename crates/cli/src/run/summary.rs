@@ -267,7 +267,13 @@ mod tests {
         tally.add(&answer(1, Some(9), 10.0, 1));
         tally.add(&answer(2, None, 0.0, 3));
         tally.add(&answer(3, Some(30_000), 30_000.2, 100));
-        tally.add(&Answer { outcome: Err("an end is blocked".to_owned()), ..answer(4, None, 1.0, 0) });
+        tally.add(&Answer {
+            outcome: Err(crate::run::answer::Unanswered {
+                text: "an end is blocked".to_owned(),
+                code: mediant::ErrorCode::GoalBlocked,
+            }),
+            ..answer(4, None, 1.0, 0)
+        });
         let summary = tally.finish();
         assert_eq!((summary.queries, summary.found, summary.unreachable, summary.errors), (5, 3, 1, 1));
         assert_eq!((summary.median_nanos, summary.max_nanos, summary.total_nanos), (3, 100, 108));

@@ -365,7 +365,7 @@ fn vertex(at: Vertex) -> String {
 
 /// The row of a query that could not be answered, if only those have rows.
 fn error_cells(row: &Answer) -> Vec<String> {
-    let error = row.outcome.as_ref().err().cloned().unwrap_or_default();
+    let error = row.outcome.as_ref().err().map(|error| error.text.clone()).unwrap_or_default();
     vec![row.item.index.to_string(), vertex(row.item.query.start), vertex(row.item.query.goal), error]
 }
 

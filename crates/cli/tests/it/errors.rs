@@ -37,7 +37,7 @@ fn arguments_that_make_no_sense() {
     );
     check(
         "run builtin:cave --k -3",
-        "invalid value '-3' for '--k <N|any>': expected an integer of 0 or more, found -3; see --help",
+        "invalid value '-3' for '--k <N|any>': expected an integer of 2 or more, or 'any', found -3; see --help",
     );
     check(
         "run builtin:cave --engine astar --k any",
@@ -85,12 +85,12 @@ fn engines_and_values_that_do_not_exist() {
     );
     check(
         "run builtin:cave --engine canonical --variant best",
-        "invalid value 'best' for '--variant <exact|complete|paper>': expected one of exact, complete, paper, found `best`; see --help",
+        "invalid value 'best' for '--variant <exact|complete|paper>' [possible values: exact, complete, paper]; see --help",
     );
     check(
         "run builtin:cave --heuristic manhattan",
-        "invalid value 'manhattan' for '--heuristic <HEURISTIC>': expected one of hk, euclidean, zero, squared, found \
-         `manhattan`; see --help",
+        "invalid value 'manhattan' for '--heuristic <HEURISTIC>' [possible values: hk, euclidean, zero, \
+         squared]; see --help",
     );
     check(
         "run builtin:cave --engine jps --jump-limit 0",

@@ -2,6 +2,7 @@
 
 mod any_angle;
 mod auto;
+mod calls;
 mod check;
 mod common;
 mod convert;

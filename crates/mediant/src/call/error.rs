@@ -38,8 +38,13 @@ pub enum CallError {
         error: UnknownName,
     },
     /// A number that is no k.
-    #[error(transparent)]
-    K(KError),
+    #[error("{}", of_k(parameter, error))]
+    K {
+        /// The parameter.
+        parameter: &'static Parameter,
+        /// Why not.
+        error: KError,
+    },
     /// A parameter that does not go with another one.
     #[error("{}: {why}", parameter.name)]
     Together {
@@ -53,6 +58,14 @@ pub enum CallError {
     Setup(#[from] SetupError),
 }
 
+/// The text of an error of k, which names k itself.
+fn of_k(parameter: &Parameter, error: &KError) -> String {
+    match error {
+        KError::Neighbors { .. } => format!("{}: {error}", parameter.name),
+        _ => error.to_string(),
+    }
+}
+
 impl CallError {
     /// The parameter, if the error is that of a single one.
     #[must_use]
@@ -61,8 +74,9 @@ impl CallError {
             Self::Type { parameter, .. }
             | Self::Value { parameter, .. }
             | Self::Name { parameter, .. }
+            | Self::K { parameter, .. }
             | Self::Together { parameter, .. } => Some(parameter),
-            Self::K(_) | Self::Setup(_) => None,
+            Self::Setup(_) => None,
         }
     }
 
@@ -102,7 +116,7 @@ impl Wrong {
             Self::Type { expected, found } => CallError::Type { parameter, expected, found },
             Self::Value(wrong) => CallError::Value { parameter, wrong },
             Self::Name(error) => CallError::Name { parameter, error },
-            Self::K(error) => CallError::K(error),
+            Self::K(error) => CallError::K { parameter, error },
         }
     }
 }

@@ -140,10 +140,10 @@ impl Value<'_> {
         match self {
             Self::Text(text) if text.parse() == Ok(K::ANY) => Ok(K::ANY),
             Self::Number(f64::INFINITY) => Ok(K::ANY),
-            Self::Integer(_) | Self::Number(_) => {
-                let number = self.integer(0)?;
-                Ok(K::Finite(FiniteK::new(u32::try_from(number).unwrap_or(u32::MAX))?))
-            }
+            Self::Integer(_) | Self::Number(_) => match self.integer(0) {
+                Ok(number) => Ok(K::Finite(FiniteK::new(u32::try_from(number).unwrap_or(u32::MAX))?)),
+                Err(_) => Err(Wrong::Value(format!("expected {A_K}, found {self}"))),
+            },
             other => Err(other.of_another_type(A_K)),
         }
     }
@@ -154,17 +154,16 @@ impl Value<'_> {
 
     /// The value of an engine's option; `None` for a flag that is false.
     pub(super) fn option(&self, option: &EngineOption) -> Result<Option<OptionValue>, Wrong> {
-        let takes_numbers = matches!(option.kind, ValueKind::Levels | ValueKind::Memory);
         let text = match option.kind {
-            ValueKind::Flag if self.flag()? => String::new(),
-            ValueKind::Flag => return Ok(None),
+            ValueKind::Flag => return Ok(self.flag()?.then_some(OptionValue::Flag)),
+            ValueKind::Heuristic => return Ok(Some(OptionValue::Heuristic(self.name()?))),
+            ValueKind::Variant => return Ok(Some(OptionValue::Variant(self.name()?))),
             ValueKind::Number => self.integer(1)?.to_string(),
-            _ => match self {
+            ValueKind::Levels | ValueKind::Memory => match self {
                 Self::Text(text) => text.to_string(),
-                // The option says what it expects.
-                Self::Integer(number) if takes_numbers => number.to_string(),
-                Self::Number(number) if takes_numbers => number.to_string(),
-                other => return Err(other.of_another_type("a name")),
+                Self::Integer(number) => number.to_string(),
+                Self::Number(number) => number.to_string(),
+                other => return Err(other.of_another_type("a number or a text")),
             },
         };
         option.parse(&text).map(Some).map_err(Wrong::Value)

@@ -1,7 +1,9 @@
 //! The library.
 
+mod calls;
 mod catalog;
 mod dead_ends;
+mod described;
 mod door;
 mod exceptions;
 mod field;

@@ -18,7 +18,7 @@ use crate::{
     batch::{callback, read_threads},
     errors::raised,
     index::{Asked, Index},
-    keywords::{ALL, Keywords, OPTIONS, PREPARATION},
+    keywords::{ALL, Keywords, OPTIONS, PREPARATION, call_error},
 };
 
 #[pymethods]
@@ -208,6 +208,35 @@ impl Grid {
             Err(error) => return Ok(self.unprepared(&keywords, start, &error, points)?.0),
         };
         Asked { planners: &planners, start, goal, keywords }.find(py, points, counters)
+    }
+
+    /// The setup of a call: the engine, k, rule and options in one text. The same text, the same answers.
+    ///
+    /// Parameters
+    /// ----------
+    /// **how
+    ///     As in `find`.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    ///     Of the engine that `path`, `distance` and `find` take.
+    ///
+    /// Raises
+    /// ------
+    /// OptionError
+    ///     For keywords that do not fit together.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> grid = mediant.Grid.from_rows(["....", ".##.", "...."])
+    /// >>> grid.setup(), grid.setup(k="any")
+    /// ('canonical:3:never', 'anya:any:open')
+    #[pyo3(signature = (**how))]
+    fn setup(&self, how: Option<&Bound<'_, PyDict>>) -> PyResult<String> {
+        let keywords = Keywords::read("setup", how, ALL)?;
+        Ok(self.map().setup(&keywords.call).map_err(call_error)?.to_string())
     }
 
     /// Prepares an index for many paths.

@@ -1,17 +1,18 @@
 //! Paths at once.
 
 use js_sys::Int32Array;
-use mediant::{Error, ErrorCode, Outcome};
+use mediant::{Error, ErrorCode, Guarantee, Outcome, Stopped};
 use wasm_bindgen::prelude::*;
 
 use super::Grid;
 use crate::{
-    answer::flat,
+    answer::{answer, flat},
     arguments::Points,
     errors::{coded, raised},
     keywords::{ALL, Keywords, call_error},
     memory,
     space::vertices,
+    types::JsAnswer,
 };
 
 #[wasm_bindgen]
@@ -35,6 +36,53 @@ impl Grid {
         #[wasm_bindgen(unchecked_param_type = "Points")] goal: &JsValue,
         #[wasm_bindgen(unchecked_optional_param_type = "How")] how: &JsValue,
     ) -> Result<Option<Int32Array>, JsValue> {
+        match self.answered(start, goal, how)? {
+            (Outcome::Stopped(Stopped { by, lower_bound, .. }), _) => {
+                let text = format!(
+                    "the search was stopped by its limit ({by}): no path is shorter than {lower_bound:.3} cells; \
+                     Grid.find gives the best so far"
+                );
+                Err(coded(ErrorCode::Stopped, &text))
+            }
+            (outcome, _) => Ok(outcome.path().map(flat)),
+        }
+    }
+
+    /// The whole answer to a query: path, length, and what stopped the search. The arguments are those of
+    /// `path`.
+    ///
+    /// @throws MediantError as `path`, but for a limit.
+    pub fn find(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Points")] start: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Points")] goal: &JsValue,
+        #[wasm_bindgen(unchecked_optional_param_type = "How")] how: &JsValue,
+    ) -> Result<JsAnswer, JsValue> {
+        let (outcome, guarantee) = self.answered(start, goal, how)?;
+        Ok(answer(&outcome, guarantee))
+    }
+
+    /// The setup of a call of `path` or `find`: the engine, k, rule and options in one text. The same text,
+    /// the same answers.
+    ///
+    /// @throws MediantError `engine-…` for motion or options that the engine does not take.
+    pub fn setup(
+        &self,
+        #[wasm_bindgen(unchecked_optional_param_type = "How")] how: &JsValue,
+    ) -> Result<String, JsValue> {
+        let keywords = Keywords::read("how", how, ALL)?;
+        Ok(self.map.setup(&keywords.call).map_err(call_error)?.to_string())
+    }
+}
+
+impl Grid {
+    /// The outcome of a call, and what its engine guarantees.
+    fn answered(
+        &self,
+        start: &JsValue,
+        goal: &JsValue,
+        how: &JsValue,
+    ) -> Result<(Outcome, Guarantee), JsValue> {
         let keywords = Keywords::read("how", how, ALL)?;
         let (start, goal) = (Points::read("start", start)?, Points::read("goal", goal)?);
         // The time of the call begins before what it prepares.
@@ -44,23 +92,15 @@ impl Grid {
             let bytes = memory::SPACE + memory::INDEX + memory::PLANNER;
             memory::check("the search", vertices(&self.map), bytes)?;
         }
-        let planners = self.map.keep_planners(&setup, &request.limits()).map_err(|error| match error {
-            Error::Stopped { .. } => {
-                coded(ErrorCode::Stopped, &format!("{error}: nothing was searched; allow more time"))
+        let planners = match self.map.keep_planners(&setup, &request.limits()) {
+            Ok(planners) => planners,
+            Err(Error::Stopped { by, .. }) => {
+                let start = start.as_slice().first().copied().unwrap_or_default();
+                return Ok((Outcome::Stopped(Stopped::before_search(by, start)), Guarantee::Suboptimal));
             }
-            error => raised(error),
-        })?;
+            Err(error) => return Err(raised(error)),
+        };
         planners.try_make_ready().map_err(raised)?;
-        match planners.find(request).map_err(raised)? {
-            Outcome::Stopped(stopped) => {
-                let text = format!(
-                    "the search was stopped by its limit ({}): no path is shorter than {:.3} cells; Planner.find \
-                     gives the best so far",
-                    stopped.by, stopped.lower_bound
-                );
-                Err(coded(ErrorCode::Stopped, &text))
-            }
-            outcome => Ok(outcome.path().map(flat)),
-        }
+        Ok((planners.find(request).map_err(raised)?, setup.guarantee()))
     }
 }
