@@ -60,6 +60,8 @@ fn info(engine: Engine) -> JsValue {
         ("placements", Some(texts(can.placements.iter().map(ToString::to_string)))),
         ("maxK", Some(can.max_k.into())),
         ("any", Some(can.any.into())),
+        ("title", Some(can.title.into())),
+        ("how", Some(can.how.into())),
         ("guarantee", Some(can.guarantee.into())),
         ("paper", Some(can.paper.into())),
         ("index", Some(can.index.is_some().into())),
