@@ -94,4 +94,4 @@ pub use rectangle::Rectangle;
 pub use rules::{CornerRule, DiagonalGap, PlacementKind, Rules};
 #[doc(hidden)]
 pub use transpose::transpose;
-pub use vertex::{Vertex, VertexId};
+pub use vertex::{Coordinate, Vertex, VertexId};
