@@ -18,7 +18,7 @@ use mediant_moves::Vector;
 /// assert_eq!(from.distance(to), 5.0);
 ///
 /// let (column, row) = (4_usize, 6_u32);
-/// assert_eq!([(column, row).into(), [4, 6].into()], [to; 2]);
+/// assert_eq!([Vertex::from((column, row)), Vertex::from([4, 6])], [to; 2]);
 /// assert_eq!((<[i32; 2]>::from(to), <(usize, usize)>::try_from(to)), ([4, 6], Ok((4, 6))));
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
