@@ -97,10 +97,7 @@ impl Space {
             (Placed::Corners(layers), None) => {
                 Makers::AnyAngle(AnyAngleFields::interruptible(Arc::clone(&layers.free), interrupt)?)
             }
-            (Placed::Centers(_), None) => {
-                let (motion, max) = (self.motion(), GridGraph::<Centers>::MAX_K);
-                return Err(Error::Motion { motion, max });
-            }
+            (Placed::Centers(_), None) => return Err(self.motion().unsearched()),
         };
         Ok(Fields { inner })
     }

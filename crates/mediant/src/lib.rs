@@ -131,13 +131,13 @@ pub use mediant_grid::{
     Clearance, CornerRule, DiagonalGap, Fit, Grid, Identity, MapId, Mismatch, Obstruction, Outside,
     PlacementKind, Rectangle, Rules, Vertex,
 };
-pub use mediant_moves::{Cost, FiniteK, K};
+pub use mediant_moves::{Cost, FiniteK, K, Vector};
 pub use mediant_search::{
     BrokenPath, Counters, End, Guarantee, Limit, Limits, NodeEvent, Observer, Outcome, Path, Query,
     QueryError, Request, Smoothing, Stopped, Turn,
 };
 pub use mediant_subgoal::{Progress, Stage};
-pub use motion::Motion;
+pub use motion::{IntoK, Motion};
 pub use names::UnknownName;
 pub use option::{
     EngineOption, HeuristicName, Levels, Memory, OptionValue, UnknownLevels, UnknownMemory, ValueKind,

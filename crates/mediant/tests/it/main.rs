@@ -6,6 +6,7 @@ mod door;
 mod exceptions;
 mod field;
 mod goals;
+mod guesses;
 mod hierarchies;
 mod identity;
 mod interrupts;
