@@ -65,6 +65,8 @@ pub struct Dependency {
     pub name: String,
     /// What it is needed for.
     pub kind: Option<Kind>,
+    /// Whether it is compiled only for a feature.
+    pub optional: bool,
 }
 
 /// What a dependency is needed for, if not for the crate itself.

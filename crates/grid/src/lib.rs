@@ -62,6 +62,8 @@ mod placement;
 mod readme;
 mod rectangle;
 mod rules;
+#[cfg(feature = "serde")]
+mod serialized;
 pub mod sight;
 mod tables;
 mod transpose;

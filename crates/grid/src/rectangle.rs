@@ -13,6 +13,7 @@ use std::fmt;
 /// assert_eq!(door.to_string(), "3 × 2 cells at (4, 1)");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 pub struct Rectangle {
     /// Its first column.
     pub x: u32,

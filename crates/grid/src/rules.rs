@@ -5,6 +5,7 @@ use std::fmt;
 
 /// Where the vertices of the search graph are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
 pub enum PlacementKind {
     /// One vertex a cell, at its center: the setting of Rivera 2017 and of the MovingAI scenario files.
     Center,
@@ -17,6 +18,7 @@ pub enum PlacementKind {
 /// touches two of the four cells there. The rule says which of these two must be free; all other cells that
 /// the move touches must be.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
 pub enum CornerRule {
     /// Both must be free: no corner is cut (Rivera 2017; the MovingAI scenarios).
     #[default]
@@ -33,6 +35,7 @@ pub enum CornerRule {
 /// In any case a move may enter the open interior of no blocked cell, and may not run along an edge between
 /// two blocked cells. The outside of the map counts as blocked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
 pub enum DiagonalGap {
     /// It may (Uras and Koenig; Kramm 2018, (APP2)).
     #[default]
@@ -51,6 +54,7 @@ pub enum DiagonalGap {
 /// assert_eq!(rules.to_string(), "center, corners never");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
 pub enum Rules {
     /// Vertices at cell centers.
     Center(CornerRule),

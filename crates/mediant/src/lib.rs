@@ -100,6 +100,8 @@ mod planners;
 #[cfg(doctest)]
 mod readme;
 mod scratch;
+#[cfg(feature = "serde")]
+mod serialized;
 mod setup;
 mod setup_error;
 mod shared_rules;

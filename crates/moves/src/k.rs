@@ -9,7 +9,8 @@ use crate::{FiniteK, KError};
 /// k is no number of directions: k = 3 has 8 moves, k = 8 has 256. [`K::N8`](Self::N8) and
 /// [`from_neighbors`](Self::from_neighbors) name a neighborhood by its moves.
 ///
-/// [`new`](Self::new) and `try_from` take k as a number. Its text form is the number, or `any` for k = ∞, for which `inf`, `infinity` and `∞` are read, too.
+/// [`new`](Self::new) and `try_from` take k as a number. Its text form is the number, or `any` for k = ∞, for
+/// which `inf`, `infinity` and `∞` are read, too.
 ///
 /// ```
 /// use mediant_moves::{FiniteK, K};

@@ -19,6 +19,7 @@ use mediant_grid::{FreeSpace, Placement, Vertex, VertexId};
 /// assert_eq!(request.goals(), [(7, 0).into()]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Query {
     /// The vertex where the path begins.

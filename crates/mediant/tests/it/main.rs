@@ -16,6 +16,7 @@ mod odd_input;
 mod options;
 mod planners;
 mod requests;
+mod serialized;
 mod subgoals;
 mod table;
 mod tiles;

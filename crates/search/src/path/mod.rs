@@ -3,6 +3,8 @@
 
 mod check;
 mod measure;
+#[cfg(feature = "serde")]
+mod serialized;
 mod steps;
 
 use std::{fmt, ops::Index, slice, vec};
