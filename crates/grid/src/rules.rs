@@ -17,6 +17,17 @@ pub enum PlacementKind {
 /// At centers: whether a move may cut corners. Where it passes exactly through a corner of cells, it only
 /// touches two of the four cells there. The rule says which of these two must be free; all other cells that
 /// the move touches must be.
+///
+/// ```
+/// use std::sync::Arc;
+/// use mediant_grid::{Centers, CornerRule, FreeSpace, Grid};
+///
+/// // From the lower left cell to the upper right one, past a blocked cell.
+/// let grid = Arc::new(Grid::from_fn(2, 2, |x, y| (x, y) == (0, 0))?);
+/// let may_pass = |rule| FreeSpace::<Centers>::new(Arc::clone(&grid), rule).sees((0, 1).into(), (1, 0).into());
+/// assert!(!may_pass(CornerRule::Never) && may_pass(CornerRule::One) && may_pass(CornerRule::Always));
+/// # Ok::<(), mediant_grid::GridError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
 pub enum CornerRule {
