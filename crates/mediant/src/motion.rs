@@ -81,7 +81,7 @@ macro_rules! into_k {
 
             impl IntoK for $type {
                 fn into_k(self) -> Result<K, KError> {
-                    Ok(K::try_from(self)?)
+                    K::try_from(self)
                 }
             }
         )+
