@@ -66,10 +66,7 @@ pub enum Error {
     #[error(transparent)]
     Tiles(#[from] TilesError),
     /// An edit outside the map.
-    #[error(
-        "an edit of {} × {} cells at ({}, {}), outside the map of {} × {} cells: name cells of the map",
-        at.width, at.height, at.x, at.y, size.0, size.1
-    )]
+    #[error("an edit of {at}, outside the map of {} × {} cells: name cells of the map", size.0, size.1)]
     Edit {
         /// The rectangle.
         at: Rectangle,
@@ -77,10 +74,7 @@ pub enum Error {
         size: (u32, u32),
     },
     /// An edit of a cell outside the map.
-    #[error(
-        "an edit of cell ({}, {}), outside the map of {} × {} cells: name cells of the map",
-        cell.x, cell.y, size.0, size.1
-    )]
+    #[error("an edit of cell {cell}, outside the map of {} × {} cells: name cells of the map", size.0, size.1)]
     EditCell {
         /// The cell.
         cell: Vertex,
