@@ -65,6 +65,8 @@ pub struct Dependency {
     pub name: String,
     /// The kind; `None` for the crate itself.
     pub kind: Option<Kind>,
+    /// Whether it is compiled only for a feature.
+    pub optional: bool,
 }
 
 /// The use of a dependency, if not by the crate itself.

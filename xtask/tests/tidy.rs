@@ -241,14 +241,14 @@ fn dependencies() {
         name: name.to_owned(),
         dependencies: dependencies
             .iter()
-            .map(|&(name, kind)| Dependency { name: name.to_owned(), kind })
+            .map(|&(name, kind)| Dependency { name: name.to_owned(), kind, optional: name == "serde" })
             .collect(),
         ..Package::default()
     };
     let packages = [
         package(
             "mediant-moves",
-            &[("libm", None), ("criterion", Some(Kind::Dev)), ("cc", Some(Kind::Build))],
+            &[("libm", None), ("serde", None), ("criterion", Some(Kind::Dev)), ("cc", Some(Kind::Build))],
         ),
         package(
             "mediant-grid",

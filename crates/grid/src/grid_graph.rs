@@ -119,7 +119,7 @@ impl<P: Placement> GridGraph<P> {
 
     const fn check_k(k: FiniteK) -> Result<(), KError> {
         if k.get() > Self::MAX_K {
-            return Err(KError::TooLarge { k: k.get(), max: Self::MAX_K });
+            return Err(KError::TooLarge { k: k.get() as u64, max: Self::MAX_K });
         }
         Ok(())
     }

@@ -64,6 +64,8 @@ mod placement;
 mod readme;
 mod rectangle;
 mod rules;
+#[cfg(feature = "serde")]
+mod serialized;
 pub mod sight;
 mod tables;
 mod transpose;
@@ -96,4 +98,4 @@ pub use rectangle::Rectangle;
 pub use rules::{CornerRule, DiagonalGap, PlacementKind, Rules};
 #[doc(hidden)]
 pub use transpose::transpose;
-pub use vertex::{Vertex, VertexId};
+pub use vertex::{Coordinate, Vertex, VertexId};

@@ -54,7 +54,7 @@ impl<V> PerMotion<V> {
     }
 
     fn cell(&self, rules: Rules, k: FiniteK) -> Result<&OnceLock<V>, KError> {
-        let too_large = || KError::TooLarge { k: k.get(), max: GridGraph::<Centers>::MAX_K };
+        let too_large = || KError::TooLarge { k: k.get().into(), max: GridGraph::<Centers>::MAX_K };
         self.known[rules.number()].get(k.depth() as usize).ok_or_else(too_large)
     }
 }

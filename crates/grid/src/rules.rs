@@ -7,6 +7,7 @@ use crate::{Centers, Corners, Grid, Placement, Vertex, names};
 
 /// Where the vertices of the search graph are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
 pub enum PlacementKind {
     /// One vertex a cell, at its center: the setting of Rivera 2017 and of the MovingAI scenario files.
     Center,
@@ -18,7 +19,19 @@ pub enum PlacementKind {
 /// At centers: whether a move may cut corners. Where it passes exactly through a corner of cells, it only
 /// touches two of the four cells there. The rule says which of these two must be free; all other cells that
 /// the move touches must be.
+///
+/// ```
+/// use std::sync::Arc;
+/// use mediant_grid::{Centers, CornerRule, FreeSpace, Grid};
+///
+/// // From the lower left cell to the upper right one, past a blocked cell.
+/// let grid = Arc::new(Grid::from_fn(2, 2, |x, y| (x, y) == (0, 0))?);
+/// let may_pass = |rule| FreeSpace::<Centers>::new(Arc::clone(&grid), rule).sees((0, 1).into(), (1, 0).into());
+/// assert!(!may_pass(CornerRule::Never) && may_pass(CornerRule::One) && may_pass(CornerRule::Always));
+/// # Ok::<(), mediant_grid::GridError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
 pub enum CornerRule {
     /// Both must be free: no corner is cut (Rivera 2017; the MovingAI scenarios).
     #[default]
@@ -35,6 +48,7 @@ pub enum CornerRule {
 /// In any case a move may enter the open interior of no blocked cell, and may not run along an edge between
 /// two blocked cells. The outside of the map counts as blocked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
 pub enum DiagonalGap {
     /// It may (Uras and Koenig; Kramm 2018, (APP2)).
     #[default]
@@ -53,6 +67,7 @@ pub enum DiagonalGap {
 /// assert_eq!(rules.to_string(), "center, corners never");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "lowercase"))]
 pub enum Rules {
     /// Vertices at cell centers.
     Center(CornerRule),

@@ -29,8 +29,11 @@ impl Map {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Size`] for a radius that is negative or not finite.
-    pub fn for_disc(&self, radius: f64, motion: Motion) -> Result<Self, Error> {
+    /// [`Error::Size`] for a radius that is negative or not finite, [`Error::K`] or [`Error::Motion`] for a
+    /// number that is no k.
+    pub fn for_disc(&self, radius: f64, motion: impl Into<Motion>) -> Result<Self, Error> {
+        let motion = motion.into();
+        motion.check_k()?;
         let fit = Fit::exact(motion.rules, motion.k);
         Ok(self.clearance(fit, Outside::Blocked).for_disc(radius)?.into())
     }
@@ -40,7 +43,8 @@ impl Map {
     ///
     /// # Errors
     /// Those of [`for_disc`](Self::for_disc).
-    pub fn disc(&self, radius: f64, motion: Motion) -> Result<Disc, Error> {
+    pub fn disc(&self, radius: f64, motion: impl Into<Motion>) -> Result<Disc, Error> {
+        let motion = motion.into();
         Ok(Disc { obstacles: self.clone(), map: self.for_disc(radius, motion)?, radius, motion })
     }
 
@@ -68,10 +72,10 @@ impl Map {
 ///
 /// let motion = Motion::centers(K::N8);
 /// let disc = Map::from_fn(40, 9, |_, _| false)?.disc(1.5, motion)?;
-/// let post = Rectangle { x: 20, y: 4, width: 1, height: 1 };
+/// let post = Rectangle::new(20, 4, 1, 1);
 /// let disc = disc.edit(post, |_, _| true)?;
 /// // The disc keeps off the post.
-/// assert!(disc.map().is_blocked(21, 4) && !disc.obstacles().is_blocked(21, 4));
+/// assert!(disc.map().is_blocked((21, 4)) && disc.obstacles().is_free((21, 4)));
 /// let space = disc.map().space(motion)?;
 /// # Ok::<(), mediant::Error>(())
 /// ```
@@ -141,9 +145,9 @@ impl Disc {
         let (left, top) = (columns.1.start as i32, rows.1.start as i32);
         let side = |range: &Range<i64>| (range.end - range.start) as u32;
         let near = Grid::from_fn(side(&columns.1), side(&rows.1), |x, y| {
-            obstacles.is_blocked(left + x as i32, top + y as i32)
+            obstacles.is_blocked((left + x as i32, top + y as i32))
         })?;
-        let Motion { k, rules } = self.motion;
+        let Motion { k, rules, .. } = self.motion;
         let room =
             Clearance::new(Arc::new(near), Fit::exact(rules, k), Outside::Open).for_disc(self.radius)?;
         let changed = Rectangle {
@@ -206,7 +210,7 @@ impl Space {
         surplus: f64,
         limits: &Limits,
     ) -> Result<Option<WidestPath>, Error> {
-        let Motion { k, rules } = self.motion();
+        let Motion { k, rules, .. } = self.motion();
         if surplus.is_nan() || surplus < 0.0 {
             return Err(mediant_search::QueryError::CostLimit.into());
         }

@@ -1,6 +1,9 @@
 //! The errors of the library.
 
-use std::path::{Path, PathBuf};
+use std::{
+    fmt,
+    path::{Path, PathBuf},
+};
 
 use mediant_formats::{IndexError, ReadError, RowsError, TileError, TilesError, WriteError};
 use mediant_grid::{GridError, Interrupted, Mismatch, Rectangle, SizeError, Vertex, names::UnknownName};
@@ -29,7 +32,19 @@ use crate::{
 /// assert_eq!(error.to_string(), "the start (2, 0) is blocked: choose a free vertex");
 /// # Ok::<(), Error>(())
 /// ```
-#[derive(Debug, thiserror::Error)]
+///
+/// `{:?}` shows the code and the text, too, since that is what a program prints that ends with an error:
+///
+/// ```
+/// use mediant::{Error, Map};
+/// fn main() -> Result<(), Error> {
+///     let map = Map::new(8, 8)?;
+///     let error = map.path((0, 0), (8, 8)).unwrap_err();
+///     assert!(format!("{error:?}").starts_with("goal-outside: the goal (8, 8) is outside the map"));
+///     Ok(())
+/// }
+/// ```
+#[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// Work that a flag or a deadline stopped: see [`Within`](crate::Within).
@@ -50,10 +65,7 @@ pub enum Error {
     #[error(transparent)]
     Tiles(#[from] TilesError),
     /// An edit outside the map.
-    #[error(
-        "an edit of {} × {} cells at ({}, {}), outside the map of {} × {} cells: name cells of the map",
-        at.width, at.height, at.x, at.y, size.0, size.1
-    )]
+    #[error("an edit of {at}, outside the map of {} × {} cells: name cells of the map", size.0, size.1)]
     Edit {
         /// The rectangle.
         at: Rectangle,
@@ -61,10 +73,7 @@ pub enum Error {
         size: (u32, u32),
     },
     /// An edit of a cell outside the map.
-    #[error(
-        "an edit of cell ({}, {}), outside the map of {} × {} cells: name cells of the map",
-        cell.x, cell.y, size.0, size.1
-    )]
+    #[error("an edit of cell {cell}, outside the map of {} × {} cells: name cells of the map", size.0, size.1)]
     EditCell {
         /// The cell.
         cell: Vertex,
@@ -168,6 +177,13 @@ pub enum Error {
     /// A file that cannot be written.
     #[error(transparent)]
     Write(WriteError),
+}
+
+/// As `start-blocked: the start (2, 0) is blocked: choose a free vertex`.
+impl fmt::Debug for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {self}", self.code())
+    }
 }
 
 impl From<Interrupted> for Error {

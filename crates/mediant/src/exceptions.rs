@@ -93,7 +93,7 @@ fn shut_cell(map: &Map, placement: PlacementKind, at: Vertex) -> Option<Vertex> 
         PlacementKind::Corner => (1, &[(0, 0), (-1, 0), (0, -1), (-1, -1)][..]),
     };
     let is_vertex = inside(at.x, map.width(), more) && inside(at.y, map.height(), more);
-    let is_shut = is_vertex && cells.iter().all(|(dx, dy)| map.is_blocked(at.x + dx, at.y + dy));
+    let is_shut = is_vertex && cells.iter().all(|(dx, dy)| map.is_blocked((at.x + dx, at.y + dy)));
     let last = |side: u32| side as i32 - 1;
     is_shut.then(|| Vertex::new(at.x.min(last(map.width())), at.y.min(last(map.height()))))
 }

@@ -1,76 +1,123 @@
 //! Pathfinding on uniform-cost grids over the 2^k neighborhoods: every engine of Mediant behind one door.
 //!
-//! - A [`Map`] says which cells are blocked.
-//! - With a [`Motion`] (k, the placement of vertices, the rule of motion) it is a [`Space`].
-//! - An [`Index`] is what an [`Engine`] prepares in a space.
-//! - A [`Planner`] answers one [`Query`] after another on an index: one for each thread.
+//! This page leads from a first path to an index that many threads share. The [cookbook] has whole programs
+//! for common jobs.
+//!
+//! # A map, and a path
+//!
+//! A [`Map`] says which cells are blocked. Cell (x, y) is in column x from the left and row y from the top,
+//! both from 0; everything outside is blocked. A map comes from a text, a function, bits, or a file
+//! ([`Map::open`]).
 //!
 //! ```
-//! use mediant::{Engine, K, Map, Motion, Query};
+//! use mediant::Map;
 //!
-//! let map = Map::from_fn(9, 9, |x, y| x == 4 && y != 8)?;
-//! // At once, over eight directions between the centers of cells:
-//! let path = map.path((0, 0), (8, 0))?.expect("there is a way");
-//! // Prepared, at any angle between the corners of cells:
-//! let index = map.space(Motion::corners(K::ANY))?.prepare(Engine::Subgoal)?;
-//! let answer = index.planner().find(Query::new((0, 0), (9, 0)))?;
-//! assert!(answer.path().is_some_and(|shortest| shortest.cost() < 19.0));
-//! # assert!(path.cost() > 16.0);
+//! let map: Map = "
+//!     ...#....
+//!     .#.#.##.
+//!     .#...#..
+//! ".parse()?;
+//! let path = map.path((0, 0), (7, 0))?.expect("there is a way");
+//! println!("{:.2} cells: {path}", path.cost());
+//! for waypoint in &path {
+//!     assert!(map.is_free(waypoint));
+//! }
 //! # Ok::<(), mediant::Error>(())
 //! ```
 //!
-//! [`Space::engine_for`] says which engine we would take for how many paths: what people write as `auto`
-//! ([`EngineName`]), which is not an engine itself, since it has no guarantee and no index before it is
-//! known what is asked.
+//! A [`Path`] has its waypoints, and all that can be measured on it. That there is no way is an answer
+//! (`None`), not an error.
 //!
-//! A query can have wishes ([`Request`]): several ends, a tolerance, the nearest reachable vertex, limits. A
-//! search can go on [in steps](Planner#a-search-in-steps). [`Planner::distance`] measures without the path,
-//! [`Planner::distances`] and [`Planner::nearest`] to many [`Goals`]. A [`Field`] has the distances of all
-//! vertices, a [`Table`] those from many to many; a [`Map`] can be that of a disc or a square, which a
-//! [`Disc`] keeps right among obstacles that change; [`Exceptions`] are cells that count otherwise for one
-//! query; a [`Path`] says whether it still holds ([`Space::check`]).
+//! # Motion: which directions, which rules
 //!
-//! Whatever can take long can be stopped by a flag or a deadline: a search by its [`Limits`], all else by
-//! the same call of [`Within`], such as `space.within(&limits).prepare(engine)`. The answer says what it was
-//! doing ([`Error::Stopped`]).
+//! A [`Motion`] says how an agent moves. k is the number of directions as a power of two: 4 at k = 2, 8 at
+//! k = 3, 16 at k = 4, and every direction at [`K::ANY`]. Paths lead between the *centers* of cells, or
+//! between their *corners*; any-angle paths are at corners. A [`CornerRule`] says whether a path between
+//! centers may cut the corner of a blocked cell. A map with a motion is a [`Space`], which can be searched.
 //!
-//! Handles own what they need: no lifetime and no type parameter reaches the user. Maps, spaces and indexes
-//! never change, their clones share them, and all threads may use them. Every error has a stable
-//! [code](Error::code), and nothing panics on bad input.
+//! ```
+//! use mediant::{CornerRule, K, Map, Motion};
 //!
-//! # The key decision: closed enums outside, types inside
+//! let map = Map::from_fn(9, 9, |x, y| x == 4 && y != 8)?;
+//! for motion in [Motion::centers(3), Motion::new(4, CornerRule::One), Motion::corners(K::ANY)] {
+//!     let path = map.space(motion)?.path((0, 0), (8, 0))?.expect("there is a way");
+//!     println!("{motion}: {:.2} cells", path.cost());
+//! }
+//! # Ok::<(), mediant::Error>(())
+//! ```
 //!
-//! A program chooses its engine at run time, but a search is fast only if it is compiled for its placement,
-//! its heuristic and its kind of successors. So outside, an engine is a value of a closed enum, and planners
-//! of all engines have one type; a query is one dynamic call. Inside, each search has its types, and nothing
-//! in its loop is dynamic, except an observer if there is one. `make.rs` leads from the one to the other,
-//! with a line for each engine. A closed enum also lets the compiler find every place that a new engine must
-//! fill in. The typed crates stay for those who want them: `mediant-search`, `mediant-subgoal`,
-//! `mediant-hierarchy`.
+//! # Many paths: an index and a planner
 //!
-//! # What belongs together
+//! An [`Engine`] prepares an [`Index`] of a space: once for a map, which may take a while. A [`Planner`]
+//! answers one [`Query`] after another on it, far sooner than a path without an index takes.
+//! [`Space::engine`] names the engine that we would take, and [`Space::engine_for`] for how many paths.
 //!
-//! Maps, spaces and indexes carry their [`Identity`]: a digest of the map's cells, the rules, the k. Whatever
-//! joins two of them compares these in constant time, and answers with [`Error::Mismatch`], which names both.
+//! ```
+//! use mediant::{Map, Motion, Outcome, Query};
 //!
-//! # Adding an engine or an option
+//! let space = Map::from_fn(64, 64, |x, y| x % 9 == 4 && y % 7 != 3)?.space(Motion::default())?;
+//! let index = space.prepare(space.engine())?;
+//! let mut planner = index.planner();
+//! for row in 0..4 {
+//!     println!("{:?}", planner.path((0, row), (60, 50))?.map(|path| path.cost()));
+//! }
+//! // A query can have wishes, and says what became of them.
+//! match planner.find(Query::new((0, 0), (4, 0)).nearest())? {
+//!     Outcome::Nearest(path) => println!("the goal is blocked, this is next to it: {path}"),
+//!     answer => println!("{answer}"),
+//! }
+//! # Ok::<(), mediant::Error>(())
+//! ```
 //!
-//! An engine is a variant of [`Engine`] with its [`Capabilities`], a variant of [`ConfiguredEngine`], what it
-//! prepares (`index/`), and the line that makes its search (`make.rs`).
+//! Each thread makes a planner of its own from one index, or all share [`Planners`]. Maps, spaces and indexes
+//! never change, their clones share them, and all threads may use them. An edit makes another map
+//! ([`Map::set`], [`Map::edit`]), for which [`Index::repair`] makes the next index.
 //!
-//! An option, with a value of a [`ValueKind`] that exists, touches three files:
-//! 1. `option/description.rs`: its name, texts and samples, and its place in [`EngineOption::ALL`];
-//! 2. `configured.rs`: its field, its line in `ConfiguredEngine::slots`, and in `ConfiguredEngine::value` its
-//!    default if it has one;
-//! 3. its use, in `make.rs` if it changes the search, or in `index/` if it changes what is prepared.
+//! # Errors
 //!
-//! The text of setups, [`Setup::all`] of the test suites, and the flags, help, records and tables of the
-//! program follow. Only tests that pin numbers of setups, lists of options or snapshots change with it. An
-//! option that rules out another one also needs a [`SetupError`].
+//! Nothing panics on bad input. Every error has a text that says what to do, and a stable
+//! [code](Error::code) by which programs tell errors apart.
+//!
+//! ```
+//! use mediant::{ErrorCode, Map};
+//!
+//! let map: Map = "..#".parse()?;
+//! let error = map.path((2, 0), (0, 0)).unwrap_err();
+//! assert_eq!(error.code(), ErrorCode::StartBlocked);
+//! assert_eq!(error.to_string(), "the start (2, 0) is blocked: choose a free vertex");
+//! # Ok::<(), mediant::Error>(())
+//! ```
+//!
+//! Nothing that was prepared for one map, rule or k is ever used with another. Maps, spaces and indexes carry
+//! their [`Identity`]; whatever joins two of them compares these in constant time, and answers with
+//! [`Error::Mismatch`], which names both.
+//!
+//! # What else there is
+//!
+//! | to … | there is |
+//! |---|---|
+//! | ask for several ends, a tolerance, the nearest reachable vertex, limits | [`Request`] |
+//! | stop a search, or go on in steps | [`Limits`], [`Planner::begin`](Planner#a-search-in-steps) |
+//! | stop whatever else takes long | [`Within`], as in `space.within(&limits).prepare(engine)` |
+//! | measure without the path, to many [`Goals`], from many to many | [`Planner::distance`], [`Planner::distances`], [`Planner::nearest`], [`Table`] |
+//! | lead many agents to one goal | [`Field`] |
+//! | move a disc or a square, among obstacles that change, off walls | [`Map::for_disc`], [`Map::for_square`], [`Disc`], [`Space::widest_path`] |
+//! | count some cells otherwise for one query | [`Exceptions`] |
+//! | ask whether a path still holds | [`Space::check`] |
+//! | make paths shorter, at any angle | [`Smoothing`], [`Index::with_smoothing`] |
+//! | choose engines and options by text | [`Setup`], [`EngineName`] |
+//!
+//! # Features
+//!
+//! - `png`, on by default: maps that are PNG pictures.
+//! - `parallel`: subgoals are prepared, and tables filled, on all cores.
+//! - `serde`: vertices, rectangles, motion, queries, paths and setups are read and written.
+//! - `trace`: searches are written for the Posthoc visualizer, by `Tracer`.
 //!
 //! # What is not here
 //!
-//! Clocks, threads (but for the feature `parallel`, which prepares subgoal graphs on all cores), and output.
+//! Clocks, threads (but for the feature `parallel`), and output. The typed crates stay for those who want
+//! them: `mediant-search`, `mediant-subgoal`, `mediant-hierarchy`.
 
 mod absent;
 mod agent;
@@ -80,6 +127,7 @@ mod capabilities;
 mod choice;
 mod code;
 mod configured;
+pub mod cookbook;
 mod demand;
 mod engine;
 mod erased;
@@ -102,6 +150,8 @@ mod planners;
 mod readme;
 mod recent;
 mod scratch;
+#[cfg(feature = "serde")]
+mod serialized;
 mod setup;
 mod setup_error;
 mod shared_rules;
@@ -138,13 +188,13 @@ pub use mediant_grid::{
 };
 /// The mathematics of the neighborhoods: moves, h_k, bounds.
 pub use mediant_moves as moves;
-pub use mediant_moves::{Cost, FiniteK, K};
+pub use mediant_moves::{Cost, FiniteK, K, Vector};
 pub use mediant_search::{
     BrokenPath, Counters, End, Guarantee, Limit, Limits, NodeEvent, Observer, Outcome, Path, Query,
     QueryError, Request, Smoothing, Stopped, Turn,
 };
 pub use mediant_subgoal::{Progress, Stage};
-pub use motion::Motion;
+pub use motion::{IntoK, Motion};
 pub use option::{
     EngineOption, HeuristicName, Levels, Memory, OptionValue, UnknownLevels, UnknownMemory, ValueKind,
     Variant,

@@ -1,6 +1,6 @@
 //! Maps: which cells are blocked.
 
-use std::{path::Path as FilePath, sync::Arc};
+use std::{fmt, path::Path as FilePath, str::FromStr, sync::Arc};
 
 use mediant_formats::{
     MapOptions, ReadError, Tiles, WorldFrame, map_size_with, read_map, read_map_interruptible, read_map_with,
@@ -27,6 +27,21 @@ use crate::{error::Error, recent::Recent};
 /// let path = map.path((0, 0), (7, 0))?.expect("there is a way");
 /// assert_eq!(path.waypoints()[0], (0, 0).into());
 /// assert!((path.cost() - 11.0).abs() < 1e-9);
+/// # Ok::<(), mediant::Error>(())
+/// ```
+///
+/// As text it has a row a line, `.` for free cells and `#` for blocked ones. A text is read as
+/// [`from_rows`](Self::from_rows) reads rows; white space around a row counts for nothing, nor do blank lines
+/// before the first row and after the last one.
+///
+/// ```
+/// use mediant::Map;
+///
+/// let map: Map = "
+///     ...#
+///     .#..
+/// ".parse()?;
+/// assert_eq!((map.width(), map.to_string()), (4, "...#\n.#..".to_owned()));
 /// # Ok::<(), mediant::Error>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -93,7 +108,7 @@ impl Map {
     ///
     /// let text = "type octile\nheight 1\nwidth 3\nmap\n.@.\n";
     /// let (map, _) = Map::open_in("hall.map", &MapOptions::default(), |_| Ok(text.into()))?;
-    /// assert!(map.is_blocked(1, 0));
+    /// assert!(map.is_blocked((1, 0)));
     /// # Ok::<(), mediant::Error>(())
     /// ```
     ///
@@ -137,7 +152,7 @@ impl Map {
     /// use mediant::{Map, files::Tiles};
     ///
     /// let hall = Map::from_rows_with(["#   #", "# # #"], &Tiles::new(Some(" "), Some("#"))?)?;
-    /// assert!(hall.is_blocked(2, 1) && !hall.is_blocked(1, 1));
+    /// assert!(hall.is_blocked((2, 1)) && hall.is_free((1, 1)));
     /// # Ok::<(), mediant::Error>(())
     /// ```
     ///
@@ -148,6 +163,14 @@ impl Map {
         tiles: &Tiles,
     ) -> Result<Self, Error> {
         Ok(tiles.grid(rows)?.into())
+    }
+
+    /// The map of `width` × `height` cells, all of which are free.
+    ///
+    /// # Errors
+    /// [`Error::Grid`] for a side of 0 or longer than [`Grid::MAX_SIDE`].
+    pub fn new(width: u32, height: u32) -> Result<Self, Error> {
+        Self::from_fn(width, height, |_, _| false)
     }
 
     /// The map of `width` × `height` cells for which `blocked(x, y)` says which are blocked. It is asked once
@@ -175,6 +198,24 @@ impl Map {
         Self::from_fn(width, height as u32, |x, y| blocked[y as usize * columns + x as usize])
     }
 
+    /// This map with one cell blocked (true) or free (false). The map itself stays as it is. For more cells
+    /// at once there are [`edit`](Self::edit) and [`edit_cells`](Self::edit_cells).
+    ///
+    /// ```
+    /// use mediant::Map;
+    ///
+    /// let open = Map::new(3, 1)?;
+    /// let walled = open.set((1, 0), true)?;
+    /// assert!(open.path((0, 0), (2, 0))?.is_some() && walled.path((0, 0), (2, 0))?.is_none());
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::EditCell`] for a cell outside the map.
+    pub fn set(&self, cell: impl Into<Vertex>, blocked: bool) -> Result<Self, Error> {
+        self.edit_cells([(cell, blocked)])
+    }
+
     /// This map with other cells in a rectangle: `blocked(x, y)` is asked once for each of its cells, row by
     /// row. Cells of the rectangle beyond the map are left out.
     ///
@@ -193,7 +234,7 @@ impl Map {
     /// ```
     /// use mediant::Map;
     /// let map = Map::from_rows(["...", "..."])?.edit_cells([((0, 0), true), ((2, 1), true)])?;
-    /// assert!(map.is_blocked(0, 0) && map.is_blocked(2, 1));
+    /// assert!(map.is_blocked((0, 0)) && map.is_blocked((2, 1)));
     /// # Ok::<(), mediant::Error>(())
     /// ```
     ///
@@ -227,9 +268,23 @@ impl Map {
     }
 
     /// Whether a cell is blocked; those outside the map are.
+    ///
+    /// ```
+    /// use mediant::Map;
+    /// let map = Map::from_rows([".#"])?;
+    /// assert!(map.is_free((0, 0)) && map.is_blocked((1, 0)) && map.is_blocked((2, 0)));
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
     #[must_use]
-    pub fn is_blocked(&self, x: i32, y: i32) -> bool {
+    pub fn is_blocked(&self, cell: impl Into<Vertex>) -> bool {
+        let Vertex { x, y } = cell.into();
         self.grid.is_blocked(x, y)
+    }
+
+    /// Whether a cell is free; those outside the map are not.
+    #[must_use]
+    pub fn is_free(&self, cell: impl Into<Vertex>) -> bool {
+        !self.is_blocked(cell)
     }
 
     /// The identity of the map: the same for all maps with the same cells.
@@ -267,5 +322,29 @@ impl From<Grid> for Map {
 impl From<Arc<Grid>> for Map {
     fn from(grid: Arc<Grid>) -> Self {
         Self { grid, recent: Arc::default() }
+    }
+}
+
+/// The rows, each on a line, the last one without a line end: what [`FromStr`] reads.
+impl fmt::Display for Map {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut row = String::with_capacity(self.width() as usize);
+        for y in 0..self.height() {
+            let cells = (0..self.width()).map(|x| if self.is_blocked((x, y)) { '#' } else { '.' });
+            row.clear();
+            row.extend(cells);
+            write!(f, "{}{row}", if y == 0 { "" } else { "\n" })?;
+        }
+        Ok(())
+    }
+}
+
+impl FromStr for Map {
+    type Err = Error;
+
+    /// # Errors
+    /// Those of [`Map::from_rows`].
+    fn from_str(text: &str) -> Result<Self, Error> {
+        Self::from_rows(text.trim().lines().map(str::trim))
     }
 }

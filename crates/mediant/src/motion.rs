@@ -3,9 +3,9 @@
 use std::fmt;
 
 use mediant_grid::{Centers, CornerRule, DiagonalGap, GridGraph, PlacementKind, Rules};
-use mediant_moves::K;
+use mediant_moves::{FiniteK, K, KError};
 
-use crate::setup_error::SetupError;
+use crate::{error::Error, setup_error::SetupError};
 
 /// How an agent moves: where the vertices of its paths are, by which rule, and in which directions (k).
 ///
@@ -14,6 +14,7 @@ use crate::setup_error::SetupError;
 ///
 /// // Eight directions between the centers of cells, without cutting corners: the rule of most benchmarks.
 /// let walker = Motion::centers(K::N8);
+/// assert_eq!([Motion::centers(3), Motion::default()], [walker; 2]);
 /// // Any direction between the corners of cells.
 /// let drone = Motion::corners(K::ANY);
 /// // Sixteen directions; a corner may be cut if one of the two cells beside it is free.
@@ -21,14 +22,88 @@ use crate::setup_error::SetupError;
 /// assert_eq!(soldier.to_string(), "center, corners one, k = 4");
 /// # assert_ne!(walker, drone);
 /// ```
+///
+/// A number that is no k is kept, and [`Map::space`](crate::Map::space) says what is wrong with it:
+///
+/// ```
+/// use mediant::{ErrorCode, Map, Motion};
+///
+/// let map = Map::new(8, 8)?;
+/// let error = map.space(Motion::centers(-3)).unwrap_err();
+/// assert_eq!(error.code(), ErrorCode::K);
+/// let error = map.space(Motion::corners(99)).unwrap_err();
+/// assert_eq!(error.code(), ErrorCode::Motion);
+/// # Ok::<(), mediant::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub struct Motion {
     /// The neighborhood: 2^k directions, or all of them. k = 3 has 8 moves, k = 8 has 256:
     /// [`K::from_neighbors`] takes the number of moves.
+    ///
+    /// Of a motion that was made with a number that is no k this is one that no engine searches; another one
+    /// in its place counts.
     pub k: K,
     /// The placement of the vertices, and its rule of motion.
     pub rules: Rules,
+    /// What is wrong with the number that `k` stands for, if `k` is still [`NO_K`].
+    refused: Option<KError>,
+}
+
+/// Stands where a number is no k: larger than any k that an engine searches, so that whatever takes the k
+/// alone refuses it, too.
+const NO_K: K = match K::new(u32::MAX) {
+    Ok(k) => k,
+    Err(_) => K::Finite(FiniteK::MAX_MOVES),
+};
+
+mod sealed {
+    pub trait Sealed {}
+}
+
+/// What says which k is meant: a [`K`], a [`FiniteK`], or an integer of any width.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no k: give a number such as 3, or a `K` such as `K::N8` or `K::ANY`",
+    label = "neither an integer nor a `K`"
+)]
+pub trait IntoK: sealed::Sealed {
+    /// The k.
+    ///
+    /// # Errors
+    /// [`KError`] for a number that is none.
+    fn into_k(self) -> Result<K, KError>;
+}
+
+macro_rules! into_k {
+    ($($type:ty),+) => {
+        $(
+            impl sealed::Sealed for $type {}
+
+            impl IntoK for $type {
+                fn into_k(self) -> Result<K, KError> {
+                    K::try_from(self)
+                }
+            }
+        )+
+    };
+}
+
+into_k!(u8, u16, u32, u64, usize, i8, i16, i32, i64, isize);
+
+impl sealed::Sealed for K {}
+
+impl IntoK for K {
+    fn into_k(self) -> Result<K, KError> {
+        Ok(self)
+    }
+}
+
+impl sealed::Sealed for FiniteK {}
+
+impl IntoK for FiniteK {
+    fn into_k(self) -> Result<K, KError> {
+        Ok(self.into())
+    }
 }
 
 impl Motion {
@@ -38,26 +113,53 @@ impl Motion {
     /// N(k) under a [`CornerRule`] (vertices at centers), a [`DiagonalGap`] (vertices at corners), or either
     /// of them as [`Rules`].
     #[must_use]
-    pub fn new(k: impl Into<K>, rules: impl Into<Rules>) -> Self {
-        Self { k: k.into(), rules: rules.into() }
+    pub fn new(k: impl IntoK, rules: impl Into<Rules>) -> Self {
+        let (k, refused) = match k.into_k() {
+            Ok(k) => (k, None),
+            Err(error) => (NO_K, Some(error)),
+        };
+        Self { k, rules: rules.into(), refused }
     }
 
     /// N(k) between the centers of cells; corners are never cut.
     #[must_use]
-    pub fn centers(k: impl Into<K>) -> Self {
+    pub fn centers(k: impl IntoK) -> Self {
         Self::new(k, CornerRule::default())
     }
 
     /// N(k) between the corners of cells; paths may pass where two blocked cells touch diagonally.
     #[must_use]
-    pub fn corners(k: impl Into<K>) -> Self {
+    pub fn corners(k: impl IntoK) -> Self {
         Self::new(k, DiagonalGap::default())
     }
-}
 
-impl Motion {
-    /// Checks that an engine searches it: at a k that is not too large, and at any angle only between corners.
-    pub(crate) fn check(self) -> Result<(), SetupError> {
+    pub(crate) const fn of(k: K, rules: Rules) -> Self {
+        Self { k, rules, refused: None }
+    }
+
+    /// The error of a number that is no k, if it was not replaced.
+    fn refused(self) -> Option<KError> {
+        self.refused.filter(|_| self.k == NO_K)
+    }
+
+    /// Checks that the k is one.
+    pub(crate) fn check_k(self) -> Result<(), Error> {
+        match self.refused() {
+            // The text of this one says which k there are.
+            Some(KError::TooLarge { .. }) => Err(SetupError::Motion { motion: self }.into()),
+            Some(error) => Err(error.into()),
+            None => Ok(()),
+        }
+    }
+
+    /// Checks that there are engines that search it.
+    pub(crate) fn check(self) -> Result<(), Error> {
+        self.check_k()?;
+        Ok(self.check_searched()?)
+    }
+
+    /// Checks that the k is not too large, and that it is not any angle between centers.
+    pub(crate) fn check_searched(self) -> Result<(), SetupError> {
         let is_searched = match self.k {
             K::Finite(k) => k.get() <= Self::MAX_K,
             K::Any => self.rules.placement() == PlacementKind::Corner,
@@ -66,8 +168,27 @@ impl Motion {
     }
 }
 
+/// k = 3 between the centers of cells; corners are never cut.
+impl Default for Motion {
+    fn default() -> Self {
+        Self::centers(K::N8)
+    }
+}
+
+/// N(k) between the centers of cells; corners are never cut.
+impl<T: IntoK> From<T> for Motion {
+    fn from(k: T) -> Self {
+        Self::centers(k)
+    }
+}
+
 impl fmt::Display for Motion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(&format!("{}, k = {}", self.rules, self.k))
+        let rules = self.rules;
+        f.pad(&match self.refused() {
+            Some(KError::TooSmall { k }) => format!("{rules}, k = {k}"),
+            Some(KError::TooLarge { k, .. }) => format!("{rules}, k = {k}"),
+            _ => format!("{rules}, k = {}", self.k),
+        })
     }
 }

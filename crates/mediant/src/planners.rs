@@ -8,12 +8,16 @@ use std::{
     },
 };
 
-use mediant_search::{Outcome, QueryError, Request};
+use mediant_grid::Vertex;
+use mediant_search::{Outcome, Path, QueryError, Request};
 
 use crate::{error::Error, index::Index, planner::Planner};
 
 /// Planners on one index that any number of threads share: each query takes one that is idle, or makes one,
 /// and gives it back. There are as many as threads that ever searched at the same time.
+///
+/// It is `Send` and `Sync`, and its methods take `&self`: it can be a `static`, stand in an `Arc`, or be a
+/// resource of Bevy, where a [`Planner`] cannot.
 ///
 /// ```
 /// use mediant::{Engine, K, Map, Motion, Planners, Query};
@@ -120,6 +124,18 @@ impl Planners {
     /// Those of [`Planner::find`].
     pub fn find(&self, request: impl Into<Request>) -> Result<Outcome, QueryError> {
         self.with(|planner| planner.find(request))
+    }
+
+    /// The path from `start` to `goal`, if there is one: [`find`](Self::find) for a plain query.
+    ///
+    /// # Errors
+    /// Those of [`Planner::find`].
+    pub fn path(
+        &self,
+        start: impl Into<Vertex>,
+        goal: impl Into<Vertex>,
+    ) -> Result<Option<Path>, QueryError> {
+        self.with(|planner| planner.path(start, goal))
     }
 
     /// Answers many queries or requests, in their order; with the feature `parallel` on all cores. The

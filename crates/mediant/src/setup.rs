@@ -53,7 +53,7 @@ impl Setup {
     /// The k and the rules.
     #[must_use]
     pub const fn motion(&self) -> Motion {
-        Motion { k: self.k, rules: self.rules }
+        Motion::of(self.k, self.rules)
     }
 
     /// The finite k of a search on a grid graph.

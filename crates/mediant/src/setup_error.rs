@@ -1,12 +1,14 @@
 //! Why a setup is refused.
 
+use std::fmt;
+
 use mediant_grid::{PlacementKind, Rules};
 use mediant_moves::{FiniteK, K};
 
 use crate::{engine::Engine, motion::Motion, option::Levels};
 
-/// The error for a setup whose parts do not fit together.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+/// The error for a setup whose parts do not fit together. `{:?}` shows the text of the error, too.
+#[derive(Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SetupError {
     /// An option, or a value of it, that the engine does not take.
@@ -136,5 +138,11 @@ impl SetupError {
     pub(crate) fn without_distances(engine: Engine) -> Self {
         let others = Engine::names_where(|kind| kind.capabilities().distances);
         Self::Without { engine, what: "distances to all vertices", others }
+    }
+}
+
+impl fmt::Debug for SetupError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
     }
 }

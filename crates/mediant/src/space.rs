@@ -89,12 +89,22 @@ impl<P: Placement> Layers<P> {
 }
 
 impl Map {
-    /// This map with rules of motion and a k.
+    /// This map with rules of motion and a k. A k alone means that between centers; corners are never cut.
+    ///
+    /// ```
+    /// use mediant::{K, Map, Motion};
+    ///
+    /// let map = Map::new(8, 8)?;
+    /// assert_eq!(map.space(Motion::default())?.identity(), map.space(3)?.identity());
+    /// let at_any_angle = map.space(Motion::corners(K::ANY))?;
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// [`SetupError::Motion`] where no engine searches: at k above 12, and between centers at any angle.
-    pub fn space(&self, motion: Motion) -> Result<Space, Error> {
-        Space::new(self, motion, &NEVER)
+    /// [`Error::K`] for a number that is no k; [`SetupError::Motion`] where no engine searches: at k above 12, and
+    /// between centers at any angle.
+    pub fn space(&self, motion: impl Into<Motion>) -> Result<Space, Error> {
+        Space::new(self, motion.into(), &NEVER)
     }
 }
 
@@ -134,7 +144,7 @@ impl Space {
     /// What the space is: its map, rules and k.
     #[must_use]
     pub fn identity(&self) -> Identity {
-        let Motion { k, rules } = self.motion();
+        let Motion { k, rules, .. } = self.motion();
         Identity { map: Some(self.map().id()), rules, k: Some(k) }
     }
 
@@ -197,7 +207,7 @@ impl Space {
         start: Vertex,
         interrupt: &Interrupt,
     ) -> Result<Vec<(Vertex, f64)>, Error> {
-        let Motion { k, rules } = self.motion();
+        let Motion { k, rules, .. } = self.motion();
         Setup::new(engine, k, rules).check()?;
         if !engine.capabilities().distances {
             return Err(SetupError::without_distances(engine).into());
@@ -220,7 +230,7 @@ impl Space {
     /// # Errors
     /// [`Error::Setup`] for an engine that does not take the space's k or rules.
     pub fn make_ready(&self, engine: impl Into<ConfiguredEngine>) -> Result<(), Error> {
-        let (engine, Motion { k, rules }) = (engine.into(), self.motion());
+        let (engine, Motion { k, rules, .. }) = (engine.into(), self.motion());
         Setup::new(engine, k, rules).check()?;
         if let Some(k) = k.finite().filter(|_| engine.kind().capabilities().grid_graph) {
             match self.placed() {

@@ -83,8 +83,8 @@ impl Within<'_, Map> {
     ///
     /// # Errors
     /// Those of [`Map::space`], and [`Error::Stopped`].
-    pub fn space(&self, motion: Motion) -> Result<Space, Error> {
-        Space::new(self.of, motion, self.limits.interrupt())
+    pub fn space(&self, motion: impl Into<Motion>) -> Result<Space, Error> {
+        Space::new(self.of, motion.into(), self.limits.interrupt())
     }
 
     /// [`Map::path`].
@@ -108,7 +108,9 @@ impl Within<'_, Map> {
     ///
     /// # Errors
     /// Those of [`Map::for_disc`], and [`Error::Stopped`].
-    pub fn for_disc(&self, radius: f64, motion: Motion) -> Result<Map, Error> {
+    pub fn for_disc(&self, radius: f64, motion: impl Into<Motion>) -> Result<Map, Error> {
+        let motion = motion.into();
+        motion.check_k()?;
         let clearance = self.clearance(Fit::exact(motion.rules, motion.k), Outside::Blocked)?;
         Ok(clearance.for_disc_interruptible(radius, self.limits.interrupt())?.into())
     }

@@ -139,7 +139,7 @@ mod table {
         /// [`KError::TooLarge`] above [`MAX_K`](Self::MAX_K).
         pub fn new(k: FiniteK) -> Result<Self, KError> {
             if k.get() > Self::MAX_K {
-                return Err(KError::TooLarge { k: k.get(), max: Self::MAX_K });
+                return Err(KError::TooLarge { k: k.get().into(), max: Self::MAX_K });
             }
             let costs: Vec<Cost> = Quadrant::new(k)?.iter().map(Cost::of_move).collect();
             Ok(Self { depth: k.depth(), costs: costs.into_boxed_slice() })

@@ -190,7 +190,7 @@ impl LinearSearch {
     pub fn new(k: FiniteK) -> Result<Self, crate::KError> {
         const MAX: u32 = 24;
         if k.get() > MAX {
-            return Err(crate::KError::TooLarge { k: k.get(), max: MAX });
+            return Err(crate::KError::TooLarge { k: k.get().into(), max: MAX });
         }
         let octant = crate::Quadrant::new(k)?.iter().filter(|v| v.x <= v.y || k.get() == 2);
         Ok(Self { octant: octant.map(|v| (v, v.norm())).collect() })

@@ -5,12 +5,13 @@ use core::fmt;
 /// The k of a 2^k neighborhood: 2 (4-connected), 3 (8-connected), 4 (16 moves), …
 ///
 /// Distances and bounds exist for every `FiniteK`. Sets of moves exist up to [`FiniteK::MAX_MOVES`]; beyond,
-/// coordinates do not fit in an `i32`.
+/// coordinates do not fit in an `i32`. Integers of every width are a `FiniteK` by `try_from`.
 ///
 /// ```
 /// use mediant_moves::FiniteK;
 /// assert_eq!(FiniteK::new(3)?.moves(), Some(8));
-/// assert!(FiniteK::new(1).is_err());
+/// assert_eq!(FiniteK::try_from(3_usize)?, FiniteK::N8);
+/// assert!(FiniteK::new(1).is_err() && FiniteK::try_from(-3).is_err());
 /// # Ok::<(), mediant_moves::KError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -36,7 +37,7 @@ impl FiniteK {
     /// # Errors
     /// [`KError::TooSmall`] for k < 2.
     pub const fn new(k: u32) -> Result<Self, KError> {
-        if k < 2 { Err(KError::TooSmall { k }) } else { Ok(Self(k)) }
+        if k < 2 { Err(KError::TooSmall { k: k as i64 }) } else { Ok(Self(k)) }
     }
 
     /// The neighborhood of so many moves, a power of two from 4 up: 8 moves are k = 3.
@@ -82,7 +83,7 @@ impl FiniteK {
     /// [`KError::TooLarge`] above [`FiniteK::MAX_MOVES`].
     pub const fn radius(self) -> Result<i32, KError> {
         if self.0 > Self::MAX_MOVES.0 {
-            return Err(KError::TooLarge { k: self.0, max: Self::MAX_MOVES.0 });
+            return Err(KError::TooLarge { k: self.0 as u64, max: Self::MAX_MOVES.0 });
         }
         let (mut fib, mut next, mut i) = (1_i64, 1_i64, 0);
         while i < self.depth() {
@@ -104,19 +105,41 @@ impl fmt::Display for FiniteK {
     }
 }
 
-/// Why a k cannot be used.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Makes integers of all widths a k, or the error of one that is none.
+macro_rules! try_from_integers {
+    ($($integer:ty),+) => {
+        $(impl TryFrom<$integer> for FiniteK {
+            type Error = KError;
+
+            /// # Errors
+            /// [`KError::TooSmall`] below 2, [`KError::TooLarge`] above [`u32::MAX`].
+            fn try_from(k: $integer) -> Result<Self, KError> {
+                match (u32::try_from(k), u64::try_from(k)) {
+                    (Ok(k), _) => Self::new(k),
+                    (_, Ok(k)) => Err(KError::TooLarge { k, max: u32::MAX }),
+                    // It is negative, so that 64 bits with a sign hold it.
+                    _ => Err(KError::TooSmall { k: i64::try_from(k).unwrap_or(i64::MIN) }),
+                }
+            }
+        })+
+    };
+}
+
+try_from_integers!(u8, u16, u32, u64, usize, i8, i16, i32, i64, isize);
+
+/// Why a k cannot be used. `{:?}` shows the text, too, since that is what a program prints that ends with it.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum KError {
     /// There is no 2^k neighborhood below k = 2.
     TooSmall {
         /// The k that was asked for.
-        k: u32,
+        k: i64,
     },
     /// The moves of this neighborhood do not fit in the integers or tables that would hold them.
     TooLarge {
         /// The k that was asked for.
-        k: u32,
+        k: u64,
         /// The largest k that fits.
         max: u32,
     },
@@ -143,6 +166,12 @@ impl fmt::Display for KError {
                 }
             }
         }
+    }
+}
+
+impl fmt::Debug for KError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
     }
 }
 

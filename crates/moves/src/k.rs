@@ -9,11 +9,12 @@ use crate::{FiniteK, KError};
 /// k is no number of directions: k = 3 has 8 moves, k = 8 has 256. [`K::N8`](Self::N8) and
 /// [`from_neighbors`](Self::from_neighbors) name a neighborhood by its moves.
 ///
-/// Its text form is the number, or `any` for k = ∞, for which `inf`, `infinity` and `∞` are read, too.
+/// [`new`](Self::new) and `try_from` take k as a number. Its text form is the number, or `any` for k = ∞, for
+/// which `inf`, `infinity` and `∞` are read, too.
 ///
 /// ```
 /// use mediant_moves::{FiniteK, K};
-/// assert_eq!("3".parse(), Ok(K::N8));
+/// assert_eq!((K::new(5), K::try_from(5), "5".parse()), (Ok(K::N32), Ok(K::N32), Ok(K::N32)));
 /// assert_eq!(["any", "inf", "∞"].map(str::parse), [Ok(K::ANY); 3]);
 /// assert_eq!(K::from_neighbors(8), Ok(K::N8));
 /// assert_eq!(K::N16.finite(), Some(FiniteK::N16));
@@ -40,6 +41,17 @@ impl K {
     pub const N64: Self = Self::Finite(FiniteK::N64);
     /// k = ∞, every direction.
     pub const ANY: Self = Self::Any;
+
+    /// The finite neighborhood with this k; [`K::ANY`](Self::ANY) is the infinite one.
+    ///
+    /// # Errors
+    /// [`KError::TooSmall`] for k < 2.
+    pub const fn new(k: u32) -> Result<Self, KError> {
+        match FiniteK::new(k) {
+            Ok(k) => Ok(Self::Finite(k)),
+            Err(error) => Err(error),
+        }
+    }
 
     /// The neighborhood of so many moves: 4 are k = 2, 8 are k = 3, 16 are k = 4.
     ///
@@ -68,6 +80,23 @@ impl From<FiniteK> for K {
     }
 }
 
+/// Makes integers of all widths a k.
+macro_rules! try_from_integers {
+    ($($integer:ty),+) => {
+        $(impl TryFrom<$integer> for K {
+            type Error = KError;
+
+            /// # Errors
+            /// [`KError::TooSmall`] below 2, [`KError::TooLarge`] above [`u32::MAX`].
+            fn try_from(k: $integer) -> Result<Self, KError> {
+                FiniteK::try_from(k).map(Self::Finite)
+            }
+        })+
+    };
+}
+
+try_from_integers!(u8, u16, u32, u64, usize, i8, i16, i32, i64, isize);
+
 impl fmt::Display for K {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -89,8 +118,8 @@ impl FromStr for K {
     }
 }
 
-/// Why a text is not a [`K`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Why a text is not a [`K`]. `{:?}` shows the text of the error, too.
+#[derive(Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ParseKError {
     /// Neither a number nor `any`.
@@ -105,6 +134,12 @@ impl fmt::Display for ParseKError {
             write!(f, "{error}; ")?;
         }
         f.write_str("choose a number from 2 up, or any")
+    }
+}
+
+impl fmt::Debug for ParseKError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
     }
 }
 

@@ -14,7 +14,8 @@
 //!
 //! The crate is `no_std` and has no dependencies. Feature `std` (default) uses the hardware's square roots.
 //! Feature `alloc` (default, implied by `std`) adds what needs a heap: [`CostTable`], [`DecompositionTree`],
-//! [`LinearSearch`].
+//! [`LinearSearch`]. Feature `serde` adds the one dependency that there can be, without a heap: it reads and
+//! writes [`K`] and [`FiniteK`].
 //!
 //! ```
 //! use mediant_moves::{FiniteK, Neighborhood, Vector, bound_at_corners, decompose, distance};
@@ -131,6 +132,8 @@ mod quadrant;
 #[cfg(doctest)]
 mod readme;
 mod sector;
+#[cfg(feature = "serde")]
+mod serialized;
 mod sqrt;
 mod vector;
 

@@ -12,6 +12,24 @@ use crate::{
 };
 
 /// The answer to a query. Other kinds of answers may come.
+///
+/// As text it says which answer it is, and what the path measures, in cells.
+///
+/// ```
+/// use mediant_search::{Outcome, Path};
+///
+/// let path = Path::new(vec![(0, 0).into(), (3, 0).into(), (5, 2).into()]);
+/// let answer = Outcome::Found(path);
+/// assert_eq!(answer.to_string(), "found: 3 waypoints, 5.83 cells");
+/// match &answer {
+///     Outcome::Found(path) => assert_eq!(path.len(), 3),
+///     Outcome::Nearest(path) => println!("not there, but near: {path}"),
+///     Outcome::Unreachable => println!("there is no way"),
+///     Outcome::Stopped(stopped) => println!("so far {}", stopped.best),
+///     _ => {}
+/// }
+/// assert_eq!(answer.into_path().map(|path| path.len()), Some(3));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Outcome {
@@ -50,6 +68,28 @@ impl Outcome {
             Self::Found(path) | Self::Nearest(path) => Some(path),
             Self::Unreachable | Self::Stopped(_) => None,
         }
+    }
+}
+
+/// As `found: 3 waypoints, 11.07 cells`.
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Found(path) => write!(f, "found: {}", Measured(path)),
+            Self::Unreachable => f.write_str("unreachable"),
+            Self::Nearest(path) => write!(f, "unreachable, the nearest is: {}", Measured(path)),
+            Self::Stopped(stopped) => stopped.fmt(f),
+        }
+    }
+}
+
+/// The size of a path, in words.
+pub(crate) struct Measured<'a>(pub(crate) &'a Path);
+
+impl fmt::Display for Measured<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (count, cost) = (self.0.len(), self.0.cost());
+        write!(f, "{count} waypoint{}, {cost:.2} cells", if count == 1 { "" } else { "s" })
     }
 }
 

@@ -1,9 +1,25 @@
 //! Queries, and what can be wrong with them.
 
+use std::fmt;
+
 use mediant_grid::{FreeSpace, Placement, Vertex, VertexId};
 
 /// The start and the goal of a path. More may come that can be asked.
+///
+/// A pair or an array of two vertices is a query, too, where a call takes a [`Request`](crate::Request).
+///
+/// ```
+/// use mediant_search::Query;
+///
+/// let query = Query::new((0, 0), (7, 0));
+/// assert_eq!([Query::from(((0, 0), (7, 0))), Query::from([(0, 0), (7, 0)])], [query; 2]);
+/// assert_eq!(query.to_string(), "(0, 0) → (7, 0)");
+/// // Where there is no way, the nearest vertex to which there is one.
+/// let request = query.nearest();
+/// assert_eq!(request.goals(), [(7, 0).into()]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Query {
     /// The vertex where the path begins.
@@ -43,6 +59,25 @@ impl Query {
     }
 }
 
+impl<S: Into<Vertex>, G: Into<Vertex>> From<(S, G)> for Query {
+    fn from((start, goal): (S, G)) -> Self {
+        Self::new(start, goal)
+    }
+}
+
+impl<V: Into<Vertex>> From<[V; 2]> for Query {
+    fn from([start, goal]: [V; 2]) -> Self {
+        Self::new(start, goal)
+    }
+}
+
+/// As `(0, 0) → (7, 0)`.
+impl fmt::Display for Query {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(&format!("{} → {}", self.start, self.goal))
+    }
+}
+
 /// One of the two ends of a query.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum End {
@@ -76,8 +111,8 @@ impl End {
     }
 }
 
-impl std::fmt::Display for End {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl fmt::Display for End {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
             Self::Start => "start",
             Self::Goal => "goal",
@@ -85,8 +120,9 @@ impl std::fmt::Display for End {
     }
 }
 
-/// An invalid query, or a planner that failed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+/// An invalid query, or a planner that failed. `{:?}` shows the text of the error, too, since that is what a
+/// program prints that ends with it.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, thiserror::Error)]
 #[non_exhaustive]
 pub enum QueryError {
     /// An end lies outside the map.
@@ -142,4 +178,10 @@ pub enum QueryError {
         /// The vertex of the query.
         at: Vertex,
     },
+}
+
+impl fmt::Debug for QueryError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
 }

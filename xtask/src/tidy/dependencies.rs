@@ -12,7 +12,7 @@ use crate::{
 struct Layer {
     package: &'static str,
     uses: &'static [&'static str],
-    /// Whether crates from elsewhere are allowed.
+    /// Whether crates from elsewhere are allowed, other than for a feature.
     foreign: bool,
     reason: &'static str,
 }
@@ -100,7 +100,7 @@ pub fn check_packages(packages: &[Package]) -> Vec<Finding> {
             );
             continue;
         };
-        for Dependency { name, kind } in &package.dependencies {
+        for Dependency { name, kind, optional } in &package.dependencies {
             let ours = packages.iter().any(|package| package.name == *name);
             let fits = match kind {
                 Some(Kind::Dev) => {
@@ -108,7 +108,7 @@ pub fn check_packages(packages: &[Package]) -> Vec<Finding> {
                     package.name != ORACLE || !engine
                 }
                 _ if ours => layer.uses.contains(&&**name),
-                _ => layer.foreign,
+                _ => layer.foreign || *optional,
             };
             if !fits {
                 find(format!("depends on {name}: {}", layer.reason));

@@ -76,7 +76,7 @@ fn the_first_blocked_cell_on_a_path_is_named() {
     let (_, queries, _) = told("run builtin:cave --k 2");
     let file = paths(&files, "cave.jsonl", "builtin:cave --k 2");
     let cave = Map::open(bundled("cave.map")).expect("a map");
-    let is_blocked = |x: i32, y: i32| cave.is_blocked(x, y) || (7 * x + 13 * y) % 61 == 0;
+    let is_blocked = |x: i32, y: i32| cave.is_blocked((x, y)) || (7 * x + 13 * y) % 61 == 0;
     let edited = Map::from_fn(cave.width(), cave.height(), |x, y| is_blocked(x as i32, y as i32));
     let text = MapFile::from_grid(edited.expect("a map").grid());
     let map = files.add("edited.map", text.as_bytes());

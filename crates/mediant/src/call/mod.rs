@@ -190,7 +190,7 @@ impl Call {
         let (engine, choice) = match self.engine {
             Some(engine) => (self.configured(engine)?, None),
             None => {
-                motion.check()?;
+                motion.check_searched()?;
                 let (engine, choice) = demand.choice_with((motion, map), &self.options)?;
                 (engine, Some(choice))
             }

@@ -84,7 +84,7 @@ impl Map {
     fn index(&self, file: &IndexFile, interrupt: &Interrupt) -> Result<Index, Error> {
         let Identity { rules, k, .. } = file.key().identity();
         // No engine saves an index for every k: whichever k is taken, the space refuses such a file.
-        let motion = Motion { k: k.unwrap_or(K::N8), rules };
+        let motion = Motion::of(k.unwrap_or(K::N8), rules);
         Space::new(self, motion, interrupt)?.index(file, None, interrupt)
     }
 }

@@ -141,7 +141,7 @@ impl Index {
         engine: ConfiguredEngine,
         source: Source<'_>,
     ) -> Result<Self, Error> {
-        let Motion { k, rules } = space.motion();
+        let Motion { k, rules, .. } = space.motion();
         let setup = Setup::new(engine, k, rules);
         setup.check()?;
         let (prepared, substitute) = match prepared(setup, space, source)? {
@@ -183,7 +183,7 @@ impl Index {
     }
 
     pub(crate) fn prepared_for_k(&self, k: K, interrupt: &Interrupt) -> Result<Self, Error> {
-        let space = Space::new(self.space.map(), Motion { k, ..self.space.motion() }, interrupt)?;
+        let space = Space::new(self.space.map(), Motion::of(k, self.setup.rules), interrupt)?;
         let source = Source { beside: Some(&self.prepared), interrupt, ..self.source() };
         Ok(Self::from_source(&space, self.setup.engine, source)?.with_smoothing(self.setup.smoothing))
     }

@@ -87,7 +87,7 @@ fn substitute_of<P: SubgoalPlacement>(
     space: &FreeSpace<P>,
     interrupt: &Interrupt,
 ) -> Result<Planner, Error> {
-    let motion = Motion { k: setup.k, rules: setup.rules };
+    let motion = setup.motion();
     let space = Space::new(&Map::from(Arc::clone(space.grid())), motion, interrupt)?;
     let source = Source { for_one_path: true, interrupt, ..Source::new(&|_| {}) };
     Index::from_source(&space, substitute(motion).into(), source)?.try_planner()

@@ -4,9 +4,9 @@ mod steps;
 
 use std::fmt;
 
-use mediant_grid::{Identity, Interrupt, Interrupted};
+use mediant_grid::{Identity, Interrupt, Interrupted, Vertex};
 use mediant_search::{
-    Counters, Guarantee, Observer, Outcome, Planner as _, Query, QueryError, Request, Search,
+    Counters, Guarantee, Observer, Outcome, Path, Planner as _, Query, QueryError, Request, Search,
     parts::{Metric, count_work},
 };
 
@@ -23,9 +23,14 @@ use crate::{
     space::Space,
 };
 
-/// Answers queries on an [`Index`], one after another, on scratch memory of its own: make one for each
-/// thread. A warm planner allocates nothing but the path that it returns; one that smooths paths allocates
-/// more. The same query always gives the same path.
+/// Answers queries on an [`Index`], one after another, on scratch memory of its own. A warm planner allocates
+/// nothing but the path that it returns; one that smooths paths allocates more. The same query always gives
+/// the same path.
+///
+/// A planner can be sent to another thread, but it is not `Sync`: two threads cannot use it at once, and a
+/// `static` or a resource of Bevy cannot hold it. There are two ways for threads:
+/// - each has a planner of its own, from one index: [`Index::planner`];
+/// - all share [`Planners`](crate::Planners), which is `Sync`, and lends each query a planner.
 ///
 /// A query costs one dynamic call; the search itself is compiled for its types.
 ///
@@ -52,7 +57,6 @@ pub struct Planner {
     pub(crate) asked: Asked,
 }
 
-/// Makes a path shorter.
 impl Space {
     /// A planner of an engine, on an index of its own.
     ///
@@ -122,7 +126,7 @@ impl Index {
 }
 
 impl Planner {
-    /// Answers a query, or a [`Request`]: a query with wishes.
+    /// Answers a query, or a [`Request`]: a query with wishes. A pair or an array of two vertices is a query.
     ///
     /// ```
     /// use mediant::{K, Limits, Map, Motion, Outcome, Query};
@@ -130,6 +134,7 @@ impl Planner {
     /// let space = Map::from_fn(9, 9, |x, _| x == 4)?.space(Motion::centers(K::N8))?;
     /// let mut planner = space.planner(space.engine())?;
     /// assert_eq!(planner.find(Query::new((0, 0), (8, 0)))?, Outcome::Unreachable);
+    /// assert_eq!(planner.find([(0, 0), (3, 0)])?.cost(), Some(3.0));
     /// let nearest = planner.find(Query::new((0, 0), (8, 0)).nearest())?;
     /// assert_eq!(nearest.cost(), Some(3.0));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -146,6 +151,28 @@ impl Planner {
         self.begun = None;
         let answer = self.search.solve(query);
         self.smoothed(answer)
+    }
+
+    /// The path from `start` to `goal`, if there is one: [`find`](Self::find) for a plain query.
+    ///
+    /// ```
+    /// use mediant::{Engine, Map, Motion};
+    ///
+    /// let space = Map::new(8, 8)?.space(Motion::default())?;
+    /// let mut planner = space.planner(Engine::Subgoal)?;
+    /// let path = planner.path((0, 0), (7, 0))?.expect("there is a way");
+    /// assert_eq!(path.cost(), 7.0);
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`find`](Self::find).
+    pub fn path(
+        &mut self,
+        start: impl Into<Vertex>,
+        goal: impl Into<Vertex>,
+    ) -> Result<Option<Path>, QueryError> {
+        Ok(self.find(Query::new(start, goal))?.into_path())
     }
 
     /// The length of the path that [`find`](Self::find) finds, in cells; `None` if there is none. On hub

@@ -118,9 +118,7 @@ fn a_changed_map_has_other_dead_ends() {
         );
         for _ in 0..12 {
             let at = Rectangle { x: rng.below(40), y: rng.below(40), width: 1, height: 1 };
-            space = space
-                .edit(at, |x, y| !space.map().is_blocked(x as i32, y as i32))
-                .expect("a cell of the map");
+            space = space.edit(at, |x, y| !space.map().is_blocked((x, y))).expect("a cell of the map");
             let before = with.clone();
             with = with.repair(&space).expect("the same motion");
             without = without.repair(&space).expect("the same motion");

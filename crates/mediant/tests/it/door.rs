@@ -89,8 +89,9 @@ fn maps_are_made_in_many_ways() {
     );
     let options = MapOptions { invert: true, ..MapOptions::default() };
     assert!(
-        Map::open_with(&picture, &options)
-            .is_ok_and(|(map, world)| { map.is_blocked(0, 0) && !map.is_blocked(2, 0) && world.is_none() })
+        Map::open_with(&picture, &options).is_ok_and(|(map, world)| {
+            map.is_blocked((0, 0)) && !map.is_blocked((2, 0)) && world.is_none()
+        })
     );
     let code = |name: &str, text: &str| Map::open(file(name, text)).map_err(|error| error.code().name());
     assert_eq!(code("cut.pgm", "P5 9 9 255\n"), Err("map-format"));
@@ -98,7 +99,7 @@ fn maps_are_made_in_many_ways() {
     assert_eq!(code("half.yaml", "image: yard.pbm\n"), Err("map-format"));
     assert_eq!(code("letter.txt", "Dear reader"), Err("map-format"));
     assert_eq!((from_rows.width(), from_rows.height()), (3, 2));
-    assert!(from_rows.is_blocked(2, 0) && !from_rows.is_blocked(2, 1) && from_rows.is_blocked(3, 0));
+    assert!(from_rows.is_blocked((2, 0)) && !from_rows.is_blocked((2, 1)) && from_rows.is_blocked((3, 0)));
     let grid = Arc::clone(from_rows.grid());
     assert_eq!(Map::from(grid.as_ref().clone()), Map::from(grid));
 }

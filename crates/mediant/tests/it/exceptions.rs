@@ -14,7 +14,7 @@ fn changed(map: &Map, cells: &[(Vertex, bool)], free: &[Vertex]) -> Map {
     let is_blocked = |x: u32, y: u32| {
         let at = Vertex::new(x as i32, y as i32);
         let said = cells.iter().rev().find(|(cell, _)| *cell == at).map(|&(_, blocked)| blocked);
-        !free.contains(&at) && said.unwrap_or_else(|| map.is_blocked(at.x, at.y))
+        !free.contains(&at) && said.unwrap_or_else(|| map.is_blocked((at.x, at.y)))
     };
     Map::from_fn(map.width(), map.height(), is_blocked).expect("the size of a map")
 }
@@ -125,7 +125,7 @@ fn check_disc(seed: u64) -> usize {
         let anew = edited.obstacles().for_disc(radius, motion).expect("a radius");
         assert_eq!(edited.map(), &anew, "seed {seed}, radius {radius}, {motion}, {at:?}");
         let cells = (0..grid.height() as i32).flat_map(|y| (0..grid.width() as i32).map(move |x| (x, y)));
-        differ += cells.filter(|&(x, y)| anew.is_blocked(x, y) != disc.map().is_blocked(x, y)).count();
+        differ += cells.filter(|&(x, y)| anew.is_blocked((x, y)) != disc.map().is_blocked((x, y))).count();
         disc = edited;
     }
     differ

@@ -96,7 +96,7 @@ fn equal_maps_share_their_indexes() {
     let motion = Motion::corners(K::ANY);
     let at = Rectangle { x: 0, y: 0, width: 3, height: 3 };
     let there = map().edit(at, |_, _| false).expect("cells of the map");
-    let back = there.edit(at, |x, y| map().is_blocked(x as i32, y as i32)).expect("cells of the map");
+    let back = there.edit(at, |x, y| map().is_blocked((x, y))).expect("cells of the map");
     let index = map().space(motion).and_then(|space| space.prepare(mediant::Engine::Subgoal));
     let bytes = index.and_then(|index| index.to_bytes()).expect("an index");
     let read = |map: &Map| map.space(motion).and_then(|space| space.index_from_bytes(bytes.clone()));

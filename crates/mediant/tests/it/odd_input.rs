@@ -54,7 +54,7 @@ fn edits_may_be_anywhere() {
             let Ok(edited) = edited else { continue };
             let is_blocked = |x: u32, y: u32| {
                 let inside = x >= at.x && x - at.x < width && y >= at.y && y - at.y < height;
-                inside || map().is_blocked(x as i32, y as i32)
+                inside || map().is_blocked((x, y))
             };
             assert_eq!(edited, Map::from_fn(9, 5, is_blocked).expect("a map"), "{at:?}");
         }

@@ -68,7 +68,7 @@ fn ros_maps_are_read_by_the_rules_of_2025_or_by_the_old_ones() {
             Ok(file.map(|(_, bytes)| bytes.to_vec()).unwrap_or_default())
         })
         .unwrap_or_else(|error| panic!("{error}"));
-        [0, 1].map(|x| map.is_blocked(x, 0))
+        [0, 1].map(|x| map.is_blocked((x, 0)))
     };
     assert_eq!(open(RosVersion::default()), [false, true]);
     assert_eq!(open(RosVersion::Ros1), [true, true]);

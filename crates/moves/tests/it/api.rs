@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use crate::common::*;
 use mediant_moves::{
-    CostTable, FiniteK, KError, LinearSearch, Neighborhood, Quadrant, Vector, adjacent, bound_at_centers,
+    CostTable, FiniteK, K, KError, LinearSearch, Neighborhood, Quadrant, Vector, adjacent, bound_at_centers,
     bound_at_corners, containing, decompose, distance, distance_any_angle, level, parents,
     smallest_k_at_centers, smallest_k_at_corners,
 };
@@ -26,7 +26,7 @@ fn k_says_what_it_refuses() {
     let too_large = |k, max| KError::TooLarge { k, max };
     assert_eq!(k(48).radius(), Err(too_large(48, 47)));
     assert_eq!(Quadrant::new(k(48)), Err(too_large(48, 47)));
-    assert_eq!(Neighborhood::new(k(u32::MAX)), Err(too_large(u32::MAX, 47)));
+    assert_eq!(Neighborhood::new(k(u32::MAX)), Err(too_large(u32::MAX.into(), 47)));
     assert_eq!(LinearSearch::new(k(25)).err(), Some(too_large(25, 24)));
     assert_eq!(CostTable::new(k(19)).err(), Some(too_large(19, 18)));
     assert_eq!((k(63).moves(), k(64).moves()), (Some(1 << 63), None));
@@ -35,6 +35,40 @@ fn k_says_what_it_refuses() {
         assert!(parts.iter().all(|part| text.contains(part)), "{text}");
     }
     assert_eq!(k(7).to_string(), "7");
+}
+
+/// Whatever integer is at hand is a k, or the error that says which it was.
+#[test]
+fn integers_of_all_widths_are_k() {
+    fn check<T: Copy + TryInto<K, Error = KError> + TryInto<FiniteK, Error = KError>>(
+        number: T,
+        expected: Result<u32, KError>,
+    ) {
+        let finite: Result<FiniteK, KError> = number.try_into();
+        assert_eq!(finite.map(FiniteK::get), expected);
+        let any_k: Result<K, KError> = number.try_into();
+        assert_eq!(any_k, expected.map(|number| K::Finite(k(number))));
+    }
+    check(5_u8, Ok(5));
+    check(5_u16, Ok(5));
+    check(5_u32, Ok(5));
+    check(5_u64, Ok(5));
+    check(5_usize, Ok(5));
+    check(5_i8, Ok(5));
+    check(5_i16, Ok(5));
+    check(5, Ok(5));
+    check(5_i64, Ok(5));
+    check(5_isize, Ok(5));
+    check(99, Ok(99));
+    for (number, k) in [(1, 1), (0, 0), (-3, -3), (i32::MIN, i32::MIN.into())] {
+        check(number, Err(KError::TooSmall { k }));
+    }
+    check(i64::MIN, Err(KError::TooSmall { k: i64::MIN }));
+    check(u64::MAX, Err(KError::TooLarge { k: u64::MAX, max: u32::MAX }));
+    check(i64::MAX, Err(KError::TooLarge { k: i64::MAX as u64, max: u32::MAX }));
+    assert_eq!((K::new(5), K::new(1)), (Ok(K::N32), Err(KError::TooSmall { k: 1 })));
+    let shown = format!("{:?}", K::try_from(-3));
+    assert!(shown.contains("k = -3 is too small"), "{shown}");
 }
 
 /// 47 is the last k whose radius fits: Fib(46) does not.

@@ -31,7 +31,7 @@ impl JumpPlanes {
     /// Checks that a grid graph has jumps by words.
     pub(super) fn check_k<P: Placement>(graph: &GridGraph<P>) -> Result<(), KError> {
         let (k, max) = (graph.k().get(), JumpTable::MAX_K);
-        if k > max { Err(KError::TooLarge { k, max }) } else { Ok(()) }
+        if k > max { Err(KError::TooLarge { k: k.into(), max }) } else { Ok(()) }
     }
 
     /// With dead ends where that pays.

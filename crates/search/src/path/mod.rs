@@ -3,9 +3,11 @@
 
 mod check;
 mod measure;
+#[cfg(feature = "serde")]
+mod serialized;
 mod steps;
 
-use std::fmt;
+use std::{fmt, ops::Index, slice, vec};
 
 use mediant_grid::Vertex;
 
@@ -36,6 +38,10 @@ pub(crate) use self::{
 /// ```
 /// use mediant_search::Path;
 /// let path = Path::new(vec![(0, 0).into(), (3, 0).into(), (5, 2).into()]);
+/// assert_eq!((path.len(), path[1]), (3, (3, 0).into()));
+/// for waypoint in &path {
+///     assert!(waypoint.x <= 5);
+/// }
 /// assert_eq!(path.vertices().count(), 6);
 /// assert_eq!(path.point_at(1.5), Some((1.5, 0.0)));
 /// assert_eq!(path.reversed().to_string(), "(5, 2) → (3, 0) → (0, 0)");
@@ -59,6 +65,23 @@ impl Path {
     #[must_use]
     pub fn waypoints(&self) -> &[Vertex] {
         &self.waypoints
+    }
+
+    /// The number of waypoints. [`vertices`](Self::vertices) counts each step, [`cost`](Self::cost) measures.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.waypoints.len()
+    }
+
+    /// Whether there is no waypoint. The paths of engines have at least one.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.waypoints.is_empty()
+    }
+
+    /// The waypoints one after another, as a loop over `&path` has them.
+    pub fn iter(&self) -> slice::Iter<'_, Vertex> {
+        self.waypoints.iter()
     }
 
     /// The waypoints, without a copy.
@@ -114,6 +137,33 @@ impl Path {
         }
         waypoints.extend_from_slice(other.waypoints.get(1..).unwrap_or_default());
         Ok(Self::new(waypoints))
+    }
+}
+
+/// A waypoint by its number, from 0. As with a slice, there must be one: `path.waypoints().get(at)` asks.
+impl Index<usize> for Path {
+    type Output = Vertex;
+
+    fn index(&self, at: usize) -> &Vertex {
+        &self.waypoints[at]
+    }
+}
+
+impl<'a> IntoIterator for &'a Path {
+    type Item = &'a Vertex;
+    type IntoIter = slice::Iter<'a, Vertex>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}
+
+impl IntoIterator for Path {
+    type Item = Vertex;
+    type IntoIter = vec::IntoIter<Vertex>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.waypoints.into_iter()
     }
 }
 

@@ -8,7 +8,7 @@ use std::{
 use mediant_grid::{Interrupt, StoppedBy, Vertex, names};
 use mediant_moves::Cost;
 
-use crate::{limit::greatest_cost, path::Path, query::QueryError};
+use crate::{limit::greatest_cost, outcome::Measured, path::Path, query::QueryError};
 
 /// Limits of a search. None is set at first; the first one that is met stops the search.
 ///
@@ -72,6 +72,19 @@ pub struct Stopped {
     /// [`Cost`]. (Of a path that was found, [`Guarantee::lower_bound`](crate::Guarantee::lower_bound) tells
     /// another bound: on all paths at any angle between its ends.)
     pub lower_bound: f64,
+}
+
+/// As `stopped by its limit on expansions: 2 waypoints, 4.24 cells so far, at least 11.07`.
+impl fmt::Display for Stopped {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let by = match self.by {
+            Limit::Cost => "stopped by its limit on the cost",
+            Limit::Expansions => "stopped by its limit on expansions",
+            Limit::Timeout => "stopped by its timeout",
+            Limit::Cancelled => "cancelled",
+        };
+        write!(f, "{by}: {} so far, at least {:.2}", Measured(&self.best), self.lower_bound)
+    }
 }
 
 impl Stopped {

@@ -24,7 +24,8 @@ use crate::query::Query;
 /// assert_eq!((one.starts().len(), several.goals().len()), (1, 2));
 /// ```
 ///
-/// A plain [`Query`] is a request, too, and costs nothing more than itself.
+/// A plain [`Query`] is a request, too, and costs nothing more than itself. So are a pair and an array of two
+/// vertices.
 #[derive(Clone, Debug)]
 pub struct Request {
     query: Query,
@@ -46,6 +47,18 @@ impl From<Query> for Request {
     #[inline]
     fn from(query: Query) -> Self {
         Self { query, wishes: None }
+    }
+}
+
+impl<S: Into<Vertex>, G: Into<Vertex>> From<(S, G)> for Request {
+    fn from(ends: (S, G)) -> Self {
+        Query::from(ends).into()
+    }
+}
+
+impl<V: Into<Vertex>> From<[V; 2]> for Request {
+    fn from(ends: [V; 2]) -> Self {
+        Query::from(ends).into()
     }
 }
 

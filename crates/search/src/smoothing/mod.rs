@@ -22,6 +22,20 @@ use crate::{
 };
 
 /// How a path is smoothed.
+///
+/// ```
+/// use std::sync::Arc;
+/// use mediant_grid::{Centers, CornerRule, FreeSpace, Grid};
+/// use mediant_search::{Path, Smoothing};
+///
+/// let space = FreeSpace::<Centers>::new(Arc::new(Grid::from_fn(6, 3, |_, _| false)?), CornerRule::Never);
+/// // Over eight directions: straight, and then diagonally.
+/// let path = Path::new(vec![(0, 0).into(), (3, 0).into(), (5, 2).into()]);
+/// let taut = Smoothing::Taut.apply(&space, &path);
+/// assert_eq!(taut.to_string(), "(0, 0) → (5, 2)");
+/// assert!(taut.cost() < path.cost());
+/// # Ok::<(), mediant_grid::GridError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Smoothing {
     /// By [`smooth`]: with a number of sight checks that is linear in the length of the path.

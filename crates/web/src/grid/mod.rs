@@ -99,7 +99,7 @@ impl Grid {
         let mut cells = room(width * height, 0, "the array of cells")?;
         for (y, row) in cells.chunks_exact_mut(width).enumerate() {
             for (x, cell) in row.iter_mut().enumerate() {
-                *cell = u8::from(self.map.is_blocked(x as i32, y as i32));
+                *cell = u8::from(self.map.is_blocked((x, y)));
             }
         }
         Ok(Uint8Array::from(&cells[..]))
@@ -115,7 +115,7 @@ impl Grid {
         let (x, y) = (crate::arguments::number("x", x)?, crate::arguments::number("y", y)?);
         let is_inside = |at: f64, size: u32| at >= 0.0 && at < f64::from(size);
         let is_inside = is_inside(x, self.map.width()) && is_inside(y, self.map.height());
-        Ok(!is_inside || self.map.is_blocked(x as i32, y as i32))
+        Ok(!is_inside || self.map.is_blocked((x as i32, y as i32)))
     }
 
     /// This map with other cells in a rectangle, which are given row by row: 0 is free, 1 is blocked. Cells

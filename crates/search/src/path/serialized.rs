@@ -1,0 +1,19 @@
+//! Paths as serde reads and writes them.
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::Path;
+
+/// As its waypoints, `[[x, y], …]`.
+impl Serialize for Path {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.waypoints().serialize(serializer)
+    }
+}
+
+/// The cost is measured anew.
+impl<'de> Deserialize<'de> for Path {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Vec::deserialize(deserializer).map(Self::new)
+    }
+}
