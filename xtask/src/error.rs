@@ -37,6 +37,12 @@ pub enum Error {
         /// The file.
         file: &'static str,
     },
+    /// Files that cannot be written from the description of the library.
+    #[error("{wrong}")]
+    Described {
+        /// In words, the fault.
+        wrong: String,
+    },
     /// Rules that are broken; each was printed.
     #[error("broken rules: {count}")]
     Tidy {

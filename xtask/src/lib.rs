@@ -11,6 +11,7 @@
 #![allow(clippy::print_stdout, reason = "a program talks to its user")]
 
 pub mod ci;
+pub mod describe;
 pub mod download;
 mod error;
 pub mod package;

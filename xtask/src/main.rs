@@ -5,7 +5,7 @@ use std::{ffi::OsString, process::ExitCode};
 
 use clap::{Args, Parser, Subcommand};
 use xtask::{
-    ci, download, package,
+    ci, describe, download, package,
     program::{COMPARE, REPRODUCE, VERIFY},
     tidy, web,
 };
@@ -28,6 +28,8 @@ enum Task {
     Compare(HandedOn),
     /// Measure the papers' tables and figures, and write them beside the published values to docs/results
     ReproduceTables(HandedOn),
+    /// Write what every language says of calls and engines, from the library's description of itself
+    Describe,
     /// Check the rules of the project that the compiler does not know
     Tidy,
     /// Check all but the tests: format, lints, documentation, tidiness, the oldest supported Rust
@@ -53,6 +55,7 @@ fn main() -> ExitCode {
         Task::Verify(options) => VERIFY.run(&options.arguments),
         Task::Compare(options) => COMPARE.run(&options.arguments),
         Task::ReproduceTables(options) => REPRODUCE.run(&options.arguments),
+        Task::Describe => describe::run().map(done),
         Task::Tidy => tidy::run().map(done),
         Task::Ci => ci::run().map(done),
         Task::Package => package::run().map(done),

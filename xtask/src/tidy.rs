@@ -18,7 +18,7 @@ use std::path::Path;
 
 use mediant_sets::root;
 
-use crate::{Error, project};
+use crate::{Error, describe, project};
 
 pub use clauses::MOST_CLAUSES;
 pub use dependencies::{COMPILED, Compiled, check_compiled, check_packages};
@@ -40,8 +40,26 @@ pub fn check_files(tree: &Tree, exceptions: &[Exception]) -> Vec<Finding> {
     links::check(tree, &mut findings);
     width::check(tree, &mut findings);
     clauses::check(tree, &mut findings);
+    described(tree, &mut findings);
     findings.sort();
     findings
+}
+
+/// Every language says what the library says of itself.
+fn described(tree: &Tree, findings: &mut Vec<Finding>) {
+    // A tree without the description is a test's.
+    if !tree.holds(Path::new(describe::FILE)) {
+        return;
+    }
+    let mut find = |file: &Path, message: String| {
+        findings.push(Finding { file: file.to_owned(), line: 0, message });
+    };
+    match describe::outdated(tree) {
+        Ok(files) => files.iter().for_each(|(file, _)| {
+            find(file, format!("it differs from {}: run `cargo xtask describe`", describe::FILE));
+        }),
+        Err(wrong) => find(Path::new(describe::FILE), wrong),
+    }
 }
 
 /// All findings in the project: the files, what its crates depend on, and what is published.

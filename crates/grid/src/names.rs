@@ -46,6 +46,12 @@ macro_rules! names {
             /// All values.
             pub const ALL: [Self; [$($name),+].len()] = [$(Self::$variant),+];
 
+            /// All values, one after the other.
+            #[must_use]
+            pub fn all() -> impl Iterator<Item = Self> {
+                Self::ALL.into_iter()
+            }
+
             /// The name, as people and scripts write it.
             #[must_use]
             pub const fn name(self) -> &'static str {

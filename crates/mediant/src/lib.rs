@@ -139,6 +139,7 @@ pub mod files;
 mod goals;
 mod heuristic;
 mod index;
+mod limits;
 mod make;
 mod map;
 mod motion;
@@ -179,6 +180,7 @@ pub use exceptions::{ExceptedAnswer, Exceptions};
 pub use field::{Field, Fields};
 pub use goals::Goals;
 pub use index::{Index, Origin};
+pub use limits::Limits;
 pub use map::Map;
 #[doc(hidden)]
 pub use mediant_grid::names;
@@ -190,8 +192,8 @@ pub use mediant_grid::{
 pub use mediant_moves as moves;
 pub use mediant_moves::{Cost, FiniteK, K, Vector};
 pub use mediant_search::{
-    BrokenPath, Counters, End, Guarantee, Limit, Limits, NodeEvent, Observer, Outcome, Path, Query,
-    QueryError, Request, Smoothing, Stopped, Turn,
+    BrokenPath, Counters, End, Guarantee, Limit, NodeEvent, Observer, Outcome, Path, Query, QueryError,
+    Request, Smoothing, Stopped, Turn,
 };
 pub use mediant_subgoal::{Progress, Stage};
 pub use motion::{IntoK, Motion};

@@ -93,9 +93,9 @@ impl Map {
     pub fn open_within(
         path: impl AsRef<FilePath>,
         options: &MapOptions,
-        limits: &Limits,
+        limits: impl Into<Limits>,
     ) -> Result<(Self, Option<WorldFrame>), Error> {
-        let source = read_map_interruptible(path, options, limits.interrupt())?;
+        let source = read_map_interruptible(path, options, limits.into().interrupt())?;
         Ok((source.grid.into(), source.frame))
     }
 

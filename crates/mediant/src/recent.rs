@@ -85,7 +85,7 @@ impl Map {
     ///
     /// # Errors
     /// Those of [`space`](Self::space), and [`Error::Stopped`].
-    pub fn keep_space(&self, motion: Motion, limits: &Limits) -> Result<Space, Error> {
+    pub fn keep_space(&self, motion: Motion, limits: impl Into<Limits>) -> Result<Space, Error> {
         if let Some(space) = self.kept_space(motion) {
             return Ok(space);
         }
@@ -105,12 +105,13 @@ impl Map {
     ///
     /// # Errors
     /// Those of [`space`](Self::space) and [`Space::prepare`], and [`Error::Stopped`].
-    pub fn keep_planners(&self, setup: &Setup, limits: &Limits) -> Result<Arc<Planners>, Error> {
+    pub fn keep_planners(&self, setup: &Setup, limits: impl Into<Limits>) -> Result<Arc<Planners>, Error> {
         if let Some(planners) = self.kept_planners(setup) {
             return Ok(planners);
         }
-        let space = self.keep_space(setup.motion(), limits)?;
-        let index = space.within(limits).prepare(setup.engine)?;
+        let limits = limits.into();
+        let space = self.keep_space(setup.motion(), &limits)?;
+        let index = space.within(&limits).prepare(setup.engine)?;
         let planners = Arc::new(Planners::new(index.with_smoothing(setup.smoothing)));
         self.recent().planners.put(*setup, &planners);
         Ok(planners)

@@ -29,16 +29,14 @@ pub(crate) static NEVER: Interrupt = Interrupt::NEVER;
 /// call of this one, with the same result. What was stopped returns [`Error::Stopped`] soon, keeps no memory
 /// and leaves no thread at work. What was made knows nothing of the limits.
 ///
-/// The deadline and the flag of the [`Limits`] count; those on cost and expansions are of searches.
+/// The time, the deadline and the flag of the [`Limits`](crate::Limits) count; those on cost and expansions are of searches.
 ///
 /// ```
-/// use std::{sync::{Arc, atomic::{AtomicBool, Ordering}}, time::{Duration, Instant}};
+/// use std::{sync::{Arc, atomic::{AtomicBool, Ordering}}, time::Duration};
 /// use mediant::{Engine, ErrorCode, K, Limits, Map, Motion};
 ///
-/// let (begin, cancelled) = (Instant::now(), Arc::new(AtomicBool::new(false)));
-/// let limits = Limits::new()
-///     .deadline(move || begin.elapsed() > Duration::from_secs(60))
-///     .cancel(Arc::clone(&cancelled));
+/// let cancelled = Arc::new(AtomicBool::new(false));
+/// let limits = Limits::new().time(Duration::from_secs(60)).cancel(Arc::clone(&cancelled));
 /// let map = Map::from_fn(40, 30, |x, _| x == 20)?;
 /// let space = map.within(&limits).space(Motion::corners(K::ANY))?;
 /// let index = space.within(&limits).prepare(Engine::Subgoal)?;
@@ -48,33 +46,33 @@ pub(crate) static NEVER: Interrupt = Interrupt::NEVER;
 /// assert_eq!(stopped.code(), ErrorCode::Cancelled);
 /// # Ok::<(), mediant::Error>(())
 /// ```
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Within<'a, T> {
     of: &'a T,
-    limits: &'a Limits,
+    limits: Limits,
 }
 
 impl Map {
     /// This map, for work that stops at a deadline or by a flag.
     #[must_use]
-    pub const fn within<'a>(&'a self, limits: &'a Limits) -> Within<'a, Self> {
-        Within { of: self, limits }
+    pub fn within(&self, limits: impl Into<Limits>) -> Within<'_, Self> {
+        Within { of: self, limits: limits.into() }
     }
 }
 
 impl Space {
     /// This space, for work that stops at a deadline or by a flag.
     #[must_use]
-    pub const fn within<'a>(&'a self, limits: &'a Limits) -> Within<'a, Self> {
-        Within { of: self, limits }
+    pub fn within(&self, limits: impl Into<Limits>) -> Within<'_, Self> {
+        Within { of: self, limits: limits.into() }
     }
 }
 
 impl Index {
     /// This index, for work that stops at a deadline or by a flag.
     #[must_use]
-    pub const fn within<'a>(&'a self, limits: &'a Limits) -> Within<'a, Self> {
-        Within { of: self, limits }
+    pub fn within(&self, limits: impl Into<Limits>) -> Within<'_, Self> {
+        Within { of: self, limits: limits.into() }
     }
 }
 
@@ -92,7 +90,7 @@ impl Within<'_, Map> {
     /// # Errors
     /// Those of [`Map::path`], and [`Error::Stopped`].
     pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
-        self.of.path_of(Query::new(start, goal), self.limits)
+        self.of.path_of(Query::new(start, goal), &self.limits)
     }
 
     /// [`Map::clearance`].
@@ -185,7 +183,7 @@ impl Within<'_, Space> {
     /// # Errors
     /// Those of [`Space::path`], and [`Error::Stopped`].
     pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
-        self.of.path_of(Query::new(start, goal), self.limits)
+        self.of.path_of(Query::new(start, goal), &self.limits)
     }
 
     /// [`Space::field`].
@@ -227,7 +225,7 @@ impl Within<'_, Space> {
         goal: impl Into<Vertex>,
         surplus: f64,
     ) -> Result<Option<WidestPath>, Error> {
-        self.of.widest_path_of([start.into(), goal.into()], surplus, self.limits)
+        self.of.widest_path_of([start.into(), goal.into()], surplus, &self.limits)
     }
 
     /// [`Space::load`].
@@ -311,6 +309,6 @@ impl Within<'_, Index> {
     ) -> Result<Table, Error> {
         let starts: Vec<Vertex> = starts.into_iter().map(Into::into).collect();
         let goals: Vec<Vertex> = goals.into_iter().map(Into::into).collect();
-        self.of.table_of(&starts, &goals, self.limits)
+        self.of.table_of(&starts, &goals, &self.limits)
     }
 }

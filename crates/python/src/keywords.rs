@@ -238,7 +238,10 @@ pub(crate) fn moves<'py>(k: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<
 /// >>> [round(mediant.bound(k, placement="corner"), 4) for k in (2, 3, 4)]
 /// [1.4142, 1.0824, 1.0275]
 #[pyfunction]
-#[pyo3(signature = (k, **motion))]
+#[pyo3(
+        signature = (k, **motion),
+        text_signature = "(k, *, neighbors=None, placement=None, corners=None, gap=None)"
+    )]
 pub(crate) fn bound(k: &Bound<'_, PyAny>, motion: Option<&Bound<'_, PyDict>>) -> PyResult<Option<f64>> {
     let Motion { k, rules, .. } = Keywords::read("bound", motion, MOTION)?.with("k", Some(k))?.motion()?;
     let guarantee = k.finite().map_or(Guarantee::OptimalAnyAngle, Guarantee::Optimal);

@@ -13,89 +13,128 @@ export type Point = readonly [x: number, y: number];
 /** One vertex or several: a point, an array of points, or an `Int32Array` of x, y, …. */
 export type Points = Point | readonly Point[] | Int32Array;
 
+// described: calls
 /** How an agent moves. */
 export interface Motion {
   /**
-   * The neighborhood: 2^k directions, `k` from 2 to 12, so that k = 3 has 8 moves and k = 8 has 256; or
-   * `"any"` for every direction. 3 by default.
+   * The neighborhood, of 2^k moves: k = 3 has 8, k = 8 has 256. From 2 to 12, or any, which is every
+   * direction. 3 by default.
    */
   readonly k?: number | "any";
-  /** The neighborhood by its number of moves, in place of `k`: 4, 8, 16, … 4096. */
+  /** The neighborhood by its number of moves, instead of k: 4, 8, 16, … 4096. */
   readonly neighbors?: number;
-  /** Where the vertices are: at centers or corners of cells. Centers by default, corners for k "any". */
+  /**
+   * Where the vertices of paths are: at centers or at corners of cells. Corner (x, y) is the top left one of
+   * cell (x, y). Corners by default for k = any, and for engines that search only there. center by default.
+   */
   readonly placement?: "center" | "corner";
   /**
-   * At centers: whether a path may cut the corner of a blocked cell. Never by default. Without `placement` it
-   * means centers.
+   * At centers, where a move touches a corner of cells: never cuts it (both cells beside it must be free),
+   * one of them must be free, or it always may. Without a placement it means centers. never by default.
    */
   readonly corners?: "never" | "one" | "always";
   /**
-   * At corners: whether a path may pass where two blocked cells touch diagonally. Open by default. Without
-   * `placement` it means corners.
+   * At corners, whether a path may pass where two blocked cells touch diagonally: open or closed. Without a
+   * placement it means corners. open by default.
    */
   readonly gap?: "open" | "closed";
 }
 
-/** How an agent moves, with all that it has: `corners` at centers, `gap` at corners. */
-export interface WholeMotion extends Motion {
-  readonly k: number | "any";
-  readonly placement: "center" | "corner";
-}
-
 /** What a query asks beyond a path. */
 export interface Wishes {
-  /** Where no path leads, one to the reachable vertex that is nearest to the goal. */
+  /** If there is no path, the path to the reachable vertex that is nearest to the goal. */
   readonly nearest?: boolean;
-  /** Moves a start or goal that is blocked to the nearest free vertex. */
+  /** Moves a start or goal that is blocked, or outside the map, to the nearest free vertex. */
   readonly snap?: boolean;
-  /** The path may end within this distance of the goal, in cells, exactly so far included. */
+  /** The path may end within this many cells of the goal, in a straight line, exactly so many included. */
   readonly tolerance?: number;
-  /** The greatest length of a path, in cells; one that is exactly as long is within it. */
+  /**
+   * The greatest length of a path, in cells; a path that is exactly as long is within it. An engine that
+   * guarantees nothing may miss a path that is nearly as long.
+   */
   readonly maxCost?: number;
-  /** Stops the search after this many expansions. */
+  /** The greatest number of expansions of the search. */
   readonly maxExpansions?: number;
-  /** Stops the search after this many milliseconds. */
+  /** The most time that the answer may take, in milliseconds. */
   readonly timeout?: number;
 }
 
 /** The options of engines; `engines()` says which engine takes which. */
 export interface Options {
-  /** The heuristic of the search. */
+  /**
+   * The heuristic of the search: the cost on an empty grid (the default), the straight-line distance, zero,
+   * or the distance squared, which overestimates.
+   */
   readonly heuristic?: "hk" | "euclidean" | "zero" | "squared";
-  /** The repaired engine, or the published one. */
+  /**
+   * For an engine that was published with a flaw: the repaired variant (the default; exact for canonical,
+   * complete for chpa), or paper, the published one.
+   */
   readonly variant?: "exact" | "complete" | "paper";
-  /** Jumps take at most this many steps. */
+  /** Limit each jump to N steps. */
   readonly jumpLimit?: number;
-  /** Keeps intermediate jump points. */
+  /** Keep intermediate jump points, at which a path only turns on its way to another jump point. */
   readonly keepIntermediate?: boolean;
   /**
-   * The levels of subgoal graphs and of clusters; for `"subgoal"` also a contraction hierarchy or hub labels.
-   * By default it has hub labels if they fit in `memory`, else a contraction hierarchy.
+   * The number of levels of the subgoal graph (1 is the graph without a hierarchy) or of the clusters, or
+   * all; for subgoal also labels (hub labels) or contracted (a contraction hierarchy). By default hub labels
+   * for subgoal if they fit in --memory, else a contraction hierarchy; 2 levels for subgoal-theta, 3 for
+   * hpa; with --index, those of the index.
    */
   readonly levels?: number | "all" | "contracted" | "labels";
   /**
-   * The memory that hub labels may take: bytes, or a text as `"8MB"`. By default 48 bytes a cell, but at least
-   * 32 MB and at most 1 GB.
+   * The memory that the hub labels of subgoal may take, as 8MB. 48 bytes a cell by default, but at least
+   * 32MB and at most 1GB. A map whose labels take more has a contraction hierarchy, and the same paths.
    */
   readonly memory?: number | string;
-  /** The side of a cluster or segment, in cells. */
+  /**
+   * Cut the map into clusters (on the lowest level) or segments of N × N cells. 10 by default for hpa, 3 for
+   * chpa; with --index, those of the index.
+   */
   readonly side?: number;
-  /** Leaves out the straightening of HPA*. */
+  /** Leave out the straightening of hpa, which shortens each path after the search. */
   readonly unstraightened?: boolean;
-  /** The heuristic of the second phase of CHPA*. */
+  /**
+   * The heuristic of chpa's second phase, from checkpoint to checkpoint. That of the first phase by default.
+   */
   readonly second?: "hk" | "euclidean" | "zero" | "squared";
-  /** A checkpoint every this many segments. */
+  /** Plan a checkpoint every N segments. 2 by default. */
   readonly step?: number;
-  /** How many times longer than on an empty grid the way to a checkpoint may be. */
+  /**
+   * Skip a checkpoint to which the path costs more than N times what it would cost on an empty grid. 3 by
+   * default.
+   */
   readonly detour?: number;
-  /** Shortens paths after the search; they are at any angle then. */
+  /**
+   * Shortens paths after the search, by straight segments at any angle: linear looks for the next vertex in
+   * sight along the path, taut pulls the path tight around the corners.
+   */
   readonly smooth?: "linear" | "taut";
 }
 
-/** What `Grid.path` takes. */
+/** All that `Grid.path` takes. */
 export interface How extends Motion, Wishes, Options {
-  /** The engine; by default ("auto") one that prepares little. */
+  /** The engine. auto is the one that is best for what is asked. auto by default. */
   readonly engine?: string;
+}
+
+/** The kinds of answers. */
+export type Status = "found" | "unreachable" | "nearest" | "stopped";
+
+/** The limits that stop a search. */
+export type Limit = "cost" | "expansions" | "timeout" | "cancelled";
+
+/** The stages of a preparation that reports progress. */
+export type Stage = "edges" | "hierarchy" | "sight" | "labels";
+
+/** How an index came about. */
+export type Origin = "prepared" | "loaded" | "repaired" | "unchanged";
+// described: end
+
+/** How an agent moves, with all that it has: `corners` at centers, `gap` at corners. */
+export interface WholeMotion extends Motion {
+  readonly k: number | "any";
+  readonly placement: "center" | "corner";
 }
 
 /** Which characters of a map are free cells, and which are blocked. */
@@ -127,7 +166,7 @@ export interface Answer {
    * `"found"`; `"unreachable"`: there is no path; `"nearest"`: there is none, and the path leads to the
    * reachable vertex that is nearest to the goal; `"stopped"`: a limit stopped the search.
    */
-  readonly status: "found" | "unreachable" | "nearest" | "stopped";
+  readonly status: Status;
   /** The waypoints x, y, … of a found or nearest answer. */
   readonly path?: Int32Array;
   /** Its length in cells, as `Planner.distance` measures it; `Infinity` if unreachable, `NaN` if stopped. */
@@ -140,7 +179,7 @@ export interface Answer {
    */
   readonly lowerBound: number;
   /** The limit that stopped the search. */
-  readonly stoppedBy?: "cost" | "expansions" | "timeout";
+  readonly stoppedBy?: Limit;
   /** Of a stopped answer the best so far: a path to a goal, or to the vertex nearest to one. */
   readonly best?: Int32Array;
 }
@@ -166,6 +205,10 @@ export interface NearestGoal {
 /** What an engine can do. */
 export interface EngineInfo {
   readonly name: string;
+  /** Its name in print: `"Block-based JPS"`. */
+  readonly title: string;
+  /** How it works, in a sentence. */
+  readonly how: string;
   readonly placements: ("center" | "corner")[];
   /** The largest finite k; the smallest is 2. */
   readonly maxK: number;

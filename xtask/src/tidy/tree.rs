@@ -38,7 +38,7 @@ impl Tree {
     }
 
     /// The files with these extensions that are text.
-    pub(super) fn texts(&self, extensions: &[&str]) -> impl Iterator<Item = (&Path, &str)> {
+    pub(crate) fn texts(&self, extensions: &[&str]) -> impl Iterator<Item = (&Path, &str)> {
         let named = self.files().filter(|(path, _)| {
             path.extension().is_some_and(|found| extensions.iter().any(|extension| found == *extension))
         });
@@ -46,7 +46,7 @@ impl Tree {
     }
 
     /// The contents of one file.
-    pub(super) fn bytes(&self, path: &Path) -> Option<&[u8]> {
+    pub(crate) fn bytes(&self, path: &Path) -> Option<&[u8]> {
         self.files().find(|(file, _)| *file == path).map(|(_, bytes)| bytes)
     }
 

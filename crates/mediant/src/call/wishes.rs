@@ -1,7 +1,9 @@
 //! What is asked of a path beyond its ends.
 
 use mediant_grid::Vertex;
-use mediant_search::{Limits, Query, Request};
+use mediant_search::{Limits as SearchLimits, Query, Request};
+
+use crate::limits::Limits;
 
 /// What is asked of a path beyond its ends. By default nothing is.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -45,7 +47,8 @@ impl Wishes {
     /// The request for the shortest path from any start to any goal within limits, which are those of
     /// [`limits`](Self::limits) with a deadline or a flag of the caller's.
     #[must_use]
-    pub fn request(&self, starts: &[Vertex], goals: &[Vertex], limits: Limits) -> Request {
+    pub fn request(&self, starts: &[Vertex], goals: &[Vertex], limits: impl Into<SearchLimits>) -> Request {
+        let limits = limits.into();
         let mut request = match (starts, goals) {
             (&[start], &[goal]) => Query::new(start, goal).into(),
             _ => Request::between(starts.iter().copied(), goals.iter().copied()),

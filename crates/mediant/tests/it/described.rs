@@ -41,8 +41,12 @@ fn description() -> Value {
             "placements": can.placements.iter().map(|placement| placement.name()).collect::<Vec<_>>(),
             "max_k": can.max_k,
             "any": can.any,
+            "title": can.title,
+            "how": can.how,
             "guarantee": can.guarantee,
+            "promise": can.promise,
             "paper": can.paper,
+            "papers": can.papers,
             "index": can.index.is_some(),
             "options": options.collect::<Vec<_>>(),
         })

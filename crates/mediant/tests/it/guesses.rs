@@ -252,3 +252,28 @@ fn planners_can_be_shared() {
     fn resource<T: Send + Sync + 'static>() {}
     resource::<Planners>();
 }
+
+/// A limit on the time is a duration. It begins anew with each query that it is given to.
+#[test]
+fn a_limit_can_be_a_duration() -> Result<(), Box<dyn std::error::Error>> {
+    use std::time::Duration;
+    let (mut planner, query) = (planner()?, Query::new((0, 0), (3, 2)));
+    let ample = Limits::new().time(Duration::from_secs(600));
+    for _ in 0..2 {
+        assert!(planner.find(query.within(&ample))?.path().is_some());
+    }
+    assert!(matches!(planner.find(query.within(Limits::new().time(Duration::ZERO)))?, Outcome::Stopped(_)));
+    // The flag and an own deadline stay.
+    let late = Limits::new().deadline(|| true).time(Duration::from_secs(600));
+    assert!(matches!(planner.find(query.within(late))?, Outcome::Stopped(_)));
+    let stopped = hall()?.within(Limits::new().time(Duration::ZERO)).space(Motion::default());
+    check_error(stopped, ErrorCode::Stopped);
+    Ok(())
+}
+
+/// All values of an enum with names.
+#[test]
+fn all_engines_can_be_asked_for() {
+    assert!(Engine::all().eq(Engine::ALL));
+    assert_eq!(CornerRule::all().map(CornerRule::name).collect::<Vec<_>>(), ["never", "one", "always"]);
+}

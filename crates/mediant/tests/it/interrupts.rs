@@ -193,7 +193,8 @@ fn opening_stops() {
     world.save(path("room.yaml")).expect("room");
     let options = MapOptions::default();
     let (limits, asked) = counting(usize::MAX);
-    Grid::from_fn_interruptible(SIDE, SIDE, limits.interrupt(), |_, _| false).expect("a map");
+    Grid::from_fn_interruptible(SIDE, SIDE, mediant_search::Limits::from(limits).interrupt(), |_, _| false)
+        .expect("a map");
     let made = asked.load(Ordering::Relaxed);
     for name in formats.map(|(name, _)| name).into_iter().chain(["hall.map", "room.yaml"]) {
         let open = |limits: &Limits| Map::open_within(path(name), &options, limits);

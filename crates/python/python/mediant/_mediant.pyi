@@ -17,12 +17,12 @@ Points: TypeAlias = Point | Sequence[Point] | NDArray[np.integer[Any]]
 """One vertex, or several: an integer array of shape (n, 2)."""
 
 K: TypeAlias = SupportsIndex | Literal["any"]
+PathPoints: TypeAlias = Literal["waypoints", "vertices", "touched"]
+
+# described: calls
 Placement: TypeAlias = Literal["center", "corner"]
 Corners: TypeAlias = Literal["never", "one", "always"]
 Gap: TypeAlias = Literal["open", "closed"]
-PathPoints: TypeAlias = Literal["waypoints", "vertices", "touched"]
-Status: TypeAlias = Literal["found", "unreachable", "nearest", "stopped", "invalid"]
-Limit: TypeAlias = Literal["cost", "expansions", "timeout"]
 Engine: TypeAlias = Literal[
     "astar",
     "dijkstra",
@@ -40,11 +40,17 @@ Engine: TypeAlias = Literal[
     "chpa",
 ]
 Heuristic: TypeAlias = Literal["hk", "euclidean", "zero", "squared"]
+Variant: TypeAlias = Literal["exact", "complete", "paper"]
+Smooth: TypeAlias = Literal["linear", "taut"]
+Status: TypeAlias = Literal["found", "unreachable", "nearest", "stopped", "invalid"]
+Limit: TypeAlias = Literal["cost", "expansions", "timeout", "cancelled"]
+Stage: TypeAlias = Literal["edges", "hierarchy", "sight", "labels"]
+Origin: TypeAlias = Literal["prepared", "loaded", "repaired", "unchanged"]
 
 class Motion(TypedDict, total=False):
     """How an agent moves."""
 
-    k: K
+    k: SupportsIndex | Literal["any"] | None
     neighbors: SupportsIndex | None
     placement: Placement | None
     corners: Corners | None
@@ -53,9 +59,9 @@ class Motion(TypedDict, total=False):
 class Wishes(TypedDict, total=False):
     """What is asked of a path beyond its ends."""
 
-    nearest: bool
-    tolerance: SupportsFloat
-    snap: bool
+    nearest: bool | None
+    snap: bool | None
+    tolerance: SupportsFloat | None
     max_cost: SupportsFloat | None
     max_expansions: SupportsIndex | None
     timeout: SupportsFloat | None
@@ -63,23 +69,24 @@ class Wishes(TypedDict, total=False):
 class Options(TypedDict, total=False):
     """The options of engines. Each engine takes some of them."""
 
-    heuristic: Heuristic
-    variant: Literal["exact", "complete", "paper"]
-    jump_limit: SupportsIndex
-    keep_intermediate: bool
-    levels: SupportsIndex | Literal["all", "contracted", "labels"]
-    memory: SupportsIndex | str
-    side: SupportsIndex
-    unstraightened: bool
-    second: Heuristic
-    step: SupportsIndex
-    detour: SupportsIndex
-    smooth: Literal["linear", "taut"] | None
+    heuristic: Heuristic | None
+    variant: Variant | None
+    jump_limit: SupportsIndex | None
+    keep_intermediate: bool | None
+    levels: SupportsIndex | Literal["all", "contracted", "labels"] | None
+    memory: SupportsIndex | str | None
+    side: SupportsIndex | None
+    unstraightened: bool | None
+    second: Heuristic | None
+    step: SupportsIndex | None
+    detour: SupportsIndex | None
+    smooth: Smooth | None
 
 class FromGrid(Motion, Wishes, Options, total=False):
     """All of them, with the engine."""
 
     engine: Engine | Literal["auto"] | None
+# described: end
 
 @final
 class Grid:
@@ -150,6 +157,7 @@ class Grid:
         counters: bool = False,
         **how: Unpack[FromGrid],
     ) -> Answer: ...
+    def setup(self, **how: Unpack[FromGrid]) -> str: ...
     def engine(self, **motion: Unpack[Motion]) -> tuple[Engine, str]: ...
     def prepare(
         self,
@@ -221,7 +229,7 @@ class Index:
     @property
     def setup(self) -> str: ...
     @property
-    def origin(self) -> Literal["prepared", "loaded", "repaired", "unchanged"]: ...
+    def origin(self) -> Origin: ...
     @property
     def guarantee(self) -> str: ...
     @property

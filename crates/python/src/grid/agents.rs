@@ -98,7 +98,8 @@ impl Grid {
     /// False
     #[pyo3(
         signature = (radius = None, *, meters = None, fit = None, outside = None, **motion),
-        text_signature = "($self, radius=None, *, meters=None, fit=None, outside='blocked', **motion)"
+        text_signature = "($self, radius=None, *, meters=None, fit=None, outside='blocked', k=None, neighbors=None, \
+            placement=None, corners=None, gap=None)"
     )]
     fn for_disc<'py>(
         &self,
@@ -182,7 +183,8 @@ impl Grid {
     /// 1.5
     #[pyo3(
         signature = (start, goal, *, surplus, points = None, **motion),
-        text_signature = "($self, start, goal, *, surplus, points='waypoints', **motion)"
+        text_signature = "($self, start, goal, *, surplus, points='waypoints', k=None, neighbors=None, placement=None, \
+            corners=None, gap=None)"
     )]
     fn widest_path<'py>(
         &self,

@@ -41,7 +41,10 @@ impl Grid {
     /// >>> import mediant
     /// >>> mediant.Grid.from_rows(["...", "..."]).field((0, 0)).path_from((1, 2)).tolist()
     /// [[1, 2], [0, 1], [0, 0]]
-    #[pyo3(signature = (sources, *, limit = None, **motion))]
+    #[pyo3(
+        signature = (sources, *, limit = None, **motion),
+        text_signature = "($self, sources, *, limit=None, k=None, neighbors=None, placement=None, corners=None, gap=None)"
+    )]
     fn field(
         &self,
         sources: &Bound<'_, PyAny>,
@@ -78,7 +81,10 @@ impl Grid {
     /// >>> import mediant
     /// >>> mediant.Grid.from_rows([".#.", "..."]).distances((0, 0), k=2).tolist()
     /// [[0.0, inf, 4.0], [1.0, 2.0, 3.0]]
-    #[pyo3(signature = (sources, *, limit = None, **motion))]
+    #[pyo3(
+        signature = (sources, *, limit = None, **motion),
+        text_signature = "($self, sources, *, limit=None, k=None, neighbors=None, placement=None, corners=None, gap=None)"
+    )]
     fn distances<'py>(
         &self,
         sources: &Bound<'py, PyAny>,
@@ -114,7 +120,10 @@ impl Grid {
     /// >>> import mediant
     /// >>> mediant.Grid.from_rows(["....", "...."]).reach((0, 0), 1.5).astype(int).tolist()
     /// [[1, 1, 0, 0], [1, 1, 0, 0]]
-    #[pyo3(signature = (sources, limit, **motion))]
+    #[pyo3(
+        signature = (sources, limit, **motion),
+        text_signature = "($self, sources, limit, *, k=None, neighbors=None, placement=None, corners=None, gap=None)"
+    )]
     fn reach<'py>(
         &self,
         sources: &Bound<'py, PyAny>,
@@ -152,7 +161,10 @@ impl Grid {
     /// >>> import mediant
     /// >>> mediant.Grid.from_rows(["..", ".."]).flow((0, 0)).round(2).tolist()
     /// [[[0.0, 0.0], [0.0, -1.0]], [[-1.0, 0.0], [-0.71, -0.71]]]
-    #[pyo3(signature = (sources, *, limit = None, **motion))]
+    #[pyo3(
+        signature = (sources, *, limit = None, **motion),
+        text_signature = "($self, sources, *, limit=None, k=None, neighbors=None, placement=None, corners=None, gap=None)"
+    )]
     fn flow<'py>(
         &self,
         sources: &Bound<'py, PyAny>,

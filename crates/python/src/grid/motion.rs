@@ -37,7 +37,10 @@ impl Grid {
     /// >>> import mediant
     /// >>> mediant.Grid.from_rows([".#"]).is_free((0, 1))
     /// False
-    #[pyo3(signature = (point, **motion))]
+    #[pyo3(
+        signature = (point, **motion),
+        text_signature = "($self, point, *, k=None, neighbors=None, placement=None, corners=None, gap=None)"
+    )]
     fn is_free(&self, point: &Bound<'_, PyAny>, motion: Option<&Bound<'_, PyDict>>) -> PyResult<bool> {
         let at = vertex("point", point)?;
         Ok(self.moved("is_free", point.py(), motion)?.is_free(at))
@@ -62,7 +65,10 @@ impl Grid {
     /// >>> import mediant
     /// >>> mediant.Grid.from_rows([".#."]).connected((0, 0), (0, 2))
     /// False
-    #[pyo3(signature = (start, goal, **motion))]
+    #[pyo3(
+        signature = (start, goal, **motion),
+        text_signature = "($self, start, goal, *, k=None, neighbors=None, placement=None, corners=None, gap=None)"
+    )]
     fn connected(
         &self,
         start: &Bound<'_, PyAny>,
@@ -96,7 +102,10 @@ impl Grid {
     /// >>> grid = mediant.Grid.from_rows(["...", ".#.", "..."])
     /// >>> grid.sees((0, 0), (0, 2)), grid.sees((0, 0), (2, 2))
     /// (True, False)
-    #[pyo3(signature = (start, goal, **motion))]
+    #[pyo3(
+        signature = (start, goal, **motion),
+        text_signature = "($self, start, goal, *, k=None, neighbors=None, placement=None, corners=None, gap=None)"
+    )]
     fn sees(
         &self,
         start: &Bound<'_, PyAny>,
@@ -132,7 +141,10 @@ impl Grid {
     /// ... except mediant.BrokenPathError as error:
     /// ...     print(error, error.holds_up_to)
     /// segment 0 of the path, from (0, 0) to (0, 3), does not hold: cell (0, 2) is blocked 1
-    #[pyo3(signature = (path, **motion))]
+    #[pyo3(
+        signature = (path, **motion),
+        text_signature = "($self, path, *, k=None, neighbors=None, placement=None, corners=None, gap=None)"
+    )]
     fn check(&self, path: &Bound<'_, PyAny>, motion: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
         let waypoints = Path::new(path_points("path", path)?);
         self.moved("check", path.py(), motion)?.check(&waypoints).map_err(broken)
@@ -158,7 +170,10 @@ impl Grid {
     /// >>> grid = mediant.Grid.from_rows(["....", "...."])
     /// >>> grid.holds([(0, 0), (0, 3)])
     /// True
-    #[pyo3(signature = (path, **motion))]
+    #[pyo3(
+        signature = (path, **motion),
+        text_signature = "($self, path, *, k=None, neighbors=None, placement=None, corners=None, gap=None)"
+    )]
     fn holds(&self, path: &Bound<'_, PyAny>, motion: Option<&Bound<'_, PyDict>>) -> PyResult<bool> {
         let waypoints = Path::new(path_points("path", path)?);
         Ok(self.moved("holds", path.py(), motion)?.check(&waypoints).is_ok())
@@ -181,7 +196,10 @@ impl Grid {
     /// >>> import mediant
     /// >>> mediant.Grid.from_rows(["...", "..."]).engine(k="any")[0]
     /// 'subgoal'
-    #[pyo3(signature = (**motion))]
+    #[pyo3(
+        signature = (**motion),
+        text_signature = "($self, *, k=None, neighbors=None, placement=None, corners=None, gap=None)"
+    )]
     fn engine(
         &self,
         py: Python<'_>,

@@ -61,7 +61,11 @@ impl Grid {
     /// [[0, 0], [1, 3], [3, 4]]
     #[pyo3(
         signature = (start, goal, *, points = None, **how),
-        text_signature = "($self, start, goal, *, points='waypoints', **how)"
+        text_signature = "($self, start, goal, *, points='waypoints', k=None, neighbors=None, placement=None, \
+            corners=None, gap=None, nearest=False, snap=False, tolerance=None, max_cost=None, \
+            max_expansions=None, timeout=None, engine='auto', heuristic=None, variant=None, jump_limit=None, \
+            keep_intermediate=False, levels=None, memory=None, side=None, unstraightened=False, second=None, \
+            step=None, detour=None, smooth=None)"
     )]
     fn path<'py>(
         &self,
@@ -105,7 +109,14 @@ impl Grid {
     /// >>> grid = mediant.Grid.from_rows(["....", ".##.", "...."])
     /// >>> [round(grid.distance((0, 0), (2, 2), k=k), 3) for k in (2, 3, 4)]
     /// [4.0, 4.0, 4.0]
-    #[pyo3(signature = (start, goal, **how))]
+    #[pyo3(
+        signature = (start, goal, **how),
+        text_signature = "($self, start, goal, *, k=None, neighbors=None, placement=None, corners=None, gap=None, \
+            nearest=False, snap=False, tolerance=None, max_cost=None, max_expansions=None, timeout=None, \
+            engine='auto', heuristic=None, variant=None, jump_limit=None, keep_intermediate=False, \
+            levels=None, memory=None, side=None, unstraightened=False, second=None, step=None, detour=None, \
+            smooth=None)"
+    )]
     fn distance<'py>(
         &self,
         py: Python<'py>,
@@ -191,7 +202,11 @@ impl Grid {
     /// ('stopped', 'cost')
     #[pyo3(
         signature = (start, goal, *, points = None, counters = None, **how),
-        text_signature = "($self, start, goal, *, points='waypoints', counters=False, **how)"
+        text_signature = "($self, start, goal, *, points='waypoints', counters=False, k=None, neighbors=None, \
+            placement=None, corners=None, gap=None, nearest=False, snap=False, tolerance=None, \
+            max_cost=None, max_expansions=None, timeout=None, engine='auto', heuristic=None, variant=None, \
+            jump_limit=None, keep_intermediate=False, levels=None, memory=None, side=None, \
+            unstraightened=False, second=None, step=None, detour=None, smooth=None)"
     )]
     fn find<'py>(
         &self,
@@ -233,7 +248,13 @@ impl Grid {
     /// >>> grid = mediant.Grid.from_rows(["....", ".##.", "...."])
     /// >>> grid.setup(), grid.setup(k="any")
     /// ('canonical:3:never', 'anya:any:open')
-    #[pyo3(signature = (**how))]
+    #[pyo3(
+        signature = (**how),
+        text_signature = "($self, *, k=None, neighbors=None, placement=None, corners=None, gap=None, nearest=False, \
+            snap=False, tolerance=None, max_cost=None, max_expansions=None, timeout=None, engine='auto', \
+            heuristic=None, variant=None, jump_limit=None, keep_intermediate=False, levels=None, \
+            memory=None, side=None, unstraightened=False, second=None, step=None, detour=None, smooth=None)"
+    )]
     fn setup(&self, how: Option<&Bound<'_, PyDict>>) -> PyResult<String> {
         let keywords = Keywords::read("setup", how, ALL)?;
         Ok(self.map().setup(&keywords.call).map_err(call_error)?.to_string())
@@ -290,7 +311,14 @@ impl Grid {
     /// >>> grid = mediant.Grid.from_rows(["....", ".##.", "...."])
     /// >>> grid.prepare().engine, grid.prepare("jps", k=4).k
     /// ('subgoal', 4)
-    #[pyo3(signature = (engine = None, *, threads = None, progress = None, **how))]
+    #[pyo3(
+        signature = (engine = None, *, threads = None, progress = None, **how),
+        text_signature = "($self, engine=None, *, threads=None, progress=None, k=None, neighbors=None, placement=None, \
+            corners=None, gap=None, nearest=False, snap=False, tolerance=None, max_cost=None, \
+            max_expansions=None, timeout=None, heuristic=None, variant=None, jump_limit=None, \
+            keep_intermediate=False, levels=None, memory=None, side=None, unstraightened=False, second=None, \
+            step=None, detour=None, smooth=None)"
+    )]
     fn prepare<'py>(
         &self,
         py: Python<'py>,
@@ -346,7 +374,12 @@ impl Grid {
     /// Examples
     /// --------
     /// See `Index.save`.
-    #[pyo3(signature = (path, **options))]
+    #[pyo3(
+        signature = (path, **options),
+        text_signature = "($self, path, *, heuristic=None, variant=None, jump_limit=None, keep_intermediate=False, \
+            levels=None, memory=None, side=None, unstraightened=False, second=None, step=None, detour=None, \
+            smooth=None)"
+    )]
     fn load(
         &self,
         py: Python<'_>,
@@ -382,7 +415,12 @@ impl Grid {
     /// Examples
     /// --------
     /// See `Index.to_bytes`.
-    #[pyo3(signature = (data, **options))]
+    #[pyo3(
+        signature = (data, **options),
+        text_signature = "($self, data, *, heuristic=None, variant=None, jump_limit=None, keep_intermediate=False, \
+            levels=None, memory=None, side=None, unstraightened=False, second=None, step=None, detour=None, \
+            smooth=None)"
+    )]
     fn index_from_bytes(
         &self,
         py: Python<'_>,

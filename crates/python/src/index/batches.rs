@@ -52,8 +52,8 @@ impl Index {
     /// [[[0, 0], [0, 3]], [[0, 0], [2, 0]]]
     #[pyo3(
         signature = (starts, goals, *, points = None, threads = None, progress = None, invalid = None, **wishes),
-        text_signature = "($self, starts, goals, *, points='waypoints', threads=None, progress=None, \
-            invalid='raise', **wishes)"
+        text_signature = "($self, starts, goals, *, points='waypoints', threads=None, progress=None, invalid='raise', \
+            nearest=False, snap=False, tolerance=None, max_cost=None, max_expansions=None, timeout=None)"
     )]
     #[expect(clippy::too_many_arguments, reason = "the keywords of a call in Python")]
     fn paths<'py>(
@@ -102,7 +102,8 @@ impl Index {
     /// [3.0, 5.0]
     #[pyo3(
         signature = (starts, goals, *, threads = None, progress = None, invalid = None, **wishes),
-        text_signature = "($self, starts, goals, *, threads=None, progress=None, invalid='raise', **wishes)"
+        text_signature = "($self, starts, goals, *, threads=None, progress=None, invalid='raise', nearest=False, \
+            snap=False, tolerance=None, max_cost=None, max_expansions=None, timeout=None)"
     )]
     #[expect(clippy::too_many_arguments, reason = "the keywords of a call in Python")]
     fn distances<'py>(

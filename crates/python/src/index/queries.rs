@@ -141,7 +141,8 @@ impl Index {
     /// [[0, 0], [1, 0], [2, 0], [2, 1], [2, 2]]
     #[pyo3(
         signature = (start, goal, *, points = None, **wishes),
-        text_signature = "($self, start, goal, *, points='waypoints', **wishes)"
+        text_signature = "($self, start, goal, *, points='waypoints', nearest=False, snap=False, tolerance=None, \
+            max_cost=None, max_expansions=None, timeout=None)"
     )]
     fn path<'py>(
         &self,
@@ -180,7 +181,11 @@ impl Index {
     /// >>> import mediant
     /// >>> mediant.Grid.from_rows(["....", ".##.", "...."]).prepare().distance((0, 0), (2, 3))
     /// 5.0
-    #[pyo3(signature = (start, goal, **wishes))]
+    #[pyo3(
+        signature = (start, goal, **wishes),
+        text_signature = "($self, start, goal, *, nearest=False, snap=False, tolerance=None, max_cost=None, \
+            max_expansions=None, timeout=None)"
+    )]
     fn distance<'py>(
         &self,
         py: Python<'py>,
@@ -224,7 +229,8 @@ impl Index {
     /// ('nearest', [[0, 0], [0, 1]], True)
     #[pyo3(
         signature = (start, goal, *, points = None, counters = None, **wishes),
-        text_signature = "($self, start, goal, *, points='waypoints', counters=False, **wishes)"
+        text_signature = "($self, start, goal, *, points='waypoints', counters=False, nearest=False, snap=False, \
+            tolerance=None, max_cost=None, max_expansions=None, timeout=None)"
     )]
     fn find<'py>(
         &self,

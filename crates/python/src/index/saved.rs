@@ -42,7 +42,11 @@ impl Index {
     /// >>> index = mediant.Grid.from_rows(["...", "..."]).prepare("astar")
     /// >>> index.with_options(heuristic="euclidean").setup
     /// 'astar:3:never,euclidean'
-    #[pyo3(signature = (**options))]
+    #[pyo3(
+        signature = (**options),
+        text_signature = "($self, *, heuristic=None, variant=None, jump_limit=None, keep_intermediate=False, levels=None, \
+            memory=None, side=None, unstraightened=False, second=None, step=None, detour=None, smooth=None)"
+    )]
     fn with_options(&self, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let keywords = Keywords::read("with_options", options, OPTIONS)?;
         let index = self.planners.index().with_call(&keywords.call).map_err(raised)?;

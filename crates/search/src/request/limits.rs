@@ -175,6 +175,13 @@ impl Limits {
     }
 }
 
+/// The same limits.
+impl From<&Self> for Limits {
+    fn from(limits: &Self) -> Self {
+        limits.clone()
+    }
+}
+
 impl fmt::Debug for Limits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Limits")

@@ -83,7 +83,7 @@ impl Query {
 
     /// Sets limits. See [`Request::within`].
     #[must_use]
-    pub fn within(self, limits: Limits) -> Request {
+    pub fn within(self, limits: impl Into<Limits>) -> Request {
         Request::from(self).within(limits)
     }
 }
@@ -140,8 +140,8 @@ impl Request {
 
     /// Stops the search at these limits; see [`Outcome::Stopped`](crate::Outcome::Stopped).
     #[must_use]
-    pub fn within(mut self, limits: Limits) -> Self {
-        self.wishes_mut().limits = limits;
+    pub fn within(mut self, limits: impl Into<Limits>) -> Self {
+        self.wishes_mut().limits = limits.into();
         self
     }
 

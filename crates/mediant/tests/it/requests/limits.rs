@@ -240,7 +240,7 @@ fn check_deadline(world: &World, setup: Setup, planner: &mut Planner, known: &Kn
     };
     let (answer, all, _) = ask(planner, usize::MAX);
     assert!(is_known(&answer), "{}", text());
-    let each = Limits::EXPANSIONS_PER_LOOK;
+    let each = mediant_search::Limits::EXPANSIONS_PER_LOOK;
     assert_eq!(all.first(), Some(&0), "{}", text());
     let last = all[all.len() - 1];
     // What a planner does within clusters is not interrupted.

@@ -1,0 +1,49 @@
+//! Tables in Markdown.
+
+use std::fmt::Write as _;
+
+use super::{Description, Engine, Parameter};
+
+/// The table of engines.
+pub(super) fn engines(description: &Description) -> String {
+    let mut text = "| engine | vertices | k | guarantee | paper |\n|---|---|---|---|---|\n".to_owned();
+    for engine in &description.engines {
+        let Engine { name, title, placements, max_k, any, promise, papers } = engine;
+        let places: Vec<String> = placements.iter().map(|place| format!("{place}s")).collect();
+        let k = match (max_k, any) {
+            (3, false) => "2, 3".to_owned(),
+            (max, false) => format!("2 … {max}"),
+            (max, true) => format!("2 … {max}, any angle"),
+        };
+        _ = writeln!(text, "| {title} (`{name}`) | {} | {k} | {promise} | {papers} |", places.join(", "));
+    }
+    text
+}
+
+/// The table of parameters: how each language writes them.
+pub(super) fn parameters(description: &Description) -> String {
+    let mut text =
+        "| program | Python | JavaScript | takes | by default | |\n|---|---|---|---|---|---|\n".to_owned();
+    for parameter in &description.parameters {
+        let Parameter { name, default, help, .. } = parameter;
+        let default = default.as_deref().map_or(String::new(), |default| format!("`{default}`"));
+        let (snake, camel, takes) = (parameter.snake(), parameter.camel(), takes(parameter));
+        // A bar would end the cell.
+        let help = help.replace('|', "\\|");
+        _ = writeln!(text, "| `--{name}` | `{snake}` | `{camel}` | {takes} | {default} | {help} |");
+    }
+    text
+}
+
+fn takes(parameter: &Parameter) -> String {
+    let names = || parameter.names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    match (&*parameter.kind, parameter.unit.as_deref()) {
+        ("flag", _) => "true or false".to_owned(),
+        ("integer or name", _) => format!("an integer, or {}", names()),
+        ("integer or text", _) => "bytes, or a text as `8MB`".to_owned(),
+        ("name", _) => names(),
+        (_, Some("time")) => "milliseconds; in Python seconds".to_owned(),
+        (_, Some(unit)) => unit.to_owned(),
+        _ => "an integer".to_owned(),
+    }
+}

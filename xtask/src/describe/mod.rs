@@ -1,0 +1,157 @@
+//! `cargo xtask describe`: writes what every language says of calls and engines.
+//!
+//! The library describes itself in `docs/description.json`, which a test of `mediant` holds to the code. From
+//! that file follow the keywords of Python's stub, the interfaces of TypeScript, and tables in Markdown: the
+//! regions between a line with `described: NAME` and one with `described: end`. `tidy` compares them.
+
+mod markdown;
+mod python;
+mod typescript;
+
+use std::{fs, path::PathBuf};
+
+use mediant_sets::root;
+use serde::Deserialize;
+
+use crate::{Error, tidy::Tree};
+
+/// The file of the description, from the root.
+pub const FILE: &str = "docs/description.json";
+
+/// What the library says of itself.
+#[derive(Debug, Deserialize)]
+pub struct Description {
+    parameters: Vec<Parameter>,
+    engines: Vec<Engine>,
+    statuses: Vec<String>,
+    limits: Vec<String>,
+    stages: Vec<String>,
+    origins: Vec<String>,
+}
+
+/// A parameter of calls: `mediant::call::Parameter`.
+#[derive(Debug, Deserialize)]
+struct Parameter {
+    name: String,
+    group: String,
+    kind: String,
+    unit: Option<String>,
+    default: Option<String>,
+    names: Vec<String>,
+    help: String,
+}
+
+/// A row of the table of engines.
+#[derive(Debug, Deserialize)]
+struct Engine {
+    name: String,
+    title: String,
+    placements: Vec<String>,
+    max_k: u32,
+    any: bool,
+    promise: String,
+    papers: String,
+}
+
+impl Description {
+    /// The parameters of a group.
+    fn of<'d>(&'d self, group: &'d str) -> impl Iterator<Item = &'d Parameter> {
+        self.parameters.iter().filter(move |parameter| parameter.group == group)
+    }
+}
+
+impl Parameter {
+    /// `max_cost` for `max-cost`.
+    fn snake(&self) -> String {
+        self.name.replace('-', "_")
+    }
+
+    /// `maxCost` for `max-cost`.
+    fn camel(&self) -> String {
+        let mut parts = self.name.split('-');
+        let first = parts.next().unwrap_or_default().to_owned();
+        parts.fold(first, |camel, part| format!("{camel}{}{}", part[..1].to_uppercase(), &part[1..]))
+    }
+}
+
+/// A part of a file that is written from the description.
+struct Region {
+    file: &'static str,
+    name: &'static str,
+    text: String,
+}
+
+/// All regions.
+fn regions(description: &Description) -> Vec<Region> {
+    let region = |file, name, text| Region { file, name, text };
+    vec![
+        region("crates/python/python/mediant/_mediant.pyi", "calls", python::keywords(description)),
+        region("crates/web/src/types.rs", "calls", typescript::interfaces(description)),
+        region("README.md", "engines", markdown::engines(description)),
+        region("docs/calls.md", "parameters", markdown::parameters(description)),
+    ]
+}
+
+/// A file with a region in its place; `None` if it has no such region.
+fn replaced(file: &str, region: &Region) -> Option<String> {
+    let begin = file.find(&format!("described: {}", region.name))?;
+    let begin = begin + file[begin..].find('\n')? + 1;
+    let end = begin + file[begin..].find("described: end")?;
+    // The line of the mark stays whole.
+    let end = file[..end].rfind('\n')? + 1;
+    Some(format!("{}{}{}", &file[..begin], region.text, &file[end..]))
+}
+
+/// The files of a tree that differ from the description, as they should be; a text in place of a file says
+/// why it cannot be known.
+///
+/// # Errors
+/// In words, the fault of the description or of the marks.
+pub fn outdated(tree: &Tree) -> Result<Vec<(PathBuf, String)>, String> {
+    let text = |file: &str| {
+        let bytes = tree.bytes(file.as_ref()).ok_or_else(|| format!("there is no {file}"))?;
+        std::str::from_utf8(bytes).map_err(|_| format!("{file} is no text"))
+    };
+    let description = serde_json::from_str(text(FILE)?).map_err(|error| format!("{FILE}: {error}"))?;
+    let mut changed: Vec<(PathBuf, String)> = Vec::new();
+    for region in regions(&description) {
+        let known = text(region.file)?;
+        let written = replaced(known, &region).ok_or_else(|| {
+            format!("{} has no lines `described: {}` and `described: end`", region.file, region.name)
+        })?;
+        if written != known {
+            changed.push((region.file.into(), written));
+        }
+    }
+    changed.extend(python::signatures(&description, tree)?);
+    Ok(changed)
+}
+
+/// Writes all that differs.
+///
+/// # Errors
+/// [`Error::Io`] for a file that cannot be read or written, [`Error::Described`] for marks that are missing.
+pub fn run() -> Result<(), Error> {
+    let root = root();
+    let tree = Tree::read(&root)?;
+    for (path, text) in outdated(&tree).map_err(|wrong| Error::Described { wrong })? {
+        fs::write(root.join(&path), text).map_err(|source| Error::Io { path: path.clone(), source })?;
+        println!("wrote {}", path.display());
+    }
+    Ok(())
+}
+
+/// The words of a text in lines of at most this width.
+fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split(' ') {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}

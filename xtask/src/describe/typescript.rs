@@ -1,0 +1,71 @@
+//! The interfaces of TypeScript.
+
+use std::fmt::Write as _;
+
+use super::{Description, Parameter, wrapped};
+
+/// The interfaces of a call, and the unions of an answer's words.
+pub(super) fn interfaces(description: &Description) -> String {
+    let mut text = String::new();
+    for (group, name, about) in [
+        ("motion", "Motion", "How an agent moves."),
+        ("wishes", "Wishes", "What a query asks beyond a path."),
+        ("options", "Options", "The options of engines; `engines()` says which engine takes which."),
+    ] {
+        _ = writeln!(text, "/** {about} */\nexport interface {name} {{");
+        for parameter in description.of(group) {
+            key(&mut text, parameter);
+        }
+        text.push_str("}\n\n");
+    }
+    text.push_str(
+        "/** All that `Grid.path` takes. */\nexport interface How extends Motion, Wishes, Options {\n",
+    );
+    for parameter in description.of("engine") {
+        key(&mut text, parameter);
+    }
+    text.push_str("}\n\n");
+    for (name, about, words) in [
+        ("Status", "The kinds of answers.", &description.statuses),
+        ("Limit", "The limits that stop a search.", &description.limits),
+        ("Stage", "The stages of a preparation that reports progress.", &description.stages),
+        ("Origin", "How an index came about.", &description.origins),
+    ] {
+        _ = writeln!(text, "/** {about} */\nexport type {name} = {};\n", union(words));
+    }
+    text.truncate(text.trim_end().len() + 1);
+    text
+}
+
+/// A key with its comment.
+fn key(text: &mut String, parameter: &Parameter) {
+    let unit = if parameter.unit.as_deref() == Some("time") { ", in milliseconds" } else { "" };
+    let default = match &parameter.default {
+        Some(default) => format!(" {default} by default."),
+        None => String::new(),
+    };
+    let about = format!("{}{unit}.{default}", parameter.help);
+    if about.chars().count() <= 100 {
+        _ = writeln!(text, "  /** {about} */");
+    } else {
+        let lines = wrapped(&about, 104).join("\n   * ");
+        _ = writeln!(text, "  /**\n   * {lines}\n   */");
+    }
+    _ = writeln!(text, "  readonly {}?: {};", parameter.camel(), of(parameter));
+}
+
+fn of(parameter: &Parameter) -> String {
+    match &*parameter.kind {
+        "flag" => "boolean".to_owned(),
+        "integer or name" => format!("number | {}", union(&parameter.names)),
+        "integer or text" => "number | string".to_owned(),
+        // People write names of engines in several ways.
+        "name" if parameter.names.len() > 8 => "string".to_owned(),
+        "name" => union(&parameter.names),
+        _ => "number".to_owned(),
+    }
+}
+
+fn union(words: &[String]) -> String {
+    words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(" | ")
+}
