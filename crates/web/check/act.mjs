@@ -23,9 +23,8 @@ export const emptyRows = (width, height) => Array.from({ length: height }, () =>
 /** A generated map. @param {Page} page @param {string} name @param {number} side @param {number} [seed] */
 export async function generate(page, name, side, seed = 1) {
   await page.evaluate(async ([name, side, seed]) => {
-    const maps = await import(new URL("src/model/maps.js", location.href).href);
-    const { model } = /** @type {any} */ (globalThis).mediant;
-    model.load(await maps.loadMap({ kind: "generated", name, side, seed }));
+    const { model, loadMap } = /** @type {any} */ (globalThis).mediant;
+    model.load(await loadMap({ kind: "generated", name, side, seed }));
   }, /** @type {[string, number, number]} */ ([name, side, seed]));
 }
 

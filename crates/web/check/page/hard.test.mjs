@@ -44,22 +44,22 @@ test("a map without a free cell", async () => {
   await picture(page, "all-blocked");
 });
 
-test("what makes maps cannot be loaded: the page says so, keeps the scene, and can try again", async () => {
+test("a map cannot be loaded: the page says so, keeps the scene, and can try again", async () => {
   const context = await site.context();
-  await context.route("**/generate.js", (route) => route.abort());
+  await context.route("**/maps/cave.map?*", (route) => route.abort());
   const page = await site.open({ context });
   const before = await rows(page);
   const choose = async () => {
     await page.locator("#maps > summary").click();
-    await page.locator("#maps").getByRole("button", { name: "Cave", exact: true }).click();
+    await page.locator("#maps").getByRole("button", { name: "Small cave", exact: true }).click();
   };
   await choose();
   assert.ok(isSentence(await message(page, /could not be loaded/)));
   assert.deepEqual(await rows(page), before);
-  for (const complaint of site.taken()) assert.match(complaint, /generate\.js|ERR_FAILED/);
-  await context.unroute("**/generate.js");
+  for (const complaint of site.taken()) assert.match(complaint, /cave\.map|ERR_FAILED/);
+  await context.unroute("**/maps/cave.map?*");
   await choose();
-  await page.waitForFunction(() => /** @type {any} */ (globalThis).mediant.model.source.kind === "generated");
+  await page.waitForFunction(() => /** @type {any} */ (globalThis).mediant.model.source.name === "cave");
   await settled(page);
 });
 

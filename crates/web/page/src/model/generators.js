@@ -1,4 +1,4 @@
-// Which maps can be generated. What makes them is in generate.js, which is loaded after the first path.
+// Which maps can be generated. What makes them is in generate.js.
 
 /** `title`: what a menu shows. `about`: what the map is, as a sentence. `side`: a side that suits it.
  * @typedef {object} Generator

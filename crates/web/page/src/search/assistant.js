@@ -36,9 +36,8 @@ export class Helper {
   }
 
   #start() {
-    const worker = new Worker(new URL("./helper.js", import.meta.url), { type: "module" });
     /** @type {Remote<Heard>} */
-    const remote = new Remote(worker);
+    const remote = new Remote("helper");
     const text = (/** @type {string} */ why) => `The engines could not be loaded: ${sentence(why)}`;
     remote.listen((message) => this.#hear(message), (why) => this.stop(text(why)));
     return remote;

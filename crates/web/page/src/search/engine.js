@@ -23,14 +23,9 @@ import { Remote } from "./remote.js";
 /** A worker that was started ahead. @type {Remote<FromLane> | null} */
 let spare = null;
 
-/** @returns {Remote<FromLane>} */
-function newRemote() {
-  return new Remote(new Worker(new URL("./worker.js", import.meta.url), { type: "module" }));
-}
-
-/** Starts the worker of the first lane while the page still loads. */
+/** Starts the worker of the first lane while the page is still put together. */
 export function warm() {
-  spare ??= newRemote();
+  spare ??= new Remote("lane");
 }
 
 export class Engine {
@@ -57,7 +52,8 @@ export class Engine {
   }
 
   #start() {
-    const remote = spare ?? newRemote();
+    /** @type {Remote<FromLane>} */
+    const remote = spare ?? new Remote("lane");
     spare = null;
     remote.listen((message) => this.#hear(message), (why) => this.#died(why));
     return remote;

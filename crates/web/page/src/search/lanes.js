@@ -134,6 +134,15 @@ export class Lanes extends EventTarget {
     return this.#once(setupKey(setup), () => this.#helper.ask({ type: "check", setup: { ...setup } }));
   }
 
+  /**
+   * @param {LaneSetup} setup
+   * @param {number[]} ks
+   * @returns {Promise<(number | null)[]>}
+   */
+  bounds(setup, ks) {
+    return this.#first.then(() => this.#helper.ask({ type: "bounds", setup: { ...setup }, ks }));
+  }
+
   /** @param {number} index */
   cancel(index) {
     this.#lanes[index]?.cancel();

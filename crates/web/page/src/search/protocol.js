@@ -89,6 +89,7 @@
 /**
  * What the helper is asked.
  * @typedef {{ type: "moves", k: number } | { type: "check", setup: LaneSetup }
+ *   | { type: "bounds", setup: LaneSetup, ks: number[] }
  *   | { type: "read", files: NamedBytes[] } | ({ type: "overlay" } & OverlayWish)} Request
  */
 

@@ -1,33 +1,8 @@
-// A worker with the package in it. The package is compiled once; each worker makes an instance of its own.
+// A worker with the package in it.
 
+/** @import { Role } from "../workers.js" */
 /** @import { ToLane, Request } from "./protocol.js" */
-
-/** @type {Promise<WebAssembly.Module> | undefined} */
-let module;
-
-/**
- * The package, compiled.
- * @returns {Promise<WebAssembly.Module>}
- */
-export function compiled() {
-  if (!module) {
-    module = compile();
-    // Who asks again, tries again.
-    module.catch(() => (module = undefined));
-  }
-  return module;
-}
-
-async function compile() {
-  const response = await fetch(new URL("../../mediant/mediant_bg.wasm", import.meta.url));
-  if (!response.ok) {
-    throw new Error(`the server answered ${response.status} for mediant_bg.wasm`);
-  }
-  // A browser compiles while it loads only what the server calls by its type.
-  return response.headers.get("Content-Type")?.startsWith("application/wasm")
-    ? WebAssembly.compileStreaming(response)
-    : WebAssembly.compile(await response.arrayBuffer());
-}
+import { compiled, newWorker } from "../workers.js";
 
 /**
  * @template {object} Heard - The messages of the worker.
@@ -36,24 +11,19 @@ export class Remote {
   /** @type {Worker} */
   #worker;
   #over = false;
-  #hasSpoken = false;
   /** What came before anybody listened. @type {(() => void)[]} */
   #early = [];
   /** @type {{ heard: (message: Heard) => void, died: (why: string) => void } | null} */
   #listener = null;
 
-  /** @param {Worker} worker */
-  constructor(worker) {
+  /** @param {Role} role */
+  constructor(role) {
+    const worker = newWorker(role);
     this.#worker = worker;
-    worker.onmessage = ({ data }) => {
-      this.#hasSpoken = true;
-      this.#tell(() => this.#over || this.#listener?.heard(data));
-    };
+    worker.onmessage = ({ data }) => this.#tell(() => this.#over || this.#listener?.heard(data));
     worker.onmessageerror = () => this.#die("a message of a worker could not be read");
     worker.onerror = (event) => {
       event.preventDefault();
-      // A worker that is newer than the compiled package does not start with it.
-      module = this.#hasSpoken ? module : undefined;
       this.#die(event.message || "a worker could not be loaded");
     };
     compiled().then(

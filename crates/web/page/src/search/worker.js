@@ -154,9 +154,8 @@ function wake() {
   }
 }
 
-channel.port1.onmessage = turn;
-
-onmessage = (/** @type {MessageEvent<ToLane>} */ { data }) => {
+/** @param {ToLane} data */
+function hear(data) {
   switch (data.type) {
     case "start":
       memory = initSync({ module: data.module }).memory;
@@ -185,4 +184,9 @@ onmessage = (/** @type {MessageEvent<ToLane>} */ { data }) => {
       }
   }
   wake();
-};
+}
+
+export function work() {
+  channel.port1.onmessage = turn;
+  onmessage = ({ data }) => hear(data);
+}
