@@ -123,7 +123,11 @@ async function send({ path, size }, request, response, headers) {
   const way = wayFor(request);
   if (isText(String(headers["content-type"]), size)) {
     headers.vary = "accept-encoding";
-    const bytes = way && (await readFile(path).then(way[1]).catch(() => null));
+    const bytes =
+      way &&
+      (await readFile(path)
+        .then(way[1])
+        .catch(() => null));
     if (bytes) {
       response.writeHead(200, { ...headers, "content-encoding": way[0], "content-length": bytes.length });
       return response.end(request.method === "HEAD" ? undefined : bytes);

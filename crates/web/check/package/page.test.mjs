@@ -47,17 +47,26 @@ test("maps and engines are there as they are, and nothing that no browser needs"
 
 test("every module of the sources is in a script, and debuggers find it", () => {
   const named = ["page.js.map", "worker.js.map"].flatMap((path) => JSON.parse(read(path)).sources);
-  assert.ok(named.every((path) => path.startsWith("../sources/")), named.join(" "));
+  assert.ok(
+    named.every((path) => path.startsWith("../sources/")),
+    named.join(" "),
+  );
   const modules = filesOf(SOURCES).filter((path) => /^src\/.*\.js$/.test(path));
   const first = ["src/start.js", "src/panels/theme-first.js"];
   const isIn = (/** @type {string} */ path) => first.includes(path) || named.includes(`../sources/${path}`);
-  assert.deepEqual(modules.filter((path) => !isIn(path)), []);
+  assert.deepEqual(
+    modules.filter((path) => !isIn(path)),
+    [],
+  );
 });
 
 test("the head holds its script and its styles, and its policy allows no others", () => {
   const head = read("index.html");
   const [, policy] = /http-equiv="Content-Security-Policy"\s+content="([^"]+)"/.exec(head) ?? [];
-  for (const [element, rule] of [["script", "script-src"], ["style", "style-src"]]) {
+  for (const [element, rule] of [
+    ["script", "script-src"],
+    ["style", "style-src"],
+  ]) {
     const parts = [...head.matchAll(new RegExp(`<${element}[^>]*>([^]*?)</${element}>`, "g"))];
     assert.equal(parts.length, 1, element);
     const allowed = policy.split("; ").find((part) => part.startsWith(`${rule} `)) ?? "";

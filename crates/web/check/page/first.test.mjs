@@ -4,12 +4,12 @@ import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
 import { test } from "node:test";
 import { fileURLToPath } from "node:url";
+import { serve } from "../../serve.mjs";
 import { lanes, rows, scene } from "../act.mjs";
 import { picture, Site } from "../browser.mjs";
 import { PAGE } from "../places.mjs";
 import { relay } from "../traffic.mjs";
 import { lengthOf, load } from "../truth.mjs";
-import { serve } from "../../serve.mjs";
 
 const site = new Site();
 

@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import { lanes, setLanes } from "../act.mjs";
-import { settled, Site } from "../browser.mjs";
+import { Site, settled } from "../browser.mjs";
 import { PAGE } from "../places.mjs";
 
 /** @typedef {import("playwright-core").Page} Page */

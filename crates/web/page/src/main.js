@@ -67,10 +67,12 @@ function firstPath(lanes) {
       if (isMarked || !isThere) return;
       isMarked = true;
       // The answer is drawn in the next frame, which is painted before the one after it.
-      requestAnimationFrame(() => requestAnimationFrame(() => {
-        performance.mark("first-path");
-        painted();
-      }));
+      requestAnimationFrame(() =>
+        requestAnimationFrame(() => {
+          performance.mark("first-path");
+          painted();
+        }),
+      );
     });
   });
 }

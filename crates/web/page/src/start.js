@@ -5,8 +5,8 @@
 // compressed. All three are asked for at once: the first path waits for the last of them, not for their sum.
 
 import "./panels/theme-first.js";
-import { banner, sentence } from "./panels/message.js";
 import { addressOf, unpacked } from "./files.js";
+import { banner, sentence } from "./panels/message.js";
 
 /** What this browser lacks, as a sentence; empty if it has all that is needed. */
 function missing() {

@@ -17,20 +17,32 @@ export { generators, SIDES };
 /** @type {readonly Readonly<Bundled>[]} */
 export const bundled = Object.freeze([
   {
-    name: "archipelago", title: "Archipelago", about: "A course between islands.",
-    start: [1, 1], goal: [60, 34],
+    name: "archipelago",
+    title: "Archipelago",
+    about: "A course between islands.",
+    start: [1, 1],
+    goal: [60, 34],
   },
   {
-    name: "cave", title: "Small cave", about: "A way through a cave.",
-    start: [2, 5], goal: [62, 33],
+    name: "cave",
+    title: "Small cave",
+    about: "A way through a cave.",
+    start: [2, 5],
+    goal: [62, 33],
   },
   {
-    name: "maze", title: "Hedges", about: "A way through a maze of hedges.",
-    start: [2, 2], goal: [66, 31],
+    name: "maze",
+    title: "Hedges",
+    about: "A way through a maze of hedges.",
+    start: [2, 2],
+    goal: [66, 31],
   },
   {
-    name: "town", title: "Town", about: "A walk across a town with a river.",
-    start: [0, 34], goal: [70, 3],
+    name: "town",
+    title: "Town",
+    about: "A walk across a town with a river.",
+    start: [0, 34],
+    goal: [70, 3],
   },
 ]);
 

@@ -39,7 +39,10 @@ export class Helper {
     /** @type {Remote<Heard>} */
     const remote = new Remote("helper");
     const text = (/** @type {string} */ why) => `The engines could not be loaded: ${sentence(why)}`;
-    remote.listen((message) => this.#hear(message), (why) => this.stop(text(why)));
+    remote.listen(
+      (message) => this.#hear(message),
+      (why) => this.stop(text(why)),
+    );
     return remote;
   }
 

@@ -4,7 +4,7 @@
 /** @import { Change, Model } from "../../types.js" */
 /** @import { EngineInfo } from "../../mediant/mediant.js" */
 /** @import { FromLane, ToLane, Walk } from "./protocol.js" */
-import { Feed, buffersOf } from "./feed.js";
+import { buffersOf, Feed } from "./feed.js";
 import { Orders } from "./orders.js";
 import { Remote } from "./remote.js";
 
@@ -55,7 +55,10 @@ export class Engine {
     /** @type {Remote<FromLane>} */
     const remote = spare ?? new Remote("lane");
     spare = null;
-    remote.listen((message) => this.#hear(message), (why) => this.#died(why));
+    remote.listen(
+      (message) => this.#hear(message),
+      (why) => this.#died(why),
+    );
     return remote;
   }
 

@@ -124,5 +124,5 @@ function hear(data) {
 }
 
 export function work() {
-  onmessage = ({ data }) => hear(data);
+  addEventListener("message", ({ data }) => hear(data));
 }

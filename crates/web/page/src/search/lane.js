@@ -175,8 +175,12 @@ export class Lane {
     if (this.#isWanted && this.#engine.isReady) {
       const now = performance.now();
       const what = whatNow({
-        now, gesture: this.#model.gesture, took: this.#took, pauseEnds: this.#pauseEnds,
-        sent: this.#sent, isOther: this.#isOther,
+        now,
+        gesture: this.#model.gesture,
+        took: this.#took,
+        pauseEnds: this.#pauseEnds,
+        sent: this.#sent,
+        isOther: this.#isOther,
       });
       if (what === "send") {
         this.#send();
@@ -201,7 +205,14 @@ export class Lane {
     this.#sent = { number, at: performance.now(), isPreparing: false, tells: false };
     this.#hurry = hurry;
     this.#engine.ask({
-      number, setup: this.setup, radius, start: [...start], goal: [...goal], nearest, hurry, record,
+      number,
+      setup: this.setup,
+      radius,
+      start: [...start],
+      goal: [...goal],
+      nearest,
+      hurry,
+      record,
     });
     clearTimeout(this.#timers.show);
     this.#timers.show = setTimeout(() => this.#sent && this.#shown.work(this.#sent.isPreparing), SHOWN);

@@ -161,7 +161,10 @@ export class Lanes extends EventTarget {
     const read = await Promise.all(files.map(bytesOf));
     const reader = new Helper();
     try {
-      return await reader.ask({ type: "read", files: read }, read.map(({ bytes }) => bytes.buffer));
+      return await reader.ask(
+        { type: "read", files: read },
+        read.map(({ bytes }) => bytes.buffer),
+      );
     } finally {
       // A large map leaves much memory behind.
       reader.stop("");

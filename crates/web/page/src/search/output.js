@@ -5,7 +5,7 @@
 /** @import { Say } from "./search.js" */
 /** @import { Session } from "./session.js" */
 import { Picture, Trace } from "../../mediant/mediant.js";
-import { textOf, sentence } from "./protocol.js";
+import { sentence, textOf } from "./protocol.js";
 import { questionOf, sliced } from "./search.js";
 
 /** The most events of a trace: the visualizer holds no more, and the text takes 100 bytes for each. */

@@ -11,7 +11,13 @@
 export class Shown {
   /** @type {LaneState} */
   state = {
-    phase: "starting", progress: null, expanded: 0, message: "", answer: null, stale: true, index: null,
+    phase: "starting",
+    progress: null,
+    expanded: 0,
+    message: "",
+    answer: null,
+    stale: true,
+    index: null,
   };
   #changed;
   /** The number of the answer. */

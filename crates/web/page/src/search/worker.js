@@ -62,8 +62,12 @@ function* answerTo(ask) {
 }
 
 /** @param {Index} index */
-const factsOf = ({ memoryBytes, origin, levels, searchedBy }) =>
-  ({ bytes: memoryBytes, origin, levels, searchedBy });
+const factsOf = ({ memoryBytes, origin, levels, searchedBy }) => ({
+  bytes: memoryBytes,
+  origin,
+  levels,
+  searchedBy,
+});
 
 /** @param {Ask} ask */
 function prepare(ask) {
@@ -188,5 +192,5 @@ function hear(data) {
 
 export function work() {
   channel.port1.onmessage = turn;
-  onmessage = ({ data }) => hear(data);
+  addEventListener("message", ({ data }) => hear(data));
 }
