@@ -23,7 +23,7 @@ import { AgentsPanel, ShowPanel } from "./panels/show.js";
 import { startTabs } from "./panels/tabs.js";
 import { startTheme } from "./panels/theme.js";
 import { ToolBar } from "./panels/tools.js";
-import { warm } from "./search/engine.js";
+import { warm } from "./search/lane.js";
 import { Lanes } from "./search/lanes.js";
 import { Walkers } from "./search/walkers.js";
 import { Player } from "./stage/player.js";

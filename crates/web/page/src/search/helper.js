@@ -110,16 +110,16 @@ function narrowOf(grid, { radius, setup, narrow }) {
 function hear(data) {
   if (data.type === "start") {
     initSync({ module: data.module });
-    postMessage({ id: 0 });
+    postMessage({ type: "ready" });
     return;
   }
   try {
     const { value, transfer } = reply(data);
-    postMessage({ id: data.id, value }, { transfer });
+    postMessage({ type: "result", id: data.id, value }, { transfer });
   } catch (error) {
     const isMistake = error instanceof Error && ["MediantError", "Refusal"].includes(error.name);
-    const refused = isMistake ? sentence(textOf(error)) : NO_MEMORY;
-    postMessage({ id: data.id, refused, broken: !isMistake });
+    const message = isMistake ? sentence(textOf(error)) : NO_MEMORY;
+    postMessage({ type: "refused", id: data.id, message, broken: !isMistake });
   }
 }
 

@@ -1,6 +1,7 @@
 // All lanes of the race, and what else the engines are asked for. Follows the model; each lane has a
 // worker of its own, so that a slow engine does not keep the others waiting.
 
+/** @import { Order } from "./protocol.js" */
 /** @import { Change, EngineInfo, Lanes as Contract, LaneSetup, LaneState, Model } from "../../types.js" */
 import { Helper } from "./assistant.js";
 import { Lane } from "./lane.js";
@@ -190,7 +191,7 @@ export class Lanes extends EventTarget {
 
   /**
    * @param {number} index
-   * @param {Parameters<Lane["order"]>[0]} order
+   * @param {Order} order
    */
   #order(index, order) {
     return this.#lanes[index]?.order(order) ?? Promise.reject(new Error("There is no such lane."));

@@ -3,9 +3,8 @@
 // then the time and the optimum of the last answer.
 
 /** @import { LaneAnswer } from "../../types.js" */
-/** @import { Ask, FromLane, ToLane, Walk } from "./protocol.js" */
+/** @import { Ask, FromLane, ToLane } from "./protocol.js" */
 /** @import { Index } from "../../mediant/mediant.js" */
-/** @import { Order } from "./output.js" */
 import { engines, initSync } from "../../mediant/mediant.js";
 import { walk } from "./crowd.js";
 import { write } from "./output.js";
