@@ -1,13 +1,15 @@
 // Serves the page on this machine: `node crates/web/serve.mjs [FOLDER] [--port 8080]`.
 //
 // The page needs nothing but a server of files; this one is for machines that have Node.js and no other.
+// Texts are sent compressed to those who take them so.
 
 import { createReadStream } from "node:fs";
-import { stat } from "node:fs/promises";
+import { readFile, stat } from "node:fs/promises";
 import { createServer } from "node:http";
 import { extname, join, normalize, resolve, sep } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
-import { parseArgs } from "node:util";
+import { parseArgs, promisify } from "node:util";
+import { brotliCompress, constants, gzip } from "node:zlib";
 
 /** Where `cargo xtask web` writes the page. */
 export const PAGE = fileURLToPath(new URL("../../target/web/page", import.meta.url));
@@ -15,6 +17,7 @@ export const PAGE = fileURLToPath(new URL("../../target/web/page", import.meta.u
 /** @type {Record<string, string>} */
 const TYPES = {
   ".css": "text/css; charset=utf-8",
+  ".gz": "application/gzip",
   ".html": "text/html; charset=utf-8",
   ".js": "text/javascript; charset=utf-8",
   ".json": "application/json",
@@ -61,6 +64,28 @@ async function find(folder, address) {
   }
 }
 
+/** What is worth compressing: texts that are not small. */
+const isText = (/** @type {string} */ type, /** @type {number} */ size) =>
+  size > 1000 && /^text\/|json$|\+xml$/.test(type);
+
+/**
+ * Ways to compress, the smaller one first. Brotli's best would take seconds.
+ * @type {[string, (bytes: Buffer) => Promise<Buffer>][]}
+ */
+const WAYS = [
+  ["br", (bytes) => promisify(brotliCompress)(bytes, { params: { [constants.BROTLI_PARAM_QUALITY]: 5 } })],
+  ["gzip", (bytes) => promisify(gzip)(bytes)],
+];
+
+/**
+ * The first way that a browser takes.
+ * @param {import("node:http").IncomingMessage} request
+ */
+function wayFor(request) {
+  const taken = String(request.headers["accept-encoding"] ?? "").split(",");
+  return WAYS.find(([name]) => taken.some((way) => way.trim() === name));
+}
+
 /**
  * Answers one request.
  * @param {string} folder
@@ -82,15 +107,39 @@ async function answer(folder, request, response) {
   } else if (typeof found === "number") {
     fail(found, found === 404 ? "There is no such file." : "The address is malformed.");
   } else {
-    const type = TYPES[extname(found.path)] ?? "application/octet-stream";
-    response.writeHead(200, { ...headers, "content-type": type, "content-length": found.size });
-    if (request.method === "HEAD") {
-      return response.end();
-    }
-    createReadStream(found.path)
-      .on("error", () => response.destroy())
-      .pipe(response);
+    headers["content-type"] = TYPES[extname(found.path)] ?? "application/octet-stream";
+    await send(found, request, response, headers);
   }
+}
+
+/**
+ * Sends a file, compressed if it is a text.
+ * @param {{ path: string, size: number }} file
+ * @param {import("node:http").IncomingMessage} request
+ * @param {import("node:http").ServerResponse} response
+ * @param {Record<string, string | number>} headers
+ */
+async function send({ path, size }, request, response, headers) {
+  const way = wayFor(request);
+  if (isText(String(headers["content-type"]), size)) {
+    headers.vary = "accept-encoding";
+    const bytes =
+      way &&
+      (await readFile(path)
+        .then(way[1])
+        .catch(() => null));
+    if (bytes) {
+      response.writeHead(200, { ...headers, "content-encoding": way[0], "content-length": bytes.length });
+      return response.end(request.method === "HEAD" ? undefined : bytes);
+    }
+  }
+  response.writeHead(200, { ...headers, "content-length": size });
+  if (request.method === "HEAD") {
+    return response.end();
+  }
+  createReadStream(path)
+    .on("error", () => response.destroy())
+    .pipe(response);
 }
 
 /**

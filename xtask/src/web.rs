@@ -2,10 +2,10 @@
 //!
 //! It compiles `mediant-web` to WebAssembly, has the program `wasm-bindgen` write its JavaScript, and puts
 //! two folders together, in `target/web`: `package`, which `npm publish` and `npm install` take, and `page`,
-//! which any web server takes. Its tools besides Rust come from Cargo. There is no bundler: the page is what
-//! `crates/web/page` holds, with the package and the maps beside it.
+//! which any web server takes. What the package needs besides Rust is had from Cargo; the page's bundler,
+//! esbuild, is had from npm.
 
-mod modules;
+mod bundle;
 mod page;
 mod parts;
 mod tools;
@@ -30,27 +30,33 @@ use parts::{File, write_folder};
 
 /// The crate.
 const CRATE: &str = "mediant-web";
-/// The largest size of the module, compressed as web servers do, in bytes.
+/// What the module may weigh when it was compressed as web servers do, in bytes.
 const LARGEST: usize = 700_000;
 
 /// The options of `cargo xtask web`.
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub struct Options {
-    /// Only provide what builds them: Rust for WebAssembly, and the program wasm-bindgen
+    /// Only provide what builds them: Rust for WebAssembly, the program wasm-bindgen, esbuild
     #[arg(long)]
     pub tools: bool,
+    /// Only the package, which needs no npm
+    #[arg(long)]
+    pub package: bool,
 }
 
 /// Builds both folders, or only provides the tools.
 ///
 /// # Errors
-/// [`Error::Lacking`] if the target or the program `wasm-bindgen` cannot be had, [`Error::Step`] for a
-/// command that failed, [`Error::Io`] for a file, [`Error::Large`] if the module weighs too much.
+/// [`Error::Lacking`] if the target or a program cannot be had, [`Error::Step`] for a command that failed,
+/// [`Error::Io`] for a file, [`Error::Large`] if the module or the page weighs too much.
 pub fn run(options: Options) -> Result<(), Error> {
     tools::provide_target()?;
     let program = tools::wasm_bindgen()?;
+    let bundler = if options.package { None } else { Some(tools::esbuild()?) };
     if options.tools {
-        println!("wasm-bindgen: {}", program.display());
+        for tool in [Some(&program), bundler.as_ref()].into_iter().flatten() {
+            println!("{}", tool.display());
+        }
         return Ok(());
     }
     let crates = project::packages()?;
@@ -65,16 +71,18 @@ pub fn run(options: Options) -> Result<(), Error> {
     let package = web.join("package");
     bind(&program, &module, &web.join("bound"))?;
     write_folder(&package, &package_files(found, &web.join("bound"))?)?;
-    let version = page::write(&package, &web.join("page"))?;
     report(&package)?;
-    println!("The package: target/web/package. The page, version {version}: target/web/page");
+    println!("The package: target/web/package");
+    let Some(bundler) = bundler else { return Ok(()) };
+    let version = page::write(&bundler, &web)?;
+    println!("The page, version {version}: target/web/page");
     println!("To see it: node crates/web/serve.mjs, or python3 -m http.server --directory target/web/page");
     Ok(())
 }
 
 /// Runs `wasm-bindgen` on the compiled module.
 fn bind(program: &Path, module: &Path, out: &Path) -> Result<(), Error> {
-    // Files of an older version would be taken for a part of the package.
+    // What an older version wrote there would be taken for a part of the package.
     if out.exists() {
         fs::remove_dir_all(out).map_err(Error::at(out))?;
     }

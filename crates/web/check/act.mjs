@@ -8,12 +8,15 @@ import { settled } from "./browser.mjs";
 /** A map of these rows, `#` for a wall, in place of the one that is there.
  *  @param {Page} page @param {string[]} rows @param {Point} start @param {Point} goal */
 export async function loadRows(page, rows, start, goal) {
-  await page.evaluate(([rows, start, goal]) => {
-    const cells = Uint8Array.from([...rows.join("")], (cell) => (cell === "#" ? 1 : 0));
-    const source = { kind: "file", name: "test.map" };
-    const { model } = /** @type {any} */ (globalThis).mediant;
-    model.load({ width: rows[0].length, height: rows.length, cells, source, start, goal });
-  }, /** @type {[string[], Point, Point]} */ ([rows, start, goal]));
+  await page.evaluate(
+    ([rows, start, goal]) => {
+      const cells = Uint8Array.from([...rows.join("")], (cell) => (cell === "#" ? 1 : 0));
+      const source = { kind: "file", name: "test.map" };
+      const { model } = /** @type {any} */ (globalThis).mediant;
+      model.load({ width: rows[0].length, height: rows.length, cells, source, start, goal });
+    },
+    /** @type {[string[], Point, Point]} */ ([rows, start, goal]),
+  );
   await settled(page);
 }
 
@@ -22,11 +25,13 @@ export const emptyRows = (width, height) => Array.from({ length: height }, () =>
 
 /** A generated map. @param {Page} page @param {string} name @param {number} side @param {number} [seed] */
 export async function generate(page, name, side, seed = 1) {
-  await page.evaluate(async ([name, side, seed]) => {
-    const maps = await import(new URL("src/model/maps.js", location.href).href);
-    const { model } = /** @type {any} */ (globalThis).mediant;
-    model.load(await maps.loadMap({ kind: "generated", name, side, seed }));
-  }, /** @type {[string, number, number]} */ ([name, side, seed]));
+  await page.evaluate(
+    async ([name, side, seed]) => {
+      const { model, loadMap } = /** @type {any} */ (globalThis).mediant;
+      model.load(await loadMap({ kind: "generated", name, side, seed }));
+    },
+    /** @type {[string, number, number]} */ ([name, side, seed]),
+  );
 }
 
 /** The map as rows. @param {Page} page @returns {Promise<string[]>} */

@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { after, afterEach, before } from "node:test";
 import { chromium } from "playwright-core";
 import { serve } from "../serve.mjs";
-import { chromium as program, PAGE, SCREENSHOTS } from "./places.mjs";
+import { PAGE, chromium as program, SCREENSHOTS } from "./places.mjs";
 
 /** @typedef {import("playwright-core").Page} Page */
 /** @typedef {import("playwright-core").BrowserContext} Context */

@@ -39,7 +39,7 @@ function isInstalled() {
 /** Installs the dev dependencies, unless they are there. No program of theirs runs meanwhile. */
 function install() {
   if (isInstalled()) return true;
-  console.log("== npm install: playwright-core, typescript");
+  console.log("== npm install: biome, playwright-core, typescript");
   const options = ["--ignore-scripts", "--no-audit", "--no-fund", "--no-package-lock", "--loglevel=error"];
   try {
     execFileSync("npm", ["install", ...options], { cwd: HERE, stdio: "inherit", timeout: 300_000 });
@@ -66,9 +66,9 @@ function main() {
   }
   const files = [...tests("."), ...tests("package")];
   if (!install()) {
-    notRun.push("types and the page: npm cannot install playwright-core and typescript here");
+    notRun.push("style, types and the page: npm cannot install biome, playwright-core and typescript here");
   } else {
-    files.push(...tests("types"));
+    files.push(...tests("style"), ...tests("types"));
     if (chromium()) files.push(...tests("page"));
     else notRun.push("the page: there is no Chromium (chromium of the system, or its path in CHROMIUM)");
   }

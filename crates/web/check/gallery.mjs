@@ -6,12 +6,12 @@
 import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
+import { serve } from "../serve.mjs";
 import { drag, emptyRows, generate, loadRows, setLanes } from "./act.mjs";
-import { launch, settled as answered } from "./browser.mjs";
+import { settled as answered, launch } from "./browser.mjs";
 import { quantized } from "./colors.mjs";
 import { png } from "./pictures.mjs";
 import { ROOT } from "./places.mjs";
-import { serve } from "../serve.mjs";
 
 /** @typedef {import("playwright-core").Page} Page */
 /** @typedef {import("playwright-core").BrowserContextOptions} Look */

@@ -4,9 +4,9 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { findEnds } from "../page/src/model/ends.js";
+import { Random, root } from "../page/src/model/generate/random.js";
 import { generate } from "../page/src/model/generate.js";
 import { generators, whyNotGenerated } from "../page/src/model/generators.js";
-import { Random, root } from "../page/src/model/generate/random.js";
 import { digestOf } from "../page/src/model/scene.js";
 
 const SEED = Number(process.env.SEED ?? 1);
@@ -61,7 +61,10 @@ test(`maps of any side and seed are well connected and have ends far apart (SEED
       const map = generate(name, side, seed);
       const what = `${name}, side ${side}, seed ${seed}`;
       assert.equal(map.cells.length, side * side, what);
-      assert.ok(map.cells.every((cell) => cell === 0 || cell === 1), what);
+      assert.ok(
+        map.cells.every((cell) => cell === 0 || cell === 1),
+        what,
+      );
       const free = map.cells.filter((cell) => cell === 0).length;
       assert.ok(free > side * side * 0.25, `${what}: ${free} free cells`);
       for (const [x, y] of [map.start, map.goal]) assert.equal(map.cells[y * side + x], 0, what);
@@ -77,8 +80,15 @@ test(`maps of any side and seed are well connected and have ends far apart (SEED
 });
 
 test("there is no map of a wrong name, side or seed", () => {
-  for (const [name, side, seed] of [["x", 64, 1], ["city", 31, 1], ["city", 4097, 1], ["city", 64.5, 1],
-    ["city", 64, -1], ["city", 64, 2 ** 32], ["city", 64, NaN]]) {
+  for (const [name, side, seed] of [
+    ["x", 64, 1],
+    ["city", 31, 1],
+    ["city", 4097, 1],
+    ["city", 64.5, 1],
+    ["city", 64, -1],
+    ["city", 64, 2 ** 32],
+    ["city", 64, NaN],
+  ]) {
     assert.match(whyNotGenerated(name, side, seed), /\.$/);
     assert.throws(() => generate(name, side, seed), RangeError);
   }

@@ -3,15 +3,14 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-
+import { digest, fromRuns, toRuns } from "../page/src/model/bytes.js";
+import { Random } from "../page/src/model/generate/random.js";
 import { generate } from "../page/src/model/generate.js";
 import { generators } from "../page/src/model/generators.js";
-import { Random } from "../page/src/model/generate/random.js";
-import { apply, decode, encode, fromFile, toFile, TOO_LARGE } from "../page/src/model/link.js";
+import { apply, decode, encode, fromFile, TOO_LARGE, toFile } from "../page/src/model/link.js";
 import { bundled, loadMap } from "../page/src/model/maps.js";
 import { Model } from "../page/src/model/model.js";
 import { CHOICES, OVERLAYS } from "../page/src/model/setups.js";
-import { digest, fromRuns, toRuns } from "../page/src/model/bytes.js";
 
 const SEED = Number(process.env.SEED ?? 1);
 
@@ -60,8 +59,11 @@ async function randomModel(random) {
   model.moveEnd("start", [random.below(model.width), random.below(model.height)]);
   model.setLanes(Array.from({ length: random.between(1, 4) }, () => randomLane(random)));
   model.set({
-    active: random.below(4), overlay: random.pick(OVERLAYS), nearest: random.chance(50),
-    radius: random.pick([0, 0.5, 1.125, 1000]), agents: random.pick([0, 3, 400]),
+    active: random.below(4),
+    overlay: random.pick(OVERLAYS),
+    nearest: random.chance(50),
+    radius: random.pick([0, 0.5, 1.125, 1000]),
+    agents: random.pick([0, 3, 400]),
   });
   return model;
 }
@@ -76,10 +78,14 @@ function stateOf(model) {
 
 /** The model must not have changed, and the error must be a sentence. */
 async function refuses(work, what) {
-  await assert.rejects(work, (error) => {
-    assert.match(error.message, /^[A-Z].*\.$/s, what);
-    return error instanceof Error;
-  }, what);
+  await assert.rejects(
+    work,
+    (error) => {
+      assert.match(error.message, /^[A-Z].*\.$/s, what);
+      return error instanceof Error;
+    },
+    what,
+  );
 }
 
 test(`scenes come back from links and files (SEED=${SEED})`, async () => {
@@ -165,12 +171,30 @@ test("links that were made by hand are checked field by field", async () => {
   const rest = "s1.1~g2.2~lastar.3.0000";
   assert.equal((await decode(signed(`1~e.5.5~${rest}~hAAAAAA`))).source.kind, "empty");
   const wrong = [
-    ...["e.5", "e.0.5", "e.99999.99999", "b.nowhere", "g.city.9999.1", "g.city.64.-1", "g.__proto__.64.1",
-      "f.4096.4097.AAAA", "f.3.3.____", "constructor.3", ""].map((map) => `1~${map}~${rest}`),
-    ...["s1.1~g2.2", "s1~g2.2~lastar.3.0000", "s1.1~g2.2~lastar.1.0000", "s1.1~g2.2~lastar.3.9000",
-      "s1.1~g2.2~lastar.3.000", "s1.1~g2.2~l<b>.3.0000"].map((fields) => `1~e.5.5~${fields}`),
-    ...[`${"lastar.3.0000~".repeat(4)}a0`, "a1", "onowhere", "r1000001", "w10001", "z1", "s1.1",
-      "~"].map((field) => `1~e.5.5~${rest}~${field}`),
+    ...[
+      "e.5",
+      "e.0.5",
+      "e.99999.99999",
+      "b.nowhere",
+      "g.city.9999.1",
+      "g.city.64.-1",
+      "g.__proto__.64.1",
+      "f.4096.4097.AAAA",
+      "f.3.3.____",
+      "constructor.3",
+      "",
+    ].map((map) => `1~${map}~${rest}`),
+    ...[
+      "s1.1~g2.2",
+      "s1~g2.2~lastar.3.0000",
+      "s1.1~g2.2~lastar.1.0000",
+      "s1.1~g2.2~lastar.3.9000",
+      "s1.1~g2.2~lastar.3.000",
+      "s1.1~g2.2~l<b>.3.0000",
+    ].map((fields) => `1~e.5.5~${fields}`),
+    ...[`${"lastar.3.0000~".repeat(4)}a0`, "a1", "onowhere", "r1000001", "w10001", "z1", "s1.1", "~"].map(
+      (field) => `1~e.5.5~${rest}~${field}`,
+    ),
   ];
   for (const text of wrong) await refuses(decode(signed(text)), text);
   const model = new Model();
@@ -198,7 +222,10 @@ test(`damaged files are refused (SEED=${SEED})`, async () => {
         assert.equal(stateOf(other), state);
       });
       const { start, goal, width, height, cells } = other;
-      assert.ok([start, goal].every(([x, y]) => y * width + x in cells && x < width), `${key}: ${value}`);
+      assert.ok(
+        [start, goal].every(([x, y]) => y * width + x in cells && x < width),
+        `${key}: ${value}`,
+      );
       assert.equal(cells.length, width * height);
     }
   }

@@ -76,6 +76,7 @@ test(`undo and redo lead to the states that there were (SEED=${SEED})`, () => {
       if (random.chance(30)) {
         model.undo();
         now = Math.max(0, now - 1);
+        // biome-ignore lint/suspicious/noDuplicateElseIf: each call draws another number.
       } else if (random.chance(30)) {
         model.redo();
         now = Math.min(states.length - 1, now + 1);
@@ -127,7 +128,10 @@ test("a gesture is one step, tells its begin and end, and can be undone before i
   model.endGesture();
   model.endGesture();
   assert.equal(model.gesture, "");
-  assert.deepEqual(read().filter((change) => "gesture" in change), [{ gesture: true }, { gesture: true }]);
+  assert.deepEqual(
+    read().filter((change) => "gesture" in change),
+    [{ gesture: true }, { gesture: true }],
+  );
   model.undo();
   assert.equal(model.cells[3], 0);
   assert.equal(model.canUndo, false);
@@ -150,7 +154,13 @@ test("the model takes a copy of the cells, clamps ends, and refuses what is no m
   const model = new Model();
   const map = empty(6, 3);
   model.load({ ...map, start: [-5, 99], goal: [2.4, 1] });
-  assert.deepEqual([model.start, model.goal], [[0, 2], [2, 1]]);
+  assert.deepEqual(
+    [model.start, model.goal],
+    [
+      [0, 2],
+      [2, 1],
+    ],
+  );
   model.moveEnd("goal", [NaN, 1000]);
   assert.deepEqual(model.goal, [0, 2]);
   model.paint([0], true);
@@ -162,7 +172,11 @@ test("the model takes a copy of the cells, clamps ends, and refuses what is no m
   assert.throws(() => model.load(empty(4096, 4097)), /too large/);
   assert.throws(() => model.load(empty(32_769, 1)), /1 to 32768/);
   assert.equal(stateOf(model), before);
-  for (const [width, height] of [[4096, 4096], [32_768, 1], [1, 1]]) {
+  for (const [width, height] of [
+    [4096, 4096],
+    [32_768, 1],
+    [1, 1],
+  ]) {
     model.load(empty(width, height));
     assert.deepEqual([model.width, model.height], [width, height]);
   }

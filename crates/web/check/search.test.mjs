@@ -6,10 +6,10 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Random } from "../page/src/model/generate/random.js";
 import { errandOf, mayWalk, need, newAgent, take } from "../page/src/search/agent.js";
-import { Feed, copy, union } from "../page/src/search/feed.js";
+import { copy, Feed, union } from "../page/src/search/feed.js";
+import { PATIENCE, PAUSE, PREPARING, QUICK, whatNow } from "../page/src/search/lane.js";
 import { motionKey, motionOf, optionsOf, setupKey } from "../page/src/search/protocol.js";
 import { advance, meets, placesAround, rest } from "../page/src/search/walk.js";
-import { PATIENCE, PAUSE, PREPARING, QUICK, whatNow } from "../page/src/search/when.js";
 
 const SEED = Number(process.env.SEED ?? 1);
 
@@ -82,7 +82,10 @@ test(`a worker's map follows the model's by rectangles (SEED=${SEED})`, () => {
       for (let edits = random.below(4); edits > 0; edits--) {
         const [x, y] = [random.below(model.width), random.below(model.height)];
         const rect = {
-          x, y, width: random.between(1, model.width - x), height: random.between(1, model.height - y),
+          x,
+          y,
+          width: random.between(1, model.width - x),
+          height: random.between(1, model.height - y),
         };
         model.cells[random.between(y, y + rect.height - 1) * model.width + x] ^= 1;
         feed.note({ cells: rect });
@@ -101,7 +104,10 @@ test(`a worker's map follows the model's by rectangles (SEED=${SEED})`, () => {
 });
 
 test("rectangles: the smallest around two, and their cells", () => {
-  const [a, b] = [{ x: 1, y: 5, width: 2, height: 1 }, { x: 4, y: 2, width: 3, height: 2 }];
+  const [a, b] = [
+    { x: 1, y: 5, width: 2, height: 1 },
+    { x: 4, y: 2, width: 3, height: 2 },
+  ];
   const both = { x: 1, y: 2, width: 6, height: 4 };
   assert.deepEqual([union(a, b), union(b, a), union(a, a)], [both, both, a]);
   const cells = Uint8Array.from({ length: 12 }, (_, i) => i);
@@ -140,7 +146,12 @@ test("only a change near what is left of the way is looked at", () => {
   const cell = (/** @type {number} */ x, /** @type {number} */ y) => ({ x, y, width: 1, height: 1 });
   assert.ok(meets(one, cell(9, 7), 1));
   assert.ok(meets(one, cell(11, 7), 1), "as near as the margin");
-  for (const [x, y] of [[12, 7], [9, 12], [30, 4]]) assert.ok(!meets(one, cell(x, y), 1), `${x}, ${y}`);
+  for (const [x, y] of [
+    [12, 7],
+    [9, 12],
+    [30, 4],
+  ])
+    assert.ok(!meets(one, cell(x, y), 1), `${x}, ${y}`);
   assert.ok(!meets(agent([0, 0, 9, 0], 1, 8.5, 0.5), cell(4, 9), 1), "beside the way");
 });
 

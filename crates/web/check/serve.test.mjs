@@ -7,10 +7,12 @@ import { connect } from "node:net";
 import { networkInterfaces, tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
+import { brotliDecompressSync, gunzipSync } from "node:zlib";
 import { serve } from "../serve.mjs";
 
 const parent = mkdtempSync(join(tmpdir(), "mediant-serve-"));
 const folder = join(parent, "page");
+const LONG = "let a = 1;\n".repeat(999);
 let port = 0;
 /** @type {() => Promise<void>} */
 let close;
@@ -24,6 +26,8 @@ before(async () => {
   for (const name of ["a.js", "a.wasm", "a.css", "a.json", "ä b.map"])
     writeFileSync(join(folder, name), name);
   writeFileSync(join(folder, "src/index.html"), "inner");
+  writeFileSync(join(folder, "long.js"), LONG);
+  writeFileSync(join(folder, "long.js.gz"), LONG);
   const server = await serve({ folder });
   [port, close] = [Number(new URL(server.address).port), server.close];
 });
@@ -32,13 +36,20 @@ after(async () => {
   rmSync(parent, { recursive: true });
 });
 
-/** Asks for this path as it stands: `fetch` would mend it. @param {string} path @param {string} [method] */
-const ask = (path, method = "GET") =>
+/**
+ * Asks for this path as it stands: `fetch` would mend it.
+ * @param {string} path @param {string} [method] @param {Record<string, string>} [headers]
+ */
+const ask = (path, method = "GET", headers = {}) =>
   new Promise((/** @type {(value: any) => void} */ done, failed) => {
-    const asked = request({ host: "127.0.0.1", port, path, method }, (response) => {
-      let text = "";
-      response.on("data", (part) => (text += part));
-      response.on("end", () => done({ status: response.statusCode, headers: response.headers, text }));
+    const asked = request({ host: "127.0.0.1", port, path, method, headers }, (response) => {
+      /** @type {Buffer[]} */
+      const parts = [];
+      response.on("data", (part) => parts.push(part));
+      response.on("end", () => {
+        const bytes = Buffer.concat(parts);
+        done({ status: response.statusCode, headers: response.headers, bytes, text: bytes.toString() });
+      });
     });
     asked.on("error", failed).end();
   });
@@ -49,6 +60,7 @@ test("files of the folder come with their type, and are asked for anew each time
     ["/index.html?x#y", "text/html"],
     ["/a.js", "text/javascript"],
     ["/a.wasm", "application/wasm"],
+    ["/long.js.gz", "application/gzip"],
     ["/a.css", "text/css"],
     ["/a.json", "application/json"],
     ["/%C3%A4%20b.map", "text/plain"],
@@ -58,6 +70,27 @@ test("files of the folder come with their type, and are asked for anew each time
     assert.ok(headers["content-type"]?.startsWith(type), `${path}: ${headers["content-type"]}`);
     assert.equal(headers["cache-control"], "no-cache", path);
     assert.equal(Number(headers["content-length"]), Buffer.byteLength(text), path);
+  }
+});
+
+test("texts come compressed to who takes them so; what is packed or small comes as it is", async () => {
+  const taking = (/** @type {string} */ ways) => ({ "accept-encoding": ways });
+  for (const [ways, used, unpack] of /** @type {const} */ ([
+    ["gzip, deflate, br, zstd", "br", brotliDecompressSync],
+    ["gzip", "gzip", gunzipSync],
+    ["identity", undefined, (/** @type {Buffer} */ bytes) => bytes],
+  ])) {
+    const { headers, bytes } = await ask("/long.js", "GET", taking(ways));
+    assert.equal(headers["content-encoding"], used);
+    assert.equal(headers.vary, "accept-encoding");
+    assert.equal(Number(headers["content-length"]), bytes.length);
+    assert.equal(unpack(bytes).toString(), LONG);
+    const head = await ask("/long.js", "HEAD", taking(ways));
+    assert.deepEqual([head.headers["content-length"], head.text], [headers["content-length"], ""]);
+  }
+  for (const path of ["/long.js.gz", "/a.js"]) {
+    const { headers } = await ask(path, "GET", taking("gzip, br"));
+    assert.equal(headers["content-encoding"], undefined, path);
   }
 });
 

@@ -6,7 +6,7 @@ import { test } from "node:test";
 import { Random } from "../page/src/model/generate/random.js";
 import { Model } from "../page/src/model/model.js";
 import { fill, inMap } from "../page/src/stage/gestures.js";
-import { Player, expansionEnds } from "../page/src/stage/player.js";
+import { expansionEnds, Player } from "../page/src/stage/player.js";
 import { View } from "../page/src/stage/view.js";
 
 const SEED = Number(process.env.SEED ?? 1);
@@ -86,7 +86,10 @@ test("the player keeps its share between the modes, steps by one, and stays with
   player.step(-1);
   assert.equal(player.position, 2.5);
   player.mode = "pace";
-  for (const [to, at] of [[99, 4], [-1, 0]]) {
+  for (const [to, at] of [
+    [99, 4],
+    [-1, 0],
+  ]) {
     player.seek(to);
     assert.equal(player.position, at);
   }
@@ -118,7 +121,8 @@ function modelOf(rows) {
 /** @param {Model} model */
 const rowsOf = ({ width, height, cells }) =>
   Array.from({ length: height }, (_, y) =>
-    [...cells.subarray(y * width, (y + 1) * width)].map((cell) => (cell ? "#" : ".")).join(""));
+    [...cells.subarray(y * width, (y + 1) * width)].map((cell) => (cell ? "#" : ".")).join(""),
+  );
 
 test("a fill takes the cells that are connected by edges, and no others", () => {
   const rows = ["..#..", "..#..", "##.##", "..#..", "....."];
@@ -141,10 +145,22 @@ test("a fill takes the cells that are connected by edges, and no others", () => 
 test("the part of a rectangle inside of the map", () => {
   const model = modelOf(["....", "....", "...."]);
   for (const [rect, part] of [
-    [[1, 1, 2, 1], [1, 1, 2, 1]],
-    [[-1, -2, 3, 3], [0, 0, 2, 1]],
-    [[3, 2, 9, 9], [3, 2, 1, 1]],
-    [[4, 0, 2, 2], [4, 0, 0, 2]],
+    [
+      [1, 1, 2, 1],
+      [1, 1, 2, 1],
+    ],
+    [
+      [-1, -2, 3, 3],
+      [0, 0, 2, 1],
+    ],
+    [
+      [3, 2, 9, 9],
+      [3, 2, 1, 1],
+    ],
+    [
+      [4, 0, 2, 2],
+      [4, 0, 0, 2],
+    ],
   ]) {
     const [x, y, width, height] = rect;
     const { x: left, y: top, width: wide, height: high } = inMap(model, { x, y, width, height });
@@ -183,7 +199,12 @@ test("a cell that the keyboard goes to is seen", () => {
   view.setMap(100, 100);
   view.setPane(400, 300, 1);
   view.zoom(8);
-  for (const [x, y] of [[0, 0], [99, 99], [0, 99], [50, 3]]) {
+  for (const [x, y] of [
+    [0, 0],
+    [99, 99],
+    [0, 99],
+    [50, 3],
+  ]) {
     view.reveal(x, y);
     const { left, top, scale } = view.frame(400, 300);
     const [px, py] = [left + (x + 0.5) * scale, top + (y + 0.5) * scale];

@@ -3,7 +3,8 @@
 // A page is of one version, all of it. The build lists every file of a version with its digest in files.json,
 // and writes the version into this file. A browser that finds this file changed fetches the whole list into a
 // cache of its own; one file that is not as listed ends that, and the old version stays. The new one takes
-// over when no window shows the old one any more, or when the only window is loaded anew.
+// over when no window shows the old one any more, or when the only window is loaded anew. Addresses name the
+// version, so what the window has loaded is not loaded again.
 
 const VERSION = "";
 
@@ -23,7 +24,10 @@ async function store() {
   await Promise.all(
     Object.entries(files).map(async ([path, integrity]) => {
       // A digest that differs is a failure of the request.
-      const response = await fetch(path, { cache: "no-cache", integrity });
+      const address = `${path}?v=${VERSION}`;
+      const response = await fetch(address, { cache: "force-cache", integrity }).catch(() =>
+        fetch(address, { cache: "reload", integrity }),
+      );
       if (!response.ok) {
         throw new Error(`${path}: ${response.status}`);
       }

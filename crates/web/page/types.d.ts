@@ -166,6 +166,9 @@ export interface Lanes extends EventTarget {
   moves(k: number): Promise<Int32Array>;
   /** Why these do not go together, as a sentence; empty if they do. */
   check(setup: LaneSetup): Promise<string>;
+  /** How far from the shortest at any angle paths over N(k) can be with this motion, as a ratio; null where
+   *  no bound is known. One for each k. */
+  bounds(setup: LaneSetup, ks: number[]): Promise<(number | null)[]>;
   /** Stops a search or a preparation. */
   cancel(index: number): void;
   retry(index: number): void;

@@ -1,45 +1,66 @@
-//! The page: its own files, the package, the maps, and the list that it needs to work offline.
+//! The page: its bundled scripts, the engines, the maps, and the list that it needs to work offline.
 
-use std::path::Path;
+use std::{fs, path::Path};
 
-use base64::{Engine, engine::general_purpose::STANDARD};
 use mediant_sets::root;
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 
 use super::{
-    modules,
+    bundle::{self, digest, packed, replace_once},
     parts::{self, File, write_folder},
 };
 use crate::Error;
 
+/// What the browser shows first.
+const HEAD: &str = "index.html";
+/// Where the head says its version, which goes into the addresses of all other files.
+const UNVERSIONED_HEAD: &str = "data-version=\"\"";
 /// The service worker; it is not in its own list.
 const WORKER: &str = "offline.js";
 /// Where the service worker says its version. A browser looks for a new one by comparing the file.
 const UNVERSIONED: &str = "const VERSION = \"\";";
-/// Files beside the sources of the page that are no part of it, or are put there anew.
-const LEFT_OUT: [&str; 4] = ["types.d.ts", "files.json", "mediant/", "maps/"];
+/// What no browser needs but its debugger: where code was in the sources.
+const SOURCE_MAP: &str = ".js.map";
+/// What lies beside the sources and goes into the page as it is.
+const AS_IT_IS: [&str; 3] = ["icon.svg", "manifest.webmanifest", WORKER];
+/// What all may weigh that the first path needs, as it travels from any server of files, in bytes.
+const LARGEST: usize = 800_000;
 
-/// Writes the page, and returns its version.
-pub(super) fn write(package: &Path, page: &Path) -> Result<String, Error> {
+/// Bundles the page with the package that lies in the folder `web`, and writes it there. Returns its version.
+pub(super) fn write(esbuild: &Path, web: &Path) -> Result<String, Error> {
+    let (package, sources, bundled) = (web.join("package"), web.join("sources"), web.join("bundled"));
     let mut files = Vec::new();
-    take(
-        &root().join("crates/web/page"),
-        "",
-        |path| !LEFT_OUT.iter().any(|out| path.starts_with(out)),
-        &mut files,
-    )?;
-    take(package, "mediant/", is_run, &mut files)?;
+    let own = root().join("crates/web/page");
+    take(&own, "", |path| !["mediant/", "maps/"].iter().any(|out| path.starts_with(out)), &mut files)?;
+    take(&package, "mediant/", |path| path == "mediant.js", &mut files)?;
+    write_folder(&sources, &files)?;
+    if bundled.exists() {
+        fs::remove_dir_all(&bundled).map_err(Error::at(&bundled))?;
+    }
+    bundle::run(esbuild, &sources, &bundled)?;
+
+    let mut files = vec![File { path: HEAD.to_owned(), bytes: head(&own, &bundled)?.into_bytes() }];
+    take(&own, "", |path| AS_IT_IS.contains(&path), &mut files)?;
+    for (folder, name) in [(&bundled, "page.js"), (&bundled, "worker.js"), (&package, "mediant_bg.wasm")] {
+        files.push(packed(&File::read(&folder.join(name), name)?)?);
+    }
+    for name in ["page.js.map", "worker.js.map"] {
+        files.push(File::read(&bundled.join(name), name)?);
+    }
+    take(&package, "", |path| path == "LICENSE", &mut files)?;
     take(&root().join("crates/cli/maps"), "maps/", |path| path.ends_with(".map"), &mut files)?;
-    modules::announce(&mut files);
     let version = finish(&mut files)?;
-    write_folder(page, &files)?;
+    weigh(&files)?;
+    write_folder(&web.join("page"), &files)?;
     Ok(version)
 }
 
-/// Whether a browser needs this file of the package, or its licence wants it there.
-fn is_run(path: &str) -> bool {
-    !path.ends_with(".d.ts") && !["README.md", "package.json", "node.js"].contains(&path)
+/// The text of `index.html`, with the first script and the styles in it.
+fn head(own: &Path, bundled: &Path) -> Result<String, Error> {
+    let read = |path: &Path| fs::read_to_string(path).map_err(Error::at(path));
+    let (script, style) = (read(&bundled.join("start.js"))?, read(&bundled.join("page.css"))?);
+    bundle::inline(&read(&own.join(HEAD))?, script.trim_end(), style.trim_end())
 }
 
 fn take(
@@ -54,43 +75,63 @@ fn take(
     Ok(())
 }
 
-/// Adds the list of all files with their digests, and tells the service worker the version, which is a digest
-/// of all that the page holds.
+/// Tells the head and the service worker the version, which is a digest of all that the page holds, and adds
+/// the list of the files that a browser needs, with their digests.
 fn finish(files: &mut Vec<File>) -> Result<String, Error> {
     let mut all = Sha256::new();
-    let mut list = Map::new();
     for file in &*files {
-        let digest = Sha256::digest(&file.bytes);
         all.update(format!("{}\0", file.path));
-        all.update(digest);
-        if file.path != WORKER {
-            list.insert(file.path.clone(), Value::String(format!("sha256-{}", STANDARD.encode(digest))));
-        }
+        all.update(Sha256::digest(&file.bytes));
     }
     let version: String = all.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect();
-    for worker in files.iter_mut().filter(|file| file.path == WORKER) {
-        let text = String::from_utf8_lossy(&worker.bytes);
-        if !text.contains(UNVERSIONED) {
-            return Err(Error::Lacking {
-                what: format!("crates/web/page/{WORKER} has no line `{UNVERSIONED}`"),
-                mend: "browsers see by its version that the page is a new one".to_owned(),
-            });
-        }
-        worker.bytes = text.replace(UNVERSIONED, &format!("const VERSION = \"{version}\";")).into_bytes();
-    }
+    set_version(files, HEAD, UNVERSIONED_HEAD, &format!("data-version=\"{version}\""))?;
+    set_version(files, WORKER, UNVERSIONED, &format!("const VERSION = \"{version}\";"))?;
+    let needed = files.iter().filter(|file| file.path != WORKER && !file.path.ends_with(SOURCE_MAP));
+    let list: Map<_, _> =
+        needed.map(|file| (file.path.clone(), Value::String(digest(&file.bytes)))).collect();
     let list = json!({ "version": version, "files": list });
     files.push(File { path: "files.json".to_owned(), bytes: parts::pretty(&list) });
     Ok(version)
 }
 
+fn set_version(files: &mut [File], path: &str, mark: &str, versioned: &str) -> Result<(), Error> {
+    for file in files.iter_mut().filter(|file| file.path == path) {
+        let text = String::from_utf8_lossy(&file.bytes);
+        file.bytes = replace_once(path, &text, mark, versioned)?.into_bytes();
+    }
+    Ok(())
+}
+
+/// Prints what the first path needs: the head, the scripts and the engines.
+fn weigh(files: &[File]) -> Result<(), Error> {
+    let needed = files.iter().filter(|file| file.path == HEAD || file.path.ends_with(".gz"));
+    let bytes = needed.map(|file| file.bytes.len()).sum();
+    println!("The page: {bytes} bytes until the first path");
+    if bytes > LARGEST {
+        return Err(Error::Large {
+            what: "the page, as it travels,".to_owned(),
+            bytes,
+            limit: LARGEST,
+            reason: "it is to be there within a second",
+        });
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{File, UNVERSIONED, WORKER, finish};
+    use super::{File, HEAD, UNVERSIONED, UNVERSIONED_HEAD, WORKER, finish};
 
-    /// A page of one module besides its service worker; its version, and its files by their order.
-    fn finished(module: &str) -> (String, Vec<String>) {
+    /// A page of one file besides its head and its service worker; its version, and its files by their order.
+    fn finished(script: &str) -> (String, Vec<String>) {
         let file = |path: &str, text: &str| File { path: path.to_owned(), bytes: text.into() };
-        let mut files = vec![file("main.js", module), file(WORKER, UNVERSIONED)];
+        let head = format!("<html {UNVERSIONED_HEAD}>");
+        let mut files = vec![
+            file("main.js", script),
+            file(WORKER, UNVERSIONED),
+            file(HEAD, &head),
+            file("main.js.map", "elsewhere"),
+        ];
         let version = finish(&mut files).unwrap();
         (version, files.iter().map(|file| String::from_utf8_lossy(&file.bytes).into_owned()).collect())
     }
@@ -99,10 +140,13 @@ mod tests {
     fn the_version_is_that_of_the_contents() {
         let (version, files) = finished("1");
         assert_eq!(files[1], format!("const VERSION = \"{version}\";"));
-        assert!(files[2].contains(&version), "{}", files[2]);
+        assert_eq!(files[2], format!("<html data-version=\"{version}\">"));
+        let list = &files[4];
+        assert!(list.contains(&version), "{list}");
         // `printf 1 | openssl dgst -sha256 -binary | base64`
-        assert!(files[2].contains("sha256-a4ayc/80/OGda4BO/1o/V0etpOqiLx1JwB5S3beHW0s="), "{}", files[2]);
-        assert!(!files[2].contains(WORKER), "the service worker would keep an old version of itself");
+        assert!(list.contains("sha256-a4ayc/80/OGda4BO/1o/V0etpOqiLx1JwB5S3beHW0s="), "{list}");
+        assert!(!list.contains(WORKER), "the service worker would keep an old version of itself");
+        assert!(!list.contains("main.js.map"), "only debuggers want it");
         assert_ne!(finished("2").0, version);
         assert_eq!(finished("1").0, version);
     }
@@ -110,6 +154,6 @@ mod tests {
     #[test]
     fn a_service_worker_without_a_version_is_an_error() {
         let mut files = vec![File { path: WORKER.to_owned(), bytes: b"// nothing".to_vec() }];
-        assert!(finish(&mut files).unwrap_err().to_string().contains("has no line"));
+        assert!(finish(&mut files).unwrap_err().to_string().contains("has no `const VERSION"));
     }
 }

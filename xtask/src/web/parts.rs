@@ -52,6 +52,10 @@ pub(super) fn write_folder(folder: &Path, files: &[File]) -> Result<(), Error> {
     for path in list(folder)?.iter().filter(|path| !wanted.contains(&***path)) {
         let old = folder.join(path);
         fs::remove_file(&old).map_err(Error::at(&old))?;
+        // Its folder, if nothing else is in it, and so on.
+        for emptied in old.ancestors().skip(1).take_while(|path| *path != folder) {
+            let _ = fs::remove_dir(emptied);
+        }
     }
     for file in files {
         let at = folder.join(&file.path);
@@ -82,6 +86,9 @@ mod tests {
         write_folder(folder.path(), &[file("a/b.js", "1"), file("c.js", "2")]).unwrap();
         write_folder(folder.path(), &[file("a/b.js", "3"), file("d.js", "2")]).unwrap();
         assert_eq!(list(folder.path()).unwrap(), ["a/b.js", "d.js"]);
+        write_folder(folder.path(), &[file("d.js", "2")]).unwrap();
+        assert!(!folder.path().join("a").exists());
+        write_folder(folder.path(), &[file("a/b.js", "3"), file("d.js", "2")]).unwrap();
         assert_eq!(std::fs::read_to_string(folder.path().join("a/b.js")).unwrap(), "3");
     }
 }

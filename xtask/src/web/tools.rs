@@ -1,4 +1,4 @@
-//! The tools that build the package: Rust for WebAssembly, and the program `wasm-bindgen`.
+//! What builds the package and the page: Rust for WebAssembly, the programs `wasm-bindgen` and esbuild.
 
 use std::{
     env, fs,
@@ -68,6 +68,42 @@ pub(super) fn wasm_bindgen() -> Result<PathBuf, Error> {
         what: format!("there is no program wasm-bindgen {version}, neither on PATH nor in target/tools/bin"),
         mend: format!("`cargo install wasm-bindgen-cli --version {version}` gets it"),
     })
+}
+
+/// The bundler, of exactly the version that `crates/web/page/package.json` names. npm installs it into
+/// `target/tools/page`.
+pub(super) fn esbuild() -> Result<PathBuf, Error> {
+    let wanted = root().join("crates/web/page/package.json");
+    let about = fs::read(&wanted).map_err(Error::at(&wanted))?;
+    let about: Value = serde_json::from_slice(&about).unwrap_or_default();
+    let version = about["devDependencies"]["esbuild"].as_str().ok_or_else(|| Error::Lacking {
+        what: "crates/web/page/package.json names no version of esbuild".to_owned(),
+        mend: "name one among its `devDependencies`".to_owned(),
+    })?;
+    let folder = root().join("target/tools/page");
+    let suffix = if cfg!(windows) { ".cmd" } else { "" };
+    let program = folder.join(format!("node_modules/.bin/esbuild{suffix}"));
+    if says(&program, version) {
+        return Ok(program);
+    }
+    fs::create_dir_all(&folder).map_err(Error::at(&folder))?;
+    fs::copy(&wanted, folder.join("package.json")).map_err(Error::at(&wanted))?;
+    let mut npm = Command::new(format!("npm{suffix}"));
+    npm.args(["install", "--ignore-scripts", "--no-audit", "--no-fund", "--no-package-lock"]);
+    let done = step(npm.arg("--loglevel=error").current_dir(&folder), "npm install esbuild");
+    if done.is_ok() && says(&program, version) {
+        return Ok(program);
+    }
+    Err(Error::Lacking {
+        what: format!("npm cannot install esbuild {version}, which bundles the page"),
+        mend: "install Node.js 20 or newer with npm, or take `--package` for the package alone".to_owned(),
+    })
+}
+
+/// Whether a program says this version and no more.
+fn says(program: &Path, version: &str) -> bool {
+    let output = Command::new(program).arg("--version").stderr(Stdio::null()).output();
+    output.is_ok_and(|output| String::from_utf8_lossy(&output.stdout).trim() == version)
 }
 
 /// The version of a crate in a `Cargo.lock`.

@@ -136,7 +136,10 @@ test("all that is put into a picture changes it", () => {
     start: (picture) => picture.start(START),
     goal: (picture) => picture.goal(GOAL),
     "goal elsewhere": (picture) => picture.goal(START),
-    radius: (picture) => (picture.radius(0.4), picture.path("way", path)),
+    radius: (picture) => {
+      picture.radius(0.4);
+      picture.path("way", path);
+    },
     "less large": (picture) => picture.largestSide(300),
   };
   for (const kind of /** @type {const} */ (["svg", "png"])) {

@@ -5,6 +5,7 @@ import { createHash } from "node:crypto";
 import { readdirSync, readFileSync } from "node:fs";
 import { join, posix } from "node:path";
 import { test } from "node:test";
+import { gunzipSync } from "node:zlib";
 import { PACKAGE, PAGE, ROOT, SOURCES } from "../places.mjs";
 
 const list = JSON.parse(readFileSync(join(PAGE, "files.json"), "utf8"));
@@ -14,48 +15,63 @@ const filesOf = (folder, inside = "") =>
     entry.isDirectory() ? filesOf(folder, posix.join(inside, entry.name)) : posix.join(inside, entry.name),
   );
 
-test("the list has every file with its digest, and the service worker has the version", () => {
-  const files = filesOf(PAGE).filter((path) => !["files.json", "offline.js"].includes(path));
+const read = (/** @type {string} */ path) => readFileSync(join(PAGE, path), "utf8");
+const digest = (/** @type {string | Buffer} */ bytes) =>
+  `sha256-${createHash("sha256").update(bytes).digest("base64")}`;
+
+test("the list has all that a browser needs, with digests; head and service worker know the version", () => {
+  const isNeeded = (/** @type {string} */ path) =>
+    !["files.json", "offline.js"].includes(path) && !path.endsWith(".js.map");
+  const files = filesOf(PAGE).filter(isNeeded);
   assert.deepEqual(Object.keys(list.files).sort(), files.sort());
-  for (const path of files) {
-    const digest = createHash("sha256").update(readFileSync(join(PAGE, path))).digest("base64");
-    assert.equal(list.files[path], `sha256-${digest}`, path);
-  }
+  for (const path of files) assert.equal(list.files[path], digest(readFileSync(join(PAGE, path))), path);
   assert.match(list.version, /^[0-9a-f]{16}$/);
-  assert.ok(readFileSync(join(PAGE, "offline.js"), "utf8").includes(`const VERSION = "${list.version}";`));
+  assert.ok(read("offline.js").includes(`const VERSION = "${list.version}";`));
+  assert.ok(read("index.html").includes(`data-version="${list.version}"`));
 });
 
-test("sources, maps and engines are there, and nothing that no browser needs", () => {
-  const same = (/** @type {string} */ path, /** @type {string} */ from) =>
-    assert.ok(readFileSync(join(PAGE, path)).equals(readFileSync(from)), `${path} differs from ${from}`);
-  for (const path of filesOf(SOURCES).filter((path) => /^(src|style)\//.test(path)))
-    same(path, join(SOURCES, path));
+test("maps and engines are there as they are, and nothing that no browser needs", () => {
   const maps = join(ROOT, "crates/cli/maps");
-  for (const path of filesOf(maps).filter((path) => path.endsWith(".map")))
-    same(`maps/${path}`, join(maps, path));
-  for (const path of ["mediant.js", "mediant_bg.wasm"]) same(`mediant/${path}`, join(PACKAGE, path));
-  for (const path of Object.keys(list.files)) assert.doesNotMatch(path, /\.d\.ts$|node\.js$|package\.json$/);
+  const names = filesOf(maps).filter((path) => path.endsWith(".map"));
+  for (const name of names) assert.equal(read(`maps/${name}`), readFileSync(join(maps, name), "utf8"), name);
+  const engines = gunzipSync(readFileSync(join(PAGE, "mediant_bg.wasm.gz")));
+  assert.ok(engines.equals(readFileSync(join(PACKAGE, "mediant_bg.wasm"))));
+  const own = ["index.html", "offline.js", "files.json", "icon.svg", "manifest.webmanifest", "LICENSE"];
+  const packed = ["page.js.gz", "worker.js.gz", "mediant_bg.wasm.gz"];
+  const sources = ["page.js.map", "worker.js.map"];
+  assert.deepEqual(
+    filesOf(PAGE).sort(),
+    [...own, ...packed, ...sources, ...names.map((name) => `maps/${name}`)].sort(),
+  );
 });
 
-test("the head announces every module that is started or imported, once, in order", () => {
-  const head = readFileSync(join(PAGE, "index.html"), "utf8");
-  const announced = [...head.matchAll(/rel="modulepreload" href="([^"]+)"/g)].map((match) => match[1]);
-  const started = [...head.matchAll(/<script type="module"[^>]* src="([^"]+)"/g)].map((match) => match[1]);
-  const found = new Set();
-  const follow = (/** @type {string} */ path) => {
-    if (found.has(path)) return;
-    found.add(path);
-    const text = readFileSync(join(PAGE, path), "utf8").replaceAll(/\/\*[^]*?\*\//g, "");
-    for (const match of text.matchAll(/^(?:import|export|\}).*"(\.[^"]+)";$/gm))
-      follow(posix.join(posix.dirname(path), match[1]));
-  };
-  started.forEach(follow);
-  assert.deepEqual([...announced].sort(), [...found].sort());
-  // A browser asks for them in this order; so the first worker starts before the rest is there.
-  assert.equal(announced[0], "src/search/warm.js");
-  assert.deepEqual(announced.filter((path) => started.includes(path)), started);
-  // What makes maps is loaded after the first path.
-  assert.ok(!announced.includes("src/model/generate.js"));
-  assert.ok(announced.length > 50, `${announced.length}`);
-  assert.ok(head.includes('rel="preload" href="mediant/mediant_bg.wasm" as="fetch" crossorigin'));
+test("every module of the sources is in a script, and debuggers find it", () => {
+  const named = ["page.js.map", "worker.js.map"].flatMap((path) => JSON.parse(read(path)).sources);
+  assert.ok(
+    named.every((path) => path.startsWith("../sources/")),
+    named.join(" "),
+  );
+  const modules = filesOf(SOURCES).filter((path) => /^src\/.*\.js$/.test(path));
+  const first = ["src/start.js", "src/panels/theme-first.js"];
+  const isIn = (/** @type {string} */ path) => first.includes(path) || named.includes(`../sources/${path}`);
+  assert.deepEqual(
+    modules.filter((path) => !isIn(path)),
+    [],
+  );
+});
+
+test("the head holds its script and its styles, and its policy allows no others", () => {
+  const head = read("index.html");
+  const [, policy] = /http-equiv="Content-Security-Policy"\s+content="([^"]+)"/.exec(head) ?? [];
+  for (const [element, rule] of [
+    ["script", "script-src"],
+    ["style", "style-src"],
+  ]) {
+    const parts = [...head.matchAll(new RegExp(`<${element}[^>]*>([^]*?)</${element}>`, "g"))];
+    assert.equal(parts.length, 1, element);
+    const allowed = policy.split("; ").find((part) => part.startsWith(`${rule} `)) ?? "";
+    assert.ok(allowed.split(" ").includes(`'${digest(parts[0][1])}'`), allowed);
+    assert.doesNotMatch(allowed, /unsafe-inline|unsafe-eval'? |https?:/);
+  }
+  assert.doesNotMatch(head, /<script[^>]* src=|rel="stylesheet"/);
 });

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { colorsAt, emptyRows, isColor, lanes, loadRows, setLanes, token } from "../act.mjs";
-import { settled, Site } from "../browser.mjs";
+import { Site, settled } from "../browser.mjs";
 import { load, spaceOf } from "../truth.mjs";
 
 /** @typedef {import("playwright-core").Page} Page */
@@ -28,10 +28,10 @@ const show = (page, overlay) =>
 
 /** Calls a method of the model. @param {Page} page @param {string} name @param {any[]} values */
 const call = (page, name, ...values) =>
-  page.evaluate(([name, values]) => /** @type {any} */ (globalThis).mediant.model[name](...values), [
-    name,
-    values,
-  ]);
+  page.evaluate(
+    ([name, values]) => /** @type {any} */ (globalThis).mediant.model[name](...values),
+    [name, values],
+  );
 
 /** Places along a way, so many on each leg. @param {number[]} path @param {number} shift
  *  @param {number} count */
@@ -62,15 +62,13 @@ test("a path goes through centers of cells, or along the lines between them; end
   ])) {
     await setLanes(page, { placement });
     await settled(page);
-    const row = (/** @type {number} */ y) =>
-      [2.3, 4.6, 6.2, 8.7].map((x) => /** @type {Point} */ ([x, y]));
+    const row = (/** @type {number} */ y) => [2.3, 4.6, 6.2, 8.7].map((x) => /** @type {Point} */ ([x, y]));
     assert.equal(await share(page, row(y), "lane-0"), 1, `the path at ${placement}s`);
     for (const beside of [y - 0.5, y + 0.5]) assert.equal(await share(page, row(beside), "lane-0"), 0);
     await call(page, "moveEnd", "start", [5, 1]);
     await call(page, "moveEnd", "goal", [5, 6]);
     await settled(page);
-    const column = (/** @type {number} */ x) =>
-      [2.3, 3.6, 4.7].map((y) => /** @type {Point} */ ([x, y]));
+    const column = (/** @type {number} */ x) => [2.3, 3.6, 4.7].map((y) => /** @type {Point} */ ([x, y]));
     const shift = y - 4;
     assert.equal(await share(page, column(5 + shift), "lane-0"), 1, `the path down at ${placement}s`);
     for (const beside of [4.5, 5.5]) assert.equal(await share(page, column(beside + shift), "lane-0"), 0);
@@ -92,9 +90,18 @@ test("walls are where cells are blocked, also after an edit and its undo", async
   const page = await open({ engine: "astar" });
   const cell = 2 * WIDTH + 3;
   /** @type {Point[]} */
-  const inside = [[3.2, 2.2], [3.8, 2.8], [3.5, 2.5]];
+  const inside = [
+    [3.2, 2.2],
+    [3.8, 2.8],
+    [3.5, 2.5],
+  ];
   /** @type {Point[]} */
-  const beside = [[2.8, 2.5], [4.2, 2.5], [3.5, 1.8], [3.5, 3.2]];
+  const beside = [
+    [2.8, 2.5],
+    [4.2, 2.5],
+    [3.5, 1.8],
+    [3.5, 3.2],
+  ];
   for (const [act, isWall] of /** @type {[() => Promise<void>, boolean][]} */ ([
     [async () => {}, false],
     [() => call(page, "paint", [cell], true), true],
@@ -177,7 +184,11 @@ test("canvases follow the theme of the page and of the system", async () => {
   // Waits until the canvases have the colors of the theme: the browser tells of a change when it will.
   const seen = async (other = "") => {
     for (let look = 0; ; look += 1) {
-      const found = await colorsAt(page, [[3.5, 2.5], [6.5, 2.5], [5.2, 4.5]]);
+      const found = await colorsAt(page, [
+        [3.5, 2.5],
+        [6.5, 2.5],
+        [5.2, 4.5],
+      ]);
       const colors = await Promise.all(["wall", "free", "lane-0"].map((name) => token(page, name)));
       const isDone = String(found[1]) !== other && found.every((color, at) => isColor(color, colors[at]));
       if (isDone) return String(found[1]);
@@ -215,19 +226,28 @@ test("fields are of the active lane's motion, of the goal, the map and the agent
       return { rows: text.match(/.{12}/g) ?? [], setup: lanes[active], goal, radius };
     });
     const truth = Array.from(spaceOf(mediant, rows, setup, radius).field(goal).distances(), Math.fround);
-    await page.waitForFunction((truth) => {
-      const { field } = /** @type {any} */ (globalThis).mediant.lanes;
-      const isSame = (/** @type {number} */ value, /** @type {number} */ at) =>
-        truth[at] === null ? value === Infinity : value === truth[at];
-      return field?.kind === "distances" && field.values.every(isSame);
-    }, truth.map((value) => (value === Infinity ? null : value)), { timeout: 10_000 }).catch(() => {
-      assert.fail(`${what}: the distances are others than the package's`);
-    });
+    await page
+      .waitForFunction(
+        (truth) => {
+          const { field } = /** @type {any} */ (globalThis).mediant.lanes;
+          const isSame = (/** @type {number} */ value, /** @type {number} */ at) =>
+            truth[at] === null ? value === Infinity : value === truth[at];
+          return field?.kind === "distances" && field.values.every(isSame);
+        },
+        truth.map((value) => (value === Infinity ? null : value)),
+        { timeout: 10_000 },
+      )
+      .catch(() => {
+        assert.fail(`${what}: the distances are others than the package's`);
+      });
     const active = await page.evaluate(() => /** @type {any} */ (globalThis).mediant.model.active);
     // A disc does not fit along the border, which is hatched in all panes.
     if (radius > 0) continue;
     /** @type {Point[]} */
-    const far = [[0.2, 0.8], [0.3, 6.2]];
+    const far = [
+      [0.2, 0.8],
+      [0.3, 6.2],
+    ];
     assert.ok((await share(page, far, "free", active)) < 1, `${what}: colors in the active pane`);
     assert.equal(await share(page, far, "free", 1 - active), 1, `${what}: none in the other`);
   }

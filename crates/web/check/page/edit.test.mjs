@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { badge, drag, emptyRows, generate, lanes, loadRows, place, rows, scene, setLanes } from "../act.mjs";
-import { picture, settled, Site } from "../browser.mjs";
+import { picture, Site, settled } from "../browser.mjs";
 
 const site = new Site();
 
@@ -20,7 +20,10 @@ const tool = (page, name) => page.getByRole("button", { name, exact: true }).cli
 /** @param {string[]} map */
 const walls = (map) => map.join("").split("#").length - 1;
 /** @param {import("playwright-core").Page} page */
-const lengthNow = async (page) => (await settled(page), (await lanes(page))[0].answer.length);
+async function lengthNow(page) {
+  await settled(page);
+  return (await lanes(page))[0].answer.length;
+}
 
 test("a drawn wall is a line of cells without gaps, and the path goes around it", async () => {
   const page = await open();
@@ -81,7 +84,10 @@ test("a rectangle, and a fill", async () => {
 test("Shift and the other button do the opposite of a tool", async () => {
   const page = await open();
   await tool(page, "Draw");
-  const stroke = /** @type {[number, number][]} */ ([[4, 2], [9, 2]]);
+  const stroke = /** @type {[number, number][]} */ ([
+    [4, 2],
+    [9, 2],
+  ]);
   const row = async () => (await rows(page))[2].slice(3, 11);
   await drag(page, stroke);
   assert.equal(await row(), ".######.");

@@ -5,7 +5,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { drop, isSentence, lanes, loadRows, message, messages, rows, scene } from "../act.mjs";
-import { picture, settled, Site } from "../browser.mjs";
+import { picture, Site, settled } from "../browser.mjs";
 import { movingai, pgm, pngOf, ros } from "../pictures.mjs";
 import { ROOT } from "../places.mjs";
 

@@ -1,11 +1,14 @@
 // The first sight: fast, from one server, and what the package answers.
 
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawn } from "node:child_process";
 import { test } from "node:test";
 import { fileURLToPath } from "node:url";
+import { serve } from "../../serve.mjs";
 import { lanes, rows, scene } from "../act.mjs";
 import { picture, Site } from "../browser.mjs";
+import { PAGE } from "../places.mjs";
+import { relay } from "../traffic.mjs";
 import { lengthOf, load } from "../truth.mjs";
 
 const site = new Site();
@@ -41,6 +44,56 @@ test("the first path is there within a second of a cold load", async (t) => {
   t.diagnostic(`first path after ${said.join(", ")}`);
   assert.ok(best() < 1000, `${said}`);
 });
+
+/** A port that nothing listens on. */
+async function freePort() {
+  const { address, close } = await serve();
+  await close();
+  return Number(new URL(address).port);
+}
+
+/** The other server of docs/web.md; null where it does not start. */
+async function python() {
+  const port = await freePort();
+  const words = ["-m", "http.server", String(port), "--bind", "localhost", "--directory", PAGE];
+  const child = spawn("python3", words, { stdio: "ignore" });
+  let isOver = false;
+  child.on("error", () => (isOver = true)).on("exit", () => (isOver = true));
+  for (let tries = 0; tries < 100 && !isOver; tries += 1) {
+    const isThere = await fetch(`http://localhost:${port}/icon.svg`).catch(() => null);
+    if (isThere?.ok) return { port, close: async () => void child.kill() };
+    await new Promise((done) => setTimeout(done, 100));
+  }
+  child.kill();
+  return null;
+}
+
+async function own() {
+  const { address, close } = await serve();
+  return { port: Number(new URL(address).port), close };
+}
+
+for (const [name, start] of /** @type {const} */ ([
+  ["serve.mjs", own],
+  ["http.server of Python", python],
+])) {
+  test(`the first path takes six requests and 800 kB from ${name}`, async (t) => {
+    const server = await start();
+    if (!server) return t.skip("it does not start here");
+    const { counted, address, close } = await relay(server.port);
+    const context = await site.browser.newContext({ serviceWorkers: "block" });
+    const page = await context.newPage();
+    await page.goto(address);
+    await page.waitForFunction(() => performance.getEntriesByName("first-path").length > 0);
+    const { requests, bytes } = { requests: [...counted.requests], bytes: counted.bytes };
+    t.diagnostic(`${requests.length} requests, ${bytes} bytes: ${requests.join(" ")}`);
+    await context.close();
+    close();
+    await server.close();
+    assert.ok(requests.length <= 6, requests.join(" "));
+    assert.ok(bytes <= 800_000, `${bytes} bytes`);
+  });
+}
 
 test("the page shows the path that the package finds", async () => {
   const page = await site.open();

@@ -2,8 +2,9 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { gunzipSync } from "node:zlib";
 import { emptyRows, generate, isSentence, lanes, loadRows, message, rows, scene, setLanes } from "../act.mjs";
-import { picture, settled, Site } from "../browser.mjs";
+import { picture, Site, settled } from "../browser.mjs";
 
 /** @typedef {import("playwright-core").Page} Page */
 
@@ -44,23 +45,62 @@ test("a map without a free cell", async () => {
   await picture(page, "all-blocked");
 });
 
-test("what makes maps cannot be loaded: the page says so, keeps the scene, and can try again", async () => {
+test("a map cannot be loaded: the page says so, keeps the scene, and can try again", async () => {
   const context = await site.context();
-  await context.route("**/generate.js", (route) => route.abort());
+  await context.route("**/maps/cave.map?*", (route) => route.abort());
   const page = await site.open({ context });
   const before = await rows(page);
   const choose = async () => {
     await page.locator("#maps > summary").click();
-    await page.locator("#maps").getByRole("button", { name: "Cave", exact: true }).click();
+    await page.locator("#maps").getByRole("button", { name: "Small cave", exact: true }).click();
   };
   await choose();
   assert.ok(isSentence(await message(page, /could not be loaded/)));
   assert.deepEqual(await rows(page), before);
-  for (const complaint of site.taken()) assert.match(complaint, /generate\.js|ERR_FAILED/);
-  await context.unroute("**/generate.js");
+  for (const complaint of site.taken()) assert.match(complaint, /cave\.map|ERR_FAILED/);
+  await context.unroute("**/maps/cave.map?*");
   await choose();
-  await page.waitForFunction(() => /** @type {any} */ (globalThis).mediant.model.source.kind === "generated");
+  await page.waitForFunction(() => /** @type {any} */ (globalThis).mediant.model.source.name === "cave");
   await settled(page);
+});
+
+test("the engines cannot be loaded: the lane says so, and can try again", async () => {
+  const context = await site.context();
+  await context.route("**/mediant_bg.wasm.gz?*", (route) => route.abort());
+  const page = await site.open({ context, start: false });
+  await page.waitForFunction(() => /** @type {any} */ (globalThis).mediant?.lanes.list[0].phase === "failed");
+  const texts = await said(page);
+  assert.ok(texts.length > 0 && texts.every(isSentence), texts.join(" | "));
+  assert.match(texts.join(" "), /engines could not be loaded/);
+  await context.unroute("**/mediant_bg.wasm.gz?*");
+  await page.getByRole("button", { name: "Start lane 1 again" }).click();
+  await settled(page);
+  const [{ answer }] = await lanes(page);
+  assert.equal(answer.status, "found");
+  for (const complaint of site.taken()) assert.match(complaint, /wasm|ERR_FAILED/);
+});
+
+for (const name of ["page.js.gz", "worker.js.gz"]) {
+  test(`${name} cannot be loaded: the page says that it cannot start`, async () => {
+    const context = await site.context();
+    await context.route(`**/${name}?*`, (route) => route.fulfill({ status: 503 }));
+    const page = await site.open({ context, start: false });
+    const banner = page.getByRole("alert").filter({ hasText: /could not start/ });
+    await banner.waitFor();
+    assert.match((await banner.textContent()) ?? "", new RegExp(`503 for ${name}`));
+    for (const complaint of site.taken()) assert.match(complaint, /503/);
+  });
+}
+
+test("a server that has packed files unpacked does no harm", async () => {
+  const context = await site.context();
+  await context.route("**/*.gz?*", async (route) => {
+    const response = await route.fetch();
+    await route.fulfill({ response, body: gunzipSync(await response.body()) });
+  });
+  const page = await site.open({ context });
+  const [{ answer }] = await lanes(page);
+  assert.equal(answer.status, "found");
 });
 
 test("maps of one cell, of one row, and of one column", async () => {

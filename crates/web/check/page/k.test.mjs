@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { lanes, rows, scene, setLanes } from "../act.mjs";
-import { picture, settled, Site } from "../browser.mjs";
+import { picture, Site, settled } from "../browser.mjs";
 import { lengthOf, load } from "../truth.mjs";
 
 const site = new Site();

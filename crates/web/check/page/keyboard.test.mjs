@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { colorsAt, emptyRows, isColor, lanes, loadRows, rows, scene, setLanes, token } from "../act.mjs";
-import { picture, settled, Site } from "../browser.mjs";
+import { picture, Site, settled } from "../browser.mjs";
 
 /** @typedef {import("playwright-core").Page} Page */
 
@@ -149,7 +149,10 @@ test("the cell of the keyboard is drawn and said, Shift goes far, Escape leaves 
   await page.keyboard.press("Shift+ArrowRight");
   assert.equal(await said(), "Cell 9, 2: free.");
   // The frame of the cell, and the cell beside it.
-  const [on, beside] = await colorsAt(page, [[9.5, 2.5], [10.5, 2.5]]);
+  const [on, beside] = await colorsAt(page, [
+    [9.5, 2.5],
+    [10.5, 2.5],
+  ]);
   assert.ok(isColor(beside, await token(page, "free")), `${beside}`);
   assert.ok(!isColor(on, beside), `the cell of the keyboard is not seen: ${on}`);
   await page.keyboard.down("Enter");

@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { emptyRows, lanes, loadRows, rows, scene, setLanes } from "../act.mjs";
-import { settled, Site } from "../browser.mjs";
+import { Site, settled } from "../browser.mjs";
 import { lengthOf, load, spaceOf } from "../truth.mjs";
 
 /** @typedef {import("playwright-core").Page} Page */
@@ -26,7 +26,13 @@ async function judged(page) {
 
 /** A setup with all its fields. @param {object} change */
 const setup = (change) => ({
-  engine: "astar", k: 3, placement: "center", corners: "never", gap: "open", smooth: "", ...change,
+  engine: "astar",
+  k: 3,
+  placement: "center",
+  corners: "never",
+  gap: "open",
+  smooth: "",
+  ...change,
 });
 
 /** @param {number} a @param {number} b @param {string} what */
@@ -103,10 +109,18 @@ test("excess and certificate are those of the lane's path and motion", async () 
     await page.evaluate((active) => /** @type {any} */ (globalThis).mediant.model.set({ active }), lane);
     const figures = page.locator("#readout dd.value");
     const expected = [answer.length.toFixed(2), percent(answer.length / best), bound ? percent(bound) : "–"];
-    await page.waitForFunction((expected) => {
-      const found = [...document.querySelectorAll("#readout dd.value")].map(({ textContent }) => textContent);
-      return String(found) === String(expected);
-    }, expected, { timeout: 10_000 }).catch(() => {});
+    await page
+      .waitForFunction(
+        (expected) => {
+          const found = [...document.querySelectorAll("#readout dd.value")].map(
+            ({ textContent }) => textContent,
+          );
+          return String(found) === String(expected);
+        },
+        expected,
+        { timeout: 10_000 },
+      )
+      .catch(() => {});
     assert.deepEqual(await figures.allTextContents(), expected, `lane ${lane + 1}`);
     const cell = (/** @type {string} */ name) =>
       page.locator(`tbody tr:nth-child(${lane + 1}) td[data-label="${name}"]`).textContent();
@@ -118,7 +132,10 @@ test("excess and certificate are those of the lane's path and motion", async () 
   const best = await page
     .locator('td[data-label="Expansions"]')
     .evaluateAll((cells) => cells.map((cell) => cell.classList.contains("best")));
-  assert.deepEqual(best, answers.map(({ answer }) => answer.expanded === fewest));
+  assert.deepEqual(
+    best,
+    answers.map(({ answer }) => answer.expanded === fewest),
+  );
 });
 
 test("an invalid query has the package's code and text", async () => {
@@ -129,11 +146,17 @@ test("an invalid query has the package's code and text", async () => {
   const [{ answer }] = await lanes(page);
   assert.equal(answer.status, "invalid");
   const { lanes: setups } = await scene(page);
-  assert.throws(() => lengthOf(mediant, GAP, setups[0], [4, 0], [7, 5]), (/** @type {any} */ error) => {
-    assert.equal(answer.error.code, error.code);
-    assert.ok(answer.error.message.toLowerCase().includes(error.message.toLowerCase()), answer.error.message);
-    return true;
-  });
+  assert.throws(
+    () => lengthOf(mediant, GAP, setups[0], [4, 0], [7, 5]),
+    (/** @type {any} */ error) => {
+      assert.equal(answer.error.code, error.code);
+      assert.ok(
+        answer.error.message.toLowerCase().includes(error.message.toLowerCase()),
+        answer.error.message,
+      );
+      return true;
+    },
+  );
 });
 
 /** What a button of the menu saves. @param {Page} page @param {RegExp} what */
@@ -156,7 +179,9 @@ test("the search and the picture that are saved are those of the active lane", a
   const files = [];
   for (const [active, one] of setups.entries()) {
     await page.evaluate((active) => /** @type {any} */ (globalThis).mediant.model.set({ active }), active);
-    const planner = spaceOf(mediant, await rows(page), one).prepare(one.engine).planner();
+    const planner = spaceOf(mediant, await rows(page), one)
+      .prepare(one.engine)
+      .planner();
     const trace = new mediant.Trace(true);
     planner.find([1, 0], [7, 5], undefined, trace);
     assert.equal(await saved(page, /Posthoc/), trace.posthoc(planner, [1, 0], [7, 5]), `lane ${active + 1}`);

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { lanes, scene } from "../act.mjs";
-import { picture, settled, Site } from "../browser.mjs";
+import { picture, Site, settled } from "../browser.mjs";
 
 /** @typedef {import("playwright-core").Page} Page */
 

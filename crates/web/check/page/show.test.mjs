@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { drag, emptyRows, loadRows, place, rows, scene, setLanes } from "../act.mjs";
-import { picture, settled, Site } from "../browser.mjs";
+import { picture, Site, settled } from "../browser.mjs";
 import { load, spaceOf } from "../truth.mjs";
 
 /** @typedef {import("playwright-core").Page} Page */

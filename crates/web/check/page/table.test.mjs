@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { emptyRows, lanes, loadRows, messages, scene, setLanes } from "../act.mjs";
-import { settled, Site } from "../browser.mjs";
+import { Site, settled } from "../browser.mjs";
 
 /** @typedef {import("playwright-core").Page} Page */
 

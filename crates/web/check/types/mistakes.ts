@@ -10,6 +10,11 @@ new Grid(2, 2, "..#."); // wrong
 const path: Int32Array = grid.path([0, 0], [1, 1]); // wrong
 const motion: Motion = { corners: true }; // wrong
 grid.space().prepare("subgoal", { levels: "label" }); // wrong
-grid.space().prepare().planner().distances([0, 0], [[1, 1]]); // wrong
+grid
+  .space()
+  .prepare()
+  .planner()
+  .distances([0, 0], [[1, 1]]); // wrong
 grid.width = 3; // wrong
+
 export { motion, path };

@@ -1,12 +1,12 @@
 // The modules of the page have the types that they say, by its contract and by the package; programs of
-// TypeScript can use the package; modules are short enough to read.
+// TypeScript can use the package.
 
 import assert from "node:assert/strict";
-import { execFileSync, spawnSync } from "node:child_process";
+import { spawnSync } from "node:child_process";
 import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { HERE, PACKAGE, ROOT, SOURCES, WEB } from "../places.mjs";
+import { HERE, PACKAGE, SOURCES, WEB } from "../places.mjs";
 
 const TSC = join(HERE, "node_modules/.bin/tsc");
 const FOLDER = join(WEB, "types");
@@ -83,22 +83,4 @@ test("every export of the package is used there", () => {
     unused.filter((name) => !/^[a-z]+_/.test(name)),
     [],
   );
-});
-
-test("modules are at most 300 lines of 110 columns, and style sheets as wide", () => {
-  const list = execFileSync("git", ["ls-files", "-co", "--exclude-standard", "crates/web"], {
-    cwd: ROOT,
-    encoding: "utf8",
-  });
-  const modules = list.split("\n").filter((name) => /\.(m?js|css|d\.ts)$/.test(name));
-  const long = [];
-  for (const name of modules) {
-    const lines = readFileSync(join(ROOT, name), "utf8").split("\n");
-    if (name.endsWith("js") && lines.length > 301) long.push(`${name}: ${lines.length} lines`);
-    lines.forEach((line, at) => {
-      if ([...line].length > 110) long.push(`${name}:${at + 1}: ${[...line].length} columns`);
-      if (/\s$/.test(line)) long.push(`${name}:${at + 1}: white space at the end`);
-    });
-  }
-  assert.deepEqual(long, []);
 });

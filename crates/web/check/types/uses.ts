@@ -1,30 +1,30 @@
 // A use of all that the package has, for the compiler. No line of it runs.
 
 import init, {
-  Field,
-  Goals,
-  Grid,
-  Index,
-  Picture,
-  Planner,
-  Space,
-  Trace,
+  type Answer,
   bound,
   checkSetup,
-  engines,
-  initSync,
-  moves,
-  version,
-  type Answer,
   type EngineInfo,
+  engines,
+  type Field,
+  type Goals,
+  Grid,
   type How,
+  type Index,
+  initSync,
   type MapOptions,
   type MediantError,
   type Motion,
+  moves,
   type NearestGoal,
   type Options,
+  Picture,
+  type Planner,
   type Point,
   type Points,
+  type Space,
+  Trace,
+  version,
   type WholeMotion,
   type WidestPath,
   type Wishes,
@@ -159,6 +159,7 @@ try {
   facts.push(name, code, message);
 }
 planner.free();
+
 export {
   able,
   arrays,
@@ -174,5 +175,7 @@ export {
   seen,
   smaller,
   text,
+  whole,
+  why,
+  width,
 };
-export { whole, why, width };

@@ -1,7 +1,7 @@
 // Starts the page: the scene, the engines, the stage and the panels.
 
 import { decode } from "./model/link.js";
-import { loadGenerators, loadMap } from "./model/maps.js";
+import { loadMap } from "./model/maps.js";
 import { Model } from "./model/model.js";
 import { Bounds } from "./panels/bounds.js";
 import { changes, part } from "./panels/dom.js";
@@ -13,7 +13,7 @@ import { startK } from "./panels/k.js";
 import { startKeys } from "./panels/keys.js";
 import { MapsMenu } from "./panels/maps-menu.js";
 import { startMenus } from "./panels/menu.js";
-import { banner, say, sentence } from "./panels/message.js";
+import { say, sentence } from "./panels/message.js";
 import { PlaybackBar } from "./panels/playback.js";
 import { FIRST_SIGHT } from "./panels/presets.js";
 import { RacePanel } from "./panels/race.js";
@@ -23,33 +23,17 @@ import { AgentsPanel, ShowPanel } from "./panels/show.js";
 import { startTabs } from "./panels/tabs.js";
 import { startTheme } from "./panels/theme.js";
 import { ToolBar } from "./panels/tools.js";
+import { warm } from "./search/lane.js";
 import { Lanes } from "./search/lanes.js";
 import { Walkers } from "./search/walkers.js";
 import { Player } from "./stage/player.js";
 import { Stage } from "./stage/stage.js";
+import { provide } from "./workers.js";
 
-/** What this browser lacks, as a sentence; empty if it has all that is needed. */
-function missing() {
-  const hint = "A current browser is needed.";
-  if (typeof WebAssembly !== "object") {
-    return `This browser has no WebAssembly: the engines are made of it. ${hint}`;
-  }
-  if (!hasModuleWorkers()) return `This browser has no module workers: the engines run in them. ${hint}`;
-  return "";
-}
+/** @import { Loaded } from "./workers.js" */
 
-function hasModuleWorkers() {
-  if (typeof Worker !== "function") return false;
-  let isAsked = false;
-  // A browser that knows modules asks for the type.
-  const options = /** @type {WorkerOptions} */ ({ get type() { isAsked = true; return "module"; } });
-  try {
-    new Worker(new URL("search/protocol.js", import.meta.url), options).terminate();
-  } catch {
-    return false;
-  }
-  return isAsked;
-}
+/** Without a path, files for the time without a network are fetched so many ms after the start. */
+const OFFLINE_AFTER = 10_000;
 
 /** Loads the scene of the link. Returns whether there is one that could be loaded. @param {Model} model */
 async function loadLink(model) {
@@ -74,20 +58,22 @@ async function firstScene(model) {
   }
 }
 
-/** Marks when the first path has been painted, for measurements, and loads what could wait until then.
- * @param {Lanes} lanes */
-function afterFirstPath(lanes) {
-  let isMarked = false;
-  changes(lanes, () => {
-    const isThere = lanes.list.some(({ phase, answer }) => phase === "done" && answer?.path.length);
-    if (isMarked || !isThere) return;
-    isMarked = true;
-    // The answer is drawn in the next frame, which is painted before the one after it.
-    requestAnimationFrame(() => requestAnimationFrame(() => {
-      performance.mark("first-path");
-      // Whoever opens the menu of maps then sees its pictures at once. Who wants a map asks again.
-      loadGenerators().catch(() => {});
-    }));
+/** Once the first path has been painted: marks when, for measurements. @param {Lanes} lanes */
+function firstPath(lanes) {
+  return new Promise((/** @type {(value?: unknown) => void} */ painted) => {
+    let isMarked = false;
+    changes(lanes, () => {
+      const isThere = lanes.list.some(({ phase, answer }) => phase === "done" && answer?.path.length);
+      if (isMarked || !isThere) return;
+      isMarked = true;
+      // The answer is drawn in the next frame, which is painted before the one after it.
+      requestAnimationFrame(() =>
+        requestAnimationFrame(() => {
+          performance.mark("first-path");
+          painted();
+        }),
+      );
+    });
   });
 }
 
@@ -95,22 +81,23 @@ function afterFirstPath(lanes) {
 function keepOffline() {
   const isLocal = ["localhost", "127.0.0.1", "[::1]"].includes(location.hostname);
   if (!("serviceWorker" in navigator) || !(location.protocol === "https:" || isLocal)) return;
-  addEventListener("load", () => {
-    navigator.serviceWorker.register("./offline.js", { updateViaCache: "none" }).catch(() => {});
-  });
+  navigator.serviceWorker.register("./offline.js", { updateViaCache: "none" }).catch(() => {});
 }
 
 /** @param {Model} model @param {() => void} help */
 function startParts(model, help) {
   const lanes = new Lanes(model);
-  afterFirstPath(lanes);
+  // What is fetched for later does not delay what is shown first.
+  const late = new Promise((done) => setTimeout(done, OFFLINE_AFTER));
+  Promise.race([firstPath(lanes), late]).then(keepOffline);
   const player = new Player(lanes);
   const walkers = new Walkers(model, lanes);
   const stage = new Stage(part("stage", HTMLElement), model, lanes, player, walkers);
   const setups = new Setups(model, lanes);
-  const bounds = new Bounds();
+  const failed = (/** @type {unknown} */ error) => say(sentence(error), { kind: "error", key: "engines" });
+  const bounds = new Bounds(lanes, failed);
   // For tests, and for the console.
-  Object.assign(globalThis, { mediant: { model, lanes, player, stage, walkers } });
+  Object.assign(globalThis, { mediant: { model, lanes, player, stage, walkers, loadMap } });
 
   startK(model, lanes, setups, bounds);
   new EnginePanel(model, lanes, setups);
@@ -122,23 +109,19 @@ function startParts(model, help) {
   new Files(model, lanes);
   const tools = new ToolBar(model, stage);
   startKeys({ model, player, stage, tools, setups, help });
-  const failed = (/** @type {unknown} */ error) => say(sentence(error), { kind: "error", key: "engines" });
-  lanes.ready.then(() => bounds.load()).catch(failed);
   addEventListener("hashchange", () => loadLink(model));
 }
 
-async function start() {
+/** Starts the page, with what start.js has loaded. @param {Loaded} loaded */
+export async function start(loaded) {
+  provide(loaded);
+  warm();
   drawIcons(document);
   startTheme();
   startTabs();
   const help = startHelp();
   startMenus(document);
-  const why = missing();
-  if (why) return banner(why);
   const model = new Model();
   await firstScene(model);
   return startParts(model, help);
 }
-
-keepOffline();
-start().catch((error) => banner(`The page could not start: ${sentence(error)}`));

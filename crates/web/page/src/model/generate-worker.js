@@ -2,7 +2,9 @@
 
 import { generate } from "./generate.js";
 
-addEventListener("message", ({ data: { name, side, seed } }) => {
-  const map = generate(name, side, seed);
-  postMessage(map, { transfer: [map.cells.buffer] });
-});
+export function work() {
+  addEventListener("message", ({ data: { name, side, seed } }) => {
+    const map = generate(name, side, seed);
+    postMessage(map, { transfer: [map.cells.buffer] });
+  });
+}

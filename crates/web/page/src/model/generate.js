@@ -17,8 +17,13 @@ import { generators, PERCENTS, whyNotGenerated } from "./generators.js";
 /** What makes the cells, by the names of the generators.
  * @type {Record<string, (side: number, random: Random) => Uint8Array>} */
 const makers = {
-  obstacles, city, rooms, cave, islands, warehouse,
-  "maze": maze((side) => 3 + 2 * Math.floor(side / 256)),
+  obstacles,
+  city,
+  rooms,
+  cave,
+  islands,
+  warehouse,
+  maze: maze((side) => 3 + 2 * Math.floor(side / 256)),
   "narrow-maze": maze(() => 1),
   ...Object.fromEntries(PERCENTS.map((percent) => [`noise-${percent}`, noise(percent)])),
 };

@@ -1,4 +1,4 @@
-// Which maps can be generated. What makes them is in generate.js, which is loaded after the first path.
+// Which maps can be generated. What makes them is in generate.js.
 
 /** `title`: what a menu shows. `about`: what the map is, as a sentence. `side`: a side that suits it.
  * @typedef {object} Generator
@@ -20,30 +20,44 @@ export const PERCENTS = Object.freeze([10, 20, 30, 40]);
 /** @type {readonly Readonly<Generator>[]} */
 export const generators = Object.freeze([
   {
-    name: "obstacles", title: "Obstacles", side: 256,
+    name: "obstacles",
+    title: "Obstacles",
+    side: 256,
     about: "Triangles and other convex shapes on open ground: here k shows most.",
   },
   {
-    name: "city", title: "City", side: 256,
+    name: "city",
+    title: "City",
+    side: 256,
     about: "Streets at angles, courts, parks and squares.",
   },
   { name: "rooms", title: "Rooms", side: 256, about: "Halls and chambers, joined by doors." },
   { name: "cave", title: "Cave", side: 256, about: "Smooth rock around chambers and passages." },
   { name: "islands", title: "Islands", side: 512, about: "The sea between coast lines." },
   {
-    name: "warehouse", title: "Warehouse", side: 128,
+    name: "warehouse",
+    title: "Warehouse",
+    side: 128,
     about: "Rows of shelves with aisles between them.",
   },
   {
-    name: "maze", title: "Maze", side: 128,
-    about: "Wide corridors with some loops.", endsInCorners: true,
+    name: "maze",
+    title: "Maze",
+    side: 128,
+    about: "Wide corridors with some loops.",
+    endsInCorners: true,
   },
   {
-    name: "narrow-maze", title: "Narrow maze", side: 128,
-    about: "Corridors one cell wide, with some loops.", endsInCorners: true,
+    name: "narrow-maze",
+    title: "Narrow maze",
+    side: 128,
+    about: "Corridors one cell wide, with some loops.",
+    endsInCorners: true,
   },
   ...PERCENTS.map((percent) => ({
-    name: `noise-${percent}`, title: `Random, ${percent} %`, side: 256,
+    name: `noise-${percent}`,
+    title: `Random, ${percent} %`,
+    side: 256,
     about: `Each cell is blocked with a chance of ${percent} %.`,
   })),
 ]);

@@ -152,9 +152,14 @@ async function sceneOf([mapField, ...fields]) {
   const one = (key, otherwise = "") => values[key]?.[0] ?? otherwise;
 
   const settings = /** @type {Settings} */ ({
-    start: point(one("s")), goal: point(one("g")), lanes: (values.l ?? []).map(lane),
-    active: number(one("a", "0")), overlay: one("o", "search"), nearest: number(one("n", "0")) === 1,
-    radius: number(one("r", "0")) / 1000, agents: number(one("w", "0")),
+    start: point(one("s")),
+    goal: point(one("g")),
+    lanes: (values.l ?? []).map(lane),
+    active: number(one("a", "0")),
+    overlay: one("o", "search"),
+    nearest: number(one("n", "0")) === 1,
+    radius: number(one("r", "0")) / 1000,
+    agents: number(one("w", "0")),
   });
   const why = whyNoSettings(settings);
   if (why !== "") throw new Error(why);

@@ -1,5 +1,8 @@
 // The maps that the page offers: bundled ones, which are files beside the page, and generated ones.
 
+import { addressOf } from "../files.js";
+import { newWorker } from "../workers.js";
+import { generate } from "./generate.js";
 import { generators, SIDES, whyNotGenerated } from "./generators.js";
 import { whyNoSize } from "./setups.js";
 
@@ -14,20 +17,32 @@ export { generators, SIDES };
 /** @type {readonly Readonly<Bundled>[]} */
 export const bundled = Object.freeze([
   {
-    name: "archipelago", title: "Archipelago", about: "A course between islands.",
-    start: [1, 1], goal: [60, 34],
+    name: "archipelago",
+    title: "Archipelago",
+    about: "A course between islands.",
+    start: [1, 1],
+    goal: [60, 34],
   },
   {
-    name: "cave", title: "Small cave", about: "A way through a cave.",
-    start: [2, 5], goal: [62, 33],
+    name: "cave",
+    title: "Small cave",
+    about: "A way through a cave.",
+    start: [2, 5],
+    goal: [62, 33],
   },
   {
-    name: "maze", title: "Hedges", about: "A way through a maze of hedges.",
-    start: [2, 2], goal: [66, 31],
+    name: "maze",
+    title: "Hedges",
+    about: "A way through a maze of hedges.",
+    start: [2, 2],
+    goal: [66, 31],
   },
   {
-    name: "town", title: "Town", about: "A walk across a town with a river.",
-    start: [0, 34], goal: [70, 3],
+    name: "town",
+    title: "Town",
+    about: "A walk across a town with a river.",
+    start: [0, 34],
+    goal: [70, 3],
   },
 ]);
 
@@ -72,12 +87,12 @@ export async function loadMap(source) {
 const LARGE_SIDE = 512;
 
 /** @param {string} name @param {number} side @param {number} seed
- * @returns {ReturnType<typeof generateHere>} */
+ * @returns {Promise<ReturnType<typeof generate>>} */
 async function generateAside(name, side, seed) {
   const why = whyNotGenerated(name, side, seed);
   if (why !== "") throw new RangeError(why);
-  if (side < LARGE_SIDE || typeof Worker === "undefined") return generateHere(name, side, seed);
-  const worker = new Worker(new URL("./generate-worker.js", import.meta.url), { type: "module" });
+  if (side < LARGE_SIDE || typeof Worker === "undefined") return generate(name, side, seed);
+  const worker = newWorker("maker");
   try {
     return await new Promise((resolve, reject) => {
       worker.onmessage = ({ data }) => resolve(data);
@@ -85,23 +100,11 @@ async function generateAside(name, side, seed) {
       worker.postMessage({ name, side, seed });
     });
   } catch {
-    // The worker could not be loaded: the page makes the map itself.
-    return await generateHere(name, side, seed);
+    // The worker could not be started: the page makes the map itself.
+    return generate(name, side, seed);
   } finally {
     worker.terminate();
   }
-}
-
-/** What makes maps. It is no import of this module: the first path does not wait for it. */
-export function loadGenerators() {
-  return import("./generate.js").catch((cause) => {
-    throw new Error("What makes such maps could not be loaded. Is the network there?", { cause });
-  });
-}
-
-/** @param {string} name @param {number} side @param {number} seed */
-async function generateHere(name, side, seed) {
-  return (await loadGenerators()).generate(name, side, seed);
 }
 
 /** @param {string} name */
@@ -109,7 +112,7 @@ async function fetchBundled(name) {
   const map = bundled.find((entry) => entry.name === name);
   if (map === undefined) throw new Error(`There is no bundled map "${name}".`);
   const failed = `The map ${map.title} could not be loaded.`;
-  const response = await fetch(new URL(`../../maps/${name}.map`, import.meta.url)).catch((cause) => {
+  const response = await fetch(addressOf(`maps/${name}.map`)).catch((cause) => {
     throw new Error(`${failed} Is the network there?`, { cause });
   });
   if (!response.ok) throw new Error(`${failed} The server says ${response.status}.`);

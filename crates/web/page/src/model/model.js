@@ -50,28 +50,65 @@ export class Model extends EventTarget {
     const source = /** @type {const} */ ({ kind: "empty", width, height });
     const cells = new Uint8Array(width * height);
     this.load({ width, height, cells, source, start: [5, 10], goal: [26, 10] });
-    this.paint(Array.from({ length: 12 }, (_, i) => (i + 3) * width + 16), true);
+    this.paint(
+      Array.from({ length: 12 }, (_, i) => (i + 3) * width + 16),
+      true,
+    );
     this.#history.clear();
     this.#isFirst = true;
   }
 
-  get width() { return this.#terrain.width; }
-  get height() { return this.#terrain.height; }
-  get cells() { return this.#terrain.cells; }
-  get version() { return this.#version; }
-  get source() { return this.#terrain.source; }
-  get edited() { return this.#terrain.edited; }
-  get start() { return this.#start; }
-  get goal() { return this.#goal; }
-  get lanes() { return this.#lanes; }
-  get active() { return this.#settings.active; }
-  get overlay() { return this.#settings.overlay; }
-  get nearest() { return this.#settings.nearest; }
-  get radius() { return this.#settings.radius; }
-  get agents() { return this.#settings.agents; }
-  get gesture() { return this.#gesture; }
-  get canUndo() { return this.#isPending || this.#history.canUndo; }
-  get canRedo() { return this.#history.canRedo && !this.#isPending; }
+  get width() {
+    return this.#terrain.width;
+  }
+  get height() {
+    return this.#terrain.height;
+  }
+  get cells() {
+    return this.#terrain.cells;
+  }
+  get version() {
+    return this.#version;
+  }
+  get source() {
+    return this.#terrain.source;
+  }
+  get edited() {
+    return this.#terrain.edited;
+  }
+  get start() {
+    return this.#start;
+  }
+  get goal() {
+    return this.#goal;
+  }
+  get lanes() {
+    return this.#lanes;
+  }
+  get active() {
+    return this.#settings.active;
+  }
+  get overlay() {
+    return this.#settings.overlay;
+  }
+  get nearest() {
+    return this.#settings.nearest;
+  }
+  get radius() {
+    return this.#settings.radius;
+  }
+  get agents() {
+    return this.#settings.agents;
+  }
+  get gesture() {
+    return this.#gesture;
+  }
+  get canUndo() {
+    return this.#isPending || this.#history.canUndo;
+  }
+  get canRedo() {
+    return this.#history.canRedo && !this.#isPending;
+  }
 
   /** The cells that differ from the map as it was loaded, in order. */
   edits() {

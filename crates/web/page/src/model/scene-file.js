@@ -1,6 +1,6 @@
 // The scene as a file: JSON that people can read, with all cells as rows of `.` (free) and `@` (blocked).
 
-import { whyNoSettings, whyNoSource, settingsOf } from "./scene.js";
+import { settingsOf, whyNoSettings, whyNoSource } from "./scene.js";
 import { MOST_CELLS, whyNoSize } from "./setups.js";
 
 /** @typedef {import("../../types.d.ts").MapSource} MapSource */

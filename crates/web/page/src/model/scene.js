@@ -97,8 +97,14 @@ export async function apply(scene, model, loadMap = loadFromPage) {
   model.batch(() => {
     model.load({ ...base, start, goal });
     model.beginGesture("cells");
-    model.paint(edits.filter((cell) => base.cells[cell] === 0), true);
-    model.paint(edits.filter((cell) => base.cells[cell] === 1), false);
+    model.paint(
+      edits.filter((cell) => base.cells[cell] === 0),
+      true,
+    );
+    model.paint(
+      edits.filter((cell) => base.cells[cell] === 1),
+      false,
+    );
     model.endGesture();
     model.setLanes(lanes);
     model.set(rest);

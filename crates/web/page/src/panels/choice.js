@@ -31,8 +31,12 @@ export class Choice {
       this.#inputs.set(value, input);
       return h("label", { class: "choice" }, input, ...(figure ? [figure] : []), h("span", {}, label));
     });
-    this.element = h("fieldset", { class: "choices" },
-      h("legend", {}, legend), h("div", { class: "choice-row" }, ...labels));
+    this.element = h(
+      "fieldset",
+      { class: "choices" },
+      h("legend", {}, legend),
+      h("div", { class: "choice-row" }, ...labels),
+    );
   }
 
   /** @param {string} value */

@@ -42,45 +42,83 @@ export class EnginePanel {
   constructor(model, lanes, setups) {
     this.#model = model;
     this.#lanes = lanes;
-    const choice = (/** @type {string} */ legend, /** @type {keyof LaneSetup} */ key,
-      /** @type {[string, string, (() => SVGElement)?][]} */ options) =>
-      new Choice(legend, options.map(([value, label, figure]) => ({ value, label, figure: figure?.() })),
-        (value) => setups.change({ [key]: value }));
+    const choice = (
+      /** @type {string} */ legend,
+      /** @type {keyof LaneSetup} */ key,
+      /** @type {[string, string, (() => SVGElement)?][]} */ options,
+    ) =>
+      new Choice(
+        legend,
+        options.map(([value, label, figure]) => ({ value, label, figure: figure?.() })),
+        (value) => setups.change({ [key]: value }),
+      );
     this.#engine = select({}, (engine) => setups.change({ engine }), { "aria-labelledby": "engine-title" });
-    this.#placement = choice("Vertices", "placement",
-      [["corner", "corners", PLACEMENTS.corner], ["center", "centers", PLACEMENTS.center]]);
-    this.#corners = choice("Corner cutting", "corners", [["never", "never", CORNER_RULES.never],
-      ["one", "one", CORNER_RULES.one], ["always", "always", CORNER_RULES.always]]);
-    this.#gap = choice("Gaps", "gap",
-      [["open", "open", GAP_RULES.open], ["closed", "closed", GAP_RULES.closed]]);
-    this.#smooth = choice("Smoothing", "smooth", [["", "none"], ["linear", "linear"], ["taut", "taut"]]);
+    this.#placement = choice("Vertices", "placement", [
+      ["corner", "corners", PLACEMENTS.corner],
+      ["center", "centers", PLACEMENTS.center],
+    ]);
+    this.#corners = choice("Corner cutting", "corners", [
+      ["never", "never", CORNER_RULES.never],
+      ["one", "one", CORNER_RULES.one],
+      ["always", "always", CORNER_RULES.always],
+    ]);
+    this.#gap = choice("Gaps", "gap", [
+      ["open", "open", GAP_RULES.open],
+      ["closed", "closed", GAP_RULES.closed],
+    ]);
+    this.#smooth = choice("Smoothing", "smooth", [
+      ["", "none"],
+      ["linear", "linear"],
+      ["taut", "taut"],
+    ]);
     this.#build();
     const show = eachFrame(() => this.#show());
     changes(model, show);
-    lanes.ready.then(() => {
-      this.#fillEngines();
-      show();
-    }, () => {});
+    lanes.ready.then(
+      () => {
+        this.#fillEngines();
+        show();
+      },
+      () => {},
+    );
     show();
   }
 
   #build() {
     this.#radius.addEventListener("input", () => this.#model.set({ radius: Number(this.#radius.value) }));
     this.#nearest.addEventListener("change", () => this.#model.set({ nearest: this.#nearest.checked }));
-    const radius = h("label", { class: "field" }, h("span", { class: "field-label" }, "Agent radius"),
-      this.#radius, this.#radiusText);
+    const radius = h(
+      "label",
+      { class: "field" },
+      h("span", { class: "field-label" }, "Agent radius"),
+      this.#radius,
+      this.#radiusText,
+    );
     const nearest = h("label", { class: "check" }, this.#nearest, "Nearest vertex if there is no way");
     const panel = part("engine", HTMLElement);
     panel.querySelector(".panel-head")?.append(this.#mark, this.#engine);
-    panel.append(this.#why, this.#paper,
+    panel.append(
+      this.#why,
+      this.#paper,
       h("div", { class: "choice-pair" }, this.#placement.element, this.#corners.element, this.#gap.element),
-      this.#placement.reason, this.#corners.reason, this.#gap.reason,
-      this.#smooth.element, this.#smooth.reason, radius, nearest);
+      this.#placement.reason,
+      this.#corners.reason,
+      this.#gap.reason,
+      this.#smooth.element,
+      this.#smooth.reason,
+      radius,
+      nearest,
+    );
   }
 
   #fillEngines() {
-    const groups = GROUPS.map(([label, fits]) => h("optgroup", { label },
-      ...this.#lanes.engines.filter(fits).map(({ name }) => h("option", { value: name }, engineName(name)))));
+    const groups = GROUPS.map(([label, fits]) =>
+      h(
+        "optgroup",
+        { label },
+        ...this.#lanes.engines.filter(fits).map(({ name }) => h("option", { value: name }, engineName(name))),
+      ),
+    );
     this.#engine.replaceChildren(...groups);
   }
 
@@ -112,8 +150,11 @@ export class EnginePanel {
     const key = JSON.stringify(setup);
     if (key === this.#checked || this.#lanes.engines.length === 0) return;
     this.#checked = key;
-    const check = async (/** @type {Choice} */ choice, /** @type {keyof LaneSetup} */ name,
-      /** @type {string[]} */ values) => {
+    const check = async (
+      /** @type {Choice} */ choice,
+      /** @type {keyof LaneSetup} */ name,
+      /** @type {string[]} */ values,
+    ) => {
       const reasons = new Map();
       for (const value of values) {
         // The current choice stays: that it goes together is mended elsewhere.

@@ -9,10 +9,13 @@ const [LEFT, MIDDLE, RIGHT] = [2, 14, 26];
 function figure(...parts) {
   const frame = `M${LEFT} ${LEFT}H${RIGHT}V${RIGHT}H${LEFT}z`;
   const grid = `${frame}M${MIDDLE} ${LEFT}V${RIGHT}M${LEFT} ${MIDDLE}H${RIGHT}`;
-  return s("svg", { class: "figure", viewBox: "0 0 28 28", "aria-hidden": "true" },
+  return s(
+    "svg",
+    { class: "figure", viewBox: "0 0 28 28", "aria-hidden": "true" },
     ...parts.filter((part) => part.classList.contains("f-wall")),
     s("path", { class: "f-grid", d: grid }),
-    ...parts.filter((part) => !part.classList.contains("f-wall")));
+    ...parts.filter((part) => !part.classList.contains("f-wall")),
+  );
 }
 
 /** A blocked cell. @param {number} x @param {number} y */
@@ -50,6 +53,9 @@ const DASHES = ["", "8 4", "2.5 3.2", "9 3.2 2.5 3.2"];
 
 /** The line by which a lane is known. @param {number} lane */
 export function laneMark(lane) {
-  return s("svg", { class: `lane-mark lane-${lane}`, viewBox: "0 0 30 10", "aria-hidden": "true" },
-    s("path", { d: "M2 5H28", "stroke-dasharray": DASHES[lane] ?? "" }));
+  return s(
+    "svg",
+    { class: `lane-mark lane-${lane}`, viewBox: "0 0 30 10", "aria-hidden": "true" },
+    s("path", { d: "M2 5H28", "stroke-dasharray": DASHES[lane] ?? "" }),
+  );
 }

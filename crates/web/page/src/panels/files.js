@@ -1,6 +1,6 @@
 // Opens maps and scenes from files, by a dialog or by a drop anywhere; saves; copies the link.
 
-import { encode, fromFile, toFile, TOO_LARGE } from "../model/link.js";
+import { encode, fromFile, TOO_LARGE, toFile } from "../model/link.js";
 import { titleOf } from "../model/maps.js";
 import { h, part } from "./dom.js";
 import { closeMenu } from "./menu.js";
@@ -75,14 +75,25 @@ export class Files {
       ["Search for the Posthoc visualizer", "trace.yaml", () => this.#lanes.trace(active())],
       ["Map, MovingAI .map", "map", () => new Blob([mapText(this.#model)], { type: "text/plain" })],
     ];
-    sheet?.append(...kinds.map(([label, ending, make]) => h("button", { type: "button", click: async () => {
-      closeMenu(menu);
-      try {
-        download(await make(), `${name()}.${ending}`);
-      } catch (error) {
-        say(sentence(error), { kind: "error", key: "save" });
-      }
-    } }, label)));
+    sheet?.append(
+      ...kinds.map(([label, ending, make]) =>
+        h(
+          "button",
+          {
+            type: "button",
+            click: async () => {
+              closeMenu(menu);
+              try {
+                download(await make(), `${name()}.${ending}`);
+              } catch (error) {
+                say(sentence(error), { kind: "error", key: "save" });
+              }
+            },
+          },
+          label,
+        ),
+      ),
+    );
   }
 
   #listenToDrops() {
@@ -125,7 +136,10 @@ function download(blob, name) {
 
 /** @param {string} title */
 function fileName(title) {
-  const words = title.toLowerCase().replace(/\.[a-z]+$/, "").replace(/[^a-z0-9]+/g, "-");
+  const words = title
+    .toLowerCase()
+    .replace(/\.[a-z]+$/, "")
+    .replace(/[^a-z0-9]+/g, "-");
   return words.replace(/^-|-$/g, "") || "map";
 }
 

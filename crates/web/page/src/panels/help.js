@@ -5,8 +5,8 @@ import { iconButton } from "./icons.js";
 
 const TODO = [
   "Drag the start and the goal. The path follows.",
-  "Drag k. Each k adds the mediants: a new move between every two neighbors, their sum. Paths get shorter, "
-    + "and the bars say how much at most is left.",
+  "Drag k. Each k adds the mediants: a new move between every two neighbors, their sum. Paths get shorter, " +
+    "and the bars say how much at most is left.",
   "Draw walls, or open a map of your own: drop a file on the page.",
   "Add lanes to race engines, and play their searches side by side.",
 ];
@@ -23,18 +23,29 @@ const KEYS = [
 ];
 
 const WORDS = [
-  ["k, N(k)", "N(k) is the neighborhood of 2ᵏ moves: N(2) is 4-connected, N(3) 8-connected, N(∞) has every "
-    + "direction."],
+  [
+    "k, N(k)",
+    "N(k) is the neighborhood of 2ᵏ moves: N(2) is 4-connected, N(3) 8-connected, N(∞) has every " +
+      "direction.",
+  ],
   ["mediant", "The sum of two neighboring moves. N(k + 1) has one between every two moves of N(k)."],
-  ["excess", "How much longer a path is than the shortest path at any angle; at centers, than the shortest "
-    + "over N(k)."],
-  ["certificate", "What is proven of this one path: it is at most so much longer than the shortest at any "
-    + "angle."],
+  [
+    "excess",
+    "How much longer a path is than the shortest path at any angle; at centers, than the shortest " +
+      "over N(k).",
+  ],
+  [
+    "certificate",
+    "What is proven of this one path: it is at most so much longer than the shortest at any " + "angle.",
+  ],
   ["expansion", "The search takes a vertex from its open list and looks at its successors."],
   ["open", "Vertices that were reached but not expanded."],
   ["placement", "Where vertices are: at the centers of cells, or at their corners."],
-  ["corner cutting", "At centers: of the two cells beside a corner point that a move passes, how many may be "
-    + "blocked: none, one, or both."],
+  [
+    "corner cutting",
+    "At centers: of the two cells beside a corner point that a move passes, how many may be " +
+      "blocked: none, one, or both.",
+  ],
   ["gap", "A corner at which two blocked cells touch diagonally. A path may pass it, or it may not."],
   ["clearance", "How far the nearest obstacle is, in a straight line."],
   ["index", "What an engine prepares of a map once, so that queries are fast."],
@@ -46,15 +57,23 @@ export function startHelp() {
   const dialog = part("help", HTMLDialogElement);
   const close = iconButton("close", "Close", () => dialog.close());
   dialog.append(
-    h("div", { class: "help-head" },
-      h("h2", { id: "help-title", tabindex: -1, autofocus: true }, "What to do here"), close),
-    h("div", { class: "help-body" },
+    h(
+      "div",
+      { class: "help-head" },
+      h("h2", { id: "help-title", tabindex: -1, autofocus: true }, "What to do here"),
+      close,
+    ),
+    h(
+      "div",
+      { class: "help-body" },
       h("ul", {}, ...TODO.map((text) => h("li", {}, text))),
       h("h3", {}, "Keys"),
       list("keys", KEYS, (keys) => keys.split(" ").map((key) => h("kbd", {}, key))),
       h("h3", {}, "Words"),
       list("words", WORDS, (word) => [word]),
-      h("p", { class: "muted small" }, "Everything runs in this browser. No map leaves it.")));
+      h("p", { class: "muted small" }, "Everything runs in this browser. No map leaves it."),
+    ),
+  );
   // A click beside the dialog closes it.
   dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());
   const open = () => {
@@ -71,6 +90,9 @@ export function startHelp() {
  * @param {(term: string) => (Node | string)[]} draw
  */
 function list(kind, entries, draw) {
-  return h("dl", { class: kind }, ...entries.flatMap(([term = "", text = ""]) =>
-    [h("dt", {}, ...draw(term)), h("dd", {}, text)]));
+  return h(
+    "dl",
+    { class: kind },
+    ...entries.flatMap(([term = "", text = ""]) => [h("dt", {}, ...draw(term)), h("dd", {}, text)]),
+  );
 }

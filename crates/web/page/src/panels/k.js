@@ -1,8 +1,8 @@
 // The knob: the slider for k, the star of moves beside it, and what k is worth.
 
 import { changes, eachFrame, h, part, s, setText } from "./dom.js";
-import { drawStar } from "./star.js";
 import { readout } from "./readout.js";
+import { drawStar } from "./star.js";
 import { count } from "./words.js";
 
 /** @typedef {import("../../types").LaneSetup} LaneSetup */
@@ -34,8 +34,7 @@ export function startK(model, lanes, setups, bounds) {
     showValue(slider, setup);
     star.show(setup.k);
     const known = bounds.of(setup);
-    worth.show(setup, known, lanes.list[model.active] ?? null,
-      `${model.version} ${model.radius}`);
+    worth.show(setup, known, lanes.list[model.active] ?? null, `${model.version} ${model.radius}`);
     readout(setup, lanes.list[model.active] ?? null, known.get(setup.k));
   });
   changes(model, show);
@@ -119,7 +118,7 @@ class Worth {
    */
   show(setup, bounds, lane, scene) {
     const answer = lane && !lane.stale ? lane.answer : null;
-    const ends = answer ? `${answer.start} ${answer.goal}` : this.#key.split("|")[2] ?? "";
+    const ends = answer ? `${answer.start} ${answer.goal}` : (this.#key.split("|")[2] ?? "");
     const key = `${setup.placement} ${setup.corners} ${setup.gap} ${setup.smooth}|${scene}|${ends}`;
     if (key !== this.#key) this.#seen.clear();
     this.#key = key;

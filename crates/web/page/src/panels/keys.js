@@ -22,7 +22,7 @@ export function startKeys({ model, player, stage, tools, setups, help }) {
     " ": () => player.toggle(),
     ",": () => player.step(-1),
     ".": () => player.step(1),
-    "0": () => stage.fit(),
+    0: () => stage.fit(),
     "+": () => stage.zoom(1.25),
     "=": () => stage.zoom(1.25),
     "-": () => stage.zoom(0.8),

@@ -51,17 +51,33 @@ export class MapsMenu {
       const source = /** @type {const} */ ({ kind: "bundled", name });
       return this.#entry(title, about, source, () => this.#load(source));
     });
-    const made = generators.map(({ name, title, about }) => this.#entry(title, about,
-      { kind: "generated", name, side: PREVIEW_SIDE, seed: 3 },
-      () => this.#load({ kind: "generated", name, side: Number(this.#side.value), seed: this.#seedNow() })));
-    const empty = h("button", { type: "button", click: () => this.#load({
-      kind: "empty", width: this.#width.valueAsNumber, height: this.#height.valueAsNumber }) }, "Empty map");
+    const made = generators.map(({ name, title, about }) =>
+      this.#entry(title, about, { kind: "generated", name, side: PREVIEW_SIDE, seed: 3 }, () =>
+        this.#load({ kind: "generated", name, side: Number(this.#side.value), seed: this.#seedNow() }),
+      ),
+    );
+    const empty = h(
+      "button",
+      {
+        type: "button",
+        click: () =>
+          this.#load({
+            kind: "empty",
+            width: this.#width.valueAsNumber,
+            height: this.#height.valueAsNumber,
+          }),
+      },
+      "Empty map",
+    );
     sheet?.append(
-      h("h3", {}, "Ready"), h("div", { class: "map-grid" }, ...ready),
-      h("h3", {}, "Generated"), h("div", { class: "map-grid" }, ...made),
+      h("h3", {}, "Ready"),
+      h("div", { class: "map-grid" }, ...ready),
+      h("h3", {}, "Generated"),
+      h("div", { class: "map-grid" }, ...made),
       h("div", { class: "map-form" }, field("Size", this.#side), field("Seed", this.#seed), this.#another),
       h("h3", {}, "Your own"),
-      h("div", { class: "map-form" }, field("Width", this.#width), field("Height", this.#height), empty));
+      h("div", { class: "map-form" }, field("Width", this.#width), field("Height", this.#height), empty),
+    );
   }
 
   /** @param {string} title @param {string} about @param {MapSource} source @param {() => void} chosen */

@@ -83,9 +83,10 @@ function withEngine(setup, change, engines) {
     if (!engine?.any) mended.engine = "anya";
     const moved = setup.placement === "corner" ? "" : " at corners";
     const subject = mended.engine === setup.engine ? "k = ∞ needs" : `${name} takes a finite k.`;
-    const said = mended.engine === setup.engine
-      ? `${subject} vertices at corners.`
-      : `${subject} Anya searches every angle${moved}. ${name} is back when k is finite again.`;
+    const said =
+      mended.engine === setup.engine
+        ? `${subject} vertices at corners.`
+        : `${subject} Anya searches every angle${moved}. ${name} is back when k is finite again.`;
     return { setup: mended, said };
   }
   const { setup: other } = mendedEngine(mended, engines);

@@ -17,8 +17,12 @@ const shown = new Map();
 export function say(text, { kind = "notice", key = text } = {}) {
   dismiss(key);
   const close = iconButton("close", "Dismiss", () => dismiss(key));
-  const message = h("div", { class: `message ${kind}`, role: kind === "error" ? "alert" : "status" },
-    h("p", {}, text), close);
+  const message = h(
+    "div",
+    { class: `message ${kind}`, role: kind === "error" ? "alert" : "status" },
+    h("p", {}, text),
+    close,
+  );
   part("messages", HTMLElement).append(message);
   shown.set(key, message);
   if (kind === "notice") expire(key, message);

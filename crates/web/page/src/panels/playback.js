@@ -12,8 +12,14 @@ const SECONDS = [20, 10, 5, 2, 1];
 export class PlaybackBar {
   #player;
   #play;
-  #scrubber = h("input", { type: "range", min: 0, max: 1000, step: "any", class: "scrubber",
-    "aria-label": "Position in the search" });
+  #scrubber = h("input", {
+    type: "range",
+    min: 0,
+    max: 1000,
+    step: "any",
+    class: "scrubber",
+    "aria-label": "Position in the search",
+  });
   #text = h("output", { class: "playback-text" });
   #said = "";
   #mode;
@@ -25,20 +31,35 @@ export class PlaybackBar {
     this.#player = player;
     this.#play = iconButton("play", "Play", () => player.toggle(), "P");
     this.#scrubber.addEventListener("input", () => player.seek(Number(this.#scrubber.value)));
-    this.#mode = select({ pace: "same pace", time: "real time" },
-      (mode) => { player.mode = mode === "time" ? "time" : "pace"; },
-      { "aria-label": "How fast each lane is shown", title: "Same pace: as many expansions of each lane. "
-        + "Real time: what each had done after as long." });
-    const setSpeed = (/** @type {string} */ speed) => { player.speed = Number(speed); };
+    this.#mode = select(
+      { pace: "same pace", time: "real time" },
+      (mode) => {
+        player.mode = mode === "time" ? "time" : "pace";
+      },
+      {
+        "aria-label": "How fast each lane is shown",
+        title:
+          "Same pace: as many expansions of each lane. " + "Real time: what each had done after as long.",
+      },
+    );
+    const setSpeed = (/** @type {string} */ speed) => {
+      player.speed = Number(speed);
+    };
     this.#speed = select({}, setSpeed, { "aria-label": "Speed" });
     const first = iconButton("first", "To the beginning", () => player.seek(0));
     const last = iconButton("last", "To the end", () => player.seek(player.length));
     for (const end of [first, last]) end.toggleAttribute("data-end", true);
-    part("playback", HTMLElement).append(first,
-      iconButton("back", "One expansion back", () => player.step(-1), ","), this.#play,
-      iconButton("forward", "One expansion on", () => player.step(1), "."), last,
-      this.#scrubber, this.#text,
-      h("span", { class: "playback-how" }, this.#mode, this.#speed), this.#slowed);
+    part("playback", HTMLElement).append(
+      first,
+      iconButton("back", "One expansion back", () => player.step(-1), ","),
+      this.#play,
+      iconButton("forward", "One expansion on", () => player.step(1), "."),
+      last,
+      this.#scrubber,
+      this.#text,
+      h("span", { class: "playback-how" }, this.#mode, this.#speed),
+      this.#slowed,
+    );
     const show = eachFrame(() => this.#show());
     changes(player, show);
     show();
@@ -56,13 +77,16 @@ export class PlaybackBar {
     this.#scrubber.max = String(Math.max(length, 1e-9));
     this.#scrubber.value = String(position);
     this.#scrubber.style.setProperty("--at", String(length > 0 ? position / length : 1));
-    const text = mode === "pace"
-      ? `${count(Math.floor(position))} of ${count(length)} expansions`
-      : `${time(position)} of ${time(length)}`;
+    const text =
+      mode === "pace"
+        ? `${count(Math.floor(position))} of ${count(length)} expansions`
+        : `${time(position)} of ${time(length)}`;
     if (this.#said !== text) {
       this.#said = text;
-      this.#text.replaceChildren(text.replace(/ expansions$/, ""),
-        ...(mode === "pace" ? [h("span", { class: "word" }, " expansions")] : []));
+      this.#text.replaceChildren(
+        text.replace(/ expansions$/, ""),
+        ...(mode === "pace" ? [h("span", { class: "word" }, " expansions")] : []),
+      );
     }
     this.#scrubber.setAttribute("aria-valuetext", text);
     this.#scrubber.disabled = length === 0;
@@ -79,11 +103,14 @@ export class PlaybackBar {
     const key = `${mode} ${known.join(" ")}`;
     if (this.#speed.dataset.key !== key) {
       this.#speed.dataset.key = key;
-      this.#speed.replaceChildren(...known.map((value) =>
-        h("option", { value }, mode === "pace" ? `${count(value)} a second` : secondsText(1000 / value))));
+      this.#speed.replaceChildren(
+        ...known.map((value) =>
+          h("option", { value }, mode === "pace" ? `${count(value)} a second` : secondsText(1000 / value)),
+        ),
+      );
     }
     this.#speed.value = String(speed);
-    const slower = mode === "time" && length > 0 ? (1e6 / speed) / length : 0;
+    const slower = mode === "time" && length > 0 ? 1e6 / speed / length : 0;
     setText(this.#slowed, slower > 0 ? `slowed down ${count(Number(slower.toPrecision(2)))} times` : "");
   }
 }

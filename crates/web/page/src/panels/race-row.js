@@ -4,7 +4,18 @@ import { h, setText } from "./dom.js";
 import { laneMark } from "./figures.js";
 import { iconButton } from "./icons.js";
 import {
-  cells, count, engineName, excess, hasNoSearch, kText, more, motionText, over, size, time, withNames,
+  cells,
+  count,
+  engineName,
+  excess,
+  hasNoSearch,
+  kText,
+  more,
+  motionText,
+  over,
+  size,
+  time,
+  withNames,
 } from "./words.js";
 
 /** @typedef {import("../../types").LaneState} LaneState */
@@ -20,7 +31,7 @@ function lengthText({ answer }) {
 /** Lengths of different promise are compared only if they are whole ways. @param {LaneState} lane */
 const length = (lane) => (lane.answer?.status === "found" ? lane.answer.length : undefined);
 /** @param {LaneState} lane */
-const certificate = ({ answer }) => (answer?.status === "found" ? answer.bound ?? undefined : undefined);
+const certificate = ({ answer }) => (answer?.status === "found" ? (answer.bound ?? undefined) : undefined);
 
 /** A query that was refused has no search: it must not win by doing nothing.
  *  @param {LaneState} lane */
@@ -39,27 +50,42 @@ const atMost = (bound) => (bound === 1 ? over(bound) : `≤ ${over(bound)}`);
 /** @type {readonly Column[]} */
 export const COLUMNS = [
   { name: "k", title: "The number of moves is 2 to the k", value: null, text: (_, setup) => kText(setup.k) },
-  { name: "Expansions", title: "Vertices taken from the open list; hub labels need no search",
+  {
+    name: "Expansions",
+    title: "Vertices taken from the open list; hub labels need no search",
     value: expansions,
-    text: (lane) => (hasNoSearch(lane) ? "no search" : shown(expansions(lane), count)) },
-  { name: "Length", title: "In cells", value: length,
-    text: lengthText },
-  { name: "Excess", title: "How much longer the path is than the shortest", value: ({ answer }) =>
-    (answer?.reference?.what === "any" ? excess(answer) : undefined),
-  text: ({ answer }, setup) => {
-    const ratio = excess(answer);
-    const what = answer?.reference?.what === "k" ? ` over N(${setup.k})` : "";
-    return ratio === undefined ? "" : `${more(ratio)}${what}`;
-  } },
-  { name: "Certificate", title: "Proven: at most so much longer than the shortest path at any angle",
+    text: (lane) => (hasNoSearch(lane) ? "no search" : shown(expansions(lane), count)),
+  },
+  { name: "Length", title: "In cells", value: length, text: lengthText },
+  {
+    name: "Excess",
+    title: "How much longer the path is than the shortest",
+    value: ({ answer }) => (answer?.reference?.what === "any" ? excess(answer) : undefined),
+    text: ({ answer }, setup) => {
+      const ratio = excess(answer);
+      const what = answer?.reference?.what === "k" ? ` over N(${setup.k})` : "";
+      return ratio === undefined ? "" : `${more(ratio)}${what}`;
+    },
+  },
+  {
+    name: "Certificate",
+    title: "Proven: at most so much longer than the shortest path at any angle",
     value: certificate,
-    text: (lane) => shown(certificate(lane), atMost) },
-  { name: "Time", title: "Of one query on a warm planner",
+    text: (lane) => shown(certificate(lane), atMost),
+  },
+  {
+    name: "Time",
+    title: "Of one query on a warm planner",
     value: settled,
-    text: (lane) => (searched(lane)?.settled === false ? "…" : shown(settled(lane), time)) },
-  { name: "Index", title: "What the engine prepared, once for the map", value: null,
+    text: (lane) => (searched(lane)?.settled === false ? "…" : shown(settled(lane), time)),
+  },
+  {
+    name: "Index",
+    title: "What the engine prepared, once for the map",
+    value: null,
     text: ({ index }) =>
-      (index && index.bytes > 0 ? `${whole(time(index.ms))}, ${whole(size(index.bytes))}` : "–") },
+      index && index.bytes > 0 ? `${whole(time(index.ms))}, ${whole(size(index.bytes))}` : "–",
+  },
 ];
 
 export class RaceRow {
@@ -87,17 +113,29 @@ export class RaceRow {
     this.#index = index;
     this.#model = model;
     this.#lanes = lanes;
-    this.#radio = h("input", { type: "radio", name: "active-lane", class: "sr-only",
-      change: () => model.set({ active: index }) });
+    this.#radio = h("input", {
+      type: "radio",
+      name: "active-lane",
+      class: "sr-only",
+      change: () => model.set({ active: index }),
+    });
     this.#cancel = iconButton("stop", `Cancel lane ${index + 1}`, () => lanes.cancel(index));
     this.#retry = iconButton("retry", `Start lane ${index + 1} again`, () => lanes.retry(index));
     this.#remove = iconButton("close", `Remove lane ${index + 1}`, () => model.removeLane(index));
-    const label = h("label", { class: "race-lane" }, this.#radio, laneMark(index),
-      h("span", { class: "race-names" }, this.#name, this.#motion));
-    this.element = h("tr", { role: "row" },
+    const label = h(
+      "label",
+      { class: "race-lane" },
+      this.#radio,
+      laneMark(index),
+      h("span", { class: "race-names" }, this.#name, this.#motion),
+    );
+    this.element = h(
+      "tr",
+      { role: "row" },
       h("th", { scope: "row", role: "rowheader" }, label, this.#status, this.#progress),
       ...this.#cells,
-      h("td", { role: "cell", class: "race-actions" }, this.#cancel, this.#retry, this.#remove));
+      h("td", { role: "cell", class: "race-actions" }, this.#cancel, this.#retry, this.#remove),
+    );
     this.element.addEventListener("click", (event) => {
       if (!(event.target instanceof Element) || event.target.closest("button")) return;
       if (model.active !== index) model.set({ active: index });
@@ -113,8 +151,10 @@ export class RaceRow {
     this.element.classList.toggle("active", active && this.#model.lanes.length > 1);
     this.element.classList.toggle("stale", lane.stale);
     this.#radio.checked = active;
-    this.#radio.setAttribute("aria-label",
-      `Lane ${this.#index + 1}: ${engineName(setup.engine)}, k = ${kText(setup.k)}, ${motionText(setup)}`);
+    this.#radio.setAttribute(
+      "aria-label",
+      `Lane ${this.#index + 1}: ${engineName(setup.engine)}, k = ${kText(setup.k)}, ${motionText(setup)}`,
+    );
     setText(this.#name, engineName(setup.engine));
     setText(this.#motion, motionText(setup));
     COLUMNS.forEach((column, at) => this.#showCell(column, at, setup, lane, best));
@@ -142,7 +182,7 @@ export class RaceRow {
     const text = statusText(lane, setup);
     setText(this.#status, text);
     this.#status.hidden = text === "";
-    this.#status.classList.toggle("error", lane.phase === "failed" || lane.answer?.error !== null && !busy);
+    this.#status.classList.toggle("error", lane.phase === "failed" || (lane.answer?.error !== null && !busy));
     const progress = lane.phase === "preparing" ? lane.progress : null;
     this.#progress.hidden = !progress;
     if (progress) {

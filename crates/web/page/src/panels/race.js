@@ -4,7 +4,7 @@ import { MOST_LANES } from "../model/setups.js";
 import { changes, eachFrame, h, part, select } from "./dom.js";
 import { icon } from "./icons.js";
 import { PRESETS } from "./presets.js";
-import { RaceRow, COLUMNS } from "./race-row.js";
+import { COLUMNS, RaceRow } from "./race-row.js";
 
 /** @typedef {import("../../types").LaneState} LaneState */
 
@@ -34,20 +34,31 @@ export class RacePanel {
     const head = (/** @type {Node | string} */ name, title = "") =>
       h("th", { scope: "col", role: "columnheader", title: title || null }, name);
     const heads = COLUMNS.map(({ name, title }) => head(name, title));
-    const table = h("table", { class: "race-table", role: "table", "aria-labelledby": "race-title" },
-      h("thead", { role: "rowgroup" }, h("tr", { role: "row" },
-        head("Engine"), ...heads, head(h("span", { class: "sr-only" }, "Actions")))),
-      this.#body);
+    const table = h(
+      "table",
+      { class: "race-table", role: "table", "aria-labelledby": "race-title" },
+      h(
+        "thead",
+        { role: "rowgroup" },
+        h("tr", { role: "row" }, head("Engine"), ...heads, head(h("span", { class: "sr-only" }, "Actions"))),
+      ),
+      this.#body,
+    );
     const names = Object.fromEntries(PRESETS.map(({ name }, index) => [`preset ${index}`, name]));
-    const presets = select({ "": "Set up a race…", ...names }, (value) => {
-      const preset = PRESETS[Number(value.split(" ")[1])];
-      if (preset) this.#model.setLanes(preset.lanes.map((lane) => ({ ...lane })));
-      presets.value = "";
-    }, { "aria-label": "Set up a race" });
+    const presets = select(
+      { "": "Set up a race…", ...names },
+      (value) => {
+        const preset = PRESETS[Number(value.split(" ")[1])];
+        if (preset) this.#model.setLanes(preset.lanes.map((lane) => ({ ...lane })));
+        presets.value = "";
+      },
+      { "aria-label": "Set up a race" },
+    );
     this.#add.addEventListener("click", () => this.#model.addLane());
     part("race", HTMLElement).append(
       h("div", { class: "race-head" }, h("h2", { "aria-hidden": "true" }, "Race"), presets, this.#add),
-      h("div", { class: "race-scroll" }, table));
+      h("div", { class: "race-scroll" }, table),
+    );
   }
 
   #show() {
@@ -78,4 +89,3 @@ function bests(list) {
   }
   return best;
 }
-

@@ -18,7 +18,7 @@ export function readout(setup, lane, bound) {
   list.classList.toggle("stale", lane?.stale ?? false);
   const reference = answer?.reference?.what === "k" ? `over N(${setup.k})` : "over any angle";
   list.replaceChildren(
-    figure("Length", lengthText(lane), answer && answer.path.length ? "cells" : ""),
+    figure("Length", lengthText(lane), answer?.path.length ? "cells" : ""),
     figure("Excess", excessText(lane), reference),
     figure("Certificate", certificate(lane), "at most"),
   );
@@ -29,8 +29,13 @@ export function readout(setup, lane, bound) {
 /** @param {string} name @param {string} value @param {string} unit */
 function figure(name, value, unit) {
   const what = value === "–" ? "" : unit;
-  return h("div", {}, h("dt", {}, name),
-    h("dd", { class: "value" }, value), h("dd", { class: "unit muted" }, what));
+  return h(
+    "div",
+    {},
+    h("dt", {}, name),
+    h("dd", { class: "value" }, value),
+    h("dd", { class: "unit muted" }, what),
+  );
 }
 
 /** @param {LaneState | null} lane */

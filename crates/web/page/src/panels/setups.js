@@ -49,6 +49,12 @@ export class Setups {
 
 /** @param {LaneSetup} a @param {Readonly<LaneSetup>} b */
 function same(a, b) {
-  return a.engine === b.engine && a.k === b.k && a.placement === b.placement && a.corners === b.corners
-    && a.gap === b.gap && a.smooth === b.smooth;
+  return (
+    a.engine === b.engine &&
+    a.k === b.k &&
+    a.placement === b.placement &&
+    a.corners === b.corners &&
+    a.gap === b.gap &&
+    a.smooth === b.smooth
+  );
 }

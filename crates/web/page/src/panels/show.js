@@ -36,8 +36,9 @@ export class ShowPanel {
   /** @param {import("../../types").Model} model */
   constructor(model) {
     this.#model = model;
-    this.#overlay = select(NAMES, (overlay) => model.set({ overlay: /** @type {Overlay} */ (overlay) }),
-      { "aria-labelledby": "show-title" });
+    this.#overlay = select(NAMES, (overlay) => model.set({ overlay: /** @type {Overlay} */ (overlay) }), {
+      "aria-labelledby": "show-title",
+    });
     const panel = part("show", HTMLElement);
     panel.querySelector(".panel-head")?.append(this.#overlay);
     panel.append(this.#words, this.#narrow);
@@ -58,8 +59,14 @@ export class ShowPanel {
 export class AgentsPanel {
   #model;
   #walkers;
-  #number = h("input",
-    { type: "number", min: 1, max: MOST_AGENTS, step: 1, value: 12, inputmode: "numeric" });
+  #number = h("input", {
+    type: "number",
+    min: 1,
+    max: MOST_AGENTS,
+    step: 1,
+    value: 12,
+    inputmode: "numeric",
+  });
   #walk = h("button", { type: "button" }, icon("walk"), h("span", {}, "Walk"));
   #counts = h("p", { class: "small agents-counts", role: "status" });
 
@@ -74,10 +81,17 @@ export class AgentsPanel {
       this.#number.value = String(agents);
       if (walkers.walking) model.set({ agents });
     });
-    part("show", HTMLElement).append(h("h3", {}, "Agents"),
-      h("div", { class: "agents-row" }, field("Number", this.#number), this.#walk), this.#counts,
-      h("p", { class: "small muted" }, "They walk to the goal. Draw walls in their way: who is not affected "
-        + "keeps its path, the others plan anew."));
+    part("show", HTMLElement).append(
+      h("h3", {}, "Agents"),
+      h("div", { class: "agents-row" }, field("Number", this.#number), this.#walk),
+      this.#counts,
+      h(
+        "p",
+        { class: "small muted" },
+        "They walk to the goal. Draw walls in their way: who is not affected " +
+          "keeps its path, the others plan anew.",
+      ),
+    );
     const show = eachFrame(() => this.#show());
     changes(walkers, show);
     changes(model, (detail) => {

@@ -68,9 +68,12 @@ function arrow([x, y], kind, k) {
   const [bx, by] = [x - ux * head, y - uy * head];
   const [sx, sy] = [-uy * head * 0.42, ux * head * 0.42];
   const tip = [at(x, y), at(bx + sx, by + sy), at(bx - sx, by - sy)];
-  return s("g", { class: `move ${kind}` },
+  return s(
+    "g",
+    { class: `move ${kind}` },
     s("path", { class: "shaft", d: `M0 0L${at(bx, by)}`, "stroke-width": k <= 5 ? 1.75 : 1.1 }),
-    s("path", { class: "head", d: `M${tip.join("L")}z` }));
+    s("path", { class: "head", d: `M${tip.join("L")}z` }),
+  );
 }
 
 /** Many moves as one path. @param {[number, number][]} points @param {string} kind @param {number} k */

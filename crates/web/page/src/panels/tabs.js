@@ -2,7 +2,11 @@
 
 import { h, part } from "./dom.js";
 
-const TABS = /** @type {const} */ ([["engine", "Engine"], ["race", "Race"], ["show", "Show"]]);
+const TABS = /** @type {const} */ ([
+  ["engine", "Engine"],
+  ["race", "Race"],
+  ["show", "Show"],
+]);
 const NARROW = matchMedia("(max-width: 699px)");
 
 export function startTabs() {
@@ -14,7 +18,7 @@ export function startTabs() {
   list.append(...tabs);
   list.addEventListener("keydown", (event) => {
     const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-    const at = tabs.findIndex((tab) => tab === document.activeElement);
+    const at = tabs.indexOf(/** @type {HTMLButtonElement} */ (document.activeElement));
     if (by === undefined || at < 0) return;
     event.preventDefault();
     const next = (at + by + TABS.length) % TABS.length;

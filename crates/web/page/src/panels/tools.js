@@ -27,19 +27,29 @@ export class ToolBar {
     const group = h("div", { class: "segmented" });
     for (const { tool, name, key, what } of TOOLS) {
       const title = `${what} (${key.toUpperCase()})`;
-      const button = h("button", { type: "button", title, click: () => this.choose(tool) },
-        icon(tool), h("span", { class: "tool-name" }, name));
+      const button = h(
+        "button",
+        { type: "button", title, click: () => this.choose(tool) },
+        icon(tool),
+        h("span", { class: "tool-name" }, name),
+      );
       this.#buttons.set(tool, button);
       group.append(button);
     }
     const undo = iconButton("undo", "Undo", () => model.undo(), "Ctrl+Z");
     const redo = iconButton("redo", "Redo", () => model.redo(), "Ctrl+Shift+Z");
-    bar.append(group, h("span", { class: "spring" }),
-      h("div", { class: "group zoom" },
+    bar.append(
+      group,
+      h("span", { class: "spring" }),
+      h(
+        "div",
+        { class: "group zoom" },
         iconButton("minus", "Zoom out", () => stage.zoom(1 / 1.5), "−"),
         iconButton("plus", "Zoom in", () => stage.zoom(1.5), "+"),
-        iconButton("fit", "Fit the map to the view", () => stage.fit(), "0")),
-      h("div", { class: "group" }, undo, redo));
+        iconButton("fit", "Fit the map to the view", () => stage.fit(), "0"),
+      ),
+      h("div", { class: "group" }, undo, redo),
+    );
     const show = eachFrame(() => {
       undo.disabled = !model.canUndo;
       redo.disabled = !model.canRedo;

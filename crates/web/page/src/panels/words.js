@@ -48,8 +48,9 @@ const ENGINES = {
   },
   subgoal: {
     name: "Subgoal graph",
-    how: "Joins two prepared labels, lists of corners at which shortest paths turn, without a search. "
-      + "Where labels would take too much memory, it searches a prepared graph.",
+    how:
+      "Joins two prepared labels, lists of corners at which shortest paths turn, without a search. " +
+      "Where labels would take too much memory, it searches a prepared graph.",
   },
   "subgoal-theta": {
     name: "Sub-Theta*",
@@ -99,9 +100,10 @@ export function promise(setup, guarantee) {
 
 /** Where the vertices are and what the rule allows, in short. @param {LaneSetup} setup */
 export function motionText(setup) {
-  const rule = setup.placement === "center"
-    ? { never: "never cut", one: "cut one", always: "cut always" }[setup.corners]
-    : { open: "gaps open", closed: "gaps closed" }[setup.gap];
+  const rule =
+    setup.placement === "center"
+      ? { never: "never cut", one: "cut one", always: "cut always" }[setup.corners]
+      : { open: "gaps open", closed: "gaps closed" }[setup.gap];
   const smooth = setup.smooth ? `, smoothed ${setup.smooth}` : "";
   return `${setup.placement === "center" ? "centers" : "corners"}, ${rule}${smooth}`;
 }

@@ -25,8 +25,16 @@ import { placesAround, rest } from "./walk.js";
  */
 export function newAgent(id) {
   return {
-    id, x: 0, y: 0, path: new Int32Array(0), next: 0, state: "walking", fresh: false, since: 0,
-    needs: "place", wish: 0,
+    id,
+    x: 0,
+    y: 0,
+    path: new Int32Array(0),
+    next: 0,
+    state: "walking",
+    fresh: false,
+    since: 0,
+    needs: "place",
+    wish: 0,
   };
 }
 

@@ -1,9 +1,9 @@
-// The helper: a worker for all that is no lane's query. It reads files, tells the moves of N(k) and which
-// setups go together, and computes what lies over the map.
+// The helper: a worker for all that is no lane's query. It reads files, tells the moves of N(k), what they
+// are worth and which setups go together, and computes what lies over the map.
 
 /** @import { OverlayWish, Request } from "./protocol.js" */
 /** @import { Field } from "../../mediant/mediant.js" */
-import { Grid, checkSetup, initSync, moves } from "../../mediant/mediant.js";
+import { bound, checkSetup, Grid, initSync, moves } from "../../mediant/mediant.js";
 import { readMap } from "./files.js";
 import { motionOf, optionsOf, sentence, textOf } from "./protocol.js";
 import { edited, spaceOf } from "./session.js";
@@ -27,6 +27,8 @@ function reply(request) {
       const why = checkSetup(request.setup.engine, motionOf(request.setup), optionsOf(request.setup));
       return { value: why ? sentence(why) : "", transfer: [] };
     }
+    case "bounds":
+      return { value: request.ks.map((k) => bound(motionOf({ ...request.setup, k })) ?? null), transfer: [] };
     case "read": {
       const map = readMap(Grid, request.files);
       return { value: map, transfer: [/** @type {ArrayBuffer} */ (map.cells.buffer)] };
@@ -104,18 +106,23 @@ function narrowOf(grid, { radius, setup, narrow }) {
 
 /** @typedef {{ type: "start", module: WebAssembly.Module } | (Request & { id: number })} Message */
 
-onmessage = (/** @type {MessageEvent<Message>} */ { data }) => {
+/** @param {Message} data */
+function hear(data) {
   if (data.type === "start") {
     initSync({ module: data.module });
-    postMessage({ id: 0 });
+    postMessage({ type: "ready" });
     return;
   }
   try {
     const { value, transfer } = reply(data);
-    postMessage({ id: data.id, value }, { transfer });
+    postMessage({ type: "result", id: data.id, value }, { transfer });
   } catch (error) {
     const isMistake = error instanceof Error && ["MediantError", "Refusal"].includes(error.name);
-    const refused = isMistake ? sentence(textOf(error)) : NO_MEMORY;
-    postMessage({ id: data.id, refused, broken: !isMistake });
+    const message = isMistake ? sentence(textOf(error)) : NO_MEMORY;
+    postMessage({ type: "refused", id: data.id, message, broken: !isMistake });
   }
-};
+}
+
+export function work() {
+  addEventListener("message", ({ data }) => hear(data));
+}

@@ -1,15 +1,13 @@
-// One lane, on the page's side: it asks its worker what the scene asks for. The latest query wins: at most
-// one is under way, and the one that waits is always that of the scene as it is.
+// One lane, on the page's side: it asks its worker what the scene asks for, and keeps what the page shows of
+// it. The latest query wins: at most one is under way, and the one that waits is always that of the scene as
+// it is.
 
-/** @import { Change, LaneSetup, Model } from "../../types.js" */
+/** @import { Change, LaneSetup, LaneState, Model } from "../../types.js" */
 /** @import { EngineInfo } from "../../mediant/mediant.js" */
-/** @import { OfQuery, Walked } from "./engine.js" */
-/** @import { Walk } from "./protocol.js" */
-/** @import { Sent } from "./when.js" */
-import { Engine } from "./engine.js";
-import { BROKEN, sentence, setupKey } from "./protocol.js";
-import { Shown } from "./shown.js";
-import { PAUSE, whatNow } from "./when.js";
+/** @import { Ask, FromLane, Order, Reply, ToLane, Walk } from "./protocol.js" */
+import { buffersOf, Feed } from "./feed.js";
+import { BROKEN, setupKey } from "./protocol.js";
+import { Remote } from "./remote.js";
 
 /** What is over before this (ms) is not shown as under way. */
 const SHOWN = 60;
@@ -17,13 +15,88 @@ const SHOWN = 60;
 const MOST_RECORDED = 100_000;
 /** A worker whose memory has grown beyond this is replaced with the map, as memory never shrinks. */
 const MOST_MEMORY = 2 ** 28;
+/** Of a gesture's queries, one that took this long (ms) gives way to the next. */
+export const PATIENCE = 1000;
+/** A preparation of a map that has changed is given up after this long. */
+export const PREPARING = 1000;
+/** An index that took longer than this is not prepared at each stroke, but at a pause of so long. */
+export const [QUICK, PAUSE] = [30, 120];
+
+/** @typedef {Exclude<FromLane, Reply>} Heard */
+/** @typedef {Extract<FromLane, { type: "walked" }>} Walked */
+/** @typedef {Remote<ToLane, Heard>} LaneWorker */
+
+/**
+ * A query under way.
+ * @typedef {object} Sent
+ * @property {number} number
+ * @property {number} at - When.
+ * @property {boolean} isPreparing
+ * @property {boolean} tells - Whether the engine tells how far it is: such an index is never repaired.
+ */
+
+/**
+ * @typedef {object} Situation
+ * @property {number} now
+ * @property {"" | "end" | "cells"} gesture
+ * @property {number} took - What bringing the index up to date takes after an edit, in ms.
+ * @property {number} pauseEnds - When the user has not drawn for a while.
+ * @property {Pick<Sent, "at" | "isPreparing"> | null} sent
+ * @property {boolean} isOther - Whether more than the ends has changed since it was sent.
+ */
+
+/**
+ * When the next query is sent: now, at a time, or after the answer to the query under way; or the worker is
+ * to be replaced, as what it does is of no use and cannot be paused. Pure, so that it can be tested.
+ * @param {Situation} situation
+ * @returns {"send" | "replace" | "await" | { until: number }}
+ */
+export function whatNow({ now, gesture, took, pauseEnds, sent, isOther }) {
+  if (gesture === "cells" && took > QUICK && now < pauseEnds) {
+    return { until: pauseEnds };
+  }
+  if (!sent) {
+    return "send";
+  }
+  const age = now - sent.at;
+  if (sent.isPreparing) {
+    return isOther && age > PREPARING ? "replace" : "await";
+  }
+  // In a gesture the answer to a scene a little older is better than none.
+  return (isOther && !gesture) || age > PATIENCE ? "send" : "await";
+}
+
+/** A worker that was started ahead. @type {LaneWorker | null} */
+let spare = null;
+
+/** Starts the worker of the first lane while the page is still put together. */
+export function warm() {
+  spare ??= new Remote("lane");
+}
 
 export class Lane {
   /** @type {LaneSetup} */
   setup;
+  /** @type {LaneState} */
+  state = {
+    phase: "starting",
+    progress: null,
+    expanded: 0,
+    message: "",
+    answer: null,
+    stale: true,
+    index: null,
+  };
   #model;
-  #shown;
-  #engine;
+  #changed;
+  #readied;
+  /** What the worker does not know yet of the map. */
+  #feed;
+  /** @type {LaneWorker} */
+  #remote;
+  #isReady = false;
+  /** Whether the worker could not be loaded. */
+  #isDead = false;
   /** Whether the scene has changed since the last query. */
   #isWanted = true;
   /** Whether more than the ends has changed since then. */
@@ -31,6 +104,8 @@ export class Lane {
   /** The query under way. @type {Sent | null} */
   #sent = null;
   #number = 0;
+  /** The number of the answer. */
+  #answered = 0;
   /** Whether the last query was that of a gesture, so that something is left for its end. */
   #hurry = false;
   /** What an edit costs, in ms: the mean of the last ones, the later the more. */
@@ -38,6 +113,9 @@ export class Lane {
   #pauseEnds = 0;
   #memory = 0;
   #timers = { show: 0, pause: 0 };
+  /** The agents' errands, and who hears what became of them. */
+  /** @type {{ walk: Walk, heard: (message: Walked | null) => void, isSent: boolean } | null} */
+  #walk = null;
 
   /**
    * @param {Model} model
@@ -48,32 +126,48 @@ export class Lane {
   constructor(model, setup, changed, readied) {
     this.#model = model;
     this.setup = { ...setup };
-    this.#shown = new Shown(() => changed(this));
-    this.#engine = new Engine(model, {
-      readied: (engines) => {
-        readied(engines);
-        this.#pump();
-      },
-      heard: (message) => this.#hear(message),
-      died: (why, wasReady) => this.#died(why, wasReady),
-    });
+    this.#changed = changed;
+    this.#readied = readied;
+    this.#feed = new Feed(model);
+    this.#remote = this.#start();
   }
 
-  get state() {
-    return this.#shown.state;
+  #start() {
+    /** @type {LaneWorker} */
+    const remote = spare ?? new Remote("lane");
+    spare = null;
+    remote.listen(
+      (message) => this.#hear(message),
+      (why) => this.#died(why),
+    );
+    return remote;
   }
 
-  /** Another worker takes the place of the one. */
+  /** Another worker takes the place of one that is broken, or that cannot be stopped otherwise. */
   #replace() {
-    this.#sent = null;
-    this.#memory = 0;
-    this.#engine.replace();
+    this.#end("The engine was stopped.");
+    [this.#sent, this.#memory] = [null, 0];
+    this.#isReady = this.#isDead = false;
+    this.#feed.reset();
+    this.#remote = this.#start();
+  }
+
+  /** @param {string} why - What is said to those who wait for something. */
+  #end(why) {
+    this.#remote.close(why);
+    this.#endWalk()?.heard(null);
+  }
+
+  #endWalk() {
+    const walk = this.#walk;
+    this.#walk = null;
+    return walk;
   }
 
   close() {
     clearTimeout(this.#timers.show);
     clearTimeout(this.#timers.pause);
-    this.#engine.close("The lane was removed.");
+    this.#end("The lane was removed.");
   }
 
   /**
@@ -81,7 +175,7 @@ export class Lane {
    * @param {Change} change
    */
   note(change) {
-    this.#engine.note(change);
+    this.#feed.note(change);
     if (change.map) {
       [this.state.index, this.state.answer] = [null, null];
       if (this.#memory > MOST_MEMORY || this.#sent?.isPreparing) {
@@ -129,7 +223,7 @@ export class Lane {
     }
     this.#isWanted = true;
     this.#isOther ||= isOther;
-    if (this.#engine.isDead) {
+    if (this.#isDead) {
       this.#replace();
     }
   }
@@ -141,7 +235,7 @@ export class Lane {
     if (!this.#isWanted && !this.#sent && this.#hurry && answer) {
       this.#hurry = false;
       if (answer.steps || answer.status === "invalid") {
-        this.#engine.tell("refine");
+        this.#remote.post({ type: "refine" });
       } else {
         this.#want(false);
       }
@@ -150,34 +244,33 @@ export class Lane {
   }
 
   cancel() {
-    if (!this.#sent && this.#engine.isReady) {
+    if (!this.#sent && this.#isReady) {
       return;
     }
     this.#isWanted = false;
     if (this.#sent?.isPreparing) {
       this.#replace();
     } else {
-      this.#engine.tell("cancel");
+      this.#remote.post({ type: "cancel" });
     }
     this.#sent = null;
     this.#hurry = false;
-    this.#shown.phase("cancelled");
+    this.#show("cancelled");
   }
 
   retry() {
     this.#want(true);
-    this.#shown.phase("starting");
+    this.#show("starting");
     this.#pump();
   }
 
   /** Sends what is to be sent, if it is time. */
   #pump() {
-    if (this.#isWanted && this.#engine.isReady) {
+    if (this.#isWanted && this.#isReady) {
       const now = performance.now();
-      const what = whatNow({
-        now, gesture: this.#model.gesture, took: this.#took, pauseEnds: this.#pauseEnds,
-        sent: this.#sent, isOther: this.#isOther,
-      });
+      const { gesture } = this.#model;
+      const [took, pauseEnds, sent, isOther] = [this.#took, this.#pauseEnds, this.#sent, this.#isOther];
+      const what = whatNow({ now, gesture, took, pauseEnds, sent, isOther });
       if (what === "send") {
         this.#send();
       } else if (what === "replace") {
@@ -187,8 +280,10 @@ export class Lane {
         this.#timers.pause = setTimeout(() => this.#pump(), what.until - now + 1);
       }
     }
-    if (!this.#isWanted && this.#engine.isReady) {
-      this.#engine.sendWalk();
+    // Errands come after all that the worker must know before.
+    if (!this.#isWanted && this.#isReady && this.#walk && !this.#walk.isSent) {
+      this.#walk.isSent = true;
+      this.#remote.post(this.#walk.walk);
     }
   }
 
@@ -200,56 +295,132 @@ export class Lane {
     [this.#isWanted, this.#isOther] = [false, false];
     this.#sent = { number, at: performance.now(), isPreparing: false, tells: false };
     this.#hurry = hurry;
-    this.#engine.ask({
-      number, setup: this.setup, radius, start: [...start], goal: [...goal], nearest, hurry, record,
-    });
+    const news = this.#feed.take();
+    /** @type {Ask} */
+    const ask = {
+      type: "ask",
+      number,
+      news,
+      setup: this.setup,
+      radius,
+      start: [...start],
+      goal: [...goal],
+      nearest,
+      hurry,
+      record,
+    };
+    this.#remote.post(ask, buffersOf(news));
     clearTimeout(this.#timers.show);
-    this.#timers.show = setTimeout(() => this.#sent && this.#shown.work(this.#sent.isPreparing), SHOWN);
+    this.#timers.show = setTimeout(() => {
+      if (this.#sent) {
+        this.state.expanded = 0;
+        this.#show(this.#sent.isPreparing ? "preparing" : "searching");
+      }
+    }, SHOWN);
   }
 
-  /** @param {OfQuery} message */
+  /** @param {Heard} message */
   #hear(message) {
-    if (message.type === "timing" || message.type === "reference") {
-      this.#shown.complete(message);
-    } else if (message.type === "failed" && message.broken) {
-      this.#broke(message.message);
-    } else if (message.number === this.#sent?.number) {
-      this.#hearQuery(message, this.#sent);
+    switch (message.type) {
+      case "ready":
+        this.#isReady = true;
+        this.#readied(message.engines);
+        this.#pump();
+        break;
+      case "walked":
+        if (this.#walk?.walk.id === message.id) {
+          (message.over ? this.#endWalk() : this.#walk)?.heard(message);
+        }
+        break;
+      case "timing":
+      case "reference":
+        this.#complete(message);
+        break;
+      default:
+        if (message.type === "failed" && message.broken) {
+          this.#broke(message.message);
+        } else if (message.number === this.#sent?.number) {
+          this.#hearQuery(message, this.#sent);
+        }
     }
   }
 
   /**
-   * @param {Exclude<OfQuery, { type: "timing" | "reference" }>} message
+   * @param {Exclude<Heard, { type: "ready" | "walked" | "timing" | "reference" }>} message
    * @param {Sent} sent
    */
   #hearQuery(message, sent) {
+    const { state } = this;
     switch (message.type) {
       case "preparing":
         sent.isPreparing = true;
         break;
       case "progress":
         sent.tells = true;
-        this.#shown.progress(message);
+        state.progress = { stage: message.stage, done: message.done, total: message.total };
+        this.#show("preparing");
         break;
       case "prepared":
         sent.isPreparing = false;
         // Without an edit it is not known whether one is quick: the first one tells.
         this.#took = message.wasEdit ? (this.#took + message.took) / 2 : sent.tells ? message.took : 0;
-        this.#shown.prepared(message);
+        state.index = message.index ?? state.index;
+        if (state.phase === "preparing") {
+          this.#show("searching");
+        }
         break;
       case "searching":
-        this.#shown.searching(message);
+        state.expanded = message.expanded;
+        this.#show("searching");
         break;
       case "answer":
-        [this.#sent, this.#memory] = [null, message.memory];
-        this.#shown.answer(message, this.#isWanted);
+        [this.#sent, this.#memory, this.#answered] = [null, message.memory, message.number];
+        [state.answer, state.expanded] = [message.answer, message.answer.expanded];
+        state.stale = this.#isWanted;
+        this.#show("done");
         this.#model.gesture ? this.#pump() : this.settle();
         break;
       case "failed":
         this.#sent = null;
-        this.#shown.fail(message.message);
+        this.#fail(message.message);
         this.#pump();
     }
+  }
+
+  /**
+   * What comes after an answer goes into it; it stays the same object.
+   * @param {Extract<Heard, { type: "timing" | "reference" }>} message
+   */
+  #complete(message) {
+    const { answer } = this.state;
+    if (!answer || message.number !== this.#answered) {
+      return;
+    }
+    if (message.type === "timing") {
+      [answer.ms, answer.settled] = [message.ms, message.settled];
+    } else {
+      answer.reference = message.reference;
+    }
+    this.#changed(this);
+  }
+
+  /**
+   * @param {LaneState["phase"]} phase
+   * @param {string} [message]
+   */
+  #show(phase, message = "") {
+    const { state } = this;
+    [state.phase, state.message] = [phase, message];
+    if (phase !== "preparing") {
+      state.progress = null;
+    }
+    this.#changed(this);
+  }
+
+  /** @param {string} message */
+  #fail(message) {
+    this.state.answer = null;
+    this.#show("failed", message);
   }
 
   /** @param {string} message */
@@ -257,21 +428,22 @@ export class Lane {
     this.state.index = null;
     this.#isWanted = false;
     this.#replace();
-    this.#shown.fail(message);
+    this.#fail(message);
   }
 
-  /**
-   * @param {string} why
-   * @param {boolean} wasReady
-   */
-  #died(why, wasReady) {
+  /** @param {string} why */
+  #died(why) {
+    const wasReady = this.#isReady;
+    this.#isReady = false;
+    this.#isDead = true;
+    this.#end(why);
     if (wasReady) {
       this.#broke(BROKEN);
       return;
     }
     // Another one would not start either, until the user tries again.
     this.#isWanted = false;
-    this.#shown.fail(`The engines could not be loaded: ${sentence(why)}`);
+    this.#fail(why);
   }
 
   /**
@@ -281,18 +453,19 @@ export class Lane {
    * @param {(message: Walked | null) => void} heard
    */
   walk(walk, heard) {
-    this.#engine.takeWalk(walk, heard);
+    this.#endWalk()?.heard(null);
+    this.#walk = { walk, heard, isSent: false };
     this.#pump();
   }
 
   /**
-   * @param {Parameters<Engine["order"]>[0]} order
+   * @param {Order} order
    * @returns {Promise<Blob>}
    */
   order(order) {
-    if (!this.#engine.isReady || !this.state.answer) {
+    if (!this.#isReady || !this.state.answer) {
       return Promise.reject(new Error("This lane has no answer yet. Wait for it, or choose another lane."));
     }
-    return this.#engine.order(order);
+    return this.#remote.ask(order);
   }
 }

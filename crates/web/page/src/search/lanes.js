@@ -1,6 +1,7 @@
 // All lanes of the race, and what else the engines are asked for. Follows the model; each lane has a
 // worker of its own, so that a slow engine does not keep the others waiting.
 
+/** @import { Order } from "./protocol.js" */
 /** @import { Change, EngineInfo, Lanes as Contract, LaneSetup, LaneState, Model } from "../../types.js" */
 import { Helper } from "./assistant.js";
 import { Lane } from "./lane.js";
@@ -134,6 +135,15 @@ export class Lanes extends EventTarget {
     return this.#once(setupKey(setup), () => this.#helper.ask({ type: "check", setup: { ...setup } }));
   }
 
+  /**
+   * @param {LaneSetup} setup
+   * @param {number[]} ks
+   * @returns {Promise<(number | null)[]>}
+   */
+  bounds(setup, ks) {
+    return this.#first.then(() => this.#helper.ask({ type: "bounds", setup: { ...setup }, ks }));
+  }
+
   /** @param {number} index */
   cancel(index) {
     this.#lanes[index]?.cancel();
@@ -152,7 +162,10 @@ export class Lanes extends EventTarget {
     const read = await Promise.all(files.map(bytesOf));
     const reader = new Helper();
     try {
-      return await reader.ask({ type: "read", files: read }, read.map(({ bytes }) => bytes.buffer));
+      return await reader.ask(
+        { type: "read", files: read },
+        read.map(({ bytes }) => bytes.buffer),
+      );
     } finally {
       // A large map leaves much memory behind.
       reader.stop("");
@@ -178,7 +191,7 @@ export class Lanes extends EventTarget {
 
   /**
    * @param {number} index
-   * @param {Parameters<Lane["order"]>[0]} order
+   * @param {Order} order
    */
   #order(index, order) {
     return this.#lanes[index]?.order(order) ?? Promise.reject(new Error("There is no such lane."));

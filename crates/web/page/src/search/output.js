@@ -1,24 +1,22 @@
 // What a lane's worker writes for others: its search for the Posthoc visualizer, and a picture.
 
 /** @import { Grid, Index, Space } from "../../mediant/mediant.js" */
-/** @import { Ask, ToLane } from "./protocol.js" */
+/** @import { Ask, Order } from "./protocol.js" */
 /** @import { Say } from "./search.js" */
 /** @import { Session } from "./session.js" */
 import { Picture, Trace } from "../../mediant/mediant.js";
-import { textOf, sentence } from "./protocol.js";
+import { sentence, textOf } from "./protocol.js";
 import { questionOf, sliced } from "./search.js";
 
 /** The most events of a trace: the visualizer holds no more, and the text takes 100 bytes for each. */
 const MOST_EVENTS = 2_000_000;
 const TOO_MANY = `the search has more than ${MOST_EVENTS.toLocaleString("en")} events: choose nearer ends`;
 
-/** @typedef {Extract<ToLane, { id: number }> & { type: "trace" | "picture" }} Order */
-
 /**
  * Writes what was ordered, or says why not.
  * @param {Session} session
  * @param {Ask} ask - The lane's last query.
- * @param {Order} order
+ * @param {Order & { id: number }} order
  * @param {Say} say
  * @returns {Generator<void, void>}
  */
@@ -40,9 +38,9 @@ export function* write(session, ask, order, say) {
       const { answer } = yield* sliced(planner, questionOf(ask), { pace: session.pace }, trace, between);
       if (order.type === "trace") {
         const text = trace.posthoc(planner, ask.start, ask.goal);
-        say({ type: "result", id, value: [text], kind: "application/json" });
+        say({ type: "result", id, value: new Blob([text], { type: "application/json" }) });
       } else {
-        say(picture(session, ask, order, trace, answer.path));
+        say({ type: "result", id, value: picture(session, ask, order, trace, answer.path) });
       }
     } finally {
       planner.free();
@@ -59,12 +57,12 @@ export function* write(session, ask, order, say) {
 /**
  * @param {Session} session
  * @param {Ask} ask
- * @param {Extract<ToLane, { type: "picture" }>} order
+ * @param {Extract<Order, { type: "picture" }>} order
  * @param {Trace} trace
  * @param {Int32Array | undefined} path
- * @returns {Extract<import("./protocol.js").FromLane, { type: "result" }>}
+ * @returns {Blob}
  */
-function picture(session, { setup, start, goal, radius }, { id, format, overlay }, trace, path) {
+function picture(session, { setup, start, goal, radius }, { format, overlay }, trace, path) {
   const space = /** @type {Space} */ (session.space);
   const picture = new Picture(/** @type {Grid} */ (session.grid), setup.placement);
   const field = overlay === "distances" || overlay === "flow" ? space.field(goal) : null;
@@ -82,8 +80,8 @@ function picture(session, { setup, start, goal, radius }, { id, format, overlay 
     if (radius) {
       picture.radius(radius);
     }
-    const value = format === "png" ? /** @type {Uint8Array<ArrayBuffer>} */ (picture.png()) : picture.svg();
-    return { type: "result", id, value: [value], kind: format === "png" ? "image/png" : "image/svg+xml" };
+    const drawn = format === "png" ? /** @type {Uint8Array<ArrayBuffer>} */ (picture.png()) : picture.svg();
+    return new Blob([drawn], { type: format === "png" ? "image/png" : "image/svg+xml" });
   } finally {
     field?.free();
     picture.free();

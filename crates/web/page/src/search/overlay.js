@@ -3,7 +3,7 @@
 
 /** @import { Change, LaneSetup, Lanes, Model, Point } from "../../types.js" */
 import { Helper } from "./assistant.js";
-import { Feed, buffersOf } from "./feed.js";
+import { buffersOf, Feed } from "./feed.js";
 import { motionKey } from "./protocol.js";
 
 /** A map of more cells leaves much memory behind. */
@@ -84,7 +84,10 @@ export class Overlay {
     return {
       field: setup && kind && (kind === "clearance" ? `${kind} ${version}` : `${kind} ${goal} ${agent}`),
       narrow: setup && radius ? agent : "",
-      kind, setup, radius, goal,
+      kind,
+      setup,
+      radius,
+      goal,
     };
   }
 
@@ -116,8 +119,13 @@ export class Overlay {
     const began = performance.now();
     this.#isBusy = true;
     const request = {
-      type: /** @type {const} */ ("overlay"), news, setup: { ...setup }, radius, goal,
-      kind: needsField ? kind : /** @type {const} */ (""), narrow: needsNarrow,
+      type: /** @type {const} */ ("overlay"),
+      news,
+      setup: { ...setup },
+      radius,
+      goal,
+      kind: needsField ? kind : /** @type {const} */ (""),
+      narrow: needsNarrow,
     };
     try {
       const { field, narrow } = await this.#helper.ask(request, buffersOf(news));

@@ -51,10 +51,14 @@
  */
 
 /**
+ * What is ordered of a lane's worker, as a file.
+ * @typedef {{ type: "trace" } | { type: "picture", format: "png" | "svg", overlay: string }} Order
+ */
+
+/**
  * What a lane's worker is told.
  * @typedef {{ type: "start", module: WebAssembly.Module } | Ask | Walk | { type: "cancel" }
- *   | { type: "refine" } | { type: "trace", id: number }
- *   | { type: "picture", id: number, format: "png" | "svg", overlay: string }} ToLane
+ *   | { type: "refine" } | (Order & { id: number })} ToLane
  */
 
 /**
@@ -69,8 +73,14 @@
  *   | { type: "reference", number: number, reference: LaneAnswer["reference"] }
  *   | { type: "failed", number: number, message: string, broken: boolean }
  *   | { type: "walked", id: number, done: ErrandDone[], ms: number, over: boolean }
- *   | { type: "result", id: number, value: BlobPart[], kind: string }
- *   | { type: "refused", id: number, message: string }} FromLane
+ *   | Reply} FromLane
+ */
+
+/**
+ * What comes back for what was asked with an id: of a lane's trace and picture a file. A worker that is
+ * broken answers no more.
+ * @typedef {{ type: "result", id: number, value: unknown }
+ *   | { type: "refused", id: number, message: string, broken?: boolean }} Reply
  */
 
 /**
@@ -89,6 +99,7 @@
 /**
  * What the helper is asked.
  * @typedef {{ type: "moves", k: number } | { type: "check", setup: LaneSetup }
+ *   | { type: "bounds", setup: LaneSetup, ks: number[] }
  *   | { type: "read", files: NamedBytes[] } | ({ type: "overlay" } & OverlayWish)} Request
  */
 

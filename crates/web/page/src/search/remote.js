@@ -1,70 +1,58 @@
-// A worker with the package in it. The package is compiled once; each worker makes an instance of its own.
+// A worker with the package in it, as the page holds it.
 
-/** @import { ToLane, Request } from "./protocol.js" */
-
-/** @type {Promise<WebAssembly.Module> | undefined} */
-let module;
-
-/**
- * The package, compiled.
- * @returns {Promise<WebAssembly.Module>}
- */
-export function compiled() {
-  if (!module) {
-    module = compile();
-    // Who asks again, tries again.
-    module.catch(() => (module = undefined));
-  }
-  return module;
-}
-
-async function compile() {
-  const response = await fetch(new URL("../../mediant/mediant_bg.wasm", import.meta.url));
-  if (!response.ok) {
-    throw new Error(`the server answered ${response.status} for mediant_bg.wasm`);
-  }
-  // A browser compiles while it loads only what the server calls by its type.
-  return response.headers.get("Content-Type")?.startsWith("application/wasm")
-    ? WebAssembly.compileStreaming(response)
-    : WebAssembly.compile(await response.arrayBuffer());
-}
+/** @import { Role } from "../workers.js" */
+/** @import { Reply } from "./protocol.js" */
+import { compiled, newWorker } from "../workers.js";
+import { BROKEN, sentence, textOf } from "./protocol.js";
 
 /**
- * @template {object} Heard - The messages of the worker.
+ * @template {object} Told - The messages to the worker, but for requests.
+ * @template {{ type: string }} Heard - The messages of the worker, but for replies.
  */
 export class Remote {
-  /** @type {Worker} */
   #worker;
   #over = false;
   #hasSpoken = false;
+  /** What was posted before the package was there; null once it is.
+   *  @type {{ message: object, transfer: Transferable[] }[] | null} */
+  #unsent = [];
   /** What came before anybody listened. @type {(() => void)[]} */
   #early = [];
   /** @type {{ heard: (message: Heard) => void, died: (why: string) => void } | null} */
   #listener = null;
+  /** Requests without a reply, by their ids. */
+  /** @type {Map<number, { resolve: (value: any) => void, reject: (why: Error) => void }>} */
+  #open = new Map();
+  #count = 0;
 
-  /** @param {Worker} worker */
-  constructor(worker) {
-    this.#worker = worker;
-    worker.onmessage = ({ data }) => {
-      this.#hasSpoken = true;
-      this.#tell(() => this.#over || this.#listener?.heard(data));
-    };
-    worker.onmessageerror = () => this.#die("a message of a worker could not be read");
-    worker.onerror = (event) => {
+  /** @param {Role} role */
+  constructor(role) {
+    this.#worker = newWorker(role);
+    this.#worker.onmessage = ({ data }) => this.#hear(data);
+    this.#worker.onmessageerror = () => this.#fail("a message of a worker could not be read");
+    this.#worker.onerror = (event) => {
       event.preventDefault();
-      // A worker that is newer than the compiled package does not start with it.
-      module = this.#hasSpoken ? module : undefined;
-      this.#die(event.message || "a worker could not be loaded");
+      this.#fail(event.message || "a worker could not be loaded");
     };
     compiled().then(
-      (module) => this.#over || worker.postMessage({ type: "start", module }),
-      (error) => this.#die(error instanceof Error ? error.message : String(error)),
+      (module) => this.#begin(module),
+      (error) => this.#fail(textOf(error)),
     );
+  }
+
+  /** @param {WebAssembly.Module} module */
+  #begin(module) {
+    const unsent = this.#unsent ?? [];
+    this.#unsent = null;
+    this.#send({ type: "start", module }, []);
+    for (const { message, transfer } of unsent) {
+      this.#send(message, transfer);
+    }
   }
 
   /**
    * @param {(message: Heard) => void} heard
-   * @param {(why: string) => void} died - Called at most once, and not after `close`.
+   * @param {(why: string) => void} died - Told why, as a sentence; at most once, and not after `close`.
    */
   listen(heard, died) {
     this.#listener = { heard, died };
@@ -80,27 +68,87 @@ export class Remote {
     }
   }
 
+  /** @param {Heard | Reply} message */
+  #hear(message) {
+    this.#hasSpoken = true;
+    if (message.type === "result" || message.type === "refused") {
+      this.#settle(/** @type {Reply} */ (message));
+    } else {
+      this.#tell(() => this.#over || this.#listener?.heard(/** @type {Heard} */ (message)));
+    }
+  }
+
+  /** @param {Reply} reply */
+  #settle(reply) {
+    const open = this.#open.get(reply.id);
+    this.#open.delete(reply.id);
+    if (reply.type === "result") {
+      open?.resolve(reply.value);
+      return;
+    }
+    open?.reject(new Error(reply.message));
+    if (reply.broken) {
+      this.#die(reply.message);
+    }
+  }
+
+  /** @param {string} why */
+  #fail(why) {
+    this.#die(this.#hasSpoken ? BROKEN : `The engines could not be loaded: ${sentence(why)}`);
+  }
+
   /** @param {string} why */
   #die(why) {
     if (!this.#over) {
-      this.close();
+      this.close(why);
       this.#tell(() => this.#listener?.died(why));
     }
   }
 
   /**
-   * @param {ToLane | (Request & { id: number })} message
+   * @param {Told} message
    * @param {Transferable[]} [transfer]
    */
   post(message, transfer = []) {
-    if (!this.#over) {
+    this.#send(message, transfer);
+  }
+
+  /**
+   * @param {object} message
+   * @param {Transferable[]} transfer
+   */
+  #send(message, transfer) {
+    if (this.#unsent) {
+      this.#unsent.push({ message, transfer });
+    } else if (!this.#over) {
       this.#worker.postMessage(message, transfer);
     }
   }
 
-  /** Ends the worker, whatever it does. */
-  close() {
+  /**
+   * Posts a request, with an id for its reply.
+   * @param {object} request
+   * @param {Transferable[]} [transfer]
+   * @returns {Promise<any>}
+   */
+  ask(request, transfer = []) {
+    const id = ++this.#count;
+    return new Promise((resolve, reject) => {
+      this.#open.set(id, { resolve, reject });
+      this.#send({ ...request, id }, transfer);
+    });
+  }
+
+  /**
+   * Ends the worker, whatever it does.
+   * @param {string} why - What is said to those who wait for a reply.
+   */
+  close(why) {
     this.#over = true;
     this.#worker.terminate();
+    for (const { reject } of this.#open.values()) {
+      reject(new Error(why));
+    }
+    this.#open.clear();
   }
 }

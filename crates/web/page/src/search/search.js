@@ -84,7 +84,7 @@ class Recording {
   steps() {
     const parts = this.#parts;
     if (!parts || parts.length === 1) {
-      return parts && parts[0];
+      return parts?.[0] ?? null;
     }
     const all = new Uint32Array(this.#length);
     let at = 0;
@@ -143,9 +143,21 @@ export function* search(session, ask, say) {
 function emptyAnswer(session, { start, goal, setup }) {
   const { index, grid } = session;
   return {
-    start, goal, status: "invalid", path: new Int32Array(0), length: Infinity,
-    expanded: 0, generated: 0, ms: 0, settled: true, steps: null, reference: null, error: null,
-    guarantee: index?.guarantee ?? "", optimal: index?.optimal ?? false, bound: index?.bound ?? null,
+    start,
+    goal,
+    status: "invalid",
+    path: new Int32Array(0),
+    length: Infinity,
+    expanded: 0,
+    generated: 0,
+    ms: 0,
+    settled: true,
+    steps: null,
+    reference: null,
+    error: null,
+    guarantee: index?.guarantee ?? "",
+    optimal: index?.optimal ?? false,
+    bound: index?.bound ?? null,
     verticesPerRow: (grid?.width ?? 0) + (setup.placement === "corner" ? 1 : 0),
   };
 }
@@ -175,8 +187,10 @@ function tooNarrow(code, { start, goal, radius }) {
     return "";
   }
   const end = place === start ? "start" : "goal";
-  return `An agent of radius ${radius} does not fit at the ${end} (${place.join(", ")}): ` +
-    `move the ${end}, or make the agent smaller.`;
+  return (
+    `An agent of radius ${radius} does not fit at the ${end} (${place.join(", ")}): ` +
+    `move the ${end}, or make the agent smaller.`
+  );
 }
 
 /**

@@ -58,8 +58,12 @@ export class Session {
    * @param {Ask} ask
    */
   isBehind(ask) {
-    return this.#news.length > 0 || !this.index || setupKey(ask.setup) !== this.#indexKey ||
-      spaceKey(ask) !== this.#spaceKey;
+    return (
+      this.#news.length > 0 ||
+      !this.index ||
+      setupKey(ask.setup) !== this.#indexKey ||
+      spaceKey(ask) !== this.#spaceKey
+    );
   }
 
   /**

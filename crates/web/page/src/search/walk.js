@@ -68,7 +68,12 @@ export function rest({ path, next, x, y }, offset) {
 export function placesAround({ x, y }, offset) {
   const [ax, ay] = [x - offset, y - offset];
   const [left, top] = [Math.floor(ax), Math.floor(ay)];
-  const places = [[left, top], [left + 1, top], [left, top + 1], [left + 1, top + 1]];
+  const places = [
+    [left, top],
+    [left + 1, top],
+    [left, top + 1],
+    [left + 1, top + 1],
+  ];
   const far = (/** @type {number[]} */ [px, py]) => (px - ax) ** 2 + (py - ay) ** 2;
   return places.sort((a, b) => far(a) - far(b)).flat();
 }
@@ -85,8 +90,12 @@ export function meets({ path, next, x, y }, rectangle, margin) {
     [left, right] = [Math.min(left, path[i]), Math.max(right, path[i] + 1)];
     [top, bottom] = [Math.min(top, path[i + 1]), Math.max(bottom, path[i + 1] + 1)];
   }
-  return left - margin <= rectangle.x + rectangle.width && right + margin >= rectangle.x &&
-    top - margin <= rectangle.y + rectangle.height && bottom + margin >= rectangle.y;
+  return (
+    left - margin <= rectangle.x + rectangle.width &&
+    right + margin >= rectangle.x &&
+    top - margin <= rectangle.y + rectangle.height &&
+    bottom + margin >= rectangle.y
+  );
 }
 
 /**

@@ -3,9 +3,8 @@
 // then the time and the optimum of the last answer.
 
 /** @import { LaneAnswer } from "../../types.js" */
-/** @import { Ask, FromLane, ToLane, Walk } from "./protocol.js" */
+/** @import { Ask, FromLane, ToLane } from "./protocol.js" */
 /** @import { Index } from "../../mediant/mediant.js" */
-/** @import { Order } from "./output.js" */
 import { engines, initSync } from "../../mediant/mediant.js";
 import { walk } from "./crowd.js";
 import { write } from "./output.js";
@@ -62,8 +61,12 @@ function* answerTo(ask) {
 }
 
 /** @param {Index} index */
-const factsOf = ({ memoryBytes, origin, levels, searchedBy }) =>
-  ({ bytes: memoryBytes, origin, levels, searchedBy });
+const factsOf = ({ memoryBytes, origin, levels, searchedBy }) => ({
+  bytes: memoryBytes,
+  origin,
+  levels,
+  searchedBy,
+});
 
 /** @param {Ask} ask */
 function prepare(ask) {
@@ -154,9 +157,8 @@ function wake() {
   }
 }
 
-channel.port1.onmessage = turn;
-
-onmessage = (/** @type {MessageEvent<ToLane>} */ { data }) => {
+/** @param {ToLane} data */
+function hear(data) {
   switch (data.type) {
     case "start":
       memory = initSync({ module: data.module }).memory;
@@ -185,4 +187,9 @@ onmessage = (/** @type {MessageEvent<ToLane>} */ { data }) => {
       }
   }
   wake();
-};
+}
+
+export function work() {
+  channel.port1.onmessage = turn;
+  addEventListener("message", ({ data }) => hear(data));
+}

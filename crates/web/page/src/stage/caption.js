@@ -86,7 +86,8 @@ export class Caption {
     say(this.status, status);
     // The parts of the caption are set apart by space alone: read out, "k = 3" and "74.43" were one number.
     const name = [engineName(setup.engine), this.k.textContent, this.length.textContent, status]
-      .filter(Boolean).join(", ");
+      .filter(Boolean)
+      .join(", ");
     if (this.name !== name) this.button.setAttribute("aria-label", name);
     this.name = name;
     this.button.classList.toggle("is-wrong", !!state && sentenceOf(state) !== "");
@@ -141,8 +142,10 @@ function legendOf(overlay, field, setup, { search, isBeaten }) {
   const line = (/** @type {string} */ d, /** @type {string} */ color) =>
     `<svg viewBox="0 0 14 14" width="14" height="14" aria-hidden="true"><path d="${d}" fill="none"
       stroke="var(--${color})" stroke-width="2.5" stroke-linecap="round"/></svg>`;
-  const words = setup.placement === "corner" ? ["gap between walls: open", "closed"] :
-    ["step past a wall's corner: allowed", "forbidden"];
+  const words =
+    setup.placement === "corner"
+      ? ["gap between walls: open", "closed"]
+      : ["step past a wall's corner: allowed", "forbidden"];
   return `${line("M2 2L12 12", "text")}<span>${words[0]}</span>
     ${line("M3 3L11 11M11 3L3 11", "danger")}<span>${words[1]}</span>`;
 }

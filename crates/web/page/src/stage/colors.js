@@ -16,15 +16,48 @@
  */
 
 const NAMES = [
-  "page", "panel", "text", "muted", "line", "axis", "accent", "wall", "free", "grid-line", "expanded-first",
-  "expanded-last", "open", "start", "goal", "agent", "danger", "reference", "focus", "outside",
+  "page",
+  "panel",
+  "text",
+  "muted",
+  "line",
+  "axis",
+  "accent",
+  "wall",
+  "free",
+  "grid-line",
+  "expanded-first",
+  "expanded-last",
+  "open",
+  "start",
+  "goal",
+  "agent",
+  "danger",
+  "reference",
+  "focus",
+  "outside",
   "stage-wall-in-field",
 ];
 
 /** The figures' scale of a field: its lightness falls evenly, so that the order is seen without hues. */
 const SCALE = [
-  "#faf1c7", "#e6e9b6", "#cfe2aa", "#b5dba2", "#98d4a0", "#78cca1", "#54c3a6", "#29b9ac", "#08acb0",
-  "#059eb1", "#078fb2", "#0981b4", "#1971b6", "#3360ae", "#4250a3", "#4b4094", "#503182",
+  "#faf1c7",
+  "#e6e9b6",
+  "#cfe2aa",
+  "#b5dba2",
+  "#98d4a0",
+  "#78cca1",
+  "#54c3a6",
+  "#29b9ac",
+  "#08acb0",
+  "#059eb1",
+  "#078fb2",
+  "#0981b4",
+  "#1971b6",
+  "#3360ae",
+  "#4250a3",
+  "#4b4094",
+  "#503182",
 ];
 
 /** The dashes of the lanes' paths, for a line one pixel wide at 3.5: lanes differ without color. */

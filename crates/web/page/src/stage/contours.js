@@ -76,7 +76,12 @@ function tileAt({ width, height, values }, step, left, top) {
   return tile;
 }
 
-const CORNERS = [[0, 0], [1, 0], [1, 1], [0, 1]];
+const CORNERS = [
+  [0, 0],
+  [1, 0],
+  [1, 1],
+  [0, 1],
+];
 
 /** Adds the lines through a square of four vertices. Returns how many there are. @param {Path2D} path @param
  *  {number} x @param {number} y @param {number[]} values Clockwise from the top left. @param {number} level

@@ -1,8 +1,8 @@
 // The search as it spread: the steps as pixels, one a vertex, in the order of expansion.
 
-import { Raster } from "./raster.js";
 import { cssOf } from "./colors.js";
 import { expansionEnds } from "./player.js";
+import { Raster } from "./raster.js";
 
 /** @typedef {import("../../types.d.ts").LaneAnswer} LaneAnswer */
 /** @typedef {import("./view.js").Frame} Frame */
@@ -28,7 +28,9 @@ export class SearchHeat {
   #groups = null;
 
   /** Whether single vertices are marked, since few were expanded. */
-  get isSparse() { return this.#isSparse; }
+  get isSparse() {
+    return this.#isSparse;
+  }
 
   /** Shows the first `count` steps. Returns the rows that changed, or null.
    *  @param {LaneAnswer | null} answer @param {number} count @param {Theme} theme @param {number} rows

@@ -1,8 +1,8 @@
 // The overlays with a value for each place: distances and clearance as colors with contour lines, flow as
 // arrows.
 
-import { Arrows } from "./paint-arrows.js";
 import { Contours } from "./contours.js";
+import { Arrows } from "./paint-arrows.js";
 import { Raster } from "./raster.js";
 
 /** @typedef {NonNullable<import("../../types.d.ts").Lanes["field"]>} Field */

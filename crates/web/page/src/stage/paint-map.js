@@ -41,9 +41,17 @@ export class Walls {
   draw(context, frame, part) {
     // More than is cleared, so that no edge is left.
     const more = 2 + Math.ceil(4 / frame.scale);
-    this.#raster.draw(context, frame, 0, part && {
-      x0: part.x - more, y0: part.y - more, x1: part.x + part.width + more, y1: part.y + part.height + more,
-    });
+    this.#raster.draw(
+      context,
+      frame,
+      0,
+      part && {
+        x0: part.x - more,
+        y0: part.y - more,
+        x1: part.x + part.width + more,
+        y1: part.y + part.height + more,
+      },
+    );
   }
 }
 

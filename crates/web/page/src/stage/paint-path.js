@@ -86,7 +86,10 @@ function dot(context, { dpr }, rim, color) {
   context.lineCap = "round";
   context.lineJoin = "round";
   context.setLineDash([0.01 * dpr, 6 * dpr]);
-  for (const [style, width] of /** @type {[string, number][]} */ ([[rim, 4.5], [color, 2]])) {
+  for (const [style, width] of /** @type {[string, number][]} */ ([
+    [rim, 4.5],
+    [color, 2],
+  ])) {
     context.lineWidth = width * dpr;
     context.strokeStyle = style;
     context.stroke();

@@ -106,7 +106,10 @@ function glyphsOf(size, dpr, theme) {
   return {
     falling: glyph(size, dpr, text, page, [[-size, -size, size, size]]),
     rising: glyph(size, dpr, text, page, [[-size, size, size, -size]]),
-    closed: glyph(size, dpr, danger, page, [[-arm, -arm, arm, arm], [-arm, arm, arm, -arm]]),
+    closed: glyph(size, dpr, danger, page, [
+      [-arm, -arm, arm, arm],
+      [-arm, arm, arm, -arm],
+    ]),
   };
 }
 
@@ -121,7 +124,10 @@ function glyph(size, dpr, color, rim, lines) {
   context.lineCap = "round";
   context.translate(half, half);
   const thick = Math.max(1.25 * dpr, 0.28 * size);
-  for (const [ink, width] of /** @type {[string, number][]} */ ([[rim, thick + 2 * dpr], [color, thick]])) {
+  for (const [ink, width] of /** @type {[string, number][]} */ ([
+    [rim, thick + 2 * dpr],
+    [color, thick],
+  ])) {
     context.beginPath();
     for (const [x0, y0, x1, y1] of lines) {
       context.moveTo(x0, y0);

@@ -3,11 +3,11 @@
 // `top`: marks, path, agents, start and goal, and the cursor.
 
 import { engineName, hasNoSearch, kText } from "../panels/words.js";
-import { Caption, Legend, element, sentenceOf } from "./caption.js";
+import { Caption, element, Legend, sentenceOf } from "./caption.js";
 import { SearchHeat } from "./heat.js";
 import { Agents } from "./paint-agents.js";
 import { FieldPainter } from "./paint-field.js";
-import { Hatch, drawBorder, drawGridLines, mapBox } from "./paint-map.js";
+import { drawBorder, drawGridLines, Hatch, mapBox } from "./paint-map.js";
 import { drawBadge, drawCells, drawMissing, drawOptimum, drawPath, isBeaten } from "./paint-path.js";
 import { Rules } from "./paint-rules.js";
 
@@ -52,12 +52,22 @@ export class Pane {
     this.height = 1;
   }
 
-  get setup() { return this.stage.model.lanes[this.lane]; }
-  get state() { return this.stage.lanes.list[this.lane]; }
+  get setup() {
+    return this.stage.model.lanes[this.lane];
+  }
+  get state() {
+    return this.stage.lanes.list[this.lane];
+  }
   /** From a vertex to its place in cells. */
-  get shift() { return this.setup.placement === "corner" ? 0 : 0.5; }
-  get frame() { return this.stage.view.frame(this.width, this.height); }
-  get #isActive() { return this.stage.model.active === this.lane; }
+  get shift() {
+    return this.setup.placement === "corner" ? 0 : 0.5;
+  }
+  get frame() {
+    return this.stage.view.frame(this.width, this.height);
+  }
+  get #isActive() {
+    return this.stage.model.active === this.lane;
+  }
 
   /** Where this place of the map is in the pane, in pixels of the page. @param {number} x @param {number} y
    *  */

@@ -55,7 +55,9 @@ export class Player extends EventTarget {
     this.#follow();
   }
 
-  get mode() { return this.#mode; }
+  get mode() {
+    return this.#mode;
+  }
 
   set mode(mode) {
     if (mode === this.#mode) return;
@@ -79,8 +81,12 @@ export class Player extends EventTarget {
     this.#changed();
   }
 
-  get playing() { return this.#isPlaying; }
-  get position() { return this.#position; }
+  get playing() {
+    return this.#isPlaying;
+  }
+  get position() {
+    return this.#position;
+  }
 
   get length() {
     let length = 0;

@@ -19,8 +19,10 @@ function newContext(width, height) {
 function joined(box, other) {
   if (!box) return { ...other };
   return {
-    x0: Math.min(box.x0, other.x0), y0: Math.min(box.y0, other.y0),
-    x1: Math.max(box.x1, other.x1), y1: Math.max(box.y1, other.y1),
+    x0: Math.min(box.x0, other.x0),
+    y0: Math.min(box.y0, other.y0),
+    x1: Math.max(box.x1, other.x1),
+    y1: Math.max(box.y1, other.y1),
   };
 }
 
@@ -58,10 +60,16 @@ export class Raster {
     const [left, top] = [frame.left + shift * frame.scale, frame.top + shift * frame.scale];
     const x0 = Math.max(0, Math.floor(-left / frame.scale / size), part ? Math.floor(part.x0 / size) : 0);
     const y0 = Math.max(0, Math.floor(-top / frame.scale / size), part ? Math.floor(part.y0 / size) : 0);
-    const x1 = Math.min(source.width, Math.ceil((frame.width - left) / frame.scale / size),
-      part ? Math.ceil(part.x1 / size) : Infinity);
-    const y1 = Math.min(source.height, Math.ceil((frame.height - top) / frame.scale / size),
-      part ? Math.ceil(part.y1 / size) : Infinity);
+    const x1 = Math.min(
+      source.width,
+      Math.ceil((frame.width - left) / frame.scale / size),
+      part ? Math.ceil(part.x1 / size) : Infinity,
+    );
+    const y1 = Math.min(
+      source.height,
+      Math.ceil((frame.height - top) / frame.scale / size),
+      part ? Math.ceil(part.y1 / size) : Infinity,
+    );
     if (x1 <= x0 || y1 <= y0) return;
     const scale = frame.scale * size;
     const times = Math.ceil(frame.scale);
@@ -71,8 +79,17 @@ export class Raster {
     }
     context.imageSmoothingEnabled = frame.scale < 1;
     context.imageSmoothingQuality = "low";
-    context.drawImage(source, x0, y0, x1 - x0, y1 - y0,
-      left + x0 * scale, top + y0 * scale, (x1 - x0) * scale, (y1 - y0) * scale);
+    context.drawImage(
+      source,
+      x0,
+      y0,
+      x1 - x0,
+      y1 - y0,
+      left + x0 * scale,
+      top + y0 * scale,
+      (x1 - x0) * scale,
+      (y1 - y0) * scale,
+    );
   }
 
   /** Draws thin lines equally thick, although a cell is no whole number of pixels: enlarged by whole
@@ -131,8 +148,10 @@ export class Raster {
     if (!level) return;
     const { canvas } = level.context;
     level.dirty = joined(level.dirty, {
-      x0: dirty.x0 >> 1, y0: dirty.y0 >> 1,
-      x1: Math.min(canvas.width, (dirty.x1 + 1) >> 1), y1: Math.min(canvas.height, (dirty.y1 + 1) >> 1),
+      x0: dirty.x0 >> 1,
+      y0: dirty.y0 >> 1,
+      x1: Math.min(canvas.width, (dirty.x1 + 1) >> 1),
+      y1: Math.min(canvas.height, (dirty.y1 + 1) >> 1),
     });
   }
 

@@ -56,8 +56,9 @@ export class DragRecord {
     const answer = state?.answer;
     if (this.#moves.length === 0 || !answer) return;
     // Of cells an answer does not say which it saw; one that is not stale saw all.
-    const last = state.stale ? this.#moves.findLastIndex((move) => move.key === keyOf(answer)) :
-      this.#moves.length - 1;
+    const last = state.stale
+      ? this.#moves.findLastIndex((move) => move.key === keyOf(answer))
+      : this.#moves.length - 1;
     if (last < 0 || (state.stale && model.gesture === "cells")) return;
     this.latencies.push(now - this.#moves[last].time);
     this.#moves.splice(0, last + 1);

@@ -1,8 +1,8 @@
 // The stage: one pane for each lane, with one view of the map for all. It follows the scene, the answers and
 // the player, and draws at most once a frame.
 
-import { readTheme, watchTheme } from "./colors.js";
 import { element } from "./caption.js";
+import { readTheme, watchTheme } from "./colors.js";
 import { Keyboard } from "./keyboard.js";
 import { Walls } from "./paint-map.js";
 import { Pane } from "./pane.js";
@@ -73,7 +73,9 @@ export class Stage extends EventTarget {
     addEventListener("resize", () => this.#arrange());
   }
 
-  get tool() { return this.#tool; }
+  get tool() {
+    return this.#tool;
+  }
 
   set tool(tool) {
     if (tool === this.#tool) return;
@@ -84,8 +86,12 @@ export class Stage extends EventTarget {
     this.dispatchEvent(new Event("tool"));
   }
 
-  get frames() { return this.record.frames; }
-  get latencies() { return this.record.latencies; }
+  get frames() {
+    return this.record.frames;
+  }
+  get latencies() {
+    return this.record.latencies;
+  }
 
   fit() {
     this.view.fit();

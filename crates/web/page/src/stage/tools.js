@@ -36,7 +36,9 @@ export class PointerTools {
   }
 
   /** Whether a drag is under way. */
-  get isBusy() { return this.#gesture !== null || this.#waiting !== null; }
+  get isBusy() {
+    return this.#gesture !== null || this.#waiting !== null;
+  }
 
   /** @param {Pane} pane */
   listen(pane) {

@@ -110,7 +110,10 @@ class City {
     // The gate is a strip across the middle of the edge.
     const middle = (a * (p.x + q.x) + b * (p.y + q.y)) / 2;
     const half = 10 * root(a * a + b * b);
-    const strip = [{ a, b, c: middle - half }, { a: -a, b: -b, c: -middle - half }];
+    const strip = [
+      { a, b, c: middle - half },
+      { a: -a, b: -b, c: -middle - half },
+    ];
     const outer = halfPlane([p.x, p.y], [q.x, q.y]);
     const inner = halfPlane([q.x, q.y], [p.x, p.y], -(p.half + thick + UNIT));
     const [top, bottom] = this.inside(block, 0);
@@ -145,7 +148,17 @@ export function city(side, random) {
   const made = new City(side, random);
   const edge = side * UNIT;
   /** @type {[Block, number][]} */
-  const blocks = [[[[0, 0], [edge, 0], [edge, edge], [0, edge]].map(([x, y]) => ({ x, y, half: 12 })), 0]];
+  const blocks = [
+    [
+      [
+        [0, 0],
+        [edge, 0],
+        [edge, edge],
+        [0, edge],
+      ].map(([x, y]) => ({ x, y, half: 12 })),
+      0,
+    ],
+  ];
   for (let next = blocks.pop(); next !== undefined; next = blocks.pop()) {
     const [block, depth] = next;
     const width = Math.floor(root(Math.floor(area(block) / 2)) / UNIT);

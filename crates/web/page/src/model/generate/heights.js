@@ -59,7 +59,7 @@ class Wave {
 export function heights(side, seed, longest, shortest) {
   /** @type {Wave[]} */ const waves = [];
   let total = 0;
-  for (let length = longest, height = 256; length >= shortest;) {
+  for (let length = longest, height = 256; length >= shortest; ) {
     waves.push(new Wave(side, length, height, mix(seed + waves.length)));
     total += height;
     [length, height] = [Math.floor((length * 2) / 3), Math.floor((height * 2) / 3)];
@@ -71,7 +71,7 @@ export function heights(side, seed, longest, shortest) {
     for (const wave of waves) wave.addTo(sums, y);
     for (let x = 0; x < side; x++) {
       const height = 128 + Math.floor((sums[x] * 3) / total);
-      result[y * side + x] = height < 0 ? 0 : height > 255 ? 255 : height;
+      result[y * side + x] = Math.min(Math.max(height, 0), 255);
     }
   }
   return result;

@@ -4,7 +4,10 @@
 /** @typedef {import("./random.js").Random} Random */
 
 /** The directions out of a place of the maze: right, down, left, up. */
-const [DX, DY] = [[1, 0, -1, 0], [0, 1, 0, -1]];
+const [DX, DY] = [
+  [1, 0, -1, 0],
+  [0, 1, 0, -1],
+];
 
 /** @param {number} columns @param {number} rows @param {Random} random
  * @returns {Uint8Array} for each place, bit 0: open to the right, bit 1: open downwards */

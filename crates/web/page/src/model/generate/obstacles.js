@@ -9,7 +9,16 @@ import { root } from "./random.js";
 
 /** Directions around, in order: the corners of a polygon that is nearly round. */
 const DIRECTIONS = (() => {
-  const quarter = [[16, 0], [16, 3], [15, 6], [13, 9], [11, 11], [9, 13], [6, 15], [3, 16]];
+  const quarter = [
+    [16, 0],
+    [16, 3],
+    [15, 6],
+    [13, 9],
+    [11, 11],
+    [9, 13],
+    [6, 15],
+    [3, 16],
+  ];
   const turn = (/** @type {number[]} */ [x, y]) => [-y, x];
   const second = quarter.map(turn);
   const third = second.map(turn);

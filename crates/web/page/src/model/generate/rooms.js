@@ -23,7 +23,15 @@ class Building {
    * @param {Part} part @param {boolean} isUpright @param {number} place @param {number} thick */
   isClear(part, isUpright, place, thick) {
     for (let i = place - 1; i <= place + thick; i++) {
-      const ends = isUpright ? [[i, part.y0 - 1], [i, part.y1]] : [[part.x0 - 1, i], [part.x1, i]];
+      const ends = isUpright
+        ? [
+            [i, part.y0 - 1],
+            [i, part.y1],
+          ]
+        : [
+            [part.x0 - 1, i],
+            [part.x1, i],
+          ];
       if (ends.some(([x, y]) => !this.board.isBlocked(x, y))) return false;
     }
     return true;
@@ -60,14 +68,20 @@ class Building {
     // A hall stays as large as it is now and then.
     if (spare < 0 || (part.depth > 3 && to - from < room * 5 && random.chance(12))) return null;
     for (let tries = 0; tries < 12; tries++) {
-      const place = from + room + (random.below(spare + 1) + random.below(spare + 1) >> 1);
+      const place = from + room + ((random.below(spare + 1) + random.below(spare + 1)) >> 1);
       if (!this.isClear(part, isUpright, place, thick)) continue;
       this.wall(part, isUpright, place, thick);
       const depth = part.depth + 1;
       const end = place + thick;
       return isUpright
-        ? [{ ...part, x1: place, depth }, { ...part, x0: end, depth }]
-        : [{ ...part, y1: place, depth }, { ...part, y0: end, depth }];
+        ? [
+            { ...part, x1: place, depth },
+            { ...part, x0: end, depth },
+          ]
+        : [
+            { ...part, y1: place, depth },
+            { ...part, y0: end, depth },
+          ];
     }
     return null;
   }
@@ -80,7 +94,7 @@ class Building {
     const size = Math.max(1, Math.floor(room / 7));
     if (Math.min(width, height) >= room * 2 && random.chance(75)) {
       const step = size * 4;
-      const [left, top] = [width, height].map((length) => 1 + size + ((length - 2 - 3 * size) % step >> 1));
+      const [left, top] = [width, height].map((length) => 1 + size + (((length - 2 - 3 * size) % step) >> 1));
       for (let y = y0 + top; y + size < y1 - 1; y += step) {
         for (let x = x0 + left; x + size < x1 - 1; x += step) board.rectangle(x, y, x + size, y + size, 1);
       }

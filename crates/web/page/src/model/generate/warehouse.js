@@ -23,7 +23,10 @@ function shelves(board, random, { x0, y0, x1, y1 }, isUpright, length) {
       // Some places are empty, some shelves have a passage.
       if (random.chance(6)) continue;
       const passage = random.chance(12) ? b + random.below(each - 1) : -2;
-      for (const [c, d] of [[b, passage], [passage < 0 ? b : passage + 2, b + each]]) {
+      for (const [c, d] of [
+        [b, passage],
+        [passage < 0 ? b : passage + 2, b + each],
+      ]) {
         if (d <= c) continue;
         if (isUpright) board.rectangle(a, c, a + SHELF, d, 1);
         else board.rectangle(c, a, d, a + SHELF, 1);
