@@ -48,25 +48,6 @@ pub struct Capabilities {
 }
 
 impl Capabilities {
-    /// A search that is optimal over N(k) and has no saved index.
-    const SEARCH: Self = Self {
-        title: "",
-        how: "",
-        placements: &[PlacementKind::Center, PlacementKind::Corner],
-        max_k: GridGraph::<Centers>::MAX_K,
-        any: false,
-        default_k: K::N8,
-        grid_graph: true,
-        guarantee: "optimal(k)",
-        promise: "optimal over N(k)",
-        paper: "",
-        papers: "",
-        overestimates: false,
-        variants: &[],
-        distances: false,
-        index: None,
-    };
-
     /// The default rules: `never` at centers; `open` at corners for an engine that takes only corners, and
     /// for k = ∞.
     #[must_use]
@@ -79,6 +60,167 @@ impl Capabilities {
     }
 }
 
+/// A search that is optimal over N(k) and has no saved index.
+const SEARCH: Capabilities = Capabilities {
+    title: "",
+    how: "",
+    placements: &[PlacementKind::Center, PlacementKind::Corner],
+    max_k: GridGraph::<Centers>::MAX_K,
+    any: false,
+    default_k: K::N8,
+    grid_graph: true,
+    guarantee: "optimal(k)",
+    promise: "optimal over N(k)",
+    paper: "",
+    papers: "",
+    overestimates: false,
+    variants: &[],
+    distances: false,
+    index: None,
+};
+
+/// A search whose paths may be longer than the shortest.
+const THETA: Capabilities = Capabilities { guarantee: "suboptimal", promise: "none", ..SEARCH };
+
+/// A search on prepared subgoals.
+const SUBGOALS: Capabilities =
+    Capabilities { grid_graph: false, index: Some(SubgoalGraph::<Corners>::VERSION), ..SEARCH };
+
+/// A search on prepared clusters or segments.
+const HIERARCHY: Capabilities =
+    Capabilities { placements: &[PlacementKind::Center], max_k: 3, guarantee: "suboptimal", ..SEARCH };
+
+/// The engines, a row each, in the order of [`Engine::ALL`].
+const TABLE: [Capabilities; Engine::ALL.len()] = [
+    Capabilities {
+        title: "A*",
+        how: "Expands the vertex with the least cost so far plus distance over N(k) to the goal.",
+        paper: "Hart 1968, Rivera 2017",
+        papers: "Hart, Nilsson & Raphael 1968; Rivera, Hernández & Baier 2017",
+        overestimates: true,
+        ..SEARCH
+    },
+    Capabilities {
+        title: "Dijkstra",
+        how: "Expands the vertices in the order of their cost, in all directions alike.",
+        promise: "optimal over N(k); distances to all vertices",
+        paper: "Dijkstra 1959",
+        papers: "Dijkstra 1959",
+        distances: true,
+        ..SEARCH
+    },
+    Capabilities {
+        title: "Wavefront",
+        how: "Spreads ring by ring, and counts moves rather than length.",
+        guarantee: "optimal(2)",
+        promise: "fewest moves; distances to all vertices",
+        paper: "Hammoud 2023",
+        papers: "Hammoud & Lupin 2023",
+        distances: true,
+        ..SEARCH
+    },
+    Capabilities {
+        title: "Canonical A*",
+        how: "A* that follows one of the paths that differ only in the order of their moves.",
+        promise: "optimal over N(k) (variant paper: none)",
+        paper: "Rivera 2017",
+        papers: "Rivera, Hernández & Baier 2017",
+        variants: &[Variant::Exact, Variant::Paper],
+        ..SEARCH
+    },
+    Capabilities {
+        title: "JPS",
+        how: "Jumps over the vertices at which no shortest path turns.",
+        paper: "Harabor 2011, Hammoud 2023",
+        papers: "Harabor & Grastien 2011; for k ≥ 4 ours",
+        ..SEARCH
+    },
+    Capabilities {
+        title: "Block-based JPS",
+        how: "JPS that looks at 64 vertices at once, by operations on a word.",
+        paper: "Harabor 2014",
+        papers: "Harabor & Grastien 2014",
+        max_k: 3,
+        ..SEARCH
+    },
+    Capabilities {
+        title: "JPS+",
+        how: "JPS with the jump points of every vertex prepared in lists.",
+        paper: "Harabor 2014",
+        papers: "Harabor & Grastien 2014",
+        max_k: JumpTable::MAX_K,
+        index: Some(JumpTable::VERSION),
+        ..SEARCH
+    },
+    Capabilities {
+        title: "Theta*",
+        how: "A* in which the parent may be any vertex that is seen: paths at any angle.",
+        paper: "Daniel 2010",
+        papers: "Daniel, Nash, Koenig & Felner 2010",
+        ..THETA
+    },
+    Capabilities {
+        title: "Lazy Theta*",
+        how: "Theta* that tests whether a vertex is seen only when it expands it.",
+        paper: "Nash 2010",
+        papers: "Nash, Koenig & Tovey 2010",
+        ..THETA
+    },
+    Capabilities {
+        title: "Anya",
+        how: "Searches intervals of grid lines that a root sees: exact over N(k) and at every angle.",
+        placements: &[PlacementKind::Corner],
+        any: true,
+        default_k: K::Any,
+        grid_graph: false,
+        promise: "optimal over N(k), or of all paths",
+        paper: "Harabor 2016",
+        papers: "Harabor, Grastien, Öz & Aksakalli 2016; over N(k) ours",
+        ..SEARCH
+    },
+    Capabilities {
+        title: "Hub labels, subgoal graph",
+        how: "Joins two prepared labels, lists of corners at which shortest paths turn, without a \
+                  search. Where labels would take too much memory, it searches a prepared graph.",
+        any: true,
+        promise: "optimal over N(k), or of all paths",
+        paper: "Hormazábal 2017",
+        papers: "Uras, Koenig & Hernández 2013; Hormazábal, Díaz, Hernández & Baier 2017; Uras & \
+                     Koenig 2018",
+        ..SUBGOALS
+    },
+    Capabilities {
+        title: "Sub-Theta*",
+        how: "Theta* over a prepared subgoal graph.",
+        placements: &[PlacementKind::Corner],
+        guarantee: "suboptimal",
+        promise: "none",
+        paper: "Uras 2015",
+        papers: "Uras & Koenig 2015",
+        ..SUBGOALS
+    },
+    Capabilities {
+        title: "HPA*",
+        how: "Plans over prepared clusters of the map, then refines the plan down to cells.",
+        promise: "none; 0.1 to 0.5 % above the optimum by the set, in noise 1.1 %",
+        paper: "Botea 2004",
+        papers: "Botea, Müller & Schaeffer 2004",
+        index: Some(ClusterGraph::VERSION),
+        ..HIERARCHY
+    },
+    Capabilities {
+        title: "CHPA*",
+        how: "Plans checkpoints over prepared segments of the map, then searches from one to the next.",
+        promise: "none; 1 to 31 % above the optimum by the set (variant paper: may find no path)",
+        paper: "Teleiša 2023",
+        papers: "Teleiša & Čalnerytė 2023",
+        overestimates: true,
+        variants: &[Variant::Complete, Variant::Paper],
+        index: Some(SegmentGraph::VERSION),
+        ..HIERARCHY
+    },
+];
+
 impl Engine {
     /// The version of its saved index.
     ///
@@ -88,147 +230,9 @@ impl Engine {
         self.capabilities().index.ok_or_else(|| SetupError::without_index(self))
     }
 
-    /// What the engine can do.
+    /// Its row in the table of engines.
     #[must_use]
     pub const fn capabilities(self) -> Capabilities {
-        let search = Capabilities::SEARCH;
-        let theta = Capabilities { guarantee: "suboptimal", promise: "none", ..search };
-        let subgoals =
-            Capabilities { grid_graph: false, index: Some(SubgoalGraph::<Corners>::VERSION), ..search };
-        let hierarchy = Capabilities {
-            placements: &[PlacementKind::Center],
-            max_k: 3,
-            guarantee: "suboptimal",
-            ..search
-        };
-        match self {
-            Self::AStar => Capabilities {
-                title: "A*",
-                how: "Expands the vertex with the least cost so far plus distance over N(k) to the goal.",
-                paper: "Hart 1968, Rivera 2017",
-                papers: "Hart, Nilsson & Raphael 1968; Rivera, Hernández & Baier 2017",
-                overestimates: true,
-                ..search
-            },
-            Self::Dijkstra => Capabilities {
-                title: "Dijkstra",
-                how: "Expands the vertices in the order of their cost, in all directions alike.",
-                promise: "optimal over N(k); distances to all vertices",
-                paper: "Dijkstra 1959",
-                papers: "Dijkstra 1959",
-                distances: true,
-                ..search
-            },
-            Self::Wavefront => Capabilities {
-                title: "Wavefront",
-                how: "Spreads ring by ring, and counts moves rather than length.",
-                guarantee: "optimal(2)",
-                promise: "fewest moves; distances to all vertices",
-                paper: "Hammoud 2023",
-                papers: "Hammoud & Lupin 2023",
-                distances: true,
-                ..search
-            },
-            Self::Canonical => Capabilities {
-                title: "Canonical A*",
-                how: "A* that follows one of the paths that differ only in the order of their moves.",
-                promise: "optimal over N(k) (variant paper: none)",
-                paper: "Rivera 2017",
-                papers: "Rivera, Hernández & Baier 2017",
-                variants: &[Variant::Exact, Variant::Paper],
-                ..search
-            },
-            Self::Jps => Capabilities {
-                title: "JPS",
-                how: "Jumps over the vertices at which no shortest path turns.",
-                paper: "Harabor 2011, Hammoud 2023",
-                papers: "Harabor & Grastien 2011; for k ≥ 4 ours",
-                ..search
-            },
-            Self::JpsBlock => Capabilities {
-                title: "Block-based JPS",
-                how: "JPS that looks at 64 vertices at once, by operations on a word.",
-                paper: "Harabor 2014",
-                papers: "Harabor & Grastien 2014",
-                max_k: 3,
-                ..search
-            },
-            Self::JpsPlus => Capabilities {
-                title: "JPS+",
-                how: "JPS with the jump points of every vertex prepared in lists.",
-                paper: "Harabor 2014",
-                papers: "Harabor & Grastien 2014",
-                max_k: JumpTable::MAX_K,
-                index: Some(JumpTable::VERSION),
-                ..search
-            },
-            Self::Theta => Capabilities {
-                title: "Theta*",
-                how: "A* in which the parent may be any vertex that is seen: paths at any angle.",
-                paper: "Daniel 2010",
-                papers: "Daniel, Nash, Koenig & Felner 2010",
-                ..theta
-            },
-            Self::LazyTheta => Capabilities {
-                title: "Lazy Theta*",
-                how: "Theta* that tests whether a vertex is seen only when it expands it.",
-                paper: "Nash 2010",
-                papers: "Nash, Koenig & Tovey 2010",
-                ..theta
-            },
-            Self::Anya => Capabilities {
-                title: "Anya",
-                how: "Searches intervals of grid lines that a root sees: exact over N(k) and at every angle.",
-                placements: &[PlacementKind::Corner],
-                any: true,
-                default_k: K::Any,
-                grid_graph: false,
-                promise: "optimal over N(k), or of all paths",
-                paper: "Harabor 2016",
-                papers: "Harabor, Grastien, Öz & Aksakalli 2016; over N(k) ours",
-                ..search
-            },
-            Self::Subgoal => Capabilities {
-                title: "Hub labels, subgoal graph",
-                how: "Joins two prepared labels, lists of corners at which shortest paths turn, without a \
-                      search. Where labels would take too much memory, it searches a prepared graph.",
-                any: true,
-                promise: "optimal over N(k), or of all paths",
-                paper: "Hormazábal 2017",
-                papers: "Uras, Koenig & Hernández 2013; Hormazábal, Díaz, Hernández & Baier 2017; Uras & \
-                         Koenig 2018",
-                ..subgoals
-            },
-            Self::SubgoalTheta => Capabilities {
-                title: "Sub-Theta*",
-                how: "Theta* over a prepared subgoal graph.",
-                placements: &[PlacementKind::Corner],
-                guarantee: "suboptimal",
-                promise: "none",
-                paper: "Uras 2015",
-                papers: "Uras & Koenig 2015",
-                ..subgoals
-            },
-            Self::Hpa => Capabilities {
-                title: "HPA*",
-                how: "Plans over prepared clusters of the map, then refines the plan down to cells.",
-                promise: "none; 0.1 to 0.5 % above the optimum by the set, in noise 1.1 %",
-                paper: "Botea 2004",
-                papers: "Botea, Müller & Schaeffer 2004",
-                index: Some(ClusterGraph::VERSION),
-                ..hierarchy
-            },
-            Self::Chpa => Capabilities {
-                title: "CHPA*",
-                how: "Plans checkpoints over prepared segments of the map, then searches from one to the next.",
-                promise: "none; 1 to 31 % above the optimum by the set (variant paper: may find no path)",
-                paper: "Teleiša 2023",
-                papers: "Teleiša & Čalnerytė 2023",
-                overestimates: true,
-                variants: &[Variant::Complete, Variant::Paper],
-                index: Some(SegmentGraph::VERSION),
-                ..hierarchy
-            },
-        }
+        TABLE[self as usize]
     }
 }

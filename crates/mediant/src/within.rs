@@ -29,7 +29,8 @@ pub(crate) static NEVER: Interrupt = Interrupt::NEVER;
 /// call of this one, with the same result. What was stopped returns [`Error::Stopped`] soon, keeps no memory
 /// and leaves no thread at work. What was made knows nothing of the limits.
 ///
-/// The time, the deadline and the flag of the [`Limits`](crate::Limits) count; those on cost and expansions are of searches.
+/// The time, the deadline and the flag of the [`Limits`](crate::Limits) count; those on cost and expansions
+/// are of searches.
 ///
 /// ```
 /// use std::{sync::{Arc, atomic::{AtomicBool, Ordering}}, time::Duration};

@@ -77,7 +77,8 @@ fn of(parameter: &Parameter, known: &[&Parameter]) -> String {
 }
 
 /// The groups that a function's `**name` stands for.
-const GROUPS: [(&str, &[&str]); 4] = [
+const GROUPS: [(&str, &[&str]); 5] = [
+    ("preparation", &["motion", "options"]),
     ("how", &["motion", "wishes", "engine", "options"]),
     ("motion", &["motion"]),
     ("wishes", &["wishes"]),

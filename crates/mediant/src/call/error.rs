@@ -6,8 +6,8 @@ use mediant_moves::KError;
 use super::{Parameter, Spelling};
 use crate::setup_error::SetupError;
 
-/// The error for the parameters of a call. `Display` writes names in kebab-case; [`text`](Self::text) as another
-/// language does.
+/// The error for the parameters of a call. `Display` writes names in kebab-case, [`text`](Self::text) as
+/// another language does.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CallError {

@@ -1,4 +1,4 @@
-//! What the library says of itself, as a file: `docs/description.json`. The tables, stubs and interfaces of all
+//! The library's description of itself: `docs/description.json`. The tables, stubs and interfaces of all
 //! languages are written from it (`cargo xtask describe`), and `tidy` compares them with it.
 
 use mediant::{

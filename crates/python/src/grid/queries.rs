@@ -312,12 +312,11 @@ impl Grid {
     /// >>> grid.prepare().engine, grid.prepare("jps", k=4).k
     /// ('subgoal', 4)
     #[pyo3(
-        signature = (engine = None, *, threads = None, progress = None, **how),
+        signature = (engine = None, *, threads = None, progress = None, **preparation),
         text_signature = "($self, engine=None, *, threads=None, progress=None, k=None, neighbors=None, placement=None, \
-            corners=None, gap=None, nearest=False, snap=False, tolerance=None, max_cost=None, \
-            max_expansions=None, timeout=None, heuristic=None, variant=None, jump_limit=None, \
-            keep_intermediate=False, levels=None, memory=None, side=None, unstraightened=False, second=None, \
-            step=None, detour=None, smooth=None)"
+            corners=None, gap=None, heuristic=None, variant=None, jump_limit=None, keep_intermediate=False, \
+            levels=None, memory=None, side=None, unstraightened=False, second=None, step=None, detour=None, \
+            smooth=None)"
     )]
     fn prepare<'py>(
         &self,
@@ -325,9 +324,9 @@ impl Grid {
         engine: Option<&Bound<'py, PyAny>>,
         threads: Option<&Bound<'py, PyAny>>,
         progress: Option<&Bound<'py, PyAny>>,
-        how: Option<&Bound<'py, PyDict>>,
+        preparation: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Index> {
-        let keywords = Keywords::read("prepare", how, PREPARATION)?.with("engine", engine)?;
+        let keywords = Keywords::read("prepare", preparation, PREPARATION)?.with("engine", engine)?;
         let (threads, progress) = (read_threads(threads)?, callback(progress)?);
         let space = self.space(py, keywords.motion()?)?;
         let (setup, _) = space.setup(&keywords.call, Demand::Paths(u64::MAX)).map_err(raised)?;
