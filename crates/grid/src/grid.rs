@@ -177,48 +177,16 @@ impl Grid {
     }
 
     /// The part of a rectangle that lies on the map.
-    fn on_map(&self, Rectangle { x, y, width, height }: Rectangle) -> Rectangle {
+    pub(crate) fn on_map(&self, Rectangle { x, y, width, height }: Rectangle) -> Rectangle {
         let (x, y) = (x.min(self.width()), y.min(self.height()));
         Rectangle { x, y, width: width.min(self.width() - x), height: height.min(self.height() - y) }
     }
 
-    /// Whether another map is the same as this one in all cells outside of a rectangle. Looks only at the
-    /// words that the rectangle touches, and at the identities.
-    #[must_use]
-    pub fn equals_outside(&self, other: &Self, at: Rectangle) -> bool {
-        if self.id.size() != other.id.size() {
-            return false;
-        }
-        let at = self.on_map(at);
-        // The words that the rectangle touches have other cells beside it.
-        let beside = |grid: &Self, y: u32| {
-            let row = grid.rows.row(y as i32);
-            let [before, after] = [at.x / 64, (at.x + at.width) / 64].map(|word| row.word(64 * word as i32));
-            (before & !(!0 << (at.x % 64)), after >> ((at.x + at.width) % 64))
-        };
-        self.id.without(&self.rows, at) == other.id.without(&other.rows, at)
-            && (at.y..at.y + at.height).all(|y| beside(self, y) == beside(other, y))
-    }
-
-    /// The smallest rectangle outside of which another map of the same size [equals](Self::equals_outside)
-    /// this one: of no cells if they are the same. `None` for a map of another size.
-    #[must_use]
-    pub fn difference(&self, other: &Self) -> Option<Rectangle> {
-        if self.id.size() != other.id.size() {
-            return None;
-        }
-        let span = |one: &BitMatrix, other: &BitMatrix| {
-            let differ = |&y: &u32| one.row_words(y) != other.row_words(y);
-            let first = (0..one.height()).find(differ)?;
-            let last = (first..one.height()).rev().find(differ)?;
-            Some((first, last - first + 1))
-        };
-        let same = Rectangle { x: 0, y: 0, width: 0, height: 0 };
-        if self.id == other.id {
-            return Some(same);
-        }
-        let spans = span(&self.rows, &other.rows).zip(span(&self.columns, &other.columns));
-        Some(spans.map_or(same, |((y, height), (x, width))| Rectangle { x, y, width, height }))
+    /// The words of a row that differ from those of a map of the same size: the number of each, from 0, and
+    /// its bits that differ.
+    pub(crate) fn differing_words(&self, other: &Self, y: u32) -> impl Iterator<Item = (u32, u64)> {
+        let words = self.rows.row_words(y).iter().zip(other.rows.row_words(y));
+        (0..).zip(words.map(|(one, other)| one ^ other)).filter(|&(_, difference)| difference != 0)
     }
 
     /// The identity of the map.

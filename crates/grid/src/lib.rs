@@ -45,6 +45,7 @@
 
 mod ascii;
 mod bits;
+mod change;
 mod clearance;
 mod components;
 mod footprint;
@@ -76,6 +77,7 @@ pub use ascii::{AsciiMap, draw};
 #[doc(hidden)]
 pub use bits::{BitIndex, load};
 pub use bits::{BitMatrix, BitRow};
+pub use change::Change;
 pub use clearance::{Clearance, Fit, Outside, SizeError, Widest};
 pub use components::{Components, Connectivity};
 #[doc(hidden)]

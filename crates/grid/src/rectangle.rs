@@ -40,6 +40,17 @@ impl Rectangle {
         let ((x, width), (y, height)) = (side(one.0, other.0), side(one.1, other.1));
         Self { x, y, width, height }
     }
+
+    /// The smallest rectangle around two, neither of which is empty or reaches beyond the largest map.
+    pub(crate) fn around(self, other: Self) -> Self {
+        let span = |a: u32, a_length: u32, b: u32, b_length: u32| {
+            let first = a.min(b);
+            (first, (a + a_length).max(b + b_length) - first)
+        };
+        let (x, width) = span(self.x, self.width, other.x, other.width);
+        let (y, height) = span(self.y, self.height, other.y, other.height);
+        Self { x, y, width, height }
+    }
 }
 
 /// As `3 × 2 cells at (4, 1)`.

@@ -1,6 +1,6 @@
 //! Checks of what is handed in: moves, sizes, and whether a grid graph and an index belong together.
 
-use mediant_grid::{Centers, CornerRule, Grid, GridGraph, Identity, Mismatch, Rectangle};
+use mediant_grid::{Centers, Change, CornerRule, GridGraph, Identity, Mismatch};
 use mediant_moves::FiniteK;
 
 use crate::HierarchyError;
@@ -14,12 +14,6 @@ pub(crate) fn moves(grid_graph: &GridGraph<Centers>) -> Result<(), HierarchyErro
     }
 }
 
-/// Checks that a map has the size of an index's map.
-pub(crate) fn size(expected: (u32, u32), grid: &Grid) -> Result<(), HierarchyError> {
-    let found = (grid.width(), grid.height());
-    if found == expected { Ok(()) } else { Err(HierarchyError::Size { expected, found }) }
-}
-
 /// Checks that an index is that of a grid graph.
 pub(crate) fn belongs(index: Identity, grid_graph: &GridGraph<Centers>) -> Result<(), Mismatch> {
     index.check(INDEX, ("the grid graph", grid_graph.identity()))
@@ -31,21 +25,17 @@ pub(crate) fn same_moves(index: Identity, grid_graph: &GridGraph<Centers>) -> Re
     of_any_map.map_err(|other| Mismatch { belongs_to: index, ..other })
 }
 
-/// Checks that an index is that of the map before a change, and that the map after it differs in no cell
-/// outside of a rectangle.
-pub(crate) fn change(
-    index: Identity,
-    before: &Grid,
-    after: &Grid,
-    changed: Rectangle,
-) -> Result<(), HierarchyError> {
-    index.check(INDEX, ("the map before the change", Identity { map: Some(before.id()), ..index }))?;
-    size(before.id().size(), after)?;
-    if before.equals_outside(after, changed) {
-        Ok(())
-    } else {
-        Err(HierarchyError::ChangedOutside { changed })
-    }
+/// Checks that an index is that of the map before a change.
+pub(crate) fn change(index: Identity, change: &Change) -> Result<(), Mismatch> {
+    let before = Identity { map: Some(change.before().id()), ..index };
+    index.check(INDEX, ("the map before the change", before))
+}
+
+/// Checks that a grid graph is that of the map after a change.
+pub(crate) fn after(grid_graph: &GridGraph<Centers>, change: &Change) -> Result<(), Mismatch> {
+    let found = grid_graph.identity();
+    let after = Identity { map: Some(change.after().id()), ..found };
+    found.check("the grid graph", ("the map after the change", after))
 }
 
 /// The bytes behind the identity with which those of an index begin, if that is the grid graph's.
@@ -77,6 +67,8 @@ fn fits(count: u64, bytes: u64) -> Result<(), HierarchyError> {
 
 #[cfg(test)]
 mod tests {
+    use mediant_grid::Grid;
+
     use super::*;
 
     #[test]

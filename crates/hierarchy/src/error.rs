@@ -1,6 +1,6 @@
 //! Why there is no index, or no planner on it.
 
-use mediant_grid::{Interrupted, Mismatch, Rectangle, Rules};
+use mediant_grid::{Interrupted, Mismatch, Rules};
 use mediant_moves::{FiniteK, KError};
 
 /// An index that cannot be made, repaired, read or used.
@@ -41,28 +41,6 @@ pub enum HierarchyError {
     /// An index of another map, rule of motion or k.
     #[error(transparent)]
     Mismatch(#[from] Mismatch),
-    /// A repair for a map of another size.
-    #[error(
-        "this index is of a map of {} columns and {} rows, not {} and {}: an index is repaired only for a map \
-         of its size; make a new one",
-        expected.0, expected.1, found.0, found.1
-    )]
-    Size {
-        /// Width and height of the index's map.
-        expected: (u32, u32),
-        /// Width and height of the other map.
-        found: (u32, u32),
-    },
-    /// A repair for a map that differs from the one before in other cells than those that are named.
-    #[error(
-        "the maps before and after differ outside of the {} × {} cells from ({}, {}) on: name a rectangle \
-         that holds all changed cells, or make a new index",
-        changed.width, changed.height, changed.x, changed.y
-    )]
-    ChangedOutside {
-        /// The rectangle that was named.
-        changed: Rectangle,
-    },
     /// An index with more nodes or segments than this machine can address.
     #[error(
         "an index of {count} nodes or segments is more than this machine can address: choose a longer side"

@@ -11,7 +11,7 @@
 //!
 //! ```
 //! use std::sync::Arc;
-//! use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph, Rectangle};
+//! use mediant_grid::{AsciiMap, Centers, Change, CornerRule, GridGraph};
 //! use mediant_hierarchy::{ClusterGraph, Clustering, HpaStar};
 //! use mediant_moves::FiniteK;
 //! use mediant_search::{Planner, Query};
@@ -21,17 +21,17 @@
 //!     ..#..
 //!     ..#..
 //! ")?;
-//! let grid_graph = |grid| GridGraph::<Centers>::new(Arc::new(grid), FiniteK::N8, CornerRule::Never);
-//! let before = Arc::new(grid_graph(map.grid.clone())?);
+//! let grid_graph = |grid| GridGraph::<Centers>::new(grid, FiniteK::N8, CornerRule::Never);
+//! let before = Arc::new(grid_graph(Arc::new(map.grid))?);
 //! let graph = Box::new(ClusterGraph::new(&before, Clustering { side: 2, levels: 1 })?);
-//! let mut planner = HpaStar::new(before, graph)?;
+//! let mut planner = HpaStar::new(Arc::clone(&before), graph)?;
 //! let query = Query::new((0, 0), (4, 0));
 //! assert_eq!(planner.solve(query)?.path(), None);
 //!
 //! // A door opens.
-//! let door = Rectangle { x: 2, y: 2, width: 1, height: 1 };
-//! let after = Arc::new(grid_graph(map.grid.with_rectangle(door, |_, _| false))?);
-//! planner.repair(after, door)?;
+//! let change = Change::new(Arc::clone(before.grid())).edit_cells([(2, 2, false)]);
+//! let after = Arc::new(grid_graph(Arc::clone(change.after()))?);
+//! planner.repair(after, &change)?;
 //! assert!(planner.solve(query)?.path().is_some());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

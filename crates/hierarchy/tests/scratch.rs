@@ -8,13 +8,14 @@ mod common;
 use std::{
     alloc::{GlobalAlloc, Layout, System},
     cell::Cell,
+    sync::Arc,
 };
 
 use common::{
     Bound, Setting, Solve, any_clustering, any_grid_graph, ask, chpa, clusters, describe_query, grid_graph,
     hpa, k, map, number, random_queries, segments,
 };
-use mediant_grid::{Centers, CornerRule, Grid, GridGraph, Identity, Rectangle};
+use mediant_grid::{Centers, Change, CornerRule, Grid, GridGraph, Identity, Rectangle};
 use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, FallbackPolicy, HpaStar, SegmentGraph};
 use mediant_oracle::{Rng, caves, on_all_cores, seeds};
 use mediant_search::{Counters, Outcome, Planner, Query};
@@ -80,18 +81,19 @@ fn a_used_planner_answers_as_a_new_one() {
 #[test]
 fn a_planner_that_repaired_its_index_answers_as_a_new_one() {
     let check = |seed: u64| {
-        let (mut grid, mut rng) = (map(seed), Rng::new(seed ^ 0x6035));
+        let (mut grid, mut rng) = (Arc::new(map(seed)), Rng::new(seed ^ 0x6035));
         let first = any_grid_graph(&mut rng, &grid);
         let (k, rule) = (first.k(), first.rule());
         let (clustering, side) = (any_clustering(&mut rng), 1 + rng.below(9));
         let mut grid_graphs = vec![first];
-        let mut places = Vec::new();
+        let mut changes = Vec::new();
         for _ in 0..3 {
             let at = Rectangle { x: rng.below(20), y: rng.below(20), width: 1 + rng.below(9), height: 5 };
             let percent = [0, 50, 100][rng.below(3) as usize];
-            grid = grid.with_rectangle(at, |_, _| rng.chance(percent));
+            let change = Change::new(grid).edit(at, |_, _| rng.chance(percent));
+            grid = Arc::clone(change.after());
             grid_graphs.push(grid_graph(&grid, k, rule));
-            places.push(at);
+            changes.push(change);
         }
         let mut boxed = (
             HpaStar::new(&grid_graphs[0], Box::new(clusters(&grid_graphs[0], clustering))).expect("it fits"),
@@ -109,13 +111,13 @@ fn a_planner_that_repaired_its_index_answers_as_a_new_one() {
             fallback: FallbackPolicy::default(),
         };
         let mut asked = 0;
-        for (grid_graph, at) in grid_graphs[1..].iter().zip(places) {
+        for (grid_graph, change) in grid_graphs[1..].iter().zip(&changes) {
             for query in random_queries(&mut rng, grid_graph.grid(), 2) {
                 // Answers on the index before its repair must leave no trace either.
                 _ = (boxed.0.solve(query), boxed.1.solve(query));
             }
-            boxed.0.repair(grid_graph, at).expect("it fits");
-            boxed.1.repair(grid_graph, at).expect("it fits");
+            boxed.0.repair(grid_graph, change).expect("it fits");
+            boxed.1.repair(grid_graph, change).expect("it fits");
             let (of_clusters, of_segments) = (clusters(grid_graph, clustering), segments(grid_graph, side));
             let mut new = [hpa(grid_graph, &of_clusters, true), chpa(grid_graph, &of_segments, setting)];
             for query in random_queries(&mut rng, grid_graph.grid(), 4) {

@@ -7,9 +7,8 @@ fn main() -> Result<(), mediant::Error> {
     let walled = Map::from_fn(64, 64, |x, _| x == 30)?.space(Motion::centers(K::N8))?;
     let index = walled.prepare(Engine::Hpa)?;
 
-    let door = Rectangle { x: 30, y: 20, width: 1, height: 2 };
-    let opened = walled.edit(door, |_, _| false)?;
-    let repaired = index.repair(&opened)?;
+    let change = walled.edit(Rectangle::new(30, 20, 1, 2), |_, _| false)?;
+    let repaired = index.repair(&change)?;
     for index in [index, repaired] {
         let answer = index.planner().find(Query::new((0, 0), (60, 50)))?;
         println!("{:?}: {:?}", index.origin(), answer.cost());

@@ -55,8 +55,6 @@ pub enum ErrorCode {
     IndexDamaged,
     /// An index of another engine, or of another version.
     IndexEngine,
-    /// An index that does not follow from the map by the edit that was named.
-    IndexEdit,
     /// A file that does not exist.
     FileMissing,
     /// A file that cannot be read.
@@ -111,7 +109,6 @@ names!(ErrorCode:
     IndexOptions => "index-options",
     IndexDamaged => "index-damaged",
     IndexEngine => "index-engine",
-    IndexEdit => "index-edit",
     FileMissing => "file-missing",
     FileUnreadable => "file-unreadable",
     FileUnwritable => "file-unwritable",
@@ -237,7 +234,6 @@ const fn of_hierarchy(error: &HierarchyError) -> ErrorCode {
         HierarchyError::K(_) => ErrorCode::EngineK,
         HierarchyError::Mismatch(_) => ErrorCode::Mismatch,
         HierarchyError::Bytes(_) => ErrorCode::IndexDamaged,
-        HierarchyError::Size { .. } | HierarchyError::ChangedOutside { .. } => ErrorCode::IndexEdit,
         _ => ErrorCode::Other,
     }
 }

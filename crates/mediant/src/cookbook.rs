@@ -209,8 +209,9 @@
 //! let mut index = space.prepare(Engine::Hpa)?;
 //! let door = Rectangle::new(30, 20, 1, 2);
 //! for is_closed in [false, true] {
-//!     space = space.edit(door, |_, _| is_closed)?;
-//!     index = index.repair(&space)?;
+//!     let change = space.edit(door, |_, _| is_closed)?;
+//!     index = index.repair(&change)?;
+//!     space = change.after().clone();
 //!     let path = index.planner().path((0, 0), (60, 50))?;
 //!     println!("{:?}: {}", index.origin(), if path.is_some() { "a way" } else { "no way" });
 //!     assert_eq!(path.is_none(), is_closed);

@@ -124,6 +124,7 @@ mod agent;
 mod answer;
 pub mod call;
 mod capabilities;
+mod change;
 mod choice;
 mod code;
 mod configured;
@@ -167,6 +168,7 @@ mod within;
 pub use agent::{Disc, WidestPath};
 pub use answer::{Answer, Status};
 pub use capabilities::Capabilities;
+pub use change::Change;
 pub use choice::Choice;
 pub use code::ErrorCode;
 pub use configured::{

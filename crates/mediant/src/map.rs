@@ -222,10 +222,16 @@ impl Map {
     /// # Errors
     /// [`Error::Edit`] for a rectangle that lies outside the map as a whole.
     pub fn edit(&self, at: Rectangle, blocked: impl FnMut(u32, u32) -> bool) -> Result<Self, Error> {
-        if at.x >= self.width() || at.y >= self.height() {
-            return Err(Error::Edit { at, size: self.id().size() });
-        }
+        self.check_edit(at)?;
         Ok(self.grid.with_rectangle(at, blocked).into())
+    }
+
+    /// Checks that a rectangle does not lie outside the map as a whole.
+    pub(crate) fn check_edit(&self, at: Rectangle) -> Result<(), Error> {
+        if at.x < self.width() && at.y < self.height() {
+            return Ok(());
+        }
+        Err(Error::Edit { at, size: self.id().size() })
     }
 
     /// This map with other scattered cells: of each its column and row, and whether it is blocked. The last
@@ -244,6 +250,14 @@ impl Map {
         &self,
         cells: impl IntoIterator<Item = (C, bool)>,
     ) -> Result<Self, Error> {
+        Ok(self.grid.with_cells(self.check_cells(cells)?).into())
+    }
+
+    /// Cells with their columns and rows, which are on the map.
+    pub(crate) fn check_cells<C: Into<Vertex>>(
+        &self,
+        cells: impl IntoIterator<Item = (C, bool)>,
+    ) -> Result<Vec<(u32, u32, bool)>, Error> {
         let mut known = Vec::new();
         for (cell, blocked) in cells {
             let Vertex { x, y } = cell.into();
@@ -252,7 +266,7 @@ impl Map {
                 _ => return Err(Error::EditCell { cell: Vertex { x, y }, size: self.id().size() }),
             }
         }
-        Ok(self.grid.with_cells(known).into())
+        Ok(known)
     }
 
     /// The number of columns.

@@ -16,7 +16,7 @@ impl Space {
     /// let space = Map::from_rows(["....", "...."])?.space(Motion::centers(K::N8))?;
     /// let path = space.path((0, 0), (3, 0))?.expect("there is a way");
     /// assert_eq!(space.check(&path), Ok(()));
-    /// let edited = space.edit(Rectangle { x: 2, y: 0, width: 1, height: 1 }, |_, _| true)?;
+    /// let edited = space.edit_cells([((2, 0), true)])?.after().clone();
     /// let broken = edited.check(&path).unwrap_err();
     /// assert!(matches!(broken, BrokenPath::Segment { by, .. } if by.cell() == Some((2, 0))));
     /// # Ok::<(), mediant::Error>(())

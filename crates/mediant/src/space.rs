@@ -3,8 +3,8 @@
 use std::sync::{Arc, OnceLock};
 
 use mediant_grid::{
-    Centers, Corners, FreeSpace, GridGraph, Identity, Interrupt, Interrupted, Placement, Rectangle, Rules,
-    Vertex,
+    Centers, Corners, FreeSpace, GridGraph, Identity, Interrupt, Interrupted, Placement, Rules, Vertex,
+    uninterrupted,
 };
 use mediant_moves::FiniteK;
 use mediant_search::{End, Query, QueryError, Wavefront};
@@ -112,6 +112,16 @@ impl Space {
     /// A map with rules of motion and a k.
     pub(crate) fn new(map: &Map, motion: Motion, interrupt: &Interrupt) -> Result<Self, Error> {
         motion.check()?;
+        Ok(Self::searched(map, motion, interrupt)?)
+    }
+
+    /// Another map with the motion of this space.
+    pub(crate) fn on(&self, map: &Map) -> Self {
+        uninterrupted(|interrupt| Self::searched(map, self.motion(), interrupt))
+    }
+
+    /// A map with a motion that some engine searches.
+    fn searched(map: &Map, motion: Motion, interrupt: &Interrupt) -> Result<Self, Interrupted> {
         let placed = match motion.rules {
             Rules::Center(rule) => Placed::Centers(Layers::new(map, motion, rule, interrupt)?),
             Rules::Corner(gap) => Placed::Corners(Layers::new(map, motion, gap, interrupt)?),
@@ -119,14 +129,6 @@ impl Space {
         // Without what the map keeps, of which this space may become a part.
         let map = Arc::clone(map.grid()).into();
         Ok(Self { inner: Arc::new(Inner { map, motion, placed }) })
-    }
-
-    /// The same rules and k on an edited map: see [`Map::edit`]. This space stays as it is.
-    ///
-    /// # Errors
-    /// Those of [`Map::edit`].
-    pub fn edit(&self, at: Rectangle, blocked: impl FnMut(u32, u32) -> bool) -> Result<Self, Error> {
-        Self::new(&self.map().edit(at, blocked)?, self.motion(), &NEVER)
     }
 
     /// The map.

@@ -9,6 +9,7 @@ use mediant_subgoal::Progress;
 
 use crate::{
     agent::WidestPath,
+    change::Change,
     configured::ConfiguredEngine,
     engine::Engine,
     error::Error,
@@ -279,8 +280,8 @@ impl Within<'_, Index> {
     ///
     /// # Errors
     /// Those of [`Index::repair`], and [`Error::Stopped`].
-    pub fn repair(&self, changed: &Space) -> Result<Index, Error> {
-        self.of.repaired(changed, self.limits.interrupt())
+    pub fn repair(&self, change: &Change) -> Result<Index, Error> {
+        self.of.repaired(change, self.limits.interrupt())
     }
 
     /// [`Index::for_k`].

@@ -1,7 +1,7 @@
 //! What an engine prepared.
 
 use js_sys::Uint8Array;
-use mediant::{Index as Inner, Levels};
+use mediant::{Change, Index as Inner, Levels};
 use wasm_bindgen::prelude::*;
 
 use crate::{
@@ -134,7 +134,8 @@ impl Index {
     ) -> Result<Index, JsValue> {
         let space: Space = object("space", "Space", space)?;
         space.check_room("the index", memory::INDEX)?;
-        Ok(Self { inner: self.inner.repair(&space.inner).map_err(raised)? })
+        let change = Change::between(self.inner.space(), &space.inner).map_err(raised)?;
+        Ok(Self { inner: self.inner.repair(&change).map_err(raised)? })
     }
 
     /// The index as bytes, for `Space.load`.

@@ -1,6 +1,8 @@
 //! The index of CHPA*: made by sliding windows over the map, and repaired where the map changed.
 
-use mediant_grid::{Centers, Grid, GridGraph, Identity, Interrupt, Rectangle, Vector, Vertex};
+use std::collections::BTreeSet;
+
+use mediant_grid::{Centers, Change, Grid, GridGraph, Identity, Interrupt, Vector, Vertex};
 use mediant_moves::FiniteK;
 
 use crate::{
@@ -100,55 +102,47 @@ impl SegmentGraph {
         self.columns as usize * self.rows as usize
     }
 
-    /// Repairs the index after cells of a rectangle changed. The index is then equal to a new one of the map
-    /// `after`, its identity included. The edges whose windows touch the rectangle are made anew.
+    /// Repairs the index after a change. The index is then equal to a new one of the map
+    /// after it, its identity included. The edges whose windows touch the change are made anew.
     ///
     /// # Errors
-    /// [`HierarchyError::Mismatch`] if the map `before` is not that of the index, [`HierarchyError::Size`]
-    /// for a map `after` of another size, and [`HierarchyError::ChangedOutside`] if the two differ outside of
-    /// the rectangle. Nothing is changed then.
-    pub fn repair(&mut self, before: &Grid, after: &Grid, changed: Rectangle) -> Result<(), HierarchyError> {
-        self.repair_in_place(before, after, changed, &Interrupt::NEVER)
+    /// [`HierarchyError::Mismatch`] if the map before the change is not that of the index. Nothing is changed
+    /// then.
+    pub fn repair(&mut self, change: &Change) -> Result<(), HierarchyError> {
+        self.repair_in_place(change, &Interrupt::NEVER)
     }
 
     /// A copy of the index, [repaired](Self::repair). An interrupt can stop it; this index stays as it is.
     ///
     /// # Errors
     /// As for [`repair`](Self::repair), and [`HierarchyError::Interrupted`].
-    pub fn repaired(
-        &self,
-        before: &Grid,
-        after: &Grid,
-        changed: Rectangle,
-        interrupt: &Interrupt,
-    ) -> Result<Self, HierarchyError> {
+    pub fn repaired(&self, change: &Change, interrupt: &Interrupt) -> Result<Self, HierarchyError> {
         let mut copy = self.clone();
-        copy.repair_in_place(before, after, changed, interrupt)?;
+        copy.repair_in_place(change, interrupt)?;
         Ok(copy)
     }
 
     /// Once it is interrupted, the index is that of neither map.
-    fn repair_in_place(
-        &mut self,
-        before: &Grid,
-        after: &Grid,
-        changed: Rectangle,
-        interrupt: &Interrupt,
-    ) -> Result<(), HierarchyError> {
-        check::change(self.identity, before, after, changed)?;
-        // Where no cell of the rectangle is on the map, the maps are equal.
-        let Some([columns, rows]) = on_map(changed, self.size) else { return Ok(()) };
+    fn repair_in_place(&mut self, change: &Change, interrupt: &Interrupt) -> Result<(), HierarchyError> {
+        check::change(self.identity, change)?;
         // The windows of a segment reach one cell beyond it to the left, to the right, and downward.
         let side = self.side;
         let first = |cell: u32| cell.saturating_sub(1) / side;
-        for y in first(rows.start)..rows.end.div_ceil(self.side) {
-            let columns = first(columns.start)..((columns.end + 1).div_ceil(self.side)).min(self.columns);
-            for (number, x) in columns.enumerate() {
-                interrupt.check_every(SEGMENTS, number, DURING)?;
-                self.edges[(y * self.columns + x) as usize] = self.edges_of(after, x, y);
-            }
+        let touched = change.cells().iter().filter_map(|&at| on_map(at, self.size));
+        let dirty: BTreeSet<u32> = touched
+            .flat_map(|[columns, rows]| {
+                let all = self.columns;
+                let columns = first(columns.start)..((columns.end + 1).div_ceil(side)).min(all);
+                let rows = first(rows.start)..rows.end.div_ceil(side);
+                rows.flat_map(move |y| columns.clone().map(move |x| y * all + x))
+            })
+            .collect();
+        for (number, segment) in dirty.into_iter().enumerate() {
+            interrupt.check_every(SEGMENTS, number, DURING)?;
+            let (x, y) = (segment % self.columns, segment / self.columns);
+            self.edges[segment as usize] = self.edges_of(change.after(), x, y);
         }
-        self.identity.map = Some(after.id());
+        self.identity.map = Some(change.after().id());
         Ok(())
     }
 

@@ -1,6 +1,8 @@
 //! The index of HPA*.
 
-use mediant_grid::{Centers, Grid, GridGraph, Identity, Interrupt, Rectangle};
+use std::{collections::BTreeSet, ops::Range};
+
+use mediant_grid::{Centers, Change, GridGraph, Identity, Interrupt};
 use mediant_moves::{CostTable, FiniteK};
 
 use super::{clustering::Clustering, level::Level};
@@ -82,54 +84,47 @@ impl ClusterGraph {
         })
     }
 
-    /// Repairs the index after cells of a rectangle changed. The index is then equal to a new one of the map
-    /// `after`, its identity included.
+    /// Repairs the index after a change. The index is then equal to a new one of the map after it, its
+    /// identity included.
     ///
-    /// Rebuilt are the clusters that the rectangle touches, their neighbors whose entrances changed, and the
+    /// Rebuilt are the clusters that the change touches, their neighbors whose entrances changed, and the
     /// clusters of upper levels that contain them.
     ///
     /// # Errors
-    /// [`HierarchyError::Mismatch`] if the map `before` is not that of the index, [`HierarchyError::Size`]
-    /// for a map `after` of another size, and [`HierarchyError::ChangedOutside`] if the two differ outside of
-    /// the rectangle. Nothing is changed then.
-    pub fn repair(&mut self, before: &Grid, after: &Grid, changed: Rectangle) -> Result<(), HierarchyError> {
-        self.repair_in_place(before, after, changed, &Interrupt::NEVER)
+    /// [`HierarchyError::Mismatch`] if the map before the change is not that of the index. Nothing is changed
+    /// then.
+    pub fn repair(&mut self, change: &Change) -> Result<(), HierarchyError> {
+        self.repair_in_place(change, &Interrupt::NEVER)
     }
 
     /// A copy of the index, [repaired](Self::repair). An interrupt can stop it; this index stays as it is.
     ///
     /// # Errors
     /// As for [`repair`](Self::repair), and [`HierarchyError::Interrupted`].
-    pub fn repaired(
-        &self,
-        before: &Grid,
-        after: &Grid,
-        changed: Rectangle,
-        interrupt: &Interrupt,
-    ) -> Result<Self, HierarchyError> {
-        check::change(self.identity, before, after, changed)?;
+    pub fn repaired(&self, change: &Change, interrupt: &Interrupt) -> Result<Self, HierarchyError> {
+        check::change(self.identity, change)?;
         let levels = self.levels.iter().map(|level| level.copied(interrupt));
         let mut copy = Self { levels: levels.collect::<Result<_, _>>()?, costs: self.costs.clone(), ..*self };
-        copy.repair_in_place(before, after, changed, interrupt)?;
+        copy.repair_in_place(change, interrupt)?;
         Ok(copy)
     }
 
     /// Once it is interrupted, the index is that of neither map.
-    fn repair_in_place(
-        &mut self,
-        before: &Grid,
-        after: &Grid,
-        changed: Rectangle,
-        interrupt: &Interrupt,
-    ) -> Result<(), HierarchyError> {
-        check::change(self.identity, before, after, changed)?;
-        if let Some(cells) = on_map(changed, self.size) {
-            let level = &self.levels[0];
-            let [columns, rows] = cells.map(|cells| cells.start / level.side..cells.end.div_ceil(level.side));
-            let dirty = rows.flat_map(|y| columns.clone().map(move |x| y * level.columns + x)).collect();
-            self.rebuild(after, dirty, interrupt)?;
+    fn repair_in_place(&mut self, change: &Change, interrupt: &Interrupt) -> Result<(), HierarchyError> {
+        check::change(self.identity, change)?;
+        let level = &self.levels[0];
+        let clusters = |cells: Range<u32>| cells.start / level.side..cells.end.div_ceil(level.side);
+        let touched = change.cells().iter().filter_map(|&at| on_map(at, self.size));
+        let dirty: BTreeSet<u32> = touched
+            .flat_map(|[columns, rows]| {
+                let columns = clusters(columns);
+                clusters(rows).flat_map(move |y| columns.clone().map(move |x| y * level.columns + x))
+            })
+            .collect();
+        if !dirty.is_empty() {
+            self.rebuild(change.after(), dirty.into_iter().collect(), interrupt)?;
         }
-        self.identity.map = Some(after.id());
+        self.identity.map = Some(change.after().id());
         Ok(())
     }
 

@@ -2,7 +2,7 @@
 
 use std::ops::{Deref, DerefMut};
 
-use mediant_grid::{Centers, GridGraph, Identity, Rectangle, Vertex};
+use mediant_grid::{Centers, Change, GridGraph, Identity, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{
     Guarantee, Observer, Path, Planner, Query, QueryError, Status,
@@ -137,16 +137,17 @@ where
     G: Deref<Target = GridGraph<Centers>>,
     I: DerefMut<Target = ClusterGraph>,
 {
-    /// Changes the map: `grid_graph` may differ from the one before only in the cells of a rectangle. Repairs
-    /// the index, and keeps the scratch memory.
+    /// Changes the map: `grid_graph` is that of the map after the change. Repairs the index, and keeps the
+    /// scratch memory.
     ///
     /// # Errors
-    /// [`HierarchyError::Mismatch`] for a grid graph of another rule of motion or k,
-    /// [`HierarchyError::Size`] for one of another size, and [`HierarchyError::ChangedOutside`] if the maps
-    /// differ outside of the rectangle. Nothing is changed then.
-    pub fn repair(&mut self, grid_graph: G, changed: Rectangle) -> Result<(), HierarchyError> {
+    /// [`HierarchyError::Mismatch`] for a grid graph of another rule of motion or k, or of another map than
+    /// the one after the change, and for a change of another map than the index is of. Nothing is changed
+    /// then.
+    pub fn repair(&mut self, grid_graph: G, change: &Change) -> Result<(), HierarchyError> {
         check::same_moves(self.index.identity, &grid_graph)?;
-        self.index.repair(self.grid_graph.grid(), grid_graph.grid(), changed)?;
+        check::after(&grid_graph, change)?;
+        self.index.repair(change)?;
         self.grid_graph = grid_graph;
         Ok(())
     }

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Centers, CornerRule, Grid, GridGraph, Identity, Mismatch, Rectangle};
+use mediant_grid::{Centers, Change, CornerRule, Grid, GridGraph, Identity, Mismatch, Rectangle};
 use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, HierarchyError, HpaStar, SegmentGraph};
 use mediant_oracle::{Rng, noise};
 use mediant_search::{Hk, Planner, Query, Zero};
@@ -121,8 +121,6 @@ fn bytes_are_those_of_one_map_and_one_k() {
     assert_eq!(refused, Err(HierarchyError::Bytes("they do not begin with what they belong to")));
 }
 
-const ALL: Rectangle = Rectangle { x: 0, y: 0, width: u32::MAX, height: u32::MAX };
-
 #[test]
 fn planners_repair_for_no_other_moves() {
     let all = all();
@@ -134,13 +132,12 @@ fn planners_repair_for_no_other_moves() {
             let mut chpa = ChpaStar::new(&own.grid_graph, segments, Hk, Zero).expect("its own");
             let before = (hpa.solve(query), chpa.solve(query));
             let (index, found) = (own.identity(), other.identity());
-            let results = [hpa.repair(&other.grid_graph, ALL), chpa.repair(&other.grid_graph, ALL)];
+            let [old, new] = [own, other].map(|of| Arc::clone(of.grid_graph.grid()));
+            let Some(change) = Change::between(old, new) else { continue };
+            let results = [hpa.repair(&other.grid_graph, &change), chpa.repair(&other.grid_graph, &change)];
             for result in results {
                 match result {
                     Ok(()) => assert_eq!((index.rules, index.k), (found.rules, found.k)),
-                    Err(HierarchyError::Size { expected, found }) => {
-                        assert_eq!((expected, found), (own.grid().id().size(), other.grid().id().size()));
-                    }
                     Err(error) => {
                         assert_ne!((index.rules, index.k), (found.rules, found.k), "{error}");
                         check(Err(error), index, found);
@@ -158,10 +155,10 @@ fn planners_repair_for_no_other_moves() {
 }
 
 /// Repairs both indexes of one. Returns the error, after which nothing is changed.
-fn refused(own: &Prepared, before: &Grid, after: &Grid, changed: Rectangle) -> HierarchyError {
+fn refused(own: &Prepared, change: &Change) -> HierarchyError {
     let (mut clusters, mut segments) = (own.clusters.clone(), own.segments.clone());
-    let error = clusters.repair(before, after, changed).expect_err("to be refused");
-    assert_eq!(segments.repair(before, after, changed), Err(error.clone()));
+    let error = clusters.repair(change).expect_err("to be refused");
+    assert_eq!(segments.repair(change), Err(error.clone()));
     assert!(clusters == own.clusters && segments == own.segments, "a refused repair changed the index");
     error
 }
@@ -171,8 +168,10 @@ fn an_index_is_repaired_from_its_own_map() {
     let all = all();
     let own = &all[0];
     for other in &all[2..5] {
-        for after in [own.grid(), other.grid()] {
-            let error = refused(own, other.grid(), after, ALL);
+        let [own_grid, other_grid] = [own, other].map(|of| Arc::clone(of.grid_graph.grid()));
+        let same_size = Change::between(Arc::clone(&other_grid), own_grid);
+        for change in [Change::new(other_grid)].into_iter().chain(same_size) {
+            let error = refused(own, &change);
             let HierarchyError::Mismatch(wrong) = &error else { panic!("{error}") };
             assert_eq!((wrong.belongs_to, wrong.other_belongs_to), (own.identity(), other.identity()));
             assert!(error.to_string().contains("the map before the change"), "{error}");
@@ -181,32 +180,24 @@ fn an_index_is_repaired_from_its_own_map() {
 }
 
 #[test]
-fn a_change_outside_of_the_rectangle_is_refused() {
+fn a_planner_is_repaired_for_the_map_after_the_change() {
     let own = &all()[0];
-    let at = |x, y, width, height| Rectangle { x, y, width, height };
-    let flip = |at| own.grid().with_rectangle(at, |x, y| own.grid().is_free(x as i32, y as i32));
-    let after = flip(at(5, 6, 3, 2));
-    let rectangles =
-        [at(5, 6, 2, 2), at(6, 6, 2, 2), at(5, 6, 3, 1), at(5, 7, 3, 1), at(0, 0, 0, 0), at(99, 99, 9, 9)];
-    for changed in rectangles {
-        let error = refused(own, own.grid(), &after, changed);
-        assert_eq!(error, HierarchyError::ChangedOutside { changed });
-        let message = error.to_string();
-        let named =
-            format!("{} × {} cells from ({}, {})", changed.width, changed.height, changed.x, changed.y);
-        assert!(message.contains(&named) && message.contains("make a new index"), "{message}");
-        let grid_graph = grid_graph(&after, k(3), CornerRule::Never);
-        let mut planner = HpaStar::new(&own.grid_graph, Box::new(own.clusters.clone())).expect("its own");
-        assert_eq!(planner.repair(&grid_graph, changed), Err(error));
-        assert_eq!(planner.identity(), own.identity());
-    }
-    for changed in [at(5, 6, 3, 2), at(4, 0, 4, 99), ALL] {
+    let at = Rectangle::new(5, 6, 3, 2);
+    let grid = Arc::clone(own.grid_graph.grid());
+    let change = Change::new(Arc::clone(&grid)).edit(at, |x, y| grid.is_free(x as i32, y as i32));
+    let [before, after] = [change.before(), change.after()];
+    let mut planner = HpaStar::new(&own.grid_graph, Box::new(own.clusters.clone())).expect("its own");
+    let error = planner.repair(&own.grid_graph, &change).expect_err("the map before");
+    assert!(error.to_string().contains("the map after the change"), "{error}");
+    assert_eq!(planner.identity(), own.identity());
+    // Equal maps made independently are the same.
+    let equal = Change::between(Arc::new(map(1, 20, 14)), Arc::clone(after)).expect("the same size");
+    assert_eq!(equal.before(), before);
+    for change in [&change, &equal] {
         let mut repaired = (own.clusters.clone(), own.segments.clone());
-        // Equal maps made independently are the same.
-        let before = Arc::new(map(1, 20, 14));
-        repaired.0.repair(&before, &after, changed).expect("all changes are within");
-        repaired.1.repair(&before, &after, changed).expect("all changes are within");
-        let new = Prepared::new(&after, 3, CornerRule::Never);
+        repaired.0.repair(change).expect("its map");
+        repaired.1.repair(change).expect("its map");
+        let new = Prepared::new(after, 3, CornerRule::Never);
         assert!(repaired.0 == new.clusters && repaired.1 == new.segments);
         assert_eq!((repaired.0.identity(), repaired.1.identity()), (new.identity(), new.identity()));
         assert!(HpaStar::new(&own.grid_graph, &repaired.0).is_err(), "it is not that of the map before");

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Centers, CornerRule, Grid, GridGraph, Interrupt, Rectangle, StoppedBy};
+use mediant_grid::{Centers, Change, CornerRule, Grid, GridGraph, Interrupt, Rectangle, StoppedBy};
 use mediant_hierarchy::{ClusterGraph, Clustering, HierarchyError, SegmentGraph};
 use mediant_moves::FiniteK;
 use mediant_oracle::check_interrupts;
@@ -49,13 +49,14 @@ fn repairs_stop() {
     let at = Rectangle { x: 20, y: 30, width: 90, height: 80 };
     let after =
         graph(|x, y| if (20..110).contains(&x) && (30..110).contains(&y) { x == y } else { posts(x, y) });
-    let (old, new) = (before.grid(), after.grid());
+    let change =
+        Change::new(Arc::clone(before.grid())).edit(at, |x, y| after.grid().is_blocked(x as i32, y as i32));
     let clusters = ClusterGraph::new(&before, CLUSTERING).expect("an index");
-    check_interrupts("repairing clusters", 500, |i| clusters.repaired(old, new, at, i), by);
+    check_interrupts("repairing clusters", 500, |i| clusters.repaired(&change, i), by);
     let segments = SegmentGraph::new(&before, 3).expect("an index");
-    check_interrupts("repairing segments", 20, |i| segments.repaired(old, new, at, i), by);
+    check_interrupts("repairing segments", 20, |i| segments.repaired(&change, i), by);
     assert_eq!(Ok(clusters), ClusterGraph::new(&before, CLUSTERING));
     assert_eq!(Ok(segments.clone()), SegmentGraph::new(&before, 3));
-    let repaired = segments.repaired(old, new, at, &Interrupt::NEVER);
+    let repaired = segments.repaired(&change, &Interrupt::NEVER);
     assert_eq!(repaired, SegmentGraph::new(&after, 3));
 }

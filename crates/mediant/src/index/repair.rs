@@ -2,82 +2,72 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Centers, GridGraph, Interrupt, Mismatch, Rectangle};
+use mediant_grid::{Centers, GridGraph, Interrupt, MapId, Mismatch};
 
 use super::{Index, OnGridGraph, Origin, Prepared, Source};
-use crate::{
-    error::Error,
-    space::{Placed, Space},
-    within::NEVER,
-};
+use crate::{change::Change, error::Error, space::Placed, within::NEVER};
 
 impl Index {
-    /// The index for a changed map of the same rules and k. It gives the same answers as one prepared anew.
-    /// Clusters and segments are repaired where the maps differ, which takes a copy of the index besides; the
-    /// other engines' indexes are prepared anew. [`origin`](Self::origin) says which it was. This index stays
-    /// as it is.
+    /// The index for the map after a change. It gives the same answers as one prepared anew. Clusters and
+    /// segments are repaired where the maps differ, which takes a copy of the index besides; the other
+    /// engines' indexes are prepared anew. [`origin`](Self::origin) says which it was. This index stays as it
+    /// is.
     ///
     /// ```
     /// use mediant::{Engine, K, Map, Motion, Origin, Rectangle};
     ///
     /// let space = Map::from_fn(40, 30, |x, _| x == 20)?.space(Motion::centers(K::N8))?;
-    /// let door = Rectangle { x: 20, y: 7, width: 1, height: 2 };
-    /// let opened = space.edit(door, |_, _| false)?;
-    /// let index = space.prepare(Engine::Hpa)?.repair(&opened)?;
+    /// let change = space.edit(Rectangle::new(20, 7, 1, 2), |_, _| false)?;
+    /// let index = space.prepare(Engine::Hpa)?.repair(&change)?;
     /// assert_eq!(index.origin(), Origin::Repaired);
-    /// assert_eq!(space.prepare(Engine::Subgoal)?.repair(&opened)?.origin(), Origin::Prepared);
+    /// assert_eq!(space.prepare(Engine::Subgoal)?.repair(&change)?.origin(), Origin::Prepared);
     /// # Ok::<(), mediant::Error>(())
     /// ```
     ///
     /// # Errors
-    /// [`Error::Mismatch`] for a space of other rules or another k; those of [`Space::prepare`].
-    pub fn repair(&self, changed: &Space) -> Result<Self, Error> {
-        self.repaired(changed, &NEVER)
+    /// [`Error::Mismatch`] for a change of another map, of other rules or another k; those of
+    /// [`Space::prepare`].
+    pub fn repair(&self, change: &Change) -> Result<Self, Error> {
+        self.repaired(change, &NEVER)
     }
 
-    pub(crate) fn repaired(&self, changed: &Space, interrupt: &Interrupt) -> Result<Self, Error> {
-        let (belongs_to, found) = (self.identity(), changed.identity());
-        if self.space.motion() != changed.motion() {
-            let (prepared, other, other_belongs_to) = ("the index", "the changed space", found);
-            return Err(Mismatch { prepared, belongs_to, other, other_belongs_to }.into());
+    pub(crate) fn repaired(&self, change: &Change, interrupt: &Interrupt) -> Result<Self, Error> {
+        let (belongs_to, before, after) = (self.identity(), change.before().identity(), change.after());
+        if belongs_to != before {
+            let (prepared, other) = ("the index", "the space before the change");
+            return Err(Mismatch { prepared, belongs_to, other, other_belongs_to: before }.into());
         }
-        if belongs_to == found {
-            return Ok(Self { space: changed.clone(), origin: Origin::Unchanged, ..self.clone() });
+        if before == after.identity() {
+            return Ok(Self { space: after.clone(), origin: Origin::Unchanged, ..self.clone() });
         }
-        let repaired = match (&self.prepared, changed.placed(), self.changed_cells(changed)) {
-            (Prepared::Centers(graph, parts), Placed::Centers(layers), Some(at)) => {
-                parts.repaired(graph, layers.graph(graph.k())?, at, interrupt)?
+        let is_of_the_same_size = before.map.map(MapId::size) == after.identity().map.map(MapId::size);
+        let repaired = match (&self.prepared, after.placed()) {
+            (Prepared::Centers(graph, parts), Placed::Centers(layers)) if is_of_the_same_size => {
+                parts.repaired(layers.graph(graph.k())?, change, interrupt)?
             }
             _ => None,
         };
         let Some(prepared) = repaired else {
             let source = Source { interrupt, ..self.source() };
-            let prepared = Self::from_source(changed, self.setup.engine, source)?;
+            let prepared = Self::from_source(after, self.setup.engine, source)?;
             return Ok(Self { setup: self.setup, ..prepared });
         };
-        Ok(Self { space: changed.clone(), origin: Origin::Repaired, prepared, ..self.clone() })
-    }
-
-    /// The cells that differ from those of a changed map; `None` if its size differs.
-    fn changed_cells(&self, changed: &Space) -> Option<Rectangle> {
-        changed.map().grid().difference(self.space.map().grid())
+        Ok(Self { space: after.clone(), origin: Origin::Repaired, prepared, ..self.clone() })
     }
 }
 
 impl OnGridGraph<Centers> {
-    /// The same on a changed grid graph, of which only the cells of a rectangle differ; `None` for what
-    /// cannot be repaired.
+    /// The same on the grid graph after a change; `None` for what cannot be repaired.
     fn repaired(
         &self,
-        before: &Arc<GridGraph<Centers>>,
         after: &Arc<GridGraph<Centers>>,
-        at: Rectangle,
+        change: &Change,
         interrupt: &Interrupt,
     ) -> Result<Option<Prepared>, Error> {
-        let (old, new) = (before.grid(), after.grid());
+        let change = change.of_grid();
         let parts = match self {
-            Self::Clusters(graph) => Self::Clusters(Arc::new(graph.repaired(old, new, at, interrupt)?)),
-            Self::Segments(graph) => Self::Segments(Arc::new(graph.repaired(old, new, at, interrupt)?)),
+            Self::Clusters(graph) => Self::Clusters(Arc::new(graph.repaired(change, interrupt)?)),
+            Self::Segments(graph) => Self::Segments(Arc::new(graph.repaired(change, interrupt)?)),
             Self::Nothing | Self::Pruning(_) | Self::Blocks(..) | Self::Table(..) => return Ok(None),
         };
         Ok(Some(Prepared::Centers(Arc::clone(after), parts)))

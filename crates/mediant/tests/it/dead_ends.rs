@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use mediant::{
-    Engine, Index, K, Map, Motion, Origin, Outcome, Planners, Query, QueryError, Rectangle, Setup, Vertex,
+    Change, Engine, Index, K, Map, Motion, Origin, Outcome, Planners, Query, QueryError, Rectangle, Setup,
+    Vertex,
 };
 use mediant_grid::{Corners, DiagonalGap, FreeSpace, Grid, Rules};
 use mediant_oracle::{Rng, caves, maze, on_all_cores, random_free_vertex, rooms, seeds};
@@ -118,10 +119,11 @@ fn a_changed_map_has_other_dead_ends() {
         );
         for _ in 0..12 {
             let at = Rectangle { x: rng.below(40), y: rng.below(40), width: 1, height: 1 };
-            space = space.edit(at, |x, y| !space.map().is_blocked((x, y))).expect("a cell of the map");
+            let change = space.edit(at, |x, y| !space.map().is_blocked((x, y))).expect("a cell of the map");
             let before = with.clone();
-            with = with.repair(&space).expect("the same motion");
-            without = without.repair(&space).expect("the same motion");
+            with = with.repair(&change).expect("its map");
+            without = without.repair(&change).expect("its map");
+            space = change.after().clone();
             assert_eq!([with.origin(), without.origin()], [Origin::Prepared; 2]);
             assert_eq!(without.memory_bytes(), 0);
             assert!(with.memory_bytes() > 0);
@@ -130,7 +132,10 @@ fn a_changed_map_has_other_dead_ends() {
             let text = || format!("seed {seed}");
             assert_same(&costs(Planners::new(with.clone()).find_all(&queries)), &known, &text);
             assert_same(&costs(Planners::new(without.clone()).find_all(&queries)), &known, &text);
-            assert_eq!(before.repair(before.space()).expect("the same map").origin(), Origin::Unchanged);
+            assert_eq!(
+                before.repair(&Change::new(before.space())).expect("the same map").origin(),
+                Origin::Unchanged
+            );
         }
     });
 }

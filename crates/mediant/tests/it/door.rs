@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use mediant::{
-    BrokenPath, Choice, CornerRule, Counters, Demand, DiagonalGap, End, Engine, EngineName, Error, ErrorCode,
-    Identity, K, Map, Motion, Observer, Origin, Outcome, Path, Planner, Query, QueryError, Rectangle, Rules,
-    Setup, Smoothing, Space, Vertex, files::MapOptions,
+    BrokenPath, Change, Choice, CornerRule, Counters, Demand, DiagonalGap, End, Engine, EngineName, Error,
+    ErrorCode, Identity, K, Map, Motion, Observer, Origin, Outcome, Path, Planner, Query, QueryError,
+    Rectangle, Rules, Setup, Smoothing, Space, Vertex, files::MapOptions,
 };
 use mediant_formats::IndexFile;
 use mediant_oracle::{Rng, caves};
@@ -273,10 +273,20 @@ fn repaired_indexes_are_as_good_as_new_ones() {
         for edit in 0..3 {
             let mut side = |length| rng.below(length);
             let at = Rectangle { x: side(50), y: side(40), width: side(20), height: side(9) };
-            space = space.edit(at, |x, y| (x * 7 + y * 3 + edit) % 5 == 0).expect("cells of the map");
+            let before = space.clone();
+            let mut change =
+                before.edit(at, |x, y| (x * 7 + y * 3 + edit) % 5 == 0).expect("cells of the map");
+            // One cell far away, and then what is found by comparing the maps.
+            if edit > 0 {
+                change = change.edit_cells([((0, 0), edit == 1)]).expect("a cell of the map");
+            }
+            space = change.after().clone();
+            if edit == 2 {
+                change = Change::between(&before, &space).expect("the same motion");
+            }
             for index in &mut indexes {
                 let (setup, is_same) = (index.setup(), index.identity() == space.identity());
-                *index = index.repair(&space).unwrap_or_else(|error| panic!("{setup}: {error}"));
+                *index = index.repair(&change).unwrap_or_else(|error| panic!("{setup}: {error}"));
                 let anew = setup.prepare(&space).expect("as before");
                 let is_repaired = matches!(setup.engine.kind(), Engine::Hpa | Engine::Chpa);
                 let origin = match (is_same, is_repaired) {
@@ -284,7 +294,7 @@ fn repaired_indexes_are_as_good_as_new_ones() {
                     (false, true) => Origin::Repaired,
                     (false, false) => Origin::Prepared,
                 };
-                let same = index.repair(&index.space().clone()).expect("the same space");
+                let same = index.repair(&Change::new(index.space())).expect("the same space");
                 assert_eq!((same.origin(), same.to_bytes().ok()), (Origin::Unchanged, index.to_bytes().ok()));
                 assert_eq!((index.setup(), index.origin()), (setup, origin));
                 assert_eq!(index.identity(), space.identity());
@@ -301,7 +311,8 @@ fn repaired_indexes_are_as_good_as_new_ones() {
         // A map of another size shares nothing with the last one.
         let other = map().space(motion).expect("a space");
         for index in indexes {
-            let index = index.repair(&other).expect("the same motion");
+            let change = Change::between(index.space(), &other).expect("the same motion");
+            let index = index.repair(&change).expect("its map");
             assert_eq!((index.origin(), index.identity()), (Origin::Prepared, other.identity()));
         }
     }
@@ -316,8 +327,8 @@ fn repaired_indexes_keep_their_shape() {
     for text in ["hpa,side=4,levels=1", "chpa,side=5", "subgoal,levels=2"] {
         let setup: Setup = text.parse().expect("a setup");
         let bytes = setup.prepare(&space).and_then(|index| index.to_bytes()).expect("an index");
-        let read =
-            space.index_from_bytes(bytes).expect("its bytes").repair(&larger).expect("the same motion");
+        let change = Change::between(&space, &larger).expect("the same motion");
+        let read = space.index_from_bytes(bytes).expect("its bytes").repair(&change).expect("its map");
         let anew = setup.prepare(&larger).expect("an index");
         assert_eq!(read.to_bytes().ok(), anew.to_bytes().ok(), "{text}");
     }

@@ -1,6 +1,6 @@
 //! Whatever is prepared serves the map, the rules and the k that it was prepared for, and nothing else.
 
-use mediant::{Error, ErrorCode, Index, Map, Motion, Origin, Rectangle, Setup, Space};
+use mediant::{Change, Error, ErrorCode, Map, Motion, Origin, Rectangle, Setup, Space};
 use mediant_grid::Rules;
 use mediant_moves::K;
 
@@ -25,7 +25,7 @@ fn space(map: &Map, motion: Motion) -> Option<Space> {
 
 /// The error names both, and is the same wherever it comes from.
 #[track_caller]
-fn assert_mismatch(refused: Result<Index, Error>, ours: &Space, theirs: &Space, what: &str) {
+fn assert_mismatch<T>(refused: Result<T, Error>, ours: &Space, theirs: &Space, what: &str) {
     let Err(error) = refused else { panic!("{what}: accepted") };
     assert!(matches!(error, Error::Mismatch(_)), "{what}: {error:?}");
     assert_eq!(error.code(), ErrorCode::Mismatch, "{what}");
@@ -75,7 +75,9 @@ fn indexes_are_repaired_only_for_their_own_motion() {
             for other in motions().filter(|&other| other != motion) {
                 for map in [map()].into_iter().chain(other_maps()) {
                     let Some(theirs) = space(&map, other) else { continue };
-                    assert_mismatch(index.repair(&theirs), &ours, &theirs, &format!("{setup}, {other}"));
+                    let case = format!("{setup}, {other}");
+                    assert_mismatch(Change::between(&ours, &theirs), &ours, &theirs, &case);
+                    assert_mismatch(index.repair(&Change::new(&theirs)), &ours, &theirs, &case);
                     refused += 1;
                 }
             }

@@ -114,7 +114,6 @@ fn each_mistake_has_its_code() {
     let elsewhere = [
         Code::Mismatch,
         Code::GaveUp,
-        Code::IndexEdit,
         Code::ScenarioFormat,
         Code::Memory,
         Code::Cancelled,
@@ -141,7 +140,7 @@ fn codes_keep_their_names() {
         names,
         "map-size map-ragged edit-outside k motion unknown-name setup-text engine-option engine-k \
          engine-rules engine-without mismatch start-blocked goal-blocked start-outside goal-outside gave-up \
-         index-range index-options index-damaged index-engine index-edit file-missing file-unreadable \
+         index-range index-options index-damaged index-engine file-missing file-unreadable \
          file-unwritable map-format scenario-format no-end number not-begun memory cancelled \
          stopped argument broken-path map-tile other"
     );

@@ -1,6 +1,6 @@
 //! Indexes with other options, for other maps, as files and bytes.
 
-use mediant::{Limits, Setup};
+use mediant::{Change, Limits, Setup};
 use pyo3::{
     prelude::*,
     types::{PyBytes, PyDict, PyTuple},
@@ -81,7 +81,8 @@ impl Index {
         let map = changed.map().clone();
         let work = move |limits: &Limits| {
             let space = map.within(limits).space(index.setup().motion())?;
-            in_pool(None, || index.within(limits).repair(&space))
+            let change = Change::between(index.space(), &space)?;
+            in_pool(None, || index.within(limits).repair(&change))
         };
         Ok(Self::new(changed, on_thread(py, Limits::new(), work, |_| Ok(()))?.map_err(raised)?))
     }

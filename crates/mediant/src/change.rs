@@ -1,0 +1,126 @@
+//! Edits of a map, as values.
+
+use std::sync::{Arc, OnceLock};
+
+use mediant_grid::{Change as GridChange, Mismatch, Rectangle, Vertex};
+
+use crate::{error::Error, space::Space};
+
+/// An edit of a space: the space before, the space after, and the cells between. Indexes are
+/// [repaired](crate::Index::repair) by it: what was prepared of the cells that did not change stays.
+///
+/// ```
+/// use mediant::{Engine, Map, Motion, Origin, Rectangle};
+///
+/// let space = Map::from_fn(40, 30, |x, _| x == 20)?.space(Motion::centers(3))?;
+/// let index = space.prepare(Engine::Hpa)?;
+/// // A door opens, and two posts are set far away: one change.
+/// let change = space.edit(Rectangle::new(20, 7, 1, 2), |_, _| false)?.edit_cells([((0, 29), true), ((1, 0), true)])?;
+/// let index = index.repair(&change)?;
+/// assert_eq!(index.origin(), Origin::Repaired);
+/// assert!(change.after().path((0, 0), (39, 0))?.is_some());
+/// # Ok::<(), mediant::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Change {
+    before: Space,
+    /// Made when it is first asked for: after the last of several edits.
+    after: OnceLock<Space>,
+    change: GridChange,
+}
+
+impl Change {
+    /// The change of no cell.
+    #[must_use]
+    pub fn new(space: &Space) -> Self {
+        let change = GridChange::new(Arc::clone(space.map().grid()));
+        Self { before: space.clone(), after: space.clone().into(), change }
+    }
+
+    /// The change from one space to another, whose cells are found by comparing the two maps; that of all
+    /// cells if they are of different sizes.
+    ///
+    /// # Errors
+    /// [`Error::Mismatch`] for spaces of other rules or another k.
+    pub fn between(before: &Space, after: &Space) -> Result<Self, Error> {
+        if before.motion() != after.motion() {
+            let (prepared, other) = ("the space before", "the space after");
+            let (belongs_to, other_belongs_to) = (before.identity(), after.identity());
+            return Err(Mismatch { prepared, belongs_to, other, other_belongs_to }.into());
+        }
+        let [old, new] = [before, after].map(|space| Arc::clone(space.map().grid()));
+        let change = GridChange::between(old, Arc::clone(&new)).unwrap_or_else(|| GridChange::new(new));
+        Ok(Self { before: before.clone(), after: after.clone().into(), change })
+    }
+
+    /// This change with other cells in a rectangle: see [`Map::edit`](crate::Map::edit).
+    ///
+    /// # Errors
+    /// Those of [`Map::edit`](crate::Map::edit).
+    pub fn edit(mut self, at: Rectangle, blocked: impl FnMut(u32, u32) -> bool) -> Result<Self, Error> {
+        self.before.map().check_edit(at)?;
+        self.change = self.change.edit(at, blocked);
+        self.after.take();
+        Ok(self)
+    }
+
+    /// This change with other scattered cells: see [`Map::edit_cells`](crate::Map::edit_cells).
+    ///
+    /// # Errors
+    /// Those of [`Map::edit_cells`](crate::Map::edit_cells).
+    pub fn edit_cells<C: Into<Vertex>>(
+        mut self,
+        cells: impl IntoIterator<Item = (C, bool)>,
+    ) -> Result<Self, Error> {
+        let cells = self.before.map().check_cells(cells)?;
+        self.change = self.change.edit_cells(cells);
+        self.after.take();
+        Ok(self)
+    }
+
+    /// The space before the change.
+    #[must_use]
+    pub const fn before(&self) -> &Space {
+        &self.before
+    }
+
+    /// The space after the change.
+    #[must_use]
+    pub fn after(&self) -> &Space {
+        self.after.get_or_init(|| self.before.on(&Arc::clone(self.change.after()).into()))
+    }
+
+    /// Rectangles outside of which the two maps are equal; empty if nothing was changed.
+    #[must_use]
+    pub fn cells(&self) -> &[Rectangle] {
+        self.change.cells()
+    }
+
+    /// The change of the bit-packed grid, for the typed crates.
+    #[must_use]
+    pub const fn of_grid(&self) -> &GridChange {
+        &self.change
+    }
+}
+
+impl Space {
+    /// This space with other cells in a rectangle: see [`Map::edit`](crate::Map::edit). This space stays as it is; a change
+    /// takes more edits, and repairs indexes.
+    ///
+    /// # Errors
+    /// Those of [`Map::edit`](crate::Map::edit).
+    pub fn edit(&self, at: Rectangle, blocked: impl FnMut(u32, u32) -> bool) -> Result<Change, Error> {
+        Change::new(self).edit(at, blocked)
+    }
+
+    /// This space with other scattered cells: see [`Map::edit_cells`](crate::Map::edit_cells).
+    ///
+    /// # Errors
+    /// Those of [`Map::edit_cells`](crate::Map::edit_cells).
+    pub fn edit_cells<C: Into<Vertex>>(
+        &self,
+        cells: impl IntoIterator<Item = (C, bool)>,
+    ) -> Result<Change, Error> {
+        Change::new(self).edit_cells(cells)
+    }
+}
