@@ -179,7 +179,7 @@ const TABLE: [Capabilities; Engine::ALL.len()] = [
         ..SEARCH
     },
     Capabilities {
-        title: "Hub labels, subgoal graph",
+        title: "Subgoal graph",
         how: "Joins two prepared labels, lists of corners at which shortest paths turn, without a \
                   search. Where labels would take too much memory, it searches a prepared graph.",
         any: true,

@@ -104,8 +104,8 @@ impl Change {
 }
 
 impl Space {
-    /// This space with other cells in a rectangle: see [`Map::edit`](crate::Map::edit). This space stays as it is; a change
-    /// takes more edits, and repairs indexes.
+    /// This space with other cells in a rectangle: see [`Map::edit`](crate::Map::edit). This space stays as it
+    /// is; a change takes more edits, and repairs indexes.
     ///
     /// # Errors
     /// Those of [`Map::edit`](crate::Map::edit).

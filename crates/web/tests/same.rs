@@ -4,7 +4,7 @@
 //! A change of an engine that changes its paths or its counts changes the table: the failure prints the new
 //! one.
 
-use mediant::{CornerRule, DiagonalGap, Engine, K, Map, Outcome, Query, Rules, Setup};
+use mediant::{CornerRule, DiagonalGap, Engine, K, Map, Outcome, Query, QueryError, Rules, Setup};
 use mediant_oracle::{Rng, caves, maze, noise, random_free_vertex, rooms, suite_grid};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test;
@@ -83,6 +83,10 @@ fn answer(setup: Setup, map: &Map, seed: u64, (digest, asked): (&mut Digest, &mu
                 points.for_each(|number| digest.add(&number.to_le_bytes()));
                 digest.add(&path.cost().to_bits().to_le_bytes());
                 digest.add(format!("{counters:?}").as_bytes());
+            }
+            // Its text may be worded better; what became of the query stays.
+            Err(QueryError::GaveUp { why }) => {
+                digest.add(format!("Err(GaveUp {{ why: {why:?} }})").as_bytes());
             }
             other => digest.add(format!("{other:?}").as_bytes()),
         }

@@ -8,7 +8,7 @@ use super::{Description, Engine, Parameter};
 pub(super) fn engines(description: &Description) -> String {
     let mut text = "| engine | vertices | k | guarantee | paper |\n|---|---|---|---|---|\n".to_owned();
     for engine in &description.engines {
-        let Engine { name, title, placements, max_k, any, promise, papers } = engine;
+        let Engine { name, title, placements, max_k, any, promise, papers, .. } = engine;
         let places: Vec<String> = placements.iter().map(|place| format!("{place}s")).collect();
         let k = match (max_k, any) {
             (3, false) => "2, 3".to_owned(),

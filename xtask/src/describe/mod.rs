@@ -46,6 +46,7 @@ struct Parameter {
 struct Engine {
     name: String,
     title: String,
+    how: String,
     placements: Vec<String>,
     max_k: u32,
     any: bool,
@@ -87,6 +88,7 @@ fn regions(description: &Description) -> Vec<Region> {
     vec![
         region("crates/python/python/mediant/_mediant.pyi", "calls", python::keywords(description)),
         region("crates/web/src/types.rs", "calls", typescript::interfaces(description)),
+        region("crates/web/page/src/model/described.js", "page", typescript::page(description)),
         region("README.md", "engines", markdown::engines(description)),
         region("docs/calls.md", "parameters", markdown::parameters(description)),
     ]

@@ -37,6 +37,38 @@ pub(super) fn interfaces(description: &Description) -> String {
     text
 }
 
+/// The engines and the words of a motion, for the page.
+pub(super) fn page(description: &Description) -> String {
+    let mut text =
+        "/** @type {Record<string, { name: string, how: string }>} */\nexport const ENGINES = {\n".to_owned();
+    for engine in &description.engines {
+        let key =
+            if engine.name.contains('-') { format!("\"{}\"", engine.name) } else { engine.name.clone() };
+        _ = writeln!(
+            text,
+            "  {key}: {{\n    name: \"{}\",\n    how: \"{}\",\n  }},",
+            engine.title, engine.how
+        );
+    }
+    let words = |name: &str| {
+        let parameter = description.parameters.iter().find(|parameter| parameter.name == name);
+        let names = parameter.map_or(&[][..], |parameter| &parameter.names);
+        names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ")
+    };
+    let largest = description.engines.iter().map(|engine| engine.max_k).max().unwrap_or_default();
+    _ = writeln!(text, "}};\n\n/** The largest k that an engine takes. Beyond it there is only \"any\". */");
+    _ = writeln!(
+        text,
+        "export const LARGEST_K = {largest};\n\n/** The words that each field of a lane may be. */"
+    );
+    text.push_str("export const CHOICES = Object.freeze({\n");
+    for name in ["placement", "corners", "gap"] {
+        _ = writeln!(text, "  {name}: [{}],", words(name));
+    }
+    _ = writeln!(text, "  smooth: [\"\", {}],\n}});", words("smooth"));
+    text
+}
+
 /// A key with its comment.
 fn key(text: &mut String, parameter: &Parameter) {
     let unit = if parameter.unit.as_deref() == Some("time") { ", in milliseconds" } else { "" };

@@ -54,7 +54,7 @@ fn repairs_stop() {
     let clusters = ClusterGraph::new(&before, CLUSTERING).expect("an index");
     check_interrupts("repairing clusters", 500, |i| clusters.repaired(&change, i), by);
     let segments = SegmentGraph::new(&before, 3).expect("an index");
-    check_interrupts("repairing segments", 20, |i| segments.repaired(&change, i), by);
+    check_interrupts("repairing segments", 4, |i| segments.repaired(&change, i), by);
     assert_eq!(Ok(clusters), ClusterGraph::new(&before, CLUSTERING));
     assert_eq!(Ok(segments.clone()), SegmentGraph::new(&before, 3));
     let repaired = segments.repaired(&change, &Interrupt::NEVER);

@@ -4,9 +4,11 @@
 /** @typedef {import("../../types.d.ts").LaneSetup} LaneSetup */
 /** @typedef {import("../../types.d.ts").Overlay} Overlay */
 
+import { CHOICES, LARGEST_K } from "./described.js";
+
+export { CHOICES };
+
 export const MOST_LANES = 4;
-/** The largest k that the lattice engines take. Beyond it there is only "any". */
-export const LARGEST_K = 12;
 export const LARGEST_RADIUS = 1000;
 export const MOST_AGENTS = 400;
 
@@ -26,14 +28,6 @@ export const FIRST_LANE = Object.freeze({
   corners: "never",
   gap: "open",
   smooth: "",
-});
-
-/** The words that each field of a lane may be. */
-export const CHOICES = Object.freeze({
-  placement: ["center", "corner"],
-  corners: ["never", "one", "always"],
-  gap: ["open", "closed"],
-  smooth: ["", "linear", "taut"],
 });
 
 /** Why this is no lane, as a sentence; empty if it is one.
