@@ -401,7 +401,7 @@ impl ConfiguredEngine {
         }
     }
 
-    /// What CHPA* does where its plan fails; `None` for other engines.
+    /// CHPA*'s fallback where its plan fails; `None` for other engines.
     pub(crate) fn fallback_policy(self) -> Option<FallbackPolicy> {
         let Self::Chpa(own) = self else { return None };
         Some(match own.detour {

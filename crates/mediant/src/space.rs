@@ -40,7 +40,7 @@ struct Inner {
     placed: Placed,
 }
 
-/// What can be searched, by placement.
+/// The free space and the grid graph, by placement.
 #[derive(Debug)]
 pub(crate) enum Placed {
     Centers(Layers<Centers>),
@@ -124,7 +124,7 @@ impl Space {
     /// The same rules and k on an edited map: see [`Map::edit`]. This space stays as it is.
     ///
     /// # Errors
-    /// Those of [`Map::edit`].
+    /// As for [`Map::edit`].
     pub fn edit(&self, at: Rectangle, blocked: impl FnMut(u32, u32) -> bool) -> Result<Self, Error> {
         Self::new(&self.map().edit(at, blocked)?, self.motion(), &NEVER)
     }
@@ -141,7 +141,7 @@ impl Space {
         self.inner.motion
     }
 
-    /// What the space is: its map, rules and k.
+    /// The identity: its map, rules and k.
     #[must_use]
     pub fn identity(&self) -> Identity {
         let Motion { k, rules, .. } = self.motion();
