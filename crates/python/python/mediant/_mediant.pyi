@@ -57,7 +57,7 @@ class Motion(TypedDict, total=False):
     gap: Gap | None
 
 class Wishes(TypedDict, total=False):
-    """What is asked of a path beyond its ends."""
+    """Wishes beyond the ends of a path."""
 
     nearest: bool | None
     snap: bool | None
