@@ -101,8 +101,8 @@ impl Map {
     /// ```
     ///
     /// # Errors
-    /// [`Error::K`] for a number that is no k; [`SetupError::Motion`] where no engine searches: at k above 12,
-    /// and between centers at any angle.
+    /// [`Error::K`] for a number that is no k; [`SetupError::Motion`] where no engine searches: at k above
+    /// 12, and between centers at any angle.
     pub fn space(&self, motion: impl Into<Motion>) -> Result<Space, Error> {
         Space::new(self, motion.into(), &NEVER)
     }
