@@ -1,4 +1,4 @@
-"""The types of the compiled module. What each item does is in its docstring: `help(mediant.Grid)`."""
+"""The types of the compiled module; its docstrings describe the items: `help(mediant.Grid)`."""
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
