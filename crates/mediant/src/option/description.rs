@@ -9,8 +9,9 @@ use super::value::{OptionValue, ValueKind};
 /// ```
 /// use mediant::{ConfiguredEngine, Engine, EngineOption, Setup};
 ///
-/// let limit = EngineOption::ALL.into_iter().find(|option| option.name == "jump-limit").ok_or("no such
-/// option")?; let mut engine = ConfiguredEngine::from(Engine::Jps);
+/// let limit = EngineOption::ALL.into_iter().find(|option| option.name == "jump-limit");
+/// let limit = limit.ok_or("no such option")?;
+/// let mut engine = ConfiguredEngine::from(Engine::Jps);
 /// engine.set(limit, limit.parse("16")?)?;
 /// assert_eq!("jps,limit=16".parse::<Setup>()?.engine, engine);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
